@@ -1,0 +1,106 @@
+//! What a character is (§III, §IV-A): meshes, joints, weights and the humanoid roles of its joints.
+
+pub mod humanoid;
+pub mod mesh;
+pub mod skeleton;
+pub mod weights;
+
+use crate::error::{Error, ErrorKind, Result};
+use glam::Vec3;
+pub use humanoid::{Humanoid, Role};
+pub use mesh::{Mesh, MeshKind, MorphTarget};
+pub use skeleton::{Joint, Skeleton};
+pub use weights::Weights;
+
+/// Which way a character stands and looks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Axes {
+    /// From the feet to the head; any length but 0.
+    pub up: Vec3,
+    /// The way the face looks; `None` finds it from the joints: at right angles to `up` and to the line
+    /// from the right limbs to the left ones (right-handed axes).
+    pub forward: Option<Vec3>,
+}
+
+impl Default for Axes {
+    /// Y up, forward found from the joints.
+    fn default() -> Self {
+        Self {
+            up: Vec3::Y,
+            forward: None,
+        }
+    }
+}
+
+/// A character in rest pose: everything in one space ("model space"), in any unit.
+///
+/// Vertices are where the rest pose puts them, so a vertex weighted wholly to a joint moves rigidly with it.
+#[derive(Clone, Debug, Default)]
+pub struct Character {
+    /// Meshes; a character may have any number.
+    pub meshes: Vec<Mesh>,
+    /// All joints, including those without a humanoid role.
+    pub skeleton: Skeleton,
+    /// Which joint plays which humanoid role.
+    pub humanoid: Humanoid,
+    /// Which way it stands and looks.
+    pub axes: Axes,
+}
+
+impl Character {
+    /// Checks every array against every other.
+    ///
+    /// # Errors
+    /// `ErrorKind::BadInput` names the first mesh and element at fault, its value and the remedy.
+    pub fn validate(&self) -> Result<()> {
+        if !self.axes.up.is_finite() || self.axes.up.length_squared() == 0.0 {
+            return Err(Error::new(
+                ErrorKind::BadInput,
+                format!(
+                    "up is {}: give a direction of finite length above 0",
+                    self.axes.up
+                ),
+            ));
+        }
+        if let Some(forward) = self.axes.forward {
+            let across = forward.reject_from(self.axes.up);
+            if !forward.is_finite() || across.length_squared() <= 1e-6 * forward.length_squared() {
+                return Err(Error::new(
+                    ErrorKind::BadInput,
+                    format!(
+                        "forward is {forward}: give a direction at an angle to up ({})",
+                        self.axes.up
+                    ),
+                ));
+            }
+        }
+        self.skeleton.validate()?;
+        for (role, joint) in self.humanoid.iter() {
+            if joint >= self.skeleton.joints.len() {
+                return Err(Error::new(
+                    ErrorKind::BadInput,
+                    format!(
+                        "role {} names joint {joint}, but there are {} joints",
+                        role.name(),
+                        self.skeleton.joints.len()
+                    ),
+                )
+                .at(joint));
+            }
+        }
+        for (index, mesh) in self.meshes.iter().enumerate() {
+            mesh.validate(index, self.skeleton.joints.len())?;
+        }
+        Ok(())
+    }
+
+    /// Vertices of all meshes together.
+    pub fn vertex_count(&self) -> usize {
+        self.meshes.iter().map(|mesh| mesh.positions.len()).sum()
+    }
+
+    /// Triangles of all meshes together.
+    pub fn triangle_count(&self) -> usize {
+        self.meshes.iter().map(|mesh| mesh.triangles.len()).sum()
+    }
+}

@@ -1,0 +1,115 @@
+//! Joints as a tree, each with its full transform in rest pose (§IV-A).
+
+use crate::error::{Error, ErrorKind, Result};
+use glam::{DMat4, DVec3};
+
+/// One joint.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Joint {
+    /// The joint's name, for messages and for guessing roles.
+    pub name: String,
+    /// The joint it hangs from.
+    pub parent: Option<usize>,
+    /// Its transform in rest pose, joint space to model space.
+    pub rest: DMat4,
+}
+
+impl Joint {
+    /// Where the joint is in rest pose.
+    pub fn position(&self) -> DVec3 {
+        self.rest.w_axis.truncate()
+    }
+}
+
+/// All joints of a character; parents may stand after their children.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Skeleton {
+    /// The joints.
+    pub joints: Vec<Joint>,
+}
+
+impl Skeleton {
+    /// Checks that parents exist, that no joint is its own ancestor, and that transforms are finite.
+    ///
+    /// # Errors
+    /// `ErrorKind::BadInput` names the joint.
+    pub fn validate(&self) -> Result<()> {
+        let count = self.joints.len();
+        let bad = |joint: usize, message: String| {
+            Err(Error::new(
+                ErrorKind::BadInput,
+                format!("joint {joint} ({}): {message}", self.joints[joint].name),
+            )
+            .at(joint))
+        };
+        for (index, joint) in self.joints.iter().enumerate() {
+            if let Some(parent) = joint.parent
+                && parent >= count
+            {
+                return bad(
+                    index,
+                    format!("its parent is joint {parent}, but there are {count} joints"),
+                );
+            }
+            if !joint.rest.is_finite() {
+                return bad(
+                    index,
+                    "its rest transform holds a number that is not finite".to_string(),
+                );
+            }
+        }
+        // A chain of parents longer than the number of joints runs in a circle. Depths are remembered, so that
+        // a long chain costs no more than a flat tree.
+        let mut settled = vec![false; count];
+        let mut path = Vec::new();
+        for start in 0..count {
+            path.clear();
+            let mut current = Some(start);
+            while let Some(joint) = current {
+                if settled[joint] {
+                    break;
+                }
+                if path.len() >= count {
+                    return bad(start, "its chain of parents runs in a circle".to_string());
+                }
+                path.push(joint);
+                current = self.joints[joint].parent;
+            }
+            for &joint in &path {
+                settled[joint] = true;
+            }
+        }
+        Ok(())
+    }
+
+    /// Joints in an order in which every parent stands before its children.
+    pub fn parents_first(&self) -> Vec<usize> {
+        let mut order = Vec::with_capacity(self.joints.len());
+        let children = self.children();
+        let mut stack: Vec<usize> = (0..self.joints.len())
+            .rev()
+            .filter(|&joint| self.joints[joint].parent.is_none())
+            .collect();
+        while let Some(joint) = stack.pop() {
+            order.push(joint);
+            stack.extend(children[joint].iter().rev());
+        }
+        order
+    }
+
+    /// The children of every joint, in index order.
+    pub fn children(&self) -> Vec<Vec<usize>> {
+        let mut children = vec![Vec::new(); self.joints.len()];
+        for (index, joint) in self.joints.iter().enumerate() {
+            if let Some(parent) = joint.parent {
+                children[parent].push(index);
+            }
+        }
+        children
+    }
+
+    /// The joint itself, its parent, and so on up to the root.
+    pub fn ancestors(&self, joint: usize) -> impl Iterator<Item = usize> + '_ {
+        std::iter::successors(Some(joint), |&joint| self.joints[joint].parent)
+    }
+}

@@ -1,0 +1,88 @@
+//! Skin weights w_ki (§IV-B): for each vertex the joints that move it, w >= 0, sum 1; any number a vertex.
+
+/// Sparse rows of (joint, weight), one row a vertex.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Weights {
+    /// Where each row starts in `entries`; one more than there are rows, or empty where there are none.
+    starts: Vec<u32>,
+    entries: Vec<(u32, f32)>,
+}
+
+impl Weights {
+    /// Rows built one after the other; entries of weight 0 are dropped, repeated joints stay as they are.
+    pub fn from_rows<Row: IntoIterator<Item = (u32, f32)>>(rows: impl IntoIterator<Item = Row>) -> Self {
+        let mut starts = vec![0];
+        let mut entries = Vec::new();
+        for row in rows {
+            entries.extend(row.into_iter().filter(|&(_, weight)| weight != 0.0));
+            starts.push(entries.len() as u32);
+        }
+        Self { starts, entries }
+    }
+
+    /// `row_count` rows that each hold weight 1 to `joint`: a mesh that hangs rigidly from it.
+    pub fn rigid(joint: u32, row_count: usize) -> Self {
+        Self::from_rows((0..row_count).map(|_| [(joint, 1.0)]))
+    }
+
+    /// The number of rows.
+    pub fn row_count(&self) -> usize {
+        self.starts.len().saturating_sub(1)
+    }
+
+    /// True where the mesh has no rig.
+    pub fn is_empty(&self) -> bool {
+        self.row_count() == 0
+    }
+
+    /// The joints and weights of one vertex.
+    pub fn row(&self, vertex: usize) -> &[(u32, f32)] {
+        &self.entries[self.starts[vertex] as usize..self.starts[vertex + 1] as usize]
+    }
+
+    /// All rows in order.
+    pub fn rows(&self) -> impl Iterator<Item = &[(u32, f32)]> {
+        (0..self.row_count()).map(|vertex| self.row(vertex))
+    }
+
+    /// Checks rows against the numbers of vertices and joints; the error is the vertex and a sentence.
+    pub(crate) fn validate(
+        &self,
+        vertex_count: usize,
+        joint_count: usize,
+    ) -> Result<(), (Option<usize>, String)> {
+        if self.is_empty() {
+            return Ok(());
+        }
+        if self.row_count() != vertex_count {
+            return Err((
+                None,
+                format!(
+                    "{} rows of weights for {vertex_count} vertices: give one a vertex",
+                    self.row_count()
+                ),
+            ));
+        }
+        for (vertex, row) in self.rows().enumerate() {
+            for &(joint, weight) in row {
+                if joint as usize >= joint_count {
+                    return Err((
+                        Some(vertex),
+                        format!(
+                            "vertex {vertex} is weighted to joint {joint}, but there are {joint_count} joints"
+                        ),
+                    ));
+                }
+                if !weight.is_finite() || weight < 0.0 {
+                    return Err((
+                        Some(vertex),
+                        format!(
+                            "vertex {vertex} has weight {weight} for joint {joint}: weights must be 0 or more"
+                        ),
+                    ));
+                }
+            }
+        }
+        Ok(())
+    }
+}

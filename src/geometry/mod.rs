@@ -1,0 +1,1 @@
+//! What the paper's sections stand on: segments, surfaces, shared positions.

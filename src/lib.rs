@@ -1,0 +1,10 @@
+//! Turns a normal 3D character into its super-deformed (SD, chibi) version.
+
+pub mod character;
+pub mod error;
+pub mod geometry;
+pub mod pipeline;
+pub mod report;
+
+pub use character::{Axes, Character, Humanoid, Joint, Mesh, MeshKind, MorphTarget, Role, Skeleton, Weights};
+pub use error::{Error, ErrorKind, Result, Warning};

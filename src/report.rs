@@ -1,0 +1,119 @@
+//! The numbers of a run, under the names that tools rely on.
+
+use crate::error::Warning;
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+/// Length and radius of a bone group, model units.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct GroupShape {
+    /// Sum over the group's bones, left and right.
+    pub length: f64,
+    /// Mean surrounding-mesh radius of the group's bones; absent where no ray met a surface.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub radius: Option<f64>,
+}
+
+/// Heights along up, model units.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[allow(missing_docs)]
+pub struct LandmarkHeights {
+    pub crown: f64,
+    pub chin: f64,
+    pub shoulder_line: f64,
+    pub crotch: f64,
+    pub sole: f64,
+}
+
+/// What was measured on one character.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct FigureReport {
+    /// Extent of the rest pose along up, all meshes.
+    pub height: f64,
+    /// l_head of Eq. 4 in the mode used.
+    pub head_length: f64,
+    /// (crown - sole) / (crown - chin).
+    pub heads: f64,
+    /// By group name.
+    pub shape: BTreeMap<String, GroupShape>,
+    /// Joints used for the deformation, by role, model space.
+    pub joints: BTreeMap<String, [f64; 3]>,
+    /// The file's own joints, by role, model space.
+    pub file_joints: BTreeMap<String, [f64; 3]>,
+    /// Read from the geometry.
+    pub landmarks: LandmarkHeights,
+}
+
+/// alpha and beta of a group.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Coefficient {
+    /// alpha_b.
+    pub length_scale: f64,
+    /// beta_b.
+    pub thickness_scale: f64,
+}
+
+/// Where the rig came from and how sure it is.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct RigReport {
+    /// `kept` or `auto`.
+    pub source: &'static str,
+    /// By role; 1 for kept joints.
+    pub confidence: BTreeMap<String, f64>,
+    /// Vertices left without weights: always 0.
+    pub unreached_vertices: usize,
+    /// Vertices weighted by another rule than heat or volume, by rule.
+    pub fallback_vertices: BTreeMap<String, usize>,
+}
+
+/// How much of what.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[allow(missing_docs)]
+pub struct Counts {
+    pub vertices: usize,
+    pub triangles: usize,
+    pub meshes: usize,
+    pub morph_targets: usize,
+    pub joints: usize,
+}
+
+/// Milliseconds by stage; the host fills in `load`, `write` and `total`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[allow(missing_docs)]
+pub struct Timing {
+    pub load: f64,
+    pub rig_joints: f64,
+    pub rig_weights: f64,
+    pub transfer: f64,
+    pub measure: f64,
+    pub deform: f64,
+    pub face: f64,
+    pub write: f64,
+    pub total: f64,
+}
+
+/// A whole run.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Report {
+    /// The target before.
+    pub target: FigureReport,
+    /// The reference, or the saved style's numbers; absent with a style for N heads.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reference: Option<FigureReport>,
+    /// Measured anew on what came out.
+    pub result: FigureReport,
+    /// `paper` or `product`.
+    pub mode: &'static str,
+    /// Eq. 9.
+    pub g: f64,
+    /// By group name.
+    pub coefficients: BTreeMap<String, Coefficient>,
+    /// The rig.
+    pub rig: RigReport,
+    /// How much of what.
+    pub counts: Counts,
+    /// Milliseconds by stage.
+    pub timing_ms: Timing,
+    /// What a person should know.
+    pub warnings: Vec<Warning>,
+}
