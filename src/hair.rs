@@ -65,10 +65,18 @@ impl HairMap {
         let total = (mean * self.depth).max(1e-30);
         let t = (drop / total).clamp(0.0, 1.0);
         let fraction = smoothstep(t);
-        let fraction_slope = if t > 0.0 && t < 1.0 { 6.0 * t * (1.0 - t) / total } else { 0.0 };
-        let width = self.head_width.map(|width| width + (self.tip_width - width) * fraction);
+        let fraction_slope = if t > 0.0 && t < 1.0 {
+            6.0 * t * (1.0 - t) / total
+        } else {
+            0.0
+        };
+        let width = self
+            .head_width
+            .map(|width| width + (self.tip_width - width) * fraction);
         // Widths change with the drop, and the drop grows downwards.
-        let width_by_y = self.head_width.map(|width| -(self.tip_width - width) * fraction_slope * slope);
+        let width_by_y = self
+            .head_width
+            .map(|width| -(self.tip_width - width) * fraction_slope * slope);
         let from = p - self.axis[0];
         let to = DVec3::new(
             self.axis[1].x + width[0] * from.x,

@@ -90,12 +90,28 @@ pub fn landmarks(figure: &Figure) -> Landmarks {
     let (chin, chin_seen) = chin(figure, shoulder_line, crown);
     let hip_line = mean_height(figure, [Role::LeftUpperLeg, Role::RightUpperLeg]);
     let (crotch, crotch_seen) = crotch(figure, hip_line);
-    let crotch = crotch.clamp(sole + 0.01 * height, (shoulder_line - 0.01 * height).max(sole + 0.01 * height));
-    Landmarks { crown, chin, shoulder_line, crotch, sole, chin_seen, crotch_seen, crown_with_hair }
+    let crotch = crotch.clamp(
+        sole + 0.01 * height,
+        (shoulder_line - 0.01 * height).max(sole + 0.01 * height),
+    );
+    Landmarks {
+        crown,
+        chin,
+        shoulder_line,
+        crotch,
+        sole,
+        chin_seen,
+        crotch_seen,
+        crown_with_hair,
+    }
 }
 
 fn mean_height(figure: &Figure, roles: [Role; 2]) -> f64 {
-    let heights: Vec<f64> = roles.iter().filter_map(|&role| figure.role_position(role)).map(|p| p.y).collect();
+    let heights: Vec<f64> = roles
+        .iter()
+        .filter_map(|&role| figure.role_position(role))
+        .map(|p| p.y)
+        .collect();
     heights.iter().sum::<f64>() / heights.len() as f64
 }
 
@@ -108,7 +124,16 @@ fn sole(figure: &Figure) -> f64 {
             .min_by(f64::total_cmp)
     };
     let feet = [LeftFoot, RightFoot, LeftToes, RightToes];
-    let legs = [LeftFoot, RightFoot, LeftToes, RightToes, LeftLowerLeg, RightLowerLeg, LeftUpperLeg, RightUpperLeg];
+    let legs = [
+        LeftFoot,
+        RightFoot,
+        LeftToes,
+        RightToes,
+        LeftLowerLeg,
+        RightLowerLeg,
+        LeftUpperLeg,
+        RightUpperLeg,
+    ];
     let knees_down = &legs[..6];
     // Boots are often weighted to the shin alone: what lies lower than the foot's vertices by more than a
     // sliver, on the same legs, is sole too.
@@ -144,7 +169,9 @@ fn crown(figure: &Figure) -> (f64, bool) {
     let head = figure.role_position(Role::Head).unwrap_or_default();
     for (bare, hits_needed) in [(true, 5), (false, 1)] {
         let triangles = head_triangles(figure, bare);
-        let Some((centre, half)) = middle(figure, &triangles) else { continue };
+        let Some((centre, half)) = middle(figure, &triangles) else {
+            continue;
+        };
         let surface = Surface::new(&figure.positions, &triangles);
         let mut hits: Vec<f64> = (0..7)
             .filter_map(|ray| {
@@ -152,7 +179,9 @@ fn crown(figure: &Figure) -> (f64, bool) {
                 let (sin, cos) = (std::f64::consts::FRAC_PI_3 * f64::from(ray)).sin_cos();
                 let above = figure.extent.1 + 0.01 * figure.height();
                 let origin = DVec3::new(centre.x + reach * cos, above, centre.z + reach * sin);
-                surface.first_hit(origin, DVec3::NEG_Y, f64::INFINITY).map(|hit| above - hit.t)
+                surface
+                    .first_hit(origin, DVec3::NEG_Y, f64::INFINITY)
+                    .map(|hit| above - hit.t)
             })
             .filter(|&y| y > head.y)
             .collect();
@@ -171,17 +200,27 @@ fn chin(figure: &Figure, shoulder_line: f64, crown: f64) -> (f64, bool) {
     let by_ratio = (shoulder_line + CHIN_BY_RATIO * span, false);
     let is_upper = |role: Role| {
         is_head(role)
-            || matches!(role, Role::Neck | Role::UpperChest | Role::Chest | Role::Spine | Role::Hips)
+            || matches!(
+                role,
+                Role::Neck | Role::UpperChest | Role::Chest | Role::Spine | Role::Hips
+            )
             || matches!(role, Role::LeftShoulder | Role::RightShoulder)
     };
     let triangles = figure.triangles_where(|vertex| {
-        !matches!(figure.kind(vertex), MeshKind::Hair | MeshKind::Accessory) && figure.weight_of(vertex, is_upper) > 0.5
+        !matches!(figure.kind(vertex), MeshKind::Hair | MeshKind::Accessory)
+            && figure.weight_of(vertex, is_upper) > 0.5
     });
-    let Some((face, half)) = middle(figure, &head_triangles(figure, true)).or_else(|| middle(figure, &triangles)) else {
+    let Some((face, half)) =
+        middle(figure, &head_triangles(figure, true)).or_else(|| middle(figure, &triangles))
+    else {
         return by_ratio;
     };
     let surface = Surface::new(&figure.positions, &triangles);
-    let front = triangles.iter().flatten().map(|&v| figure.positions[v as usize].z).fold(f64::NEG_INFINITY, f64::max)
+    let front = triangles
+        .iter()
+        .flatten()
+        .map(|&v| figure.positions[v as usize].z)
+        .fold(f64::NEG_INFINITY, f64::max)
         + 0.01 * span;
     let row_height = (CHIN_RANGE.1 - CHIN_RANGE.0) * span / CHIN_ROWS as f64;
     let row_y = |row: usize| shoulder_line + CHIN_RANGE.0 * span + (row as f64 + 0.5) * row_height;
@@ -191,7 +230,9 @@ fn chin(figure: &Figure, shoulder_line: f64, crown: f64) -> (f64, bool) {
                 .iter()
                 .filter_map(|column| {
                     let origin = DVec3::new(face.x + column * 2.0 * half.x, row_y(row), front);
-                    surface.first_hit(origin, DVec3::NEG_Z, f64::INFINITY).map(|hit| front - hit.t)
+                    surface
+                        .first_hit(origin, DVec3::NEG_Z, f64::INFINITY)
+                        .map(|hit| front - hit.t)
                 })
                 .collect();
             hits.sort_by(f64::total_cmp);
@@ -232,20 +273,37 @@ fn crotch(figure: &Figure, hip_line: f64) -> (f64, bool) {
     use Role::*;
     let height = figure.height();
     let by_ratio = (hip_line - CROTCH_BY_RATIO * height, false);
-    let (Some(left), Some(right)) = (figure.role_position(LeftUpperLeg), figure.role_position(RightUpperLeg)) else {
+    let (Some(left), Some(right)) = (
+        figure.role_position(LeftUpperLeg),
+        figure.role_position(RightUpperLeg),
+    ) else {
         return by_ratio;
     };
-    let knees = match (figure.role_position(LeftLowerLeg), figure.role_position(RightLowerLeg)) {
+    let knees = match (
+        figure.role_position(LeftLowerLeg),
+        figure.role_position(RightLowerLeg),
+    ) {
         (Some(l), Some(r)) => (l.y + r.y) / 2.0,
         _ => (figure.extent.0 + hip_line) / 2.0,
     };
     let triangles = figure.triangles_where(|vertex| {
         figure.weight_of(vertex, |role| {
-            matches!(role, Hips | Spine | Chest | UpperChest | LeftUpperLeg | RightUpperLeg | LeftLowerLeg | RightLowerLeg)
+            matches!(
+                role,
+                Hips | Spine
+                    | Chest
+                    | UpperChest
+                    | LeftUpperLeg
+                    | RightUpperLeg
+                    | LeftLowerLeg
+                    | RightLowerLeg
+            )
         }) > 0.5
     });
     let surface = Surface::new(&figure.positions, &triangles);
-    let Some((_, half)) = middle(figure, &triangles) else { return by_ratio };
+    let Some((_, half)) = middle(figure, &triangles) else {
+        return by_ratio;
+    };
     let middle_x = (left.x + right.x) / 2.0;
     let front = left.z.max(right.z) + 4.0 * half.z.max(half.x) + 0.01 * height;
     let top = hip_line + 0.05 * height;
@@ -255,7 +313,11 @@ fn crotch(figure: &Figure, hip_line: f64) -> (f64, bool) {
     }
     let first = (0..CROTCH_ROWS)
         .map(|row| knees + (row as f64 + 0.5) * row_height)
-        .find(|&y| surface.first_hit(DVec3::new(middle_x, y, front), DVec3::NEG_Z, f64::INFINITY).is_some());
+        .find(|&y| {
+            surface
+                .first_hit(DVec3::new(middle_x, y, front), DVec3::NEG_Z, f64::INFINITY)
+                .is_some()
+        });
     match first {
         Some(y) if (CROTCH_RANGE.0..=CROTCH_RANGE.1).contains(&((y - hip_line) / height)) => (y, true),
         _ => by_ratio,

@@ -65,7 +65,10 @@ impl PartBinding {
     pub fn to(part: Part) -> Self {
         let mut weights = [0.0; PART_COUNT];
         weights[part as usize] = 1.0;
-        Self { weights, manner: Manner::Plain }
+        Self {
+            weights,
+            manner: Manner::Plain,
+        }
     }
 }
 
@@ -128,9 +131,17 @@ pub fn part_bindings(figure: &Figure, anatomy: &Anatomy, skeleton: &Skeleton) ->
         .map(|vertex| figure.positions[vertex].y)
         .min_by(f64::total_cmp)
         .filter(|&bottom| bottom < anatomy.landmarks.chin);
-    let vertices =
-        parts.into_iter().zip(manners).map(|(weights, manner)| PartBinding { weights, manner }).collect();
-    PartBindings { vertices, pieces, joint_pieces, hair_bottom }
+    let vertices = parts
+        .into_iter()
+        .zip(manners)
+        .map(|(weights, manner)| PartBinding { weights, manner })
+        .collect();
+    PartBindings {
+        vertices,
+        pieces,
+        joint_pieces,
+        hair_bottom,
+    }
 }
 
 /// How a joint that plays no role of its own is attached: by the part it folds into, as hair where it hangs from the
@@ -159,13 +170,15 @@ fn head_only(
     let by_component: Vec<bool> = members
         .iter()
         .map(|members| {
-            let mean = members.iter().map(|&vertex| of_head(vertex)).sum::<f32>() / members.len().max(1) as f32;
+            let mean =
+                members.iter().map(|&vertex| of_head(vertex)).sum::<f32>() / members.len().max(1) as f32;
             mean > 0.6 && members.iter().all(|&vertex| of_body(vertex) < 0.01)
         })
         .collect();
     (0..parts.len())
         .map(|vertex| {
-            matches!(figure.kind(vertex), MeshKind::Hair | MeshKind::FacePart) || by_component[component_of(vertex)]
+            matches!(figure.kind(vertex), MeshKind::Hair | MeshKind::FacePart)
+                || by_component[component_of(vertex)]
         })
         .collect()
 }
@@ -182,7 +195,8 @@ fn split_head(parts: &mut PartWeights, p: DVec3, anatomy: &Anatomy) {
     let front = anatomy.head_centre.z.max(anatomy.head_joint.z) + HEAD_PLANE_BACK * length;
     let rise = ((front - p.z) / (front - back)).clamp(0.0, 1.0);
     let plane = chin + length * (HEAD_PLANE.0 + rise * (HEAD_PLANE.1 - HEAD_PLANE.0));
-    let band = ((chin - anatomy.landmarks.shoulder_line) / 2.0).clamp(HEAD_BAND.0 * length, HEAD_BAND.1 * length);
+    let band =
+        ((chin - anatomy.landmarks.shoulder_line) / 2.0).clamp(HEAD_BAND.0 * length, HEAD_BAND.1 * length);
     let share = smoothstep((p.y - plane) / band + 1.0) as f32;
     parts[Part::Head as usize] = both * share;
     parts[Part::Neck as usize] = both * (1.0 - share);
@@ -191,7 +205,8 @@ fn split_head(parts: &mut PartWeights, p: DVec3, anatomy: &Anatomy) {
 /// Lower arms, hands, shins and feet that the rig has no joint for take their weights from the geometry.
 fn split_limbs(parts: &mut PartWeights, p: DVec3, figure: &Figure, anatomy: &Anatomy) {
     for limb in &anatomy.limbs {
-        let left = limb.parts[0] == Part::LeftUpperArm as usize || limb.parts[0] == Part::LeftUpperLeg as usize;
+        let left =
+            limb.parts[0] == Part::LeftUpperArm as usize || limb.parts[0] == Part::LeftUpperLeg as usize;
         let is_arm = limb.parts[0] < Part::LeftUpperLeg as usize;
         let roles = if is_arm {
             [Role::LeftLowerArm, Role::LeftHand]
@@ -200,7 +215,11 @@ fn split_limbs(parts: &mut PartWeights, p: DVec3, figure: &Figure, anatomy: &Ana
         };
         let joints = [(limb.root, limb.middle), (limb.middle, limb.end)];
         for (index, (from, to)) in joints.into_iter().enumerate() {
-            let role = if left { roles[index] } else { roles[index].mirrored() };
+            let role = if left {
+                roles[index]
+            } else {
+                roles[index].mirrored()
+            };
             let weight = parts[limb.parts[index]];
             if figure.humanoid.has(role) || weight <= 0.0 {
                 continue;
@@ -241,7 +260,9 @@ fn smooth_along(figure: &Figure, weld: &Weld, frozen: &[bool], parts: &mut [Part
     let middle = edges.len() / 2;
     let median = *edges.select_nth_unstable_by(middle, f64::total_cmp).1;
     let width = SMOOTHING_WIDTH * figure.height() / median.max(1e-12 * figure.height());
-    let passes = (10.0 * width * width).clamp(UMBRELLA_PASSES.0, UMBRELLA_PASSES.1).round() as usize;
+    let passes = (10.0 * width * width)
+        .clamp(UMBRELLA_PASSES.0, UMBRELLA_PASSES.1)
+        .round() as usize;
 
     // Vertices at one place share one row from here on: their mean, so that seams stay closed.
     let mut rows = vec![[0.0f32; PART_COUNT]; weld.count];
@@ -306,7 +327,10 @@ fn smooth_across(figure: &Figure, frozen: &[bool], parts: &mut [PartWeights]) {
     };
     let class: Vec<u8> = parts.iter().map(|row| class_of(row)).collect();
     // Vertices at one place are one sample and get one result.
-    let key = |p: DVec3| p.to_array().map(|x| (x / (1e-6 * figure.height())).round() as i64);
+    let key = |p: DVec3| {
+        p.to_array()
+            .map(|x| (x / (1e-6 * figure.height())).round() as i64)
+    };
     let mut samples: Vec<usize> = Vec::new();
     let mut sample_of = vec![usize::MAX; parts.len()];
     let mut known: HashMap<([i64; 3], u8), usize> = HashMap::new();
@@ -314,13 +338,18 @@ fn smooth_across(figure: &Figure, frozen: &[bool], parts: &mut [PartWeights]) {
         if frozen[vertex] {
             continue;
         }
-        let sample = *known.entry((key(figure.positions[vertex]), class[vertex])).or_insert_with(|| {
-            samples.push(vertex);
-            samples.len() - 1
-        });
+        let sample = *known
+            .entry((key(figure.positions[vertex]), class[vertex]))
+            .or_insert_with(|| {
+                samples.push(vertex);
+                samples.len() - 1
+            });
         sample_of[vertex] = sample;
     }
-    let points: Vec<(DVec3, u8)> = samples.iter().map(|&vertex| (figure.positions[vertex], class[vertex])).collect();
+    let points: Vec<(DVec3, u8)> = samples
+        .iter()
+        .map(|&vertex| (figure.positions[vertex], class[vertex]))
+        .collect();
     let near = nearest(&points, LAYER_NEIGHBOURS, 3.0 * sigma);
     let mut rows: Vec<PartWeights> = samples.iter().map(|&vertex| parts[vertex]).collect();
     for _ in 0..LAYER_PASSES {
@@ -366,7 +395,11 @@ fn nearest(points: &[(DVec3, u8)], count: usize, reach: f64) -> Vec<Vec<(u32, f6
                         if dx.abs().max(dy.abs()).max(dz.abs()) != ring {
                             continue;
                         }
-                        for &other in grid.get(&[home[0] + dx, home[1] + dy, home[2] + dz]).into_iter().flatten() {
+                        for &other in grid
+                            .get(&[home[0] + dx, home[1] + dy, home[2] + dz])
+                            .into_iter()
+                            .flatten()
+                        {
                             let (q, other_class) = points[other as usize];
                             let distance = p.distance(q);
                             if other_class == class && distance <= reach {
@@ -397,7 +430,10 @@ fn nearest(points: &[(DVec3, u8)], count: usize, reach: f64) -> Vec<Vec<(u32, f6
             .chunks(chunk)
             .map(|chunk| scope.spawn(move || chunk.iter().map(search).collect::<Vec<_>>()))
             .collect();
-        handles.into_iter().flat_map(|handle| handle.join().expect("the search does not panic")).collect()
+        handles
+            .into_iter()
+            .flat_map(|handle| handle.join().expect("the search does not panic"))
+            .collect()
     })
 }
 
@@ -457,7 +493,10 @@ fn rigid_groups(
             if has_role[joint] || figure.joint_roles[joint].is_none() {
                 return None;
             }
-            skeleton.ancestors(joint).take_while(|&above| !has_role[above]).last()
+            skeleton
+                .ancestors(joint)
+                .take_while(|&above| !has_role[above])
+                .last()
         })
         .collect();
     let main = |vertex: u32| figure.main_joint[vertex as usize].map(|joint| joint as usize);
@@ -492,9 +531,14 @@ fn rigid_groups(
         for &vertex in &used[joint] {
             manners[vertex as usize] = Manner::Piece(pieces.len());
         }
-        pieces.push(Piece { anchor: figure.joints[joint], weights: PartBinding::to(Part::of(role)).weights });
+        pieces.push(Piece {
+            anchor: figure.joints[joint],
+            weights: PartBinding::to(Part::of(role)).weights,
+        });
     }
-    top.iter().map(|top| top.and_then(|top| piece_of_top[top])).collect()
+    top.iter()
+        .map(|top| top.and_then(|top| piece_of_top[top]))
+        .collect()
 }
 
 /// Buttons, buckles, badges: small loose components keep their shape.
@@ -508,7 +552,10 @@ fn small_pieces(
 ) {
     let limit = SMALL_PIECE * figure.height();
     for members in members.iter().filter(|members| members.len() >= 3) {
-        if members.iter().any(|&v| head_only[v as usize] || manners[v as usize] != Manner::Plain) {
+        if members
+            .iter()
+            .any(|&v| head_only[v as usize] || manners[v as usize] != Manner::Plain)
+        {
             continue;
         }
         let positions = members.iter().map(|&vertex| figure.positions[vertex as usize]);
@@ -524,6 +571,9 @@ fn small_pieces(
         for &vertex in members {
             manners[vertex as usize] = Manner::Piece(pieces.len());
         }
-        pieces.push(Piece { anchor: (low + high) / 2.0, weights });
+        pieces.push(Piece {
+            anchor: (low + high) / 2.0,
+            weights,
+        });
     }
 }

@@ -6,8 +6,8 @@
 //! trunk's map puts their joints. A vertex goes where the weighted mean of its parts' maps puts it.
 
 use super::part_coefficients::PartCoefficients;
-use super::part_weights::{Manner, PartBinding, PartBindings, PartWeights};
-use super::proportions::{Anatomy, PART_COUNT, Part};
+use super::part_weights::{Manner, PartBinding, PartBindings};
+use super::proportions::{Anatomy, PART_COUNT, Part, PartWeights};
 use crate::face::FaceShape;
 use crate::hair::HairMap;
 use glam::{DMat3, DVec3};
@@ -42,7 +42,11 @@ struct Affine {
 }
 
 impl Affine {
-    const IDENTITY: Self = Self { from: DVec3::ZERO, to: DVec3::ZERO, linear: DMat3::IDENTITY };
+    const IDENTITY: Self = Self {
+        from: DVec3::ZERO,
+        to: DVec3::ZERO,
+        linear: DMat3::IDENTITY,
+    };
 
     fn map(&self, p: DVec3) -> DVec3 {
         self.to + self.linear * (p - self.from)
@@ -117,9 +121,16 @@ impl PartField {
         let shoulder_line = crotch + coefficients.trunk[0] * proportions.torso;
         let chin = shoulder_line + coefficients.neck[0] * proportions.neck;
         let crown = chin + coefficients.head[0] * proportions.head_length;
-        let after = Heights { sole: before.sole, crotch, shoulder_line, chin, crown };
+        let after = Heights {
+            sole: before.sole,
+            crotch,
+            shoulder_line,
+            chin,
+            crown,
+        };
 
-        let hip_z = anatomy.centre_line.iter().map(|point| point.1).sum::<f64>() / anatomy.centre_line.len() as f64;
+        let hip_z =
+            anatomy.centre_line.iter().map(|point| point.1).sum::<f64>() / anatomy.centre_line.len() as f64;
         let base = anatomy.centre_z(before.shoulder_line).0;
         let mut field = Self {
             anatomy: anatomy.clone(),
@@ -162,7 +173,11 @@ impl PartField {
             .map(|piece| {
                 let (to, jacobian) = field.blend(piece.anchor, &piece.weights, Manner::Plain);
                 let scale = jacobian.determinant().abs().cbrt();
-                Affine { from: piece.anchor, to, linear: DMat3::IDENTITY * scale }
+                Affine {
+                    from: piece.anchor,
+                    to,
+                    linear: DMat3::IDENTITY * scale,
+                }
             })
             .collect();
         field
@@ -196,7 +211,10 @@ impl PartField {
         };
         // Written so that amount 0 gives p itself, bit for bit.
         let moved = p + self.amount * (to - p) + DVec3::Y * self.ground;
-        (moved, DMat3::IDENTITY + (jacobian - DMat3::IDENTITY) * self.amount)
+        (
+            moved,
+            DMat3::IDENTITY + (jacobian - DMat3::IDENTITY) * self.amount,
+        )
     }
 
     fn blend(&self, p: DVec3, weights: &PartWeights, manner: Manner) -> (DVec3, DMat3) {
@@ -233,7 +251,10 @@ impl PartField {
         } else if p.y < before.shoulder_line {
             (after.crotch + length_scale * (p.y - before.crotch), length_scale)
         } else {
-            (after.shoulder_line + self.yoke_slope * (p.y - before.shoulder_line), self.yoke_slope)
+            (
+                after.shoulder_line + self.yoke_slope * (p.y - before.shoulder_line),
+                self.yoke_slope,
+            )
         };
         let (centre, centre_slope) = self.anatomy.centre_z(p.y);
         let flattening = length_scale.min(thickness_scale);
@@ -292,7 +313,10 @@ impl PartField {
         let z = self.neck_z[1] + self.coefficients.neck[1] * (axis_z - self.neck_z[0]);
         let head_centre = z + depth * (anatomy.head_centre.z - axis_z);
         let chest_y = self.before.crotch + CHEST_HEIGHT * (self.before.shoulder_line - self.before.crotch);
-        let chest = self.trunk(DVec3::new(anatomy.middle_x, chest_y, anatomy.centre_z(chest_y).0)).0.z;
+        let chest = self
+            .trunk(DVec3::new(anatomy.middle_x, chest_y, anatomy.centre_z(chest_y).0))
+            .0
+            .z;
         let most = HEAD_SEAT_MOST * height * anatomy.proportions.head_length;
         let back = self.coefficients.head_seat * (HEAD_SEAT * (head_centre - chest)).clamp(0.0, most);
         self.head_back = back;
@@ -306,13 +330,21 @@ impl PartField {
         for (index, limb) in self.anatomy.limbs.clone().into_iter().enumerate() {
             let is_arm = index < 2;
             let first = if is_arm { 0 } else { 2 };
-            let spread = if is_arm { self.coefficients.shoulder_spread } else { self.coefficients.hip_spread };
+            let spread = if is_arm {
+                self.coefficients.shoulder_spread
+            } else {
+                self.coefficients.hip_spread
+            };
             let mut root = self.trunk(limb.root).0;
             root.x = self.anatomy.middle_x + spread * (limb.root.x - self.anatomy.middle_x);
             let [upper, lower] = [self.coefficients.limbs[first], self.coefficients.limbs[first + 1]];
             let middle = root + upper[0] * (limb.middle - limb.root);
             let mut end = middle + lower[0] * (limb.end - limb.middle);
-            let size = if is_arm { self.coefficients.hand } else { self.coefficients.foot };
+            let size = if is_arm {
+                self.coefficients.hand
+            } else {
+                self.coefficients.foot
+            };
             if !is_arm {
                 // Legs of unequal length still both stand on the ground.
                 end.y = self.after.sole + size * (limb.end.y - self.before.sole);
@@ -321,14 +353,23 @@ impl PartField {
                 Affine::stretch(limb.root, root, limb.middle - limb.root, upper[0], upper[1]);
             self.affine[limb.parts[1]] =
                 Affine::stretch(limb.middle, middle, limb.end - limb.middle, lower[0], lower[1]);
-            self.affine[limb.parts[2]] = Affine { from: limb.end, to: end, linear: DMat3::IDENTITY * size };
+            self.affine[limb.parts[2]] = Affine {
+                from: limb.end,
+                to: end,
+                linear: DMat3::IDENTITY * size,
+            };
         }
     }
 
     /// Where the body's heights go, piecewise between the landmarks: what hair follows.
     fn body_height(&self, y: f64) -> f64 {
         let (b, a) = (&self.before, &self.after);
-        let knots = [(b.sole, a.sole), (b.crotch, a.crotch), (b.shoulder_line, a.shoulder_line), (b.chin, a.chin)];
+        let knots = [
+            (b.sole, a.sole),
+            (b.crotch, a.crotch),
+            (b.shoulder_line, a.shoulder_line),
+            (b.chin, a.chin),
+        ];
         for pair in knots.windows(2) {
             let ((y0, to0), (y1, to1)) = (pair[0], pair[1]);
             if y < y1 || y1 == b.chin {
