@@ -1,5 +1,6 @@
 //! What a character is (§III, §IV-A): meshes, joints, weights and the humanoid roles of its joints.
 
+pub mod bones;
 pub mod humanoid;
 pub mod mesh;
 pub mod skeleton;
