@@ -199,96 +199,18 @@ fn part_of(core: &str) -> Option<(Part, u8)> {
 }
 
 /// Words that name the rig or the kind of node, not a part of the body.
-const RIG_WORDS: [&str; 36] = [
-    "adj",
-    "armature",
-    "b",
-    "base",
-    "bend",
-    "bind",
-    "bip",
-    "biped",
-    "bn",
-    "bone",
-    "bones",
-    "c",
-    "cc",
-    "character",
-    "def",
-    "deform",
-    "f",
-    "human",
-    "humanoid",
-    "j",
-    "jnt",
-    "joint",
-    "joints",
-    "jt",
-    "mixamorig",
-    "mixamo",
-    "org",
-    "player",
-    "rig",
-    "sk",
-    "skel",
-    "skeleton",
-    "skin",
-    "valve",
-    "valvebiped",
-    "anim",
-];
+const RIG_WORDS: &str = "adj anim armature b base bend bind bip biped bn bone bones c cc character def deform f human \
+    humanoid j jnt joint joints jt mixamo mixamorig org player rig sk skel skeleton skin valve \
+    valvebiped";
 
 /// Words of joints that help a rig along or end a chain, and of things worn: none of them plays a role.
-const HELPER_WORDS: [&str; 48] = [
-    "aim",
-    "attach",
-    "bust",
-    "breast",
-    "cape",
-    "cloth",
-    "collider",
-    "control",
-    "corrective",
-    "ctl",
-    "ctrl",
-    "dummy",
-    "ear",
-    "eff",
-    "effector",
-    "end",
-    "fk",
-    "hair",
-    "handslot",
-    "hat",
-    "helper",
-    "hlp",
-    "holder",
-    "ik",
-    "item",
-    "jiggle",
-    "leaf",
-    "locator",
-    "mch",
-    "nub",
-    "null",
-    "offset",
-    "pole",
-    "prop",
-    "ribbon",
-    "roll",
-    "sec",
-    "share",
-    "skirt",
-    "slot",
-    "socket",
-    "tail",
-    "target",
-    "tweak",
-    "twist",
-    "twst",
-    "weapon",
-    "wing",
-];
+const HELPER_WORDS: &str = "aim attach breast bust cape cloth collider control corrective ctl ctrl dummy ear eff effector \
+    end fk hair handslot hat helper hlp holder ik item jiggle leaf locator mch nub null offset pole \
+    prop ribbon roll sec share skirt slot socket tail target tweak twist twst weapon wing";
+
+fn has_word(list: &str, word: &str) -> bool {
+    list.split_whitespace().any(|listed| listed == word)
+}
 
 /// What one name says.
 #[derive(Clone, Debug, Default)]
@@ -310,7 +232,7 @@ impl Reading {
 pub(crate) fn is_helper(name: &str) -> bool {
     let words = words(name);
     let neck = words.iter().any(|word| word == "neck");
-    let helps = |word: &String| HELPER_WORDS.contains(&word.as_str()) && !(neck && word == "twist");
+    let helps = |word: &String| has_word(HELPER_WORDS, word) && !(neck && word == "twist");
     words.iter().any(helps) || ["捩", "ＩＫ", "IK"].iter().any(|mark| name.contains(mark))
 }
 
@@ -384,7 +306,7 @@ fn read(words: &[String]) -> Reading {
             && reading.side.is_none_or(|known| known == side)
         {
             reading.side = Some(side);
-        } else if !RIG_WORDS.contains(&word.as_str()) {
+        } else if !has_word(RIG_WORDS, word) {
             core.push_str(word);
         }
     }
@@ -428,7 +350,7 @@ fn read_all(skeleton: &Skeleton) -> Vec<Reading> {
             side_of(word).is_some()
                 || is_number(word)
                 || part_of(word).is_some()
-                || HELPER_WORDS.contains(&word)
+                || has_word(HELPER_WORDS, word)
                 || ["upper", "lower", "up", "low", "fore"].contains(&word)
         };
         let shared = counts
@@ -577,23 +499,21 @@ impl Named<'_> {
         let chain = self.chain(&arms);
         let mut upper = all(Part::UpperArm).first().copied();
         let mut hand_by_chain = None;
-        let mut lower = None;
+        let lower;
         if upper.is_some() {
             lower = self
                 .first_below(&lowers, upper)
                 .or_else(|| self.first_below(&arms, upper));
         } else if let Some(&arm) = chain.first().or(arms.first()) {
             upper = Some(arm);
-            lower = self.first_below(&lowers, upper);
+            let named = self.first_below(&lowers, upper);
             // Longer chains of one word may begin with a collarbone or hold twist joints: left to the geometry.
-            if lower.is_none() && chain.len() > 3 {
+            if named.is_none() && chain.len() > 3 {
                 upper = None;
-            } else if lower.is_none() {
-                lower = chain.get(1).copied();
-                if hands.is_empty() {
-                    hand_by_chain = chain.get(2).copied();
-                }
+            } else if named.is_none() && hands.is_empty() {
+                hand_by_chain = chain.get(2).copied();
             }
+            lower = named.or_else(|| chain.get(1).copied().filter(|_| upper.is_some()));
         } else {
             // Without any arm, the last shoulder above an elbow or a hand is the upper arm.
             upper = shoulders

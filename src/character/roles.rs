@@ -175,18 +175,20 @@ fn complete_hips(humanoid: &mut Humanoid, skeleton: &Skeleton) {
     {
         humanoid.set(Hips, ancestor);
     } else if named.is_none() {
-        // The legs hang from a root at the ground: the lowest joint of the column that is near the legs, else the
-        // root for want of a better one.
-        let column = skeleton
+        // The legs hang from a root at the ground: the joint of the column that is nearest to them, if it leaves
+        // a spine, else the root for want of a better one.
+        let column: Vec<usize> = skeleton
             .ancestors(top)
             .skip(1)
             .take_while(|&joint| Some(joint) != ancestor)
-            .filter(|&joint| at_the_legs(joint) && ![left, right].contains(&joint));
-        let column = column.min_by(|&a, &b| {
-            let far = |joint: usize| (position(joint) - between).dot(up).abs();
-            far(a).total_cmp(&far(b))
-        });
-        humanoid.set(Hips, column.or(ancestor));
+            .collect();
+        let leaves_a_spine = column.len() > 1;
+        let far = |joint: usize| (position(joint) - between).dot(up).abs();
+        let lowest = column
+            .into_iter()
+            .filter(|&joint| leaves_a_spine && at_the_legs(joint) && ![left, right].contains(&joint))
+            .min_by(|&a, &b| far(a).total_cmp(&far(b)));
+        humanoid.set(Hips, lowest.or(ancestor));
     }
     let hips = humanoid.joint(Hips);
     for role in Role::all().filter(|&role| role != Hips) {

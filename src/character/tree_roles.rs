@@ -231,7 +231,7 @@ impl<'a> Tree<'a> {
                     let stump = upper.min(lower) < 0.15 * whole;
                     let ankle_level = along(ankle) / along(hip).max(1e-9);
                     let score = 1.5 * (upper / whole - 0.5).abs()
-                        + 3.0 * ((ankle_level - 0.13).abs() - 0.08).max(0.0)
+                        + 2.0 * ((ankle_level - 0.15).abs() - 0.1).max(0.0)
                         + (1.0 - (along(hip) - along(ankle)) / whole)
                         + if (hip > 0) == pelvis_first { 0.0 } else { 0.4 }
                         + if stump { 1.0 } else { 0.0 }
@@ -340,9 +340,10 @@ impl<'a> Tree<'a> {
         });
         let point = |place: usize| self.position[chain[place]];
         let aside = |place: usize| (point(place) - middle).dot(across).abs();
+        // A collarbone is short and starts near the middle.
         let collar_first = chain.len() > 2
-            && aside(0) < 0.4 * aside(1)
-            && point(0).distance(point(1)) < point(1).distance(point(2));
+            && aside(0) < 0.65 * aside(1)
+            && point(0).distance(point(1)) < 0.65 * point(1).distance(point(2));
         match chain[..] {
             [upper] => return [None, Some(upper), None, None],
             [upper, lower] => return [None, Some(upper), Some(lower), None],
@@ -379,7 +380,7 @@ impl<'a> Tree<'a> {
                         + 2.0 * (rest - 0.6).max(0.0)
                         + collar
                         + if stump { 1.0 } else { 0.0 }
-                        + if branches(wrist) { -0.3 } else { 0.0 }
+                        + if branches(wrist) { -0.2 } else { 0.0 }
                         + 0.3 * beyond_a_fork as f64
                         + 0.2 * (wrist - shoulder - 2) as f64;
                     if score < best.0 {
@@ -421,7 +422,13 @@ impl<'a> Tree<'a> {
         });
         let most = chain.iter().map(|&joint| self.own[joint]).fold(0.0, f64::max);
         let place = if self.weighted {
-            chain.iter().position(|&joint| self.own[joint] >= 0.4 * most)?
+            let heavy = chain.iter().position(|&joint| self.own[joint] >= 0.4 * most)?;
+            // A thick neck: what follows it lies below the next joint, which moves more.
+            let neck = chain.get(heavy + 1).is_some_and(|&next| {
+                let center = self.center[chain[heavy]].unwrap_or(self.position[chain[heavy]]);
+                self.own[next] > self.own[chain[heavy]] && (center - self.position[next]).dot(self.up) < 0.0
+            });
+            heavy + usize::from(neck)
         } else {
             // Without weights: the first fork (eyes, hair), else what has one end joint above it, if so many.
             let fork = chain.iter().position(|&joint| self.live(joint).len() >= 2);

@@ -39,7 +39,9 @@ pub fn read(path: &Path) -> File {
         let joints: Vec<usize> = skin.joints().map(|joint| joint.index()).collect();
         let reader = skin.reader(|_| Some(blob));
         let inverse: Vec<DMat4> = match reader.read_inverse_bind_matrices() {
-            Some(matrices) => matrices.map(|m| Mat4::from_cols_array_2d(&m).as_dmat4()).collect(),
+            Some(matrices) => matrices
+                .map(|m| Mat4::from_cols_array_2d(&m).as_dmat4())
+                .collect(),
             None => vec![DMat4::IDENTITY; joints.len()],
         };
         let root = (0..joints.len())
@@ -61,7 +63,11 @@ pub fn read(path: &Path) -> File {
     }
     kept.sort_unstable();
     kept.dedup();
-    let joint_of: HashMap<usize, usize> = kept.iter().enumerate().map(|(joint, &node)| (node, joint)).collect();
+    let joint_of: HashMap<usize, usize> = kept
+        .iter()
+        .enumerate()
+        .map(|(joint, &node)| (node, joint))
+        .collect();
     let joints = kept
         .iter()
         .map(|&node| Joint {
@@ -78,7 +84,9 @@ pub fn read(path: &Path) -> File {
             .find_map(|node| joint_of.get(&node).copied());
         for primitive in mesh.primitives() {
             let reader = primitive.reader(|_| Some(blob));
-            let Some(points) = reader.read_positions() else { continue };
+            let Some(points) = reader.read_positions() else {
+                continue;
+            };
             let to_model = match node.skin() {
                 Some(skin) => mesh_to_model[skin.index()],
                 None => world(node.index()),
@@ -86,30 +94,42 @@ pub fn read(path: &Path) -> File {
             let positions: Vec<Vec3> = points
                 .map(|point| to_model.transform_point3(Vec3::from(point).as_dvec3()).as_vec3())
                 .collect();
-            let weights = match (node.skin(), reader.read_joints(0), reader.read_weights(0)) {
-                (Some(skin), Some(joints), Some(weights)) => {
-                    let list: Vec<usize> = skin.joints().map(|joint| joint_of[&joint.index()]).collect();
-                    Weights::from_rows(joints.into_u16().zip(weights.into_f32()).map(|(joints, weights)| {
-                        let joints = joints.map(|joint| list[usize::from(joint)] as u32);
-                        joints.into_iter().zip(weights)
-                    }))
-                }
-                _ => carrier.map_or_else(Weights::default, |joint| {
-                    Weights::rigid(joint as u32, positions.len())
-                }),
-            };
-            meshes.push(Mesh { positions, weights, ..Mesh::default() });
+            let weights =
+                match (node.skin(), reader.read_joints(0), reader.read_weights(0)) {
+                    (Some(skin), Some(joints), Some(weights)) => {
+                        let list: Vec<usize> = skin.joints().map(|joint| joint_of[&joint.index()]).collect();
+                        Weights::from_rows(joints.into_u16().zip(weights.into_f32()).map(
+                            |(joints, weights)| {
+                                let joints = joints.map(|joint| list[usize::from(joint)] as u32);
+                                joints.into_iter().zip(weights)
+                            },
+                        ))
+                    }
+                    _ => carrier.map_or_else(Weights::default, |joint| {
+                        Weights::rigid(joint as u32, positions.len())
+                    }),
+                };
+            meshes.push(Mesh {
+                positions,
+                weights,
+                ..Mesh::default()
+            });
         }
     }
 
     let named: Vec<(String, usize)> = if let Some(vrm) = gltf.extension_value("VRMC_vrm") {
         let bones = vrm["humanoid"]["humanBones"].as_object().expect("bones");
-        let entry = |(role, bone): (&String, &serde_json::Value)| (role.clone(), bone["node"].as_u64().unwrap() as usize);
+        let entry = |(role, bone): (&String, &serde_json::Value)| {
+            (role.clone(), bone["node"].as_u64().unwrap() as usize)
+        };
         bones.iter().map(entry).collect()
     } else if let Some(vrm) = gltf.extension_value("VRM") {
         let bones = vrm["humanoid"]["humanBones"].as_array().expect("bones");
         let entry = |bone: &serde_json::Value| {
-            (bone["bone"].as_str().unwrap().to_string(), bone["node"].as_u64().unwrap() as usize)
+            (
+                bone["bone"].as_str().unwrap().to_string(),
+                bone["node"].as_u64().unwrap() as usize,
+            )
         };
         bones.iter().map(entry).collect()
     } else {
@@ -121,5 +141,9 @@ pub fn read(path: &Path) -> File {
         .zip(&named)
         .filter_map(|(role, (_, node))| Some((role?, *joint_of.get(node)?)))
         .collect();
-    File { skeleton: Skeleton { joints }, meshes, header }
+    File {
+        skeleton: Skeleton { joints },
+        meshes,
+        header,
+    }
 }
