@@ -3,7 +3,10 @@
 pub mod bones;
 pub mod humanoid;
 pub mod mesh;
+pub mod naming;
+pub mod roles;
 pub mod skeleton;
+pub mod tree_roles;
 pub mod weights;
 
 use crate::error::{Error, ErrorKind, Result};
