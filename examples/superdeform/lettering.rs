@@ -35,21 +35,40 @@ const LETTERS: [(char, [u8; ROWS]); 42] = [
     (')', [8, 4, 4, 4, 4, 4, 8, 0, 0]),           ('%', [24, 25, 2, 4, 8, 19, 3, 0, 0]),
 ];
 
-/// How wide `text` comes out, in pixels, with `dot` pixels from dot to dot.
-pub fn width(text: &str, dot: f32) -> f32 {
-    (text.chars().count() * (COLUMNS + 1)).saturating_sub(2) as f32 * dot
+/// Dots that a space takes.
+const SPACE: usize = 3;
+
+/// Draws `text` with its middle at `centre` and its foot on `line`, `dot` pixels from dot to dot; capitals come out
+/// small, unknown letters as spaces.
+pub fn draw(image: &mut RgbImage, text: &str, centre: f32, line: f32, dot: f32, colour: [u8; 3]) {
+    let letters: Vec<&[u8; ROWS]> = text
+        .chars()
+        .map(|letter| {
+            let letter = letter.to_ascii_lowercase();
+            LETTERS
+                .iter()
+                .find(|(known, _)| *known == letter)
+                .map_or(&[0; ROWS], |(_, rows)| rows)
+        })
+        .collect();
+    let dots: usize = letters.iter().map(|rows| extent(rows).1 + 1).sum();
+    let mut left = centre - dots.saturating_sub(2) as f32 / 2.0 * dot;
+    for rows in letters {
+        let (first, count) = extent(rows);
+        let corner = [left - first as f32 * dot, line - ASCENT * dot];
+        draw_strokes(image, &strokes(rows), corner, dot, colour);
+        left += (count + 1) as f32 * dot;
+    }
 }
 
-/// Draws `text` with its middle at `centre` and its foot on `line`; capitals come out small, unknown letters blank.
-pub fn draw(image: &mut RgbImage, text: &str, centre: f32, line: f32, dot: f32, colour: [u8; 3]) {
-    let left = centre - width(text, dot) / 2.0;
-    for (index, letter) in text.to_lowercase().chars().enumerate() {
-        let Some((_, rows)) = LETTERS.iter().find(|(known, _)| *known == letter) else {
-            continue;
-        };
-        let corner = [left + (index * (COLUMNS + 1)) as f32 * dot, line - ASCENT * dot];
-        draw_strokes(image, &strokes(rows), corner, dot, colour);
+/// The first column with a dot, and how many columns there are from it to the last.
+fn extent(rows: &[u8; ROWS]) -> (usize, usize) {
+    let columns = rows.iter().fold(0, |columns, row| columns | row);
+    if columns == 0 {
+        return (0, SPACE);
     }
+    let first = columns.leading_zeros() as usize + COLUMNS - u8::BITS as usize;
+    (first, COLUMNS - columns.trailing_zeros() as usize - first)
 }
 
 type Stroke = [[f32; 2]; 2];

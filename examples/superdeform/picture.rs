@@ -89,14 +89,14 @@ pub fn draw(views: &[View]) -> RgbImage {
         let centre = left + figure.width(scale) / 2.0;
         let pixels = scale * figure.unit;
         for camera in &figure.cameras {
-            let feet = [left - camera.low.x * pixels, ground + camera.low.y * pixels];
+            let origin = [left - camera.low.x * pixels, ground + camera.low.y * pixels];
             shadow(
                 &mut sheet,
-                left + camera.width() * pixels / 2.0,
+                origin[0] + camera.foot_middle() * pixels,
                 ground,
                 camera.foot_width() * pixels,
             );
-            draw_figure(&mut sheet, view, figure, camera, pixels, feet);
+            draw_figure(&mut sheet, view, figure, camera, pixels, origin);
             left += camera.width() * pixels + VIEW_GAP;
         }
         lettering::draw(&mut sheet, &view.title, centre, ground + 52.0, 2.6, TITLE_COLOUR);
@@ -149,6 +149,8 @@ impl Camera {
         if !camera.low.is_finite() {
             camera.low = Vec2::ZERO;
             camera.high = Vec2::ONE;
+            camera.feet = [0.0, 1.0];
+            return camera;
         }
         let ankle = camera.low.y + 0.1 * (camera.high.y - camera.low.y);
         for point in drawn_points(view).map(seen).filter(|point| point.y < ankle) {
@@ -159,6 +161,10 @@ impl Camera {
 
     fn width(&self) -> f32 {
         self.high.x - self.low.x
+    }
+
+    fn foot_middle(&self) -> f32 {
+        (self.feet[0] + self.feet[1]) / 2.0
     }
 
     fn foot_width(&self) -> f32 {
@@ -620,9 +626,12 @@ static TO_LINEAR: std::sync::LazyLock<[f32; 256]> = std::sync::LazyLock::new(|| 
     })
 });
 
-/// Linear light to sRGB, 0 to 1.
+/// Linear light to sRGB, 0 to 1; what is bright nears white without reaching it, so that white clothes keep their folds.
 fn to_display(value: f32) -> f32 {
-    let value = value.clamp(0.0, 1.0);
+    const EXPOSURE: f32 = 1.06;
+    const SHOULDER: f32 = 0.55;
+    let above = (EXPOSURE * value - SHOULDER).max(0.0) / (1.0 - SHOULDER);
+    let value = (EXPOSURE * value).clamp(0.0, SHOULDER) + (1.0 - SHOULDER) * (1.0 - (-above).exp());
     if value <= 0.0031308 {
         value * 12.92
     } else {

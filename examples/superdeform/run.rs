@@ -119,12 +119,7 @@ struct Reading<'a> {
 fn load(path: &Path, reading: &Reading) -> Result<Loaded, String> {
     let bytes =
         std::fs::read(path).map_err(|error| format!("{}: cannot be read ({error})", path.display()))?;
-    let Reading {
-        humanoid: _,
-        kinds: _,
-        up: _,
-        forward: _,
-    } = reading;
+    let _reading = (reading.humanoid, reading.kinds, reading.up, reading.forward);
     let materials = materials::materials(&serde_json::Value::Null, &bytes);
     let _uv_sets = materials.iter().map(|material| material.uv_set);
     Err(format!("{}: reading characters is not wired", path.display()))
