@@ -920,8 +920,21 @@ fn a_shin_above_its_thigh_loses_its_role() {
 #[test]
 fn any_tree_is_survived() {
     let words = [
-        "Hips", "LeftArm", "arm.R", "leg_l", "Head", "spine", "", "左", "_end", "Bip01", "Finger0", "x9",
-        "L", "thumb.L",
+        "Hips",
+        "LeftArm",
+        "arm.R",
+        "leg_l",
+        "Head",
+        "spine",
+        "",
+        "左",
+        "_end",
+        "Bip01",
+        "Finger0",
+        "L Finger①",
+        "x9",
+        "L",
+        "thumb.L",
     ];
     let mut state = 1_u64;
     let mut random = |below: usize| {
