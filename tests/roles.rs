@@ -1030,3 +1030,46 @@ fn thumbs_are_read_as_the_whole_map_means_them() {
     let (_, roles) = parse_role_map(["rightThumbProximal", "rightThumbDistal"].into_iter());
     assert_eq!(roles, [Some(RightThumbMetacarpal), Some(RightThumbDistal)]);
 }
+
+#[test]
+fn handles_and_slots_of_game_rigs_play_no_role() {
+    // KayKit.
+    let text = "
+root @ 0 0 0
+  hips @ 0 0.41 0
+    spine @ 0 0.6 0
+      chest @ 0 0.97 0
+        head @ 0 1.24 0
+        upperarm.l @ 0.21 1.11 0
+          lowerarm.l @ 0.45 1.11 -0.01
+            wrist.l @ 0.71 1.11 0
+              hand.l @ 0.79 1.11 0
+                handslot.l @ 0.88 1.05 0
+    upperleg.l @ 0.17 0.52 0
+      lowerleg.l @ 0.17 0.29 0.01
+        foot.l @ 0.17 0.14 -0.02
+          toes.l @ 0.17 0.03 0.1
+  kneeIK.l @ 0.17 0.29 0.58
+  control-toe-roll.l @ 0.17 0.03 0.25
+    control-foot-roll.l @ 0.17 0.03 0.1
+      IK-foot.l @ 0.17 0.14 -0.02
+  handIK.l @ 0.71 1.11 0
+";
+    let roles = [
+        (Hips, "hips"),
+        (Spine, "spine"),
+        (Chest, "chest"),
+        (UpperChest, ""),
+        (Neck, ""),
+        (Head, "head"),
+        (LeftShoulder, ""),
+        (LeftUpperArm, "upperarm.l"),
+        (LeftLowerArm, "lowerarm.l"),
+        (LeftHand, "hand.l"),
+        (LeftUpperLeg, "upperleg.l"),
+        (LeftLowerLeg, "lowerleg.l"),
+        (LeftFoot, "foot.l"),
+        (LeftToes, "toes.l"),
+    ];
+    expect(text, ".l", ".r", &roles);
+}
