@@ -6,7 +6,7 @@
 
 use super::roles::{complete, is_below, lowest_common_ancestor};
 use super::{Humanoid, Role, Skeleton};
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 
 /// How a list of role names speaks of the thumb's three joints.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -342,7 +342,7 @@ fn read_all(skeleton: &Skeleton) -> Vec<Reading> {
         .map(|words| any_deforming && !deforming(words))
         .collect();
     loop {
-        let mut counts: HashMap<String, usize> = HashMap::new();
+        let mut counts: BTreeMap<String, usize> = BTreeMap::new();
         for first in names.iter().filter_map(|words| words.first()) {
             *counts.entry(first.clone()).or_default() += 1;
         }
@@ -582,7 +582,11 @@ impl Named<'_> {
         let place = FINGERS.iter().position(|&known| known == finger).unwrap_or(0);
         let told = |&joint: &usize| match self.readings[joint].numbers.as_slice() {
             [number, _] => number.parse() == Ok(place + 1),
-            [number] => biped && number.len() <= 2 && number[..1].parse() == Ok(place),
+            [number] => {
+                biped
+                    && number.len() <= 2
+                    && number.chars().next().and_then(|digit| digit.to_digit(10)) == Some(place as u32)
+            }
             _ => false,
         };
         below.into_iter().filter(told).collect()

@@ -53,6 +53,7 @@ pub fn find_roles(skeleton: &Skeleton, meshes: &[Mesh], up: Vec3) -> (Humanoid, 
         return (humanoid, Vec::new());
     }
     let mut found = roles_from_tree(skeleton, meshes, up);
+    drop_misplaced(&mut found, skeleton, up.as_dvec3());
     let mut by_geometry = Vec::new();
     let mut filled = humanoid.clone();
     if sides_differ(&humanoid, &found) {
@@ -108,6 +109,7 @@ pub fn complete(humanoid: &mut Humanoid, skeleton: &Skeleton) {
     drop_repeated(humanoid, skeleton.joints.len());
     complete_hips(humanoid, skeleton);
     complete_column(humanoid, skeleton);
+    drop_repeated(humanoid, skeleton.joints.len());
 }
 
 /// True where `joint` lies somewhere below `above`.

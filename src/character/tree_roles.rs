@@ -207,7 +207,7 @@ impl<'a> Tree<'a> {
         path
     }
 
-    /// Upper leg, lower leg, foot and toes along the way down from `top`; `inward` is the other leg's top.
+    /// Upper leg, lower leg, foot and toes along the way down from `top`; `other` is the other leg's top.
     fn split_leg(&self, top: usize, other: usize) -> [Option<usize>; 4] {
         let chain = self.downward(top);
         match chain[..] {
@@ -340,17 +340,23 @@ impl<'a> Tree<'a> {
         });
         let point = |place: usize| self.position[chain[place]];
         let aside = |place: usize| (point(place) - middle).dot(across).abs();
+        let beyond = |place: usize| self.reach[chain[place]];
         // A collarbone is short and starts near the middle.
         let collar_first = chain.len() > 2
             && aside(0) < 0.65 * aside(1)
             && point(0).distance(point(1)) < 0.65 * point(1).distance(point(2));
         match chain[..] {
             [upper] => return [None, Some(upper), None, None],
-            [upper, lower] => return [None, Some(upper), Some(lower), None],
+            [upper, lower] => return [None, Some(upper), Some(lower), self.still_hand(upper, lower)],
             [shoulder, upper, lower]
                 if collar_first && self.reach[lower] > 0.6 * point(1).distance(point(2)) =>
             {
-                return [Some(shoulder), Some(upper), Some(lower), None];
+                return [
+                    Some(shoulder),
+                    Some(upper),
+                    Some(lower),
+                    self.still_hand(upper, lower),
+                ];
             }
             _ => {}
         }
@@ -365,7 +371,7 @@ impl<'a> Tree<'a> {
                     let upper = point(shoulder).distance(point(elbow));
                     let lower = point(elbow).distance(point(wrist));
                     let whole = (upper + lower).max(1e-9);
-                    let rest = self.reach[chain[wrist]] / whole;
+                    let rest = beyond(wrist) / whole;
                     let stump = upper.min(lower) < 0.15 * whole;
                     let collar = match shoulder {
                         0 if collar_first => 0.4,
@@ -392,6 +398,18 @@ impl<'a> Tree<'a> {
         let [upper, elbow, wrist] = best.1;
         let collar = upper.checked_sub(1).map(|place| chain[place]);
         [collar, Some(chain[upper]), Some(chain[elbow]), Some(chain[wrist])]
+    }
+
+    /// A hand that moves no vertex: the joint below the lower arm that is about as far from it as the elbow is
+    /// from the shoulder.
+    fn still_hand(&self, upper: usize, lower: usize) -> Option<usize> {
+        let arm = self.position[upper].distance(self.position[lower]);
+        let length = |joint: usize| self.position[joint].distance(self.position[lower]);
+        self.children[lower]
+            .iter()
+            .copied()
+            .filter(|&joint| (0.5..1.6).contains(&(length(joint) / arm.max(1e-9))))
+            .max_by(|&a, &b| length(a).total_cmp(&length(b)))
     }
 
     /// Neck and head, above the joint from which the arms hang.
@@ -515,7 +533,7 @@ impl<'a> Tree<'a> {
 ///
 /// Left and right follow from the feet, which point forward; where they do not tell, from +Z as forward.
 ///
-/// O(vertices · depth + joints²) for each joint's children, which are few.
+/// O(vertices · depth + joints · children²).
 pub fn roles_from_tree(skeleton: &Skeleton, meshes: &[Mesh], up: Vec3) -> Humanoid {
     find(skeleton, meshes, up.as_dvec3().normalize_or_zero()).unwrap_or_default()
 }

@@ -13,8 +13,8 @@ pub struct File {
     pub header: HashMap<Role, usize>,
 }
 
-/// Reads the joints of all skins, and the nodes above them, with the meshes that follow them.
-pub fn read(path: &Path) -> File {
+/// Reads the joints of all skins and the nodes above them, or every node, with the meshes that follow them.
+pub fn read(path: &Path, every_node: bool) -> File {
     let bytes = std::fs::read(path).expect("the file can be read");
     let gltf = gltf::Gltf::from_slice_without_validation(&bytes).expect("the file is glTF");
     let blob = gltf.blob.as_deref().unwrap_or_default();
@@ -57,7 +57,7 @@ pub fn read(path: &Path) -> File {
     let mut kept: Vec<usize> = Vec::new();
     for node in 0..nodes.len() {
         let chain: Vec<usize> = std::iter::successors(Some(node), |&node| parent[node]).collect();
-        if bind.contains_key(&node) {
+        if bind.contains_key(&node) || every_node && !bind.is_empty() {
             kept.extend(chain);
         }
     }
