@@ -136,3 +136,44 @@ impl SphereMap {
         (1.0 - self.amount) * DMat3::IDENTITY + around * (DMat3::IDENTITY - along)
     }
 }
+
+/// What makes a face younger: a curve of heights, a sphere, or nothing.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum FaceShape {
+    /// The face stays.
+    #[default]
+    None,
+    /// Eq. 12 or 13.
+    Curve(FaceMap),
+    /// Toward a sphere, inside its box and fading out below it.
+    Sphere(SphereMap),
+}
+
+impl FaceShape {
+    /// The shape over the box from `low` to `high`, with `squash` bounded to what does not fold.
+    ///
+    /// For the sphere, `squash` is how far to go, 0 to 1.
+    pub fn in_box(low: DVec3, high: DVec3, curve: FaceCurve, squash: f64) -> (Self, Option<Warning>) {
+        if squash == 0.0 || high.y <= low.y {
+            return (Self::None, None);
+        }
+        let (squash, warning) = bearable_squash(curve, squash);
+        let shape = match curve {
+            FaceCurve::Sphere => Self::Sphere(SphereMap::in_box(low, high, squash)),
+            curve => Self::Curve(FaceMap { bottom: low.y, top: high.y, squash, curve }),
+        };
+        (shape, warning)
+    }
+
+    /// Where the map takes `p`, and its Jacobian there.
+    pub fn map(&self, p: DVec3) -> (DVec3, DMat3) {
+        match self {
+            Self::None => (p, DMat3::IDENTITY),
+            Self::Curve(map) => {
+                let slope = DVec3::new(1.0, map.slope(p.y), 1.0);
+                (p.with_y(map.map(p.y)), DMat3::from_diagonal(slope))
+            }
+            Self::Sphere(map) => (map.map(p), map.jacobian(p)),
+        }
+    }
+}

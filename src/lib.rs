@@ -5,6 +5,7 @@ pub mod error;
 pub mod face;
 pub mod geometry;
 pub mod hair;
+pub mod options;
 pub mod pipeline;
 pub mod report;
 pub mod shape;

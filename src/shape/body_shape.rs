@@ -2,6 +2,8 @@
 
 use crate::character::Role;
 use crate::character::bones::HEAD_TOP;
+use crate::report::LandmarkHeights;
+use crate::shape::proportions::Proportions;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -32,12 +34,12 @@ pub struct BodyShape {
     /// By the role at the bone's end (`leftLowerArm`), or `headTop` for the head bone. The roles found are these
     /// and the hips.
     pub bones: BTreeMap<String, BoneShape>,
-    /// Heights of landmarks by name.
-    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
-    pub landmarks: BTreeMap<String, f64>,
-    /// Measures of parts by name.
-    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
-    pub parts: BTreeMap<String, f64>,
+    /// Heights of landmarks.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub landmarks: Option<LandmarkHeights>,
+    /// Lengths and widths of the fifteen parts, which product mode transfers.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub proportions: Option<Proportions>,
 }
 
 impl Default for BodyShape {
@@ -47,8 +49,8 @@ impl Default for BodyShape {
             name: String::new(),
             head_length: 0.0,
             bones: BTreeMap::new(),
-            landmarks: BTreeMap::new(),
-            parts: BTreeMap::new(),
+            landmarks: None,
+            proportions: None,
         }
     }
 }

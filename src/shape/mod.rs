@@ -13,9 +13,13 @@ pub mod part_weights;
 pub mod parts;
 pub mod proportions;
 pub mod shorten;
+pub mod study;
+pub mod style;
 
 pub use body_shape::{BodyShape, BoneShape};
 pub use bones::BoneField;
 pub use coefficients::{Coefficients, coefficients};
 pub use measure::{HeadTop, head_top, measure};
 pub use shorten::{Shortened, shorten};
+pub use study::Study;
+pub use style::Style;

@@ -88,14 +88,12 @@ pub struct PartField {
 impl PartField {
     /// The field that moves a figure of `anatomy` by `coefficients`.
     ///
-    /// - `face`: makes the face map from the new chin and crown.
     /// - `hair_length`: 1 ends hair at the part of the body where it ended, 0 at the chin.
     /// - `amount`: 0 leaves everything where it is, 1 goes all the way.
     pub fn new(
         anatomy: &Anatomy,
         coefficients: PartCoefficients,
         bindings: &PartBindings,
-        face: impl FnOnce(&Heights) -> FaceShape,
         hair_length: f64,
         amount: f64,
     ) -> Self {
@@ -152,7 +150,6 @@ impl PartField {
         field.neck_z[1] = field.trunk(middle(before.shoulder_line, base)).0.z;
         field.place_head();
         field.place_limbs();
-        field.face = face(&after);
         field.hair = bindings.hair_bottom.map(|bottom| {
             let new_bottom = after.chin + hair_length * (field.body_height(bottom) - after.chin);
             let head = field.affine[Part::Head as usize];
@@ -196,6 +193,11 @@ impl PartField {
     /// Moves everything up by `shift`, so that the soles stay where they were.
     pub fn set_ground(&mut self, shift: f64) {
         self.ground = shift;
+    }
+
+    /// 0 leaves everything where it is, 1 goes all the way.
+    pub fn set_amount(&mut self, amount: f64) {
+        self.amount = amount;
     }
 
     /// Changes the face alone; nothing else is done again.

@@ -33,6 +33,9 @@ pub enum Part {
     RightFoot,
 }
 
+/// A chin at or below the shoulder line still leaves this much neck, as a part of L.
+const SHORTEST_NECK: f64 = 0.02;
+
 /// How many parts there are.
 pub const PART_COUNT: usize = 15;
 
@@ -225,7 +228,7 @@ impl Anatomy {
         let proportions = Proportions {
             head_length: length,
             head_half_width,
-            neck: landmarks.chin - landmarks.shoulder_line,
+            neck: (landmarks.chin - landmarks.shoulder_line).max(SHORTEST_NECK * length),
             torso: top - bottom,
             arm: arms.iter().map(Limb::length).sum::<f64>() / 2.0,
             leg: bottom - landmarks.sole,
