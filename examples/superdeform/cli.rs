@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use superdeform::pipeline::{FaceCurve, GroupSettings, Mode, Options, Stage};
-use superdeform::{MeshKind, Role};
+use superdeform::{Axes, MeshKind, Role};
 
 /// The names of the bone groups that are there without `--groups`.
 pub const BONE_GROUPS: [&str; 12] = [
@@ -69,10 +69,8 @@ pub struct Command {
     pub humanoid: Option<PathBuf>,
     /// Role to node name for the reference.
     pub reference_humanoid: Option<PathBuf>,
-    /// The target's up where it is not the format's.
-    pub up: Option<Vec3>,
-    /// The target's forward where it is not to be found from the joints.
-    pub forward: Option<Vec3>,
+    /// Which way the target stands and looks.
+    pub axes: Axes,
     /// Print nothing but errors.
     pub quiet: bool,
 }
@@ -311,11 +309,14 @@ fn command(arguments: Arguments) -> Result<Command, Refusal> {
     if arguments.garment_weights.is_some() {
         return Err(Refusal::Input(not_yet("--garment-weights")));
     }
-    if let (Some(up), Some(forward)) = (arguments.up, arguments.forward)
-        && up.dot(forward) != 0.0
-    {
+    let axes = Axes {
+        up: arguments.up.unwrap_or(Axes::default().up),
+        forward: arguments.forward,
+    };
+    if axes.forward.is_some_and(|forward| axes.up.dot(forward) != 0.0) {
         return Err(Refusal::Usage(
-            "--up and --forward lie on one line: give two different axes".to_string(),
+            "--up (+Y where it is not given) and --forward lie on one line: give two different axes"
+                .to_string(),
         ));
     }
     let options = options(&arguments)?;
@@ -363,8 +364,7 @@ fn command(arguments: Arguments) -> Result<Command, Refusal> {
         kinds,
         humanoid: arguments.humanoid,
         reference_humanoid: arguments.reference_humanoid,
-        up: arguments.up,
-        forward: arguments.forward,
+        axes,
         quiet: arguments.quiet,
     };
     check_paths(&command)?;
@@ -653,9 +653,9 @@ mod tests {
     #[test]
     fn axes_are_read_in_every_spelling() {
         let command = parsed(&["--up", "z", "--forward", "-Y"]);
-        assert_eq!(command.up, Some(Vec3::Z));
-        assert_eq!(command.forward, Some(-Vec3::Y));
-        assert_eq!(parsed(&["--forward=+x"]).forward, Some(Vec3::X));
+        assert_eq!(command.axes.up, Vec3::Z);
+        assert_eq!(command.axes.forward, Some(-Vec3::Y));
+        assert_eq!(parsed(&["--forward=+x"]).axes.forward, Some(Vec3::X));
     }
 
     #[test]
@@ -671,7 +671,7 @@ mod tests {
             (&["--blend", "x.json:2"], &["2", "0 to 1"]),
             (&["--body", "("], &["unclosed group"]),
             (&["--up", "w"], &["+X"]),
-            (&["--up", "y", "--forward", "-Y"], &["--up", "--forward"]),
+            (&["--forward", "-Y"], &["--up", "--forward"]),
             (&["a.glb", "b.glb", "-o", "a.glb"], &["a.glb"]),
             (
                 &["a.glb", "-o", "c.glb", "--report", "r", "--picture", "r"],

@@ -3,6 +3,7 @@
 //!     cargo run --release --example superdeform
 //!     cargo run --release --example superdeform -- TARGET REFERENCE -o OUT.glb
 
+mod appearance;
 mod cli;
 mod lettering;
 mod materials;

@@ -211,8 +211,11 @@ impl Figure {
         }
     }
 
+    /// Above 0 even for a figure without extent.
     fn height(&self) -> f32 {
-        (self.cameras[0].high.y - self.cameras[0].low.y).max(f32::MIN_POSITIVE)
+        let camera = &self.cameras[0];
+        let height = (camera.high.y - camera.low.y).max(1e-3 * camera.width());
+        if height > 0.0 { height } else { 1.0 }
     }
 
     fn width(&self, scale: f32) -> f32 {
@@ -269,7 +272,7 @@ fn scale(figures: &[Figure]) -> f32 {
         .map(|figure| figure.width(by_height) - VIEW_GAP)
         .sum();
     let gaps = FIGURE_GAP + figures.len() as f32 * (FIGURE_GAP + VIEW_GAP);
-    by_height * ((LARGEST_WIDTH - gaps) / drawn.max(1.0)).clamp(0.05, 1.0)
+    by_height * ((LARGEST_WIDTH - gaps) / drawn.max(1.0)).clamp(0.0, 1.0)
 }
 
 fn background(width: u32, height: u32, ground: f32) -> RgbImage {
@@ -636,5 +639,102 @@ fn to_display(value: f32) -> f32 {
         value * 12.92
     } else {
         1.055 * value.powf(1.0 / 2.4) - 0.055
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const FRONT: [[u32; 3]; 2] = [[0, 1, 2], [0, 2, 3]];
+
+    /// A square of side 2 that faces +Z.
+    fn square(z: f32) -> [Vec3; 4] {
+        [[-1.0, 0.0], [1.0, 0.0], [1.0, 2.0], [-1.0, 2.0]].map(|[x, y]| Vec3::new(x, y, z))
+    }
+
+    fn coloured(base_colour: [f32; 4]) -> Material {
+        Material {
+            base_colour,
+            ..Material::default()
+        }
+    }
+
+    type Part<'a> = (&'a [Vec3], &'a [[u32; 3]], &'a Material);
+
+    fn drawn(meshes: &[Part]) -> RgbImage {
+        draw(&[View {
+            title: "target".to_string(),
+            note: String::new(),
+            meshes: meshes
+                .iter()
+                .map(|&(positions, triangles, material)| PictureMesh {
+                    positions,
+                    normals: &[],
+                    triangles,
+                    uvs: &[],
+                    colours: &[],
+                    material,
+                })
+                .collect(),
+            up: Vec3::Y,
+            forward: Vec3::Z,
+        }])
+    }
+
+    /// The middle of the front view.
+    fn middle(sheet: &RgbImage) -> [u8; 3] {
+        let half = FIGURE_HEIGHT / 2.0;
+        sheet.get_pixel((FIGURE_GAP + half) as u32, (TOP + half) as u32).0
+    }
+
+    #[test]
+    fn the_nearer_mesh_hides_the_farther_one_in_any_order() {
+        let (red, green) = (coloured([1.0, 0.0, 0.0, 1.0]), coloured([0.0, 1.0, 0.0, 1.0]));
+        let (near, far) = (square(0.5), square(-0.5));
+        let meshes: [Part; 2] = [(&near, &FRONT, &red), (&far, &FRONT, &green)];
+        for sheet in [drawn(&meshes), drawn(&[meshes[1], meshes[0]])] {
+            let [red, green, _] = middle(&sheet);
+            assert!(red > 180 && green < 80, "{red} {green}");
+        }
+    }
+
+    #[test]
+    fn backs_are_left_out_unless_a_material_has_two_sides() {
+        let positions = square(0.0);
+        let back = FRONT.map(|[a, b, c]| [a, c, b]);
+        let mut blue = coloured([0.0, 0.0, 1.0, 1.0]);
+        assert!(middle(&drawn(&[(&positions, &back, &blue)]))[0] > 200);
+        blue.double_sided = true;
+        assert!(middle(&drawn(&[(&positions, &back, &blue)]))[0] < 80);
+    }
+
+    #[test]
+    fn what_is_half_clear_shows_what_is_behind() {
+        let mut glass = coloured([0.0, 0.0, 1.0, 0.3]);
+        glass.alpha = Alpha::Blend;
+        let red = coloured([1.0, 0.0, 0.0, 1.0]);
+        let (near, far) = (square(0.5), square(-0.5));
+        let [red, _, blue] = middle(&drawn(&[(&near, &FRONT, &glass), (&far, &FRONT, &red)]));
+        assert!(red > 100 && blue > 100, "{red} {blue}");
+    }
+
+    #[test]
+    fn figures_without_extent_or_with_too_much_still_make_a_sheet() {
+        let white = Material::default();
+        assert!(drawn(&[]).width() > 0);
+        let point = [Vec3::ONE; 4];
+        assert!(drawn(&[(&point, &FRONT, &white)]).width() > 0);
+        let far = [Vec3::ZERO, 1e6 * Vec3::X, Vec3::Y, Vec3::NAN];
+        let sheet = drawn(&[(&far, &FRONT, &white)]);
+        assert!(sheet.width() <= LARGEST_WIDTH as u32 + 1, "{}", sheet.width());
+    }
+
+    #[test]
+    fn a_texel_outside_the_image_follows_the_wrapping() {
+        let wrapped = |wrap| [-1.0, 0.0, 3.0, 4.0, 5.0].map(|position| texel(position, 4, wrap));
+        assert_eq!(wrapped(Wrap::Repeat), [3, 0, 3, 0, 1]);
+        assert_eq!(wrapped(Wrap::Clamp), [0, 0, 3, 3, 3]);
+        assert_eq!(wrapped(Wrap::Mirror), [0, 0, 3, 3, 2]);
     }
 }

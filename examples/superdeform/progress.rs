@@ -33,9 +33,11 @@ impl Progress {
         }
         self.bar.set_message(name);
     }
+}
 
-    /// Takes the bar away, so that what is printed next stands alone.
-    pub fn finish(&self) {
+impl Drop for Progress {
+    /// Takes the bar away, so that what is printed next stands alone, even after a panic.
+    fn drop(&mut self) {
         self.bar.finish_and_clear();
     }
 }

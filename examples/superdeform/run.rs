@@ -2,18 +2,24 @@
 //!
 //! Everything is made in memory before the first file is written, so that bad input leaves no files.
 
+use crate::appearance::{self, Appearance};
 use crate::cli::{Command, Reference};
-use crate::materials::{self, Material};
+use crate::materials::Material;
 use crate::picture::{self, PictureMesh, View};
 use crate::progress::Progress;
 use crate::{output, report};
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use regex::Regex;
+use serde_json::Value;
 use std::path::{Path, PathBuf};
-use std::time::Instant;
+use std::sync::LazyLock;
+use std::time::{Duration, Instant};
 use superdeform::pipeline::Deformed;
 use superdeform::report::Report;
-use superdeform::{Character, MeshKind};
+use superdeform::{Axes, Character, MeshKind};
+
+/// Stages that the progress bar counts.
+const STAGE_COUNT: u64 = 5;
 
 /// What a run leaves behind.
 pub struct Done {
@@ -26,19 +32,15 @@ pub struct Done {
 /// A character as a file has it, with what a picture needs beside what the library needs.
 struct Loaded {
     character: Character,
-    /// One for each of the character's meshes.
-    surfaces: Vec<Surface>,
-    /// The file's materials.
-    materials: Vec<Material>,
-    /// The way it looks; found from the joints where the command line does not say.
-    forward: Vec3,
+    appearance: Appearance,
 }
 
-/// What a picture needs of a mesh beside its shape.
-struct Surface {
-    uvs: Vec<[f32; 2]>,
-    colours: Vec<[f32; 4]>,
-    material: Option<usize>,
+/// How a file is to be read where it does not say itself.
+struct Reading<'a> {
+    /// Role to node name.
+    humanoid_map: Option<Value>,
+    kinds: &'a [(MeshKind, Regex)],
+    axes: Axes,
 }
 
 /// Does what `command` says.
@@ -46,61 +48,40 @@ struct Surface {
 /// # Errors
 /// One sentence; no file is left half-written.
 pub fn run(command: &Command) -> Result<Done, String> {
-    let progress = Progress::new(5, command.quiet);
-    let result = stages(command, &progress);
-    progress.finish();
-    result
+    stages(command, &Progress::new(STAGE_COUNT, command.quiet))
 }
 
 fn stages(command: &Command, progress: &Progress) -> Result<Done, String> {
     let start = Instant::now();
     progress.stage("reading");
-    let target = load(
-        &command.target,
-        &Reading {
-            humanoid: command.humanoid.as_deref(),
-            kinds: &command.kinds,
-            up: command.up,
-            forward: command.forward,
-        },
-    )?;
-    let reference = match &command.reference {
-        Reference::Model(path) => Some(load(
-            path,
-            &Reading {
-                humanoid: command.reference_humanoid.as_deref(),
-                kinds: &[],
-                up: None,
-                forward: None,
-            },
-        )?),
-        Reference::Style(_) | Reference::Heads(_) => None,
-    };
+    let target = load_target(command)?;
+    let reference = load_reference(command)?;
     let load_time = start.elapsed();
 
     progress.stage("deforming");
     let (deformed, mut report) = deform(command, &target, reference.as_ref())?;
 
-    progress.stage("writing");
-    let write_start = Instant::now();
-    let bytes = encode(&target, &deformed)?;
     progress.stage("drawing");
     let sheet = command
         .picture
         .is_some()
         .then(|| sheet(&target, reference.as_ref(), &deformed, &report));
 
+    progress.stage("writing");
+    let write_start = Instant::now();
+    let model = encode(&target, &deformed)?;
+
     progress.stage("saving");
     let mut files = Vec::new();
-    output::write(&command.output, &bytes)?;
+    output::write(&command.output, &model)?;
     files.push(("model", command.output.clone()));
     if let (Some(path), Some(sheet)) = (&command.picture, &sheet) {
         picture::save(sheet, path)?;
         files.push(("picture", path.clone()));
     }
-    report.timing_ms.load = 1000.0 * load_time.as_secs_f64();
-    report.timing_ms.write = 1000.0 * write_start.elapsed().as_secs_f64();
-    report.timing_ms.total = 1000.0 * start.elapsed().as_secs_f64();
+    report.timing_ms.load = milliseconds(load_time);
+    report.timing_ms.write = milliseconds(write_start.elapsed());
+    report.timing_ms.total = milliseconds(start.elapsed());
     if let Some(path) = &command.report {
         report::write(&report, path)?;
         files.push(("report", path.clone()));
@@ -108,20 +89,48 @@ fn stages(command: &Command, progress: &Progress) -> Result<Done, String> {
     Ok(Done { report, files })
 }
 
-/// How a file is to be read where it does not say itself.
-struct Reading<'a> {
-    humanoid: Option<&'a Path>,
-    kinds: &'a [(MeshKind, Regex)],
-    up: Option<Vec3>,
-    forward: Option<Vec3>,
+fn load_target(command: &Command) -> Result<Loaded, String> {
+    let reading = Reading {
+        humanoid_map: read_map(command.humanoid.as_deref())?,
+        kinds: &command.kinds,
+        axes: command.axes,
+    };
+    load(&command.target, &reading)
+}
+
+fn load_reference(command: &Command) -> Result<Option<Loaded>, String> {
+    let Reference::Model(path) = &command.reference else {
+        return Ok(None);
+    };
+    let reading = Reading {
+        humanoid_map: read_map(command.reference_humanoid.as_deref())?,
+        kinds: &[],
+        axes: Axes::default(),
+    };
+    load(path, &reading).map(Some)
+}
+
+/// Reads a humanoid map; whether its roles and nodes exist is for the loader to say.
+fn read_map(path: Option<&Path>) -> Result<Option<Value>, String> {
+    let Some(path) = path else {
+        return Ok(None);
+    };
+    let place = path.display();
+    let text = std::fs::read_to_string(path).map_err(|error| format!("{place}: cannot be read ({error})"))?;
+    match serde_json::from_str(&text) {
+        Ok(map @ Value::Object(_)) => Ok(Some(map)),
+        Ok(_) => Err(format!(
+            "{place}: must be a JSON object such as {{\"hips\": \"NODE NAME\"}}"
+        )),
+        Err(error) => Err(format!("{place}: is no JSON ({error})")),
+    }
 }
 
 fn load(path: &Path, reading: &Reading) -> Result<Loaded, String> {
+    let _reading = (&reading.humanoid_map, reading.kinds, reading.axes);
     let bytes =
         std::fs::read(path).map_err(|error| format!("{}: cannot be read ({error})", path.display()))?;
-    let _reading = (reading.humanoid, reading.kinds, reading.up, reading.forward);
-    let materials = materials::materials(&serde_json::Value::Null, &bytes);
-    let _uv_sets = materials.iter().map(|material| material.uv_set);
+    let _appearance = appearance::read(&Value::Null, &bytes, [], |_, _| None);
     Err(format!("{}: reading characters is not wired", path.display()))
 }
 
@@ -145,20 +154,27 @@ fn sheet(
     deformed: &Deformed,
     report: &Report,
 ) -> image::RgbImage {
-    let note = |heads: f64| format!("{heads:.1} heads");
-    let mut views = vec![view("target", note(report.target.heads), target, None)];
+    let heads = |heads: f64| format!("{heads:.1} heads");
+    let mut views = vec![view("target", heads(report.target.heads), target, None)];
     if let Some(reference) = reference {
-        let heads = report.reference.as_ref().map_or(0.0, |figure| figure.heads);
-        views.push(view("reference", note(heads), reference, None));
+        let note = report
+            .reference
+            .as_ref()
+            .map_or(String::new(), |figure| heads(figure.heads));
+        views.push(view("reference", note, reference, None));
     }
-    views.push(view("result", note(report.result.heads), target, Some(deformed)));
+    views.push(view("result", heads(report.result.heads), target, Some(deformed)));
     picture::draw(&views)
 }
 
 /// A figure for the picture; where `deformed` is given, with its shape in place of the file's.
 fn view<'a>(title: &str, note: String, loaded: &'a Loaded, deformed: Option<&'a Deformed>) -> View<'a> {
-    static PLAIN: std::sync::LazyLock<Material> = std::sync::LazyLock::new(Material::default);
-    let meshes = loaded.character.meshes.iter().zip(&loaded.surfaces).enumerate();
+    static PLAIN: LazyLock<Material> = LazyLock::new(Material::default);
+    let Loaded {
+        character,
+        appearance,
+    } = loaded;
+    let meshes = character.meshes.iter().zip(&appearance.surfaces).enumerate();
     View {
         title: title.to_string(),
         note,
@@ -173,12 +189,59 @@ fn view<'a>(title: &str, note: String, loaded: &'a Loaded, deformed: Option<&'a 
                     colours: &surface.colours,
                     material: surface
                         .material
-                        .and_then(|material| loaded.materials.get(material))
+                        .and_then(|material| appearance.materials.get(material))
                         .unwrap_or(&PLAIN),
                 }
             })
             .collect(),
-        up: loaded.character.axes.up,
-        forward: loaded.forward,
+        up: character.axes.up,
+        forward: facing(character),
+    }
+}
+
+/// The way a character looks: as its axes say, else at right angles to up and to the line from its right limbs to
+/// its left ones.
+fn facing(character: &Character) -> Vec3 {
+    if let Some(forward) = character.axes.forward {
+        return forward;
+    }
+    let place = |joint: usize| character.skeleton.joints[joint].position();
+    let leftward: DVec3 = character
+        .humanoid
+        .iter()
+        .filter(|(role, _)| role.is_left())
+        .filter_map(|(role, joint)| Some(place(joint) - place(character.humanoid.joint(role.mirrored())?)))
+        .sum();
+    leftward.as_vec3().cross(character.axes.up).normalize_or(Vec3::Z)
+}
+
+fn milliseconds(duration: Duration) -> f64 {
+    1000.0 * duration.as_secs_f64()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::DMat4;
+    use superdeform::{Joint, Role};
+
+    #[test]
+    fn a_character_looks_where_its_limbs_say() {
+        let mut character = Character::default();
+        for (index, (role, x)) in [(Role::LeftUpperArm, -1.0), (Role::RightUpperArm, 1.0)]
+            .into_iter()
+            .enumerate()
+        {
+            character.humanoid.set(role, index);
+            character.skeleton.joints.push(Joint {
+                name: role.to_string(),
+                parent: None,
+                rest: DMat4::from_translation(DVec3::new(x, 1.0, 0.0)),
+            });
+        }
+        assert_eq!(facing(&character), -Vec3::Z);
+        character.axes.forward = Some(Vec3::X);
+        assert_eq!(facing(&character), Vec3::X);
+        assert_eq!(facing(&Character::default()), Vec3::Z);
     }
 }
