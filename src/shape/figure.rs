@@ -4,6 +4,7 @@
 //! units of the model. Extra joints (hair, skirts, twist helpers) fold into their nearest humanoid ancestor;
 //! that is for the deformation only, the animation weights of the character are not touched.
 
+use super::proportions::Part;
 use crate::character::{Character, Humanoid, MeshKind, Role};
 use crate::error::{Error, ErrorKind, Result};
 use glam::{DMat3, DVec3};
@@ -79,10 +80,8 @@ pub struct Figure {
     pub triangles: Vec<[u32; 3]>,
     /// Where each mesh's vertices start; one more than there are meshes.
     pub mesh_starts: Vec<usize>,
-    /// What each mesh depicts.
-    pub mesh_kinds: Vec<MeshKind>,
-    /// The mesh of each vertex.
-    pub vertex_mesh: Vec<u32>,
+    /// What each vertex belongs to.
+    pub kinds: Vec<MeshKind>,
     /// Rest positions of all joints.
     pub joints: Vec<DVec3>,
     /// Which joint plays which role.
@@ -122,8 +121,8 @@ impl Figure {
         let mut positions = Vec::with_capacity(character.vertex_count());
         let mut triangles = Vec::with_capacity(character.triangle_count());
         let mut mesh_starts = vec![0];
-        let mut vertex_mesh = Vec::with_capacity(character.vertex_count());
-        for (index, mesh) in character.meshes.iter().enumerate() {
+        let mut kinds = Vec::with_capacity(character.vertex_count());
+        for mesh in &character.meshes {
             let start = positions.len() as u32;
             positions.extend(mesh.positions.iter().map(|p| frame.to_canonical(p.as_dvec3())));
             triangles.extend(
@@ -131,7 +130,7 @@ impl Figure {
                     .iter()
                     .map(|corners| corners.map(|vertex| vertex + start)),
             );
-            vertex_mesh.resize(positions.len(), index as u32);
+            kinds.resize(positions.len(), mesh.kind);
             mesh_starts.push(positions.len());
         }
         let extent = positions
@@ -153,13 +152,15 @@ impl Figure {
             .collect();
         let joint_roles = fold_joints(character);
         let (role_weights, extra_weight, main) = fold_weights(character, &joint_roles);
+        for (kind, weights) in kinds.iter_mut().zip(&role_weights) {
+            *kind = believable_kind(*kind, weights);
+        }
         Ok(Self {
             frame,
             positions,
             triangles,
             mesh_starts,
-            mesh_kinds: character.meshes.iter().map(|mesh| mesh.kind).collect(),
-            vertex_mesh,
+            kinds,
             joints,
             humanoid,
             joint_roles,
@@ -184,9 +185,9 @@ impl Figure {
         self.humanoid.joint(role).map(|joint| self.joints[joint])
     }
 
-    /// What the mesh of `vertex` depicts.
+    /// What `vertex` belongs to.
     pub fn kind(&self, vertex: usize) -> MeshKind {
-        self.mesh_kinds[self.vertex_mesh[vertex] as usize]
+        self.kinds[vertex]
     }
 
     /// The part of a vertex's weight that `choose` accepts, 0 to 1.
@@ -206,6 +207,19 @@ impl Figure {
             .filter(|corners| corners.iter().all(|&vertex| chosen[vertex as usize]))
             .copied()
             .collect()
+    }
+}
+
+/// A mesh may hold more than its name says: one black material serves for eyes and shoes. What the head does not move is
+/// no part of a face, and what a limb moves is no hair.
+fn believable_kind(kind: MeshKind, weights: &[(Role, f64)]) -> MeshKind {
+    let sum = |choose: fn(Role) -> bool| -> f64 {
+        weights.iter().filter(|&&(role, _)| choose(role)).map(|&(_, weight)| weight).sum()
+    };
+    match kind {
+        MeshKind::FacePart if sum(is_head) <= 0.5 => MeshKind::Body,
+        MeshKind::Hair if sum(|role| Part::of(role) > Part::Head) > 0.5 => MeshKind::Body,
+        kind => kind,
     }
 }
 

@@ -8,6 +8,7 @@
 use super::figure::Figure;
 use super::proportions::{Anatomy, PART_COUNT, Part, PartWeights, fold_to_parts};
 use crate::character::{MeshKind, Role, Skeleton};
+use crate::hair::HairOutline;
 use crate::geometry::weld::{Weld, components, neighbours, weld};
 use glam::DVec3;
 use std::collections::HashMap;
@@ -77,6 +78,8 @@ impl PartBinding {
 pub struct Piece {
     /// The point that the body carries along.
     pub anchor: DVec3,
+    /// The height of its lowest vertex.
+    pub lowest: f64,
     /// The parts that move the anchor.
     pub weights: PartWeights,
 }
@@ -90,8 +93,8 @@ pub struct PartBindings {
     pub pieces: Vec<Piece>,
     /// For each joint the piece it belongs to.
     pub joint_pieces: Vec<Option<usize>>,
-    /// Lowest hair vertex, where there is hair below the chin.
-    pub hair_bottom: Option<f64>,
+    /// The outline of the hair below the chin, where there is some.
+    pub hair: Option<HairOutline>,
 }
 
 /// Binds every vertex of `figure` to its parts.
@@ -126,11 +129,10 @@ pub fn part_bindings(figure: &Figure, anatomy: &Anatomy, skeleton: &Skeleton) ->
     let joint_pieces = rigid_groups(figure, skeleton, &members, &head_only, &mut manners, &mut pieces);
     small_pieces(figure, &members, &head_only, &parts, &mut manners, &mut pieces);
 
-    let hair_bottom = (0..vertex_count)
-        .filter(|&vertex| manners[vertex] == Manner::Hair)
-        .map(|vertex| figure.positions[vertex].y)
-        .min_by(f64::total_cmp)
-        .filter(|&bottom| bottom < anatomy.landmarks.chin);
+    let hair = HairOutline::of(
+        (0..vertex_count).filter(|&vertex| manners[vertex] == Manner::Hair).map(|vertex| figure.positions[vertex]),
+        DVec3::new(anatomy.middle_x, anatomy.landmarks.chin, anatomy.head_joint.z),
+    );
     let vertices = parts
         .into_iter()
         .zip(manners)
@@ -140,7 +142,7 @@ pub fn part_bindings(figure: &Figure, anatomy: &Anatomy, skeleton: &Skeleton) ->
         vertices,
         pieces,
         joint_pieces,
-        hair_bottom,
+        hair,
     }
 }
 
@@ -472,8 +474,8 @@ fn mark_head_pieces(
     }
 }
 
-/// Things carried on the body (a bag, a machine arm, a tail of plates): everything that hangs from one joint without
-/// a role and is made of rigid components keeps its shape as one.
+/// Things carried on the body (a bag, a machine arm, a tail of plates): what hangs from one joint without a role and is
+/// made of rigid components for the greater part keeps its shape as one.
 fn rigid_groups(
     figure: &Figure,
     skeleton: &Skeleton,
@@ -500,41 +502,43 @@ fn rigid_groups(
         })
         .collect();
     let main = |vertex: u32| figure.main_joint[vertex as usize].map(|joint| joint as usize);
-    let mut flexible = vec![false; joint_count];
-    let mut used: Vec<Vec<u32>> = vec![Vec::new(); joint_count];
+    let mut rigid_count = vec![0usize; joint_count];
+    let mut whole_count = vec![0usize; joint_count];
+    let mut carried: Vec<Vec<u32>> = vec![Vec::new(); joint_count];
     for members in members.iter().filter(|members| !members.is_empty()) {
         let first = main(members[0]);
-        let rigid = members.iter().all(|&vertex| {
-            main(vertex) == first
-                && figure.extra_weight[vertex as usize] > RIGID_WEIGHT
-                && figure.main_weight[vertex as usize] > RIGID_WEIGHT
-                && !head_only[vertex as usize]
-        });
+        let rigid = members
+            .iter()
+            .all(|&vertex| main(vertex) == first && figure.main_weight[vertex as usize] > RIGID_WEIGHT);
+        let top_of = |vertex: u32| main(vertex).and_then(|joint| top[joint]);
+        let first_top = top_of(members[0]);
         for &vertex in members {
-            if let Some(top) = main(vertex).and_then(|joint| top[joint]) {
-                if rigid {
-                    used[top].push(vertex);
-                } else {
-                    flexible[top] = true;
-                }
+            if let Some(top) = top_of(vertex) {
+                whole_count[top] += 1;
+                rigid_count[top] += usize::from(rigid);
             }
+        }
+        // A strap that goes over into the body stays with the body.
+        if let Some(first_top) = first_top
+            && members.iter().all(|&vertex| top_of(vertex) == Some(first_top) && !head_only[vertex as usize])
+        {
+            carried[first_top].extend(members);
         }
     }
     let mut piece_of_top = vec![None; joint_count];
     for joint in 0..joint_count {
-        if flexible[joint] || used[joint].is_empty() {
+        if carried[joint].is_empty() || 2 * rigid_count[joint] < whole_count[joint] {
             continue;
         }
         // The body carries the piece at its own joint; the part it folds into moves that point.
         let role = figure.joint_roles[joint].unwrap_or(Role::Hips);
         piece_of_top[joint] = Some(pieces.len());
-        for &vertex in &used[joint] {
+        for &vertex in &carried[joint] {
             manners[vertex as usize] = Manner::Piece(pieces.len());
         }
-        pieces.push(Piece {
-            anchor: figure.joints[joint],
-            weights: PartBinding::to(Part::of(role)).weights,
-        });
+        let lowest = carried[joint].iter().map(|&v| figure.positions[v as usize].y).fold(f64::INFINITY, f64::min);
+        let weights = PartBinding::to(Part::of(role)).weights;
+        pieces.push(Piece { anchor: figure.joints[joint], lowest, weights });
     }
     top.iter()
         .map(|top| top.and_then(|top| piece_of_top[top]))
@@ -571,9 +575,6 @@ fn small_pieces(
         for &vertex in members {
             manners[vertex as usize] = Manner::Piece(pieces.len());
         }
-        pieces.push(Piece {
-            anchor: (low + high) / 2.0,
-            weights,
-        });
+        pieces.push(Piece { anchor: (low + high) / 2.0, lowest: low.y, weights });
     }
 }

@@ -150,16 +150,16 @@ impl PartField {
         field.neck_z[1] = field.trunk(middle(before.shoulder_line, base)).0.z;
         field.place_head();
         field.place_limbs();
-        field.hair = bindings.hair_bottom.map(|bottom| {
+        field.hair = bindings.hair.as_ref().map(|outline| {
+            let bottom = before.chin - outline.depth;
             let new_bottom = after.chin + hair_length * (field.body_height(bottom) - after.chin);
             let head = field.affine[Part::Head as usize];
             // Hair of no length at all would be a disc.
-            let least = 0.05 * coefficients.head[0] * (before.chin - bottom);
+            let least = 0.05 * coefficients.head[0] * outline.depth;
             HairMap::new(
-                [before.chin, after.chin],
-                bottom,
-                new_bottom.min(after.chin - least),
+                outline,
                 [head.from, head.to],
+                new_bottom.min(after.chin - least),
                 coefficients.head,
                 coefficients.neck[1],
             )
@@ -169,7 +169,11 @@ impl PartField {
             .iter()
             .map(|piece| {
                 let (to, jacobian) = field.blend(piece.anchor, &piece.weights, Manner::Plain);
-                let scale = jacobian.determinant().abs().cbrt();
+                let mut scale = jacobian.determinant().abs().cbrt();
+                if piece.lowest >= before.sole && piece.anchor.y > piece.lowest {
+                    // What did not reach the ground does not reach below it.
+                    scale = scale.min((to.y - after.sole) / (piece.anchor.y - piece.lowest)).max(0.05 * scale);
+                }
                 Affine {
                     from: piece.anchor,
                     to,

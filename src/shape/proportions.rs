@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 
 /// One of the fifteen parts of a body that move by one map each.
 #[allow(missing_docs)]
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[repr(u8)]
 pub enum Part {
     Trunk,
@@ -170,7 +170,15 @@ impl Anatomy {
         ];
         let middle_x = limbs.iter().map(|limb| limb.root.x).sum::<f64>() / 4.0;
         let own = |part: usize| figure.triangles_where(|vertex| parts[vertex][part] > 0.5);
-        let trunk = own(Part::Trunk as usize);
+        // What hangs from joints without a role (bags, machine arms, tails) does not make a trunk broad, unless the
+        // trunk's own surface is too little to measure.
+        let trunk = {
+            let bare = figure.triangles_where(|vertex| {
+                parts[vertex][Part::Trunk as usize] > 0.5 && figure.extra_weight[vertex] < 0.5
+            });
+            let measurable = slice(figure, &bare, 0.5 * (landmarks.crotch + landmarks.shoulder_line), 0.03, 0.97);
+            if measurable.is_some() { bare } else { own(Part::Trunk as usize) }
+        };
         let head_joint = figure.role_position(Role::Head).unwrap_or_default();
         let bare_head = figure.triangles_where(|vertex| {
             figure.weight_of(vertex, is_head) > 0.5
