@@ -591,6 +591,36 @@ fn a_joint_without_bones_still_moves_and_scales() {
 }
 
 #[test]
+fn a_hand_without_fingers_keeps_its_girth_unless_told() {
+    let arm = body(&[
+        (HEAD_TOP, 0.3, None),
+        ("leftUpperArm", 0.2, None),
+        ("leftHand", 0.5, Some(0.1)),
+    ]);
+    assert_eq!(settle(&arm, &arm).groups["hand"].thickness_scale, 1.0);
+    let given = GroupSettings {
+        thickness_scale: Some(0.8),
+        ..GroupSettings::default()
+    };
+    let settings = BTreeMap::from([("hand".to_string(), given)]);
+    let result = coefficients(&arm, &arm, 1.5, &settings, &BTreeMap::new()).unwrap();
+    let joints = BTreeMap::from([
+        (Role::Hips, DVec3::ZERO),
+        (Role::LeftUpperArm, DVec3::X * 0.2),
+        (Role::LeftHand, DVec3::X * 0.7),
+    ]);
+    let bones = found(joints.keys().copied());
+    let shortened = shorten(&bones, &joints, DVec3::ZERO, &result.groups);
+    let field = BoneField::new(&bones, &joints, DVec3::ZERO, &shortened, &result.groups);
+    let hand = field
+        .bones
+        .iter()
+        .find(|bone| bone.joint == Role::LeftHand)
+        .unwrap();
+    assert_eq!(hand.thickness_scale, 0.8);
+}
+
+#[test]
 fn a_capsule_around_a_bone_has_its_radius() {
     for (a, b) in [
         (DVec3::ZERO, DVec3::X),
