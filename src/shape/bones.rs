@@ -78,14 +78,16 @@ impl BoneField {
             if field.iter().any(|bone| bone.joint == joint) {
                 continue;
             }
+            let limb = Group::beginning_at(joint);
+            // By the name that the limb's group has here, else as what leads to it.
+            let named = bones
+                .iter()
+                .find(|bone| bone.kind == limb)
+                .map_or(limb.name(), |bone| &bone.group);
             let incoming = bones.iter().find(|bone| bone.child == Some(joint));
-            let thickness_scale = match Group::beginning_at(joint) {
-                // Hands and feet keep their girth, also where they have no fingers and toes.
-                group @ (Group::Hand | Group::Finger | Group::Foot) => thickness(group.name()).unwrap_or(1.0),
-                group => thickness(group.name())
-                    .or_else(|| thickness(&incoming?.group))
-                    .unwrap_or(1.0),
-            };
+            let thickness_scale = thickness(named)
+                .or_else(|| thickness(&incoming?.group))
+                .unwrap_or(1.0);
             field.push(FieldBone {
                 joint,
                 parent: old,

@@ -186,6 +186,20 @@ pub fn coefficients(
         };
         result.groups.insert(group.clone(), coefficient);
     }
+    // Hands without fingers and feet without toes are no bones, but they have a girth.
+    for role in roles {
+        let group = Group::beginning_at(role);
+        if let (Group::Hand | Group::Foot, Rule::Fixed(alpha, beta)) = (group, rule(group, head_scale))
+            && !target_bones.iter().any(|bone| bone.kind == group)
+        {
+            let given = settings.get(group.name()).copied().unwrap_or_default();
+            let coefficient = Coefficient {
+                length_scale: given.length_scale.unwrap_or(alpha),
+                thickness_scale: given.thickness_scale.unwrap_or(beta),
+            };
+            result.groups.insert(group.name().to_string(), coefficient);
+        }
+    }
     Ok(result)
 }
 
