@@ -179,7 +179,7 @@ fn check(loaded: &Loaded, deformed: &Deformed) -> Result<()> {
 pub fn new_rest(loaded: &Loaded, deformed: &Deformed) -> Vec<DMat4> {
     let mut rest = loaded.pose.rest.clone();
     for (joint, &node) in loaded.node_of_joint.iter().enumerate() {
-        rest[node].w_axis = deformed.joints[joint].extend(1.0);
+        rest[node].w_axis = deformed.joints[joint].extend(rest[node].w_axis.w);
     }
     rest
 }
