@@ -6,8 +6,9 @@ use crate::error::{Error, ErrorKind, Result, Warning};
 use crate::face::FaceShape;
 use crate::geometry::weld::{Weld, components, weld};
 pub use crate::options::{FaceCurve, GroupSettings, Mode, Options, Stage};
-use crate::report::{Coefficient, Counts, FigureReport, Report, RigReport, Timing};
+use crate::report::{Coefficient, Counts, FigureReport, GroupShape, Report, RigReport, Timing};
 use crate::shape::attributes::{fitted_jacobians, normal_matrix};
+use crate::shape::BodyShape;
 use crate::shape::bones::BoneField;
 use crate::shape::coefficients::coefficients;
 use crate::shape::field::{Binding, BoneBinding, Field, PaperField};
@@ -520,6 +521,11 @@ impl Deformer {
         Mapped { position: frame.to_model(position), jacobian: frame.jacobian_to_model(jacobian) }
     }
 
+    /// Length and radius of another body's bone groups, measured over the roles that target and style share.
+    pub fn group_shapes(&self, shape: &BodyShape) -> BTreeMap<String, GroupShape> {
+        group_shapes(shape, &self.roles, &self.options)
+    }
+
     /// The target as it was measured.
     pub fn target(&self) -> &Study {
         &self.study
@@ -574,7 +580,7 @@ struct Attempt {
 
 /// A style's numbers for the report, where its model is not at hand.
 pub fn style_report(
-    shape: &crate::shape::BodyShape,
+    shape: &BodyShape,
     roles: &BTreeSet<Role>,
     options: &Options,
 ) -> FigureReport {

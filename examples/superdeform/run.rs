@@ -4,6 +4,10 @@
 
 use crate::appearance::{self, Appearance};
 use crate::cli::{Command, Reference};
+use crate::host::accessor::Reader;
+use crate::host::file::GltfFile;
+use crate::host::load::{self as files, LoadOptions};
+use crate::host::write;
 use crate::materials::Material;
 use crate::picture::{self, PictureMesh, View};
 use crate::progress::Progress;
@@ -12,11 +16,13 @@ use glam::{DVec3, Vec3};
 use regex::Regex;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
-use std::sync::LazyLock;
+use std::sync::{Arc, LazyLock};
 use std::time::{Duration, Instant};
-use superdeform::pipeline::Deformed;
+use superdeform::character::roles::find_roles;
+use superdeform::pipeline::{Deformed, Deformer, Style};
 use superdeform::report::Report;
-use superdeform::{Axes, Character, MeshKind};
+use superdeform::shape::{BodyShape, Study};
+use superdeform::{Axes, Character, MeshKind, Warning};
 
 /// Stages that the progress bar counts.
 const STAGE_COUNT: u64 = 5;
@@ -31,8 +37,9 @@ pub struct Done {
 
 /// A character as a file has it, with what a picture needs beside what the library needs.
 struct Loaded {
-    character: Character,
-    appearance: Appearance,
+    file: files::Loaded,
+    character: Arc<Character>,
+    appearance: Option<Appearance>,
 }
 
 /// How a file is to be read where it does not say itself.
@@ -41,6 +48,10 @@ struct Reading<'a> {
     humanoid_map: Option<Value>,
     kinds: &'a [(MeshKind, Regex)],
     axes: Axes,
+    /// Whether a picture is to be drawn of it.
+    to_be_drawn: bool,
+    /// What a sentence about a role that is not found names as the remedy.
+    map_option: &'static str,
 }
 
 /// Does what `command` says.
@@ -59,34 +70,111 @@ fn stages(command: &Command, progress: &Progress) -> Result<Done, String> {
     let load_time = start.elapsed();
 
     progress.stage("deforming");
-    let (deformed, mut report) = deform(command, &target, reference.as_ref())?;
+    let (style, reference_study) = style(command, reference.as_ref())?;
+    let deformer = Deformer::new(Arc::clone(&target.character), &style, &command.options)
+        .map_err(|error| about(&command.target, error))?;
+    let deformed = deformer.apply();
+    let mut report = deformer.report(&deformed).map_err(|error| about(&command.target, error))?;
+    if let Some(study) = &reference_study {
+        let shape = &study.shape;
+        report.reference = Some(study.report(&shape.roles(), &command.options));
+        if let Some(numbers) = &mut report.reference {
+            // The groups of both are measured over the roles that both have.
+            numbers.shape = deformer.group_shapes(shape);
+        }
+    }
+    let mut warnings = target.file.warnings.clone();
+    if let Some(reference) = &reference {
+        warnings.extend(reference.file.warnings.iter().map(|warning| Warning {
+            code: warning.code,
+            message: format!("reference: {}", warning.message),
+        }));
+    }
+    warnings.append(&mut report.warnings);
+    report.warnings = warnings;
 
+    let undrawn = start.elapsed();
     progress.stage("drawing");
     let sheet = command
         .picture
         .is_some()
         .then(|| sheet(&target, reference.as_ref(), &deformed, &report));
+    let drawing = start.elapsed() - undrawn;
 
     progress.stage("writing");
     let write_start = Instant::now();
-    let model = encode(&target, &deformed)?;
+    let map = |joint: usize, point: DVec3| deformer.map(joint, point);
+    let model = write::write(&target.file, &deformed, &map).map_err(|error| about(&command.target, error))?;
 
     progress.stage("saving");
     let mut files = Vec::new();
     output::write(&command.output, &model)?;
     files.push(("model", command.output.clone()));
+    report.timing_ms.load = milliseconds(load_time);
+    report.timing_ms.write = milliseconds(write_start.elapsed());
+    // The picture is beside the point of the times.
+    report.timing_ms.total = milliseconds(start.elapsed() - drawing);
     if let (Some(path), Some(sheet)) = (&command.picture, &sheet) {
         picture::save(sheet, path)?;
         files.push(("picture", path.clone()));
     }
-    report.timing_ms.load = milliseconds(load_time);
-    report.timing_ms.write = milliseconds(write_start.elapsed());
-    report.timing_ms.total = milliseconds(start.elapsed());
     if let Some(path) = &command.report {
         report::write(&report, path)?;
         files.push(("report", path.clone()));
     }
+    if let Some(path) = &command.save_style {
+        let Style::Shape(shape) = &style else {
+            return Err(format!(
+                "{}: a style for N heads has no proportions of its own to save: give a reference",
+                path.display()
+            ));
+        };
+        output::write(path, shape.to_json().as_bytes())?;
+        files.push(("style", path.clone()));
+    }
     Ok(Done { report, files })
+}
+
+/// The library's sentence, with the file that it is about.
+fn about(path: &Path, error: superdeform::Error) -> String {
+    let name = path.display().to_string();
+    let message = error.message;
+    if message.contains(&name) { message } else { format!("{name}: {message}") }
+}
+
+/// The style that the command line asks for, and the study of its model where there is one.
+fn style(command: &Command, reference: Option<&Loaded>) -> Result<(Style, Option<Study>), String> {
+    let mut study = None;
+    let style = match (&command.reference, reference) {
+        (Reference::Model(path), Some(reference)) => {
+            let measured =
+                Study::of(&reference.character, &command.options).map_err(|error| about(path, error))?;
+            let mut shape = measured.shape.clone();
+            shape.name = path.file_stem().map_or(String::new(), |stem| stem.to_string_lossy().into_owned());
+            study = Some(measured);
+            Style::Shape(Box::new(shape))
+        }
+        (Reference::Style(path), _) => match Style::built_in(&path.to_string_lossy()) {
+            Some(style) => style,
+            None => Style::Shape(Box::new(read_style(path)?)),
+        },
+        (Reference::Heads(heads), _) => Style::heads(*heads).map_err(|error| error.message)?,
+        (Reference::Model(path), None) => return Err(format!("{}: was not read", path.display())),
+    };
+    let Some((path, amount)) = &command.blend else { return Ok((style, study)) };
+    let other = read_style(path)?;
+    match style {
+        Style::Shape(shape) => Ok((Style::Shape(Box::new(shape.blended(&other, *amount))), None)),
+        Style::Heads(_) => {
+            Err(format!("{}: a style for N heads cannot be blended: give a reference", path.display()))
+        }
+    }
+}
+
+fn read_style(path: &Path) -> Result<BodyShape, String> {
+    let text = std::fs::read_to_string(path)
+        .map_err(|error| format!("{}: cannot be read ({error})", path.display()))?;
+    BodyShape::from_json(&text).map_err(|error| about(path, error))
 }
 
 fn load_target(command: &Command) -> Result<Loaded, String> {
@@ -94,6 +182,8 @@ fn load_target(command: &Command) -> Result<Loaded, String> {
         humanoid_map: read_map(command.humanoid.as_deref())?,
         kinds: &command.kinds,
         axes: command.axes,
+        to_be_drawn: command.picture.is_some(),
+        map_option: "--humanoid",
     };
     load(&command.target, &reading)
 }
@@ -106,6 +196,8 @@ fn load_reference(command: &Command) -> Result<Option<Loaded>, String> {
         humanoid_map: read_map(command.reference_humanoid.as_deref())?,
         kinds: &[],
         axes: Axes::default(),
+        to_be_drawn: command.picture.is_some(),
+        map_option: "--reference-humanoid",
     };
     load(path, &reading).map(Some)
 }
@@ -119,32 +211,30 @@ fn read_map(path: Option<&Path>) -> Result<Option<Value>, String> {
     let text = std::fs::read_to_string(path).map_err(|error| format!("{place}: cannot be read ({error})"))?;
     match serde_json::from_str(&text) {
         Ok(map @ Value::Object(_)) => Ok(Some(map)),
-        Ok(_) => Err(format!(
-            "{place}: must be a JSON object such as {{\"hips\": \"NODE NAME\"}}"
-        )),
+        Ok(_) => Err(format!("{place}: must be a JSON object such as {{\"hips\": \"NODE NAME\"}}")),
         Err(error) => Err(format!("{place}: is no JSON ({error})")),
     }
 }
 
 fn load(path: &Path, reading: &Reading) -> Result<Loaded, String> {
-    let _reading = (&reading.humanoid_map, reading.kinds, reading.axes);
-    let bytes =
-        std::fs::read(path).map_err(|error| format!("{}: cannot be read ({error})", path.display()))?;
-    let _appearance = appearance::read(&Value::Null, &bytes, [], |_, _| None);
-    Err(format!("{}: reading characters is not wired", path.display()))
-}
-
-fn deform(
-    command: &Command,
-    _target: &Loaded,
-    _reference: Option<&Loaded>,
-) -> Result<(Deformed, Report), String> {
-    let _options = &command.options;
-    Err("deforming is not wired".to_string())
-}
-
-fn encode(_target: &Loaded, _deformed: &Deformed) -> Result<Vec<u8>, String> {
-    Err("writing characters is not wired".to_string())
+    let options = LoadOptions {
+        axes: reading.axes,
+        humanoid_map: reading.humanoid_map.as_ref(),
+        kinds: reading.kinds,
+        find_roles: Some(&find_roles),
+        without_rig: false,
+    };
+    let read = || -> superdeform::Result<files::Loaded> { files::load(GltfFile::read(path)?, &options) };
+    let file = read().map_err(|error| about(path, error).replace("--humanoid", reading.map_option))?;
+    let appearance = reading.to_be_drawn.then(|| {
+        let reader = Reader::new(&file.file);
+        let primitives: Vec<(usize, usize)> =
+            file.bindings.iter().map(|binding| (binding.mesh, binding.primitive)).collect();
+        appearance::read(&file.file.json, &file.file.binary, primitives, |accessor, components| {
+            reader.floats(accessor, components, None).ok()
+        })
+    });
+    Ok(Loaded { character: Arc::new(file.character.clone()), file, appearance })
 }
 
 /// Target, reference and result side by side, with their heads.
@@ -170,10 +260,9 @@ fn sheet(
 /// A figure for the picture; where `deformed` is given, with its shape in place of the file's.
 fn view<'a>(title: &str, note: String, loaded: &'a Loaded, deformed: Option<&'a Deformed>) -> View<'a> {
     static PLAIN: LazyLock<Material> = LazyLock::new(Material::default);
-    let Loaded {
-        character,
-        appearance,
-    } = loaded;
+    static NOTHING: LazyLock<Appearance> = LazyLock::new(Appearance::default);
+    let character = &loaded.character;
+    let appearance = loaded.appearance.as_ref().unwrap_or(&NOTHING);
     let meshes = character.meshes.iter().zip(&appearance.surfaces).enumerate();
     View {
         title: title.to_string(),
