@@ -33,6 +33,8 @@ const HEAD_PLANE: (f64, f64) = (-0.02, 0.22);
 const HEAD_PLANE_BACK: f64 = 0.35;
 /// The neck's weights go over into the head's within half the neck, but at least and at most these parts of L.
 const HEAD_BAND: (f64, f64) = (0.06, 0.2);
+/// Between these distances from the neck's axis, to the side or behind, what the head moves is hair, as parts of L.
+const HAIR_REACH: (f64, f64) = (0.36, 0.5);
 /// Loose pieces smaller than this part of H keep their shape: buttons, buckles, badges.
 const SMALL_PIECE: f64 = 0.04;
 /// A vertex with this much weight to one joint counts as rigid.
@@ -44,8 +46,6 @@ pub enum Manner {
     /// By its weights alone.
     #[default]
     Plain,
-    /// Belongs to hair: below the chin it follows the body's heights.
-    Hair,
     /// A hat or glasses: takes the face map of this point as a whole.
     OnFace(DVec3),
     /// Moves with piece number so-and-so, which keeps its shape.
@@ -115,22 +115,25 @@ pub fn part_bindings(figure: &Figure, anatomy: &Anatomy, skeleton: &Skeleton) ->
     let head_only = head_only(figure, &parts, &members, &component_of);
     for vertex in 0..vertex_count {
         if head_only[vertex] {
-            parts[vertex] = PartBinding::to(Part::Head).weights;
+            let part = if figure.kind(vertex) == MeshKind::Hair { Part::Hair } else { Part::Head };
+            parts[vertex] = PartBinding::to(part).weights;
         } else {
             split_head(&mut parts[vertex], figure.positions[vertex], anatomy);
             split_limbs(&mut parts[vertex], figure.positions[vertex], figure, anatomy);
         }
     }
+    mark_head_pieces(figure, anatomy, &members, &head_only, &mut parts, &mut manners);
     smooth_along(figure, &weld, &head_only, &mut parts);
     smooth_across(figure, &head_only, &mut parts);
 
-    mark_head_pieces(figure, anatomy, &members, &head_only, &mut manners);
     let mut pieces = Vec::new();
     let joint_pieces = rigid_groups(figure, skeleton, &members, &head_only, &mut manners, &mut pieces);
     small_pieces(figure, &members, &head_only, &parts, &mut manners, &mut pieces);
 
     let hair = HairOutline::of(
-        (0..vertex_count).filter(|&vertex| manners[vertex] == Manner::Hair).map(|vertex| figure.positions[vertex]),
+        (0..vertex_count)
+            .filter(|&vertex| parts[vertex][Part::Hair as usize] > 0.5)
+            .map(|vertex| figure.positions[vertex]),
         DVec3::new(anatomy.middle_x, anatomy.landmarks.chin, anatomy.head_joint.z),
     );
     let vertices = parts
@@ -154,7 +157,7 @@ pub fn joint_binding(figure: &Figure, bindings: &PartBindings, joint: usize) -> 
     if let Some(piece) = bindings.joint_pieces[joint] {
         binding.manner = Manner::Piece(piece);
     } else if role == Role::Head && figure.humanoid.joint(role) != Some(joint) {
-        binding.manner = Manner::Hair;
+        binding = PartBinding::to(Part::Hair);
     }
     binding
 }
@@ -200,8 +203,15 @@ fn split_head(parts: &mut PartWeights, p: DVec3, anatomy: &Anatomy) {
     let band =
         ((chin - anatomy.landmarks.shoulder_line) / 2.0).clamp(HEAD_BAND.0 * length, HEAD_BAND.1 * length);
     let share = smoothstep((p.y - plane) / band + 1.0) as f32;
+    // Hair that is one mesh with the body: what the file gives to the head and what hangs beside or behind the neck,
+    // further out than a neck reaches.
+    let neck_z = anatomy.centre_z(anatomy.landmarks.shoulder_line).0.min(anatomy.head_joint.z);
+    let out = DVec3::new(p.x - anatomy.middle_x, 0.0, (p.z - neck_z).min(0.0)).length() / length;
+    let of_head = (parts[Part::Head as usize] / both) * smoothstep((out - HAIR_REACH.0) / (HAIR_REACH.1 - HAIR_REACH.0)) as f32;
+    let below = both * (1.0 - share);
     parts[Part::Head as usize] = both * share;
-    parts[Part::Neck as usize] = both * (1.0 - share);
+    parts[Part::Neck as usize] = below * (1.0 - of_head);
+    parts[Part::Hair as usize] = below * of_head;
 }
 
 /// Lower arms, hands, shins and feet that the rig has no joint for take their weights from the geometry.
@@ -439,37 +449,32 @@ fn nearest(points: &[(DVec3, u8)], count: usize, reach: f64) -> Vec<Vec<(u32, f6
     })
 }
 
-/// Hair is marked as hair, hats and glasses take the face map as a whole.
+/// Hats and glasses take the face map as a whole; a piece of the head that hangs down to the shoulders is hair.
 fn mark_head_pieces(
     figure: &Figure,
     anatomy: &Anatomy,
     members: &[Vec<u32>],
     head_only: &[bool],
+    parts: &mut [PartWeights],
     manners: &mut [Manner],
 ) {
     for members in members.iter().filter(|members| !members.is_empty()) {
         if !members.iter().all(|&vertex| head_only[vertex as usize]) {
-            // Hair that shares vertices with the scalp is still hair by its kind.
-            for &vertex in members {
-                if figure.kind(vertex as usize) == MeshKind::Hair {
-                    manners[vertex as usize] = Manner::Hair;
-                }
-            }
             continue;
         }
         let positions = members.iter().map(|&vertex| figure.positions[vertex as usize]);
         let low = positions.clone().fold(DVec3::INFINITY, DVec3::min);
         let high = positions.fold(DVec3::NEG_INFINITY, DVec3::max);
-        // A piece of the head that hangs down to the shoulders is hair, whatever its name.
         let hangs = low.y < anatomy.landmarks.shoulder_line;
         for &vertex in members {
-            manners[vertex as usize] = match figure.kind(vertex as usize) {
-                MeshKind::Hair => Manner::Hair,
-                MeshKind::Accessory => Manner::OnFace((low + high) / 2.0),
-                MeshKind::FacePart => Manner::Plain,
-                _ if hangs => Manner::Hair,
-                _ => Manner::Plain,
-            };
+            let vertex = vertex as usize;
+            match figure.kind(vertex) {
+                MeshKind::Accessory => manners[vertex] = Manner::OnFace((low + high) / 2.0),
+                MeshKind::Body | MeshKind::Garment if hangs => {
+                    parts[vertex] = PartBinding::to(Part::Hair).weights;
+                }
+                _ => {}
+            }
         }
     }
 }

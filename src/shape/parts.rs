@@ -241,7 +241,8 @@ impl PartField {
         match part {
             0 => self.trunk(p),
             1 => self.neck(p),
-            2 => self.head(p, manner),
+            2 => self.head(p, manner, false),
+            15 => self.head(p, manner, true),
             _ => (self.affine[part].map(p), self.affine[part].linear),
         }
     }
@@ -296,10 +297,10 @@ impl PartField {
         (to, jacobian)
     }
 
-    fn head(&self, p: DVec3, manner: Manner) -> (DVec3, DMat3) {
+    fn head(&self, p: DVec3, manner: Manner, is_hair: bool) -> (DVec3, DMat3) {
         let affine = &self.affine[Part::Head as usize];
-        let (to, jacobian) = match (&self.hair, manner) {
-            (Some(hair), Manner::Hair) if p.y < self.before.chin => hair.map(p),
+        let (to, jacobian) = match &self.hair {
+            Some(hair) if is_hair && p.y < self.before.chin => hair.map(p),
             _ => (affine.map(p), affine.linear),
         };
         if let Manner::OnFace(centre) = manner {

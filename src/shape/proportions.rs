@@ -11,7 +11,7 @@ use crate::geometry::segment::foot;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-/// One of the fifteen parts of a body that move by one map each.
+/// One of the fifteen parts of a body that move by one map each, or hair, whose map is the head's above the chin.
 #[allow(missing_docs)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[repr(u8)]
@@ -31,13 +31,15 @@ pub enum Part {
     RightUpperLeg,
     RightLowerLeg,
     RightFoot,
+    /// What moves with the head, but below the chin follows the heights of the body.
+    Hair,
 }
 
 /// A chin at or below the shoulder line still leaves this much neck, as a part of L.
 const SHORTEST_NECK: f64 = 0.02;
 
-/// How many parts there are.
-pub const PART_COUNT: usize = 15;
+/// How many parts there are, hair included.
+pub const PART_COUNT: usize = 16;
 
 impl Part {
     /// The part that the role's joint moves.
@@ -64,7 +66,7 @@ impl Part {
     }
 }
 
-/// Weights to the fifteen parts, in the order of [`Part`].
+/// Weights to the parts, in the order of [`Part`].
 pub type PartWeights = [f32; PART_COUNT];
 
 /// A vertex's role weights summed by part.
