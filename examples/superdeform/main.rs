@@ -5,6 +5,7 @@
 
 mod appearance;
 mod cli;
+mod host;
 mod lettering;
 mod materials;
 mod output;

@@ -4,10 +4,14 @@
 
 use crate::appearance::{self, Appearance};
 use crate::cli::{Command, Reference};
+use crate::host::accessor::Reader;
+use crate::host::file::GltfFile;
+use crate::host::load::LoadOptions;
+use crate::host::write::MapPoint;
 use crate::materials::Material;
 use crate::picture::{self, PictureMesh, View};
 use crate::progress::Progress;
-use crate::{output, report};
+use crate::{host, output, report};
 use glam::{DVec3, Vec3};
 use regex::Regex;
 use serde_json::Value;
@@ -31,7 +35,7 @@ pub struct Done {
 
 /// A character as a file has it, with what a picture needs beside what the library needs.
 struct Loaded {
-    character: Character,
+    host: host::load::Loaded,
     appearance: Appearance,
 }
 
@@ -54,14 +58,26 @@ pub fn run(command: &Command) -> Result<Done, String> {
 fn stages(command: &Command, progress: &Progress) -> Result<Done, String> {
     let start = Instant::now();
     progress.stage("reading");
-    let target = load_target(command)?;
-    let reference = load_reference(command)?;
+    let mut target = load_target(command)?;
+    let mut reference = load_reference(command)?;
     let load_time = start.elapsed();
 
     progress.stage("deforming");
-    let (deformed, mut report) = deform(command, &target, reference.as_ref())?;
+    let (deformed, mut report, map_point) = deform(command, &target, reference.as_ref())?;
+
+    let loaded = [Some(&target), reference.as_ref()].into_iter().flatten();
+    report.warnings.splice(
+        0..0,
+        loaded.flat_map(|loaded| loaded.host.warnings.iter().cloned()),
+    );
 
     progress.stage("drawing");
+    if command.picture.is_some() {
+        target.appearance = appearance(&target.host);
+        if let Some(reference) = &mut reference {
+            reference.appearance = appearance(&reference.host);
+        }
+    }
     let sheet = command
         .picture
         .is_some()
@@ -69,7 +85,7 @@ fn stages(command: &Command, progress: &Progress) -> Result<Done, String> {
 
     progress.stage("writing");
     let write_start = Instant::now();
-    let model = encode(&target, &deformed)?;
+    let model = encode(&target, &deformed, &map_point)?;
 
     progress.stage("saving");
     let mut files = Vec::new();
@@ -127,24 +143,47 @@ fn read_map(path: Option<&Path>) -> Result<Option<Value>, String> {
 }
 
 fn load(path: &Path, reading: &Reading) -> Result<Loaded, String> {
-    let _reading = (&reading.humanoid_map, reading.kinds, reading.axes);
-    let bytes =
-        std::fs::read(path).map_err(|error| format!("{}: cannot be read ({error})", path.display()))?;
-    let _appearance = appearance::read(&Value::Null, &bytes, [], |_, _| None);
-    Err(format!("{}: reading characters is not wired", path.display()))
+    let options = LoadOptions {
+        axes: reading.axes,
+        humanoid_map: reading.humanoid_map.as_ref(),
+        kinds: reading.kinds,
+        ..LoadOptions::default()
+    };
+    let host = GltfFile::read(path)
+        .and_then(|file| host::load::load(file, &options))
+        .map_err(|error| error.to_string())?;
+    Ok(Loaded {
+        host,
+        appearance: Appearance::default(),
+    })
+}
+
+/// What the picture needs beside the shape: read only where there is to be a picture.
+fn appearance(host: &host::load::Loaded) -> Appearance {
+    let primitives = host
+        .bindings
+        .iter()
+        .map(|binding| (binding.mesh, binding.primitive));
+    let reader = Reader::new(&host.file);
+    appearance::read(
+        &host.file.json,
+        &host.file.binary,
+        primitives,
+        |accessor, components| reader.floats(accessor, components, None).ok(),
+    )
 }
 
 fn deform(
     command: &Command,
     _target: &Loaded,
     _reference: Option<&Loaded>,
-) -> Result<(Deformed, Report), String> {
+) -> Result<(Deformed, Report, Box<MapPoint<'static>>), String> {
     let _options = &command.options;
     Err("deforming is not wired".to_string())
 }
 
-fn encode(_target: &Loaded, _deformed: &Deformed) -> Result<Vec<u8>, String> {
-    Err("writing characters is not wired".to_string())
+fn encode(target: &Loaded, deformed: &Deformed, map_point: &MapPoint) -> Result<Vec<u8>, String> {
+    host::write::write(&target.host, deformed, map_point).map_err(|error| error.to_string())
 }
 
 /// Target, reference and result side by side, with their heads.
@@ -170,10 +209,8 @@ fn sheet(
 /// A figure for the picture; where `deformed` is given, with its shape in place of the file's.
 fn view<'a>(title: &str, note: String, loaded: &'a Loaded, deformed: Option<&'a Deformed>) -> View<'a> {
     static PLAIN: LazyLock<Material> = LazyLock::new(Material::default);
-    let Loaded {
-        character,
-        appearance,
-    } = loaded;
+    let Loaded { host, appearance } = loaded;
+    let character = &host.character;
     let meshes = character.meshes.iter().zip(&appearance.surfaces).enumerate();
     View {
         title: title.to_string(),
