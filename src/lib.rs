@@ -2,9 +2,13 @@
 
 pub mod character;
 pub mod error;
+pub mod face;
 pub mod geometry;
+pub mod hair;
+pub mod options;
 pub mod pipeline;
 pub mod report;
+pub mod shape;
 
 pub use character::{Axes, Character, Humanoid, Joint, Mesh, MeshKind, MorphTarget, Role, Skeleton, Weights};
 pub use error::{Error, ErrorKind, Result, Warning};

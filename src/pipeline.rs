@@ -1,103 +1,29 @@
-//! Puts the stages in order: what is known so far, and what comes out.
+//! Puts the stages in order: what is known so far, what comes out, and what to redo when something changes.
 
-use crate::character::{MorphTarget, Role};
+use crate::character::bones::Bone;
+use crate::character::{Character, MeshKind, MorphTarget, Role};
+use crate::error::{Error, ErrorKind, Result, Warning};
+use crate::face::FaceShape;
+use crate::geometry::weld::{Weld, components, weld};
+pub use crate::options::{FaceCurve, GroupSettings, Mode, Options, Stage};
+use crate::report::{Coefficient, Counts, FigureReport, Report, RigReport, Timing};
+use crate::shape::attributes::{fitted_jacobians, normal_matrix};
+use crate::shape::bones::BoneField;
+use crate::shape::coefficients::coefficients;
+use crate::shape::field::{Binding, BoneBinding, Field, PaperField};
+use crate::shape::figure::{Figure, is_head};
+use crate::shape::landmarks::landmarks;
+use crate::shape::part_coefficients::{PartCoefficients, Wanted, part_coefficients};
+use crate::shape::part_weights::{PartBinding, PartBindings, WELD_TOLERANCE, joint_binding, part_bindings};
+use crate::shape::parts::{Heights, PartField};
+use crate::shape::proportions::Part;
+use crate::shape::shorten::{Shortened, shorten};
+use crate::shape::study::{Study, group_shapes, is_of_head};
+pub use crate::shape::style::Style;
 use glam::{DMat3, DVec3, Vec3, Vec4};
-use std::collections::BTreeMap;
-
-/// Which field deforms.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Mode {
-    /// 15 parts that meet at landmarks read from the geometry.
-    #[default]
-    Product,
-    /// The paper's chain of bones, Eqs. 1-8, literally.
-    Paper,
-}
-
-/// The curve that makes a face younger (§VI, Fig. 7).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum FaceCurve {
-    /// Eq. 13, the paper's choice.
-    #[default]
-    F4,
-    /// Eq. 12.
-    F2,
-    /// The sphere approximation of Shen et al. [10], for comparison (Fig. 7f).
-    Sphere,
-}
-
-/// How far to go (Fig. 6).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Stage {
-    /// Lengths only (Fig. 6b).
-    Length,
-    /// Lengths and thickness (Fig. 6c).
-    Thickness,
-    /// Everything.
-    #[default]
-    Face,
-}
-
-/// What a user sets for one bone group; `None` leaves the measured or the default value.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct GroupSettings {
-    /// alpha_b: 1 keeps the length of the group's bones.
-    pub length_scale: Option<f64>,
-    /// beta_b: 1 keeps the girth.
-    pub thickness_scale: Option<f64>,
-    /// eta_b: 0 keeps the target's length, 1 takes all of the reference's.
-    pub length_transfer: Option<f64>,
-    /// phi_b: 0 keeps the target's girth, 1 takes all of the reference's.
-    pub thickness_transfer: Option<f64>,
-}
-
-/// Everything a user can set.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Options {
-    /// Which field deforms.
-    pub mode: Mode,
-    /// Rays around each sample of a bone (§V-A); `None`: 12 in paper mode, 48 in product mode. At least 3.
-    pub rays: Option<usize>,
-    /// alpha_head (Eq. 4), above 0.
-    pub head_scale: f64,
-    /// gamma (Eqs. 12, 13); `None`: 0 in paper mode, 0.8 in product mode.
-    pub face_squash: Option<f64>,
-    /// Which curve `face_squash` is for.
-    pub face_curve: FaceCurve,
-    /// Settings by the name of the bone group.
-    pub groups: BTreeMap<String, GroupSettings>,
-    /// The user's own bone groups (§IV-A, Fig. 3): the role at a bone's end to a group name.
-    pub bone_groups: BTreeMap<Role, String>,
-    /// 0 gives the original back, 1 the style.
-    pub amount: f64,
-    /// Product mode's bounds on coefficients (D27).
-    pub limits: bool,
-    /// Length of hair below the chin: 1 ends it at the part of the body where it ended, 0 at the chin.
-    pub hair_length: f64,
-    /// Stop after this stage.
-    pub stage: Stage,
-    /// Threads to use; 0 means all cores.
-    pub thread_count: usize,
-}
-
-impl Default for Options {
-    fn default() -> Self {
-        Self {
-            mode: Mode::Product,
-            rays: None,
-            head_scale: 1.5,
-            face_squash: None,
-            face_curve: FaceCurve::F4,
-            groups: BTreeMap::new(),
-            bone_groups: BTreeMap::new(),
-            amount: 1.0,
-            limits: true,
-            hair_length: 1.0,
-            stage: Stage::Face,
-            thread_count: 0,
-        }
-    }
-}
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+use std::time::Instant;
 
 /// One mesh as it came out; arrays the input lacked are empty here too.
 #[derive(Clone, Debug, Default)]
@@ -136,4 +62,596 @@ impl Mapped {
     pub fn local_scale(&self) -> f64 {
         self.jacobian.determinant().abs().cbrt()
     }
+}
+
+/// gamma of product mode unless the user says otherwise (found by looking: 0 leaves an adult, 1.4 a pointed forehead).
+pub const PRODUCT_FACE_SQUASH: f64 = 0.8;
+/// A head count as near as this to the one asked for needs no correction.
+const HEADS_TOLERANCE: f64 = 2e-3;
+/// Corrections of a head count before what is left is told.
+const HEADS_ATTEMPTS: usize = 5;
+/// What is left after that is told above this.
+const HEADS_TOLD: f64 = 0.01;
+/// A target may be this many times as tall, in heads, as its style before it is called super-deformed already.
+const ALREADY_SD: f64 = 1.2;
+
+/// A character and a field made for it: made once, applied as often as something changes.
+#[derive(Clone, Debug)]
+pub struct Deformer {
+    character: Arc<Character>,
+    study: Study,
+    options: Options,
+    weld: Weld,
+    field: Field,
+    bindings: Vec<Binding>,
+    joint_bindings: Vec<Binding>,
+    /// Roles that target and style share.
+    roles: BTreeSet<Role>,
+    head_ratio: f64,
+    coefficients: BTreeMap<String, Coefficient>,
+    reference: Option<FigureReport>,
+    warnings: Vec<Warning>,
+    timing: Timing,
+}
+
+impl Deformer {
+    /// Measures the target and makes the field that gives it the style.
+    ///
+    /// # Errors
+    /// What [`Character::validate`] and [`Figure::of`] refuse; `BadOption` for options out of their range and for a style
+    /// of N heads in paper mode; `BadStyle` for a style without what the mode transfers.
+    pub fn new(character: Arc<Character>, style: &Style, options: &Options) -> Result<Self> {
+        options.validate()?;
+        let clock = Instant::now();
+        let study = Study::of(&character, options)?;
+        let measure = milliseconds(clock);
+        let clock = Instant::now();
+        let weld = weld(&study.figure.positions, WELD_TOLERANCE * study.figure.height());
+        let mut warnings = study.anatomy.landmarks.warnings("target");
+        let roles = match style {
+            Style::Shape(shape) => {
+                study.joints.keys().copied().filter(|role| shape.roles().contains(role)).collect()
+            }
+            Style::Heads(_) => study.joints.keys().copied().collect(),
+        };
+        if let (Style::Shape(shape), Some(proportions)) = (style, &study.shape.proportions)
+            && let Some(heads) = shape.heads()
+            && proportions.heads() <= ALREADY_SD * heads
+            && shape.proportions != study.shape.proportions
+        {
+            warnings.push(Warning::new(
+                "already_super_deformed",
+                format!(
+                    "the target is {:.1} heads tall and the style {heads:.1}: little is left to deform",
+                    proportions.heads()
+                ),
+            ));
+        }
+        let mut deformer = Self {
+            character,
+            options: options.clone(),
+            weld,
+            field: Field::Bones(PaperField {
+                bones: BoneField::default(),
+                stage: options.stage,
+                face: FaceShape::None,
+                amount: options.amount,
+                ground: 0.0,
+            }),
+            bindings: Vec::new(),
+            joint_bindings: Vec::new(),
+            roles,
+            head_ratio: 1.0,
+            coefficients: BTreeMap::new(),
+            reference: None,
+            warnings,
+            timing: Timing { measure, ..Timing::default() },
+            study,
+        };
+        match options.mode {
+            Mode::Product => deformer.make_parts(style)?,
+            Mode::Paper => deformer.make_bones(style)?,
+        }
+        if let Style::Shape(shape) = style {
+            deformer.reference = Some(style_report(shape, &deformer.roles, options));
+        }
+        deformer.timing.deform = milliseconds(clock);
+        Ok(deformer)
+    }
+
+    /// gamma as set, else the mode's own.
+    fn face_squash(&self) -> f64 {
+        match (self.options.face_squash, self.options.mode) {
+            (Some(squash), _) => squash,
+            (None, Mode::Product) if self.study.anatomy.landmarks.chin_seen => PRODUCT_FACE_SQUASH,
+            (None, _) => 0.0,
+        }
+    }
+
+    /// Product mode: bindings once, then the field, and again while the head count measured on the result is off.
+    fn make_parts(&mut self, style: &Style) -> Result<()> {
+        let proportions = self.study.anatomy.proportions.clone();
+        let (figure, anatomy) = (&self.study.figure, &self.study.anatomy);
+        let parts = part_bindings(figure, anatomy, &self.character.skeleton);
+        self.bindings = parts.vertices.iter().map(|&binding| Binding::Parts(binding)).collect();
+        self.joint_bindings = self.joint_bindings(|figure, joint| {
+            if figure.humanoid.joint(Role::Head) == Some(joint) && figure.joints[joint].y < anatomy.landmarks.chin {
+                // The head turns about a point in the neck: below the chin it moves as the neck does.
+                return Binding::Parts(PartBinding::to(Part::Neck));
+            }
+            Binding::Parts(joint_binding(figure, &parts, joint))
+        });
+        let (asked, head_ratio) = match style {
+            Style::Heads(heads) => (*heads, 1.0),
+            Style::Shape(shape) => {
+                let Some(reference) = &shape.proportions else {
+                    return Err(Error::new(
+                        ErrorKind::BadStyle,
+                        format!(
+                            "the style {} holds no proportions, which product mode transfers: save it again from its model, or use --paper",
+                            shape.name
+                        ),
+                    ));
+                };
+                (reference.heads(), self.options.head_scale * proportions.head_length / reference.head_length)
+            }
+        };
+        self.head_ratio = head_ratio;
+        let mut aim = asked;
+        let mut best: Option<(f64, Attempt)> = None;
+        for _ in 0..HEADS_ATTEMPTS {
+            let attempt = self.attempt(style, aim / asked, &parts)?;
+            self.field = attempt.field.clone();
+            self.stand_on_ground();
+            let measured = landmarks(&self.result_figure(1.0)).heads();
+            let predicted = crate::shape::part_coefficients::heads_of(&proportions, &attempt.coefficients);
+            let limited = attempt.warnings.iter().any(|warning| warning.code == "heads_limited");
+            let reach = if limited { predicted } else { asked };
+            let error = (measured / reach).ln().abs();
+            if best.as_ref().is_none_or(|(least, _)| error < *least) {
+                best = Some((error, attempt));
+            }
+            if error <= HEADS_TOLERANCE || limited {
+                break;
+            }
+            aim = (aim - 1.0) * ((asked - 1.0) / (measured - 1.0)).clamp(0.8, 1.25) + 1.0;
+        }
+        let (error, attempt) = best.expect("there is at least one attempt");
+        self.field = attempt.field;
+        self.stand_on_ground();
+        self.coefficients = attempt.coefficients.by_group();
+        self.warnings.extend(attempt.warnings);
+        if error > HEADS_TOLD && self.options.amount == 1.0 {
+            let measured = landmarks(&self.result_figure(1.0)).heads();
+            self.warnings.push(Warning::new(
+                "heads_limited",
+                format!(
+                    "{measured:.2} heads are measured on the result instead of {asked:.2}: its chin or crown reads differently from the target's"
+                ),
+            ));
+        }
+        self.set_face_squash(self.face_squash());
+        Ok(())
+    }
+
+    /// One field of product mode, for a style with everything below the head stretched by what makes the result
+    /// `correction` times as many heads tall.
+    fn attempt(&self, style: &Style, correction: f64, parts: &PartBindings) -> Result<Attempt> {
+        let anatomy = &self.study.anatomy;
+        let stretched;
+        let wanted = match style {
+            Style::Heads(heads) => Wanted::Heads(heads * correction),
+            Style::Shape(shape) if correction == 1.0 => {
+                Wanted::Reference(shape.proportions.as_ref().expect("checked by the caller"))
+            }
+            Style::Shape(shape) => {
+                let heads = shape.heads().expect("checked by the caller");
+                stretched = shape.with_heads(heads * correction).proportions.expect("checked by the caller");
+                Wanted::Reference(&stretched)
+            }
+        };
+        let (coefficients, warnings) = part_coefficients(&anatomy.proportions, wanted, &self.options)?;
+        let field = PartField::new(anatomy, coefficients, parts, self.options.hair_length, self.options.amount);
+        Ok(Attempt { field: Field::Parts(field), coefficients, warnings })
+    }
+
+    /// The paper's own way: coefficients (Eqs. 9-11), skeleton (Eqs. 1-4), mesh (Eqs. 5-8).
+    fn make_bones(&mut self, style: &Style) -> Result<()> {
+        let Style::Shape(reference) = style else {
+            return Err(Error::new(
+                ErrorKind::BadOption,
+                "a style for N heads needs product mode: leave --paper out, or give a reference",
+            ));
+        };
+        let options = &self.options;
+        let found =
+            coefficients(&self.study.shape, reference, options.head_scale, &options.groups, &options.bone_groups)?;
+        self.head_ratio = found.head_ratio;
+        self.warnings.extend(found.warnings);
+        self.coefficients = found.groups;
+        let all: BTreeSet<Role> = self.study.joints.keys().copied().collect();
+        let bones: Vec<Bone> = self.study.bones(&all, options);
+        let (joints, head_top) = (&self.study.joints, self.study.head_top);
+        let shortened: Shortened = shorten(&bones, joints, head_top, &self.coefficients);
+        let field = BoneField::new(&bones, joints, head_top, &shortened, &self.coefficients);
+        let figure = &self.study.figure;
+        let bind = |p: DVec3, weights: &[(Role, f64)]| BoneBinding {
+            weights: field.bone_weights(p, weights),
+            head: weights.iter().filter(|&&(role, _)| is_head(role)).map(|&(_, weight)| weight).sum(),
+            on_face: None,
+        };
+        let mut bindings: Vec<BoneBinding> =
+            figure.positions.iter().zip(&figure.role_weights).map(|(&p, weights)| bind(p, weights)).collect();
+        for (members, centre) in head_accessories(figure, &self.weld) {
+            for vertex in members {
+                bindings[vertex].on_face = Some(centre);
+            }
+        }
+        self.joint_bindings = self.joint_bindings(|figure, joint| {
+            let role = figure.joint_roles[joint].unwrap_or(Role::Hips);
+            Binding::Bones(bind(figure.joints[joint], &[(role, 1.0)]))
+        });
+        self.bindings = bindings.into_iter().map(Binding::Bones).collect();
+        self.field = Field::Bones(PaperField {
+            bones: field,
+            stage: options.stage,
+            face: FaceShape::None,
+            amount: options.amount,
+            ground: 0.0,
+        });
+        self.stand_on_ground();
+        self.set_face_squash(self.face_squash());
+        Ok(())
+    }
+
+    /// Makes the face younger by `squash` (gamma); nothing else is done again.
+    ///
+    /// A squash that would fold the face is bounded, with the warning `face_squash_clamped`.
+    pub fn set_face_squash(&mut self, squash: f64) {
+        let clock = Instant::now();
+        self.warnings.retain(|warning| warning.code != "face_squash_clamped");
+        self.field.set_face(FaceShape::None);
+        if self.options.stage < Stage::Face || squash == 0.0 {
+            return;
+        }
+        let Some((low, high)) = self.face_box() else { return };
+        let (face, warning) = FaceShape::in_box(low, high, self.options.face_curve, squash);
+        self.warnings.extend(warning);
+        self.field.set_face(face);
+        self.timing.face = milliseconds(clock);
+    }
+
+    /// The box of the face map: around what the head moves, in body or face meshes, as the field without amount and
+    /// ground shift leaves it (D18); in product mode its height is from chin to crown.
+    fn face_box(&self) -> Option<(DVec3, DVec3)> {
+        let figure = &self.study.figure;
+        let mut whole = self.field.clone();
+        whole.set_amount(1.0);
+        whole.set_ground(0.0);
+        let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        for vertex in 0..figure.positions.len() {
+            if matches!(figure.kind(vertex), MeshKind::Body | MeshKind::FacePart) && is_of_head(figure, vertex) {
+                let p = whole.map(figure.positions[vertex], &self.bindings[vertex]).0;
+                low = low.min(p);
+                high = high.max(p);
+            }
+        }
+        if let Field::Parts(field) = &self.field {
+            let Heights { chin, crown, .. } = *field.after();
+            let reach = 0.5 * (crown - chin);
+            if low.x > high.x {
+                low = DVec3::splat(-reach);
+                high = DVec3::splat(reach);
+            }
+            low.y = chin;
+            high.y = crown;
+        }
+        (low.x <= high.x).then_some((low, high))
+    }
+
+    /// Feet stand where they stood (D19): in paper mode the lowest vertex that is not hair keeps its height, in product
+    /// mode the lowest one that the legs move.
+    fn stand_on_ground(&mut self) {
+        self.field.set_ground(0.0);
+        let figure = &self.study.figure;
+        let lowest = |height: &dyn Fn(usize) -> f64, feet: bool| {
+            (0..figure.positions.len())
+                .filter(|&vertex| match &self.bindings[vertex] {
+                    Binding::Parts(binding) if feet => {
+                        binding.weights[Part::LeftUpperLeg as usize..].iter().sum::<f32>() > 0.5
+                    }
+                    _ => figure.kind(vertex) != MeshKind::Hair,
+                })
+                .map(height)
+                .min_by(f64::total_cmp)
+        };
+        let feet = self.options.mode == Mode::Product;
+        let before = lowest(&|vertex| figure.positions[vertex].y, feet);
+        let after = lowest(&|vertex| self.field.map(figure.positions[vertex], &self.bindings[vertex]).0.y, feet);
+        if let (Some(before), Some(after)) = (before, after) {
+            self.field.set_ground(before - after);
+        }
+    }
+
+    /// How each joint is attached: by the role it folds into, as `bind` says; what lies above the hips stays.
+    fn joint_bindings(&self, bind: impl Fn(&Figure, usize) -> Binding) -> Vec<Binding> {
+        let (character, figure) = (&self.character, &self.study.figure);
+        let mut above_humanoid = vec![false; figure.joints.len()];
+        for (_, joint) in figure.humanoid.iter() {
+            for above in character.skeleton.ancestors(joint).skip(1) {
+                above_humanoid[above] = true;
+            }
+        }
+        let mut weighted = vec![false; figure.joints.len()];
+        for mesh in &character.meshes {
+            for &(joint, _) in mesh.weights.rows().flatten() {
+                weighted[joint as usize] = true;
+            }
+        }
+        (0..figure.joints.len())
+            .map(|joint| match figure.joint_roles[joint] {
+                None if above_humanoid[joint] || !weighted[joint] => Binding::Fixed,
+                _ => bind(figure, joint),
+            })
+            .collect()
+    }
+
+    /// The new positions of all vertices, canonical frame.
+    fn deformed_positions(&self) -> Vec<DVec3> {
+        self.study
+            .figure
+            .positions
+            .iter()
+            .zip(&self.bindings)
+            .map(|(&p, binding)| self.field.map(p, binding).0)
+            .collect()
+    }
+
+    /// The figure as the field leaves it, `amount` of the way, without the face map.
+    fn result_figure(&self, amount: f64) -> Figure {
+        let mut figure = self.study.figure.clone();
+        let mut field = self.field.clone();
+        field.set_amount(amount);
+        let map = |p: DVec3, binding: &Binding| field.map(p, binding).0;
+        figure.positions = figure.positions.iter().zip(&self.bindings).map(|(&p, binding)| map(p, binding)).collect();
+        figure.joints = figure.joints.iter().zip(&self.joint_bindings).map(|(&p, binding)| map(p, binding)).collect();
+        figure.extent = figure
+            .positions
+            .iter()
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| (low.min(p.y), high.max(p.y)));
+        figure
+    }
+
+    /// The whole result.
+    pub fn apply(&self) -> Deformed {
+        let figure = &self.study.figure;
+        let after = self.deformed_positions();
+        let jacobians = fitted_jacobians(&figure.positions, &after, &figure.triangles, &self.weld);
+        let meshes =
+            (0..self.character.meshes.len()).map(|mesh| self.deform_mesh(mesh, &after, &jacobians)).collect();
+        let joints = figure
+            .joints
+            .iter()
+            .zip(&self.joint_bindings)
+            .zip(&self.character.skeleton.joints)
+            .map(|((&p, binding), joint)| match binding {
+                Binding::Fixed => joint.position(),
+                _ => figure.frame.to_model(self.field.map(p, binding).0),
+            })
+            .collect();
+        Deformed { meshes, joints }
+    }
+
+    fn deform_mesh(&self, index: usize, after: &[DVec3], jacobians: &[Option<DMat3>]) -> DeformedMesh {
+        let mesh = &self.character.meshes[index];
+        let figure = &self.study.figure;
+        let frame = &figure.frame;
+        let start = figure.mesh_starts[index];
+        let count = mesh.positions.len();
+        let positions = after[start..start + count].iter().map(|&p| frame.to_model(p).as_vec3()).collect();
+        let needs_jacobian = !mesh.normals.is_empty() || !mesh.tangents.is_empty();
+        let turns: Vec<DMat3> = (0..if needs_jacobian { count } else { 0 })
+            .map(|vertex| {
+                let whole = start + vertex;
+                let fitted = jacobians[self.weld.representative[whole] as usize];
+                let jacobian = fitted
+                    .filter(|jacobian| jacobian.determinant().abs() > 1e-12)
+                    .unwrap_or_else(|| self.field.map(figure.positions[whole], &self.bindings[whole]).1);
+                frame.jacobian_to_model(jacobian)
+            })
+            .collect();
+        let turn_normal = |vertex: usize, normal: Vec3| {
+            (normal_matrix(turns[vertex]) * normal.as_dvec3()).normalize_or(normal.as_dvec3())
+        };
+        let normals: Vec<Vec3> = mesh
+            .normals
+            .iter()
+            .enumerate()
+            .map(|(vertex, &normal)| turn_normal(vertex, normal).as_vec3())
+            .collect();
+        let turn_tangent = |vertex: usize, tangent: Vec3| {
+            let turned = turns[vertex] * tangent.as_dvec3();
+            let flat = match normals.get(vertex) {
+                Some(normal) => turned.reject_from_normalized(normal.as_dvec3()),
+                None => turned,
+            };
+            flat.normalize_or(tangent.as_dvec3())
+        };
+        let directions: Vec<Vec3> = mesh.tangents.iter().map(|tangent| tangent.truncate()).collect();
+        let new_directions: Vec<Vec3> = directions
+            .iter()
+            .enumerate()
+            .map(|(vertex, &tangent)| turn_tangent(vertex, tangent).as_vec3())
+            .collect();
+        let tangents =
+            new_directions.iter().zip(&mesh.tangents).map(|(tangent, old)| tangent.extend(old.w)).collect();
+        let morph_targets = mesh
+            .morph_targets
+            .iter()
+            .map(|target| MorphTarget {
+                name: target.name.clone(),
+                positions: self.morph_positions(start, &target.positions, after),
+                normals: morph_turns(&target.normals, &mesh.normals, &normals, &turn_normal),
+                tangents: morph_turns(&target.tangents, &directions, &new_directions, &turn_tangent),
+            })
+            .collect();
+        DeformedMesh { positions, normals, tangents, morph_targets }
+    }
+
+    /// D(v + d) - D(v): exact, and zero where d is.
+    fn morph_positions(&self, start: usize, deltas: &[Vec3], after: &[DVec3]) -> Vec<Vec3> {
+        let figure = &self.study.figure;
+        let moved = |(vertex, &delta): (usize, &Vec3)| {
+            if delta == Vec3::ZERO {
+                return Vec3::ZERO;
+            }
+            let whole = start + vertex;
+            let p = figure.positions[whole] + figure.frame.to_canonical(delta.as_dvec3());
+            let to = self.field.map(p, &self.bindings[whole]).0;
+            figure.frame.to_model(to - after[whole]).as_vec3()
+        };
+        deltas.iter().enumerate().map(moved).collect()
+    }
+
+    /// Where the field takes `point`, attached to `joint`; both in model space.
+    pub fn map(&self, joint: usize, point: DVec3) -> Mapped {
+        let frame = &self.study.figure.frame;
+        let (position, jacobian) = self.field.map(frame.to_canonical(point), &self.joint_bindings[joint]);
+        Mapped { position: frame.to_model(position), jacobian: frame.jacobian_to_model(jacobian) }
+    }
+
+    /// The target as it was measured.
+    pub fn target(&self) -> &Study {
+        &self.study
+    }
+
+    /// What a person should know so far.
+    pub fn warnings(&self) -> &[Warning] {
+        &self.warnings
+    }
+
+    /// The numbers of the run; `result` is measured anew on `deformed`. The host adds its own times and warnings.
+    ///
+    /// # Errors
+    /// As [`Study::of`] on the result.
+    pub fn report(&self, deformed: &Deformed) -> Result<Report> {
+        let result = Study::of(&self.character.with(deformed), &self.options)?;
+        let character = &self.character;
+        Ok(Report {
+            target: self.study.report(&self.roles, &self.options),
+            reference: self.reference.clone(),
+            result: result.report(&self.roles, &self.options),
+            mode: match self.options.mode {
+                Mode::Paper => "paper",
+                Mode::Product => "product",
+            },
+            g: self.head_ratio,
+            coefficients: self.coefficients.clone(),
+            rig: RigReport {
+                source: "kept",
+                confidence: self.study.joints.keys().map(|role| (role.name().to_string(), 1.0)).collect(),
+                ..RigReport::default()
+            },
+            counts: Counts {
+                vertices: character.vertex_count(),
+                triangles: character.triangle_count(),
+                meshes: character.meshes.len(),
+                morph_targets: character.meshes.iter().map(|mesh| mesh.morph_targets.len()).sum(),
+                joints: character.skeleton.joints.len(),
+            },
+            timing_ms: self.timing,
+            warnings: self.warnings.clone(),
+        })
+    }
+}
+
+/// A field of product mode that was tried.
+struct Attempt {
+    field: Field,
+    coefficients: PartCoefficients,
+    warnings: Vec<Warning>,
+}
+
+/// A style's numbers for the report, where its model is not at hand.
+pub fn style_report(
+    shape: &crate::shape::BodyShape,
+    roles: &BTreeSet<Role>,
+    options: &Options,
+) -> FigureReport {
+    let marks = shape.landmarks.unwrap_or_default();
+    let proportions = shape.proportions.clone().unwrap_or_default();
+    FigureReport {
+        height: marks.crown - marks.sole,
+        head_length: match options.mode {
+            Mode::Paper => shape.head_length,
+            Mode::Product => proportions.head_length,
+        },
+        heads: shape.heads().unwrap_or(f64::NAN),
+        shape: group_shapes(shape, roles, options),
+        landmarks: marks,
+        ..FigureReport::default()
+    }
+}
+
+impl Character {
+    /// The same character as `deformed` leaves it.
+    pub fn with(&self, deformed: &Deformed) -> Character {
+        let mut character = self.clone();
+        for (mesh, new) in character.meshes.iter_mut().zip(&deformed.meshes) {
+            mesh.positions.clone_from(&new.positions);
+            mesh.normals.clone_from(&new.normals);
+            mesh.tangents.clone_from(&new.tangents);
+            mesh.morph_targets.clone_from(&new.morph_targets);
+        }
+        for (joint, &position) in character.skeleton.joints.iter_mut().zip(&deformed.joints) {
+            joint.rest.w_axis = position.extend(1.0);
+        }
+        character
+    }
+}
+
+fn milliseconds(since: Instant) -> f64 {
+    since.elapsed().as_secs_f64() * 1e3
+}
+
+/// Hats and glasses: components of accessories that the head moves, with the middle of each.
+fn head_accessories(figure: &Figure, weld: &Weld) -> Vec<(Vec<usize>, DVec3)> {
+    let component = components(&figure.triangles, weld);
+    let mut pieces: BTreeMap<u32, (Vec<usize>, DVec3, DVec3)> = BTreeMap::new();
+    for vertex in 0..figure.positions.len() {
+        if figure.kind(vertex) == MeshKind::Accessory && is_of_head(figure, vertex) {
+            let p = figure.positions[vertex];
+            let (members, low, high) = pieces
+                .entry(component[weld.representative[vertex] as usize])
+                .or_insert((Vec::new(), DVec3::INFINITY, DVec3::NEG_INFINITY));
+            members.push(vertex);
+            *low = low.min(p);
+            *high = high.max(p);
+        }
+    }
+    pieces.into_values().map(|(members, low, high)| (members, (low + high) / 2.0)).collect()
+}
+
+/// Changes of unit vectors: what the changed vector turns into, less what the unchanged one did.
+fn morph_turns(
+    deltas: &[Vec3],
+    before: &[Vec3],
+    after: &[Vec3],
+    turn: &dyn Fn(usize, Vec3) -> DVec3,
+) -> Vec<Vec3> {
+    if before.len() != deltas.len() {
+        // Without base vectors there is nothing that the deltas change.
+        return deltas.to_vec();
+    }
+    deltas
+        .iter()
+        .enumerate()
+        .map(|(vertex, &delta)| {
+            if delta == Vec3::ZERO {
+                return Vec3::ZERO;
+            }
+            let changed = before[vertex] + delta;
+            (turn(vertex, changed) * f64::from(changed.length())).as_vec3() - after[vertex]
+        })
+        .collect()
 }

@@ -1,7 +1,7 @@
 //! The numbers of a run, under the names that tools rely on.
 
 use crate::error::Warning;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// Length and radius of a bone group, model units.
@@ -15,7 +15,7 @@ pub struct GroupShape {
 }
 
 /// Heights along up, model units.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[allow(missing_docs)]
 pub struct LandmarkHeights {
     pub crown: f64,

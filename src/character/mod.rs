@@ -1,8 +1,12 @@
 //! What a character is (§III, §IV-A): meshes, joints, weights and the humanoid roles of its joints.
 
+pub mod bones;
 pub mod humanoid;
 pub mod mesh;
+pub mod naming;
+pub mod roles;
 pub mod skeleton;
+pub mod tree_roles;
 pub mod weights;
 
 use crate::error::{Error, ErrorKind, Result};

@@ -1,0 +1,743 @@
+//! Rays and closest points on a mesh. The only file that knows obvhs, which builds the tree of boxes.
+//!
+//! Woop, Benthin and Wald. Watertight ray/triangle intersection. JCGT 2(1), 2013.
+//! Ericson. Real-time collision detection. 2005, §5.1.5 (closest point on a triangle).
+//!
+//! A character is symmetric, and the rays of §V-A start in its plane of symmetry, so they run exactly along
+//! edges and through vertices. Such rays must not slip between triangles: the triangle test is watertight, and
+//! the boxes are padded, because the tree keeps them in single precision.
+
+use glam::{DVec3, Vec3A};
+use obvhs::aabb::Aabb;
+use obvhs::bvh2::builder::build_bvh2;
+use obvhs::bvh2::node::Bvh2Node;
+use obvhs::{Boundable, BvhBuildParams};
+use std::time::Duration;
+
+/// Padding of the boxes, in units of the scene's largest extent: above the rounding of single precision.
+const BOX_PADDING: f32 = 1e-6;
+
+/// Triangles whose height is below this, in units of the scene's largest extent, are degenerate.
+const LEAST_HEIGHT: f64 = 1e-15;
+
+/// Hits closer together than this, in units of the scene's largest extent, are one hit where triangles meet.
+const SAME_HIT: f64 = 1e-9;
+
+/// Where a ray meets a triangle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit {
+    /// The ray's parameter: the point is `origin + t * direction`.
+    pub t: f64,
+    /// Index of the triangle as given.
+    pub triangle: usize,
+    /// Barycentric coordinate of the triangle's second corner.
+    pub u: f64,
+    /// Barycentric coordinate of the triangle's third corner.
+    pub v: f64,
+    /// True where the ray meets the side from which the corners run counter-clockwise.
+    pub front: bool,
+}
+
+/// The point of a surface that is closest to some point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Closest {
+    /// The closest point.
+    pub point: DVec3,
+    /// How far away it is.
+    pub distance: f64,
+    /// Index of its triangle as given.
+    pub triangle: usize,
+    /// Its barycentric coordinates there: at least 0, sum 1.
+    pub barycentric: [f64; 3],
+}
+
+/// Triangles ready for rays and closest points.
+///
+/// Coordinates are normalised to the unit box inside, so that nothing depends on the model's unit.
+#[derive(Clone, Debug, Default)]
+pub struct Surface {
+    nodes: Vec<Bvh2Node>,
+    /// Normalised corners, in the order of the tree's leaves.
+    corners: Vec<[DVec3; 3]>,
+    /// The triangle's index as given, in the same order.
+    triangles: Vec<u32>,
+    centre: DVec3,
+    /// Model units to the unit box.
+    scale: f64,
+}
+
+struct Box32(Aabb);
+
+impl Boundable for Box32 {
+    fn aabb(&self) -> Aabb {
+        self.0
+    }
+}
+
+impl Surface {
+    /// A surface of `triangles` between `positions`.
+    ///
+    /// Degenerate triangles (no area, or a corner that is not finite) are left out. A surface may be empty: nothing
+    /// meets it.
+    ///
+    /// O(triangles · log triangles).
+    ///
+    /// # Panics
+    /// A triangle uses a vertex that is not there.
+    pub fn new(positions: &[DVec3], triangles: &[[u32; 3]]) -> Self {
+        let corners_of = |triangle: &[u32; 3]| triangle.map(|vertex| positions[vertex as usize]);
+        let is_finite = |corners: &[DVec3; 3]| corners.iter().all(|p| p.is_finite());
+        let (low, high) = triangles
+            .iter()
+            .map(corners_of)
+            .filter(is_finite)
+            .flatten()
+            .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| {
+                (low.min(p), high.max(p))
+            });
+        let extent = (high - low).max_element();
+        if !(extent.is_finite() && extent > 0.0) {
+            return Self::default();
+        }
+        let (centre, scale) = (0.5 * (low + high), 1.0 / extent);
+
+        let mut kept = Vec::with_capacity(triangles.len());
+        let mut boxes = Vec::with_capacity(triangles.len());
+        for (triangle, corners) in triangles.iter().map(corners_of).enumerate() {
+            let corners = corners.map(|p| (p - centre) * scale);
+            let [a, b, c] = corners;
+            let longest = (b - a).length().max((c - a).length()).max((c - b).length());
+            let double_area = (b - a).cross(c - a).length();
+            if !is_finite(&corners) || double_area <= LEAST_HEIGHT * longest {
+                continue;
+            }
+            let single = |p: DVec3| Vec3A::new(p.x as f32, p.y as f32, p.z as f32);
+            let padding = Vec3A::splat(BOX_PADDING);
+            boxes.push(Box32(Aabb::new(
+                single(a.min(b).min(c)) - padding,
+                single(a.max(b).max(c)) + padding,
+            )));
+            kept.push((triangle as u32, corners));
+        }
+        if kept.is_empty() {
+            return Self::default();
+        }
+        let mut build_time = Duration::ZERO;
+        let tree = build_bvh2(&boxes, BvhBuildParams::very_fast_build(), &mut build_time);
+        let order = tree.primitive_indices.iter().map(|&index| kept[index as usize]);
+        let (triangles, corners) = order.unzip();
+        Self {
+            nodes: tree.nodes,
+            corners,
+            triangles,
+            centre,
+            scale,
+        }
+    }
+
+    /// True where there is nothing to meet.
+    pub fn is_empty(&self) -> bool {
+        self.corners.is_empty()
+    }
+
+    /// The number of triangles that are not degenerate.
+    pub fn triangle_count(&self) -> usize {
+        self.corners.len()
+    }
+
+    /// The nearest hit of either side with `0 <= t <= t_max`; `t` counts in lengths of `direction`, which may have any
+    /// length. `t_max` may be infinite.
+    pub fn first_hit(&self, origin: DVec3, direction: DVec3, t_max: f64) -> Option<Hit> {
+        let mut best: Option<Hit> = None;
+        self.for_each_hit(origin, direction, t_max, true, |hit| {
+            if best.is_none_or(|other| (hit.t, hit.triangle) < (other.t, other.triangle)) {
+                best = Some(hit);
+            }
+            best.map_or(t_max, |hit| hit.t)
+        });
+        best
+    }
+
+    /// The furthest hit of either side with `t >= 0`.
+    pub fn last_hit(&self, origin: DVec3, direction: DVec3) -> Option<Hit> {
+        let mut best: Option<Hit> = None;
+        self.for_each_hit(origin, direction, f64::INFINITY, false, |hit| {
+            if best.is_none_or(|other| (-hit.t, hit.triangle) < (-other.t, other.triangle)) {
+                best = Some(hit);
+            }
+            f64::INFINITY
+        });
+        best
+    }
+
+    /// All hits of either side with `t >= 0`, nearest first.
+    ///
+    /// A ray through an edge or a vertex that lies on the same side of all triangles there meets them once; where it
+    /// touches an outline edge it meets the front and the back, so hits alternate between entering and leaving.
+    pub fn all_hits(&self, origin: DVec3, direction: DVec3) -> Vec<Hit> {
+        let mut hits = Vec::new();
+        self.for_each_hit(origin, direction, f64::INFINITY, true, |hit| {
+            hits.push(hit);
+            f64::INFINITY
+        });
+        hits.sort_by(|a, b| a.t.total_cmp(&b.t).then(a.triangle.cmp(&b.triangle)));
+        let same_t = SAME_HIT / (direction.length() * self.scale);
+        let on_border = |hit: &Hit| hit.u.min(hit.v).min(1.0 - hit.u - hit.v) < SAME_HIT;
+        let mut distinct: Vec<Hit> = Vec::with_capacity(hits.len());
+        for hit in hits {
+            let repeated = on_border(&hit)
+                && distinct
+                    .iter()
+                    .rev()
+                    .take_while(|other| hit.t - other.t <= same_t)
+                    .any(|other| on_border(other) && other.front == hit.front);
+            if !repeated {
+                distinct.push(hit);
+            }
+        }
+        distinct
+    }
+
+    /// The point of the surface closest to `p`, and its triangle (the first one where several are equally near).
+    /// `None` for an empty surface.
+    pub fn closest_point(&self, p: DVec3) -> Option<Closest> {
+        if self.is_empty() || !p.is_finite() {
+            return None;
+        }
+        let p = (p - self.centre) * self.scale;
+        let mut best = (f64::INFINITY, u32::MAX, DVec3::ZERO, [0.0; 3]);
+        let distance_to_box = |node: &Bvh2Node| {
+            let (low, high) = bounds(node);
+            p.distance_squared(p.clamp(low, high))
+        };
+        let mut stack = Stack::new();
+        stack.push((0, distance_to_box(&self.nodes[0])));
+        while let Some((index, distance)) = stack.pop() {
+            if distance > best.0 {
+                continue;
+            }
+            let node = &self.nodes[index as usize];
+            let first = node.first_index;
+            if node.is_leaf() {
+                for slot in first..first + node.prim_count {
+                    let (point, barycentric) = closest_on_triangle(p, &self.corners[slot as usize]);
+                    let triangle = self.triangles[slot as usize];
+                    let distance = p.distance_squared(point);
+                    if (distance, triangle) < (best.0, best.1) {
+                        best = (distance, triangle, point, barycentric);
+                    }
+                }
+            } else {
+                let mut pair =
+                    [first, first + 1].map(|child| (child, distance_to_box(&self.nodes[child as usize])));
+                if pair[0].1 < pair[1].1 {
+                    pair.swap(0, 1);
+                }
+                stack.push(pair[0]);
+                stack.push(pair[1]);
+            }
+        }
+        Some(Closest {
+            point: best.2 / self.scale + self.centre,
+            distance: best.0.sqrt() / self.scale,
+            triangle: best.1 as usize,
+            barycentric: best.3,
+        })
+    }
+
+    /// Calls `visit` for every hit with `0 <= t <= t_max`, where `visit` returns the new `t_max`; nearer boxes first, or
+    /// further ones first.
+    fn for_each_hit(
+        &self,
+        origin: DVec3,
+        direction: DVec3,
+        mut t_max: f64,
+        nearest_first: bool,
+        mut visit: impl FnMut(Hit) -> f64,
+    ) {
+        if self.is_empty() {
+            return;
+        }
+        let Some(ray) = Ray::new((origin - self.centre) * self.scale, direction * self.scale) else {
+            return;
+        };
+        let mut stack = Stack::new();
+        if let Some(t) = ray.enters(&self.nodes[0]) {
+            stack.push((0, t));
+        }
+        while let Some((index, t)) = stack.pop() {
+            if t > t_max {
+                continue;
+            }
+            let node = &self.nodes[index as usize];
+            let first = node.first_index;
+            if node.is_leaf() {
+                for slot in first..first + node.prim_count {
+                    let hit = ray.meets(&self.corners[slot as usize], self.triangles[slot as usize]);
+                    if let Some(hit) = hit.filter(|hit| hit.t <= t_max) {
+                        t_max = visit(hit);
+                    }
+                }
+            } else {
+                let [one, two] = [first, first + 1].map(|child| {
+                    let t = ray.enters(&self.nodes[child as usize]);
+                    t.filter(|&t| t <= t_max).map(|t| (child, t))
+                });
+                match (one, two) {
+                    (Some(one), Some(two)) => {
+                        let one_goes_last = (one.1 <= two.1) != nearest_first;
+                        let (first, second) = if one_goes_last { (two, one) } else { (one, two) };
+                        stack.push(second);
+                        stack.push(first);
+                    }
+                    (Some(only), None) | (None, Some(only)) => stack.push(only),
+                    (None, None) => {}
+                }
+            }
+        }
+    }
+}
+
+/// A ray made ready: the axes permuted so that z is the direction's largest one, sheared to look along z.
+struct Ray {
+    origin: DVec3,
+    inverse: DVec3,
+    axes: [usize; 3],
+    shear: DVec3,
+}
+
+impl Ray {
+    fn new(origin: DVec3, direction: DVec3) -> Option<Self> {
+        let largest = direction.abs().max_position();
+        let z = direction[largest];
+        if !(origin.is_finite() && direction.is_finite() && z != 0.0) {
+            return None;
+        }
+        let axes = [(largest + 1) % 3, (largest + 2) % 3, largest];
+        Some(Self {
+            origin,
+            inverse: direction.recip(),
+            axes,
+            shear: DVec3::new(direction[axes[0]] / z, direction[axes[1]] / z, 1.0 / z),
+        })
+    }
+
+    /// Where the ray enters the node's box, at least 0; `None` where it passes by.
+    fn enters(&self, node: &Bvh2Node) -> Option<f64> {
+        let (low, high) = bounds(node);
+        let (mut enter, mut leave) = (0.0_f64, f64::INFINITY);
+        for axis in 0..3 {
+            let one = (low[axis] - self.origin[axis]) * self.inverse[axis];
+            let two = (high[axis] - self.origin[axis]) * self.inverse[axis];
+            // min and max pass over the NaN of 0 · infinity: a ray within a side of the box is not shut out.
+            enter = enter.max(one.min(two));
+            leave = leave.min(one.max(two));
+        }
+        (enter <= leave).then_some(enter)
+    }
+
+    /// Woop et al.: each edge function has exactly the opposite sign in the neighbour, and 0 counts as inside, so no
+    /// ray passes between two triangles that share an edge.
+    fn meets(&self, corners: &[DVec3; 3], triangle: u32) -> Option<Hit> {
+        let [a, b, c] = corners.map(|p| {
+            let q = p - self.origin;
+            let z = q[self.axes[2]];
+            DVec3::new(
+                q[self.axes[0]] - self.shear.x * z,
+                q[self.axes[1]] - self.shear.y * z,
+                self.shear.z * z,
+            )
+        });
+        let u = c.x * b.y - c.y * b.x;
+        let v = a.x * c.y - a.y * c.x;
+        let w = b.x * a.y - b.y * a.x;
+        if (u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0) {
+            return None;
+        }
+        let determinant = u + v + w;
+        if determinant == 0.0 {
+            return None;
+        }
+        let t = (u * a.z + v * b.z + w * c.z) / determinant;
+        if !(t >= 0.0 && t.is_finite()) {
+            return None;
+        }
+        Some(Hit {
+            t,
+            triangle: triangle as usize,
+            u: v / determinant,
+            v: w / determinant,
+            // The permutation keeps handedness; a ray that runs along -z sees the other winding.
+            front: (determinant > 0.0) == (self.shear.z > 0.0),
+        })
+    }
+}
+
+fn bounds(node: &Bvh2Node) -> (DVec3, DVec3) {
+    let Aabb { min, max } = *node.aabb();
+    (
+        DVec3::new(min.x.into(), min.y.into(), min.z.into()),
+        DVec3::new(max.x.into(), max.y.into(), max.z.into()),
+    )
+}
+
+/// The closest point of a triangle with area, and its barycentric coordinates.
+fn closest_on_triangle(p: DVec3, &[a, b, c]: &[DVec3; 3]) -> (DVec3, [f64; 3]) {
+    let (ab, ac, ap) = (b - a, c - a, p - a);
+    let (d1, d2) = (ab.dot(ap), ac.dot(ap));
+    if d1 <= 0.0 && d2 <= 0.0 {
+        return (a, [1.0, 0.0, 0.0]);
+    }
+    let bp = p - b;
+    let (d3, d4) = (ab.dot(bp), ac.dot(bp));
+    if d3 >= 0.0 && d4 <= d3 {
+        return (b, [0.0, 1.0, 0.0]);
+    }
+    let cp = p - c;
+    let (d5, d6) = (ab.dot(cp), ac.dot(cp));
+    if d6 >= 0.0 && d5 <= d6 {
+        return (c, [0.0, 0.0, 1.0]);
+    }
+    let vc = d1 * d4 - d3 * d2;
+    if vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0 {
+        let t = d1 / (d1 - d3);
+        return (a + t * ab, [1.0 - t, t, 0.0]);
+    }
+    let vb = d5 * d2 - d1 * d6;
+    if vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0 {
+        let t = d2 / (d2 - d6);
+        return (a + t * ac, [1.0 - t, 0.0, t]);
+    }
+    let va = d3 * d6 - d5 * d4;
+    if va <= 0.0 && d4 >= d3 && d5 >= d6 {
+        let t = (d4 - d3) / ((d4 - d3) + (d5 - d6));
+        return (b + t * (c - b), [0.0, 1.0 - t, t]);
+    }
+    let sum = va + vb + vc;
+    let (v, w) = (vb / sum, vc / sum);
+    (a + v * ab + w * ac, [1.0 - v - w, v, w])
+}
+
+/// Nodes still to visit; only a tree of unusual depth needs memory of its own.
+struct Stack {
+    near: [(u32, f64); 64],
+    count: usize,
+    deep: Vec<(u32, f64)>,
+}
+
+impl Stack {
+    fn new() -> Self {
+        Self {
+            near: [(0, 0.0); 64],
+            count: 0,
+            deep: Vec::new(),
+        }
+    }
+
+    fn push(&mut self, item: (u32, f64)) {
+        if self.count < self.near.len() {
+            self.near[self.count] = item;
+            self.count += 1;
+        } else {
+            self.deep.push(item);
+        }
+    }
+
+    fn pop(&mut self) -> Option<(u32, f64)> {
+        if let Some(item) = self.deep.pop() {
+            return Some(item);
+        }
+        self.count = self.count.checked_sub(1)?;
+        Some(self.near[self.count])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::{PI, TAU};
+
+    /// Numbers in 0..1, the same on every run.
+    struct Random(u64);
+
+    impl Random {
+        fn next(&mut self) -> f64 {
+            self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+            let mut z = self.0;
+            z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+            z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+            ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+        }
+
+        fn point(&mut self) -> DVec3 {
+            DVec3::new(self.next(), self.next(), self.next()) * 2.0 - 1.0
+        }
+    }
+
+    type Triangles = (Vec<DVec3>, Vec<[u32; 3]>);
+
+    /// A closed tube round the y axis with poles: rings of (radius, height), from the bottom up.
+    fn turned(bottom: f64, rings: &[(f64, f64)], top: f64, columns: usize) -> Triangles {
+        let mut positions = vec![DVec3::Y * bottom];
+        for &(radius, y) in rings {
+            // Mirrored in x to the last bit, with vertices exactly on x = 0.
+            positions.extend((0..columns).map(|column| {
+                let angle = TAU * column as f64 / columns as f64;
+                let quarter = columns / 4;
+                let x = match column {
+                    _ if column % (2 * quarter) == quarter => 0.0,
+                    _ if column > quarter && column < 3 * quarter => -(PI - angle).abs().cos() * radius,
+                    _ => angle.min(TAU - angle).cos() * radius,
+                };
+                DVec3::new(x, y, angle.sin() * radius)
+            }));
+        }
+        positions.push(DVec3::Y * top);
+        let at = |ring: usize, column: usize| (1 + ring * columns + column % columns) as u32;
+        let last = positions.len() as u32 - 1;
+        let mut triangles = Vec::new();
+        for column in 0..columns {
+            triangles.push([0, at(0, column), at(0, column + 1)]);
+            for ring in 1..rings.len() {
+                let [a, b] = [at(ring - 1, column), at(ring - 1, column + 1)];
+                let [c, d] = [at(ring, column), at(ring, column + 1)];
+                triangles.extend([[a, d, b], [a, c, d]]);
+            }
+            triangles.push([at(rings.len() - 1, column), last, at(rings.len() - 1, column + 1)]);
+        }
+        (positions, triangles)
+    }
+
+    fn sphere() -> Triangles {
+        let rings: Vec<_> = (1..24)
+            .map(|ring| PI * f64::from(ring) / 24.0)
+            .map(|angle| (angle.sin(), -angle.cos()))
+            .collect();
+        turned(-1.0, &rings, 1.0, 32)
+    }
+
+    fn capsule() -> Triangles {
+        let mut rings: Vec<_> = (1..=8)
+            .map(|ring| PI * f64::from(ring) / 16.0)
+            .map(|angle| (0.3 * angle.sin(), -0.7 - 0.3 * angle.cos()))
+            .collect();
+        rings.extend((1..20).map(|ring| (0.3, -0.7 + 1.4 * f64::from(ring) / 20.0)));
+        let top: Vec<_> = rings[..8].iter().rev().map(|&(r, y)| (r, -y)).collect();
+        rings.extend(top);
+        turned(-1.0, &rings, 1.0, 24)
+    }
+
+    fn cube() -> Triangles {
+        let positions = (0..8)
+            .map(|i| DVec3::new(f64::from(i & 1), f64::from(i >> 1 & 1), f64::from(i >> 2 & 1)) * 2.0 - 1.0)
+            .collect();
+        let triangles = vec![
+            [0, 2, 1],
+            [1, 2, 3],
+            [4, 5, 6],
+            [5, 7, 6],
+            [0, 1, 4],
+            [1, 5, 4],
+            [2, 6, 3],
+            [3, 6, 7],
+            [0, 4, 2],
+            [2, 4, 6],
+            [1, 3, 5],
+            [3, 7, 5],
+        ];
+        (positions, triangles)
+    }
+
+    /// Rays at odd places are the easy ones: half of these start in the plane of symmetry and run within it, at
+    /// vertices, along edges and along the axes.
+    fn count_lost_rays(
+        (positions, triangles): &Triangles,
+        inside: impl Fn(&mut Random) -> DVec3,
+        rays: usize,
+    ) -> usize {
+        let mut random = Random(7);
+        let surface = Surface::new(positions, triangles);
+        (0..rays)
+            .filter(|ray| {
+                let mut origin = inside(&mut random);
+                let mut direction = random.point();
+                match ray % 8 {
+                    0 => (origin.x, direction.x) = (0.0, 0.0),
+                    1 => (origin.x, direction) = (0.0, DVec3::Z),
+                    2 => (origin.x, direction) = (-0.0, DVec3::NEG_Y),
+                    3 => direction = positions[(random.next() * positions.len() as f64) as usize] - origin,
+                    4 => {
+                        let [a, b, _] = triangles[(random.next() * triangles.len() as f64) as usize];
+                        let (a, b) = (positions[a as usize], positions[b as usize]);
+                        direction = a.lerp(b, random.next()) - origin;
+                    }
+                    5 => (origin.x, direction) = (0.0, DVec3::X * random.point().x.signum()),
+                    _ => {}
+                }
+                surface.first_hit(origin, direction, f64::INFINITY).is_none()
+                    || surface.last_hit(origin, direction).is_none()
+            })
+            .count()
+    }
+
+    #[test]
+    fn every_ray_from_inside_a_closed_mesh_hits() {
+        for (shape, radius) in [(sphere(), 0.9), (cube(), 1.0), (capsule(), 0.25)] {
+            for scale in [1e-3, 1.0, 1e3] {
+                let (positions, triangles) = &shape;
+                let scaled = (positions.iter().map(|&p| p * scale).collect(), triangles.clone());
+                let inside = |random: &mut Random| random.point() * 0.57 * radius * scale;
+                assert_eq!(count_lost_rays(&scaled, inside, 100_000), 0, "at scale {scale}");
+            }
+        }
+    }
+
+    #[test]
+    fn every_ray_from_inside_a_real_body_hits() {
+        let path = concat!(
+            env!("CARGO_MANIFEST_DIR"),
+            "/../shared/models/makehuman_female_target.glb"
+        );
+        let Ok(bytes) = std::fs::read(path) else {
+            return;
+        };
+        let file = gltf::Gltf::from_slice(&bytes).unwrap();
+        let body = file.meshes().find(|mesh| mesh.name() == Some("body")).unwrap();
+        let primitive = body.primitives().next().unwrap();
+        let reader = primitive.reader(|_| file.blob.as_deref());
+        let positions = reader.read_positions().unwrap();
+        let positions: Vec<DVec3> = positions.map(|p| DVec3::from_array(p.map(f64::from))).collect();
+        let indices: Vec<u32> = reader.read_indices().unwrap().into_u32().collect();
+        let triangles: Vec<[u32; 3]> = indices.chunks_exact(3).map(|c| [c[0], c[1], c[2]]).collect();
+        for scale in [1e-3, 1.0, 1e3] {
+            let body: Triangles = (positions.iter().map(|&p| p * scale).collect(), triangles.clone());
+            let surface = Surface::new(&body.0, &body.1);
+            // Points on the mirror plane between two hits of a line from the side are inside.
+            let inside = |random: &mut Random| {
+                loop {
+                    let vertex = body.0[(random.next() * body.0.len() as f64) as usize];
+                    let outside = DVec3::new(-scale, vertex.y, vertex.z * random.next());
+                    let hits = surface.all_hits(outside, DVec3::X);
+                    if hits.len() == 2 && hits[1].t - hits[0].t > 0.02 * scale {
+                        return outside + DVec3::X * 0.5 * (hits[0].t + hits[1].t);
+                    }
+                }
+            };
+            assert_eq!(count_lost_rays(&body, inside, 100_000), 0, "at scale {scale}");
+        }
+    }
+
+    #[test]
+    fn hits_agree_with_a_test_of_every_triangle() {
+        let mut random = Random(3);
+        for soup in 0..20 {
+            let count = [1, 2, 3, 10, 300][soup % 5];
+            let scale = [1e-3, 1.0, 1e3][soup % 3];
+            let mut positions = Vec::new();
+            let mut triangles = Vec::new();
+            for triangle in 0..count {
+                let centre = random.point();
+                positions.extend((0..3).map(|_| (centre + 0.4 * random.point()) * scale));
+                triangles.push([0, 1, 2].map(|corner| 3 * triangle + corner));
+            }
+            let surface = Surface::new(&positions, &triangles);
+            for _ in 0..500 {
+                let (origin, direction) = (random.point() * 1.5 * scale, random.point());
+                // Möller and Trumbore 1997: another formula, so that both are not wrong in the same way.
+                let mut expected: Vec<f64> = triangles
+                    .iter()
+                    .filter_map(|t| {
+                        let [a, b, c] = t.map(|vertex| positions[vertex as usize]);
+                        let p = direction.cross(c - a);
+                        let determinant = p.dot(b - a);
+                        let u = p.dot(origin - a) / determinant;
+                        let q = (origin - a).cross(b - a);
+                        let v = q.dot(direction) / determinant;
+                        let t = q.dot(c - a) / determinant;
+                        (u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t >= 0.0).then_some(t)
+                    })
+                    .collect();
+                expected.sort_by(f64::total_cmp);
+                let hits: Vec<f64> = surface
+                    .all_hits(origin, direction)
+                    .iter()
+                    .map(|hit| hit.t)
+                    .collect();
+                assert_eq!(hits.len(), expected.len());
+                for (t, expected) in hits.iter().zip(&expected) {
+                    assert!((t - expected).abs() < 1e-9 * scale.max(1.0));
+                }
+                let first = surface.first_hit(origin, direction, f64::INFINITY);
+                assert_eq!(first.map(|hit| hit.t), hits.first().copied());
+                assert_eq!(
+                    surface.last_hit(origin, direction).map(|hit| hit.t),
+                    hits.last().copied()
+                );
+                if let Some(hit) = first {
+                    let [a, b, c] = triangles[hit.triangle].map(|vertex| positions[vertex as usize]);
+                    let point = a * (1.0 - hit.u - hit.v) + b * hit.u + c * hit.v;
+                    assert!(point.distance(origin + hit.t * direction) < 1e-9 * scale);
+                    assert_eq!(hit.front, (b - a).cross(c - a).dot(direction) < 0.0);
+                    assert_eq!(surface.first_hit(origin, direction, 0.99 * hit.t), None);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn closest_points_agree_with_a_test_of_every_triangle() {
+        let mut random = Random(5);
+        for scale in [1e-3, 1.0, 1e3] {
+            let (positions, triangles) = sphere();
+            let positions: Vec<DVec3> = positions.iter().map(|&p| p * scale).collect();
+            let surface = Surface::new(&positions, &triangles);
+            for _ in 0..500 {
+                let p = random.point() * 1.5 * scale;
+                let closest = surface.closest_point(p).unwrap();
+                let corners = |t: &[u32; 3]| t.map(|vertex| positions[vertex as usize]);
+                let expected = triangles
+                    .iter()
+                    .map(|t| p.distance(closest_on_triangle(p, &corners(t)).0))
+                    .fold(f64::INFINITY, f64::min);
+                assert!((closest.distance - expected).abs() < 1e-12 * scale);
+                let [a, b, c] = corners(&triangles[closest.triangle]);
+                let [u, v, w] = closest.barycentric;
+                assert!((a * u + b * v + c * w).distance(closest.point) < 1e-12 * scale);
+                assert!((closest.point.distance(p) - closest.distance).abs() < 1e-12 * scale);
+                assert!(u.min(v).min(w) >= -1e-15 && (u + v + w - 1.0).abs() < 1e-12);
+            }
+        }
+    }
+
+    #[test]
+    fn a_ray_through_edges_and_vertices_enters_once_and_leaves_once() {
+        let (positions, triangles) = sphere();
+        let surface = Surface::new(&positions, &triangles);
+        for direction in [DVec3::X, DVec3::Y, DVec3::Z, DVec3::new(0.0, 0.3, -1.0)] {
+            let hits = surface.all_hits(-3.0 * direction, direction);
+            assert_eq!(hits.len(), 2, "{direction}");
+            assert!(hits[0].front && !hits[1].front);
+        }
+    }
+
+    #[test]
+    fn an_empty_or_degenerate_surface_meets_nothing() {
+        let p = [DVec3::ZERO, DVec3::X, 2.0 * DVec3::X, DVec3::Y, DVec3::NAN];
+        for triangles in [vec![], vec![[0, 1, 2]], vec![[0, 0, 3]], vec![[0, 1, 4]]] {
+            let surface = Surface::new(&p, &triangles);
+            assert!(surface.is_empty());
+            assert_eq!(surface.first_hit(DVec3::ZERO, DVec3::X, 10.0), None);
+            assert_eq!(surface.last_hit(DVec3::ZERO, DVec3::X), None);
+            assert!(surface.all_hits(DVec3::ZERO, DVec3::X).is_empty());
+            assert_eq!(surface.closest_point(DVec3::ZERO), None);
+        }
+        let surface = Surface::new(&p, &[[0, 1, 2], [0, 1, 3], [1, 2, 4]]);
+        assert_eq!(surface.triangle_count(), 1);
+        let hit = surface.first_hit(DVec3::new(0.25, 0.25, 1.0), DVec3::NEG_Z, 10.0);
+        assert_eq!(hit.map(|hit| (hit.triangle, hit.t)), Some((1, 1.0)));
+        assert_eq!(
+            surface.first_hit(DVec3::new(0.25, 0.25, 1.0), DVec3::ZERO, 10.0),
+            None
+        );
+    }
+}

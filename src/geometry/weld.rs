@@ -1,0 +1,233 @@
+//! Vertices that share a position: seam copies become one, so that a mesh can be walked along its surface.
+
+use glam::DVec3;
+use std::collections::HashMap;
+
+/// Which vertices share a position.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Weld {
+    /// For each vertex the welded vertex that it belongs to; numbered in order of first appearance.
+    pub representative: Vec<u32>,
+    /// The number of welded vertices.
+    pub count: usize,
+}
+
+impl Weld {
+    /// For each welded vertex the first vertex that belongs to it.
+    pub fn first_vertices(&self) -> Vec<u32> {
+        let mut first = Vec::with_capacity(self.count);
+        for (vertex, &welded) in self.representative.iter().enumerate() {
+            if welded as usize == first.len() {
+                first.push(vertex as u32);
+            }
+        }
+        first
+    }
+
+    /// The same triangle between welded vertices.
+    pub fn triangle(&self, corners: [u32; 3]) -> [u32; 3] {
+        corners.map(|vertex| self.representative[vertex as usize])
+    }
+}
+
+/// Welds vertices that lie within `tolerance` (model units, 0 or more) of each other.
+///
+/// Vertices are taken in order: each joins the nearest earlier welded vertex within `tolerance` of that one's
+/// *first* vertex, or begins a new one. So no chain of near vertices drifts together: a vertex is never further than
+/// `tolerance` from the first vertex of its group. A tolerance of 0 welds equal positions.
+///
+/// O(vertices).
+pub fn weld(positions: &[DVec3], tolerance: f64) -> Weld {
+    // Cells of twice the tolerance: what is in reach lies in at most 2 cells along each axis.
+    let cell_size = 2.0 * tolerance;
+    let cell_of = |p: DVec3| -> [i64; 3] {
+        if tolerance > 0.0 {
+            (p / cell_size).to_array().map(|x| x.floor() as i64)
+        } else {
+            // + 0.0 makes -0 equal to 0.
+            p.to_array().map(|x| (x + 0.0).to_bits() as i64)
+        }
+    };
+    let mut cells: HashMap<[i64; 3], u32> = HashMap::with_capacity(positions.len());
+    // Welded vertices of one cell are chained: a cell holds few of them, since they are more than `tolerance` apart.
+    let mut next_in_cell: Vec<Option<u32>> = Vec::new();
+    let mut first: Vec<DVec3> = Vec::new();
+    let mut representative = Vec::with_capacity(positions.len());
+    for &p in positions {
+        let low = cell_of(p - DVec3::splat(tolerance));
+        let high = cell_of(p + DVec3::splat(tolerance));
+        let mut best: Option<(f64, u32)> = None;
+        for x in low[0]..=high[0] {
+            for y in low[1]..=high[1] {
+                for z in low[2]..=high[2] {
+                    let mut current = cells.get(&[x, y, z]).copied();
+                    while let Some(welded) = current {
+                        let distance = p.distance(first[welded as usize]);
+                        let nearer = best.is_none_or(|(least, other)| (distance, welded) < (least, other));
+                        if distance <= tolerance && nearer {
+                            best = Some((distance, welded));
+                        }
+                        current = next_in_cell[welded as usize];
+                    }
+                }
+            }
+        }
+        let welded = best.map_or_else(
+            || {
+                let welded = first.len() as u32;
+                first.push(p);
+                next_in_cell.push(cells.insert(cell_of(p), welded));
+                welded
+            },
+            |(_, welded)| welded,
+        );
+        representative.push(welded);
+    }
+    Weld {
+        representative,
+        count: first.len(),
+    }
+}
+
+/// For each welded vertex the number of its connected component: what triangles join is one component.
+///
+/// Components are numbered in order of their first welded vertex; a vertex in no triangle is a component of its own.
+pub fn components(triangles: &[[u32; 3]], weld: &Weld) -> Vec<u32> {
+    let mut above: Vec<u32> = (0..weld.count as u32).collect();
+    fn root(above: &mut [u32], mut vertex: u32) -> u32 {
+        while above[vertex as usize] != vertex {
+            above[vertex as usize] = above[above[vertex as usize] as usize];
+            vertex = above[vertex as usize];
+        }
+        vertex
+    }
+    for &corners in triangles {
+        let [a, b, c] = weld.triangle(corners);
+        for other in [b, c] {
+            let (one, two) = (root(&mut above, a), root(&mut above, other));
+            above[one.max(two) as usize] = one.min(two);
+        }
+    }
+    // A root is the least vertex of its component, so it comes first.
+    let mut component_count = 0;
+    let mut components = vec![0; weld.count];
+    for vertex in 0..weld.count as u32 {
+        let root = root(&mut above, vertex);
+        components[vertex as usize] = if root == vertex {
+            component_count += 1;
+            component_count - 1
+        } else {
+            components[root as usize]
+        };
+    }
+    components
+}
+
+/// The neighbours of every welded vertex along edges.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Neighbours {
+    /// Where each vertex's neighbours start in `vertices`; one more than there are vertices.
+    pub starts: Vec<u32>,
+    /// The neighbours: ascending, without repeats and without the vertex itself.
+    pub vertices: Vec<u32>,
+}
+
+impl Neighbours {
+    /// The neighbours of one welded vertex.
+    pub fn of(&self, vertex: usize) -> &[u32] {
+        &self.vertices[self.starts[vertex] as usize..self.starts[vertex + 1] as usize]
+    }
+}
+
+/// Which welded vertices share an edge with which.
+pub fn neighbours(triangles: &[[u32; 3]], weld: &Weld) -> Neighbours {
+    let mut pairs: Vec<(u32, u32)> = Vec::with_capacity(6 * triangles.len());
+    for &corners in triangles {
+        let [a, b, c] = weld.triangle(corners);
+        for (one, two) in [(a, b), (b, c), (c, a)] {
+            if one != two {
+                pairs.extend([(one, two), (two, one)]);
+            }
+        }
+    }
+    pairs.sort_unstable();
+    pairs.dedup();
+    let mut starts = vec![0; weld.count + 1];
+    for &(vertex, _) in &pairs {
+        starts[vertex as usize + 1] += 1;
+    }
+    for vertex in 0..weld.count {
+        starts[vertex + 1] += starts[vertex];
+    }
+    Neighbours {
+        starts,
+        vertices: pairs.into_iter().map(|(_, other)| other).collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn seam_copies_become_one_vertex() {
+        let a = DVec3::new(0.1, 0.2, 0.3);
+        let b = DVec3::new(-0.0, 1.0, 0.0);
+        let welded = weld(&[a, b, a, DVec3::new(0.0, 1.0, 0.0), b], 0.0);
+        assert_eq!(welded.representative, [0, 1, 0, 1, 1]);
+        assert_eq!(welded.count, 2);
+        assert_eq!(welded.first_vertices(), [0, 1]);
+    }
+
+    #[test]
+    fn near_vertices_weld_across_the_borders_of_cells() {
+        let tolerance = 1e-3;
+        for corner in [0.0, 0.002, 0.5, -0.25, 7.0] {
+            let p = DVec3::splat(corner);
+            for direction in [DVec3::X, DVec3::NEG_Y, DVec3::new(1.0, -1.0, 1.0).normalize()] {
+                let near = weld(&[p, p + 0.99 * tolerance * direction], tolerance);
+                assert_eq!(near.count, 1, "{p} {direction}");
+                let far = weld(&[p, p + 1.01 * tolerance * direction], tolerance);
+                assert_eq!(far.count, 2, "{p} {direction}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_chain_of_near_vertices_does_not_drift_together() {
+        let chain: Vec<DVec3> = (0..100).map(|i| DVec3::X * 0.4 * f64::from(i)).collect();
+        let welded = weld(&chain, 1.0);
+        let first = welded.first_vertices();
+        for (vertex, &group) in welded.representative.iter().enumerate() {
+            assert!(chain[vertex].distance(chain[first[group as usize] as usize]) <= 1.0);
+        }
+        assert!(welded.count >= 20);
+    }
+
+    #[test]
+    fn components_and_neighbours_follow_the_triangles() {
+        // Two triangles that share an edge through seam copies, one triangle apart, one lone vertex.
+        let positions: Vec<DVec3> = [
+            [0., 0.],
+            [1., 0.],
+            [0., 1.],
+            [1., 0.],
+            [0., 1.],
+            [1., 1.],
+            [5., 0.],
+            [6., 0.],
+            [5., 1.],
+            [9., 9.],
+        ]
+        .map(|[x, y]| DVec3::new(x, y, 0.0))
+        .to_vec();
+        let triangles = [[0, 1, 2], [3, 5, 4], [6, 7, 8]];
+        let welded = weld(&positions, 1e-6);
+        assert_eq!(welded.representative, [0, 1, 2, 1, 2, 3, 4, 5, 6, 7]);
+        assert_eq!(components(&triangles, &welded), [0, 0, 0, 0, 1, 1, 1, 2]);
+        let around = neighbours(&triangles, &welded);
+        assert_eq!(around.of(0), [1, 2]);
+        assert_eq!(around.of(1), [0, 2, 3]);
+        assert_eq!(around.of(7), [0; 0]);
+    }
+}

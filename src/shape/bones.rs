@@ -1,0 +1,222 @@
+//! The paper's field: the mesh follows the shortened bones, then its thickness is adjusted (§V-B2, Eqs. 5-8).
+
+use super::Shortened;
+use crate::character::Role;
+use crate::character::bones::{Bone, Group};
+use crate::geometry::foot;
+use crate::pipeline::Stage;
+use crate::report::Coefficient;
+use glam::{DMat3, DVec3};
+use std::collections::BTreeMap;
+
+/// A bone before and after.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FieldBone {
+    /// The joint whose weights move the bone: the one at its beginning.
+    pub joint: Role,
+    /// p_parent.
+    pub parent: DVec3,
+    /// p_child; equal to `parent` for the bone of a joint at which the skeleton ends.
+    pub child: DVec3,
+    /// p'_parent.
+    pub new_parent: DVec3,
+    /// p'_child.
+    pub new_child: DVec3,
+    /// beta of the bone's group.
+    pub thickness_scale: f64,
+}
+
+/// Eqs. 5 and 8, for any point and its weights.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct BoneField {
+    /// The bones that weights speak of.
+    pub bones: Vec<FieldBone>,
+}
+
+impl BoneField {
+    /// The field of a shortened skeleton.
+    ///
+    /// - `joints`, `head_top`: the rest pose; `shortened`: what [`shorten`](super::shorten()) made of it.
+    /// - `coefficients`: by group name.
+    ///
+    /// A joint from which no bone runs gets a bone of length 0, so that it has something to move.
+    pub fn new(
+        bones: &[Bone],
+        joints: &BTreeMap<Role, DVec3>,
+        head_top: DVec3,
+        shortened: &Shortened,
+        coefficients: &BTreeMap<String, Coefficient>,
+    ) -> Self {
+        let thickness = |group: &str| {
+            coefficients
+                .get(group)
+                .map(|coefficient| coefficient.thickness_scale)
+        };
+        let mut field = Vec::with_capacity(bones.len() + joints.len());
+        for bone in bones {
+            let old = |role: Role| joints.get(&role).copied();
+            let new = |role: Role| shortened.joints.get(&role).copied();
+            let ends = match bone.child {
+                Some(child) => old(child).zip(new(child)),
+                None => Some((head_top, shortened.head_top)),
+            };
+            if let (Some(parent), Some(new_parent), Some((child, new_child))) =
+                (old(bone.parent), new(bone.parent), ends)
+            {
+                field.push(FieldBone {
+                    joint: bone.parent,
+                    parent,
+                    child,
+                    new_parent,
+                    new_child,
+                    thickness_scale: thickness(&bone.group).unwrap_or(1.0),
+                });
+            }
+        }
+        for (&joint, &new) in &shortened.joints {
+            let Some(&old) = joints.get(&joint) else { continue };
+            if field.iter().any(|bone| bone.joint == joint) {
+                continue;
+            }
+            let incoming = bones.iter().find(|bone| bone.child == Some(joint));
+            let thickness_scale = match Group::beginning_at(joint) {
+                // Hands and feet keep their girth, also where they have no fingers and toes.
+                group @ (Group::Hand | Group::Finger | Group::Foot) => thickness(group.name()).unwrap_or(1.0),
+                group => thickness(group.name())
+                    .or_else(|| thickness(&incoming?.group))
+                    .unwrap_or(1.0),
+            };
+            field.push(FieldBone {
+                joint,
+                parent: old,
+                child: old,
+                new_parent: new,
+                new_child: new,
+                thickness_scale,
+            });
+        }
+        Self { bones: field }
+    }
+
+    /// w_ki: weights of bones from weights of joints, for a vertex at `v` in rest pose.
+    ///
+    /// A joint from which several bones run (hips, chest, hand) splits its weight over them by the inverse square of the
+    /// distance; a role without bones hands its weight to the nearest role above that has some.
+    pub fn bone_weights(&self, v: DVec3, role_weights: &[(Role, f64)]) -> Vec<(u16, f64)> {
+        let mut weights: Vec<(u16, f64)> = Vec::with_capacity(role_weights.len() + 2);
+        let mut add =
+            |bone: usize, weight: f64| match weights.iter_mut().find(|(other, _)| *other == bone as u16) {
+                Some((_, sum)) => *sum += weight,
+                None => weights.push((bone as u16, weight)),
+            };
+        for &(role, weight) in role_weights {
+            let of = |role: Role| {
+                self.bones
+                    .iter()
+                    .enumerate()
+                    .filter(move |(_, bone)| bone.joint == role)
+            };
+            let Some(role) = role.chain().find(|&role| of(role).next().is_some()) else {
+                continue;
+            };
+            let near: Vec<(usize, f64)> = of(role)
+                .map(|(index, bone)| (index, foot(v, bone.parent, bone.child).0.distance_squared(v)))
+                .collect();
+            let least = near
+                .iter()
+                .map(|&(_, distance)| distance)
+                .fold(f64::INFINITY, f64::min);
+            // Relative to the least distance, so that a vertex on a bone divides 0 by 0 nowhere.
+            let share = |distance: f64| if distance == least { 1.0 } else { least / distance };
+            let total: f64 = near.iter().map(|&(_, distance)| share(distance)).sum();
+            for &(bone, distance) in &near {
+                let part = weight * share(distance) / total;
+                if part > 0.0 {
+                    add(bone, part);
+                }
+            }
+        }
+        weights
+    }
+
+    /// Where the field takes a point `v` of the rest pose, at the bone weights `weights`.
+    ///
+    /// Paper: Eq. 5, then Eq. 8 on what it gives, with the deformed bones (Fig. 6 b, then c). `Stage::Length` stops after
+    /// Eq. 5.
+    pub fn displace(&self, v: DVec3, weights: &[(u16, f64)], stage: Stage) -> DVec3 {
+        let v = self.follow(v, weights);
+        if stage == Stage::Length {
+            return v;
+        }
+        // Eq. 8.
+        let mut sum = DVec3::ZERO;
+        for (bone, weight) in self.weighted(weights) {
+            let (foot, _) = foot(v, bone.new_parent, bone.new_child);
+            sum += weight * (1.0 - bone.thickness_scale) * (foot - v);
+        }
+        v + sum
+    }
+
+    /// The Jacobian of [`displace`](Self::displace) at fixed weights.
+    pub fn jacobian(&self, v: DVec3, weights: &[(u16, f64)], stage: Stage) -> DMat3 {
+        let mut follow = DMat3::IDENTITY;
+        for (bone, weight) in self.weighted(weights) {
+            let along = bone.child - bone.parent;
+            let stretch = (bone.new_child - bone.new_parent) - along;
+            if is_beside(v, bone.parent, bone.child) {
+                follow += outer(weight * stretch, along / along.length_squared());
+            }
+        }
+        if stage == Stage::Length {
+            return follow;
+        }
+        let v = self.follow(v, weights);
+        let mut thicken = DMat3::IDENTITY;
+        for (bone, weight) in self.weighted(weights) {
+            let mut toward = -DMat3::IDENTITY;
+            if is_beside(v, bone.new_parent, bone.new_child) {
+                let along = (bone.new_child - bone.new_parent).normalize();
+                toward += outer(along, along);
+            }
+            thicken += weight * (1.0 - bone.thickness_scale) * toward;
+        }
+        thicken * follow
+    }
+
+    /// Eq. 5.
+    fn follow(&self, v: DVec3, weights: &[(u16, f64)]) -> DVec3 {
+        let mut sum = DVec3::ZERO;
+        for (bone, weight) in self.weighted(weights) {
+            let (toward_parent, toward_child) = shares(v, bone.parent, bone.child);
+            sum += weight
+                * (toward_parent * (bone.new_parent - bone.parent)
+                    + toward_child * (bone.new_child - bone.child));
+        }
+        v + sum
+    }
+
+    fn weighted<'a>(&'a self, weights: &'a [(u16, f64)]) -> impl Iterator<Item = (&'a FieldBone, f64)> {
+        weights
+            .iter()
+            .map(|&(bone, weight)| (&self.bones[bone as usize], weight))
+    }
+}
+
+/// lambda and mu: how much a vertex at `v` follows the parent and the child joint of a bone (Eqs. 6, 7).
+///
+/// The foot is on the segment, clamped, so that the two add up to 1 and a vertex beyond a joint follows that joint alone;
+/// a bone of length 0 has all at its parent.
+pub fn shares(v: DVec3, parent: DVec3, child: DVec3) -> (f64, f64) {
+    let (_, t) = foot(v, parent, child);
+    (1.0 - t, t)
+}
+
+/// True where the foot of `v` lies between the ends.
+fn is_beside(v: DVec3, parent: DVec3, child: DVec3) -> bool {
+    let (_, t) = foot(v, parent, child);
+    t > 0.0 && t < 1.0
+}
+
+fn outer(column: DVec3, row: DVec3) -> DMat3 {
+    DMat3::from_cols(column * row.x, column * row.y, column * row.z)
+}

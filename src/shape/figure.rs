@@ -1,0 +1,282 @@
+//! A character laid out for measuring: one space, one list of vertices, weights folded into humanoid roles.
+//!
+//! All stages work in a canonical frame: x towards the character's left, y up, z the way the face looks, in the
+//! units of the model. Extra joints (hair, skirts, twist helpers) fold into their nearest humanoid ancestor;
+//! that is for the deformation only, the animation weights of the character are not touched.
+
+use crate::character::{Character, Humanoid, MeshKind, Role};
+use crate::error::{Error, ErrorKind, Result};
+use glam::{DMat3, DVec3};
+
+/// Model space to the canonical frame: a rotation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Frame {
+    /// Rows are the character's left, up and forward in model space.
+    to_canonical: DMat3,
+}
+
+impl Frame {
+    /// The frame of `character`. Forward comes from its axes, else from the line between right and left limbs.
+    ///
+    /// # Errors
+    /// `ErrorKind::NoHumanoid` where forward is neither given nor to be had from the joints.
+    pub fn of(character: &Character) -> Result<Self> {
+        let up = character.axes.up.as_dvec3().normalize();
+        let forward = match character.axes.forward {
+            Some(forward) => forward.as_dvec3().reject_from_normalized(up),
+            None => {
+                let position = |role| {
+                    character
+                        .humanoid
+                        .joint(role)
+                        .map(|joint| character.skeleton.joints[joint].position())
+                };
+                let mut left = DVec3::ZERO;
+                for role in [Role::LeftUpperArm, Role::LeftUpperLeg] {
+                    if let (Some(l), Some(r)) = (position(role), position(role.mirrored())) {
+                        left += (l - r).reject_from_normalized(up).normalize_or_zero();
+                    }
+                }
+                left.cross(up)
+            }
+        };
+        let forward = forward.normalize_or_zero();
+        if forward == DVec3::ZERO {
+            return Err(Error::new(
+                ErrorKind::NoHumanoid,
+                "the way the character looks cannot be told: its left and right limbs coincide along up; give forward (--forward +Z)",
+            ));
+        }
+        Ok(Self {
+            to_canonical: DMat3::from_cols(up.cross(forward), up, forward).transpose(),
+        })
+    }
+
+    /// Model space to the canonical frame.
+    pub fn to_canonical(&self, v: DVec3) -> DVec3 {
+        self.to_canonical * v
+    }
+
+    /// The canonical frame to model space.
+    pub fn to_model(&self, v: DVec3) -> DVec3 {
+        self.to_canonical.transpose() * v
+    }
+
+    /// A Jacobian of the canonical frame, in model space.
+    pub fn jacobian_to_model(&self, jacobian: DMat3) -> DMat3 {
+        self.to_canonical.transpose() * jacobian * self.to_canonical
+    }
+}
+
+/// A character in the canonical frame, its meshes in one list.
+#[derive(Clone, Debug)]
+pub struct Figure {
+    /// Model space to the canonical frame.
+    pub frame: Frame,
+    /// Rest positions of all meshes' vertices, one mesh after the other.
+    pub positions: Vec<DVec3>,
+    /// Triangles of all meshes, as indices into `positions`.
+    pub triangles: Vec<[u32; 3]>,
+    /// Where each mesh's vertices start; one more than there are meshes.
+    pub mesh_starts: Vec<usize>,
+    /// What each mesh depicts.
+    pub mesh_kinds: Vec<MeshKind>,
+    /// The mesh of each vertex.
+    pub vertex_mesh: Vec<u32>,
+    /// Rest positions of all joints.
+    pub joints: Vec<DVec3>,
+    /// Which joint plays which role.
+    pub humanoid: Humanoid,
+    /// The role each joint folds into: its own, else its nearest ancestor's; `None` for joints outside the humanoid.
+    pub joint_roles: Vec<Option<Role>>,
+    /// Each vertex's weights by role; they sum to 1.
+    pub role_weights: Vec<Vec<(Role, f64)>>,
+    /// Each vertex's weight to joints that play no role themselves (hair, skirts, helpers).
+    pub extra_weight: Vec<f64>,
+    /// The joint of each vertex's largest weight.
+    pub main_joint: Vec<Option<u32>>,
+    /// That weight.
+    pub main_weight: Vec<f64>,
+    /// Lowest and highest point of all meshes along up.
+    pub extent: (f64, f64),
+}
+
+impl Figure {
+    /// Lays `character` out.
+    ///
+    /// A vertex without weights takes those of the hips.
+    ///
+    /// # Errors
+    /// `ErrorKind::NoHumanoid` where required roles are missing, `ErrorKind::NoGeometry` where nothing has an extent
+    /// along up.
+    pub fn of(character: &Character) -> Result<Self> {
+        character.validate()?;
+        let humanoid = character.humanoid.clone();
+        if let Some(role) = humanoid.missing().first() {
+            return Err(Error::new(
+                ErrorKind::NoHumanoid,
+                format!("no joint has the role {role}: name it with --humanoid ({role}: JOINT NAME)"),
+            ));
+        }
+        let frame = Frame::of(character)?;
+        let mut positions = Vec::with_capacity(character.vertex_count());
+        let mut triangles = Vec::with_capacity(character.triangle_count());
+        let mut mesh_starts = vec![0];
+        let mut vertex_mesh = Vec::with_capacity(character.vertex_count());
+        for (index, mesh) in character.meshes.iter().enumerate() {
+            let start = positions.len() as u32;
+            positions.extend(mesh.positions.iter().map(|p| frame.to_canonical(p.as_dvec3())));
+            triangles.extend(
+                mesh.triangles
+                    .iter()
+                    .map(|corners| corners.map(|vertex| vertex + start)),
+            );
+            vertex_mesh.resize(positions.len(), index as u32);
+            mesh_starts.push(positions.len());
+        }
+        let extent = positions
+            .iter()
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| {
+                (low.min(p.y), high.max(p.y))
+            });
+        if triangles.is_empty() || !(extent.1 > extent.0) {
+            return Err(Error::new(
+                ErrorKind::NoGeometry,
+                "the character has no triangles with an extent along up: give at least one mesh of its body",
+            ));
+        }
+        let joints: Vec<DVec3> = character
+            .skeleton
+            .joints
+            .iter()
+            .map(|joint| frame.to_canonical(joint.position()))
+            .collect();
+        let joint_roles = fold_joints(character);
+        let (role_weights, extra_weight, main) = fold_weights(character, &joint_roles);
+        Ok(Self {
+            frame,
+            positions,
+            triangles,
+            mesh_starts,
+            mesh_kinds: character.meshes.iter().map(|mesh| mesh.kind).collect(),
+            vertex_mesh,
+            joints,
+            humanoid,
+            joint_roles,
+            role_weights,
+            extra_weight,
+            main_joint: main.iter().map(|main| main.map(|(joint, _)| joint)).collect(),
+            main_weight: main
+                .iter()
+                .map(|main| main.map_or(0.0, |(_, weight)| weight))
+                .collect(),
+            extent,
+        })
+    }
+
+    /// Extent along up, all meshes: H.
+    pub fn height(&self) -> f64 {
+        self.extent.1 - self.extent.0
+    }
+
+    /// Where the joint of `role` is.
+    pub fn role_position(&self, role: Role) -> Option<DVec3> {
+        self.humanoid.joint(role).map(|joint| self.joints[joint])
+    }
+
+    /// What the mesh of `vertex` depicts.
+    pub fn kind(&self, vertex: usize) -> MeshKind {
+        self.mesh_kinds[self.vertex_mesh[vertex] as usize]
+    }
+
+    /// The part of a vertex's weight that `choose` accepts, 0 to 1.
+    pub fn weight_of(&self, vertex: usize, choose: impl Fn(Role) -> bool) -> f64 {
+        self.role_weights[vertex]
+            .iter()
+            .filter(|&&(role, _)| choose(role))
+            .map(|&(_, weight)| weight)
+            .sum()
+    }
+
+    /// Triangles all of whose corners `choose` accepts.
+    pub fn triangles_where(&self, choose: impl Fn(usize) -> bool) -> Vec<[u32; 3]> {
+        let chosen: Vec<bool> = (0..self.positions.len()).map(choose).collect();
+        self.triangles
+            .iter()
+            .filter(|corners| corners.iter().all(|&vertex| chosen[vertex as usize]))
+            .copied()
+            .collect()
+    }
+}
+
+/// True for the head and what moves with it.
+pub fn is_head(role: Role) -> bool {
+    matches!(role, Role::Head | Role::LeftEye | Role::RightEye | Role::Jaw)
+}
+
+/// For every joint the role it folds into.
+fn fold_joints(character: &Character) -> Vec<Option<Role>> {
+    let mut own = vec![None; character.skeleton.joints.len()];
+    // Where one joint plays two roles, the one nearer to the hips moves it.
+    for (role, joint) in character.humanoid.iter() {
+        own[joint].get_or_insert(role);
+    }
+    let mut folded = own.clone();
+    for joint in character.skeleton.parents_first() {
+        if folded[joint].is_none() {
+            folded[joint] = character.skeleton.joints[joint]
+                .parent
+                .and_then(|parent| folded[parent]);
+        }
+    }
+    folded
+}
+
+type FoldedWeights = (Vec<Vec<(Role, f64)>>, Vec<f64>, Vec<Option<(u32, f64)>>);
+
+/// Each vertex's weights by role, its weight to joints without a role of their own, and its main joint with
+/// that joint's weight.
+fn fold_weights(character: &Character, joint_roles: &[Option<Role>]) -> FoldedWeights {
+    let mut role_weights = Vec::with_capacity(character.vertex_count());
+    let mut extra_weight = Vec::with_capacity(character.vertex_count());
+    let mut main = Vec::with_capacity(character.vertex_count());
+    let mut has_role = vec![false; joint_roles.len()];
+    for (_, joint) in character.humanoid.iter() {
+        has_role[joint] = true;
+    }
+    for mesh in &character.meshes {
+        for vertex in 0..mesh.positions.len() {
+            let row = if mesh.weights.is_empty() {
+                &[][..]
+            } else {
+                mesh.weights.row(vertex)
+            };
+            let total: f64 = row.iter().map(|&(_, weight)| f64::from(weight)).sum();
+            let mut folded: Vec<(Role, f64)> = Vec::with_capacity(row.len());
+            let mut extra = 0.0;
+            if total > 0.0 {
+                for &(joint, weight) in row {
+                    let weight = f64::from(weight) / total;
+                    let role = joint_roles[joint as usize].unwrap_or(Role::Hips);
+                    match folded.iter_mut().find(|(known, _)| *known == role) {
+                        Some((_, sum)) => *sum += weight,
+                        None => folded.push((role, weight)),
+                    }
+                    if !has_role[joint as usize] {
+                        extra += weight;
+                    }
+                }
+            } else {
+                folded.push((Role::Hips, 1.0));
+            }
+            role_weights.push(folded);
+            extra_weight.push(extra);
+            main.push(
+                row.iter()
+                    .max_by(|a, b| a.1.total_cmp(&b.1))
+                    .map(|&(joint, weight)| (joint, f64::from(weight) / total.max(f64::MIN_POSITIVE))),
+            );
+        }
+    }
+    (role_weights, extra_weight, main)
+}

@@ -1,0 +1,325 @@
+//! Crown, chin, shoulder line, crotch and soles, read from the geometry by rays.
+//!
+//! Every artist puts the neck and the head joint elsewhere, so lengths taken from joints carry each rig's
+//! conventions into the result. These five heights are read by one rule from target and reference alike.
+
+use super::figure::{Figure, is_head};
+use crate::character::{MeshKind, Role};
+use crate::error::Warning;
+use crate::geometry::surface::Surface;
+use glam::DVec3;
+
+/// Rows of rays that look for the chin.
+const CHIN_ROWS: usize = 120;
+/// Where those rows start and end, as parts of (crown - shoulder line), from the shoulder line.
+const CHIN_RANGE: (f64, f64) = (-0.05, 0.70);
+/// Columns of rays, as parts of the face's width, from its middle.
+const CHIN_COLUMNS: [f64; 5] = [0.0, -0.04, 0.04, -0.08, 0.08];
+/// The bands above and below a row that are compared, as a part of (crown - shoulder line).
+const CHIN_BAND: f64 = 0.05;
+/// A smaller step back than this part of (crown - shoulder line) is no chin.
+const CHIN_STEP: f64 = 0.04;
+/// Where the chin is taken to be where none is seen, as a part of (crown - shoulder line).
+const CHIN_BY_RATIO: f64 = 0.22;
+/// A crotch is believed from this far below the hip joints to this far above them, as parts of H.
+const CROTCH_RANGE: (f64, f64) = (-0.065, 0.03);
+/// Where the crotch is taken to be where it is not seen, below the hip joints, as a part of H.
+const CROTCH_BY_RATIO: f64 = 0.03;
+/// Rows of rays that look for the crotch.
+const CROTCH_ROWS: usize = 200;
+
+/// Heights along up in the figure's units, and how they were found.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Landmarks {
+    /// The top of the head, without hair where the head has a skull.
+    pub crown: f64,
+    /// The underside of the face.
+    pub chin: f64,
+    /// Mean height of the two upper-arm joints.
+    pub shoulder_line: f64,
+    /// Where the legs meet.
+    pub crotch: f64,
+    /// The lowest point of the feet.
+    pub sole: f64,
+    /// False where no chin was seen and a ratio stands in for it.
+    pub chin_seen: bool,
+    /// False where a skirt or a robe hides the crotch and a ratio stands in for it.
+    pub crotch_seen: bool,
+    /// True where the head has no skull below its hair.
+    pub crown_with_hair: bool,
+}
+
+impl Landmarks {
+    /// L: chin to crown.
+    pub fn head_length(&self) -> f64 {
+        self.crown - self.chin
+    }
+
+    /// How many heads tall: (crown - sole) / (crown - chin).
+    pub fn heads(&self) -> f64 {
+        (self.crown - self.sole) / self.head_length()
+    }
+
+    /// What a person should know about how these were found; `whose` is `target` or `reference`.
+    pub fn warnings(&self, whose: &str) -> Vec<Warning> {
+        let mut warnings = Vec::new();
+        if !self.chin_seen {
+            warnings.push(Warning::new(
+                "face_not_found",
+                format!("the {whose} shows no chin from the front: placed at {CHIN_BY_RATIO} of the way from the shoulder line to the crown"),
+            ));
+        }
+        if self.crown_with_hair {
+            warnings.push(Warning::new(
+                "crown_with_hair",
+                format!("the {whose} has no skull under its hair: its crown is the top of the hair"),
+            ));
+        }
+        warnings
+    }
+}
+
+/// Reads the landmarks of `figure`.
+pub fn landmarks(figure: &Figure) -> Landmarks {
+    let height = figure.height();
+    let shoulder_line = mean_height(figure, [Role::LeftUpperArm, Role::RightUpperArm]);
+    let sole = sole(figure);
+    let (crown, crown_with_hair) = crown(figure);
+    // A head whose crown lies below the shoulders is no head; keep a sliver so that nothing divides by 0.
+    let crown = crown.max(shoulder_line + 0.01 * height);
+    let (chin, chin_seen) = chin(figure, shoulder_line, crown);
+    let hip_line = mean_height(figure, [Role::LeftUpperLeg, Role::RightUpperLeg]);
+    let (crotch, crotch_seen) = crotch(figure, hip_line);
+    let crotch = crotch.clamp(
+        sole + 0.01 * height,
+        (shoulder_line - 0.01 * height).max(sole + 0.01 * height),
+    );
+    Landmarks {
+        crown,
+        chin,
+        shoulder_line,
+        crotch,
+        sole,
+        chin_seen,
+        crotch_seen,
+        crown_with_hair,
+    }
+}
+
+fn mean_height(figure: &Figure, roles: [Role; 2]) -> f64 {
+    let heights: Vec<f64> = roles
+        .iter()
+        .filter_map(|&role| figure.role_position(role))
+        .map(|p| p.y)
+        .collect();
+    heights.iter().sum::<f64>() / heights.len() as f64
+}
+
+fn sole(figure: &Figure) -> f64 {
+    use Role::*;
+    let lowest = |roles: &[Role]| {
+        (0..figure.positions.len())
+            .filter(|&vertex| figure.weight_of(vertex, |role| roles.contains(&role)) > 0.5)
+            .map(|vertex| figure.positions[vertex].y)
+            .min_by(f64::total_cmp)
+    };
+    let feet = [LeftFoot, RightFoot, LeftToes, RightToes];
+    let legs = [
+        LeftFoot,
+        RightFoot,
+        LeftToes,
+        RightToes,
+        LeftLowerLeg,
+        RightLowerLeg,
+        LeftUpperLeg,
+        RightUpperLeg,
+    ];
+    let knees_down = &legs[..6];
+    // Boots are often weighted to the shin alone: what lies lower than the foot's vertices by more than a
+    // sliver, on the same legs, is sole too.
+    match (lowest(&feet), lowest(knees_down)) {
+        (Some(feet), Some(shins)) => feet.min(shins),
+        (Some(feet), None) => feet,
+        (None, Some(shins)) => shins,
+        (None, None) => lowest(&legs).unwrap_or(figure.extent.0),
+    }
+}
+
+/// The head's own vertices, without hair, hats and the like where `bare`.
+fn head_triangles(figure: &Figure, bare: bool) -> Vec<[u32; 3]> {
+    figure.triangles_where(|vertex| {
+        figure.weight_of(vertex, is_head) > 0.5
+            && !(bare && matches!(figure.kind(vertex), MeshKind::Hair | MeshKind::Accessory))
+    })
+}
+
+/// Middle and half extent in x and z of the vertices that `triangles` use.
+fn middle(figure: &Figure, triangles: &[[u32; 3]]) -> Option<(DVec3, DVec3)> {
+    let mut low = DVec3::INFINITY;
+    let mut high = DVec3::NEG_INFINITY;
+    for &vertex in triangles.iter().flatten() {
+        low = low.min(figure.positions[vertex as usize]);
+        high = high.max(figure.positions[vertex as usize]);
+    }
+    (low.x <= high.x).then(|| ((low + high) / 2.0, (high - low) / 2.0))
+}
+
+/// The crown (D6): the median of the last hits of seven vertical rays.
+fn crown(figure: &Figure) -> (f64, bool) {
+    let head = figure.role_position(Role::Head).unwrap_or_default();
+    for (bare, hits_needed) in [(true, 5), (false, 1)] {
+        let triangles = head_triangles(figure, bare);
+        let Some((centre, half)) = middle(figure, &triangles) else {
+            continue;
+        };
+        let surface = Surface::new(&figure.positions, &triangles);
+        let mut hits: Vec<f64> = (0..7)
+            .filter_map(|ray| {
+                let reach = if ray == 0 { 0.0 } else { half.x / 4.0 };
+                let (sin, cos) = (std::f64::consts::FRAC_PI_3 * f64::from(ray)).sin_cos();
+                let above = figure.extent.1 + 0.01 * figure.height();
+                let origin = DVec3::new(centre.x + reach * cos, above, centre.z + reach * sin);
+                surface
+                    .first_hit(origin, DVec3::NEG_Y, f64::INFINITY)
+                    .map(|hit| above - hit.t)
+            })
+            .filter(|&y| y > head.y)
+            .collect();
+        if hits.len() >= hits_needed {
+            hits.sort_by(f64::total_cmp);
+            return (hits[hits.len() / 2], !bare);
+        }
+    }
+    // No head geometry over the head joint: the highest point of the whole figure.
+    (figure.extent.1, true)
+}
+
+/// The chin (D25): the deepest step back below the face, seen from the front.
+fn chin(figure: &Figure, shoulder_line: f64, crown: f64) -> (f64, bool) {
+    let span = crown - shoulder_line;
+    let by_ratio = (shoulder_line + CHIN_BY_RATIO * span, false);
+    let is_upper = |role: Role| {
+        is_head(role)
+            || matches!(
+                role,
+                Role::Neck | Role::UpperChest | Role::Chest | Role::Spine | Role::Hips
+            )
+            || matches!(role, Role::LeftShoulder | Role::RightShoulder)
+    };
+    let triangles = figure.triangles_where(|vertex| {
+        !matches!(figure.kind(vertex), MeshKind::Hair | MeshKind::Accessory)
+            && figure.weight_of(vertex, is_upper) > 0.5
+    });
+    let Some((face, half)) =
+        middle(figure, &head_triangles(figure, true)).or_else(|| middle(figure, &triangles))
+    else {
+        return by_ratio;
+    };
+    let surface = Surface::new(&figure.positions, &triangles);
+    let front = triangles
+        .iter()
+        .flatten()
+        .map(|&v| figure.positions[v as usize].z)
+        .fold(f64::NEG_INFINITY, f64::max)
+        + 0.01 * span;
+    let row_height = (CHIN_RANGE.1 - CHIN_RANGE.0) * span / CHIN_ROWS as f64;
+    let row_y = |row: usize| shoulder_line + CHIN_RANGE.0 * span + (row as f64 + 0.5) * row_height;
+    let depths: Vec<Option<f64>> = (0..CHIN_ROWS)
+        .map(|row| {
+            let mut hits: Vec<f64> = CHIN_COLUMNS
+                .iter()
+                .filter_map(|column| {
+                    let origin = DVec3::new(face.x + column * 2.0 * half.x, row_y(row), front);
+                    surface
+                        .first_hit(origin, DVec3::NEG_Z, f64::INFINITY)
+                        .map(|hit| front - hit.t)
+                })
+                .collect();
+            hits.sort_by(f64::total_cmp);
+            (!hits.is_empty()).then(|| hits[hits.len() / 2])
+        })
+        .collect();
+    let band = ((CHIN_BAND * span / row_height).round() as usize).max(1);
+    let mean = |rows: std::ops::Range<usize>| {
+        let seen: Vec<f64> = depths[rows].iter().flatten().copied().collect();
+        (!seen.is_empty()).then(|| seen.iter().sum::<f64>() / seen.len() as f64)
+    };
+    // `edge` is the boundary below row `edge`.
+    let mut best: Option<(f64, usize)> = None;
+    for edge in band..CHIN_ROWS - band {
+        if let (Some(above), Some(below)) = (mean(edge..edge + band), mean(edge - band..edge))
+            && best.is_none_or(|(step, _)| above - below > step)
+        {
+            best = Some((above - below, edge));
+        }
+    }
+    let Some((step, edge)) = best else { return by_ratio };
+    if step < CHIN_STEP * span {
+        return by_ratio;
+    }
+    let mut steepest = (f64::NEG_INFINITY, edge);
+    for candidate in edge.saturating_sub(band).max(1)..(edge + band).min(CHIN_ROWS) {
+        if let (Some(above), Some(below)) = (depths[candidate], depths[candidate - 1])
+            && above - below > steepest.0
+        {
+            steepest = (above - below, candidate);
+        }
+    }
+    (row_y(steepest.1) - row_height / 2.0, true)
+}
+
+/// The crotch (D25): the lowest thing between the legs in the middle column, from the knees up.
+fn crotch(figure: &Figure, hip_line: f64) -> (f64, bool) {
+    use Role::*;
+    let height = figure.height();
+    let by_ratio = (hip_line - CROTCH_BY_RATIO * height, false);
+    let (Some(left), Some(right)) = (
+        figure.role_position(LeftUpperLeg),
+        figure.role_position(RightUpperLeg),
+    ) else {
+        return by_ratio;
+    };
+    let knees = match (
+        figure.role_position(LeftLowerLeg),
+        figure.role_position(RightLowerLeg),
+    ) {
+        (Some(l), Some(r)) => (l.y + r.y) / 2.0,
+        _ => (figure.extent.0 + hip_line) / 2.0,
+    };
+    let triangles = figure.triangles_where(|vertex| {
+        figure.weight_of(vertex, |role| {
+            matches!(
+                role,
+                Hips | Spine
+                    | Chest
+                    | UpperChest
+                    | LeftUpperLeg
+                    | RightUpperLeg
+                    | LeftLowerLeg
+                    | RightLowerLeg
+            )
+        }) > 0.5
+    });
+    let surface = Surface::new(&figure.positions, &triangles);
+    let Some((_, half)) = middle(figure, &triangles) else {
+        return by_ratio;
+    };
+    let middle_x = (left.x + right.x) / 2.0;
+    let front = left.z.max(right.z) + 4.0 * half.z.max(half.x) + 0.01 * height;
+    let top = hip_line + 0.05 * height;
+    let row_height = (top - knees) / CROTCH_ROWS as f64;
+    if row_height <= 0.0 {
+        return by_ratio;
+    }
+    let first = (0..CROTCH_ROWS)
+        .map(|row| knees + (row as f64 + 0.5) * row_height)
+        .find(|&y| {
+            surface
+                .first_hit(DVec3::new(middle_x, y, front), DVec3::NEG_Z, f64::INFINITY)
+                .is_some()
+        });
+    match first {
+        Some(y) if (CROTCH_RANGE.0..=CROTCH_RANGE.1).contains(&((y - hip_line) / height)) => (y, true),
+        _ => by_ratio,
+    }
+}

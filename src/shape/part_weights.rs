@@ -1,0 +1,579 @@
+//! Which of the fifteen parts move a vertex (product mode).
+//!
+//! The file's weights are made for animation: creases where they bend, borders where an artist put a joint, another
+//! set for each garment. Parts that shrink by different amounts tear such borders open. So the weights are folded
+//! into parts, head and neck are told apart by the geometry, and then all is smoothed along the mesh and across
+//! layers of cloth; the file's own weights stay as they are.
+
+use super::figure::Figure;
+use super::proportions::{Anatomy, PART_COUNT, Part, PartWeights, fold_to_parts};
+use crate::character::{MeshKind, Role, Skeleton};
+use crate::geometry::weld::{Weld, components, neighbours, weld};
+use glam::DVec3;
+use std::collections::HashMap;
+
+/// Positions closer than this part of H are one vertex.
+pub const WELD_TOLERANCE: f64 = 1e-6;
+/// One step of smoothing along the mesh moves a vertex's weights this far to the mean of its neighbours'.
+const UMBRELLA_STEP: f32 = 0.6;
+/// The width of both kinds of smoothing, as a part of H.
+const SMOOTHING_WIDTH: f64 = 0.012;
+/// Bounds of the number of steps along the mesh.
+const UMBRELLA_PASSES: (f64, f64) = (4.0, 60.0);
+/// Steps across layers, and vertices that each takes into account.
+const LAYER_PASSES: usize = 3;
+const LAYER_NEIGHBOURS: usize = 24;
+/// Where hands (feet) without a joint begin, the weights go over from the lower arm (leg) within this part of the
+/// distance on both sides.
+const EXTREMITY_BAND: f64 = 0.1;
+/// The head begins this far under the chin at the face, and this far above it behind the head joint, as parts of L.
+const HEAD_PLANE: (f64, f64) = (-0.02, 0.22);
+/// How far behind the head joint the plane has risen, as a part of L.
+const HEAD_PLANE_BACK: f64 = 0.35;
+/// The neck's weights go over into the head's within half the neck, but at least and at most these parts of L.
+const HEAD_BAND: (f64, f64) = (0.06, 0.2);
+/// Loose pieces smaller than this part of H keep their shape: buttons, buckles, badges.
+const SMALL_PIECE: f64 = 0.04;
+/// A vertex with this much weight to one joint counts as rigid.
+const RIGID_WEIGHT: f64 = 0.99;
+
+/// How a point takes part in the deformation, besides its weights.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Manner {
+    /// By its weights alone.
+    #[default]
+    Plain,
+    /// Belongs to hair: below the chin it follows the body's heights.
+    Hair,
+    /// A hat or glasses: takes the face map of this point as a whole.
+    OnFace(DVec3),
+    /// Moves with piece number so-and-so, which keeps its shape.
+    Piece(usize),
+}
+
+/// How one point is attached to the body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PartBinding {
+    /// Weights of the fifteen parts; they sum to 1.
+    pub weights: PartWeights,
+    /// Besides the weights.
+    pub manner: Manner,
+}
+
+impl PartBinding {
+    /// Moved by one part alone.
+    pub fn to(part: Part) -> Self {
+        let mut weights = [0.0; PART_COUNT];
+        weights[part as usize] = 1.0;
+        Self {
+            weights,
+            manner: Manner::Plain,
+        }
+    }
+}
+
+/// A piece that keeps its shape: it is moved and scaled as one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Piece {
+    /// The point that the body carries along.
+    pub anchor: DVec3,
+    /// The parts that move the anchor.
+    pub weights: PartWeights,
+}
+
+/// The bindings of all vertices of a figure.
+#[derive(Clone, Debug, Default)]
+pub struct PartBindings {
+    /// One for each vertex.
+    pub vertices: Vec<PartBinding>,
+    /// The pieces that `Manner::Piece` speaks of.
+    pub pieces: Vec<Piece>,
+    /// For each joint the piece it belongs to.
+    pub joint_pieces: Vec<Option<usize>>,
+    /// Lowest hair vertex, where there is hair below the chin.
+    pub hair_bottom: Option<f64>,
+}
+
+/// Binds every vertex of `figure` to its parts.
+pub fn part_bindings(figure: &Figure, anatomy: &Anatomy, skeleton: &Skeleton) -> PartBindings {
+    let vertex_count = figure.positions.len();
+    let height = figure.height();
+    let weld = weld(&figure.positions, WELD_TOLERANCE * height);
+    let component = components(&figure.triangles, &weld);
+    let component_of = |vertex: usize| component[weld.representative[vertex] as usize] as usize;
+    let component_count = component.iter().max().map_or(0, |&last| last as usize + 1);
+    let mut members: Vec<Vec<u32>> = vec![Vec::new(); component_count];
+    for vertex in 0..vertex_count {
+        members[component_of(vertex)].push(vertex as u32);
+    }
+
+    let mut parts: Vec<PartWeights> = figure.role_weights.iter().map(|row| fold_to_parts(row)).collect();
+    let mut manners = vec![Manner::Plain; vertex_count];
+    let head_only = head_only(figure, &parts, &members, &component_of);
+    for vertex in 0..vertex_count {
+        if head_only[vertex] {
+            parts[vertex] = PartBinding::to(Part::Head).weights;
+        } else {
+            split_head(&mut parts[vertex], figure.positions[vertex], anatomy);
+            split_limbs(&mut parts[vertex], figure.positions[vertex], figure, anatomy);
+        }
+    }
+    smooth_along(figure, &weld, &head_only, &mut parts);
+    smooth_across(figure, &head_only, &mut parts);
+
+    mark_head_pieces(figure, anatomy, &members, &head_only, &mut manners);
+    let mut pieces = Vec::new();
+    let joint_pieces = rigid_groups(figure, skeleton, &members, &head_only, &mut manners, &mut pieces);
+    small_pieces(figure, &members, &head_only, &parts, &mut manners, &mut pieces);
+
+    let hair_bottom = (0..vertex_count)
+        .filter(|&vertex| manners[vertex] == Manner::Hair)
+        .map(|vertex| figure.positions[vertex].y)
+        .min_by(f64::total_cmp)
+        .filter(|&bottom| bottom < anatomy.landmarks.chin);
+    let vertices = parts
+        .into_iter()
+        .zip(manners)
+        .map(|(weights, manner)| PartBinding { weights, manner })
+        .collect();
+    PartBindings {
+        vertices,
+        pieces,
+        joint_pieces,
+        hair_bottom,
+    }
+}
+
+/// How a joint that plays no role of its own is attached: by the part it folds into, as hair where it hangs from the
+/// head, with its piece where it has one.
+pub fn joint_binding(figure: &Figure, bindings: &PartBindings, joint: usize) -> PartBinding {
+    let role = figure.joint_roles[joint].unwrap_or(Role::Hips);
+    let mut binding = PartBinding::to(Part::of(role));
+    if let Some(piece) = bindings.joint_pieces[joint] {
+        binding.manner = Manner::Piece(piece);
+    } else if role == Role::Head && figure.humanoid.joint(role) != Some(joint) {
+        binding.manner = Manner::Hair;
+    }
+    binding
+}
+
+/// Vertices that move with the head alone: components without trunk or limb weight whose mean head weight is above
+/// 0.6, and what is known to be hair or part of the face.
+fn head_only(
+    figure: &Figure,
+    parts: &[PartWeights],
+    members: &[Vec<u32>],
+    component_of: &dyn Fn(usize) -> usize,
+) -> Vec<bool> {
+    let of_head = |vertex: u32| parts[vertex as usize][Part::Head as usize];
+    let of_body = |vertex: u32| 1.0 - of_head(vertex) - parts[vertex as usize][Part::Neck as usize];
+    let by_component: Vec<bool> = members
+        .iter()
+        .map(|members| {
+            let mean =
+                members.iter().map(|&vertex| of_head(vertex)).sum::<f32>() / members.len().max(1) as f32;
+            mean > 0.6 && members.iter().all(|&vertex| of_body(vertex) < 0.01)
+        })
+        .collect();
+    (0..parts.len())
+        .map(|vertex| {
+            matches!(figure.kind(vertex), MeshKind::Hair | MeshKind::FacePart)
+                || by_component[component_of(vertex)]
+        })
+        .collect()
+}
+
+/// D26.2: head and neck by a plane through the chin that rises to the nape, not by the rig's weights.
+fn split_head(parts: &mut PartWeights, p: DVec3, anatomy: &Anatomy) {
+    let both = parts[Part::Head as usize] + parts[Part::Neck as usize];
+    if both <= 0.0 {
+        return;
+    }
+    let chin = anatomy.landmarks.chin;
+    let length = anatomy.landmarks.head_length();
+    let back = anatomy.head_joint.z - HEAD_PLANE_BACK * length;
+    let front = anatomy.head_centre.z.max(anatomy.head_joint.z) + HEAD_PLANE_BACK * length;
+    let rise = ((front - p.z) / (front - back)).clamp(0.0, 1.0);
+    let plane = chin + length * (HEAD_PLANE.0 + rise * (HEAD_PLANE.1 - HEAD_PLANE.0));
+    let band =
+        ((chin - anatomy.landmarks.shoulder_line) / 2.0).clamp(HEAD_BAND.0 * length, HEAD_BAND.1 * length);
+    let share = smoothstep((p.y - plane) / band + 1.0) as f32;
+    parts[Part::Head as usize] = both * share;
+    parts[Part::Neck as usize] = both * (1.0 - share);
+}
+
+/// Lower arms, hands, shins and feet that the rig has no joint for take their weights from the geometry.
+fn split_limbs(parts: &mut PartWeights, p: DVec3, figure: &Figure, anatomy: &Anatomy) {
+    for limb in &anatomy.limbs {
+        let left =
+            limb.parts[0] == Part::LeftUpperArm as usize || limb.parts[0] == Part::LeftUpperLeg as usize;
+        let is_arm = limb.parts[0] < Part::LeftUpperLeg as usize;
+        let roles = if is_arm {
+            [Role::LeftLowerArm, Role::LeftHand]
+        } else {
+            [Role::LeftLowerLeg, Role::LeftFoot]
+        };
+        let joints = [(limb.root, limb.middle), (limb.middle, limb.end)];
+        for (index, (from, to)) in joints.into_iter().enumerate() {
+            let role = if left {
+                roles[index]
+            } else {
+                roles[index].mirrored()
+            };
+            let weight = parts[limb.parts[index]];
+            if figure.humanoid.has(role) || weight <= 0.0 {
+                continue;
+            }
+            let along = to - from;
+            let past = (p - to).dot(along) / along.length_squared().max(1e-30);
+            let share = smoothstep(past / (2.0 * EXTREMITY_BAND) + 0.5) as f32;
+            parts[limb.parts[index]] = weight * (1.0 - share);
+            parts[limb.parts[index + 1]] += weight * share;
+        }
+    }
+}
+
+/// 0 below 0, 1 above 1, smooth between.
+pub fn smoothstep(t: f64) -> f64 {
+    let t = t.clamp(0.0, 1.0);
+    t * t * (3.0 - 2.0 * t)
+}
+
+/// D26.4, first half: umbrella steps on the welded mesh.
+fn smooth_along(figure: &Figure, weld: &Weld, frozen: &[bool], parts: &mut [PartWeights]) {
+    let around = neighbours(&figure.triangles, weld);
+    let firsts = weld.first_vertices();
+    let mut edges: Vec<f64> = Vec::new();
+    for vertex in 0..weld.count {
+        let p = figure.positions[firsts[vertex] as usize];
+        edges.extend(
+            around
+                .of(vertex)
+                .iter()
+                .filter(|&&other| other as usize > vertex)
+                .map(|&other| p.distance(figure.positions[firsts[other as usize] as usize])),
+        );
+    }
+    if edges.is_empty() {
+        return;
+    }
+    let middle = edges.len() / 2;
+    let median = *edges.select_nth_unstable_by(middle, f64::total_cmp).1;
+    let width = SMOOTHING_WIDTH * figure.height() / median.max(1e-12 * figure.height());
+    let passes = (10.0 * width * width)
+        .clamp(UMBRELLA_PASSES.0, UMBRELLA_PASSES.1)
+        .round() as usize;
+
+    // Vertices at one place share one row from here on: their mean, so that seams stay closed.
+    let mut rows = vec![[0.0f32; PART_COUNT]; weld.count];
+    let mut counts = vec![0.0f32; weld.count];
+    let mut still = vec![false; weld.count];
+    for (vertex, row) in parts.iter().enumerate() {
+        let welded = weld.representative[vertex] as usize;
+        // Where hair is rooted in the scalp both must move as the frozen one does.
+        if frozen[vertex] && !still[welded] {
+            still[welded] = true;
+            rows[welded] = [0.0; PART_COUNT];
+            counts[welded] = 0.0;
+        }
+        if still[welded] == frozen[vertex] {
+            add(&mut rows[welded], row, 1.0);
+            counts[welded] += 1.0;
+        }
+    }
+    for (row, count) in rows.iter_mut().zip(&counts) {
+        row.iter_mut().for_each(|weight| *weight /= count.max(1.0));
+    }
+    for _ in 0..passes {
+        let before = rows.clone();
+        for (vertex, row) in rows.iter_mut().enumerate() {
+            let near = around.of(vertex);
+            if still[vertex] || near.is_empty() {
+                continue;
+            }
+            let mut mean = [0.0; PART_COUNT];
+            for &other in near {
+                add(&mut mean, &before[other as usize], 1.0 / near.len() as f32);
+            }
+            for (weight, mean) in row.iter_mut().zip(mean) {
+                *weight += UMBRELLA_STEP * (mean - *weight);
+            }
+        }
+    }
+    for (vertex, row) in parts.iter_mut().enumerate() {
+        *row = rows[weld.representative[vertex] as usize];
+    }
+}
+
+fn add(sum: &mut PartWeights, row: &PartWeights, factor: f32) {
+    for (sum, weight) in sum.iter_mut().zip(row) {
+        *sum += weight * factor;
+    }
+}
+
+/// D26.4, second half: a Gaussian over near vertices of any mesh, so that cloth and body move together. Left arm,
+/// right arm and the rest do not mix: a hand on the hip must not carry the hip along.
+fn smooth_across(figure: &Figure, frozen: &[bool], parts: &mut [PartWeights]) {
+    let sigma = SMOOTHING_WIDTH * figure.height();
+    let class_of = |row: &PartWeights| {
+        let sum = |first: Part| row[first as usize..first as usize + 3].iter().sum::<f32>();
+        if sum(Part::LeftUpperArm) > 0.5 {
+            0u8
+        } else if sum(Part::RightUpperArm) > 0.5 {
+            1
+        } else {
+            2
+        }
+    };
+    let class: Vec<u8> = parts.iter().map(|row| class_of(row)).collect();
+    // Vertices at one place are one sample and get one result.
+    let key = |p: DVec3| {
+        p.to_array()
+            .map(|x| (x / (1e-6 * figure.height())).round() as i64)
+    };
+    let mut samples: Vec<usize> = Vec::new();
+    let mut sample_of = vec![usize::MAX; parts.len()];
+    let mut known: HashMap<([i64; 3], u8), usize> = HashMap::new();
+    for vertex in 0..parts.len() {
+        if frozen[vertex] {
+            continue;
+        }
+        let sample = *known
+            .entry((key(figure.positions[vertex]), class[vertex]))
+            .or_insert_with(|| {
+                samples.push(vertex);
+                samples.len() - 1
+            });
+        sample_of[vertex] = sample;
+    }
+    let points: Vec<(DVec3, u8)> = samples
+        .iter()
+        .map(|&vertex| (figure.positions[vertex], class[vertex]))
+        .collect();
+    let near = nearest(&points, LAYER_NEIGHBOURS, 3.0 * sigma);
+    let mut rows: Vec<PartWeights> = samples.iter().map(|&vertex| parts[vertex]).collect();
+    for _ in 0..LAYER_PASSES {
+        let before = rows.clone();
+        for (sample, row) in rows.iter_mut().enumerate() {
+            let mut sum = [0.0; PART_COUNT];
+            let mut total = 0.0;
+            for &(other, distance) in &near[sample] {
+                let weight = (-(distance * distance) / (2.0 * sigma * sigma)).exp() as f32;
+                add(&mut sum, &before[other as usize], weight);
+                total += weight;
+            }
+            *row = sum.map(|weight| weight / total);
+        }
+    }
+    for (vertex, &sample) in sample_of.iter().enumerate() {
+        if sample != usize::MAX {
+            parts[vertex] = rows[sample];
+        }
+    }
+    for row in parts.iter_mut() {
+        let total: f32 = row.iter().sum();
+        row.iter_mut().for_each(|weight| *weight /= total);
+    }
+}
+
+/// For each point up to `count` nearest points of its own class within `reach`, itself first; a uniform grid.
+fn nearest(points: &[(DVec3, u8)], count: usize, reach: f64) -> Vec<Vec<(u32, f64)>> {
+    // Cells of half the reach: 125 cells cover the sphere; dense meshes stop at the rings that are needed.
+    let cell = reach / 4.0;
+    let cell_of = |p: DVec3| (p / cell).floor().to_array().map(|x| x as i64);
+    let mut grid: HashMap<[i64; 3], Vec<u32>> = HashMap::new();
+    for (index, (p, _)) in points.iter().enumerate() {
+        grid.entry(cell_of(*p)).or_default().push(index as u32);
+    }
+    let search = |&(p, class): &(DVec3, u8)| {
+        let home = cell_of(p);
+        let mut found: Vec<(u32, f64)> = Vec::new();
+        for ring in 0..=4i64 {
+            for dx in -ring..=ring {
+                for dy in -ring..=ring {
+                    for dz in -ring..=ring {
+                        if dx.abs().max(dy.abs()).max(dz.abs()) != ring {
+                            continue;
+                        }
+                        for &other in grid
+                            .get(&[home[0] + dx, home[1] + dy, home[2] + dz])
+                            .into_iter()
+                            .flatten()
+                        {
+                            let (q, other_class) = points[other as usize];
+                            let distance = p.distance(q);
+                            if other_class == class && distance <= reach {
+                                found.push((other, distance));
+                            }
+                        }
+                    }
+                }
+            }
+            // Everything within `ring` cells has been seen.
+            let seen = ring as f64 * cell;
+            if found.iter().filter(|&&(_, distance)| distance <= seen).count() >= count {
+                break;
+            }
+        }
+        found.sort_by(|a, b| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0)));
+        found.truncate(count);
+        found
+    };
+    let thread_count = std::thread::available_parallelism().map_or(1, usize::from).min(8);
+    if points.len() < 2000 || thread_count == 1 {
+        return points.iter().map(search).collect();
+    }
+    let chunk = points.len().div_ceil(thread_count);
+    std::thread::scope(|scope| {
+        let search = &search;
+        let handles: Vec<_> = points
+            .chunks(chunk)
+            .map(|chunk| scope.spawn(move || chunk.iter().map(search).collect::<Vec<_>>()))
+            .collect();
+        handles
+            .into_iter()
+            .flat_map(|handle| handle.join().expect("the search does not panic"))
+            .collect()
+    })
+}
+
+/// Hair is marked as hair, hats and glasses take the face map as a whole.
+fn mark_head_pieces(
+    figure: &Figure,
+    anatomy: &Anatomy,
+    members: &[Vec<u32>],
+    head_only: &[bool],
+    manners: &mut [Manner],
+) {
+    for members in members.iter().filter(|members| !members.is_empty()) {
+        if !members.iter().all(|&vertex| head_only[vertex as usize]) {
+            // Hair that shares vertices with the scalp is still hair by its kind.
+            for &vertex in members {
+                if figure.kind(vertex as usize) == MeshKind::Hair {
+                    manners[vertex as usize] = Manner::Hair;
+                }
+            }
+            continue;
+        }
+        let positions = members.iter().map(|&vertex| figure.positions[vertex as usize]);
+        let low = positions.clone().fold(DVec3::INFINITY, DVec3::min);
+        let high = positions.fold(DVec3::NEG_INFINITY, DVec3::max);
+        // A piece of the head that hangs down to the shoulders is hair, whatever its name.
+        let hangs = low.y < anatomy.landmarks.shoulder_line;
+        for &vertex in members {
+            manners[vertex as usize] = match figure.kind(vertex as usize) {
+                MeshKind::Hair => Manner::Hair,
+                MeshKind::Accessory => Manner::OnFace((low + high) / 2.0),
+                MeshKind::FacePart => Manner::Plain,
+                _ if hangs => Manner::Hair,
+                _ => Manner::Plain,
+            };
+        }
+    }
+}
+
+/// Things carried on the body (a bag, a machine arm, a tail of plates): everything that hangs from one joint without
+/// a role and is made of rigid components keeps its shape as one.
+fn rigid_groups(
+    figure: &Figure,
+    skeleton: &Skeleton,
+    members: &[Vec<u32>],
+    head_only: &[bool],
+    manners: &mut [Manner],
+    pieces: &mut Vec<Piece>,
+) -> Vec<Option<usize>> {
+    let joint_count = figure.joints.len();
+    let mut has_role = vec![false; joint_count];
+    for (_, joint) in figure.humanoid.iter() {
+        has_role[joint] = true;
+    }
+    // The uppermost joint without a role below a joint that has one.
+    let top: Vec<Option<usize>> = (0..joint_count)
+        .map(|joint| {
+            if has_role[joint] || figure.joint_roles[joint].is_none() {
+                return None;
+            }
+            skeleton
+                .ancestors(joint)
+                .take_while(|&above| !has_role[above])
+                .last()
+        })
+        .collect();
+    let main = |vertex: u32| figure.main_joint[vertex as usize].map(|joint| joint as usize);
+    let mut flexible = vec![false; joint_count];
+    let mut used: Vec<Vec<u32>> = vec![Vec::new(); joint_count];
+    for members in members.iter().filter(|members| !members.is_empty()) {
+        let first = main(members[0]);
+        let rigid = members.iter().all(|&vertex| {
+            main(vertex) == first
+                && figure.extra_weight[vertex as usize] > RIGID_WEIGHT
+                && figure.main_weight[vertex as usize] > RIGID_WEIGHT
+                && !head_only[vertex as usize]
+        });
+        for &vertex in members {
+            if let Some(top) = main(vertex).and_then(|joint| top[joint]) {
+                if rigid {
+                    used[top].push(vertex);
+                } else {
+                    flexible[top] = true;
+                }
+            }
+        }
+    }
+    let mut piece_of_top = vec![None; joint_count];
+    for joint in 0..joint_count {
+        if flexible[joint] || used[joint].is_empty() {
+            continue;
+        }
+        // The body carries the piece at its own joint; the part it folds into moves that point.
+        let role = figure.joint_roles[joint].unwrap_or(Role::Hips);
+        piece_of_top[joint] = Some(pieces.len());
+        for &vertex in &used[joint] {
+            manners[vertex as usize] = Manner::Piece(pieces.len());
+        }
+        pieces.push(Piece {
+            anchor: figure.joints[joint],
+            weights: PartBinding::to(Part::of(role)).weights,
+        });
+    }
+    top.iter()
+        .map(|top| top.and_then(|top| piece_of_top[top]))
+        .collect()
+}
+
+/// Buttons, buckles, badges: small loose components keep their shape.
+fn small_pieces(
+    figure: &Figure,
+    members: &[Vec<u32>],
+    head_only: &[bool],
+    parts: &[PartWeights],
+    manners: &mut [Manner],
+    pieces: &mut Vec<Piece>,
+) {
+    let limit = SMALL_PIECE * figure.height();
+    for members in members.iter().filter(|members| members.len() >= 3) {
+        if members
+            .iter()
+            .any(|&v| head_only[v as usize] || manners[v as usize] != Manner::Plain)
+        {
+            continue;
+        }
+        let positions = members.iter().map(|&vertex| figure.positions[vertex as usize]);
+        let low = positions.clone().fold(DVec3::INFINITY, DVec3::min);
+        let high = positions.fold(DVec3::NEG_INFINITY, DVec3::max);
+        if (high - low).max_element() > limit {
+            continue;
+        }
+        let mut weights = [0.0; PART_COUNT];
+        for &vertex in members {
+            add(&mut weights, &parts[vertex as usize], 1.0 / members.len() as f32);
+        }
+        for &vertex in members {
+            manners[vertex as usize] = Manner::Piece(pieces.len());
+        }
+        pieces.push(Piece {
+            anchor: (low + high) / 2.0,
+            weights,
+        });
+    }
+}

@@ -1,0 +1,476 @@
+//! The lengths and widths of a figure's fifteen parts, between its landmarks.
+//!
+//! What product mode compares between target and reference, where paper mode compares bones: the neck from shoulder
+//! line to chin, the torso from crotch to shoulder line, the leg from crotch to sole, whole arms; so that it does
+//! not matter where an artist put the joints in between.
+
+use super::figure::{Figure, is_head};
+use super::landmarks::{Landmarks, landmarks};
+use crate::character::{MeshKind, Role};
+use crate::geometry::segment::foot;
+use glam::DVec3;
+use serde::{Deserialize, Serialize};
+
+/// One of the fifteen parts of a body that move by one map each.
+#[allow(missing_docs)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[repr(u8)]
+pub enum Part {
+    Trunk,
+    Neck,
+    Head,
+    LeftUpperArm,
+    LeftLowerArm,
+    LeftHand,
+    RightUpperArm,
+    RightLowerArm,
+    RightHand,
+    LeftUpperLeg,
+    LeftLowerLeg,
+    LeftFoot,
+    RightUpperLeg,
+    RightLowerLeg,
+    RightFoot,
+}
+
+/// A chin at or below the shoulder line still leaves this much neck, as a part of L.
+const SHORTEST_NECK: f64 = 0.02;
+
+/// How many parts there are.
+pub const PART_COUNT: usize = 15;
+
+impl Part {
+    /// The part that the role's joint moves.
+    pub fn of(role: Role) -> Part {
+        use Role::*;
+        match role {
+            Hips | Spine | Chest | UpperChest | LeftShoulder | RightShoulder => Part::Trunk,
+            Neck => Part::Neck,
+            Head | LeftEye | RightEye | Jaw => Part::Head,
+            LeftUpperArm => Part::LeftUpperArm,
+            LeftLowerArm => Part::LeftLowerArm,
+            RightUpperArm => Part::RightUpperArm,
+            RightLowerArm => Part::RightLowerArm,
+            LeftUpperLeg => Part::LeftUpperLeg,
+            LeftLowerLeg => Part::LeftLowerLeg,
+            LeftFoot | LeftToes => Part::LeftFoot,
+            RightUpperLeg => Part::RightUpperLeg,
+            RightLowerLeg => Part::RightLowerLeg,
+            RightFoot | RightToes => Part::RightFoot,
+            // The rest are hands and fingers.
+            other if other.is_left() => Part::LeftHand,
+            _ => Part::RightHand,
+        }
+    }
+}
+
+/// Weights to the fifteen parts, in the order of [`Part`].
+pub type PartWeights = [f32; PART_COUNT];
+
+/// A vertex's role weights summed by part.
+pub fn fold_to_parts(role_weights: &[(Role, f64)]) -> PartWeights {
+    let mut parts = [0.0; PART_COUNT];
+    for &(role, weight) in role_weights {
+        parts[Part::of(role) as usize] += weight as f32;
+    }
+    parts
+}
+
+/// An arm from shoulder to wrist, or a leg from the height of the crotch to the ankle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limb {
+    /// Upper part, lower part, hand or foot, as indices of [`Part`].
+    pub parts: [usize; 3],
+    /// Shoulder joint, or the hip joint moved to the height of the crotch.
+    pub root: DVec3,
+    /// Elbow or knee.
+    pub middle: DVec3,
+    /// Wrist or ankle.
+    pub end: DVec3,
+    /// False where the figure has no joint for the hand (the foot) that can be trusted, and `end` is a ratio.
+    pub end_is_joint: bool,
+}
+
+impl Limb {
+    /// Root to end along the two segments.
+    pub fn length(&self) -> f64 {
+        self.root.distance(self.middle) + self.middle.distance(self.end)
+    }
+}
+
+/// The measured numbers, in the figure's units; what cannot be measured is absent.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Proportions {
+    /// L: chin to crown.
+    pub head_length: f64,
+    /// Half the head's width, 35 % of L above the chin.
+    pub head_half_width: f64,
+    /// Shoulder line to chin.
+    pub neck: f64,
+    /// Crotch to shoulder line.
+    pub torso: f64,
+    /// Shoulder to wrist, mean of both sides.
+    pub arm: f64,
+    /// Sole to crotch.
+    pub leg: f64,
+    /// Sole to ankle, mean of both sides.
+    pub ankle_height: f64,
+    /// Wrist to finger tips, mean of both sides.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub hand: Option<f64>,
+    /// Heel to toe, mean of both sides.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub foot: Option<f64>,
+    /// Median half width of the trunk.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub trunk_half_width: Option<f64>,
+    /// Mean distance of the surface to the bone.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub upper_arm_radius: Option<f64>,
+    /// Mean distance of the surface to the bone.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub lower_arm_radius: Option<f64>,
+    /// Mean distance of the surface to the bone.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub upper_leg_radius: Option<f64>,
+    /// Mean distance of the surface to the bone.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub lower_leg_radius: Option<f64>,
+}
+
+/// Everything that is read from a figure's geometry: landmarks, limbs, centre line, proportions.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Anatomy {
+    /// Heights.
+    pub landmarks: Landmarks,
+    /// Left arm, right arm, left leg, right leg.
+    pub limbs: [Limb; 4],
+    /// The plane that halves the body: x of the middle between the limbs' roots.
+    pub middle_x: f64,
+    /// The trunk's centre line: (height, z), rising, smoothed; at least one point.
+    pub centre_line: Vec<(f64, f64)>,
+    /// Middle of the bare head's bounding box.
+    pub head_centre: DVec3,
+    /// Where the head joint is.
+    pub head_joint: DVec3,
+    /// The measured numbers.
+    pub proportions: Proportions,
+}
+
+impl Anatomy {
+    /// Reads the anatomy of `figure`.
+    pub fn of(figure: &Figure) -> Self {
+        let landmarks = landmarks(figure);
+        let parts: Vec<PartWeights> = figure.role_weights.iter().map(|row| fold_to_parts(row)).collect();
+        let limbs = [
+            arm(figure, &parts, true),
+            arm(figure, &parts, false),
+            leg(figure, &landmarks, true),
+            leg(figure, &landmarks, false),
+        ];
+        let middle_x = limbs.iter().map(|limb| limb.root.x).sum::<f64>() / 4.0;
+        let own = |part: usize| figure.triangles_where(|vertex| parts[vertex][part] > 0.5);
+        let trunk = own(Part::Trunk as usize);
+        let head_joint = figure.role_position(Role::Head).unwrap_or_default();
+        let bare_head = figure.triangles_where(|vertex| {
+            figure.weight_of(vertex, is_head) > 0.5
+                && !matches!(figure.kind(vertex), MeshKind::Hair | MeshKind::Accessory)
+        });
+        let head = if bare_head.is_empty() {
+            own(Part::Head as usize)
+        } else {
+            bare_head
+        };
+        let head_centre =
+            centre(figure, &head).unwrap_or(DVec3::new(middle_x, landmarks.crown, head_joint.z));
+
+        let length = landmarks.head_length();
+        let head_half_width = slice(figure, &head, landmarks.chin + 0.35 * length, 0.03, 0.97)
+            .map(|slice| slice.half_width)
+            .filter(|&half| half > 0.05 * length)
+            .unwrap_or(0.4 * length);
+        let (bottom, top) = (landmarks.crotch, landmarks.shoulder_line);
+        let mut widths: Vec<f64> = (1..=5)
+            .filter_map(|step| {
+                slice(
+                    figure,
+                    &trunk,
+                    bottom + 0.15 * f64::from(step) * (top - bottom),
+                    0.03,
+                    0.97,
+                )
+            })
+            .map(|slice| slice.half_width)
+            .collect();
+        widths.sort_by(f64::total_cmp);
+        let radius = |segment: usize, limbs: &[Limb]| {
+            mean(limbs.iter().filter_map(|limb| {
+                let (a, b) = if segment == 0 {
+                    (limb.root, limb.middle)
+                } else {
+                    (limb.middle, limb.end)
+                };
+                surface_radius(figure, &own(limb.parts[segment]), a, b)
+            }))
+        };
+        let extremity = |limbs: &[Limb], reach: &dyn Fn(&Limb, &[DVec3]) -> f64| {
+            mean(limbs.iter().filter_map(|limb| {
+                let points: Vec<DVec3> = (0..figure.positions.len())
+                    .filter(|&vertex| parts[vertex][limb.parts[2]] > 0.5)
+                    .map(|vertex| figure.positions[vertex])
+                    .collect();
+                (points.len() > 2)
+                    .then(|| reach(limb, &points))
+                    .filter(|&reach| reach > 0.02 * length)
+            }))
+        };
+        let (arms, legs) = limbs.split_at(2);
+        let proportions = Proportions {
+            head_length: length,
+            head_half_width,
+            neck: (landmarks.chin - landmarks.shoulder_line).max(SHORTEST_NECK * length),
+            torso: top - bottom,
+            arm: arms.iter().map(Limb::length).sum::<f64>() / 2.0,
+            leg: bottom - landmarks.sole,
+            ankle_height: legs.iter().map(|leg| leg.end.y - landmarks.sole).sum::<f64>() / 2.0,
+            hand: extremity(arms, &|limb, points| {
+                let along = (limb.end - limb.middle).normalize_or_zero();
+                points
+                    .iter()
+                    .map(|p| (*p - limb.end).dot(along))
+                    .fold(0.0, f64::max)
+            }),
+            foot: extremity(legs, &|_, points| {
+                let (low, high) = points
+                    .iter()
+                    .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| {
+                        (low.min(p.z), high.max(p.z))
+                    });
+                high - low
+            }),
+            trunk_half_width: widths.get(widths.len() / 2).copied(),
+            upper_arm_radius: radius(0, arms),
+            lower_arm_radius: radius(1, arms),
+            upper_leg_radius: radius(0, legs),
+            lower_leg_radius: radius(1, legs),
+        };
+        let centre_line = centre_line(figure, &trunk, &landmarks);
+        Self {
+            landmarks,
+            limbs,
+            middle_x,
+            centre_line,
+            head_centre,
+            head_joint,
+            proportions,
+        }
+    }
+
+    /// z of the trunk's centre line at height `y`, constant beyond its ends, and its slope there.
+    pub fn centre_z(&self, y: f64) -> (f64, f64) {
+        let line = &self.centre_line;
+        if y <= line[0].0 {
+            return (line[0].1, 0.0);
+        }
+        for pair in line.windows(2) {
+            let ((y0, z0), (y1, z1)) = (pair[0], pair[1]);
+            if y <= y1 {
+                let slope = (z1 - z0) / (y1 - y0);
+                return (z0 + slope * (y - y0), slope);
+            }
+        }
+        (line[line.len() - 1].1, 0.0)
+    }
+}
+
+fn mean(values: impl Iterator<Item = f64>) -> Option<f64> {
+    let values: Vec<f64> = values.collect();
+    (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
+}
+
+fn centre(figure: &Figure, triangles: &[[u32; 3]]) -> Option<DVec3> {
+    let mut low = DVec3::INFINITY;
+    let mut high = DVec3::NEG_INFINITY;
+    for &vertex in triangles.iter().flatten() {
+        low = low.min(figure.positions[vertex as usize]);
+        high = high.max(figure.positions[vertex as usize]);
+    }
+    (low.x <= high.x).then(|| (low + high) / 2.0)
+}
+
+/// Shoulder, elbow and wrist of one side.
+fn arm(figure: &Figure, parts: &[PartWeights], left: bool) -> Limb {
+    use Role::*;
+    let side = |role: Role| if left { role } else { role.mirrored() };
+    let indices = [LeftUpperArm, LeftLowerArm, LeftHand].map(|role| Part::of(side(role)) as usize);
+    let root = figure.role_position(side(LeftUpperArm)).unwrap_or_default();
+    let elbow = figure.role_position(side(LeftLowerArm));
+    let wrist = figure.role_position(side(LeftHand));
+    // The finger tips: the arm's own vertex that lies furthest from the shoulder.
+    let tip = (0..figure.positions.len())
+        .filter(|&vertex| indices.iter().map(|&part| parts[vertex][part]).sum::<f32>() > 0.5)
+        .map(|vertex| figure.positions[vertex])
+        .max_by(|a, b| a.distance_squared(root).total_cmp(&b.distance_squared(root)))
+        .unwrap_or(root);
+    let apart = |a: DVec3, b: DVec3| a.distance(b) > 1e-3 * figure.height();
+    let middle = elbow
+        .filter(|&elbow| apart(elbow, root))
+        .unwrap_or_else(|| match wrist {
+            Some(wrist) => root.lerp(wrist, 0.5),
+            None => root.lerp(tip, 0.45),
+        });
+    let end = wrist.filter(|&wrist| apart(wrist, middle));
+    // D26: no hand joint, wrist at 62 % from the elbow to the tip.
+    let end_or_ratio = end.unwrap_or_else(|| middle.lerp(tip, 0.62));
+    Limb {
+        parts: indices,
+        root,
+        middle,
+        end: end_or_ratio,
+        end_is_joint: end.is_some(),
+    }
+}
+
+/// Hip (at the height of the crotch), knee and ankle of one side.
+fn leg(figure: &Figure, landmarks: &Landmarks, left: bool) -> Limb {
+    use Role::*;
+    let side = |role: Role| if left { role } else { role.mirrored() };
+    let hip = figure.role_position(side(LeftUpperLeg)).unwrap_or_default();
+    let root = DVec3::new(hip.x, landmarks.crotch, hip.z);
+    let length = landmarks.crotch - landmarks.sole;
+    let between = |y: f64| y > landmarks.sole + 0.02 * length && y < landmarks.crotch - 0.1 * length;
+    let foot_joint = figure.role_position(side(LeftFoot));
+    let knee = figure
+        .role_position(side(LeftLowerLeg))
+        .filter(|knee| between(knee.y))
+        .unwrap_or_else(|| match foot_joint.filter(|foot| between(foot.y)) {
+            Some(foot) => root.lerp(foot, 0.5),
+            None => root - DVec3::Y * (0.48 * length),
+        });
+    // D26: a foot joint may be missing, lie on the sole, or be the far root of an IK chain.
+    let near = |foot: &DVec3| (*foot - knee).with_y(0.0).length() < 0.35 * length;
+    let end = foot_joint.filter(|foot| {
+        near(foot) && foot.y < knee.y - 0.1 * length && foot.y > landmarks.sole + 0.02 * length
+    });
+    let ankle = end.unwrap_or_else(|| {
+        let y = landmarks.sole + 0.1 * length;
+        let x = match foot_joint.filter(near) {
+            Some(foot) if foot.y < y => knee.x + (foot.x - knee.x) * (knee.y - y) / (knee.y - foot.y),
+            _ => knee.x,
+        };
+        DVec3::new(x, y, knee.z)
+    });
+    let parts = [LeftUpperLeg, LeftLowerLeg, LeftFoot].map(|role| Part::of(side(role)) as usize);
+    Limb {
+        parts,
+        root,
+        middle: knee,
+        end: ankle,
+        end_is_joint: end.is_some(),
+    }
+}
+
+/// A horizontal cut through a set of triangles.
+struct Slice {
+    half_width: f64,
+    middle_z: f64,
+}
+
+/// Cuts `triangles` at height `y`; extents are the `low` and `high` quantiles of the outline by its length, so that a
+/// strap or a pouch does not count.
+fn slice(figure: &Figure, triangles: &[[u32; 3]], y: f64, low: f64, high: f64) -> Option<Slice> {
+    let mut outline: Vec<(DVec3, f64)> = Vec::new();
+    for corners in triangles {
+        let p = corners.map(|vertex| figure.positions[vertex as usize]);
+        let mut cut = [DVec3::ZERO; 2];
+        let mut count = 0;
+        for (a, b) in [(p[0], p[1]), (p[1], p[2]), (p[2], p[0])] {
+            if (a.y > y) != (b.y > y) && count < 2 {
+                cut[count] = a.lerp(b, (y - a.y) / (b.y - a.y));
+                count += 1;
+            }
+        }
+        if count == 2 {
+            // A long edge counts along its whole length, not at its middle alone.
+            let length = cut[0].distance(cut[1]);
+            for step in 0..4 {
+                outline.push((cut[0].lerp(cut[1], (f64::from(step) + 0.5) / 4.0), length / 4.0));
+            }
+        }
+    }
+    let total: f64 = outline.iter().map(|&(_, length)| length).sum();
+    if total <= 0.0 {
+        return None;
+    }
+    let mut quantiles = |axis: fn(&DVec3) -> f64, low: f64, high: f64| {
+        outline.sort_by(|a, b| axis(&a.0).total_cmp(&axis(&b.0)));
+        let mut sum = 0.0;
+        let (mut first, mut last) = (f64::NAN, f64::NAN);
+        for (p, length) in &outline {
+            sum += length;
+            if first.is_nan() && sum >= low * total {
+                first = axis(p);
+            }
+            if last.is_nan() && sum >= high * total {
+                last = axis(p);
+            }
+        }
+        (
+            first,
+            if last.is_nan() {
+                axis(&outline[outline.len() - 1].0)
+            } else {
+                last
+            },
+        )
+    };
+    let (left, right) = quantiles(|p| p.x, low, high);
+    let (back, front) = quantiles(|p| p.z, 0.1, 0.9);
+    Some(Slice {
+        half_width: (right - left) / 2.0,
+        middle_z: (back + front) / 2.0,
+    })
+}
+
+/// Area-weighted mean distance of `triangles` to the line a-b, over 20 % to 80 % of it.
+fn surface_radius(figure: &Figure, triangles: &[[u32; 3]], a: DVec3, b: DVec3) -> Option<f64> {
+    let (mut sum, mut area_sum) = (0.0, 0.0);
+    for corners in triangles {
+        let p = corners.map(|vertex| figure.positions[vertex as usize]);
+        let centroid = (p[0] + p[1] + p[2]) / 3.0;
+        let (on_bone, t) = foot(centroid, a, b);
+        if (0.2..=0.8).contains(&t) {
+            let area = (p[1] - p[0]).cross(p[2] - p[0]).length();
+            sum += area * centroid.distance(on_bone);
+            area_sum += area;
+        }
+    }
+    (area_sum > 0.0)
+        .then(|| sum / area_sum)
+        .filter(|&radius| radius > 0.0)
+}
+
+/// The trunk's centre line from the crotch to the shoulder line, smoothed.
+fn centre_line(figure: &Figure, trunk: &[[u32; 3]], landmarks: &Landmarks) -> Vec<(f64, f64)> {
+    const SLICES: usize = 13;
+    let (bottom, top) = (landmarks.crotch, landmarks.shoulder_line);
+    let raw: Vec<(f64, f64)> = (0..SLICES)
+        .filter_map(|index| {
+            let y = bottom + (top - bottom) * index as f64 / (SLICES - 1) as f64;
+            slice(figure, trunk, y, 0.03, 0.97).map(|slice| (y, slice.middle_z))
+        })
+        .collect();
+    if raw.len() < 2 {
+        let hips = figure.role_position(Role::Hips).unwrap_or_default();
+        return vec![((bottom + top) / 2.0, raw.first().map_or(hips.z, |point| point.1))];
+    }
+    (0..raw.len())
+        .map(|index| {
+            let near = &raw[index.saturating_sub(2)..(index + 3).min(raw.len())];
+            (
+                raw[index].0,
+                near.iter().map(|point| point.1).sum::<f64>() / near.len() as f64,
+            )
+        })
+        .collect()
+}

@@ -1,0 +1,137 @@
+//! All that is read from one character before anything is deformed (§V-A): layout, anatomy, bones, body shape.
+
+use super::body_shape::BodyShape;
+use super::figure::{Figure, is_head};
+use super::measure::measure;
+use super::proportions::Anatomy;
+use crate::character::bones::{Bone, bones};
+use crate::character::{Character, MeshKind, Role};
+use crate::error::Result;
+use crate::geometry::Surface;
+use crate::options::{Mode, Options};
+use crate::report::{FigureReport, GroupShape, LandmarkHeights};
+use glam::DVec3;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// One character, measured.
+#[derive(Clone, Debug)]
+pub struct Study {
+    /// The character in one space.
+    pub figure: Figure,
+    /// Landmarks and proportions.
+    pub anatomy: Anatomy,
+    /// Where the joints of the roles are, canonical frame.
+    pub joints: BTreeMap<Role, DVec3>,
+    /// The end of the head bone: straight above the head joint, at the crown (D6).
+    pub head_top: DVec3,
+    /// Lengths and radii, and the proportions: all that a style keeps.
+    pub shape: BodyShape,
+}
+
+impl Study {
+    /// Measures `character`.
+    ///
+    /// # Errors
+    /// As [`Figure::of`] and [`measure`].
+    pub fn of(character: &Character, options: &Options) -> Result<Self> {
+        Self::of_figure(Figure::of(character)?, options)
+    }
+
+    /// Measures a character that is laid out already.
+    ///
+    /// # Errors
+    /// As [`measure`].
+    pub fn of_figure(figure: Figure, options: &Options) -> Result<Self> {
+        let anatomy = Anatomy::of(&figure);
+        let joints: BTreeMap<Role, DVec3> =
+            figure.humanoid.iter().map(|(role, joint)| (role, figure.joints[joint])).collect();
+        let marks = &anatomy.landmarks;
+        // A head joint above the crown would make a head of no length; a sliver is left.
+        let least = anatomy.head_joint.y + 0.01 * figure.height();
+        let head_top = anatomy.head_joint.with_y(marks.crown.max(least));
+        let roles: BTreeSet<Role> = joints.keys().copied().collect();
+        let bones = bones(&roles, &options.bone_groups);
+        let body = Surface::new(&figure.positions, &mesh_set(&figure, |kind| kind == MeshKind::Body));
+        let dressed = Surface::new(
+            &figure.positions,
+            &mesh_set(&figure, |kind| !matches!(kind, MeshKind::Hair | MeshKind::Accessory)),
+        );
+        let everything;
+        let mut surfaces: Vec<&Surface> = [&body, &dressed].into_iter().filter(|set| !set.is_empty()).collect();
+        if surfaces.is_empty() {
+            everything = Surface::new(&figure.positions, &figure.triangles);
+            surfaces.push(&everything);
+        }
+        let mut shape = measure(&bones, &joints, head_top, &surfaces, options.ray_count())?;
+        shape.landmarks = Some(LandmarkHeights {
+            crown: marks.crown,
+            chin: marks.chin,
+            shoulder_line: marks.shoulder_line,
+            crotch: marks.crotch,
+            sole: marks.sole,
+        });
+        shape.proportions = Some(anatomy.proportions.clone());
+        Ok(Self { figure, anatomy, joints, head_top, shape })
+    }
+
+    /// The bones between those roles of the figure that are in `roles` too.
+    pub fn bones(&self, roles: &BTreeSet<Role>, options: &Options) -> Vec<Bone> {
+        let common = self.joints.keys().copied().filter(|role| roles.contains(role)).collect();
+        bones(&common, &options.bone_groups)
+    }
+
+    /// The numbers for the report, with the groups measured over `roles` alone.
+    pub fn report(&self, roles: &BTreeSet<Role>, options: &Options) -> FigureReport {
+        let marks = &self.anatomy.landmarks;
+        let joints: BTreeMap<String, [f64; 3]> = self
+            .joints
+            .iter()
+            .map(|(role, &p)| (role.name().to_string(), self.figure.frame.to_model(p).to_array()))
+            .collect();
+        FigureReport {
+            height: self.figure.height(),
+            head_length: match options.mode {
+                Mode::Paper => self.shape.head_length,
+                Mode::Product => marks.head_length(),
+            },
+            heads: marks.heads(),
+            shape: group_shapes(&self.shape, roles, options),
+            file_joints: joints.clone(),
+            joints,
+            landmarks: self.shape.landmarks.unwrap_or_default(),
+        }
+    }
+}
+
+/// Length and radius of every bone group, measured over `roles` alone, so that two bodies can be compared.
+pub fn group_shapes(shape: &BodyShape, roles: &BTreeSet<Role>, options: &Options) -> BTreeMap<String, GroupShape> {
+    let shape = shape.restricted_to(roles);
+    let common: BTreeSet<Role> = shape.roles();
+    let mut radii: BTreeMap<String, Vec<f64>> = BTreeMap::new();
+    let mut groups: BTreeMap<String, GroupShape> = BTreeMap::new();
+    for bone in bones(&common, &options.bone_groups) {
+        let Some(measured) = shape.bones.get(bone.key()) else { continue };
+        groups.entry(bone.group.clone()).or_default().length += measured.length;
+        radii.entry(bone.group).or_default().extend(measured.radius);
+    }
+    for (name, group) in &mut groups {
+        let radii = &radii[name];
+        group.radius = (!radii.is_empty()).then(|| radii.iter().sum::<f64>() / radii.len() as f64);
+    }
+    groups
+}
+
+/// Triangles of the meshes whose kind `choose` accepts, without what the head carries on top of it.
+fn mesh_set(figure: &Figure, choose: impl Fn(MeshKind) -> bool) -> Vec<[u32; 3]> {
+    figure
+        .triangles
+        .iter()
+        .filter(|corners| choose(figure.kind(corners[0] as usize)))
+        .copied()
+        .collect()
+}
+
+/// True where most of a vertex's weight is the head's.
+pub fn is_of_head(figure: &Figure, vertex: usize) -> bool {
+    figure.weight_of(vertex, is_head) > 0.5
+}

@@ -1,0 +1,227 @@
+//! Styles: what a character should become, with or without a reference model.
+//!
+//! A measured body is needed for nothing but its numbers, so it can be saved as a small JSON text and used without
+//! its model, blended with another, or stretched to a number of heads.
+
+use super::body_shape::{BodyShape, BoneShape, VERSION};
+use super::proportions::Proportions;
+use crate::error::{Error, ErrorKind, Result};
+
+/// Fewest and most heads that a style may ask for.
+pub const HEADS: (f64, f64) = (1.8, 6.0);
+
+/// What a character should become.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Style {
+    /// Like a body that was measured.
+    Shape(Box<BodyShape>),
+    /// So many heads tall, from 1.8 to 6; everything else after the target.
+    Heads(f64),
+}
+
+impl Style {
+    /// A style for `heads` heads.
+    ///
+    /// # Errors
+    /// `ErrorKind::BadOption` outside of 1.8 to 6.
+    pub fn heads(heads: f64) -> Result<Self> {
+        if !(HEADS.0..=HEADS.1).contains(&heads) {
+            return Err(Error::new(
+                ErrorKind::BadOption,
+                format!("{heads} heads: give a number from {} to {}", HEADS.0, HEADS.1),
+            ));
+        }
+        Ok(Self::Heads(heads))
+    }
+
+    /// One of the built-in styles: `sd2`, `sd2.5`, `sd3`, `sd4`.
+    ///
+    /// They are bodies that were measured, stretched to 2, 2.5, 3 and 4 heads: up to 3 the KayKit Rogue (Kay Lousberg,
+    /// CC0; 2.3 heads), 4 a toddler of MakeHuman (MakeHuman team, CC0; 4.6 heads), 3 halfway between both.
+    pub fn built_in(name: &str) -> Option<Self> {
+        let figurine = || BodyShape::from_json(include_str!("styles/figurine.json"));
+        let toddler = || BodyShape::from_json(include_str!("styles/toddler.json"));
+        let (shape, heads) = match name {
+            "sd2" => (figurine().ok()?, 2.0),
+            "sd2.5" => (figurine().ok()?, 2.5),
+            "sd3" => (figurine().ok()?.blended(&toddler().ok()?, 0.5), 3.0),
+            "sd4" => (toddler().ok()?, 4.0),
+            _ => return None,
+        };
+        let mut shape = shape.with_heads(heads);
+        shape.name = name.to_string();
+        Some(Self::Shape(Box::new(shape)))
+    }
+
+    /// The names of the built-in styles.
+    pub const BUILT_IN: [&'static str; 4] = ["sd2", "sd2.5", "sd3", "sd4"];
+}
+
+impl BodyShape {
+    /// The style as JSON text, indented.
+    pub fn to_json(&self) -> String {
+        serde_json::to_string_pretty(self).unwrap_or_default()
+    }
+
+    /// Reads a style that [`BodyShape::to_json`] wrote.
+    ///
+    /// # Errors
+    /// `ErrorKind::BadStyle` where the text is no style, is of a newer version, or holds a number out of range.
+    pub fn from_json(text: &str) -> Result<Self> {
+        let bad = |message: String| Error::new(ErrorKind::BadStyle, message);
+        let shape: Self = serde_json::from_str(text).map_err(|error| {
+            bad(format!("this is no saved style ({error}): save one with --save-style"))
+        })?;
+        if shape.version == 0 || shape.version > VERSION {
+            return Err(bad(format!(
+                "the style has version {}, and this library reads version {VERSION}: save it again, or update",
+                shape.version
+            )));
+        }
+        if !(shape.head_length.is_finite() && shape.head_length > 0.0) {
+            return Err(bad(format!("the style's head_length is {}: it must be above 0", shape.head_length)));
+        }
+        for (name, bone) in &shape.bones {
+            let radius = bone.radius.unwrap_or(1.0);
+            if !(bone.length.is_finite() && bone.length >= 0.0 && radius.is_finite() && radius > 0.0) {
+                return Err(bad(format!(
+                    "the style's bone {name} has length {} and radius {radius}: lengths must be 0 or more, radii above 0",
+                    bone.length
+                )));
+            }
+        }
+        if let Some(proportions) = &shape.proportions {
+            proportions.validate()?;
+        }
+        Ok(shape)
+    }
+
+    /// How many heads tall, where the proportions are known.
+    pub fn heads(&self) -> Option<f64> {
+        self.proportions.as_ref().map(Proportions::heads)
+    }
+
+    /// This style (0) to `other` (1), measured in heads; what only one of them has is taken from that one.
+    pub fn blended(&self, other: &Self, amount: f64) -> Self {
+        let mix = |a: f64, b: f64| a + amount * (b - a);
+        let unit = self.head_length / other.head_length;
+        let bones = self
+            .bones
+            .keys()
+            .chain(other.bones.keys())
+            .map(|name| {
+                let scaled = other.bones.get(name).map(|bone| BoneShape {
+                    length: bone.length * unit,
+                    radius: bone.radius.map(|radius| radius * unit),
+                });
+                let bone = match (self.bones.get(name), scaled) {
+                    (Some(a), Some(b)) => BoneShape {
+                        length: mix(a.length, b.length),
+                        radius: match (a.radius, b.radius) {
+                            (Some(a), Some(b)) => Some(mix(a, b)),
+                            (a, b) => a.or(b),
+                        },
+                    },
+                    (Some(&a), None) => a,
+                    (None, b) => b.unwrap_or_default(),
+                };
+                (name.clone(), bone)
+            })
+            .collect();
+        let proportions = match (&self.proportions, &other.proportions) {
+            (Some(a), Some(b)) => Some(a.blended(b, amount)),
+            (a, b) => a.clone().or(b.clone()),
+        };
+        Self { bones, proportions, landmarks: None, ..self.clone() }
+    }
+
+    /// The same body with everything below the head made longer or shorter, so that it is `heads` heads tall.
+    pub fn with_heads(&self, heads: f64) -> Self {
+        let Some(proportions) = &self.proportions else { return self.clone() };
+        let stretch = (heads - 1.0) / (proportions.heads() - 1.0);
+        let mut shape = self.clone();
+        shape.landmarks = None;
+        for (name, bone) in &mut shape.bones {
+            if name != crate::character::bones::HEAD_TOP {
+                bone.length *= stretch;
+            }
+        }
+        if let Some(proportions) = &mut shape.proportions {
+            for length in [
+                &mut proportions.neck,
+                &mut proportions.torso,
+                &mut proportions.arm,
+                &mut proportions.leg,
+                &mut proportions.ankle_height,
+            ] {
+                *length *= stretch;
+            }
+        }
+        shape
+    }
+}
+
+impl Proportions {
+    /// How many heads tall.
+    pub fn heads(&self) -> f64 {
+        1.0 + (self.neck + self.torso + self.leg) / self.head_length
+    }
+
+    fn validate(&self) -> Result<()> {
+        let positive = [
+            ("head_length", Some(self.head_length)),
+            ("head_half_width", Some(self.head_half_width)),
+            ("torso", Some(self.torso)),
+            ("arm", Some(self.arm)),
+            ("leg", Some(self.leg)),
+            ("hand", self.hand),
+            ("foot", self.foot),
+            ("trunk_half_width", self.trunk_half_width),
+            ("upper_arm_radius", self.upper_arm_radius),
+            ("lower_arm_radius", self.lower_arm_radius),
+            ("upper_leg_radius", self.upper_leg_radius),
+            ("lower_leg_radius", self.lower_leg_radius),
+        ];
+        for (name, value) in positive {
+            if let Some(value) = value
+                && !(value.is_finite() && value > 0.0)
+            {
+                let message = format!("the style's {name} is {value}: it must be above 0");
+                return Err(Error::new(ErrorKind::BadStyle, message));
+            }
+        }
+        for (name, value) in [("neck", self.neck), ("ankle_height", self.ankle_height)] {
+            if !(value.is_finite() && value >= 0.0) {
+                let message = format!("the style's {name} is {value}: it must be 0 or more");
+                return Err(Error::new(ErrorKind::BadStyle, message));
+            }
+        }
+        Ok(())
+    }
+
+    /// These proportions (0) to `other` (1), measured in heads.
+    pub fn blended(&self, other: &Self, amount: f64) -> Self {
+        let unit = self.head_length / other.head_length;
+        let mix = |a: f64, b: f64| a + amount * (b * unit - a);
+        let mix_some = |a: Option<f64>, b: Option<f64>| match (a, b) {
+            (Some(a), Some(b)) => Some(mix(a, b)),
+            (a, b) => a.or(b.map(|b| b * unit)),
+        };
+        Self {
+            head_length: self.head_length,
+            head_half_width: mix(self.head_half_width, other.head_half_width),
+            neck: mix(self.neck, other.neck),
+            torso: mix(self.torso, other.torso),
+            arm: mix(self.arm, other.arm),
+            leg: mix(self.leg, other.leg),
+            ankle_height: mix(self.ankle_height, other.ankle_height),
+            hand: mix_some(self.hand, other.hand),
+            foot: mix_some(self.foot, other.foot),
+            trunk_half_width: mix_some(self.trunk_half_width, other.trunk_half_width),
+            upper_arm_radius: mix_some(self.upper_arm_radius, other.upper_arm_radius),
+            lower_arm_radius: mix_some(self.lower_arm_radius, other.lower_arm_radius),
+            upper_leg_radius: mix_some(self.upper_leg_radius, other.upper_leg_radius),
+            lower_leg_radius: mix_some(self.lower_leg_radius, other.lower_leg_radius),
+        }
+    }
+}
