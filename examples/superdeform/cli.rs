@@ -9,6 +9,7 @@ use std::collections::BTreeMap;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use superdeform::pipeline::{FaceCurve, GroupSettings, Mode, Options, Stage};
+use superdeform::shape::style::HEADS;
 use superdeform::{Axes, MeshKind, Role};
 
 /// The names of the bone groups that are there without `--groups`.
@@ -26,9 +27,6 @@ pub const BONE_GROUPS: [&str; 12] = [
     "lower_leg",
     "foot",
 ];
-
-/// Heads that a style can be made for.
-const HEADS: (f64, f64) = (1.8, 6.0);
 
 /// The folder for results when no output path is given.
 const OUTPUT_FOLDER: &str = "superdeform-out";
@@ -332,6 +330,11 @@ fn command(arguments: Arguments) -> Result<Command, Refusal> {
     if arguments.save_style.is_some() && !matches!(reference, Reference::Model(_)) {
         return Err(Refusal::Usage(
             "--save-style saves what is measured on a model: give a GLB or VRM as REFERENCE".to_string(),
+        ));
+    }
+    if arguments.blend.is_some() && matches!(reference, Reference::Heads(_)) {
+        return Err(Refusal::Usage(
+            "--blend mixes two styles, and --heads has no second one: give a REFERENCE instead".to_string(),
         ));
     }
     let mut picture = arguments.picture;

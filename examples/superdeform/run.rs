@@ -7,7 +7,6 @@ use crate::cli::{Command, Reference};
 use crate::host::accessor::Reader;
 use crate::host::file::GltfFile;
 use crate::host::load::LoadOptions;
-use crate::host::write::MapPoint;
 use crate::materials::Material;
 use crate::picture::{self, PictureMesh, View};
 use crate::progress::Progress;
@@ -16,14 +15,17 @@ use glam::{DVec3, Vec3};
 use regex::Regex;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
-use std::sync::LazyLock;
+use std::sync::{Arc, LazyLock};
 use std::time::{Duration, Instant};
-use superdeform::pipeline::Deformed;
+use superdeform::character::roles::find_roles;
+use superdeform::pipeline::{Deformed, Deformer, Style};
 use superdeform::report::Report;
-use superdeform::{Axes, Character, MeshKind};
+use superdeform::shape::BodyShape;
+use superdeform::shape::study::Study;
+use superdeform::{Axes, Character, Error, MeshKind, Warning};
 
 /// Stages that the progress bar counts.
-const STAGE_COUNT: u64 = 5;
+const STAGE_COUNT: u64 = 6;
 
 /// What a run leaves behind.
 pub struct Done {
@@ -62,14 +64,40 @@ fn stages(command: &Command, progress: &Progress) -> Result<Done, String> {
     let mut reference = load_reference(command)?;
     let load_time = start.elapsed();
 
-    progress.stage("deforming");
-    let (deformed, mut report, map_point) = deform(command, &target, reference.as_ref())?;
+    progress.stage("measuring");
+    let study = match &reference {
+        Some(reference) => Some(measure(reference, command)?),
+        None => None,
+    };
+    let style = style(command, study.as_ref())?;
 
-    let loaded = [Some(&target), reference.as_ref()].into_iter().flatten();
-    report.warnings.splice(
-        0..0,
-        loaded.flat_map(|loaded| loaded.host.warnings.iter().cloned()),
-    );
+    progress.stage("deforming");
+    let character = Arc::new(target.host.character.clone());
+    let deformer = Deformer::new(character, &style, &command.options).map_err(sentence)?;
+    let deformed = deformer.apply();
+    let mut report = deformer.report(&deformed).map_err(sentence)?;
+    if let Some(study) = &study {
+        // Measured over the roles of both, so that the two figures can be compared group by group.
+        let of_target = &deformer.target().joints;
+        let roles = study
+            .joints
+            .keys()
+            .copied()
+            .filter(|role| of_target.contains_key(role))
+            .collect();
+        report.reference = Some(study.report(&roles, &command.options));
+    }
+    let mut warnings = target.host.warnings.clone();
+    if let Some(reference) = &reference {
+        warnings.extend(
+            reference
+                .host
+                .warnings
+                .iter()
+                .map(|warning| Warning::new(warning.code, format!("in the reference, {}", warning.message))),
+        );
+    }
+    report.warnings.splice(0..0, warnings);
 
     progress.stage("drawing");
     if command.picture.is_some() {
@@ -85,7 +113,10 @@ fn stages(command: &Command, progress: &Progress) -> Result<Done, String> {
 
     progress.stage("writing");
     let write_start = Instant::now();
-    let model = encode(&target, &deformed, &map_point)?;
+    let model = host::write::write(&target.host, &deformed, &|joint, point| {
+        deformer.map(joint, point)
+    })
+    .map_err(sentence)?;
 
     progress.stage("saving");
     let mut files = Vec::new();
@@ -94,6 +125,10 @@ fn stages(command: &Command, progress: &Progress) -> Result<Done, String> {
     if let (Some(path), Some(sheet)) = (&command.picture, &sheet) {
         picture::save(sheet, path)?;
         files.push(("picture", path.clone()));
+    }
+    if let (Some(path), Some(study)) = (&command.save_style, &study) {
+        output::write(path, study.shape.to_json().as_bytes())?;
+        files.push(("style", path.clone()));
     }
     report.timing_ms.load = milliseconds(load_time);
     report.timing_ms.write = milliseconds(write_start.elapsed());
@@ -147,11 +182,12 @@ fn load(path: &Path, reading: &Reading) -> Result<Loaded, String> {
         axes: reading.axes,
         humanoid_map: reading.humanoid_map.as_ref(),
         kinds: reading.kinds,
-        ..LoadOptions::default()
+        find_roles: Some(&find_roles),
+        without_rig: false,
     };
     let host = GltfFile::read(path)
         .and_then(|file| host::load::load(file, &options))
-        .map_err(|error| error.to_string())?;
+        .map_err(sentence)?;
     Ok(Loaded {
         host,
         appearance: Appearance::default(),
@@ -173,17 +209,41 @@ fn appearance(host: &host::load::Loaded) -> Appearance {
     )
 }
 
-fn deform(
-    command: &Command,
-    _target: &Loaded,
-    _reference: Option<&Loaded>,
-) -> Result<(Deformed, Report, Box<MapPoint<'static>>), String> {
-    let _options = &command.options;
-    Err("deforming is not wired".to_string())
+/// Measures a reference; its errors begin with the file's name.
+fn measure(reference: &Loaded, command: &Command) -> Result<Study, String> {
+    let name = &reference.host.file.name;
+    let mut study =
+        Study::of(&reference.host.character, &command.options).map_err(|error| format!("{name}: {error}"))?;
+    study.shape.name = name
+        .rsplit_once('.')
+        .map_or(name.as_str(), |(stem, _)| stem)
+        .to_string();
+    Ok(study)
 }
 
-fn encode(target: &Loaded, deformed: &Deformed, map_point: &MapPoint) -> Result<Vec<u8>, String> {
-    host::write::write(&target.host, deformed, map_point).map_err(|error| error.to_string())
+/// The style that the command line asks for, mixed with a second one where it says so.
+fn style(command: &Command, study: Option<&Study>) -> Result<Style, String> {
+    let shape = match (&command.reference, study) {
+        (Reference::Heads(heads), _) => return Style::heads(*heads).map_err(sentence),
+        (Reference::Style(path), _) => read_style(path)?,
+        (Reference::Model(_), Some(study)) => study.shape.clone(),
+        (Reference::Model(path), None) => return Err(format!("{}: was not measured", path.display())),
+    };
+    let shape = match &command.blend {
+        Some((path, share)) => shape.blended(&read_style(path)?, *share),
+        None => shape,
+    };
+    Ok(Style::Shape(Box::new(shape)))
+}
+
+fn read_style(path: &Path) -> Result<BodyShape, String> {
+    let place = path.display();
+    let text = std::fs::read_to_string(path).map_err(|error| format!("{place}: cannot be read ({error})"))?;
+    BodyShape::from_json(&text).map_err(|error| format!("{place}: {error}"))
+}
+
+fn sentence(error: Error) -> String {
+    error.to_string()
 }
 
 /// Target, reference and result side by side, with their heads.
@@ -261,6 +321,25 @@ mod tests {
     use super::*;
     use glam::DMat4;
     use superdeform::{Joint, Role};
+
+    #[test]
+    fn the_sample_pair_is_written_where_the_field_takes_it() {
+        let Ok(command) = crate::cli::parse(["superdeform", "--threads", "1"]) else {
+            panic!("the sample pair was refused");
+        };
+        let target = load_target(&command).unwrap();
+        let reference = load_reference(&command).unwrap().unwrap();
+        let study = measure(&reference, &command).unwrap();
+        let style = style(&command, Some(&study)).unwrap();
+        let character = Arc::new(target.host.character.clone());
+        let deformer = Deformer::new(character, &style, &command.options).unwrap();
+        let deformed = deformer.apply();
+        let map = |joint: usize, point: DVec3| deformer.map(joint, point);
+        let written = host::write::rewrite(&target.host, &deformed, &map).unwrap();
+        let closure = host::verify::closure(&written, &target.host, &deformed).unwrap();
+        assert!(closure.rest < 1e-5, "{closure:?}");
+        assert!(closure.nodes.is_none_or(|share| share < 1e-5), "{closure:?}");
+    }
 
     #[test]
     fn a_character_looks_where_its_limbs_say() {

@@ -20,6 +20,228 @@ pub enum MeshKind {
     Accessory,
 }
 
+/// Words that name things which keep their shape; they come before hair and face, so that a hair band or eye glasses
+/// are accessories.
+const ACCESSORY_WORDS: &[&str] = &[
+    "accessory",
+    "accessories",
+    "armor",
+    "armour",
+    "axe",
+    "backpack",
+    "bag",
+    "band",
+    "belt",
+    "bow",
+    "bracelet",
+    "clip",
+    "crown",
+    "earring",
+    "earrings",
+    "gadget",
+    "glasses",
+    "eyeglasses",
+    "goggles",
+    "gun",
+    "halo",
+    "hairband",
+    "hairclip",
+    "hairpin",
+    "hat",
+    "headband",
+    "headphone",
+    "headphones",
+    "headset",
+    "helm",
+    "helmet",
+    "horn",
+    "horns",
+    "jewelry",
+    "knife",
+    "mask",
+    "necklace",
+    "pin",
+    "prop",
+    "props",
+    "quiver",
+    "ribbon",
+    "ring",
+    "rucksack",
+    "shield",
+    "staff",
+    "sunglasses",
+    "sword",
+    "watch",
+    "weapon",
+];
+
+/// Words that name skin, which is the body even beside a word for hair or face ("Body_Hair", "Face_Skin").
+const BODY_WORDS: &[&str] = &["body", "skin", "torso"];
+
+const FACE_WORDS: &[&str] = &[
+    "brow",
+    "brows",
+    "eye",
+    "eyeball",
+    "eyeballs",
+    "eyebrow",
+    "eyebrows",
+    "eyelash",
+    "eyelashes",
+    "eyelid",
+    "eyelids",
+    "eyeline",
+    "eyeliner",
+    "eyes",
+    "iris",
+    "irises",
+    "lash",
+    "lashes",
+    "lips",
+    "mouth",
+    "pupil",
+    "pupils",
+    "sclera",
+    "tear",
+    "tears",
+    "teeth",
+    "tooth",
+    "tongue",
+];
+
+const HAIR_WORDS: &[&str] = &[
+    "ahoge",
+    "bang",
+    "bangs",
+    "braid",
+    "braids",
+    "forelock",
+    "fringe",
+    "hair",
+    "hairs",
+    "hairback",
+    "hairfront",
+    "hairstyle",
+    "pigtail",
+    "pigtails",
+    "ponytail",
+    "ponytails",
+    "sidelock",
+    "twintail",
+    "twintails",
+    "wig",
+];
+
+const GARMENT_WORDS: &[&str] = &[
+    "apron",
+    "blouse",
+    "boot",
+    "boots",
+    "bottoms",
+    "bra",
+    "cape",
+    "cardigan",
+    "cloak",
+    "cloth",
+    "clothes",
+    "clothing",
+    "coat",
+    "costume",
+    "dress",
+    "garment",
+    "glove",
+    "gloves",
+    "gown",
+    "hood",
+    "hoodie",
+    "jacket",
+    "jeans",
+    "kimono",
+    "leggings",
+    "necktie",
+    "outfit",
+    "overalls",
+    "pants",
+    "panties",
+    "robe",
+    "scarf",
+    "shirt",
+    "shirts",
+    "shoe",
+    "shoes",
+    "shorts",
+    "skirt",
+    "sleeve",
+    "sleeves",
+    "sneakers",
+    "sock",
+    "socks",
+    "stocking",
+    "stockings",
+    "suit",
+    "sweater",
+    "tie",
+    "tights",
+    "top",
+    "tops",
+    "trousers",
+    "tshirt",
+    "underwear",
+    "uniform",
+    "vest",
+];
+
+impl MeshKind {
+    /// Guesses what a mesh depicts from the name of its material, mesh or node; `None` where no word of it is known.
+    ///
+    /// A name is cut into words at anything that is no letter and before a capital (`HairBack_01` is hair, back), so
+    /// that a chair is no hair and what is no hat. English words only. Words for accessories count before those for
+    /// skin, face, hair and clothes, in this order.
+    ///
+    /// ```
+    /// use superdeform::MeshKind;
+    /// assert_eq!(MeshKind::guess("N00_000_Hair_00_HAIR"), Some(MeshKind::Hair));
+    /// assert_eq!(MeshKind::guess("chair"), None);
+    /// ```
+    pub fn guess(name: &str) -> Option<MeshKind> {
+        let words = words_of(name);
+        let any_of = |known: &[&str]| words.iter().any(|word| known.contains(&word.as_str()));
+        let order = [
+            (ACCESSORY_WORDS, MeshKind::Accessory),
+            (BODY_WORDS, MeshKind::Body),
+            (FACE_WORDS, MeshKind::FacePart),
+            (HAIR_WORDS, MeshKind::Hair),
+            (GARMENT_WORDS, MeshKind::Garment),
+        ];
+        order
+            .into_iter()
+            .find(|(known, _)| any_of(known))
+            .map(|(_, kind)| kind)
+    }
+}
+
+/// The words of a name, in small letters: `HairBack_01` is hair, back; `EYEIris` is eye, iris.
+fn words_of(name: &str) -> Vec<String> {
+    let letters: Vec<char> = name.chars().collect();
+    let mut words = vec![String::new()];
+    for (index, &letter) in letters.iter().enumerate() {
+        let starts_word = letter.is_uppercase()
+            && (index
+                .checked_sub(1)
+                .is_some_and(|before| letters[before].is_lowercase())
+                || letters.get(index + 1).is_some_and(|after| after.is_lowercase()));
+        if !letter.is_alphabetic() || starts_word {
+            words.push(String::new());
+        }
+        if letter.is_alphabetic() {
+            let last = words.len() - 1;
+            words[last].extend(letter.to_lowercase());
+        }
+    }
+    words.retain(|word| !word.is_empty());
+    words
+}
+
 /// A morph target (blend shape): what is added to each vertex at weight 1.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MorphTarget {
@@ -149,5 +371,40 @@ impl Mesh {
         self.weights
             .validate(count, joint_count)
             .or_else(|(element, message)| bad(element, message))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::MeshKind::{self, *};
+
+    #[test]
+    fn kinds_are_guessed_from_whole_words() {
+        for (name, kind) in [
+            ("Hair001", Some(Hair)),
+            ("HairBack_01", Some(Hair)),
+            ("Long_Ponytail", Some(Hair)),
+            ("bangs.L", Some(Hair)),
+            ("chair", None),
+            ("what", None),
+            ("Hat", Some(Accessory)),
+            ("hair_ribbon", Some(Accessory)),
+            ("EyeGlasses", Some(Accessory)),
+            ("sunglasses", Some(Accessory)),
+            ("Knight_Helmet", Some(Accessory)),
+            ("eyelash", Some(FacePart)),
+            ("N00_000_00_EyeIris_00_EYE (Instance)", Some(FacePart)),
+            ("FaceMouth_00_FACE", Some(FacePart)),
+            ("teeth", Some(FacePart)),
+            ("Body_Hair", Some(Body)),
+            ("N00_000_00_Face_00_SKIN", Some(Body)),
+            ("Skirt", Some(Garment)),
+            ("T-Shirt", Some(Garment)),
+            ("N00_004_01_Shoes_01_CLOTH", Some(Garment)),
+            ("Material.001", None),
+            ("", None),
+        ] {
+            assert_eq!(MeshKind::guess(name), kind, "{name}");
+        }
     }
 }

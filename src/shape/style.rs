@@ -70,7 +70,9 @@ impl BodyShape {
     pub fn from_json(text: &str) -> Result<Self> {
         let bad = |message: String| Error::new(ErrorKind::BadStyle, message);
         let shape: Self = serde_json::from_str(text).map_err(|error| {
-            bad(format!("this is no saved style ({error}): save one with --save-style"))
+            bad(format!(
+                "this is no saved style ({error}): save one with --save-style"
+            ))
         })?;
         if shape.version == 0 || shape.version > VERSION {
             return Err(bad(format!(
@@ -79,7 +81,10 @@ impl BodyShape {
             )));
         }
         if !(shape.head_length.is_finite() && shape.head_length > 0.0) {
-            return Err(bad(format!("the style's head_length is {}: it must be above 0", shape.head_length)));
+            return Err(bad(format!(
+                "the style's head_length is {}: it must be above 0",
+                shape.head_length
+            )));
         }
         for (name, bone) in &shape.bones {
             let radius = bone.radius.unwrap_or(1.0);
@@ -132,12 +137,19 @@ impl BodyShape {
             (Some(a), Some(b)) => Some(a.blended(b, amount)),
             (a, b) => a.clone().or(b.clone()),
         };
-        Self { bones, proportions, landmarks: None, ..self.clone() }
+        Self {
+            bones,
+            proportions,
+            landmarks: None,
+            ..self.clone()
+        }
     }
 
     /// The same body with everything below the head made longer or shorter, so that it is `heads` heads tall.
     pub fn with_heads(&self, heads: f64) -> Self {
-        let Some(proportions) = &self.proportions else { return self.clone() };
+        let Some(proportions) = &self.proportions else {
+            return self.clone();
+        };
         let stretch = (heads - 1.0) / (proportions.heads() - 1.0);
         let mut shape = self.clone();
         shape.landmarks = None;

@@ -1,0 +1,388 @@
+//! The GLB container: raw JSON and one binary chunk.
+
+use super::{array_at, bad_input, index_at, text_at};
+use gltf::json::validation::Validate;
+use serde_json::{Value, json};
+use std::fs;
+use std::io::Write;
+use std::path::Path;
+use superdeform::Result;
+
+const MAGIC: &[u8; 4] = b"glTF";
+const CHUNK_JSON: u32 = u32::from_le_bytes(*b"JSON");
+const CHUNK_BIN: u32 = u32::from_le_bytes(*b"BIN\0");
+
+/// Files of this size and above are refused, in bytes; a GLB holds its length in 32 bits.
+const LARGEST_FILE: u64 = 1 << 31;
+
+/// Extensions that may be required of a reader which does not touch what they are about.
+const HARMLESS_PREFIXES: [&str; 4] = ["KHR_materials_", "VRM", "KHR_texture_", "EXT_texture_"];
+const HARMLESS: [&str; 7] = [
+    "KHR_mesh_quantization",
+    "KHR_lights_punctual",
+    "KHR_node_visibility",
+    "KHR_xmp_json_ld",
+    "MSFT_texture_dds",
+    "EXT_lights_image_based",
+    "MSFT_packing_occlusionRoughnessMetallic",
+];
+
+/// A glTF file with everything embedded.
+#[derive(Clone, Debug)]
+pub struct GltfFile {
+    /// The file's name, for messages.
+    pub name: String,
+    /// The JSON as it stands in the file.
+    pub json: Value,
+    /// The one buffer.
+    pub binary: Vec<u8>,
+}
+
+impl GltfFile {
+    /// Reads a GLB, a VRM, or a .gltf whose buffers are embedded as base64.
+    ///
+    /// # Errors
+    /// One sentence that begins with the file's name: not readable, not glTF 2.0, damaged, or an extension is
+    /// required that compresses the geometry.
+    pub fn read(path: &Path) -> Result<Self> {
+        let name = path.file_name().map_or_else(
+            || path.display().to_string(),
+            |name| name.to_string_lossy().into_owned(),
+        );
+        let about =
+            fs::metadata(path).map_err(|error| bad_input(format!("{name} cannot be read: {error}")))?;
+        if about.is_dir() {
+            return Err(bad_input(format!("{name} is a folder: give a GLB or VRM file")));
+        }
+        if about.len() >= LARGEST_FILE {
+            return Err(bad_input(format!(
+                "{name} has {} bytes: files must be below 2 GB",
+                about.len()
+            )));
+        }
+        let bytes = fs::read(path).map_err(|error| bad_input(format!("{name} cannot be read: {error}")))?;
+        Self::parse(&name, &bytes)
+    }
+
+    /// The same from memory; `name` is for messages.
+    ///
+    /// # Errors
+    /// As [`GltfFile::read`].
+    pub fn parse(name: &str, bytes: &[u8]) -> Result<Self> {
+        if bytes.is_empty() {
+            return Err(bad_input(format!("{name} is empty: give a GLB or VRM file")));
+        }
+        let (text, binary) = if bytes.starts_with(MAGIC) {
+            split_container(name, bytes)?
+        } else if bytes.iter().find(|byte| !byte.is_ascii_whitespace()) == Some(&b'{') {
+            (bytes, &[][..])
+        } else {
+            return Err(bad_input(format!(
+                "{name} is neither GLB nor VRM, because it does not begin with glTF: export it as glTF 2.0 binary"
+            )));
+        };
+        let json: Value = serde_json::from_slice(text).map_err(|error| {
+            bad_input(format!(
+                "{name} holds JSON that cannot be read, {error}: export it anew"
+            ))
+        })?;
+        if !json.is_object() {
+            return Err(bad_input(format!(
+                "{name} holds JSON that is no object: export it anew as glTF 2.0"
+            )));
+        }
+        let version = text_at(&json["asset"], "version");
+        if !version.starts_with("2.") {
+            return Err(bad_input(format!(
+                "{name} says it is glTF version \"{version}\": only version 2.0 can be read, so export it anew"
+            )));
+        }
+        check_extensions(name, &json)?;
+        check_types_and_indices(name, text)?;
+        let mut file = Self {
+            name: name.to_string(),
+            json,
+            binary: Vec::new(),
+        };
+        file.binary = file.embed_buffers(binary)?;
+        Ok(file)
+    }
+
+    /// Takes all buffers together into one, and moves the buffer views along.
+    fn embed_buffers(&mut self, chunk: &[u8]) -> Result<Vec<u8>> {
+        let name = self.name.clone();
+        let buffers = array_at(&self.json, "buffers").to_vec();
+        let mut binary = Vec::new();
+        let mut starts = Vec::new();
+        for (index, buffer) in buffers.iter().enumerate() {
+            let uri = buffer.get("uri").and_then(Value::as_str);
+            let decoded;
+            let data: &[u8] = match uri {
+                None if index == 0 => chunk,
+                None => {
+                    return Err(bad_input(format!(
+                        "{name}: buffer {index} has no data, because only buffer 0 may stand for the binary chunk: export the file anew"
+                    )));
+                }
+                Some(uri) if uri.starts_with("data:") => {
+                    decoded = decode_base64(uri).ok_or_else(|| {
+                        bad_input(format!(
+                            "{name}: buffer {index} holds no valid base64: export the file anew"
+                        ))
+                    })?;
+                    &decoded
+                }
+                Some(uri) => {
+                    let uri: String = uri.chars().take(80).collect();
+                    return Err(bad_input(format!(
+                        "{name} keeps its buffer {index} in another file ({uri}): export it as GLB with everything embedded"
+                    )));
+                }
+            };
+            let length = index_at(buffer, "byteLength").unwrap_or(0);
+            if length > data.len() {
+                return Err(bad_input(format!(
+                    "{name}: buffer {index} should have {length} bytes, but {} are there: the file is cut short, so export or download it anew",
+                    data.len()
+                )));
+            }
+            binary.resize(binary.len().next_multiple_of(8), 0);
+            starts.push(binary.len());
+            // A chunk is padded to four bytes; what stands behind the buffer is no part of it.
+            binary.extend_from_slice(&data[..length]);
+        }
+        let view_count = array_at(&self.json, "bufferViews").len();
+        for index in 0..view_count {
+            let view = &mut self.json["bufferViews"][index];
+            let buffer = index_at(view, "buffer").unwrap_or(0);
+            let offset = index_at(view, "byteOffset").unwrap_or(0);
+            let length = index_at(view, "byteLength").unwrap_or(0);
+            let size = buffers
+                .get(buffer)
+                .and_then(|buffer| index_at(buffer, "byteLength"));
+            let fits = offset
+                .checked_add(length)
+                .is_some_and(|end| size.is_some_and(|size| end <= size));
+            if !fits {
+                return Err(bad_input(format!(
+                    "{name}: buffer view {index} covers {length} bytes from byte {offset}, but buffer {buffer} has {} bytes: export the file anew",
+                    size.unwrap_or(0)
+                )));
+            }
+            if buffers.len() > 1 {
+                view["buffer"] = json!(0);
+                view["byteOffset"] = json!(starts[buffer] + offset);
+            }
+        }
+        if buffers.len() > 1 || buffers.iter().any(|buffer| buffer.get("uri").is_some()) {
+            let mut first = buffers[0].clone();
+            first.as_object_mut().map(|buffer| buffer.remove("uri"));
+            first["byteLength"] = json!(binary.len());
+            self.json["buffers"] = json!([first]);
+        }
+        Ok(binary)
+    }
+
+    /// The file as GLB.
+    ///
+    /// # Errors
+    /// When it would be 2 GB or more.
+    pub fn to_bytes(&self) -> Result<Vec<u8>> {
+        let mut text = serde_json::to_vec(&self.json)
+            .map_err(|error| bad_input(format!("{} cannot be written as JSON: {error}", self.name)))?;
+        text.resize(text.len().next_multiple_of(4), b' ');
+        let padded = self.binary.len().next_multiple_of(4);
+        let total = 12 + 8 + text.len() + if self.binary.is_empty() { 0 } else { 8 + padded };
+        if total as u64 >= LARGEST_FILE {
+            return Err(bad_input(format!(
+                "{} would have {total} bytes: a GLB must be below 2 GB",
+                self.name
+            )));
+        }
+        let mut bytes = Vec::with_capacity(total);
+        bytes.extend_from_slice(MAGIC);
+        for number in [2, total as u32, text.len() as u32, CHUNK_JSON] {
+            bytes.extend_from_slice(&number.to_le_bytes());
+        }
+        bytes.extend_from_slice(&text);
+        if !self.binary.is_empty() {
+            for number in [padded as u32, CHUNK_BIN] {
+                bytes.extend_from_slice(&number.to_le_bytes());
+            }
+            bytes.extend_from_slice(&self.binary);
+            bytes.resize(total, 0);
+        }
+        Ok(bytes)
+    }
+
+    /// The array of the JSON called `name`; empty where there is none.
+    pub fn list(&self, name: &str) -> &[Value] {
+        array_at(&self.json, name)
+    }
+}
+
+/// Writes a file whole or not at all: beside its place first, then renamed.
+///
+/// # Errors
+/// One sentence with the path; nothing is left behind.
+pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<()> {
+    let failed = |error: std::io::Error| bad_input(format!("{} cannot be written: {error}", path.display()));
+    let Some(name) = path.file_name().filter(|_| !path.is_dir()) else {
+        return Err(bad_input(format!(
+            "{} is a folder: give the name of a file",
+            path.display()
+        )));
+    };
+    let mut beside = std::ffi::OsString::from(".");
+    beside.push(name);
+    beside.push(format!(".{}.part", std::process::id()));
+    let beside = path.with_file_name(beside);
+    let written = fs::File::create(&beside)
+        .and_then(|mut file| file.write_all(bytes).and_then(|()| file.sync_all()))
+        .and_then(|()| fs::rename(&beside, path));
+    written.map_err(|error| {
+        // What went wrong is the error above; a left-over that cannot be removed adds nothing to it.
+        let _ = fs::remove_file(&beside);
+        failed(error)
+    })
+}
+
+/// The JSON and the binary chunk of a GLB.
+fn split_container<'a>(name: &str, bytes: &'a [u8]) -> Result<(&'a [u8], &'a [u8])> {
+    let number = |at: usize| {
+        let bytes = bytes.get(at..at.checked_add(4)?)?;
+        Some(u32::from_le_bytes(bytes.try_into().ok()?))
+    };
+    let cut = || {
+        bad_input(format!(
+            "{name} is cut short after {} bytes: export or download it anew",
+            bytes.len()
+        ))
+    };
+    let version = number(4).ok_or_else(cut)?;
+    if version != 2 {
+        return Err(bad_input(format!(
+            "{name} is a GLB of version {version}: only version 2 can be read, so export it anew"
+        )));
+    }
+    let length = number(8).ok_or_else(cut)? as usize;
+    if length > bytes.len() {
+        return Err(bad_input(format!(
+            "{name} should have {length} bytes, but has {}: it is cut short, so export or download it anew",
+            bytes.len()
+        )));
+    }
+    let mut text = None;
+    let mut binary = None;
+    let mut at = 12;
+    while at + 8 <= length {
+        let size = number(at).ok_or_else(cut)? as usize;
+        let kind = number(at + 4).ok_or_else(cut)?;
+        let end = (at + 8).checked_add(size).filter(|&end| end <= length).ok_or_else(|| {
+            bad_input(format!(
+                "{name}: a chunk of {size} bytes at byte {at} runs past the end of the file at byte {length}: export or download it anew"
+            ))
+        })?;
+        let data = &bytes[at + 8..end];
+        match kind {
+            CHUNK_JSON if text.is_none() => text = Some(data),
+            CHUNK_BIN if binary.is_none() => binary = Some(data),
+            _ => {}
+        }
+        at = end;
+    }
+    let text =
+        text.ok_or_else(|| bad_input(format!("{name} holds no JSON chunk: export or download it anew")))?;
+    Ok((text, binary.unwrap_or(&[])))
+}
+
+/// Refuses what is required and cannot be honoured.
+fn check_extensions(name: &str, json: &Value) -> Result<()> {
+    let compressed = |extension: &str| {
+        matches!(
+            extension,
+            "EXT_meshopt_compression" | "KHR_meshopt_compression" | "KHR_draco_mesh_compression"
+        )
+    };
+    for extension in array_at(json, "extensionsRequired")
+        .iter()
+        .filter_map(Value::as_str)
+    {
+        if compressed(extension) {
+            return Err(bad_input(format!(
+                "{name} is compressed with {extension}: export it without compression, or unpack it first (gltf-transform copy)"
+            )));
+        }
+        let harmless = HARMLESS.contains(&extension)
+            || HARMLESS_PREFIXES
+                .iter()
+                .any(|prefix| extension.starts_with(prefix));
+        if !harmless {
+            return Err(bad_input(format!(
+                "{name} requires the extension {extension}, which is not known here: export it without this extension"
+            )));
+        }
+    }
+    // Compression may also stand beside an uncompressed fallback; then the two would no longer agree.
+    let in_views = array_at(json, "bufferViews").iter();
+    let in_primitives = array_at(json, "meshes")
+        .iter()
+        .flat_map(|mesh| array_at(mesh, "primitives"));
+    for holder in in_views.chain(in_primitives) {
+        let extensions = holder.get("extensions").and_then(Value::as_object);
+        if let Some(extension) = extensions.and_then(|held| held.keys().find(|key| compressed(key))) {
+            return Err(bad_input(format!(
+                "{name} is compressed with {extension}: export it without compression, or unpack it first (gltf-transform copy)"
+            )));
+        }
+    }
+    Ok(())
+}
+
+/// Reads the JSON by the glTF schema, and checks that every index leads somewhere.
+fn check_types_and_indices(name: &str, text: &[u8]) -> Result<()> {
+    let root = gltf::json::Root::from_slice(text)
+        .map_err(|error| bad_input(format!("{name} departs from glTF 2.0, {error}: export it anew")))?;
+    let mut astray = None;
+    // Other findings (a missing minimum, an unknown word) do not keep the geometry from being read.
+    root.validate(
+        &root,
+        gltf::json::Path::new,
+        &mut |path: &dyn Fn() -> gltf::json::Path, error| {
+            if matches!(error, gltf::json::validation::Error::IndexOutOfBounds) && astray.is_none() {
+                astray = Some(path().to_string());
+            }
+        },
+    );
+    match astray {
+        Some(place) => Err(bad_input(format!(
+            "{name}: {place} names something that the file does not have: export it anew"
+        ))),
+        None => Ok(()),
+    }
+}
+
+/// The bytes of a `data:` address in base64; `None` where it is not that.
+fn decode_base64(uri: &str) -> Option<Vec<u8>> {
+    let (_, text) = uri.split_once(";base64,")?;
+    let text = text.trim_end_matches('=').as_bytes();
+    let mut bytes = Vec::with_capacity(text.len() / 4 * 3 + 2);
+    let (mut bits, mut bit_count) = (0u32, 0);
+    for &letter in text {
+        let six = match letter {
+            b'A'..=b'Z' => letter - b'A',
+            b'a'..=b'z' => letter - b'a' + 26,
+            b'0'..=b'9' => letter - b'0' + 52,
+            b'+' | b'-' => 62,
+            b'/' | b'_' => 63,
+            _ => return None,
+        };
+        bits = (bits << 6 | u32::from(six)) & 0xFFFF;
+        bit_count += 6;
+        if bit_count >= 8 {
+            bit_count -= 8;
+            bytes.push((bits >> bit_count) as u8);
+        }
+    }
+    Some(bytes)
+}

@@ -1,0 +1,46 @@
+//! Characters as files: GLB and VRM (0.x and 1.0) in, the same file with a new shape out.
+//!
+//! A file is kept as raw JSON beside its binary chunk, so that all that is not reshaped comes out as it went in:
+//! materials, textures, texture coordinates, names, extensions, extras, animations, accessor sharing.
+
+pub mod accessor;
+pub mod bind;
+pub mod file;
+pub mod load;
+pub mod roles;
+#[cfg(test)]
+pub mod verify;
+pub mod vrm;
+pub mod write;
+
+use serde_json::Value;
+use superdeform::{Error, ErrorKind};
+
+/// An error about the input, in one sentence.
+pub fn bad_input(message: impl Into<String>) -> Error {
+    // Text from a file may hold line breaks; a message is one line all the same.
+    let message: String = message.into();
+    let one_line: Vec<&str> = message.split_whitespace().collect();
+    Error::new(ErrorKind::BadInput, one_line.join(" "))
+}
+
+/// The number at `key`, where it is a whole number of 0 or more.
+pub fn index_at(value: &Value, key: &str) -> Option<usize> {
+    value
+        .get(key)
+        .and_then(Value::as_u64)
+        .and_then(|index| usize::try_from(index).ok())
+}
+
+/// The array at `key`; empty where there is none.
+pub fn array_at<'a>(value: &'a Value, key: &str) -> &'a [Value] {
+    value
+        .get(key)
+        .and_then(Value::as_array)
+        .map_or(&[], Vec::as_slice)
+}
+
+/// The text at `key`; empty where there is none.
+pub fn text_at<'a>(value: &'a Value, key: &str) -> &'a str {
+    value.get(key).and_then(Value::as_str).unwrap_or("")
+}

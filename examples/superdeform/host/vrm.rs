@@ -1,0 +1,286 @@
+//! What VRM files hold beside the meshes in model units: spring bones, colliders, viewpoint, outlines.
+//!
+//! A point is attached to a node and stands in its space: it is mapped like a vertex of that joint and then expressed
+//! in the moved node's space. Lengths around a point (radii, stiffness, gravity) are multiplied by the local scale.
+
+use super::load::Loaded;
+use super::write::MapPoint;
+use super::{array_at, index_at, text_at};
+use glam::{DMat3, DMat4, DVec3};
+use serde_json::{Value, json};
+use superdeform::Role;
+
+/// The field at nodes of one file.
+struct Field<'a> {
+    loaded: &'a Loaded,
+    new_rest: &'a [DMat4],
+    map_point: &'a MapPoint<'a>,
+}
+
+impl Field<'_> {
+    fn joint(&self, node: usize) -> Option<usize> {
+        self.loaded.joint_of_node.get(node).copied().flatten()
+    }
+
+    /// Where a point of a node's space goes (in the moved node's space), the local scale and the Jacobian.
+    fn at(&self, node: usize, local: DVec3) -> Option<(DVec3, f64, DMat3)> {
+        let joint = self.joint(node)?;
+        let mapped = (self.map_point)(joint, self.loaded.pose.rest[node].transform_point3(local));
+        let back = self.new_rest[node].inverse().transform_point3(mapped.position);
+        let scale = mapped.local_scale();
+        (back.is_finite() && scale.is_finite()).then_some((back, scale, mapped.jacobian))
+    }
+
+    fn scale(&self, node: usize) -> Option<f64> {
+        self.at(node, DVec3::ZERO).map(|(_, scale, _)| scale)
+    }
+}
+
+/// Moves and scales everything of a VRM header, 0.x or 1.0, that stands in model units.
+///
+/// - `new_rest`: the rest transforms of the nodes after the deformation.
+/// - `height_ratio`: new over old height of the figure, for outlines.
+pub fn move_points(
+    json: &mut Value,
+    loaded: &Loaded,
+    new_rest: &[DMat4],
+    map_point: &MapPoint,
+    height_ratio: f64,
+) {
+    scale_outlines(json, height_ratio);
+    if !loaded.rigged {
+        return;
+    }
+    let field = Field {
+        loaded,
+        new_rest,
+        map_point,
+    };
+    if let Some(vrm) = json.pointer_mut("/extensions/VRM") {
+        vrm0(vrm, &field);
+    }
+    let head = loaded
+        .character
+        .humanoid
+        .joint(Role::Head)
+        .map(|joint| loaded.node_of_joint[joint]);
+    if let (Some(head), Some(offset)) = (
+        head,
+        json.pointer_mut("/extensions/VRMC_vrm/lookAt/offsetFromHeadBone"),
+    ) && let Some(local) = vector(offset)
+        && let Some((moved, ..)) = field.at(head, local)
+    {
+        put(offset, local, moved);
+    }
+    if let Some(springs) = json.pointer_mut("/extensions/VRMC_springBone") {
+        vrm1_springs(springs, &field);
+    }
+}
+
+/// A vector written as an array (VRM 1.0).
+fn vector(value: &Value) -> Option<DVec3> {
+    let numbers: Vec<f64> = value.as_array()?.iter().filter_map(Value::as_f64).collect();
+    <[f64; 3]>::try_from(numbers).ok().map(DVec3::from)
+}
+
+/// True for a change beyond rounding.
+fn differs(before: f64, after: f64) -> bool {
+    (after - before).abs() > 1e-9 * before.abs().max(1e-6)
+}
+
+fn put(value: &mut Value, before: DVec3, after: DVec3) {
+    if (0..3).any(|axis| differs(before[axis], after[axis])) {
+        *value = json!(after.as_vec3().to_array());
+    }
+}
+
+/// Multiplies the number at `key`; one that is not there has the value `default`.
+fn multiply(holder: &mut Value, key: &str, default: f64, factor: f64) {
+    let before = holder.get(key).and_then(Value::as_f64).unwrap_or(default);
+    let after = before * factor;
+    if holder.is_object() && differs(before, after) {
+        holder[key] = json!(after as f32);
+    }
+}
+
+/// VRM 1.0 springs and colliders, with `VRMC_springBone_extended_collider`.
+fn vrm1_springs(springs: &mut Value, field: &Field) {
+    for collider in list(springs, "colliders") {
+        let Some(node) = index_at(collider, "node") else {
+            continue;
+        };
+        if let Some(shape) = collider.get_mut("shape") {
+            collider_shape(shape, node, field);
+        }
+        if let Some(shape) = collider.pointer_mut("/extensions/VRMC_springBone_extended_collider/shape") {
+            collider_shape(shape, node, field);
+        }
+    }
+    for spring in list(springs, "springs") {
+        for joint in list(spring, "joints") {
+            let Some(scale) = index_at(joint, "node").and_then(|node| field.scale(node)) else {
+                continue;
+            };
+            // The step of a spring is stiffness and gravity in model units: only scaled does it swing the same.
+            multiply(joint, "hitRadius", 0.0, scale);
+            multiply(joint, "stiffness", 1.0, scale);
+            multiply(joint, "gravityPower", 0.0, scale);
+        }
+    }
+}
+
+fn list<'a>(value: &'a mut Value, key: &str) -> impl Iterator<Item = &'a mut Value> {
+    value
+        .get_mut(key)
+        .and_then(Value::as_array_mut)
+        .into_iter()
+        .flatten()
+}
+
+fn collider_shape(shape: &mut Value, node: usize, field: &Field) {
+    for kind in ["sphere", "capsule", "plane"] {
+        let Some(body) = shape.get_mut(kind).filter(|body| body.is_object()) else {
+            continue;
+        };
+        let offset = body.get("offset").and_then(vector).unwrap_or(DVec3::ZERO);
+        let Some((moved, mut scale, jacobian)) = field.at(node, offset) else {
+            continue;
+        };
+        if let Some(value) = body.get_mut("offset") {
+            put(value, offset, moved);
+        } else if moved.length() > 1e-9 {
+            put(&mut body["offset"], offset, moved);
+        }
+        if kind == "capsule" {
+            let tail = body.get("tail").and_then(vector).unwrap_or(DVec3::ZERO);
+            if let Some((moved, tail_scale, _)) = field.at(node, tail) {
+                if body.get("tail").is_some() || moved.length() > 1e-9 {
+                    put(&mut body["tail"], tail, moved);
+                }
+                // One radius for both ends.
+                scale = (scale * tail_scale).sqrt();
+            }
+        }
+        if kind == "plane" {
+            let normal = body.get("normal").and_then(vector).unwrap_or(DVec3::Z);
+            let node_axes = DMat3::from_mat4(field.loaded.pose.rest[node]);
+            let turned = node_axes.transpose()
+                * jacobian.inverse().transpose()
+                * node_axes.inverse().transpose()
+                * normal;
+            let turned = turned.normalize_or(normal) * normal.length();
+            if (turned - normal).length() > 1e-9 {
+                put(&mut body["normal"], normal, turned);
+            }
+        } else {
+            multiply(body, "radius", 0.0, scale);
+        }
+    }
+}
+
+/// VRM 0.x: `firstPerson` and `secondaryAnimation`.
+///
+/// Vectors of VRM 0.x stand as the left-handed engine of its first exporter has them, nodes as glTF has them, and the
+/// importer turns the one into the other by negating z: the offsets of colliders and of the viewpoint therefore have z
+/// negated against the node's own space (so do the readers of UniVRM and three-vrm: "z is opposite in VRM0.0").
+fn vrm0(vrm: &mut Value, field: &Field) {
+    if let Some(first_person) = vrm.get_mut("firstPerson") {
+        let bone = first_person
+            .get("firstPersonBone")
+            .and_then(Value::as_i64)
+            .filter(|&node| node >= 0);
+        let head = field
+            .loaded
+            .character
+            .humanoid
+            .joint(Role::Head)
+            .map(|joint| field.loaded.node_of_joint[joint]);
+        if let Some(node) = bone.map(|node| node as usize).or(head)
+            && let Some(offset) = first_person.get_mut("firstPersonBoneOffset")
+        {
+            move_flipped(offset, node, field);
+        }
+    }
+    let Some(animation) = vrm.get_mut("secondaryAnimation") else {
+        return;
+    };
+    for group in list(animation, "colliderGroups") {
+        let Some(node) = index_at(group, "node") else {
+            continue;
+        };
+        for collider in list(group, "colliders") {
+            let scale = match collider.get_mut("offset") {
+                Some(offset) => move_flipped(offset, node, field),
+                None => field.scale(node),
+            };
+            if let Some(scale) = scale {
+                multiply(collider, "radius", 0.0, scale);
+            }
+        }
+    }
+    let skeleton = &field.loaded.character.skeleton;
+    let order = skeleton.parents_first();
+    for group in list(animation, "boneGroups") {
+        // One set of numbers for several chains: the mean scale of all their joints.
+        let mut moved = vec![false; skeleton.joints.len()];
+        for bone in array_at(group, "bones").iter().filter_map(Value::as_u64) {
+            if let Some(joint) = field.joint(bone as usize) {
+                moved[joint] = true;
+            }
+        }
+        let (mut sum, mut count) = (0.0, 0);
+        for &joint in &order {
+            moved[joint] |= skeleton.joints[joint].parent.is_some_and(|parent| moved[parent]);
+            if let Some(scale) = moved[joint]
+                .then(|| field.scale(field.loaded.node_of_joint[joint]))
+                .flatten()
+            {
+                sum += scale;
+                count += 1;
+            }
+        }
+        if count > 0 {
+            let scale = sum / f64::from(count);
+            multiply(group, "hitRadius", 0.0, scale);
+            // VRM 0.x spells it so.
+            multiply(group, "stiffiness", 0.0, scale);
+            multiply(group, "gravityPower", 0.0, scale);
+        }
+    }
+}
+
+/// Moves a vector {x, y, z} whose z is negated; gives the local scale there.
+fn move_flipped(offset: &mut Value, node: usize, field: &Field) -> Option<f64> {
+    let number = |key: &str| offset.get(key).and_then(Value::as_f64).unwrap_or(0.0);
+    let stored = DVec3::new(number("x"), number("y"), number("z"));
+    let (moved, scale, _) = field.at(node, stored * DVec3::new(1.0, 1.0, -1.0))?;
+    let moved = moved * DVec3::new(1.0, 1.0, -1.0);
+    if offset.is_object() && (0..3).any(|axis| differs(stored[axis], moved[axis])) {
+        for (axis, key) in ["x", "y", "z"].into_iter().enumerate() {
+            offset[key] = json!(moved[axis] as f32);
+        }
+    }
+    Some(scale)
+}
+
+/// Outlines whose width is a length, not a share of the picture, keep their look on a smaller figure.
+fn scale_outlines(json: &mut Value, height_ratio: f64) {
+    for material in list(json, "materials") {
+        if let Some(toon) = material.pointer_mut("/extensions/VRMC_materials_mtoon")
+            && text_at(toon, "outlineWidthMode") == "worldCoordinates"
+        {
+            multiply(toon, "outlineWidthFactor", 0.0, height_ratio);
+        }
+    }
+    if let Some(vrm) = json.pointer_mut("/extensions/VRM") {
+        for material in list(vrm, "materialProperties") {
+            let Some(floats) = material.get_mut("floatProperties") else {
+                continue;
+            };
+            // 0 none, 1 world coordinates, 2 screen coordinates.
+            if floats.get("_OutlineWidthMode").and_then(Value::as_f64) == Some(1.0) {
+                multiply(floats, "_OutlineWidth", 0.0, height_ratio);
+            }
+        }
+    }
+}
