@@ -160,7 +160,12 @@ impl FaceShape {
         let (squash, warning) = bearable_squash(curve, squash);
         let shape = match curve {
             FaceCurve::Sphere => Self::Sphere(SphereMap::in_box(low, high, squash)),
-            curve => Self::Curve(FaceMap { bottom: low.y, top: high.y, squash, curve }),
+            curve => Self::Curve(FaceMap {
+                bottom: low.y,
+                top: high.y,
+                squash,
+                curve,
+            }),
         };
         (shape, warning)
     }

@@ -99,7 +99,6 @@ impl Default for Options {
     }
 }
 
-
 impl Options {
     /// Rays around each sample of a bone: as set, else the mode's own.
     pub fn ray_count(&self) -> usize {
@@ -118,7 +117,10 @@ impl Options {
             if (low..=high).contains(&value) {
                 return Ok(());
             }
-            Err(Error::new(ErrorKind::BadOption, format!("{name} is {value}: give a number from {low} to {high}")))
+            Err(Error::new(
+                ErrorKind::BadOption,
+                format!("{name} is {value}: give a number from {low} to {high}"),
+            ))
         };
         in_range("head_scale", self.head_scale, 0.1, 10.0)?;
         in_range("amount", self.amount, 0.0, 1.0)?;
@@ -128,14 +130,18 @@ impl Options {
             in_range("face_squash", squash, -10.0, 10.0)?;
         }
         for (name, group) in &self.groups {
-            for (what, value) in [("length", group.length_scale), ("thickness", group.thickness_scale)] {
+            for (what, value) in [
+                ("length", group.length_scale),
+                ("thickness", group.thickness_scale),
+            ] {
                 if let Some(value) = value {
                     in_range(&format!("{what} of group {name}"), value, 0.01, 100.0)?;
                 }
             }
-            for (what, value) in
-                [("length_transfer", group.length_transfer), ("thickness_transfer", group.thickness_transfer)]
-            {
+            for (what, value) in [
+                ("length_transfer", group.length_transfer),
+                ("thickness_transfer", group.thickness_transfer),
+            ] {
                 if let Some(value) = value {
                     in_range(&format!("{what} of group {name}"), value, -10.0, 10.0)?;
                 }

@@ -110,9 +110,12 @@ impl Deformer {
         let weld = weld(&study.figure.positions, WELD_TOLERANCE * study.figure.height());
         let mut warnings = study.anatomy.landmarks.warnings("target");
         let roles = match style {
-            Style::Shape(shape) => {
-                study.joints.keys().copied().filter(|role| shape.roles().contains(role)).collect()
-            }
+            Style::Shape(shape) => study
+                .joints
+                .keys()
+                .copied()
+                .filter(|role| shape.roles().contains(role))
+                .collect(),
             Style::Heads(_) => study.joints.keys().copied().collect(),
         };
         if let (Style::Shape(shape), Some(proportions)) = (style, &study.shape.proportions)
@@ -146,7 +149,10 @@ impl Deformer {
             coefficients: BTreeMap::new(),
             reference: None,
             warnings,
-            timing: Timing { measure, ..Timing::default() },
+            timing: Timing {
+                measure,
+                ..Timing::default()
+            },
             study,
         };
         match options.mode {
@@ -174,9 +180,15 @@ impl Deformer {
         let proportions = self.study.anatomy.proportions.clone();
         let (figure, anatomy) = (&self.study.figure, &self.study.anatomy);
         let parts = part_bindings(figure, anatomy, &self.character.skeleton);
-        self.bindings = parts.vertices.iter().map(|&binding| Binding::Parts(binding)).collect();
+        self.bindings = parts
+            .vertices
+            .iter()
+            .map(|&binding| Binding::Parts(binding))
+            .collect();
         self.joint_bindings = self.joint_bindings(|figure, joint| {
-            if figure.humanoid.joint(Role::Head) == Some(joint) && figure.joints[joint].y < anatomy.landmarks.chin {
+            if figure.humanoid.joint(Role::Head) == Some(joint)
+                && figure.joints[joint].y < anatomy.landmarks.chin
+            {
                 // The head turns about a point in the neck: below the chin it moves as the neck does.
                 return Binding::Parts(PartBinding::to(Part::Neck));
             }
@@ -194,7 +206,10 @@ impl Deformer {
                         ),
                     ));
                 };
-                (reference.heads(), self.options.head_scale * proportions.head_length / reference.head_length)
+                (
+                    reference.heads(),
+                    self.options.head_scale * proportions.head_length / reference.head_length,
+                )
             }
         };
         self.head_ratio = head_ratio;
@@ -206,7 +221,10 @@ impl Deformer {
             self.stand_on_ground();
             let measured = landmarks(&self.result_figure(1.0)).heads();
             let predicted = crate::shape::part_coefficients::heads_of(&proportions, &attempt.coefficients);
-            let limited = attempt.warnings.iter().any(|warning| warning.code == "heads_limited");
+            let limited = attempt
+                .warnings
+                .iter()
+                .any(|warning| warning.code == "heads_limited");
             let reach = if limited { predicted } else { asked };
             let error = (measured / reach).ln().abs();
             if best.as_ref().is_none_or(|(least, _)| error < *least) {
@@ -247,13 +265,26 @@ impl Deformer {
             }
             Style::Shape(shape) => {
                 let heads = shape.heads().expect("checked by the caller");
-                stretched = shape.with_heads(heads * correction).proportions.expect("checked by the caller");
+                stretched = shape
+                    .with_heads(heads * correction)
+                    .proportions
+                    .expect("checked by the caller");
                 Wanted::Reference(&stretched)
             }
         };
         let (coefficients, warnings) = part_coefficients(&anatomy.proportions, wanted, &self.options)?;
-        let field = PartField::new(anatomy, coefficients, parts, self.options.hair_length, self.options.amount);
-        Ok(Attempt { field: Field::Parts(field), coefficients, warnings })
+        let field = PartField::new(
+            anatomy,
+            coefficients,
+            parts,
+            self.options.hair_length,
+            self.options.amount,
+        );
+        Ok(Attempt {
+            field: Field::Parts(Box::new(field)),
+            coefficients,
+            warnings,
+        })
     }
 
     /// The paper's own way: coefficients (Eqs. 9-11), skeleton (Eqs. 1-4), mesh (Eqs. 5-8).
@@ -265,8 +296,13 @@ impl Deformer {
             ));
         };
         let options = &self.options;
-        let found =
-            coefficients(&self.study.shape, reference, options.head_scale, &options.groups, &options.bone_groups)?;
+        let found = coefficients(
+            &self.study.shape,
+            reference,
+            options.head_scale,
+            &options.groups,
+            &options.bone_groups,
+        )?;
         self.head_ratio = found.head_ratio;
         self.warnings.extend(found.warnings);
         self.coefficients = found.groups;
@@ -278,11 +314,19 @@ impl Deformer {
         let figure = &self.study.figure;
         let bind = |p: DVec3, weights: &[(Role, f64)]| BoneBinding {
             weights: field.bone_weights(p, weights),
-            head: weights.iter().filter(|&&(role, _)| is_head(role)).map(|&(_, weight)| weight).sum(),
+            head: weights
+                .iter()
+                .filter(|&&(role, _)| is_head(role))
+                .map(|&(_, weight)| weight)
+                .sum(),
             on_face: None,
         };
-        let mut bindings: Vec<BoneBinding> =
-            figure.positions.iter().zip(&figure.role_weights).map(|(&p, weights)| bind(p, weights)).collect();
+        let mut bindings: Vec<BoneBinding> = figure
+            .positions
+            .iter()
+            .zip(&figure.role_weights)
+            .map(|(&p, weights)| bind(p, weights))
+            .collect();
         for (members, centre) in head_accessories(figure, &self.weld) {
             for vertex in members {
                 bindings[vertex].on_face = Some(centre);
@@ -310,12 +354,15 @@ impl Deformer {
     /// A squash that would fold the face is bounded, with the warning `face_squash_clamped`.
     pub fn set_face_squash(&mut self, squash: f64) {
         let clock = Instant::now();
-        self.warnings.retain(|warning| warning.code != "face_squash_clamped");
+        self.warnings
+            .retain(|warning| warning.code != "face_squash_clamped");
         self.field.set_face(FaceShape::None);
         if self.options.stage < Stage::Face || squash == 0.0 {
             return;
         }
-        let Some((low, high)) = self.face_box() else { return };
+        let Some((low, high)) = self.face_box() else {
+            return;
+        };
         let (face, warning) = FaceShape::in_box(low, high, self.options.face_curve, squash);
         self.warnings.extend(warning);
         self.field.set_face(face);
@@ -331,7 +378,9 @@ impl Deformer {
         whole.set_ground(0.0);
         let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         for vertex in 0..figure.positions.len() {
-            if matches!(figure.kind(vertex), MeshKind::Body | MeshKind::FacePart) && is_of_head(figure, vertex) {
+            if matches!(figure.kind(vertex), MeshKind::Body | MeshKind::FacePart)
+                && is_of_head(figure, vertex)
+            {
                 let p = whole.map(figure.positions[vertex], &self.bindings[vertex]).0;
                 low = low.min(p);
                 high = high.max(p);
@@ -368,7 +417,15 @@ impl Deformer {
         };
         let feet = self.options.mode == Mode::Product;
         let before = lowest(&|vertex| figure.positions[vertex].y, feet);
-        let after = lowest(&|vertex| self.field.map(figure.positions[vertex], &self.bindings[vertex]).0.y, feet);
+        let after = lowest(
+            &|vertex| {
+                self.field
+                    .map(figure.positions[vertex], &self.bindings[vertex])
+                    .0
+                    .y
+            },
+            feet,
+        );
         if let (Some(before), Some(after)) = (before, after) {
             self.field.set_ground(before - after);
         }
@@ -414,12 +471,24 @@ impl Deformer {
         let mut field = self.field.clone();
         field.set_amount(amount);
         let map = |p: DVec3, binding: &Binding| field.map(p, binding).0;
-        figure.positions = figure.positions.iter().zip(&self.bindings).map(|(&p, binding)| map(p, binding)).collect();
-        figure.joints = figure.joints.iter().zip(&self.joint_bindings).map(|(&p, binding)| map(p, binding)).collect();
+        figure.positions = figure
+            .positions
+            .iter()
+            .zip(&self.bindings)
+            .map(|(&p, binding)| map(p, binding))
+            .collect();
+        figure.joints = figure
+            .joints
+            .iter()
+            .zip(&self.joint_bindings)
+            .map(|(&p, binding)| map(p, binding))
+            .collect();
         figure.extent = figure
             .positions
             .iter()
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| (low.min(p.y), high.max(p.y)));
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| {
+                (low.min(p.y), high.max(p.y))
+            });
         figure
     }
 
@@ -428,8 +497,9 @@ impl Deformer {
         let figure = &self.study.figure;
         let after = self.deformed_positions();
         let jacobians = fitted_jacobians(&figure.positions, &after, &figure.triangles, &self.weld);
-        let meshes =
-            (0..self.character.meshes.len()).map(|mesh| self.deform_mesh(mesh, &after, &jacobians)).collect();
+        let meshes = (0..self.character.meshes.len())
+            .map(|mesh| self.deform_mesh(mesh, &after, &jacobians))
+            .collect();
         let joints = figure
             .joints
             .iter()
@@ -449,7 +519,10 @@ impl Deformer {
         let frame = &figure.frame;
         let start = figure.mesh_starts[index];
         let count = mesh.positions.len();
-        let positions = after[start..start + count].iter().map(|&p| frame.to_model(p).as_vec3()).collect();
+        let positions = after[start..start + count]
+            .iter()
+            .map(|&p| frame.to_model(p).as_vec3())
+            .collect();
         let needs_jacobian = !mesh.normals.is_empty() || !mesh.tangents.is_empty();
         let turns: Vec<DMat3> = (0..if needs_jacobian { count } else { 0 })
             .map(|vertex| {
@@ -484,8 +557,11 @@ impl Deformer {
             .enumerate()
             .map(|(vertex, &tangent)| turn_tangent(vertex, tangent).as_vec3())
             .collect();
-        let tangents =
-            new_directions.iter().zip(&mesh.tangents).map(|(tangent, old)| tangent.extend(old.w)).collect();
+        let tangents = new_directions
+            .iter()
+            .zip(&mesh.tangents)
+            .map(|(tangent, old)| tangent.extend(old.w))
+            .collect();
         let morph_targets = mesh
             .morph_targets
             .iter()
@@ -496,7 +572,12 @@ impl Deformer {
                 tangents: morph_turns(&target.tangents, &directions, &new_directions, &turn_tangent),
             })
             .collect();
-        DeformedMesh { positions, normals, tangents, morph_targets }
+        DeformedMesh {
+            positions,
+            normals,
+            tangents,
+            morph_targets,
+        }
     }
 
     /// D(v + d) - D(v): exact, and zero where d is.
@@ -517,8 +598,13 @@ impl Deformer {
     /// Where the field takes `point`, attached to `joint`; both in model space.
     pub fn map(&self, joint: usize, point: DVec3) -> Mapped {
         let frame = &self.study.figure.frame;
-        let (position, jacobian) = self.field.map(frame.to_canonical(point), &self.joint_bindings[joint]);
-        Mapped { position: frame.to_model(position), jacobian: frame.jacobian_to_model(jacobian) }
+        let (position, jacobian) = self
+            .field
+            .map(frame.to_canonical(point), &self.joint_bindings[joint]);
+        Mapped {
+            position: frame.to_model(position),
+            jacobian: frame.jacobian_to_model(jacobian),
+        }
     }
 
     /// Length and radius of another body's bone groups, measured over the roles that target and style share.
@@ -555,7 +641,12 @@ impl Deformer {
             coefficients: self.coefficients.clone(),
             rig: RigReport {
                 source: "kept",
-                confidence: self.study.joints.keys().map(|role| (role.name().to_string(), 1.0)).collect(),
+                confidence: self
+                    .study
+                    .joints
+                    .keys()
+                    .map(|role| (role.name().to_string(), 1.0))
+                    .collect(),
                 ..RigReport::default()
             },
             counts: Counts {
@@ -635,7 +726,10 @@ fn head_accessories(figure: &Figure, weld: &Weld) -> Vec<(Vec<usize>, DVec3)> {
             *high = high.max(p);
         }
     }
-    pieces.into_values().map(|(members, low, high)| (members, (low + high) / 2.0)).collect()
+    pieces
+        .into_values()
+        .map(|(members, low, high)| (members, (low + high) / 2.0))
+        .collect()
 }
 
 /// Changes of unit vectors: what the changed vector turns into, less what the unchanged one did.

@@ -9,6 +9,7 @@ use std::collections::BTreeMap;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use superdeform::pipeline::{FaceCurve, GroupSettings, Mode, Options, Stage};
+use superdeform::shape::style::{BUILT_IN, HEADS};
 use superdeform::{Axes, MeshKind, Role};
 
 /// The names of the bone groups that are there without `--groups`.
@@ -27,9 +28,6 @@ pub const BONE_GROUPS: [&str; 12] = [
     "foot",
 ];
 
-/// Heads that a style can be made for.
-const HEADS: (f64, f64) = (1.8, 6.0);
-
 /// The folder for results when no output path is given.
 const OUTPUT_FOLDER: &str = "superdeform-out";
 
@@ -40,6 +38,8 @@ pub enum Reference {
     Model(PathBuf),
     /// A style saved with `--save-style`.
     Style(PathBuf),
+    /// One of the styles that the library brings along.
+    BuiltIn(String),
     /// No model: a style for this many heads.
     Heads(f64),
 }
@@ -127,7 +127,7 @@ struct Arguments {
     /// The character to change: GLB, or VRM 0.x or 1.0 [default: a sample]
     target: Option<PathBuf>,
 
-    /// Where the proportions come from: a rigged GLB or VRM, or a saved style (.json) [default: a sample]
+    /// Where the proportions come from: a rigged GLB or VRM, a saved style (.json), or a built-in one (sd2, sd2.5, sd3, sd4) [default: a sample]
     #[arg(conflicts_with = "heads")]
     reference: Option<PathBuf>,
 
@@ -325,6 +325,9 @@ fn command(arguments: Arguments) -> Result<Command, Refusal> {
         .unwrap_or_else(|| sample("quaternius_female_dress.glb"));
     let reference = match (arguments.heads, arguments.reference) {
         (Some(heads), _) => Reference::Heads(heads),
+        (None, Some(path)) if path.to_str().is_some_and(|name| BUILT_IN.contains(&name)) => {
+            Reference::BuiltIn(path.to_string_lossy().into_owned())
+        }
         (None, Some(path)) if has_extension(&path, "json") => Reference::Style(path),
         (None, Some(path)) => Reference::Model(path),
         (None, None) => Reference::Model(sample("kaykit_rogue.glb")),
@@ -332,6 +335,11 @@ fn command(arguments: Arguments) -> Result<Command, Refusal> {
     if arguments.save_style.is_some() && !matches!(reference, Reference::Model(_)) {
         return Err(Refusal::Usage(
             "--save-style saves what is measured on a model: give a GLB or VRM as REFERENCE".to_string(),
+        ));
+    }
+    if arguments.blend.is_some() && matches!(reference, Reference::Heads(_)) {
+        return Err(Refusal::Usage(
+            "--blend mixes two styles, and --heads has no second one: give a REFERENCE instead".to_string(),
         ));
     }
     let mut picture = arguments.picture;

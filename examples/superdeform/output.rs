@@ -1,43 +1,44 @@
 //! Files that are there whole or not at all.
 
+use crate::host::file::write_atomically;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-/// Writes `bytes` to `path` by way of a file beside it, making folders as needed: a reader never sees half a
-/// file, and a failure leaves what was there before.
+/// Writes `bytes` to `path`, making folders as needed: a reader never sees half a file, and a failure leaves what was
+/// there before.
 ///
 /// # Errors
 /// One sentence with the path and the system's reason.
 pub fn write(path: &Path, bytes: &[u8]) -> Result<(), String> {
-    let fail = |error: std::io::Error| format!("{}: cannot be written ({error})", path.display());
-    if let Some(folder) = path.parent()
-        && !folder.as_os_str().is_empty()
-    {
-        fs::create_dir_all(folder).map_err(fail)?;
+    if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
+        fs::create_dir_all(folder)
+            .map_err(|error| format!("{} cannot be written: {error}", path.display()))?;
     }
-    if path.is_dir() {
-        return Err(format!("{}: cannot be written (it is a folder)", path.display()));
+    // A rename would put a file in the place of a device or a pipe such as /dev/null.
+    let special = fs::metadata(path).is_ok_and(|about| !about.is_file() && !about.is_dir());
+    if special {
+        return fs::write(path, bytes)
+            .map_err(|error| format!("{} cannot be written: {error}", path.display()));
     }
-    let temporary = beside(path);
-    fs::write(&temporary, bytes)
-        .and_then(|()| fs::rename(&temporary, path))
-        .map_err(|error| {
-            // The first error is the one to tell; the temporary file may not even exist.
-            let _ = fs::remove_file(&temporary);
-            fail(error)
-        })
-}
-
-/// A name in the same folder, because a rename works only within one file system.
-fn beside(path: &Path) -> PathBuf {
-    let mut name = path.file_name().unwrap_or_default().to_os_string();
-    name.push(format!(".{}.tmp", std::process::id()));
-    path.with_file_name(name)
+    write_atomically(path, bytes).map_err(|error| error.to_string())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[cfg(unix)]
+    #[test]
+    fn what_is_no_file_is_written_into_and_not_replaced() {
+        use std::os::unix::fs::FileTypeExt;
+        use std::os::unix::net::UnixListener;
+        let path = std::env::temp_dir().join(format!("superdeform-socket-{}", std::process::id()));
+        let _listener = UnixListener::bind(&path).unwrap();
+        // A socket cannot be opened as a file: an error, and the socket is still there.
+        assert!(write(&path, b"one").is_err());
+        assert!(fs::metadata(&path).unwrap().file_type().is_socket());
+        fs::remove_file(&path).unwrap();
+    }
 
     #[test]
     fn a_failed_write_leaves_nothing_behind() {
@@ -47,7 +48,7 @@ mod tests {
         write(&inside, b"two").unwrap();
         assert_eq!(fs::read(&inside).unwrap(), b"two");
         let error = write(&folder.join("a"), b"three").unwrap_err();
-        assert!(error.contains("cannot be written"), "{error}");
+        assert!(error.contains("folder"), "{error}");
         assert!(write(&inside.join("c"), b"four").is_err());
         assert_eq!(fs::read_dir(folder.join("a")).unwrap().count(), 1);
         fs::remove_dir_all(&folder).unwrap();

@@ -6,12 +6,11 @@ use crate::appearance::{self, Appearance};
 use crate::cli::{Command, Reference};
 use crate::host::accessor::Reader;
 use crate::host::file::GltfFile;
-use crate::host::load::{self as files, LoadOptions};
-use crate::host::write;
+use crate::host::load::LoadOptions;
 use crate::materials::Material;
 use crate::picture::{self, PictureMesh, View};
 use crate::progress::Progress;
-use crate::{output, report};
+use crate::{host, output, report};
 use glam::{DVec3, Vec3};
 use regex::Regex;
 use serde_json::Value;
@@ -21,11 +20,13 @@ use std::time::{Duration, Instant};
 use superdeform::character::roles::find_roles;
 use superdeform::pipeline::{Deformed, Deformer, Style};
 use superdeform::report::Report;
-use superdeform::shape::{BodyShape, Study};
-use superdeform::{Axes, Character, MeshKind, Warning};
+use superdeform::shape::BodyShape;
+use superdeform::shape::study::Study;
+use superdeform::shape::style::BUILT_IN;
+use superdeform::{Axes, Character, Error, MeshKind, Warning};
 
 /// Stages that the progress bar counts.
-const STAGE_COUNT: u64 = 5;
+const STAGE_COUNT: u64 = 6;
 
 /// What a run leaves behind.
 pub struct Done {
@@ -37,9 +38,8 @@ pub struct Done {
 
 /// A character as a file has it, with what a picture needs beside what the library needs.
 struct Loaded {
-    file: files::Loaded,
-    character: Arc<Character>,
-    appearance: Option<Appearance>,
+    host: host::load::Loaded,
+    appearance: Appearance,
 }
 
 /// How a file is to be read where it does not say itself.
@@ -48,9 +48,7 @@ struct Reading<'a> {
     humanoid_map: Option<Value>,
     kinds: &'a [(MeshKind, Regex)],
     axes: Axes,
-    /// Whether a picture is to be drawn of it.
-    to_be_drawn: bool,
-    /// What a sentence about a role that is not found names as the remedy.
+    /// What a sentence about a missing role names as the remedy.
     map_option: &'static str,
 }
 
@@ -65,116 +63,88 @@ pub fn run(command: &Command) -> Result<Done, String> {
 fn stages(command: &Command, progress: &Progress) -> Result<Done, String> {
     let start = Instant::now();
     progress.stage("reading");
-    let target = load_target(command)?;
-    let reference = load_reference(command)?;
+    let mut target = load_target(command)?;
+    let mut reference = load_reference(command)?;
     let load_time = start.elapsed();
 
+    progress.stage("measuring");
+    let study = match &reference {
+        Some(reference) => Some(measure(reference, command)?),
+        None => None,
+    };
+    let style = style(command, study.as_ref())?;
+
     progress.stage("deforming");
-    let (style, reference_study) = style(command, reference.as_ref())?;
-    let deformer = Deformer::new(Arc::clone(&target.character), &style, &command.options)
-        .map_err(|error| about(&command.target, error))?;
+    let character = Arc::new(target.host.character.clone());
+    let deformer = Deformer::new(character, &style, &command.options).map_err(sentence)?;
     let deformed = deformer.apply();
-    let mut report = deformer.report(&deformed).map_err(|error| about(&command.target, error))?;
-    if let Some(study) = &reference_study {
-        let shape = &study.shape;
-        report.reference = Some(study.report(&shape.roles(), &command.options));
-        if let Some(numbers) = &mut report.reference {
-            // The groups of both are measured over the roles that both have.
-            numbers.shape = deformer.group_shapes(shape);
+    let mut report = deformer.report(&deformed).map_err(sentence)?;
+    if let Some(study) = &study {
+        // Measured over the roles of both, so that the two figures can be compared group by group.
+        let of_target = &deformer.target().joints;
+        let roles = study
+            .joints
+            .keys()
+            .copied()
+            .filter(|role| of_target.contains_key(role))
+            .collect();
+        report.reference = Some(study.report(&roles, &command.options));
+    }
+    let mut warnings = target.host.warnings.clone();
+    if let Some(reference) = &reference {
+        warnings.extend(
+            reference
+                .host
+                .warnings
+                .iter()
+                .map(|warning| Warning::new(warning.code, format!("in the reference, {}", warning.message))),
+        );
+    }
+    report.warnings.splice(0..0, warnings);
+
+    progress.stage("drawing");
+    let draw_start = Instant::now();
+    if command.picture.is_some() {
+        target.appearance = appearance(&target.host);
+        if let Some(reference) = &mut reference {
+            reference.appearance = appearance(&reference.host);
         }
     }
-    let mut warnings = target.file.warnings.clone();
-    if let Some(reference) = &reference {
-        warnings.extend(reference.file.warnings.iter().map(|warning| Warning {
-            code: warning.code,
-            message: format!("reference: {}", warning.message),
-        }));
-    }
-    warnings.append(&mut report.warnings);
-    report.warnings = warnings;
-
-    let undrawn = start.elapsed();
-    progress.stage("drawing");
     let sheet = command
         .picture
         .is_some()
         .then(|| sheet(&target, reference.as_ref(), &deformed, &report));
-    let drawing = start.elapsed() - undrawn;
+
+    let draw_time = draw_start.elapsed();
 
     progress.stage("writing");
     let write_start = Instant::now();
-    let map = |joint: usize, point: DVec3| deformer.map(joint, point);
-    let model = write::write(&target.file, &deformed, &map).map_err(|error| about(&command.target, error))?;
+    let model = host::write::write(&target.host, &deformed, &|joint, point| {
+        deformer.map(joint, point)
+    })
+    .map_err(sentence)?;
 
     progress.stage("saving");
     let mut files = Vec::new();
     output::write(&command.output, &model)?;
     files.push(("model", command.output.clone()));
-    report.timing_ms.load = milliseconds(load_time);
-    report.timing_ms.write = milliseconds(write_start.elapsed());
-    // The picture is beside the point of the times.
-    report.timing_ms.total = milliseconds(start.elapsed() - drawing);
     if let (Some(path), Some(sheet)) = (&command.picture, &sheet) {
         picture::save(sheet, path)?;
         files.push(("picture", path.clone()));
     }
+    if let (Some(path), Style::Shape(shape)) = (&command.save_style, &style) {
+        output::write(path, shape.to_json().as_bytes())?;
+        files.push(("style", path.clone()));
+    }
+    report.timing_ms.load = milliseconds(load_time);
+    report.timing_ms.write = milliseconds(write_start.elapsed());
+    // The picture is made beside the result.
+    report.timing_ms.total = milliseconds(start.elapsed() - draw_time);
     if let Some(path) = &command.report {
         report::write(&report, path)?;
         files.push(("report", path.clone()));
     }
-    if let Some(path) = &command.save_style {
-        let Style::Shape(shape) = &style else {
-            return Err(format!(
-                "{}: a style for N heads has no proportions of its own to save: give a reference",
-                path.display()
-            ));
-        };
-        output::write(path, shape.to_json().as_bytes())?;
-        files.push(("style", path.clone()));
-    }
     Ok(Done { report, files })
-}
-
-/// The library's sentence, with the file that it is about.
-fn about(path: &Path, error: superdeform::Error) -> String {
-    let name = path.display().to_string();
-    let message = error.message;
-    if message.contains(&name) { message } else { format!("{name}: {message}") }
-}
-
-/// The style that the command line asks for, and the study of its model where there is one.
-fn style(command: &Command, reference: Option<&Loaded>) -> Result<(Style, Option<Study>), String> {
-    let mut study = None;
-    let style = match (&command.reference, reference) {
-        (Reference::Model(path), Some(reference)) => {
-            let measured =
-                Study::of(&reference.character, &command.options).map_err(|error| about(path, error))?;
-            let mut shape = measured.shape.clone();
-            shape.name = path.file_stem().map_or(String::new(), |stem| stem.to_string_lossy().into_owned());
-            study = Some(measured);
-            Style::Shape(Box::new(shape))
-        }
-        (Reference::Style(path), _) => match Style::built_in(&path.to_string_lossy()) {
-            Some(style) => style,
-            None => Style::Shape(Box::new(read_style(path)?)),
-        },
-        (Reference::Heads(heads), _) => Style::heads(*heads).map_err(|error| error.message)?,
-        (Reference::Model(path), None) => return Err(format!("{}: was not read", path.display())),
-    };
-    let Some((path, amount)) = &command.blend else { return Ok((style, study)) };
-    let other = read_style(path)?;
-    match style {
-        Style::Shape(shape) => Ok((Style::Shape(Box::new(shape.blended(&other, *amount))), None)),
-        Style::Heads(_) => {
-            Err(format!("{}: a style for N heads cannot be blended: give a reference", path.display()))
-        }
-    }
-}
-
-fn read_style(path: &Path) -> Result<BodyShape, String> {
-    let text = std::fs::read_to_string(path)
-        .map_err(|error| format!("{}: cannot be read ({error})", path.display()))?;
-    BodyShape::from_json(&text).map_err(|error| about(path, error))
 }
 
 fn load_target(command: &Command) -> Result<Loaded, String> {
@@ -182,7 +152,6 @@ fn load_target(command: &Command) -> Result<Loaded, String> {
         humanoid_map: read_map(command.humanoid.as_deref())?,
         kinds: &command.kinds,
         axes: command.axes,
-        to_be_drawn: command.picture.is_some(),
         map_option: "--humanoid",
     };
     load(&command.target, &reading)
@@ -196,7 +165,6 @@ fn load_reference(command: &Command) -> Result<Option<Loaded>, String> {
         humanoid_map: read_map(command.reference_humanoid.as_deref())?,
         kinds: &[],
         axes: Axes::default(),
-        to_be_drawn: command.picture.is_some(),
         map_option: "--reference-humanoid",
     };
     load(path, &reading).map(Some)
@@ -211,7 +179,9 @@ fn read_map(path: Option<&Path>) -> Result<Option<Value>, String> {
     let text = std::fs::read_to_string(path).map_err(|error| format!("{place}: cannot be read ({error})"))?;
     match serde_json::from_str(&text) {
         Ok(map @ Value::Object(_)) => Ok(Some(map)),
-        Ok(_) => Err(format!("{place}: must be a JSON object such as {{\"hips\": \"NODE NAME\"}}")),
+        Ok(_) => Err(format!(
+            "{place}: must be a JSON object such as {{\"hips\": \"NODE NAME\"}}"
+        )),
         Err(error) => Err(format!("{place}: is no JSON ({error})")),
     }
 }
@@ -224,17 +194,67 @@ fn load(path: &Path, reading: &Reading) -> Result<Loaded, String> {
         find_roles: Some(&find_roles),
         without_rig: false,
     };
-    let read = || -> superdeform::Result<files::Loaded> { files::load(GltfFile::read(path)?, &options) };
-    let file = read().map_err(|error| about(path, error).replace("--humanoid", reading.map_option))?;
-    let appearance = reading.to_be_drawn.then(|| {
-        let reader = Reader::new(&file.file);
-        let primitives: Vec<(usize, usize)> =
-            file.bindings.iter().map(|binding| (binding.mesh, binding.primitive)).collect();
-        appearance::read(&file.file.json, &file.file.binary, primitives, |accessor, components| {
-            reader.floats(accessor, components, None).ok()
-        })
-    });
-    Ok(Loaded { character: Arc::new(file.character.clone()), file, appearance })
+    let host = GltfFile::read(path)
+        .and_then(|file| host::load::load(file, &options))
+        .map_err(|error| sentence(error).replace("--humanoid", reading.map_option))?;
+    Ok(Loaded {
+        host,
+        appearance: Appearance::default(),
+    })
+}
+
+/// What the picture needs beside the shape: read only where there is to be a picture.
+fn appearance(host: &host::load::Loaded) -> Appearance {
+    let primitives = host
+        .bindings
+        .iter()
+        .map(|binding| (binding.mesh, binding.primitive));
+    let reader = Reader::new(&host.file);
+    appearance::read(
+        &host.file.json,
+        &host.file.binary,
+        primitives,
+        |accessor, components| reader.floats(accessor, components, None).ok(),
+    )
+}
+
+/// Measures a reference; its errors begin with the file's name.
+fn measure(reference: &Loaded, command: &Command) -> Result<Study, String> {
+    let name = &reference.host.file.name;
+    let mut study =
+        Study::of(&reference.host.character, &command.options).map_err(|error| format!("{name}: {error}"))?;
+    study.shape.name = name
+        .rsplit_once('.')
+        .map_or(name.as_str(), |(stem, _)| stem)
+        .to_string();
+    Ok(study)
+}
+
+/// The style that the command line asks for, mixed with a second one where it says so.
+fn style(command: &Command, study: Option<&Study>) -> Result<Style, String> {
+    let shape = match (&command.reference, study) {
+        (Reference::Heads(heads), _) => return Style::heads(*heads).map_err(sentence),
+        (Reference::Style(path), _) => read_style(path)?,
+        (Reference::BuiltIn(name), _) => BodyShape::built_in(name)
+            .ok_or_else(|| format!("there is no built-in style {name}: name one of {}", BUILT_IN.join(", ")))?,
+        (Reference::Model(_), Some(study)) => study.shape.clone(),
+        (Reference::Model(path), None) => return Err(format!("{}: was not measured", path.display())),
+    };
+    let shape = match &command.blend {
+        Some((path, share)) => shape.blended(&read_style(path)?, *share),
+        None => shape,
+    };
+    Ok(Style::Shape(Box::new(shape)))
+}
+
+fn read_style(path: &Path) -> Result<BodyShape, String> {
+    let place = path.display();
+    let text = std::fs::read_to_string(path).map_err(|error| format!("{place}: cannot be read ({error})"))?;
+    BodyShape::from_json(&text).map_err(|error| format!("{place}: {error}"))
+}
+
+fn sentence(error: Error) -> String {
+    error.to_string()
 }
 
 /// Target, reference and result side by side, with their heads.
@@ -260,9 +280,8 @@ fn sheet(
 /// A figure for the picture; where `deformed` is given, with its shape in place of the file's.
 fn view<'a>(title: &str, note: String, loaded: &'a Loaded, deformed: Option<&'a Deformed>) -> View<'a> {
     static PLAIN: LazyLock<Material> = LazyLock::new(Material::default);
-    static NOTHING: LazyLock<Appearance> = LazyLock::new(Appearance::default);
-    let character = &loaded.character;
-    let appearance = loaded.appearance.as_ref().unwrap_or(&NOTHING);
+    let Loaded { host, appearance } = loaded;
+    let character = &host.character;
     let meshes = character.meshes.iter().zip(&appearance.surfaces).enumerate();
     View {
         title: title.to_string(),
@@ -313,6 +332,25 @@ mod tests {
     use super::*;
     use glam::DMat4;
     use superdeform::{Joint, Role};
+
+    #[test]
+    fn the_sample_pair_is_written_where_the_field_takes_it() {
+        let Ok(command) = crate::cli::parse(["superdeform", "--threads", "1"]) else {
+            panic!("the sample pair was refused");
+        };
+        let target = load_target(&command).unwrap();
+        let reference = load_reference(&command).unwrap().unwrap();
+        let study = measure(&reference, &command).unwrap();
+        let style = style(&command, Some(&study)).unwrap();
+        let character = Arc::new(target.host.character.clone());
+        let deformer = Deformer::new(character, &style, &command.options).unwrap();
+        let deformed = deformer.apply();
+        let map = |joint: usize, point: DVec3| deformer.map(joint, point);
+        let written = host::write::rewrite(&target.host, &deformed, &map).unwrap();
+        let closure = host::verify::closure(&written, &target.host, &deformed).unwrap();
+        assert!(closure.rest < 1e-5, "{closure:?}");
+        assert!(closure.nodes.is_none_or(|share| share < 1e-5), "{closure:?}");
+    }
 
     #[test]
     fn a_character_looks_where_its_limbs_say() {

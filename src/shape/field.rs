@@ -13,7 +13,7 @@ use glam::{DMat3, DVec3};
 #[derive(Clone, Debug)]
 pub enum Field {
     /// Product mode's fifteen parts.
-    Parts(PartField),
+    Parts(Box<PartField>),
     /// The paper's chain of bones.
     Bones(PaperField),
 }
@@ -70,7 +70,10 @@ impl PaperField {
             }
         }
         let moved = p + self.amount * (to - p) + DVec3::Y * self.ground;
-        (moved, DMat3::IDENTITY + (jacobian - DMat3::IDENTITY) * self.amount)
+        (
+            moved,
+            DMat3::IDENTITY + (jacobian - DMat3::IDENTITY) * self.amount,
+        )
     }
 }
 

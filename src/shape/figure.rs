@@ -138,7 +138,7 @@ impl Figure {
             .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| {
                 (low.min(p.y), high.max(p.y))
             });
-        if triangles.is_empty() || !(extent.1 > extent.0) {
+        if triangles.is_empty() || extent.1 <= extent.0 {
             return Err(Error::new(
                 ErrorKind::NoGeometry,
                 "the character has no triangles with an extent along up: give at least one mesh of its body",

@@ -337,7 +337,7 @@ fn smooth_across(figure: &Figure, frozen: &[bool], parts: &mut [PartWeights]) {
             2
         }
     };
-    let class: Vec<u8> = parts.iter().map(|row| class_of(row)).collect();
+    let class: Vec<u8> = parts.iter().map(class_of).collect();
     // Vertices at one place are one sample and get one result.
     let key = |p: DVec3| {
         p.to_array()

@@ -334,7 +334,7 @@ impl PartField {
 
     /// Limbs start where the trunk puts their joints; hands and feet keep their shape.
     fn place_limbs(&mut self) {
-        for (index, limb) in self.anatomy.limbs.clone().into_iter().enumerate() {
+        for (index, limb) in self.anatomy.limbs.into_iter().enumerate() {
             let is_arm = index < 2;
             let first = if is_arm { 0 } else { 2 };
             let spread = if is_arm {

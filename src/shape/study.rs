@@ -43,21 +43,32 @@ impl Study {
     /// As [`measure`].
     pub fn of_figure(figure: Figure, options: &Options) -> Result<Self> {
         let anatomy = Anatomy::of(&figure);
-        let joints: BTreeMap<Role, DVec3> =
-            figure.humanoid.iter().map(|(role, joint)| (role, figure.joints[joint])).collect();
+        let joints: BTreeMap<Role, DVec3> = figure
+            .humanoid
+            .iter()
+            .map(|(role, joint)| (role, figure.joints[joint]))
+            .collect();
         let marks = &anatomy.landmarks;
         // A head joint above the crown would make a head of no length; a sliver is left.
         let least = anatomy.head_joint.y + 0.01 * figure.height();
         let head_top = anatomy.head_joint.with_y(marks.crown.max(least));
         let roles: BTreeSet<Role> = joints.keys().copied().collect();
         let bones = bones(&roles, &options.bone_groups);
-        let body = Surface::new(&figure.positions, &mesh_set(&figure, |kind| kind == MeshKind::Body));
+        let body = Surface::new(
+            &figure.positions,
+            &mesh_set(&figure, |kind| kind == MeshKind::Body),
+        );
         let dressed = Surface::new(
             &figure.positions,
-            &mesh_set(&figure, |kind| !matches!(kind, MeshKind::Hair | MeshKind::Accessory)),
+            &mesh_set(&figure, |kind| {
+                !matches!(kind, MeshKind::Hair | MeshKind::Accessory)
+            }),
         );
         let everything;
-        let mut surfaces: Vec<&Surface> = [&body, &dressed].into_iter().filter(|set| !set.is_empty()).collect();
+        let mut surfaces: Vec<&Surface> = [&body, &dressed]
+            .into_iter()
+            .filter(|set| !set.is_empty())
+            .collect();
         if surfaces.is_empty() {
             everything = Surface::new(&figure.positions, &figure.triangles);
             surfaces.push(&everything);
@@ -71,12 +82,23 @@ impl Study {
             sole: marks.sole,
         });
         shape.proportions = Some(anatomy.proportions.clone());
-        Ok(Self { figure, anatomy, joints, head_top, shape })
+        Ok(Self {
+            figure,
+            anatomy,
+            joints,
+            head_top,
+            shape,
+        })
     }
 
     /// The bones between those roles of the figure that are in `roles` too.
     pub fn bones(&self, roles: &BTreeSet<Role>, options: &Options) -> Vec<Bone> {
-        let common = self.joints.keys().copied().filter(|role| roles.contains(role)).collect();
+        let common = self
+            .joints
+            .keys()
+            .copied()
+            .filter(|role| roles.contains(role))
+            .collect();
         bones(&common, &options.bone_groups)
     }
 
@@ -104,13 +126,19 @@ impl Study {
 }
 
 /// Length and radius of every bone group, measured over `roles` alone, so that two bodies can be compared.
-pub fn group_shapes(shape: &BodyShape, roles: &BTreeSet<Role>, options: &Options) -> BTreeMap<String, GroupShape> {
+pub fn group_shapes(
+    shape: &BodyShape,
+    roles: &BTreeSet<Role>,
+    options: &Options,
+) -> BTreeMap<String, GroupShape> {
     let shape = shape.restricted_to(roles);
     let common: BTreeSet<Role> = shape.roles();
     let mut radii: BTreeMap<String, Vec<f64>> = BTreeMap::new();
     let mut groups: BTreeMap<String, GroupShape> = BTreeMap::new();
     for bone in bones(&common, &options.bone_groups) {
-        let Some(measured) = shape.bones.get(bone.key()) else { continue };
+        let Some(measured) = shape.bones.get(bone.key()) else {
+            continue;
+        };
         groups.entry(bone.group.clone()).or_default().length += measured.length;
         radii.entry(bone.group).or_default().extend(measured.radius);
     }

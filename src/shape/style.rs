@@ -33,31 +33,29 @@ impl Style {
         }
         Ok(Self::Heads(heads))
     }
-
-    /// One of the built-in styles: `sd2`, `sd2.5`, `sd3`, `sd4`.
-    ///
-    /// They are bodies that were measured, stretched to 2, 2.5, 3 and 4 heads: up to 3 the KayKit Rogue (Kay Lousberg,
-    /// CC0; 2.3 heads), 4 a toddler of MakeHuman (MakeHuman team, CC0; 4.6 heads), 3 halfway between both.
-    pub fn built_in(name: &str) -> Option<Self> {
-        let figurine = || BodyShape::from_json(include_str!("styles/figurine.json"));
-        let toddler = || BodyShape::from_json(include_str!("styles/toddler.json"));
-        let (shape, heads) = match name {
-            "sd2" => (figurine().ok()?, 2.0),
-            "sd2.5" => (figurine().ok()?, 2.5),
-            "sd3" => (figurine().ok()?.blended(&toddler().ok()?, 0.5), 3.0),
-            "sd4" => (toddler().ok()?, 4.0),
-            _ => return None,
-        };
-        let mut shape = shape.with_heads(heads);
-        shape.name = name.to_string();
-        Some(Self::Shape(Box::new(shape)))
-    }
-
-    /// The names of the built-in styles.
-    pub const BUILT_IN: [&'static str; 4] = ["sd2", "sd2.5", "sd3", "sd4"];
 }
 
+/// The names of the built-in bodies.
+pub const BUILT_IN: [&str; 4] = ["sd2", "sd2.5", "sd3", "sd4"];
+
 impl BodyShape {
+    /// One of the built-in bodies: `sd2`, `sd2.5`, `sd3`, `sd4`.
+    ///
+    /// They were measured and are stretched to 2, 2.5, 3 and 4 heads: up to 2.5 the KayKit Rogue (Kay Lousberg, CC0; 2.3
+    /// heads), 4 a toddler of MakeHuman (MakeHuman team, CC0; 4.6 heads), 3 halfway between both.
+    pub fn built_in(name: &str) -> Option<Self> {
+        let figurine = || Self::from_json(include_str!("styles/figurine.json")).ok();
+        let toddler = || Self::from_json(include_str!("styles/toddler.json")).ok();
+        let (shape, heads) = match name {
+            "sd2" => (figurine()?, 2.0),
+            "sd2.5" => (figurine()?, 2.5),
+            "sd3" => (figurine()?.blended(&toddler()?, 0.5), 3.0),
+            "sd4" => (toddler()?, 4.0),
+            _ => return None,
+        };
+        Some(Self { name: name.to_string(), ..shape.with_heads(heads) })
+    }
+
     /// The style as JSON text, indented.
     pub fn to_json(&self) -> String {
         serde_json::to_string_pretty(self).unwrap_or_default()
@@ -70,7 +68,9 @@ impl BodyShape {
     pub fn from_json(text: &str) -> Result<Self> {
         let bad = |message: String| Error::new(ErrorKind::BadStyle, message);
         let shape: Self = serde_json::from_str(text).map_err(|error| {
-            bad(format!("this is no saved style ({error}): save one with --save-style"))
+            bad(format!(
+                "this is no saved style ({error}): save one with --save-style"
+            ))
         })?;
         if shape.version == 0 || shape.version > VERSION {
             return Err(bad(format!(
@@ -79,7 +79,10 @@ impl BodyShape {
             )));
         }
         if !(shape.head_length.is_finite() && shape.head_length > 0.0) {
-            return Err(bad(format!("the style's head_length is {}: it must be above 0", shape.head_length)));
+            return Err(bad(format!(
+                "the style's head_length is {}: it must be above 0",
+                shape.head_length
+            )));
         }
         for (name, bone) in &shape.bones {
             let radius = bone.radius.unwrap_or(1.0);
@@ -132,12 +135,19 @@ impl BodyShape {
             (Some(a), Some(b)) => Some(a.blended(b, amount)),
             (a, b) => a.clone().or(b.clone()),
         };
-        Self { bones, proportions, landmarks: None, ..self.clone() }
+        Self {
+            bones,
+            proportions,
+            landmarks: None,
+            ..self.clone()
+        }
     }
 
     /// The same body with everything below the head made longer or shorter, so that it is `heads` heads tall.
     pub fn with_heads(&self, heads: f64) -> Self {
-        let Some(proportions) = &self.proportions else { return self.clone() };
+        let Some(proportions) = &self.proportions else {
+            return self.clone();
+        };
         let stretch = (heads - 1.0) / (proportions.heads() - 1.0);
         let mut shape = self.clone();
         shape.landmarks = None;

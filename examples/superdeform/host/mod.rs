@@ -8,6 +8,7 @@ pub mod bind;
 pub mod file;
 pub mod load;
 pub mod roles;
+#[cfg(test)]
 pub mod verify;
 pub mod vrm;
 pub mod write;
