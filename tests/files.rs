@@ -791,6 +791,22 @@ fn a_map_names_roles_in_three_spellings() {
 }
 
 #[test]
+fn a_map_may_number_nodes_of_one_name() {
+    let mut made = figure();
+    made.json.as_object_mut().unwrap().remove("extensions");
+    made.json["nodes"][12]["name"] = json!("skull");
+    let map = json!({"hips": "pelvis", "head": "skull 1", "leftUpperLeg": "thigh.L", "rightUpperLeg": "thigh.R",
+        "leftUpperArm": "arm.L", "rightUpperArm": "arm.R"});
+    let options = LoadOptions {
+        humanoid_map: Some(&map),
+        ..LoadOptions::default()
+    };
+    let loaded = load(GltfFile::parse("made.glb", &made.bytes()).unwrap(), &options).unwrap();
+    let head = loaded.character.humanoid.joint(superdeform::Role::Head).unwrap();
+    assert_eq!(loaded.node_of_joint[head], 3);
+}
+
+#[test]
 fn kinds_come_from_patterns_first_and_hair_hangs_from_the_head() {
     let mut made = figure();
     made.json["meshes"][0]["name"] = json!("Hair");

@@ -104,12 +104,25 @@ pub fn apply_map(
             )));
         };
         let nodes = file.list("nodes");
-        let named: Vec<usize> = tree
-            .order
-            .iter()
-            .copied()
-            .filter(|&node| text_at(&nodes[node], "name") == name)
-            .collect();
+        let nodes_named = |name: &str| -> Vec<usize> {
+            let mut found = tree.order.clone();
+            found.retain(|&node| text_at(&nodes[node], "name") == name);
+            found.sort_unstable();
+            found
+        };
+        let mut named = nodes_named(name);
+        // Editors tell nodes of one name apart by a number, "head 1" beside "head": the joint of that name, or the
+        // second in the file where several or none are joints.
+        if named.is_empty()
+            && let Some((stem, number)) = name.rsplit_once([' ', '.', '_'])
+            && let Ok(number) = number.parse::<usize>()
+        {
+            named = nodes_named(stem);
+            let of_skins = named.iter().filter(|&&node| is_skin_joint(file, node)).count();
+            if of_skins != 1 {
+                named = named.get(number).copied().into_iter().collect();
+            }
+        }
         let skinned: Vec<usize> = named
             .iter()
             .copied()
