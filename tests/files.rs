@@ -851,6 +851,18 @@ fn gltf_with_embedded_buffers_becomes_one_buffer() {
 }
 
 #[test]
+fn pictures_that_only_an_extension_names_are_no_hindrance() {
+    let mut made = figure();
+    let picture = made.view(b"RIFF");
+    made.json["images"] = json!([{"bufferView": picture, "mimeType": "image/webp"}]);
+    made.json["textures"] = json!([{"extensions": {"EXT_texture_webp": {"source": 0}}}]);
+    made.push("scenes", json!({"name": "empty"}));
+    made.json["extensionsRequired"] = json!(["EXT_texture_webp"]);
+    let written = squashed(&loaded(&made));
+    assert_eq!(written.json["textures"], made.json["textures"]);
+}
+
+#[test]
 fn a_file_is_written_whole_or_not_at_all() {
     let folder = std::env::temp_dir().join(format!("superdeform-files-{}", std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();

@@ -98,7 +98,7 @@ impl GltfFile {
             )));
         }
         check_extensions(name, &json)?;
-        check_types_and_indices(name, text)?;
+        check_types_and_indices(name, text, &json)?;
         let mut file = Self {
             name: name.to_string(),
             json,
@@ -340,9 +340,42 @@ fn check_extensions(name: &str, json: &Value) -> Result<()> {
 }
 
 /// Reads the JSON by the glTF schema, and checks that every index leads somewhere.
-fn check_types_and_indices(name: &str, text: &[u8]) -> Result<()> {
-    let root = gltf::json::Root::from_slice(text)
-        .map_err(|error| bad_input(format!("{name} departs from glTF 2.0, {error}: export it anew")))?;
+fn check_types_and_indices(name: &str, text: &[u8], json: &Value) -> Result<()> {
+    // The reader takes this one index on trust.
+    let accessor_count = array_at(json, "accessors").len();
+    for (mesh, mesh_json) in array_at(json, "meshes").iter().enumerate() {
+        for primitive in array_at(mesh_json, "primitives") {
+            let accessor = index_at(&primitive["attributes"], "POSITION").unwrap_or(0);
+            if accessor > 0 && accessor >= accessor_count || accessor_count == 0 {
+                return Err(bad_input(format!(
+                    "{name}: mesh {mesh} has its positions in accessor {accessor}, but there are {accessor_count} accessors: export the file anew"
+                )));
+            }
+        }
+    }
+    // What the specification lets be absent and the reader does not: the source of a texture whose picture is named
+    // by an extension, and the nodes of an empty scene.
+    let lacks = |list: &str, key: &str| array_at(json, list).iter().any(|entry| entry.get(key).is_none());
+    let root = if lacks("textures", "source") || lacks("scenes", "nodes") {
+        let mut filled = json.clone();
+        for (list, key, value) in [("textures", "source", json!(0)), ("scenes", "nodes", json!([]))] {
+            for entry in filled
+                .get_mut(list)
+                .and_then(Value::as_array_mut)
+                .into_iter()
+                .flatten()
+            {
+                if let Some(entry) = entry.as_object_mut() {
+                    entry.entry(key).or_insert_with(|| value.clone());
+                }
+            }
+        }
+        serde_json::from_value::<gltf::json::Root>(filled)
+    } else {
+        gltf::json::Root::from_slice(text)
+    };
+    let root =
+        root.map_err(|error| bad_input(format!("{name} departs from glTF 2.0, {error}: export it anew")))?;
     let mut astray = None;
     // Other findings (a missing minimum, an unknown word) do not keep the geometry from being read.
     root.validate(
