@@ -10,6 +10,9 @@ use superdeform::pipeline::{Deformed, DeformedMesh, Mapped};
 
 fn convert(target: &Path, output: &Path) -> superdeform::Result<()> {
     let loaded = load(GltfFile::read(target)?, &LoadOptions::default())?;
+    for warning in &loaded.warnings {
+        eprintln!("warning ({}): {}", warning.code, warning.message);
+    }
     let meshes = loaded.character.meshes.iter().map(|mesh| DeformedMesh {
         positions: mesh.positions.clone(),
         normals: mesh.normals.clone(),

@@ -25,13 +25,10 @@ pub enum MeshKind {
 const ACCESSORY_WORDS: &[&str] = &[
     "accessory",
     "accessories",
-    "armor",
-    "armour",
     "axe",
     "backpack",
     "bag",
     "band",
-    "belt",
     "bow",
     "bracelet",
     "clip",
@@ -134,6 +131,9 @@ const HAIR_WORDS: &[&str] = &[
 
 const GARMENT_WORDS: &[&str] = &[
     "apron",
+    "armor",
+    "armour",
+    "belt",
     "blouse",
     "boot",
     "boots",
@@ -399,6 +399,7 @@ mod tests {
             ("Body_Hair", Some(Body)),
             ("N00_000_00_Face_00_SKIN", Some(Body)),
             ("Skirt", Some(Garment)),
+            ("Knight_Armor", Some(Garment)),
             ("T-Shirt", Some(Garment)),
             ("N00_004_01_Shoes_01_CLOTH", Some(Garment)),
             ("Material.001", None),

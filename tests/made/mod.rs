@@ -109,9 +109,9 @@ pub fn boxes() -> (Vec<f32>, Vec<usize>, Vec<u16>) {
     for (joint, (.., place)) in JOINTS.iter().enumerate() {
         let first = (positions.len() / 3) as u16;
         for corner in 0..8 {
-            for axis in 0..3 {
+            for (axis, middle) in place.iter().enumerate() {
                 let side = if corner >> axis & 1 == 1 { 0.05 } else { -0.05 };
-                positions.push(place[axis] + side);
+                positions.push(middle + side);
             }
             joints.push(joint);
         }
@@ -244,9 +244,7 @@ pub fn deformed(character: &Character, map: Option<fn(DVec3) -> DVec3>) -> Defor
             .map(|target| MorphTarget {
                 positions: (mesh.positions.iter().zip(&target.positions))
                     .map(|(&p, &d)| {
-                        if d == Vec3::ZERO {
-                            d
-                        } else if map.is_none() {
+                        if d == Vec3::ZERO || map.is_none() {
                             d
                         } else {
                             at(p + d) - at(p)
