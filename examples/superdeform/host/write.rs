@@ -114,14 +114,15 @@ pub fn rewrite(loaded: &Loaded, deformed: &Deformed, map_point: &MapPoint) -> Re
     check(loaded, deformed)?;
     let new_rest = new_rest(loaded, deformed);
     let mut file = loaded.file.clone();
-    let reader = Reader::new(&loaded.file);
+    // A reader counts what it has read: each stage reads no more than loading did.
+    let reader = || Reader::new(&loaded.file);
     let mut slots = Vec::new();
-    mesh_slots(loaded, deformed, &new_rest, &reader, &mut file.json, &mut slots)?;
-    skin_slots(loaded, &new_rest, &reader, &mut slots)?;
+    mesh_slots(loaded, deformed, &new_rest, &reader(), &mut file.json, &mut slots)?;
+    skin_slots(loaded, &new_rest, &reader(), &mut slots)?;
     let shifts = move_nodes(loaded, &new_rest, &mut file.json);
     let hip_ratio = hip_ratio(loaded, deformed);
-    animation_slots(loaded, &shifts, hip_ratio, &reader, &mut file.json, &mut slots)?;
-    store(&reader, &mut file, slots)?;
+    animation_slots(loaded, &shifts, hip_ratio, &reader(), &mut file.json, &mut slots)?;
+    store(&reader(), &mut file, slots)?;
     let height_ratio = height_ratio(loaded, deformed);
     vrm::move_points(&mut file.json, loaded, &new_rest, map_point, height_ratio);
     Ok(file)
