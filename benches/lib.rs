@@ -18,10 +18,7 @@ pub fn tube(ring_count: usize, side_count: usize) -> Character {
             rest: DMat4::from_translation(DVec3::new(0.0, height, 0.0)),
         });
     }
-    let mut mesh = Mesh {
-        name: "tube".to_string(),
-        ..Mesh::default()
-    };
+    let mut mesh = Mesh { name: "tube".to_string(), ..Mesh::default() };
     let mut rows = Vec::new();
     for ring in 0..ring_count {
         let height = 1.6 * ring as f32 / (ring_count - 1) as f32;
@@ -43,12 +40,7 @@ pub fn tube(ring_count: usize, side_count: usize) -> Character {
         }
     }
     mesh.weights = Weights::from_rows(rows);
-    Character {
-        meshes: vec![mesh],
-        skeleton,
-        humanoid,
-        axes: Axes::default(),
-    }
+    Character { meshes: vec![mesh], skeleton, humanoid, axes: Axes::default() }
 }
 
 #[cfg(test)]

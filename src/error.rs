@@ -39,12 +39,7 @@ pub type Result<T> = std::result::Result<T, Error>;
 impl Error {
     /// An error of `kind` about the whole input.
     pub fn new(kind: ErrorKind, message: impl Into<String>) -> Self {
-        Self {
-            kind,
-            mesh: None,
-            element: None,
-            message: message.into(),
-        }
+        Self { kind, mesh: None, element: None, message: message.into() }
     }
 
     /// The same error, about mesh `mesh`.
@@ -80,9 +75,6 @@ pub struct Warning {
 impl Warning {
     /// A warning with the fixed word `code`.
     pub fn new(code: &'static str, message: impl Into<String>) -> Self {
-        Self {
-            code,
-            message: message.into(),
-        }
+        Self { code, message: message.into() }
     }
 }

@@ -40,11 +40,7 @@ pub fn bearable_squash(curve: FaceCurve, squash: f64) -> (f64, Option<Warning>) 
         FaceCurve::F2 => (-F2_LIMIT, F2_LIMIT),
         FaceCurve::Sphere => (0.0, 1.0),
     };
-    let bearable = if squash.is_nan() {
-        0.0
-    } else {
-        squash.clamp(low, high)
-    };
+    let bearable = if squash.is_nan() { 0.0 } else { squash.clamp(low, high) };
     let warning = (bearable != squash).then(|| {
         let message = format!("a face squash of {squash} would fold the face: {bearable} is used");
         Warning::new("face_squash_clamped", message)
@@ -110,11 +106,7 @@ pub struct SphereMap {
 impl SphereMap {
     /// The sphere in the middle of the box from `low` to `high`; its radius is the mean of the box's half extents.
     pub fn in_box(low: DVec3, high: DVec3, amount: f64) -> Self {
-        Self {
-            centre: 0.5 * (low + high),
-            radius: 0.5 * (high - low).element_sum() / 3.0,
-            amount,
-        }
+        Self { centre: 0.5 * (low + high), radius: 0.5 * (high - low).element_sum() / 3.0, amount }
     }
 
     /// Where the map takes `p`; the centre, which has no direction, stays.
@@ -160,12 +152,7 @@ impl FaceShape {
         let (squash, warning) = bearable_squash(curve, squash);
         let shape = match curve {
             FaceCurve::Sphere => Self::Sphere(SphereMap::in_box(low, high, squash)),
-            curve => Self::Curve(FaceMap {
-                bottom: low.y,
-                top: high.y,
-                squash,
-                curve,
-            }),
+            curve => Self::Curve(FaceMap { bottom: low.y, top: high.y, squash, curve }),
         };
         (shape, warning)
     }

@@ -73,7 +73,13 @@ impl HairMap {
     /// - `axis`: the head's axis at the chin, before and after.
     /// - `head`: the head's scales: height, width, depth.
     /// - `body_girth`: the body's thickness scale.
-    pub fn new(outline: &HairOutline, axis: [DVec3; 2], new_bottom: f64, head: [f64; 3], body_girth: f64) -> Self {
+    pub fn new(
+        outline: &HairOutline,
+        axis: [DVec3; 2],
+        new_bottom: f64,
+        head: [f64; 3],
+        body_girth: f64,
+    ) -> Self {
         let depth = outline.depth;
         let mean = (axis[1].y - new_bottom) / depth;
         let first = head[0].min(FIRST_SLOPE * mean);
@@ -98,7 +104,9 @@ impl HairMap {
                 if knot == 0 || knot == KNOTS - 1 {
                     return scales[knot];
                 }
-                [0, 1].map(|side| (scales[knot - 1][side] + 2.0 * scales[knot][side] + scales[knot + 1][side]) / 4.0)
+                [0, 1].map(|side| {
+                    (scales[knot - 1][side] + 2.0 * scales[knot][side] + scales[knot + 1][side]) / 4.0
+                })
             })
             .collect();
         map
@@ -122,7 +130,8 @@ impl HairMap {
         let width = [0, 1].map(|side| upper[side] + (lower[side] - upper[side]) * (at - knot as f64));
         // Per unit of y, which grows against d.
         let knots_per_length = (KNOTS - 1) as f64 / self.depth;
-        let by_y = [0, 1].map(|side| if d < self.depth { (upper[side] - lower[side]) * knots_per_length } else { 0.0 });
+        let by_y = [0, 1]
+            .map(|side| if d < self.depth { (upper[side] - lower[side]) * knots_per_length } else { 0.0 });
         let to = self.axis[1] + DVec3::new(width[0] * from.x, -self.drop(d), width[1] * from.z);
         let jacobian = DMat3::from_cols(
             DVec3::new(width[0], 0.0, 0.0),

@@ -130,18 +130,14 @@ impl Options {
             in_range("face_squash", squash, -10.0, 10.0)?;
         }
         for (name, group) in &self.groups {
-            for (what, value) in [
-                ("length", group.length_scale),
-                ("thickness", group.thickness_scale),
-            ] {
+            for (what, value) in [("length", group.length_scale), ("thickness", group.thickness_scale)] {
                 if let Some(value) = value {
                     in_range(&format!("{what} of group {name}"), value, 0.01, 100.0)?;
                 }
             }
-            for (what, value) in [
-                ("length_transfer", group.length_transfer),
-                ("thickness_transfer", group.thickness_transfer),
-            ] {
+            for (what, value) in
+                [("length_transfer", group.length_transfer), ("thickness_transfer", group.thickness_transfer)]
+            {
                 if let Some(value) = value {
                     in_range(&format!("{what} of group {name}"), value, -10.0, 10.0)?;
                 }

@@ -7,8 +7,8 @@ use crate::face::FaceShape;
 use crate::geometry::weld::{Weld, components, weld};
 pub use crate::options::{FaceCurve, GroupSettings, Mode, Options, Stage};
 use crate::report::{Coefficient, Counts, FigureReport, GroupShape, Report, RigReport, Timing};
-use crate::shape::attributes::{fitted_jacobians, normal_matrix};
 use crate::shape::BodyShape;
+use crate::shape::attributes::{fitted_jacobians, normal_matrix};
 use crate::shape::bones::BoneField;
 use crate::shape::coefficients::coefficients;
 use crate::shape::field::{Binding, BoneBinding, Field, PaperField};
@@ -110,12 +110,9 @@ impl Deformer {
         let weld = weld(&study.figure.positions, WELD_TOLERANCE * study.figure.height());
         let mut warnings = study.anatomy.landmarks.warnings("target");
         let roles = match style {
-            Style::Shape(shape) => study
-                .joints
-                .keys()
-                .copied()
-                .filter(|role| shape.roles().contains(role))
-                .collect(),
+            Style::Shape(shape) => {
+                study.joints.keys().copied().filter(|role| shape.roles().contains(role)).collect()
+            }
             Style::Heads(_) => study.joints.keys().copied().collect(),
         };
         if let (Style::Shape(shape), Some(proportions)) = (style, &study.shape.proportions)
@@ -149,10 +146,7 @@ impl Deformer {
             coefficients: BTreeMap::new(),
             reference: None,
             warnings,
-            timing: Timing {
-                measure,
-                ..Timing::default()
-            },
+            timing: Timing { measure, ..Timing::default() },
             study,
         };
         match options.mode {
@@ -180,11 +174,7 @@ impl Deformer {
         let proportions = self.study.anatomy.proportions.clone();
         let (figure, anatomy) = (&self.study.figure, &self.study.anatomy);
         let parts = part_bindings(figure, anatomy, &self.character.skeleton);
-        self.bindings = parts
-            .vertices
-            .iter()
-            .map(|&binding| Binding::Parts(binding))
-            .collect();
+        self.bindings = parts.vertices.iter().map(|&binding| Binding::Parts(binding)).collect();
         self.joint_bindings = self.joint_bindings(|figure, joint| {
             if figure.humanoid.joint(Role::Head) == Some(joint)
                 && figure.joints[joint].y < anatomy.landmarks.chin
@@ -206,10 +196,7 @@ impl Deformer {
                         ),
                     ));
                 };
-                (
-                    reference.heads(),
-                    self.options.head_scale * proportions.head_length / reference.head_length,
-                )
+                (reference.heads(), self.options.head_scale * proportions.head_length / reference.head_length)
             }
         };
         self.head_ratio = head_ratio;
@@ -221,10 +208,7 @@ impl Deformer {
             self.stand_on_ground();
             let measured = landmarks(&self.result_figure(1.0)).heads();
             let predicted = crate::shape::part_coefficients::heads_of(&proportions, &attempt.coefficients);
-            let limited = attempt
-                .warnings
-                .iter()
-                .any(|warning| warning.code == "heads_limited");
+            let limited = attempt.warnings.iter().any(|warning| warning.code == "heads_limited");
             let reach = if limited { predicted } else { asked };
             let error = (measured / reach).ln().abs();
             if best.as_ref().is_none_or(|(least, _)| error < *least) {
@@ -265,26 +249,14 @@ impl Deformer {
             }
             Style::Shape(shape) => {
                 let heads = shape.heads().expect("checked by the caller");
-                stretched = shape
-                    .with_heads(heads * correction)
-                    .proportions
-                    .expect("checked by the caller");
+                stretched = shape.with_heads(heads * correction).proportions.expect("checked by the caller");
                 Wanted::Reference(&stretched)
             }
         };
         let (coefficients, warnings) = part_coefficients(&anatomy.proportions, wanted, &self.options)?;
-        let field = PartField::new(
-            anatomy,
-            coefficients,
-            parts,
-            self.options.hair_length,
-            self.options.amount,
-        );
-        Ok(Attempt {
-            field: Field::Parts(Box::new(field)),
-            coefficients,
-            warnings,
-        })
+        let field =
+            PartField::new(anatomy, coefficients, parts, self.options.hair_length, self.options.amount);
+        Ok(Attempt { field: Field::Parts(Box::new(field)), coefficients, warnings })
     }
 
     /// The paper's own way: coefficients (Eqs. 9-11), skeleton (Eqs. 1-4), mesh (Eqs. 5-8).
@@ -314,19 +286,11 @@ impl Deformer {
         let figure = &self.study.figure;
         let bind = |p: DVec3, weights: &[(Role, f64)]| BoneBinding {
             weights: field.bone_weights(p, weights),
-            head: weights
-                .iter()
-                .filter(|&&(role, _)| is_head(role))
-                .map(|&(_, weight)| weight)
-                .sum(),
+            head: weights.iter().filter(|&&(role, _)| is_head(role)).map(|&(_, weight)| weight).sum(),
             on_face: None,
         };
-        let mut bindings: Vec<BoneBinding> = figure
-            .positions
-            .iter()
-            .zip(&figure.role_weights)
-            .map(|(&p, weights)| bind(p, weights))
-            .collect();
+        let mut bindings: Vec<BoneBinding> =
+            figure.positions.iter().zip(&figure.role_weights).map(|(&p, weights)| bind(p, weights)).collect();
         for (members, centre) in head_accessories(figure, &self.weld) {
             for vertex in members {
                 bindings[vertex].on_face = Some(centre);
@@ -354,8 +318,7 @@ impl Deformer {
     /// A squash that would fold the face is bounded, with the warning `face_squash_clamped`.
     pub fn set_face_squash(&mut self, squash: f64) {
         let clock = Instant::now();
-        self.warnings
-            .retain(|warning| warning.code != "face_squash_clamped");
+        self.warnings.retain(|warning| warning.code != "face_squash_clamped");
         self.field.set_face(FaceShape::None);
         if self.options.stage < Stage::Face || squash == 0.0 {
             return;
@@ -417,15 +380,8 @@ impl Deformer {
         };
         let feet = self.options.mode == Mode::Product;
         let before = lowest(&|vertex| figure.positions[vertex].y, feet);
-        let after = lowest(
-            &|vertex| {
-                self.field
-                    .map(figure.positions[vertex], &self.bindings[vertex])
-                    .0
-                    .y
-            },
-            feet,
-        );
+        let after =
+            lowest(&|vertex| self.field.map(figure.positions[vertex], &self.bindings[vertex]).0.y, feet);
         if let (Some(before), Some(after)) = (before, after) {
             self.field.set_ground(before - after);
         }
@@ -471,24 +427,14 @@ impl Deformer {
         let mut field = self.field.clone();
         field.set_amount(amount);
         let map = |p: DVec3, binding: &Binding| field.map(p, binding).0;
-        figure.positions = figure
-            .positions
-            .iter()
-            .zip(&self.bindings)
-            .map(|(&p, binding)| map(p, binding))
-            .collect();
-        figure.joints = figure
-            .joints
-            .iter()
-            .zip(&self.joint_bindings)
-            .map(|(&p, binding)| map(p, binding))
-            .collect();
+        figure.positions =
+            figure.positions.iter().zip(&self.bindings).map(|(&p, binding)| map(p, binding)).collect();
+        figure.joints =
+            figure.joints.iter().zip(&self.joint_bindings).map(|(&p, binding)| map(p, binding)).collect();
         figure.extent = figure
             .positions
             .iter()
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| {
-                (low.min(p.y), high.max(p.y))
-            });
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| (low.min(p.y), high.max(p.y)));
         figure
     }
 
@@ -497,9 +443,8 @@ impl Deformer {
         let figure = &self.study.figure;
         let after = self.deformed_positions();
         let jacobians = fitted_jacobians(&figure.positions, &after, &figure.triangles, &self.weld);
-        let meshes = (0..self.character.meshes.len())
-            .map(|mesh| self.deform_mesh(mesh, &after, &jacobians))
-            .collect();
+        let meshes =
+            (0..self.character.meshes.len()).map(|mesh| self.deform_mesh(mesh, &after, &jacobians)).collect();
         let joints = figure
             .joints
             .iter()
@@ -519,10 +464,7 @@ impl Deformer {
         let frame = &figure.frame;
         let start = figure.mesh_starts[index];
         let count = mesh.positions.len();
-        let positions = after[start..start + count]
-            .iter()
-            .map(|&p| frame.to_model(p).as_vec3())
-            .collect();
+        let positions = after[start..start + count].iter().map(|&p| frame.to_model(p).as_vec3()).collect();
         let needs_jacobian = !mesh.normals.is_empty() || !mesh.tangents.is_empty();
         let turns: Vec<DMat3> = (0..if needs_jacobian { count } else { 0 })
             .map(|vertex| {
@@ -557,11 +499,8 @@ impl Deformer {
             .enumerate()
             .map(|(vertex, &tangent)| turn_tangent(vertex, tangent).as_vec3())
             .collect();
-        let tangents = new_directions
-            .iter()
-            .zip(&mesh.tangents)
-            .map(|(tangent, old)| tangent.extend(old.w))
-            .collect();
+        let tangents =
+            new_directions.iter().zip(&mesh.tangents).map(|(tangent, old)| tangent.extend(old.w)).collect();
         let morph_targets = mesh
             .morph_targets
             .iter()
@@ -572,12 +511,7 @@ impl Deformer {
                 tangents: morph_turns(&target.tangents, &directions, &new_directions, &turn_tangent),
             })
             .collect();
-        DeformedMesh {
-            positions,
-            normals,
-            tangents,
-            morph_targets,
-        }
+        DeformedMesh { positions, normals, tangents, morph_targets }
     }
 
     /// D(v + d) - D(v): exact, and zero where d is.
@@ -598,13 +532,8 @@ impl Deformer {
     /// Where the field takes `point`, attached to `joint`; both in model space.
     pub fn map(&self, joint: usize, point: DVec3) -> Mapped {
         let frame = &self.study.figure.frame;
-        let (position, jacobian) = self
-            .field
-            .map(frame.to_canonical(point), &self.joint_bindings[joint]);
-        Mapped {
-            position: frame.to_model(position),
-            jacobian: frame.jacobian_to_model(jacobian),
-        }
+        let (position, jacobian) = self.field.map(frame.to_canonical(point), &self.joint_bindings[joint]);
+        Mapped { position: frame.to_model(position), jacobian: frame.jacobian_to_model(jacobian) }
     }
 
     /// Length and radius of another body's bone groups, measured over the roles that target and style share.
@@ -641,12 +570,7 @@ impl Deformer {
             coefficients: self.coefficients.clone(),
             rig: RigReport {
                 source: "kept",
-                confidence: self
-                    .study
-                    .joints
-                    .keys()
-                    .map(|role| (role.name().to_string(), 1.0))
-                    .collect(),
+                confidence: self.study.joints.keys().map(|role| (role.name().to_string(), 1.0)).collect(),
                 ..RigReport::default()
             },
             counts: Counts {
@@ -670,11 +594,7 @@ struct Attempt {
 }
 
 /// A style's numbers for the report, where its model is not at hand.
-pub fn style_report(
-    shape: &BodyShape,
-    roles: &BTreeSet<Role>,
-    options: &Options,
-) -> FigureReport {
+pub fn style_report(shape: &BodyShape, roles: &BTreeSet<Role>, options: &Options) -> FigureReport {
     let marks = shape.landmarks.unwrap_or_default();
     let proportions = shape.proportions.clone().unwrap_or_default();
     FigureReport {
@@ -726,10 +646,7 @@ fn head_accessories(figure: &Figure, weld: &Weld) -> Vec<(Vec<usize>, DVec3)> {
             *high = high.max(p);
         }
     }
-    pieces
-        .into_values()
-        .map(|(members, low, high)| (members, (low + high) / 2.0))
-        .collect()
+    pieces.into_values().map(|(members, low, high)| (members, (low + high) / 2.0)).collect()
 }
 
 /// Changes of unit vectors: what the changed vector turns into, less what the unchanged one did.

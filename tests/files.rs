@@ -21,11 +21,7 @@ use std::path::{Path, PathBuf};
 use superdeform::MeshKind;
 
 fn loaded(made: &Made) -> Loaded {
-    load(
-        GltfFile::parse("made.glb", &made.bytes()).unwrap(),
-        &LoadOptions::default(),
-    )
-    .unwrap()
+    load(GltfFile::parse("made.glb", &made.bytes()).unwrap(), &LoadOptions::default()).unwrap()
 }
 
 /// Deforms, writes to bytes, and reads those again.
@@ -67,9 +63,7 @@ fn models() -> Vec<(PathBuf, Option<Value>)> {
         .unwrap_or_else(|| json!({}));
     let mut files = Vec::new();
     for folder in folders {
-        let entries = std::fs::read_dir(folder)
-            .unwrap()
-            .map(|entry| entry.unwrap().path());
+        let entries = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
         for path in entries.filter(|p| p.extension().is_some_and(|e| e == "glb" || e == "vrm")) {
             let map = roles.get(path.file_name().unwrap().to_str().unwrap()).cloned();
             files.push((path, map));
@@ -87,10 +81,7 @@ fn any_roles(
 ) -> (superdeform::Humanoid, Vec<superdeform::Warning>) {
     let mut humanoid = superdeform::Humanoid::default();
     if skeleton.joints.len() >= 6 {
-        for (joint, role) in superdeform::character::humanoid::REQUIRED_ROLES
-            .into_iter()
-            .enumerate()
-        {
+        for (joint, role) in superdeform::character::humanoid::REQUIRED_ROLES.into_iter().enumerate() {
             humanoid.set(role, joint);
         }
     }
@@ -118,18 +109,9 @@ fn a_character_that_is_not_changed_gives_its_file_back() {
         assert!(written.binary == loaded.file.binary, "{}", path.display());
         let result = deformed(&loaded.character, None);
         let closure = closure(&written, &loaded, &result).unwrap();
-        println!(
-            "{}: rest {:.1e}, nodes {:?}",
-            path.display(),
-            closure.rest,
-            closure.nodes
-        );
+        println!("{}: rest {:.1e}, nodes {:?}", path.display(), closure.rest, closure.nodes);
         assert!(closure.rest <= 1e-6, "{}: {closure:?}", path.display());
-        assert!(
-            closure.nodes.is_none_or(|nodes| nodes <= 1e-5),
-            "{}: {closure:?}",
-            path.display()
-        );
+        assert!(closure.nodes.is_none_or(|nodes| nodes <= 1e-5), "{}: {closure:?}", path.display());
     }
 }
 
@@ -140,12 +122,7 @@ fn a_changed_character_keeps_all_but_its_shape() {
         let result = deformed(&loaded.character, Some(squash));
         let written = squashed(&loaded);
         let closure = closure(&written, &loaded, &result).unwrap();
-        println!(
-            "{}: rest {:.1e}, nodes {:?}",
-            path.display(),
-            closure.rest,
-            closure.nodes
-        );
+        println!("{}: rest {:.1e}, nodes {:?}", path.display(), closure.rest, closure.nodes);
         // Weights, indices, texture coordinates and all else that is not shape: bit for bit.
         let (old, new) = (Reader::new(&loaded.file), Reader::new(&written));
         for (mesh, mesh_json) in loaded.file.list("meshes").iter().enumerate() {
@@ -187,19 +164,12 @@ fn a_changed_character_keeps_all_but_its_shape() {
 
 #[test]
 fn the_rest_pose_is_the_bind_pose_where_the_nodes_kick() {
-    let Some((path, map)) = models()
-        .into_iter()
-        .find(|(path, _)| path.ends_with("gdquest_mannequiny.glb"))
+    let Some((path, map)) = models().into_iter().find(|(path, _)| path.ends_with("gdquest_mannequiny.glb"))
     else {
         return println!("no gdquest_mannequiny.glb: not tested");
     };
     let loaded = load_model(&path, &map);
-    assert!(
-        loaded
-            .warnings
-            .iter()
-            .any(|warning| warning.code == "pose_not_rest")
-    );
+    assert!(loaded.warnings.iter().any(|warning| warning.code == "pose_not_rest"));
     let mut boundary = [Vec3::INFINITY, Vec3::NEG_INFINITY];
     for p in loaded.character.meshes.iter().flat_map(|mesh| &mesh.positions) {
         boundary = [boundary[0].min(*p), boundary[1].max(*p)];
@@ -215,12 +185,7 @@ fn weights_are_normalised_and_rows_of_nothing_go_to_the_first_joint() {
     let mut made = figure();
     let count = boxes().1.len();
     for (component_type, bytes) in [
-        (
-            5121,
-            (0..count)
-                .flat_map(|v| if v == 5 { [0; 4] } else { [100u8, 50, 0, 0] })
-                .collect::<Vec<u8>>(),
-        ),
+        (5121, (0..count).flat_map(|v| if v == 5 { [0; 4] } else { [100u8, 50, 0, 0] }).collect::<Vec<u8>>()),
         (
             5123,
             (0..count)
@@ -235,9 +200,7 @@ fn weights_are_normalised_and_rows_of_nothing_go_to_the_first_joint() {
         let loaded = loaded(&made);
         let rows = &loaded.character.meshes[0].weights;
         assert_eq!(rows.row(5), &[(0, 1.0)]);
-        let [(_, large), (_, small)] = rows.row(40) else {
-            panic!("{:?}", rows.row(40))
-        };
+        let [(_, large), (_, small)] = rows.row(40) else { panic!("{:?}", rows.row(40)) };
         assert!((large - 2.0 / 3.0).abs() < 1e-6 && (small - 1.0 / 3.0).abs() < 1e-6);
         squashed(&loaded);
     }
@@ -271,11 +234,7 @@ fn interleaved_vertices_are_written_where_they_stand() {
     }
     let view = made.view(&bytes);
     made.json["bufferViews"][view]["byteStride"] = json!(32);
-    for (key, kind, offset) in [
-        ("POSITION", "VEC3", 0),
-        ("NORMAL", "VEC3", 12),
-        ("TEXCOORD_0", "VEC2", 24),
-    ] {
+    for (key, kind, offset) in [("POSITION", "VEC3", 0), ("NORMAL", "VEC3", 12), ("TEXCOORD_0", "VEC2", 24)] {
         let accessor = json!({"bufferView": view, "byteOffset": offset, "componentType": 5126, "type": kind, "count": of_vertex.len()});
         let accessor = made.push("accessors", accessor);
         made.json["meshes"][0]["primitives"][0]["attributes"][key] = json!(accessor);
@@ -283,18 +242,10 @@ fn interleaved_vertices_are_written_where_they_stand() {
     let loaded = loaded(&made);
     let written = squashed(&loaded);
     assert_eq!(written.binary.len(), loaded.file.binary.len());
-    let accessor = host::index_at(
-        &written.json["meshes"][0]["primitives"][0]["attributes"],
-        "TEXCOORD_0",
-    )
-    .unwrap();
+    let accessor =
+        host::index_at(&written.json["meshes"][0]["primitives"][0]["attributes"], "TEXCOORD_0").unwrap();
     let coordinates = Reader::new(&written).floats(accessor, 2, None).unwrap();
-    assert!(
-        coordinates
-            .chunks(2)
-            .enumerate()
-            .all(|(vertex, uv)| uv == [vertex as f32, 0.5])
-    );
+    assert!(coordinates.chunks(2).enumerate().all(|(vertex, uv)| uv == [vertex as f32, 0.5]));
 }
 
 #[test]
@@ -315,9 +266,8 @@ fn sparse_morph_targets_stay_sparse_and_their_zeros_stay_zero() {
     let written = squashed(&loaded);
     assert_eq!(written.json["accessors"][accessor]["sparse"]["count"], json!(2));
     let deltas = Reader::new(&written).floats(accessor, 3, None).unwrap();
-    let moved: Vec<usize> = (0..count)
-        .filter(|v| deltas[3 * v..3 * v + 3].iter().any(|d| *d != 0.0))
-        .collect();
+    let moved: Vec<usize> =
+        (0..count).filter(|v| deltas[3 * v..3 * v + 3].iter().any(|d| *d != 0.0)).collect();
     assert_eq!(moved, [24, 25]);
     assert!(written.binary.len() <= loaded.file.binary.len() + 16);
 }
@@ -340,9 +290,7 @@ fn quantised_positions_are_read_and_written_as_floats() {
     // The mesh is half as large; the inverse bind matrices make up for it.
     let mut binds = Vec::new();
     for (.., p) in JOINTS {
-        binds.extend([
-            2.0, 0.0, 0.0, 0.0, 0.0, 2.0, 0.0, 0.0, 0.0, 0.0, 2.0, 0.0, -p[0], -p[1], -p[2], 1.0,
-        ]);
+        binds.extend([2.0, 0.0, 0.0, 0.0, 0.0, 2.0, 0.0, 0.0, 0.0, 0.0, 2.0, 0.0, -p[0], -p[1], -p[2], 1.0]);
     }
     let binds = made.floats("MAT4", 16, &binds);
     made.json["skins"][0]["inverseBindMatrices"] = json!(binds);
@@ -355,22 +303,16 @@ fn quantised_positions_are_read_and_written_as_floats() {
     assert!(written.json["accessors"][accessor].get("normalized").is_none());
     assert!(written.json["accessors"][accessor].get("min").is_some());
     // The old bytes are gone: 12 bytes a vertex for 8.
-    assert!(
-        written.binary.len() <= size + 4 * of_vertex.len() + 16,
-        "{size} {}",
-        written.binary.len()
-    );
+    assert!(written.binary.len() <= size + 4 * of_vertex.len() + 16, "{size} {}", written.binary.len());
     // Nothing changed: nothing written.
     assert!(unchanged(&loaded).json == loaded.file.json);
 }
 
 #[test]
 fn strips_and_fans_become_triangles_and_lines_are_deformed_too() {
-    for (mode, wanted) in [
-        (5, vec![[0, 1, 2], [1, 3, 2], [2, 3, 4]]),
-        (6, vec![[1, 2, 0], [2, 3, 0], [3, 4, 0]]),
-        (1, vec![]),
-    ] {
+    for (mode, wanted) in
+        [(5, vec![[0, 1, 2], [1, 3, 2], [2, 3, 4]]), (6, vec![[1, 2, 0], [2, 3, 0], [3, 4, 0]]), (1, vec![])]
+    {
         let mut made = figure();
         let indices = made.indices(&[0, 1, 2, 3, 4]);
         let primitive = &mut made.json["meshes"][0]["primitives"][0];
@@ -412,12 +354,7 @@ fn two_skins_that_bind_the_same_joints_in_different_poses_meet_in_one_rest_pose(
     made.json["scenes"][0]["nodes"] = json!([0, 12, 13]);
     // Both meshes name the same accessors, but come from different poses: they part on writing.
     let loaded = loaded(&made);
-    assert!(
-        loaded
-            .warnings
-            .iter()
-            .any(|warning| warning.code == "pose_not_rest")
-    );
+    assert!(loaded.warnings.iter().any(|warning| warning.code == "pose_not_rest"));
     let (first, second) = (&loaded.character.meshes[0], &loaded.character.meshes[1]);
     assert!((first.positions[0] - second.positions[0] - Vec3::new(0.0, 0.1, 0.0)).length() < 1e-5);
     let result = deformed(&loaded.character, Some(squash));
@@ -434,10 +371,7 @@ fn two_skins_that_bind_the_same_joints_in_different_poses_meet_in_one_rest_pose(
 fn accessors_that_were_shared_stay_shared() {
     let mut made = figure();
     let copy = made.json["meshes"][0]["primitives"][0].clone();
-    made.json["meshes"][0]["primitives"]
-        .as_array_mut()
-        .unwrap()
-        .push(copy);
+    made.json["meshes"][0]["primitives"].as_array_mut().unwrap().push(copy);
     let second = made.json["skins"][0].clone();
     made.push("skins", second);
     let mesh = made.json["meshes"][0].clone();
@@ -450,10 +384,7 @@ fn accessors_that_were_shared_stay_shared() {
     let written = squashed(&loaded);
     assert_eq!(written.json["meshes"], loaded.file.json["meshes"]);
     assert_eq!(written.json["skins"], loaded.file.json["skins"]);
-    assert_eq!(
-        written.list("accessors").len(),
-        loaded.file.list("accessors").len()
-    );
+    assert_eq!(written.list("accessors").len(), loaded.file.list("accessors").len());
     assert_eq!(written.binary.len(), loaded.file.binary.len());
 }
 
@@ -461,15 +392,9 @@ fn accessors_that_were_shared_stay_shared() {
 fn a_rigid_mesh_that_two_nodes_show_is_doubled_where_they_differ() {
     let mut made = figure();
     let lamp = made.floats("VEC3", 3, &[0.0, 0.0, 0.0, 0.1, 0.0, 0.0, 0.0, 0.1, 0.0]);
-    made.push(
-        "meshes",
-        json!({"name": "Lamp", "primitives": [{"attributes": {"POSITION": lamp}}]}),
-    );
+    made.push("meshes", json!({"name": "Lamp", "primitives": [{"attributes": {"POSITION": lamp}}]}));
     for (parent, name) in [(3, "on the head"), (8, "on the shin")] {
-        let node = made.push(
-            "nodes",
-            json!({"name": name, "mesh": 1, "scale": [1.0, 2.0, 1.0]}),
-        );
+        let node = made.push("nodes", json!({"name": name, "mesh": 1, "scale": [1.0, 2.0, 1.0]}));
         let children = &mut made.json["nodes"][parent]["children"];
         match children.as_array_mut() {
             Some(children) => children.push(json!(node)),
@@ -480,10 +405,7 @@ fn a_rigid_mesh_that_two_nodes_show_is_doubled_where_they_differ() {
     assert_eq!(loaded.character.meshes.len(), 3);
     let written = squashed(&loaded);
     assert_eq!(written.list("meshes").len(), 3);
-    assert_ne!(
-        written.json["nodes"][13]["mesh"],
-        written.json["nodes"][14]["mesh"]
-    );
+    assert_ne!(written.json["nodes"][13]["mesh"], written.json["nodes"][14]["mesh"]);
     assert_eq!(written.json["meshes"][2]["name"], json!("Lamp"));
 }
 
@@ -491,27 +413,16 @@ fn a_rigid_mesh_that_two_nodes_show_is_doubled_where_they_differ() {
 fn a_node_with_a_matrix_keeps_it_but_for_where_it_is() {
     let mut made = figure();
     let node = made.json["nodes"][8].as_object_mut().unwrap();
-    let at: Vec<f64> = node
-        .remove("translation")
-        .unwrap()
-        .as_array()
-        .unwrap()
-        .iter()
-        .map(|x| x.as_f64().unwrap())
-        .collect();
+    let at: Vec<f64> =
+        node.remove("translation").unwrap().as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect();
     node.insert(
         "matrix".into(),
-        json!([
-            1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, at[0], at[1], at[2], 1.0
-        ]),
+        json!([1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, at[0], at[1], at[2], 1.0]),
     );
     let loaded = loaded(&made);
     let written = squashed(&loaded);
     let matrix = written.json["nodes"][8]["matrix"].as_array().unwrap();
-    assert_eq!(
-        matrix[0..12],
-        loaded.file.json["nodes"][8]["matrix"].as_array().unwrap()[0..12]
-    );
+    assert_eq!(matrix[0..12], loaded.file.json["nodes"][8]["matrix"].as_array().unwrap()[0..12]);
     assert_ne!(matrix[13], loaded.file.json["nodes"][8]["matrix"][13]);
     assert!(written.json["nodes"][8].get("translation").is_none());
 }
@@ -519,21 +430,10 @@ fn a_node_with_a_matrix_keeps_it_but_for_where_it_is() {
 #[test]
 fn a_skin_without_matrices_has_identities_and_gets_matrices_where_it_moves() {
     let mut made = figure();
-    made.json["skins"][0]
-        .as_object_mut()
-        .unwrap()
-        .remove("inverseBindMatrices");
-    let result = load(
-        GltfFile::parse("made.glb", &made.bytes()).unwrap(),
-        &LoadOptions::default(),
-    )
-    .unwrap();
-    let written = rewrite(
-        &result,
-        &deformed(&result.character, Some(|p| p + DVec3::X)),
-        &stay_point,
-    )
-    .unwrap();
+    made.json["skins"][0].as_object_mut().unwrap().remove("inverseBindMatrices");
+    let result = load(GltfFile::parse("made.glb", &made.bytes()).unwrap(), &LoadOptions::default()).unwrap();
+    let written =
+        rewrite(&result, &deformed(&result.character, Some(|p| p + DVec3::X)), &stay_point).unwrap();
     assert!(host::index_at(&written.json["skins"][0], "inverseBindMatrices").is_some());
 }
 
@@ -548,9 +448,7 @@ fn the_hips_track_is_scaled_with_their_height_and_others_move_with_their_rest() 
     let cubic = made.floats(
         "VEC3",
         3,
-        &[
-            1.0, 1.0, 1.0, 0.0, 0.2, 0.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 0.0, 0.2, 0.0, 1.0, 1.0, 1.0,
-        ],
+        &[1.0, 1.0, 1.0, 0.0, 0.2, 0.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 0.0, 0.2, 0.0, 1.0, 1.0, 1.0],
     );
     let channel = |sampler: usize, node: usize, path: &str| json!({"sampler": sampler, "target": {"node": node, "path": path}});
     made.json["animations"] = json!([{
@@ -569,9 +467,7 @@ fn the_hips_track_is_scaled_with_their_height_and_others_move_with_their_rest() 
     let output = |channel: usize| {
         let sampler = host::index_at(&animation["channels"][channel], "sampler").unwrap();
         let accessor = host::index_at(&animation["samplers"][sampler], "output").unwrap();
-        Reader::new(&written)
-            .floats(accessor, if channel == 3 { 4 } else { 3 }, None)
-            .unwrap()
+        Reader::new(&written).floats(accessor, if channel == 3 { 4 } else { 3 }, None).unwrap()
     };
     let moved = squash(DVec3::new(0.0, 0.9, 0.0));
     // The lowest vertex was at -0.05.
@@ -640,19 +536,13 @@ fn springs_and_colliders_of_vrm_1_move_and_scale_and_constraints_stay() {
     let strand = squash_jacobian(DVec3::new(0.0, 1.6, -0.1)).determinant().cbrt();
     let joint = &springs["springs"][0]["joints"][0];
     for (key, before) in [("hitRadius", 0.02), ("gravityPower", 0.5), ("stiffness", 1.0)] {
-        assert!(
-            (joint[key].as_f64().unwrap() - before * strand).abs() < 1e-6,
-            "{key}"
-        );
+        assert!((joint[key].as_f64().unwrap() - before * strand).abs() < 1e-6, "{key}");
     }
     assert_eq!(
         springs["colliderGroups"],
         loaded.file.json["extensions"]["VRMC_springBone"]["colliderGroups"]
     );
-    assert_eq!(
-        written.json["nodes"][11]["extensions"],
-        loaded.file.json["nodes"][11]["extensions"]
-    );
+    assert_eq!(written.json["nodes"][11]["extensions"], loaded.file.json["nodes"][11]["extensions"]);
     let eyes = head + DVec3::new(0.0, 0.06, 0.1);
     let offset = vec3(&written.json["extensions"]["VRMC_vrm"]["lookAt"]["offsetFromHeadBone"]);
     assert!((offset - (squash(eyes) - squash(head))).length() < 1e-6);
@@ -693,11 +583,7 @@ fn springs_and_the_viewpoint_of_vrm_0_have_z_negated() {
     }});
     let loaded = loaded(&made);
     assert_eq!(
-        loaded
-            .character
-            .humanoid
-            .joint(superdeform::Role::Head)
-            .map(|joint| loaded.node_of_joint[joint]),
+        loaded.character.humanoid.joint(superdeform::Role::Head).map(|joint| loaded.node_of_joint[joint]),
         Some(3)
     );
     assert!(unchanged(&loaded).json == loaded.file.json);
@@ -708,11 +594,7 @@ fn springs_and_the_viewpoint_of_vrm_0_have_z_negated() {
         (squash(head + DVec3::new(x, y, -z)) - squash(head)) * DVec3::new(1.0, 1.0, -1.0)
     };
     let read = |value: &Value| {
-        DVec3::new(
-            value["x"].as_f64().unwrap(),
-            value["y"].as_f64().unwrap(),
-            value["z"].as_f64().unwrap(),
-        )
+        DVec3::new(value["x"].as_f64().unwrap(), value["y"].as_f64().unwrap(), value["z"].as_f64().unwrap())
     };
     assert!((read(&vrm["firstPerson"]["firstPersonBoneOffset"]) - moved(0.0, 0.06, 0.1)).length() < 1e-6);
     let collider = &vrm["secondaryAnimation"]["colliderGroups"][0]["colliders"][0];
@@ -726,32 +608,16 @@ fn springs_and_the_viewpoint_of_vrm_0_have_z_negated() {
     let group = &vrm["secondaryAnimation"]["boneGroups"][0];
     assert!((group["stiffiness"].as_f64().unwrap() - chain).abs() < 1e-6);
     assert_eq!(group["dragForce"], json!(0.4));
-    assert!(
-        vrm["materialProperties"][0]["floatProperties"]["_OutlineWidth"]
-            .as_f64()
-            .unwrap()
-            < 0.4
-    );
-    assert_eq!(
-        vrm["materialProperties"][1]["floatProperties"]["_OutlineWidth"],
-        json!(0.5)
-    );
+    assert!(vrm["materialProperties"][0]["floatProperties"]["_OutlineWidth"].as_f64().unwrap() < 0.4);
+    assert_eq!(vrm["materialProperties"][1]["floatProperties"]["_OutlineWidth"], json!(0.5));
     assert_eq!(vrm["meta"], loaded.file.json["extensions"]["VRM"]["meta"]);
 }
 
 #[test]
 fn a_licence_that_prohibits_changes_is_told() {
     let mut made = figure();
-    made.json["extensions"]["VRMC_vrm"]["meta"]
-        .as_object_mut()
-        .unwrap()
-        .remove("modification");
-    assert!(
-        loaded(&made)
-            .warnings
-            .iter()
-            .any(|warning| warning.code == "modification_prohibited")
-    );
+    made.json["extensions"]["VRMC_vrm"]["meta"].as_object_mut().unwrap().remove("modification");
+    assert!(loaded(&made).warnings.iter().any(|warning| warning.code == "modification_prohibited"));
     assert!(loaded(&figure()).warnings.is_empty());
 }
 
@@ -767,27 +633,28 @@ fn a_map_names_roles_in_three_spellings() {
     );
     let map = json!({"hips": "pelvis", "HEAD": "skull", "Left Upper Leg": "thigh.L", "RightUpperLeg": "thigh.R",
         "leftUpperArm": "arm.L", "rightUpperArm": "arm.R", "Left Thumb Proximal": "strand", "LeftThumbIntermediate": "strand end"});
-    let options = LoadOptions {
-        humanoid_map: Some(&map),
-        ..LoadOptions::default()
-    };
+    let options = LoadOptions { humanoid_map: Some(&map), ..LoadOptions::default() };
     let loaded = load(file.clone(), &options).unwrap();
-    let node = |role| {
-        loaded
-            .character
-            .humanoid
-            .joint(role)
-            .map(|joint| loaded.node_of_joint[joint])
-    };
+    let node = |role| loaded.character.humanoid.joint(role).map(|joint| loaded.node_of_joint[joint]);
     assert_eq!(node(superdeform::Role::LeftUpperLeg), Some(6));
     assert_eq!(node(superdeform::Role::LeftThumbMetacarpal), Some(10));
     assert_eq!(node(superdeform::Role::LeftThumbProximal), Some(11));
     let map = json!({"hips": "pelvi"});
-    let options = LoadOptions {
-        humanoid_map: Some(&map),
-        ..LoadOptions::default()
-    };
+    let options = LoadOptions { humanoid_map: Some(&map), ..LoadOptions::default() };
     assert!(load(file, &options).unwrap_err().message.contains("\"pelvi\""));
+}
+
+#[test]
+fn a_map_may_number_nodes_of_one_name() {
+    let mut made = figure();
+    made.json.as_object_mut().unwrap().remove("extensions");
+    made.json["nodes"][12]["name"] = json!("skull");
+    let map = json!({"hips": "pelvis", "head": "skull 1", "leftUpperLeg": "thigh.L", "rightUpperLeg": "thigh.R",
+        "leftUpperArm": "arm.L", "rightUpperArm": "arm.R"});
+    let options = LoadOptions { humanoid_map: Some(&map), ..LoadOptions::default() };
+    let loaded = load(GltfFile::parse("made.glb", &made.bytes()).unwrap(), &options).unwrap();
+    let head = loaded.character.humanoid.joint(superdeform::Role::Head).unwrap();
+    assert_eq!(loaded.node_of_joint[head], 3);
 }
 
 #[test]
@@ -800,19 +667,10 @@ fn kinds_come_from_patterns_first_and_hair_hangs_from_the_head() {
     let joints = made.accessor(&[3u8, 0, 0, 0].repeat(count), 5121, "VEC4", count);
     made.json["meshes"][0]["primitives"][0]["attributes"]["JOINTS_0"] = json!(joints);
     assert_eq!(loaded(&made).character.meshes[0].kind, MeshKind::Hair);
-    let patterns = [(
-        MeshKind::Accessory,
-        regex::Regex::new("(?i)^figure\\|hair").unwrap(),
-    )];
-    let options = LoadOptions {
-        kinds: &patterns,
-        ..LoadOptions::default()
-    };
+    let patterns = [(MeshKind::Accessory, regex::Regex::new("(?i)^figure\\|hair").unwrap())];
+    let options = LoadOptions { kinds: &patterns, ..LoadOptions::default() };
     let file = GltfFile::parse("made.glb", &made.bytes()).unwrap();
-    assert_eq!(
-        load(file, &options).unwrap().character.meshes[0].kind,
-        MeshKind::Accessory
-    );
+    assert_eq!(load(file, &options).unwrap().character.meshes[0].kind, MeshKind::Accessory);
 }
 
 #[test]
@@ -835,16 +693,26 @@ fn gltf_with_embedded_buffers_becomes_one_buffer() {
 }
 
 #[test]
+fn pictures_that_only_an_extension_names_are_no_hindrance() {
+    let mut made = figure();
+    let picture = made.view(b"RIFF");
+    made.json["images"] = json!([{"bufferView": picture, "mimeType": "image/webp"}]);
+    made.json["textures"] = json!([{"extensions": {"EXT_texture_webp": {"source": 0}}}]);
+    made.push("scenes", json!({"name": "empty"}));
+    made.json["extensionsRequired"] = json!(["EXT_texture_webp"]);
+    let written = squashed(&loaded(&made));
+    assert_eq!(written.json["textures"], made.json["textures"]);
+}
+
+#[test]
 fn a_file_is_written_whole_or_not_at_all() {
     let folder = std::env::temp_dir().join(format!("superdeform-files-{}", std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();
     write_atomically(&folder.join("a.glb"), b"whole").unwrap();
     assert!(write_atomically(&folder, b"whole").is_err());
     assert!(write_atomically(&folder.join("missing/a.glb"), b"whole").is_err());
-    let left: BTreeMap<_, _> = std::fs::read_dir(&folder)
-        .unwrap()
-        .map(|e| (e.unwrap().file_name(), ()))
-        .collect();
+    let left: BTreeMap<_, _> =
+        std::fs::read_dir(&folder).unwrap().map(|e| (e.unwrap().file_name(), ())).collect();
     assert_eq!(left.len(), 1);
     std::fs::remove_dir_all(&folder).unwrap();
 }

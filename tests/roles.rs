@@ -53,10 +53,7 @@ fn bare(name: &str) -> String {
 fn real_characters(every_node: bool) -> Vec<Real> {
     let folder = models();
     let Ok(entries) = std::fs::read_dir(&folder) else {
-        println!(
-            "no models in {}: real characters are not compared",
-            folder.display()
-        );
+        println!("no models in {}: real characters are not compared", folder.display());
         return Vec::new();
     };
     let list = std::fs::read_to_string(folder.join("roles.json")).unwrap_or_else(|_| "{}".to_string());
@@ -99,10 +96,9 @@ fn real_characters(every_node: bool) -> Vec<Real> {
         .collect();
     for real in found.iter_mut().filter(|real| real.truth.is_empty()) {
         let joints = &real.file.skeleton.joints;
-        let twin = known.iter().find(|map| {
-            map.keys()
-                .all(|name| joints.iter().any(|joint| bare(&joint.name) == *name))
-        });
+        let twin = known
+            .iter()
+            .find(|map| map.keys().all(|name| joints.iter().any(|joint| bare(&joint.name) == *name)));
         if let Some(twin) = twin {
             let entry =
                 |(joint, of): (usize, &superdeform::Joint)| Some((*twin.get(&bare(&of.name))?, joint));
@@ -124,12 +120,7 @@ struct Agreement {
 fn compare(real: &Real, found: &Humanoid, roles: &[Role], tolerance: f64) -> Agreement {
     let position = |joint: usize| real.file.skeleton.joints[joint].position();
     let name = |joint: usize| real.file.skeleton.joints[joint].name.as_str();
-    let heights = real
-        .file
-        .meshes
-        .iter()
-        .flat_map(|mesh| &mesh.positions)
-        .map(|point| f64::from(point.y));
+    let heights = real.file.meshes.iter().flat_map(|mesh| &mesh.positions).map(|point| f64::from(point.y));
     let (low, high) = heights.fold((f64::MAX, f64::MIN), |(low, high), y| (low.min(y), high.max(y)));
     let mut agreement = Agreement::default();
     for &role in roles {
@@ -139,9 +130,7 @@ fn compare(real: &Real, found: &Humanoid, roles: &[Role], tolerance: f64) -> Agr
                 if truth == joint || near && tolerance > 0.0 {
                     agreement.right += 1;
                 } else {
-                    agreement
-                        .wrong
-                        .push(format!("{role}: {} for {}", name(joint), name(truth)));
+                    agreement.wrong.push(format!("{role}: {} for {}", name(joint), name(truth)));
                 }
             }
             (Some(_), None) => agreement.missed.push(role.to_string()),
@@ -157,19 +146,9 @@ fn names_tell_the_roles_of_real_characters() {
     for real in real_characters(false).into_iter().chain(real_characters(true)) {
         let (found, warnings) = find_roles(&real.file.skeleton, &real.file.meshes, glam::Vec3::Y);
         if real.truth.is_empty() {
-            println!(
-                "{}: no truth; missing {:?} {:?}",
-                real.name,
-                found.missing(),
-                warnings
-            );
+            println!("{}: no truth; missing {:?} {:?}", real.name, found.missing(), warnings);
             for role in CORE {
-                print!(
-                    " {role}={}",
-                    found
-                        .joint(role)
-                        .map_or("-", |j| &real.file.skeleton.joints[j].name)
-                );
+                print!(" {role}={}", found.joint(role).map_or("-", |j| &real.file.skeleton.joints[j].name));
             }
             println!();
             assert!(found.missing().is_empty(), "{}", real.name);
@@ -215,10 +194,8 @@ fn the_tree_tells_the_roles_of_real_characters_without_names() {
         .filter(|role| ![Spine, Chest, Neck, LeftShoulder, RightShoulder].contains(role))
         .collect();
     let (mut good, mut count) = (0, 0);
-    for real in real_characters(false)
-        .into_iter()
-        .chain(real_characters(true))
-        .filter(|real| !real.truth.is_empty())
+    for real in
+        real_characters(false).into_iter().chain(real_characters(true)).filter(|real| !real.truth.is_empty())
     {
         let skeleton = nameless(&real.file.skeleton);
         let found = roles_from_tree(&skeleton, &real.file.meshes, glam::Vec3::Y);
@@ -255,10 +232,7 @@ fn made_up(text: &str, left: &str, right: &str) -> Skeleton {
         for line in &lines {
             let depth = (line.len() - line.trim_start().len()) / 2;
             let (name, place) = line.trim().rsplit_once('@').expect("name @ x y z");
-            let place: Vec<f64> = place
-                .split_whitespace()
-                .map(|number| number.parse().unwrap())
-                .collect();
+            let place: Vec<f64> = place.split_whitespace().map(|number| number.parse().unwrap()).collect();
             let name = name.trim();
             above.truncate(depth);
             let sided = name.contains(left);
@@ -273,11 +247,7 @@ fn made_up(text: &str, left: &str, right: &str) -> Skeleton {
                 (name.to_string(), place[0])
             };
             let rest = glam::DMat4::from_translation(glam::DVec3::new(x, place[1], place[2]));
-            skeleton.joints.push(superdeform::Joint {
-                name,
-                parent: above.last().copied(),
-                rest,
-            });
+            skeleton.joints.push(superdeform::Joint { name, parent: above.last().copied(), rest });
             above.push(skeleton.joints.len() - 1);
         }
     }
@@ -292,13 +262,8 @@ fn expect(text: &str, left: &str, right: &str, roles: &[(Role, &str)]) {
     for &(role, joint) in roles {
         let wanted = (!joint.is_empty()).then(|| joint.to_string());
         assert_eq!(name(role), wanted, "{role}; {warnings:?}");
-        let mirrored = wanted.map(|name| {
-            if role.mirrored() == role {
-                name
-            } else {
-                name.replacen(left, right, 1)
-            }
-        });
+        let mirrored =
+            wanted.map(|name| if role.mirrored() == role { name } else { name.replacen(left, right, 1) });
         assert_eq!(name(role.mirrored()), mirrored, "{role}");
     }
     assert!(found.missing().is_empty());
@@ -317,25 +282,15 @@ fn person(hips: &str, column: &[&str], top: [&str; 2], arm: [&str; 4], leg: [&st
     };
     line(&mut depth, hips, "0 0.95 0");
     let base = depth;
-    for (name, place) in leg
-        .iter()
-        .zip(["0.1 0.9 0", "0.1 0.5 0.01", "0.1 0.09 0", "0.1 0.02 0.12"])
-    {
+    for (name, place) in leg.iter().zip(["0.1 0.9 0", "0.1 0.5 0.01", "0.1 0.09 0", "0.1 0.02 0.12"]) {
         line(&mut depth, name, place);
     }
     depth = base;
     for (place, name) in column.iter().enumerate() {
-        line(
-            &mut depth,
-            name,
-            &format!("0 {} 0", 1.05 + 0.3 * place as f64 / column.len() as f64),
-        );
+        line(&mut depth, name, &format!("0 {} 0", 1.05 + 0.3 * place as f64 / column.len() as f64));
     }
     let chest = depth;
-    for (name, place) in arm
-        .iter()
-        .zip(["0.03 1.4 0", "0.18 1.4 0", "0.45 1.4 -0.01", "0.7 1.4 0"])
-    {
+    for (name, place) in arm.iter().zip(["0.03 1.4 0", "0.18 1.4 0", "0.45 1.4 -0.01", "0.7 1.4 0"]) {
         line(&mut depth, name, place);
     }
     depth = chest;
@@ -355,16 +310,8 @@ fn expect_person(
 ) {
     let text = person(hips, column, top, arm, leg);
     let mut roles = vec![(Hips, hips), (Neck, top[0]), (Head, top[1])];
-    roles.extend(
-        [LeftShoulder, LeftUpperArm, LeftLowerArm, LeftHand]
-            .into_iter()
-            .zip(arm),
-    );
-    roles.extend(
-        [LeftUpperLeg, LeftLowerLeg, LeftFoot, LeftToes]
-            .into_iter()
-            .zip(leg),
-    );
+    roles.extend([LeftShoulder, LeftUpperArm, LeftLowerArm, LeftHand].into_iter().zip(arm));
+    roles.extend([LeftUpperLeg, LeftLowerLeg, LeftFoot, LeftToes].into_iter().zip(leg));
     if column.len() <= 3 {
         roles.extend([Spine, Chest, UpperChest].into_iter().zip(column.iter().copied()));
     } else {
@@ -463,16 +410,8 @@ root @ 0 0 0
         (LeftThumbDistal, "thumb_03_l"),
     ];
     let text = text.replace("_l @", "_l. @");
-    let roles = roles.map(|(role, name)| {
-        (
-            role,
-            if name.ends_with("_l") {
-                format!("{name}.")
-            } else {
-                name.to_string()
-            },
-        )
-    });
+    let roles = roles
+        .map(|(role, name)| (role, if name.ends_with("_l") { format!("{name}.") } else { name.to_string() }));
     let roles: Vec<(Role, &str)> = roles.iter().map(|(role, name)| (*role, name.as_str())).collect();
     expect(&text, "_l.", "_r.", &roles);
 }
@@ -528,18 +467,8 @@ fn plain_conventions_are_known() {
         "J_Bip_C_Hips",
         &["J_Bip_C_Spine", "J_Bip_C_Chest", "J_Bip_C_UpperChest"],
         ["J_Bip_C_Neck", "J_Bip_C_Head"],
-        [
-            "J_Bip_L_Shoulder",
-            "J_Bip_L_UpperArm",
-            "J_Bip_L_LowerArm",
-            "J_Bip_L_Hand",
-        ],
-        [
-            "J_Bip_L_UpperLeg",
-            "J_Bip_L_LowerLeg",
-            "J_Bip_L_Foot",
-            "J_Bip_L_ToeBase",
-        ],
+        ["J_Bip_L_Shoulder", "J_Bip_L_UpperArm", "J_Bip_L_LowerArm", "J_Bip_L_Hand"],
+        ["J_Bip_L_UpperLeg", "J_Bip_L_LowerLeg", "J_Bip_L_Foot", "J_Bip_L_ToeBase"],
         ["_L_", "_R_"],
     );
     // Biped of 3ds Max, with space and two ways to number the rig.
@@ -585,18 +514,8 @@ fn plain_conventions_are_known() {
         "CC_Base_Hip",
         &["CC_Base_Waist", "CC_Base_Spine01", "CC_Base_Spine02"],
         ["CC_Base_NeckTwist01", "CC_Base_Head"],
-        [
-            "CC_Base_L_Clavicle",
-            "CC_Base_L_Upperarm",
-            "CC_Base_L_Forearm",
-            "CC_Base_L_Hand",
-        ],
-        [
-            "CC_Base_L_Thigh",
-            "CC_Base_L_Calf",
-            "CC_Base_L_Foot",
-            "CC_Base_L_ToeBase",
-        ],
+        ["CC_Base_L_Clavicle", "CC_Base_L_Upperarm", "CC_Base_L_Forearm", "CC_Base_L_Hand"],
+        ["CC_Base_L_Thigh", "CC_Base_L_Calf", "CC_Base_L_Foot", "CC_Base_L_ToeBase"],
         ["_L_", "_R_"],
     );
     // Daz Genesis.
@@ -629,18 +548,8 @@ fn plain_conventions_are_known() {
         "bone-hips",
         &["bone-spine"],
         ["bone-neck", "bone-head"],
-        [
-            "bone-clavicle-l",
-            "bone-upper-arm-l",
-            "bone-lower-arm-l",
-            "bone-hand-l",
-        ],
-        [
-            "bone-upper-leg-l",
-            "bone-lower-leg-l",
-            "bone-foot-l",
-            "bone-toe-l",
-        ],
+        ["bone-clavicle-l", "bone-upper-arm-l", "bone-lower-arm-l", "bone-hand-l"],
+        ["bone-upper-leg-l", "bone-lower-leg-l", "bone-foot-l", "bone-toe-l"],
         ["-l", "-r"],
     );
 }
@@ -840,11 +749,7 @@ a @ 0 0.95 0
             joint.rest = glam::DMat4::from_rotation_y(turn) * joint.rest;
         }
         let found = roles_from_tree(&turned, &[], glam::Vec3::Y);
-        let name = |role: Role| {
-            found
-                .joint(role)
-                .map(|joint| skeleton.joints[joint].name.as_str())
-        };
+        let name = |role: Role| found.joint(role).map(|joint| skeleton.joints[joint].name.as_str());
         let roles = [
             (Hips, "a"),
             (Spine, "f"),
@@ -878,22 +783,14 @@ fn a_gap_in_the_names_is_filled_from_the_tree_with_a_warning() {
     );
     let skeleton = made_up(&text, "_L", "_R");
     let (found, warnings) = find_roles(&skeleton, &[], glam::Vec3::Y);
-    let name = |role: Role| {
-        found
-            .joint(role)
-            .map(|joint| skeleton.joints[joint].name.as_str())
-    };
+    let name = |role: Role| found.joint(role).map(|joint| skeleton.joints[joint].name.as_str());
     assert_eq!(name(LeftUpperLeg), Some("Thing1_L"));
     assert_eq!(name(RightLowerLeg), Some("Thing2_R"));
     assert_eq!(name(LeftFoot), Some("Thing3_L"));
     assert_eq!(name(LeftUpperArm), Some("UpperArm_L"));
     assert_eq!(warnings.len(), 1);
     assert_eq!(warnings[0].code, "roles_from_geometry");
-    assert!(
-        warnings[0].message.contains("leftUpperLeg (Thing1_L)"),
-        "{}",
-        warnings[0].message
-    );
+    assert!(warnings[0].message.contains("leftUpperLeg (Thing1_L)"), "{}", warnings[0].message);
 }
 
 #[test]
@@ -906,11 +803,7 @@ fn a_shin_above_its_thigh_loses_its_role() {
         ["UpperLeg_L", "LowerLeg_L", "Foot_L", ""],
     );
     let mut skeleton = made_up(&text, "_L", "_R");
-    let shin = skeleton
-        .joints
-        .iter()
-        .position(|joint| joint.name == "LowerLeg_L")
-        .unwrap();
+    let shin = skeleton.joints.iter().position(|joint| joint.name == "LowerLeg_L").unwrap();
     skeleton.joints[shin].rest.w_axis.y = 1.2;
     let (found, _) = find_roles(&skeleton, &[], glam::Vec3::Y);
     assert_eq!(found.joint(LeftLowerLeg), None);
@@ -938,9 +831,7 @@ fn any_tree_is_survived() {
     ];
     let mut state = 1_u64;
     let mut random = |below: usize| {
-        state = state
-            .wrapping_mul(6364136223846793005)
-            .wrapping_add(1442695040888963407);
+        state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
         (state >> 33) as usize % below
     };
     for case in 0..3000 {
@@ -981,13 +872,7 @@ fn any_tree_is_survived() {
 
 #[test]
 fn roles_are_read_in_every_spelling() {
-    for name in [
-        "leftUpperLeg",
-        "LeftUpperLeg",
-        "Left Upper Leg",
-        "left_upper_leg",
-        "LEFT-UPPER-LEG",
-    ] {
+    for name in ["leftUpperLeg", "LeftUpperLeg", "Left Upper Leg", "left_upper_leg", "LEFT-UPPER-LEG"] {
         assert_eq!(Role::parse(name), Some(LeftUpperLeg));
     }
     for role in Role::all() {
@@ -1002,31 +887,11 @@ fn thumbs_are_read_as_the_whole_map_means_them() {
     let (thumbs, roles) =
         parse_role_map(["leftThumbMetacarpal", "leftThumbProximal", "leftThumbDistal"].into_iter());
     assert_eq!(thumbs, ThumbNames::Vrm1);
-    assert_eq!(
-        roles,
-        [
-            Some(LeftThumbMetacarpal),
-            Some(LeftThumbProximal),
-            Some(LeftThumbDistal)
-        ]
-    );
-    let unity = [
-        "Left Thumb Proximal",
-        "Left Thumb Intermediate",
-        "Left Thumb Distal",
-        "Tail",
-    ];
+    assert_eq!(roles, [Some(LeftThumbMetacarpal), Some(LeftThumbProximal), Some(LeftThumbDistal)]);
+    let unity = ["Left Thumb Proximal", "Left Thumb Intermediate", "Left Thumb Distal", "Tail"];
     let (thumbs, roles) = parse_role_map(unity.into_iter());
     assert_eq!(thumbs, ThumbNames::Vrm0OrUnity);
-    assert_eq!(
-        roles,
-        [
-            Some(LeftThumbMetacarpal),
-            Some(LeftThumbProximal),
-            Some(LeftThumbDistal),
-            None
-        ]
-    );
+    assert_eq!(roles, [Some(LeftThumbMetacarpal), Some(LeftThumbProximal), Some(LeftThumbDistal), None]);
     let (_, roles) = parse_role_map(["rightThumbProximal", "rightThumbDistal"].into_iter());
     assert_eq!(roles, [Some(RightThumbMetacarpal), Some(RightThumbDistal)]);
 }

@@ -41,9 +41,8 @@ pub fn read(
         .map(|(mesh, primitive)| {
             let primitive = &document["meshes"][mesh]["primitives"][primitive];
             let material = primitive["material"].as_u64().map(|index| index as usize);
-            let uv_set = material
-                .and_then(|index| materials.get(index))
-                .map_or(0, |material| material.uv_set);
+            let uv_set =
+                material.and_then(|index| materials.get(index)).map_or(0, |material| material.uv_set);
             let attribute = |name: &str| primitive["attributes"][name].as_u64().map(|index| index as usize);
             let uvs = attribute(&format!("TEXCOORD_{uv_set}")).and_then(|accessor| floats(accessor, 2));
             let colours = attribute("COLOR_0").and_then(|accessor| {

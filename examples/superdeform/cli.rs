@@ -287,13 +287,7 @@ pub fn parse(arguments: impl IntoIterator<Item = impl Into<OsString> + Clone>) -
                 let line = text.lines().next().unwrap_or_default();
                 Refusal::Usage(line.trim_start_matches("error: ").to_string())
             }
-            _ => Refusal::Usage(
-                error
-                    .to_string()
-                    .trim_start_matches("error: ")
-                    .trim_end()
-                    .to_string(),
-            ),
+            _ => Refusal::Usage(error.to_string().trim_start_matches("error: ").trim_end().to_string()),
         }),
     }
 }
@@ -309,10 +303,7 @@ fn command(arguments: Arguments) -> Result<Command, Refusal> {
     if arguments.garment_weights.is_some() {
         return Err(Refusal::Input(not_yet("--garment-weights")));
     }
-    let axes = Axes {
-        up: arguments.up.unwrap_or(Axes::default().up),
-        forward: arguments.forward,
-    };
+    let axes = Axes { up: arguments.up.unwrap_or(Axes::default().up), forward: arguments.forward };
     if axes.forward.is_some_and(|forward| axes.up.dot(forward) != 0.0) {
         return Err(Refusal::Usage(
             "--up (+Y where it is not given) and --forward lie on one line: give two different axes"
@@ -320,9 +311,7 @@ fn command(arguments: Arguments) -> Result<Command, Refusal> {
         ));
     }
     let options = options(&arguments)?;
-    let target = arguments
-        .target
-        .unwrap_or_else(|| sample("quaternius_female_dress.glb"));
+    let target = arguments.target.unwrap_or_else(|| sample("quaternius_female_dress.glb"));
     let reference = match (arguments.heads, arguments.reference) {
         (Some(heads), _) => Reference::Heads(heads),
         (None, Some(path)) if path.to_str().is_some_and(|name| BUILT_IN.contains(&name)) => {
@@ -400,11 +389,7 @@ fn options(arguments: &Arguments) -> Result<Options, Refusal> {
         entry.thickness_transfer = settings.thickness_transfer.or(entry.thickness_transfer);
     }
     Ok(Options {
-        mode: if arguments.paper {
-            Mode::Paper
-        } else {
-            Mode::Product
-        },
+        mode: if arguments.paper { Mode::Paper } else { Mode::Product },
         rays: arguments.rays,
         head_scale: arguments.head_scale,
         face_squash: arguments.face_squash,
@@ -468,24 +453,17 @@ fn same_file(first: &Path, second: &Path) -> bool {
 
 /// One of the files in `tests/data`.
 fn sample(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("tests/data")
-        .join(name)
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data").join(name)
 }
 
 fn default_output(target: &Path) -> PathBuf {
     let mut name = target.file_stem().unwrap_or_default().to_os_string();
-    name.push(if has_extension(target, "vrm") {
-        "_sd.vrm"
-    } else {
-        "_sd.glb"
-    });
+    name.push(if has_extension(target, "vrm") { "_sd.vrm" } else { "_sd.glb" });
     Path::new(OUTPUT_FOLDER).join(name)
 }
 
 fn has_extension(path: &Path, wanted: &str) -> bool {
-    path.extension()
-        .is_some_and(|extension| extension.eq_ignore_ascii_case(wanted))
+    path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case(wanted))
 }
 
 fn not_yet(option: &str) -> String {
@@ -500,9 +478,7 @@ fn number(low: f64, high: f64) -> impl Fn(&str) -> Result<f64, String> + Clone {
 fn number_in(text: &str, low: f64, high: f64) -> Result<f64, String> {
     match text.trim().parse::<f64>() {
         Ok(value) if value >= low && value <= high => Ok(value),
-        Ok(value) => Err(format!(
-            "{value} is out of range: give a number from {low} to {high}"
-        )),
+        Ok(value) => Err(format!("{value} is out of range: give a number from {low} to {high}")),
         Err(_) => Err(format!("`{text}` is not a number: give one from {low} to {high}")),
     }
 }
@@ -511,9 +487,7 @@ fn number_in(text: &str, low: f64, high: f64) -> Result<f64, String> {
 fn count(low: usize, high: usize) -> impl Fn(&str) -> Result<usize, String> + Clone {
     move |text| match text.trim().parse::<usize>() {
         Ok(value) if (low..=high).contains(&value) => Ok(value),
-        _ => Err(format!(
-            "{text} is out of range: give a whole number from {low} to {high}"
-        )),
+        _ => Err(format!("{text} is out of range: give a whole number from {low} to {high}")),
     }
 }
 
@@ -572,10 +546,7 @@ fn group(text: &str) -> Result<Group, String> {
         };
         *place = Some(number_in(value, low, high).map_err(|why| format!("{}: {why}", key.trim()))?);
     }
-    Ok(Group {
-        name: name.trim().to_string(),
-        settings,
-    })
+    Ok(Group { name: name.trim().to_string(), settings })
 }
 
 /// Reads `--groups`: an object from bones, named by the role at their end, to group names.
@@ -620,18 +591,9 @@ mod tests {
         let command = parsed(&[]);
         assert!(command.target.exists());
         assert!(matches!(&command.reference, Reference::Model(path) if path.exists()));
-        assert_eq!(
-            command.output,
-            Path::new("superdeform-out/quaternius_female_dress_sd.glb")
-        );
-        assert_eq!(
-            command.picture.unwrap(),
-            Path::new("superdeform-out/quaternius_female_dress_sd.png")
-        );
-        assert_eq!(
-            command.report.unwrap(),
-            Path::new("superdeform-out/quaternius_female_dress_sd.json")
-        );
+        assert_eq!(command.output, Path::new("superdeform-out/quaternius_female_dress_sd.glb"));
+        assert_eq!(command.picture.unwrap(), Path::new("superdeform-out/quaternius_female_dress_sd.png"));
+        assert_eq!(command.report.unwrap(), Path::new("superdeform-out/quaternius_female_dress_sd.json"));
         assert_eq!(command.options, Options::default());
     }
 
@@ -681,10 +643,7 @@ mod tests {
             (&["--up", "w"], &["+X"]),
             (&["--forward", "-Y"], &["--up", "--forward"]),
             (&["a.glb", "b.glb", "-o", "a.glb"], &["a.glb"]),
-            (
-                &["a.glb", "-o", "c.glb", "--report", "r", "--picture", "r"],
-                &["two results"],
-            ),
+            (&["a.glb", "-o", "c.glb", "--report", "r", "--picture", "r"], &["two results"]),
         ] {
             let (code, text) = refused(arguments);
             assert_eq!(code, 2, "{arguments:?}: {text}");
@@ -699,11 +658,8 @@ mod tests {
 
     #[test]
     fn what_is_not_there_yet_says_so() {
-        for arguments in [
-            &["--rig", "auto"][..],
-            &["--save-rigged", "x.glb"],
-            &["--garment-weights", "heat"],
-        ] {
+        for arguments in [&["--rig", "auto"][..], &["--save-rigged", "x.glb"], &["--garment-weights", "heat"]]
+        {
             let (code, text) = refused(arguments);
             assert_eq!(code, 1);
             assert!(text.contains("not available yet"), "{text}");

@@ -45,10 +45,7 @@ pub fn draw(image: &mut RgbImage, text: &str, centre: f32, line: f32, dot: f32, 
         .chars()
         .map(|letter| {
             let letter = letter.to_ascii_lowercase();
-            LETTERS
-                .iter()
-                .find(|(known, _)| *known == letter)
-                .map_or(&[0; ROWS], |(_, rows)| rows)
+            LETTERS.iter().find(|(known, _)| *known == letter).map_or(&[0; ROWS], |(_, rows)| rows)
         })
         .collect();
     let dots: usize = letters.iter().map(|rows| extent(rows).1 + 1).sum();
@@ -108,14 +105,8 @@ fn draw_strokes(image: &mut RgbImage, strokes: &[Stroke], corner: [f32; 2], dot:
     let last_column = corner[0] + COLUMNS as f32 * dot;
     for y in ((corner[1] - dot).max(0.0) as u32)..((last_row.max(0.0) as u32).min(image.height())) {
         for x in ((corner[0] - dot).max(0.0) as u32)..((last_column.max(0.0) as u32).min(image.width())) {
-            let point = [
-                (x as f32 + 0.5 - corner[0]) / dot,
-                (y as f32 + 0.5 - corner[1]) / dot,
-            ];
-            let nearest = strokes
-                .iter()
-                .map(|stroke| distance(point, stroke))
-                .fold(f32::INFINITY, f32::min);
+            let point = [(x as f32 + 0.5 - corner[0]) / dot, (y as f32 + 0.5 - corner[1]) / dot];
+            let nearest = strokes.iter().map(|stroke| distance(point, stroke)).fold(f32::INFINITY, f32::min);
             let cover = (half_width - nearest * dot + 0.5).clamp(0.0, 1.0);
             if cover > 0.0 {
                 let Rgb(under) = *image.get_pixel(x, y);

@@ -50,9 +50,7 @@ fn main() -> ExitCode {
 fn without_panic<T>(work: impl FnOnce() -> Result<T, String>) -> Result<T, String> {
     static FAULT: Mutex<Option<String>> = Mutex::new(None);
     panic::set_hook(Box::new(|info| {
-        let place = info
-            .location()
-            .map_or(String::new(), |place| format!(" at {place}"));
+        let place = info.location().map_or(String::new(), |place| format!(" at {place}"));
         let what = panic_text(info.payload()).replace('\n', " ");
         if let Ok(mut fault) = FAULT.lock() {
             // The first panic is the cause; others follow from it.

@@ -87,10 +87,8 @@ pub fn materials(document: &Value, blob: &[u8]) -> Vec<Material> {
         .enumerate()
         .map(|(index, material)| one_material(document, material, index))
         .collect();
-    let mut sources: Vec<usize> = read
-        .iter()
-        .filter_map(|(_, texture)| image_index(document, (*texture)?))
-        .collect();
+    let mut sources: Vec<usize> =
+        read.iter().filter_map(|(_, texture)| image_index(document, (*texture)?)).collect();
     sources.sort_unstable();
     sources.dedup();
     let images = decode(document, blob, &sources);
@@ -136,9 +134,7 @@ fn one_material(document: &Value, material: &Value, index: usize) -> (Material, 
         || shader.contains("MToon")
         || shader.contains("Unlit");
     let move_by = &info["extensions"]["KHR_texture_transform"];
-    let uv_set = whole(&move_by["texCoord"])
-        .or(whole(&info["texCoord"]))
-        .unwrap_or(0);
+    let uv_set = whole(&move_by["texCoord"]).or(whole(&info["texCoord"])).unwrap_or(0);
     let material = Material {
         base_colour,
         texture: texture.map(|texture| Texture {
@@ -156,19 +152,12 @@ fn one_material(document: &Value, material: &Value, index: usize) -> (Material, 
 
 fn transform(extension: &Value) -> [[f32; 3]; 2] {
     let pair = |key: &str, otherwise: f32| {
-        [0, 1].map(|index| {
-            extension[key][index]
-                .as_f64()
-                .map_or(otherwise, |value| value as f32)
-        })
+        [0, 1].map(|index| extension[key][index].as_f64().map_or(otherwise, |value| value as f32))
     };
     let offset = pair("offset", 0.0);
     let scale = pair("scale", 1.0);
     let (sin, cos) = (extension["rotation"].as_f64().unwrap_or(0.0) as f32).sin_cos();
-    [
-        [cos * scale[0], sin * scale[1], offset[0]],
-        [-sin * scale[0], cos * scale[1], offset[1]],
-    ]
+    [[cos * scale[0], sin * scale[1], offset[0]], [-sin * scale[0], cos * scale[1], offset[1]]]
 }
 
 fn wrap(document: &Value, texture: usize) -> [Wrap; 2] {
@@ -203,11 +192,7 @@ fn decode(document: &Value, blob: &[u8], sources: &[usize]) -> BTreeMap<usize, A
             })
             .collect();
         // A decoder that panics costs its images, not the run.
-        workers
-            .into_iter()
-            .filter_map(|worker| worker.join().ok())
-            .flatten()
-            .collect()
+        workers.into_iter().filter_map(|worker| worker.join().ok()).flatten().collect()
     })
 }
 

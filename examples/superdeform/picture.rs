@@ -73,16 +73,9 @@ pub fn draw(views: &[View]) -> RgbImage {
         }
     }
     let scale = scale(&figures);
-    let tallest = figures
-        .iter()
-        .map(|figure| figure.height() * figure.unit)
-        .fold(0.0, f32::max);
+    let tallest = figures.iter().map(|figure| figure.height() * figure.unit).fold(0.0, f32::max);
     let ground = TOP + tallest * scale;
-    let width = figures
-        .iter()
-        .map(|figure| figure.width(scale) + FIGURE_GAP)
-        .sum::<f32>()
-        + FIGURE_GAP;
+    let width = figures.iter().map(|figure| figure.width(scale) + FIGURE_GAP).sum::<f32>() + FIGURE_GAP;
     let mut sheet = background(width.ceil() as u32, (ground + BOTTOM).ceil() as u32, ground);
     let mut left = FIGURE_GAP;
     for (view, figure) in views.iter().zip(&figures) {
@@ -199,10 +192,7 @@ struct Surface {
 impl Figure {
     fn new(view: &View) -> Self {
         let up = view.up.normalize_or(Vec3::Y);
-        let front = view
-            .forward
-            .reject_from_normalized(up)
-            .normalize_or(up.any_orthonormal_vector());
+        let front = view.forward.reject_from_normalized(up).normalize_or(up.any_orthonormal_vector());
         let side = up.cross(front);
         Self {
             cameras: [Camera::new(view, up, front), Camera::new(view, up, side)],
@@ -219,11 +209,7 @@ impl Figure {
     }
 
     fn width(&self, scale: f32) -> f32 {
-        self.cameras
-            .iter()
-            .map(|camera| camera.width() * scale * self.unit)
-            .sum::<f32>()
-            + VIEW_GAP
+        self.cameras.iter().map(|camera| camera.width() * scale * self.unit).sum::<f32>() + VIEW_GAP
     }
 }
 
@@ -240,10 +226,7 @@ impl Surface {
                     normals[corner as usize] += face_normal(corners);
                 }
             }
-            return Self {
-                normals,
-                mirrored: false,
-            };
+            return Self { normals, mirrored: false };
         }
         let agreeing = mesh
             .triangles
@@ -253,24 +236,16 @@ impl Surface {
                 normal.dot(face_normal(corners)) > 0.0
             })
             .count();
-        Self {
-            normals: mesh.normals.to_vec(),
-            mirrored: 2 * agreeing < mesh.triangles.len(),
-        }
+        Self { normals: mesh.normals.to_vec(), mirrored: 2 * agreeing < mesh.triangles.len() }
     }
 }
 
 /// Pixels per unit, and every figure's own unit.
 fn scale(figures: &[Figure]) -> f32 {
-    let tallest = figures
-        .iter()
-        .map(|figure| figure.height() * figure.unit)
-        .fold(f32::MIN_POSITIVE, f32::max);
+    let tallest =
+        figures.iter().map(|figure| figure.height() * figure.unit).fold(f32::MIN_POSITIVE, f32::max);
     let by_height = FIGURE_HEIGHT / tallest;
-    let drawn: f32 = figures
-        .iter()
-        .map(|figure| figure.width(by_height) - VIEW_GAP)
-        .sum();
+    let drawn: f32 = figures.iter().map(|figure| figure.width(by_height) - VIEW_GAP).sum();
     let gaps = FIGURE_GAP + figures.len() as f32 * (FIGURE_GAP + VIEW_GAP);
     by_height * ((LARGEST_WIDTH - gaps) / drawn.max(1.0)).clamp(0.0, 1.0)
 }
@@ -401,11 +376,8 @@ impl Canvas {
                 for column in first_column..last_column {
                     let point = Vec2::new(column as f32 + 0.5, row as f32 + 0.5);
                     let to = [a, b, c].map(|corner| corner.truncate() - point);
-                    let share = Vec3::new(
-                        to[1].perp_dot(to[2]),
-                        to[2].perp_dot(to[0]),
-                        to[0].perp_dot(to[1]),
-                    ) / area;
+                    let share =
+                        Vec3::new(to[1].perp_dot(to[2]), to[2].perp_dot(to[0]), to[0].perp_dot(to[1])) / area;
                     if share.min_element() < 0.0 {
                         continue;
                     }
@@ -519,23 +491,14 @@ impl PictureMesh<'_> {
     /// Linear colour and alpha at a point of a triangle, before light.
     fn paint(&self, corners: &[u32; 3], share: Vec3) -> Vec4 {
         let mut paint = Vec4::from(self.material.base_colour);
-        let shares = || {
-            corners
-                .iter()
-                .map(|&corner| corner as usize)
-                .zip(share.to_array())
-        };
+        let shares = || corners.iter().map(|&corner| corner as usize).zip(share.to_array());
         if self.colours.len() == self.positions.len() {
-            paint *= shares()
-                .map(|(corner, share)| share * Vec4::from(self.colours[corner]))
-                .sum::<Vec4>();
+            paint *= shares().map(|(corner, share)| share * Vec4::from(self.colours[corner])).sum::<Vec4>();
         }
         if let Some(texture) = &self.material.texture
             && self.uvs.len() == self.positions.len()
         {
-            let uv = shares()
-                .map(|(corner, share)| share * Vec2::from(self.uvs[corner]))
-                .sum::<Vec2>();
+            let uv = shares().map(|(corner, share)| share * Vec2::from(self.uvs[corner])).sum::<Vec2>();
             paint *= look_up(texture, uv);
         }
         paint
@@ -545,9 +508,7 @@ impl PictureMesh<'_> {
 /// The texture's linear colour and alpha at `uv`, mixed from the four texels around it.
 fn look_up(texture: &Texture, uv: Vec2) -> Vec4 {
     let image: &RgbaImage = &texture.image;
-    let [u, v] = texture
-        .transform
-        .map(|[by_u, by_v, offset]| by_u * uv.x + by_v * uv.y + offset);
+    let [u, v] = texture.transform.map(|[by_u, by_v, offset]| by_u * uv.x + by_v * uv.y + offset);
     if image.is_empty() || !u.is_finite() || !v.is_finite() {
         return Vec4::ONE;
     }
@@ -572,11 +533,7 @@ fn texel(position: f32, size: u32, wrap: Wrap) -> u32 {
         Wrap::Repeat => position.rem_euclid(count),
         Wrap::Mirror => {
             let there = position.rem_euclid(2.0 * count);
-            if there < count {
-                there
-            } else {
-                2.0 * count - 1.0 - there
-            }
+            if there < count { there } else { 2.0 * count - 1.0 - there }
         }
     };
     (inside.max(0.0) as u32).min(size - 1)
@@ -621,11 +578,7 @@ impl Light {
 static TO_LINEAR: std::sync::LazyLock<[f32; 256]> = std::sync::LazyLock::new(|| {
     std::array::from_fn(|byte| {
         let value = byte as f32 / 255.0;
-        if value <= 0.04045 {
-            value / 12.92
-        } else {
-            ((value + 0.055) / 1.055).powf(2.4)
-        }
+        if value <= 0.04045 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) }
     })
 });
 
@@ -635,11 +588,7 @@ fn to_display(value: f32) -> f32 {
     const SHOULDER: f32 = 0.55;
     let above = (EXPOSURE * value - SHOULDER).max(0.0) / (1.0 - SHOULDER);
     let value = (EXPOSURE * value).clamp(0.0, SHOULDER) + (1.0 - SHOULDER) * (1.0 - (-above).exp());
-    if value <= 0.0031308 {
-        value * 12.92
-    } else {
-        1.055 * value.powf(1.0 / 2.4) - 0.055
-    }
+    if value <= 0.0031308 { value * 12.92 } else { 1.055 * value.powf(1.0 / 2.4) - 0.055 }
 }
 
 #[cfg(test)]
@@ -654,10 +603,7 @@ mod tests {
     }
 
     fn coloured(base_colour: [f32; 4]) -> Material {
-        Material {
-            base_colour,
-            ..Material::default()
-        }
+        Material { base_colour, ..Material::default() }
     }
 
     type Part<'a> = (&'a [Vec3], &'a [[u32; 3]], &'a Material);

@@ -11,11 +11,7 @@ pub struct Progress {
 impl Progress {
     /// A bar of `stage_count` stages; hidden where `quiet`, or where standard error is no terminal.
     pub fn new(stage_count: u64, quiet: bool) -> Self {
-        let target = if quiet {
-            ProgressDrawTarget::hidden()
-        } else {
-            ProgressDrawTarget::stderr()
-        };
+        let target = if quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
         let bar = ProgressBar::with_draw_target(Some(stage_count), target);
         if let Ok(style) = ProgressStyle::with_template("{bar:24} {pos}/{len} {msg}") {
             bar.set_style(style);

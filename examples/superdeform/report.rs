@@ -19,10 +19,8 @@ pub fn write(report: &Report, path: &Path) -> Result<(), String> {
 ///
 /// `files` are names such as `model` with their paths.
 pub fn summary(report: &Report, files: &[(&str, PathBuf)]) -> String {
-    let mut text = format!(
-        "target {:.1} heads -> result {:.1} heads",
-        report.target.heads, report.result.heads
-    );
+    let mut text =
+        format!("target {:.1} heads -> result {:.1} heads", report.target.heads, report.result.heads);
     if let Some(reference) = &report.reference {
         let _ = write!(text, ", reference {:.1} heads", reference.heads);
     }
@@ -45,10 +43,7 @@ mod tests {
 
     #[test]
     fn the_summary_tells_heads_warnings_and_files() {
-        let figure = |heads| FigureReport {
-            heads,
-            ..FigureReport::default()
-        };
+        let figure = |heads| FigureReport { heads, ..FigureReport::default() };
         let mut report = Report {
             target: figure(6.53),
             reference: Some(figure(2.5)),

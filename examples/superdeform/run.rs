@@ -82,12 +82,7 @@ fn stages(command: &Command, progress: &Progress) -> Result<Done, String> {
     if let Some(study) = &study {
         // Measured over the roles of both, so that the two figures can be compared group by group.
         let of_target = &deformer.target().joints;
-        let roles = study
-            .joints
-            .keys()
-            .copied()
-            .filter(|role| of_target.contains_key(role))
-            .collect();
+        let roles = study.joints.keys().copied().filter(|role| of_target.contains_key(role)).collect();
         report.reference = Some(study.report(&roles, &command.options));
     }
     let mut warnings = target.host.warnings.clone();
@@ -110,19 +105,14 @@ fn stages(command: &Command, progress: &Progress) -> Result<Done, String> {
             reference.appearance = appearance(&reference.host);
         }
     }
-    let sheet = command
-        .picture
-        .is_some()
-        .then(|| sheet(&target, reference.as_ref(), &deformed, &report));
+    let sheet = command.picture.is_some().then(|| sheet(&target, reference.as_ref(), &deformed, &report));
 
     let draw_time = draw_start.elapsed();
 
     progress.stage("writing");
     let write_start = Instant::now();
-    let model = host::write::write(&target.host, &deformed, &|joint, point| {
-        deformer.map(joint, point)
-    })
-    .map_err(sentence)?;
+    let model = host::write::write(&target.host, &deformed, &|joint, point| deformer.map(joint, point))
+        .map_err(sentence)?;
 
     progress.stage("saving");
     let mut files = Vec::new();
@@ -179,9 +169,7 @@ fn read_map(path: Option<&Path>) -> Result<Option<Value>, String> {
     let text = std::fs::read_to_string(path).map_err(|error| format!("{place}: cannot be read ({error})"))?;
     match serde_json::from_str(&text) {
         Ok(map @ Value::Object(_)) => Ok(Some(map)),
-        Ok(_) => Err(format!(
-            "{place}: must be a JSON object such as {{\"hips\": \"NODE NAME\"}}"
-        )),
+        Ok(_) => Err(format!("{place}: must be a JSON object such as {{\"hips\": \"NODE NAME\"}}")),
         Err(error) => Err(format!("{place}: is no JSON ({error})")),
     }
 }
@@ -197,25 +185,16 @@ fn load(path: &Path, reading: &Reading) -> Result<Loaded, String> {
     let host = GltfFile::read(path)
         .and_then(|file| host::load::load(file, &options))
         .map_err(|error| sentence(error).replace("--humanoid", reading.map_option))?;
-    Ok(Loaded {
-        host,
-        appearance: Appearance::default(),
-    })
+    Ok(Loaded { host, appearance: Appearance::default() })
 }
 
 /// What the picture needs beside the shape: read only where there is to be a picture.
 fn appearance(host: &host::load::Loaded) -> Appearance {
-    let primitives = host
-        .bindings
-        .iter()
-        .map(|binding| (binding.mesh, binding.primitive));
+    let primitives = host.bindings.iter().map(|binding| (binding.mesh, binding.primitive));
     let reader = Reader::new(&host.file);
-    appearance::read(
-        &host.file.json,
-        &host.file.binary,
-        primitives,
-        |accessor, components| reader.floats(accessor, components, None).ok(),
-    )
+    appearance::read(&host.file.json, &host.file.binary, primitives, |accessor, components| {
+        reader.floats(accessor, components, None).ok()
+    })
 }
 
 /// Measures a reference; its errors begin with the file's name.
@@ -223,10 +202,7 @@ fn measure(reference: &Loaded, command: &Command) -> Result<Study, String> {
     let name = &reference.host.file.name;
     let mut study =
         Study::of(&reference.host.character, &command.options).map_err(|error| format!("{name}: {error}"))?;
-    study.shape.name = name
-        .rsplit_once('.')
-        .map_or(name.as_str(), |(stem, _)| stem)
-        .to_string();
+    study.shape.name = name.rsplit_once('.').map_or(name.as_str(), |(stem, _)| stem).to_string();
     Ok(study)
 }
 
@@ -235,8 +211,9 @@ fn style(command: &Command, study: Option<&Study>) -> Result<Style, String> {
     let shape = match (&command.reference, study) {
         (Reference::Heads(heads), _) => return Style::heads(*heads).map_err(sentence),
         (Reference::Style(path), _) => read_style(path)?,
-        (Reference::BuiltIn(name), _) => BodyShape::built_in(name)
-            .ok_or_else(|| format!("there is no built-in style {name}: name one of {}", BUILT_IN.join(", ")))?,
+        (Reference::BuiltIn(name), _) => BodyShape::built_in(name).ok_or_else(|| {
+            format!("there is no built-in style {name}: name one of {}", BUILT_IN.join(", "))
+        })?,
         (Reference::Model(_), Some(study)) => study.shape.clone(),
         (Reference::Model(path), None) => return Err(format!("{}: was not measured", path.display())),
     };
@@ -267,10 +244,7 @@ fn sheet(
     let heads = |heads: f64| format!("{heads:.1} heads");
     let mut views = vec![view("target", heads(report.target.heads), target, None)];
     if let Some(reference) = reference {
-        let note = report
-            .reference
-            .as_ref()
-            .map_or(String::new(), |figure| heads(figure.heads));
+        let note = report.reference.as_ref().map_or(String::new(), |figure| heads(figure.heads));
         views.push(view("reference", note, reference, None));
     }
     views.push(view("result", heads(report.result.heads), target, Some(deformed)));
@@ -355,9 +329,8 @@ mod tests {
     #[test]
     fn a_character_looks_where_its_limbs_say() {
         let mut character = Character::default();
-        for (index, (role, x)) in [(Role::LeftUpperArm, -1.0), (Role::RightUpperArm, 1.0)]
-            .into_iter()
-            .enumerate()
+        for (index, (role, x)) in
+            [(Role::LeftUpperArm, -1.0), (Role::RightUpperArm, 1.0)].into_iter().enumerate()
         {
             character.humanoid.set(role, index);
             character.skeleton.joints.push(Joint {

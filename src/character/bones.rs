@@ -151,11 +151,8 @@ impl Bone {
 /// - `groups`: the user's own groups (§IV-A): the role at a bone's end (in a complete skeleton) to a group name. The
 ///   head bone ends at no role and is always `head`; `Role::Head` names the bone from neck to head.
 pub fn bones(roles: &BTreeSet<Role>, groups: &BTreeMap<Role, String>) -> Vec<Bone> {
-    let mut ends: Vec<Role> = roles
-        .iter()
-        .copied()
-        .filter(|&role| Group::ending_at(role).is_some())
-        .collect();
+    let mut ends: Vec<Role> =
+        roles.iter().copied().filter(|&role| Group::ending_at(role).is_some()).collect();
     // Unity numbers the upper chest last, so numbers alone do not put parents first.
     ends.sort_by_key(|role| (role.chain().count(), *role));
     let mut bones: Vec<Bone> = ends
@@ -164,16 +161,8 @@ pub fn bones(roles: &BTreeSet<Role>, groups: &BTreeMap<Role, String>) -> Vec<Bon
             let parent = child.chain().skip(1).find(|above| roles.contains(above))?;
             let first = child.chain().take_while(|&role| role != parent).last()?;
             let kind = Group::ending_at(first)?;
-            let group = groups
-                .get(&first)
-                .cloned()
-                .unwrap_or_else(|| kind.name().to_string());
-            Some(Bone {
-                parent,
-                child: Some(child),
-                kind,
-                group,
-            })
+            let group = groups.get(&first).cloned().unwrap_or_else(|| kind.name().to_string());
+            Some(Bone { parent, child: Some(child), kind, group })
         })
         .collect();
     if roles.contains(&Head) {
@@ -193,10 +182,7 @@ mod tests {
 
     fn found(roles: &[Role]) -> Vec<(Role, Option<Role>, Group)> {
         let bones = bones(&roles.iter().copied().collect(), &BTreeMap::new());
-        bones
-            .iter()
-            .map(|bone| (bone.parent, bone.child, bone.kind))
-            .collect()
+        bones.iter().map(|bone| (bone.parent, bone.child, bone.kind)).collect()
     }
 
     #[test]
@@ -204,9 +190,7 @@ mod tests {
         let bones = bones(&Role::all().collect(), &BTreeMap::new());
         assert_eq!(bones.len(), Role::COUNT - 4 + 1);
         for (index, bone) in bones.iter().enumerate() {
-            let above = bones[..index]
-                .iter()
-                .any(|other| other.child == Some(bone.parent));
+            let above = bones[..index].iter().any(|other| other.child == Some(bone.parent));
             assert!(above || bone.parent == Hips, "{bone:?}");
             assert_eq!(Group::from_name(&bone.group), Some(bone.kind));
         }
@@ -242,14 +226,7 @@ mod tests {
     fn a_user_renames_groups_and_the_head_stays() {
         let groups = BTreeMap::from([(LeftLowerLeg, "legs".to_string()), (Head, "throat".to_string())]);
         let bones = bones(&Role::all().collect(), &groups);
-        let group = |child| {
-            bones
-                .iter()
-                .find(|bone| bone.child == child)
-                .unwrap()
-                .group
-                .clone()
-        };
+        let group = |child| bones.iter().find(|bone| bone.child == child).unwrap().group.clone();
         assert_eq!(group(Some(LeftLowerLeg)), "legs");
         assert_eq!(group(Some(RightLowerLeg)), "upper_leg");
         assert_eq!(group(Some(Head)), "throat");

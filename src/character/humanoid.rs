@@ -99,88 +99,37 @@ const ROLES: [(Role, &str, Option<Role>); Role::COUNT] = [
     (LeftThumbProximal, "leftThumbProximal", Some(LeftThumbMetacarpal)),
     (LeftThumbDistal, "leftThumbDistal", Some(LeftThumbProximal)),
     (LeftIndexProximal, "leftIndexProximal", Some(LeftHand)),
-    (
-        LeftIndexIntermediate,
-        "leftIndexIntermediate",
-        Some(LeftIndexProximal),
-    ),
+    (LeftIndexIntermediate, "leftIndexIntermediate", Some(LeftIndexProximal)),
     (LeftIndexDistal, "leftIndexDistal", Some(LeftIndexIntermediate)),
     (LeftMiddleProximal, "leftMiddleProximal", Some(LeftHand)),
-    (
-        LeftMiddleIntermediate,
-        "leftMiddleIntermediate",
-        Some(LeftMiddleProximal),
-    ),
+    (LeftMiddleIntermediate, "leftMiddleIntermediate", Some(LeftMiddleProximal)),
     (LeftMiddleDistal, "leftMiddleDistal", Some(LeftMiddleIntermediate)),
     (LeftRingProximal, "leftRingProximal", Some(LeftHand)),
-    (
-        LeftRingIntermediate,
-        "leftRingIntermediate",
-        Some(LeftRingProximal),
-    ),
+    (LeftRingIntermediate, "leftRingIntermediate", Some(LeftRingProximal)),
     (LeftRingDistal, "leftRingDistal", Some(LeftRingIntermediate)),
     (LeftLittleProximal, "leftLittleProximal", Some(LeftHand)),
-    (
-        LeftLittleIntermediate,
-        "leftLittleIntermediate",
-        Some(LeftLittleProximal),
-    ),
+    (LeftLittleIntermediate, "leftLittleIntermediate", Some(LeftLittleProximal)),
     (LeftLittleDistal, "leftLittleDistal", Some(LeftLittleIntermediate)),
     (RightThumbMetacarpal, "rightThumbMetacarpal", Some(RightHand)),
-    (
-        RightThumbProximal,
-        "rightThumbProximal",
-        Some(RightThumbMetacarpal),
-    ),
+    (RightThumbProximal, "rightThumbProximal", Some(RightThumbMetacarpal)),
     (RightThumbDistal, "rightThumbDistal", Some(RightThumbProximal)),
     (RightIndexProximal, "rightIndexProximal", Some(RightHand)),
-    (
-        RightIndexIntermediate,
-        "rightIndexIntermediate",
-        Some(RightIndexProximal),
-    ),
+    (RightIndexIntermediate, "rightIndexIntermediate", Some(RightIndexProximal)),
     (RightIndexDistal, "rightIndexDistal", Some(RightIndexIntermediate)),
     (RightMiddleProximal, "rightMiddleProximal", Some(RightHand)),
-    (
-        RightMiddleIntermediate,
-        "rightMiddleIntermediate",
-        Some(RightMiddleProximal),
-    ),
-    (
-        RightMiddleDistal,
-        "rightMiddleDistal",
-        Some(RightMiddleIntermediate),
-    ),
+    (RightMiddleIntermediate, "rightMiddleIntermediate", Some(RightMiddleProximal)),
+    (RightMiddleDistal, "rightMiddleDistal", Some(RightMiddleIntermediate)),
     (RightRingProximal, "rightRingProximal", Some(RightHand)),
-    (
-        RightRingIntermediate,
-        "rightRingIntermediate",
-        Some(RightRingProximal),
-    ),
+    (RightRingIntermediate, "rightRingIntermediate", Some(RightRingProximal)),
     (RightRingDistal, "rightRingDistal", Some(RightRingIntermediate)),
     (RightLittleProximal, "rightLittleProximal", Some(RightHand)),
-    (
-        RightLittleIntermediate,
-        "rightLittleIntermediate",
-        Some(RightLittleProximal),
-    ),
-    (
-        RightLittleDistal,
-        "rightLittleDistal",
-        Some(RightLittleIntermediate),
-    ),
+    (RightLittleIntermediate, "rightLittleIntermediate", Some(RightLittleProximal)),
+    (RightLittleDistal, "rightLittleDistal", Some(RightLittleIntermediate)),
     (UpperChest, "upperChest", Some(Chest)),
 ];
 
 /// The roles without which nothing can be deformed.
-pub const REQUIRED_ROLES: [Role; 6] = [
-    Hips,
-    Head,
-    LeftUpperLeg,
-    RightUpperLeg,
-    LeftUpperArm,
-    RightUpperArm,
-];
+pub const REQUIRED_ROLES: [Role; 6] = [Hips, Head, LeftUpperLeg, RightUpperLeg, LeftUpperArm, RightUpperArm];
 
 impl Role {
     /// How many roles there are.
@@ -219,10 +168,7 @@ impl Role {
             (_, Some(rest)) => format!("left{rest}"),
             _ => return self,
         };
-        ROLES
-            .iter()
-            .find(|(_, name, _)| *name == other)
-            .map_or(self, |&(role, _, _)| role)
+        ROLES.iter().find(|(_, name, _)| *name == other).map_or(self, |&(role, _, _)| role)
     }
 
     /// True for roles on the left side.
@@ -245,9 +191,7 @@ pub struct Humanoid {
 
 impl Default for Humanoid {
     fn default() -> Self {
-        Self {
-            joints: [None; Role::COUNT],
-        }
+        Self { joints: [None; Role::COUNT] }
     }
 }
 
@@ -279,9 +223,6 @@ impl Humanoid {
 
     /// The required roles (hips, head, upper legs, upper arms) that no joint plays.
     pub fn missing(&self) -> Vec<Role> {
-        REQUIRED_ROLES
-            .into_iter()
-            .filter(|&role| !self.has(role))
-            .collect()
+        REQUIRED_ROLES.into_iter().filter(|&role| !self.has(role)).collect()
     }
 }

@@ -25,13 +25,10 @@ pub enum MeshKind {
 const ACCESSORY_WORDS: &[&str] = &[
     "accessory",
     "accessories",
-    "armor",
-    "armour",
     "axe",
     "backpack",
     "bag",
     "band",
-    "belt",
     "bow",
     "bracelet",
     "clip",
@@ -134,6 +131,9 @@ const HAIR_WORDS: &[&str] = &[
 
 const GARMENT_WORDS: &[&str] = &[
     "apron",
+    "armor",
+    "armour",
+    "belt",
     "blouse",
     "boot",
     "boots",
@@ -213,10 +213,7 @@ impl MeshKind {
             (HAIR_WORDS, MeshKind::Hair),
             (GARMENT_WORDS, MeshKind::Garment),
         ];
-        order
-            .into_iter()
-            .find(|(known, _)| any_of(known))
-            .map(|(_, kind)| kind)
+        order.into_iter().find(|(known, _)| any_of(known)).map(|(_, kind)| kind)
     }
 }
 
@@ -226,9 +223,7 @@ fn words_of(name: &str) -> Vec<String> {
     let mut words = vec![String::new()];
     for (index, &letter) in letters.iter().enumerate() {
         let starts_word = letter.is_uppercase()
-            && (index
-                .checked_sub(1)
-                .is_some_and(|before| letters[before].is_lowercase())
+            && (index.checked_sub(1).is_some_and(|before| letters[before].is_lowercase())
                 || letters.get(index + 1).is_some_and(|after| after.is_lowercase()));
         if !letter.is_alphabetic() || starts_word {
             words.push(String::new());
@@ -326,10 +321,7 @@ impl Mesh {
         if let Some(vertex) = self.normals.iter().position(|n| !n.is_finite()) {
             return bad(
                 Some(vertex),
-                format!(
-                    "the normal of vertex {vertex} is {}: normals must be finite",
-                    self.normals[vertex]
-                ),
+                format!("the normal of vertex {vertex} is {}: normals must be finite", self.normals[vertex]),
             );
         }
         if let Some(vertex) = self.tangents.iter().position(|t| !t.is_finite()) {
@@ -368,9 +360,7 @@ impl Mesh {
                 }
             }
         }
-        self.weights
-            .validate(count, joint_count)
-            .or_else(|(element, message)| bad(element, message))
+        self.weights.validate(count, joint_count).or_else(|(element, message)| bad(element, message))
     }
 }
 
@@ -399,6 +389,7 @@ mod tests {
             ("Body_Hair", Some(Body)),
             ("N00_000_00_Face_00_SKIN", Some(Body)),
             ("Skirt", Some(Garment)),
+            ("Knight_Armor", Some(Garment)),
             ("T-Shirt", Some(Garment)),
             ("N00_004_01_Shoes_01_CLOTH", Some(Garment)),
             ("Material.001", None),

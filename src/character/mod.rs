@@ -29,10 +29,7 @@ pub struct Axes {
 impl Default for Axes {
     /// Y up, forward found from the joints.
     fn default() -> Self {
-        Self {
-            up: Vec3::Y,
-            forward: None,
-        }
+        Self { up: Vec3::Y, forward: None }
     }
 }
 
@@ -60,10 +57,7 @@ impl Character {
         if !self.axes.up.is_finite() || self.axes.up.length_squared() == 0.0 {
             return Err(Error::new(
                 ErrorKind::BadInput,
-                format!(
-                    "up is {}: give a direction of finite length above 0",
-                    self.axes.up
-                ),
+                format!("up is {}: give a direction of finite length above 0", self.axes.up),
             ));
         }
         if let Some(forward) = self.axes.forward {
@@ -71,10 +65,7 @@ impl Character {
             if !forward.is_finite() || across.length_squared() <= 1e-6 * forward.length_squared() {
                 return Err(Error::new(
                     ErrorKind::BadInput,
-                    format!(
-                        "forward is {forward}: give a direction at an angle to up ({})",
-                        self.axes.up
-                    ),
+                    format!("forward is {forward}: give a direction at an angle to up ({})", self.axes.up),
                 ));
             }
         }

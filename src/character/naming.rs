@@ -89,13 +89,7 @@ enum Finger {
     Little,
 }
 
-const FINGERS: [Finger; 5] = [
-    Finger::Thumb,
-    Finger::Index,
-    Finger::Middle,
-    Finger::Ring,
-    Finger::Little,
-];
+const FINGERS: [Finger; 5] = [Finger::Thumb, Finger::Index, Finger::Middle, Finger::Ring, Finger::Little];
 
 impl Finger {
     fn left_roles(self) -> [Role; 3] {
@@ -313,12 +307,9 @@ fn read(words: &[String]) -> Reading {
     reading.part = part_of(&core);
     if reading.part.is_none() && reading.side.is_none() {
         // Names in small letters only, such as "leftarm" and "rthigh".
-        for (word, side) in [
-            ("left", Side::Left),
-            ("right", Side::Right),
-            ("l", Side::Left),
-            ("r", Side::Right),
-        ] {
+        for (word, side) in
+            [("left", Side::Left), ("right", Side::Right), ("l", Side::Left), ("r", Side::Right)]
+        {
             let rest = core.strip_prefix(word);
             let rest = rest.or(core.strip_suffix(word).filter(|_| word.len() > 1));
             if let Some(part) = rest.and_then(part_of) {
@@ -337,10 +328,7 @@ fn read_all(skeleton: &Skeleton) -> Vec<Reading> {
     // Rigify keeps the joints that deform (DEF-) beside their originals (ORG-) and controls (no prefix).
     let deforming = |words: &[String]| words.first().is_some_and(|word| word == "def");
     let any_deforming = names.iter().filter(|words| deforming(words)).count() >= 8;
-    let demoted: Vec<bool> = names
-        .iter()
-        .map(|words| any_deforming && !deforming(words))
-        .collect();
+    let demoted: Vec<bool> = names.iter().map(|words| any_deforming && !deforming(words)).collect();
     loop {
         let mut counts: BTreeMap<String, usize> = BTreeMap::new();
         for first in names.iter().filter_map(|words| words.first()) {
@@ -360,9 +348,7 @@ fn read_all(skeleton: &Skeleton) -> Vec<Reading> {
         let mut cut_any = false;
         let shared = shared.map(|(word, _)| word.clone());
         for words in &mut names {
-            let cut = words
-                .first()
-                .is_some_and(|word| Some(word) == shared.as_ref() || numbered(word));
+            let cut = words.first().is_some_and(|word| Some(word) == shared.as_ref() || numbered(word));
             if cut {
                 words.remove(0);
                 cut_any = true;
@@ -407,14 +393,7 @@ impl Named<'_> {
                 reading.side == side && reading.part.is_some_and(|(named, _)| named == part)
             })
             .collect();
-        found.sort_by_key(|&joint| {
-            (
-                rank(joint),
-                self.readings[joint].number(),
-                self.depths[joint],
-                joint,
-            )
-        });
+        found.sort_by_key(|&joint| (rank(joint), self.readings[joint].number(), self.depths[joint], joint));
         found
     }
 
@@ -442,9 +421,7 @@ impl Named<'_> {
         let side_hips: Vec<usize> = all(Part::Hips)
             .into_iter()
             .filter(|&joint| {
-                words(&self.skeleton.joints[joint].name)
-                    .iter()
-                    .any(|word| word.starts_with("hip"))
+                words(&self.skeleton.joints[joint].name).iter().any(|word| word.starts_with("hip"))
             })
             .collect();
         let (legs, lowers, feet) = (all(Part::Leg), all(Part::LowerLeg), all(Part::Foot));
@@ -464,9 +441,7 @@ impl Named<'_> {
                 .first_below(&lowers, upper)
                 .filter(|&joint| self.readings[joint].part.is_some_and(|(_, rank)| rank % 4 == 0));
             // A knee beside a "leg" is a helper.
-            strong
-                .or_else(|| self.first_below(&legs, upper))
-                .or_else(|| self.first_below(&lowers, upper))
+            strong.or_else(|| self.first_below(&legs, upper)).or_else(|| self.first_below(&lowers, upper))
         } else {
             upper = chain.first().or(legs.first()).copied();
             let named = self.first_below(&lowers, upper);
@@ -477,15 +452,10 @@ impl Named<'_> {
             named.or_else(|| (chain.len() <= 4).then(|| chain.get(1).copied()).flatten())
         };
         // In rigs with IK the feet may hang from the root.
-        let foot = self
-            .first_below(&feet, lower.or(upper))
-            .or_else(|| feet.first().copied())
-            .or(foot_by_chain);
+        let foot =
+            self.first_below(&feet, lower.or(upper)).or_else(|| feet.first().copied()).or(foot_by_chain);
         let toes = all(Part::Toes);
-        let toes = self
-            .first_below(&toes, foot)
-            .or_else(|| self.first_below(&toes, lower))
-            .or(toes_by_chain);
+        let toes = self.first_below(&toes, foot).or_else(|| self.first_below(&toes, lower)).or(toes_by_chain);
         humanoid.set(side.of(Role::LeftUpperLeg), upper);
         humanoid.set(side.of(Role::LeftLowerLeg), lower);
         humanoid.set(side.of(Role::LeftFoot), foot);
@@ -501,9 +471,7 @@ impl Named<'_> {
         let mut hand_by_chain = None;
         let lower;
         if upper.is_some() {
-            lower = self
-                .first_below(&lowers, upper)
-                .or_else(|| self.first_below(&arms, upper));
+            lower = self.first_below(&lowers, upper).or_else(|| self.first_below(&arms, upper));
         } else if let Some(&arm) = chain.first().or(arms.first()) {
             upper = Some(arm);
             let named = self.first_below(&lowers, upper);
@@ -519,19 +487,12 @@ impl Named<'_> {
             upper = shoulders
                 .iter()
                 .copied()
-                .filter(|&shoulder| {
-                    lowers
-                        .iter()
-                        .chain(&hands)
-                        .any(|&joint| self.below(joint, shoulder))
-                })
+                .filter(|&shoulder| lowers.iter().chain(&hands).any(|&joint| self.below(joint, shoulder)))
                 .max_by_key(|&shoulder| self.depths[shoulder]);
             lower = self.first_below(&lowers, upper);
         }
-        let hand = self
-            .first_below(&hands, lower.or(upper))
-            .or_else(|| hands.first().copied())
-            .or(hand_by_chain);
+        let hand =
+            self.first_below(&hands, lower.or(upper)).or_else(|| hands.first().copied()).or(hand_by_chain);
         let shoulder = upper.and_then(|upper| {
             let above = |&shoulder: &usize| shoulder != upper && self.below(upper, shoulder);
             shoulders.iter().copied().find(above)
@@ -543,10 +504,7 @@ impl Named<'_> {
         let Some(hand) = hand else { return };
         for finger in FINGERS {
             let named = all(Part::Finger(finger));
-            let mut joints: Vec<usize> = named
-                .into_iter()
-                .filter(|&joint| self.below(joint, hand))
-                .collect();
+            let mut joints: Vec<usize> = named.into_iter().filter(|&joint| self.below(joint, hand)).collect();
             joints.extend(self.numbered_finger(finger, hand));
             joints.sort_by_key(|&joint| self.depths[joint]);
             // Of joints that do not follow each other only the first line counts.
@@ -572,9 +530,8 @@ impl Named<'_> {
     fn numbered_finger(&self, finger: Finger, hand: usize) -> Vec<usize> {
         let below: Vec<usize> = (0..self.readings.len())
             .filter(|&joint| {
-                let numbered = self.readings[joint]
-                    .part
-                    .is_some_and(|(part, _)| part == Part::NumberedFinger);
+                let numbered =
+                    self.readings[joint].part.is_some_and(|(part, _)| part == Part::NumberedFinger);
                 numbered && self.below(joint, hand)
             })
             .collect();
@@ -603,10 +560,7 @@ impl Named<'_> {
             return;
         };
         humanoid.set(Role::Head, head);
-        let neck = necks
-            .iter()
-            .copied()
-            .find(|&neck| neck != head && self.below(head, neck));
+        let neck = necks.iter().copied().find(|&neck| neck != head && self.below(head, neck));
         humanoid.set(Role::Neck, neck);
     }
 
@@ -615,10 +569,8 @@ impl Named<'_> {
         humanoid.set(Role::Neck, neck);
         let spines: Vec<usize> = self.all(Part::Torso, None);
         let best = spines.first().and_then(|&joint| self.readings[joint].part);
-        let spines: Vec<usize> = spines
-            .into_iter()
-            .filter(|&joint| self.readings[joint].part == best)
-            .collect();
+        let spines: Vec<usize> =
+            spines.into_iter().filter(|&joint| self.readings[joint].part == best).collect();
         let chain = self.chain(&spines);
         let arms = [Role::LeftUpperArm, Role::RightUpperArm].map(|role| humanoid.joint(role));
         let [Some(left), Some(right)] = arms else { return };
@@ -648,15 +600,9 @@ impl Named<'_> {
 pub fn roles_from_names(skeleton: &Skeleton) -> Humanoid {
     let mut depths = vec![0; skeleton.joints.len()];
     for joint in skeleton.parents_first() {
-        depths[joint] = skeleton.joints[joint]
-            .parent
-            .map_or(0, |parent| depths[parent] + 1);
+        depths[joint] = skeleton.joints[joint].parent.map_or(0, |parent| depths[parent] + 1);
     }
-    let named = Named {
-        skeleton,
-        readings: read_all(skeleton),
-        depths,
-    };
+    let named = Named { skeleton, readings: read_all(skeleton), depths };
     let mut humanoid = Humanoid::default();
     for side in [Side::Left, Side::Right] {
         named.leg(&mut humanoid, side);
@@ -668,10 +614,7 @@ pub fn roles_from_names(skeleton: &Skeleton) -> Humanoid {
             let eye = named.first_below(&named.all(Part::Eye, Some(side)), Some(head));
             humanoid.set(side.of(Role::LeftEye), eye);
         }
-        humanoid.set(
-            Role::Jaw,
-            named.first_below(&named.all(Part::Jaw, None), Some(head)),
-        );
+        humanoid.set(Role::Jaw, named.first_below(&named.all(Part::Jaw, None), Some(head)));
     }
     // The hips by name: the deepest one that carries legs and head, else the best word.
     let carried = [Role::LeftUpperLeg, Role::RightUpperLeg, Role::Head];

@@ -120,18 +120,13 @@ pub(crate) fn is_below(skeleton: &Skeleton, joint: usize, above: usize) -> bool 
 
 /// The lowest joint that both hang from; one of the two where it is above the other.
 pub(crate) fn lowest_common_ancestor(skeleton: &Skeleton, a: usize, b: usize) -> Option<usize> {
-    skeleton
-        .ancestors(a)
-        .find(|&ancestor| ancestor == b || is_below(skeleton, b, ancestor))
+    skeleton.ancestors(a).find(|&ancestor| ancestor == b || is_below(skeleton, b, ancestor))
 }
 
 fn drop_repeated(humanoid: &mut Humanoid, joint_count: usize) {
     let mut taken = vec![false; joint_count];
     let required = super::humanoid::REQUIRED_ROLES.into_iter();
-    for role in required
-        .clone()
-        .chain(Role::all().filter(|role| !required.clone().any(|r| r == *role)))
-    {
+    for role in required.clone().chain(Role::all().filter(|role| !required.clone().any(|r| r == *role))) {
         if let Some(joint) = humanoid.joint(role) {
             if joint >= joint_count || taken[joint] {
                 humanoid.set(role, None);
@@ -150,11 +145,7 @@ fn complete_hips(humanoid: &mut Humanoid, skeleton: &Skeleton) {
         return;
     };
     let named = humanoid.joint(Hips);
-    let carries = |hips: usize| {
-        [left, right, top]
-            .iter()
-            .all(|&joint| is_below(skeleton, joint, hips))
-    };
+    let carries = |hips: usize| [left, right, top].iter().all(|&joint| is_below(skeleton, joint, hips));
     if named.is_some_and(carries) {
         return;
     }
@@ -166,8 +157,7 @@ fn complete_hips(humanoid: &mut Humanoid, skeleton: &Skeleton) {
     let end = |roles: [Role; 3]| {
         let [upper, lower, foot] = roles.map(|role| humanoid.joint(role).map(position));
         let upper = upper?;
-        foot.map(|foot| foot.distance(upper))
-            .or(lower.map(|lower| 2.0 * lower.distance(upper)))
+        foot.map(|foot| foot.distance(upper)).or(lower.map(|lower| 2.0 * lower.distance(upper)))
     };
     let leg = end([LeftUpperLeg, LeftLowerLeg, LeftFoot]).or(end([RightUpperLeg, RightLowerLeg, RightFoot]));
     let leg = leg.unwrap_or((position(top) - between).length());
@@ -179,11 +169,8 @@ fn complete_hips(humanoid: &mut Humanoid, skeleton: &Skeleton) {
     } else if named.is_none() {
         // The legs hang from a root at the ground: the joint of the column that is nearest to them, if it leaves
         // a spine, else the root for want of a better one.
-        let column: Vec<usize> = skeleton
-            .ancestors(top)
-            .skip(1)
-            .take_while(|&joint| Some(joint) != ancestor)
-            .collect();
+        let column: Vec<usize> =
+            skeleton.ancestors(top).skip(1).take_while(|&joint| Some(joint) != ancestor).collect();
         let leaves_a_spine = column.len() > 1;
         let far = |joint: usize| (position(joint) - between).dot(up).abs();
         let lowest = column
@@ -202,10 +189,8 @@ fn complete_hips(humanoid: &mut Humanoid, skeleton: &Skeleton) {
 
 fn complete_column(humanoid: &mut Humanoid, skeleton: &Skeleton) {
     let position = |joint: usize| skeleton.joints[joint].position();
-    let (Some(hips), Some(head)) = (
-        humanoid.joint(Hips),
-        humanoid.joint(Head).or(humanoid.joint(Neck)),
-    ) else {
+    let (Some(hips), Some(head)) = (humanoid.joint(Hips), humanoid.joint(Head).or(humanoid.joint(Neck)))
+    else {
         return;
     };
     let arms = [humanoid.joint(LeftUpperArm), humanoid.joint(RightUpperArm)];
@@ -222,9 +207,7 @@ fn complete_column(humanoid: &mut Humanoid, skeleton: &Skeleton) {
         .collect();
     path.reverse();
     // What lies between the arms and the head is neck.
-    let above_arms = arms_at
-        .and_then(|at| path.iter().position(|&joint| joint == at))
-        .map(|at| at + 1);
+    let above_arms = arms_at.and_then(|at| path.iter().position(|&joint| joint == at)).map(|at| at + 1);
     if let Some(above) = above_arms
         && !humanoid.has(Neck)
         && (1..=2).contains(&(path.len() - above))
@@ -232,10 +215,7 @@ fn complete_column(humanoid: &mut Humanoid, skeleton: &Skeleton) {
         humanoid.set(Neck, path[above]);
         path.truncate(above);
     }
-    if let Some(neck) = humanoid
-        .joint(Neck)
-        .and_then(|neck| path.iter().position(|&joint| joint == neck))
-    {
+    if let Some(neck) = humanoid.joint(Neck).and_then(|neck| path.iter().position(|&joint| joint == neck)) {
         path.truncate(neck);
     }
     if [Spine, Chest, UpperChest].iter().any(|&role| humanoid.has(role)) {
@@ -264,9 +244,7 @@ fn complete_column(humanoid: &mut Humanoid, skeleton: &Skeleton) {
 /// Takes roles from joints that cannot play them where they are: shins above thighs, a head below the hips.
 fn drop_misplaced(humanoid: &mut Humanoid, skeleton: &Skeleton, up: DVec3) {
     let at = |humanoid: &Humanoid, role: Role| {
-        humanoid
-            .joint(role)
-            .map(|joint| skeleton.joints[joint].position().dot(up))
+        humanoid.joint(role).map(|joint| skeleton.joints[joint].position().dot(up))
     };
     let order = [
         (Head, Hips),

@@ -46,16 +46,10 @@ impl Skeleton {
             if let Some(parent) = joint.parent
                 && parent >= count
             {
-                return bad(
-                    index,
-                    format!("its parent is joint {parent}, but there are {count} joints"),
-                );
+                return bad(index, format!("its parent is joint {parent}, but there are {count} joints"));
             }
             if !joint.rest.is_finite() {
-                return bad(
-                    index,
-                    "its rest transform holds a number that is not finite".to_string(),
-                );
+                return bad(index, "its rest transform holds a number that is not finite".to_string());
             }
         }
         // A chain of parents longer than the number of joints runs in a circle. Depths are remembered, so that
@@ -86,10 +80,8 @@ impl Skeleton {
     pub fn parents_first(&self) -> Vec<usize> {
         let mut order = Vec::with_capacity(self.joints.len());
         let children = self.children();
-        let mut stack: Vec<usize> = (0..self.joints.len())
-            .rev()
-            .filter(|&joint| self.joints[joint].parent.is_none())
-            .collect();
+        let mut stack: Vec<usize> =
+            (0..self.joints.len()).rev().filter(|&joint| self.joints[joint].parent.is_none()).collect();
         while let Some(joint) = stack.pop() {
             order.push(joint);
             stack.extend(children[joint].iter().rev());

@@ -113,10 +113,7 @@ impl<'a> Tree<'a> {
             low,
             high,
             reach,
-            center: sums
-                .into_iter()
-                .map(|(sum, number)| (number > 0.0).then(|| sum / number))
-                .collect(),
+            center: sums.into_iter().map(|(sum, number)| (number > 0.0).then(|| sum / number)).collect(),
             weighted,
         })
     }
@@ -132,11 +129,7 @@ impl<'a> Tree<'a> {
 
     /// Children that move something, or all where there are no weights.
     fn live(&self, joint: usize) -> Vec<usize> {
-        self.children[joint]
-            .iter()
-            .copied()
-            .filter(|&child| self.moves(child))
-            .collect()
+        self.children[joint].iter().copied().filter(|&child| self.moves(child)).collect()
     }
 
     fn within(&self, joint: usize, above: usize) -> bool {
@@ -196,10 +189,8 @@ impl<'a> Tree<'a> {
     fn follow(&self, start: usize, worth: impl Fn(&Self, usize) -> f64) -> Vec<usize> {
         let mut path = vec![start];
         let mut joint = start;
-        while let Some(next) = self
-            .live(joint)
-            .into_iter()
-            .max_by(|&a, &b| worth(self, a).total_cmp(&worth(self, b)))
+        while let Some(next) =
+            self.live(joint).into_iter().max_by(|&a, &b| worth(self, a).total_cmp(&worth(self, b)))
         {
             path.push(next);
             joint = next;
@@ -268,11 +259,7 @@ impl<'a> Tree<'a> {
                     && self.position[joint].distance(end) < 0.35 * leg
                     && self.position[joint].dot(self.up) < self.position[lower].dot(self.up)
             })
-            .min_by(|&a, &b| {
-                self.position[a]
-                    .distance(end)
-                    .total_cmp(&self.position[b].distance(end))
-            })
+            .min_by(|&a, &b| self.position[a].distance(end).total_cmp(&self.position[b].distance(end)))
     }
 
     /// How far what hangs from `joint` reaches along `across`.
@@ -351,12 +338,7 @@ impl<'a> Tree<'a> {
             [shoulder, upper, lower]
                 if collar_first && self.reach[lower] > 0.6 * point(1).distance(point(2)) =>
             {
-                return [
-                    Some(shoulder),
-                    Some(upper),
-                    Some(lower),
-                    self.still_hand(upper, lower),
-                ];
+                return [Some(shoulder), Some(upper), Some(lower), self.still_hand(upper, lower)];
             }
             _ => {}
         }
@@ -450,11 +432,7 @@ impl<'a> Tree<'a> {
         } else {
             // Without weights: the first fork (eyes, hair), else what has one end joint above it, if so many.
             let fork = chain.iter().position(|&joint| self.live(joint).len() >= 2);
-            fork.unwrap_or(if chain.len() >= 3 {
-                chain.len() - 2
-            } else {
-                chain.len() - 1
-            })
+            fork.unwrap_or(if chain.len() >= 3 { chain.len() - 2 } else { chain.len() - 1 })
         };
         let neck = chain[..place]
             .iter()
@@ -553,18 +531,13 @@ fn find(skeleton: &Skeleton, meshes: &[Mesh], up: DVec3) -> Option<Humanoid> {
     let mut across = (hip_a - hip_b).reject_from(up).normalize_or_zero();
     if across == DVec3::ZERO {
         let (end_a, end_b) = (legs[0].iter().flatten().last(), legs[1].iter().flatten().last());
-        across = (at(end_a.copied(), a) - at(end_b.copied(), b))
-            .reject_from(up)
-            .normalize_or_zero();
+        across = (at(end_a.copied(), a) - at(end_b.copied(), b)).reject_from(up).normalize_or_zero();
     }
     let (c, d) = tree.arms([a, b], middle, across)?;
     // The first of each pair is the one toward `across`.
     let aside = |joint: usize| tree.reach_aside(joint, middle, across);
     let (c, d) = if aside(c) >= aside(d) { (c, d) } else { (d, c) };
-    let mut arms = [
-        tree.split_arm(c, middle, across),
-        tree.split_arm(d, middle, across),
-    ];
+    let mut arms = [tree.split_arm(c, middle, across), tree.split_arm(d, middle, across)];
     let head = tree.head([c, d], [a, b], middle, across);
     // Right-handed axes: left = up × forward.
     let forward = tree.forward(&legs).unwrap_or({
@@ -578,16 +551,10 @@ fn find(skeleton: &Skeleton, meshes: &[Mesh], up: DVec3) -> Option<Humanoid> {
     let mut humanoid = Humanoid::default();
     for (side, (leg, arm)) in legs.into_iter().zip(arms).enumerate() {
         let role = |left: Role| if side == 0 { left } else { left.mirrored() };
-        for (left, joint) in [LeftUpperLeg, LeftLowerLeg, LeftFoot, LeftToes]
-            .into_iter()
-            .zip(leg)
-        {
+        for (left, joint) in [LeftUpperLeg, LeftLowerLeg, LeftFoot, LeftToes].into_iter().zip(leg) {
             humanoid.set(role(left), joint);
         }
-        for (left, joint) in [LeftShoulder, LeftUpperArm, LeftLowerArm, LeftHand]
-            .into_iter()
-            .zip(arm)
-        {
+        for (left, joint) in [LeftShoulder, LeftUpperArm, LeftLowerArm, LeftHand].into_iter().zip(arm) {
             humanoid.set(role(left), joint);
         }
         let fingers = [

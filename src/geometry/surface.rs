@@ -89,9 +89,7 @@ impl Surface {
             .map(corners_of)
             .filter(is_finite)
             .flatten()
-            .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| {
-                (low.min(p), high.max(p))
-            });
+            .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)));
         let extent = (high - low).max_element();
         if !(extent.is_finite() && extent > 0.0) {
             return Self::default();
@@ -110,10 +108,8 @@ impl Surface {
             }
             let single = |p: DVec3| Vec3A::new(p.x as f32, p.y as f32, p.z as f32);
             let padding = Vec3A::splat(BOX_PADDING);
-            boxes.push(Box32(Aabb::new(
-                single(a.min(b).min(c)) - padding,
-                single(a.max(b).max(c)) + padding,
-            )));
+            boxes
+                .push(Box32(Aabb::new(single(a.min(b).min(c)) - padding, single(a.max(b).max(c)) + padding)));
             kept.push((triangle as u32, corners));
         }
         if kept.is_empty() {
@@ -123,13 +119,7 @@ impl Surface {
         let tree = build_bvh2(&boxes, BvhBuildParams::very_fast_build(), &mut build_time);
         let order = tree.primitive_indices.iter().map(|&index| kept[index as usize]);
         let (triangles, corners) = order.unzip();
-        Self {
-            nodes: tree.nodes,
-            corners,
-            triangles,
-            centre,
-            scale,
-        }
+        Self { nodes: tree.nodes, corners, triangles, centre, scale }
     }
 
     /// True where there is nothing to meet.
@@ -431,11 +421,7 @@ struct Stack {
 
 impl Stack {
     fn new() -> Self {
-        Self {
-            near: [(0, 0.0); 64],
-            count: 0,
-            deep: Vec::new(),
-        }
+        Self { near: [(0, 0.0); 64], count: 0, deep: Vec::new() }
     }
 
     fn push(&mut self, item: (u32, f64)) {
@@ -598,10 +584,7 @@ mod tests {
 
     /// A closed body of 13 380 vertices, where the development models are at hand.
     fn real_body() -> Option<Triangles> {
-        let path = concat!(
-            env!("CARGO_MANIFEST_DIR"),
-            "/../shared/models/makehuman_female_target.glb"
-        );
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/models/makehuman_female_target.glb");
         let bytes = std::fs::read(path).ok()?;
         let file = gltf::Gltf::from_slice(&bytes).unwrap();
         let body = file.meshes().find(|mesh| mesh.name() == Some("body")).unwrap();
@@ -668,21 +651,14 @@ mod tests {
                     })
                     .collect();
                 expected.sort_by(f64::total_cmp);
-                let hits: Vec<f64> = surface
-                    .all_hits(origin, direction)
-                    .iter()
-                    .map(|hit| hit.t)
-                    .collect();
+                let hits: Vec<f64> = surface.all_hits(origin, direction).iter().map(|hit| hit.t).collect();
                 assert_eq!(hits.len(), expected.len());
                 for (t, expected) in hits.iter().zip(&expected) {
                     assert!((t - expected).abs() < 1e-9 * scale.max(1.0));
                 }
                 let first = surface.first_hit(origin, direction, f64::INFINITY);
                 assert_eq!(first.map(|hit| hit.t), hits.first().copied());
-                assert_eq!(
-                    surface.last_hit(origin, direction).map(|hit| hit.t),
-                    hits.last().copied()
-                );
+                assert_eq!(surface.last_hit(origin, direction).map(|hit| hit.t), hits.last().copied());
                 if let Some(hit) = first {
                     let [a, b, c] = triangles[hit.triangle].map(|vertex| positions[vertex as usize]);
                     let point = a * (1.0 - hit.u - hit.v) + b * hit.u + c * hit.v;
@@ -769,9 +745,6 @@ mod tests {
         assert_eq!(surface.triangle_count(), 1);
         let hit = surface.first_hit(DVec3::new(0.25, 0.25, 1.0), DVec3::NEG_Z, 10.0);
         assert_eq!(hit.map(|hit| (hit.triangle, hit.t)), Some((1, 1.0)));
-        assert_eq!(
-            surface.first_hit(DVec3::new(0.25, 0.25, 1.0), DVec3::ZERO, 10.0),
-            None
-        );
+        assert_eq!(surface.first_hit(DVec3::new(0.25, 0.25, 1.0), DVec3::ZERO, 10.0), None);
     }
 }

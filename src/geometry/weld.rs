@@ -83,10 +83,7 @@ pub fn weld(positions: &[DVec3], tolerance: f64) -> Weld {
         );
         representative.push(welded);
     }
-    Weld {
-        representative,
-        count: first.len(),
-    }
+    Weld { representative, count: first.len() }
 }
 
 /// For each welded vertex the number of its connected component: what triangles join is one component.
@@ -159,10 +156,7 @@ pub fn neighbours(triangles: &[[u32; 3]], weld: &Weld) -> Neighbours {
     for vertex in 0..weld.count {
         starts[vertex + 1] += starts[vertex];
     }
-    Neighbours {
-        starts,
-        vertices: pairs.into_iter().map(|(_, other)| other).collect(),
-    }
+    Neighbours { starts, vertices: pairs.into_iter().map(|(_, other)| other).collect() }
 }
 
 #[cfg(test)]

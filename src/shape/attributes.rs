@@ -20,21 +20,14 @@ pub fn fitted_jacobians(
     let mut sums = vec![(DMat3::ZERO, 0.0); weld.count];
     for corners in triangles {
         let corner = |points: &[DVec3], index: usize| points[corners[index] as usize];
-        let edges = |points: &[DVec3]| {
-            (
-                corner(points, 1) - corner(points, 0),
-                corner(points, 2) - corner(points, 0),
-            )
-        };
+        let edges =
+            |points: &[DVec3]| (corner(points, 1) - corner(points, 0), corner(points, 2) - corner(points, 0));
         let (a, b) = edges(before);
         let (a_after, b_after) = edges(after);
         let cross = a.cross(b);
         let cross_after = a_after.cross(b_after);
         let (area, area_after) = (cross.length(), cross_after.length());
-        let longest = a
-            .length_squared()
-            .max(b.length_squared())
-            .max((b - a).length_squared());
+        let longest = a.length_squared().max(b.length_squared()).max((b - a).length_squared());
         if area <= 1e-10 * longest || area_after <= 0.0 {
             continue;
         }
@@ -52,18 +45,12 @@ pub fn fitted_jacobians(
             *total += area;
         }
     }
-    sums.into_iter()
-        .map(|(sum, total)| (total > 0.0).then(|| sum * (1.0 / total)))
-        .collect()
+    sums.into_iter().map(|(sum, total)| (total > 0.0).then(|| sum * (1.0 / total))).collect()
 }
 
 /// The matrix that turns normals where `jacobian` moves points: its inverse transpose, up to a factor.
 pub fn normal_matrix(jacobian: DMat3) -> DMat3 {
     let (x, y, z) = (jacobian.x_axis, jacobian.y_axis, jacobian.z_axis);
     let cofactors = DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y));
-    if jacobian.determinant() < 0.0 {
-        cofactors * -1.0
-    } else {
-        cofactors
-    }
+    if jacobian.determinant() < 0.0 { cofactors * -1.0 } else { cofactors }
 }

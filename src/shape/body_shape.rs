@@ -87,10 +87,7 @@ impl BodyShape {
         if let Some(&head) = self.bones.get(HEAD_TOP) {
             bones.insert(HEAD_TOP.to_string(), head);
         }
-        BodyShape {
-            bones,
-            ..self.clone()
-        }
+        BodyShape { bones, ..self.clone() }
     }
 }
 
@@ -98,11 +95,7 @@ fn join(bones: &[BoneShape]) -> BoneShape {
     if let [bone] = bones {
         return *bone;
     }
-    let measured = || {
-        bones
-            .iter()
-            .filter_map(|bone| bone.radius.map(|radius| (bone.length, radius)))
-    };
+    let measured = || bones.iter().filter_map(|bone| bone.radius.map(|radius| (bone.length, radius)));
     let length: f64 = measured().map(|(length, _)| length).sum();
     let sum: f64 = measured().map(|(length, radius)| length * radius).sum();
     BoneShape {

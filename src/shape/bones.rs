@@ -47,11 +47,7 @@ impl BoneField {
         shortened: &Shortened,
         coefficients: &BTreeMap<String, Coefficient>,
     ) -> Self {
-        let thickness = |group: &str| {
-            coefficients
-                .get(group)
-                .map(|coefficient| coefficient.thickness_scale)
-        };
+        let thickness = |group: &str| coefficients.get(group).map(|coefficient| coefficient.thickness_scale);
         let mut field = Vec::with_capacity(bones.len() + joints.len());
         for bone in bones {
             let old = |role: Role| joints.get(&role).copied();
@@ -80,14 +76,9 @@ impl BoneField {
             }
             let limb = Group::beginning_at(joint);
             // By the name that the limb's group has here, else as what leads to it.
-            let named = bones
-                .iter()
-                .find(|bone| bone.kind == limb)
-                .map_or(limb.name(), |bone| &bone.group);
+            let named = bones.iter().find(|bone| bone.kind == limb).map_or(limb.name(), |bone| &bone.group);
             let incoming = bones.iter().find(|bone| bone.child == Some(joint));
-            let thickness_scale = thickness(named)
-                .or_else(|| thickness(&incoming?.group))
-                .unwrap_or(1.0);
+            let thickness_scale = thickness(named).or_else(|| thickness(&incoming?.group)).unwrap_or(1.0);
             field.push(FieldBone {
                 joint,
                 parent: old,
@@ -112,22 +103,14 @@ impl BoneField {
                 None => weights.push((bone as u16, weight)),
             };
         for &(role, weight) in role_weights {
-            let of = |role: Role| {
-                self.bones
-                    .iter()
-                    .enumerate()
-                    .filter(move |(_, bone)| bone.joint == role)
-            };
+            let of = |role: Role| self.bones.iter().enumerate().filter(move |(_, bone)| bone.joint == role);
             let Some(role) = role.chain().find(|&role| of(role).next().is_some()) else {
                 continue;
             };
             let near: Vec<(usize, f64)> = of(role)
                 .map(|(index, bone)| (index, foot(v, bone.parent, bone.child).0.distance_squared(v)))
                 .collect();
-            let least = near
-                .iter()
-                .map(|&(_, distance)| distance)
-                .fold(f64::INFINITY, f64::min);
+            let least = near.iter().map(|&(_, distance)| distance).fold(f64::INFINITY, f64::min);
             // Relative to the least distance, so that a vertex on a bone divides 0 by 0 nowhere.
             let share = |distance: f64| if distance == least { 1.0 } else { least / distance };
             let total: f64 = near.iter().map(|&(_, distance)| share(distance)).sum();
@@ -198,9 +181,7 @@ impl BoneField {
     }
 
     fn weighted<'a>(&'a self, weights: &'a [(u16, f64)]) -> impl Iterator<Item = (&'a FieldBone, f64)> {
-        weights
-            .iter()
-            .map(|&(bone, weight)| (&self.bones[bone as usize], weight))
+        weights.iter().map(|&(bone, weight)| (&self.bones[bone as usize], weight))
     }
 }
 

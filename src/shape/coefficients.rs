@@ -96,10 +96,7 @@ pub fn coefficients(
     // when one of the two files is in centimetres, so we follow the text.
     let head_ratio = head_scale * target.head_length / reference.head_length;
 
-    let mut result = Coefficients {
-        head_ratio,
-        ..Coefficients::default()
-    };
+    let mut result = Coefficients { head_ratio, ..Coefficients::default() };
     for bone in &target_bones {
         if result.groups.contains_key(&bone.group) {
             continue;
@@ -107,21 +104,14 @@ pub fn coefficients(
         let group = &bone.group;
         let given = settings.get(group).copied().unwrap_or_default();
         let own = rule(bone.kind, head_scale);
-        let counted: Vec<&Bone> = common_bones
-            .iter()
-            .filter(|other| other.group == *group)
-            .collect();
+        let counted: Vec<&Bone> = common_bones.iter().filter(|other| other.group == *group).collect();
 
         let (own_alpha, own_beta, own_eta, own_phi) = match own {
             Rule::Fixed(alpha, beta) => (Some(alpha), Some(beta), 1.0, 1.0),
             Rule::Transfer(eta, phi) => (None, None, eta, phi),
         };
-        let alpha = given
-            .length_scale
-            .or(own_alpha.filter(|_| given.length_transfer.is_none()));
-        let beta = given
-            .thickness_scale
-            .or(own_beta.filter(|_| given.thickness_transfer.is_none()));
+        let alpha = given.length_scale.or(own_alpha.filter(|_| given.length_transfer.is_none()));
+        let beta = given.thickness_scale.or(own_beta.filter(|_| given.thickness_transfer.is_none()));
 
         let needs_reference = alpha.is_none() || beta.is_none();
         let stand_in =
@@ -129,24 +119,12 @@ pub fn coefficients(
         let (length_scale, thickness_scale) = if counted.is_empty() && needs_reference {
             let other = stand_in().copied();
             let (message, other) = match other {
-                Some(other) => (
-                    "takes its coefficients from the bone that stands for it there",
-                    other,
-                ),
-                None => (
-                    "keeps its shape",
-                    Coefficient {
-                        length_scale: 1.0,
-                        thickness_scale: 1.0,
-                    },
-                ),
+                Some(other) => ("takes its coefficients from the bone that stands for it there", other),
+                None => ("keeps its shape", Coefficient { length_scale: 1.0, thickness_scale: 1.0 }),
             };
             let message = format!("the reference has no bone of the group {group}, which {message}");
             result.warnings.push(Warning::new("group_missing", message));
-            (
-                alpha.unwrap_or(other.length_scale),
-                beta.unwrap_or(other.thickness_scale),
-            )
+            (alpha.unwrap_or(other.length_scale), beta.unwrap_or(other.thickness_scale))
         } else {
             let length_scale = alpha.unwrap_or_else(|| {
                 let eta = given.length_transfer.unwrap_or(own_eta);
@@ -180,10 +158,7 @@ pub fn coefficients(
             let message = format!("the group {group} becomes longer: its length scale is {length_scale:.3}");
             result.warnings.push(Warning::new("coefficient_limited", message));
         }
-        let coefficient = Coefficient {
-            length_scale,
-            thickness_scale,
-        };
+        let coefficient = Coefficient { length_scale, thickness_scale };
         result.groups.insert(group.clone(), coefficient);
     }
     // Hands without fingers and feet without toes are no bones, but they have a girth.
@@ -215,26 +190,17 @@ fn total_length(shape: &BodyShape, bones: &[&Bone]) -> f64 {
 
 fn mean_radius(shape: &BodyShape, bones: &[&Bone]) -> Option<f64> {
     let shapes = bones.iter().filter_map(|bone| shape.bones.get(bone.key()));
-    let radii: Vec<f64> = shapes
-        .filter_map(|bone| bone.radius)
-        .filter(|&radius| radius > 0.0)
-        .collect();
+    let radii: Vec<f64> = shapes.filter_map(|bone| bone.radius).filter(|&radius| radius > 0.0).collect();
     (!radii.is_empty()).then(|| radii.iter().sum::<f64>() / radii.len() as f64)
 }
 
 /// The group of the bone between common roles that stands for the target's bones of `group`.
 fn stand_in<'a>(group: &str, target_bones: &[Bone], common_bones: &'a [Bone]) -> Option<&'a str> {
-    let mut ends = target_bones
-        .iter()
-        .filter(|bone| bone.group == group)
-        .filter_map(|bone| bone.child);
+    let mut ends = target_bones.iter().filter(|bone| bone.group == group).filter_map(|bone| bone.child);
     ends.find_map(|end| {
         common_bones.iter().find(|bone| {
             bone.child.is_some_and(|child| {
-                child
-                    .chain()
-                    .take_while(|&role| role != bone.parent)
-                    .any(|role| role == end)
+                child.chain().take_while(|&role| role != bone.parent).any(|role| role == end)
             })
         })
     })
@@ -244,38 +210,29 @@ fn stand_in<'a>(group: &str, target_bones: &[Bone], common_bones: &'a [Bone]) ->
 fn check(head_scale: f64, settings: &BTreeMap<String, GroupSettings>, bones: &[Bone]) -> Result<()> {
     let bad = |message: String| Err(Error::new(ErrorKind::BadOption, message));
     if !(head_scale.is_finite() && head_scale > 0.0) {
-        return bad(format!(
-            "head_scale is {head_scale}: it must be above 0; 1.5 is usual"
-        ));
+        return bad(format!("head_scale is {head_scale}: it must be above 0; 1.5 is usual"));
     }
-    let names: BTreeSet<&str> = bones
-        .iter()
-        .map(|bone| bone.group.as_str())
-        .chain(Group::ALL.map(Group::name))
-        .collect();
+    let names: BTreeSet<&str> =
+        bones.iter().map(|bone| bone.group.as_str()).chain(Group::ALL.map(Group::name)).collect();
     for (group, given) in settings {
         if !names.contains(group.as_str()) {
             let known = names.into_iter().collect::<Vec<_>>().join(", ");
             return bad(format!("there is no bone group {group}; the groups are {known}"));
         }
-        for (what, scale) in [
-            ("length_scale", given.length_scale),
-            ("thickness_scale", given.thickness_scale),
-        ] {
+        for (what, scale) in
+            [("length_scale", given.length_scale), ("thickness_scale", given.thickness_scale)]
+        {
             if let Some(scale) = scale.filter(|scale| !(scale.is_finite() && *scale > 0.0)) {
                 return bad(format!(
                     "{what} of the group {group} is {scale}: it must be above 0; 1 keeps the shape"
                 ));
             }
         }
-        for (what, amount) in [
-            ("length_transfer", given.length_transfer),
-            ("thickness_transfer", given.thickness_transfer),
-        ] {
+        for (what, amount) in
+            [("length_transfer", given.length_transfer), ("thickness_transfer", given.thickness_transfer)]
+        {
             if let Some(amount) = amount.filter(|amount| !(0.0..=1.0).contains(amount)) {
-                return bad(format!(
-                    "{what} of the group {group} is {amount}: it must be from 0 to 1"
-                ));
+                return bad(format!("{what} of the group {group} is {amount}: it must be from 0 to 1"));
             }
         }
     }

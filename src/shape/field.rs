@@ -70,10 +70,7 @@ impl PaperField {
             }
         }
         let moved = p + self.amount * (to - p) + DVec3::Y * self.ground;
-        (
-            moved,
-            DMat3::IDENTITY + (jacobian - DMat3::IDENTITY) * self.amount,
-        )
+        (moved, DMat3::IDENTITY + (jacobian - DMat3::IDENTITY) * self.amount)
     }
 }
 

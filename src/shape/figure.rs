@@ -27,10 +27,7 @@ impl Frame {
             Some(forward) => forward.as_dvec3().reject_from_normalized(up),
             None => {
                 let position = |role| {
-                    character
-                        .humanoid
-                        .joint(role)
-                        .map(|joint| character.skeleton.joints[joint].position())
+                    character.humanoid.joint(role).map(|joint| character.skeleton.joints[joint].position())
                 };
                 let mut left = DVec3::ZERO;
                 for role in [Role::LeftUpperArm, Role::LeftUpperLeg] {
@@ -48,9 +45,7 @@ impl Frame {
                 "the way the character looks cannot be told: its left and right limbs coincide along up; give forward (--forward +Z)",
             ));
         }
-        Ok(Self {
-            to_canonical: DMat3::from_cols(up.cross(forward), up, forward).transpose(),
-        })
+        Ok(Self { to_canonical: DMat3::from_cols(up.cross(forward), up, forward).transpose() })
     }
 
     /// Model space to the canonical frame.
@@ -125,31 +120,21 @@ impl Figure {
         for mesh in &character.meshes {
             let start = positions.len() as u32;
             positions.extend(mesh.positions.iter().map(|p| frame.to_canonical(p.as_dvec3())));
-            triangles.extend(
-                mesh.triangles
-                    .iter()
-                    .map(|corners| corners.map(|vertex| vertex + start)),
-            );
+            triangles.extend(mesh.triangles.iter().map(|corners| corners.map(|vertex| vertex + start)));
             kinds.resize(positions.len(), mesh.kind);
             mesh_starts.push(positions.len());
         }
         let extent = positions
             .iter()
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| {
-                (low.min(p.y), high.max(p.y))
-            });
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| (low.min(p.y), high.max(p.y)));
         if triangles.is_empty() || extent.1 <= extent.0 {
             return Err(Error::new(
                 ErrorKind::NoGeometry,
                 "the character has no triangles with an extent along up: give at least one mesh of its body",
             ));
         }
-        let joints: Vec<DVec3> = character
-            .skeleton
-            .joints
-            .iter()
-            .map(|joint| frame.to_canonical(joint.position()))
-            .collect();
+        let joints: Vec<DVec3> =
+            character.skeleton.joints.iter().map(|joint| frame.to_canonical(joint.position())).collect();
         let joint_roles = fold_joints(character);
         let (role_weights, extra_weight, main) = fold_weights(character, &joint_roles);
         for (kind, weights) in kinds.iter_mut().zip(&role_weights) {
@@ -167,10 +152,7 @@ impl Figure {
             role_weights,
             extra_weight,
             main_joint: main.iter().map(|main| main.map(|(joint, _)| joint)).collect(),
-            main_weight: main
-                .iter()
-                .map(|main| main.map_or(0.0, |(_, weight)| weight))
-                .collect(),
+            main_weight: main.iter().map(|main| main.map_or(0.0, |(_, weight)| weight)).collect(),
             extent,
         })
     }
@@ -192,11 +174,7 @@ impl Figure {
 
     /// The part of a vertex's weight that `choose` accepts, 0 to 1.
     pub fn weight_of(&self, vertex: usize, choose: impl Fn(Role) -> bool) -> f64 {
-        self.role_weights[vertex]
-            .iter()
-            .filter(|&&(role, _)| choose(role))
-            .map(|&(_, weight)| weight)
-            .sum()
+        self.role_weights[vertex].iter().filter(|&&(role, _)| choose(role)).map(|&(_, weight)| weight).sum()
     }
 
     /// Triangles all of whose corners `choose` accepts.
@@ -238,9 +216,7 @@ fn fold_joints(character: &Character) -> Vec<Option<Role>> {
     let mut folded = own.clone();
     for joint in character.skeleton.parents_first() {
         if folded[joint].is_none() {
-            folded[joint] = character.skeleton.joints[joint]
-                .parent
-                .and_then(|parent| folded[parent]);
+            folded[joint] = character.skeleton.joints[joint].parent.and_then(|parent| folded[parent]);
         }
     }
     folded
@@ -260,11 +236,7 @@ fn fold_weights(character: &Character, joint_roles: &[Option<Role>]) -> FoldedWe
     }
     for mesh in &character.meshes {
         for vertex in 0..mesh.positions.len() {
-            let row = if mesh.weights.is_empty() {
-                &[][..]
-            } else {
-                mesh.weights.row(vertex)
-            };
+            let row = if mesh.weights.is_empty() { &[][..] } else { mesh.weights.row(vertex) };
             let total: f64 = row.iter().map(|&(_, weight)| f64::from(weight)).sum();
             let mut folded: Vec<(Role, f64)> = Vec::with_capacity(row.len());
             let mut extra = 0.0;

@@ -90,28 +90,14 @@ pub fn landmarks(figure: &Figure) -> Landmarks {
     let (chin, chin_seen) = chin(figure, shoulder_line, crown);
     let hip_line = mean_height(figure, [Role::LeftUpperLeg, Role::RightUpperLeg]);
     let (crotch, crotch_seen) = crotch(figure, hip_line);
-    let crotch = crotch.clamp(
-        sole + 0.01 * height,
-        (shoulder_line - 0.01 * height).max(sole + 0.01 * height),
-    );
-    Landmarks {
-        crown,
-        chin,
-        shoulder_line,
-        crotch,
-        sole,
-        chin_seen,
-        crotch_seen,
-        crown_with_hair,
-    }
+    let crotch =
+        crotch.clamp(sole + 0.01 * height, (shoulder_line - 0.01 * height).max(sole + 0.01 * height));
+    Landmarks { crown, chin, shoulder_line, crotch, sole, chin_seen, crotch_seen, crown_with_hair }
 }
 
 fn mean_height(figure: &Figure, roles: [Role; 2]) -> f64 {
-    let heights: Vec<f64> = roles
-        .iter()
-        .filter_map(|&role| figure.role_position(role))
-        .map(|p| p.y)
-        .collect();
+    let heights: Vec<f64> =
+        roles.iter().filter_map(|&role| figure.role_position(role)).map(|p| p.y).collect();
     heights.iter().sum::<f64>() / heights.len() as f64
 }
 
@@ -124,16 +110,8 @@ fn sole(figure: &Figure) -> f64 {
             .min_by(f64::total_cmp)
     };
     let feet = [LeftFoot, RightFoot, LeftToes, RightToes];
-    let legs = [
-        LeftFoot,
-        RightFoot,
-        LeftToes,
-        RightToes,
-        LeftLowerLeg,
-        RightLowerLeg,
-        LeftUpperLeg,
-        RightUpperLeg,
-    ];
+    let legs =
+        [LeftFoot, RightFoot, LeftToes, RightToes, LeftLowerLeg, RightLowerLeg, LeftUpperLeg, RightUpperLeg];
     let knees_down = &legs[..6];
     // Boots are often weighted to the shin alone: what lies lower than the foot's vertices by more than a
     // sliver, on the same legs, is sole too.
@@ -179,9 +157,7 @@ fn crown(figure: &Figure) -> (f64, bool) {
                 let (sin, cos) = (std::f64::consts::FRAC_PI_3 * f64::from(ray)).sin_cos();
                 let above = figure.extent.1 + 0.01 * figure.height();
                 let origin = DVec3::new(centre.x + reach * cos, above, centre.z + reach * sin);
-                surface
-                    .first_hit(origin, DVec3::NEG_Y, f64::INFINITY)
-                    .map(|hit| above - hit.t)
+                surface.first_hit(origin, DVec3::NEG_Y, f64::INFINITY).map(|hit| above - hit.t)
             })
             .filter(|&y| y > head.y)
             .collect();
@@ -200,10 +176,7 @@ fn chin(figure: &Figure, shoulder_line: f64, crown: f64) -> (f64, bool) {
     let by_ratio = (shoulder_line + CHIN_BY_RATIO * span, false);
     let is_upper = |role: Role| {
         is_head(role)
-            || matches!(
-                role,
-                Role::Neck | Role::UpperChest | Role::Chest | Role::Spine | Role::Hips
-            )
+            || matches!(role, Role::Neck | Role::UpperChest | Role::Chest | Role::Spine | Role::Hips)
             || matches!(role, Role::LeftShoulder | Role::RightShoulder)
     };
     let triangles = figure.triangles_where(|vertex| {
@@ -216,12 +189,9 @@ fn chin(figure: &Figure, shoulder_line: f64, crown: f64) -> (f64, bool) {
         return by_ratio;
     };
     let surface = Surface::new(&figure.positions, &triangles);
-    let front = triangles
-        .iter()
-        .flatten()
-        .map(|&v| figure.positions[v as usize].z)
-        .fold(f64::NEG_INFINITY, f64::max)
-        + 0.01 * span;
+    let front =
+        triangles.iter().flatten().map(|&v| figure.positions[v as usize].z).fold(f64::NEG_INFINITY, f64::max)
+            + 0.01 * span;
     let row_height = (CHIN_RANGE.1 - CHIN_RANGE.0) * span / CHIN_ROWS as f64;
     let row_y = |row: usize| shoulder_line + CHIN_RANGE.0 * span + (row as f64 + 0.5) * row_height;
     let depths: Vec<Option<f64>> = (0..CHIN_ROWS)
@@ -230,9 +200,7 @@ fn chin(figure: &Figure, shoulder_line: f64, crown: f64) -> (f64, bool) {
                 .iter()
                 .filter_map(|column| {
                     let origin = DVec3::new(face.x + column * 2.0 * half.x, row_y(row), front);
-                    surface
-                        .first_hit(origin, DVec3::NEG_Z, f64::INFINITY)
-                        .map(|hit| front - hit.t)
+                    surface.first_hit(origin, DVec3::NEG_Z, f64::INFINITY).map(|hit| front - hit.t)
                 })
                 .collect();
             hits.sort_by(f64::total_cmp);
@@ -273,16 +241,11 @@ fn crotch(figure: &Figure, hip_line: f64) -> (f64, bool) {
     use Role::*;
     let height = figure.height();
     let by_ratio = (hip_line - CROTCH_BY_RATIO * height, false);
-    let (Some(left), Some(right)) = (
-        figure.role_position(LeftUpperLeg),
-        figure.role_position(RightUpperLeg),
-    ) else {
+    let (Some(left), Some(right)) = (figure.role_position(LeftUpperLeg), figure.role_position(RightUpperLeg))
+    else {
         return by_ratio;
     };
-    let knees = match (
-        figure.role_position(LeftLowerLeg),
-        figure.role_position(RightLowerLeg),
-    ) {
+    let knees = match (figure.role_position(LeftLowerLeg), figure.role_position(RightLowerLeg)) {
         (Some(l), Some(r)) => (l.y + r.y) / 2.0,
         _ => (figure.extent.0 + hip_line) / 2.0,
     };
@@ -313,11 +276,7 @@ fn crotch(figure: &Figure, hip_line: f64) -> (f64, bool) {
     }
     let first = (0..CROTCH_ROWS)
         .map(|row| knees + (row as f64 + 0.5) * row_height)
-        .find(|&y| {
-            surface
-                .first_hit(DVec3::new(middle_x, y, front), DVec3::NEG_Z, f64::INFINITY)
-                .is_some()
-        });
+        .find(|&y| surface.first_hit(DVec3::new(middle_x, y, front), DVec3::NEG_Z, f64::INFINITY).is_some());
     match first {
         Some(y) if (CROTCH_RANGE.0..=CROTCH_RANGE.1).contains(&((y - hip_line) / height)) => (y, true),
         _ => by_ratio,

@@ -63,10 +63,8 @@ pub fn measure(
     for bone in bones {
         let parent = joint(bone.parent)?;
         let child = bone.child.map_or(Ok(head_top), joint)?;
-        let shape = BoneShape {
-            length: parent.distance(child),
-            radius: radius(parent, child, surfaces, rays),
-        };
+        let shape =
+            BoneShape { length: parent.distance(child), radius: radius(parent, child, surfaces, rays) };
         shapes.insert(bone.key().to_string(), shape);
     }
     Ok(BodyShape {

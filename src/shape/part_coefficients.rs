@@ -86,13 +86,7 @@ impl PartCoefficients {
     /// By bone group, for the report.
     pub fn by_group(&self) -> BTreeMap<String, Coefficient> {
         let group = |name: &str, [length_scale, thickness_scale]: [f64; 2]| {
-            (
-                name.to_string(),
-                Coefficient {
-                    length_scale,
-                    thickness_scale,
-                },
-            )
+            (name.to_string(), Coefficient { length_scale, thickness_scale })
         };
         BTreeMap::from([
             group("head", [self.head[0], self.head[1]]),
@@ -151,10 +145,7 @@ pub fn part_coefficients(
     let depth_factor = 1.0 + (HEAD_DEPTH - 1.0) * growth;
     let neck_girth = 1.0 + (NECK_GIRTH - 1.0) * growth;
     let strictness = if options.limits { growth } else { 0.0 };
-    let mut bounds = Bounds {
-        strictness,
-        acted: Vec::new(),
-    };
+    let mut bounds = Bounds { strictness, acted: Vec::new() };
     let head = head_scale * target.head_length;
 
     // Everything in new heads, and girths as absolute scales.
@@ -164,12 +155,7 @@ pub fn part_coefficients(
             let unit = head / reference.head_length;
             let head_widths = (width_factor * target.head_half_width / target.head_length)
                 / (reference.head_half_width / reference.head_length);
-            let thinness = bounds.apply(
-                "girth",
-                head_widths,
-                GIRTH_PER_HEAD_WIDTH.0,
-                GIRTH_PER_HEAD_WIDTH.1,
-            );
+            let thinness = bounds.apply("girth", head_widths, GIRTH_PER_HEAD_WIDTH.0, GIRTH_PER_HEAD_WIDTH.1);
             // Judging girth against head width is no bound worth telling a person.
             bounds.acted.clear();
             let girth = |ours: Option<f64>, theirs: Option<f64>| match (ours, theirs) {
@@ -217,10 +203,7 @@ pub fn part_coefficients(
     let length = torso / target.torso;
     let girth = girths[0].unwrap_or(length.sqrt());
     let girth = bounds.apply("torso thickness", girth, 0.9 * length, 1.0f64.max(0.9 * length));
-    result.trunk = [
-        bounds.apply("torso length", length, girth / STUBBIEST, f64::INFINITY),
-        girth,
-    ];
+    result.trunk = [bounds.apply("torso length", length, girth / STUBBIEST, f64::INFINITY), girth];
     result.neck[1] = neck_girth * girth;
     let trunk_girth = result.trunk[1];
     result.shoulder_spread = trunk_girth;
@@ -228,12 +211,7 @@ pub fn part_coefficients(
 
     // D27.3, arms
     let thickest = (LIMB_THICKEST * trunk_girth).min(trunk_girth.max(0.95));
-    let names = [
-        "upper_arm thickness",
-        "lower_arm thickness",
-        "upper_leg thickness",
-        "lower_leg thickness",
-    ];
+    let names = ["upper_arm thickness", "lower_arm thickness", "upper_leg thickness", "lower_leg thickness"];
     for (limb, slimmest) in [(0, ARM_SLIMMEST), (2, LEG_SLIMMEST)] {
         let mut pair = [0, 1].map(|segment| {
             let girth = girths[1 + limb + segment].unwrap_or(trunk_girth);
@@ -241,24 +219,15 @@ pub fn part_coefficients(
         });
         let mean = (pair[0] * pair[1]).sqrt();
         for (segment, girth) in pair.iter_mut().enumerate() {
-            *girth = bounds.apply(
-                names[limb + segment],
-                *girth,
-                mean / SEGMENT_SPREAD,
-                mean * SEGMENT_SPREAD,
-            );
+            *girth =
+                bounds.apply(names[limb + segment], *girth, mean / SEGMENT_SPREAD, mean * SEGMENT_SPREAD);
             result.limbs[limb + segment][1] = *girth;
         }
     }
     let stubbiest = |limb: usize, result: &PartCoefficients| {
         (result.limbs[limb][1].max(result.limbs[limb + 1][1]) / STUBBIEST).max(SHORTEST_LIMB)
     };
-    let length = bounds.apply(
-        "arm length",
-        arm / target.arm,
-        stubbiest(0, &result),
-        f64::INFINITY,
-    );
+    let length = bounds.apply("arm length", arm / target.arm, stubbiest(0, &result), f64::INFINITY);
     result.limbs[0][0] = length;
     result.limbs[1][0] = length;
 
@@ -344,10 +313,8 @@ fn warnings(
     let mut warnings = Vec::new();
     let lengths = ["neck", "torso length", "leg length", "foot"];
     let list = |acted: &[&(&'static str, f64, f64)]| {
-        let items: Vec<String> = acted
-            .iter()
-            .map(|(what, from, to)| format!("{what} {from:.3} to {to:.3}"))
-            .collect();
+        let items: Vec<String> =
+            acted.iter().map(|(what, from, to)| format!("{what} {from:.3} to {to:.3}")).collect();
         items.join(", ")
     };
     let asked = match wanted {
@@ -358,27 +325,17 @@ fn warnings(
     };
     let got = heads_of(target, result);
     let _ = head;
-    let of_height: Vec<_> = bounds
-        .acted
-        .iter()
-        .filter(|(what, _, _)| lengths.contains(what))
-        .collect();
+    let of_height: Vec<_> = bounds.acted.iter().filter(|(what, _, _)| lengths.contains(what)).collect();
     if (got / asked - 1.0).abs() > 0.005 && !of_height.is_empty() {
         warnings.push(Warning::new(
             "heads_limited",
-            format!(
-                "{got:.2} heads instead of {asked:.2}: limited {}",
-                list(&of_height)
-            ),
+            format!("{got:.2} heads instead of {asked:.2}: limited {}", list(&of_height)),
         ));
     }
     if !bounds.acted.is_empty() {
         warnings.push(Warning::new(
             "coefficient_limited",
-            format!(
-                "limited to keep the shape sound: {}",
-                list(&bounds.acted.iter().collect::<Vec<_>>())
-            ),
+            format!("limited to keep the shape sound: {}", list(&bounds.acted.iter().collect::<Vec<_>>())),
         ));
     }
     warnings
@@ -398,11 +355,7 @@ fn apply_settings(result: &mut PartCoefficients, groups: &BTreeMap<String, Group
         };
         let size = |found: f64| {
             let set = settings.length_scale.or(settings.thickness_scale);
-            blend(
-                found,
-                set,
-                settings.length_transfer.or(settings.thickness_transfer),
-            )
+            blend(found, set, settings.length_transfer.or(settings.thickness_transfer))
         };
         match name.as_str() {
             "head" => {

@@ -8,8 +8,8 @@
 use super::figure::Figure;
 use super::proportions::{Anatomy, PART_COUNT, Part, PartWeights, fold_to_parts};
 use crate::character::{MeshKind, Role, Skeleton};
-use crate::hair::HairOutline;
 use crate::geometry::weld::{Weld, components, neighbours, weld};
+use crate::hair::HairOutline;
 use glam::DVec3;
 use std::collections::HashMap;
 
@@ -66,10 +66,7 @@ impl PartBinding {
     pub fn to(part: Part) -> Self {
         let mut weights = [0.0; PART_COUNT];
         weights[part as usize] = 1.0;
-        Self {
-            weights,
-            manner: Manner::Plain,
-        }
+        Self { weights, manner: Manner::Plain }
     }
 }
 
@@ -136,17 +133,9 @@ pub fn part_bindings(figure: &Figure, anatomy: &Anatomy, skeleton: &Skeleton) ->
             .map(|vertex| figure.positions[vertex]),
         DVec3::new(anatomy.middle_x, anatomy.landmarks.chin, anatomy.head_joint.z),
     );
-    let vertices = parts
-        .into_iter()
-        .zip(manners)
-        .map(|(weights, manner)| PartBinding { weights, manner })
-        .collect();
-    PartBindings {
-        vertices,
-        pieces,
-        joint_pieces,
-        hair,
-    }
+    let vertices =
+        parts.into_iter().zip(manners).map(|(weights, manner)| PartBinding { weights, manner }).collect();
+    PartBindings { vertices, pieces, joint_pieces, hair }
 }
 
 /// How a joint that plays no role of its own is attached: by the part it folds into, as hair where it hangs from the
@@ -207,7 +196,8 @@ fn split_head(parts: &mut PartWeights, p: DVec3, anatomy: &Anatomy) {
     // further out than a neck reaches.
     let neck_z = anatomy.centre_z(anatomy.landmarks.shoulder_line).0.min(anatomy.head_joint.z);
     let out = DVec3::new(p.x - anatomy.middle_x, 0.0, (p.z - neck_z).min(0.0)).length() / length;
-    let of_head = (parts[Part::Head as usize] / both) * smoothstep((out - HAIR_REACH.0) / (HAIR_REACH.1 - HAIR_REACH.0)) as f32;
+    let of_head = (parts[Part::Head as usize] / both)
+        * smoothstep((out - HAIR_REACH.0) / (HAIR_REACH.1 - HAIR_REACH.0)) as f32;
     let below = both * (1.0 - share);
     parts[Part::Head as usize] = both * share;
     parts[Part::Neck as usize] = below * (1.0 - of_head);
@@ -220,18 +210,11 @@ fn split_limbs(parts: &mut PartWeights, p: DVec3, figure: &Figure, anatomy: &Ana
         let left =
             limb.parts[0] == Part::LeftUpperArm as usize || limb.parts[0] == Part::LeftUpperLeg as usize;
         let is_arm = limb.parts[0] < Part::LeftUpperLeg as usize;
-        let roles = if is_arm {
-            [Role::LeftLowerArm, Role::LeftHand]
-        } else {
-            [Role::LeftLowerLeg, Role::LeftFoot]
-        };
+        let roles =
+            if is_arm { [Role::LeftLowerArm, Role::LeftHand] } else { [Role::LeftLowerLeg, Role::LeftFoot] };
         let joints = [(limb.root, limb.middle), (limb.middle, limb.end)];
         for (index, (from, to)) in joints.into_iter().enumerate() {
-            let role = if left {
-                roles[index]
-            } else {
-                roles[index].mirrored()
-            };
+            let role = if left { roles[index] } else { roles[index].mirrored() };
             let weight = parts[limb.parts[index]];
             if figure.humanoid.has(role) || weight <= 0.0 {
                 continue;
@@ -272,9 +255,7 @@ fn smooth_along(figure: &Figure, weld: &Weld, frozen: &[bool], parts: &mut [Part
     let middle = edges.len() / 2;
     let median = *edges.select_nth_unstable_by(middle, f64::total_cmp).1;
     let width = SMOOTHING_WIDTH * figure.height() / median.max(1e-12 * figure.height());
-    let passes = (10.0 * width * width)
-        .clamp(UMBRELLA_PASSES.0, UMBRELLA_PASSES.1)
-        .round() as usize;
+    let passes = (10.0 * width * width).clamp(UMBRELLA_PASSES.0, UMBRELLA_PASSES.1).round() as usize;
 
     // Vertices at one place share one row from here on: their mean, so that seams stay closed.
     let mut rows = vec![[0.0f32; PART_COUNT]; weld.count];
@@ -339,10 +320,7 @@ fn smooth_across(figure: &Figure, frozen: &[bool], parts: &mut [PartWeights]) {
     };
     let class: Vec<u8> = parts.iter().map(class_of).collect();
     // Vertices at one place are one sample and get one result.
-    let key = |p: DVec3| {
-        p.to_array()
-            .map(|x| (x / (1e-6 * figure.height())).round() as i64)
-    };
+    let key = |p: DVec3| p.to_array().map(|x| (x / (1e-6 * figure.height())).round() as i64);
     let mut samples: Vec<usize> = Vec::new();
     let mut sample_of = vec![usize::MAX; parts.len()];
     let mut known: HashMap<([i64; 3], u8), usize> = HashMap::new();
@@ -350,18 +328,14 @@ fn smooth_across(figure: &Figure, frozen: &[bool], parts: &mut [PartWeights]) {
         if frozen[vertex] {
             continue;
         }
-        let sample = *known
-            .entry((key(figure.positions[vertex]), class[vertex]))
-            .or_insert_with(|| {
-                samples.push(vertex);
-                samples.len() - 1
-            });
+        let sample = *known.entry((key(figure.positions[vertex]), class[vertex])).or_insert_with(|| {
+            samples.push(vertex);
+            samples.len() - 1
+        });
         sample_of[vertex] = sample;
     }
-    let points: Vec<(DVec3, u8)> = samples
-        .iter()
-        .map(|&vertex| (figure.positions[vertex], class[vertex]))
-        .collect();
+    let points: Vec<(DVec3, u8)> =
+        samples.iter().map(|&vertex| (figure.positions[vertex], class[vertex])).collect();
     let near = nearest(&points, LAYER_NEIGHBOURS, 3.0 * sigma);
     let mut rows: Vec<PartWeights> = samples.iter().map(|&vertex| parts[vertex]).collect();
     for _ in 0..LAYER_PASSES {
@@ -407,10 +381,8 @@ fn nearest(points: &[(DVec3, u8)], count: usize, reach: f64) -> Vec<Vec<(u32, f6
                         if dx.abs().max(dy.abs()).max(dz.abs()) != ring {
                             continue;
                         }
-                        for &other in grid
-                            .get(&[home[0] + dx, home[1] + dy, home[2] + dz])
-                            .into_iter()
-                            .flatten()
+                        for &other in
+                            grid.get(&[home[0] + dx, home[1] + dy, home[2] + dz]).into_iter().flatten()
                         {
                             let (q, other_class) = points[other as usize];
                             let distance = p.distance(q);
@@ -442,10 +414,7 @@ fn nearest(points: &[(DVec3, u8)], count: usize, reach: f64) -> Vec<Vec<(u32, f6
             .chunks(chunk)
             .map(|chunk| scope.spawn(move || chunk.iter().map(search).collect::<Vec<_>>()))
             .collect();
-        handles
-            .into_iter()
-            .flat_map(|handle| handle.join().expect("the search does not panic"))
-            .collect()
+        handles.into_iter().flat_map(|handle| handle.join().expect("the search does not panic")).collect()
     })
 }
 
@@ -500,10 +469,7 @@ fn rigid_groups(
             if has_role[joint] || figure.joint_roles[joint].is_none() {
                 return None;
             }
-            skeleton
-                .ancestors(joint)
-                .take_while(|&above| !has_role[above])
-                .last()
+            skeleton.ancestors(joint).take_while(|&above| !has_role[above]).last()
         })
         .collect();
     let main = |vertex: u32| figure.main_joint[vertex as usize].map(|joint| joint as usize);
@@ -541,13 +507,12 @@ fn rigid_groups(
         for &vertex in &carried[joint] {
             manners[vertex as usize] = Manner::Piece(pieces.len());
         }
-        let lowest = carried[joint].iter().map(|&v| figure.positions[v as usize].y).fold(f64::INFINITY, f64::min);
+        let lowest =
+            carried[joint].iter().map(|&v| figure.positions[v as usize].y).fold(f64::INFINITY, f64::min);
         let weights = PartBinding::to(Part::of(role)).weights;
         pieces.push(Piece { anchor: figure.joints[joint], lowest, weights });
     }
-    top.iter()
-        .map(|top| top.and_then(|top| piece_of_top[top]))
-        .collect()
+    top.iter().map(|top| top.and_then(|top| piece_of_top[top])).collect()
 }
 
 /// Buttons, buckles, badges: small loose components keep their shape.
@@ -561,10 +526,7 @@ fn small_pieces(
 ) {
     let limit = SMALL_PIECE * figure.height();
     for members in members.iter().filter(|members| members.len() >= 3) {
-        if members
-            .iter()
-            .any(|&v| head_only[v as usize] || manners[v as usize] != Manner::Plain)
-        {
+        if members.iter().any(|&v| head_only[v as usize] || manners[v as usize] != Manner::Plain) {
             continue;
         }
         let positions = members.iter().map(|&vertex| figure.positions[vertex as usize]);

@@ -42,11 +42,7 @@ struct Affine {
 }
 
 impl Affine {
-    const IDENTITY: Self = Self {
-        from: DVec3::ZERO,
-        to: DVec3::ZERO,
-        linear: DMat3::IDENTITY,
-    };
+    const IDENTITY: Self = Self { from: DVec3::ZERO, to: DVec3::ZERO, linear: DMat3::IDENTITY };
 
     fn map(&self, p: DVec3) -> DVec3 {
         self.to + self.linear * (p - self.from)
@@ -119,13 +115,7 @@ impl PartField {
         let shoulder_line = crotch + coefficients.trunk[0] * proportions.torso;
         let chin = shoulder_line + coefficients.neck[0] * proportions.neck;
         let crown = chin + coefficients.head[0] * proportions.head_length;
-        let after = Heights {
-            sole: before.sole,
-            crotch,
-            shoulder_line,
-            chin,
-            crown,
-        };
+        let after = Heights { sole: before.sole, crotch, shoulder_line, chin, crown };
 
         let hip_z =
             anatomy.centre_line.iter().map(|point| point.1).sum::<f64>() / anatomy.centre_line.len() as f64;
@@ -172,13 +162,10 @@ impl PartField {
                 let mut scale = jacobian.determinant().abs().cbrt();
                 if piece.lowest >= before.sole && piece.anchor.y > piece.lowest {
                     // What did not reach the ground does not reach below it.
-                    scale = scale.min((to.y - after.sole) / (piece.anchor.y - piece.lowest)).max(0.05 * scale);
+                    scale =
+                        scale.min((to.y - after.sole) / (piece.anchor.y - piece.lowest)).max(0.05 * scale);
                 }
-                Affine {
-                    from: piece.anchor,
-                    to,
-                    linear: DMat3::IDENTITY * scale,
-                }
+                Affine { from: piece.anchor, to, linear: DMat3::IDENTITY * scale }
             })
             .collect();
         field
@@ -217,10 +204,7 @@ impl PartField {
         };
         // Written so that amount 0 gives p itself, bit for bit.
         let moved = p + self.amount * (to - p) + DVec3::Y * self.ground;
-        (
-            moved,
-            DMat3::IDENTITY + (jacobian - DMat3::IDENTITY) * self.amount,
-        )
+        (moved, DMat3::IDENTITY + (jacobian - DMat3::IDENTITY) * self.amount)
     }
 
     fn blend(&self, p: DVec3, weights: &PartWeights, manner: Manner) -> (DVec3, DMat3) {
@@ -258,10 +242,7 @@ impl PartField {
         } else if p.y < before.shoulder_line {
             (after.crotch + length_scale * (p.y - before.crotch), length_scale)
         } else {
-            (
-                after.shoulder_line + self.yoke_slope * (p.y - before.shoulder_line),
-                self.yoke_slope,
-            )
+            (after.shoulder_line + self.yoke_slope * (p.y - before.shoulder_line), self.yoke_slope)
         };
         let (centre, centre_slope) = self.anatomy.centre_z(p.y);
         let flattening = length_scale.min(thickness_scale);
@@ -320,10 +301,7 @@ impl PartField {
         let z = self.neck_z[1] + self.coefficients.neck[1] * (axis_z - self.neck_z[0]);
         let head_centre = z + depth * (anatomy.head_centre.z - axis_z);
         let chest_y = self.before.crotch + CHEST_HEIGHT * (self.before.shoulder_line - self.before.crotch);
-        let chest = self
-            .trunk(DVec3::new(anatomy.middle_x, chest_y, anatomy.centre_z(chest_y).0))
-            .0
-            .z;
+        let chest = self.trunk(DVec3::new(anatomy.middle_x, chest_y, anatomy.centre_z(chest_y).0)).0.z;
         let most = HEAD_SEAT_MOST * height * anatomy.proportions.head_length;
         let back = self.coefficients.head_seat * (HEAD_SEAT * (head_centre - chest)).clamp(0.0, most);
         self.head_back = back;
@@ -337,21 +315,14 @@ impl PartField {
         for (index, limb) in self.anatomy.limbs.into_iter().enumerate() {
             let is_arm = index < 2;
             let first = if is_arm { 0 } else { 2 };
-            let spread = if is_arm {
-                self.coefficients.shoulder_spread
-            } else {
-                self.coefficients.hip_spread
-            };
+            let spread =
+                if is_arm { self.coefficients.shoulder_spread } else { self.coefficients.hip_spread };
             let mut root = self.trunk(limb.root).0;
             root.x = self.anatomy.middle_x + spread * (limb.root.x - self.anatomy.middle_x);
             let [upper, lower] = [self.coefficients.limbs[first], self.coefficients.limbs[first + 1]];
             let middle = root + upper[0] * (limb.middle - limb.root);
             let mut end = middle + lower[0] * (limb.end - limb.middle);
-            let size = if is_arm {
-                self.coefficients.hand
-            } else {
-                self.coefficients.foot
-            };
+            let size = if is_arm { self.coefficients.hand } else { self.coefficients.foot };
             if !is_arm {
                 // Legs of unequal length still both stand on the ground.
                 end.y = self.after.sole + size * (limb.end.y - self.before.sole);
@@ -360,23 +331,15 @@ impl PartField {
                 Affine::stretch(limb.root, root, limb.middle - limb.root, upper[0], upper[1]);
             self.affine[limb.parts[1]] =
                 Affine::stretch(limb.middle, middle, limb.end - limb.middle, lower[0], lower[1]);
-            self.affine[limb.parts[2]] = Affine {
-                from: limb.end,
-                to: end,
-                linear: DMat3::IDENTITY * size,
-            };
+            self.affine[limb.parts[2]] = Affine { from: limb.end, to: end, linear: DMat3::IDENTITY * size };
         }
     }
 
     /// Where the body's heights go, piecewise between the landmarks: what hair follows.
     fn body_height(&self, y: f64) -> f64 {
         let (b, a) = (&self.before, &self.after);
-        let knots = [
-            (b.sole, a.sole),
-            (b.crotch, a.crotch),
-            (b.shoulder_line, a.shoulder_line),
-            (b.chin, a.chin),
-        ];
+        let knots =
+            [(b.sole, a.sole), (b.crotch, a.crotch), (b.shoulder_line, a.shoulder_line), (b.chin, a.chin)];
         for pair in knots.windows(2) {
             let ((y0, to0), (y1, to1)) = (pair[0], pair[1]);
             if y < y1 || y1 == b.chin {

@@ -178,7 +178,8 @@ impl Anatomy {
             let bare = figure.triangles_where(|vertex| {
                 parts[vertex][Part::Trunk as usize] > 0.5 && figure.extra_weight[vertex] < 0.5
             });
-            let measurable = slice(figure, &bare, 0.5 * (landmarks.crotch + landmarks.shoulder_line), 0.03, 0.97);
+            let measurable =
+                slice(figure, &bare, 0.5 * (landmarks.crotch + landmarks.shoulder_line), 0.03, 0.97);
             if measurable.is_some() { bare } else { own(Part::Trunk as usize) }
         };
         let head_joint = figure.role_position(Role::Head).unwrap_or_default();
@@ -186,11 +187,7 @@ impl Anatomy {
             figure.weight_of(vertex, is_head) > 0.5
                 && !matches!(figure.kind(vertex), MeshKind::Hair | MeshKind::Accessory)
         });
-        let head = if bare_head.is_empty() {
-            own(Part::Head as usize)
-        } else {
-            bare_head
-        };
+        let head = if bare_head.is_empty() { own(Part::Head as usize) } else { bare_head };
         let head_centre =
             centre(figure, &head).unwrap_or(DVec3::new(middle_x, landmarks.crown, head_joint.z));
 
@@ -202,24 +199,14 @@ impl Anatomy {
         let (bottom, top) = (landmarks.crotch, landmarks.shoulder_line);
         let mut widths: Vec<f64> = (1..=5)
             .filter_map(|step| {
-                slice(
-                    figure,
-                    &trunk,
-                    bottom + 0.15 * f64::from(step) * (top - bottom),
-                    0.03,
-                    0.97,
-                )
+                slice(figure, &trunk, bottom + 0.15 * f64::from(step) * (top - bottom), 0.03, 0.97)
             })
             .map(|slice| slice.half_width)
             .collect();
         widths.sort_by(f64::total_cmp);
         let radius = |segment: usize, limbs: &[Limb]| {
             mean(limbs.iter().filter_map(|limb| {
-                let (a, b) = if segment == 0 {
-                    (limb.root, limb.middle)
-                } else {
-                    (limb.middle, limb.end)
-                };
+                let (a, b) = if segment == 0 { (limb.root, limb.middle) } else { (limb.middle, limb.end) };
                 surface_radius(figure, &own(limb.parts[segment]), a, b)
             }))
         };
@@ -229,9 +216,7 @@ impl Anatomy {
                     .filter(|&vertex| parts[vertex][limb.parts[2]] > 0.5)
                     .map(|vertex| figure.positions[vertex])
                     .collect();
-                (points.len() > 2)
-                    .then(|| reach(limb, &points))
-                    .filter(|&reach| reach > 0.02 * length)
+                (points.len() > 2).then(|| reach(limb, &points)).filter(|&reach| reach > 0.02 * length)
             }))
         };
         let (arms, legs) = limbs.split_at(2);
@@ -245,17 +230,12 @@ impl Anatomy {
             ankle_height: legs.iter().map(|leg| leg.end.y - landmarks.sole).sum::<f64>() / 2.0,
             hand: extremity(arms, &|limb, points| {
                 let along = (limb.end - limb.middle).normalize_or_zero();
-                points
-                    .iter()
-                    .map(|p| (*p - limb.end).dot(along))
-                    .fold(0.0, f64::max)
+                points.iter().map(|p| (*p - limb.end).dot(along)).fold(0.0, f64::max)
             }),
             foot: extremity(legs, &|_, points| {
                 let (low, high) = points
                     .iter()
-                    .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| {
-                        (low.min(p.z), high.max(p.z))
-                    });
+                    .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| (low.min(p.z), high.max(p.z)));
                 high - low
             }),
             trunk_half_width: widths.get(widths.len() / 2).copied(),
@@ -265,15 +245,7 @@ impl Anatomy {
             lower_leg_radius: radius(1, legs),
         };
         let centre_line = centre_line(figure, &trunk, &landmarks);
-        Self {
-            landmarks,
-            limbs,
-            middle_x,
-            centre_line,
-            head_centre,
-            head_joint,
-            proportions,
-        }
+        Self { landmarks, limbs, middle_x, centre_line, head_centre, head_joint, proportions }
     }
 
     /// z of the trunk's centre line at height `y`, constant beyond its ends, and its slope there.
@@ -323,22 +295,14 @@ fn arm(figure: &Figure, parts: &[PartWeights], left: bool) -> Limb {
         .max_by(|a, b| a.distance_squared(root).total_cmp(&b.distance_squared(root)))
         .unwrap_or(root);
     let apart = |a: DVec3, b: DVec3| a.distance(b) > 1e-3 * figure.height();
-    let middle = elbow
-        .filter(|&elbow| apart(elbow, root))
-        .unwrap_or_else(|| match wrist {
-            Some(wrist) => root.lerp(wrist, 0.5),
-            None => root.lerp(tip, 0.45),
-        });
+    let middle = elbow.filter(|&elbow| apart(elbow, root)).unwrap_or_else(|| match wrist {
+        Some(wrist) => root.lerp(wrist, 0.5),
+        None => root.lerp(tip, 0.45),
+    });
     let end = wrist.filter(|&wrist| apart(wrist, middle));
     // D26: no hand joint, wrist at 62 % from the elbow to the tip.
     let end_or_ratio = end.unwrap_or_else(|| middle.lerp(tip, 0.62));
-    Limb {
-        parts: indices,
-        root,
-        middle,
-        end: end_or_ratio,
-        end_is_joint: end.is_some(),
-    }
+    Limb { parts: indices, root, middle, end: end_or_ratio, end_is_joint: end.is_some() }
 }
 
 /// Hip (at the height of the crotch), knee and ankle of one side.
@@ -350,13 +314,12 @@ fn leg(figure: &Figure, landmarks: &Landmarks, left: bool) -> Limb {
     let length = landmarks.crotch - landmarks.sole;
     let between = |y: f64| y > landmarks.sole + 0.02 * length && y < landmarks.crotch - 0.1 * length;
     let foot_joint = figure.role_position(side(LeftFoot));
-    let knee = figure
-        .role_position(side(LeftLowerLeg))
-        .filter(|knee| between(knee.y))
-        .unwrap_or_else(|| match foot_joint.filter(|foot| between(foot.y)) {
+    let knee = figure.role_position(side(LeftLowerLeg)).filter(|knee| between(knee.y)).unwrap_or_else(|| {
+        match foot_joint.filter(|foot| between(foot.y)) {
             Some(foot) => root.lerp(foot, 0.5),
             None => root - DVec3::Y * (0.48 * length),
-        });
+        }
+    });
     // D26: a foot joint may be missing, lie on the sole, or be the far root of an IK chain.
     let near = |foot: &DVec3| (*foot - knee).with_y(0.0).length() < 0.35 * length;
     let end = foot_joint.filter(|foot| {
@@ -371,13 +334,7 @@ fn leg(figure: &Figure, landmarks: &Landmarks, left: bool) -> Limb {
         DVec3::new(x, y, knee.z)
     });
     let parts = [LeftUpperLeg, LeftLowerLeg, LeftFoot].map(|role| Part::of(side(role)) as usize);
-    Limb {
-        parts,
-        root,
-        middle: knee,
-        end: ankle,
-        end_is_joint: end.is_some(),
-    }
+    Limb { parts, root, middle: knee, end: ankle, end_is_joint: end.is_some() }
 }
 
 /// A horizontal cut through a set of triangles.
@@ -425,21 +382,11 @@ fn slice(figure: &Figure, triangles: &[[u32; 3]], y: f64, low: f64, high: f64) -
                 last = axis(p);
             }
         }
-        (
-            first,
-            if last.is_nan() {
-                axis(&outline[outline.len() - 1].0)
-            } else {
-                last
-            },
-        )
+        (first, if last.is_nan() { axis(&outline[outline.len() - 1].0) } else { last })
     };
     let (left, right) = quantiles(|p| p.x, low, high);
     let (back, front) = quantiles(|p| p.z, 0.1, 0.9);
-    Some(Slice {
-        half_width: (right - left) / 2.0,
-        middle_z: (back + front) / 2.0,
-    })
+    Some(Slice { half_width: (right - left) / 2.0, middle_z: (back + front) / 2.0 })
 }
 
 /// Area-weighted mean distance of `triangles` to the line a-b, over 20 % to 80 % of it.
@@ -455,9 +402,7 @@ fn surface_radius(figure: &Figure, triangles: &[[u32; 3]], a: DVec3, b: DVec3) -
             area_sum += area;
         }
     }
-    (area_sum > 0.0)
-        .then(|| sum / area_sum)
-        .filter(|&radius| radius > 0.0)
+    (area_sum > 0.0).then(|| sum / area_sum).filter(|&radius| radius > 0.0)
 }
 
 /// The trunk's centre line from the crotch to the shoulder line, smoothed.
@@ -477,10 +422,7 @@ fn centre_line(figure: &Figure, trunk: &[[u32; 3]], landmarks: &Landmarks) -> Ve
     (0..raw.len())
         .map(|index| {
             let near = &raw[index.saturating_sub(2)..(index + 3).min(raw.len())];
-            (
-                raw[index].0,
-                near.iter().map(|point| point.1).sum::<f64>() / near.len() as f64,
-            )
+            (raw[index].0, near.iter().map(|point| point.1).sum::<f64>() / near.len() as f64)
         })
         .collect()
 }

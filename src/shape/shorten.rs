@@ -28,26 +28,19 @@ pub fn shorten(
     coefficients: &BTreeMap<String, Coefficient>,
 ) -> Shortened {
     let hips = joints.get_key_value(&Role::Hips).map(|(&role, &p)| (role, p));
-    let mut shortened = Shortened {
-        joints: hips.into_iter().collect(),
-        head_top,
-    };
+    let mut shortened = Shortened { joints: hips.into_iter().collect(), head_top };
     for bone in bones {
         let (Some(&parent), Some(&new_parent)) =
             (joints.get(&bone.parent), shortened.joints.get(&bone.parent))
         else {
             continue;
         };
-        let length_scale = coefficients
-            .get(&bone.group)
-            .map_or(1.0, |coefficient| coefficient.length_scale);
+        let length_scale = coefficients.get(&bone.group).map_or(1.0, |coefficient| coefficient.length_scale);
         // Eq. 1 scales the bone; the parent has moved already, and Eqs. 2 and 3 move all that hangs from it along.
         match bone.child {
             Some(child) => {
                 if let Some(&p) = joints.get(&child) {
-                    shortened
-                        .joints
-                        .insert(child, new_parent + length_scale * (p - parent));
+                    shortened.joints.insert(child, new_parent + length_scale * (p - parent));
                 }
             }
             // Eq. 4.

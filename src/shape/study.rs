@@ -43,32 +43,22 @@ impl Study {
     /// As [`measure`].
     pub fn of_figure(figure: Figure, options: &Options) -> Result<Self> {
         let anatomy = Anatomy::of(&figure);
-        let joints: BTreeMap<Role, DVec3> = figure
-            .humanoid
-            .iter()
-            .map(|(role, joint)| (role, figure.joints[joint]))
-            .collect();
+        let joints: BTreeMap<Role, DVec3> =
+            figure.humanoid.iter().map(|(role, joint)| (role, figure.joints[joint])).collect();
         let marks = &anatomy.landmarks;
         // A head joint above the crown would make a head of no length; a sliver is left.
         let least = anatomy.head_joint.y + 0.01 * figure.height();
         let head_top = anatomy.head_joint.with_y(marks.crown.max(least));
         let roles: BTreeSet<Role> = joints.keys().copied().collect();
         let bones = bones(&roles, &options.bone_groups);
-        let body = Surface::new(
-            &figure.positions,
-            &mesh_set(&figure, |kind| kind == MeshKind::Body),
-        );
+        let body = Surface::new(&figure.positions, &mesh_set(&figure, |kind| kind == MeshKind::Body));
         let dressed = Surface::new(
             &figure.positions,
-            &mesh_set(&figure, |kind| {
-                !matches!(kind, MeshKind::Hair | MeshKind::Accessory)
-            }),
+            &mesh_set(&figure, |kind| !matches!(kind, MeshKind::Hair | MeshKind::Accessory)),
         );
         let everything;
-        let mut surfaces: Vec<&Surface> = [&body, &dressed]
-            .into_iter()
-            .filter(|set| !set.is_empty())
-            .collect();
+        let mut surfaces: Vec<&Surface> =
+            [&body, &dressed].into_iter().filter(|set| !set.is_empty()).collect();
         if surfaces.is_empty() {
             everything = Surface::new(&figure.positions, &figure.triangles);
             surfaces.push(&everything);
@@ -82,23 +72,12 @@ impl Study {
             sole: marks.sole,
         });
         shape.proportions = Some(anatomy.proportions.clone());
-        Ok(Self {
-            figure,
-            anatomy,
-            joints,
-            head_top,
-            shape,
-        })
+        Ok(Self { figure, anatomy, joints, head_top, shape })
     }
 
     /// The bones between those roles of the figure that are in `roles` too.
     pub fn bones(&self, roles: &BTreeSet<Role>, options: &Options) -> Vec<Bone> {
-        let common = self
-            .joints
-            .keys()
-            .copied()
-            .filter(|role| roles.contains(role))
-            .collect();
+        let common = self.joints.keys().copied().filter(|role| roles.contains(role)).collect();
         bones(&common, &options.bone_groups)
     }
 
@@ -151,12 +130,7 @@ pub fn group_shapes(
 
 /// Triangles of the meshes whose kind `choose` accepts, without what the head carries on top of it.
 fn mesh_set(figure: &Figure, choose: impl Fn(MeshKind) -> bool) -> Vec<[u32; 3]> {
-    figure
-        .triangles
-        .iter()
-        .filter(|corners| choose(figure.kind(corners[0] as usize)))
-        .copied()
-        .collect()
+    figure.triangles.iter().filter(|corners| choose(figure.kind(corners[0] as usize))).copied().collect()
 }
 
 /// True where most of a vertex's weight is the head's.

@@ -67,11 +67,8 @@ impl BodyShape {
     /// `ErrorKind::BadStyle` where the text is no style, is of a newer version, or holds a number out of range.
     pub fn from_json(text: &str) -> Result<Self> {
         let bad = |message: String| Error::new(ErrorKind::BadStyle, message);
-        let shape: Self = serde_json::from_str(text).map_err(|error| {
-            bad(format!(
-                "this is no saved style ({error}): save one with --save-style"
-            ))
-        })?;
+        let shape: Self = serde_json::from_str(text)
+            .map_err(|error| bad(format!("this is no saved style ({error}): save one with --save-style")))?;
         if shape.version == 0 || shape.version > VERSION {
             return Err(bad(format!(
                 "the style has version {}, and this library reads version {VERSION}: save it again, or update",
@@ -79,10 +76,7 @@ impl BodyShape {
             )));
         }
         if !(shape.head_length.is_finite() && shape.head_length > 0.0) {
-            return Err(bad(format!(
-                "the style's head_length is {}: it must be above 0",
-                shape.head_length
-            )));
+            return Err(bad(format!("the style's head_length is {}: it must be above 0", shape.head_length)));
         }
         for (name, bone) in &shape.bones {
             let radius = bone.radius.unwrap_or(1.0);
@@ -135,12 +129,7 @@ impl BodyShape {
             (Some(a), Some(b)) => Some(a.blended(b, amount)),
             (a, b) => a.clone().or(b.clone()),
         };
-        Self {
-            bones,
-            proportions,
-            landmarks: None,
-            ..self.clone()
-        }
+        Self { bones, proportions, landmarks: None, ..self.clone() }
     }
 
     /// The same body with everything below the head made longer or shorter, so that it is `heads` heads tall.

@@ -39,9 +39,7 @@ pub fn read(path: &Path, every_node: bool) -> File {
         let joints: Vec<usize> = skin.joints().map(|joint| joint.index()).collect();
         let reader = skin.reader(|_| Some(blob));
         let inverse: Vec<DMat4> = match reader.read_inverse_bind_matrices() {
-            Some(matrices) => matrices
-                .map(|m| Mat4::from_cols_array_2d(&m).as_dmat4())
-                .collect(),
+            Some(matrices) => matrices.map(|m| Mat4::from_cols_array_2d(&m).as_dmat4()).collect(),
             None => vec![DMat4::IDENTITY; joints.len()],
         };
         let root = (0..joints.len())
@@ -63,11 +61,8 @@ pub fn read(path: &Path, every_node: bool) -> File {
     }
     kept.sort_unstable();
     kept.dedup();
-    let joint_of: HashMap<usize, usize> = kept
-        .iter()
-        .enumerate()
-        .map(|(joint, &node)| (node, joint))
-        .collect();
+    let joint_of: HashMap<usize, usize> =
+        kept.iter().enumerate().map(|(joint, &node)| (node, joint)).collect();
     let joints = kept
         .iter()
         .map(|&node| Joint {
@@ -94,26 +89,18 @@ pub fn read(path: &Path, every_node: bool) -> File {
             let positions: Vec<Vec3> = points
                 .map(|point| to_model.transform_point3(Vec3::from(point).as_dvec3()).as_vec3())
                 .collect();
-            let weights =
-                match (node.skin(), reader.read_joints(0), reader.read_weights(0)) {
-                    (Some(skin), Some(joints), Some(weights)) => {
-                        let list: Vec<usize> = skin.joints().map(|joint| joint_of[&joint.index()]).collect();
-                        Weights::from_rows(joints.into_u16().zip(weights.into_f32()).map(
-                            |(joints, weights)| {
-                                let joints = joints.map(|joint| list[usize::from(joint)] as u32);
-                                joints.into_iter().zip(weights)
-                            },
-                        ))
-                    }
-                    _ => carrier.map_or_else(Weights::default, |joint| {
-                        Weights::rigid(joint as u32, positions.len())
-                    }),
-                };
-            meshes.push(Mesh {
-                positions,
-                weights,
-                ..Mesh::default()
-            });
+            let weights = match (node.skin(), reader.read_joints(0), reader.read_weights(0)) {
+                (Some(skin), Some(joints), Some(weights)) => {
+                    let list: Vec<usize> = skin.joints().map(|joint| joint_of[&joint.index()]).collect();
+                    Weights::from_rows(joints.into_u16().zip(weights.into_f32()).map(|(joints, weights)| {
+                        let joints = joints.map(|joint| list[usize::from(joint)] as u32);
+                        joints.into_iter().zip(weights)
+                    }))
+                }
+                _ => carrier
+                    .map_or_else(Weights::default, |joint| Weights::rigid(joint as u32, positions.len())),
+            };
+            meshes.push(Mesh { positions, weights, ..Mesh::default() });
         }
     }
 
@@ -126,10 +113,7 @@ pub fn read(path: &Path, every_node: bool) -> File {
     } else if let Some(vrm) = gltf.extension_value("VRM") {
         let bones = vrm["humanoid"]["humanBones"].as_array().expect("bones");
         let entry = |bone: &serde_json::Value| {
-            (
-                bone["bone"].as_str().unwrap().to_string(),
-                bone["node"].as_u64().unwrap() as usize,
-            )
+            (bone["bone"].as_str().unwrap().to_string(), bone["node"].as_u64().unwrap() as usize)
         };
         bones.iter().map(entry).collect()
     } else {
@@ -141,9 +125,5 @@ pub fn read(path: &Path, every_node: bool) -> File {
         .zip(&named)
         .filter_map(|(role, (_, node))| Some((role?, *joint_of.get(node)?)))
         .collect();
-    File {
-        skeleton: Skeleton { joints },
-        meshes,
-        header,
-    }
+    File { skeleton: Skeleton { joints }, meshes, header }
 }

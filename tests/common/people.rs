@@ -155,10 +155,7 @@ impl Person {
     }
 
     pub fn chibi() -> Self {
-        Self {
-            proportions: CHIBI,
-            ..Self::default()
-        }
+        Self { proportions: CHIBI, ..Self::default() }
     }
 
     /// The upper-leg joints' height.
@@ -226,19 +223,10 @@ impl Person {
         ]);
         let eye_height = self.chin() + 0.45 * p.head;
         let mut left = vec![
-            (
-                LeftEye,
-                DVec3::new(0.4 * p.head_half_width, eye_height, 0.75 * p.head_half_width),
-            ),
+            (LeftEye, DVec3::new(0.4 * p.head_half_width, eye_height, 0.75 * p.head_half_width)),
             (LeftUpperLeg, DVec3::new(p.hip_half_width, self.hip_line(), 0.0)),
-            (
-                LeftShoulder,
-                DVec3::new(0.3 * p.shoulder_half_width, self.shoulder_line(), 0.0),
-            ),
-            (
-                LeftUpperArm,
-                DVec3::new(p.shoulder_half_width, self.shoulder_line(), 0.0),
-            ),
+            (LeftShoulder, DVec3::new(0.3 * p.shoulder_half_width, self.shoulder_line(), 0.0)),
+            (LeftUpperArm, DVec3::new(p.shoulder_half_width, self.shoulder_line(), 0.0)),
         ];
         let knee = left[1].1 - DVec3::Y * p.upper_leg;
         let ankle = knee - DVec3::Y * p.lower_leg;
@@ -281,15 +269,9 @@ impl Person {
         let along = self.arm_direction();
         let hand = self.proportions.hand;
         if finger == 0 {
-            (
-                wrist + 0.3 * hand * along + 0.35 * hand * DVec3::Z,
-                (along + DVec3::Z).normalize(),
-            )
+            (wrist + 0.3 * hand * along + 0.35 * hand * DVec3::Z, (along + DVec3::Z).normalize())
         } else {
-            (
-                wrist + hand * along + DVec3::Z * hand * (0.75 - 0.3 * finger as f64),
-                along,
-            )
+            (wrist + hand * along + DVec3::Z * hand * (0.75 - 0.3 * finger as f64), along)
         }
     }
 
@@ -302,11 +284,7 @@ impl Person {
             let role = role.chain().find(|role| joints.contains_key(role)).unwrap();
             roles.iter().position(|&other| other == role).unwrap() as u32
         };
-        let complete = Person {
-            without: Vec::new(),
-            ..self.clone()
-        }
-        .joints();
+        let complete = Person { without: Vec::new(), ..self.clone() }.joints();
         let at = |role: Role| complete[&role];
         let mut body = Shape::default();
         self.trunk_and_limbs(&mut body, &at);
@@ -346,11 +324,7 @@ impl Person {
                 name: name.to_string(),
                 kind,
                 weights: Weights::from_rows(rows),
-                normals: shape
-                    .normals()
-                    .into_iter()
-                    .map(|n| (turn * n).as_vec3())
-                    .collect(),
+                normals: shape.normals().into_iter().map(|n| (turn * n).as_vec3()).collect(),
                 positions: shape.positions.iter().map(|&p| place(p).as_vec3()).collect(),
                 triangles: shape.triangles,
                 ..Mesh::default()
@@ -366,12 +340,7 @@ impl Person {
                 rest: DMat4::from_translation(place(at)),
             });
         }
-        Character {
-            meshes: meshes.collect(),
-            skeleton,
-            humanoid,
-            ..Character::default()
-        }
+        Character { meshes: meshes.collect(), skeleton, humanoid, ..Character::default() }
     }
 
     fn trunk_and_limbs(&self, body: &mut Shape, at: &dyn Fn(Role) -> DVec3) {
@@ -391,45 +360,23 @@ impl Person {
             // From the trunk's surface outwards, so that the torso's rays do not meet it.
             let reach =
                 at(LeftUpperArm) - mirror(DVec3::X * (p.shoulder_half_width - p.torso_radius) / (1.0 + END));
+            body.chain(self, &[(side(LeftShoulder), p.upper_arm_radius)], &[reach, at(LeftUpperArm)]);
             body.chain(
                 self,
-                &[(side(LeftShoulder), p.upper_arm_radius)],
-                &[reach, at(LeftUpperArm)],
-            );
-            body.chain(
-                self,
-                &[
-                    (side(LeftUpperArm), p.upper_arm_radius),
-                    (side(LeftLowerArm), p.lower_arm_radius),
-                ],
+                &[(side(LeftUpperArm), p.upper_arm_radius), (side(LeftLowerArm), p.lower_arm_radius)],
                 &[at(LeftUpperArm), at(LeftLowerArm), at(LeftHand)],
             );
             let palm = at(LeftHand) + mirror(self.arm_direction()) * p.hand;
+            body.chain(self, &[(side(LeftHand), 0.8 * p.lower_arm_radius)], &[at(LeftHand), palm]);
             body.chain(
                 self,
-                &[(side(LeftHand), 0.8 * p.lower_arm_radius)],
-                &[at(LeftHand), palm],
-            );
-            body.chain(
-                self,
-                &[
-                    (side(LeftUpperLeg), p.upper_leg_radius),
-                    (side(LeftLowerLeg), p.lower_leg_radius),
-                ],
+                &[(side(LeftUpperLeg), p.upper_leg_radius), (side(LeftLowerLeg), p.lower_leg_radius)],
                 &[at(LeftUpperLeg), at(LeftLowerLeg), at(LeftFoot)],
             );
             let level = |z: f64| DVec3::new(at(LeftFoot).x, FOOT_RADIUS, z);
-            body.chain(
-                self,
-                &[(side(LeftFoot), FOOT_RADIUS)],
-                &[level(-0.04), level(at(LeftToes).z)],
-            );
+            body.chain(self, &[(side(LeftFoot), FOOT_RADIUS)], &[level(-0.04), level(at(LeftToes).z)]);
             let tip = at(LeftToes).z + 0.3 * p.foot;
-            body.chain(
-                self,
-                &[(side(LeftToes), FOOT_RADIUS)],
-                &[level(at(LeftToes).z), level(tip)],
-            );
+            body.chain(self, &[(side(LeftToes), FOOT_RADIUS)], &[level(at(LeftToes).z), level(tip)]);
             if self.fingers {
                 let wrist = mirror(at(LeftHand));
                 for (finger, roles) in FINGERS.iter().enumerate() {
@@ -446,31 +393,11 @@ impl Person {
 
 /// The fingers of the left hand, thumb first.
 const FINGERS: [[Role; 3]; 5] = [
-    [
-        Role::LeftThumbMetacarpal,
-        Role::LeftThumbProximal,
-        Role::LeftThumbDistal,
-    ],
-    [
-        Role::LeftIndexProximal,
-        Role::LeftIndexIntermediate,
-        Role::LeftIndexDistal,
-    ],
-    [
-        Role::LeftMiddleProximal,
-        Role::LeftMiddleIntermediate,
-        Role::LeftMiddleDistal,
-    ],
-    [
-        Role::LeftRingProximal,
-        Role::LeftRingIntermediate,
-        Role::LeftRingDistal,
-    ],
-    [
-        Role::LeftLittleProximal,
-        Role::LeftLittleIntermediate,
-        Role::LeftLittleDistal,
-    ],
+    [Role::LeftThumbMetacarpal, Role::LeftThumbProximal, Role::LeftThumbDistal],
+    [Role::LeftIndexProximal, Role::LeftIndexIntermediate, Role::LeftIndexDistal],
+    [Role::LeftMiddleProximal, Role::LeftMiddleIntermediate, Role::LeftMiddleDistal],
+    [Role::LeftRingProximal, Role::LeftRingIntermediate, Role::LeftRingDistal],
+    [Role::LeftLittleProximal, Role::LeftLittleIntermediate, Role::LeftLittleDistal],
 ];
 
 /// Where a finger's joints and its tip lie, in lengths of the hand.
@@ -520,37 +447,27 @@ impl Shape {
     pub fn tube(&mut self, along: DVec3, rings: &[Ring], closed: bool) {
         // Begins where the measuring ring begins (the world axis least parallel to the bone, crossed with it).
         let least = along.abs().min_element();
-        let axis = DVec3::AXES
-            .into_iter()
-            .find(|axis| axis.dot(along).abs() <= least + 1e-9)
-            .unwrap();
+        let axis = DVec3::AXES.into_iter().find(|axis| axis.dot(along).abs() <= least + 1e-9).unwrap();
         let start = axis.cross(along).normalize();
         let side = along.cross(start);
         let widest = rings.iter().map(|ring| ring.radius).fold(0.0, f64::max);
-        let kept: Vec<&Ring> = rings
-            .iter()
-            .filter(|ring| closed || ring.radius > 0.5 * widest)
-            .collect();
+        let kept: Vec<&Ring> = rings.iter().filter(|ring| closed || ring.radius > 0.5 * widest).collect();
         let mut before: Option<Vec<u32>> = None;
         for ring in kept {
             let count = if ring.radius > 0.0 { COLUMNS } else { 1 };
             let first = self.positions.len() as u32;
             for column in 0..count {
                 let (sin, cos) = (TAU * column as f64 / COLUMNS as f64).sin_cos();
-                self.positions
-                    .push(ring.centre + ring.radius * (cos * start + sin * side));
+                self.positions.push(ring.centre + ring.radius * (cos * start + sin * side));
                 self.weights.push(ring.weights.clone());
             }
-            let now: Vec<u32> = (0..COLUMNS)
-                .map(|column| first + (column % count) as u32)
-                .collect();
+            let now: Vec<u32> = (0..COLUMNS).map(|column| first + (column % count) as u32).collect();
             if let Some(before) = before {
                 for column in 0..COLUMNS {
                     let next = (column + 1) % COLUMNS;
                     let [a, b, c, d] = [before[column], before[next], now[column], now[next]];
                     let faces = [[a, b, d], [a, d, c]];
-                    self.triangles
-                        .extend(faces.into_iter().filter(|[a, b, c]| a != b && b != c && c != a));
+                    self.triangles.extend(faces.into_iter().filter(|[a, b, c]| a != b && b != c && c != a));
                 }
             }
             before = Some(now);
@@ -560,13 +477,11 @@ impl Shape {
     /// A closed ellipsoid weighted to `role`.
     pub fn ellipsoid(&mut self, centre: DVec3, half: DVec3, role: Role) {
         let first = self.positions.len();
-        let rings = (0..=16)
-            .map(|ring| FRAC_PI_2 * (f64::from(ring) / 8.0 - 1.0))
-            .map(|angle| Ring {
-                centre: DVec3::Y * angle.sin(),
-                radius: if angle.abs() > 1.57 { 0.0 } else { angle.cos() },
-                weights: vec![(role, 1.0)],
-            });
+        let rings = (0..=16).map(|ring| FRAC_PI_2 * (f64::from(ring) / 8.0 - 1.0)).map(|angle| Ring {
+            centre: DVec3::Y * angle.sin(),
+            radius: if angle.abs() > 1.57 { 0.0 } else { angle.cos() },
+            weights: vec![(role, 1.0)],
+        });
         self.tube(DVec3::Y, &rings.collect::<Vec<_>>(), true);
         for p in &mut self.positions[first..] {
             *p = centre + *p * half;
@@ -577,22 +492,20 @@ impl Shape {
     fn head(&mut self, person: &Person) {
         let p = &person.proportions;
         let first = self.positions.len();
-        let rings = (0..=40)
-            .map(|ring| 2.0 * f64::from(ring) / 40.0 - 1.0)
-            .map(|fraction| {
-                // Rings crowd at the ends.
-                let height = (FRAC_PI_2 * fraction).sin();
-                let power = if height < 0.0 { 6.0 } else { 2.0 };
-                Ring {
-                    centre: DVec3::Y * (person.chin() + 0.5 * p.head * (1.0 + height)),
-                    radius: if fraction.abs() == 1.0 {
-                        0.0
-                    } else {
-                        p.head_half_width * (1.0 - height.abs().powf(power)).powf(1.0 / power)
-                    },
-                    weights: vec![(Role::Head, 1.0)],
-                }
-            });
+        let rings = (0..=40).map(|ring| 2.0 * f64::from(ring) / 40.0 - 1.0).map(|fraction| {
+            // Rings crowd at the ends.
+            let height = (FRAC_PI_2 * fraction).sin();
+            let power = if height < 0.0 { 6.0 } else { 2.0 };
+            Ring {
+                centre: DVec3::Y * (person.chin() + 0.5 * p.head * (1.0 + height)),
+                radius: if fraction.abs() == 1.0 {
+                    0.0
+                } else {
+                    p.head_half_width * (1.0 - height.abs().powf(power)).powf(1.0 / power)
+                },
+                weights: vec![(Role::Head, 1.0)],
+            }
+        });
         self.tube(DVec3::Y, &rings.collect::<Vec<_>>(), true);
         let nose = DVec3::new(0.0, person.chin() + 0.35 * p.head, p.head_half_width);
         for q in &mut self.positions[first..] {
@@ -640,11 +553,8 @@ fn rings(bones: &[(Role, f64)], points: &[DVec3], end: f64) -> Vec<Ring> {
             // Half of the neighbour's at the joint, none of it a fifth of the bone away.
             let before = (bone > 0 && t < 0.2).then(|| (bones[bone - 1], 0.5 - 2.5 * t));
             let after = (!last && t > 0.8).then(|| (bones[bone + 1], 2.5 * t - 2.0));
-            let mut ring = Ring {
-                centre: points[bone].lerp(points[bone + 1], t),
-                radius,
-                weights: vec![(role, 1.0)],
-            };
+            let mut ring =
+                Ring { centre: points[bone].lerp(points[bone + 1], t), radius, weights: vec![(role, 1.0)] };
             if let Some(((other, other_radius), share)) = before.or(after)
                 && share > 0.0
             {

@@ -22,9 +22,7 @@ pub fn skeletons(most: usize) -> impl Strategy<Value = Skeleton> {
                 rest: DMat4::from_translation(DVec3::new(0.0, index as f64, 0.0)),
             });
         }
-        Skeleton {
-            joints: joints.into_iter().flatten().collect(),
-        }
+        Skeleton { joints: joints.into_iter().flatten().collect() }
     })
 }
 

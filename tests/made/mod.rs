@@ -34,10 +34,7 @@ impl Made {
             "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": []}], "nodes": [], "meshes": [],
             "accessors": [], "bufferViews": [], "buffers": [{"byteLength": 0}],
         });
-        Self {
-            json,
-            binary: Vec::new(),
-        }
+        Self { json, binary: Vec::new() }
     }
 
     pub fn push(&mut self, list: &str, value: Value) -> usize {
@@ -50,10 +47,7 @@ impl Made {
         self.binary.resize(self.binary.len().next_multiple_of(4), 0);
         let offset = self.binary.len();
         self.binary.extend_from_slice(bytes);
-        self.push(
-            "bufferViews",
-            json!({"buffer": 0, "byteOffset": offset, "byteLength": bytes.len()}),
-        )
+        self.push("bufferViews", json!({"buffer": 0, "byteOffset": offset, "byteLength": bytes.len()}))
     }
 
     pub fn accessor(&mut self, bytes: &[u8], component_type: u32, kind: &str, count: usize) -> usize {
@@ -109,22 +103,13 @@ pub fn boxes() -> (Vec<f32>, Vec<usize>, Vec<u16>) {
     for (joint, (.., place)) in JOINTS.iter().enumerate() {
         let first = (positions.len() / 3) as u16;
         for corner in 0..8 {
-            for axis in 0..3 {
+            for (axis, middle) in place.iter().enumerate() {
                 let side = if corner >> axis & 1 == 1 { 0.05 } else { -0.05 };
-                positions.push(place[axis] + side);
+                positions.push(middle + side);
             }
             joints.push(joint);
         }
-        let faces = [
-            [0, 2, 1],
-            [1, 2, 3],
-            [4, 5, 6],
-            [5, 7, 6],
-            [0, 1, 4],
-            [1, 5, 4],
-            [2, 6, 3],
-            [3, 6, 7],
-        ];
+        let faces = [[0, 2, 1], [1, 2, 3], [4, 5, 6], [5, 7, 6], [0, 1, 4], [1, 5, 4], [2, 6, 3], [3, 6, 7]];
         triangles.extend(faces.iter().flatten().map(|corner| first + corner));
     }
     (positions, joints, triangles)
@@ -136,9 +121,8 @@ pub fn figure() -> Made {
     for (joint, (name, _, parent, place)) in JOINTS.iter().enumerate() {
         let from = parent.map_or([0.0; 3], |parent| JOINTS[parent].3);
         let local: Vec<f32> = (0..3).map(|axis| place[axis] - from[axis]).collect();
-        let children: Vec<usize> = (0..JOINTS.len())
-            .filter(|&other| JOINTS[other].2 == Some(joint))
-            .collect();
+        let children: Vec<usize> =
+            (0..JOINTS.len()).filter(|&other| JOINTS[other].2 == Some(joint)).collect();
         let mut node = json!({"name": name, "translation": local});
         if !children.is_empty() {
             node["children"] = json!(children);
@@ -154,20 +138,11 @@ pub fn figure() -> Made {
     made.json["accessors"][position]["max"] = json!([0.25, 1.65, 0.07]);
     let normals: Vec<f32> = (0..count).flat_map(|_| [0.0, 0.6, 0.8]).collect();
     let normal = made.floats("VEC3", 3, &normals);
-    let joints: Vec<u8> = of_vertex
-        .iter()
-        .flat_map(|&joint| [joint as u8, JOINTS[joint].2.unwrap_or(0) as u8, 0, 0])
-        .collect();
+    let joints: Vec<u8> =
+        of_vertex.iter().flat_map(|&joint| [joint as u8, JOINTS[joint].2.unwrap_or(0) as u8, 0, 0]).collect();
     let joints = made.accessor(&joints, 5121, "VEC4", count);
     let weights: Vec<f32> = (0..count)
-        .flat_map(|v| {
-            [
-                0.75 + 0.02 * (v % 8) as f32,
-                0.25 - 0.02 * (v % 8) as f32,
-                0.0,
-                0.0,
-            ]
-        })
+        .flat_map(|v| [0.75 + 0.02 * (v % 8) as f32, 0.25 - 0.02 * (v % 8) as f32, 0.0, 0.0])
         .collect();
     let weights = made.floats("VEC4", 4, &weights);
     let indices = made.indices(&triangles);
@@ -177,9 +152,7 @@ pub fn figure() -> Made {
     let binds: Vec<f32> = JOINTS
         .iter()
         .flat_map(|(.., p)| {
-            [
-                1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, -p[0], -p[1], -p[2], 1.0,
-            ]
+            [1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, -p[0], -p[1], -p[2], 1.0]
         })
         .collect();
     let binds = made.floats("MAT4", 16, &binds);
@@ -219,18 +192,12 @@ pub fn squash_jacobian(p: DVec3) -> DMat3 {
 
 /// As a host's callback.
 pub fn squash_point(_: usize, p: DVec3) -> Mapped {
-    Mapped {
-        position: squash(p),
-        jacobian: squash_jacobian(p),
-    }
+    Mapped { position: squash(p), jacobian: squash_jacobian(p) }
 }
 
 /// Leaves every point.
 pub fn stay_point(_: usize, position: DVec3) -> Mapped {
-    Mapped {
-        position,
-        jacobian: DMat3::IDENTITY,
-    }
+    Mapped { position, jacobian: DMat3::IDENTITY }
 }
 
 /// A character under `map`; `None` leaves it as it is.
@@ -243,15 +210,7 @@ pub fn deformed(character: &Character, map: Option<fn(DVec3) -> DVec3>) -> Defor
         morph_targets: (mesh.morph_targets.iter())
             .map(|target| MorphTarget {
                 positions: (mesh.positions.iter().zip(&target.positions))
-                    .map(|(&p, &d)| {
-                        if d == Vec3::ZERO {
-                            d
-                        } else if map.is_none() {
-                            d
-                        } else {
-                            at(p + d) - at(p)
-                        }
-                    })
+                    .map(|(&p, &d)| if d == Vec3::ZERO || map.is_none() { d } else { at(p + d) - at(p) })
                     .collect(),
                 ..target.clone()
             })

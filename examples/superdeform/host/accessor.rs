@@ -61,17 +61,11 @@ pub struct Reader<'a> {
 impl<'a> Reader<'a> {
     /// A reader that has read nothing yet.
     pub fn new(file: &'a GltfFile) -> Self {
-        Self {
-            file,
-            read: Cell::new(0),
-        }
+        Self { file, read: Cell::new(0) }
     }
 
     fn error(&self, accessor: usize, message: impl std::fmt::Display) -> superdeform::Error {
-        bad_input(format!(
-            "{}: accessor {accessor} {message}: export the file anew",
-            self.file.name
-        ))
+        bad_input(format!("{}: accessor {accessor} {message}: export the file anew", self.file.name))
     }
 
     /// Where the elements of an accessor lie, checked against the file.
@@ -92,10 +86,7 @@ impl<'a> Reader<'a> {
         };
         let component_type = json.get("componentType").and_then(Value::as_u64).unwrap_or(0);
         if !matches!(component_type, 5120..=5123 | 5125 | 5126) {
-            return Err(self.error(
-                accessor,
-                format!("has the unknown component type {component_type}"),
-            ));
+            return Err(self.error(accessor, format!("has the unknown component type {component_type}")));
         }
         let count = index_at(json, "count").unwrap_or(0);
         if count == 0 {
@@ -121,9 +112,7 @@ impl<'a> Reader<'a> {
             layout.stride = layout.element_size();
             return Ok(layout);
         };
-        let offset = json
-            .get("byteOffset")
-            .map_or(Some(0), |value| value.as_u64().map(|v| v as usize));
+        let offset = json.get("byteOffset").map_or(Some(0), |value| value.as_u64().map(|v| v as usize));
         let offset = offset.ok_or_else(|| self.error(accessor, "has a byteOffset that is not 0 or more"))?;
         let (start, stride) = self.span(accessor, view, offset, count, layout.element_size())?;
         layout.start = Some(start);
@@ -140,22 +129,15 @@ impl<'a> Reader<'a> {
         count: usize,
         size: usize,
     ) -> Result<(usize, usize)> {
-        let json = self.file.list("bufferViews").get(view).ok_or_else(|| {
-            self.error(
-                accessor,
-                format!("lies in buffer view {view}, which is not there"),
-            )
-        })?;
+        let json =
+            self.file.list("bufferViews").get(view).ok_or_else(|| {
+                self.error(accessor, format!("lies in buffer view {view}, which is not there"))
+            })?;
         let view_start = index_at(json, "byteOffset").unwrap_or(0);
         let view_length = index_at(json, "byteLength").unwrap_or(0);
-        let stride = index_at(json, "byteStride")
-            .filter(|&stride| stride != 0)
-            .unwrap_or(size);
+        let stride = index_at(json, "byteStride").filter(|&stride| stride != 0).unwrap_or(size);
         if stride < size {
-            return Err(self.error(
-                accessor,
-                format!("has elements of {size} bytes in steps of {stride}"),
-            ));
+            return Err(self.error(accessor, format!("has elements of {size} bytes in steps of {stride}")));
         }
         let end = count
             .saturating_sub(1)
@@ -214,10 +196,8 @@ impl<'a> Reader<'a> {
         if let Some(start) = layout.start {
             for (element, out) in numbers.chunks_exact_mut(components).enumerate() {
                 for (component, number) in out.iter_mut().enumerate() {
-                    *number = self.integer(
-                        layout.component_type,
-                        start + element * layout.stride + component * size,
-                    );
+                    *number = self
+                        .integer(layout.component_type, start + element * layout.stride + component * size);
                 }
             }
         }
@@ -235,17 +215,13 @@ impl<'a> Reader<'a> {
         if layout.components != components {
             return Err(self.error(
                 accessor,
-                format!(
-                    "has {} numbers an element where {components} are needed",
-                    layout.components
-                ),
+                format!("has {} numbers an element where {components} are needed", layout.components),
             ));
         }
         if let Some(count) = count.filter(|&count| count != layout.count) {
-            return Err(self.error(
-                accessor,
-                format!("has {} elements where {count} are needed", layout.count),
-            ));
+            return Err(
+                self.error(accessor, format!("has {} elements where {count} are needed", layout.count))
+            );
         }
         let bytes = (layout.count as u64).saturating_mul(4 * components as u64);
         let read = self.read.get().saturating_add(bytes);
@@ -273,10 +249,7 @@ impl<'a> Reader<'a> {
         }
         let index_type = indices.get("componentType").and_then(Value::as_u64).unwrap_or(0);
         if !matches!(index_type, 5121 | 5123 | 5125) {
-            return Err(self.error(
-                accessor,
-                format!("has sparse indices of component type {index_type}"),
-            ));
+            return Err(self.error(accessor, format!("has sparse indices of component type {index_type}")));
         }
         let index_view = index_at(indices, "bufferView").ok_or_else(wrong)?;
         let value_view = index_at(values, "bufferView").ok_or_else(wrong)?;
@@ -312,11 +285,7 @@ impl<'a> Reader<'a> {
     fn float(&self, layout: &Layout, at: usize) -> f32 {
         let bytes = &self.file.binary;
         let signed = |value: f32, largest: f32| {
-            if layout.normalized {
-                (value / largest).max(-1.0)
-            } else {
-                value
-            }
+            if layout.normalized { (value / largest).max(-1.0) } else { value }
         };
         match layout.component_type {
             5120 => signed(f32::from(bytes[at] as i8), 127.0),

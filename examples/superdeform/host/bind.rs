@@ -66,10 +66,7 @@ impl NodeTree {
         // Walking from the nodes without a parent reaches each node once, but for those that run in a circle.
         let mut order = Vec::with_capacity(nodes.len());
         let mut reached = vec![false; nodes.len()];
-        let mut stack: Vec<usize> = (0..nodes.len())
-            .rev()
-            .filter(|&node| parents[node].is_none())
-            .collect();
+        let mut stack: Vec<usize> = (0..nodes.len()).rev().filter(|&node| parents[node].is_none()).collect();
         while let Some(node) = stack.pop() {
             if std::mem::replace(&mut reached[node], true) {
                 return Err(bad_input(format!(
@@ -100,15 +97,8 @@ impl NodeTree {
         let scenes = file.list("scenes");
         let scene = index_at(&file.json, "scene").unwrap_or(0);
         let mut shown = vec![scenes.is_empty(); nodes.len()];
-        for root in scenes
-            .get(scene)
-            .map_or(&[][..], |scene| array_at(scene, "nodes"))
-        {
-            if let Some(root) = root
-                .as_u64()
-                .map(|root| root as usize)
-                .filter(|&root| root < nodes.len())
-            {
+        for root in scenes.get(scene).map_or(&[][..], |scene| array_at(scene, "nodes")) {
+            if let Some(root) = root.as_u64().map(|root| root as usize).filter(|&root| root < nodes.len()) {
                 shown[root] = true;
             }
         }
@@ -116,11 +106,7 @@ impl NodeTree {
             shown[node] |= parents[node].is_some_and(|parent| shown[parent]);
         }
         // Joints count wherever they are, with all that they hang from.
-        for joint in file
-            .list("skins")
-            .iter()
-            .flat_map(|skin| array_at(skin, "joints"))
-        {
+        for joint in file.list("skins").iter().flat_map(|skin| array_at(skin, "joints")) {
             let mut above = joint.as_u64().map(|joint| joint as usize);
             while let Some(node) = above.filter(|&node| node < nodes.len() && !shown[node]) {
                 shown[node] = true;
@@ -128,12 +114,7 @@ impl NodeTree {
             }
         }
         order.retain(|&node| shown[node]);
-        Ok(Self {
-            parents,
-            order,
-            local,
-            world,
-        })
+        Ok(Self { parents, order, local, world })
     }
 }
 
@@ -160,11 +141,7 @@ pub fn local_transform(node: &Value) -> DMat4 {
     let rotation = numbers::<4>(node.get("rotation")).unwrap_or([0.0, 0.0, 0.0, 1.0]);
     let scale = numbers::<3>(node.get("scale")).unwrap_or([1.0; 3]);
     let rotation = DQuat::from_array(rotation);
-    let rotation = if rotation.length_squared() > 0.0 {
-        rotation.normalize()
-    } else {
-        DQuat::IDENTITY
-    };
+    let rotation = if rotation.length_squared() > 0.0 { rotation.normalize() } else { DQuat::IDENTITY };
     DMat4::from_scale_rotation_translation(DVec3::from(scale), rotation, DVec3::from(translation))
 }
 
@@ -210,13 +187,10 @@ pub fn rest_pose(tree: &NodeTree, skins: &[Skin]) -> RestPose {
     let mut placements = Vec::new();
     for skin in skins {
         let box_corners = corners(skin);
-        let usable: Vec<usize> = (0..skin.joints.len())
-            .filter(|&slot| invertible(&skin.inverse_binds[slot]))
-            .collect();
-        let posed: Vec<DMat4> = usable
-            .iter()
-            .map(|&slot| tree.world[skin.joints[slot]] * skin.inverse_binds[slot])
-            .collect();
+        let usable: Vec<usize> =
+            (0..skin.joints.len()).filter(|&slot| invertible(&skin.inverse_binds[slot])).collect();
+        let posed: Vec<DMat4> =
+            usable.iter().map(|&slot| tree.world[skin.joints[slot]] * skin.inverse_binds[slot]).collect();
         // Joints that an earlier skin has placed bring this skin's mesh to where that one's is.
         let placed: Vec<DMat4> = usable
             .iter()
@@ -226,27 +200,17 @@ pub fn rest_pose(tree: &NodeTree, skins: &[Skin]) -> RestPose {
             elect(&placed, &box_corners).0
         } else {
             let (elected, share) = elect(&posed, &box_corners);
-            if share > 0.5 {
-                elected
-            } else {
-                conventional(tree, skin, &usable, &posed, &box_corners)
-            }
+            if share > 0.5 { elected } else { conventional(tree, skin, &usable, &posed, &box_corners) }
         };
         let common = tidy(common, &box_corners);
-        differs |= posed
-            .iter()
-            .any(|posed| !agree(posed, &common, &box_corners, AGREEMENT));
+        differs |= posed.iter().any(|posed| !agree(posed, &common, &box_corners, AGREEMENT));
         for &slot in &usable {
             let rest = &mut of_joint[skin.joints[slot]];
             if rest.is_none() {
                 *rest = Some(common * skin.inverse_binds[slot].inverse());
             }
         }
-        placements.push(SkinPlacement {
-            common,
-            by_joint: Vec::new(),
-            uniform: true,
-        });
+        placements.push(SkinPlacement { common, by_joint: Vec::new(), uniform: true });
     }
     let mut rest = tree.world.clone();
     for &node in &tree.order {
@@ -256,26 +220,14 @@ pub fn rest_pose(tree: &NodeTree, skins: &[Skin]) -> RestPose {
     }
     for (skin, placement) in skins.iter().zip(&mut placements) {
         let box_corners = corners(skin);
-        let by_joint: Vec<DMat4> = skin
-            .joints
-            .iter()
-            .zip(&skin.inverse_binds)
-            .map(|(&node, bind)| rest[node] * *bind)
-            .collect();
-        placement.uniform = by_joint
-            .iter()
-            .all(|joint| agree(joint, &placement.common, &box_corners, ROUNDING));
-        placement.by_joint = if placement.uniform {
-            vec![placement.common; by_joint.len()]
-        } else {
-            by_joint
-        };
+        let by_joint: Vec<DMat4> =
+            skin.joints.iter().zip(&skin.inverse_binds).map(|(&node, bind)| rest[node] * *bind).collect();
+        placement.uniform =
+            by_joint.iter().all(|joint| agree(joint, &placement.common, &box_corners, ROUNDING));
+        placement.by_joint =
+            if placement.uniform { vec![placement.common; by_joint.len()] } else { by_joint };
     }
-    RestPose {
-        rest,
-        placements,
-        differs,
-    }
+    RestPose { rest, placements, differs }
 }
 
 fn invertible(matrix: &DMat4) -> bool {
@@ -297,11 +249,7 @@ fn corners(skin: &Skin) -> [DVec3; 8] {
     }
     std::array::from_fn(|corner| {
         let pick = |axis: usize| {
-            if corner >> axis & 1 == 1 {
-                high[axis]
-            } else {
-                low[axis]
-            }
+            if corner >> axis & 1 == 1 { high[axis] } else { low[axis] }
         };
         DVec3::new(pick(0), pick(1), pick(2))
     })
@@ -319,10 +267,7 @@ fn agree(one: &DMat4, other: &DMat4, corners: &[DVec3; 8], tolerance: f64) -> bo
 fn elect(matrices: &[DMat4], corners: &[DVec3; 8]) -> (DMat4, f64) {
     let step = matrices.len().div_ceil(LARGEST_ELECTION).max(1);
     let voters = |candidate: &DMat4| {
-        matrices
-            .iter()
-            .filter(|matrix| agree(matrix, candidate, corners, AGREEMENT))
-            .count()
+        matrices.iter().filter(|matrix| agree(matrix, candidate, corners, AGREEMENT)).count()
     };
     let mut best: Option<(&DMat4, usize)> = None;
     for candidate in matrices.iter().step_by(step) {
@@ -344,11 +289,7 @@ fn elect(matrices: &[DMat4], corners: &[DVec3; 8]) -> (DMat4, f64) {
         values.sort_by(f64::total_cmp);
         values[values.len() / 2]
     });
-    let median = if agreeing.is_empty() {
-        *winner
-    } else {
-        DMat4::from_cols_array(&median)
-    };
+    let median = if agreeing.is_empty() { *winner } else { DMat4::from_cols_array(&median) };
     (median, votes as f64 / matrices.len() as f64)
 }
 
@@ -370,40 +311,24 @@ fn conventional(
     candidates.extend(top_most.map(|(_, posed)| *posed).take(8));
 
     let share = |candidate: &DMat4| {
-        let agreeing = posed
-            .iter()
-            .filter(|posed| agree(posed, candidate, corners, AGREEMENT))
-            .count();
+        let agreeing = posed.iter().filter(|posed| agree(posed, candidate, corners, AGREEMENT)).count();
         agreeing as f64 / posed.len().max(1) as f64
     };
-    let bind_places: Vec<DVec3> = usable
-        .iter()
-        .map(|&slot| skin.inverse_binds[slot].inverse().w_axis.truncate())
-        .collect();
-    let node_places: Vec<DVec3> = usable
-        .iter()
-        .map(|&slot| tree.world[skin.joints[slot]].w_axis.truncate())
-        .collect();
+    let bind_places: Vec<DVec3> =
+        usable.iter().map(|&slot| skin.inverse_binds[slot].inverse().w_axis.truncate()).collect();
+    let node_places: Vec<DVec3> =
+        usable.iter().map(|&slot| tree.world[skin.joints[slot]].w_axis.truncate()).collect();
     let likeness = |candidate: &DMat4| {
-        let places: Vec<DVec3> = bind_places
-            .iter()
-            .map(|&place| candidate.transform_point3(place))
-            .collect();
+        let places: Vec<DVec3> = bind_places.iter().map(|&place| candidate.transform_point3(place)).collect();
         likeness(&places, &node_places)
     };
-    let by_share = candidates
-        .iter()
-        .map(|candidate| (candidate, share(candidate)))
-        .filter(|&(_, share)| share >= 0.25);
+    let by_share =
+        candidates.iter().map(|candidate| (candidate, share(candidate))).filter(|&(_, share)| share >= 0.25);
     if let Some((candidate, _)) = by_share.max_by(|one, other| one.1.total_cmp(&other.1)) {
         return *candidate;
     }
     let standing = candidates.iter().find(|candidate| likeness(candidate) >= 0.6);
-    let most_alike = || {
-        candidates
-            .iter()
-            .max_by(|one, other| likeness(one).total_cmp(&likeness(other)))
-    };
+    let most_alike = || candidates.iter().max_by(|one, other| likeness(one).total_cmp(&likeness(other)));
     standing.or_else(most_alike).copied().unwrap_or(DMat4::IDENTITY)
 }
 
@@ -429,9 +354,5 @@ fn likeness(places: &[DVec3], others: &[DVec3]) -> f64 {
 
 /// The identity where a matrix is that but for rounding, so that vertices keep their bits.
 fn tidy(matrix: DMat4, corners: &[DVec3; 8]) -> DMat4 {
-    if agree(&matrix, &DMat4::IDENTITY, corners, ROUNDING) {
-        DMat4::IDENTITY
-    } else {
-        matrix
-    }
+    if agree(&matrix, &DMat4::IDENTITY, corners, ROUNDING) { DMat4::IDENTITY } else { matrix }
 }

@@ -45,20 +45,16 @@ impl GltfFile {
     /// One sentence that begins with the file's name: not readable, not glTF 2.0, damaged, or an extension is
     /// required that compresses the geometry.
     pub fn read(path: &Path) -> Result<Self> {
-        let name = path.file_name().map_or_else(
-            || path.display().to_string(),
-            |name| name.to_string_lossy().into_owned(),
-        );
+        let name = path
+            .file_name()
+            .map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned());
         let about =
             fs::metadata(path).map_err(|error| bad_input(format!("{name} cannot be read: {error}")))?;
         if about.is_dir() {
             return Err(bad_input(format!("{name} is a folder: give a GLB or VRM file")));
         }
         if about.len() >= LARGEST_FILE {
-            return Err(bad_input(format!(
-                "{name} has {} bytes: files must be below 2 GB",
-                about.len()
-            )));
+            return Err(bad_input(format!("{name} has {} bytes: files must be below 2 GB", about.len())));
         }
         let bytes = fs::read(path).map_err(|error| bad_input(format!("{name} cannot be read: {error}")))?;
         Self::parse(&name, &bytes)
@@ -82,9 +78,7 @@ impl GltfFile {
             )));
         };
         let json: Value = serde_json::from_slice(text).map_err(|error| {
-            bad_input(format!(
-                "{name} holds JSON that cannot be read, {error}: export it anew"
-            ))
+            bad_input(format!("{name} holds JSON that cannot be read, {error}: export it anew"))
         })?;
         if !json.is_object() {
             return Err(bad_input(format!(
@@ -98,12 +92,8 @@ impl GltfFile {
             )));
         }
         check_extensions(name, &json)?;
-        check_types_and_indices(name, text)?;
-        let mut file = Self {
-            name: name.to_string(),
-            json,
-            binary: Vec::new(),
-        };
+        check_types_and_indices(name, text, &json)?;
+        let mut file = Self { name: name.to_string(), json, binary: Vec::new() };
         file.binary = file.embed_buffers(binary)?;
         Ok(file)
     }
@@ -157,12 +147,8 @@ impl GltfFile {
             let buffer = index_at(view, "buffer").unwrap_or(0);
             let offset = index_at(view, "byteOffset").unwrap_or(0);
             let length = index_at(view, "byteLength").unwrap_or(0);
-            let size = buffers
-                .get(buffer)
-                .and_then(|buffer| index_at(buffer, "byteLength"));
-            let fits = offset
-                .checked_add(length)
-                .is_some_and(|end| size.is_some_and(|size| end <= size));
+            let size = buffers.get(buffer).and_then(|buffer| index_at(buffer, "byteLength"));
+            let fits = offset.checked_add(length).is_some_and(|end| size.is_some_and(|size| end <= size));
             if !fits {
                 return Err(bad_input(format!(
                     "{name}: buffer view {index} covers {length} bytes from byte {offset}, but buffer {buffer} has {} bytes: export the file anew",
@@ -228,10 +214,7 @@ impl GltfFile {
 pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<()> {
     let failed = |error: std::io::Error| bad_input(format!("{} cannot be written: {error}", path.display()));
     let Some(name) = path.file_name().filter(|_| !path.is_dir()) else {
-        return Err(bad_input(format!(
-            "{} is a folder: give the name of a file",
-            path.display()
-        )));
+        return Err(bad_input(format!("{} is a folder: give the name of a file", path.display())));
     };
     let mut beside = std::ffi::OsString::from(".");
     beside.push(name);
@@ -253,12 +236,8 @@ fn split_container<'a>(name: &str, bytes: &'a [u8]) -> Result<(&'a [u8], &'a [u8
         let bytes = bytes.get(at..at.checked_add(4)?)?;
         Some(u32::from_le_bytes(bytes.try_into().ok()?))
     };
-    let cut = || {
-        bad_input(format!(
-            "{name} is cut short after {} bytes: export or download it anew",
-            bytes.len()
-        ))
-    };
+    let cut =
+        || bad_input(format!("{name} is cut short after {} bytes: export or download it anew", bytes.len()));
     let version = number(4).ok_or_else(cut)?;
     if version != 2 {
         return Err(bad_input(format!(
@@ -304,19 +283,14 @@ fn check_extensions(name: &str, json: &Value) -> Result<()> {
             "EXT_meshopt_compression" | "KHR_meshopt_compression" | "KHR_draco_mesh_compression"
         )
     };
-    for extension in array_at(json, "extensionsRequired")
-        .iter()
-        .filter_map(Value::as_str)
-    {
+    for extension in array_at(json, "extensionsRequired").iter().filter_map(Value::as_str) {
         if compressed(extension) {
             return Err(bad_input(format!(
                 "{name} is compressed with {extension}: export it without compression, or unpack it first (gltf-transform copy)"
             )));
         }
         let harmless = HARMLESS.contains(&extension)
-            || HARMLESS_PREFIXES
-                .iter()
-                .any(|prefix| extension.starts_with(prefix));
+            || HARMLESS_PREFIXES.iter().any(|prefix| extension.starts_with(prefix));
         if !harmless {
             return Err(bad_input(format!(
                 "{name} requires the extension {extension}, which is not known here: export it without this extension"
@@ -325,9 +299,7 @@ fn check_extensions(name: &str, json: &Value) -> Result<()> {
     }
     // Compression may also stand beside an uncompressed fallback; then the two would no longer agree.
     let in_views = array_at(json, "bufferViews").iter();
-    let in_primitives = array_at(json, "meshes")
-        .iter()
-        .flat_map(|mesh| array_at(mesh, "primitives"));
+    let in_primitives = array_at(json, "meshes").iter().flat_map(|mesh| array_at(mesh, "primitives"));
     for holder in in_views.chain(in_primitives) {
         let extensions = holder.get("extensions").and_then(Value::as_object);
         if let Some(extension) = extensions.and_then(|held| held.keys().find(|key| compressed(key))) {
@@ -340,20 +312,44 @@ fn check_extensions(name: &str, json: &Value) -> Result<()> {
 }
 
 /// Reads the JSON by the glTF schema, and checks that every index leads somewhere.
-fn check_types_and_indices(name: &str, text: &[u8]) -> Result<()> {
-    let root = gltf::json::Root::from_slice(text)
-        .map_err(|error| bad_input(format!("{name} departs from glTF 2.0, {error}: export it anew")))?;
+fn check_types_and_indices(name: &str, text: &[u8], json: &Value) -> Result<()> {
+    // The reader takes this one index on trust.
+    let accessor_count = array_at(json, "accessors").len();
+    for (mesh, mesh_json) in array_at(json, "meshes").iter().enumerate() {
+        for primitive in array_at(mesh_json, "primitives") {
+            let accessor = index_at(&primitive["attributes"], "POSITION").unwrap_or(0);
+            if accessor > 0 && accessor >= accessor_count || accessor_count == 0 {
+                return Err(bad_input(format!(
+                    "{name}: mesh {mesh} has its positions in accessor {accessor}, but there are {accessor_count} accessors: export the file anew"
+                )));
+            }
+        }
+    }
+    // What the specification lets be absent and the reader does not: the source of a texture whose picture is named
+    // by an extension, and the nodes of an empty scene.
+    let lacks = |list: &str, key: &str| array_at(json, list).iter().any(|entry| entry.get(key).is_none());
+    let root = if lacks("textures", "source") || lacks("scenes", "nodes") {
+        let mut filled = json.clone();
+        for (list, key, value) in [("textures", "source", json!(0)), ("scenes", "nodes", json!([]))] {
+            for entry in filled.get_mut(list).and_then(Value::as_array_mut).into_iter().flatten() {
+                if let Some(entry) = entry.as_object_mut() {
+                    entry.entry(key).or_insert_with(|| value.clone());
+                }
+            }
+        }
+        serde_json::from_value::<gltf::json::Root>(filled)
+    } else {
+        gltf::json::Root::from_slice(text)
+    };
+    let root =
+        root.map_err(|error| bad_input(format!("{name} departs from glTF 2.0, {error}: export it anew")))?;
     let mut astray = None;
     // Other findings (a missing minimum, an unknown word) do not keep the geometry from being read.
-    root.validate(
-        &root,
-        gltf::json::Path::new,
-        &mut |path: &dyn Fn() -> gltf::json::Path, error| {
-            if matches!(error, gltf::json::validation::Error::IndexOutOfBounds) && astray.is_none() {
-                astray = Some(path().to_string());
-            }
-        },
-    );
+    root.validate(&root, gltf::json::Path::new, &mut |path: &dyn Fn() -> gltf::json::Path, error| {
+        if matches!(error, gltf::json::validation::Error::IndexOutOfBounds) && astray.is_none() {
+            astray = Some(path().to_string());
+        }
+    });
     match astray {
         Some(place) => Err(bad_input(format!(
             "{name}: {place} names something that the file does not have: export it anew"

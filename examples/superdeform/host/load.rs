@@ -139,12 +139,7 @@ pub fn load(file: GltfFile, options: &LoadOptions) -> Result<Loaded> {
             if let Some(skin) = skin {
                 let skin = &mut skins[skin];
                 skin.mesh_world.get_or_insert(tree.world[node]);
-                for point in raw
-                    .positions
-                    .iter()
-                    .map(|p| p.as_dvec3())
-                    .filter(|p| p.is_finite())
-                {
+                for point in raw.positions.iter().map(|p| p.as_dvec3()).filter(|p| p.is_finite()) {
                     let (low, high) = skin.bounds.unwrap_or((point, point));
                     skin.bounds = Some((low.min(point), high.max(point)));
                 }
@@ -174,10 +169,7 @@ pub fn load(file: GltfFile, options: &LoadOptions) -> Result<Loaded> {
     if pose.differs {
         warnings.push(Warning::new(
             "pose_not_rest",
-            format!(
-                "{} is posed: its rest pose was read from the inverse bind matrices",
-                file.name
-            ),
+            format!("{} is posed: its rest pose was read from the inverse bind matrices", file.name),
         ));
     }
     let mut meshes = Vec::new();
@@ -192,9 +184,7 @@ pub fn load(file: GltfFile, options: &LoadOptions) -> Result<Loaded> {
         parent: tree.parents[node].and_then(|parent| joint_of_node[parent]),
         rest: pose.rest[node],
     });
-    let skeleton = Skeleton {
-        joints: joints.collect(),
-    };
+    let skeleton = Skeleton { joints: joints.collect() };
 
     let mut humanoid = Humanoid::default();
     let mut rigged = !options.without_rig;
@@ -226,45 +216,27 @@ pub fn load(file: GltfFile, options: &LoadOptions) -> Result<Loaded> {
             }
         }
     }
-    set_kinds(
-        &mut meshes,
-        &labels,
-        options.kinds,
-        &skeleton,
-        &humanoid,
-        &mut warnings,
-    );
-    let mut character = Character {
-        meshes,
-        skeleton,
-        humanoid,
-        axes: options.axes,
-    };
+    set_kinds(&mut meshes, &labels, options.kinds, &skeleton, &humanoid, &mut warnings);
+    let mut character = Character { meshes, skeleton, humanoid, axes: options.axes };
     let mut node_of_joint = tree.order.clone();
     if !rigged {
         character.skeleton = Skeleton::default();
         character.humanoid = Humanoid::default();
-        character
-            .meshes
-            .iter_mut()
-            .for_each(|mesh| mesh.weights = Weights::default());
+        character.meshes.iter_mut().for_each(|mesh| mesh.weights = Weights::default());
         node_of_joint.clear();
     }
     if text_at(&file.json["extensions"]["VRMC_vrm"]["meta"], "modification") == "prohibited"
         || (file.json["extensions"].get("VRMC_vrm").is_some()
-            && file.json["extensions"]["VRMC_vrm"]["meta"]
-                .get("modification")
-                .is_none())
+            && file.json["extensions"]["VRMC_vrm"]["meta"].get("modification").is_none())
     {
         warnings.push(Warning::new(
             "modification_prohibited",
             format!("{}'s licence does not allow changes (meta.modification is prohibited): ask its author before sharing the result", file.name),
         ));
     }
-    character.validate().map_err(|error| Error {
-        message: format!("{}: {}", file.name, error.message),
-        ..error
-    })?;
+    character
+        .validate()
+        .map_err(|error| Error { message: format!("{}: {}", file.name, error.message), ..error })?;
     Ok(Loaded {
         file,
         character,
@@ -321,9 +293,7 @@ pub(super) fn read_skins(reader: &Reader) -> Result<Vec<Skin>> {
                 }
                 let numbers = reader.floats(accessor, 16, None)?;
                 let matrices = numbers.chunks_exact(16).take(joints.len());
-                matrices
-                    .map(|m| DMat4::from_cols_array(&std::array::from_fn(|i| f64::from(m[i]))))
-                    .collect()
+                matrices.map(|m| DMat4::from_cols_array(&std::array::from_fn(|i| f64::from(m[i])))).collect()
             }
         };
         if let Some(slot) = inverse_binds.iter().position(|matrix| !matrix.is_finite()) {
@@ -332,11 +302,7 @@ pub(super) fn read_skins(reader: &Reader) -> Result<Vec<Skin>> {
                 file.name
             )));
         }
-        skins.push(Skin {
-            joints,
-            inverse_binds,
-            ..Skin::default()
-        });
+        skins.push(Skin { joints, inverse_binds, ..Skin::default() });
     }
     Ok(skins)
 }
@@ -366,11 +332,7 @@ pub(super) fn read_primitive(
     if array_at(mesh_json, "primitives").len() > 1 && !material_name.is_empty() {
         name = format!("{name}/{material_name}");
     }
-    let label = format!(
-        "{}|{}|{material_name}",
-        text_at(node_json, "name"),
-        text_at(mesh_json, "name")
-    );
+    let label = format!("{}|{}|{material_name}", text_at(node_json, "name"), text_at(mesh_json, "name"));
     let place = || match name.as_str() {
         "" => format!("{}: mesh {mesh}", file.name),
         name => format!("{}: mesh {mesh} ({name})", file.name),
@@ -385,11 +347,7 @@ pub(super) fn read_primitive(
     let normals = index_at(attributes, "NORMAL").map_or(Ok(Vec::new()), |accessor| vec3s(accessor, count))?;
     let tangents = match index_at(attributes, "TANGENT") {
         None => Vec::new(),
-        Some(accessor) => reader
-            .floats(accessor, 4, count)?
-            .chunks_exact(4)
-            .map(Vec4::from_slice)
-            .collect(),
+        Some(accessor) => reader.floats(accessor, 4, count)?.chunks_exact(4).map(Vec4::from_slice).collect(),
     };
     let target_names = array_at(&mesh_json["extras"], "targetNames");
     let mut morph_targets = Vec::new();
@@ -400,22 +358,10 @@ pub(super) fn read_primitive(
         if deltas.is_empty() {
             deltas = vec![Vec3::ZERO; positions.len()];
         }
-        let name = target_names
-            .get(index)
-            .and_then(Value::as_str)
-            .unwrap_or("")
-            .to_string();
+        let name = target_names.get(index).and_then(Value::as_str).unwrap_or("").to_string();
         // What has no normals itself can have no changes of them.
-        let normal_deltas = if normals.is_empty() {
-            Vec::new()
-        } else {
-            read("NORMAL")?
-        };
-        let tangent_deltas = if tangents.is_empty() {
-            Vec::new()
-        } else {
-            read("TANGENT")?
-        };
+        let normal_deltas = if normals.is_empty() { Vec::new() } else { read("NORMAL")? };
+        let tangent_deltas = if tangents.is_empty() { Vec::new() } else { read("TANGENT")? };
         morph_targets.push(MorphTarget {
             name,
             positions: deltas,
@@ -430,10 +376,7 @@ pub(super) fn read_primitive(
             Some(accessor) => reader.integers(accessor, 1, None)?,
             None => (0..positions.len() as u32).collect(),
         };
-        if let Some(at) = corners
-            .iter()
-            .position(|&corner| corner as usize >= positions.len())
-        {
+        if let Some(at) = corners.iter().position(|&corner| corner as usize >= positions.len()) {
             return Err(bad_input(format!(
                 "{}: index {at} names vertex {}, but the mesh has {} vertices (0 to {}): export the file anew",
                 place(),
@@ -456,10 +399,7 @@ pub(super) fn read_primitive(
             let (Some(joints), Some(weights)) = (joints, weights) else {
                 break;
             };
-            sets.push((
-                reader.integers(joints, 4, count)?,
-                reader.floats(weights, 4, count)?,
-            ));
+            sets.push((reader.integers(joints, 4, count)?, reader.floats(weights, 4, count)?));
         }
         for vertex in 0..positions.len() {
             let mut row = Vec::new();
@@ -495,16 +435,7 @@ pub(super) fn read_primitive(
             rows.push(row);
         }
     }
-    Ok(Some(RawMesh {
-        name,
-        label,
-        positions,
-        normals,
-        tangents,
-        morph_targets,
-        triangles,
-        rows,
-    }))
+    Ok(Some(RawMesh { name, label, positions, normals, tangents, morph_targets, triangles, rows }))
 }
 
 /// Triangles of a list (mode 4), a strip (5) or a fan (6).
@@ -513,13 +444,7 @@ fn triangles_of(mode: u64, corners: &[u32]) -> Vec<[u32; 3]> {
         4 => corners.chunks_exact(3).map(|c| [c[0], c[1], c[2]]).collect(),
         // Every other triangle of a strip is wound the other way.
         5 => (corners.windows(3).enumerate())
-            .map(|(index, c)| {
-                if index % 2 == 0 {
-                    [c[0], c[1], c[2]]
-                } else {
-                    [c[0], c[2], c[1]]
-                }
-            })
+            .map(|(index, c)| if index % 2 == 0 { [c[0], c[1], c[2]] } else { [c[0], c[2], c[1]] })
             .collect(),
         _ => match corners.split_first() {
             Some((&first, rest)) => rest.windows(2).map(|c| [c[0], c[1], first]).collect(),
@@ -566,20 +491,15 @@ fn place(
                     let blended = row.iter().fold(DMat4::ZERO, |blended, &(slot, weight)| {
                         blended + placement.by_joint[slot as usize] * (f64::from(weight) / sum)
                     });
-                    if blended.determinant().abs() > 1e-30 {
-                        blended
-                    } else {
-                        placement.common
-                    }
+                    if blended.determinant().abs() > 1e-30 { blended } else { placement.common }
                 };
                 Placement::PerVertex(raw.rows.iter().map(blend).collect())
             };
             let joints = &skins[skin].joints;
             let rows = raw.rows.iter();
-            Weights::from_rows(rows.map(|row| {
-                row.iter()
-                    .map(|&(slot, weight)| (joint_at(joints[slot as usize]), weight))
-            }))
+            Weights::from_rows(
+                rows.map(|row| row.iter().map(|&(slot, weight)| (joint_at(joints[slot as usize]), weight))),
+            )
         }
     };
     let mut mesh = Mesh {
@@ -630,12 +550,7 @@ impl Frame {
     /// The map of a matrix that can be inverted.
     pub fn of(matrix: DMat4) -> Self {
         let linear = DMat3::from_mat4(matrix);
-        Self {
-            matrix,
-            linear,
-            normals: linear.inverse().transpose(),
-            identity: matrix == DMat4::IDENTITY,
-        }
+        Self { matrix, linear, normals: linear.inverse().transpose(), identity: matrix == DMat4::IDENTITY }
     }
 
     /// Maps a point.

@@ -17,11 +17,8 @@ pub enum ThumbNames {
 
 /// The role that is spelled `name` in VRM 1.0, VRM 0.x or Unity; spaces, `_`, `-` and case are ignored.
 pub fn role_named(name: &str, thumbs: ThumbNames) -> Option<Role> {
-    let mut plain: String = name
-        .chars()
-        .filter(|c| !matches!(c, ' ' | '_' | '-'))
-        .flat_map(char::to_lowercase)
-        .collect();
+    let mut plain: String =
+        name.chars().filter(|c| !matches!(c, ' ' | '_' | '-')).flat_map(char::to_lowercase).collect();
     if thumbs == ThumbNames::Unity && plain.contains("thumb") {
         plain = if plain.ends_with("thumbproximal") {
             plain.replace("thumbproximal", "thumbmetacarpal")
@@ -80,14 +77,8 @@ pub fn apply_map(
     let entries = map.as_object().ok_or_else(|| {
         bad_input("the humanoid map is no JSON object: write {\"hips\": \"JOINT NAME\", ...}".to_string())
     })?;
-    let metacarpal = entries
-        .keys()
-        .any(|key| key.to_lowercase().contains("metacarpal"));
-    let thumbs = if metacarpal {
-        ThumbNames::Vrm1
-    } else {
-        ThumbNames::Unity
-    };
+    let metacarpal = entries.keys().any(|key| key.to_lowercase().contains("metacarpal"));
+    let thumbs = if metacarpal { ThumbNames::Vrm1 } else { ThumbNames::Unity };
     let mut given = Humanoid::default();
     for (key, value) in entries {
         let role = role_named(key, thumbs).ok_or_else(|| {
@@ -104,17 +95,26 @@ pub fn apply_map(
             )));
         };
         let nodes = file.list("nodes");
-        let named: Vec<usize> = tree
-            .order
-            .iter()
-            .copied()
-            .filter(|&node| text_at(&nodes[node], "name") == name)
-            .collect();
-        let skinned: Vec<usize> = named
-            .iter()
-            .copied()
-            .filter(|&node| is_skin_joint(file, node))
-            .collect();
+        let nodes_named = |name: &str| -> Vec<usize> {
+            let mut found = tree.order.clone();
+            found.retain(|&node| text_at(&nodes[node], "name") == name);
+            found.sort_unstable();
+            found
+        };
+        let mut named = nodes_named(name);
+        // Editors tell nodes of one name apart by a number, "head 1" beside "head": the joint of that name, or the
+        // second in the file where several or none are joints.
+        if named.is_empty()
+            && let Some((stem, number)) = name.rsplit_once([' ', '.', '_'])
+            && let Ok(number) = number.parse::<usize>()
+        {
+            named = nodes_named(stem);
+            let of_skins = named.iter().filter(|&&node| is_skin_joint(file, node)).count();
+            if of_skins != 1 {
+                named = named.get(number).copied().into_iter().collect();
+            }
+        }
+        let skinned: Vec<usize> = named.iter().copied().filter(|&node| is_skin_joint(file, node)).collect();
         let node = match (named.as_slice(), skinned.as_slice()) {
             ([node], _) | (_, [node]) => *node,
             ([], _) => {
@@ -136,11 +136,8 @@ pub fn apply_map(
         }
     }
     for (role, joint) in given.iter() {
-        let taken: Vec<Role> = humanoid
-            .iter()
-            .filter(|&(_, other)| other == joint)
-            .map(|(role, _)| role)
-            .collect();
+        let taken: Vec<Role> =
+            humanoid.iter().filter(|&(_, other)| other == joint).map(|(role, _)| role).collect();
         for other in taken {
             humanoid.set(other, None);
         }
@@ -151,9 +148,7 @@ pub fn apply_map(
 
 fn is_skin_joint(file: &GltfFile, node: usize) -> bool {
     let is_it = |joint: &Value| joint.as_u64() == Some(node as u64);
-    file.list("skins")
-        .iter()
-        .any(|skin| array_at(skin, "joints").iter().any(is_it))
+    file.list("skins").iter().any(|skin| array_at(skin, "joints").iter().any(is_it))
 }
 
 fn give(
@@ -164,10 +159,7 @@ fn give(
     joint_of_node: &[Option<usize>],
 ) -> Result<()> {
     let label = |joint: usize| {
-        let node = joint_of_node
-            .iter()
-            .position(|&other| other == Some(joint))
-            .unwrap_or(0);
+        let node = joint_of_node.iter().position(|&other| other == Some(joint)).unwrap_or(0);
         node_label(&file.list("nodes")[node], node)
     };
     if let Some(other) = humanoid.joint(role) {

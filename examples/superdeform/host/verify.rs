@@ -29,14 +29,7 @@ pub fn closure(written: &GltfFile, loaded: &Loaded, deformed: &Deformed) -> Resu
     let skins = read_skins(&reader)?;
     let rest = new_rest(loaded, deformed);
     let up = loaded.character.axes.up.as_dvec3().normalize_or(DVec3::Y);
-    let (low, high) = extent(
-        loaded
-            .character
-            .meshes
-            .iter()
-            .map(|mesh| mesh.positions.as_slice()),
-        up,
-    );
+    let (low, high) = extent(loaded.character.meshes.iter().map(|mesh| mesh.positions.as_slice()), up);
     let height = (high - low).max(f64::MIN_POSITIVE);
     let mut by_rest = 0.0f64;
     let mut by_nodes = 0.0f64;
@@ -71,13 +64,7 @@ pub fn closure(written: &GltfFile, loaded: &Loaded, deformed: &Deformed) -> Resu
                 by_rest = by_rest.max(delta.distance(wanted.positions[vertex].as_dvec3()));
             }
         }
-        debug_assert_eq!(
-            raw.positions.len(),
-            loaded.character.meshes[index].positions.len()
-        );
+        debug_assert_eq!(raw.positions.len(), loaded.character.meshes[index].positions.len());
     }
-    Ok(Closure {
-        rest: by_rest / height,
-        nodes: (!loaded.pose.differs).then_some(by_nodes / height),
-    })
+    Ok(Closure { rest: by_rest / height, nodes: (!loaded.pose.differs).then_some(by_nodes / height) })
 }

@@ -51,23 +51,14 @@ pub fn move_points(
     if !loaded.rigged {
         return;
     }
-    let field = Field {
-        loaded,
-        new_rest,
-        map_point,
-    };
+    let field = Field { loaded, new_rest, map_point };
     if let Some(vrm) = json.pointer_mut("/extensions/VRM") {
         vrm0(vrm, &field);
     }
-    let head = loaded
-        .character
-        .humanoid
-        .joint(Role::Head)
-        .map(|joint| loaded.node_of_joint[joint]);
-    if let (Some(head), Some(offset)) = (
-        head,
-        json.pointer_mut("/extensions/VRMC_vrm/lookAt/offsetFromHeadBone"),
-    ) && let Some(local) = vector(offset)
+    let head = loaded.character.humanoid.joint(Role::Head).map(|joint| loaded.node_of_joint[joint]);
+    if let (Some(head), Some(offset)) =
+        (head, json.pointer_mut("/extensions/VRMC_vrm/lookAt/offsetFromHeadBone"))
+        && let Some(local) = vector(offset)
         && let Some((moved, ..)) = field.at(head, local)
     {
         put(offset, local, moved);
@@ -130,11 +121,7 @@ fn vrm1_springs(springs: &mut Value, field: &Field) {
 }
 
 fn list<'a>(value: &'a mut Value, key: &str) -> impl Iterator<Item = &'a mut Value> {
-    value
-        .get_mut(key)
-        .and_then(Value::as_array_mut)
-        .into_iter()
-        .flatten()
+    value.get_mut(key).and_then(Value::as_array_mut).into_iter().flatten()
 }
 
 fn collider_shape(shape: &mut Value, node: usize, field: &Field) {
@@ -185,16 +172,9 @@ fn collider_shape(shape: &mut Value, node: usize, field: &Field) {
 /// negated against the node's own space (so do the readers of UniVRM and three-vrm: "z is opposite in VRM0.0").
 fn vrm0(vrm: &mut Value, field: &Field) {
     if let Some(first_person) = vrm.get_mut("firstPerson") {
-        let bone = first_person
-            .get("firstPersonBone")
-            .and_then(Value::as_i64)
-            .filter(|&node| node >= 0);
-        let head = field
-            .loaded
-            .character
-            .humanoid
-            .joint(Role::Head)
-            .map(|joint| field.loaded.node_of_joint[joint]);
+        let bone = first_person.get("firstPersonBone").and_then(Value::as_i64).filter(|&node| node >= 0);
+        let head =
+            field.loaded.character.humanoid.joint(Role::Head).map(|joint| field.loaded.node_of_joint[joint]);
         if let Some(node) = bone.map(|node| node as usize).or(head)
             && let Some(offset) = first_person.get_mut("firstPersonBoneOffset")
         {
@@ -231,9 +211,8 @@ fn vrm0(vrm: &mut Value, field: &Field) {
         let (mut sum, mut count) = (0.0, 0);
         for &joint in &order {
             moved[joint] |= skeleton.joints[joint].parent.is_some_and(|parent| moved[parent]);
-            if let Some(scale) = moved[joint]
-                .then(|| field.scale(field.loaded.node_of_joint[joint]))
-                .flatten()
+            if let Some(scale) =
+                moved[joint].then(|| field.scale(field.loaded.node_of_joint[joint])).flatten()
             {
                 sum += scale;
                 count += 1;

@@ -19,24 +19,10 @@ pub type MapPoint<'a> = dyn Fn(usize, DVec3) -> Mapped + 'a;
 /// A place in the JSON that names an accessor.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Place {
-    Attribute {
-        mesh: usize,
-        primitive: usize,
-        key: &'static str,
-    },
-    Target {
-        mesh: usize,
-        primitive: usize,
-        target: usize,
-        key: &'static str,
-    },
-    InverseBinds {
-        skin: usize,
-    },
-    Output {
-        animation: usize,
-        sampler: usize,
-    },
+    Attribute { mesh: usize, primitive: usize, key: &'static str },
+    Target { mesh: usize, primitive: usize, target: usize, key: &'static str },
+    InverseBinds { skin: usize },
+    Output { animation: usize, sampler: usize },
 }
 
 impl Place {
@@ -45,12 +31,7 @@ impl Place {
             Self::Attribute { mesh, primitive, key } => {
                 format!("/meshes/{mesh}/primitives/{primitive}/attributes/{key}")
             }
-            Self::Target {
-                mesh,
-                primitive,
-                target,
-                key,
-            } => {
+            Self::Target { mesh, primitive, target, key } => {
                 format!("/meshes/{mesh}/primitives/{primitive}/targets/{target}/{key}")
             }
             Self::InverseBinds { skin } => format!("/skins/{skin}/inverseBindMatrices"),
@@ -69,10 +50,7 @@ impl Place {
     }
 
     fn needs_bounds(&self) -> bool {
-        matches!(
-            self,
-            Self::Attribute { key: "POSITION", .. } | Self::Target { key: "POSITION", .. }
-        )
+        matches!(self, Self::Attribute { key: "POSITION", .. } | Self::Target { key: "POSITION", .. })
     }
 
     fn is_vertex_data(&self) -> bool {
@@ -114,14 +92,15 @@ pub fn rewrite(loaded: &Loaded, deformed: &Deformed, map_point: &MapPoint) -> Re
     check(loaded, deformed)?;
     let new_rest = new_rest(loaded, deformed);
     let mut file = loaded.file.clone();
-    let reader = Reader::new(&loaded.file);
+    // A reader counts what it has read: each stage reads no more than loading did.
+    let reader = || Reader::new(&loaded.file);
     let mut slots = Vec::new();
-    mesh_slots(loaded, deformed, &new_rest, &reader, &mut file.json, &mut slots)?;
-    skin_slots(loaded, &new_rest, &reader, &mut slots)?;
+    mesh_slots(loaded, deformed, &new_rest, &reader(), &mut file.json, &mut slots)?;
+    skin_slots(loaded, &new_rest, &reader(), &mut slots)?;
     let shifts = move_nodes(loaded, &new_rest, &mut file.json);
     let hip_ratio = hip_ratio(loaded, deformed);
-    animation_slots(loaded, &shifts, hip_ratio, &reader, &mut file.json, &mut slots)?;
-    store(&reader, &mut file, slots)?;
+    animation_slots(loaded, &shifts, hip_ratio, &reader(), &mut file.json, &mut slots)?;
+    store(&reader(), &mut file, slots)?;
     let height_ratio = height_ratio(loaded, deformed);
     vrm::move_points(&mut file.json, loaded, &new_rest, map_point, height_ratio);
     Ok(file)
@@ -160,10 +139,7 @@ fn check(loaded: &Loaded, deformed: &Deformed) -> Result<()> {
             )));
         }
         let stray = |list: &[Vec3]| list.iter().position(|v| !v.is_finite());
-        let targets = new
-            .morph_targets
-            .iter()
-            .flat_map(|target| [&target.positions, &target.normals]);
+        let targets = new.morph_targets.iter().flat_map(|target| [&target.positions, &target.normals]);
         let lists = [&new.positions, &new.normals].into_iter().chain(targets);
         if let Some(vertex) = lists.into_iter().find_map(|list| stray(list)) {
             return Err(bad_input(format!(
@@ -195,10 +171,7 @@ fn mesh_slots(
 ) -> Result<()> {
     let mut instances: BTreeMap<(usize, usize), Vec<usize>> = BTreeMap::new();
     for (index, binding) in loaded.bindings.iter().enumerate() {
-        instances
-            .entry((binding.mesh, binding.node))
-            .or_default()
-            .push(index);
+        instances.entry((binding.mesh, binding.node)).or_default().push(index);
     }
     // The versions of each mesh so far: its number and its slots.
     let mut versions: BTreeMap<usize, Vec<(usize, Vec<Slot>)>> = BTreeMap::new();
@@ -210,10 +183,7 @@ fn mesh_slots(
         let known = versions.entry(mesh).or_default();
         let same = |other: &Vec<Slot>| {
             other.len() == local.len()
-                && other
-                    .iter()
-                    .zip(&local)
-                    .all(|(one, two)| same_bits(&one.numbers, &two.numbers))
+                && other.iter().zip(&local).all(|(one, two)| same_bits(&one.numbers, &two.numbers))
         };
         if let Some((number, _)) = known.iter().find(|(_, other)| same(other)) {
             if *number != mesh {
@@ -293,16 +263,8 @@ fn primitive_slots(
                 raw.copy_from_slice(&point.to_array());
             }
         }
-        let place = Place::Attribute {
-            mesh,
-            primitive,
-            key: "POSITION",
-        };
-        slots.push(Slot {
-            place,
-            components: 3,
-            numbers,
-        });
+        let place = Place::Attribute { mesh, primitive, key: "POSITION" };
+        slots.push(Slot { place, components: 3, numbers });
     }
     if let Some(accessor) =
         index_at(&json["attributes"], "NORMAL").filter(|_| new.normals.len() == old.positions.len())
@@ -315,16 +277,8 @@ fn primitive_slots(
                 raw.copy_from_slice(&normal.to_array());
             }
         }
-        let place = Place::Attribute {
-            mesh,
-            primitive,
-            key: "NORMAL",
-        };
-        slots.push(Slot {
-            place,
-            components: 3,
-            numbers,
-        });
+        let place = Place::Attribute { mesh, primitive, key: "NORMAL" };
+        slots.push(Slot { place, components: 3, numbers });
     }
     if let Some(accessor) =
         index_at(&json["attributes"], "TANGENT").filter(|_| new.tangents.len() == old.positions.len())
@@ -337,16 +291,8 @@ fn primitive_slots(
                 raw.copy_from_slice(&tangent.extend(new.tangents[vertex].w).to_array());
             }
         }
-        let place = Place::Attribute {
-            mesh,
-            primitive,
-            key: "TANGENT",
-        };
-        slots.push(Slot {
-            place,
-            components: 4,
-            numbers,
-        });
+        let place = Place::Attribute { mesh, primitive, key: "TANGENT" };
+        slots.push(Slot { place, components: 4, numbers });
     }
     for (target, (before, after)) in old.morph_targets.iter().zip(&new.morph_targets).enumerate() {
         let target_json = &json["targets"][target];
@@ -381,17 +327,8 @@ fn primitive_slots(
                 // Adding 0 turns -0 into 0.
                 raw.copy_from_slice(&(delta + Vec3::ZERO).to_array());
             }
-            let place = Place::Target {
-                mesh,
-                primitive,
-                target,
-                key,
-            };
-            slots.push(Slot {
-                place,
-                components: 3,
-                numbers,
-            });
+            let place = Place::Target { mesh, primitive, target, key };
+            slots.push(Slot { place, components: 3, numbers });
         }
     }
     Ok(())
@@ -403,10 +340,7 @@ fn skin_slots(loaded: &Loaded, new_rest: &[DMat4], reader: &Reader, slots: &mut 
         let accessor = index_at(&loaded.file.list("skins")[index], "inverseBindMatrices");
         let mut numbers = match accessor {
             Some(accessor) => reader.floats(accessor, 16, None)?,
-            None => DMat4::IDENTITY
-                .as_mat4()
-                .to_cols_array()
-                .repeat(skin.joints.len()),
+            None => DMat4::IDENTITY.as_mat4().to_cols_array().repeat(skin.joints.len()),
         };
         let mut moved = false;
         for (slot, &node) in skin.joints.iter().enumerate() {
@@ -422,11 +356,7 @@ fn skin_slots(loaded: &Loaded, new_rest: &[DMat4], reader: &Reader, slots: &mut 
         }
         if moved || accessor.is_some() {
             let place = Place::InverseBinds { skin: index };
-            slots.push(Slot {
-                place,
-                components: 16,
-                numbers,
-            });
+            slots.push(Slot { place, components: 16, numbers });
         }
     }
     Ok(())
@@ -443,9 +373,7 @@ fn move_nodes(loaded: &Loaded, new_rest: &[DMat4], json: &mut Value) -> BTreeMap
             continue;
         }
         let local = |rest: &[DMat4]| match parent {
-            Some(parent) => rest[parent]
-                .inverse()
-                .transform_point3(rest[node].w_axis.truncate()),
+            Some(parent) => rest[parent].inverse().transform_point3(rest[node].w_axis.truncate()),
             None => rest[node].w_axis.truncate(),
         };
         let (before, after) = (local(rest), local(new_rest));
@@ -457,10 +385,8 @@ fn move_nodes(loaded: &Loaded, new_rest: &[DMat4], json: &mut Value) -> BTreeMap
         let pose = loaded.tree.local[node].w_axis.truncate() + change;
         let pose = pose.as_vec3();
         let node_json = &mut json["nodes"][node];
-        if let Some(matrix) = node_json
-            .get_mut("matrix")
-            .and_then(Value::as_array_mut)
-            .filter(|m| m.len() == 16)
+        if let Some(matrix) =
+            node_json.get_mut("matrix").and_then(Value::as_array_mut).filter(|m| m.len() == 16)
         {
             for axis in 0..3 {
                 matrix[12 + axis] = json!(pose[axis]);
@@ -478,44 +404,22 @@ fn hip_ratio(loaded: &Loaded, deformed: &Deformed) -> f64 {
     let Some(hips) = loaded.character.humanoid.joint(Role::Hips) else {
         return 1.0;
     };
-    let (low, high) = extent(
-        loaded
-            .character
-            .meshes
-            .iter()
-            .map(|mesh| mesh.positions.as_slice()),
-        up,
-    );
+    let (low, high) = extent(loaded.character.meshes.iter().map(|mesh| mesh.positions.as_slice()), up);
     let (new_low, _) = extent(deformed.meshes.iter().map(|mesh| mesh.positions.as_slice()), up);
     let before = loaded.character.skeleton.joints[hips].position().dot(up) - low;
     let after = deformed.joints[hips].dot(up) - new_low;
     let ratio = after / before;
     // Hips at or below the soles tell nothing.
-    if before > 1e-3 * (high - low) && ratio.is_finite() && ratio > 0.0 {
-        ratio
-    } else {
-        1.0
-    }
+    if before > 1e-3 * (high - low) && ratio.is_finite() && ratio > 0.0 { ratio } else { 1.0 }
 }
 
 /// New over old height of the figure.
 pub fn height_ratio(loaded: &Loaded, deformed: &Deformed) -> f64 {
     let up = loaded.character.axes.up.as_dvec3().normalize_or(DVec3::Y);
-    let (low, high) = extent(
-        loaded
-            .character
-            .meshes
-            .iter()
-            .map(|mesh| mesh.positions.as_slice()),
-        up,
-    );
+    let (low, high) = extent(loaded.character.meshes.iter().map(|mesh| mesh.positions.as_slice()), up);
     let (new_low, new_high) = extent(deformed.meshes.iter().map(|mesh| mesh.positions.as_slice()), up);
     let ratio = (new_high - new_low) / (high - low);
-    if ratio.is_finite() && ratio > 0.0 {
-        ratio
-    } else {
-        1.0
-    }
+    if ratio.is_finite() && ratio > 0.0 { ratio } else { 1.0 }
 }
 
 /// Least and greatest height along `up`.
@@ -523,9 +427,7 @@ pub fn extent<'a>(meshes: impl Iterator<Item = &'a [Vec3]>, up: DVec3) -> (f64, 
     meshes
         .flatten()
         .map(|p| p.as_dvec3().dot(up))
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), height| {
-            (low.min(height), high.max(height))
-        })
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), height| (low.min(height), high.max(height)))
 }
 
 /// Translation tracks: the hips' are scaled with their height, those of other joints move with their rest.
@@ -539,19 +441,13 @@ fn animation_slots(
     json: &mut Value,
     slots: &mut Vec<Slot>,
 ) -> Result<()> {
-    let hips = loaded
-        .character
-        .humanoid
-        .joint(Role::Hips)
-        .map(|joint| loaded.node_of_joint[joint]);
+    let hips = loaded.character.humanoid.joint(Role::Hips).map(|joint| loaded.node_of_joint[joint]);
     for (animation, animation_json) in loaded.file.list("animations").iter().enumerate() {
         let channels = array_at(animation_json, "channels");
         let samplers = array_at(animation_json, "samplers");
         // What each sampler gives by now: several channels may share one.
         let mut given: BTreeMap<usize, Option<Vec<f32>>> = BTreeMap::new();
-        for channel in channels
-            .iter()
-            .filter(|channel| text_at(&channel["target"], "path") != "translation")
+        for channel in channels.iter().filter(|channel| text_at(&channel["target"], "path") != "translation")
         {
             if let Some(sampler) = index_at(channel, "sampler") {
                 given.insert(sampler, None);
@@ -585,11 +481,8 @@ fn animation_slots(
                 for (key, raw) in numbers.chunks_exact_mut(3).enumerate() {
                     let value = Vec3::from_slice(raw).as_dvec3();
                     // In-tangent, value, out-tangent: tangents are differences.
-                    let value = if cubic && key % 3 != 1 {
-                        value * scale
-                    } else {
-                        after + (value - before) * scale
-                    };
+                    let value =
+                        if cubic && key % 3 != 1 { value * scale } else { after + (value - before) * scale };
                     raw.copy_from_slice(&value.as_vec3().to_array());
                 }
             }
@@ -607,17 +500,10 @@ fn animation_slots(
                     list.push(sampler_json.clone());
                     let copy = list.len() - 1;
                     json["animations"][animation]["channels"][index]["sampler"] = json!(copy);
-                    place = Place::Output {
-                        animation,
-                        sampler: copy,
-                    };
+                    place = Place::Output { animation, sampler: copy };
                 }
             }
-            slots.push(Slot {
-                place,
-                components: 3,
-                numbers,
-            });
+            slots.push(Slot { place, components: 3, numbers });
         }
     }
     Ok(())
@@ -627,9 +513,8 @@ impl Loaded {
     /// The local translation of a node in rest pose.
     fn pose_translation(&self, node: usize) -> DVec3 {
         let place = self.pose.rest[node].w_axis.truncate();
-        self.tree.parents[node].map_or(place, |parent| {
-            self.pose.rest[parent].inverse().transform_point3(place)
-        })
+        self.tree.parents[node]
+            .map_or(place, |parent| self.pose.rest[parent].inverse().transform_point3(place))
     }
 }
 
@@ -672,9 +557,8 @@ fn store(reader: &Reader, file: &mut GltfFile, slots: Vec<Slot>) -> Result<()> {
             versions.push((old, accessor));
         }
         for slot in slots {
-            let known = versions
-                .iter()
-                .find(|(numbers, _)| accessor.is_some() && same_bits(numbers, &slot.numbers));
+            let known =
+                versions.iter().find(|(numbers, _)| accessor.is_some() && same_bits(numbers, &slot.numbers));
             if let Some(&(_, holder)) = known {
                 slot.place.set(&mut file.json, holder);
                 continue;
@@ -698,18 +582,11 @@ fn store(reader: &Reader, file: &mut GltfFile, slots: Vec<Slot>) -> Result<()> {
             };
             let layout = accessor.map(|accessor| reader.layout(accessor)).transpose()?;
             let in_place = accessor == Some(holder)
-                && layout
-                    .as_ref()
-                    .is_some_and(|layout| layout.component_type == 5126 && !layout.sparse)
+                && layout.as_ref().is_some_and(|layout| layout.component_type == 5126 && !layout.sparse)
                 && !overlaps.disturbs(holder);
             if let (true, Some(layout)) = (in_place, &layout) {
                 overwrite(&mut file.binary, layout, &slot.numbers);
-                set_bounds(
-                    &mut file.json["accessors"][holder],
-                    &slot.numbers,
-                    slot.components,
-                    bounds,
-                );
+                set_bounds(&mut file.json["accessors"][holder], &slot.numbers, slot.components, bounds);
             } else {
                 definitions.push(Definition {
                     accessor: holder,
@@ -753,18 +630,12 @@ fn accessor_uses(json: &Value) -> BTreeMap<String, usize> {
         }
     }
     for (skin, skin_json) in array_at(json, "skins").iter().enumerate() {
-        note(
-            format!("/skins/{skin}/inverseBindMatrices"),
-            &skin_json["inverseBindMatrices"],
-        );
+        note(format!("/skins/{skin}/inverseBindMatrices"), &skin_json["inverseBindMatrices"]);
     }
     for (animation, animation_json) in array_at(json, "animations").iter().enumerate() {
         for (sampler, sampler_json) in array_at(animation_json, "samplers").iter().enumerate() {
             for key in ["input", "output"] {
-                note(
-                    format!("/animations/{animation}/samplers/{sampler}/{key}"),
-                    &sampler_json[key],
-                );
+                note(format!("/animations/{animation}/samplers/{sampler}/{key}"), &sampler_json[key]);
             }
         }
     }
@@ -785,13 +656,7 @@ impl Overlaps {
             .filter_map(|accessor| {
                 let layout = reader.layout(accessor).ok()?;
                 let range = layout.range()?;
-                Some((
-                    range.start,
-                    range.end,
-                    layout.stride,
-                    layout.element_size(),
-                    accessor,
-                ))
+                Some((range.start, range.end, layout.stride, layout.element_size(), accessor))
             })
             .collect();
         ranges.sort_unstable();
@@ -903,24 +768,15 @@ fn define(file: &mut GltfFile, definitions: Vec<Definition>) {
         let mut accessor = file.json["accessors"][definition.accessor].clone();
         accessor["componentType"] = json!(5126);
         accessor["count"] = json!(count);
-        set_bounds(
-            &mut accessor,
-            &definition.numbers,
-            definition.components,
-            definition.bounds,
-        );
+        set_bounds(&mut accessor, &definition.numbers, definition.components, definition.bounds);
         let elements = definition.numbers.chunks_exact(definition.components);
         let set: Vec<usize> = elements
             .enumerate()
             .filter(|(_, values)| values.iter().any(|&v| v != 0.0))
             .map(|(at, _)| at)
             .collect();
-        let bytes_of = |values: &[f32]| {
-            values
-                .iter()
-                .flat_map(|value| value.to_le_bytes())
-                .collect::<Vec<u8>>()
-        };
+        let bytes_of =
+            |values: &[f32]| values.iter().flat_map(|value| value.to_le_bytes()).collect::<Vec<u8>>();
         let element_size = 4 * definition.components;
         if definition.sparse && set.len() * (element_size + 4) < count * element_size {
             if !set.is_empty() {
