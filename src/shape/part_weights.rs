@@ -121,7 +121,13 @@ pub fn part_bindings(figure: &Figure, anatomy: &Anatomy, skeleton: &Skeleton) ->
     }
     mark_head_pieces(figure, anatomy, &members, &head_only, &mut parts, &mut manners);
     smooth_along(figure, &weld, &head_only, &mut parts);
-    smooth_across(figure, &head_only, &mut parts);
+    // Skin at the root of hair has moved over to the hair's weights, and must stay there or the hair line opens.
+    let mut holds_head_only = vec![false; weld.count];
+    for vertex in (0..vertex_count).filter(|&vertex| head_only[vertex]) {
+        holds_head_only[weld.representative[vertex] as usize] = true;
+    }
+    let frozen: Vec<bool> = weld.representative.iter().map(|&welded| holds_head_only[welded as usize]).collect();
+    smooth_across(figure, &frozen, &mut parts);
 
     let mut pieces = Vec::new();
     let joint_pieces = rigid_groups(figure, skeleton, &members, &head_only, &mut manners, &mut pieces);
