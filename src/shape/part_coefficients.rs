@@ -20,7 +20,9 @@ const NECK_GIRTH: f64 = 1.1;
 const FULL_HEAD_SCALE: f64 = 1.5;
 /// Length of the neck between these, in new heads.
 const NECK: (f64, f64) = (0.03, 0.22);
-/// The same for a style for N heads.
+/// The neck may grow this much more than the head.
+const NECK_GROWTH: f64 = 1.5;
+/// Length of the neck in a style for N heads, in new heads.
 const NECK_FOR_HEADS: (f64, f64) = (0.05, 0.14);
 /// How far head widths may differ before girths stop following.
 const GIRTH_PER_HEAD_WIDTH: (f64, f64) = (0.6, 1.25);
@@ -196,11 +198,13 @@ pub fn part_coefficients(
     result.head_seat = growth;
 
     // D27.1
-    let neck = bounds.apply("neck", neck / head, NECK.0, NECK.1) * head;
+    let longest = (NECK_GROWTH * target.neck / target.head_length).clamp(NECK.0, NECK.1);
+    let neck = bounds.apply("neck", neck / head, NECK.0, longest) * head;
     result.neck[0] = neck / target.neck.max(1e-6 * target.head_length);
 
     // D27.2
-    let length = torso / target.torso;
+    // Nothing grows more than the head: a body that is as stubby as the style, or stubbier, keeps its proportions.
+    let length = bounds.apply("torso length", torso / target.torso, 0.0, head_scale);
     let girth = girths[0].unwrap_or(length.sqrt());
     let girth = bounds.apply("torso thickness", girth, 0.9 * length, 1.0f64.max(0.9 * length));
     result.trunk = [bounds.apply("torso length", length, girth / STUBBIEST, f64::INFINITY), girth];
@@ -227,7 +231,7 @@ pub fn part_coefficients(
     let stubbiest = |limb: usize, result: &PartCoefficients| {
         (result.limbs[limb][1].max(result.limbs[limb + 1][1]) / STUBBIEST).max(SHORTEST_LIMB)
     };
-    let length = bounds.apply("arm length", arm / target.arm, stubbiest(0, &result), f64::INFINITY);
+    let length = bounds.apply("arm length", arm / target.arm, stubbiest(0, &result), head_scale);
     result.limbs[0][0] = length;
     result.limbs[1][0] = length;
 
@@ -237,7 +241,7 @@ pub fn part_coefficients(
         _ => 1.1 * result.limbs[1][1],
     };
     let girth = result.limbs[1][1];
-    let size = bounds.apply("hand", size, HAND_PER_ARM.0 * girth, HAND_PER_ARM.1 * girth);
+    let size = bounds.apply("hand", size, HAND_PER_ARM.0 * girth, (HAND_PER_ARM.1 * girth).min(head_scale));
     result.hand = match target.hand {
         Some(own) => bounds.apply("hand", size, 0.0, LONGEST_HAND * head / own),
         None => size,
@@ -247,7 +251,7 @@ pub fn part_coefficients(
         _ => 1.2 * result.limbs[3][1],
     };
     let girth = result.limbs[3][1];
-    let size = bounds.apply("foot", size, FOOT_PER_LEG.0 * girth, FOOT_PER_LEG.1 * girth);
+    let size = bounds.apply("foot", size, FOOT_PER_LEG.0 * girth, (FOOT_PER_LEG.1 * girth).min(head_scale));
     result.foot = match target.foot {
         Some(own) => bounds.apply("foot", size, 0.0, LONGEST_FOOT * head / own),
         None => size,
@@ -270,7 +274,7 @@ pub fn part_coefficients(
             result.limbs[limb][1] = girth.min((STUBBIEST * length).max(slimmest.min(girth)));
         }
     }
-    length = bounds.apply("leg length", length, stubbiest(2, &result), f64::INFINITY);
+    length = bounds.apply("leg length", length, stubbiest(2, &result), head_scale);
     if let Wanted::Heads(_) = wanted {
         // What the legs could not give, the torso gives as far as its own bound allows.
         let excess = length * shank + target.ankle_height * result.foot - leg;

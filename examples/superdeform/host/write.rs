@@ -99,7 +99,7 @@ pub fn rewrite(loaded: &Loaded, deformed: &Deformed, map_point: &MapPoint) -> Re
     skin_slots(loaded, &new_rest, &reader(), &mut slots)?;
     let shifts = move_nodes(loaded, &new_rest, &mut file.json);
     let hip_ratio = hip_ratio(loaded, deformed);
-    animation_slots(loaded, &shifts, hip_ratio, &reader(), &mut file.json, &mut slots)?;
+    animation_slots(loaded, &shifts, hip_ratio, map_point, &reader(), &mut file.json, &mut slots)?;
     store(&reader(), &mut file, slots)?;
     let height_ratio = height_ratio(loaded, deformed);
     vrm::move_points(&mut file.json, loaded, &new_rest, map_point, height_ratio);
@@ -430,13 +430,16 @@ pub fn extent<'a>(meshes: impl Iterator<Item = &'a [Vec3]>, up: DVec3) -> (f64, 
         .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), height| (low.min(height), high.max(height)))
 }
 
-/// Translation tracks: the hips' are scaled with their height, those of other joints move with their rest.
+/// Translation tracks: how far a key lies from the rest is scaled, and the rest is the new one.
 ///
-/// A track that keeps a joint at its old rest keeps it at its new rest.
+/// The scale is that of the hips' height for the hips and for what does not hang from them (a root that travels, feet
+/// that an animation places by themselves), and the field's own for what moves within the body (eyelids, a jaw). A track
+/// that keeps a joint at its old rest keeps it at its new rest.
 fn animation_slots(
     loaded: &Loaded,
     shifts: &BTreeMap<usize, Shift>,
     hip_ratio: f64,
+    map_point: &MapPoint,
     reader: &Reader,
     json: &mut Value,
     slots: &mut Vec<Slot>,
@@ -476,7 +479,14 @@ fn animation_slots(
                 Some(shift) => (shift.before, shift.after),
                 None => (loaded.pose_translation(node), loaded.pose_translation(node)),
             };
-            let scale = if Some(node) == hips { hip_ratio } else { 1.0 };
+            let below_hips = std::iter::successors(loaded.tree.parents[node], |&above| loaded.tree.parents[above])
+                .any(|above| Some(above) == hips);
+            let scale = match loaded.joint_of_node[node] {
+                Some(joint) if below_hips => {
+                    map_point(joint, loaded.character.skeleton.joints[joint].position()).local_scale()
+                }
+                _ => hip_ratio,
+            };
             if shift.is_some() || scale != 1.0 {
                 for (key, raw) in numbers.chunks_exact_mut(3).enumerate() {
                     let value = Vec3::from_slice(raw).as_dvec3();
