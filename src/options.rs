@@ -22,7 +22,7 @@ pub enum FaceCurve {
     F4,
     /// Eq. 12.
     F2,
-    /// The sphere approximation of Shen et al. [10], for comparison (Fig. 7f).
+    /// The sphere approximation of Shen et al., reference 10, for comparison (Fig. 7f).
     Sphere,
 }
 

@@ -126,7 +126,11 @@ impl Bounds {
     fn apply(&mut self, what: &'static str, value: f64, low: f64, high: f64) -> f64 {
         let bounded = value + self.strictness * (value.max(low).min(high.max(low)) - value);
         if (bounded - value).abs() > 1e-3 * value.abs() {
-            self.acted.push((what, value, bounded));
+            // Two bounds on one thing are told as one.
+            match self.acted.iter_mut().find(|(known, _, _)| *known == what) {
+                Some((_, _, to)) => *to = bounded,
+                None => self.acted.push((what, value, bounded)),
+            }
         }
         bounded
     }

@@ -126,7 +126,8 @@ pub fn part_bindings(figure: &Figure, anatomy: &Anatomy, skeleton: &Skeleton) ->
     for vertex in (0..vertex_count).filter(|&vertex| head_only[vertex]) {
         holds_head_only[weld.representative[vertex] as usize] = true;
     }
-    let frozen: Vec<bool> = weld.representative.iter().map(|&welded| holds_head_only[welded as usize]).collect();
+    let frozen: Vec<bool> =
+        weld.representative.iter().map(|&welded| holds_head_only[welded as usize]).collect();
     smooth_across(figure, &frozen, &mut parts);
 
     let mut pieces = Vec::new();

@@ -479,8 +479,9 @@ fn animation_slots(
                 Some(shift) => (shift.before, shift.after),
                 None => (loaded.pose_translation(node), loaded.pose_translation(node)),
             };
-            let below_hips = std::iter::successors(loaded.tree.parents[node], |&above| loaded.tree.parents[above])
-                .any(|above| Some(above) == hips);
+            let below_hips =
+                std::iter::successors(loaded.tree.parents[node], |&above| loaded.tree.parents[above])
+                    .any(|above| Some(above) == hips);
             let scale = match loaded.joint_of_node[node] {
                 Some(joint) if below_hips => {
                     map_point(joint, loaded.character.skeleton.joints[joint].position()).local_scale()
