@@ -5,6 +5,8 @@
 //! body's, and nowhere becomes broader than it is at the chin: hair that spreads over the shoulders of an adult would
 //! stand out like a skirt from a child's.
 
+use crate::geometry::surface::Surface;
+use crate::geometry::weld::{Neighbours, Weld};
 use crate::shape::part_weights::smoothstep;
 use glam::{DMat3, DVec3};
 
@@ -140,4 +142,113 @@ impl HairMap {
         );
         (to, jacobian)
     }
+}
+
+/// Steps that spread a push over the neighbouring hair.
+const SPREAD_PASSES: usize = 8;
+/// Hair keeps at least this part of its old distance from the body, up to `CLEARANCE` of the height.
+const KEPT_DISTANCE: f64 = 0.5;
+/// See [`KEPT_DISTANCE`].
+const CLEARANCE: f64 = 0.008;
+
+/// What must be added to hair below the chin so that locks which lay on the body still do.
+///
+/// The body's heights and girths change, the head's place too, so a lock that lay on the chest may end inside it. Every
+/// vertex of `hair` that was outside the body and no longer is moves out along the body's normal; its neighbours are
+/// drawn along.
+///
+/// - `before`, `after`: all vertices; `body`: triangles that hair must not enter; `hair`: vertices to look at.
+/// - `height`: of the figure afterwards.
+/// - Returns a displacement for each of `hair`, zero where nothing is to do.
+pub fn keep_outside(
+    before: &[DVec3],
+    after: &[DVec3],
+    body: &[[u32; 3]],
+    hair: &[usize],
+    weld: &Weld,
+    around: &Neighbours,
+    height: f64,
+) -> Vec<DVec3> {
+    let nothing = vec![DVec3::ZERO; hair.len()];
+    if body.is_empty() || hair.is_empty() {
+        return nothing;
+    }
+    let distances = |points: &[DVec3]| -> Vec<(f64, DVec3)> {
+        let surface = Surface::new(points, body);
+        let normals = vertex_normals(points, body, weld);
+        hair.iter()
+            .map(|&vertex| match surface.closest_point(points[vertex]) {
+                Some(closest) => {
+                    let corners = weld.triangle(body[closest.triangle]);
+                    let normal: DVec3 = corners
+                        .iter()
+                        .zip(closest.barycentric)
+                        .map(|(&corner, share)| share * normals[corner as usize])
+                        .sum();
+                    let from = points[vertex] - closest.point;
+                    let sign = if from.dot(normal) < 0.0 { -1.0 } else { 1.0 };
+                    (sign * closest.distance, normal.normalize_or_zero())
+                }
+                None => (f64::INFINITY, DVec3::ZERO),
+            })
+            .collect()
+    };
+    let old = distances(before);
+    let new = distances(after);
+    let needs: Vec<DVec3> = old
+        .iter()
+        .zip(&new)
+        .map(|(&(old, _), &(new, normal))| {
+            let wanted = (KEPT_DISTANCE * old).min(CLEARANCE * height);
+            if old > 0.0 && new < wanted { normal * (wanted - new) } else { DVec3::ZERO }
+        })
+        .collect();
+    if needs.iter().all(|&need| need == DVec3::ZERO) {
+        return nothing;
+    }
+    // On the welded mesh, so that seams stay closed: the largest need of the vertices at one place counts for all.
+    let mut need_at = vec![DVec3::ZERO; weld.count];
+    let mut is_hair = vec![false; weld.count];
+    for (&vertex, &need) in hair.iter().zip(&needs) {
+        let welded = weld.representative[vertex] as usize;
+        is_hair[welded] = true;
+        if need.length_squared() > need_at[welded].length_squared() {
+            need_at[welded] = need;
+        }
+    }
+    let mut push = need_at.clone();
+    for _ in 0..SPREAD_PASSES {
+        let last = push.clone();
+        for welded in (0..weld.count).filter(|&welded| is_hair[welded]) {
+            let near = around.of(welded);
+            if near.is_empty() {
+                continue;
+            }
+            // Neighbours that are no hair (the scalp) do not move, and hold.
+            let mean = near.iter().map(|&other| last[other as usize]).sum::<DVec3>() / near.len() as f64;
+            let spread = 0.5 * (last[welded] + mean);
+            let need = need_at[welded];
+            let length = need.length();
+            push[welded] = if length > 0.0 {
+                let missing = length - spread.dot(need) / length;
+                spread + need / length * missing.max(0.0)
+            } else {
+                spread
+            };
+        }
+    }
+    hair.iter().map(|&vertex| push[weld.representative[vertex] as usize]).collect()
+}
+
+/// Normals of the welded vertices that `triangles` use, by area; zero elsewhere.
+fn vertex_normals(points: &[DVec3], triangles: &[[u32; 3]], weld: &Weld) -> Vec<DVec3> {
+    let mut normals = vec![DVec3::ZERO; weld.count];
+    for corners in triangles {
+        let [a, b, c] = corners.map(|vertex| points[vertex as usize]);
+        let normal = (b - a).cross(c - a);
+        for corner in weld.triangle(*corners) {
+            normals[corner as usize] += normal;
+        }
+    }
+    normals.iter().map(|normal| normal.normalize_or_zero()).collect()
 }

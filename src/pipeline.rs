@@ -4,7 +4,8 @@ use crate::character::bones::Bone;
 use crate::character::{Character, MeshKind, MorphTarget, Role};
 use crate::error::{Error, ErrorKind, Result, Warning};
 use crate::face::FaceShape;
-use crate::geometry::weld::{Weld, components, weld};
+use crate::geometry::weld::{Weld, components, neighbours, weld};
+use crate::hair::keep_outside;
 pub use crate::options::{FaceCurve, GroupSettings, Mode, Options, Stage};
 use crate::report::{Coefficient, Counts, FigureReport, GroupShape, Report, RigReport, Timing};
 use crate::shape::BodyShape;
@@ -233,8 +234,43 @@ impl Deformer {
                 ),
             ));
         }
+        self.keep_hair_outside();
         self.set_face_squash(self.face_squash());
         Ok(())
+    }
+
+    /// Locks that lay on the body still do.
+    fn keep_hair_outside(&mut self) {
+        let figure = &self.study.figure;
+        let chin = self.study.anatomy.landmarks.chin;
+        let part = |vertex: usize, part: Part| match &self.bindings[vertex] {
+            Binding::Parts(binding) => binding.weights[part as usize],
+            _ => 0.0,
+        };
+        let hair: Vec<usize> = (0..figure.positions.len())
+            .filter(|&vertex| figure.positions[vertex].y < chin && part(vertex, Part::Hair) > 0.5)
+            .collect();
+        if hair.is_empty() {
+            return;
+        }
+        let of_head = |vertex: usize| part(vertex, Part::Hair) + part(vertex, Part::Head);
+        let body = figure.triangles_where(|vertex| of_head(vertex) < 0.5);
+        let result = self.result_figure(1.0);
+        let around = neighbours(&figure.triangles, &self.weld);
+        let offsets = keep_outside(
+            &figure.positions,
+            &result.positions,
+            &body,
+            &hair,
+            &self.weld,
+            &around,
+            result.height(),
+        );
+        for (vertex, offset) in hair.into_iter().zip(offsets) {
+            if let Binding::Parts(binding) = &mut self.bindings[vertex] {
+                binding.offset = offset;
+            }
+        }
     }
 
     /// One field of product mode, for a style with everything below the head stretched by what makes the result

@@ -203,7 +203,7 @@ impl PartField {
             manner => self.blend(p, &binding.weights, manner),
         };
         // Written so that amount 0 gives p itself, bit for bit.
-        let moved = p + self.amount * (to - p) + DVec3::Y * self.ground;
+        let moved = p + self.amount * (to + binding.offset - p) + DVec3::Y * self.ground;
         (moved, DMat3::IDENTITY + (jacobian - DMat3::IDENTITY) * self.amount)
     }
 
