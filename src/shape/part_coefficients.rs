@@ -19,7 +19,7 @@ const NECK_GIRTH: f64 = 1.1;
 /// `head_scale` at which the bounds act in full; at 1 they do not act at all.
 const FULL_HEAD_SCALE: f64 = 1.5;
 /// Length of the neck between these, in new heads.
-const NECK: (f64, f64) = (0.03, 0.22);
+const NECK: (f64, f64) = (0.03, 0.19);
 /// The neck may grow this much more than the head.
 const NECK_GROWTH: f64 = 1.5;
 /// Length of the neck in a style for N heads, in new heads.
@@ -43,6 +43,8 @@ const FOOT_PER_LEG: (f64, f64) = (1.0, 1.4);
 /// Longest hand and foot, in new heads.
 const LONGEST_HAND: f64 = 0.34;
 const LONGEST_FOOT: f64 = 0.6;
+/// Where the legs cannot be as short as the reference's, the torso makes up for it, down to this part of its own.
+const TORSO_AFTER_LEGS: f64 = 0.8;
 /// A style for N heads: torso and arms shrink this much less than the whole, girths by this factor of the root.
 const TORSO_FOR_HEADS: f64 = 1.1;
 const ARM_FOR_HEADS: f64 = 1.05;
@@ -197,6 +199,7 @@ pub fn part_coefficients(
         }
     }
 
+    let below = neck + torso + leg;
     let mut result = PartCoefficients::IDENTITY;
     result.head = [head_scale, width_factor * head_scale, depth_factor * head_scale];
     result.head_seat = growth;
@@ -205,6 +208,9 @@ pub fn part_coefficients(
     let longest = (NECK_GROWTH * target.neck / target.head_length).clamp(NECK.0, NECK.1);
     let neck = bounds.apply("neck", neck / head, NECK.0, longest) * head;
     result.neck[0] = neck / target.neck.max(1e-6 * target.head_length);
+    // What the neck may not take, torso and legs do, so that the number of heads stays.
+    let rest = (below - neck) / (torso + leg);
+    let (torso, leg) = (torso * rest, leg * rest);
 
     // D27.2
     // Nothing grows more than the head: a body that is as stubby as the style, or stubbier, keeps its proportions.
@@ -279,13 +285,15 @@ pub fn part_coefficients(
         }
     }
     length = bounds.apply("leg length", length, stubbiest(2, &result), head_scale);
-    if let Wanted::Heads(_) = wanted {
-        // What the legs could not give, the torso gives as far as its own bound allows.
-        let excess = length * shank + target.ankle_height * result.foot - leg;
-        if excess > 1e-6 * leg {
-            let torso = result.trunk[0] - excess / target.torso;
-            result.trunk[0] = bounds.apply("torso length", torso, trunk_girth / STUBBIEST, f64::INFINITY);
-        }
+    // What the legs could not give, the torso gives: all of it where a number of heads is asked for.
+    let excess = length * shank + target.ankle_height * result.foot - leg;
+    if excess > 1e-6 * leg {
+        let shortest = match wanted {
+            Wanted::Heads(_) => 0.0,
+            Wanted::Reference(_) => TORSO_AFTER_LEGS * result.trunk[0],
+        };
+        let torso = (result.trunk[0] - strictness * excess / target.torso).max(shortest);
+        result.trunk[0] = bounds.apply("torso length", torso, trunk_girth / STUBBIEST, f64::INFINITY);
     }
     result.limbs[2][0] = length;
     result.limbs[3][0] = length;
