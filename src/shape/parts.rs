@@ -18,6 +18,11 @@ const HEAD_SEAT_MOST: f64 = 0.08;
 /// The height at which the chest's middle is taken, from crotch (0) to shoulder line (1).
 const CHEST_HEIGHT: f64 = 0.85;
 
+const TRUNK: usize = Part::Trunk as usize;
+const NECK: usize = Part::Neck as usize;
+const HEAD: usize = Part::Head as usize;
+const HAIR: usize = Part::Hair as usize;
+
 /// Heights that neighbouring parts share.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Heights {
@@ -143,7 +148,7 @@ impl PartField {
         field.hair = bindings.hair.as_ref().map(|outline| {
             let bottom = before.chin - outline.depth;
             let new_bottom = after.chin + hair_length * (field.body_height(bottom) - after.chin);
-            let head = field.affine[Part::Head as usize];
+            let head = field.affine[HEAD];
             // Hair of no length at all would be a disc.
             let least = 0.05 * coefficients.head[0] * outline.depth;
             HairMap::new(
@@ -223,10 +228,10 @@ impl PartField {
 
     fn part(&self, part: usize, p: DVec3, manner: Manner) -> (DVec3, DMat3) {
         match part {
-            0 => self.trunk(p),
-            1 => self.neck(p),
-            2 => self.head(p, manner, false),
-            15 => self.head(p, manner, true),
+            TRUNK => self.trunk(p),
+            NECK => self.neck(p),
+            HEAD => self.head(p, manner, false),
+            HAIR => self.head(p, manner, true),
             _ => (self.affine[part].map(p), self.affine[part].linear),
         }
     }
@@ -279,7 +284,7 @@ impl PartField {
     }
 
     fn head(&self, p: DVec3, manner: Manner, is_hair: bool) -> (DVec3, DMat3) {
-        let affine = &self.affine[Part::Head as usize];
+        let affine = &self.affine[HEAD];
         let (to, jacobian) = match &self.hair {
             Some(hair) if is_hair && p.y < self.before.chin => hair.map(p),
             _ => (affine.map(p), affine.linear),
@@ -307,7 +312,7 @@ impl PartField {
         self.head_back = back;
         let to = DVec3::new(anatomy.middle_x, self.after.chin, z - back);
         let linear = DMat3::from_diagonal(DVec3::new(width, height, depth));
-        self.affine[Part::Head as usize] = Affine { from, to, linear };
+        self.affine[HEAD] = Affine { from, to, linear };
     }
 
     /// Limbs start where the trunk puts their joints; hands and feet keep their shape.
