@@ -74,6 +74,8 @@ const HEADS_TOLERANCE: f64 = 2e-3;
 const HEADS_ATTEMPTS: usize = 5;
 /// What is left after that is told above this.
 const HEADS_TOLD: f64 = 0.01;
+/// Hair that reaches further below the chin than this, in heads, is told to be shortened.
+const HAIR_TOLD: f64 = 0.1;
 /// A target may be this many times as tall, in heads, as its style before it is called super-deformed already.
 const ALREADY_SD: f64 = 1.2;
 
@@ -175,6 +177,18 @@ impl Deformer {
         let proportions = self.study.anatomy.proportions.clone();
         let (figure, anatomy) = (&self.study.figure, &self.study.anatomy);
         let parts = part_bindings(figure, anatomy, &self.character.skeleton);
+        self.warnings.extend(anatomy.warnings());
+        if let Some(hair) = &parts.hair
+            && hair.depth > HAIR_TOLD * proportions.head_length
+        {
+            self.warnings.push(Warning::new(
+                "hair_shortened",
+                format!(
+                    "hair reaches {:.2} head lengths below the chin: there it follows the body instead of the head (--hair-length)",
+                    hair.depth / proportions.head_length
+                ),
+            ));
+        }
         self.bindings = parts.vertices.iter().map(|&binding| Binding::Parts(binding)).collect();
         self.joint_bindings = self.joint_bindings(|figure, joint| {
             if figure.humanoid.joint(Role::Head) == Some(joint)

@@ -146,7 +146,8 @@ impl Bone {
 /// bone, from the head joint to the head top. Eyes and jaw are no bones.
 ///
 /// A bone that stands for several bones of a complete skeleton has the group of the first of them, at its beginning:
-/// chest to head without a neck joint is torso.
+/// chest to head without a neck joint is torso. The spine counts for the neck and the head alone: chest to shoulder
+/// without an upper chest is shoulder.
 ///
 /// - `groups`: the user's own groups (§IV-A): the role at a bone's end (in a complete skeleton) to a group name. The
 ///   head bone ends at no role and is always `head`; `Role::Head` names the bone from neck to head.
@@ -159,7 +160,11 @@ pub fn bones(roles: &BTreeSet<Role>, groups: &BTreeMap<Role, String>) -> Vec<Bon
         .into_iter()
         .filter_map(|child| {
             let parent = child.chain().skip(1).find(|above| roles.contains(above))?;
-            let first = child.chain().take_while(|&role| role != parent).last()?;
+            // An arm's bone that skips the upper chest begins on the spine and is none of it.
+            let is_spine = |role: Role| matches!(role, Spine | Chest | UpperChest);
+            let is_central = matches!(child, Neck | Head) || is_spine(child);
+            let joined = child.chain().take_while(|&role| role != parent);
+            let first = joined.filter(|&role| is_central || !is_spine(role)).last()?;
             let kind = Group::ending_at(first)?;
             let group = groups.get(&first).cloned().unwrap_or_else(|| kind.name().to_string());
             Some(Bone { parent, child: Some(child), kind, group })
@@ -209,6 +214,14 @@ mod tests {
             ]
         );
         assert_eq!(found(&[Hips, Neck]), [(Hips, Some(Neck), Group::Torso)]);
+        assert_eq!(
+            found(&[Hips, Chest, LeftShoulder, RightUpperArm]),
+            [
+                (Hips, Some(Chest), Group::Torso),
+                (Chest, Some(LeftShoulder), Group::Shoulder),
+                (Chest, Some(RightUpperArm), Group::Shoulder),
+            ]
+        );
     }
 
     #[test]

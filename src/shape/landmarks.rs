@@ -9,6 +9,8 @@ use crate::error::Warning;
 use crate::geometry::surface::Surface;
 use glam::DVec3;
 
+/// A vertex with this much weight to the head moves with it alone.
+const SURE_WEIGHT: f64 = 0.999;
 /// Rows of rays that look for the chin.
 const CHIN_ROWS: usize = 120;
 /// Where those rows start and end, as parts of (crown - shoulder line), from the shoulder line.
@@ -142,28 +144,38 @@ fn middle(figure: &Figure, triangles: &[[u32; 3]]) -> Option<(DVec3, DVec3)> {
     (low.x <= high.x).then(|| ((low + high) / 2.0, (high - low) / 2.0))
 }
 
-/// The crown (D6): the median of the last hits of seven vertical rays.
+/// The crown (D6): the median height of seven vertical rays, one over the head joint and six around it at a quarter of
+/// the head's half width; without hair where at least five of them meet a skull.
+///
+/// The rays stand over the joint, about which paper mode scales the head: so the crown of the result is that of the
+/// target, scaled. A joint that lies outside of its head gets a ring around the head's middle.
 fn crown(figure: &Figure) -> (f64, bool) {
-    let head = figure.role_position(Role::Head).unwrap_or_default();
-    for (bare, hits_needed) in [(true, 5), (false, 1)] {
+    let joint = figure.role_position(Role::Head).unwrap_or_default();
+    for (bare, over_joint, hits_needed) in [(true, true, 5), (true, false, 5), (false, true, 5), (false, false, 1)] {
         let triangles = head_triangles(figure, bare);
-        let Some((centre, half)) = middle(figure, &triangles) else {
-            continue;
-        };
+        let Some((centre, half)) = middle(figure, &triangles) else { continue };
+        // Where some of the head is the head's alone, its width: vertices that the neck moves too change it.
+        let sure: Vec<[u32; 3]> = triangles
+            .iter()
+            .filter(|corners| corners.iter().all(|&v| figure.weight_of(v as usize, is_head) > SURE_WEIGHT))
+            .copied()
+            .collect();
+        let half = middle(figure, &sure).map_or(half, |(_, half)| half);
         let surface = Surface::new(&figure.positions, &triangles);
+        let centre = if over_joint { joint } else { centre };
+        let above = figure.extent.1 + 0.01 * figure.height();
         let mut hits: Vec<f64> = (0..7)
             .filter_map(|ray| {
                 let reach = if ray == 0 { 0.0 } else { half.x / 4.0 };
                 let (sin, cos) = (std::f64::consts::FRAC_PI_3 * f64::from(ray)).sin_cos();
-                let above = figure.extent.1 + 0.01 * figure.height();
                 let origin = DVec3::new(centre.x + reach * cos, above, centre.z + reach * sin);
                 surface.first_hit(origin, DVec3::NEG_Y, f64::INFINITY).map(|hit| above - hit.t)
             })
-            .filter(|&y| y > head.y)
+            .filter(|&y| y > joint.y)
             .collect();
         if hits.len() >= hits_needed {
             hits.sort_by(f64::total_cmp);
-            return (hits[hits.len() / 2], !bare);
+            return (0.5 * (hits[(hits.len() - 1) / 2] + hits[hits.len() / 2]), !bare);
         }
     }
     // No head geometry over the head joint: the highest point of the whole figure.

@@ -7,6 +7,7 @@
 use super::figure::{Figure, is_head};
 use super::landmarks::{Landmarks, landmarks};
 use crate::character::{MeshKind, Role};
+use crate::error::Warning;
 use crate::geometry::segment::foot;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
@@ -246,6 +247,18 @@ impl Anatomy {
         };
         let centre_line = centre_line(figure, &trunk, &landmarks);
         Self { landmarks, limbs, middle_x, centre_line, head_centre, head_joint, proportions }
+    }
+
+    /// Joints that a ratio stands in for.
+    pub fn warnings(&self) -> Vec<Warning> {
+        let by_ratio = |limbs: &[Limb], what: &str| {
+            limbs.iter().any(|limb| !limb.end_is_joint).then(|| {
+                let message = format!("the {what} have no joint where {what} begin: placed by ratio");
+                Warning::new("joint_by_ratio", message)
+            })
+        };
+        let (arms, legs) = self.limbs.split_at(2);
+        by_ratio(arms, "hands").into_iter().chain(by_ratio(legs, "feet")).collect()
     }
 
     /// z of the trunk's centre line at height `y`, constant beyond its ends, and its slope there.
