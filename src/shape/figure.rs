@@ -222,6 +222,10 @@ fn fold_joints(character: &Character) -> Vec<Option<Role>> {
     folded
 }
 
+/// Weights up to this part of a vertex's sum are what the rounding of weights to bytes leaves behind: a head that should
+/// move as one would stick to the neck by them.
+const WEIGHT_DUST: f64 = 1.5 / 255.0;
+
 type FoldedWeights = (Vec<Vec<(Role, f64)>>, Vec<f64>, Vec<Option<(u32, f64)>>);
 
 /// Each vertex's weights by role, its weight to joints without a role of their own, and its main joint with
@@ -237,11 +241,14 @@ fn fold_weights(character: &Character, joint_roles: &[Option<Role>]) -> FoldedWe
     for mesh in &character.meshes {
         for vertex in 0..mesh.positions.len() {
             let row = if mesh.weights.is_empty() { &[][..] } else { mesh.weights.row(vertex) };
+            let all: f64 = row.iter().map(|&(_, weight)| f64::from(weight)).sum();
+            let row: Vec<(u32, f32)> =
+                row.iter().copied().filter(|&(_, weight)| f64::from(weight) > WEIGHT_DUST * all).collect();
             let total: f64 = row.iter().map(|&(_, weight)| f64::from(weight)).sum();
             let mut folded: Vec<(Role, f64)> = Vec::with_capacity(row.len());
             let mut extra = 0.0;
             if total > 0.0 {
-                for &(joint, weight) in row {
+                for &(joint, weight) in &row {
                     let weight = f64::from(weight) / total;
                     let role = joint_roles[joint as usize].unwrap_or(Role::Hips);
                     match folded.iter_mut().find(|(known, _)| *known == role) {

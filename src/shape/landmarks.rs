@@ -151,7 +151,9 @@ fn middle(figure: &Figure, triangles: &[[u32; 3]]) -> Option<(DVec3, DVec3)> {
 /// target, scaled. A joint that lies outside of its head gets a ring around the head's middle.
 fn crown(figure: &Figure) -> (f64, bool) {
     let joint = figure.role_position(Role::Head).unwrap_or_default();
-    for (bare, over_joint, hits_needed) in [(true, true, 5), (true, false, 5), (false, true, 5), (false, false, 1)] {
+    for (bare, over_joint, hits_needed) in
+        [(true, true, 5), (true, false, 5), (false, true, 5), (false, false, 1)]
+    {
         let triangles = head_triangles(figure, bare);
         let Some((centre, half)) = middle(figure, &triangles) else { continue };
         // Where some of the head is the head's alone, its width: vertices that the neck moves too change it.
