@@ -173,7 +173,7 @@ impl Deformer {
     fn make_parts(&mut self, style: &Style) -> Result<()> {
         let proportions = self.study.anatomy.proportions.clone();
         let (figure, anatomy) = (&self.study.figure, &self.study.anatomy);
-        let parts = part_bindings(figure, anatomy, &self.character.skeleton);
+        let parts = part_bindings(figure, anatomy, &self.character.skeleton, self.options.thread_count);
         self.bindings = parts.vertices.iter().map(|&binding| Binding::Parts(binding)).collect();
         self.joint_bindings = self.joint_bindings(|figure, joint| {
             if figure.humanoid.joint(Role::Head) == Some(joint)
