@@ -1,5 +1,7 @@
 //! Work shared out among threads. Every item is made by itself, so results do not depend on how many there are.
 
+use std::ops::Range;
+
 /// The number of threads that `asked` stands for: 0 means all cores.
 pub fn thread_count(asked: usize) -> usize {
     if asked == 0 { std::thread::available_parallelism().map_or(1, usize::from) } else { asked }
@@ -17,26 +19,54 @@ pub fn collect<T: Send>(
     least: usize,
     make: impl Fn(usize) -> T + Sync,
 ) -> Vec<T> {
+    collect_with(threads, count, least, || (), |(), index| make(index))
+}
+
+/// As [`collect`], where each thread has something of its own at hand: a buffer, or a guess that only saves time.
+pub fn collect_with<S, T: Send>(
+    threads: usize,
+    count: usize,
+    least: usize,
+    start: impl Fn() -> S + Sync,
+    make: impl Fn(&mut S, usize) -> T + Sync,
+) -> Vec<T> {
     let share_count = (count / least).clamp(1, thread_count(threads));
     let share = count.div_ceil(share_count).max(1);
-    if share_count == 1 {
-        return (0..count).map(make).collect();
-    }
+    let run = |indices: Range<usize>, all: &mut Vec<T>| {
+        let mut state = start();
+        all.extend(indices.map(|index| make(&mut state, index)));
+    };
+    let mut all = Vec::with_capacity(count);
     std::thread::scope(|scope| {
-        let make = &make;
+        let run = &run;
         let others: Vec<_> = (share..count)
             .step_by(share)
-            .map(|start| {
-                let end = (start + share).min(count);
-                scope.spawn(move || (start..end).map(make).collect::<Vec<T>>())
+            .map(|first| {
+                let indices = first..(first + share).min(count);
+                scope.spawn(move || {
+                    let mut all = Vec::with_capacity(indices.len());
+                    run(indices, &mut all);
+                    all
+                })
             })
             .collect();
-        let mut all = Vec::with_capacity(count);
-        all.extend((0..share).map(make));
+        run(0..share.min(count), &mut all);
         for other in others {
             all.extend(other.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)));
         }
-        all
+    });
+    all
+}
+
+/// Both results, made side by side where there are two threads to use.
+pub fn both<A: Send, B>(threads: usize, one: impl FnOnce() -> A + Send, other: impl FnOnce() -> B) -> (A, B) {
+    if thread_count(threads) == 1 {
+        return (one(), other());
+    }
+    std::thread::scope(|scope| {
+        let one = scope.spawn(one);
+        let other = other();
+        (one.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)), other)
     })
 }
 
@@ -53,6 +83,13 @@ mod tests {
                     assert_eq!(collect(threads, count, least, |index| index * index), alone);
                 }
             }
+        }
+    }
+
+    #[test]
+    fn two_things_are_made_side_by_side() {
+        for threads in 0..3 {
+            assert_eq!(both(threads, || "one", || 2), ("one", 2));
         }
     }
 

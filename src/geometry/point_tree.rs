@@ -29,15 +29,31 @@ struct Node {
     upper: u32,
 }
 
-/// A point found: how far away it is, its index as given, and its slot.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Near {
+/// A point found: how far away it is, its index as given, and its slot; ordered as these are.
+///
+/// One number, since comparing is most of a search: bits of floats that are 0 or more are ordered as the floats are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Near(u128);
+
+impl Near {
+    fn new(distance: f64, index: u32, slot: u32) -> Self {
+        Self(u128::from(distance.to_bits()) << 64 | u128::from(index) << 32 | u128::from(slot))
+    }
+
     /// Distance to the point searched from.
-    pub distance: f64,
+    pub fn distance(self) -> f64 {
+        f64::from_bits((self.0 >> 64) as u64)
+    }
+
     /// Index of the point as given.
-    pub index: u32,
+    pub fn index(self) -> u32 {
+        (self.0 >> 32) as u32
+    }
+
     /// Its place in the order of the tree.
-    pub slot: u32,
+    pub fn slot(self) -> u32 {
+        self.0 as u32
+    }
 }
 
 impl PointTree {
@@ -98,29 +114,23 @@ impl PointTree {
             }
             for slot in node.slots.0..node.slots.1 {
                 let squared = p.distance_squared(self.points[slot as usize]);
-                if squared > limit {
-                    continue;
-                }
-                let near = Near { distance: squared.sqrt(), index: self.indices[slot as usize], slot };
-                let before = |other: &Near| (other.distance, other.index) < (near.distance, near.index);
-                if found.len() == count {
-                    if before(&found[count - 1]) {
-                        continue;
-                    }
-                    found.pop();
-                } else if near.distance > reach {
-                    continue;
-                }
-                let mut place = found.len();
-                while place > 0 && !before(&found[place - 1]) {
-                    place -= 1;
-                }
-                found.insert(place, near);
-                if found.len() == count {
-                    limit = slack(found[count - 1].distance);
+                let distance = squared.sqrt();
+                if squared <= limit && distance <= reach {
+                    found.push(Near::new(distance, self.indices[slot as usize], slot));
                 }
             }
+            // Sorted out now and then only: a bucket more or less is cheaper than an order that is kept.
+            if found.len() >= 2 * count {
+                let (_, last, _) = found.select_nth_unstable(count - 1);
+                limit = slack(last.distance());
+                found.truncate(count);
+            }
         }
+        if found.len() > count {
+            found.select_nth_unstable(count - 1);
+            found.truncate(count);
+        }
+        found.sort_unstable();
     }
 }
 
@@ -176,11 +186,12 @@ mod tests {
                     .collect();
                 sorted.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
                 sorted.truncate(count);
-                let pairs: Vec<(f64, u32)> = found.iter().map(|near| (near.distance, near.index)).collect();
+                let pairs: Vec<(f64, u32)> =
+                    found.iter().map(|near| (near.distance(), near.index())).collect();
                 assert_eq!(pairs, sorted);
                 for near in &found {
-                    assert_eq!(tree.point(near.slot as usize), points[near.index as usize]);
-                    assert_eq!(tree.indices()[near.slot as usize], near.index);
+                    assert_eq!(tree.point(near.slot() as usize), points[near.index() as usize]);
+                    assert_eq!(tree.indices()[near.slot() as usize], near.index());
                 }
             }
         }
@@ -188,7 +199,7 @@ mod tests {
 
     #[test]
     fn a_tree_of_nothing_finds_nothing() {
-        let mut found = vec![Near { distance: 0.0, index: 0, slot: 0 }];
+        let mut found = vec![Near::new(0.0, 0, 0)];
         PointTree::new(&[]).nearest(DVec3::ZERO, 3, f64::INFINITY, &mut found);
         assert!(found.is_empty());
     }

@@ -423,17 +423,33 @@ struct Layer {
 /// `LAYER_PASSES` Gaussian means over the nearest points within three standard deviations, `sigma` each.
 fn layer_steps(points: &[DVec3], rows: Vec<PartWeights>, sigma: f64, threads: usize) -> Vec<PartWeights> {
     let tree = PointTree::new(points);
-    let layers: Vec<Layer> = parallel::collect(threads, points.len(), LEAST_SAMPLES, |slot| {
-        let mut found: Vec<Near> = Vec::with_capacity(LAYER_NEIGHBOURS);
-        tree.nearest(tree.point(slot), LAYER_NEIGHBOURS, 3.0 * sigma, &mut found);
-        let mut layer =
-            Layer { count: found.len(), slots: [0; LAYER_NEIGHBOURS], weights: [0.0; LAYER_NEIGHBOURS] };
-        for (place, near) in found.iter().enumerate() {
-            layer.slots[place] = near.slot;
-            layer.weights[place] = (-(near.distance * near.distance) / (2.0 * sigma * sigma)).exp() as f32;
-        }
-        layer
-    });
+    let reach = 3.0 * sigma;
+    let layers = parallel::collect_with(
+        threads,
+        points.len(),
+        LEAST_SAMPLES,
+        || (Vec::<Near>::new(), None::<DVec3>),
+        |(found, last), slot| {
+            let p = tree.point(slot);
+            // Slots that follow each other are near each other: the neighbours of the last one bound the search.
+            let bound = match (*last, found.get(LAYER_NEIGHBOURS - 1)) {
+                (Some(last), Some(furthest)) => {
+                    reach.min((furthest.distance() + p.distance(last)) * (1.0 + 1e-9))
+                }
+                _ => reach,
+            };
+            tree.nearest(p, LAYER_NEIGHBOURS, bound, found);
+            *last = Some(p);
+            let mut layer =
+                Layer { count: found.len(), slots: [0; LAYER_NEIGHBOURS], weights: [0.0; LAYER_NEIGHBOURS] };
+            for (place, near) in found.iter().enumerate() {
+                let distance = near.distance();
+                layer.slots[place] = near.slot();
+                layer.weights[place] = (-(distance * distance) / (2.0 * sigma * sigma)).exp() as f32;
+            }
+            layer
+        },
+    );
     let mut ordered: Vec<PartWeights> = tree.indices().iter().map(|&index| rows[index as usize]).collect();
     for _ in 0..LAYER_PASSES {
         ordered = parallel::collect(threads, points.len(), LEAST_SAMPLES, |slot| {
