@@ -6,6 +6,7 @@ use crate::error::{Error, ErrorKind, Result, Warning};
 use crate::face::FaceShape;
 use crate::geometry::weld::{Weld, components, weld};
 pub use crate::options::{FaceCurve, GroupSettings, Mode, Options, Stage};
+use crate::parallel;
 use crate::report::{Coefficient, Counts, FigureReport, GroupShape, Report, RigReport, Timing};
 use crate::shape::BodyShape;
 use crate::shape::attributes::{fitted_jacobians, normal_matrix};
@@ -73,6 +74,8 @@ const HEADS_TOLERANCE: f64 = 2e-3;
 const HEADS_ATTEMPTS: usize = 5;
 /// What is left after that is told above this.
 const HEADS_TOLD: f64 = 0.01;
+/// Fewer vertices than this are not worth a thread.
+const LEAST_VERTICES: usize = 8000;
 /// A target may be this many times as tall, in heads, as its style before it is called super-deformed already.
 const ALREADY_SD: f64 = 1.2;
 
@@ -202,11 +205,13 @@ impl Deformer {
         self.head_ratio = head_ratio;
         let mut aim = asked;
         let mut best: Option<(f64, Attempt)> = None;
+        // Only what the field moves is made anew in each attempt.
+        let mut result = self.study.figure.clone();
         for _ in 0..HEADS_ATTEMPTS {
             let attempt = self.attempt(style, aim / asked, &parts)?;
             self.field = attempt.field.clone();
             self.stand_on_ground();
-            let measured = landmarks(&self.result_figure(1.0)).heads();
+            let measured = landmarks(self.whole_result(&mut result)).heads();
             let predicted = crate::shape::part_coefficients::heads_of(&proportions, &attempt.coefficients);
             let limited = attempt.warnings.iter().any(|warning| warning.code == "heads_limited");
             let reach = if limited { predicted } else { asked };
@@ -225,7 +230,7 @@ impl Deformer {
         self.coefficients = attempt.coefficients.by_group();
         self.warnings.extend(attempt.warnings);
         if error > HEADS_TOLD && self.options.amount == 1.0 {
-            let measured = landmarks(&self.result_figure(1.0)).heads();
+            let measured = landmarks(self.whole_result(&mut result)).heads();
             self.warnings.push(Warning::new(
                 "heads_limited",
                 format!(
@@ -410,27 +415,24 @@ impl Deformer {
             .collect()
     }
 
-    /// The new positions of all vertices, canonical frame.
-    fn deformed_positions(&self) -> Vec<DVec3> {
-        self.study
-            .figure
-            .positions
-            .iter()
-            .zip(&self.bindings)
-            .map(|(&p, binding)| self.field.map(p, binding).0)
-            .collect()
+    /// Where `field` takes every vertex, canonical frame.
+    fn positions_by(&self, field: &Field) -> Vec<DVec3> {
+        let positions = &self.study.figure.positions;
+        parallel::collect(self.options.thread_count, positions.len(), LEAST_VERTICES, |vertex| {
+            field.map(positions[vertex], &self.bindings[vertex]).0
+        })
     }
 
-    /// The figure as the field leaves it, `amount` of the way, without the face map.
-    fn result_figure(&self, amount: f64) -> Figure {
-        let mut figure = self.study.figure.clone();
+    /// `figure`, a copy of the target's, as the field leaves it all the way, without the face map.
+    fn whole_result<'a>(&self, figure: &'a mut Figure) -> &'a Figure {
         let mut field = self.field.clone();
-        field.set_amount(amount);
-        let map = |p: DVec3, binding: &Binding| field.map(p, binding).0;
-        figure.positions =
-            figure.positions.iter().zip(&self.bindings).map(|(&p, binding)| map(p, binding)).collect();
-        figure.joints =
-            figure.joints.iter().zip(&self.joint_bindings).map(|(&p, binding)| map(p, binding)).collect();
+        field.set_amount(1.0);
+        figure.positions = self.positions_by(&field);
+        for ((p, &rest), binding) in
+            figure.joints.iter_mut().zip(&self.study.figure.joints).zip(&self.joint_bindings)
+        {
+            *p = field.map(rest, binding).0;
+        }
         figure.extent = figure
             .positions
             .iter()
@@ -441,10 +443,12 @@ impl Deformer {
     /// The whole result.
     pub fn apply(&self) -> Deformed {
         let figure = &self.study.figure;
-        let after = self.deformed_positions();
+        let after = self.positions_by(&self.field);
         let jacobians = fitted_jacobians(&figure.positions, &after, &figure.triangles, &self.weld);
-        let meshes =
-            (0..self.character.meshes.len()).map(|mesh| self.deform_mesh(mesh, &after, &jacobians)).collect();
+        let threads = if after.len() < LEAST_VERTICES { 1 } else { self.options.thread_count };
+        let meshes = parallel::collect(threads, self.character.meshes.len(), 1, |mesh| {
+            self.deform_mesh(mesh, &after, &jacobians)
+        });
         let joints = figure
             .joints
             .iter()

@@ -29,7 +29,7 @@ const LAYER_NEIGHBOURS: usize = 24;
 /// Left arm, right arm, the rest.
 const CLASS_COUNT: usize = 3;
 /// Fewer samples than this are not worth a thread.
-const LEAST_SAMPLES: usize = 1000;
+const LEAST_SAMPLES: usize = 4000;
 /// Where hands (feet) without a joint begin, the weights go over from the lower arm (leg) within this part of the
 /// distance on both sides.
 const EXTREMITY_BAND: f64 = 0.1;
@@ -293,6 +293,7 @@ fn smooth_along(figure: &Figure, weld: &Weld, frozen: &[bool], parts: &mut [Part
         row.iter_mut().for_each(|weight| *weight /= count.max(1.0));
     }
     // Parts do not mix, so each thread takes some of them; parts of one limb touch the same vertices.
+    let threads = if weld.count < LEAST_SAMPLES { 1 } else { threads };
     let smoothed = parallel::collect(threads, SMOOTHED_TOGETHER.len(), 1, |group| {
         let columns: Vec<[f32; 4]> =
             rows.iter().map(|row| SMOOTHED_TOGETHER[group].map(|part| row[part as usize])).collect();
