@@ -1,8 +1,17 @@
-//! One benchmark for each stage of the pipeline: `cargo bench -p superdeform-benches`.
+//! One benchmark for each stage of the pipeline, and one for all of it: `cargo bench --bench stages`.
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use std::hint::black_box;
+use std::sync::Arc;
+use superdeform::pipeline::{Deformer, Options};
+use superdeform::shape::part_weights::part_bindings;
+use superdeform::shape::study::Study;
 use superdeform_benches::tube;
+
+#[path = "../examples/superdeform/host/mod.rs"]
+#[allow(dead_code)]
+mod host;
+mod models;
 
 fn validate(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("validate");
@@ -18,5 +27,53 @@ fn validate(criterion: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(stages, validate);
+fn pipeline(criterion: &mut Criterion) {
+    let options = Options::default();
+    let style = models::style();
+    for model in models::models() {
+        let mut group = criterion.benchmark_group(&model.name);
+        group.sample_size(10);
+        let character = Arc::new(model.character);
+        let new = || Deformer::new(character.clone(), &style, &options).expect("the model is whole");
+        let study = Study::of(&character, &options).expect("the model is whole");
+        let mut deformer = new();
+        let deformed = deformer.apply();
+        group.bench_function("study", |bencher| bencher.iter(|| Study::of(&character, &options)));
+        group.bench_function("part_bindings", |bencher| {
+            bencher.iter(|| {
+                part_bindings(&study.figure, &study.anatomy, &character.skeleton, options.thread_count)
+            });
+        });
+        // Study, bindings and field.
+        group.bench_function("deformer", |bencher| bencher.iter(new));
+        group.bench_function("apply", |bencher| bencher.iter(|| deformer.apply()));
+        group.bench_function("report", |bencher| bencher.iter(|| deformer.report(&deformed)));
+        if let Some(path) = &model.path {
+            let loaded = models::load(path);
+            group.bench_function("load", |bencher| bencher.iter(|| models::load(path)));
+            group.bench_function("write", |bencher| {
+                bencher.iter(|| models::write(&loaded, &deformer, &deformed));
+            });
+            group.bench_function("whole", |bencher| {
+                bencher.iter(|| {
+                    let loaded = models::load(path);
+                    let character = Arc::new(loaded.character.clone());
+                    let deformer = Deformer::new(character, &style, &options).expect("the model is whole");
+                    let deformed = deformer.apply();
+                    black_box(deformer.report(&deformed).expect("the result is whole"));
+                    models::write(&loaded, &deformer, &deformed)
+                });
+            });
+        }
+        group.bench_function("face", |bencher| {
+            bencher.iter(|| {
+                deformer.set_face_squash(0.5);
+                deformer.apply()
+            });
+        });
+        group.finish();
+    }
+}
+
+criterion_group!(stages, validate, pipeline);
 criterion_main!(stages);

@@ -87,6 +87,7 @@ pub mod face;
 pub mod geometry;
 pub mod hair;
 pub mod options;
+pub mod parallel;
 pub mod pipeline;
 pub mod report;
 pub mod shape;

@@ -7,13 +7,14 @@ use crate::face::FaceShape;
 use crate::geometry::weld::{Weld, components, neighbours, weld};
 use crate::hair::keep_outside;
 pub use crate::options::{FaceCurve, GroupSettings, Mode, Options, Stage};
+use crate::parallel;
 use crate::report::{Coefficient, Counts, FigureReport, GroupShape, Report, RigReport, Timing};
 use crate::shape::BodyShape;
 use crate::shape::attributes::{fitted_jacobians, normal_matrix};
 use crate::shape::bones::BoneField;
 use crate::shape::coefficients::coefficients;
 use crate::shape::field::{Binding, BoneBinding, Field, PaperField};
-use crate::shape::figure::{Figure, is_head};
+use crate::shape::figure::{Figure, extent, is_head};
 use crate::shape::landmarks::landmarks;
 use crate::shape::part_coefficients::{PartCoefficients, Wanted, part_coefficients};
 use crate::shape::part_weights::{PartBinding, PartBindings, WELD_TOLERANCE, joint_binding, part_bindings};
@@ -76,6 +77,8 @@ const HEADS_ATTEMPTS: usize = 5;
 const HEADS_TOLD: f64 = 0.01;
 /// Hair that reaches further below the chin than this, in heads, is told to be shortened.
 const HAIR_TOLD: f64 = 0.1;
+/// Fewer vertices than this are not worth a thread.
+const LEAST_VERTICES: usize = 8000;
 /// A target may be this many times as tall, in heads, as its style before it is called super-deformed already.
 const ALREADY_SD: f64 = 1.2;
 
@@ -176,7 +179,7 @@ impl Deformer {
     fn make_parts(&mut self, style: &Style) -> Result<()> {
         let proportions = self.study.anatomy.proportions.clone();
         let (figure, anatomy) = (&self.study.figure, &self.study.anatomy);
-        let parts = part_bindings(figure, anatomy, &self.character.skeleton);
+        let parts = part_bindings(figure, anatomy, &self.character.skeleton, self.options.thread_count);
         self.warnings.extend(anatomy.warnings());
         if let Some(hair) = &parts.hair
             && hair.depth > HAIR_TOLD * proportions.head_length
@@ -217,11 +220,13 @@ impl Deformer {
         self.head_ratio = head_ratio;
         let mut aim = asked;
         let mut best: Option<(f64, Attempt)> = None;
+        // Only what the field moves is made anew in each attempt.
+        let mut result = self.study.figure.clone();
         for _ in 0..HEADS_ATTEMPTS {
             let attempt = self.attempt(style, aim / asked, &parts)?;
             self.field = attempt.field.clone();
             self.stand_on_ground();
-            let measured = landmarks(&self.result_figure(1.0)).heads();
+            let measured = landmarks(self.whole_result(&mut result)).heads();
             let predicted = crate::shape::part_coefficients::heads_of(&proportions, &attempt.coefficients);
             let limited = attempt.warnings.iter().any(|warning| warning.code == "heads_limited");
             let reach = if limited { predicted } else { asked };
@@ -240,7 +245,7 @@ impl Deformer {
         self.coefficients = attempt.coefficients.by_group();
         self.warnings.extend(attempt.warnings);
         if error > HEADS_TOLD && self.options.amount == 1.0 {
-            let measured = landmarks(&self.result_figure(1.0)).heads();
+            let measured = landmarks(self.whole_result(&mut result)).heads();
             self.warnings.push(Warning::new(
                 "heads_limited",
                 format!(
@@ -269,17 +274,12 @@ impl Deformer {
         }
         let of_head = |vertex: usize| part(vertex, Part::Hair) + part(vertex, Part::Head);
         let body = figure.triangles_where(|vertex| of_head(vertex) < 0.5);
-        let result = self.result_figure(1.0);
+        let mut whole = self.field.clone();
+        whole.set_amount(1.0);
+        let after = self.positions_by(&whole);
+        let (low, high) = extent(&after);
         let around = neighbours(&figure.triangles, &self.weld);
-        let offsets = keep_outside(
-            &figure.positions,
-            &result.positions,
-            &body,
-            &hair,
-            &self.weld,
-            &around,
-            result.height(),
-        );
+        let offsets = keep_outside(&figure.positions, &after, &body, &hair, &self.weld, &around, high - low);
         for (vertex, offset) in hair.into_iter().zip(offsets) {
             if let Binding::Parts(binding) = &mut self.bindings[vertex] {
                 binding.offset = offset;
@@ -460,41 +460,37 @@ impl Deformer {
             .collect()
     }
 
-    /// The new positions of all vertices, canonical frame.
-    fn deformed_positions(&self) -> Vec<DVec3> {
-        self.study
-            .figure
-            .positions
-            .iter()
-            .zip(&self.bindings)
-            .map(|(&p, binding)| self.field.map(p, binding).0)
-            .collect()
+    /// Where `field` takes every vertex, canonical frame.
+    fn positions_by(&self, field: &Field) -> Vec<DVec3> {
+        let positions = &self.study.figure.positions;
+        parallel::collect(self.options.thread_count, positions.len(), LEAST_VERTICES, |vertex| {
+            field.map(positions[vertex], &self.bindings[vertex]).0
+        })
     }
 
-    /// The figure as the field leaves it, `amount` of the way, without the face map.
-    fn result_figure(&self, amount: f64) -> Figure {
-        let mut figure = self.study.figure.clone();
+    /// `figure`, a copy of the target's, as the field leaves it all the way, without the face map.
+    fn whole_result<'a>(&self, figure: &'a mut Figure) -> &'a Figure {
         let mut field = self.field.clone();
-        field.set_amount(amount);
-        let map = |p: DVec3, binding: &Binding| field.map(p, binding).0;
-        figure.positions =
-            figure.positions.iter().zip(&self.bindings).map(|(&p, binding)| map(p, binding)).collect();
-        figure.joints =
-            figure.joints.iter().zip(&self.joint_bindings).map(|(&p, binding)| map(p, binding)).collect();
-        figure.extent = figure
-            .positions
-            .iter()
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| (low.min(p.y), high.max(p.y)));
+        field.set_amount(1.0);
+        figure.positions = self.positions_by(&field);
+        for ((p, &rest), binding) in
+            figure.joints.iter_mut().zip(&self.study.figure.joints).zip(&self.joint_bindings)
+        {
+            *p = field.map(rest, binding).0;
+        }
+        figure.extent = extent(&figure.positions);
         figure
     }
 
     /// The whole result.
     pub fn apply(&self) -> Deformed {
         let figure = &self.study.figure;
-        let after = self.deformed_positions();
+        let after = self.positions_by(&self.field);
         let jacobians = fitted_jacobians(&figure.positions, &after, &figure.triangles, &self.weld);
-        let meshes =
-            (0..self.character.meshes.len()).map(|mesh| self.deform_mesh(mesh, &after, &jacobians)).collect();
+        let threads = if after.len() < LEAST_VERTICES { 1 } else { self.options.thread_count };
+        let meshes = parallel::collect(threads, self.character.meshes.len(), 1, |mesh| {
+            self.deform_mesh(mesh, &after, &jacobians)
+        });
         let joints = figure
             .joints
             .iter()

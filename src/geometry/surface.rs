@@ -83,13 +83,16 @@ impl Surface {
     /// A triangle uses a vertex that is not there.
     pub fn new(positions: &[DVec3], triangles: &[[u32; 3]]) -> Self {
         let corners_of = |triangle: &[u32; 3]| triangle.map(|vertex| positions[vertex as usize]);
-        let is_finite = |corners: &[DVec3; 3]| corners.iter().all(|p| p.is_finite());
-        let (low, high) = triangles
-            .iter()
-            .map(corners_of)
-            .filter(is_finite)
-            .flatten()
-            .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)));
+        let is_finite = |[a, b, c]: &[DVec3; 3]| a.is_finite() && b.is_finite() && c.is_finite();
+        let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        for triangle in triangles {
+            let corners = corners_of(triangle);
+            if is_finite(&corners) {
+                let [a, b, c] = corners;
+                low = low.min(a).min(b).min(c);
+                high = high.max(a).max(b).max(c);
+            }
+        }
         let extent = (high - low).max_element();
         if !(extent.is_finite() && extent > 0.0) {
             return Self::default();
@@ -116,9 +119,10 @@ impl Surface {
             return Self::default();
         }
         let mut build_time = Duration::ZERO;
-        let tree = build_bvh2(&boxes, BvhBuildParams::very_fast_build(), &mut build_time);
-        let order = tree.primitive_indices.iter().map(|&index| kept[index as usize]);
-        let (triangles, corners) = order.unzip();
+        let tree = build_bvh2(&boxes, BvhBuildParams::fastest_build(), &mut build_time);
+        let order = || tree.primitive_indices.iter().map(|&index| &kept[index as usize]);
+        let triangles = order().map(|&(triangle, _)| triangle).collect();
+        let corners = order().map(|&(_, corners)| corners).collect();
         Self { nodes: tree.nodes, corners, triangles, centre, scale }
     }
 

@@ -1,7 +1,7 @@
 //! Vertices that share a position: seam copies become one, so that a mesh can be walked along its surface.
 
+use super::cells::CellMap;
 use glam::DVec3;
-use std::collections::HashMap;
 
 /// Which vertices share a position.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -48,7 +48,8 @@ pub fn weld(positions: &[DVec3], tolerance: f64) -> Weld {
             p.to_array().map(|x| (x + 0.0).to_bits() as i64)
         }
     };
-    let mut cells: HashMap<[i64; 3], u32> = HashMap::with_capacity(positions.len());
+    let mut cells: CellMap<[i64; 3], u32> =
+        CellMap::with_capacity_and_hasher(positions.len(), Default::default());
     // Welded vertices of one cell are chained: a cell holds few of them, since they are more than `tolerance` apart.
     let mut next_in_cell: Vec<Option<u32>> = Vec::new();
     let mut first: Vec<DVec3> = Vec::new();
@@ -138,25 +139,44 @@ impl Neighbours {
 
 /// Which welded vertices share an edge with which.
 pub fn neighbours(triangles: &[[u32; 3]], weld: &Weld) -> Neighbours {
-    let mut pairs: Vec<(u32, u32)> = Vec::with_capacity(6 * triangles.len());
-    for &corners in triangles {
-        let [a, b, c] = weld.triangle(corners);
-        for (one, two) in [(a, b), (b, c), (c, a)] {
-            if one != two {
-                pairs.extend([(one, two), (two, one)]);
-            }
-        }
-    }
-    pairs.sort_unstable();
-    pairs.dedup();
-    let mut starts = vec![0; weld.count + 1];
-    for &(vertex, _) in &pairs {
-        starts[vertex as usize + 1] += 1;
+    // Counted and filled with repeats first: most edges have two triangles.
+    let mut ends = vec![0u32; weld.count + 1];
+    let edges = |corners: &[u32; 3]| {
+        let [a, b, c] = weld.triangle(*corners);
+        [(a, b), (b, c), (c, a)].into_iter().filter(|(one, two)| one != two)
+    };
+    for (one, two) in triangles.iter().flat_map(edges) {
+        ends[one as usize + 1] += 1;
+        ends[two as usize + 1] += 1;
     }
     for vertex in 0..weld.count {
-        starts[vertex + 1] += starts[vertex];
+        ends[vertex + 1] += ends[vertex];
     }
-    Neighbours { starts, vertices: pairs.into_iter().map(|(_, other)| other).collect() }
+    let mut all = vec![0u32; ends[weld.count] as usize];
+    for (one, two) in triangles.iter().flat_map(edges) {
+        for (vertex, other) in [(one, two), (two, one)] {
+            all[ends[vertex as usize] as usize] = other;
+            ends[vertex as usize] += 1;
+        }
+    }
+    // Filling moved the start of each vertex to its end.
+    let mut starts = Vec::with_capacity(weld.count + 1);
+    let mut vertices: Vec<u32> = Vec::with_capacity(all.len() / 2);
+    let mut start = 0;
+    for &end in &ends[..weld.count] {
+        starts.push(vertices.len() as u32);
+        let row = &mut all[start..end as usize];
+        row.sort_unstable();
+        let first = vertices.len();
+        for &mut other in row {
+            if vertices[first..].last() != Some(&other) {
+                vertices.push(other);
+            }
+        }
+        start = end as usize;
+    }
+    starts.push(vertices.len() as u32);
+    Neighbours { starts, vertices }
 }
 
 #[cfg(test)]

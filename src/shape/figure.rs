@@ -124,9 +124,7 @@ impl Figure {
             kinds.resize(positions.len(), mesh.kind);
             mesh_starts.push(positions.len());
         }
-        let extent = positions
-            .iter()
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| (low.min(p.y), high.max(p.y)));
+        let extent = extent(&positions);
         if triangles.is_empty() || extent.1 <= extent.0 {
             return Err(Error::new(
                 ErrorKind::NoGeometry,
@@ -199,6 +197,11 @@ fn believable_kind(kind: MeshKind, weights: &[(Role, f64)]) -> MeshKind {
         MeshKind::Hair if sum(|role| Part::of(role) > Part::Head) > 0.5 => MeshKind::Body,
         kind => kind,
     }
+}
+
+/// Lowest and highest point of `positions` along up; (infinity, -infinity) for none.
+pub fn extent(positions: &[DVec3]) -> (f64, f64) {
+    positions.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| (low.min(p.y), high.max(p.y)))
 }
 
 /// True for the head and what moves with it.

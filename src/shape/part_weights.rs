@@ -8,10 +8,12 @@
 use super::figure::Figure;
 use super::proportions::{Anatomy, PART_COUNT, Part, PartWeights, fold_to_parts};
 use crate::character::{MeshKind, Role, Skeleton};
-use crate::geometry::weld::{Weld, components, neighbours, weld};
+use crate::geometry::CellMap;
+use crate::geometry::point_tree::{Near, PointTree};
+use crate::geometry::weld::{Neighbours, Weld, components, neighbours, weld};
 use crate::hair::HairOutline;
+use crate::parallel;
 use glam::DVec3;
-use std::collections::HashMap;
 
 /// Positions closer than this part of H are one vertex.
 pub const WELD_TOLERANCE: f64 = 1e-6;
@@ -24,6 +26,10 @@ const UMBRELLA_PASSES: (f64, f64) = (4.0, 60.0);
 /// Steps across layers, and vertices that each takes into account.
 const LAYER_PASSES: usize = 3;
 const LAYER_NEIGHBOURS: usize = 24;
+/// Left arm, right arm, the rest.
+const CLASS_COUNT: usize = 3;
+/// Fewer samples than this are not worth a thread.
+const LEAST_SAMPLES: usize = 4000;
 /// Where hands (feet) without a joint begin, the weights go over from the lower arm (leg) within this part of the
 /// distance on both sides.
 const EXTREMITY_BAND: f64 = 0.1;
@@ -97,7 +103,16 @@ pub struct PartBindings {
 }
 
 /// Binds every vertex of `figure` to its parts.
-pub fn part_bindings(figure: &Figure, anatomy: &Anatomy, skeleton: &Skeleton) -> PartBindings {
+///
+/// `threads`: at most this many, 0 for all cores; the result does not depend on it.
+///
+/// O(vertices · log vertices).
+pub fn part_bindings(
+    figure: &Figure,
+    anatomy: &Anatomy,
+    skeleton: &Skeleton,
+    threads: usize,
+) -> PartBindings {
     let vertex_count = figure.positions.len();
     let height = figure.height();
     let weld = weld(&figure.positions, WELD_TOLERANCE * height);
@@ -122,7 +137,7 @@ pub fn part_bindings(figure: &Figure, anatomy: &Anatomy, skeleton: &Skeleton) ->
         }
     }
     mark_head_pieces(figure, anatomy, &members, &head_only, &mut parts, &mut manners);
-    smooth_along(figure, &weld, &head_only, &mut parts);
+    smooth_along(figure, &weld, &head_only, &mut parts, threads);
     // Skin at the root of hair has moved over to the hair's weights, and must stay there or the hair line opens.
     let mut holds_head_only = vec![false; weld.count];
     for vertex in (0..vertex_count).filter(|&vertex| head_only[vertex]) {
@@ -130,7 +145,7 @@ pub fn part_bindings(figure: &Figure, anatomy: &Anatomy, skeleton: &Skeleton) ->
     }
     let frozen: Vec<bool> =
         weld.representative.iter().map(|&welded| holds_head_only[welded as usize]).collect();
-    smooth_across(figure, &frozen, &mut parts);
+    smooth_across(figure, &frozen, &mut parts, threads);
 
     let mut pieces = Vec::new();
     let joint_pieces = rigid_groups(figure, skeleton, &members, &head_only, &mut manners, &mut pieces);
@@ -247,7 +262,7 @@ pub fn smoothstep(t: f64) -> f64 {
 }
 
 /// D26.4, first half: umbrella steps on the welded mesh.
-fn smooth_along(figure: &Figure, weld: &Weld, frozen: &[bool], parts: &mut [PartWeights]) {
+fn smooth_along(figure: &Figure, weld: &Weld, frozen: &[bool], parts: &mut [PartWeights], threads: usize) {
     let around = neighbours(&figure.triangles, weld);
     let firsts = weld.first_vertices();
     let mut edges: Vec<f64> = Vec::new();
@@ -289,25 +304,75 @@ fn smooth_along(figure: &Figure, weld: &Weld, frozen: &[bool], parts: &mut [Part
     for (row, count) in rows.iter_mut().zip(&counts) {
         row.iter_mut().for_each(|weight| *weight /= count.max(1.0));
     }
-    for _ in 0..passes {
-        let before = rows.clone();
-        for (vertex, row) in rows.iter_mut().enumerate() {
-            let near = around.of(vertex);
-            if still[vertex] || near.is_empty() {
-                continue;
-            }
-            let mut mean = [0.0; PART_COUNT];
-            for &other in near {
-                add(&mut mean, &before[other as usize], 1.0 / near.len() as f32);
-            }
-            for (weight, mean) in row.iter_mut().zip(mean) {
-                *weight += UMBRELLA_STEP * (mean - *weight);
+    // Parts do not mix, so each thread takes some of them; parts of one limb touch the same vertices.
+    let threads = if weld.count < LEAST_SAMPLES { 1 } else { threads };
+    let smoothed = parallel::collect(threads, SMOOTHED_TOGETHER.len(), 1, |group| {
+        let columns: Vec<[f32; 4]> =
+            rows.iter().map(|row| SMOOTHED_TOGETHER[group].map(|part| row[part as usize])).collect();
+        umbrella_steps(columns, &around, &still, passes)
+    });
+    for (vertex, row) in parts.iter_mut().enumerate() {
+        let welded = weld.representative[vertex] as usize;
+        for (group, columns) in SMOOTHED_TOGETHER.iter().zip(&smoothed) {
+            for (&part, &weight) in group.iter().zip(&columns[welded]) {
+                row[part as usize] = weight;
             }
         }
     }
-    for (vertex, row) in parts.iter_mut().enumerate() {
-        *row = rows[weld.representative[vertex] as usize];
+}
+
+/// All parts, in groups that are smoothed together.
+const SMOOTHED_TOGETHER: [[Part; 4]; 4] = [
+    [Part::Trunk, Part::Neck, Part::Head, Part::Hair],
+    [Part::LeftUpperArm, Part::LeftLowerArm, Part::LeftHand, Part::LeftFoot],
+    [Part::RightUpperArm, Part::RightLowerArm, Part::RightHand, Part::RightFoot],
+    [Part::LeftUpperLeg, Part::LeftLowerLeg, Part::RightUpperLeg, Part::RightLowerLeg],
+];
+
+/// `passes` steps towards the mean of the neighbours, for the weights of four parts; `still` vertices stay.
+fn umbrella_steps(
+    mut rows: Vec<[f32; 4]>,
+    around: &Neighbours,
+    still: &[bool],
+    passes: usize,
+) -> Vec<[f32; 4]> {
+    // Weights reach one edge further with each step: what lies beyond stays 0.
+    let mut reached: Vec<bool> = rows.iter().map(|row| *row != [0.0; 4]).collect();
+    let mut moving: Vec<u32> = (0..rows.len() as u32).filter(|&vertex| reached[vertex as usize]).collect();
+    let mut first = 0;
+    for _ in 0..passes {
+        let last = moving.len();
+        for index in first..last {
+            for &other in around.of(moving[index] as usize) {
+                if !reached[other as usize] && !still[other as usize] {
+                    reached[other as usize] = true;
+                    moving.push(other);
+                }
+            }
+        }
+        first = last;
     }
+    moving.retain(|&vertex| !still[vertex as usize] && !around.of(vertex as usize).is_empty());
+    moving.sort_unstable();
+    let mut before = rows.clone();
+    for _ in 0..passes {
+        std::mem::swap(&mut rows, &mut before);
+        for &vertex in &moving {
+            let near = around.of(vertex as usize);
+            let share = 1.0 / near.len() as f32;
+            let mut mean = [0.0f32; 4];
+            for &other in near {
+                let row = before[other as usize];
+                for part in 0..4 {
+                    mean[part] += row[part] * share;
+                }
+            }
+            let own = before[vertex as usize];
+            rows[vertex as usize] =
+                std::array::from_fn(|part| own[part] + UMBRELLA_STEP * (mean[part] - own[part]));
+        }
+    }
+    rows
 }
 
 fn add(sum: &mut PartWeights, row: &PartWeights, factor: f32) {
@@ -318,7 +383,7 @@ fn add(sum: &mut PartWeights, row: &PartWeights, factor: f32) {
 
 /// D26.4, second half: a Gaussian over near vertices of any mesh, so that cloth and body move together. Left arm,
 /// right arm and the rest do not mix: a hand on the hip must not carry the hip along.
-fn smooth_across(figure: &Figure, frozen: &[bool], parts: &mut [PartWeights]) {
+fn smooth_across(figure: &Figure, frozen: &[bool], parts: &mut [PartWeights], threads: usize) {
     let sigma = SMOOTHING_WIDTH * figure.height();
     let class_of = |row: &PartWeights| {
         let sum = |first: Part| row[first as usize..first as usize + 3].iter().sum::<f32>();
@@ -333,39 +398,26 @@ fn smooth_across(figure: &Figure, frozen: &[bool], parts: &mut [PartWeights]) {
     let class: Vec<u8> = parts.iter().map(class_of).collect();
     // Vertices at one place are one sample and get one result.
     let key = |p: DVec3| p.to_array().map(|x| (x / (1e-6 * figure.height())).round() as i64);
-    let mut samples: Vec<usize> = Vec::new();
-    let mut sample_of = vec![usize::MAX; parts.len()];
-    let mut known: HashMap<([i64; 3], u8), usize> = HashMap::new();
-    for vertex in 0..parts.len() {
-        if frozen[vertex] {
-            continue;
-        }
-        let sample = *known.entry((key(figure.positions[vertex]), class[vertex])).or_insert_with(|| {
-            samples.push(vertex);
-            samples.len() - 1
-        });
-        sample_of[vertex] = sample;
+    let mut samples: [Vec<usize>; CLASS_COUNT] = Default::default();
+    let mut sample_of = vec![u32::MAX; parts.len()];
+    let mut known: CellMap<([i64; 3], u8), u32> =
+        CellMap::with_capacity_and_hasher(parts.len(), Default::default());
+    for vertex in (0..parts.len()).filter(|&vertex| !frozen[vertex]) {
+        let of_class = &mut samples[class[vertex] as usize];
+        sample_of[vertex] =
+            *known.entry((key(figure.positions[vertex]), class[vertex])).or_insert_with(|| {
+                of_class.push(vertex);
+                of_class.len() as u32 - 1
+            });
     }
-    let points: Vec<(DVec3, u8)> =
-        samples.iter().map(|&vertex| (figure.positions[vertex], class[vertex])).collect();
-    let near = nearest(&points, LAYER_NEIGHBOURS, 3.0 * sigma);
-    let mut rows: Vec<PartWeights> = samples.iter().map(|&vertex| parts[vertex]).collect();
-    for _ in 0..LAYER_PASSES {
-        let before = rows.clone();
-        for (sample, row) in rows.iter_mut().enumerate() {
-            let mut sum = [0.0; PART_COUNT];
-            let mut total = 0.0;
-            for &(other, distance) in &near[sample] {
-                let weight = (-(distance * distance) / (2.0 * sigma * sigma)).exp() as f32;
-                add(&mut sum, &before[other as usize], weight);
-                total += weight;
-            }
-            *row = sum.map(|weight| weight / total);
-        }
-    }
+    let smoothed = samples.each_ref().map(|samples| {
+        let points: Vec<DVec3> = samples.iter().map(|&vertex| figure.positions[vertex]).collect();
+        let rows: Vec<PartWeights> = samples.iter().map(|&vertex| parts[vertex]).collect();
+        layer_steps(&points, rows, sigma, threads)
+    });
     for (vertex, &sample) in sample_of.iter().enumerate() {
-        if sample != usize::MAX {
-            parts[vertex] = rows[sample];
+        if sample != u32::MAX {
+            parts[vertex] = smoothed[class[vertex] as usize][sample as usize];
         }
     }
     for row in parts.iter_mut() {
@@ -374,60 +426,61 @@ fn smooth_across(figure: &Figure, frozen: &[bool], parts: &mut [PartWeights]) {
     }
 }
 
-/// For each point up to `count` nearest points of its own class within `reach`, itself first; a uniform grid.
-fn nearest(points: &[(DVec3, u8)], count: usize, reach: f64) -> Vec<Vec<(u32, f64)>> {
-    // Cells of half the reach: 125 cells cover the sphere; dense meshes stop at the rings that are needed.
-    let cell = reach / 4.0;
-    let cell_of = |p: DVec3| (p / cell).floor().to_array().map(|x| x as i64);
-    let mut grid: HashMap<[i64; 3], Vec<u32>> = HashMap::new();
-    for (index, (p, _)) in points.iter().enumerate() {
-        grid.entry(cell_of(*p)).or_default().push(index as u32);
-    }
-    let search = |&(p, class): &(DVec3, u8)| {
-        let home = cell_of(p);
-        let mut found: Vec<(u32, f64)> = Vec::new();
-        for ring in 0..=4i64 {
-            for dx in -ring..=ring {
-                for dy in -ring..=ring {
-                    for dz in -ring..=ring {
-                        if dx.abs().max(dy.abs()).max(dz.abs()) != ring {
-                            continue;
-                        }
-                        for &other in
-                            grid.get(&[home[0] + dx, home[1] + dy, home[2] + dz]).into_iter().flatten()
-                        {
-                            let (q, other_class) = points[other as usize];
-                            let distance = p.distance(q);
-                            if other_class == class && distance <= reach {
-                                found.push((other, distance));
-                            }
-                        }
-                    }
+/// The points that one point is smoothed with, in the order of the tree.
+struct Layer {
+    count: usize,
+    slots: [u32; LAYER_NEIGHBOURS],
+    weights: [f32; LAYER_NEIGHBOURS],
+}
+
+/// `LAYER_PASSES` Gaussian means over the nearest points within three standard deviations, `sigma` each.
+fn layer_steps(points: &[DVec3], rows: Vec<PartWeights>, sigma: f64, threads: usize) -> Vec<PartWeights> {
+    let tree = PointTree::new(points);
+    let reach = 3.0 * sigma;
+    let layers = parallel::collect_with(
+        threads,
+        points.len(),
+        LEAST_SAMPLES,
+        || (Vec::<Near>::new(), None::<DVec3>),
+        |(found, last), slot| {
+            let p = tree.point(slot);
+            // Slots that follow each other are near each other: the neighbours of the last one bound the search.
+            let bound = match (*last, found.get(LAYER_NEIGHBOURS - 1)) {
+                (Some(last), Some(furthest)) => {
+                    reach.min((furthest.distance() + p.distance(last)) * (1.0 + 1e-9))
                 }
+                _ => reach,
+            };
+            tree.nearest(p, LAYER_NEIGHBOURS, bound, found);
+            *last = Some(p);
+            let mut layer =
+                Layer { count: found.len(), slots: [0; LAYER_NEIGHBOURS], weights: [0.0; LAYER_NEIGHBOURS] };
+            for (place, near) in found.iter().enumerate() {
+                let distance = near.distance();
+                layer.slots[place] = near.slot();
+                layer.weights[place] = (-(distance * distance) / (2.0 * sigma * sigma)).exp() as f32;
             }
-            // Everything within `ring` cells has been seen.
-            let seen = ring as f64 * cell;
-            if found.iter().filter(|&&(_, distance)| distance <= seen).count() >= count {
-                break;
+            layer
+        },
+    );
+    let mut ordered: Vec<PartWeights> = tree.indices().iter().map(|&index| rows[index as usize]).collect();
+    for _ in 0..LAYER_PASSES {
+        ordered = parallel::collect(threads, points.len(), LEAST_SAMPLES, |slot| {
+            let layer = &layers[slot];
+            let mut sum = [0.0; PART_COUNT];
+            let mut total = 0.0;
+            for (&other, &weight) in layer.slots.iter().zip(&layer.weights).take(layer.count) {
+                add(&mut sum, &ordered[other as usize], weight);
+                total += weight;
             }
-        }
-        found.sort_by(|a, b| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0)));
-        found.truncate(count);
-        found
-    };
-    let thread_count = std::thread::available_parallelism().map_or(1, usize::from).min(8);
-    if points.len() < 2000 || thread_count == 1 {
-        return points.iter().map(search).collect();
+            sum.map(|weight| weight / total)
+        });
     }
-    let chunk = points.len().div_ceil(thread_count);
-    std::thread::scope(|scope| {
-        let search = &search;
-        let handles: Vec<_> = points
-            .chunks(chunk)
-            .map(|chunk| scope.spawn(move || chunk.iter().map(search).collect::<Vec<_>>()))
-            .collect();
-        handles.into_iter().flat_map(|handle| handle.join().expect("the search does not panic")).collect()
-    })
+    let mut smoothed = rows;
+    for (&index, row) in tree.indices().iter().zip(ordered) {
+        smoothed[index as usize] = row;
+    }
+    smoothed
 }
 
 /// Hats and glasses take the face map as a whole; a piece of the head that hangs down to the shoulders is hair.

@@ -9,9 +9,13 @@ use crate::character::{Character, MeshKind, Role};
 use crate::error::Result;
 use crate::geometry::Surface;
 use crate::options::{Mode, Options};
+use crate::parallel;
 use crate::report::{FigureReport, GroupShape, LandmarkHeights};
 use glam::DVec3;
 use std::collections::{BTreeMap, BTreeSet};
+
+/// Fewer triangles than this are not worth a second thread.
+const LEAST_TRIANGLES: usize = 10_000;
 
 /// One character, measured.
 #[derive(Clone, Debug)]
@@ -42,7 +46,8 @@ impl Study {
     /// # Errors
     /// As [`measure`].
     pub fn of_figure(figure: Figure, options: &Options) -> Result<Self> {
-        let anatomy = Anatomy::of(&figure);
+        let threads = if figure.triangles.len() < LEAST_TRIANGLES { 1 } else { options.thread_count };
+        let (surfaces, anatomy) = parallel::both(threads, || surfaces(&figure), || Anatomy::of(&figure));
         let joints: BTreeMap<Role, DVec3> =
             figure.humanoid.iter().map(|(role, joint)| (role, figure.joints[joint])).collect();
         let marks = &anatomy.landmarks;
@@ -51,18 +56,7 @@ impl Study {
         let head_top = anatomy.head_joint.with_y(marks.crown.max(least));
         let roles: BTreeSet<Role> = joints.keys().copied().collect();
         let bones = bones(&roles, &options.bone_groups);
-        let body = Surface::new(&figure.positions, &mesh_set(&figure, |kind| kind == MeshKind::Body));
-        let dressed = Surface::new(
-            &figure.positions,
-            &mesh_set(&figure, |kind| !matches!(kind, MeshKind::Hair | MeshKind::Accessory)),
-        );
-        let everything;
-        let mut surfaces: Vec<&Surface> =
-            [&body, &dressed].into_iter().filter(|set| !set.is_empty()).collect();
-        if surfaces.is_empty() {
-            everything = Surface::new(&figure.positions, &figure.triangles);
-            surfaces.push(&everything);
-        }
+        let surfaces: Vec<&Surface> = surfaces.iter().collect();
         let mut shape = measure(&bones, &joints, head_top, &surfaces, options.ray_count())?;
         shape.landmarks = Some(LandmarkHeights {
             crown: marks.crown,
@@ -126,6 +120,23 @@ pub fn group_shapes(
         group.radius = (!radii.is_empty()).then(|| radii.iter().sum::<f64>() / radii.len() as f64);
     }
     groups
+}
+
+/// What the rays meet, from narrow to wide: the body, and the body with its garments where it has some; everything
+/// where there is neither.
+fn surfaces(figure: &Figure) -> Vec<Surface> {
+    let body = mesh_set(figure, |kind| kind == MeshKind::Body);
+    let dressed = mesh_set(figure, |kind| !matches!(kind, MeshKind::Hair | MeshKind::Accessory));
+    let mut surfaces = vec![Surface::new(&figure.positions, &body)];
+    // Both keep the figure's order, so as many triangles are the same triangles.
+    if dressed.len() > body.len() {
+        surfaces.push(Surface::new(&figure.positions, &dressed));
+    }
+    surfaces.retain(|set| !set.is_empty());
+    if surfaces.is_empty() {
+        surfaces.push(Surface::new(&figure.positions, &figure.triangles));
+    }
+    surfaces
 }
 
 /// Triangles of the meshes whose kind `choose` accepts, without what the head carries on top of it.

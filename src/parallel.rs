@@ -1,0 +1,101 @@
+//! Work shared out among threads. Every item is made by itself, so results do not depend on how many there are.
+
+use std::ops::Range;
+
+/// The number of threads that `asked` stands for: 0 means all cores.
+pub fn thread_count(asked: usize) -> usize {
+    if asked == 0 { std::thread::available_parallelism().map_or(1, usize::from) } else { asked }
+}
+
+/// `make` of every index below `count`, in order.
+///
+/// - `threads`: at most this many; 0 means all cores.
+/// - `least`: fewer items than this are not worth a thread of their own, 1 or more.
+///
+/// The caller's thread does its share; alone it starts no other. A panic of `make` goes on in the caller.
+pub fn collect<T: Send>(
+    threads: usize,
+    count: usize,
+    least: usize,
+    make: impl Fn(usize) -> T + Sync,
+) -> Vec<T> {
+    collect_with(threads, count, least, || (), |(), index| make(index))
+}
+
+/// As [`collect`], where each thread has something of its own at hand: a buffer, or a guess that only saves time.
+pub fn collect_with<S, T: Send>(
+    threads: usize,
+    count: usize,
+    least: usize,
+    start: impl Fn() -> S + Sync,
+    make: impl Fn(&mut S, usize) -> T + Sync,
+) -> Vec<T> {
+    let share_count = (count / least).clamp(1, thread_count(threads));
+    let share = count.div_ceil(share_count).max(1);
+    let run = |indices: Range<usize>, all: &mut Vec<T>| {
+        let mut state = start();
+        all.extend(indices.map(|index| make(&mut state, index)));
+    };
+    let mut all = Vec::with_capacity(count);
+    std::thread::scope(|scope| {
+        let run = &run;
+        let others: Vec<_> = (share..count)
+            .step_by(share)
+            .map(|first| {
+                let indices = first..(first + share).min(count);
+                scope.spawn(move || {
+                    let mut all = Vec::with_capacity(indices.len());
+                    run(indices, &mut all);
+                    all
+                })
+            })
+            .collect();
+        run(0..share.min(count), &mut all);
+        for other in others {
+            all.extend(other.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)));
+        }
+    });
+    all
+}
+
+/// Both results, made side by side where there are two threads to use.
+pub fn both<A: Send, B>(threads: usize, one: impl FnOnce() -> A + Send, other: impl FnOnce() -> B) -> (A, B) {
+    if thread_count(threads) == 1 {
+        return (one(), other());
+    }
+    std::thread::scope(|scope| {
+        let one = scope.spawn(one);
+        let other = other();
+        (one.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)), other)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn any_number_of_threads_makes_the_same() {
+        for count in [0, 1, 2, 7, 100] {
+            let alone: Vec<usize> = (0..count).map(|index| index * index).collect();
+            for threads in 0..=9 {
+                for least in [1, 3, 1000] {
+                    assert_eq!(collect(threads, count, least, |index| index * index), alone);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn two_things_are_made_side_by_side() {
+        for threads in 0..3 {
+            assert_eq!(both(threads, || "one", || 2), ("one", 2));
+        }
+    }
+
+    #[test]
+    fn a_panic_reaches_the_caller() {
+        let made = std::panic::catch_unwind(|| collect(2, 10, 1, |index| assert_ne!(index, 9)));
+        assert!(made.is_err());
+    }
+}
