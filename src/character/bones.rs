@@ -146,7 +146,7 @@ impl Bone {
 /// bone, from the head joint to the head top. Eyes and jaw are no bones.
 ///
 /// A bone that stands for several bones of a complete skeleton has the group of the first of them, at its beginning:
-/// chest to head without a neck joint is torso.
+/// chest to head without a neck joint is torso. A bone from spine or chest to an arm is a shoulder.
 ///
 /// - `groups`: the user's own groups (§IV-A): the role at a bone's end (in a complete skeleton) to a group name. The
 ///   head bone ends at no role and is always `head`; `Role::Head` names the bone from neck to head.
@@ -159,7 +159,7 @@ pub fn bones(roles: &BTreeSet<Role>, groups: &BTreeMap<Role, String>) -> Vec<Bon
         .into_iter()
         .filter_map(|child| {
             let parent = child.chain().skip(1).find(|above| roles.contains(above))?;
-            let first = child.chain().take_while(|&role| role != parent).last()?;
+            let first = first_of(parent, child)?;
             let kind = Group::ending_at(first)?;
             let group = groups.get(&first).cloned().unwrap_or_else(|| kind.name().to_string());
             Some(Bone { parent, child: Some(child), kind, group })
@@ -174,6 +174,17 @@ pub fn bones(roles: &BTreeSet<Role>, groups: &BTreeMap<Role, String>) -> Vec<Bon
         });
     }
     bones
+}
+
+/// The end of the first of those bones of a complete skeleton for which the bone from `parent` to `child` stands. From
+/// the trunk to an arm it is the shoulder's: without an upper chest, chest to shoulder is no torso.
+fn first_of(parent: Role, child: Role) -> Option<Role> {
+    let is_arm = |role: Role| Group::ending_at(role) == Some(Group::Shoulder);
+    let path = || child.chain().take_while(|&role| role != parent);
+    match parent {
+        Spine | Chest | UpperChest => path().filter(|&role| is_arm(role)).last().or_else(|| path().last()),
+        _ => path().last(),
+    }
 }
 
 #[cfg(test)]
@@ -209,6 +220,14 @@ mod tests {
             ]
         );
         assert_eq!(found(&[Hips, Neck]), [(Hips, Some(Neck), Group::Torso)]);
+    }
+
+    #[test]
+    fn a_shoulder_on_the_chest_or_the_spine_is_no_torso() {
+        let shoulder = (Chest, Some(LeftShoulder), Group::Shoulder);
+        assert!(found(&[Hips, Chest, LeftShoulder, LeftUpperArm]).contains(&shoulder));
+        assert!(found(&[Hips, Spine, LeftUpperArm]).contains(&(Spine, Some(LeftUpperArm), Group::Shoulder)));
+        assert!(found(&[Hips, LeftUpperArm]).contains(&(Hips, Some(LeftUpperArm), Group::Torso)));
     }
 
     #[test]
