@@ -219,6 +219,38 @@ fn nothing_but_feet_reaches_below_the_soles() {
 }
 
 #[test]
+fn soles_stay_as_flat_as_they_were() {
+    check_all(runs(), |run| {
+        let (before, after) = (run.before(), run.after());
+        let sole = run.deformer.target().anatomy.landmarks.sole;
+        let report = run.deformer.report(&run.deformed).unwrap();
+        let foot = report.coefficients["foot"].length_scale;
+        let of_sole: Vec<usize> = (0..before.positions.len())
+            .filter(|&vertex| (before.positions[vertex].y - sole).abs() <= 1e-3 * run.height())
+            .filter(|&vertex| before.weight_of(vertex, is_below_the_knee) > 0.5)
+            .collect();
+        let range = |figure: &Figure| {
+            let (low, high) = of_sole
+                .iter()
+                .map(|&vertex| figure.positions[vertex].y)
+                .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), y| (low.min(y), high.max(y)));
+            (high - low) / run.height()
+        };
+        let (was, is) = (range(before), range(&after));
+        (is.is_nan() || is > was * foot + 1e-4)
+            .then(|| {
+                format!(
+                    "{}: {} sole vertices lie within {is:.6} H; were {was:.6} H, feet x {foot:.3}",
+                    run.name,
+                    of_sole.len()
+                )
+            })
+            .into_iter()
+            .collect()
+    });
+}
+
+#[test]
 fn what_belongs_to_the_head_alone_keeps_its_shape() {
     let runs = pairs(&Options { face_squash: Some(0.0), ..Options::default() });
     check_all(&runs, |run| {
@@ -271,6 +303,20 @@ fn change_by_itself(character: &superdeform::Character, options: &Options) -> f6
 }
 
 #[test]
+fn a_character_made_like_itself_stays() {
+    let names: Vec<_> = all_models().iter().collect();
+    check_all(&names, |(name, loaded)| {
+        [false, true]
+            .into_iter()
+            .filter_map(|limits| {
+                let change = change_by_itself(&loaded.character, &identity(limits));
+                (change > 1e-5).then(|| format!("{name}: {change:.2e} H, limits {limits}"))
+            })
+            .collect()
+    });
+}
+
+#[test]
 fn a_person_made_like_itself_stays() {
     let adult = Person::adult;
     let people = [
@@ -279,6 +325,7 @@ fn a_person_made_like_itself_stays() {
         Person { arm_angle: 45.0, blended: true, fingers: true, ..adult() },
         Person { skirt: true, holes: true, ..adult() },
         Person { facing: 90.0, unit: 100.0, blended: true, ..adult() },
+        Person { without: vec![Role::LeftHand, Role::RightHand, Role::LeftFoot, Role::RightFoot], ..adult() },
     ];
     check_all(&people, |person| {
         [false, true]
