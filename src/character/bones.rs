@@ -146,8 +146,7 @@ impl Bone {
 /// bone, from the head joint to the head top. Eyes and jaw are no bones.
 ///
 /// A bone that stands for several bones of a complete skeleton has the group of the first of them, at its beginning:
-/// chest to head without a neck joint is torso. The spine counts for the neck and the head alone: chest to shoulder
-/// without an upper chest is shoulder.
+/// chest to head without a neck joint is torso. A bone from spine or chest to an arm is a shoulder.
 ///
 /// - `groups`: the user's own groups (§IV-A): the role at a bone's end (in a complete skeleton) to a group name. The
 ///   head bone ends at no role and is always `head`; `Role::Head` names the bone from neck to head.
@@ -160,11 +159,7 @@ pub fn bones(roles: &BTreeSet<Role>, groups: &BTreeMap<Role, String>) -> Vec<Bon
         .into_iter()
         .filter_map(|child| {
             let parent = child.chain().skip(1).find(|above| roles.contains(above))?;
-            // An arm's bone that skips the upper chest begins on the spine and is none of it.
-            let is_spine = |role: Role| matches!(role, Spine | Chest | UpperChest);
-            let is_central = matches!(child, Neck | Head) || is_spine(child);
-            let joined = child.chain().take_while(|&role| role != parent);
-            let first = joined.filter(|&role| is_central || !is_spine(role)).last()?;
+            let first = first_of(parent, child)?;
             let kind = Group::ending_at(first)?;
             let group = groups.get(&first).cloned().unwrap_or_else(|| kind.name().to_string());
             Some(Bone { parent, child: Some(child), kind, group })
@@ -179,6 +174,17 @@ pub fn bones(roles: &BTreeSet<Role>, groups: &BTreeMap<Role, String>) -> Vec<Bon
         });
     }
     bones
+}
+
+/// The end of the first of those bones of a complete skeleton for which the bone from `parent` to `child` stands. From
+/// the trunk to an arm it is the shoulder's: without an upper chest, chest to shoulder is no torso.
+fn first_of(parent: Role, child: Role) -> Option<Role> {
+    let is_arm = |role: Role| Group::ending_at(role) == Some(Group::Shoulder);
+    let path = || child.chain().take_while(|&role| role != parent);
+    match parent {
+        Spine | Chest | UpperChest => path().filter(|&role| is_arm(role)).last().or_else(|| path().last()),
+        _ => path().last(),
+    }
 }
 
 #[cfg(test)]
@@ -214,14 +220,14 @@ mod tests {
             ]
         );
         assert_eq!(found(&[Hips, Neck]), [(Hips, Some(Neck), Group::Torso)]);
-        assert_eq!(
-            found(&[Hips, Chest, LeftShoulder, RightUpperArm]),
-            [
-                (Hips, Some(Chest), Group::Torso),
-                (Chest, Some(LeftShoulder), Group::Shoulder),
-                (Chest, Some(RightUpperArm), Group::Shoulder),
-            ]
-        );
+    }
+
+    #[test]
+    fn a_shoulder_on_the_chest_or_the_spine_is_no_torso() {
+        let shoulder = (Chest, Some(LeftShoulder), Group::Shoulder);
+        assert!(found(&[Hips, Chest, LeftShoulder, LeftUpperArm]).contains(&shoulder));
+        assert!(found(&[Hips, Spine, LeftUpperArm]).contains(&(Spine, Some(LeftUpperArm), Group::Shoulder)));
+        assert!(found(&[Hips, LeftUpperArm]).contains(&(Hips, Some(LeftUpperArm), Group::Torso)));
     }
 
     #[test]
