@@ -2,7 +2,7 @@
 //!
 //! Hair grows with the head, so hair that ended at the hips would end below the soles. Below the chin its height
 //! follows the body instead: hair that ended at the hips still does. It narrows from the head's scale towards the
-//! body's, and nowhere becomes broader than it is at the chin: hair that spreads over the shoulders of an adult would
+//! body's, and nowhere becomes broader than it is on the head: hair that spreads over the shoulders of an adult would
 //! stand out like a skirt from a child's.
 
 use crate::geometry::surface::Surface;
@@ -25,6 +25,8 @@ const OUTLINE_QUANTILE: f64 = 0.95;
 pub struct HairOutline {
     /// Chin to the lowest hair.
     pub depth: f64,
+    /// Reach in x and z from the crown to the chin.
+    head_reach: [f64; 2],
     /// Reach in x and z at `KNOTS` heights from the chin down.
     reach: Vec<[f64; 2]>,
 }
@@ -43,6 +45,11 @@ impl HairOutline {
             values.sort_by(f64::total_cmp);
             values.get((OUTLINE_QUANTILE * values.len() as f64) as usize).copied()
         };
+        let on_head = from_axis.iter().filter(|p| p.y >= 0.0);
+        let head_reach = [
+            quantile(on_head.clone().map(|p| p.x.abs()).collect()).unwrap_or(f64::INFINITY),
+            quantile(on_head.map(|p| p.z.abs()).collect()).unwrap_or(f64::INFINITY),
+        ];
         let mut reach: Vec<[f64; 2]> = Vec::with_capacity(KNOTS);
         for knot in 0..KNOTS {
             let near = from_axis.iter().filter(|p| (-p.y / step - knot as f64).abs() <= 1.0);
@@ -52,7 +59,7 @@ impl HairOutline {
             let above = reach.last().copied().unwrap_or([0.0; 2]);
             reach.push([x.unwrap_or(above[0]), z.unwrap_or(above[1])]);
         }
-        Some(Self { depth, reach })
+        Some(Self { depth, head_reach, reach })
     }
 }
 
@@ -75,12 +82,17 @@ impl HairMap {
     /// - `axis`: the head's axis at the chin, before and after.
     /// - `head`: the head's scales: height, width, depth.
     /// - `body_girth`: the body's thickness scale.
+    /// - `tapering`: hair that ends less than this below the chin narrows less: a tail that just reaches below it keeps its
+    ///   place behind the head.
+    /// - `taming`: 1 keeps the hair within the reach it has on the head, 0 lets it spread as it did.
     pub fn new(
         outline: &HairOutline,
         axis: [DVec3; 2],
         new_bottom: f64,
         head: [f64; 3],
         body_girth: f64,
+        tapering: f64,
+        taming: f64,
     ) -> Self {
         let depth = outline.depth;
         let mean = (axis[1].y - new_bottom) / depth;
@@ -91,12 +103,12 @@ impl HairMap {
             .map(|knot| {
                 let d = depth * knot as f64 / (KNOTS - 1) as f64;
                 // Of the mapped depth: of the unmapped one, short hair flares.
-                let fraction = smoothstep(map.drop(d) / (mean * depth));
+                let fraction = smoothstep(map.drop(d) / (mean * depth).max(tapering));
                 [1, 2].map(|side| {
                     let scale = head[side] + (tip.min(head[side]) - head[side]) * fraction;
-                    let at_chin = head[side] * outline.reach[0][side - 1];
+                    let on_head = head[side] * outline.head_reach[side - 1];
                     let reach = outline.reach[knot][side - 1];
-                    if reach * scale > at_chin && reach > 0.0 { at_chin / reach } else { scale }
+                    if reach * scale > on_head { scale + taming * (on_head / reach - scale) } else { scale }
                 })
             })
             .collect();
@@ -185,6 +197,10 @@ pub fn keep_outside(
                         .zip(closest.barycentric)
                         .map(|(&corner, share)| share * normals[corner as usize])
                         .sum();
+                    if normal == DVec3::ZERO {
+                        // Beside a rim there is no inside.
+                        return (f64::INFINITY, DVec3::ZERO);
+                    }
                     let from = points[vertex] - closest.point;
                     let sign = if from.dot(normal) < 0.0 { -1.0 } else { 1.0 };
                     (sign * closest.distance, normal.normalize_or_zero())
@@ -240,7 +256,7 @@ pub fn keep_outside(
     hair.iter().map(|&vertex| push[weld.representative[vertex] as usize]).collect()
 }
 
-/// Normals of the welded vertices that `triangles` use, by area; zero elsewhere.
+/// Normals of the welded vertices that `triangles` use, by area; zero elsewhere and at rims, where a surface ends.
 fn vertex_normals(points: &[DVec3], triangles: &[[u32; 3]], weld: &Weld) -> Vec<DVec3> {
     let mut normals = vec![DVec3::ZERO; weld.count];
     for corners in triangles {
@@ -248,6 +264,19 @@ fn vertex_normals(points: &[DVec3], triangles: &[[u32; 3]], weld: &Weld) -> Vec<
         let normal = (b - a).cross(c - a);
         for corner in weld.triangle(*corners) {
             normals[corner as usize] += normal;
+        }
+    }
+    let mut edges: Vec<[u32; 2]> = triangles
+        .iter()
+        .flat_map(|corners| {
+            let [a, b, c] = weld.triangle(*corners);
+            [[a, b], [b, c], [c, a]].map(|[a, b]| [a.min(b), a.max(b)])
+        })
+        .collect();
+    edges.sort_unstable();
+    for same in edges.chunk_by(|a, b| a == b).filter(|same| same.len() == 1) {
+        for &end in &same[0] {
+            normals[end as usize] = DVec3::ZERO;
         }
     }
     normals.iter().map(|normal| normal.normalize_or_zero()).collect()

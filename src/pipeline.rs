@@ -70,7 +70,7 @@ impl Mapped {
 /// gamma of product mode unless the user says otherwise (found by looking: 0 leaves an adult, 1.4 a pointed forehead).
 pub const PRODUCT_FACE_SQUASH: f64 = 0.8;
 /// A head count as near as this to the one asked for needs no correction.
-const HEADS_TOLERANCE: f64 = 2e-3;
+const HEADS_TOLERANCE: f64 = 5e-3;
 /// Corrections of a head count before what is left is told.
 const HEADS_ATTEMPTS: usize = 5;
 /// What is left after that is told above this.
@@ -484,6 +484,13 @@ impl Deformer {
 
     /// The whole result.
     pub fn apply(&self) -> Deformed {
+        if self.options.amount == 0.0 {
+            // The way to the canonical frame and back costs a last digit.
+            return Deformed {
+                meshes: (0..self.character.meshes.len()).map(|mesh| self.unchanged_mesh(mesh)).collect(),
+                joints: self.character.skeleton.joints.iter().map(|joint| joint.position()).collect(),
+            };
+        }
         let figure = &self.study.figure;
         let after = self.positions_by(&self.field);
         let jacobians = fitted_jacobians(&figure.positions, &after, &figure.triangles, &self.weld);
@@ -502,6 +509,17 @@ impl Deformer {
             })
             .collect();
         Deformed { meshes, joints }
+    }
+
+    /// The mesh as it came.
+    fn unchanged_mesh(&self, index: usize) -> DeformedMesh {
+        let mesh = &self.character.meshes[index];
+        DeformedMesh {
+            positions: mesh.positions.clone(),
+            normals: mesh.normals.clone(),
+            tangents: mesh.tangents.clone(),
+            morph_targets: mesh.morph_targets.clone(),
+        }
     }
 
     fn deform_mesh(&self, index: usize, after: &[DVec3], jacobians: &[Option<DMat3>]) -> DeformedMesh {

@@ -21,6 +21,8 @@ const CHIN_COLUMNS: [f64; 5] = [0.0, -0.04, 0.04, -0.08, 0.08];
 const CHIN_BAND: f64 = 0.05;
 /// A smaller step back than this part of (crown - shoulder line) is no chin.
 const CHIN_STEP: f64 = 0.04;
+/// Steps that differ by less are equally steep, and the lowest counts: or the last digits of a model would decide.
+const TIE: f64 = 1e-4;
 /// Where the chin is taken to be where none is seen, as a part of (crown - shoulder line).
 const CHIN_BY_RATIO: f64 = 0.22;
 /// A crotch is believed from this far below the hip joints to this far above them, as parts of H.
@@ -230,7 +232,7 @@ fn chin(figure: &Figure, shoulder_line: f64, crown: f64) -> (f64, bool) {
     let mut best: Option<(f64, usize)> = None;
     for edge in band..CHIN_ROWS - band {
         if let (Some(above), Some(below)) = (mean(edge..edge + band), mean(edge - band..edge))
-            && best.is_none_or(|(step, _)| above - below > step)
+            && best.is_none_or(|(step, _)| above - below > step * (1.0 + TIE) + TIE * span)
         {
             best = Some((above - below, edge));
         }
@@ -239,10 +241,10 @@ fn chin(figure: &Figure, shoulder_line: f64, crown: f64) -> (f64, bool) {
     if step < CHIN_STEP * span {
         return by_ratio;
     }
-    let mut steepest = (f64::NEG_INFINITY, edge);
+    let mut steepest = (f64::MIN, edge);
     for candidate in edge.saturating_sub(band).max(1)..(edge + band).min(CHIN_ROWS) {
         if let (Some(above), Some(below)) = (depths[candidate], depths[candidate - 1])
-            && above - below > steepest.0
+            && above - below > steepest.0 * (1.0 + TIE)
         {
             steepest = (above - below, candidate);
         }

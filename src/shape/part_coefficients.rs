@@ -248,7 +248,7 @@ pub fn part_coefficients(
     // D27.4
     let size = match (hand, target.hand) {
         (Some(wanted), Some(own)) => wanted / own,
-        _ => 1.1 * result.limbs[1][1],
+        _ => (1.0 + 0.1 * growth) * result.limbs[1][1],
     };
     let girth = result.limbs[1][1];
     let size = bounds.apply("hand", size, HAND_PER_ARM.0 * girth, (HAND_PER_ARM.1 * girth).min(head_scale));
@@ -258,7 +258,7 @@ pub fn part_coefficients(
     };
     let size = match (foot, target.foot) {
         (Some(wanted), Some(own)) => wanted / own,
-        _ => 1.2 * result.limbs[3][1],
+        _ => (1.0 + 0.2 * growth) * result.limbs[3][1],
     };
     let girth = result.limbs[3][1];
     let size = bounds.apply("foot", size, FOOT_PER_LEG.0 * girth, (FOOT_PER_LEG.1 * girth).min(head_scale));

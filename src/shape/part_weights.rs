@@ -8,7 +8,6 @@
 use super::figure::Figure;
 use super::proportions::{Anatomy, PART_COUNT, Part, PartWeights, fold_to_parts};
 use crate::character::{MeshKind, Role, Skeleton};
-use crate::geometry::CellMap;
 use crate::geometry::point_tree::{Near, PointTree};
 use crate::geometry::weld::{Neighbours, Weld, components, neighbours, weld};
 use crate::hair::HairOutline;
@@ -39,6 +38,9 @@ const HEAD_PLANE: (f64, f64) = (-0.02, 0.22);
 const HEAD_PLANE_BACK: f64 = 0.35;
 /// The neck's weights go over into the head's within half the neck, but at least and at most these parts of L.
 const HEAD_BAND: (f64, f64) = (0.06, 0.2);
+/// Below the first of these heights, as parts of the ankle's, leg vertices are the foot's alone; above the second their
+/// weights stay.
+const SOLE_BAND: (f64, f64) = (0.15, 0.7);
 /// Between these distances from the neck's axis, to the side or behind, what the head moves is hair, as parts of L.
 const HAIR_REACH: (f64, f64) = (0.36, 0.5);
 /// Loose pieces smaller than this part of H keep their shape: buttons, buckles, badges.
@@ -145,7 +147,11 @@ pub fn part_bindings(
     }
     let frozen: Vec<bool> =
         weld.representative.iter().map(|&welded| holds_head_only[welded as usize]).collect();
-    smooth_across(figure, &frozen, &mut parts, threads);
+    smooth_across(figure, &weld, &frozen, &mut parts, threads);
+
+    for vertex in 0..vertex_count {
+        settle_soles(&mut parts[vertex], figure.positions[vertex], anatomy);
+    }
 
     let mut pieces = Vec::new();
     let joint_pieces = rigid_groups(figure, skeleton, &members, &head_only, &mut manners, &mut pieces);
@@ -251,6 +257,22 @@ fn split_limbs(parts: &mut PartWeights, p: DVec3, figure: &Figure, anatomy: &Ana
             let share = smoothstep(past / (2.0 * EXTREMITY_BAND) + 0.5) as f32;
             parts[limb.parts[index]] = weight * (1.0 - share);
             parts[limb.parts[index + 1]] += weight * share;
+        }
+    }
+}
+
+/// Near the ground a leg is foot and nothing else: what smoothing left of the shin in the heels would bend the soles.
+fn settle_soles(parts: &mut PartWeights, p: DVec3, anatomy: &Anatomy) {
+    for leg in &anatomy.limbs[2..] {
+        let ankle = leg.end.y - anatomy.landmarks.sole;
+        let low = (p.y - anatomy.landmarks.sole) / ankle.max(1e-30);
+        let share = smoothstep((SOLE_BAND.1 - low) / (SOLE_BAND.1 - SOLE_BAND.0)) as f32;
+        if share > 0.0 {
+            let [upper, lower, foot] = leg.parts;
+            let moved = share * (parts[upper] + parts[lower]);
+            parts[upper] *= 1.0 - share;
+            parts[lower] *= 1.0 - share;
+            parts[foot] += moved;
         }
     }
 }
@@ -383,7 +405,7 @@ fn add(sum: &mut PartWeights, row: &PartWeights, factor: f32) {
 
 /// D26.4, second half: a Gaussian over near vertices of any mesh, so that cloth and body move together. Left arm,
 /// right arm and the rest do not mix: a hand on the hip must not carry the hip along.
-fn smooth_across(figure: &Figure, frozen: &[bool], parts: &mut [PartWeights], threads: usize) {
+fn smooth_across(figure: &Figure, weld: &Weld, frozen: &[bool], parts: &mut [PartWeights], threads: usize) {
     let sigma = SMOOTHING_WIDTH * figure.height();
     let class_of = |row: &PartWeights| {
         let sum = |first: Part| row[first as usize..first as usize + 3].iter().sum::<f32>();
@@ -397,18 +419,17 @@ fn smooth_across(figure: &Figure, frozen: &[bool], parts: &mut [PartWeights], th
     };
     let class: Vec<u8> = parts.iter().map(class_of).collect();
     // Vertices at one place are one sample and get one result.
-    let key = |p: DVec3| p.to_array().map(|x| (x / (1e-6 * figure.height())).round() as i64);
     let mut samples: [Vec<usize>; CLASS_COUNT] = Default::default();
     let mut sample_of = vec![u32::MAX; parts.len()];
-    let mut known: CellMap<([i64; 3], u8), u32> =
-        CellMap::with_capacity_and_hasher(parts.len(), Default::default());
+    let mut known = vec![[u32::MAX; CLASS_COUNT]; weld.count];
     for vertex in (0..parts.len()).filter(|&vertex| !frozen[vertex]) {
         let of_class = &mut samples[class[vertex] as usize];
-        sample_of[vertex] =
-            *known.entry((key(figure.positions[vertex]), class[vertex])).or_insert_with(|| {
-                of_class.push(vertex);
-                of_class.len() as u32 - 1
-            });
+        let sample = &mut known[weld.representative[vertex] as usize][class[vertex] as usize];
+        if *sample == u32::MAX {
+            *sample = of_class.len() as u32;
+            of_class.push(vertex);
+        }
+        sample_of[vertex] = *sample;
     }
     let smoothed = samples.each_ref().map(|samples| {
         let points: Vec<DVec3> = samples.iter().map(|&vertex| figure.positions[vertex]).collect();
@@ -455,10 +476,17 @@ fn layer_steps(points: &[DVec3], rows: Vec<PartWeights>, sigma: f64, threads: us
             *last = Some(p);
             let mut layer =
                 Layer { count: found.len(), slots: [0; LAYER_NEIGHBOURS], weights: [0.0; LAYER_NEIGHBOURS] };
+            let gaussian = |distance: f64| (-(distance * distance) / (2.0 * sigma * sigma)).exp();
+            // The kernel ends at the last point that was found: which of several at that distance it is must not
+            // matter, or the last digits of a model would show.
+            let end = if found.len() == LAYER_NEIGHBOURS {
+                gaussian(found[LAYER_NEIGHBOURS - 1].distance())
+            } else {
+                gaussian(reach)
+            };
             for (place, near) in found.iter().enumerate() {
-                let distance = near.distance();
                 layer.slots[place] = near.slot();
-                layer.weights[place] = (-(distance * distance) / (2.0 * sigma * sigma)).exp() as f32;
+                layer.weights[place] = (gaussian(near.distance()) - end).max(0.0) as f32;
             }
             layer
         },
@@ -473,7 +501,8 @@ fn layer_steps(points: &[DVec3], rows: Vec<PartWeights>, sigma: f64, threads: us
                 add(&mut sum, &ordered[other as usize], weight);
                 total += weight;
             }
-            sum.map(|weight| weight / total)
+            // Two dozen points at one place have no kernel.
+            if total > 0.0 { sum.map(|weight| weight / total) } else { ordered[slot] }
         });
     }
     let mut smoothed = rows;

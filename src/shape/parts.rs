@@ -15,6 +15,8 @@ use glam::{DMat3, DVec3};
 /// The head moves back by this part of its distance before the chest, at most so many new heads.
 const HEAD_SEAT: f64 = 0.5;
 const HEAD_SEAT_MOST: f64 = 0.08;
+/// How far below the chin hair is as narrow as it gets, in new heads.
+const HAIR_TAPERING: f64 = 0.5;
 /// The height at which the chest's middle is taken, from crotch (0) to shoulder line (1).
 const CHEST_HEIGHT: f64 = 0.85;
 
@@ -157,6 +159,8 @@ impl PartField {
                 new_bottom.min(after.chin - least),
                 coefficients.head,
                 coefficients.neck[1],
+                HAIR_TAPERING * (after.crown - after.chin),
+                coefficients.head_seat,
             )
         });
         field.pieces = bindings
