@@ -149,8 +149,8 @@ pub fn part_bindings(
         weld.representative.iter().map(|&welded| holds_head_only[welded as usize]).collect();
     smooth_across(figure, &weld, &frozen, &mut parts, threads);
 
-    for vertex in 0..vertex_count {
-        settle_soles(&mut parts[vertex], figure.positions[vertex], anatomy);
+    for (row, &p) in parts.iter_mut().zip(&figure.positions) {
+        settle_soles(row, p, anatomy);
     }
 
     let mut pieces = Vec::new();
