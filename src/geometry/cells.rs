@@ -15,8 +15,8 @@ pub struct CellHasher {
 impl CellHasher {
     fn add(&mut self, word: u64) {
         // The high half of a product depends on all bits below it; keys may be floats whose low bits are all 0.
-        let product =
-            u128::from(self.state.rotate_left(23) ^ word) * 0x9e37_79b9_7f4a_7c15_f39c_c060_5ced_c835;
+        let product = u128::from(self.state.rotate_left(23) ^ word)
+            .wrapping_mul(0x9e37_79b9_7f4a_7c15_f39c_c060_5ced_c835);
         self.state = (product >> 64) as u64 ^ product as u64;
     }
 }
