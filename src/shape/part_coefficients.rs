@@ -306,6 +306,20 @@ pub fn part_coefficients(
         result.hip_spread = 1.0;
         result.limbs.iter_mut().for_each(|limb| limb[1] = 1.0);
     }
+    let scales = result.by_group();
+    if let Some((name, scale)) = scales
+        .iter()
+        .find(|(_, scale)| !(scale.length_scale.is_finite() && scale.thickness_scale.is_finite()))
+    {
+        return Err(Error::new(
+            ErrorKind::NoGeometry,
+            format!(
+                "no scale can be found for the group {name} ({} and {} came out): check that the joints of both \
+                 characters lie inside their meshes and not on one another",
+                scale.length_scale, scale.thickness_scale
+            ),
+        ));
+    }
     Ok((result, warnings(target, wanted, &result, head, &bounds)))
 }
 

@@ -221,13 +221,15 @@ impl Anatomy {
             }))
         };
         let (arms, legs) = limbs.split_at(2);
+        // Joints that lie on one another leave a sliver, so that nothing is divided by 0.
+        let least = 0.005 * figure.height();
         let proportions = Proportions {
             head_length: length,
             head_half_width,
             neck: (landmarks.chin - landmarks.shoulder_line).max(SHORTEST_NECK * length),
-            torso: top - bottom,
-            arm: arms.iter().map(Limb::length).sum::<f64>() / 2.0,
-            leg: bottom - landmarks.sole,
+            torso: (top - bottom).max(least),
+            arm: (arms.iter().map(Limb::length).sum::<f64>() / 2.0).max(least),
+            leg: (bottom - landmarks.sole).max(least),
             ankle_height: legs.iter().map(|leg| leg.end.y - landmarks.sole).sum::<f64>() / 2.0,
             hand: extremity(arms, &|limb, points| {
                 let along = (limb.end - limb.middle).normalize_or_zero();
