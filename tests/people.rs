@@ -283,7 +283,8 @@ fn skirt_of(character: &Character) -> usize {
 fn mirrored_vertices(character: &Character) -> Vec<usize> {
     const CELL: f64 = 1e-3;
     let roles: BTreeMap<usize, Role> = character.humanoid.iter().map(|(role, joint)| (joint, role)).collect();
-    let mut vertices: Vec<(DVec3, BTreeMap<Role, u32>, BTreeMap<Role, u32>)> = Vec::new();
+    type Row = BTreeMap<Role, u32>;
+    let mut vertices: Vec<(DVec3, Row, Row)> = Vec::new();
     for mesh in &character.meshes {
         for (p, row) in mesh.positions.iter().zip(mesh.weights.rows()) {
             let row: Vec<(Role, u32)> = row
@@ -328,11 +329,14 @@ fn check_symmetry(mode: Mode) {
         let run = Run::like_chibi(&person, &options(mode));
         let mirror = |p: DVec3| DVec3::new(-p.x, p.y, p.z);
         let after = run.after();
-        let mirrored: Vec<DVec3> =
-            mirrored_vertices(&run.character).into_iter().map(|other| mirror(after[other])).collect();
-        let off = furthest(&after, &mirrored) / run.height();
-        if off > 1e-6 {
-            failures.push(format!("{name}, {mode:?}: vertices {off:.2e} H"));
+        let apart = |&(vertex, other): &(usize, usize)| after[vertex].distance(mirror(after[other]));
+        let pairs = mirrored_vertices(&run.character).into_iter().enumerate();
+        let worst = pairs.max_by(|a, b| apart(a).total_cmp(&apart(b))).unwrap();
+        let off = apart(&worst) / run.height();
+        if off.is_nan() || off > 1e-6 {
+            let figure = &run.deformer.target().figure;
+            let (at, weights) = (figure.positions[worst.0], &figure.role_weights[worst.0]);
+            failures.push(format!("{name}, {mode:?}: {off:.2e} H at {at:.4} {weights:?}"));
         }
         let humanoid = &run.character.humanoid;
         let sides = humanoid.iter().map(|(role, joint)| {
