@@ -469,3 +469,37 @@ proptest! {
         prop_assert_eq!(role.mirrored().parent(), role.parent().map(Role::mirrored));
     }
 }
+
+proptest! {
+    #![proptest_config(few())]
+
+    #[test]
+    fn moving_the_character_moves_the_result(pair in pairs(), degrees in 0.0..360.0, shift in shifts()) {
+        at_most!(moving(&pair, degrees, shift, false, Mode::Product), 1e-5);
+    }
+
+    #[test]
+    fn moving_the_reference_changes_nothing(pair in pairs(), degrees in 0.0..360.0, shift in shifts()) {
+        at_most!(moving(&pair, degrees, shift, true, Mode::Product), 1e-5);
+    }
+
+    #[test]
+    fn laying_the_character_down_lays_the_result_down(pair in pairs(), turn in turns()) {
+        at_most!(laying_down(&pair, turn, Mode::Product), 1e-5);
+    }
+
+    #[test]
+    fn the_unit_of_the_character_is_the_unit_of_the_result(pair in pairs(), scale in scales()) {
+        at_most!(scaling(&pair, scale, false, Mode::Product), 1e-5);
+    }
+
+    #[test]
+    fn the_unit_of_the_reference_does_not_matter(pair in pairs(), scale in scales()) {
+        at_most!(scaling(&pair, scale, true, Mode::Product), 1e-5);
+    }
+
+    #[test]
+    fn renumbering_the_vertices_renumbers_the_result(pair in pairs(), seed in any::<u64>()) {
+        at_most!(renumbering_vertices(&pair, seed, Mode::Product), 1e-6);
+    }
+}
