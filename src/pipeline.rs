@@ -109,6 +109,9 @@ impl Deformer {
     /// of N heads in paper mode; `BadStyle` for a style without what the mode transfers.
     pub fn new(character: Arc<Character>, style: &Style, options: &Options) -> Result<Self> {
         options.validate()?;
+        if let Style::Heads(heads) = style {
+            Style::heads(*heads)?;
+        }
         let clock = Instant::now();
         let study = Study::of(&character, options)?;
         let measure = milliseconds(clock);

@@ -54,6 +54,10 @@ fn survives(name: &str, character: Character) -> usize {
     results
 }
 
+fn adult() -> Character {
+    Person { columns: 12, ..Person::adult() }.build()
+}
+
 fn moved(mut character: Character, change: impl Fn(DVec3) -> DVec3) -> Character {
     for mesh in &mut character.meshes {
         for p in &mut mesh.positions {
@@ -68,7 +72,6 @@ fn moved(mut character: Character, change: impl Fn(DVec3) -> DVec3) -> Character
 
 #[test]
 fn a_figure_in_one_point_on_a_line_or_in_a_plane_is_survived() {
-    let adult = || Person::adult().build();
     survives("a point", moved(adult(), |_| DVec3::ONE));
     survives("a line along up", moved(adult(), |p| DVec3::new(0.0, p.y, 0.0)));
     survives("a line across", moved(adult(), |p| DVec3::new(p.x, 0.0, 0.0)));
@@ -81,18 +84,18 @@ fn a_figure_in_one_point_on_a_line_or_in_a_plane_is_survived() {
 #[test]
 fn tiny_huge_and_far_away_figures_are_survived() {
     for scale in [1e-12, 1e-6, 1e6, 1e12] {
-        assert!(survives(&format!("times {scale}"), moved(Person::adult().build(), |p| p * scale)) > 0);
+        assert!(survives(&format!("times {scale}"), moved(adult(), |p| p * scale)) > 0);
     }
-    assert!(survives("far away", moved(Person::adult().build(), |p| p + DVec3::new(1e4, 0.0, -1e4))) > 0);
-    survives("beyond single precision", moved(Person::adult().build(), |p| p * 1e37));
-    survives("below single precision", moved(Person::adult().build(), |p| p * 1e-40));
+    assert!(survives("far away", moved(adult(), |p| p + DVec3::new(1e4, 0.0, -1e4))) > 0);
+    survives("beyond single precision", moved(adult(), |p| p * 1e37));
+    survives("below single precision", moved(adult(), |p| p * 1e-40));
 }
 
 #[test]
 fn joints_at_random_places_are_survived() {
     let mut numbers = Numbers(1);
-    for case in 0..40 {
-        let mut character = Person::adult().build();
+    for case in 0..15 {
+        let mut character = adult();
         for joint in &mut character.skeleton.joints {
             joint.rest = DMat4::from_translation(numbers.point());
         }
@@ -103,8 +106,8 @@ fn joints_at_random_places_are_survived() {
 #[test]
 fn roles_at_random_joints_are_survived() {
     let mut numbers = Numbers(2);
-    for case in 0..40 {
-        let mut character = Person::adult().build();
+    for case in 0..15 {
+        let mut character = adult();
         let count = character.skeleton.joints.len();
         for role in Role::all() {
             let joint = (numbers.next() * count as f64) as usize;
@@ -118,7 +121,7 @@ fn roles_at_random_joints_are_survived() {
 fn weights_and_triangles_at_random_are_survived() {
     let mut numbers = Numbers(3);
     for case in 0..4 {
-        let mut character = Person::adult().build();
+        let mut character = adult();
         let joint_count = character.skeleton.joints.len();
         for mesh in &mut character.meshes {
             let count = mesh.positions.len();
@@ -144,7 +147,7 @@ fn weights_and_triangles_at_random_are_survived() {
 
 #[test]
 fn figures_that_lack_almost_everything_are_survived() {
-    let adult = Person::adult().build();
+    let adult = adult();
     let mut one_triangle = adult.clone();
     one_triangle.meshes.truncate(1);
     one_triangle.meshes[0].triangles.truncate(1);
@@ -178,7 +181,7 @@ fn figures_that_lack_almost_everything_are_survived() {
 
 #[test]
 fn axes_that_fit_nothing_are_survived() {
-    let mut character = Person::adult().build();
+    let mut character = adult();
     character.axes.up = Vec3::new(0.3, 0.1, -0.9);
     survives("up is askew", character.clone());
     character.axes.forward = Some(Vec3::X);

@@ -769,11 +769,6 @@ fn a_person_without_a_needed_role_is_refused_with_the_way_to_name_it() {
 }
 
 #[test]
-fn a_skirt_with_holes_follows_the_legs_in_the_paper() {
-    check_skirt(Mode::Paper);
-}
-
-#[test]
 fn symmetric_people_stay_symmetric() {
     check_symmetry(Mode::Product);
 }

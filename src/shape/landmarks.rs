@@ -29,6 +29,8 @@ const CHIN_BY_RATIO: f64 = 0.22;
 const CROTCH_RANGE: (f64, f64) = (-0.065, 0.03);
 /// Where the crotch is taken to be where it is not seen, below the hip joints, as a part of H.
 const CROTCH_BY_RATIO: f64 = 0.03;
+/// How far from the middle the rays pass, as a part of H.
+const BESIDE_MIDDLE: f64 = 7e-4;
 /// Rows of rays that look for the crotch.
 const CROTCH_ROWS: usize = 200;
 
@@ -290,9 +292,13 @@ fn crotch(figure: &Figure, hip_line: f64) -> (f64, bool) {
     if row_height <= 0.0 {
         return by_ratio;
     }
-    let first = (0..CROTCH_ROWS)
-        .map(|row| knees + (row as f64 + 0.5) * row_height)
-        .find(|&y| surface.first_hit(DVec3::new(middle_x, y, front), DVec3::NEG_Z, f64::INFINITY).is_some());
+    let first = (0..CROTCH_ROWS).map(|row| knees + (row as f64 + 0.5) * row_height).find(|&y| {
+        // A hair's breadth beside the middle, on both sides: bodies often have an edge or a rim just there.
+        [-1.0, 1.0].iter().any(|side| {
+            let origin = DVec3::new(middle_x + side * BESIDE_MIDDLE * height, y, front);
+            surface.first_hit(origin, DVec3::NEG_Z, f64::INFINITY).is_some()
+        })
+    });
     match first {
         Some(y) if (CROTCH_RANGE.0..=CROTCH_RANGE.1).contains(&((y - hip_line) / height)) => (y, true),
         _ => by_ratio,

@@ -29,6 +29,9 @@ const LAYER_NEIGHBOURS: usize = 24;
 const CLASS_COUNT: usize = 3;
 /// Fewer samples than this are not worth a thread.
 const LEAST_SAMPLES: usize = 4000;
+/// A vertex with more than this weight to an arm is the arm's. Not a half: where two pieces meet half and half is common,
+/// and the last digits would decide.
+const ARM_MAJORITY: f32 = 0.503;
 /// Where hands (feet) without a joint begin, the weights go over from the lower arm (leg) within this part of the
 /// distance on both sides.
 const EXTREMITY_BAND: f64 = 0.1;
@@ -409,9 +412,9 @@ fn smooth_across(figure: &Figure, weld: &Weld, frozen: &[bool], parts: &mut [Par
     let sigma = SMOOTHING_WIDTH * figure.height();
     let class_of = |row: &PartWeights| {
         let sum = |first: Part| row[first as usize..first as usize + 3].iter().sum::<f32>();
-        if sum(Part::LeftUpperArm) > 0.5 {
+        if sum(Part::LeftUpperArm) > ARM_MAJORITY {
             0u8
-        } else if sum(Part::RightUpperArm) > 0.5 {
+        } else if sum(Part::RightUpperArm) > ARM_MAJORITY {
             1
         } else {
             2

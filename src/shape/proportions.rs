@@ -384,20 +384,30 @@ fn slice(figure: &Figure, triangles: &[[u32; 3]], y: f64, low: f64, high: f64) -
     if total <= 0.0 {
         return None;
     }
+    // Interpolated between the outline's points: else the order of the triangles, which changes the last digits of the
+    // sums, could move a quantile to the next point.
     let mut quantiles = |axis: fn(&DVec3) -> f64, low: f64, high: f64| {
         outline.sort_by(|a, b| axis(&a.0).total_cmp(&axis(&b.0)));
-        let mut sum = 0.0;
-        let (mut first, mut last) = (f64::NAN, f64::NAN);
-        for (p, length) in &outline {
-            sum += length;
-            if first.is_nan() && sum >= low * total {
-                first = axis(p);
+        let at = |share: f64| {
+            let wanted = share * total;
+            let mut sum = 0.0;
+            let mut last: Option<(f64, f64)> = None;
+            for (p, length) in &outline {
+                let (middle, x) = (sum + length / 2.0, axis(p));
+                sum += length;
+                if middle >= wanted {
+                    return match last {
+                        Some((before, from)) => {
+                            from + (x - from) * (wanted - before) / (middle - before).max(1e-300)
+                        }
+                        None => x,
+                    };
+                }
+                last = Some((middle, x));
             }
-            if last.is_nan() && sum >= high * total {
-                last = axis(p);
-            }
-        }
-        (first, if last.is_nan() { axis(&outline[outline.len() - 1].0) } else { last })
+            last.map_or(0.0, |(_, x)| x)
+        };
+        (at(low), at(high))
     };
     let (left, right) = quantiles(|p| p.x, low, high);
     let (back, front) = quantiles(|p| p.z, 0.1, 0.9);

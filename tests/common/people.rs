@@ -480,7 +480,9 @@ impl Shape {
                 for column in 0..columns {
                     let next = (column + 1) % columns;
                     let [a, b, c, d] = [before[column], before[next], now[column], now[next]];
-                    let faces = [[a, b, d], [a, d, c]];
+                    // Quads are split the other way on the other side: smoothing along edges sees the diagonals.
+                    let middle: f64 = [a, b, c, d].iter().map(|&v| self.positions[v as usize].x).sum();
+                    let faces = if middle < 0.0 { [[a, b, c], [b, d, c]] } else { [[a, b, d], [a, d, c]] };
                     self.triangles.extend(faces.into_iter().filter(|[a, b, c]| a != b && b != c && c != a));
                 }
             }
