@@ -1,6 +1,5 @@
 //! Figures that no artist made: whatever comes in, an error or finite numbers come out, and nothing panics.
 
-#[allow(dead_code)]
 #[path = "common/people.rs"]
 mod people;
 
