@@ -70,7 +70,7 @@ pub struct Options {
     pub bone_groups: BTreeMap<Role, String>,
     /// 0 gives the original back, 1 the style.
     pub amount: f64,
-    /// Product mode's bounds on coefficients (D27).
+    /// Product mode's bounds on coefficients.
     pub limits: bool,
     /// Length of hair below the chin: 1 ends it at the part of the body where it ended, 0 at the chin.
     pub hair_length: f64,

@@ -386,7 +386,7 @@ impl Deformer {
     }
 
     /// The box of the face map: around what the head moves, in body or face meshes, as the field without amount and
-    /// ground shift leaves it (D18); in product mode its height is from chin to crown.
+    /// ground shift leaves it; in product mode its height is from chin to crown.
     fn face_box(&self) -> Option<(DVec3, DVec3)> {
         let figure = &self.study.figure;
         let mut whole = self.field.clone();
@@ -415,7 +415,7 @@ impl Deformer {
         (low.x <= high.x).then_some((low, high))
     }
 
-    /// Feet stand where they stood (D19): in paper mode the lowest vertex that is not hair keeps its height, in product
+    /// Feet stand where they stood: in paper mode the lowest vertex that is not hair keeps its height, in product
     /// mode the lowest one that the legs move.
     fn stand_on_ground(&mut self) {
         self.field.set_ground(0.0);

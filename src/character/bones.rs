@@ -127,7 +127,7 @@ pub const HEAD_TOP: &str = "headTop";
 pub struct Bone {
     /// The role at its beginning.
     pub parent: Role,
-    /// The role at its end; `None` for the head bone, which ends at the head top (D6).
+    /// The role at its end; `None` for the head bone, which ends at the head top.
     pub child: Option<Role>,
     /// The built-in group, whose constants apply.
     pub kind: Group,

@@ -148,7 +148,7 @@ fn middle(figure: &Figure, triangles: &[[u32; 3]]) -> Option<(DVec3, DVec3)> {
     (low.x <= high.x).then(|| ((low + high) / 2.0, (high - low) / 2.0))
 }
 
-/// The crown (D6): the median height of seven vertical rays, one over the head joint and six around it at a quarter of
+/// The crown: the median height of seven vertical rays, one over the head joint and six around it at a quarter of
 /// the head's half width; without hair where at least five of them meet a skull.
 ///
 /// The rays stand over the joint, about which paper mode scales the head: so the crown of the result is that of the
@@ -188,7 +188,7 @@ fn crown(figure: &Figure) -> (f64, bool) {
     (figure.extent.1, true)
 }
 
-/// The chin (D25): the deepest step back below the face, seen from the front.
+/// The chin: the deepest step back below the face, seen from the front.
 fn chin(figure: &Figure, shoulder_line: f64, crown: f64) -> (f64, bool) {
     let span = crown - shoulder_line;
     let by_ratio = (shoulder_line + CHIN_BY_RATIO * span, false);
@@ -254,7 +254,7 @@ fn chin(figure: &Figure, shoulder_line: f64, crown: f64) -> (f64, bool) {
     (row_y(steepest.1) - row_height / 2.0, true)
 }
 
-/// The crotch (D25): the lowest thing between the legs in the middle column, from the knees up.
+/// The crotch: the lowest thing between the legs in the middle column, from the knees up.
 fn crotch(figure: &Figure, hip_line: f64) -> (f64, bool) {
     use Role::*;
     let height = figure.height();

@@ -204,7 +204,7 @@ pub fn part_coefficients(
     result.head = [head_scale, width_factor * head_scale, depth_factor * head_scale];
     result.head_seat = growth;
 
-    // D27.1
+    // The neck.
     let longest = (NECK_GROWTH * target.neck / target.head_length).clamp(NECK.0, NECK.1);
     let neck = bounds.apply("neck", neck / head, NECK.0, longest) * head;
     result.neck[0] = neck / target.neck.max(1e-6 * target.head_length);
@@ -212,7 +212,7 @@ pub fn part_coefficients(
     let rest = (below - neck) / (torso + leg);
     let (torso, leg) = (torso * rest, leg * rest);
 
-    // D27.2
+    // The trunk.
     // Nothing grows more than the head: a body that is as stubby as the style, or stubbier, keeps its proportions.
     let length = bounds.apply("torso length", torso / target.torso, 0.0, head_scale);
     let girth = girths[0].unwrap_or(length.sqrt());
@@ -223,7 +223,7 @@ pub fn part_coefficients(
     result.shoulder_spread = trunk_girth;
     result.hip_spread = trunk_girth;
 
-    // D27.3, arms
+    // The arms.
     let thickest = (LIMB_THICKEST * trunk_girth).min(trunk_girth.max(0.95));
     let names = ["upper_arm thickness", "lower_arm thickness", "upper_leg thickness", "lower_leg thickness"];
     for (limb, slimmest) in [(0, ARM_SLIMMEST), (2, LEG_SLIMMEST)] {
@@ -245,7 +245,7 @@ pub fn part_coefficients(
     result.limbs[0][0] = length;
     result.limbs[1][0] = length;
 
-    // D27.4
+    // Hands and feet.
     let size = match (hand, target.hand) {
         (Some(wanted), Some(own)) => wanted / own,
         _ => (1.0 + 0.1 * growth) * result.limbs[1][1],
@@ -267,7 +267,7 @@ pub fn part_coefficients(
         None => size,
     };
 
-    // D27.3, legs: what the foot takes up is no longer the leg's. A foot that would leave the leg no length is
+    // The legs: what the foot takes up is no longer the leg's. A foot that would leave the leg no length is
     // made smaller first.
     let shank = (target.leg - target.ankle_height).max(0.05 * target.leg);
     if target.ankle_height > 0.0 {

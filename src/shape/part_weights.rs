@@ -213,7 +213,7 @@ fn head_only(
         .collect()
 }
 
-/// D26.2: head and neck by a plane through the chin that rises to the nape, not by the rig's weights.
+/// Head and neck by a plane through the chin that rises to the nape, not by the rig's weights.
 fn split_head(parts: &mut PartWeights, p: DVec3, anatomy: &Anatomy) {
     let both = parts[Part::Head as usize] + parts[Part::Neck as usize];
     if both <= 0.0 {
@@ -286,7 +286,7 @@ pub fn smoothstep(t: f64) -> f64 {
     t * t * (3.0 - 2.0 * t)
 }
 
-/// D26.4, first half: umbrella steps on the welded mesh.
+/// Umbrella steps on the welded mesh.
 fn smooth_along(figure: &Figure, weld: &Weld, frozen: &[bool], parts: &mut [PartWeights], threads: usize) {
     let around = neighbours(&figure.triangles, weld);
     let firsts = weld.first_vertices();
@@ -406,7 +406,7 @@ fn add(sum: &mut PartWeights, row: &PartWeights, factor: f32) {
     }
 }
 
-/// D26.4, second half: a Gaussian over near vertices of any mesh, so that cloth and body move together. Left arm,
+/// A Gaussian over near vertices of any mesh, so that cloth and body move together. Left arm,
 /// right arm and the rest do not mix: a hand on the hip must not carry the hip along.
 fn smooth_across(figure: &Figure, weld: &Weld, frozen: &[bool], parts: &mut [PartWeights], threads: usize) {
     let sigma = SMOOTHING_WIDTH * figure.height();

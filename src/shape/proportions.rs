@@ -315,7 +315,7 @@ fn arm(figure: &Figure, parts: &[PartWeights], left: bool) -> Limb {
         None => root.lerp(tip, 0.45),
     });
     let end = wrist.filter(|&wrist| apart(wrist, middle));
-    // D26: no hand joint, wrist at 62 % from the elbow to the tip.
+    // No hand joint, wrist at 62 % from the elbow to the tip.
     let end_or_ratio = end.unwrap_or_else(|| middle.lerp(tip, 0.62));
     Limb { parts: indices, root, middle, end: end_or_ratio, end_is_joint: end.is_some() }
 }
@@ -335,7 +335,7 @@ fn leg(figure: &Figure, landmarks: &Landmarks, left: bool) -> Limb {
             None => root - DVec3::Y * (0.48 * length),
         }
     });
-    // D26: a foot joint may be missing, lie on the sole, or be the far root of an IK chain.
+    // A foot joint may be missing, lie on the sole, or be the far root of an IK chain.
     let near = |foot: &DVec3| (*foot - knee).with_y(0.0).length() < 0.35 * length;
     let end = foot_joint.filter(|foot| {
         near(foot) && foot.y < knee.y - 0.1 * length && foot.y > landmarks.sole + 0.02 * length

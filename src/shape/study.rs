@@ -26,7 +26,7 @@ pub struct Study {
     pub anatomy: Anatomy,
     /// Where the joints of the roles are, canonical frame.
     pub joints: BTreeMap<Role, DVec3>,
-    /// The end of the head bone: straight above the head joint, at the crown (D6).
+    /// The end of the head bone: straight above the head joint, at the crown.
     pub head_top: DVec3,
     /// Lengths and radii, and the proportions: all that a style keeps.
     pub shape: BodyShape,
