@@ -8,25 +8,10 @@ use regex::Regex;
 use std::collections::BTreeMap;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
+use superdeform::character::bones::Group as BoneGroup;
 use superdeform::pipeline::{FaceCurve, GroupSettings, Mode, Options, Stage};
 use superdeform::shape::style::{BUILT_IN, HEADS};
 use superdeform::{Axes, MeshKind, Role};
-
-/// The names of the bone groups that are there without `--groups`.
-pub const BONE_GROUPS: [&str; 12] = [
-    "head",
-    "neck",
-    "torso",
-    "shoulder",
-    "upper_arm",
-    "lower_arm",
-    "hand",
-    "finger",
-    "hip",
-    "upper_leg",
-    "lower_leg",
-    "foot",
-];
 
 /// The folder for results when no output path is given.
 const OUTPUT_FOLDER: &str = "superdeform-out";
@@ -376,10 +361,10 @@ fn options(arguments: &Arguments) -> Result<Options, Refusal> {
     };
     let mut groups: BTreeMap<String, GroupSettings> = BTreeMap::new();
     for Group { name, settings } in &arguments.group {
-        if !BONE_GROUPS.contains(&name.as_str()) && !bone_groups.values().any(|group| group == name) {
+        if BoneGroup::from_name(name).is_none() && !bone_groups.values().any(|group| group == name) {
             return Err(Refusal::Usage(format!(
                 "--group {name}: there is no such bone group: use one of {}, or a name from --groups",
-                BONE_GROUPS.join(", ")
+                BoneGroup::ALL.map(BoneGroup::name).join(", ")
             )));
         }
         let entry = groups.entry(name.clone()).or_default();
@@ -671,8 +656,8 @@ mod tests {
     fn help_is_an_answer() {
         let (code, text) = refused(&["--help"]);
         assert_eq!(code, 0);
-        for group in BONE_GROUPS {
-            assert!(text.contains(group));
+        for group in BoneGroup::ALL {
+            assert!(text.contains(group.name()));
         }
     }
 }

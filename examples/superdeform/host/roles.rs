@@ -4,30 +4,8 @@ use super::bind::{NodeTree, node_label};
 use super::file::GltfFile;
 use super::{array_at, bad_input, text_at};
 use serde_json::Value;
+use superdeform::character::naming::{ThumbNames, parse_role_map};
 use superdeform::{Humanoid, Result, Role};
-
-/// How the three joints of a thumb are called.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ThumbNames {
-    /// VRM 1.0: Metacarpal, Proximal, Distal.
-    Vrm1,
-    /// VRM 0.x and Unity: Proximal, Intermediate, Distal.
-    Unity,
-}
-
-/// The role that is spelled `name` in VRM 1.0, VRM 0.x or Unity; spaces, `_`, `-` and case are ignored.
-pub fn role_named(name: &str, thumbs: ThumbNames) -> Option<Role> {
-    let mut plain: String =
-        name.chars().filter(|c| !matches!(c, ' ' | '_' | '-')).flat_map(char::to_lowercase).collect();
-    if thumbs == ThumbNames::Unity && plain.contains("thumb") {
-        plain = if plain.ends_with("thumbproximal") {
-            plain.replace("thumbproximal", "thumbmetacarpal")
-        } else {
-            plain.replace("thumbintermediate", "thumbproximal")
-        };
-    }
-    Role::all().find(|role| role.name().to_lowercase() == plain)
-}
 
 /// The roles that a VRM file gives to nodes; empty for other files.
 ///
@@ -43,13 +21,13 @@ pub fn roles_of_vrm(file: &GltfFile, joint_of_node: &[Option<usize>]) -> Result<
         }
     } else {
         for bone in array_at(&vrm0["humanoid"], "humanBones") {
-            given.push((text_at(bone, "bone"), bone["node"].as_i64(), ThumbNames::Unity));
+            given.push((text_at(bone, "bone"), bone["node"].as_i64(), ThumbNames::Vrm0OrUnity));
         }
     }
     let mut humanoid = Humanoid::default();
     for (name, node, thumbs) in given {
         // VRM 0.x writes -1 for a role that no node plays.
-        let (Some(role), Some(node)) = (role_named(name, thumbs), node.filter(|&node| node >= 0)) else {
+        let (Some(role), Some(node)) = (Role::parse_as(name, thumbs), node.filter(|&node| node >= 0)) else {
             continue;
         };
         let joint = joint_of_node.get(node as usize).copied().flatten().ok_or_else(|| {
@@ -77,11 +55,10 @@ pub fn apply_map(
     let entries = map.as_object().ok_or_else(|| {
         bad_input("the humanoid map is no JSON object: write {\"hips\": \"JOINT NAME\", ...}".to_string())
     })?;
-    let metacarpal = entries.keys().any(|key| key.to_lowercase().contains("metacarpal"));
-    let thumbs = if metacarpal { ThumbNames::Vrm1 } else { ThumbNames::Unity };
+    let (_, roles) = parse_role_map(entries.keys().map(String::as_str));
     let mut given = Humanoid::default();
-    for (key, value) in entries {
-        let role = role_named(key, thumbs).ok_or_else(|| {
+    for ((key, value), role) in entries.iter().zip(roles) {
+        let role = role.ok_or_else(|| {
             bad_input(format!(
                 "the humanoid map names the role \"{key}\", which does not exist: use names such as hips, leftUpperLeg, head"
             ))
