@@ -182,7 +182,8 @@ impl Deformer {
     fn make_parts(&mut self, style: &Style) -> Result<()> {
         let proportions = self.study.anatomy.proportions.clone();
         let (figure, anatomy) = (&self.study.figure, &self.study.anatomy);
-        let parts = part_bindings(figure, anatomy, &self.character.skeleton, self.options.thread_count);
+        let parts =
+            part_bindings(figure, anatomy, &self.character.skeleton, &self.weld, self.options.thread_count);
         self.warnings.extend(anatomy.warnings());
         if let Some(hair) = &parts.hair
             && hair.depth > HAIR_TOLD * proportions.head_length

@@ -5,6 +5,7 @@
 //! linear maps cannot carry (shins that fold into rings, hands larger than the face); every bound that acts is told.
 
 use super::proportions::Proportions;
+use crate::character::bones::Group;
 use crate::error::{Error, ErrorKind, Result, Warning};
 use crate::pipeline::{GroupSettings, Options, Stage};
 use crate::report::Coefficient;
@@ -408,8 +409,8 @@ fn apply_settings(result: &mut PartCoefficients, groups: &BTreeMap<String, Group
                 return Err(Error::new(
                     ErrorKind::BadOption,
                     format!(
-                        "there is no bone group {unknown}: name one of head, neck, torso, shoulder, upper_arm, \
-                         lower_arm, hand, finger, hip, upper_leg, lower_leg, foot"
+                        "there is no bone group {unknown}: name one of {}",
+                        Group::ALL.map(Group::name).join(", ")
                     ),
                 ));
             }

@@ -9,7 +9,7 @@ use super::figure::Figure;
 use super::proportions::{Anatomy, PART_COUNT, Part, PartWeights, fold_to_parts};
 use crate::character::{MeshKind, Role, Skeleton};
 use crate::geometry::point_tree::{Near, PointTree};
-use crate::geometry::weld::{Neighbours, Weld, components, neighbours, weld};
+use crate::geometry::weld::{Neighbours, Weld, components, neighbours};
 use crate::hair::HairOutline;
 use crate::parallel;
 use glam::DVec3;
@@ -109,19 +109,19 @@ pub struct PartBindings {
 
 /// Binds every vertex of `figure` to its parts.
 ///
-/// `threads`: at most this many, 0 for all cores; the result does not depend on it.
+/// - `weld`: the figure's vertices by position.
+/// - `threads`: at most this many, 0 for all cores; the result does not depend on it.
 ///
 /// O(vertices · log vertices).
 pub fn part_bindings(
     figure: &Figure,
     anatomy: &Anatomy,
     skeleton: &Skeleton,
+    weld: &Weld,
     threads: usize,
 ) -> PartBindings {
     let vertex_count = figure.positions.len();
-    let height = figure.height();
-    let weld = weld(&figure.positions, WELD_TOLERANCE * height);
-    let component = components(&figure.triangles, &weld);
+    let component = components(&figure.triangles, weld);
     let component_of = |vertex: usize| component[weld.representative[vertex] as usize] as usize;
     let component_count = component.iter().max().map_or(0, |&last| last as usize + 1);
     let mut members: Vec<Vec<u32>> = vec![Vec::new(); component_count];
@@ -142,7 +142,7 @@ pub fn part_bindings(
         }
     }
     mark_head_pieces(figure, anatomy, &members, &head_only, &mut parts, &mut manners);
-    smooth_along(figure, &weld, &head_only, &mut parts, threads);
+    smooth_along(figure, weld, &head_only, &mut parts, threads);
     // Skin at the root of hair has moved over to the hair's weights, and must stay there or the hair line opens.
     let mut holds_head_only = vec![false; weld.count];
     for vertex in (0..vertex_count).filter(|&vertex| head_only[vertex]) {
@@ -150,7 +150,7 @@ pub fn part_bindings(
     }
     let frozen: Vec<bool> =
         weld.representative.iter().map(|&welded| holds_head_only[welded as usize]).collect();
-    smooth_across(figure, &weld, &frozen, &mut parts, threads);
+    smooth_across(figure, weld, &frozen, &mut parts, threads);
 
     for (row, &p) in parts.iter_mut().zip(&figure.positions) {
         settle_soles(row, p, anatomy);
