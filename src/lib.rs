@@ -90,6 +90,7 @@ pub mod options;
 pub mod parallel;
 pub mod pipeline;
 pub mod report;
+pub mod rig;
 pub mod shape;
 
 pub use character::{Axes, Character, Humanoid, Joint, Mesh, MeshKind, MorphTarget, Role, Skeleton, Weights};

@@ -616,7 +616,7 @@ fn a_person_measures_as_built() {
 
 fn person_surface(person: &Person) -> Surface {
     let character = person.build();
-    let body = character.meshes.iter().find(|mesh| mesh.kind == MeshKind::Body).unwrap();
+    let body = character.meshes.iter().find(|mesh| mesh.kind == Some(MeshKind::Body)).unwrap();
     let positions: Vec<DVec3> = body.positions.iter().map(|p| p.as_dvec3()).collect();
     Surface::new(&positions, &body.triangles)
 }

@@ -276,7 +276,7 @@ fn check_skirt(mode: Mode) {
 }
 
 fn skirt_of(character: &Character) -> usize {
-    character.meshes.iter().position(|mesh| mesh.kind == MeshKind::Garment).unwrap()
+    character.meshes.iter().position(|mesh| mesh.kind == Some(MeshKind::Garment)).unwrap()
 }
 
 /// For each vertex the one on the other side, moved by mirrored joints.

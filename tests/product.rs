@@ -260,7 +260,7 @@ fn what_belongs_to_the_head_alone_keeps_its_shape() {
             let vertices = before.mesh_starts[mesh]..before.mesh_starts[mesh + 1];
             let of_head = !vertices.is_empty()
                 && vertices.clone().all(|vertex| before.weight_of(vertex, is_head) >= 1.0 - 1e-6);
-            if given.kind == MeshKind::Hair || !of_head {
+            if given.kind == Some(MeshKind::Hair) || !of_head {
                 continue;
             }
             let extent = |figure: &Figure| {

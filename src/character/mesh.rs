@@ -255,8 +255,9 @@ pub struct MorphTarget {
 pub struct Mesh {
     /// The mesh's name, for messages.
     pub name: String,
-    /// What it depicts.
-    pub kind: MeshKind,
+    /// What it depicts, as the host says or guesses from names; `None` where nobody knows: a rigged mesh counts as body
+    /// then, and the auto-rig looks at where the mesh lies.
+    pub kind: Option<MeshKind>,
     /// Positions, model units.
     pub positions: Vec<Vec3>,
     /// Corners of each triangle, as indices into `positions`; the winding is never changed.

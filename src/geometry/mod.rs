@@ -1,6 +1,7 @@
 //! What the paper's sections stand on: segments, surfaces, near and shared positions.
 
 pub mod cells;
+pub mod laplacian;
 pub mod point_tree;
 pub mod segment;
 pub mod surface;

@@ -45,7 +45,15 @@ impl Frame {
                 "the way the character looks cannot be told: its left and right limbs coincide along up; give forward (--forward +Z)",
             ));
         }
-        Ok(Self { to_canonical: DMat3::from_cols(up.cross(forward), up, forward).transpose() })
+        Ok(Self::new(up, forward))
+    }
+
+    /// The frame of a character that stands along `up` and looks along `forward`, which need not be at right angles to
+    /// it but at an angle.
+    pub fn new(up: DVec3, forward: DVec3) -> Self {
+        let up = up.normalize();
+        let forward = forward.reject_from_normalized(up).normalize();
+        Self { to_canonical: DMat3::from_cols(up.cross(forward), up, forward).transpose() }
     }
 
     /// Model space to the canonical frame.
@@ -121,7 +129,7 @@ impl Figure {
             let start = positions.len() as u32;
             positions.extend(mesh.positions.iter().map(|p| frame.to_canonical(p.as_dvec3())));
             triangles.extend(mesh.triangles.iter().map(|corners| corners.map(|vertex| vertex + start)));
-            kinds.resize(positions.len(), mesh.kind);
+            kinds.resize(positions.len(), mesh.kind.unwrap_or_default());
             mesh_starts.push(positions.len());
         }
         let extent = extent(&positions);

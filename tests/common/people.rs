@@ -327,7 +327,7 @@ impl Person {
             });
             Mesh {
                 name: name.to_string(),
-                kind,
+                kind: Some(kind),
                 weights: Weights::from_rows(rows),
                 normals: shape.normals().into_iter().map(|n| (turn * n).as_vec3()).collect(),
                 positions: shape.positions.iter().map(|&p| place(p).as_vec3()).collect(),

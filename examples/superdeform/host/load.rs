@@ -504,7 +504,7 @@ fn place(
     };
     let mut mesh = Mesh {
         name: raw.name,
-        kind: MeshKind::Body,
+        kind: None,
         positions: raw.positions,
         triangles: raw.triangles,
         normals: raw.normals,
@@ -618,7 +618,7 @@ fn set_kinds(
     let mut guessed = Vec::new();
     for (mesh, label) in meshes.iter_mut().zip(labels) {
         if let Some((kind, _)) = patterns.iter().find(|(_, pattern)| pattern.is_match(label)) {
-            mesh.kind = *kind;
+            mesh.kind = Some(*kind);
             continue;
         }
         // The material says most about a single primitive, then the mesh, then the node.
@@ -639,7 +639,7 @@ fn set_kinds(
             _ => 0.0,
         };
         if share_of_head.is_none_or(|share| share >= needed) {
-            mesh.kind = kind;
+            mesh.kind = Some(kind);
             if kind != MeshKind::Body {
                 guessed.push(format!("{} ({kind:?})", mesh.name));
             }

@@ -1,0 +1,117 @@
+//! The meshes to rig, laid out in one space: x towards the character's left, y up, z forward, the lowest vertex at y = 0,
+//! the highest at y = 1, the middle of the bounding box at x = z = 0.
+
+use crate::character::{Character, MeshKind};
+use crate::error::{Error, ErrorKind, Result};
+use crate::shape::figure::Frame;
+use glam::DVec3;
+use std::ops::Range;
+
+/// All meshes of a character in one space, 1 high.
+#[derive(Clone, Debug)]
+pub struct Layout {
+    /// Vertices of all meshes, one mesh after the other.
+    pub positions: Vec<DVec3>,
+    /// Triangles of all meshes, as indices into `positions`.
+    pub triangles: Vec<[u32; 3]>,
+    /// Where each mesh's vertices start; one more than there are meshes.
+    pub mesh_starts: Vec<usize>,
+    /// Where each mesh's triangles start; one more than there are meshes.
+    pub triangle_starts: Vec<usize>,
+    /// What each mesh depicts, as far as anybody knows.
+    pub kinds: Vec<Option<MeshKind>>,
+    /// The names of the meshes.
+    pub names: Vec<String>,
+    frame: Frame,
+    /// Where the layout's origin is in the canonical frame, model units.
+    origin: DVec3,
+    /// The figure's height in model units.
+    height: f64,
+}
+
+impl Layout {
+    /// Lays `character` out, looking along `forward` (model space, at any angle to up but 0).
+    ///
+    /// # Errors
+    /// `ErrorKind::NoGeometry` where nothing has an extent along up.
+    pub fn of(character: &Character, forward: DVec3) -> Result<Self> {
+        let frame = Frame::new(character.axes.up.as_dvec3(), forward);
+        let mut layout = Self {
+            positions: Vec::with_capacity(character.vertex_count()),
+            triangles: Vec::with_capacity(character.triangle_count()),
+            mesh_starts: vec![0],
+            triangle_starts: vec![0],
+            kinds: character.meshes.iter().map(|mesh| mesh.kind).collect(),
+            names: character.meshes.iter().map(|mesh| mesh.name.clone()).collect(),
+            frame,
+            origin: DVec3::ZERO,
+            height: 1.0,
+        };
+        for mesh in &character.meshes {
+            let start = layout.positions.len() as u32;
+            layout.positions.extend(mesh.positions.iter().map(|p| frame.to_canonical(p.as_dvec3())));
+            layout
+                .triangles
+                .extend(mesh.triangles.iter().map(|corners| corners.map(|vertex| vertex + start)));
+            layout.mesh_starts.push(layout.positions.len());
+            layout.triangle_starts.push(layout.triangles.len());
+        }
+        // Loose points say nothing about how tall a figure is, unless there is nothing else.
+        let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        for &vertex in layout.triangles.iter().flatten() {
+            low = low.min(layout.positions[vertex as usize]);
+            high = high.max(layout.positions[vertex as usize]);
+        }
+        if layout.triangles.is_empty() || high.y <= low.y {
+            return Err(Error::new(
+                ErrorKind::NoGeometry,
+                "the character has no triangles with an extent along up: give at least one mesh of its body",
+            ));
+        }
+        layout.origin = ((low + high) / 2.0).with_y(low.y);
+        layout.height = high.y - low.y;
+        for p in &mut layout.positions {
+            *p = (*p - layout.origin) / layout.height;
+        }
+        Ok(layout)
+    }
+
+    /// The layout to model space.
+    pub fn to_model(&self, p: DVec3) -> DVec3 {
+        self.frame.to_model(p * self.height + self.origin)
+    }
+
+    /// Model space to the layout.
+    pub fn to_layout(&self, p: DVec3) -> DVec3 {
+        (self.frame.to_canonical(p) - self.origin) / self.height
+    }
+
+    /// A direction of the layout in model space.
+    pub fn direction_to_model(&self, direction: DVec3) -> DVec3 {
+        self.frame.to_model(direction)
+    }
+
+    /// How many meshes there are.
+    pub fn mesh_count(&self) -> usize {
+        self.kinds.len()
+    }
+
+    /// The vertices of one mesh.
+    pub fn vertices(&self, mesh: usize) -> Range<usize> {
+        self.mesh_starts[mesh]..self.mesh_starts[mesh + 1]
+    }
+
+    /// The triangles of one mesh.
+    pub fn triangles_of(&self, mesh: usize) -> &[[u32; 3]] {
+        &self.triangles[self.triangle_starts[mesh]..self.triangle_starts[mesh + 1]]
+    }
+
+    /// The triangles of those meshes that `choose` accepts by index.
+    pub fn triangles_where(&self, choose: impl Fn(usize) -> bool) -> Vec<[u32; 3]> {
+        (0..self.mesh_count())
+            .filter(|&mesh| choose(mesh))
+            .flat_map(|mesh| self.triangles_of(mesh))
+            .copied()
+            .collect()
+    }
+}

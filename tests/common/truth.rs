@@ -1,0 +1,76 @@
+//! Real characters without their rigs, and where their artists put the joints.
+#![allow(dead_code)]
+
+use super::models::host::file::GltfFile;
+use super::models::host::load::{LoadOptions, load};
+use super::models::models;
+use glam::DVec3;
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use superdeform::shape::figure::Frame;
+use superdeform::{Character, Role};
+
+/// A character without a rig.
+pub struct Case {
+    /// The file.
+    pub name: String,
+    /// Without joints and weights.
+    pub character: Character,
+    /// Where the artist put the joints, model space.
+    pub joints: BTreeMap<Role, DVec3>,
+    /// The way it looks, model space.
+    pub forward: DVec3,
+}
+
+/// Every rigged model with its rig removed, and the files that come without one, with the rigs of their twins.
+pub fn cases() -> Vec<Case> {
+    let mut cases = Vec::new();
+    for (name, loaded) in models() {
+        let file = loaded.file.clone();
+        cases.push(case(name, file, &loaded.character));
+    }
+    for (name, twin) in [
+        ("makehuman_female_target.glb", "makehuman_female_rigged.glb"),
+        ("seedsan_unrigged.glb", "seedsan_vrm1.vrm"),
+        ("quaternius_female_dress_unrigged.glb", "quaternius_female_dress.glb"),
+    ] {
+        let Some((path, twin)) = path_of(name).zip(models().get(twin)) else {
+            continue;
+        };
+        cases.push(case(name, GltfFile::read(&path).unwrap(), &twin.character));
+    }
+    cases
+}
+
+/// A file of tests/data or of the models, where it is there.
+pub fn path_of(name: &str) -> Option<PathBuf> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let shared =
+        std::env::var_os("SUPERDEFORM_MODELS").map_or_else(|| root.join("../shared/models"), PathBuf::from);
+    [root.join("tests/data"), shared].into_iter().map(|folder| folder.join(name)).find(|path| path.is_file())
+}
+
+fn case(name: &str, file: GltfFile, rigged: &Character) -> Case {
+    let options = LoadOptions { without_rig: true, ..LoadOptions::default() };
+    let character = load(file, &options).unwrap_or_else(|error| panic!("{name}: {error}")).character;
+    let joints = rigged
+        .humanoid
+        .iter()
+        .map(|(role, joint)| (role, rigged.skeleton.joints[joint].position()))
+        .collect();
+    let forward = Frame::of(rigged).unwrap().to_model(DVec3::Z);
+    Case { name: name.to_string(), character, joints, forward }
+}
+
+/// Joints of a `*.joints.json` by role, under the names that `roles` (role -> joint name) gives.
+pub fn joints_of_json(text: &str, roles: &Value) -> BTreeMap<Role, DVec3> {
+    let joints: BTreeMap<String, [f64; 3]> = serde_json::from_str(text).unwrap();
+    let roles = roles.as_object().unwrap().iter();
+    roles
+        .filter_map(|(role, name)| {
+            let at = joints.get(name.as_str()?)?;
+            Some((Role::all().find(|known| known.name() == role)?, DVec3::from_array(*at)))
+        })
+        .collect()
+}
