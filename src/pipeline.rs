@@ -1,7 +1,11 @@
 //! Puts the stages in order: what is known so far, what comes out, and what to redo when something changes.
 
+pub mod rigging;
+
+pub use rigging::Rig;
+
 use crate::character::bones::Bone;
-use crate::character::{Character, MeshKind, MorphTarget, Role};
+use crate::character::{Character, Humanoid, MeshKind, MorphTarget, Role};
 use crate::error::{Error, ErrorKind, Result, Warning};
 use crate::face::FaceShape;
 use crate::geometry::weld::{Weld, components, neighbours, weld};
@@ -99,6 +103,16 @@ pub struct Deformer {
     reference: Option<FigureReport>,
     warnings: Vec<Warning>,
     timing: Timing,
+    made_rig: Option<MadeRig>,
+}
+
+/// What the report says of a rig that was made.
+#[derive(Clone, Debug)]
+struct MadeRig {
+    report: RigReport,
+    /// Roles of the character's own joints, which ride along.
+    own: Humanoid,
+    own_count: usize,
 }
 
 impl Deformer {
@@ -156,6 +170,7 @@ impl Deformer {
             reference: None,
             warnings,
             timing: Timing { measure, ..Timing::default() },
+            made_rig: None,
             study,
         };
         match options.mode {
@@ -166,6 +181,24 @@ impl Deformer {
             deformer.reference = Some(style_report(shape, &deformer.roles, options));
         }
         deformer.timing.deform = milliseconds(clock);
+        Ok(deformer)
+    }
+
+    /// As [`Deformer::new`], by a rig that was made for `character`: its own joints, if any, ride along and come first in
+    /// [`Deformed::joints`].
+    ///
+    /// # Errors
+    /// As [`Deformer::new`].
+    pub fn with_rig(character: &Character, rig: &Rig, style: &Style, options: &Options) -> Result<Self> {
+        let mut deformer = Self::new(Arc::new(rig.applied_to(character)), style, options)?;
+        deformer.warnings.splice(0..0, rig.warnings.iter().cloned());
+        let [rig_joints, rig_weights, transfer] = rig.timing_ms;
+        deformer.timing = Timing { rig_joints, rig_weights, transfer, ..deformer.timing };
+        deformer.made_rig = Some(MadeRig {
+            report: rig.report(),
+            own: character.humanoid.clone(),
+            own_count: character.skeleton.joints.len(),
+        });
         Ok(deformer)
     }
 
@@ -626,32 +659,51 @@ impl Deformer {
     pub fn report(&self, deformed: &Deformed) -> Result<Report> {
         let result = Study::of(&self.character.with(deformed), &self.options)?;
         let character = &self.character;
+        let mut target = self.study.report(&self.roles, &self.options);
+        let mut result = result.report(&self.roles, &self.options);
+        let mut joint_count = character.skeleton.joints.len();
+        if let Some(rig) = &self.made_rig {
+            target.file_joints =
+                joints_by_role(&rig.own, |joint| character.skeleton.joints[joint].position());
+            result.file_joints = joints_by_role(&rig.own, |joint| deformed.joints[joint]);
+            if rig.own_count > 0 {
+                joint_count = rig.own_count;
+            }
+        }
         Ok(Report {
-            target: self.study.report(&self.roles, &self.options),
+            target,
             reference: self.reference.clone(),
-            result: result.report(&self.roles, &self.options),
+            result,
             mode: match self.options.mode {
                 Mode::Paper => "paper",
                 Mode::Product => "product",
             },
             g: self.head_ratio,
             coefficients: self.coefficients.clone(),
-            rig: RigReport {
-                source: "kept",
-                confidence: self.study.joints.keys().map(|role| (role.name().to_string(), 1.0)).collect(),
-                ..RigReport::default()
+            rig: match &self.made_rig {
+                Some(rig) => rig.report.clone(),
+                None => RigReport {
+                    source: "kept",
+                    confidence: self.study.joints.keys().map(|role| (role.name().to_string(), 1.0)).collect(),
+                    ..RigReport::default()
+                },
             },
             counts: Counts {
                 vertices: character.vertex_count(),
                 triangles: character.triangle_count(),
                 meshes: character.meshes.len(),
                 morph_targets: character.meshes.iter().map(|mesh| mesh.morph_targets.len()).sum(),
-                joints: character.skeleton.joints.len(),
+                joints: joint_count,
             },
             timing_ms: self.timing,
             warnings: self.warnings.clone(),
         })
     }
+}
+
+/// Where the joints of `humanoid` are, by role.
+fn joints_by_role(humanoid: &Humanoid, place: impl Fn(usize) -> DVec3) -> BTreeMap<String, [f64; 3]> {
+    humanoid.iter().map(|(role, joint)| (role.name().to_string(), place(joint).to_array())).collect()
 }
 
 /// A field of product mode that was tried.

@@ -10,6 +10,7 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use superdeform::character::bones::Group as BoneGroup;
 use superdeform::pipeline::{FaceCurve, GroupSettings, Mode, Options, Stage};
+use superdeform::rig::{GarmentWeights, RigOptions, WeightMethod};
 use superdeform::shape::style::{BUILT_IN, HEADS};
 use superdeform::{Axes, MeshKind, Role};
 
@@ -56,6 +57,14 @@ pub struct Command {
     pub reference_humanoid: Option<PathBuf>,
     /// Which way the target stands and looks.
     pub axes: Axes,
+    /// Keep the target's rig or make one; `None` keeps one that can be used.
+    pub rig: Option<Rig>,
+    /// What the auto-rig is told, but for known joints.
+    pub rig_options: RigOptions,
+    /// Where joints of the target are known: role to position, in the file's units.
+    pub joints: Option<PathBuf>,
+    /// The target with its new rig, not deformed.
+    pub save_rigged: Option<PathBuf>,
     /// Print nothing but errors.
     pub quiet: bool,
 }
@@ -71,8 +80,10 @@ pub enum Refusal {
     Input(String),
 }
 
+/// What to do with a target's rig.
+#[allow(missing_docs)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Rig {
+pub enum Rig {
     Keep,
     Auto,
 }
@@ -93,10 +104,17 @@ enum LastStage {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum GarmentWeights {
+enum GarmentWay {
     Robust,
     Nearest,
     Heat,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum BodyWay {
+    Auto,
+    Heat,
+    Volume,
 }
 
 #[derive(Clone, Debug)]
@@ -186,17 +204,25 @@ struct Arguments {
     #[arg(long, value_name = "STAGE", value_enum, default_value = "all", help_heading = METHOD)]
     stage: LastStage,
 
-    /// Keep the target's rig, or make one [default: keep]
+    /// Keep the target's rig, or make one [default: keep, where there is one with the roles that it takes]
     #[arg(long, value_name = "RIG", value_enum, help_heading = METHOD)]
     rig: Option<Rig>,
 
-    /// Write the target with its new rig, not deformed
+    /// Write the target with its rig, not deformed
     #[arg(long, value_name = "FILE.glb", help_heading = METHOD)]
     save_rigged: Option<PathBuf>,
 
-    /// How clothes get weights with a new rig
-    #[arg(long, value_name = "WAY", value_enum, help_heading = METHOD)]
-    garment_weights: Option<GarmentWeights>,
+    /// How the body gets weights with a new rig: along its surface, through its volume, or whichever suits it
+    #[arg(long, value_name = "WAY", value_enum, default_value = "auto", help_heading = METHOD)]
+    body_weights: BodyWay,
+
+    /// How clothes get weights with a new rig: from close surface points alike, from the nearest, or like a body
+    #[arg(long, value_name = "WAY", value_enum, default_value = "robust", help_heading = METHOD)]
+    garment_weights: GarmentWay,
+
+    /// Joints that a new rig is to have: a JSON object, role to [x, y, z] as in a report's target.joints
+    #[arg(long, value_name = "FILE.json", help_heading = METHOD)]
+    joints: Option<PathBuf>,
 
     /// Threads; 0 for all cores
     #[arg(long, value_name = "N", default_value = "0", value_parser = count(0, 1024), help_heading = METHOD)]
@@ -279,15 +305,6 @@ pub fn parse(arguments: impl IntoIterator<Item = impl Into<OsString> + Clone>) -
 
 /// Fills in defaults and checks options against each other.
 fn command(arguments: Arguments) -> Result<Command, Refusal> {
-    if arguments.rig == Some(Rig::Auto) {
-        return Err(Refusal::Input(not_yet("--rig auto")));
-    }
-    if arguments.save_rigged.is_some() {
-        return Err(Refusal::Input(not_yet("--save-rigged")));
-    }
-    if arguments.garment_weights.is_some() {
-        return Err(Refusal::Input(not_yet("--garment-weights")));
-    }
     let axes = Axes { up: arguments.up.unwrap_or(Axes::default().up), forward: arguments.forward };
     if axes.forward.is_some_and(|forward| axes.up.dot(forward) != 0.0) {
         return Err(Refusal::Usage(
@@ -296,7 +313,33 @@ fn command(arguments: Arguments) -> Result<Command, Refusal> {
         ));
     }
     let options = options(&arguments)?;
-    let target = arguments.target.unwrap_or_else(|| sample("quaternius_female_dress.glb"));
+    let rig_options = RigOptions {
+        method: match arguments.body_weights {
+            BodyWay::Auto => WeightMethod::Auto,
+            BodyWay::Heat => WeightMethod::Heat,
+            BodyWay::Volume => WeightMethod::Volume,
+        },
+        garments: match arguments.garment_weights {
+            GarmentWay::Robust => GarmentWeights::Robust,
+            GarmentWay::Nearest => GarmentWeights::Nearest,
+            GarmentWay::Heat => GarmentWeights::Heat,
+        },
+        thread_count: options.thread_count,
+        ..RigOptions::default()
+    };
+    if arguments.joints.is_some() && arguments.rig == Some(Rig::Keep) {
+        return Err(Refusal::Usage(
+            "--joints is about a new rig, and --rig keep keeps the old one: leave one of them out"
+                .to_string(),
+        ));
+    }
+    if let Some(path) = arguments.save_rigged.as_ref().filter(|path| !has_extension(path, "glb")) {
+        return Err(Refusal::Usage(format!(
+            "--save-rigged {}: the rigged target is written as GLB, so give a name that ends in .glb",
+            path.display()
+        )));
+    }
+    let target = arguments.target.unwrap_or_else(|| sample("quaternius_female_dress_unrigged.glb"));
     let reference = match (arguments.heads, arguments.reference) {
         (Some(heads), _) => Reference::Heads(heads),
         (None, Some(path)) if path.to_str().is_some_and(|name| BUILT_IN.contains(&name)) => {
@@ -347,6 +390,10 @@ fn command(arguments: Arguments) -> Result<Command, Refusal> {
         humanoid: arguments.humanoid,
         reference_humanoid: arguments.reference_humanoid,
         axes,
+        rig: arguments.rig,
+        rig_options,
+        joints: arguments.joints,
+        save_rigged: arguments.save_rigged,
         quiet: arguments.quiet,
     };
     check_paths(&command)?;
@@ -449,10 +496,6 @@ fn default_output(target: &Path) -> PathBuf {
 
 fn has_extension(path: &Path, wanted: &str) -> bool {
     path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case(wanted))
-}
-
-fn not_yet(option: &str) -> String {
-    format!("{option} is not available yet: this version keeps the target's own rig, so give a rigged TARGET")
 }
 
 /// A number from `low` to `high`, both included.
@@ -576,9 +619,15 @@ mod tests {
         let command = parsed(&[]);
         assert!(command.target.exists());
         assert!(matches!(&command.reference, Reference::Model(path) if path.exists()));
-        assert_eq!(command.output, Path::new("superdeform-out/quaternius_female_dress_sd.glb"));
-        assert_eq!(command.picture.unwrap(), Path::new("superdeform-out/quaternius_female_dress_sd.png"));
-        assert_eq!(command.report.unwrap(), Path::new("superdeform-out/quaternius_female_dress_sd.json"));
+        assert_eq!(command.output, Path::new("superdeform-out/quaternius_female_dress_unrigged_sd.glb"));
+        assert_eq!(
+            command.picture.unwrap(),
+            Path::new("superdeform-out/quaternius_female_dress_unrigged_sd.png")
+        );
+        assert_eq!(
+            command.report.unwrap(),
+            Path::new("superdeform-out/quaternius_female_dress_unrigged_sd.json")
+        );
         assert_eq!(command.options, Options::default());
     }
 
@@ -642,14 +691,32 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_there_yet_says_so() {
-        for arguments in [&["--rig", "auto"][..], &["--save-rigged", "x.glb"], &["--garment-weights", "heat"]]
-        {
-            let (code, text) = refused(arguments);
-            assert_eq!(code, 1);
-            assert!(text.contains("not available yet"), "{text}");
-        }
-        assert_eq!(parsed(&["--rig", "keep"]).options, Options::default());
+    fn a_new_rig_is_told_what_to_do() {
+        let command = parsed(&[
+            "--rig",
+            "auto",
+            "--body-weights",
+            "volume",
+            "--garment-weights",
+            "nearest",
+            "--threads",
+            "2",
+            "--save-rigged",
+            "x.glb",
+            "--joints",
+            "joints.json",
+        ]);
+        assert_eq!(command.rig, Some(Rig::Auto));
+        assert_eq!(command.rig_options.method, WeightMethod::Volume);
+        assert_eq!(command.rig_options.garments, GarmentWeights::Nearest);
+        assert_eq!(command.rig_options.thread_count, 2);
+        assert_eq!(command.save_rigged.unwrap(), Path::new("x.glb"));
+        assert_eq!(command.joints.unwrap(), Path::new("joints.json"));
+        let plain = parsed(&[]);
+        assert_eq!((plain.rig, plain.rig_options), (None, RigOptions::default()));
+        assert_eq!(refused(&["--rig", "keep", "--joints", "joints.json"]).0, 2);
+        assert!(refused(&["--save-rigged", "x.vrm"]).1.contains("x.vrm"));
+        assert_eq!(refused(&["--body-weights", "wool"]).0, 2);
     }
 
     #[test]

@@ -3,10 +3,11 @@
 //! Everything is made in memory before the first file is written, so that bad input leaves no files.
 
 use crate::appearance::{self, Appearance};
-use crate::cli::{Command, Reference};
+use crate::cli::{self, Command, Reference};
 use crate::host::accessor::Reader;
 use crate::host::file::GltfFile;
 use crate::host::load::LoadOptions;
+use crate::host::rig::INFLUENCES;
 use crate::materials::Material;
 use crate::picture::{self, PictureMesh, View};
 use crate::progress::Progress;
@@ -14,19 +15,21 @@ use crate::{host, output, report};
 use glam::{DVec3, Vec3};
 use regex::Regex;
 use serde_json::Value;
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, LazyLock};
 use std::time::{Duration, Instant};
 use superdeform::character::roles::find_roles;
-use superdeform::pipeline::{Deformed, Deformer, Style};
+use superdeform::pipeline::{Deformed, Deformer, Rig, Style};
 use superdeform::report::Report;
+use superdeform::rig::RigOptions;
 use superdeform::shape::BodyShape;
 use superdeform::shape::study::Study;
 use superdeform::shape::style::BUILT_IN;
-use superdeform::{Axes, Character, Error, MeshKind, Warning};
+use superdeform::{Axes, Character, Error, MeshKind, Role, Warning, Weights};
 
 /// Stages that the progress bar counts.
-const STAGE_COUNT: u64 = 6;
+const STAGE_COUNT: u64 = 7;
 
 /// What a run leaves behind.
 pub struct Done {
@@ -50,6 +53,8 @@ struct Reading<'a> {
     axes: Axes,
     /// What a sentence about a missing role names as the remedy.
     map_option: &'static str,
+    /// Whether a rig will do in which roles are missing.
+    incomplete_rig: bool,
 }
 
 /// Does what `command` says.
@@ -74,9 +79,15 @@ fn stages(command: &Command, progress: &Progress) -> Result<Done, String> {
     };
     let style = style(command, study.as_ref())?;
 
+    progress.stage("rigging");
+    let rig = rig(&mut target.host, command)?;
+
     progress.stage("deforming");
-    let character = Arc::new(target.host.character.clone());
-    let deformer = Deformer::new(character, &style, &command.options).map_err(sentence)?;
+    let deformer = match &rig {
+        Some(rig) => Deformer::with_rig(&target.host.character, rig, &style, &command.options),
+        None => Deformer::new(Arc::new(target.host.character.clone()), &style, &command.options),
+    };
+    let deformer = deformer.map_err(sentence)?;
     let deformed = deformer.apply();
     let mut report = deformer.report(&deformed).map_err(sentence)?;
     if let Some(study) = &study {
@@ -111,13 +122,34 @@ fn stages(command: &Command, progress: &Progress) -> Result<Done, String> {
 
     progress.stage("writing");
     let write_start = Instant::now();
-    let model = host::write::write(&target.host, &deformed, &|joint, point| deformer.map(joint, point))
-        .map_err(sentence)?;
+    let map = |joint: usize, point: DVec3| deformer.map(joint, point);
+    let model = match &rig {
+        // What came without joints goes out with them.
+        Some(rig) if !target.host.rigged => rigged_model(&target.host, &deformed, &map, rig),
+        _ => host::write::write(&target.host, &deformed, &map),
+    };
+    let model = model.map_err(|error| error.to_string())?;
+    let rigged = match (&command.save_rigged, &rig) {
+        (Some(path), Some(rig)) => Some((
+            path,
+            host::rig::rerigged(&target.host, &rig.skeleton, &limited(rig)).and_then(|file| file.to_bytes()),
+        )),
+        (Some(path), None) => Some((path, target.host.file.to_bytes())),
+        (None, _) => None,
+    };
+    let rigged = match rigged {
+        Some((path, bytes)) => Some((path, bytes.map_err(|error| error.to_string())?)),
+        None => None,
+    };
 
     progress.stage("saving");
     let mut files = Vec::new();
     output::write(&command.output, &model)?;
     files.push(("model", command.output.clone()));
+    if let Some((path, bytes)) = rigged {
+        output::write(path, &bytes)?;
+        files.push(("rigged target", path.clone()));
+    }
     if let (Some(path), Some(sheet)) = (&command.picture, &sheet) {
         picture::save(sheet, path)?;
         files.push(("picture", path.clone()));
@@ -137,12 +169,80 @@ fn stages(command: &Command, progress: &Progress) -> Result<Done, String> {
     Ok(Done { report, files })
 }
 
+/// The rig to deform by where the target's own is not kept: it has none, it is not wanted, or it does not say which
+/// joint is which.
+fn rig(target: &mut host::load::Loaded, command: &Command) -> Result<Option<Rig>, String> {
+    let given = read_joints(command.joints.as_deref())?;
+    let missing = target.character.humanoid.missing();
+    let keep = target.rigged && command.rig != Some(cli::Rig::Auto);
+    if keep && missing.is_empty() {
+        if command.joints.is_some() {
+            return Err("--joints is about a new rig, and the target has one: add --rig auto".to_string());
+        }
+        return Ok(None);
+    }
+    if keep {
+        target.warnings.push(Warning::new(
+            "rig_fallback_auto",
+            format!(
+                "{} shows no joint for the role {}, so a new rig was found for the deformation and the file's own joints ride along: name roles with --humanoid to use the file's rig",
+                target.file.name, missing[0]
+            ),
+        ));
+    }
+    let options = RigOptions { given, ..command.rig_options.clone() };
+    let rig = Rig::of(&target.character, &options).map_err(sentence)?;
+    target.character.axes.forward = Some(rig.forward.as_vec3());
+    Ok(Some(rig))
+}
+
+/// Reads known joints: an object of role -> [x, y, z].
+fn read_joints(path: Option<&Path>) -> Result<BTreeMap<Role, DVec3>, String> {
+    let Some(path) = path else {
+        return Ok(BTreeMap::new());
+    };
+    let place = path.display();
+    let text = std::fs::read_to_string(path).map_err(|error| format!("{place}: cannot be read ({error})"))?;
+    let joints: BTreeMap<String, [f64; 3]> = serde_json::from_str(&text).map_err(|error| {
+        format!("{place}: must be a JSON object such as {{\"leftHand\": [0.5, 1.2, 0]}} ({error})")
+    })?;
+    joints
+        .into_iter()
+        .map(|(name, at)| {
+            let role = Role::parse(&name).ok_or_else(|| format!("{place}: {name} is no humanoid role"))?;
+            Ok((role, DVec3::from_array(at)))
+        })
+        .collect()
+}
+
+/// The weights that a file holds.
+fn limited(rig: &Rig) -> Vec<Weights> {
+    rig.skin_weights.iter().map(|weights| weights.limited(INFLUENCES)).collect()
+}
+
+/// The deformed target with the joints of its new rig, where the field takes them.
+fn rigged_model(
+    target: &host::load::Loaded,
+    deformed: &Deformed,
+    map: &host::write::MapPoint,
+    rig: &Rig,
+) -> superdeform::Result<Vec<u8>> {
+    let mut file = host::write::rewrite(target, deformed, map)?;
+    let mut skeleton = rig.skeleton.clone();
+    for (joint, &at) in skeleton.joints.iter_mut().zip(&deformed.joints) {
+        joint.rest.w_axis = at.extend(1.0);
+    }
+    host::rig::add_rig(&mut file, target, &skeleton, &limited(rig))?;
+    file.to_bytes()
+}
+
 fn load_target(command: &Command) -> Result<Loaded, String> {
     let reading = Reading {
         humanoid_map: read_map(command.humanoid.as_deref())?,
         kinds: &command.kinds,
         axes: command.axes,
         map_option: "--humanoid",
+        incomplete_rig: command.rig != Some(cli::Rig::Keep),
     };
     load(&command.target, &reading)
 }
@@ -156,6 +256,7 @@ fn load_reference(command: &Command) -> Result<Option<Loaded>, String> {
         kinds: &[],
         axes: Axes::default(),
         map_option: "--reference-humanoid",
+        incomplete_rig: false,
     };
     load(path, &reading).map(Some)
 }
@@ -181,6 +282,7 @@ fn load(path: &Path, reading: &Reading) -> Result<Loaded, String> {
         kinds: reading.kinds,
         find_roles: Some(&find_roles),
         without_rig: false,
+        incomplete_rig: reading.incomplete_rig,
     };
     let host = GltfFile::read(path)
         .and_then(|file| host::load::load(file, &options))
@@ -200,8 +302,14 @@ fn appearance(host: &host::load::Loaded) -> Appearance {
 /// Measures a reference; its errors begin with the file's name.
 fn measure(reference: &Loaded, command: &Command) -> Result<Study, String> {
     let name = &reference.host.file.name;
-    let mut study =
-        Study::of(&reference.host.character, &command.options).map_err(|error| format!("{name}: {error}"))?;
+    let rigged = match reference.host.rigged {
+        true => None,
+        false => Some(Rig::of(&reference.host.character, &command.rig_options)),
+    };
+    let rigged = rigged.transpose().map_err(|error| format!("{name}: {error}"))?;
+    let rigged = rigged.map(|rig| rig.applied_to(&reference.host.character));
+    let character = rigged.as_ref().unwrap_or(&reference.host.character);
+    let mut study = Study::of(character, &command.options).map_err(|error| format!("{name}: {error}"))?;
     study.shape.name = name.rsplit_once('.').map_or(name.as_str(), |(stem, _)| stem).to_string();
     Ok(study)
 }

@@ -25,6 +25,24 @@ impl Weights {
         Self::from_rows((0..row_count).map(|_| [(joint, 1.0)]))
     }
 
+    /// Each row's `most` largest weights (1 or more), largest first, scaled to sum 1; equal ones in the order of their
+    /// joints. A row without weights stays empty.
+    pub fn limited(&self, most: usize) -> Self {
+        Self::from_rows(self.rows().map(|row| {
+            let mut row = row.to_vec();
+            row.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
+            row.truncate(most.max(1));
+            let sum: f64 = row.iter().map(|&(_, weight)| f64::from(weight)).sum();
+            row.into_iter().map(move |(joint, weight)| (joint, (f64::from(weight) / sum) as f32))
+        }))
+    }
+
+    /// The same weights to joints whose numbers are `by` higher.
+    pub fn shifted(&self, by: u32) -> Self {
+        let entries = self.entries.iter().map(|&(joint, weight)| (joint + by, weight)).collect();
+        Self { starts: self.starts.clone(), entries }
+    }
+
     /// The number of rows.
     pub fn row_count(&self) -> usize {
         self.starts.len().saturating_sub(1)

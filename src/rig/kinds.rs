@@ -20,3 +20,8 @@ pub fn refine_kinds(
 ) -> Vec<Warning> {
     unimplemented!()
 }
+
+/// True where the meshes of kind body alone make a whole figure.
+pub fn body_is_whole(_layout: &Layout, _kinds: &[MeshKind]) -> bool {
+    unimplemented!()
+}

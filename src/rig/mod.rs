@@ -3,6 +3,7 @@
 //! Every stage works on a [`Layout`]: x towards the character's left, y up, z forward, soles at 0, the whole figure 1
 //! high, so that no threshold depends on the unit of a file.
 
+pub mod eyes;
 pub mod facing;
 pub mod hand;
 pub mod heat;

@@ -29,3 +29,8 @@ pub fn transfer_weights(
 ) -> Weighted {
     unimplemented!()
 }
+
+/// Weights of a thing that keeps its shape.
+pub fn rigid_weights(_source: &Source, _positions: &[DVec3], _triangles: &[[u32; 3]]) -> Weighted {
+    unimplemented!()
+}

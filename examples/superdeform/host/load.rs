@@ -28,6 +28,8 @@ pub struct LoadOptions<'a> {
     pub find_roles: Option<&'a FindRoles<'a>>,
     /// Leaves the file's rig out, so that the character comes without joints and weights.
     pub without_rig: bool,
+    /// Takes a rig in which required roles are not found, for a caller that will make another.
+    pub incomplete_rig: bool,
 }
 
 /// Where a mesh of the character comes from.
@@ -205,7 +207,7 @@ pub fn load(file: GltfFile, options: &LoadOptions) -> Result<Loaded> {
         if let Some(role) = humanoid.missing().first() {
             // Without a skin the nodes may be nothing but places for meshes: a figure that has yet to get a rig.
             rigged = !skins.is_empty() || options.humanoid_map.is_some() || is_vrm(&file);
-            if rigged {
+            if rigged && !options.incomplete_rig {
                 return Err(Error::new(
                     ErrorKind::NoHumanoid,
                     format!(

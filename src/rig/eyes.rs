@@ -1,0 +1,94 @@
+//! Eyeballs: two like pieces of the face, one on each side.
+
+use super::Layout;
+use super::joints::FoundJoints;
+use crate::character::{MeshKind, Role};
+use crate::geometry::weld::{components, weld};
+use glam::DVec3;
+use std::collections::BTreeMap;
+
+/// Vertices closer than this, in heights, are one.
+const WELD_TOLERANCE: f64 = 1e-6;
+/// An eyeball is no thinner than this part of its width: what is flatter is a brow, a lash or a painted eye.
+const ROUNDNESS: f64 = 0.6;
+/// Two eyes mirror each other to within this part of the head's length.
+const LIKENESS: f64 = 0.05;
+
+/// An eyeball.
+#[derive(Clone, Debug)]
+pub struct Eye {
+    /// `LeftEye` or `RightEye`.
+    pub role: Role,
+    /// Its middle, in the layout.
+    pub centre: DVec3,
+    /// The vertices that turn with it, by index into the layout, in order.
+    pub vertices: Vec<usize>,
+    /// 0..1.
+    pub confidence: f64,
+}
+
+/// Both eyeballs, or none where the face has none that could turn.
+///
+/// An eyeball is a round piece of a mesh of kind `FacePart` with a like one mirrored on the other side of the head;
+/// pieces inside of it (iris, pupil) turn with it.
+pub fn find_eyes(layout: &Layout, kinds: &[MeshKind], found: &FoundJoints) -> Vec<Eye> {
+    let (Some(head), Some(crown)) = (found.joints.get(&Role::Head), found.tips.get(&Role::Head)) else {
+        return Vec::new();
+    };
+    let length = (crown.y - found.chin.y).abs();
+    let welded = weld(&layout.positions, WELD_TOLERANCE);
+    let component = components(&layout.triangles, &welded);
+    let mut pieces: BTreeMap<u32, (DVec3, DVec3, Vec<usize>)> = BTreeMap::new();
+    for mesh in (0..layout.mesh_count()).filter(|&mesh| kinds[mesh] == MeshKind::FacePart) {
+        for vertex in layout.vertices(mesh) {
+            let p = layout.positions[vertex];
+            let (low, high, vertices) =
+                pieces.entry(component[welded.representative[vertex] as usize]).or_insert((p, p, Vec::new()));
+            *low = low.min(p);
+            *high = high.max(p);
+            vertices.push(vertex);
+        }
+    }
+    let pieces: Vec<(DVec3, DVec3, Vec<usize>)> = pieces.into_values().collect();
+    let middle = head.position.x;
+    let balls: Vec<(DVec3, f64)> = pieces
+        .iter()
+        .filter_map(|(low, high, _)| {
+            let size = *high - *low;
+            let centre = (*low + *high) / 2.0;
+            let round = size.min_element() >= ROUNDNESS * size.max_element() && size.max_element() > 0.0;
+            let inside = centre.y > found.chin.y && centre.y < crown.y && size.max_element() < length / 2.0;
+            (round && inside).then_some((centre, size.max_element() / 2.0))
+        })
+        .collect();
+    let mut best: Option<[(DVec3, f64); 2]> = None;
+    for &(left, radius) in balls.iter().filter(|(centre, _)| centre.x > middle) {
+        let mirrored = DVec3::new(2.0 * middle - left.x, left.y, left.z);
+        let other = balls
+            .iter()
+            .filter(|(centre, _)| centre.x < middle && centre.distance(mirrored) < LIKENESS * length)
+            .min_by(|a, b| a.0.distance(mirrored).total_cmp(&b.0.distance(mirrored)));
+        if let Some(&other) = other
+            && (0.8..=1.25).contains(&(radius / other.1))
+            && best.is_none_or(|[(_, largest), _]| radius > largest)
+        {
+            best = Some([(left, radius), other]);
+        }
+    }
+    let Some(pair) = best else {
+        return Vec::new();
+    };
+    [Role::LeftEye, Role::RightEye]
+        .into_iter()
+        .zip(pair)
+        .map(|(role, (centre, radius))| {
+            let within = |&(low, high, _): &&(DVec3, DVec3, Vec<usize>)| {
+                ((*low + *high) / 2.0).distance(centre) + (*high - *low).max_element() / 2.0 <= 1.25 * radius
+            };
+            let mut vertices: Vec<usize> =
+                pieces.iter().filter(within).flat_map(|(_, _, vertices)| vertices).copied().collect();
+            vertices.sort_unstable();
+            Eye { role, centre, vertices, confidence: 0.9 }
+        })
+        .collect()
+}
