@@ -62,7 +62,7 @@ impl Rig {
         character.validate()?;
         validate(options)?;
         let clock = Instant::now();
-        let (forward, mut warnings) = find_forward(character)?;
+        let (forward, mut warnings) = find_forward(character);
         let mut layout = Layout::of(character, forward)?;
         let (mut kinds, kind_warnings) = guess_kinds(&layout);
         warnings.extend(kind_warnings);
