@@ -149,6 +149,16 @@ impl Surface {
         best
     }
 
+    /// Whether anything is met with `0 <= t <= t_max`: as [`Surface::first_hit`], but any hit will do.
+    pub fn is_hit(&self, origin: DVec3, direction: DVec3, t_max: f64) -> bool {
+        let mut is_hit = false;
+        self.for_each_hit(origin, direction, t_max, Order::Nearest, |_| {
+            is_hit = true;
+            f64::NEG_INFINITY
+        });
+        is_hit
+    }
+
     /// The furthest hit of either side with `t >= 0`.
     pub fn last_hit(&self, origin: DVec3, direction: DVec3) -> Option<Hit> {
         let mut best: Option<Hit> = None;
