@@ -4,6 +4,7 @@
 //! high, so that no threshold depends on the unit of a file.
 
 pub mod facing;
+pub mod geodesic;
 pub mod hand;
 pub mod heat;
 pub mod joints;
@@ -11,6 +12,7 @@ pub mod kinds;
 pub mod layout;
 pub mod skeleton;
 pub mod transfer;
+pub mod volume;
 pub mod voxel;
 
 use crate::character::{Role, Weights};
