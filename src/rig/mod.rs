@@ -5,6 +5,7 @@
 
 pub mod eyes;
 pub mod facing;
+pub mod geodesic;
 pub mod hand;
 pub mod heat;
 pub mod joints;
@@ -12,6 +13,7 @@ pub mod kinds;
 pub mod layout;
 pub mod skeleton;
 pub mod transfer;
+pub mod volume;
 pub mod voxel;
 
 use crate::character::{Role, Weights};
