@@ -1,0 +1,145 @@
+//! Cloth weights from the body below.
+
+#[path = "common/models.rs"]
+mod models;
+#[path = "common/people.rs"]
+mod people;
+
+use glam::DVec3;
+use models::{model, style_of};
+use std::sync::Arc;
+use superdeform::geometry::Surface;
+use superdeform::pipeline::{Deformer, Options};
+use superdeform::rig::transfer::{Source, rigid_weights, transfer_weights};
+use superdeform::rig::{GarmentWeights, Layout, Weighted};
+use superdeform::{Character, MeshKind, Weights};
+
+/// A character laid out, with the body's surface and weights.
+struct Dressed {
+    layout: Layout,
+    surface: Surface,
+    triangles: Vec<[u32; 3]>,
+    weights: Weights,
+}
+
+impl Dressed {
+    /// `character` looks along z.
+    fn new(character: &Character) -> Self {
+        let layout = Layout::of(character, DVec3::Z).unwrap();
+        let triangles = layout.triangles_where(|mesh| layout.kinds[mesh] == Some(MeshKind::Body));
+        let surface = Surface::new(&layout.positions, &triangles);
+        let weights = Weights::from_rows(
+            character.meshes.iter().flat_map(|mesh| mesh.weights.rows().map(|row| row.iter().copied())),
+        );
+        Self { layout, surface, triangles, weights }
+    }
+
+    fn source(&self) -> Source<'_> {
+        Source {
+            surface: &self.surface,
+            positions: &self.layout.positions,
+            triangles: &self.triangles,
+            weights: &self.weights,
+        }
+    }
+
+    /// Positions and triangles of one mesh.
+    fn mesh(&self, mesh: usize) -> (Vec<DVec3>, Vec<[u32; 3]>) {
+        let vertices = self.layout.vertices(mesh);
+        let start = vertices.start as u32;
+        let triangles = self.layout.triangles_of(mesh);
+        (
+            self.layout.positions[vertices].to_vec(),
+            triangles.iter().map(|corners| corners.map(|v| v - start)).collect(),
+        )
+    }
+
+    fn transfer(&self, mesh: usize, manner: GarmentWeights, threads: usize) -> Weighted {
+        let (positions, triangles) = self.mesh(mesh);
+        transfer_weights(&self.source(), &positions, &triangles, manner, threads)
+    }
+
+    fn garments(&self) -> Vec<usize> {
+        (0..self.layout.mesh_count()).filter(|&m| self.layout.kinds[m] == Some(MeshKind::Garment)).collect()
+    }
+}
+
+/// For each garment vertex whether it lies behind the closest body point by its normal, deeper than 1e-3 H and less
+/// than 0.02 H.
+fn inside(character: &Character, positions: &[Vec<DVec3>], height: f64) -> Vec<bool> {
+    let mut points = Vec::new();
+    let mut triangles = Vec::new();
+    for (mesh, positions) in character.meshes.iter().zip(positions) {
+        if mesh.kind == Some(MeshKind::Body) {
+            let start = points.len() as u32;
+            points.extend(positions.iter().copied());
+            triangles.extend(mesh.triangles.iter().map(|corners| corners.map(|v| v + start)));
+        }
+    }
+    let surface = Surface::new(&points, &triangles);
+    let mut result = Vec::new();
+    for (mesh, positions) in character.meshes.iter().zip(positions) {
+        if mesh.kind == Some(MeshKind::Garment) {
+            result.extend(positions.iter().map(|&p| {
+                let near = surface.closest_point(p).unwrap();
+                let [a, b, c] = triangles[near.triangle].map(|v| points[v as usize]);
+                let behind = (p - near.point).dot((b - a).cross(c - a)) < 0.0;
+                behind && (1e-3..0.02).contains(&(near.distance / height))
+            }));
+        }
+    }
+    result
+}
+
+#[test]
+fn measure() {
+    let Some(loaded) = model("makehuman_female_rigged.glb") else { return };
+    let options = Options::default();
+    for name in ["makehuman_female_rigged.glb", "quaternius_female_dress.glb", "valid_asian_f_1_busi.glb"] {
+        let Some(loaded) = model(name) else { continue };
+        for mesh in &loaded.character.meshes {
+            println!("{name} {} {:?} {} vertices", mesh.name, mesh.kind, mesh.positions.len());
+        }
+    }
+    let dressed = Dressed::new(&loaded.character);
+    let style = style_of("kaykit_rogue.glb", &options);
+    for manner in [None, Some(GarmentWeights::Nearest), Some(GarmentWeights::Robust)] {
+        let mut character = loaded.character.clone();
+        for garment in dressed.garments() {
+            if let Some(manner) = manner {
+                let start = std::time::Instant::now();
+                let made = dressed.transfer(garment, manner, 2);
+                println!(
+                    "{manner:?} {} {:?} {:.3} s {:?}",
+                    character.meshes[garment].name,
+                    character.meshes[garment].positions.len(),
+                    start.elapsed().as_secs_f64(),
+                    made.fallback
+                );
+                character.meshes[garment].weights = made.weights;
+            }
+        }
+        let deformer = Deformer::new(Arc::new(character.clone()), &style, &options).unwrap();
+        let deformed = deformer.apply();
+        let height = deformer.target().figure.height();
+        let before: Vec<Vec<DVec3>> =
+            character.meshes.iter().map(|m| m.positions.iter().map(|p| p.as_dvec3()).collect()).collect();
+        let after: Vec<Vec<DVec3>> =
+            deformed.meshes.iter().map(|m| m.positions.iter().map(|p| p.as_dvec3()).collect()).collect();
+        let (was, is) = (inside(&character, &before, height), inside(&character, &after, height));
+        let newly = was.iter().zip(&is).filter(|(was, is)| !**was && **is).count();
+        println!(
+            "{manner:?}: {newly} of {} newly inside = {:.2} %; was {} is {}",
+            was.len(),
+            100.0 * newly as f64 / was.len() as f64,
+            was.iter().filter(|x| **x).count(),
+            is.iter().filter(|x| **x).count()
+        );
+        let mut out = loaded.clone();
+        out.character = character;
+        let map = |joint: usize, point: DVec3| deformer.map(joint, point);
+        let bytes = models::host::write::write(&out, &deformed, &map).unwrap();
+        std::fs::write(format!("/tmp/tr_out/mh_{manner:?}.glb"), bytes).unwrap();
+    }
+    let _ = rigid_weights;
+}
