@@ -135,11 +135,85 @@ fn measure() {
             was.iter().filter(|x| **x).count(),
             is.iter().filter(|x| **x).count()
         );
-        let mut out = loaded.clone();
-        out.character = character;
-        let map = |joint: usize, point: DVec3| deformer.map(joint, point);
-        let bytes = models::host::write::write(&out, &deformed, &map).unwrap();
-        std::fs::write(format!("/tmp/tr_out/mh_{manner:?}.glb"), bytes).unwrap();
+        dump(&character, &format!("/tmp/tr_out/mh_{manner:?}.json"));
+    }
+    for name in ["quaternius_female_dress.glb"] {
+        let mut character = model(name).unwrap().character.clone();
+        let dressed = Dressed::new(&character);
+        for manner in [None, Some(GarmentWeights::Nearest), Some(GarmentWeights::Robust)] {
+            for garment in dressed.garments() {
+                if let Some(manner) = manner {
+                    let made = dressed.transfer(garment, manner, 2);
+                    println!("{name} {manner:?} {} {:?}", character.meshes[garment].name, made.fallback);
+                    character.meshes[garment].weights = made.weights;
+                }
+            }
+            dump(&character, &format!("/tmp/tr_out/qd_{manner:?}.json"));
+        }
+    }
+    // Subdivided twice.
+    for garment in dressed.garments() {
+        let (mut positions, mut triangles) = dressed.mesh(garment);
+        for _ in 0..2 {
+            let mut made = std::collections::BTreeMap::new();
+            let mut finer = Vec::new();
+            for &[a, b, c] in &triangles {
+                let mut middle = |one: u32, two: u32| {
+                    *made.entry((one.min(two), one.max(two))).or_insert_with(|| {
+                        positions.push((positions[one as usize] + positions[two as usize]) / 2.0);
+                        positions.len() as u32 - 1
+                    })
+                };
+                let [ab, bc, ca] = [middle(a, b), middle(b, c), middle(c, a)];
+                finer.extend([[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]);
+            }
+            triangles = finer;
+        }
+        for manner in [GarmentWeights::Nearest, GarmentWeights::Robust] {
+            for threads in [1, 2] {
+                let start = std::time::Instant::now();
+                let made = transfer_weights(&dressed.source(), &positions, &triangles, manner, threads);
+                println!(
+                    "{manner:?} {} vertices {threads} threads {:.3} s {:?}",
+                    positions.len(),
+                    start.elapsed().as_secs_f64(),
+                    made.fallback
+                );
+            }
+        }
     }
     let _ = rigid_weights;
+}
+
+fn dump(character: &Character, path: &str) {
+    let meshes: Vec<serde_json::Value> = character
+        .meshes
+        .iter()
+        .map(|m| {
+            serde_json::json!({
+                "name": m.name, "kind": format!("{:?}", m.kind),
+                "positions": m.positions.iter().map(|p| p.to_array()).collect::<Vec<_>>(),
+                "triangles": m.triangles,
+                "rows": m.weights.rows().map(|r| r.to_vec()).collect::<Vec<_>>(),
+            })
+        })
+        .collect();
+    let mut names: Vec<String> = character.skeleton.joints.iter().map(|j| j.name.clone()).collect();
+    for (role, joint) in character.humanoid.iter() {
+        names[joint] = role.name().to_string();
+    }
+    let joints: Vec<serde_json::Value> = character
+        .skeleton
+        .joints
+        .iter()
+        .zip(names)
+        .map(|(j, name)| serde_json::json!({"name": name, "parent": j.parent, "at": j.position().to_array()}))
+        .collect();
+    let map: std::collections::BTreeMap<String, String> = character
+        .humanoid
+        .iter()
+        .map(|(role, _)| (role.name().to_string(), role.name().to_string()))
+        .collect();
+    std::fs::write(path, serde_json::json!({"meshes": meshes, "joints": joints, "map": map}).to_string())
+        .unwrap();
 }
