@@ -36,6 +36,7 @@ fn measure() {
             body_is_whole(&layout, &kinds),
             warnings.len()
         );
+        println!("   named: whole {}", body_is_whole(&named, &guess_kinds(&named).0));
         for mesh in 0..kinds.len() {
             println!(
                 "    {:40} named {:?} -> {:?} -> {:?} {}",

@@ -217,3 +217,45 @@ fn dump(character: &Character, path: &str) {
     std::fs::write(path, serde_json::json!({"meshes": meshes, "joints": joints, "map": map}).to_string())
         .unwrap();
 }
+
+#[test]
+fn gown() {
+    let options = Options::default();
+    let style = style_of("kaykit_rogue.glb", &options);
+    let person = people::Person { skirt: true, blended: true, ..people::Person::adult() };
+    for (radius, low) in [(0.25, 0.1), (0.45, 0.1), (0.3, 0.5)] {
+        let mut character = person.build();
+        let skirt = character.meshes.iter().position(|m| m.name == "skirt").unwrap();
+        let top = 1.1f32;
+        // Stretch the skirt down to the ankles and wider.
+        let ys: Vec<f32> = character.meshes[skirt].positions.iter().map(|p| p.y).collect();
+        let (lo, hi) = ys.iter().fold((f32::MAX, f32::MIN), |(l, h), &y| (l.min(y), h.max(y)));
+        for p in &mut character.meshes[skirt].positions {
+            let t = (p.y - lo) / (hi - lo);
+            let y = low + (top - low) * t;
+            let r = radius + (0.145 - radius) * t;
+            let flat = glam::Vec2::new(p.x, p.z).normalize() * r;
+            *p = glam::Vec3::new(flat.x, y, flat.y);
+        }
+        let dressed = Dressed::new(&character);
+        for manner in [GarmentWeights::Nearest, GarmentWeights::Robust] {
+            let made = dressed.transfer(skirt, manner, 2);
+            println!("{radius} {low} {manner:?} {:?} of {}", made.fallback, made.weights.row_count());
+            let mut c = character.clone();
+            c.meshes[skirt].weights = made.weights;
+            dump(&c, &format!("/tmp/tr_out/gown_{radius}_{manner:?}.json"));
+            let deformer = Deformer::new(Arc::new(c.clone()), &style, &options).unwrap();
+            let deformed = deformer.apply();
+            let low = |m: usize| deformed.meshes[m].positions.iter().map(|p| p.y).fold(f32::MAX, f32::min);
+            println!("   after: body lowest {} skirt lowest {}", low(0), low(skirt));
+            let mut after = c.clone();
+            for (m, d) in after.meshes.iter_mut().zip(&deformed.meshes) {
+                m.positions = d.positions.clone();
+            }
+            for (j, at) in after.skeleton.joints.iter_mut().zip(&deformed.joints) {
+                j.rest = glam::DMat4::from_translation(*at);
+            }
+            dump(&after, &format!("/tmp/tr_out/gownsd_{radius}_{manner:?}.json"));
+        }
+    }
+}

@@ -6,15 +6,19 @@
 use super::{FoundJoint, Layout};
 use crate::character::{MeshKind, Role};
 use crate::error::Warning;
-use crate::geometry::{Hit, Surface};
+use crate::geometry::{Hit, Surface, weld};
 use glam::DVec3;
-use std::collections::BTreeMap;
+use std::cmp::Reverse;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Points on all meshes together, and least and most on one.
 const SAMPLES: (usize, usize, usize) = (12_000, 24, 400);
 
 /// What is as near as this, in heights, lies on the same spot.
 const SAME_SPOT: f64 = 1e-4;
+
+/// Borders this near are one, in heights.
+const SEAM: f64 = 1e-5;
 
 /// Cloth lies over what its inward ray meets within this distance, in heights: a wide skirt, but not an arm over a leg.
 const LAYER_REACH: f64 = 0.12;
@@ -30,6 +34,18 @@ const LAYER_SHARE: f64 = 0.5;
 
 /// A mesh of which this share lies within others is something in their inside.
 const ENCLOSED_SHARE: f64 = 0.3;
+
+/// A mesh of which this share lies over another one covers it.
+const COVER_SHARE: f64 = 0.15;
+
+/// A mesh of whose border this share is another mesh's border too goes on where that one ends.
+const SEAM_SHARE: f64 = 0.5;
+
+/// A mesh that makes a body whole adds at least as many slices.
+const LEAST_GAIN: usize = 3;
+
+/// What is no further from skin and clothes than this, in heights, is worn; what sticks out further is a thing.
+const WORN: f64 = 0.03;
 
 /// A mesh that carries a limb is at least this long, in heights.
 const LIMB: f64 = 0.08;
@@ -114,35 +130,45 @@ pub fn body_is_whole(layout: &Layout, kinds: &[MeshKind]) -> bool {
 /// True where those meshes that `part` accepts show in nearly all slices in which those that `whole` accepts do.
 fn reaches_over(layout: &Layout, part: &dyn Fn(usize) -> bool, whole: &dyn Fn(usize) -> bool) -> bool {
     let (part, whole) = (slices(layout, part), slices(layout, whole));
-    // Trunk and legs, and each arm for itself.
-    part.iter().zip(&whole).all(|(part, whole)| {
-        let shown = whole.iter().filter(|&&shown| shown).count();
-        let both = part.iter().zip(whole).filter(|&(&part, &whole)| part && whole).count();
-        both as f64 >= WHOLE_SHARE * shown as f64
-    }) && part[0].iter().any(|&shown| shown)
+    // Each side's half of the trunk and leg, and each arm for itself.
+    let shows = part.iter().flatten().any(|&shown| shown);
+    shows
+        && part.iter().zip(&whole).all(|(part, whole)| {
+            let shown = whole.iter().filter(|&&shown| shown).count();
+            let both = part.iter().zip(whole).filter(|&(&part, &whole)| part && whole).count();
+            both as f64 >= WHOLE_SHARE * shown as f64
+        })
 }
 
-/// Where triangles are: slices along the height near the middle, and along x to the right and to the left of it.
-fn slices(layout: &Layout, choose: &dyn Fn(usize) -> bool) -> [Vec<bool>; 3] {
+/// Where triangles are: slices along the height near the middle, and along x beyond; right, then left.
+type Slices = [[bool; SLICES]; 4];
+
+fn slices(layout: &Layout, choose: &dyn Fn(usize) -> bool) -> Slices {
     let widest = layout.positions.iter().map(|p| p.x.abs()).fold(0.0, f64::max);
-    let mut shown = [vec![false; SLICES], vec![false; SLICES], vec![false; SLICES]];
+    let arm = widest - TRUNK_HALF_WIDTH;
+    let mut shown = [[false; SLICES]; 4];
     let slice = |share: f64| ((share * SLICES as f64).max(0.0) as usize).min(SLICES - 1);
     for corners in layout.triangles_where(choose) {
         let corners = corners.map(|vertex| layout.positions[vertex as usize]);
         let low = corners.into_iter().fold(DVec3::INFINITY, DVec3::min);
         let high = corners.into_iter().fold(DVec3::NEG_INFINITY, DVec3::max);
-        if low.x <= TRUNK_HALF_WIDTH && high.x >= -TRUNK_HALF_WIDTH {
-            shown[0][slice(low.y)..=slice(high.y)].fill(true);
-        }
-        let reach = widest - TRUNK_HALF_WIDTH;
         for (side, (from, to)) in [(-high.x, -low.x), (low.x, high.x)].into_iter().enumerate() {
-            if to > TRUNK_HALF_WIDTH && reach > 0.0 {
-                let from = slice((from - TRUNK_HALF_WIDTH) / reach);
-                shown[side + 1][from..=slice((to - TRUNK_HALF_WIDTH) / reach)].fill(true);
+            if to >= 0.0 && from <= TRUNK_HALF_WIDTH {
+                shown[side][slice(low.y)..=slice(high.y).max(slice(low.y))].fill(true);
+            }
+            // A trunk that is wider than usual is no arm.
+            if to > TRUNK_HALF_WIDTH && arm > 0.05 {
+                let from = slice((from - TRUNK_HALF_WIDTH) / arm);
+                shown[side + 2][from..=slice((to - TRUNK_HALF_WIDTH) / arm).max(from)].fill(true);
             }
         }
     }
     shown
+}
+
+/// In how many slices there is something.
+fn shown_count(slices: &Slices) -> usize {
+    slices.iter().flatten().filter(|&&shown| shown).count()
 }
 
 fn warning(layout: &Layout, kinds: &[MeshKind], meshes: &[usize]) -> Vec<Warning> {
@@ -292,7 +318,14 @@ impl<'a> Scene<'a> {
     /// The share of a mesh that lies within others larger than itself.
     fn enclosed_share(&self, mesh: usize) -> f64 {
         let facts = &self.facts[mesh];
-        facts.share(|sample| sample.within.is_some_and(|around| self.facts[around].area > facts.area))
+        // What lies over this mesh does not enclose it: skin is below clothes, not inside them.
+        let lies_over = |around: usize| {
+            self.facts[around].share(|sample| sample.over == Some(mesh)) >= COVER_SHARE
+        };
+        let encloses: Vec<bool> = (0..self.facts.len())
+            .map(|around| self.facts[around].area > facts.area && !lies_over(around))
+            .collect();
+        facts.share(|sample| sample.within.is_some_and(|around| encloses[around]))
     }
 
     /// Kinds of all meshes, where the head's joint is known or not.
@@ -323,25 +356,29 @@ impl<'a> Scene<'a> {
             .map(|(kind, facts)| *kind == Some(MeshKind::Body) && !facts.samples.is_empty())
             .collect();
         if !is_body.contains(&true) {
-            match volumes.first() {
-                Some(&largest) => is_body[largest] = true,
-                // Everything lies over something: the largest carries the rest.
-                None => {
-                    let largest = (0..count)
-                        .filter(|&mesh| is_open(&guesses, mesh))
-                        .max_by(|&a, &b| self.facts[a].area.total_cmp(&self.facts[b].area).then(b.cmp(&a)));
-                    if let Some(largest) = largest {
-                        is_body[largest] = true;
-                    }
-                }
+            // Where everything lies over something, the one that reaches furthest carries the rest.
+            let open: Vec<usize> = (0..count).filter(|&mesh| guesses[mesh].is_none()).collect();
+            let choice = if volumes.is_empty() { &open } else { &volumes };
+            let reach = |mesh: usize| shown_count(&slices(layout, &|other| other == mesh));
+            let reaches: Vec<(usize, usize)> = choice.iter().map(|&mesh| (reach(mesh), mesh)).collect();
+            let furthest = reaches.iter().max_by(|a, b| {
+                let area = |mesh: usize| self.facts[mesh].area;
+                a.0.cmp(&b.0).then(area(a.1).total_cmp(&area(b.1))).then(b.1.cmp(&a.1))
+            });
+            if let Some(&(_, furthest)) = furthest {
+                is_body[furthest] = true;
             }
         }
-        let chin = head.map_or_else(|| self.chin(&is_body, &volumes), |head| head.y);
-        let region = self.head_region(chin, head);
-        self.grow_body(&mut is_body, &volumes, &region);
+        let first = is_body.clone();
+        let seams = self.seams();
+        self.join_seams(&mut is_body, &seams);
+        // The head's joint lies between the chin and the middle of the head.
+        let chin = self.chin(&is_body, &volumes);
+        let chin = head.map_or(chin, |head| chin.min(head.y).max(head.y - 0.35 * (1.0 - head.y).max(0.0)));
+        let region = self.head_region(chin, head, &is_body);
+        self.grow_body(&mut is_body, &volumes, &region, &seams);
         for mesh in (0..count).filter(|&mesh| is_body[mesh]) {
-            let alone = volumes.first() == Some(&mesh);
-            guesses[mesh].get_or_insert(Guess { kind: MeshKind::Body, sure: alone });
+            guesses[mesh].get_or_insert(Guess { kind: MeshKind::Body, sure: first[mesh] });
         }
 
         for mesh in 0..count {
@@ -355,9 +392,61 @@ impl<'a> Scene<'a> {
             .collect()
     }
 
-    /// Adds volumes to the body as long as it is not whole: what touches it, has its like on the other side and is no
-    /// thing in front of or behind the trunk.
-    fn grow_body(&self, is_body: &mut [bool], volumes: &[usize], region: &HeadRegion) {
+    /// For each mesh those whose border a good part of its own border is.
+    fn seams(&self) -> Vec<Vec<usize>> {
+        let layout = self.layout;
+        let welded = weld(&layout.positions, SEAM);
+        // Edges that one triangle of a mesh has.
+        let borders: Vec<BTreeSet<u32>> = (0..layout.mesh_count())
+            .map(|mesh| {
+                let triangles = layout.triangles_of(mesh).iter().map(|&corners| welded.triangle(corners));
+                let mut edges: Vec<(u32, u32)> = triangles
+                    .flat_map(|[a, b, c]| [(a, b), (b, c), (c, a)])
+                    .map(|(one, two)| (one.min(two), one.max(two)))
+                    .collect();
+                edges.sort_unstable();
+                let single = edges.chunk_by(|a, b| a == b).filter(|same| same.len() == 1);
+                single.flat_map(|same| [same[0].0, same[0].1]).collect()
+            })
+            .collect();
+        let mut meshes_at: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
+        for (mesh, border) in borders.iter().enumerate() {
+            for &vertex in border {
+                meshes_at.entry(vertex).or_default().push(mesh);
+            }
+        }
+        borders
+            .iter()
+            .enumerate()
+            .map(|(mesh, border)| {
+                let mut shared: BTreeMap<usize, usize> = BTreeMap::new();
+                for other in border.iter().flat_map(|vertex| &meshes_at[vertex]).filter(|&&o| o != mesh) {
+                    *shared.entry(*other).or_default() += 1;
+                }
+                let most = SEAM_SHARE * border.len() as f64;
+                shared.into_iter().filter(|&(_, count)| count as f64 >= most).map(|(other, _)| other).collect()
+            })
+            .collect()
+    }
+
+    /// Adds to the body what goes on where it ends: one skin of several materials.
+    fn join_seams(&self, is_body: &mut [bool], seams: &[Vec<usize>]) {
+        let mut changed = true;
+        while changed {
+            changed = false;
+            for mesh in 0..is_body.len() {
+                let joins = seams[mesh].iter().any(|&other| is_body[other]);
+                if !is_body[mesh] && joins && self.layout.kinds[mesh].is_none() {
+                    is_body[mesh] = true;
+                    changed = true;
+                }
+            }
+        }
+    }
+
+    /// Adds volumes to the body as long as it is not whole: what touches it, has its like on the other side, is no
+    /// thing in front of or behind the trunk, and shows where the body does not; what adds most comes first.
+    fn grow_body(&self, is_body: &mut [bool], volumes: &[usize], region: &HeadRegion, seams: &[Vec<usize>]) {
         let layout = self.layout;
         let of_figure = |mesh: usize| {
             volumes.contains(&mesh)
@@ -367,7 +456,7 @@ impl<'a> Scene<'a> {
         let like = |mesh: usize| volumes.contains(&mesh) || layout.kinds[mesh] == Some(MeshKind::Body);
         let all = Surface::new(&layout.positions, &layout.triangles_where(like));
         let axis = self.trunk_axis(is_body);
-        let candidates: Vec<usize> = volumes
+        let mut candidates: Vec<(usize, Slices)> = volumes
             .iter()
             .copied()
             .filter(|&mesh| {
@@ -376,36 +465,34 @@ impl<'a> Scene<'a> {
                     let mirrored = DVec3::new(-sample.point.x, sample.point.y, sample.point.z);
                     all.closest_point(mirrored).is_some_and(|near| near.distance <= PART_GAP)
                 });
-                let on_axis =
-                    facts.low.x > 0.0 || facts.high.x < 0.0 || (facts.low.z <= axis && facts.high.z >= axis);
+                let on_axis = facts.low.x > 0.0
+                    || facts.high.x < 0.0
+                    || (facts.low.z <= axis && facts.high.z >= axis);
                 let has_volume = facts.share(|sample| sample.volume) >= 0.4;
                 facts.extent() >= LIMB && mirrored >= 0.6 && on_axis && has_volume
             })
             .filter(|&mesh| !region.is_on_face(&self.facts[mesh]))
+            .map(|mesh| (mesh, slices(layout, &|other| other == mesh)))
             .collect();
-        loop {
-            if reaches_over(layout, &|mesh| is_body[mesh], &of_figure) {
-                return;
-            }
+        while !reaches_over(layout, &|mesh| is_body[mesh], &of_figure) {
             let body = Surface::new(&layout.positions, &layout.triangles_where(|mesh| is_body[mesh]));
-            let touching: Vec<usize> = candidates
-                .iter()
-                .copied()
-                .filter(|&mesh| !is_body[mesh])
-                .filter(|&mesh| {
-                    let vertices = layout.triangles_of(mesh).iter().flatten();
-                    let mut near = vertices
-                        .filter_map(|&vertex| body.closest_point(layout.positions[vertex as usize]))
-                        .map(|near| near.distance);
-                    near.any(|distance| distance <= PART_GAP)
-                })
-                .collect();
-            if touching.is_empty() {
+            let shown = slices(layout, &|mesh| is_body[mesh]);
+            let gain = |of: &Slices| {
+                of.iter().flatten().zip(shown.iter().flatten()).filter(|&(&new, &old)| new && !old).count()
+            };
+            candidates.retain(|(mesh, of)| !is_body[*mesh] && gain(of) >= LEAST_GAIN);
+            candidates.sort_by_key(|(mesh, of)| (Reverse(gain(of)), *mesh));
+            let touches = |mesh: usize| {
+                let vertices = layout.triangles_of(mesh).iter().flatten();
+                let mut near =
+                    vertices.filter_map(|&vertex| body.closest_point(layout.positions[vertex as usize]));
+                near.any(|near| near.distance <= PART_GAP)
+            };
+            let Some(&(mesh, _)) = candidates.iter().find(|(mesh, _)| touches(*mesh)) else {
                 return;
-            }
-            for mesh in touching {
-                is_body[mesh] = true;
-            }
+            };
+            is_body[mesh] = true;
+            self.join_seams(is_body, seams);
         }
     }
 
@@ -424,14 +511,16 @@ impl<'a> Scene<'a> {
     /// The chin's height: the narrowest place between the head and the first slice from above that is much wider.
     fn chin(&self, is_body: &[bool], volumes: &[usize]) -> f64 {
         let mut widths = [0.0f64; 2 * SLICES];
-        let slice = |y: f64| ((y * widths.len() as f64).max(0.0) as usize).min(2 * SLICES - 1);
-        let places: Vec<(usize, f64)> = (0..is_body.len())
-            .filter(|mesh| is_body[*mesh] || volumes.contains(mesh))
-            .flat_map(|mesh| &self.facts[mesh].samples)
-            .map(|sample| (slice(sample.point.y), sample.point.x.abs()))
-            .collect();
-        for (slice, width) in places {
-            widths[slice] = widths[slice].max(width);
+        let count = widths.len();
+        let slice = |y: f64| ((y * count as f64).max(0.0) as usize).min(count - 1);
+        let layout = self.layout;
+        for corners in layout.triangles_where(|mesh| is_body[mesh] || volumes.contains(&mesh)) {
+            let corners = corners.map(|vertex| layout.positions[vertex as usize]);
+            let heights = corners.map(|p| slice(p.y));
+            let low = heights.into_iter().fold(usize::MAX, usize::min);
+            let high = heights.into_iter().fold(0, usize::max);
+            let width = corners.into_iter().map(|p| p.x.abs()).fold(0.0, f64::max);
+            widths[low..=high].iter_mut().for_each(|widest| *widest = widest.max(width));
         }
         let top_down: Vec<(usize, f64)> =
             (0..widths.len()).rev().map(|slice| (slice, widths[slice])).collect();
@@ -450,40 +539,59 @@ impl<'a> Scene<'a> {
         CHIN
     }
 
-    fn head_region(&self, chin: f64, head: Option<DVec3>) -> HeadRegion {
-        let above = self.facts.iter().flat_map(|facts| &facts.samples).filter(|sample| sample.point.y > chin);
-        let mut depths: Vec<f64> = above.map(|sample| sample.point.z).collect();
-        depths.sort_by(f64::total_cmp);
-        let middle = depths.get(depths.len() / 2).copied().unwrap_or(0.0);
-        HeadRegion {
-            chin,
-            middle: head.map_or(middle, |head| head.z.max(middle)),
-            length: (1.0 - chin).max(0.05),
-        }
+    fn head_region(&self, chin: f64, head: Option<DVec3>, is_body: &[bool]) -> HeadRegion {
+        let skin = self.layout.triangles_where(|mesh| is_body[mesh]);
+        let points = skin.iter().flatten().map(|&vertex| self.layout.positions[vertex as usize]);
+        let (low, high) = points
+            .filter(|p| p.y > chin)
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| (low.min(p.z), high.max(p.z)));
+        let middle = if low <= high { (low + high) / 2.0 } else { 0.0 };
+        HeadRegion { chin, middle: head.map_or(middle, |head| head.z), length: (1.0 - chin).max(0.05) }
     }
 
     /// What a mesh is that is not body.
     fn guess_other(&self, mesh: usize, is_body: &[bool], region: &HeadRegion) -> Guess {
         let facts = &self.facts[mesh];
         let layer = self.layer_share(mesh);
-        let over_body = facts.share(|sample| sample.over.is_some_and(|below| is_body[below]));
         let above = facts.share(|sample| sample.point.y > region.chin);
         let doubtful = |share: f64, limit: f64| (share - limit).abs() < DOUBT;
-        if region.is_on_face(facts) {
-            return Guess { kind: MeshKind::FacePart, sure: self.enclosed_share(mesh) >= ENCLOSED_SHARE };
+        let inside = self.enclosed_share(mesh) >= ENCLOSED_SHARE;
+        // Teeth reach below the chin's height where that is the head joint's.
+        let at_head = facts.middle().y > region.chin - 0.25 * region.length;
+        if region.is_on_face(facts) || (inside && at_head && facts.extent() <= 0.8 * region.length) {
+            return Guess { kind: MeshKind::FacePart, sure: inside };
+        }
+        // A head of its own: round the head's axis, with nothing below.
+        let on_axis = facts.low.x < 0.0
+            && facts.high.x > 0.0
+            && facts.low.z < region.middle
+            && facts.high.z > region.middle;
+        let volume = facts.share(|sample| sample.volume);
+        if above >= 0.8 && layer < 0.3 && volume >= 0.6 && on_axis && facts.extent() >= 0.5 * region.length {
+            return Guess { kind: MeshKind::Body, sure: false };
         }
         if above >= HAIR_SHARE && facts.high.y > region.chin + 0.5 * region.length {
-            return Guess {
-                kind: MeshKind::Hair,
-                sure: layer >= LAYER_SHARE && !doubtful(above, HAIR_SHARE),
-            };
+            return Guess { kind: MeshKind::Hair, sure: layer >= LAYER_SHARE && !doubtful(above, HAIR_SHARE) };
         }
-        if layer.max(over_body) >= LAYER_SHARE {
+        if layer >= LAYER_SHARE {
             return Guess { kind: MeshKind::Garment, sure: !doubtful(layer, LAYER_SHARE) };
         }
-        // Wide cloth, such as a cape or a skirt, is open and large; a thing is closed, or small.
-        let sheet = facts.share(|sample| !sample.volume);
-        let kind = if over_body >= 0.2 && (sheet >= 0.5 || facts.extent() >= 0.25) {
+        // How far it sticks out from what is below, and where it begins.
+        let around = |other: usize| other != mesh && (is_body[other] || self.facts[other].area > facts.area);
+        let rest = Surface::new(&self.layout.positions, &self.layout.triangles_where(around));
+        let distances: Vec<(f64, f64)> = facts
+            .samples
+            .iter()
+            .filter_map(|sample| Some((rest.closest_point(sample.point)?.distance, sample.point.y)))
+            .collect();
+        let furthest = distances.iter().map(|&(distance, _)| distance).fold(0.0, f64::max);
+        let nearest = distances.iter().min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
+        let from_head = nearest.is_some_and(|&(_, height)| height > region.chin);
+        let over_body = facts.share(|sample| sample.over.is_some_and(|below| is_body[below]));
+        let kind = if from_head && facts.extent() >= 0.5 * region.length {
+            MeshKind::Hair
+        } else if furthest <= WORN || (over_body >= 0.2 && volume <= 0.5) {
+            // Wide cloth, such as a cape, is an open sheet; a thing is closed.
             MeshKind::Garment
         } else {
             MeshKind::Accessory
@@ -508,7 +616,7 @@ impl HeadRegion {
         middle.y > self.chin
             && facts.low.y > self.chin - 0.1 * self.length
             && middle.z > self.middle
-            && size.y <= 0.45 * self.length
+            && size.y <= 0.55 * self.length
             && size.max_element() <= 0.8 * self.length
             && middle.y < self.chin + 0.85 * self.length
     }
