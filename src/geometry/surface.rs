@@ -232,6 +232,45 @@ impl Surface {
         })
     }
 
+    /// Fills `found` with the closest point of every triangle within `reach` of `p`, nearest first, by triangle where
+    /// they are equally near; empty for an empty surface.
+    pub fn points_within(&self, p: DVec3, reach: f64, found: &mut Vec<Closest>) {
+        found.clear();
+        if self.is_empty() || !p.is_finite() {
+            return;
+        }
+        let p = (p - self.centre) * self.scale;
+        let limit = reach * self.scale;
+        let mut stack = Stack::new();
+        stack.push((0, 0.0));
+        while let Some((index, _)) = stack.pop() {
+            let node = &self.nodes[index as usize];
+            let (low, high) = bounds(node);
+            if p.distance_squared(p.clamp(low, high)) > limit * limit {
+                continue;
+            }
+            let first = node.first_index;
+            if !node.is_leaf() {
+                stack.push((first, 0.0));
+                stack.push((first + 1, 0.0));
+                continue;
+            }
+            for slot in first..first + node.prim_count {
+                let (point, barycentric) = closest_on_triangle(p, &self.corners[slot as usize]);
+                let distance = p.distance(point);
+                if distance <= limit {
+                    found.push(Closest {
+                        point: point / self.scale + self.centre,
+                        distance: distance / self.scale,
+                        triangle: self.triangles[slot as usize] as usize,
+                        barycentric,
+                    });
+                }
+            }
+        }
+        found.sort_unstable_by(|a, b| a.distance.total_cmp(&b.distance).then(a.triangle.cmp(&b.triangle)));
+    }
+
     /// Calls `visit` for every hit with `0 <= t <= t_max`, where `visit` returns the new `t_max`; nearer boxes first, or
     /// further ones first, as `order` says.
     fn for_each_hit(
