@@ -34,6 +34,41 @@ impl Bone {
         let feet = self.segments.iter().map(|&[a, b]| foot(p, a, b).0);
         feet.min_by(|one, other| one.distance_squared(p).total_cmp(&other.distance_squared(p))).unwrap_or(p)
     }
+
+    /// The length of the longest segment.
+    pub fn length(&self) -> f64 {
+        self.segments.iter().map(|[a, b]| a.distance(*b)).fold(0.0, f64::max)
+    }
+
+    /// How far the volume reaches around the longest segment, in voxels: the median over directions at right angles to
+    /// it, at least; 0 where it is out of the volume or has no length.
+    pub fn thickness(&self, volume: &Volume) -> f64 {
+        let longest = |one: &&[DVec3; 2], other: &&[DVec3; 2]| {
+            one[0].distance(one[1]).total_cmp(&other[0].distance(other[1]))
+        };
+        let Some(&[a, b]) = self.segments.iter().max_by(longest) else {
+            return 0.0;
+        };
+        if a.distance(b) <= SAME {
+            return 0.0;
+        }
+        let mut reaches = Vec::new();
+        for offset in neighbourhood() {
+            let direction = offset.as_dvec3().reject_from_normalized((b - a).normalize()).normalize_or_zero();
+            if direction == DVec3::ZERO {
+                continue;
+            }
+            for t in [0.25, 0.5, 0.75] {
+                let from = a.lerp(b, t);
+                let steps =
+                    (0..).take_while(|&step| is_in(volume, from + direction * f64::from(step) / SAMPLES));
+                // A voxel is in the volume where its corner is touched: a voxel less is enclosed for certain.
+                reaches.push((steps.count() as f64 / SAMPLES - 1.0).max(0.0));
+            }
+        }
+        reaches.sort_by(f64::total_cmp);
+        reaches[reaches.len() / 2]
+    }
 }
 
 /// The bones in voxels, each with at least one voxel to start from; `volume` has at least one.

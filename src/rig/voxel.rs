@@ -80,7 +80,27 @@ pub fn voxel_weights(
     let points: Vec<DVec3> = positions.iter().map(|&p| volume.to_grid(p)).collect();
     let slots: Vec<u32> = points.iter().map(|&p| volume.slot(nearest(p))).collect();
     let rows = distance_rows(&paths, &bones, &points, &slots, &profile, options.thread_count);
-    let radii = radii(&points, triangles, &rows, bones.len());
+    let mut radii = radii(&points, triangles, &rows, bones.len());
+    for (radius, bone) in radii.iter_mut().zip(&bones) {
+        // Folds inside the body are no limb's surface; so what is filled around the bone counts as well.
+        *radius = radius.max(bone.thickness(&volume));
+        // Blended over more than half its length, a bone would nowhere move what is its own.
+        if bone.length() > 0.0 {
+            *radius = radius.min(bone.length() / 2.0);
+        }
+        *radius = radius.max(LEAST_RADIUS);
+    }
+    if std::env::var_os("SHOW").is_some() {
+        for (b, bone) in bones.iter().enumerate() {
+            println!(
+                "joint {} R {:.4} length {:?} starts {}",
+                joints[b],
+                radii[b] * volume.edge,
+                bone.segments.iter().map(|[a, b]| a.distance(*b) * volume.edge).collect::<Vec<_>>(),
+                bone.starts.len()
+            );
+        }
+    }
     let weigh = |vertex: usize| -> Vec<(u32, f32)> {
         let row = rows.of(vertex);
         let mut weights: Vec<(u32, f32)> = Vec::with_capacity(row.len());
@@ -209,7 +229,8 @@ fn distance_at(volume: &Volume, distances: &Distances, bone: &Bone, p: DVec3) ->
     (sum / total) as f32
 }
 
-/// For each bone how far away, in voxels, the surface is on which it is the nearest: the mean over the area.
+/// For each bone how far away, in voxels, the surface is on which it is the nearest: the median over the area as seen from
+/// the bone, so that neither a wing nor a joint under the skin counts for more than the limb itself.
 fn radii(points: &[DVec3], triangles: &[[u32; 3]], rows: &Rows, bone_count: usize) -> Vec<f64> {
     let mut areas = vec![0.0; points.len()];
     for triangle in triangles {
@@ -221,19 +242,31 @@ fn radii(points: &[DVec3], triangles: &[[u32; 3]], rows: &Rows, bone_count: usiz
     }
     // Where nothing has an area, vertices count alike.
     let least = 1e-9 * areas.iter().sum::<f64>().max(1e-9) / points.len() as f64;
-    let mut sums = vec![(0.0, 0.0); bone_count];
+    let mut samples: Vec<Vec<(f32, f64)>> = vec![Vec::new(); bone_count];
     for (vertex, area) in areas.iter().enumerate() {
         let row = rows.of(vertex);
         let nearest = nearest_length(row);
         for &(bone, length) in row {
-            let share = (area + least) * ownership(nearest, f64::from(length));
-            sums[bone as usize].0 += share * f64::from(length);
-            sums[bone as usize].1 += share;
+            // Seen from the bone an area is the smaller the further away it is; a voxel away, it fills the view.
+            let view = (area + least) / (1.0 + f64::from(length)).powi(2);
+            samples[bone as usize].push((length, view * ownership(nearest, f64::from(length))));
         }
     }
-    let mean =
-        |(sum, total): (f64, f64)| if total > 0.0 { (sum / total).max(LEAST_RADIUS) } else { LEAST_RADIUS };
-    sums.into_iter().map(mean).collect()
+    samples.into_iter().map(median).collect()
+}
+
+/// The length that half of the shares lie below; 0 where there is none.
+fn median(mut samples: Vec<(f32, f64)>) -> f64 {
+    samples.sort_by(|one, other| one.0.total_cmp(&other.0).then(one.1.total_cmp(&other.1)));
+    let half = samples.iter().map(|(_, share)| share).sum::<f64>() / 2.0;
+    let mut below = 0.0;
+    for (length, share) in samples {
+        below += share;
+        if below >= half {
+            return f64::from(length);
+        }
+    }
+    0.0
 }
 
 fn nearest_length(row: &[(u32, f32)]) -> f64 {
@@ -295,8 +328,9 @@ impl Profile {
         }
         let own = sum / total;
         // A transition is as wide as the thinner of the two limbs: a head as large as a trunk begins at a thin neck.
-        // Far from every bone, on the hem of a skirt, it is wider as the distance is greater.
-        let spread = (nearest / own).max(1.0);
+        // Far from every bone it is wider, by so much that weights stay what they are along a thing whose only way to all
+        // bones leads through one place: there the distances differ by a constant c, and the lag is sqrt(2 c d) / radius.
+        let spread = (nearest / own).max(1.0).sqrt();
         let share = move |&(bone, length): &(u32, f32)| {
             let radius = radii[bone as usize].min(own) * spread;
             (bone, self.share(nearest, f64::from(length), radius))
