@@ -51,6 +51,11 @@ fn cotangents([a, b, c]: [DVec3; 3]) -> Option<([f64; 3], f64)> {
     Some((cotangents.map(|x| x * (LARGEST_COTANGENT / largest)), 0.5 * double_area))
 }
 
+/// Whether a triangle has an area, as far as the Laplacian can tell.
+pub fn has_area(corners: [DVec3; 3]) -> bool {
+    cotangents(corners).is_some()
+}
+
 /// The positive semi-definite cotangent Laplacian of `triangles` over `positions`.
 ///
 /// Triangles without an area (or with corners that coincide) are left out. Edges may have any number of triangles. All

@@ -655,8 +655,3 @@ fn points_on(layout: &Layout, mesh: usize, count: usize) -> Vec<(DVec3, DVec3)> 
     points.retain(|&(_, normal)| normal != DVec3::ZERO);
     points
 }
-
-/// True where the meshes of kind body alone make a whole figure.
-pub fn body_is_whole(_layout: &Layout, _kinds: &[MeshKind]) -> bool {
-    unimplemented!()
-}

@@ -785,8 +785,3 @@ impl EdgeWeights {
         self.sums[vertex]
     }
 }
-
-/// Weights of a thing that keeps its shape.
-pub fn rigid_weights(_source: &Source, _positions: &[DVec3], _triangles: &[[u32; 3]]) -> Weighted {
-    unimplemented!()
-}
