@@ -8,7 +8,7 @@ use crate::parallel;
 use crate::report::RigReport;
 use crate::rig::eyes::{Eye, find_eyes};
 use crate::rig::facing::find_forward;
-use crate::rig::heat::{HeatOptions, heat_weights};
+use crate::rig::heat::HeatSystem;
 use crate::rig::joints::find_joints;
 use crate::rig::kinds::{body_is_whole, guess_kinds, refine_kinds};
 use crate::rig::skeleton::{skeleton_of, weight_bones};
@@ -88,7 +88,10 @@ impl Rig {
         let mut binder = Binder::new(&layout, &kinds, &bones, &humanoid, &eyes, options);
         warnings.append(&mut binder.warnings);
         let (weights, fallback) = binder.weights(options.heat);
-        let (skin_weights, _) = binder.weights(SKIN_HEAT.max(options.heat));
+        let skin_weights = match binder.rule {
+            BodyRule::Heat(_) => binder.weights(SKIN_HEAT.max(options.heat)).0,
+            BodyRule::Volume(_) => weights.clone(),
+        };
 
         let in_model = at.iter().map(|(&role, &p)| (role, layout.to_model(p))).collect();
         let (skeleton, humanoid) = skeleton_of(&in_model);
@@ -100,7 +103,10 @@ impl Rig {
             kinds,
             weights,
             skin_weights,
-            method: binder.method,
+            method: match binder.rule {
+                BodyRule::Heat(_) => WeightMethod::Heat,
+                BodyRule::Volume(_) => WeightMethod::Volume,
+            },
             fallback,
             warnings,
             timing_ms: [joint_time, binder.body_time, binder.garment_time],
@@ -232,10 +238,16 @@ impl Group {
     }
 }
 
+/// What gives the body its weights.
+enum BodyRule {
+    Heat(HeatSystem),
+    /// The volume knows no heat: its weights are the same for every one.
+    Volume(Weighted),
+}
+
 /// What decides the weights of every mesh, as far as it does not depend on the heat.
 struct Binder<'a> {
     layout: &'a Layout,
-    bones: &'a [WeightBone],
     head: Option<u32>,
     eyes: &'a [Eye],
     eye_joints: Vec<Option<u32>>,
@@ -244,7 +256,7 @@ struct Binder<'a> {
     garments: Vec<Group>,
     accessories: Vec<Group>,
     of_head: Vec<usize>,
-    method: WeightMethod,
+    rule: BodyRule,
     warnings: Vec<Warning>,
     body_time: f64,
     garment_time: f64,
@@ -254,7 +266,7 @@ impl<'a> Binder<'a> {
     fn new(
         layout: &'a Layout,
         kinds: &[MeshKind],
-        bones: &'a [WeightBone],
+        bones: &[WeightBone],
         humanoid: &Humanoid,
         eyes: &'a [Eye],
         options: &'a RigOptions,
@@ -295,13 +307,24 @@ impl<'a> Binder<'a> {
             },
             method => method,
         };
+        let threads = options.thread_count;
+        let rule = match method {
+            WeightMethod::Volume => {
+                let options = VoxelOptions {
+                    resolution: options.voxel_resolution,
+                    falloff: VOXEL_FALLOFF,
+                    thread_count: threads,
+                };
+                BodyRule::Volume(voxel_weights(&body.positions, &body.triangles, bones, &options))
+            }
+            _ => BodyRule::Heat(HeatSystem::new(&body.positions, &body.triangles, bones, threads)),
+        };
         let separate = |meshes: Vec<usize>| -> Vec<Group> {
             meshes.into_iter().map(|mesh| Group::new(layout, vec![mesh])).collect()
         };
         let joint = |role: Role| humanoid.joint(role).map(|joint| joint as u32);
         Self {
             layout,
-            bones,
             head: joint(Role::Head),
             eye_joints: eyes.iter().map(|eye| joint(eye.role)).collect(),
             eyes,
@@ -310,7 +333,7 @@ impl<'a> Binder<'a> {
             garments: separate(garments),
             accessories: separate(accessories),
             of_head,
-            method,
+            rule,
             warnings,
             body_time: milliseconds(clock),
             garment_time: 0.0,
@@ -328,21 +351,15 @@ impl<'a> Binder<'a> {
             }
         };
         let body = &self.body;
-        let of_body = match self.method {
-            WeightMethod::Volume => {
-                let options = VoxelOptions {
-                    resolution: self.options.voxel_resolution,
-                    falloff: VOXEL_FALLOFF,
-                    thread_count: threads,
-                };
-                voxel_weights(&body.positions, &body.triangles, self.bones, &options)
-            }
-            _ => {
-                let options = HeatOptions { heat, thread_count: threads };
-                heat_weights(&body.positions, &body.triangles, self.bones, &options)
+        let heated;
+        let of_body = match &self.rule {
+            BodyRule::Volume(weighted) => weighted,
+            BodyRule::Heat(system) => {
+                heated = system.weights(heat);
+                &heated
             }
         };
-        count(&of_body);
+        count(of_body);
         let mut weights = vec![Weights::default(); self.layout.mesh_count()];
         body.share(self.layout, &of_body.weights, &mut weights);
         self.body_time += milliseconds(clock);
