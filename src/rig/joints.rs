@@ -1,10 +1,46 @@
 //! A skeleton by ray casting (Lopez and Poirel, reference 12).
+//!
+//! Rays from the front give the silhouette and its depth. The gap between the legs is followed upwards to the crotch,
+//! the arms from the fingertips inwards to the armpits, the middle line upwards from the shoulders; each joint is then
+//! centred by the depths of the rays around it. What is not seen is placed by ratio, and said so.
 
+use super::arms::{Arm, find_arm};
+use super::legs::{Leg, Legs, Seen, find_legs, leg};
+use super::stance::Stance;
+use super::trunk::{HeadLine, head_line, middle_z};
 use super::{FoundJoint, Layout};
 use crate::character::Role;
 use crate::error::Warning;
+use crate::geometry::Surface;
 use glam::DVec3;
 use std::collections::BTreeMap;
+
+/// Hands are looked for above this part of the crotch's height.
+const HANDS_ABOVE: f64 = 0.75;
+/// An arm that reaches this much further than the other one is something else.
+const LONGER_ARM: f64 = 1.15;
+/// The hips lie above the hip joints by this part of the way to the neck, ...
+const HIPS_UP: f64 = 0.06;
+/// ... and spine and chest at these parts of the way from hips to neck.
+const SPINE_PART: f64 = 0.22;
+const CHEST_PART: f64 = 0.48;
+/// The neck joint lies at this part of the way from shoulder line to narrowest row.
+const NECK_PART: f64 = 0.8;
+/// The head joint lies over the chin by this part of the head's height.
+const HEAD_OVER_CHIN: f64 = 0.06;
+/// The clavicle begins at this part of the way from the middle to the shoulder joint.
+const CLAVICLE_PART: f64 = 0.3;
+/// Shoulder joints by ratio: height over the crotch as a part of what is above it, and distance from the axis.
+const SHOULDER_BY_RATIO: (f64, f64) = (0.62, 0.10);
+/// Joints whose sides agree to within this, after mirroring, are made each other's image.
+const AGREE: f64 = 0.012;
+/// Sides that differ by more than this are doubtful.
+const DIFFER: f64 = 0.04;
+
+/// Confidence of what a rule saw, of what rests on a doubtful reading, and of what a ratio gave.
+const SEEN: f64 = 0.8;
+const DOUBTFUL: f64 = 0.4;
+const RATIO: f64 = 0.2;
 
 /// What the rays found.
 #[derive(Clone, Debug, Default)]
@@ -25,10 +61,237 @@ pub struct FoundJoints {
 ///
 /// `given` joints (layout space) stay where they are, with confidence 1, and the rest is found around them.
 pub fn find_joints(
-    _layout: &Layout,
-    _given: &BTreeMap<Role, DVec3>,
-    _fingers: bool,
+    layout: &Layout,
+    given: &BTreeMap<Role, DVec3>,
+    fingers: bool,
     _thread_count: usize,
 ) -> FoundJoints {
-    unimplemented!()
+    let given: BTreeMap<Role, DVec3> =
+        given.iter().filter(|(_, at)| at.is_finite()).map(|(&role, &at)| (role, at)).collect();
+    let stance = Stance::of(layout);
+    let mut found = Search { stance: &stance, given: &given, found: FoundJoints::default() }.run();
+    if fingers {
+        add_fingers(layout, &stance, &mut found);
+    }
+    found
+}
+
+struct Search<'a> {
+    stance: &'a Stance<'a>,
+    given: &'a BTreeMap<Role, DVec3>,
+    found: FoundJoints,
+}
+
+/// The same role on the side asked for; `role` is a left one.
+fn on(left: bool, role: Role) -> Role {
+    if left { role } else { role.mirrored() }
+}
+
+impl Search<'_> {
+    fn run(mut self) -> FoundJoints {
+        let stance = self.stance;
+        let legs = find_legs(stance, 0.8 * stance.high);
+        let pair = [true, false].map(|left| {
+            let given = |role| self.given.get(&on(left, role)).copied();
+            leg(
+                stance,
+                &legs,
+                left,
+                given(Role::LeftUpperLeg),
+                given(Role::LeftLowerLeg),
+                given(Role::LeftFoot),
+            )
+        });
+        self.put_legs(&legs, pair);
+
+        let floor = HANDS_ABOVE * legs.crotch;
+        let reach = [true, false].map(|left| reach(stance, left, floor));
+        let most = LONGER_ARM * reach[0].min(reach[1]);
+        let arms = [true, false].map(|left| find_arm(stance, left, floor, most));
+        self.put_arms(&legs, arms);
+        let shoulder_line = 0.5 * (self.at(Role::LeftUpperArm).y + self.at(Role::RightUpperArm).y);
+        let line = head_line(stance, shoulder_line);
+        self.put_middle(&legs, &line, shoulder_line);
+        self.settle_sides();
+        for (&role, &position) in self.given {
+            if self.found.joints.contains_key(&role) {
+                self.found.joints.insert(role, FoundJoint { position, confidence: 1.0 });
+            }
+        }
+        self.found
+    }
+
+    fn at(&self, role: Role) -> DVec3 {
+        self.given.get(&role).copied().unwrap_or_else(|| self.found.joints[&role].position)
+    }
+
+    fn put(&mut self, role: Role, position: DVec3, confidence: f64) {
+        let position = if position.is_finite() { position } else { DVec3::ZERO };
+        self.found.joints.insert(role, FoundJoint { position, confidence });
+    }
+
+    fn warn(&mut self, sentence: &str) {
+        self.found.warnings.push(Warning::new("joint_by_ratio", sentence));
+    }
+
+    fn put_legs(&mut self, legs: &Legs, pair: [Leg; 2]) {
+        let confidence = match legs.seen {
+            Seen::Apart => SEEN,
+            Seen::Inside => 0.6,
+            Seen::No => RATIO,
+        };
+        if legs.seen == Seen::No {
+            self.warn("the legs were not seen apart: hip joints and knees placed by ratio");
+        }
+        if pair.iter().any(|leg| !leg.ankle_seen) {
+            self.warn("no slim place was seen above the feet: ankles placed by ratio");
+        }
+        for (left, leg) in [true, false].into_iter().zip(pair) {
+            let ankle = if leg.ankle_seen { confidence } else { confidence.min(0.55) };
+            self.put(on(left, Role::LeftUpperLeg), leg.hip, confidence);
+            self.put(on(left, Role::LeftLowerLeg), leg.knee, confidence);
+            self.put(on(left, Role::LeftFoot), leg.ankle, ankle);
+            self.put(on(left, Role::LeftToes), leg.toes, ankle);
+            self.found.tips.insert(on(left, Role::LeftToes), leg.tip);
+        }
+    }
+
+    fn put_arms(&mut self, legs: &Legs, arms: [Option<Arm>; 2]) {
+        let stance = self.stance;
+        if arms.iter().any(|arm| arm.as_ref().is_none_or(|arm| !arm.pit_seen)) {
+            self.warn("an arm was not seen to end at an armpit: shoulder joints and elbows placed by ratio");
+        } else if arms.iter().flatten().any(|arm| !arm.wrist_seen) {
+            self.warn("no slim place was seen before a hand: wrists placed by ratio");
+        }
+        for (left, arm) in [true, false].into_iter().zip(arms) {
+            let (joints, confidences) = match arm {
+                Some(arm) => {
+                    let base = if arm.pit_seen { SEEN } else { RATIO };
+                    let wrist = if arm.wrist_seen { base } else { base.min(DOUBTFUL) };
+                    ([arm.shoulder, arm.elbow, arm.wrist, arm.tip], [base, base.min(wrist + 0.2), wrist])
+                }
+                None => {
+                    let above = stance.high - legs.crotch;
+                    let y = legs.crotch + SHOULDER_BY_RATIO.0 * above;
+                    let joint = |distance: f64| stance.point(left, distance, y, middle_z(stance, y));
+                    let out = SHOULDER_BY_RATIO.1;
+                    ([joint(out), joint(out + 0.15), joint(out + 0.29), joint(out + 0.38)], [RATIO; 3])
+                }
+            };
+            for (index, role) in
+                [Role::LeftUpperArm, Role::LeftLowerArm, Role::LeftHand].into_iter().enumerate()
+            {
+                self.put(on(left, role), joints[index], confidences[index]);
+            }
+            self.found.tips.insert(on(left, Role::LeftHand), joints[3]);
+        }
+    }
+
+    fn put_middle(&mut self, legs: &Legs, line: &HeadLine, shoulder_line: f64) {
+        let stance = self.stance;
+        let on_axis = |y: f64| DVec3::new(stance.axis, y, middle_z(stance, y));
+        let hip_line = 0.5 * (self.at(Role::LeftUpperLeg).y + self.at(Role::RightUpperLeg).y);
+        // Each in its place, whatever was read.
+        let crown = line.crown;
+        let chin = line.chin.clamp(shoulder_line + 1e-3, crown.max(shoulder_line + 2e-3));
+        let neck =
+            (shoulder_line + NECK_PART * (line.neck - shoulder_line)).clamp(shoulder_line + 5e-4, chin);
+        let head = (chin + HEAD_OVER_CHIN * (crown - chin)).max(neck + 5e-4);
+        let hips = hip_line + HIPS_UP * (neck - hip_line);
+        let confidence = if line.neck_seen { 0.7 } else { DOUBTFUL };
+        let trunk = if legs.seen == Seen::No { DOUBTFUL } else { 0.7 };
+        if !line.neck_seen {
+            self.warn("no neck was seen between shoulders and head: neck and head placed by ratio");
+        }
+        for (role, y, confidence) in [
+            (Role::Hips, hips, trunk),
+            (Role::Spine, hips + SPINE_PART * (neck - hips), trunk),
+            (Role::Chest, hips + CHEST_PART * (neck - hips), trunk),
+            (Role::Neck, neck, confidence),
+            (Role::Head, head, confidence),
+        ] {
+            self.put(role, on_axis(y), confidence);
+        }
+        for left in [true, false] {
+            let arm = self.at(on(left, Role::LeftUpperArm));
+            let middle = on_axis(shoulder_line);
+            let at = middle.lerp(arm, CLAVICLE_PART).with_y(arm.y + 0.3 * (neck - shoulder_line));
+            let confidence = self.found.joints[&on(left, Role::LeftUpperArm)].confidence;
+            self.put(on(left, Role::LeftShoulder), at, confidence);
+        }
+        self.found.chin = DVec3::new(stance.axis, chin, line.chin_z);
+        self.found.tips.insert(Role::Head, on_axis(crown).with_z(middle_z(stance, crown - 0.02)));
+    }
+
+    /// Sides that agree become each other's image; sides that do not are doubtful.
+    fn settle_sides(&mut self) {
+        let stance = self.stance;
+        let image = |p: DVec3| DVec3::new(2.0 * stance.axis - p.x, p.y, p.z);
+        let lefts: Vec<Role> = self.found.joints.keys().copied().filter(|role| is_left(*role)).collect();
+        for role in lefts {
+            let other = role.mirrored();
+            if self.given.contains_key(&role) || self.given.contains_key(&other) {
+                continue;
+            }
+            let (one, two) = (self.found.joints[&role], self.found.joints[&other]);
+            let apart = one.position.distance(image(two.position));
+            if stance.is_symmetric || apart <= AGREE {
+                let middle =
+                    if apart <= AGREE { 0.5 * (one.position + image(two.position)) } else { one.position };
+                let confidence = one.confidence.min(two.confidence);
+                self.put(role, middle, confidence);
+                self.put(other, image(middle), confidence);
+            } else if apart > DIFFER {
+                self.put(role, one.position, one.confidence.min(DOUBTFUL));
+                self.put(other, two.position, two.confidence.min(DOUBTFUL));
+            }
+        }
+        let lefts: Vec<Role> = self.found.tips.keys().copied().filter(|role| is_left(*role)).collect();
+        for role in lefts {
+            let (one, two) = (self.found.tips[&role], self.found.tips[&role.mirrored()]);
+            let apart = one.distance(image(two));
+            if stance.is_symmetric || apart <= AGREE {
+                let middle = if apart <= AGREE { 0.5 * (one + image(two)) } else { one };
+                self.found.tips.insert(role, middle);
+                self.found.tips.insert(role.mirrored(), image(middle));
+            }
+        }
+    }
+}
+
+fn is_left(role: Role) -> bool {
+    role.mirrored() != role && role.name().starts_with("left")
+}
+
+/// How far from the axis something reaches above `floor`.
+fn reach(stance: &Stance, left: bool, floor: f64) -> f64 {
+    (stance.grid.row(floor)..stance.grid.frame.rows)
+        .filter_map(|row| stance.side_runs(left, row).last().map(|run| run.1))
+        .max()
+        .unwrap_or(0) as f64
+        * stance.cell()
+}
+
+fn add_fingers(layout: &Layout, stance: &Stance, found: &mut FoundJoints) {
+    let surface = Surface::new(stance.positions, &stance.triangles);
+    for left in [true, false] {
+        let (elbow, wrist) = (on(left, Role::LeftLowerArm), on(left, Role::LeftHand));
+        let hand = super::hand::find_fingers(
+            &surface,
+            &layout.positions,
+            &stance.triangles,
+            found.joints[&elbow].position,
+            found.joints[&wrist].position,
+            left,
+        );
+        let doubt = found.joints[&wrist].confidence;
+        for (role, joint) in hand.joints {
+            let confidence = joint.confidence.min(doubt);
+            found.joints.entry(role).or_insert(FoundJoint { confidence, ..joint });
+        }
+        if !hand.tips.is_empty() {
+            found.tips.remove(&wrist);
+        }
+        found.tips.extend(hand.tips);
+    }
 }

@@ -3,6 +3,7 @@
 //! Every stage works on a [`Layout`]: x towards the character's left, y up, z forward, soles at 0, the whole figure 1
 //! high, so that no threshold depends on the unit of a file.
 
+pub mod arms;
 pub mod eyes;
 pub mod facing;
 pub mod geodesic;
@@ -11,8 +12,12 @@ pub mod heat;
 pub mod joints;
 pub mod kinds;
 pub mod layout;
+pub mod legs;
+pub mod silhouette;
 pub mod skeleton;
+pub mod stance;
 pub mod transfer;
+pub mod trunk;
 pub mod volume;
 pub mod voxel;
 

@@ -1,0 +1,188 @@
+//! Joints found by rays, against those of artists and of analytic people.
+
+#[path = "common/models.rs"]
+mod models;
+#[path = "common/people.rs"]
+mod people;
+#[path = "common/truth.rs"]
+mod truth;
+
+use glam::DVec3;
+use std::collections::BTreeMap;
+use superdeform::Role;
+use superdeform::rig::Layout;
+use superdeform::rig::joints::{FoundJoints, find_joints};
+use superdeform::rig::silhouette::{GridFrame, RayGrid};
+use truth::{Case, cases};
+
+use Role::*;
+
+const LIMBS: [(&str, [Role; 2]); 6] = [
+    ("ankle", [LeftFoot, RightFoot]),
+    ("knee", [LeftLowerLeg, RightLowerLeg]),
+    ("hip", [LeftUpperLeg, RightUpperLeg]),
+    ("wrist", [LeftHand, RightHand]),
+    ("elbow", [LeftLowerArm, RightLowerArm]),
+    ("shoulder", [LeftUpperArm, RightUpperArm]),
+];
+const MIDDLE: [Role; 5] = [Hips, Spine, Chest, Neck, Head];
+
+/// Models that are left out, and why.
+const LEFT_OUT: [(&str, &str); 4] = [
+    ("cool_loops.vrm", "a box on sticks: no trunk, neck or head of a figure"),
+    ("catbot.vrm", "a robot of eight boxes, its arms apart from its trunk"),
+    ("kenney_mini_female_a.glb", "rigid parts without elbows and knees"),
+    ("tubbykun.vrm", "a mascot without a neck, wrists or knees"),
+];
+
+struct Outcome {
+    name: String,
+    layout: Layout,
+    truth: BTreeMap<Role, DVec3>,
+    found: FoundJoints,
+}
+
+fn outcome(case: &Case) -> Outcome {
+    let layout = Layout::of(&case.character, case.forward).unwrap();
+    let truth = case.joints.iter().map(|(&role, &at)| (role, layout.to_layout(at))).collect();
+    let start = std::time::Instant::now();
+    let found = find_joints(&layout, &BTreeMap::new(), false, 2);
+    if std::env::var_os("PICTURES").is_some() {
+        println!("{}: {} triangles, {:?}", case.name, layout.triangles.len(), start.elapsed());
+    }
+    Outcome { name: case.name.clone(), layout, truth, found }
+}
+
+/// True where the artist's joint says nothing about where it should be.
+fn without_truth(name: &str, role: Role) -> bool {
+    // Quaternius' foot joints lie on the sole.
+    name.starts_with("quaternius") && matches!(role, LeftFoot | RightFoot | LeftToes | RightToes)
+}
+
+fn median(values: &[f64]) -> f64 {
+    let mut values = values.to_vec();
+    values.sort_by(f64::total_cmp);
+    if values.is_empty() { f64::NAN } else { values[values.len() / 2] }
+}
+
+/// Front and side view with true (red) and found (blue, pale where doubtful) joints.
+fn picture(outcome: &Outcome) {
+    let Some(folder) = std::env::var_os("PICTURES") else { return };
+    let cell = 1.0 / 500.0;
+    let columns = 600;
+    let mut image = image::RgbImage::from_pixel(2 * columns as u32, 500, image::Rgb([255; 3]));
+    for (view, right) in [DVec3::X, DVec3::Z].into_iter().enumerate() {
+        let frame = GridFrame {
+            origin: right * (-0.5 * columns as f64 * cell),
+            right,
+            up: DVec3::Y,
+            cell,
+            columns,
+            rows: 500,
+        };
+        let grid = RayGrid::new(&outcome.layout.positions, &outcome.layout.triangles, frame);
+        for row in 0..500 {
+            for column in 0..columns {
+                let count = grid.hits(column, row).len() as i32;
+                let shade = if count == 0 { 255 } else { 215 - 15 * (count / 2).min(7) } as u8;
+                image.put_pixel((view * columns + column) as u32, 499 - row as u32, image::Rgb([shade; 3]));
+            }
+        }
+        let mut mark = |p: DVec3, colour: [u8; 3], diagonal: bool| {
+            let (x, y) = (grid.column(p.dot(right)) as i32, 499 - grid.row(p.y) as i32);
+            for d in -4..=4i32 {
+                for (x, y) in
+                    if diagonal { [(x + d, y + d), (x + d, y - d)] } else { [(x + d, y), (x, y + d)] }
+                {
+                    if (0..columns as i32).contains(&x) && (0..500).contains(&y) {
+                        image.put_pixel((view * columns) as u32 + x as u32, y as u32, image::Rgb(colour));
+                    }
+                }
+            }
+        };
+        for (role, joint) in &outcome.found.joints {
+            let colour = if joint.confidence < 0.5 { [140, 120, 255] } else { [0, 0, 220] };
+            mark(joint.position, colour, true);
+            if let Some(&truth) = outcome.truth.get(role) {
+                mark(truth, [220, 0, 0], false);
+            }
+        }
+        for &tip in outcome.found.tips.values() {
+            mark(tip, [0, 140, 0], true);
+        }
+        mark(outcome.found.chin, [0, 160, 160], true);
+    }
+    image.save(std::path::Path::new(&folder).join(format!("{}.png", outcome.name))).unwrap();
+}
+
+#[test]
+fn joints_lie_where_artists_put_them() {
+    let cases: Vec<Case> =
+        cases().into_iter().filter(|case| !LEFT_OUT.iter().any(|(name, _)| case.name == *name)).collect();
+    let outcomes = models::in_parallel(&cases, outcome);
+    let mut errors: BTreeMap<&str, Vec<f64>> = BTreeMap::new();
+    let mut signed: BTreeMap<&str, Vec<String>> = BTreeMap::new();
+    let (mut far, mut far_doubted, mut near, mut near_trusted) = (0, 0, 0, 0);
+    for outcome in &outcomes {
+        picture(outcome);
+        print!("{:38}", outcome.name);
+        for (name, pair) in LIMBS {
+            for role in pair {
+                let Some(&truth) = outcome.truth.get(&role) else { continue };
+                if without_truth(&outcome.name, role) {
+                    continue;
+                }
+                let joint = outcome.found.joints[&role];
+                let off = joint.position - truth;
+                let error = off.length();
+                errors.entry(name).or_default().push(error);
+                print!(" {}{:.3}{}", &name[..2], error, if joint.confidence < 0.5 { "?" } else { " " });
+                if role.name().starts_with("left") {
+                    signed
+                        .entry(name)
+                        .or_default()
+                        .push(format!("{:+.3} {:+.3} {:+.3}", off.x, off.y, off.z));
+                }
+                if error > 0.06 {
+                    far += 1;
+                    far_doubted += usize::from(joint.confidence < 0.5);
+                }
+                if error <= 0.03 {
+                    near += 1;
+                    near_trusted += usize::from(joint.confidence >= 0.5);
+                }
+            }
+        }
+        for role in MIDDLE {
+            if let Some(&truth) = outcome.truth.get(&role) {
+                let off = outcome.found.joints[&role].position - truth;
+                errors.entry(role.name()).or_default().push(off.length());
+                print!(" {role}({:+.3} {:+.3})", off.y, off.z);
+            }
+        }
+        println!();
+        for warning in &outcome.found.warnings {
+            println!("      {}", warning.message);
+        }
+    }
+    for (name, values) in &errors {
+        let over = |limit: f64| values.iter().filter(|&&e| e > limit).count();
+        println!(
+            "{name:9} median {:.3} worst {:.3}, {} of {} beyond 0.06, {} beyond 0.12",
+            median(values),
+            values.iter().copied().fold(0.0, f64::max),
+            over(0.06),
+            values.len(),
+            over(0.12)
+        );
+    }
+    println!("beyond 0.06: {far_doubted} of {far} doubted; within 0.03: {near_trusted} of {near} trusted");
+    if std::env::var_os("SIGNED").is_some() {
+        for (name, values) in signed {
+            println!("{name}");
+            for (outcome, off) in outcomes.iter().zip(values) {
+                println!("   {off}  {}", outcome.name);
+            }
+        }
+    }
+}
