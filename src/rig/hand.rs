@@ -44,16 +44,14 @@ pub fn find_fingers(
         return Hand::default();
     };
     let fingers = region.fingers();
-    if std::env::var_os("HAND_DEBUG").is_some() {
-        println!("  {} vertices, length {:.3}, wrist radius {:.4}", region.points.len(), region.length, region.wrist_radius);
-        for finger in &fingers {
-            println!("    tip {:.3} web {:.3} share {:.2}", finger.tip_distance, finger.web_distance, (finger.tip_distance - finger.web_distance) / region.length);
-        }
-    }
-    let mut hand = region.hand(fingers);
+    let mut hand = region.hand(surface, fingers);
     if !left {
-        hand.joints = std::mem::take(&mut hand.joints).into_iter().map(|(role, joint)| (role.mirrored(), joint)).collect();
-        hand.tips = std::mem::take(&mut hand.tips).into_iter().map(|(role, tip)| (role.mirrored(), tip)).collect();
+        hand.joints = std::mem::take(&mut hand.joints)
+            .into_iter()
+            .map(|(role, joint)| (role.mirrored(), joint))
+            .collect();
+        hand.tips =
+            std::mem::take(&mut hand.tips).into_iter().map(|(role, tip)| (role.mirrored(), tip)).collect();
     }
     hand
 }
@@ -89,7 +87,7 @@ struct Finger {
 const LEAST_PERSISTENCE: f64 = 0.1;
 
 /// ... and is this far from the wrist: cuffs are nearer.
-const LEAST_REACH: f64 = 0.45;
+const LEAST_REACH: f64 = 0.35;
 
 impl Region {
     fn new(
@@ -206,8 +204,7 @@ impl Region {
                 continue;
             }
             for &next in &self.graph[vertex as usize] {
-                let further =
-                    distance + self.points[vertex as usize].distance(self.points[next as usize]);
+                let further = distance + self.points[vertex as usize].distance(self.points[next as usize]);
                 if further < self.distances[next as usize] {
                     self.distances[next as usize] = further;
                     queue.push(Reverse((further.to_bits(), next)));
@@ -274,14 +271,220 @@ impl Region {
         fingers
     }
 
-    fn hand(&self, fingers: Vec<Finger>) -> Hand {
+    /// The middle of a finger's sections, from its web to its tip.
+    fn path(&self, finger: &Finger) -> Vec<DVec3> {
+        // The vertices of the finger alone.
+        let mut is_own = vec![false; self.points.len()];
+        is_own[finger.tip as usize] = true;
+        let mut stack = vec![finger.tip];
+        while let Some(vertex) = stack.pop() {
+            for &next in &self.graph[vertex as usize] {
+                if !is_own[next as usize] && self.distances[next as usize] > finger.web_distance {
+                    is_own[next as usize] = true;
+                    stack.push(next);
+                }
+            }
+        }
+        let own: Vec<[u32; 3]> = self
+            .triangles
+            .iter()
+            .filter(|corners| corners.iter().any(|&v| is_own[v as usize]))
+            .copied()
+            .collect();
+        let mut path = Vec::new();
+        let free = finger.tip_distance - finger.web_distance;
+        for step in 0..SECTION_COUNT {
+            let level = finger.web_distance + free * (step as f64 + 0.5) / SECTION_COUNT as f64;
+            let (mut sum, mut weight) = (DVec3::ZERO, 0.0);
+            for corners in &own {
+                let mut ends = [DVec3::ZERO; 2];
+                let mut count = 0;
+                for edge in 0..3 {
+                    let [a, b] = [corners[edge], corners[(edge + 1) % 3]].map(|v| v as usize);
+                    let (low, high) = (self.distances[a], self.distances[b]);
+                    if (low > level) == (high > level) || !low.is_finite() || !high.is_finite() {
+                        continue;
+                    }
+                    // What is above the level must be the finger's.
+                    if !is_own[if low > level { a } else { b }] {
+                        continue;
+                    }
+                    ends[count.min(1)] = self.points[a].lerp(self.points[b], (level - low) / (high - low));
+                    count += 1;
+                }
+                if count >= 2 {
+                    let length = ends[0].distance(ends[1]);
+                    sum += length * (ends[0] + ends[1]) / 2.0;
+                    weight += length;
+                }
+            }
+            if weight > 0.0 {
+                path.push(sum / weight);
+            }
+        }
+        path.push(self.points[finger.tip as usize]);
+        path
+    }
+
+    /// Fingers, which of them is the thumb, and joints (of the left hand).
+    fn hand(&self, surface: &Surface, mut fingers: Vec<Finger>) -> Hand {
         let mut hand = Hand { finger_count: fingers.len(), ..Hand::default() };
-        for (finger, roles) in fingers.iter().zip(FINGERS) {
-            hand.tips.insert(roles[2], self.points[finger.tip as usize]);
+        // Of more than five the freest.
+        let free = |finger: &Finger| finger.tip_distance - finger.web_distance;
+        fingers.sort_by(|a, b| free(b).total_cmp(&free(a)).then(a.tip.cmp(&b.tip)));
+        fingers.truncate(5);
+        let mut chains: Vec<(Finger, Vec<DVec3>)> = fingers
+            .into_iter()
+            .map(|finger| {
+                let path = self.path(&finger);
+                (finger, path)
+            })
+            .collect();
+        let thumb = self.order(&mut chains);
+        let roles: Vec<usize> = match (thumb, chains.len()) {
+            (true, 2) => vec![0, 2],
+            (false, 1) => vec![2],
+            (true, count) => (0..count).collect(),
+            (false, count) => (1..=count.min(4)).collect(),
+        };
+        for ((mut finger, mut path), role) in chains.into_iter().zip(roles) {
+            // Alone, or alone beside a thumb: all fingers in one, whose knuckles are half way.
+            let is_mitten = hand.finger_count <= 2 && role == 2;
+            if is_mitten {
+                finger.web_distance = finger.web_distance.max(MITTEN_KNUCKLES * finger.tip_distance);
+                path = self.path(&finger);
+            }
+            let shares = match role {
+                0 => THUMB_JOINTS,
+                _ if is_mitten => MITTEN_JOINTS,
+                _ => FINGER_JOINTS,
+            };
+            let Some((joints, kept)) = self.joints(&path, shares, role == 0) else { continue };
+            let seen = ((finger.tip_distance - finger.web_distance)
+                / (2.0 * LEAST_PERSISTENCE * self.length))
+                .clamp(0.5, 1.0);
+            for (number, (role, position)) in FINGERS[role].into_iter().zip(joints).enumerate() {
+                let sure = match number {
+                    _ if is_mitten => 0.5,
+                    0 if kept => 0.7,
+                    0 => 0.5,
+                    _ => 0.9,
+                };
+                let _ = surface;
+                hand.joints.insert(role, FoundJoint { position, confidence: sure * seen });
+            }
+            hand.tips.insert(FINGERS[role][2], path[path.len() - 1]);
         }
         hand
     }
+
+    /// Puts fingers in order from the thumb's side; true where the first of them is a thumb.
+    fn order(&self, chains: &mut [(Finger, Vec<DVec3>)]) -> bool {
+        if chains.len() < 2 {
+            return false;
+        }
+        let count = chains.len() as f64;
+        // A finger a little way out, where thumbs are well aside.
+        let middle = |chain: &(Finger, Vec<DVec3>)| (chain.1[0] + chain.1[chain.1.len() / 2]) / 2.0;
+        let centre = chains.iter().map(middle).sum::<DVec3>() / count;
+        let ahead = (centre - self.wrist).try_normalize().unwrap_or(self.along);
+        // The direction in which they stand side by side.
+        let asides: Vec<DVec3> =
+            chains.iter().map(|c| (middle(c) - centre).reject_from_normalized(ahead)).collect();
+        let mut across = asides.iter().copied().fold(DVec3::ZERO, |one, other| {
+            if other.length_squared() > one.length_squared() { other } else { one }
+        });
+        for _ in 0..8 {
+            let next = asides.iter().map(|aside| across.dot(*aside) * *aside).sum::<DVec3>();
+            across = next.try_normalize().unwrap_or(across);
+        }
+        let key = |chain: &(Finger, Vec<DVec3>)| (middle(chain) - centre).dot(across);
+        chains.sort_by(|a, b| key(a).total_cmp(&key(b)).then(a.0.tip.cmp(&b.0.tip)));
+        // A thumb begins nearer to the wrist than the others and points another way.
+        let unlike = |index: usize| {
+            let others = || {
+                chains.iter().enumerate().filter(move |&(other, _)| other != index).map(|(_, chain)| chain)
+            };
+            let way =
+                |chain: &(Finger, Vec<DVec3>)| (chain.1[chain.1.len() - 1] - chain.1[0]).normalize_or_zero();
+            let mean = others().map(way).sum::<DVec3>().normalize_or_zero();
+            let root = others().map(|chain| chain.1[0].distance(self.wrist)).sum::<f64>() / (count - 1.0);
+            let nearer = (root - chains[index].1[0].distance(self.wrist)) / self.length;
+            (1.0 - way(&chains[index]).dot(mean)) + 2.0 * nearer
+        };
+        let (first, last) = (unlike(0), unlike(chains.len() - 1));
+        // Alike: the thumb's side is the front, palms down or inward.
+        let turn = if (first - last).abs() > 0.02 {
+            last > first
+        } else {
+            chains[0].1[0].z < chains[chains.len() - 1].1[0].z
+        };
+        if turn {
+            chains.reverse();
+        }
+        first.max(last) > LEAST_THUMB
+    }
+
+    /// Three joints of a finger whose sections' middles are `path`, by their distances from the tip in lengths of the
+    /// free finger; and whether the first is where these say.
+    fn joints(&self, path: &[DVec3], shares: [f64; 3], thumb: bool) -> Option<([DVec3; 3], bool)> {
+        let tip = *path.last()?;
+        let way = (path[path.len() / 2] - path[0]).try_normalize()?;
+        let mut free = 0.0;
+        for pair in path.windows(2) {
+            free += pair[0].distance(pair[1]);
+        }
+        // The first section is half a step from the web.
+        free *= SECTION_COUNT as f64 / (SECTION_COUNT as f64 - 0.5);
+        let at = |distance: f64| {
+            let mut left = distance;
+            for pair in path.windows(2).rev() {
+                let step = pair[0].distance(pair[1]);
+                if left <= step && step > 0.0 {
+                    return pair[1].lerp(pair[0], left / step);
+                }
+                left -= step;
+            }
+            path[0] - left * way
+        };
+        // The knuckle lies where knuckles do, even if the fingers are cut too deep or not deep enough.
+        let [least, most] = if thumb { [0.2, 0.5] } else { [0.42, 0.66] };
+        let reach = tip.distance(self.wrist);
+        let mut share = shares[0];
+        let place = |share: f64| at(share * free).distance(self.wrist) / reach;
+        let mut tries = 0;
+        while tries < 60 && place(share) < least && share > shares[1] {
+            share -= 0.02;
+            tries += 1;
+        }
+        while tries < 60 && place(share) > most {
+            share += 0.02;
+            tries += 1;
+        }
+        let kept = tries == 0;
+        let scale = share / shares[0];
+        Some((shares.map(|share| at(share * scale * free)), kept))
+    }
 }
+
+/// Joints of a finger from its tip, in lengths of its free part: the knuckle lies a quarter of that inside the palm, the
+/// others at 45 % and 72 % of the way from there.
+const FINGER_JOINTS: [f64; 3] = [1.25, 0.55 * 1.25, 0.28 * 1.25];
+
+/// Joints of a thumb from its tip, in lengths of its free part: a thumb's web reaches up to its last bone but one.
+const THUMB_JOINTS: [f64; 3] = [2.2, 1.55, 0.75];
+
+/// Joints of a mitten from its tip.
+const MITTEN_JOINTS: [f64; 3] = [1.0, 0.55, 0.28];
+
+/// Where the knuckles are between wrist and tips.
+const MITTEN_KNUCKLES: f64 = 0.5;
+
+/// A finger less unlike the others than this is no thumb.
+const LEAST_THUMB: f64 = 0.12;
+
+/// Sections of a finger.
+const SECTION_COUNT: usize = 8;
 
 /// The mean distance from `at` to the surface in the plane across `along`; `None` where fewer than half the rays meet it.
 fn radius_at(surface: &Surface, at: DVec3, along: DVec3) -> Option<f64> {
