@@ -100,7 +100,7 @@ impl Region {
         let along = (wrist - elbow).try_normalize()?;
         let forearm = wrist.distance(elbow);
         let reach = (1.5 * forearm).clamp(0.12, 0.3);
-        let wrist_radius = radius_at(surface, wrist, along).unwrap_or(0.2 * forearm).min(0.5 * forearm);
+        let (wrist, wrist_radius) = section(positions, triangles, wrist, along, reach)?;
         // Rows of vertices may lie a little before the wrist.
         let start = -0.5 * wrist_radius;
         let is_near = |p: DVec3| {
@@ -379,50 +379,48 @@ impl Region {
     }
 
     /// Puts fingers in order from the thumb's side; true where the first of them is a thumb.
-    fn order(&self, chains: &mut [(Finger, Vec<DVec3>)]) -> bool {
+    fn order(&self, chains: &mut Vec<(Finger, Vec<DVec3>)>) -> bool {
         if chains.len() < 2 {
             return false;
         }
-        let count = chains.len() as f64;
-        // A finger a little way out, where thumbs are well aside.
+        // A thumb begins nearer to the wrist than the others and points another way.
+        let way = |chain: &(Finger, Vec<DVec3>)| (chain.1[chain.1.len() - 1] - chain.1[0]).normalize_or_zero();
+        let root = |chain: &(Finger, Vec<DVec3>)| chain.1[0].distance(self.wrist) / self.length;
+        let mut thumb = (0, f64::NEG_INFINITY);
+        for (index, chain) in chains.iter().enumerate() {
+            let others = || chains.iter().enumerate().filter(|&(other, _)| other != index).map(|(_, other)| other);
+            let mean_way = others().map(way).sum::<DVec3>().normalize_or_zero();
+            let mean_root = others().map(root).sum::<f64>() / (chains.len() - 1) as f64;
+            let unlike = 1.0 - way(chain).dot(mean_way) + mean_root - root(chain);
+            if unlike > thumb.1 {
+                thumb = (index, unlike);
+            }
+        }
+        let thumb = (thumb.1 > LEAST_THUMB).then(|| chains.remove(thumb.0));
+        // Where the others stand side by side, a little way out.
         let middle = |chain: &(Finger, Vec<DVec3>)| (chain.1[0] + chain.1[chain.1.len() / 2]) / 2.0;
-        let centre = chains.iter().map(middle).sum::<DVec3>() / count;
+        let centre = chains.iter().map(middle).sum::<DVec3>() / chains.len() as f64;
         let ahead = (centre - self.wrist).try_normalize().unwrap_or(self.along);
-        // The direction in which they stand side by side.
-        let asides: Vec<DVec3> =
-            chains.iter().map(|c| (middle(c) - centre).reject_from_normalized(ahead)).collect();
-        let mut across = asides.iter().copied().fold(DVec3::ZERO, |one, other| {
+        let aside = |chain: &(Finger, Vec<DVec3>)| (middle(chain) - centre).reject_from_normalized(ahead);
+        let furthest = chains.iter().map(aside).fold(DVec3::ZERO, |one, other| {
             if other.length_squared() > one.length_squared() { other } else { one }
         });
+        let mut across = furthest.normalize_or_zero();
         for _ in 0..8 {
-            let next = asides.iter().map(|aside| across.dot(*aside) * *aside).sum::<DVec3>();
+            let next: DVec3 = chains.iter().map(|chain| across.dot(aside(chain)) * aside(chain)).sum();
             across = next.try_normalize().unwrap_or(across);
         }
-        let key = |chain: &(Finger, Vec<DVec3>)| (middle(chain) - centre).dot(across);
-        chains.sort_by(|a, b| key(a).total_cmp(&key(b)).then(a.0.tip.cmp(&b.0.tip)));
-        // A thumb begins nearer to the wrist than the others and points another way.
-        let unlike = |index: usize| {
-            let others = || {
-                chains.iter().enumerate().filter(move |&(other, _)| other != index).map(|(_, chain)| chain)
-            };
-            let way =
-                |chain: &(Finger, Vec<DVec3>)| (chain.1[chain.1.len() - 1] - chain.1[0]).normalize_or_zero();
-            let mean = others().map(way).sum::<DVec3>().normalize_or_zero();
-            let root = others().map(|chain| chain.1[0].distance(self.wrist)).sum::<f64>() / (count - 1.0);
-            let nearer = (root - chains[index].1[0].distance(self.wrist)) / self.length;
-            (1.0 - way(&chains[index]).dot(mean)) + 2.0 * nearer
-        };
-        let (first, last) = (unlike(0), unlike(chains.len() - 1));
-        // Alike: the thumb's side is the front, palms down or inward.
-        let turn = if (first - last).abs() > 0.02 {
-            last > first
-        } else {
-            chains[0].1[0].z < chains[chains.len() - 1].1[0].z
-        };
-        if turn {
-            chains.reverse();
+        // The index is next to the thumb; where that stands opposite, or is not, it is in front: palms look down or in.
+        let width = chains.iter().map(|chain| aside(chain).dot(across).abs()).fold(0.0, f64::max);
+        let side = thumb.as_ref().map_or(0.0, |thumb| aside(thumb).dot(across));
+        if (if side.abs() > 0.5 * width { side } else { across.z }) > 0.0 {
+            across = -across;
         }
-        first.max(last) > LEAST_THUMB
+        let key = |chain: &(Finger, Vec<DVec3>)| aside(chain).dot(across);
+        chains.sort_by(|a, b| key(a).total_cmp(&key(b)).then(a.0.tip.cmp(&b.0.tip)));
+        let has_thumb = thumb.is_some();
+        chains.splice(0..0, thumb);
+        has_thumb
     }
 
     /// Three joints of a finger whose sections' middles are `path`, by their distances from the tip in lengths of the
@@ -448,21 +446,22 @@ impl Region {
             path[0] - left * way
         };
         // The knuckle lies where knuckles do, even if the fingers are cut too deep or not deep enough.
-        let [least, most] = if thumb { [0.2, 0.5] } else { [0.42, 0.66] };
-        let reach = tip.distance(self.wrist);
-        let mut share = shares[0];
-        let place = |share: f64| at(share * free).distance(self.wrist) / reach;
-        let mut tries = 0;
-        while tries < 60 && place(share) < least && share > shares[1] {
-            share -= 0.02;
-            tries += 1;
+        let [least, most] = if thumb { [0.15, 0.5] } else { [0.4, 0.66] };
+        let reach = tip - self.wrist;
+        let place = |scale: f64| {
+            (at(shares[0] * scale * free) - self.wrist).dot(reach) / reach.length_squared().max(1e-18)
+        };
+        let (mut scale, mut kept) = (1.0, true);
+        for (bound, other) in [(least, 0.0), (most, 2.0)] {
+            if (place(1.0) - bound) * (other - 1.0) > 0.0 {
+                let (mut within, mut beyond) = (other, 1.0);
+                for _ in 0..20 {
+                    scale = (within + beyond) / 2.0;
+                    if (place(scale) - bound) * (other - 1.0) > 0.0 { beyond = scale } else { within = scale }
+                }
+                kept = false;
+            }
         }
-        while tries < 60 && place(share) > most {
-            share += 0.02;
-            tries += 1;
-        }
-        let kept = tries == 0;
-        let scale = share / shares[0];
         Some((shares.map(|share| at(share * scale * free)), kept))
     }
 }
@@ -486,17 +485,53 @@ const LEAST_THUMB: f64 = 0.12;
 /// Sections of a finger.
 const SECTION_COUNT: usize = 8;
 
-/// The mean distance from `at` to the surface in the plane across `along`; `None` where fewer than half the rays meet it.
-fn radius_at(surface: &Surface, at: DVec3, along: DVec3) -> Option<f64> {
-    let one = along.any_orthonormal_vector();
-    let other = along.cross(one);
-    let hits: Vec<f64> = (0..12)
-        .filter_map(|ray| {
-            let (sin, cos) = (std::f64::consts::TAU * ray as f64 / 12.0).sin_cos();
-            Some(surface.first_hit(at, cos * one + sin * other, f64::INFINITY)?.t)
-        })
-        .collect();
-    let mut sorted = hits;
-    sorted.sort_by(f64::total_cmp);
-    (sorted.len() >= 6).then(|| sorted[sorted.len() / 2])
+/// The middle and the radius of the section of the mesh across `along` that is nearest to `at`, within `reach`.
+fn section(
+    positions: &[DVec3],
+    triangles: &[[u32; 3]],
+    at: DVec3,
+    along: DVec3,
+    reach: f64,
+) -> Option<(DVec3, f64)> {
+    let height = |vertex: u32| (positions[vertex as usize] - at).dot(along);
+    // Each triangle's part of the section.
+    let mut pieces: Vec<[DVec3; 2]> = Vec::new();
+    let mut crossing: Vec<[u32; 3]> = Vec::new();
+    for corners in triangles {
+        let heights = corners.map(height);
+        let above = heights.map(|height| height > 0.0);
+        if above[0] == above[1] && above[1] == above[2] {
+            continue;
+        }
+        if positions[corners[0] as usize].distance_squared(at) > reach * reach {
+            continue;
+        }
+        let lone = (0..3).find(|&c| above[c] != above[(c + 1) % 3] && above[c] != above[(c + 2) % 3])?;
+        let ends = [1, 2].map(|step| {
+            let other = (lone + step) % 3;
+            let share = heights[lone] / (heights[lone] - heights[other]);
+            positions[corners[lone] as usize].lerp(positions[corners[other] as usize], share)
+        });
+        pieces.push(ends);
+        crossing.push([2 * (pieces.len() as u32 - 1), 2 * (pieces.len() as u32 - 1) + 1, 0]);
+    }
+    // What hangs together: ends of neighbours lie on one edge.
+    let ends: Vec<DVec3> = pieces.iter().flatten().copied().collect();
+    let weld = weld(&ends, 1e-6);
+    let lines: Vec<[u32; 3]> = crossing.iter().map(|&[a, b, _]| [a, b, a]).collect();
+    let loops = components(&lines, &weld);
+    let mut found: BTreeMap<u32, (DVec3, f64, f64)> = BTreeMap::new();
+    for (piece, &[a, b]) in pieces.iter().enumerate() {
+        let entry = found.entry(loops[weld.representative[2 * piece] as usize]).or_insert((
+            DVec3::ZERO,
+            0.0,
+            f64::INFINITY,
+        ));
+        entry.0 += a.distance(b) * (a + b) / 2.0;
+        entry.1 += a.distance(b);
+        entry.2 = entry.2.min(a.distance(at)).min(b.distance(at));
+    }
+    let nearest = found.into_values().filter(|&(_, length, _)| length > 0.0);
+    let (sum, length, _) = nearest.reduce(|one, other| if other.2 < one.2 { other } else { one })?;
+    Some((sum / length, length / std::f64::consts::TAU))
 }
