@@ -6,6 +6,7 @@ use crate::geometry::{Surface, components, neighbours, weld};
 use glam::DVec3;
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BinaryHeap};
+use std::f64::consts::TAU;
 
 /// The fingers of one hand.
 #[derive(Clone, Debug, Default)]
@@ -40,7 +41,7 @@ pub fn find_fingers(
     wrist: DVec3,
     left: bool,
 ) -> Hand {
-    let Some(region) = Region::new(surface, positions, triangles, elbow, wrist) else {
+    let Some(region) = Region::new(positions, triangles, elbow, wrist) else {
         return Hand::default();
     };
     let fingers = region.fingers();
@@ -63,6 +64,8 @@ struct Region {
     triangles: Vec<[u32; 3]>,
     /// Edges, and the shortest bridges between pieces.
     graph: Vec<Vec<u32>>,
+    /// Whether an edge from here crosses the wrist.
+    is_start: Vec<bool>,
     /// Distance from the wrist along the graph; infinite where it does not lead.
     distances: Vec<f64>,
     /// The greatest of them.
@@ -90,22 +93,14 @@ const LEAST_PERSISTENCE: f64 = 0.1;
 const LEAST_REACH: f64 = 0.35;
 
 impl Region {
-    fn new(
-        surface: &Surface,
-        positions: &[DVec3],
-        triangles: &[[u32; 3]],
-        elbow: DVec3,
-        wrist: DVec3,
-    ) -> Option<Self> {
+    fn new(positions: &[DVec3], triangles: &[[u32; 3]], elbow: DVec3, wrist: DVec3) -> Option<Self> {
         let along = (wrist - elbow).try_normalize()?;
         let forearm = wrist.distance(elbow);
         let reach = (1.5 * forearm).clamp(0.12, 0.3);
-        let (wrist, wrist_radius) = section(positions, triangles, wrist, along, reach)?;
-        // Rows of vertices may lie a little before the wrist.
-        let start = -0.5 * wrist_radius;
+        let section = Section::new(positions, triangles, wrist, along, reach)?;
         let is_near = |p: DVec3| {
-            let from = p - wrist;
-            from.dot(along) >= start && from.length_squared() <= reach * reach
+            // The section's middle lies in the plane through the wrist, which parts what is cut from what is not.
+            (p - wrist).dot(along) > 0.0 && p.distance_squared(section.centre) <= reach * reach
         };
         let mut index = vec![u32::MAX; positions.len()];
         let mut points = Vec::new();
@@ -131,11 +126,28 @@ impl Region {
             .filter(|[a, b, c]| a != b && b != c && c != a)
             .collect();
         let graph: Vec<Vec<u32>> = (0..points.len()).map(|vertex| around.of(vertex).to_vec()).collect();
-        let mut region =
-            Self { points, triangles, graph, distances: Vec::new(), length: 0.0, wrist, along, wrist_radius };
+        let mut is_start = vec![false; points.len()];
+        for vertex in section.ahead {
+            if let Some(&near) = index.get(vertex as usize)
+                && near != u32::MAX
+            {
+                is_start[weld.representative[near as usize] as usize] = true;
+            }
+        }
+        let mut region = Self {
+            points,
+            triangles,
+            graph,
+            is_start,
+            distances: Vec::new(),
+            length: 0.0,
+            wrist: section.centre,
+            along,
+            wrist_radius: section.radius,
+        };
         region.bridge(&pieces, reach);
         region.measure();
-        (region.length > 0.5 * wrist_radius).then_some(region)
+        (region.length > 0.5 * region.wrist_radius).then_some(region)
     }
 
     /// Joins pieces that do not begin at the wrist to what does, each where it is nearest.
@@ -149,7 +161,7 @@ impl Region {
         let mut waiting = Vec::new();
         let mut joined: Vec<u32> = Vec::new();
         for (piece, vertices) in members.iter().enumerate() {
-            if vertices.iter().any(|&vertex| self.is_start(vertex)) {
+            if vertices.iter().any(|&vertex| self.is_start[vertex as usize]) {
                 joined.extend(vertices);
             } else if vertices.len() > 3
                 && vertices.iter().all(|&v| self.points[v as usize].distance(self.wrist) < 0.95 * reach)
@@ -180,19 +192,12 @@ impl Region {
         }
     }
 
-    /// Whether a vertex is one of the wrist's.
-    fn is_start(&self, vertex: u32) -> bool {
-        let from = self.points[vertex as usize] - self.wrist;
-        let ahead = from.dot(self.along);
-        ahead <= 0.5 * self.wrist_radius && (from - ahead * self.along).length() <= 2.5 * self.wrist_radius
-    }
-
     /// Distances from the wrist along edges.
     fn measure(&mut self) {
         self.distances = vec![f64::INFINITY; self.points.len()];
         let mut queue = BinaryHeap::new();
         for vertex in 0..self.points.len() as u32 {
-            if self.is_start(vertex) {
+            if self.is_start[vertex as usize] {
                 let ahead = (self.points[vertex as usize] - self.wrist).dot(self.along).max(0.0);
                 self.distances[vertex as usize] = ahead;
                 queue.push(Reverse((ahead.to_bits(), vertex)));
@@ -384,11 +389,13 @@ impl Region {
             return false;
         }
         // A thumb begins nearer to the wrist than the others and points another way.
-        let way = |chain: &(Finger, Vec<DVec3>)| (chain.1[chain.1.len() - 1] - chain.1[0]).normalize_or_zero();
+        let way =
+            |chain: &(Finger, Vec<DVec3>)| (chain.1[chain.1.len() - 1] - chain.1[0]).normalize_or_zero();
         let root = |chain: &(Finger, Vec<DVec3>)| chain.1[0].distance(self.wrist) / self.length;
         let mut thumb = (0, f64::NEG_INFINITY);
         for (index, chain) in chains.iter().enumerate() {
-            let others = || chains.iter().enumerate().filter(|&(other, _)| other != index).map(|(_, other)| other);
+            let others =
+                || chains.iter().enumerate().filter(|&(other, _)| other != index).map(|(_, other)| other);
             let mean_way = others().map(way).sum::<DVec3>().normalize_or_zero();
             let mean_root = others().map(root).sum::<f64>() / (chains.len() - 1) as f64;
             let unlike = 1.0 - way(chain).dot(mean_way) + mean_root - root(chain);
@@ -485,53 +492,88 @@ const LEAST_THUMB: f64 = 0.12;
 /// Sections of a finger.
 const SECTION_COUNT: usize = 8;
 
-/// The middle and the radius of the section of the mesh across `along` that is nearest to `at`, within `reach`.
-fn section(
-    positions: &[DVec3],
-    triangles: &[[u32; 3]],
-    at: DVec3,
-    along: DVec3,
-    reach: f64,
-) -> Option<(DVec3, f64)> {
-    let height = |vertex: u32| (positions[vertex as usize] - at).dot(along);
-    // Each triangle's part of the section.
-    let mut pieces: Vec<[DVec3; 2]> = Vec::new();
-    let mut crossing: Vec<[u32; 3]> = Vec::new();
-    for corners in triangles {
-        let heights = corners.map(height);
-        let above = heights.map(|height| height > 0.0);
-        if above[0] == above[1] && above[1] == above[2] {
-            continue;
+/// What a plane through the wrist cuts.
+struct Section {
+    centre: DVec3,
+    radius: f64,
+    /// Vertices ahead of the plane whose edges it cuts.
+    ahead: Vec<u32>,
+}
+
+/// An outline in the plane.
+#[derive(Clone, Copy)]
+struct Outline {
+    sum: DVec3,
+    length: f64,
+    distance: f64,
+}
+
+impl Outline {
+    fn centre(&self) -> DVec3 {
+        self.sum / self.length
+    }
+
+    fn radius(&self) -> f64 {
+        self.length / TAU
+    }
+}
+
+impl Section {
+    /// The section of the mesh across `along` that is nearest to `at`, within `reach`, with what it lies in or around:
+    /// an arm in its sleeve, a ball in its socket.
+    fn new(positions: &[DVec3], triangles: &[[u32; 3]], at: DVec3, along: DVec3, reach: f64) -> Option<Self> {
+        let height = |vertex: u32| (positions[vertex as usize] - at).dot(along);
+        // Each triangle's part of the section.
+        let mut pieces: Vec<[DVec3; 2]> = Vec::new();
+        let mut cut: Vec<[u32; 3]> = Vec::new();
+        for &corners in triangles {
+            let heights = corners.map(height);
+            let above = heights.map(|height| height > 0.0);
+            let Some(lone) =
+                (0..3).find(|&c| above[c] != above[(c + 1) % 3] && above[c] != above[(c + 2) % 3])
+            else {
+                continue;
+            };
+            let ends = [1, 2].map(|step| {
+                let other = (lone + step) % 3;
+                let share = heights[lone] / (heights[lone] - heights[other]);
+                positions[corners[lone] as usize].lerp(positions[corners[other] as usize], share)
+            });
+            if ends[0].distance_squared(at) <= reach * reach {
+                pieces.push(ends);
+                cut.push(corners);
+            }
         }
-        if positions[corners[0] as usize].distance_squared(at) > reach * reach {
-            continue;
+        // Ends of neighbours lie on one edge.
+        let weld = weld(pieces.as_flattened(), 1e-6);
+        let lines: Vec<[u32; 3]> =
+            (0..pieces.len() as u32).map(|piece| [2 * piece, 2 * piece + 1, 2 * piece]).collect();
+        let outline_of_end = components(&lines, &weld);
+        let outline_of: Vec<u32> =
+            (0..pieces.len()).map(|piece| outline_of_end[weld.representative[2 * piece] as usize]).collect();
+        let mut outlines: BTreeMap<u32, Outline> = BTreeMap::new();
+        for (&[a, b], &outline) in pieces.iter().zip(&outline_of) {
+            let none = Outline { sum: DVec3::ZERO, length: 0.0, distance: f64::INFINITY };
+            let outline = outlines.entry(outline).or_insert(none);
+            outline.sum += a.distance(b) * (a + b) / 2.0;
+            outline.length += a.distance(b);
+            outline.distance = outline.distance.min(a.distance(at)).min(b.distance(at));
         }
-        let lone = (0..3).find(|&c| above[c] != above[(c + 1) % 3] && above[c] != above[(c + 2) % 3])?;
-        let ends = [1, 2].map(|step| {
-            let other = (lone + step) % 3;
-            let share = heights[lone] / (heights[lone] - heights[other]);
-            positions[corners[lone] as usize].lerp(positions[corners[other] as usize], share)
+        outlines.retain(|_, outline| outline.length > 0.0);
+        let nearest = outlines
+            .values()
+            .copied()
+            .reduce(|one, other| if other.distance < one.distance { other } else { one })?;
+        outlines.retain(|_, outline| {
+            let apart = outline.centre().distance(nearest.centre());
+            apart < 0.7 * outline.radius().max(nearest.radius())
         });
-        pieces.push(ends);
-        crossing.push([2 * (pieces.len() as u32 - 1), 2 * (pieces.len() as u32 - 1) + 1, 0]);
+        let radius = outlines.values().map(Outline::radius).fold(0.0, f64::max);
+        let length: f64 = outlines.values().map(|outline| outline.length).sum();
+        let centre = outlines.values().map(|outline| outline.sum).sum::<DVec3>() / length;
+        let chosen = cut.iter().zip(&outline_of).filter(|(_, outline)| outlines.contains_key(outline));
+        let ahead =
+            chosen.flat_map(|(corners, _)| corners).copied().filter(|&vertex| height(vertex) > 0.0).collect();
+        Some(Self { centre, radius, ahead })
     }
-    // What hangs together: ends of neighbours lie on one edge.
-    let ends: Vec<DVec3> = pieces.iter().flatten().copied().collect();
-    let weld = weld(&ends, 1e-6);
-    let lines: Vec<[u32; 3]> = crossing.iter().map(|&[a, b, _]| [a, b, a]).collect();
-    let loops = components(&lines, &weld);
-    let mut found: BTreeMap<u32, (DVec3, f64, f64)> = BTreeMap::new();
-    for (piece, &[a, b]) in pieces.iter().enumerate() {
-        let entry = found.entry(loops[weld.representative[2 * piece] as usize]).or_insert((
-            DVec3::ZERO,
-            0.0,
-            f64::INFINITY,
-        ));
-        entry.0 += a.distance(b) * (a + b) / 2.0;
-        entry.1 += a.distance(b);
-        entry.2 = entry.2.min(a.distance(at)).min(b.distance(at));
-    }
-    let nearest = found.into_values().filter(|&(_, length, _)| length > 0.0);
-    let (sum, length, _) = nearest.reduce(|one, other| if other.2 < one.2 { other } else { one })?;
-    Some((sum / length, length / std::f64::consts::TAU))
 }
