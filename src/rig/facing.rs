@@ -12,7 +12,7 @@ use glam::{DVec2, DVec3, Vec3, Vec4};
 const CELL_COUNT: usize = 64;
 
 /// Cells that are compared in the first sweep, about ...
-const SWEEP_CELL_COUNT: usize = 700;
+const SWEEP_CELL_COUNT: usize = 400;
 
 /// ... and around the best plane of that.
 const FINE_CELL_COUNT: usize = 2500;
@@ -35,14 +35,17 @@ const LEAST_LIKENESS: f64 = 0.45;
 /// A plane at more than 30 degrees from the best one that scores this near to it could as well be the right one.
 const LEAST_MARGIN: f64 = 0.03;
 
-/// Votes that add up to less than this do not tell front from back.
-const LEAST_VOTE: f64 = 0.25;
+/// Votes that add up to less than this leave a doubt which way is front ...
+const SURE_VOTE: f64 = 0.25;
+
+/// ... and to less than this say nothing.
+const LEAST_VOTE: f64 = 0.1;
 
 /// How much eyes, brows and teeth count beside the feet, where meshes of them are.
 const FACE_VOTE: f64 = 0.5;
 
 /// How much the chin counts beside the feet: hair and hoods hide it, and hang over the neck behind.
-const CHIN_VOTE: f64 = 0.5;
+const CHIN_VOTE: f64 = 0.2;
 
 /// Feet stand within this distance of the middle, in heights; hands and swords may be further out.
 const FEET_REACH: f64 = 0.3;
@@ -93,16 +96,15 @@ pub fn find_forward(character: &Character) -> (DVec3, Vec<Warning>) {
     let left = mirror.normal;
     let forward = DVec2::new(-left.y, left.x);
     let vote = cells.front_vote(character, mirror, forward);
-    let clear = vote.abs() >= LEAST_VOTE;
-    // Without a clear vote the usual way, or what is nearer to it.
-    let turned = if clear { vote < 0.0 } else { forward.y < -1e-9 };
+    // Without a vote the usual way, or what is nearer to it.
+    let turned = if vote.abs() >= LEAST_VOTE { vote < 0.0 } else { forward.y < -1e-9 };
     let forward = if turned { -forward } else { forward };
     let found = (forward.x * side + forward.y * usual).normalize();
     let mut warnings = Vec::new();
     if !sure_of_sides {
         warnings.push(guessed("the character's left and right are not clearly told by its shape"));
-    } else if !clear {
-        warnings.push(guessed("neither feet nor face tell the character's front from its back"));
+    } else if vote.abs() < SURE_VOTE {
+        warnings.push(guessed("neither feet nor face tell the character's front from its back for sure"));
     }
     (found, warnings)
 }
@@ -127,6 +129,8 @@ struct Cells {
     blurred: Vec<f32>,
     /// Where the surface passes through each occupied cell.
     points: Vec<DVec3>,
+    /// Many points of the surface, as they are.
+    samples: Vec<Vec3>,
     /// The middle of the points on the ground.
     middle: DVec2,
     /// How they spread on the ground: xx, xz, zz.
@@ -177,7 +181,9 @@ impl Cells {
         let size = (high - low).to_array().map(|side| (side * scale + 2.0 * MARGIN) as usize + 2);
         let count = size[0] * size[1] * size[2];
         let mut sums = vec![Vec4::ZERO; count];
+        let mut samples = Vec::new();
         let mut add = |p: DVec3| {
+            samples.push(p.as_vec3());
             let [x, y, z] = p.to_array().map(|c| c as usize);
             sums[(y * size[2] + z) * size[0] + x] += p.as_vec3().extend(1.0);
         };
@@ -217,7 +223,7 @@ impl Cells {
             spread[1] += d.x * d.y;
             spread[2] += d.y * d.y;
         }
-        Some(Self { size, blurred, points, middle, spread, frame, scale, low })
+        Some(Self { size, blurred, points, samples, middle, spread, frame, scale, low })
     }
 
     /// Model space to cells.
@@ -278,13 +284,15 @@ impl Cells {
             .map(|degrees| {
                 let degrees = degrees as f64;
                 let middle = Mirror::at(degrees, 0.0).normal.dot(self.middle);
-                let offsets = [0.0, -2.0, 2.0].map(|by| Mirror::at(degrees, middle + by));
-                let scores = offsets.map(|mirror| (self.score(mirror, step), degrees, mirror));
-                scores.into_iter().reduce(|one, other| if other.0 > one.0 { other } else { one }).unwrap()
+                // What is on one side alone pulls the middle off the plane.
+                let scores = [0.0, -2.0, 2.0, -4.0, 4.0, -6.0, 6.0, -8.0, 8.0].map(|by| {
+                    let mirror = Mirror::at(degrees, middle + by);
+                    (self.score(mirror, step), degrees, mirror)
+                });
+                better_of(scores)
             })
             .collect();
-        let (rough, degrees, mirror) =
-            sweep.iter().copied().reduce(|one, other| if other.0 > one.0 { other } else { one }).unwrap();
+        let (rough, degrees, mirror) = better_of(sweep.iter().copied());
         let away = |angle: f64| {
             let between = (angle - degrees).abs();
             between.min(180.0 - between)
@@ -312,8 +320,7 @@ impl Cells {
                 let mirror = Mirror::at(degrees, offset);
                 (self.score(mirror, step), degrees, mirror)
             });
-            let better =
-                scored.into_iter().reduce(|one, other| if other.0 > one.0 { other } else { one }).unwrap();
+            let better = better_of(scored);
             if better.0 > best + 1e-9 {
                 (best, degrees, mirror) = better;
             } else {
@@ -338,9 +345,9 @@ impl Cells {
     /// Above 0 for `forward`, below 0 against it: feet, then eyes and the like where meshes of them are, then the chin.
     fn front_vote(&self, character: &Character, mirror: Mirror, forward: DVec2) -> f64 {
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-        for p in &self.points {
-            low = low.min(p.y);
-            high = high.max(p.y);
+        for p in &self.samples {
+            low = low.min(p.y.into());
+            high = high.max(p.y.into());
         }
         let height = (high - low).max(1e-9);
         // Sideways, up and ahead in heights of the figure.
@@ -349,7 +356,7 @@ impl Cells {
             let sideways = mirror.normal.dot(ground) - mirror.offset;
             DVec3::new(sideways, p.y - low, forward.dot(ground - self.middle)) / height
         };
-        let points: Vec<DVec3> = self.points.iter().map(|&p| place(p)).collect();
+        let points: Vec<DVec3> = self.samples.iter().map(|p| place(p.as_dvec3())).collect();
         let face_parts: Vec<DVec3> = (0..character.meshes.len())
             .filter(|&mesh| kind_of(character, mesh) == Some(MeshKind::FacePart))
             .flat_map(|mesh| character.meshes[mesh].positions.iter())
@@ -417,6 +424,12 @@ fn chin_vote(points: &[DVec3]) -> f64 {
     let (front, back) = (overhang(1.0), overhang(-1.0));
     // A step below 2 % of the height is no chin.
     (front - back) / (front + back).max(0.02)
+}
+
+/// The first of those with the highest score.
+fn better_of(scored: impl IntoIterator<Item = (f64, f64, Mirror)>) -> (f64, f64, Mirror) {
+    let none = (f64::NEG_INFINITY, 0.0, Mirror::at(0.0, 0.0));
+    scored.into_iter().fold(none, |one, other| if other.0 > one.0 { other } else { one })
 }
 
 /// Every cell becomes the mean of itself and its two neighbours `stride` away, twice.
