@@ -145,7 +145,9 @@ impl Rig {
     fn rides(&self, character: &Character) -> Vec<Option<usize>> {
         let count = character.skeleton.joints.len();
         let mut rides = vec![None; count];
+        let mut has_role = vec![false; count];
         for (role, joint) in character.humanoid.iter() {
+            has_role[joint] = true;
             if rides[joint].is_none() {
                 rides[joint] = role.chain().find_map(|role| self.humanoid.joint(role));
             }
@@ -160,9 +162,8 @@ impl Rig {
                 }
             }
         }
-        for joint in character.skeleton.parents_first() {
-            let above = character.skeleton.ancestors(joint).skip(1).any(|above| rides[above].is_some());
-            if rides[joint].is_none() && !above {
+        for joint in 0..count {
+            if character.skeleton.ancestors(joint).all(|above| !has_role[above]) {
                 let most = moved[joint].iter().max_by(|a, b| a.1.total_cmp(b.1));
                 rides[joint] = most.map(|(&to, _)| to as usize);
             }

@@ -26,23 +26,20 @@ const AVATAR_HEADERS: [&str; 5] =
 /// As [`add_rig`].
 pub fn rerigged(loaded: &Loaded, skeleton: &Skeleton, weights: &[Weights]) -> Result<GltfFile> {
     let mut file = loaded.file.clone();
-    if let Some(extensions) = file.json["extensions"].as_object_mut() {
+    if let Some(extensions) = file.json.get_mut("extensions").and_then(Value::as_object_mut) {
         extensions.retain(|name, _| !AVATAR_HEADERS.contains(&name.as_str()));
         if extensions.is_empty() {
             file.json.as_object_mut().map(|json| json.remove("extensions"));
         }
     }
     for list in ["extensionsUsed", "extensionsRequired"] {
-        if let Some(names) = file.json[list].as_array_mut() {
-            names.retain(|name| !name.as_str().is_some_and(|name| AVATAR_HEADERS.contains(&name)));
-            if names.is_empty() {
-                file.json.as_object_mut().map(|json| json.remove(list));
-            }
-        } else {
+        let Some(names) = file.json.get_mut(list).and_then(Value::as_array_mut) else { continue };
+        names.retain(|name| !name.as_str().is_some_and(|name| AVATAR_HEADERS.contains(&name)));
+        if names.is_empty() {
             file.json.as_object_mut().map(|json| json.remove(list));
         }
     }
-    for node in file.json["nodes"].as_array_mut().into_iter().flatten() {
+    for node in file.json.get_mut("nodes").and_then(Value::as_array_mut).into_iter().flatten() {
         node.as_object_mut().map(|node| node.remove("skin"));
     }
     file.json.as_object_mut().map(|json| json.remove("skins"));
@@ -240,9 +237,9 @@ fn show(file: &mut GltfFile, loaded: &Loaded, node: usize, mesh: usize, skin: us
     let new = push(&mut file.json["nodes"], Value::Object(shown));
     add_to_scene(file, new);
     // Expressions that an animation plays are the mesh's.
-    for animation in file.json["animations"].as_array_mut().into_iter().flatten() {
-        for channel in animation["channels"].as_array_mut().into_iter().flatten() {
-            let target = &mut channel["target"];
+    for animation in file.json.get_mut("animations").and_then(Value::as_array_mut).into_iter().flatten() {
+        for channel in animation.get_mut("channels").and_then(Value::as_array_mut).into_iter().flatten() {
+            let Some(target) = channel.get_mut("target") else { continue };
             if target["path"] == "weights" && index_at(target, "node") == Some(node) {
                 target["node"] = json!(new);
             }
