@@ -10,6 +10,7 @@ pub mod heat;
 pub mod joints;
 pub mod kinds;
 pub mod layout;
+pub mod pieces;
 pub mod skeleton;
 pub mod transfer;
 pub mod volume;
