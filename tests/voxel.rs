@@ -2,13 +2,14 @@
 
 #[path = "common/models.rs"]
 mod models;
+#[path = "common/people.rs"]
+mod people;
 #[path = "common/truth.rs"]
 mod truth;
 
 use glam::{DMat3, DVec3};
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
-use superdeform::rig::pieces::Pieces;
 use superdeform::rig::skeleton::weight_bones;
 use superdeform::rig::voxel::{NEAREST_BONE, VOLUME_APART, VoxelOptions, heat_would_be_poor, voxel_weights};
 use superdeform::rig::{Layout, WeightBone, Weighted};
@@ -360,5 +361,124 @@ fn threads_change_no_bit() {
         for threads in [2, 8] {
             assert!(real(case, &options(threads)).made.weights == one.weights, "{}", case.name);
         }
+    }
+}
+
+/// The artist's weights of each vertex, by the role that each joint hangs from; nothing where one hangs from none.
+fn artists(case: &Case) -> Option<Vec<BTreeMap<Role, f64>>> {
+    let character = &models::model(&case.name)?.character;
+    let is_bone = |role: &Role| !matches!(role, Role::LeftEye | Role::RightEye | Role::Jaw);
+    let role_of = |joint: usize| {
+        let mut above = Some(joint);
+        while let Some(joint) = above {
+            if let Some((role, _)) = character.humanoid.iter().find(|&(_, other)| other == joint) {
+                return role.chain().find(is_bone);
+            }
+            above = character.skeleton.joints[joint].parent;
+        }
+        None
+    };
+    let roles: Vec<Option<Role>> = (0..character.skeleton.joints.len()).map(role_of).collect();
+    let rows = character.meshes.iter().flat_map(|mesh| {
+        (0..mesh.positions.len()).map(|vertex| {
+            let mut row = BTreeMap::new();
+            for &(joint, weight) in if mesh.weights.is_empty() { &[] } else { mesh.weights.row(vertex) } {
+                if let Some(role) = roles[joint as usize] {
+                    *row.entry(role).or_insert(0.0) += f64::from(weight);
+                }
+            }
+            row
+        })
+    });
+    Some(rows.collect())
+}
+
+#[test]
+fn hands_beside_thighs_do_not_follow_the_legs() {
+    let cases = truth::cases();
+    let names = ["makehuman_female_rigged.glb", "seedsan_vrm1.vrm", "makehuman_baby_reference.glb"];
+    for case in cases.iter().filter(|case| names.contains(&&*case.name)) {
+        let real = real(case, &options(0));
+        let roles: Vec<Role> = real.joints.keys().copied().collect();
+        let mut seen = 0;
+        for (vertex, row) in artists(case).unwrap().iter().enumerate() {
+            let of_hand: f64 = [Role::LeftHand, Role::RightHand, Role::LeftLowerArm, Role::RightLowerArm]
+                .iter()
+                .filter_map(|role| row.get(role))
+                .sum();
+            if of_hand > 0.99 {
+                seen += 1;
+                let is_leg = |role: Role| {
+                    use Role::*;
+                    matches!(role, LeftUpperLeg | RightUpperLeg | LeftLowerLeg | RightLowerLeg | Hips)
+                };
+                let made = real.made.weights.row(vertex);
+                let of_leg: f32 = made.iter().filter(|e| is_leg(roles[e.0 as usize])).map(|e| e.1).sum();
+                assert!(of_leg < 0.01, "{}: vertex {vertex} has {of_leg}", case.name);
+            }
+        }
+        assert!(seen > 100);
+    }
+}
+
+#[test]
+fn weights_are_nearer_to_the_artists_than_those_of_the_nearest_bone() {
+    let names = ["cesiumman.glb", "makehuman_female_rigged.glb", "quaternius_female_dress.glb"];
+    for case in truth::cases().iter().filter(|case| names.contains(&&*case.name)) {
+        let real = real(case, &options(0));
+        let roles: Vec<Role> = real.joints.keys().copied().collect();
+        let distance = |p: DVec3, bone: &WeightBone| {
+            let feet = bone.segments.iter().map(|&[a, b]| superdeform::geometry::foot(p, a, b).0.distance(p));
+            feet.fold(f64::INFINITY, f64::min)
+        };
+        let (mut ours, mut rigid, mut count) = (0.0, 0.0, 0.0);
+        for (vertex, row) in artists(case).unwrap().iter().enumerate().filter(|(_, row)| !row.is_empty()) {
+            let half_l1 = |made: &[(u32, f32)]| {
+                let mut rest = row.clone();
+                for &(joint, weight) in made {
+                    *rest.entry(roles[joint as usize]).or_default() -= f64::from(weight);
+                }
+                rest.values().map(|x| x.abs()).sum::<f64>() / 2.0
+            };
+            let p = real.layout.positions[vertex];
+            let nearest = real
+                .bones
+                .iter()
+                .min_by(|one, other| distance(p, one).total_cmp(&distance(p, other)))
+                .unwrap();
+            ours += half_l1(real.made.weights.row(vertex));
+            rigid += half_l1(&[(nearest.joint, 1.0)]);
+            count += 1.0;
+        }
+        println!("{}: half-L1 {:.3}, nearest bone {:.3}", case.name, ours / count, rigid / count);
+        assert!(ours < rigid, "{}", case.name);
+    }
+}
+
+#[test]
+fn a_symmetric_person_has_symmetric_weights() {
+    for arm_angle in [0.0, 50.0] {
+        let person = people::Person { arm_angle, ..people::Person::default() };
+        let character = person.build();
+        let layout = Layout::of(&character, DVec3::Z).unwrap();
+        let joints: BTreeMap<Role, DVec3> =
+            person.joints().into_iter().map(|(role, at)| (role, layout.to_layout(at))).collect();
+        let bones = weight_bones(&joints, &BTreeMap::new(), None);
+        let made = voxel_weights(&layout.positions, &layout.triangles, &bones, &options(0)).weights;
+        let roles: Vec<Role> = joints.keys().copied().collect();
+        let key = |p: DVec3| [p.x, p.y, p.z].map(|x| (x * 1e6).round() as i64);
+        let at: BTreeMap<[i64; 3], usize> =
+            layout.positions.iter().enumerate().map(|(vertex, &p)| (key(p), vertex)).collect();
+        let mut pairs = 0;
+        for (vertex, &p) in layout.positions.iter().enumerate() {
+            let Some(&twin) = at.get(&key(DVec3::new(-p.x, p.y, p.z))) else { continue };
+            pairs += 1;
+            for (joint, role) in roles.iter().enumerate() {
+                let mirrored = roles.iter().position(|other| *other == role.mirrored()).unwrap();
+                let (one, other) = (share(&made, vertex, joint as u32), share(&made, twin, mirrored as u32));
+                assert!((one - other).abs() < 1e-4, "{arm_angle}: {p} {role}: {one} {other}");
+            }
+        }
+        assert!(2 * pairs > layout.positions.len(), "{pairs} of {}", layout.positions.len());
     }
 }
