@@ -4,7 +4,6 @@ use super::milliseconds;
 use crate::character::{Character, Humanoid, MeshKind, Role, Skeleton, Weights};
 use crate::error::{Error, ErrorKind, Result, Warning};
 use crate::geometry::Surface;
-use crate::parallel;
 use crate::report::RigReport;
 use crate::rig::eyes::{Eye, find_eyes};
 use crate::rig::facing::find_forward;
@@ -255,7 +254,7 @@ struct Binder<'a> {
     options: &'a RigOptions,
     body: Group,
     garments: Vec<Group>,
-    accessories: Vec<Group>,
+    accessories: Group,
     of_head: Vec<usize>,
     rule: BodyRule,
     warnings: Vec<Warning>,
@@ -332,7 +331,8 @@ impl<'a> Binder<'a> {
             options,
             body,
             garments: separate(garments),
-            accessories: separate(accessories),
+            // Pieces that touch are one thing, whatever meshes they are in.
+            accessories: Group::new(layout, accessories),
             of_head,
             rule,
             warnings,
@@ -379,14 +379,10 @@ impl<'a> Binder<'a> {
             count(&worn);
             group.share(self.layout, &worn.weights, &mut weights);
         }
-        let carried = parallel::collect(threads, self.accessories.len(), 1, |index| {
-            let group = &self.accessories[index];
-            rigid_weights(&source, &group.positions, &group.triangles)
-        });
-        for (group, carried) in self.accessories.iter().zip(&carried) {
-            count(carried);
-            group.share(self.layout, &carried.weights, &mut weights);
-        }
+        let things = &self.accessories;
+        let carried = rigid_weights(&source, &things.positions, &things.triangles);
+        count(&carried);
+        things.share(self.layout, &carried.weights, &mut weights);
         let head = self.head.unwrap_or(0);
         for &mesh in &self.of_head {
             weights[mesh] = Weights::from_rows(self.layout.vertices(mesh).map(|vertex| {

@@ -35,6 +35,12 @@ impl Bone {
         feet.min_by(|one, other| one.distance_squared(p).total_cmp(&other.distance_squared(p))).unwrap_or(p)
     }
 
+    /// Whether an end of one bone is an end of the other.
+    pub fn touches(&self, other: &Self) -> bool {
+        let mut ends = self.segments.iter().flatten();
+        ends.any(|p| other.segments.iter().flatten().any(|q| p.distance(*q) <= SAME))
+    }
+
     /// The length of the longest segment.
     pub fn length(&self) -> f64 {
         self.segments.iter().map(|[a, b]| a.distance(*b)).fold(0.0, f64::max)

@@ -13,6 +13,7 @@ pub mod joints;
 pub mod kinds;
 pub mod layout;
 pub mod legs;
+pub mod pieces;
 pub mod silhouette;
 pub mod skeleton;
 pub mod stance;

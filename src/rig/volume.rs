@@ -49,6 +49,32 @@ impl Volume {
     ///
     /// Where there are no finite positions the volume is empty.
     pub fn new(positions: &[DVec3], triangles: &[[u32; 3]], resolution: usize) -> Self {
+        let mut volume = Self::grid(positions, triangles, resolution);
+        let points: Vec<DVec3> = positions.iter().map(|&p| volume.to_grid(p)).collect();
+        let finite = |triangle: &&[u32; 3]| triangle.iter().all(|&v| positions[v as usize].is_finite());
+        let triangles: Vec<[u32; 3]> = triangles.iter().filter(finite).copied().collect();
+        let mut is_in = vec![false; volume.slots.len()];
+        for &p in &points {
+            is_in[volume.cell(nearest(p))] = true;
+        }
+        for triangle in &triangles {
+            let corners = triangle.map(|vertex| points[vertex as usize]);
+            touched(corners, |at| is_in[volume.cell(at)] = true);
+        }
+        let mut inside = volume.enclosed(&is_in);
+        volume.vote(&points, &triangles, &mut inside);
+        for (is_in, inside) in is_in.iter_mut().zip(inside) {
+            *is_in |= inside;
+        }
+        for (cell, _) in is_in.iter().enumerate().filter(|&(_, &is_in)| is_in) {
+            volume.slots[cell] = volume.cells.len() as u32;
+            volume.cells.push(cell as u32);
+        }
+        volume
+    }
+
+    /// The grid alone, without a voxel in it.
+    pub fn grid(positions: &[DVec3], triangles: &[[u32; 3]], resolution: usize) -> Self {
         let finite = |triangle: &&[u32; 3]| triangle.iter().all(|&v| positions[v as usize].is_finite());
         let bounds = |points: &mut dyn Iterator<Item = DVec3>| {
             points.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)))
@@ -68,29 +94,7 @@ impl Volume {
         let half = ((high - low) / (2.0 * edge) - 0.5).ceil().max(DVec3::ZERO).as_ivec3() + PADDING;
         let size = 2 * half + 1;
         let cell_count = size.as_i64vec3().element_product() as usize;
-        let mut volume =
-            Self { size, slots: vec![OUTSIDE; cell_count], cells: Vec::new(), edge, centre, low, high };
-
-        let points: Vec<DVec3> = positions.iter().map(|&p| volume.to_grid(p)).collect();
-        let triangles: Vec<[u32; 3]> = triangles.iter().filter(finite).copied().collect();
-        let mut is_in = vec![false; cell_count];
-        for &p in &points {
-            is_in[volume.cell(nearest(p))] = true;
-        }
-        for triangle in &triangles {
-            let corners = triangle.map(|vertex| points[vertex as usize]);
-            touched(corners, |at| is_in[volume.cell(at)] = true);
-        }
-        let mut inside = volume.enclosed(&is_in);
-        volume.vote(&points, &triangles, &mut inside);
-        for (is_in, inside) in is_in.iter_mut().zip(inside) {
-            *is_in |= inside;
-        }
-        for (cell, _) in is_in.iter().enumerate().filter(|&(_, &is_in)| is_in) {
-            volume.slots[cell] = volume.cells.len() as u32;
-            volume.cells.push(cell as u32);
-        }
-        volume
+        Self { size, slots: vec![OUTSIDE; cell_count], cells: Vec::new(), edge, centre, low, high }
     }
 
     /// `p` in voxels: the middle of a voxel has whole numbers. What lies beyond the figure is moved to its bounding box;

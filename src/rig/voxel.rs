@@ -3,6 +3,7 @@
 //! Dionne and de Lasa. Geodesic voxel binding for production character meshes. SCA 2013 (reference 14).
 
 use super::geodesic::{Bone, Distances, Paths, place_bones};
+use super::pieces::Pieces;
 use super::volume::{OUTSIDE, Volume, nearest};
 use super::{WeightBone, Weighted};
 use crate::character::Weights;
@@ -90,17 +91,6 @@ pub fn voxel_weights(
         }
         *radius = radius.max(LEAST_RADIUS);
     }
-    if std::env::var_os("SHOW").is_some() {
-        for (b, bone) in bones.iter().enumerate() {
-            println!(
-                "joint {} R {:.4} length {:?} starts {}",
-                joints[b],
-                radii[b] * volume.edge,
-                bone.segments.iter().map(|[a, b]| a.distance(*b) * volume.edge).collect::<Vec<_>>(),
-                bone.starts.len()
-            );
-        }
-    }
     let weigh = |vertex: usize| -> Vec<(u32, f32)> {
         let row = rows.of(vertex);
         let mut weights: Vec<(u32, f32)> = Vec::with_capacity(row.len());
@@ -158,7 +148,7 @@ fn distance_rows(
     let volume = paths.volume;
     let mut nearest = Distances::new(volume.cells.len());
     nearest.spread(paths, bones, 0..bones.len(), |_| f32::INFINITY);
-    // About how wide each bone's part of the volume is: no more than a bound for how far others must look.
+    // How wide each bone's part of the volume is at most: a bound for how far others must look.
     let mut widest = vec![0.0f32; bones.len()];
     for slot in 0..volume.cells.len() as u32 {
         if nearest.is_reached(slot) {
@@ -166,15 +156,29 @@ fn distance_rows(
             *width = width.max(nearest.lengths[slot as usize]);
         }
     }
+    let bound = |bone: usize| {
+        let half = bones[bone].length() as f32 / 2.0;
+        let widest = widest[bone].max(1.0);
+        if half > 0.0 { half.min(widest) } else { widest }
+    };
+    // A thin neck must be known wherever the chest below it is, for it narrows the chest's reach.
+    let touching = |bone: usize| (0..bones.len()).filter(move |&other| bones[other].touches(&bones[bone]));
+    let bounds: Vec<f32> =
+        (0..bones.len()).map(|bone| touching(bone).map(bound).fold(bound(bone), f32::max)).collect();
     let columns = parallel::collect_with(
         thread_count,
         bones.len(),
         1,
         || Distances::new(volume.cells.len()),
         |distances, bone| {
+            let radius = bounds[bone];
             let limit = |slot: u32| {
                 let least = nearest.lengths[slot as usize];
-                least + profile.reach as f32 * least.max(widest[bone]) + 2.0
+                // A bone's radius is seldom less than a quarter of how wide its part is.
+                let own = widest[nearest.bones[slot as usize] as usize] / 4.0;
+                let spread = (least / own.max(1.0)).max(1.0).sqrt();
+                let beyond = profile.reach as f32 * radius * spread;
+                (least * least + beyond * beyond).sqrt() + 2.0
             };
             distances.spread(paths, bones, std::iter::once(bone), limit);
             let mut column: Vec<(u32, f32)> = Vec::new();
@@ -281,7 +285,7 @@ fn ownership(nearest: f64, length: f64) -> f64 {
 /// How a weight falls with the lag.
 struct Profile {
     falloff: f64,
-    /// Beyond this difference of distances, in radii, a weight is 0.
+    /// This far beyond the border, in radii, a weight is 0.
     reach: f64,
 }
 
@@ -296,7 +300,7 @@ impl Profile {
             exponent
         };
         let way = lag * Self::scale() + ROUNDING;
-        let reach = (1.0 + way * way - ROUNDING * ROUNDING).sqrt() - 1.0;
+        let reach = (way * way - ROUNDING * ROUNDING).sqrt();
         Self { falloff, reach }
     }
 
@@ -326,14 +330,16 @@ impl Profile {
             sum += share * radii[bone as usize];
             total += share;
         }
-        let own = sum / total;
-        // A transition is as wide as the thinner of the two limbs: a head as large as a trunk begins at a thin neck.
         // Far from every bone it is wider, by so much that weights stay what they are along a thing whose only way to all
         // bones leads through one place: there the distances differ by a constant c, and the lag is sqrt(2 c d) / radius.
-        let spread = (nearest / own).max(1.0).sqrt();
+        let spread = (nearest / (sum / total)).max(1.0).sqrt();
         let share = move |&(bone, length): &(u32, f32)| {
-            let radius = radii[bone as usize].min(own) * spread;
-            (bone, self.share(nearest, f64::from(length), radius))
+            // A transition is as wide as the thinnest limb on the way, which is one of those that are nearer: a head as
+            // large as a trunk begins at a thin neck.
+            let radius = row.iter().fold(f64::INFINITY, |least, &(other, before)| {
+                least.min(radii[other as usize] / ownership(f64::from(length), f64::from(before.max(length))))
+            });
+            (bone, self.share(nearest, f64::from(length), radius * spread))
         };
         let total: f64 = row.iter().map(|entry| share(entry).1).sum();
         row.iter().map(share).map(move |(bone, weight)| (bone, weight / total))
@@ -342,9 +348,9 @@ impl Profile {
 
 /// Why heat would be poor on this body: a sentence for a person; `None` where heat does well.
 pub fn heat_would_be_poor(
-    _positions: &[DVec3],
-    _triangles: &[[u32; 3]],
-    _bones: &[WeightBone],
+    positions: &[DVec3],
+    triangles: &[[u32; 3]],
+    bones: &[WeightBone],
 ) -> Option<String> {
-    None
+    Pieces::of(positions, triangles, bones).trouble()
 }
