@@ -22,7 +22,11 @@ const WELD_TOLERANCE: f64 = 1e-6;
 const EQUAL: f64 = 1.0 + 1e-4;
 /// ... and not at all from this one on. Between them the share falls off, so that a vertex in the plane of symmetry
 /// keeps both legs alike however it is rounded.
-const UNEQUAL: f64 = 1.0 + 1e-2;
+const UNEQUAL: f64 = 1.0 + 1e-3;
+
+/// What lies further than this from the mesh's middle, in units of the figure, counts as this far, so that squares of
+/// distances stay finite.
+const FARTHEST: f64 = 1e6;
 
 /// Distances to bones are at least this, in units of the figure: what is nearer lies on the bone, and H stays finite.
 const LEAST_DISTANCE: f64 = 1e-6;
@@ -118,8 +122,8 @@ enum Rule {
 impl HeatSystem {
     /// Makes the equation ready: welds, looks for the bones, analyses the system.
     ///
-    /// - `positions`, `bones`: in one space of any unit; what is not finite counts as the middle of the mesh, and a
-    ///   segment that is not finite as none.
+    /// - `positions`, `bones`: in one space of any unit; a vertex that is not finite counts as the middle of the
+    ///   mesh, a segment that is not finite as none.
     /// - `triangles`: those with a vertex that is not there are left out.
     /// - `thread_count`: 0 means all cores. Results are the same for any number.
     ///
@@ -389,7 +393,8 @@ impl Frame {
 
     fn place(&self, p: DVec3) -> DVec3 {
         let placed = (p - self.centre) * self.scale;
-        if placed.is_finite() { placed } else { DVec3::ZERO }
+        let farthest = DVec3::splat(FARTHEST);
+        if placed.is_nan() { DVec3::ZERO } else { placed.clamp(-farthest, farthest) }
     }
 }
 
