@@ -139,11 +139,9 @@ impl HeatSystem {
         let triangles = || triangles.iter().filter(is_there);
         let frame = Frame::of(positions, triangles(), bones);
         let mut points: Vec<DVec3> = positions.iter().map(|&p| frame.place(p)).collect();
-        let weld = weld(&points, WELD_TOLERANCE);
-        for (welded, &vertex) in weld.first_vertices().iter().enumerate() {
-            points[welded] = points[vertex as usize];
-        }
-        points.truncate(weld.count);
+        let mut weld = weld(&points, WELD_TOLERANCE);
+        points = weld.first_vertices().iter().map(|&vertex| points[vertex as usize]).collect();
+        arrange(&mut weld, &mut points);
         let pieces = Pieces::of(&points, triangles().map(|&corners| weld.triangle(corners)));
         let segments = Segments::of(bones, &frame);
         let ((laplacian, symbolic), nearest) = parallel::both(
@@ -358,6 +356,33 @@ impl HeatSystem {
     /// How the vertex's component gets its weights; `None` where it has no component.
     fn rule_of(&self, vertex: usize) -> Option<Rule> {
         self.rules.get(self.components[vertex] as usize).copied()
+    }
+}
+
+/// Numbers the welded vertices along a curve through space, so that neighbours are near each other in memory, whatever
+/// the order of a file: rays, assembly and solves all go through them in order.
+///
+/// Morton. A computer oriented geodetic data base and a new technique in file sequencing. IBM, 1966.
+fn arrange(weld: &mut Weld, points: &mut Vec<DVec3>) {
+    let spread = |x: f64| {
+        let mut bits = ((x + 0.5) * 1023.0) as u64 & 1023;
+        for (shift, mask) in [(16, 0x0300_00ff), (8, 0x0300_f00f), (4, 0x030c_30c3), (2, 0x0924_9249)] {
+            bits = (bits | bits << shift) & mask;
+        }
+        bits
+    };
+    let mut order: Vec<u64> = (0u64..)
+        .zip(&*points)
+        .map(|(vertex, p)| (spread(p.x) | spread(p.y) << 1 | spread(p.z) << 2) << 32 | vertex)
+        .collect();
+    order.sort_unstable();
+    let mut numbers = vec![0; points.len()];
+    for (number, &vertex) in (0u32..).zip(&order) {
+        numbers[vertex as u32 as usize] = number;
+    }
+    *points = order.iter().map(|&vertex| points[vertex as u32 as usize]).collect();
+    for welded in &mut weld.representative {
+        *welded = numbers[*welded as usize];
     }
 }
 
