@@ -103,7 +103,12 @@ fn body_bones(joints: &BTreeMap<Role, DVec3>) -> Vec<WeightBone> {
     let is_finger = |role: &Role| {
         ["Thumb", "Index", "Middle", "Ring", "Little"].iter().any(|finger| role.name().contains(finger))
     };
-    let tips = joints
+    // Toes go on from the foot along the ground.
+    let toes = |foot: Role, toes: Role| {
+        let way = *joints.get(&toes)? - *joints.get(&foot)?;
+        Some((toes, joints[&toes] + 0.4 * way.with_y(0.0)))
+    };
+    let mut tips: BTreeMap<Role, DVec3> = joints
         .iter()
         .filter_map(|(role, &at)| match role {
             Role::Head => Some((Role::Head, at + 0.15 * DVec3::Y)),
@@ -112,6 +117,8 @@ fn body_bones(joints: &BTreeMap<Role, DVec3>) -> Vec<WeightBone> {
             _ => None,
         })
         .collect();
+    tips.extend(toes(Role::LeftFoot, Role::LeftToes));
+    tips.extend(toes(Role::RightFoot, Role::RightToes));
     let joints = joints.iter().filter(|(role, _)| !is_finger(role)).map(|(&role, &at)| (role, at)).collect();
     weight_bones(&joints, &tips, None)
 }

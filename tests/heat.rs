@@ -247,10 +247,12 @@ fn order_and_winding_do_not_matter() {
         }
     }
     let shuffled = heat(&(order.iter().map(|&old| mesh.0[old]).collect(), triangles), &bones, 1.0);
-    let mut back = Weighted::default();
-    back.weights = superdeform::Weights::from_rows(
-        place.iter().map(|&new| shuffled.weights.row(new as usize).iter().copied()),
-    );
+    let back = Weighted {
+        weights: superdeform::Weights::from_rows(
+            place.iter().map(|&new| shuffled.weights.row(new as usize).iter().copied()),
+        ),
+        ..Weighted::default()
+    };
     assert!(difference(&one, &back) < 1e-6);
     let flipped = mesh.1.iter().map(|&[a, b, c]| [a, c, b]).collect();
     assert!(difference(&one, &heat(&(mesh.0.clone(), flipped), &bones, 1.0)) < 1e-6);
@@ -349,9 +351,8 @@ fn coincident_bones_share_alike() {
     let weighted = heat(&mesh, &bones, 1.0);
     check(&weighted, mesh.0.len());
     let columns: Vec<Vec<f64>> = (1..4).map(|joint| column(&weighted, joint)).collect();
-    for vertex in 0..mesh.0.len() {
-        assert!((columns[0][vertex] - columns[1][vertex]).abs() < 1e-6);
-        assert!((columns[0][vertex] - columns[2][vertex]).abs() < 1e-6);
+    for other in &columns[1..] {
+        assert!(columns[0].iter().zip(other).all(|(one, other)| (one - other).abs() < 1e-6));
     }
     assert!((columns[0].last().unwrap() - 1.0 / 3.0).abs() < 5e-3);
     // Three bones warm their side three times as much, so that the weight falls off √3 times as fast there; at the
@@ -445,74 +446,46 @@ fn what_the_equation_has_no_answer_for_is_counted() {
     mesh.0.push(DVec3::new(0.6, 0.1, 0.0));
     mesh.0.extend([DVec3::Y, 1.1 * DVec3::Y, 1.2 * DVec3::Y]);
     mesh.1.push([count as u32 + 1, count as u32 + 2, count as u32 + 3]);
+    let speck = DVec3::new(0.5, 0.15, 0.0);
+    mesh.0.extend([speck, speck + 4e-6 * DVec3::X, speck + 4e-6 * DVec3::Z]);
+    mesh.1.push([count as u32 + 4, count as u32 + 5, count as u32 + 6]);
     let weighted = heat(&mesh, &bones, 1.0);
     check(&weighted, mesh.0.len());
-    assert_eq!(weighted.fallback, BTreeMap::from([("vertex_without_triangle", 4)]));
+    let counts = BTreeMap::from([("vertex_without_triangle", 4), ("component_too_small", 3)]);
+    assert_eq!(weighted.fallback, counts);
+    assert_eq!(weighted.weights.row(count + 5), [(1, 1.0)]);
     assert_eq!(weighted.weights.row(count), [(1, 1.0)]);
     assert_eq!(weighted.weights.row(count + 3), [(5, 1.0)]);
-
-    // A ball within a ball of the same component (joined by one needle): the bone outside is seen by the outer one
-    // only; the inner component alone, seen from outside, is seen on one side; a wall all around hides it from all.
-    let shell = together(&[ball(DVec3::ZERO, 0.2, 10), ball(DVec3::ZERO, 0.21, 10)]);
-    let outside = [bone(0, DVec3::X, DVec3::X + DVec3::Y)];
-    assert!(heat(&shell, &outside, 1.0).fallback.is_empty());
-    // Two triangles on either side of which the bone lies in their own plane's far half: each is hidden by a second
-    // pair in front of it.
-    let plate = |x: f64, size: f64| {
-        let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
-        corners.map(|[y, z]| DVec3::new(x, size * y, size * z)).to_vec()
-    };
-    let mut positions = plate(0.0, 0.1);
-    positions.extend(plate(0.1, 1.0));
-    positions.extend(plate(0.2, 1.0));
-    // The middle plate is joined to the two beside it along an edge far away from the bones.
-    let mut triangles: Vec<[u32; 3]> = Vec::new();
-    for start in [0, 4, 8] {
-        triangles.extend([[start, start + 1, start + 2], [start, start + 2, start + 3]]);
-    }
-    triangles.push([0, 4, 5]);
-    triangles.push([4, 8, 9]);
-    let mesh = (positions, triangles);
-    let hidden = [
-        bone(6, DVec3::new(0.15, 0.0, 0.0), DVec3::new(0.15, 0.0, 0.0)),
-        bone(7, 9.0 * DVec3::X, 9.0 * DVec3::X),
-    ];
-    check(&heat(&mesh, &hidden, 1.0), 12);
 }
 
 #[test]
 fn a_component_that_sees_no_bone_takes_the_nearest() {
-    // A ball whose bone is on its far side from every vertex: behind a ball outside of it no vertex that is nearest sees
-    // anything, since the bone lies within a second, joined shell that is no longer than a hair's breadth away.
-    let shell = ball(DVec3::ZERO, 0.2, 16);
-    let inner = ball(DVec3::ZERO, 0.19, 16);
-    let mut mesh = together(&[shell.clone(), inner]);
-    // All outer vertices are behind the inner shell; the inner ones behind a third, joined one as well.
-    let third = ball(DVec3::ZERO, 0.18, 16);
-    let start = mesh.0.len() as u32;
-    mesh.0.extend(third.0);
-    mesh.1.extend(third.1.iter().map(|corners| corners.map(|vertex| vertex + start)));
-    let count = shell.0.len() as u32;
-    mesh.1.push([2, 3, count + 2]);
-    mesh.1.push([count + 2, count + 3, 2 * count + 2]);
-    // Only the third shell sees the bone: heat goes through the joints between the shells.
-    let inside = [bone(3, -0.01 * DVec3::Y, 0.01 * DVec3::Y), bone(4, DVec3::Y * 5.0, DVec3::Y * 6.0)];
-    let seen = heat(&mesh, &inside, 1.0);
-    check(&seen, mesh.0.len());
-    assert!(seen.fallback.is_empty());
-    assert!(column(&seen, 3).iter().all(|&weight| weight > 0.999));
-    // Without the third shell's triangles about it, the two others see it no more: a closed shell has no hole. Here
-    // a pair of coincident triangles hides a bone in front of either from the other's side only.
-    let sheet = |z: f64| [DVec3::new(-1.0, -1.0, z), DVec3::new(1.0, -1.0, z), DVec3::new(0.0, 1.0, z)];
-    let mut positions: Vec<DVec3> = Vec::new();
-    for z in [0.0, 0.1, 0.4, 0.5] {
-        let size = if z == 0.0 || z == 0.5 { 0.4 } else { 2.0 };
-        positions.extend(sheet(z).map(|p| DVec3::new(size * p.x, size * p.y, p.z)));
+    // A crate of six plates that reach beyond each other's planes: from no corner is the middle seen.
+    let mut crate_of_plates = Mesh::default();
+    for axis in 0..3 {
+        for side in [-1.0, 1.0] {
+            let start = crate_of_plates.0.len() as u32;
+            for [u, v] in [[-3.0, -3.0], [3.0, -3.0], [3.0, 3.0], [-3.0, 3.0]] {
+                let mut corner = DVec3::ZERO;
+                corner[axis] = side;
+                corner[(axis + 1) % 3] = u;
+                corner[(axis + 2) % 3] = v;
+                crate_of_plates.0.push(corner);
+            }
+            crate_of_plates.1.extend([[start, start + 1, start + 2], [start, start + 2, start + 3]]);
+            if start > 0 {
+                crate_of_plates.1.push([start, start - 4, start - 3]);
+            }
+        }
     }
-    let triangles = vec![[0, 1, 2], [3, 4, 5], [6, 7, 8], [9, 10, 11]];
-    // Each sheet alone sees the bone between them: four components, so nothing is hidden.
-    let between = [bone(1, DVec3::new(0.0, 0.0, 0.25), DVec3::new(0.0, 0.0, 0.25))];
-    assert!(heat(&(positions, triangles), &between, 1.0).fallback.is_empty());
+    let middle = bone(3, DVec3::ZERO, DVec3::ZERO);
+    let weighted = heat(&crate_of_plates, &[middle.clone(), bone(4, 50.0 * DVec3::X, 60.0 * DVec3::X)], 1.0);
+    check(&weighted, 24);
+    assert_eq!(weighted.fallback, BTreeMap::from([("component_without_visible_bone", 24)]));
+    assert!(weighted.weights.rows().all(|row| row == [(3, 1.0)]));
+    // Plates that are components of their own hide nothing from each other.
+    crate_of_plates.1.retain(|&[a, b, _]| a < b);
+    assert!(heat(&crate_of_plates, &[middle], 1.0).fallback.is_empty());
 }
 
 #[test]
@@ -548,10 +521,12 @@ fn patchwork_and_bad_edges_are_weighted() {
     check(&weighted, finned.0.len());
     assert!(weighted.fallback.is_empty());
     // Fins leave the rest nearly as it was.
-    let mut body = Weighted::default();
-    body.weights = superdeform::Weights::from_rows(
-        (0..mesh.0.len()).map(|vertex| weighted.weights.row(vertex).iter().copied()),
-    );
+    let body = Weighted {
+        weights: superdeform::Weights::from_rows(
+            (0..mesh.0.len()).map(|vertex| weighted.weights.row(vertex).iter().copied()),
+        ),
+        ..Weighted::default()
+    };
     assert!(difference(&one, &body) < 0.1, "{}", difference(&one, &body));
 }
 
@@ -566,10 +541,12 @@ fn seams_do_not_matter() {
     );
     let weighted = heat(&torn, &bones, 1.0);
     assert!(weighted.fallback.is_empty());
-    let mut expected = Weighted::default();
-    expected.weights = superdeform::Weights::from_rows(
-        mesh.1.iter().flatten().map(|&vertex| one.weights.row(vertex as usize).iter().copied()),
-    );
+    let expected = Weighted {
+        weights: superdeform::Weights::from_rows(
+            mesh.1.iter().flatten().map(|&vertex| one.weights.row(vertex as usize).iter().copied()),
+        ),
+        ..Weighted::default()
+    };
     assert!(difference(&weighted, &expected) < 1e-6);
 }
 

@@ -108,6 +108,9 @@ pub struct HeatSystem {
     symbolic: Option<Symbolic>,
 }
 
+/// (vertex, bone, weight) of some bones, by vertices.
+type Solved = Vec<(u32, u32, f64)>;
+
 /// How a component gets its weights.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Rule {
@@ -189,8 +192,7 @@ impl HeatSystem {
             conducted[component] = conducted[component].max(self.diagonal[vertex]);
         }
         for component in 0..component_count {
-            // Also where either is not a number.
-            if !(exchanged[component] >= LEAST_EXCHANGE * conducted[component]) {
+            if exchanged[component] < LEAST_EXCHANGE * conducted[component] {
                 self.rules[component] = Rule::Small;
             }
         }
@@ -290,8 +292,8 @@ impl HeatSystem {
         }
     }
 
-    /// The solution: (vertex, bone, weight) for blocks of bones, each by vertices; and whether the diagonal was raised.
-    fn solve(&self, heat: f64) -> (Vec<Vec<(u32, u32, f64)>>, bool) {
+    /// The solution by blocks of bones, and whether the diagonal was raised.
+    fn solve(&self, heat: f64) -> (Vec<Solved>, bool) {
         let Some(symbolic) = &self.symbolic else {
             return (Vec::new(), false);
         };
@@ -511,7 +513,7 @@ impl Segments {
         let (u, v, w, inverse) = (&u[..count], &v[..count], &w[..count], &self.inverse[..count]);
         for i in 0..count {
             let (dx, dy, dz) = (p.x - x[i], p.y - y[i], p.z - z[i]);
-            let t = ((dx * u[i] + dy * v[i] + dz * w[i]) * inverse[i]).max(0.0).min(1.0);
+            let t = ((dx * u[i] + dy * v[i] + dz * w[i]) * inverse[i]).clamp(0.0, 1.0);
             let (dx, dy, dz) = (dx - t * u[i], dy - t * v[i], dz - t * w[i]);
             squared[i] = dx * dx + dy * dy + dz * dz;
         }
