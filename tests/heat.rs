@@ -446,7 +446,7 @@ fn what_the_equation_has_no_answer_for_is_counted() {
     mesh.0.push(DVec3::new(0.6, 0.1, 0.0));
     mesh.0.extend([DVec3::Y, 1.1 * DVec3::Y, 1.2 * DVec3::Y]);
     mesh.1.push([count as u32 + 1, count as u32 + 2, count as u32 + 3]);
-    let speck = DVec3::new(0.5, 0.15, 0.0);
+    let speck = DVec3::new(0.6, 0.3, 0.0);
     mesh.0.extend([speck, speck + 4e-6 * DVec3::X, speck + 4e-6 * DVec3::Z]);
     mesh.1.push([count as u32 + 4, count as u32 + 5, count as u32 + 6]);
     let weighted = heat(&mesh, &bones, 1.0);
