@@ -77,7 +77,7 @@ pub fn bodies() -> Vec<Body> {
         .iter()
         .flat_map(|bone| bone.segments.iter().map(|&ends| (ends, radius(roles[bone.joint as usize]))))
         .collect();
-    let (positions, triangles) = superdeform_benches::body_of_capsules(&capsules, 110.0);
+    let (positions, triangles) = superdeform_benches::body_of_capsules(&capsules, 75.0);
     let mut bodies = vec![Body { name: "capsules", positions, triangles, bones }];
     let [target, rigged] =
         ["makehuman_female_target.glb", "makehuman_female_rigged.glb"].map(|name| folder().join(name));
