@@ -45,6 +45,12 @@ pub fn find_fingers(
         return Hand::default();
     };
     let fingers = region.fingers();
+    if std::env::var_os("HAND_DEBUG").is_some() {
+        println!("  {} vertices, length {:.3}, wrist radius {:.4} starts {} centre {:.3} reached {}", region.points.len(), region.length, region.wrist_radius, region.is_start.iter().filter(|s| **s).count(), region.wrist, region.distances.iter().filter(|d| d.is_finite()).count());
+        for finger in &fingers {
+            println!("    tip {:.3} web {:.3} share {:.2} at {:.3} web {:.3}", finger.tip_distance, finger.web_distance, (finger.tip_distance - finger.web_distance) / region.length, region.points[finger.tip as usize], region.points[finger.web as usize]);
+        }
+    }
     let mut hand = region.hand(surface, fingers);
     if !left {
         hand.joints = std::mem::take(&mut hand.joints)
@@ -91,6 +97,12 @@ const LEAST_PERSISTENCE: f64 = 0.1;
 
 /// ... and is this far from the wrist: cuffs are nearer.
 const LEAST_REACH: f64 = 0.35;
+
+/// Fingers part further from the wrist than this share of the hand's length: what parts nearer is worn on the wrist.
+const LEAST_WEB: f64 = 0.12;
+
+/// Outlines below this share of the radius of one around the wrist are no arms.
+const SLIVER: f64 = 0.3;
 
 impl Region {
     fn new(positions: &[DVec3], triangles: &[[u32; 3]], elbow: DVec3, wrist: DVec3) -> Option<Self> {
@@ -253,7 +265,8 @@ impl Region {
                     || self.distances[one as usize] == self.distances[other as usize] && one < other;
                 let (tip, lesser) = if is_further { (one, other) } else { (other, one) };
                 let stands_out = self.distances[lesser as usize] - distance >= least
-                    && self.distances[lesser as usize] >= LEAST_REACH * self.length;
+                    && self.distances[lesser as usize] >= LEAST_REACH * self.length
+                    && distance >= LEAST_WEB * self.length;
                 if stands_out {
                     webs.entry(lesser).or_insert((distance, vertex));
                     webs.entry(tip).or_insert((distance, vertex));
@@ -559,7 +572,13 @@ impl Section {
             outline.length += a.distance(b);
             outline.distance = outline.distance.min(a.distance(at)).min(b.distance(at));
         }
-        outlines.retain(|_, outline| outline.length > 0.0);
+        // Slivers of folds and bolts say nothing beside what goes round the wrist.
+        let around = outlines
+            .values()
+            .filter(|outline| outline.length > 0.0 && outline.centre().distance(at) < outline.radius())
+            .map(Outline::radius)
+            .fold(0.0, f64::max);
+        outlines.retain(|_, outline| outline.length > 0.0 && outline.radius() >= SLIVER * around);
         let nearest = outlines
             .values()
             .copied()
