@@ -81,18 +81,40 @@ fn probe() {
 
 #[test]
 fn tubes() {
-    for arm_angle in [0.0, 45.0, 70.0] { for blended in [false, true] { for holes in [false, true] { for proportions in [people::ADULT, people::CHIBI] {
-    let person = people::Person { fingers: true, arm_angle, blended, holes, proportions, ..people::Person::adult() };
-    let character = person.build();
-    let layout = Layout::of(&character, glam::DVec3::Z).unwrap();
-    let surface = Surface::new(&layout.positions, &layout.triangles);
-    let joints = person.joints();
-    let hand = find_fingers(&surface, &layout.positions, &layout.triangles, layout.to_layout(joints[&Role::LeftLowerArm]), layout.to_layout(joints[&Role::LeftHand]), true);
-    println!("TUBE {arm_angle} blended {blended} holes {holes} {}", hand.finger_count);
-    for (role, joint) in &hand.joints {
-        if let Some(&p) = joints.get(role) { println!("   {role} {:.4}", layout.to_layout(p).distance(joint.position)); }
+    for arm_angle in [0.0, 45.0, 70.0] {
+        for blended in [false, true] {
+            for holes in [false, true] {
+                for proportions in [people::ADULT, people::CHIBI] {
+                    let person = people::Person {
+                        fingers: true,
+                        arm_angle,
+                        blended,
+                        holes,
+                        proportions,
+                        ..people::Person::adult()
+                    };
+                    let character = person.build();
+                    let layout = Layout::of(&character, glam::DVec3::Z).unwrap();
+                    let surface = Surface::new(&layout.positions, &layout.triangles);
+                    let joints = person.joints();
+                    let hand = find_fingers(
+                        &surface,
+                        &layout.positions,
+                        &layout.triangles,
+                        layout.to_layout(joints[&Role::LeftLowerArm]),
+                        layout.to_layout(joints[&Role::LeftHand]),
+                        true,
+                    );
+                    println!("TUBE {arm_angle} blended {blended} holes {holes} {}", hand.finger_count);
+                    for (role, joint) in &hand.joints {
+                        if let Some(&p) = joints.get(role) {
+                            println!("   {role} {:.4}", layout.to_layout(p).distance(joint.position));
+                        }
+                    }
+                }
+            }
+        }
     }
-    }}}}
 }
 
 #[test]
