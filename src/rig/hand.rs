@@ -414,17 +414,23 @@ impl Region {
         if chains.len() < 2 {
             return false;
         }
-        // A thumb begins nearer to the wrist than the others and points another way.
+        // A thumb begins and ends nearer to the wrist than the others and points another way. All fingers in one begin
+        // in the middle of the palm.
         let way =
             |chain: &(Finger, Vec<DVec3>)| (chain.1[chain.1.len() - 1] - chain.1[0]).normalize_or_zero();
-        let root = |chain: &(Finger, Vec<DVec3>)| chain.1[0].distance(self.wrist) / self.length;
+        let near = |chain: &(Finger, Vec<DVec3>), mitten: bool| {
+            let root = if mitten { 0.0 } else { chain.1[0].distance(self.wrist) };
+            (root + chain.1[chain.1.len() - 1].distance(self.wrist)) / self.length
+        };
+        let mitten = chains.len() == 2;
         let mut thumb = (0, f64::NEG_INFINITY);
         for (index, chain) in chains.iter().enumerate() {
             let others =
                 || chains.iter().enumerate().filter(|&(other, _)| other != index).map(|(_, other)| other);
             let mean_way = others().map(way).sum::<DVec3>().normalize_or_zero();
-            let mean_root = others().map(root).sum::<f64>() / (chains.len() - 1) as f64;
-            let unlike = 1.0 - way(chain).dot(mean_way) + mean_root - root(chain);
+            let mean_near =
+                others().map(|other| near(other, mitten)).sum::<f64>() / (chains.len() - 1) as f64;
+            let unlike = 1.0 - way(chain).dot(mean_way) + mean_near - near(chain, mitten);
             if unlike > thumb.1 {
                 thumb = (index, unlike);
             }
@@ -460,7 +466,10 @@ impl Region {
     /// free finger; and whether the first is where these say.
     fn joints(&self, path: &[DVec3], shares: [f64; 3], thumb: bool) -> Option<([DVec3; 3], bool)> {
         let tip = *path.last()?;
-        let way = (path[path.len() / 2] - path[0]).try_normalize()?;
+        // Straight on from the finger's lower half, with a bend towards the wrist, where all bones of the hand begin.
+        let straight = (path[path.len() / 2] - path[0]).try_normalize()?;
+        let from_wrist = (path[0] - self.wrist).normalize_or_zero();
+        let way = (straight + WRIST_BEND * from_wrist).try_normalize()?;
         let mut free = 0.0;
         for pair in path.windows(2) {
             free += pair[0].distance(pair[1]);
@@ -508,6 +517,9 @@ const THUMB_JOINTS: [f64; 3] = [2.2, 1.55, 0.75];
 
 /// Joints of a mitten from its tip.
 const MITTEN_JOINTS: [f64; 3] = [1.0, 0.55, 0.28];
+
+/// How much the way to the wrist counts beside the finger's own for what lies inside the palm.
+const WRIST_BEND: f64 = 0.5;
 
 /// Where the knuckles are between wrist and tips.
 const MITTEN_KNUCKLES: f64 = 0.5;
