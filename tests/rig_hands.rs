@@ -9,7 +9,7 @@ mod truth;
 
 use glam::DVec3;
 use models::{check_all, in_parallel};
-use people::{CHIBI, Person};
+use people::Person;
 use std::collections::BTreeMap;
 use superdeform::geometry::Surface;
 use superdeform::rig::Layout;
@@ -197,8 +197,7 @@ fn people_with_fingers() -> Vec<(String, Person)> {
         for (blended, holes) in [(false, false), (true, false), (true, true)] {
             let name = format!("arms at {arm_angle}, blended {blended}, holes {holes}");
             let person = Person { fingers: true, arm_angle, blended, holes, columns: 24, ..Person::adult() };
-            people.push((name.clone(), person.clone()));
-            people.push((format!("chibi, {name}"), Person { proportions: CHIBI, ..person }));
+            people.push((name, person));
         }
     }
     people

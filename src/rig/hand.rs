@@ -50,7 +50,7 @@ const FINGERS: [[Role; 3]; 5] = [
 /// Confidence is 0.9 for joints within a finger that stands out clearly, 0.7 for its knuckle, 0.5 for a knuckle out of
 /// place and for mittens, less where fingers are stubs or rays around a joint do not meet the surface.
 ///
-/// Other hands are never found: without a section at the wrist there is no hand. O(triangles + hand · log hand).
+/// Where nothing is cut at the wrist there is no hand. O(triangles + hand · log hand).
 pub fn find_fingers(
     surface: &Surface,
     positions: &[DVec3],
@@ -388,7 +388,7 @@ impl Region {
                 _ if is_mitten => MITTEN_JOINTS,
                 _ => FINGER_JOINTS,
             };
-            let Some((joints, kept)) = self.joints(&path, shares, role == 0) else { continue };
+            let (joints, kept) = self.joints(&path, shares, role == 0);
             let tip = path[path.len() - 1];
             let ways = [joints[1] - joints[0], tip - joints[1], tip - joints[2]];
             let seen = ((finger.tip_distance - finger.web_distance)
@@ -464,12 +464,12 @@ impl Region {
 
     /// Three joints of a finger whose sections' middles are `path`, by their distances from the tip in lengths of the
     /// free finger; and whether the first is where these say.
-    fn joints(&self, path: &[DVec3], shares: [f64; 3], thumb: bool) -> Option<([DVec3; 3], bool)> {
-        let tip = *path.last()?;
+    fn joints(&self, path: &[DVec3], shares: [f64; 3], thumb: bool) -> ([DVec3; 3], bool) {
+        let tip = path[path.len() - 1];
         // Straight on from the finger's lower half, with a bend towards the wrist, where all bones of the hand begin.
-        let straight = (path[path.len() / 2] - path[0]).try_normalize()?;
+        let straight = (path[path.len() / 2] - path[0]).normalize_or(self.along);
         let from_wrist = (path[0] - self.wrist).normalize_or_zero();
-        let way = (straight + WRIST_BEND * from_wrist).try_normalize()?;
+        let way = (straight + WRIST_BEND * from_wrist).normalize_or(straight);
         let mut free = 0.0;
         for pair in path.windows(2) {
             free += pair[0].distance(pair[1]);
@@ -504,7 +504,7 @@ impl Region {
                 kept = false;
             }
         }
-        Some((shares.map(|share| at(share * scale * free)), kept))
+        (shares.map(|share| at(share * scale * free)), kept)
     }
 }
 
