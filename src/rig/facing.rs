@@ -53,6 +53,9 @@ const FEET_REACH: f64 = 0.3;
 /// Rows of the profile in which the chin is looked for.
 const PROFILE_ROWS: usize = 60;
 
+/// Points of the surface, about, at most: triangles are not taken apart further where there are many large ones.
+const SAMPLE_COUNT: f64 = 2e6;
+
 /// Cells of nothing around the figure.
 const MARGIN: f64 = 4.0;
 
@@ -182,6 +185,8 @@ impl Cells {
         let count = size[0] * size[1] * size[2];
         let mut sums = vec![Vec4::ZERO; count];
         let mut samples = Vec::new();
+        let triangle_count = triangles().count();
+        let most_steps = (2.0 * SAMPLE_COUNT / triangle_count as f64).sqrt().clamp(1.0, 200.0);
         let mut add = |p: DVec3| {
             samples.push(p.as_vec3());
             let [x, y, z] = p.to_array().map(|c| c as usize);
@@ -191,7 +196,7 @@ impl Cells {
             let [a, b, c] = corners.map(|corner| (corner - low) * scale + MARGIN);
             // Points no further apart than 3/4 of a cell.
             let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
-            let steps = (longest / 0.75).ceil().clamp(1.0, 200.0) as usize;
+            let steps = (longest / 0.75).ceil().clamp(1.0, most_steps) as usize;
             if steps == 1 {
                 add((a + b + c) / 3.0);
                 continue;
@@ -433,9 +438,9 @@ fn better_of(scored: impl IntoIterator<Item = (f64, f64, Mirror)>) -> (f64, f64,
 }
 
 /// Every cell becomes the mean of itself and its two neighbours `stride` away, twice.
-fn blur(cells: &mut Vec<f32>, stride: usize) {
+fn blur(cells: &mut [f32], stride: usize) {
     for _ in 0..2 {
-        let before = cells.clone();
+        let before = cells.to_vec();
         for index in stride..cells.len().saturating_sub(stride) {
             cells[index] = (before[index - stride] + before[index] + before[index + stride]) / 3.0;
         }
