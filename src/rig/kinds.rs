@@ -319,9 +319,8 @@ impl<'a> Scene<'a> {
     fn enclosed_share(&self, mesh: usize) -> f64 {
         let facts = &self.facts[mesh];
         // What lies over this mesh does not enclose it: skin is below clothes, not inside them.
-        let lies_over = |around: usize| {
-            self.facts[around].share(|sample| sample.over == Some(mesh)) >= COVER_SHARE
-        };
+        let lies_over =
+            |around: usize| self.facts[around].share(|sample| sample.over == Some(mesh)) >= COVER_SHARE;
         let encloses: Vec<bool> = (0..self.facts.len())
             .map(|around| self.facts[around].area > facts.area && !lies_over(around))
             .collect();
@@ -424,7 +423,11 @@ impl<'a> Scene<'a> {
                     *shared.entry(*other).or_default() += 1;
                 }
                 let most = SEAM_SHARE * border.len() as f64;
-                shared.into_iter().filter(|&(_, count)| count as f64 >= most).map(|(other, _)| other).collect()
+                shared
+                    .into_iter()
+                    .filter(|&(_, count)| count as f64 >= most)
+                    .map(|(other, _)| other)
+                    .collect()
             })
             .collect()
     }
@@ -465,9 +468,8 @@ impl<'a> Scene<'a> {
                     let mirrored = DVec3::new(-sample.point.x, sample.point.y, sample.point.z);
                     all.closest_point(mirrored).is_some_and(|near| near.distance <= PART_GAP)
                 });
-                let on_axis = facts.low.x > 0.0
-                    || facts.high.x < 0.0
-                    || (facts.low.z <= axis && facts.high.z >= axis);
+                let on_axis =
+                    facts.low.x > 0.0 || facts.high.x < 0.0 || (facts.low.z <= axis && facts.high.z >= axis);
                 let has_volume = facts.share(|sample| sample.volume) >= 0.4;
                 facts.extent() >= LIMB && mirrored >= 0.6 && on_axis && has_volume
             })
@@ -571,7 +573,10 @@ impl<'a> Scene<'a> {
             return Guess { kind: MeshKind::Body, sure: false };
         }
         if above >= HAIR_SHARE && facts.high.y > region.chin + 0.5 * region.length {
-            return Guess { kind: MeshKind::Hair, sure: layer >= LAYER_SHARE && !doubtful(above, HAIR_SHARE) };
+            return Guess {
+                kind: MeshKind::Hair,
+                sure: layer >= LAYER_SHARE && !doubtful(above, HAIR_SHARE),
+            };
         }
         if layer >= LAYER_SHARE {
             return Guess { kind: MeshKind::Garment, sure: !doubtful(layer, LAYER_SHARE) };
