@@ -37,8 +37,11 @@ fn guessed(
     (layout, kinds, warnings.len() + more.len())
 }
 
+/// A file, and for some of its meshes the kinds that are right.
+type Expected = (&'static str, &'static [(&'static str, &'static [MeshKind])]);
+
 /// Kinds as pictures of the models show them, by file and mesh; several where nobody could tell from the shape.
-const BY_EYE: &[(&str, &[(&str, &[MeshKind])])] = &[
+const BY_EYE: &[Expected] = &[
     (
         "makehuman_female_target.glb",
         &[

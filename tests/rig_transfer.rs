@@ -46,7 +46,7 @@ impl Dressed {
     }
 
     /// Positions and triangles of one mesh.
-    fn mesh(&self, mesh: usize) -> (Vec<DVec3>, Vec<[u32; 3]>) {
+    fn mesh(&self, mesh: usize) -> Shape {
         let vertices = self.layout.vertices(mesh);
         let start = vertices.start as u32;
         let triangles = self.layout.triangles_of(mesh);
@@ -132,8 +132,11 @@ fn skirt_and_tights_stay_outside_the_body() {
     }
 }
 
+/// Positions and triangles.
+type Shape = (Vec<DVec3>, Vec<[u32; 3]>);
+
 /// A grid of `columns` x `rows` squares over x from `x.0` to `x.1` and z from -0.1 to 0.1 at height `y`.
-fn grid(x: (f64, f64), y: f64, columns: u32, rows: u32) -> (Vec<DVec3>, Vec<[u32; 3]>) {
+fn grid(x: (f64, f64), y: f64, columns: u32, rows: u32) -> Shape {
     let mut positions = Vec::new();
     let mut triangles = Vec::new();
     for row in 0..=rows {
@@ -151,10 +154,7 @@ fn grid(x: (f64, f64), y: f64, columns: u32, rows: u32) -> (Vec<DVec3>, Vec<[u32
     (positions, triangles)
 }
 
-fn joined(
-    one: (Vec<DVec3>, Vec<[u32; 3]>),
-    other: (Vec<DVec3>, Vec<[u32; 3]>),
-) -> (Vec<DVec3>, Vec<[u32; 3]>) {
+fn joined(one: Shape, other: Shape) -> Shape {
     let (mut positions, mut triangles) = one;
     let start = positions.len() as u32;
     positions.extend(other.0);
@@ -168,9 +168,9 @@ fn weight(made: &Weighted, vertex: usize, joint: u32) -> f64 {
 
 /// Transfers from a body of two joints whose weight to joint 1 is `weight` of the position.
 fn from_two_joints(
-    body: &(Vec<DVec3>, Vec<[u32; 3]>),
+    body: &Shape,
     weight: impl Fn(DVec3) -> f64,
-    garment: &(Vec<DVec3>, Vec<[u32; 3]>),
+    garment: &Shape,
     manner: GarmentWeights,
 ) -> Weighted {
     let surface = Surface::new(&body.0, &body.1);
@@ -194,7 +194,7 @@ fn cloth_close_to_the_body_takes_the_weights_of_the_points_below() {
 }
 
 /// Cloth over a gap of length 1 between two flat bodies.
-fn over_a_gap() -> ((Vec<DVec3>, Vec<[u32; 3]>), (Vec<DVec3>, Vec<[u32; 3]>)) {
+fn over_a_gap() -> (Shape, Shape) {
     let body = joined(grid((-0.5, 0.0), 0.0, 10, 4), grid((1.0, 1.5), 0.0, 10, 4));
     (body, grid((-0.4, 1.4), 0.01, 180, 10))
 }
@@ -410,7 +410,7 @@ fn no_input_leaves_a_row_empty() {
     let fan: Vec<[u32; 3]> = (2..60).map(|vertex| [0, 1, vertex]).collect();
     let spread: Vec<DVec3> =
         (0..60).map(|i| DVec3::new(f64::from(i % 7), f64::from(i % 5), f64::from(i % 3))).collect();
-    let shapes: Vec<(Vec<DVec3>, Vec<[u32; 3]>)> = vec![
+    let shapes: Vec<Shape> = vec![
         (vec![], vec![]),
         (vec![DVec3::ZERO], vec![]),
         (vec![DVec3::ZERO, DVec3::X, DVec3::Y], vec![[0, 1, 2]]),
