@@ -33,7 +33,7 @@ const LAYER_GAP: f64 = 0.02;
 const LAYER_SHARE: f64 = 0.5;
 
 /// A mesh of which this share lies within others is something in their inside.
-const ENCLOSED_SHARE: f64 = 0.3;
+const ENCLOSED_SHARE: f64 = 0.4;
 
 /// A mesh of which this share lies over another one covers it.
 const COVER_SHARE: f64 = 0.15;
@@ -43,6 +43,12 @@ const SEAM_SHARE: f64 = 0.5;
 
 /// A mesh that makes a body whole adds at least as many slices.
 const LEAST_GAIN: usize = 3;
+
+/// Points on each mesh by which planes of symmetry are compared.
+const PLANE_SAMPLES: usize = 100;
+
+/// So many of the largest meshes are tried as what the plane of symmetry is the middle of.
+const PLANE_CANDIDATES: usize = 6;
 
 /// What is no further from skin and clothes than this, in heights, is worn; what sticks out further is a thing.
 const WORN: f64 = 0.03;
@@ -94,7 +100,7 @@ pub fn guess_kinds(layout: &Layout) -> (Vec<MeshKind>, Vec<Warning>) {
 
 /// Kinds once more, for the meshes that nobody has named, now that it is known where the head is.
 ///
-/// Body stays body; the rest is told apart anew. The warning names the meshes whose kind is another one now.
+/// What is body stays body; the rest is told apart anew. The warning names the meshes whose kind is another one now.
 pub fn refine_kinds(
     layout: &Layout,
     kinds: &mut [MeshKind],
@@ -110,7 +116,7 @@ pub fn refine_kinds(
     let guesses = Scene::new(layout).guess(Some(head));
     let mut changed = Vec::new();
     for (mesh, guess) in guesses.iter().enumerate() {
-        if open(mesh, kinds) && guess.kind != MeshKind::Body && guess.kind != kinds[mesh] {
+        if open(mesh, kinds) && guess.kind != kinds[mesh] {
             kinds[mesh] = guess.kind;
             changed.push(mesh);
         }
@@ -124,12 +130,17 @@ pub fn refine_kinds(
 pub fn body_is_whole(layout: &Layout, kinds: &[MeshKind]) -> bool {
     let is_body = |mesh: usize| kinds.get(mesh) == Some(&MeshKind::Body);
     let is_figure = |mesh: usize| is_body(mesh) || kinds.get(mesh) == Some(&MeshKind::Garment);
-    reaches_over(layout, &is_body, &is_figure)
+    reaches_over(layout, middle_plane(layout, &is_figure), &is_body, &is_figure)
 }
 
 /// True where those meshes that `part` accepts show in nearly all slices in which those that `whole` accepts do.
-fn reaches_over(layout: &Layout, part: &dyn Fn(usize) -> bool, whole: &dyn Fn(usize) -> bool) -> bool {
-    let (part, whole) = (slices(layout, part), slices(layout, whole));
+fn reaches_over(
+    layout: &Layout,
+    middle: f64,
+    part: &dyn Fn(usize) -> bool,
+    whole: &dyn Fn(usize) -> bool,
+) -> bool {
+    let (part, whole) = (slices(layout, middle, part), slices(layout, middle, whole));
     // Each side's half of the trunk and leg, and each arm for itself.
     let shows = part.iter().flatten().any(|&shown| shown);
     shows
@@ -143,8 +154,8 @@ fn reaches_over(layout: &Layout, part: &dyn Fn(usize) -> bool, whole: &dyn Fn(us
 /// Where triangles are: slices along the height near the middle, and along x beyond; right, then left.
 type Slices = [[bool; SLICES]; 4];
 
-fn slices(layout: &Layout, choose: &dyn Fn(usize) -> bool) -> Slices {
-    let widest = layout.positions.iter().map(|p| p.x.abs()).fold(0.0, f64::max);
+fn slices(layout: &Layout, middle: f64, choose: &dyn Fn(usize) -> bool) -> Slices {
+    let widest = layout.positions.iter().map(|p| (p.x - middle).abs()).fold(0.0, f64::max);
     let arm = widest - TRUNK_HALF_WIDTH;
     let mut shown = [[false; SLICES]; 4];
     let slice = |share: f64| ((share * SLICES as f64).max(0.0) as usize).min(SLICES - 1);
@@ -152,7 +163,8 @@ fn slices(layout: &Layout, choose: &dyn Fn(usize) -> bool) -> Slices {
         let corners = corners.map(|vertex| layout.positions[vertex as usize]);
         let low = corners.into_iter().fold(DVec3::INFINITY, DVec3::min);
         let high = corners.into_iter().fold(DVec3::NEG_INFINITY, DVec3::max);
-        for (side, (from, to)) in [(-high.x, -low.x), (low.x, high.x)].into_iter().enumerate() {
+        let (left, right) = (low.x - middle, high.x - middle);
+        for (side, (from, to)) in [(-right, -left), (left, right)].into_iter().enumerate() {
             if to >= 0.0 && from <= TRUNK_HALF_WIDTH {
                 shown[side][slice(low.y)..=slice(high.y).max(slice(low.y))].fill(true);
             }
@@ -164,6 +176,42 @@ fn slices(layout: &Layout, choose: &dyn Fn(usize) -> bool) -> Slices {
         }
     }
     shown
+}
+
+/// The x of the plane in which those meshes that `choose` accepts mirror best: a thing on one side moves the middle of
+/// the layout, but not the body's.
+fn middle_plane(layout: &Layout, choose: &dyn Fn(usize) -> bool) -> f64 {
+    let meshes: Vec<usize> = (0..layout.mesh_count()).filter(|&mesh| choose(mesh)).collect();
+    let surface = Surface::new(&layout.positions, &layout.triangles_where(choose));
+    let points: Vec<Vec<(DVec3, DVec3)>> =
+        meshes.iter().map(|&mesh| points_on(layout, mesh, PLANE_SAMPLES)).collect();
+    let areas: Vec<f64> = meshes.iter().map(|&mesh| mesh_area(layout, mesh)).collect();
+    let mut order: Vec<usize> = (0..meshes.len()).collect();
+    order.sort_by(|&a, &b| areas[b].total_cmp(&areas[a]).then(a.cmp(&b)));
+    let score = |middle: f64| -> f64 {
+        let shares = points.iter().zip(&areas).map(|(points, area)| {
+            let mirrored = points.iter().filter(|(p, _)| {
+                let mirrored = DVec3::new(2.0 * middle - p.x, p.y, p.z);
+                surface.closest_point(mirrored).is_some_and(|near| near.distance <= PART_GAP / 2.0)
+            });
+            area * mirrored.count() as f64 / points.len().max(1) as f64
+        });
+        shares.sum()
+    };
+    // The middle of the layout, unless another one is clearly better.
+    let mut best = (1.05 * score(0.0), 0.0);
+    for &largest in order.iter().take(PLANE_CANDIDATES) {
+        let corners = layout.triangles_of(meshes[largest]).iter().flatten();
+        let places = corners.map(|&vertex| layout.positions[vertex as usize].x);
+        let (low, high) =
+            places.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
+        let middle = (low + high) / 2.0;
+        let score = score(middle);
+        if middle.is_finite() && score > best.0 {
+            best = (score, middle);
+        }
+    }
+    best.1
 }
 
 /// In how many slices there is something.
@@ -296,11 +344,7 @@ impl<'a> Scene<'a> {
                 || layout.triangles_of(mesh).iter().flatten().map(|&v| layout.positions[v as usize]);
             Facts {
                 samples: samples.collect(),
-                area: layout
-                    .triangles_of(mesh)
-                    .iter()
-                    .map(|&corners| area_of(layout, corners).length())
-                    .sum(),
+                area: mesh_area(layout, mesh),
                 low: corners().fold(DVec3::INFINITY, DVec3::min),
                 high: corners().fold(DVec3::NEG_INFINITY, DVec3::max),
             }
@@ -354,11 +398,13 @@ impl<'a> Scene<'a> {
             .zip(&self.facts)
             .map(|(kind, facts)| *kind == Some(MeshKind::Body) && !facts.samples.is_empty())
             .collect();
+        let is_volume = |mesh: usize| volumes.contains(&mesh) || layout.kinds[mesh] == Some(MeshKind::Body);
+        let middle = middle_plane(layout, &is_volume);
         if !is_body.contains(&true) {
             // Where everything lies over something, the one that reaches furthest carries the rest.
             let open: Vec<usize> = (0..count).filter(|&mesh| guesses[mesh].is_none()).collect();
             let choice = if volumes.is_empty() { &open } else { &volumes };
-            let reach = |mesh: usize| shown_count(&slices(layout, &|other| other == mesh));
+            let reach = |mesh: usize| shown_count(&slices(layout, middle, &|other| other == mesh));
             let reaches: Vec<(usize, usize)> = choice.iter().map(|&mesh| (reach(mesh), mesh)).collect();
             let furthest = reaches.iter().max_by(|a, b| {
                 let area = |mesh: usize| self.facts[mesh].area;
@@ -372,9 +418,9 @@ impl<'a> Scene<'a> {
         let seams = self.seams();
         self.join_seams(&mut is_body, &seams);
         // The head's joint lies between the chin and the middle of the head.
-        let chin = self.chin(&is_body, &volumes);
+        let chin = self.chin(&is_body, &volumes, middle);
         let chin = head.map_or(chin, |head| chin.min(head.y).max(head.y - 0.35 * (1.0 - head.y).max(0.0)));
-        let region = self.head_region(chin, head, &is_body);
+        let region = self.head_region(chin, head, &is_body, middle);
         self.grow_body(&mut is_body, &volumes, &region, &seams);
         for mesh in (0..count).filter(|&mesh| is_body[mesh]) {
             guesses[mesh].get_or_insert(Guess { kind: MeshKind::Body, sure: first[mesh] });
@@ -458,27 +504,29 @@ impl<'a> Scene<'a> {
         };
         let like = |mesh: usize| volumes.contains(&mesh) || layout.kinds[mesh] == Some(MeshKind::Body);
         let all = Surface::new(&layout.positions, &layout.triangles_where(like));
-        let axis = self.trunk_axis(is_body);
+        let middle = region.plane;
+        let axis = self.trunk_axis(is_body, middle);
         let mut candidates: Vec<(usize, Slices)> = volumes
             .iter()
             .copied()
             .filter(|&mesh| {
                 let facts = &self.facts[mesh];
                 let mirrored = facts.share(|sample| {
-                    let mirrored = DVec3::new(-sample.point.x, sample.point.y, sample.point.z);
+                    let mirrored = DVec3::new(2.0 * middle - sample.point.x, sample.point.y, sample.point.z);
                     all.closest_point(mirrored).is_some_and(|near| near.distance <= PART_GAP)
                 });
-                let on_axis =
-                    facts.low.x > 0.0 || facts.high.x < 0.0 || (facts.low.z <= axis && facts.high.z >= axis);
+                let on_axis = facts.low.x > middle
+                    || facts.high.x < middle
+                    || (facts.low.z <= axis && facts.high.z >= axis);
                 let has_volume = facts.share(|sample| sample.volume) >= 0.4;
                 facts.extent() >= LIMB && mirrored >= 0.6 && on_axis && has_volume
             })
             .filter(|&mesh| !region.is_on_face(&self.facts[mesh]))
-            .map(|mesh| (mesh, slices(layout, &|other| other == mesh)))
+            .map(|mesh| (mesh, slices(layout, middle, &|other| other == mesh)))
             .collect();
-        while !reaches_over(layout, &|mesh| is_body[mesh], &of_figure) {
+        while !reaches_over(layout, middle, &|mesh| is_body[mesh], &of_figure) {
             let body = Surface::new(&layout.positions, &layout.triangles_where(|mesh| is_body[mesh]));
-            let shown = slices(layout, &|mesh| is_body[mesh]);
+            let shown = slices(layout, middle, &|mesh| is_body[mesh]);
             let gain = |of: &Slices| {
                 of.iter().flatten().zip(shown.iter().flatten()).filter(|&(&new, &old)| new && !old).count()
             };
@@ -499,11 +547,11 @@ impl<'a> Scene<'a> {
     }
 
     /// Where the trunk's middle is along z.
-    fn trunk_axis(&self, is_body: &[bool]) -> f64 {
+    fn trunk_axis(&self, is_body: &[bool], middle: f64) -> f64 {
         let mut depths: Vec<f64> = (0..is_body.len())
             .filter(|&mesh| is_body[mesh])
             .flat_map(|mesh| &self.facts[mesh].samples)
-            .filter(|sample| sample.point.x.abs() <= TRUNK_HALF_WIDTH && sample.point.y >= 0.3)
+            .filter(|sample| (sample.point.x - middle).abs() <= TRUNK_HALF_WIDTH && sample.point.y >= 0.3)
             .map(|sample| sample.point.z)
             .collect();
         depths.sort_by(f64::total_cmp);
@@ -511,7 +559,7 @@ impl<'a> Scene<'a> {
     }
 
     /// The chin's height: the narrowest place between the head and the first slice from above that is much wider.
-    fn chin(&self, is_body: &[bool], volumes: &[usize]) -> f64 {
+    fn chin(&self, is_body: &[bool], volumes: &[usize], middle: f64) -> f64 {
         let mut widths = [0.0f64; 2 * SLICES];
         let count = widths.len();
         let slice = |y: f64| ((y * count as f64).max(0.0) as usize).min(count - 1);
@@ -521,7 +569,7 @@ impl<'a> Scene<'a> {
             let heights = corners.map(|p| slice(p.y));
             let low = heights.into_iter().fold(usize::MAX, usize::min);
             let high = heights.into_iter().fold(0, usize::max);
-            let width = corners.into_iter().map(|p| p.x.abs()).fold(0.0, f64::max);
+            let width = corners.into_iter().map(|p| (p.x - middle).abs()).fold(0.0, f64::max);
             widths[low..=high].iter_mut().for_each(|widest| *widest = widest.max(width));
         }
         let top_down: Vec<(usize, f64)> =
@@ -541,14 +589,14 @@ impl<'a> Scene<'a> {
         CHIN
     }
 
-    fn head_region(&self, chin: f64, head: Option<DVec3>, is_body: &[bool]) -> HeadRegion {
+    fn head_region(&self, chin: f64, head: Option<DVec3>, is_body: &[bool], plane: f64) -> HeadRegion {
         let skin = self.layout.triangles_where(|mesh| is_body[mesh]);
         let points = skin.iter().flatten().map(|&vertex| self.layout.positions[vertex as usize]);
         let (low, high) = points
             .filter(|p| p.y > chin)
             .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| (low.min(p.z), high.max(p.z)));
         let middle = if low <= high { (low + high) / 2.0 } else { 0.0 };
-        HeadRegion { chin, middle: head.map_or(middle, |head| head.z), length: (1.0 - chin).max(0.05) }
+        HeadRegion { plane, chin, middle: head.map_or(middle, |head| head.z), length: (1.0 - chin).max(0.05) }
     }
 
     /// What a mesh is that is not body.
@@ -561,11 +609,14 @@ impl<'a> Scene<'a> {
         // Teeth reach below the chin's height where that is the head joint's.
         let at_head = facts.middle().y > region.chin - 0.25 * region.length;
         if region.is_on_face(facts) || (inside && at_head && facts.extent() <= 0.8 * region.length) {
-            return Guess { kind: MeshKind::FacePart, sure: inside };
+            return Guess {
+                kind: MeshKind::FacePart,
+                sure: self.enclosed_share(mesh) >= ENCLOSED_SHARE - DOUBT,
+            };
         }
         // A head of its own: round the head's axis, with nothing below.
-        let on_axis = facts.low.x < 0.0
-            && facts.high.x > 0.0
+        let on_axis = facts.low.x < region.plane
+            && facts.high.x > region.plane
             && facts.low.z < region.middle
             && facts.high.z > region.middle;
         let volume = facts.share(|sample| sample.volume);
@@ -607,6 +658,8 @@ impl<'a> Scene<'a> {
 
 /// Where the head is.
 struct HeadRegion {
+    /// The x of the plane of symmetry.
+    plane: f64,
     chin: f64,
     /// Its middle along z.
     middle: f64,
@@ -632,6 +685,10 @@ fn area_of(layout: &Layout, corners: [u32; 3]) -> DVec3 {
     let [a, b, c] = corners.map(|vertex| layout.positions[vertex as usize]);
     let normal = 0.5 * (b - a).cross(c - a);
     if normal.is_finite() { normal } else { DVec3::ZERO }
+}
+
+fn mesh_area(layout: &Layout, mesh: usize) -> f64 {
+    layout.triangles_of(mesh).iter().map(|&corners| area_of(layout, corners).length()).sum()
 }
 
 /// Points evenly over the area of a mesh, with the unit normals of their triangles.

@@ -39,7 +39,8 @@ const MATCH_COSINE: [f64; 2] = [0.866_025_403_784_438_6, 0.766_044_443_118_978];
 /// Pieces of less extent than this keep their shape, in heights.
 const RIGID_EXTENT: f64 = 0.02;
 
-/// Least and greatest weight of an edge beside the cotangents': no edge is cut, none swallows the rest.
+/// Least weight of an edge with two triangles and greatest weight of any, beside the cotangents': no edge is cut, none
+/// swallows the rest.
 const EDGE_RANGE: [f64; 2] = [1e-2, 1e4];
 
 /// How far a piece that nothing matches is smoothed, in heights: about a thigh's radius.
@@ -757,13 +758,23 @@ impl EdgeWeights {
     fn new(cloth: &Cloth) -> Self {
         let laplacian = cotangent_laplacian(cloth.points, cloth.triangles);
         let [least, most] = EDGE_RANGE;
-        let mut edges = vec![least; cloth.around.vertices.len()];
-        for &(one, two, value) in &laplacian.off_diagonal {
-            for (vertex, other) in [(one, two), (two, one)] {
-                if let Ok(place) = cloth.around.of(vertex as usize).binary_search(&other) {
-                    let weight = if value.is_nan() { least } else { (-value).clamp(least, most) };
-                    edges[cloth.around.starts[vertex as usize] as usize + place] = weight;
+        let around = &cloth.around;
+        let place = |vertex: u32, other: u32| {
+            let found = around.of(vertex as usize).binary_search(&other).ok();
+            found.map(|place| around.starts[vertex as usize] as usize + place)
+        };
+        let mut edges = vec![0.0f64; around.vertices.len()];
+        for &[a, b, c] in cloth.triangles {
+            for (one, two) in [(a, b), (b, c), (c, a)] {
+                for place in [place(one, two), place(two, one)].into_iter().flatten() {
+                    edges[place] += least / 2.0;
                 }
+            }
+        }
+        for &(one, two, value) in &laplacian.off_diagonal {
+            for place in [place(one, two), place(two, one)].into_iter().flatten() {
+                // max passes over what is no number.
+                edges[place] = edges[place].max((-value).min(most));
             }
         }
         let range =
