@@ -19,6 +19,8 @@ use std::collections::BTreeMap;
 const HANDS_ABOVE: f64 = 0.75;
 /// An arm that reaches this much further than the other one is something else.
 const LONGER_ARM: f64 = 1.15;
+/// A trunk that takes more than this share of an arm's reach is wider than its shoulders are.
+const STOUT: f64 = 0.33;
 /// The hips lie above the hip joints by this part of the way to the neck, ...
 const HIPS_UP: f64 = 0.06;
 /// ... and spine and chest at these parts of the way from hips to neck.
@@ -107,10 +109,11 @@ impl Search<'_> {
         let floor = HANDS_ABOVE * legs.crotch;
         let reach = [true, false].map(|left| reach(stance, left, floor));
         let most = LONGER_ARM * reach[0].min(reach[1]);
-        let arms = [true, false].map(|left| find_arm(stance, left, floor, most));
+        let arms = [true, false].map(|left| find_arm(stance, left, legs.crotch, floor, most));
+        let radius = arms.iter().flatten().map(|arm| arm.radius).fold(0.02, f64::min);
         self.put_arms(&legs, arms);
         let shoulder_line = 0.5 * (self.at(Role::LeftUpperArm).y + self.at(Role::RightUpperArm).y);
-        let line = head_line(stance, shoulder_line);
+        let line = head_line(stance, shoulder_line, radius);
         self.put_middle(&legs, &line, shoulder_line);
         self.settle_sides();
         for (&role, &position) in self.given {
@@ -168,6 +171,8 @@ impl Search<'_> {
                 Some(arm) => {
                     let base = if arm.pit_seen { SEEN } else { RATIO };
                     let wrist = if arm.wrist_seen { base } else { base.min(DOUBTFUL) };
+                    let stout = arm.pit.x > STOUT * (arm.tip.x - stance.axis).abs();
+                    let base = if stout { base.min(DOUBTFUL) } else { base };
                     ([arm.shoulder, arm.elbow, arm.wrist, arm.tip], [base, base.min(wrist + 0.2), wrist])
                 }
                 None => {

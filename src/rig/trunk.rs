@@ -30,16 +30,20 @@ pub struct HeadLine {
     pub chin_seen: bool,
 }
 
-/// Looks for neck, chin and crown above `shoulder_line`.
-pub fn head_line(stance: &Stance, shoulder_line: f64) -> HeadLine {
+/// Looks for neck, chin and crown above `shoulder_line`, where the arms' radius is `radius`.
+pub fn head_line(stance: &Stance, shoulder_line: f64, radius: f64) -> HeadLine {
     let crown = stance.high.max(shoulder_line + 0.02);
     let span = crown - shoulder_line;
     let (first, last) = (stance.grid.row(shoulder_line), stance.grid.row(crown));
     let width = |row: usize| stance.half_width(row);
-    // Upwards from the shoulders: the narrowest row before the head.
-    let mut narrow = (f64::INFINITY, first);
+    // Upwards from the widest row at the shoulders: the narrowest row before the head.
+    let from = (stance.grid.row(shoulder_line - radius)..=stance.grid.row(shoulder_line + radius))
+        .max_by(|&a, &b| width(a).total_cmp(&width(b)).then(a.cmp(&b)))
+        .unwrap_or(first)
+        .max(first);
+    let mut narrow = (f64::INFINITY, from);
     let mut widened = false;
-    for row in first..last {
+    for row in from..last {
         let w = width(row);
         if w <= 0.0 {
             continue;
@@ -52,7 +56,7 @@ pub fn head_line(stance: &Stance, shoulder_line: f64) -> HeadLine {
         }
     }
     // The middle of rows as narrow as that.
-    let alike: Vec<usize> = (first..last)
+    let alike: Vec<usize> = (from..last)
         .filter(|&row| {
             let w = width(row);
             w > 0.0
