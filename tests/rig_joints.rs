@@ -8,11 +8,13 @@ mod people;
 mod truth;
 
 use glam::DVec3;
+use people::Person;
 use std::collections::BTreeMap;
 use superdeform::Role;
 use superdeform::rig::Layout;
 use superdeform::rig::joints::{FoundJoints, find_joints};
 use superdeform::rig::silhouette::{GridFrame, RayGrid};
+use superdeform::{Character, Mesh};
 use truth::{Case, cases};
 
 use Role::*;
@@ -118,8 +120,10 @@ fn picture(outcome: &Outcome) {
 #[test]
 fn joints_lie_where_artists_put_them() {
     let only = std::env::var("ONLY").unwrap_or_default();
-    let cases: Vec<Case> =
-        cases().into_iter().filter(|case| !LEFT_OUT.iter().any(|(name, _)| case.name == *name) && case.name.contains(&only)).collect();
+    let cases: Vec<Case> = cases()
+        .into_iter()
+        .filter(|case| !LEFT_OUT.iter().any(|(name, _)| case.name == *name) && case.name.contains(&only))
+        .collect();
     let outcomes = models::in_parallel(&cases, outcome);
     let mut errors: BTreeMap<&str, Vec<f64>> = BTreeMap::new();
     let mut signed: BTreeMap<&str, Vec<String>> = BTreeMap::new();
@@ -186,4 +190,140 @@ fn joints_lie_where_artists_put_them() {
             }
         }
     }
+}
+
+fn found_of(character: &Character, forward: DVec3) -> (Layout, FoundJoints) {
+    let layout = Layout::of(character, forward).unwrap();
+    let found = find_joints(&layout, &BTreeMap::new(), false, 1);
+    (layout, found)
+}
+
+#[test]
+fn joints_of_analytic_people_are_found() {
+    let adult = Person::adult();
+    let chibi = Person::chibi();
+    let people = [
+        ("T", adult.clone()),
+        ("A30", Person { arm_angle: 30.0, ..adult.clone() }),
+        ("A45", Person { arm_angle: 45.0, ..adult.clone() }),
+        ("A60", Person { arm_angle: 60.0, ..adult.clone() }),
+        ("up 20", Person { arm_angle: -20.0, ..adult.clone() }),
+        ("skirt", Person { skirt: true, ..adult.clone() }),
+        ("skirt A60", Person { skirt: true, arm_angle: 60.0, ..adult.clone() }),
+        ("holes", Person { holes: true, ..adult.clone() }),
+        ("fingers", Person { fingers: true, ..adult.clone() }),
+        ("blended", Person { blended: true, ..adult.clone() }),
+        ("unit", Person { unit: 100.0, ..adult.clone() }),
+        ("facing", Person { facing: 137.0, ..adult.clone() }),
+        ("coarse", Person { columns: 12, ..adult.clone() }),
+        ("chibi", chibi.clone()),
+        ("chibi A45", Person { arm_angle: 45.0, ..chibi }),
+    ];
+    let mut failures = Vec::new();
+    for (name, person) in people {
+        for unnamed in [false, true] {
+            let mut character = person.build();
+            if unnamed {
+                character.meshes.iter_mut().for_each(|mesh| mesh.kind = None);
+            }
+            let turn = glam::DMat3::from_rotation_y(person.facing.to_radians());
+            let (layout, found) = found_of(&character, turn * DVec3::Z);
+            let truth: BTreeMap<Role, DVec3> = person
+                .joints()
+                .into_iter()
+                .map(|(role, at)| (role, layout.to_layout(turn * at * person.unit)))
+                .collect();
+            print!("{name:10} {unnamed:5}");
+            for (label, pair) in LIMBS {
+                let error = pair.map(|role| found.joints[&role].position.distance(truth[&role]));
+                let trust = pair.map(|role| found.joints[&role].confidence);
+                print!(" {}{:.3} {:.1}", &label[..2], error[0].max(error[1]), trust[0].min(trust[1]));
+                if error[0].max(error[1]) > 0.06 && trust[0].max(trust[1]) >= 0.5 {
+                    failures.push(format!("{name} {unnamed}: {label} {error:?} {trust:?}"));
+                }
+            }
+            for role in MIDDLE {
+                print!(" {role}{:+.3}", found.joints[&role].position.y - truth[&role].y);
+            }
+            println!(
+                " chin {:+.3} {:?}",
+                found.chin.y - layout.to_layout(DVec3::Y * person.chin() * person.unit).y,
+                found.warnings.iter().map(|w| &w.message[..30]).collect::<Vec<_>>()
+            );
+            failures.extend(disorder(&found).map(|what| format!("{name}: {what}")));
+        }
+    }
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
+}
+
+/// What stands above what, if anything stands wrong.
+fn disorder(found: &FoundJoints) -> Option<String> {
+    let y = |role: Role| found.joints[&role].position.y;
+    let shoulders = 0.5 * (y(LeftUpperArm) + y(RightUpperArm));
+    let heights = [
+        y(LeftUpperLeg).min(y(RightUpperLeg)),
+        y(Hips),
+        y(Spine),
+        y(Chest),
+        shoulders,
+        y(Neck),
+        y(Head),
+        found.tips[&Head].y,
+    ];
+    let ordered = heights.windows(2).all(|pair| pair[0] < pair[1]) && y(Neck) <= found.chin.y;
+    (!ordered).then(|| format!("{heights:.3?}, chin {:.3}", found.chin.y))
+}
+
+fn of_points(positions: &[DVec3], triangles: Vec<[u32; 3]>) -> Character {
+    let mesh = Mesh {
+        name: "thing".to_string(),
+        positions: positions.iter().map(|p| p.as_vec3()).collect(),
+        triangles,
+        ..Mesh::default()
+    };
+    Character { meshes: vec![mesh], ..Character::default() }
+}
+
+fn ball(centre: DVec3, half: DVec3) -> Character {
+    let mut shape = people::Shape { columns: 24, ..people::Shape::default() };
+    shape.ellipsoid(centre, half, Hips);
+    of_points(&shape.positions, shape.triangles)
+}
+
+#[test]
+fn what_is_no_figure_is_doubted() {
+    let triangle = of_points(&[DVec3::ZERO, DVec3::Y, DVec3::X], vec![[0, 1, 2]]);
+    let plane =
+        of_points(&[DVec3::ZERO, DVec3::X, DVec3::X + DVec3::Y, DVec3::Y], vec![[0, 1, 2], [0, 2, 3]]);
+    let one_point = of_points(&[DVec3::ZERO, DVec3::ZERO, DVec3::Y * 1e-30], vec![[0, 1, 2]]);
+    let mut two = ball(DVec3::new(-0.4, 0.5, 0.0), DVec3::splat(0.5));
+    two.meshes.extend(ball(DVec3::new(0.8, 0.3, 0.0), DVec3::splat(0.3)).meshes);
+    let mut upside_down = Person::adult().build();
+    for mesh in &mut upside_down.meshes {
+        for p in &mut mesh.positions {
+            (p.x, p.y) = (-p.x, -p.y);
+        }
+    }
+    let mut failures = Vec::new();
+    for (name, character) in [
+        ("triangle", triangle),
+        ("plane", plane),
+        ("one point", one_point),
+        ("sphere", ball(DVec3::Y, DVec3::ONE)),
+        ("stick", ball(DVec3::Y, DVec3::new(0.02, 1.0, 0.02))),
+        ("flat disc", ball(DVec3::Y, DVec3::new(30.0, 1.0, 30.0))),
+        ("two spheres", two),
+        ("upside down", upside_down),
+    ] {
+        let Ok(layout) = Layout::of(&character, DVec3::Z) else { continue };
+        let found = find_joints(&layout, &BTreeMap::new(), false, 1);
+        for (role, joint) in &found.joints {
+            assert!(joint.position.is_finite(), "{name}: {role}");
+            if joint.confidence >= 0.5 {
+                failures.push(format!("{name}: {role} is sure"));
+            }
+        }
+        assert!(found.tips.values().all(|tip| tip.is_finite()) && found.chin.is_finite(), "{name}");
+    }
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
 }

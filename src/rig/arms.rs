@@ -89,9 +89,8 @@ pub fn find_arm(stance: &Stance, left: bool, crotch: f64, floor: f64, most: f64)
     let reaches_down = |steps: usize, from: f64, run: (usize, usize)| {
         let within = (TRUNK_WITHIN / cell) as usize;
         (steps.saturating_sub(within)..=steps).any(|steps| {
-            inwards(steps, (from as usize, run.1)).is_some_and(|run| {
-                (run.0 as f64) < from - TRUNK_DROP * (from - crotch_row)
-            })
+            inwards(steps, (from as usize, run.1))
+                .is_some_and(|run| (run.0 as f64) < from - TRUNK_DROP * (from - crotch_row))
         })
     };
     for steps in (0..outermost).rev() {
@@ -215,9 +214,7 @@ fn sections(
                 front = front.max(high);
             }
         }
-        let at = origin
-            + right * ((column as f64 + 0.5) * cell)
-            + up * (0.5 * (begin + end) as f64 * cell);
+        let at = origin + right * ((column as f64 + 0.5) * cell) + up * (0.5 * (begin + end) as f64 * cell);
         let station = Station {
             centre: at.with_z(depth_sign * 0.5 * (back + front)),
             width: (end - begin) as f64 * cell,
@@ -322,7 +319,10 @@ fn sections(
     }
     let tip = smooth[smooth.len() - 1];
     if std::env::var_os("DEBUG_ARMS").is_some() {
-        println!("ARM {left} pit {pit:.3} radius {radius:.3} along {along:.3} start {:.3} whole {whole:.3} seen {pit_seen} {wrist_seen}", smooth[0]);
+        println!(
+            "ARM {left} pit {pit:.3} radius {radius:.3} along {along:.3} start {:.3} whole {whole:.3} seen {pit_seen} {wrist_seen}",
+            smooth[0]
+        );
     }
     Some(Arm { shoulder, elbow, wrist, tip, pit, radius, pit_seen, wrist_seen })
 }

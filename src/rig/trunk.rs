@@ -114,15 +114,15 @@ fn chin(stance: &Stance, shoulder_line: f64, crown: f64) -> Option<f64> {
     Some(stance.grid.y(low + steepest.1) - 0.5 * stance.cell())
 }
 
-/// Depth of the middle of the trunk, smoothed over some rows.
-pub fn middle_z(stance: &Stance, y: f64) -> f64 {
+/// Depth of the middle of the trunk and half of its depth, smoothed over some rows.
+pub fn middle(stance: &Stance, y: f64) -> (f64, f64) {
     let row = stance.grid.row(y) as i64;
-    let mut middles: Vec<f64> = (row - 4..=row + 4)
+    let (mut middles, mut halves): (Vec<f64>, Vec<f64>) = (row - 4..=row + 4)
         .filter_map(|row| {
             let row = row.clamp(0, stance.grid.frame.rows as i64 - 1) as usize;
             let reach = (0.3 * stance.half_width(row)).clamp(0.005, 0.05);
-            stance.depth(row, reach).map(|(back, front)| 0.5 * (back + front))
+            stance.depth(row, reach).map(|(back, front)| (0.5 * (back + front), 0.5 * (front - back)))
         })
-        .collect();
-    median(&mut middles)
+        .unzip();
+    (median(&mut middles), median(&mut halves))
 }
