@@ -119,11 +119,25 @@ fn picture(outcome: &Outcome) {
 
 #[test]
 fn joints_lie_where_artists_put_them() {
+    report(false);
+}
+
+#[test]
+fn joints_are_found_where_nobody_knows_the_kinds() {
+    report(true);
+}
+
+fn report(unnamed: bool) {
     let only = std::env::var("ONLY").unwrap_or_default();
     let cases: Vec<Case> = cases()
         .into_iter()
         .filter(|case| !LEFT_OUT.iter().any(|(name, _)| case.name == *name) && case.name.contains(&only))
         .collect();
+    let mut cases = cases;
+    if unnamed {
+        cases.iter_mut().flat_map(|case| &mut case.character.meshes).for_each(|mesh| mesh.kind = None);
+        cases.iter_mut().for_each(|case| case.name = format!("{}.none", case.name));
+    }
     let outcomes = models::in_parallel(&cases, outcome);
     let mut errors: BTreeMap<&str, Vec<f64>> = BTreeMap::new();
     let mut signed: BTreeMap<&str, Vec<String>> = BTreeMap::new();
@@ -326,4 +340,74 @@ fn what_is_no_figure_is_doubted() {
         assert!(found.tips.values().all(|tip| tip.is_finite()) && found.chin.is_finite(), "{name}");
     }
     assert!(failures.is_empty(), "{}", failures.join("\n"));
+}
+
+#[test]
+fn things_worn_are_survived() {
+    use people::{Ring, Shape};
+    let person = |arm_angle: f64| Person { arm_angle, fingers: true, eyes: false, ..Person::adult() };
+    let joints = person(0.0).joints();
+    let at = |role: Role| joints[&role];
+    let add = |angle: f64, make: &dyn Fn(&mut Shape)| {
+        let mut character = person(angle).build();
+        let mut shape = Shape { columns: 24, ..Shape::default() };
+        make(&mut shape);
+        character.meshes.extend(of_points(&shape.positions, shape.triangles).meshes);
+        character.meshes.iter_mut().for_each(|mesh| mesh.kind = None);
+        character
+    };
+    let ellipsoid = |centre: DVec3, half: DVec3| move |shape: &mut Shape| shape.ellipsoid(centre, half, Hips);
+    let robe = |top: f64, low: f64, high: f64| {
+        move |shape: &mut Shape| {
+            let ring = |y: f64, radius: f64| Ring { centre: DVec3::Y * y, radius, weights: vec![(Hips, 1.0)] };
+            shape.tube(DVec3::Y, &[ring(0.01, low), ring(0.5 * top, 0.5 * (low + high)), ring(top, high)], false);
+        }
+    };
+    let neck = at(Neck);
+    let variants: Vec<(&str, Character)> = vec![
+        ("backpack", add(45.0, &ellipsoid(neck - DVec3::new(0.0, 0.25, 0.25), DVec3::new(0.16, 0.25, 0.12)))),
+        ("tail", add(45.0, &ellipsoid(at(Hips) - DVec3::Z * 0.4, DVec3::new(0.05, 0.05, 0.4)))),
+        ("tail aside", add(0.0, &ellipsoid(at(Hips) + DVec3::new(0.4, -0.2, -0.2), DVec3::new(0.4, 0.05, 0.05)))),
+        ("wings", add(45.0, &ellipsoid(neck - DVec3::new(0.0, 0.05, 0.2), DVec3::new(0.9, 0.3, 0.02)))),
+        ("wings T", add(0.0, &ellipsoid(neck - DVec3::new(0.0, 0.05, 0.2), DVec3::new(0.9, 0.3, 0.02)))),
+        ("cape", add(45.0, &ellipsoid(DVec3::new(0.0, 0.8, -0.2), DVec3::new(0.35, 0.6, 0.03)))),
+        ("cape T", add(0.0, &ellipsoid(DVec3::new(0.0, 0.8, -0.2), DVec3::new(0.35, 0.6, 0.03)))),
+        ("hat", add(30.0, &ellipsoid(DVec3::Y * 1.78, DVec3::new(0.3, 0.05, 0.3)))),
+        ("big hair", add(30.0, &ellipsoid(DVec3::Y * 1.6, DVec3::new(0.2, 0.3, 0.15)))),
+        ("long hair", add(0.0, &ellipsoid(DVec3::new(0.0, 1.35, -0.1), DVec3::new(0.13, 0.5, 0.08)))),
+        ("sword", add(45.0, &ellipsoid(person(45.0).joints()[&LeftHand] + DVec3::Z * 0.4, DVec3::new(0.02, 0.02, 0.5)))),
+        ("staff", add(0.0, &ellipsoid(at(LeftHand) + DVec3::X * 0.08, DVec3::new(0.02, 0.9, 0.02)))),
+        ("robe", add(30.0, &robe(1.3, 0.5, 0.16))),
+        ("narrow robe", add(30.0, &robe(1.3, 0.25, 0.16))),
+        ("robe T", add(0.0, &robe(1.3, 0.5, 0.16))),
+        ("shoulder thing", add(30.0, &ellipsoid(DVec3::new(0.45, 1.5, 0.0), DVec3::new(0.4, 0.06, 0.06)))),
+    ];
+    for (name, character) in variants {
+        let outcome = Outcome {
+            name: format!("worn {name}"),
+            layout: Layout::of(&character, DVec3::Z).unwrap(),
+            truth: BTreeMap::new(),
+            found: FoundJoints::default(),
+        };
+        let found = find_joints(&outcome.layout, &BTreeMap::new(), false, 2);
+        let angle = character.skeleton.joints[character.humanoid.joint(LeftHand).unwrap()].position();
+        let _ = angle;
+        let truth: BTreeMap<Role, DVec3> = character
+            .humanoid
+            .iter()
+            .map(|(role, joint)| (role, outcome.layout.to_layout(character.skeleton.joints[joint].position())))
+            .collect();
+        print!("{name:15}");
+        for (label, pair) in LIMBS {
+            let error = pair.map(|role| found.joints[&role].position.distance(truth[&role]));
+            let trust = pair.map(|role| found.joints[&role].confidence);
+            let bad = (0..2).any(|side| error[side] > 0.06 && trust[side] >= 0.5);
+            print!(" {}{:.3},{:.3}{}", &label[..2], error[0], error[1], if bad { "!" } else if trust[0] < 0.5 { "?" } else { " " });
+        }
+        for role in MIDDLE {
+            print!(" {role}{:+.3}", found.joints[&role].position.y - truth[&role].y);
+        }
+        println!(" {:?}", disorder(&found));
+        picture(&Outcome { truth, found, ..outcome });
+    }
 }

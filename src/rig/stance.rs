@@ -23,6 +23,8 @@ const FILLED_ROWS: f64 = 0.97;
 const CONNECTED_SHARE: f64 = 0.9;
 /// Gaps of so many cells within a row are slits between patches, not air.
 const SLIT: usize = 2;
+/// Every so many rows are compared with their mirror image.
+const AXIS_ROWS: usize = 3;
 /// An axis is kept where another one makes no more than this share of the silhouette's mirror image fit better.
 const AXIS_GAIN: f64 = 0.004;
 /// A mesh is symmetric where nearly all of its vertices ...
@@ -288,21 +290,22 @@ fn runs(grid: &RayGrid, row: usize) -> Vec<(usize, usize)> {
 /// The axis about which most of the silhouette is its own mirror image, and the share that is.
 fn axis(grid: &RayGrid) -> (f64, f64) {
     let columns = grid.frame.columns;
-    let step = 4;
-    let filled: Vec<Vec<bool>> = (0..grid.frame.rows)
-        .step_by(step)
-        .map(|row| (0..columns).map(|column| grid.is_filled(column, row)).collect())
-        .collect();
-    let area: usize = filled.iter().flatten().filter(|&&filled| filled).count();
+    let rows: Vec<Vec<(usize, usize)>> =
+        (0..grid.frame.rows).step_by(AXIS_ROWS).map(|row| runs(grid, row)).collect();
+    let area: usize = rows.iter().flatten().map(|run| run.1 - run.0).sum();
     if area == 0 {
         return (0.0, 0.0);
     }
-    // `sum` is the sum of two columns that are each other's image.
+    // `sum` is the sum of two columns that are each other's image: [start, end) has the image (sum - end, sum - start].
     let overlap = |sum: usize| -> f64 {
         let mut count = 0usize;
-        for row in &filled {
-            for column in sum.saturating_sub(columns - 1)..=sum.min(columns - 1) {
-                count += usize::from(row[column] && row[sum - column]);
+        for runs in &rows {
+            for run in runs {
+                for other in runs {
+                    let start = (sum + 1).saturating_sub(other.1).max(run.0);
+                    let end = (sum + 1).saturating_sub(other.0).min(run.1);
+                    count += end.saturating_sub(start);
+                }
             }
         }
         count as f64 / area as f64
@@ -311,7 +314,7 @@ fn axis(grid: &RayGrid) -> (f64, f64) {
     let scores: Vec<f64> = (0..2 * columns - 1).map(overlap).collect();
     let mut best = middle;
     // From the middle outwards, so that the nearer of two equal axes counts.
-    for distance in 1..columns {
+    for distance in 1..middle + 1 {
         for sum in [middle - distance, middle + distance] {
             if scores[sum] > scores[best] + 1e-12 {
                 best = sum;
