@@ -82,7 +82,7 @@ fn picture(outcome: &Outcome) {
             columns,
             rows: 500,
         };
-        let grid = RayGrid::new(&outcome.layout.positions, &outcome.layout.triangles, frame);
+        let grid = RayGrid::new(&outcome.layout.positions, &outcome.layout.triangles, frame, 1);
         for row in 0..500 {
             for column in 0..columns {
                 let count = grid.hits(column, row).len() as i32;
@@ -359,15 +359,23 @@ fn things_worn_are_survived() {
     let ellipsoid = |centre: DVec3, half: DVec3| move |shape: &mut Shape| shape.ellipsoid(centre, half, Hips);
     let robe = |top: f64, low: f64, high: f64| {
         move |shape: &mut Shape| {
-            let ring = |y: f64, radius: f64| Ring { centre: DVec3::Y * y, radius, weights: vec![(Hips, 1.0)] };
-            shape.tube(DVec3::Y, &[ring(0.01, low), ring(0.5 * top, 0.5 * (low + high)), ring(top, high)], false);
+            let ring =
+                |y: f64, radius: f64| Ring { centre: DVec3::Y * y, radius, weights: vec![(Hips, 1.0)] };
+            shape.tube(
+                DVec3::Y,
+                &[ring(0.01, low), ring(0.5 * top, 0.5 * (low + high)), ring(top, high)],
+                false,
+            );
         }
     };
     let neck = at(Neck);
     let variants: Vec<(&str, Character)> = vec![
         ("backpack", add(45.0, &ellipsoid(neck - DVec3::new(0.0, 0.25, 0.25), DVec3::new(0.16, 0.25, 0.12)))),
         ("tail", add(45.0, &ellipsoid(at(Hips) - DVec3::Z * 0.4, DVec3::new(0.05, 0.05, 0.4)))),
-        ("tail aside", add(0.0, &ellipsoid(at(Hips) + DVec3::new(0.4, -0.2, -0.2), DVec3::new(0.4, 0.05, 0.05)))),
+        (
+            "tail aside",
+            add(0.0, &ellipsoid(at(Hips) + DVec3::new(0.4, -0.2, -0.2), DVec3::new(0.4, 0.05, 0.05))),
+        ),
         ("wings", add(45.0, &ellipsoid(neck - DVec3::new(0.0, 0.05, 0.2), DVec3::new(0.9, 0.3, 0.02)))),
         ("wings T", add(0.0, &ellipsoid(neck - DVec3::new(0.0, 0.05, 0.2), DVec3::new(0.9, 0.3, 0.02)))),
         ("cape", add(45.0, &ellipsoid(DVec3::new(0.0, 0.8, -0.2), DVec3::new(0.35, 0.6, 0.03)))),
@@ -375,7 +383,13 @@ fn things_worn_are_survived() {
         ("hat", add(30.0, &ellipsoid(DVec3::Y * 1.78, DVec3::new(0.3, 0.05, 0.3)))),
         ("big hair", add(30.0, &ellipsoid(DVec3::Y * 1.6, DVec3::new(0.2, 0.3, 0.15)))),
         ("long hair", add(0.0, &ellipsoid(DVec3::new(0.0, 1.35, -0.1), DVec3::new(0.13, 0.5, 0.08)))),
-        ("sword", add(45.0, &ellipsoid(person(45.0).joints()[&LeftHand] + DVec3::Z * 0.4, DVec3::new(0.02, 0.02, 0.5)))),
+        (
+            "sword",
+            add(
+                45.0,
+                &ellipsoid(person(45.0).joints()[&LeftHand] + DVec3::Z * 0.4, DVec3::new(0.02, 0.02, 0.5)),
+            ),
+        ),
         ("staff", add(0.0, &ellipsoid(at(LeftHand) + DVec3::X * 0.08, DVec3::new(0.02, 0.9, 0.02)))),
         ("robe", add(30.0, &robe(1.3, 0.5, 0.16))),
         ("narrow robe", add(30.0, &robe(1.3, 0.25, 0.16))),
@@ -395,14 +409,28 @@ fn things_worn_are_survived() {
         let truth: BTreeMap<Role, DVec3> = character
             .humanoid
             .iter()
-            .map(|(role, joint)| (role, outcome.layout.to_layout(character.skeleton.joints[joint].position())))
+            .map(|(role, joint)| {
+                (role, outcome.layout.to_layout(character.skeleton.joints[joint].position()))
+            })
             .collect();
         print!("{name:15}");
         for (label, pair) in LIMBS {
             let error = pair.map(|role| found.joints[&role].position.distance(truth[&role]));
             let trust = pair.map(|role| found.joints[&role].confidence);
             let bad = (0..2).any(|side| error[side] > 0.06 && trust[side] >= 0.5);
-            print!(" {}{:.3},{:.3}{}", &label[..2], error[0], error[1], if bad { "!" } else if trust[0] < 0.5 { "?" } else { " " });
+            print!(
+                " {}{:.3},{:.3}{}",
+                &label[..2],
+                error[0],
+                error[1],
+                if bad {
+                    "!"
+                } else if trust[0] < 0.5 {
+                    "?"
+                } else {
+                    " "
+                }
+            );
         }
         for role in MIDDLE {
             print!(" {role}{:+.3}", found.joints[&role].position.y - truth[&role].y);

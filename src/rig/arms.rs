@@ -30,6 +30,8 @@ const SHOULDER_OVER: f64 = 0.2;
 const CLEAR: f64 = 0.25;
 /// A section this much wider than the arm has trunk in it.
 const TRUNK_WIDENS: f64 = 1.7;
+/// A section this much deeper than the arm has something else in it.
+const THING_DEEPENS: f64 = 4.0;
 
 /// One arm.
 pub struct Arm {
@@ -196,7 +198,7 @@ fn sections(
     let up = DVec3::new(-sign * along.y, along.x, 0.0);
     let origin = place(start - along * inside) - up * (0.5 * rows as f64 * cell);
     let frame = GridFrame { origin, right, up, cell, columns: STATIONS, rows };
-    let grid = RayGrid::new(stance.positions, &stance.triangles, frame);
+    let grid = RayGrid::new(stance.positions, &stance.triangles, frame, stance.threads);
     let depth_sign = right.cross(up).z.signum();
     let first = (inside / cell).round() as usize;
     let mut stations: Vec<Option<Station>> = vec![None; STATIONS];
@@ -207,13 +209,7 @@ fn sections(
         if off as f64 * cell > 0.12 * length {
             return None;
         }
-        let (mut back, mut front) = (f64::INFINITY, f64::NEG_INFINITY);
-        for row in begin..end {
-            if let Some((low, high)) = grid.depth(column, row) {
-                back = back.min(low);
-                front = front.max(high);
-            }
-        }
+        let (back, front) = grid.limb((begin..end).map(|row| (column, row)))?;
         let at = origin + right * ((column as f64 + 0.5) * cell) + up * (0.5 * (begin + end) as f64 * cell);
         let station = Station {
             centre: at.with_z(depth_sign * 0.5 * (back + front)),
@@ -239,6 +235,11 @@ fn sections(
             }
             _ => break,
         }
+    }
+    // A thing in the hand that points forward is no arm.
+    let deepest = THING_DEEPENS * median(&mut stations.iter().flatten().map(|s| s.depth).collect::<Vec<_>>());
+    for station in &mut stations {
+        *station = station.filter(|station| station.depth <= deepest);
     }
     let first = (first..STATIONS).find(|&column| stations[column].is_some())?;
     let last = (first..STATIONS).rev().find(|&column| stations[column].is_some())?;
@@ -318,11 +319,5 @@ fn sections(
         elbow = smooth[bend];
     }
     let tip = smooth[smooth.len() - 1];
-    if std::env::var_os("DEBUG_ARMS").is_some() {
-        println!(
-            "ARM {left} pit {pit:.3} radius {radius:.3} along {along:.3} start {:.3} whole {whole:.3} seen {pit_seen} {wrist_seen}",
-            smooth[0]
-        );
-    }
     Some(Arm { shoulder, elbow, wrist, tip, pit, radius, pit_seen, wrist_seen })
 }

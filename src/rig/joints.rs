@@ -74,11 +74,11 @@ pub fn find_joints(
     layout: &Layout,
     given: &BTreeMap<Role, DVec3>,
     fingers: bool,
-    _thread_count: usize,
+    thread_count: usize,
 ) -> FoundJoints {
     let given: BTreeMap<Role, DVec3> =
         given.iter().filter(|(_, at)| at.is_finite()).map(|(&role, &at)| (role, at)).collect();
-    let stance = Stance::of(layout);
+    let stance = Stance::of(layout, thread_count);
     let mut found = Search { stance: &stance, given: &given, found: FoundJoints::default() }.run();
     if fingers {
         add_fingers(layout, &stance, &mut found);
@@ -128,6 +128,7 @@ impl Search<'_> {
         let radius = arms.iter().flatten().map(|arm| arm.radius).fold(0.02, f64::min);
         let armpits = arms.iter().all(|arm| arm.as_ref().is_some_and(|arm| arm.pit_seen));
         self.put_arms(&legs, arms);
+        self.settle_sides();
         let shoulder_line = 0.5 * (self.at(Role::LeftUpperArm).y + self.at(Role::RightUpperArm).y);
         let line = head_line(stance, shoulder_line, radius);
         self.put_middle(&legs, &line, shoulder_line);
@@ -293,8 +294,13 @@ impl Search<'_> {
             let (one, two) = (self.found.joints[&role], self.found.joints[&other]);
             let apart = one.position.distance(image(two.position));
             if stance.is_symmetric || apart <= AGREE {
-                let middle =
-                    if apart <= AGREE { 0.5 * (one.position + image(two.position)) } else { one.position };
+                let middle = if apart <= AGREE {
+                    0.5 * (one.position + image(two.position))
+                } else if two.confidence > one.confidence {
+                    image(two.position)
+                } else {
+                    one.position
+                };
                 let confidence = one.confidence.min(two.confidence);
                 self.put(role, middle, confidence);
                 self.put(other, image(middle), confidence);

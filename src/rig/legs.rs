@@ -100,11 +100,10 @@ pub struct Leg {
     pub ankle_seen: bool,
 }
 
-/// Steps from the axis between which something is leg, and how many hits of each ray lie before it and behind it.
+/// Steps from the axis between which something is leg.
 #[derive(Clone, Copy)]
 struct Limb {
     steps: (usize, usize),
-    cover: usize,
 }
 
 /// Looks for the legs below `top`.
@@ -145,9 +144,6 @@ pub fn find_legs(stance: &Stance, top: f64) -> Legs {
             Seen::Apart
         };
     }
-    if std::env::var_os("DEBUG_ARMS").is_some() {
-        println!("CROTCH {crotch:?} {seen:?}");
-    }
     let crotch = match (seen, crotch) {
         (Seen::No, _) | (_, None) => (CROTCH_BY_RATIO * (stance.high - stance.low)).min(0.6 * top),
         (_, Some(y)) => y,
@@ -161,7 +157,7 @@ pub fn find_legs(stance: &Stance, top: f64) -> Legs {
                     // One run on the axis: half of it is this leg.
                     let run = *stance.side_runs(left, row).first()?;
                     let reach = (LEG_REACH / stance.cell()) as usize;
-                    (run.0 < reach).then_some(Limb { steps: (run.0, run.1.min(reach)), cover: 0 })
+                    (run.0 < reach).then_some(Limb { steps: (run.0, run.1.min(reach)) })
                 })?;
                 section(stance, left, row, limb)
             })
@@ -196,7 +192,7 @@ fn apart(stance: &Stance, row: usize) -> Option<[Limb; 2]> {
     if left.1 - left.0 < least || right.1 - right.0 < least {
         return None;
     }
-    Some([left, right].map(|steps| Limb { steps: (steps.0, steps.1.min(reach.max(steps.0 + 1))), cover: 0 }))
+    Some([left, right].map(|steps| Limb { steps: (steps.0, steps.1.min(reach.max(steps.0 + 1))) }))
 }
 
 /// Two legs that touch: between them, the figure is thinner than on either side.
@@ -219,8 +215,7 @@ fn touching(stance: &Stance, row: usize) -> Option<[Limb; 2]> {
         .into_iter()
         .flat_map(|left| (0..=off).map(move |steps| thickness(left, steps)))
         .fold(f64::INFINITY, f64::min);
-    (between < TOUCHING_THIN * leg)
-        .then_some([left, right].map(|run| Limb { steps: (0, run.1.min(reach)), cover: 0 }))
+    (between < TOUCHING_THIN * leg).then_some([left, right].map(|run| Limb { steps: (0, run.1.min(reach)) }))
 }
 
 /// Two legs inside of a skirt: on either side of the axis there are columns whose rays meet more than those between.
@@ -248,7 +243,7 @@ fn inside(stance: &Stance, row: usize) -> Option<[Limb; 2]> {
                 _ => {}
             }
         }
-        start.map(|start| Limb { steps: (start, end), cover: between / 2 })
+        start.map(|start| Limb { steps: (start, end) })
     });
     let [Some(left), Some(right)] = limbs else { return None };
     let least = (0.02 / stance.cell()) as usize;
@@ -259,16 +254,10 @@ fn inside(stance: &Stance, row: usize) -> Option<[Limb; 2]> {
 }
 
 fn section(stance: &Stance, left: bool, row: usize, limb: Limb) -> Option<Section> {
-    let (mut back, mut front) = (f64::INFINITY, f64::NEG_INFINITY);
-    for steps in limb.steps.0..limb.steps.1 {
-        let hits = stance.grid.hits(stance.column(left, steps), row);
-        if hits.len() >= 2 * limb.cover + 1 {
-            back = back.min(f64::from(hits[limb.cover]));
-            front = front.max(f64::from(hits[hits.len() - 1 - limb.cover]));
-        }
-    }
+    let (back, front) =
+        stance.grid.limb((limb.steps.0..limb.steps.1).map(|steps| (stance.column(left, steps), row)))?;
     let (near, far) = (limb.steps.0 as f64 * stance.cell(), limb.steps.1 as f64 * stance.cell());
-    (back <= front).then(|| Section {
+    Some(Section {
         y: stance.grid.y(row),
         x: 0.5 * (near + far),
         half_width: 0.5 * (far - near),
@@ -326,7 +315,7 @@ pub fn leg(
         let y = legs.crotch + HIP_OVER_CROTCH * length;
         let top = mean_section(sections, at(0.90), at(0.99)).unwrap_or(shin);
         let steps = (top.x / stance.cell()) as usize;
-        let z = stance.grid.depth(stance.column(left, steps), stance.grid.row(y));
+        let z = stance.grid.thickest(stance.column(left, steps), stance.grid.row(y));
         stance.point(left, top.x, y, z.map_or(top.z(), |(back, front)| 0.5 * (back + front)))
     });
     let knee = given_knee.unwrap_or_else(|| {
@@ -380,13 +369,6 @@ fn ankle_height(sections: &[Section], low: f64, length: f64) -> Ankle {
             .y;
         (reach > 0.3 * 2.0 * shin.half_depth()).then_some(y)
     });
-    if std::env::var_os("DEBUG_ARMS").is_some() {
-        println!(
-            "ANKLE length {length:.3} instep {:?} slim {:?}",
-            instep.map(|y| (1e3 * (y - low)).round()),
-            slim.map(|s| (1e3 * (s.y - low)).round())
-        );
-    }
     if let Some(slim) = slim {
         let below = sections.iter().filter(|s| s.y < slim.y).map(girth).fold(0.0, f64::max);
         if below > 1.15 * girth(slim) && slim.y > low + 1.05 * SLIM_RANGE.0 * length {

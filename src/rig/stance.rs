@@ -28,7 +28,7 @@ const AXIS_ROWS: usize = 3;
 /// An axis is kept where another one makes no more than this share of the silhouette's mirror image fit better.
 const AXIS_GAIN: f64 = 0.004;
 /// A mesh is symmetric where nearly all of its vertices ...
-const SYMMETRIC_SHARE: f64 = 0.99;
+const SYMMETRIC_SHARE: f64 = 0.999;
 /// ... have a mirror image within this.
 const SYMMETRIC_WITHIN: f64 = 2e-5;
 
@@ -46,7 +46,9 @@ pub struct Stance<'a> {
     pub symmetry: f64,
     /// True where vertices have mirror images, not only the outline.
     pub is_symmetric: bool,
-    /// The lowest and the highest height that is seen.
+    /// At most so many threads; 0 means all cores.
+    pub threads: usize,
+    /// The lowest height that is seen.
     pub low: f64,
     /// The highest.
     pub high: f64,
@@ -56,7 +58,7 @@ pub struct Stance<'a> {
 
 impl<'a> Stance<'a> {
     /// Looks at `layout`.
-    pub fn of(layout: &'a Layout) -> Self {
+    pub fn of(layout: &'a Layout, threads: usize) -> Self {
         let kinds = &layout.kinds;
         let is = |mesh: usize, wanted: &[Option<MeshKind>]| wanted.contains(&kinds[mesh]);
         use MeshKind::*;
@@ -70,27 +72,30 @@ impl<'a> Stance<'a> {
         let triangles_of = |set: &[Option<MeshKind>]| layout.triangles_where(|mesh| is(mesh, set));
         let clothed = triangles_of(sets[2]);
         let reference = if clothed.is_empty() { layout.triangles.clone() } else { clothed };
-        let reference_grid = front(&layout.positions, &reference, 0.0);
+        let reference_grid = front(&layout.positions, &reference, 0.0, threads);
         let whole = Extent::of(&reference_grid);
         let mut chosen = None;
         for set in &sets[..2] {
             let triangles = triangles_of(set);
+            if triangles.len() == reference.len() {
+                break;
+            }
             if triangles.is_empty() {
                 continue;
             }
-            let grid = front(&layout.positions, &triangles, 0.0);
+            let grid = front(&layout.positions, &triangles, 0.0, threads);
             if is_whole(&grid, &whole) {
                 chosen = Some((triangles, grid));
                 break;
             }
         }
         let (triangles, grid) = chosen.unwrap_or((reference, reference_grid));
-        Self::seen(&layout.positions, triangles, grid)
+        Self::seen(&layout.positions, triangles, grid, threads)
     }
 
-    fn seen(positions: &'a [DVec3], triangles: Vec<[u32; 3]>, grid: RayGrid) -> Self {
+    fn seen(positions: &'a [DVec3], triangles: Vec<[u32; 3]>, grid: RayGrid, threads: usize) -> Self {
         let (axis, symmetry) = axis(&grid);
-        let grid = if axis == 0.0 { grid } else { front(positions, &triangles, axis) };
+        let grid = if axis == 0.0 { grid } else { front(positions, &triangles, axis, threads) };
         let extent = Extent::of(&grid);
         let runs = (0..grid.frame.rows).map(|row| runs(&grid, row)).collect();
         let is_symmetric = is_symmetric(positions, &triangles, axis);
@@ -100,6 +105,7 @@ impl<'a> Stance<'a> {
             axis,
             symmetry,
             is_symmetric,
+            threads,
             low: extent.low,
             high: extent.high,
             runs,
@@ -163,7 +169,7 @@ impl<'a> Stance<'a> {
         let steps = ((reach / self.cell()) as usize).clamp(1, self.half_columns());
         let half = self.half_columns();
         let (mut back, mut front): (Vec<f64>, Vec<f64>) =
-            (half - steps..half + steps).filter_map(|column| self.grid.depth(column, row)).unzip();
+            (half - steps..half + steps).filter_map(|column| self.grid.thickest(column, row)).unzip();
         if back.is_empty() {
             return None;
         }
@@ -185,7 +191,7 @@ pub fn median(values: &mut [f64]) -> f64 {
     }
 }
 
-fn front(positions: &[DVec3], triangles: &[[u32; 3]], axis: f64) -> RayGrid {
+fn front(positions: &[DVec3], triangles: &[[u32; 3]], axis: f64, threads: usize) -> RayGrid {
     let cell = 1.0 / ROWS as f64;
     let reach = triangles
         .iter()
@@ -202,7 +208,7 @@ fn front(positions: &[DVec3], triangles: &[[u32; 3]], axis: f64) -> RayGrid {
         columns: 2 * half,
         rows: ROWS,
     };
-    RayGrid::new(positions, triangles, frame)
+    RayGrid::new(positions, triangles, frame, threads)
 }
 
 struct Extent {
