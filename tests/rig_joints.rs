@@ -439,3 +439,62 @@ fn things_worn_are_survived() {
         picture(&Outcome { truth, found, ..outcome });
     }
 }
+
+fn joints_of(layout: &Layout, given: &BTreeMap<Role, DVec3>, threads: usize) -> FoundJoints {
+    find_joints(layout, given, false, threads)
+}
+
+#[test]
+fn symmetric_people_have_symmetric_joints() {
+    for person in [
+        Person::adult(),
+        Person { arm_angle: 45.0, skirt: true, ..Person::adult() },
+        Person { fingers: true, columns: 12, ..Person::adult() },
+        Person { arm_angle: 30.0, ..Person::chibi() },
+    ] {
+        let (_, found) = found_of(&person.build(), DVec3::Z);
+        for (role, joint) in &found.joints {
+            let other = found.joints[&role.mirrored()];
+            let image = other.position * DVec3::new(-1.0, 1.0, 1.0);
+            assert!(joint.position.distance(image) <= 1e-4, "{role}: {} {image}", joint.position);
+            assert_eq!(joint.confidence, other.confidence, "{role}");
+        }
+    }
+}
+
+#[test]
+fn given_joints_stay_and_the_rest_keeps_its_order() {
+    let layout = Layout::of(&Person { arm_angle: 45.0, ..Person::adult() }.build(), DVec3::Z).unwrap();
+    let free = joints_of(&layout, &BTreeMap::new(), 1);
+    for (&role, joint) in &free.joints {
+        let at = joint.position + DVec3::new(0.004, 0.006, -0.003);
+        let found = joints_of(&layout, &BTreeMap::from([(role, at)]), 1);
+        assert_eq!(found.joints[&role].position, at, "{role}");
+        assert_eq!(found.joints[&role].confidence, 1.0, "{role}");
+        assert_eq!(disorder(&found), None, "{role}");
+    }
+    // A wrist that is given draws the elbow along, by the same part of the way.
+    let wrist = free.joints[&LeftHand].position + DVec3::new(0.0, 0.0, 0.06);
+    let found = joints_of(&layout, &BTreeMap::from([(LeftHand, wrist)]), 1);
+    let drawn = found.joints[&LeftLowerArm].position.z - free.joints[&LeftLowerArm].position.z;
+    assert!(drawn > 0.02 && drawn < 0.04, "{drawn}");
+    let broken = BTreeMap::from([(Hips, DVec3::NAN)]);
+    assert!(joints_of(&layout, &broken, 1).joints[&Hips].position.is_finite());
+}
+
+#[test]
+fn neither_threads_nor_the_order_of_triangles_change_the_joints() {
+    let character = Person { arm_angle: 30.0, skirt: true, fingers: true, ..Person::adult() }.build();
+    let layout = Layout::of(&character, DVec3::Z).unwrap();
+    let alone = joints_of(&layout, &BTreeMap::new(), 1);
+    for threads in [2, 3, 8] {
+        assert_eq!(joints_of(&layout, &BTreeMap::new(), threads).joints, alone.joints);
+    }
+    let mut turned = layout.clone();
+    for mesh in 0..layout.mesh_count() {
+        turned.triangles[layout.triangle_starts[mesh]..layout.triangle_starts[mesh + 1]].reverse();
+    }
+    for (role, joint) in joints_of(&turned, &BTreeMap::new(), 1).joints {
+        assert!(joint.position.distance(alone.joints[&role].position) <= 1e-9, "{role}");
+    }
+}

@@ -52,6 +52,9 @@ const SEEN: f64 = 0.8;
 const DOUBTFUL: f64 = 0.4;
 const RATIO: f64 = 0.2;
 
+/// An elbow is found from shoulder and wrist: it is hardly surer than the wrist.
+const UNSURE_ELBOW: f64 = 0.05;
+
 /// What the rays found.
 #[derive(Clone, Debug, Default)]
 pub struct FoundJoints {
@@ -196,7 +199,10 @@ impl Search<'_> {
                     let wrist = if arm.wrist_seen { base } else { base.min(DOUBTFUL) };
                     let stout = arm.pit.x > STOUT * (arm.tip.x - stance.axis).abs();
                     let base = if stout { base.min(DOUBTFUL) } else { base };
-                    ([arm.shoulder, arm.elbow, arm.wrist, arm.tip], [base, base.min(wrist + 0.2), wrist])
+                    (
+                        [arm.shoulder, arm.elbow, arm.wrist, arm.tip],
+                        [base, base.min(wrist + UNSURE_ELBOW), wrist],
+                    )
                 }
                 None => {
                     let above = stance.high - legs.crotch;

@@ -116,8 +116,9 @@ pub fn find_legs(stance: &Stance, top: f64) -> Legs {
     let mut missed = 0;
     let (mut outside_rows, mut inside_rows) = (0usize, 0usize);
     for row in first..=last {
-        let apart = apart(stance, row).or_else(|| touching(stance, row));
-        let pair = apart.or_else(|| inside(stance, row));
+        let apart = apart(stance, row);
+        let inner = if apart.is_none() { inside(stance, row) } else { None };
+        let pair = apart.or(inner).or_else(|| touching(stance, row));
         pairs.push(pair);
         if pair.is_none() {
             missed += 1;
@@ -128,10 +129,10 @@ pub fn find_legs(stance: &Stance, top: f64) -> Legs {
         } else {
             missed = 0;
             crotch = Some(stance.grid.y(row) + 0.5 * stance.cell());
-            if apart.is_some() {
-                outside_rows += 1;
-            } else {
+            if inner.is_some() {
                 inside_rows += 1;
+            } else {
+                outside_rows += 1;
             }
         }
     }
@@ -204,7 +205,7 @@ fn touching(stance: &Stance, row: usize) -> Option<[Limb; 2]> {
         return None;
     }
     let thickness = |left: bool, steps: usize| {
-        stance.grid.depth(stance.column(left, steps), row).map_or(0.0, |(back, front)| front - back)
+        stance.grid.thickest(stance.column(left, steps), row).map_or(0.0, |(back, front)| front - back)
     };
     let most = |left: bool, run: (usize, usize)| {
         (run.0..run.1).map(|steps| thickness(left, steps)).fold(0.0, f64::max)

@@ -3,6 +3,8 @@
 use crate::parallel;
 use glam::DVec3;
 
+/// Things that lie further apart than this part of a limb's thickness are not the same limb.
+const LIMB_GAP: f64 = 0.35;
 /// Fewer triangles than this are not worth a thread of their own.
 const LEAST_SHARE: usize = 4096;
 
@@ -168,18 +170,6 @@ impl RayGrid {
         Some((f64::from(hits.first()?.0), f64::from(hits.last()?.0)))
     }
 
-    /// Where the ray of a cell is inside of the thickest thing that it enters and leaves with nothing between: the limb
-    /// and not the cloth before and behind it. Its first and last depth where there is no such thing.
-    pub fn innermost(&self, column: usize, row: usize) -> Option<(f64, f64)> {
-        let pairs = self.hits(column, row).windows(2).filter(|pair| !pair[0].1 && pair[1].1);
-        let depths = |pair: &[(f32, bool)]| (f64::from(pair[0].0), f64::from(pair[1].0));
-        pairs
-            .map(depths)
-            .max_by(|a, b| (a.1 - a.0).total_cmp(&(b.1 - b.0)))
-            .filter(|(back, front)| front > back)
-            .or_else(|| self.depth(column, row))
-    }
-
     /// Where the ray of a cell is inside of the thickest thing that stands apart from others, whatever is in that thing.
     /// Its first and last depth where rays do not leave as often as they enter.
     pub fn thickest(&self, column: usize, row: usize) -> Option<(f64, f64)> {
@@ -201,12 +191,34 @@ impl RayGrid {
         if inside == 0 { best } else { self.depth(column, row) }
     }
 
-    /// Back and front of what some cells show of one thing: all that lies beside the thickest of their `innermost`.
+    /// Back and front of the limb that some cells show: of the thickest thing that rays enter and leave with nothing
+    /// between, and of all that lies beside it within a part of its thickness (fingers).
     pub fn limb(&self, cells: impl Iterator<Item = (usize, usize)>) -> Option<(f64, f64)> {
-        let found: Vec<(f64, f64)> = cells.filter_map(|(column, row)| self.innermost(column, row)).collect();
+        let mut found: Vec<(f64, f64)> = Vec::new();
+        for (column, row) in cells {
+            let before = found.len();
+            let pairs = self.hits(column, row).windows(2).filter(|pair| !pair[0].1 && pair[1].1);
+            found.extend(pairs.map(|pair| (f64::from(pair[0].0), f64::from(pair[1].0))));
+            if found.len() == before {
+                found.extend(self.depth(column, row));
+            }
+        }
         let thickest = found.iter().copied().max_by(|a, b| (a.1 - a.0).total_cmp(&(b.1 - b.0)))?;
-        let beside = found.iter().filter(|one| one.0 <= thickest.1 && one.1 >= thickest.0);
-        Some(beside.fold(thickest, |all, one| (all.0.min(one.0), all.1.max(one.1))))
+        let reach = LIMB_GAP * (thickest.1 - thickest.0);
+        let mut all = thickest;
+        found.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+        for one in found.iter().filter(|one| one.1 >= thickest.0) {
+            if one.0 <= all.1 + reach {
+                all.1 = all.1.max(one.1);
+            }
+        }
+        found.sort_unstable_by(|a, b| b.1.total_cmp(&a.1));
+        for one in found.iter().filter(|one| one.0 <= thickest.1) {
+            if one.1 >= all.0 - reach {
+                all.0 = all.0.min(one.0);
+            }
+        }
+        Some(all)
     }
 
     /// How far along `right` a column's rays run.

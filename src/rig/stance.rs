@@ -21,6 +21,12 @@ const WIDE_SHARE: f64 = 0.6;
 const FILLED_ROWS: f64 = 0.97;
 /// ... and nearly all of it hangs together.
 const CONNECTED_SHARE: f64 = 0.9;
+/// The front near the axis, within this distance of it, ...
+const FRONT_REACH: f64 = 0.05;
+/// ... lies no further than this behind that of all meshes, ...
+const FRONT_WITHIN: f64 = 0.05;
+/// ... but for this share of the rows.
+const FRONT_MISSING: f64 = 0.12;
 /// Gaps of so many cells within a row are slits between patches, not air.
 const SLIT: usize = 2;
 /// Every so many rows are compared with their mirror image.
@@ -84,7 +90,7 @@ impl<'a> Stance<'a> {
                 continue;
             }
             let grid = front(&layout.positions, &triangles, 0.0, threads);
-            if is_whole(&grid, &whole) {
+            if is_whole(&grid, &whole) && shows_the_front(&grid, &reference_grid) {
                 chosen = Some((triangles, grid));
                 break;
             }
@@ -248,6 +254,21 @@ fn is_whole(grid: &RayGrid, all: &Extent) -> bool {
     let (first, last) = (grid.row(own.low), grid.row(own.high - 0.5 * grid.frame.cell));
     let filled = (first..=last).filter(|&row| !runs(grid, row).is_empty()).count();
     filled as f64 >= FILLED_ROWS * (last - first + 1) as f64 && connected_share(grid) >= CONNECTED_SHARE
+}
+
+/// True where nearly all rows show the figure's front about the axis, not the back of its head without a face.
+fn shows_the_front(grid: &RayGrid, all: &RayGrid) -> bool {
+    let front = |grid: &RayGrid, row: usize| {
+        let x = |column: usize| grid.x(column).abs() < FRONT_REACH;
+        let depths = (0..grid.frame.columns)
+            .filter(|&column| x(column))
+            .filter_map(|column| grid.depth(column, row))
+            .map(|(_, front)| front);
+        depths.max_by(f64::total_cmp)
+    };
+    let pairs: Vec<f64> = (0..ROWS).filter_map(|row| Some(front(all, row)? - front(grid, row)?)).collect();
+    let behind = pairs.iter().filter(|&&behind| behind > FRONT_WITHIN).count();
+    behind as f64 <= FRONT_MISSING * pairs.len() as f64
 }
 
 /// The share of the silhouette that its largest piece has, where gaps of a slit are bridged.

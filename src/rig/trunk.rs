@@ -5,7 +5,7 @@ use super::stance::{Stance, median};
 /// Above its narrowest row the head is wider by this share, and by this part of the height.
 const HEAD_WIDENS: (f64, f64) = (1.15, 0.006);
 /// The chin's rays start and end at these parts of the way from shoulders to crown.
-const CHIN_RANGE: (f64, f64) = (-0.05, 0.7);
+const CHIN_RANGE: (f64, f64) = (-0.05, 0.55);
 /// Bands above and below a row that are compared, as a part of the same.
 const CHIN_BAND: f64 = 0.05;
 /// A smaller step back than this part of the same is no chin.
