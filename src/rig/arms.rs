@@ -5,7 +5,11 @@ use super::stance::{Stance, median};
 use glam::{DVec2, DVec3};
 
 /// An arm's column of cells that reaches lower than the arm by so many of its thicknesses belongs to the trunk.
-const PIT_DROP: f64 = 1.0;
+const PIT_DROP: f64 = 0.8;
+/// Where the trunk begins, its side reaches down from the arm by this part of the way to the crotch, ...
+const TRUNK_DROP: f64 = 0.3;
+/// ... within this distance: a cuff or a thick sleeve does not.
+const TRUNK_WITHIN: f64 = 0.04;
 /// The part of an arm, from the tip, to which its line is fitted.
 const LINE_RANGE: (f64, f64) = (0.25, 0.9);
 /// Sections along an arm.
@@ -18,8 +22,16 @@ const WRIST_BY_RATIO: f64 = 0.74;
 const ELBOW_PART: f64 = 0.53;
 /// The elbow of an arm that is bent by more than this part of its length lies where the bend is.
 const BENT: f64 = 0.05;
-/// The shoulder joint lies this many arm radii inside of the armpit.
-const SHOULDER_INSIDE: f64 = 0.5;
+/// The shoulder joint lies straight over a point this many arm radii outside of the armpit, ...
+const SHOULDER_OUT: f64 = 0.4;
+/// ... and so many over the middle of the arm, which hangs from it.
+const SHOULDER_OVER: f64 = 0.2;
+/// Following starts at this part of the arm, where it is clear of the trunk.
+const CLEAR: f64 = 0.25;
+/// A section this much wider than the arm has trunk in it.
+const TRUNK_WIDENS: f64 = 1.7;
+/// A section this much deeper than the arm has something else in it.
+const THING_DEEPENS: f64 = 4.0;
 
 /// One arm.
 pub struct Arm {
@@ -42,7 +54,7 @@ pub struct Arm {
 }
 
 /// Finds one arm above `floor` (height); `most` is how far from the axis it can reach. `None` where nothing sticks out.
-pub fn find_arm(stance: &Stance, left: bool, floor: f64, most: f64) -> Option<Arm> {
+pub fn find_arm(stance: &Stance, left: bool, crotch: f64, floor: f64, most: f64) -> Option<Arm> {
     let half = stance.half_columns();
     let cell = stance.cell();
     // The runs of each column, upwards.
@@ -65,19 +77,30 @@ pub fn find_arm(stance: &Stance, left: bool, floor: f64, most: f64) -> Option<Ar
     // Inwards, column by column.
     let mut path: Vec<(usize, (usize, usize))> = vec![(outermost, run)];
     let mut pit = None;
-    for steps in (0..outermost).rev() {
+    let inwards = |steps: usize, run: (usize, usize)| {
         let middle = 0.5 * (run.0 + run.1) as f64;
-        let next = column_runs(steps).into_iter().min_by(|a, b| {
+        column_runs(steps).into_iter().min_by(|a, b| {
             let off = |run: &(usize, usize)| {
                 let (low, high) = (run.0 as f64, run.1 as f64);
                 (low - middle).max(middle - high).max(0.0)
             };
             off(a).total_cmp(&off(b)).then(b.1.cmp(&a.1))
-        })?;
+        })
+    };
+    let crotch_row = crotch / cell;
+    let reaches_down = |steps: usize, from: f64, run: (usize, usize)| {
+        let within = (TRUNK_WITHIN / cell) as usize;
+        (steps.saturating_sub(within)..=steps).any(|steps| {
+            inwards(steps, (from as usize, run.1))
+                .is_some_and(|run| (run.0 as f64) < from - TRUNK_DROP * (from - crotch_row))
+        })
+    };
+    for steps in (0..outermost).rev() {
+        let next = inwards(steps, run)?;
         // A drop of the lower side below where the arm has run so far.
         if path.len() >= 12 {
             let (low, thickness) = lower_side(&path, steps);
-            if (next.0 as f64) < low - PIT_DROP * thickness {
+            if (next.0 as f64) < low - PIT_DROP * thickness && reaches_down(steps, low, next) {
                 pit = Some(steps + 1);
                 break;
             }
@@ -127,6 +150,18 @@ fn fit(points: &[DVec2]) -> (DVec2, f64) {
     (mean, if xx > 0.0 { xy / xx } else { 0.0 })
 }
 
+/// The filled rows of a column that are nearest to `middle`, single empty ones bridged.
+fn nearest_run(grid: &RayGrid, column: usize, middle: usize) -> Option<(usize, usize)> {
+    let mut runs: Vec<(usize, usize)> = Vec::new();
+    for row in (0..grid.frame.rows).filter(|&row| grid.is_filled(column, row)) {
+        match runs.last_mut() {
+            Some(run) if row <= run.1 + 1 => run.1 = row + 1,
+            _ => runs.push((row, row + 1)),
+        }
+    }
+    runs.into_iter().min_by_key(|run| run.0.saturating_sub(middle).max((middle + 1).saturating_sub(run.1)))
+}
+
 /// A section at right angles to the arm.
 #[derive(Clone, Copy)]
 struct Station {
@@ -163,57 +198,50 @@ fn sections(
     let up = DVec3::new(-sign * along.y, along.x, 0.0);
     let origin = place(start - along * inside) - up * (0.5 * rows as f64 * cell);
     let frame = GridFrame { origin, right, up, cell, columns: STATIONS, rows };
-    let grid = RayGrid::new(stance.positions, &stance.triangles, frame);
+    let grid = RayGrid::new(stance.positions, &stance.triangles, frame, stance.threads);
     let depth_sign = right.cross(up).z.signum();
     let first = (inside / cell).round() as usize;
     let mut stations: Vec<Option<Station>> = vec![None; STATIONS];
-    let mut middle = rows / 2;
-    for column in first..STATIONS {
-        let mut best: Option<(usize, usize, usize)> = None;
-        let mut open: Option<usize> = None;
-        let mut gap = 0;
-        for row in 0..=rows {
-            if row < rows && grid.is_filled(column, row) {
-                open.get_or_insert(row);
-                gap = 0;
-            } else if let Some(begin) = open {
-                gap += 1;
-                if gap > 1 || row == rows {
-                    let end = row + 1 - gap;
-                    let off = begin.saturating_sub(middle).max(middle.saturating_sub(end.max(1) - 1));
-                    if best.is_none_or(|(other, ..)| off < other) {
-                        best = Some((off, begin, end));
-                    }
-                    open = None;
-                    gap = 0;
-                }
-            }
-        }
-        let Some((off, begin, end)) = best else { continue };
+    let clear = first + (CLEAR * (STATIONS - first) as f64) as usize;
+    let follow = |column: usize, middle: usize| -> Option<(usize, Station)> {
+        let (begin, end) = nearest_run(&grid, column, middle)?;
+        let off = begin.saturating_sub(middle).max((middle + 1).saturating_sub(end));
         if off as f64 * cell > 0.12 * length {
-            continue;
+            return None;
         }
-        let (mut back, mut front) = (f64::INFINITY, f64::NEG_INFINITY);
-        let mut weighted = (0.0, 0.0);
-        for row in begin..end {
-            if let Some((low, high)) = grid.depth(column, row) {
-                back = back.min(low);
-                front = front.max(high);
-                weighted.0 += 0.5 * (low + high);
-                weighted.1 += 1.0;
-            }
-        }
-        if weighted.1 == 0.0 {
-            continue;
-        }
-        middle = (begin + end) / 2;
+        let (back, front) = grid.limb((begin..end).map(|row| (column, row)))?;
         let at = origin + right * ((column as f64 + 0.5) * cell) + up * (0.5 * (begin + end) as f64 * cell);
-        stations[column] = Some(Station {
+        let station = Station {
             centre: at.with_z(depth_sign * 0.5 * (back + front)),
             width: (end - begin) as f64 * cell,
             depth: front - back,
-        });
+        };
+        Some(((begin + end) / 2, station))
+    };
+    let mut middle = rows / 2;
+    for column in clear..STATIONS {
+        if let Some((next, station)) = follow(column, middle) {
+            middle = next;
+            stations[column] = Some(station);
+        }
     }
+    let usual = median(&mut stations.iter().flatten().map(|s| s.width).collect::<Vec<_>>());
+    let mut middle = rows / 2;
+    for column in (first..clear).rev() {
+        match follow(column, middle) {
+            Some((next, station)) if station.width <= TRUNK_WIDENS * usual => {
+                middle = next;
+                stations[column] = Some(station);
+            }
+            _ => break,
+        }
+    }
+    // A thing in the hand that points forward is no arm.
+    let deepest = THING_DEEPENS * median(&mut stations.iter().flatten().map(|s| s.depth).collect::<Vec<_>>());
+    for station in &mut stations {
+        *station = station.filter(|station| station.depth <= deepest);
+    }
+    let first = (first..STATIONS).find(|&column| stations[column].is_some())?;
     let last = (first..STATIONS).rev().find(|&column| stations[column].is_some())?;
     let known: Vec<Station> = (first..=last).filter_map(|column| stations[column]).collect();
     if known.len() < 12 {
@@ -244,8 +272,13 @@ fn sections(
     };
     let near: Vec<&Station> = known[known.len() / 10..known.len() / 3].iter().collect();
     let radius = 0.25 * median(&mut near.iter().map(|s| s.width + s.depth).collect::<Vec<_>>());
-    let shoulder_arc = -SHOULDER_INSIDE * radius;
-    let shoulder = at_arc(shoulder_arc);
+    // The arm's line through its upper part, to over the armpit.
+    let upper = &smooth[known.len() / 20..(known.len() / 4).max(1)];
+    let upper = upper.iter().sum::<DVec3>() / upper.len().max(1) as f64;
+    let out = pit.x + SHOULDER_OUT * radius;
+    let inwards = ((upper.x - stance.axis).abs() - out) / along.x.max(0.3);
+    let shoulder = upper - right * inwards + DVec3::Y * SHOULDER_OVER * radius;
+    let shoulder_arc = -smooth[0].distance(shoulder) * (shoulder - smooth[0]).dot(-right).signum();
     let way = |part: f64| shoulder_arc + part * (whole - shoulder_arc);
     // The wrist: the slimmest section before the hand.
     let girth: Vec<f64> = (0..known.len())

@@ -7,7 +7,7 @@
 use super::arms::{Arm, find_arm};
 use super::legs::{Leg, Legs, Seen, find_legs, leg};
 use super::stance::Stance;
-use super::trunk::{HeadLine, head_line, middle_z};
+use super::trunk::{HeadLine, head_line, middle};
 use super::{FoundJoint, Layout};
 use crate::character::Role;
 use crate::error::Warning;
@@ -19,11 +19,21 @@ use std::collections::BTreeMap;
 const HANDS_ABOVE: f64 = 0.75;
 /// An arm that reaches this much further than the other one is something else.
 const LONGER_ARM: f64 = 1.15;
+/// A trunk that takes more than this share of an arm's reach is wider than its shoulders are.
+const STOUT: f64 = 0.33;
+/// An arm is longer than so many of its radii, ...
+const SLENDER: f64 = 4.0;
+/// ... and its shoulder lies between these parts of the way from crotch to crown.
+const SHOULDER_RANGE: (f64, f64) = (0.2, 0.95);
+/// Spine and chest lie behind the trunk's middle by this part of half its depth.
+const SPINE_BACK: f64 = 0.12;
 /// The hips lie above the hip joints by this part of the way to the neck, ...
 const HIPS_UP: f64 = 0.06;
-/// ... and spine and chest at these parts of the way from hips to neck.
-const SPINE_PART: f64 = 0.22;
+/// ... the chest at this part of the way from hips to neck, and the spine at this part of the way from hips to chest.
 const CHEST_PART: f64 = 0.48;
+const SPINE_OF_CHEST: f64 = 0.46;
+/// Joints of the middle line are at least so far apart.
+const APART: f64 = 2e-3;
 /// The neck joint lies at this part of the way from shoulder line to narrowest row.
 const NECK_PART: f64 = 0.8;
 /// The head joint lies over the chin by this part of the head's height.
@@ -41,6 +51,9 @@ const DIFFER: f64 = 0.04;
 const SEEN: f64 = 0.8;
 const DOUBTFUL: f64 = 0.4;
 const RATIO: f64 = 0.2;
+
+/// An elbow is found from shoulder and wrist: it is hardly surer than the wrist.
+const UNSURE_ELBOW: f64 = 0.05;
 
 /// What the rays found.
 #[derive(Clone, Debug, Default)]
@@ -64,11 +77,11 @@ pub fn find_joints(
     layout: &Layout,
     given: &BTreeMap<Role, DVec3>,
     fingers: bool,
-    _thread_count: usize,
+    thread_count: usize,
 ) -> FoundJoints {
     let given: BTreeMap<Role, DVec3> =
         given.iter().filter(|(_, at)| at.is_finite()).map(|(&role, &at)| (role, at)).collect();
-    let stance = Stance::of(layout);
+    let stance = Stance::of(layout, thread_count);
     let mut found = Search { stance: &stance, given: &given, found: FoundJoints::default() }.run();
     if fingers {
         add_fingers(layout, &stance, &mut found);
@@ -107,12 +120,28 @@ impl Search<'_> {
         let floor = HANDS_ABOVE * legs.crotch;
         let reach = [true, false].map(|left| reach(stance, left, floor));
         let most = LONGER_ARM * reach[0].min(reach[1]);
-        let arms = [true, false].map(|left| find_arm(stance, left, floor, most));
+        let arms = [true, false].map(|left| find_arm(stance, left, legs.crotch, floor, most));
+        let arms = arms.map(|arm| {
+            arm.filter(|arm| {
+                let part = (arm.shoulder.y - legs.crotch) / (stance.high - legs.crotch).max(1e-6);
+                let length = arm.shoulder.distance(arm.elbow) + arm.elbow.distance(arm.tip);
+                (SHOULDER_RANGE.0..=SHOULDER_RANGE.1).contains(&part) && length > SLENDER * arm.radius
+            })
+        });
+        let radius = arms.iter().flatten().map(|arm| arm.radius).fold(0.02, f64::min);
+        let armpits = arms.iter().all(|arm| arm.as_ref().is_some_and(|arm| arm.pit_seen));
         self.put_arms(&legs, arms);
+        self.settle_sides();
         let shoulder_line = 0.5 * (self.at(Role::LeftUpperArm).y + self.at(Role::RightUpperArm).y);
-        let line = head_line(stance, shoulder_line);
+        let line = head_line(stance, shoulder_line, radius);
         self.put_middle(&legs, &line, shoulder_line);
         self.settle_sides();
+        // Two of legs, armpits and a neck make a figure.
+        if [legs.seen != Seen::No, armpits, line.neck_seen].into_iter().filter(|&seen| seen).count() < 2 {
+            for joint in self.found.joints.values_mut() {
+                joint.confidence = joint.confidence.min(DOUBTFUL);
+            }
+        }
         for (&role, &position) in self.given {
             if self.found.joints.contains_key(&role) {
                 self.found.joints.insert(role, FoundJoint { position, confidence: 1.0 });
@@ -168,12 +197,17 @@ impl Search<'_> {
                 Some(arm) => {
                     let base = if arm.pit_seen { SEEN } else { RATIO };
                     let wrist = if arm.wrist_seen { base } else { base.min(DOUBTFUL) };
-                    ([arm.shoulder, arm.elbow, arm.wrist, arm.tip], [base, base.min(wrist + 0.2), wrist])
+                    let stout = arm.pit.x > STOUT * (arm.tip.x - stance.axis).abs();
+                    let base = if stout { base.min(DOUBTFUL) } else { base };
+                    (
+                        [arm.shoulder, arm.elbow, arm.wrist, arm.tip],
+                        [base, base.min(wrist + UNSURE_ELBOW), wrist],
+                    )
                 }
                 None => {
                     let above = stance.high - legs.crotch;
                     let y = legs.crotch + SHOULDER_BY_RATIO.0 * above;
-                    let joint = |distance: f64| stance.point(left, distance, y, middle_z(stance, y));
+                    let joint = |distance: f64| stance.point(left, distance, y, middle(stance, y).0);
                     let out = SHOULDER_BY_RATIO.1;
                     ([joint(out), joint(out + 0.15), joint(out + 0.29), joint(out + 0.38)], [RATIO; 3])
                 }
@@ -187,40 +221,70 @@ impl Search<'_> {
         }
     }
 
+    /// Shoulder, elbow, wrist and tip of an arm some of whose joints are given.
+    fn around_given(&self, left: bool, found: [DVec3; 4]) -> [DVec3; 4] {
+        let given = |role: Role| self.given.get(&on(left, role)).copied();
+        let [shoulder, elbow, wrist] = [Role::LeftUpperArm, Role::LeftLowerArm, Role::LeftHand].map(given);
+        let mut arm = found;
+        arm[0] = shoulder.unwrap_or(found[0]);
+        arm[2] = wrist.unwrap_or(found[2]);
+        if (shoulder.is_some() || wrist.is_some()) && elbow.is_none() {
+            // As far along and beside the line from shoulder to wrist as it was.
+            let (before, after) = (found[2] - found[0], arm[2] - arm[0]);
+            let part = (found[1] - found[0]).dot(before) / before.length_squared().max(1e-12);
+            let beside = found[1] - found[0] - part * before;
+            arm[1] = arm[0] + part * after + beside;
+        }
+        arm[1] = elbow.unwrap_or(arm[1]);
+        arm[3] += arm[2] - found[2];
+        arm
+    }
+
     fn put_middle(&mut self, legs: &Legs, line: &HeadLine, shoulder_line: f64) {
         let stance = self.stance;
-        let on_axis = |y: f64| DVec3::new(stance.axis, y, middle_z(stance, y));
+        let given = |role: Role| self.given.get(&role).map(|at| at.y);
         let hip_line = 0.5 * (self.at(Role::LeftUpperLeg).y + self.at(Role::RightUpperLeg).y);
-        // Each in its place, whatever was read.
-        let crown = line.crown;
-        let chin = line.chin.clamp(shoulder_line + 1e-3, crown.max(shoulder_line + 2e-3));
-        let neck =
-            (shoulder_line + NECK_PART * (line.neck - shoulder_line)).clamp(shoulder_line + 5e-4, chin);
-        let head = (chin + HEAD_OVER_CHIN * (crown - chin)).max(neck + 5e-4);
-        let hips = hip_line + HIPS_UP * (neck - hip_line);
+        // Each above the one before, whatever was read.
+        let crown = line.crown.max(shoulder_line + 4.0 * APART);
+        let chin = line.chin.clamp(shoulder_line + 2.0 * APART, crown - 2.0 * APART);
+        let neck = shoulder_line + NECK_PART * (line.neck - shoulder_line);
+        let neck = given(Role::Neck).unwrap_or(neck.clamp(shoulder_line + APART, chin));
+        let chin = chin.max(neck);
+        let head = (chin + HEAD_OVER_CHIN * (crown - chin)).max(neck + APART);
+        let head = given(Role::Head).unwrap_or(head);
+        let hips = (hip_line + HIPS_UP * (neck - hip_line)).max(legs.crotch + APART);
+        let hips = given(Role::Hips).unwrap_or(hips);
+        let chest = hips + CHEST_PART * (neck - hips);
+        let chest = given(Role::Chest).unwrap_or(chest.min(shoulder_line - APART).max(hips + 2.0 * APART));
+        let spine = given(Role::Spine).unwrap_or(hips + SPINE_OF_CHEST * (chest - hips));
         let confidence = if line.neck_seen { 0.7 } else { DOUBTFUL };
         let trunk = if legs.seen == Seen::No { DOUBTFUL } else { 0.7 };
         if !line.neck_seen {
             self.warn("no neck was seen between shoulders and head: neck and head placed by ratio");
         }
-        for (role, y, confidence) in [
-            (Role::Hips, hips, trunk),
-            (Role::Spine, hips + SPINE_PART * (neck - hips), trunk),
-            (Role::Chest, hips + CHEST_PART * (neck - hips), trunk),
-            (Role::Neck, neck, confidence),
-            (Role::Head, head, confidence),
+        let on_axis = |y: f64, back: f64| {
+            let (z, half_depth) = middle(stance, y);
+            DVec3::new(stance.axis, y, z - back * half_depth)
+        };
+        for (role, y, back, confidence) in [
+            (Role::Hips, hips, 0.0, trunk),
+            (Role::Spine, spine, SPINE_BACK, trunk),
+            (Role::Chest, chest, SPINE_BACK, trunk),
+            (Role::Neck, neck, 0.0, confidence),
+            (Role::Head, head, 0.0, confidence),
         ] {
-            self.put(role, on_axis(y), confidence);
+            self.put(role, on_axis(y, back), confidence);
         }
         for left in [true, false] {
             let arm = self.at(on(left, Role::LeftUpperArm));
-            let middle = on_axis(shoulder_line);
-            let at = middle.lerp(arm, CLAVICLE_PART).with_y(arm.y + 0.3 * (neck - shoulder_line));
+            let middle = on_axis(shoulder_line, SPINE_BACK);
+            let at = middle.lerp(arm, CLAVICLE_PART).with_y(arm.y + 0.3 * (neck - shoulder_line).max(0.0));
             let confidence = self.found.joints[&on(left, Role::LeftUpperArm)].confidence;
             self.put(on(left, Role::LeftShoulder), at, confidence);
         }
         self.found.chin = DVec3::new(stance.axis, chin, line.chin_z);
-        self.found.tips.insert(Role::Head, on_axis(crown).with_z(middle_z(stance, crown - 0.02)));
+        let top = DVec3::new(stance.axis, crown, middle(stance, crown - 0.02).0);
+        self.found.tips.insert(Role::Head, top);
     }
 
     /// Sides that agree become each other's image; sides that do not are doubtful.
@@ -236,8 +300,13 @@ impl Search<'_> {
             let (one, two) = (self.found.joints[&role], self.found.joints[&other]);
             let apart = one.position.distance(image(two.position));
             if stance.is_symmetric || apart <= AGREE {
-                let middle =
-                    if apart <= AGREE { 0.5 * (one.position + image(two.position)) } else { one.position };
+                let middle = if apart <= AGREE {
+                    0.5 * (one.position + image(two.position))
+                } else if two.confidence > one.confidence {
+                    image(two.position)
+                } else {
+                    one.position
+                };
                 let confidence = one.confidence.min(two.confidence);
                 self.put(role, middle, confidence);
                 self.put(other, image(middle), confidence);

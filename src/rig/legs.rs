@@ -9,6 +9,12 @@ const BRIDGE: f64 = 0.03;
 const GAP_STARTS_BELOW: f64 = 0.25;
 /// The gap between the legs lies within this distance of the axis.
 const GAP_OFF_AXIS: f64 = 0.04;
+/// Where legs touch, the figure is thinner than this share of a leg, ...
+const TOUCHING_THIN: f64 = 0.6;
+/// ... within this distance of the axis.
+const TOUCH_OFF_AXIS: f64 = 0.01;
+/// Empty cells across the axis that are no gap.
+const SLIT: usize = 2;
 /// A crotch lower or higher than this is none.
 const CROTCH_RANGE: (f64, f64) = (0.10, 0.62);
 /// The crotch where none is seen: of an adult, and of a figure that is mostly head.
@@ -23,6 +29,8 @@ const KNEE_PART: f64 = 0.515;
 const SLIM_RANGE: (f64, f64) = (0.08, 0.35);
 /// The ankle joint lies at this part of the slimmest section's height: the section lies above the ankle bones.
 const ANKLE_OF_SLIM: f64 = 0.62;
+/// The instep ends where the front has come back to this part of the foot's reach.
+const INSTEP_PART: f64 = 0.3;
 /// The ankle where none is seen, as a part of the crotch's height, ...
 const ANKLE_BY_RATIO: f64 = 0.10;
 /// ... and the range in which it is believed.
@@ -92,11 +100,10 @@ pub struct Leg {
     pub ankle_seen: bool,
 }
 
-/// Steps from the axis between which something is leg, and how many hits of each ray lie before it and behind it.
+/// Steps from the axis between which something is leg.
 #[derive(Clone, Copy)]
 struct Limb {
     steps: (usize, usize),
-    cover: usize,
 }
 
 /// Looks for the legs below `top`.
@@ -110,7 +117,8 @@ pub fn find_legs(stance: &Stance, top: f64) -> Legs {
     let (mut outside_rows, mut inside_rows) = (0usize, 0usize);
     for row in first..=last {
         let apart = apart(stance, row);
-        let pair = apart.or_else(|| inside(stance, row));
+        let inner = if apart.is_none() { inside(stance, row) } else { None };
+        let pair = apart.or(inner).or_else(|| touching(stance, row));
         pairs.push(pair);
         if pair.is_none() {
             missed += 1;
@@ -121,10 +129,10 @@ pub fn find_legs(stance: &Stance, top: f64) -> Legs {
         } else {
             missed = 0;
             crotch = Some(stance.grid.y(row) + 0.5 * stance.cell());
-            if apart.is_some() {
-                outside_rows += 1;
-            } else {
+            if inner.is_some() {
                 inside_rows += 1;
+            } else {
+                outside_rows += 1;
             }
         }
     }
@@ -150,7 +158,7 @@ pub fn find_legs(stance: &Stance, top: f64) -> Legs {
                     // One run on the axis: half of it is this leg.
                     let run = *stance.side_runs(left, row).first()?;
                     let reach = (LEG_REACH / stance.cell()) as usize;
-                    (run.0 < reach).then_some(Limb { steps: (run.0, run.1.min(reach)), cover: 0 })
+                    (run.0 < reach).then_some(Limb { steps: (run.0, run.1.min(reach)) })
                 })?;
                 section(stance, left, row, limb)
             })
@@ -185,7 +193,30 @@ fn apart(stance: &Stance, row: usize) -> Option<[Limb; 2]> {
     if left.1 - left.0 < least || right.1 - right.0 < least {
         return None;
     }
-    Some([left, right].map(|steps| Limb { steps: (steps.0, steps.1.min(reach.max(steps.0 + 1))), cover: 0 }))
+    Some([left, right].map(|steps| Limb { steps: (steps.0, steps.1.min(reach.max(steps.0 + 1))) }))
+}
+
+/// Two legs that touch: between them, the figure is thinner than on either side.
+fn touching(stance: &Stance, row: usize) -> Option<[Limb; 2]> {
+    let runs = [true, false].map(|left| stance.side_runs(left, row).first().copied());
+    let [Some(left), Some(right)] = runs else { return None };
+    let reach = (LEG_REACH / stance.cell()) as usize;
+    if left.0 > SLIT || right.0 > SLIT || left.1 > reach || right.1 > reach {
+        return None;
+    }
+    let thickness = |left: bool, steps: usize| {
+        stance.grid.thickest(stance.column(left, steps), row).map_or(0.0, |(back, front)| front - back)
+    };
+    let most = |left: bool, run: (usize, usize)| {
+        (run.0..run.1).map(|steps| thickness(left, steps)).fold(0.0, f64::max)
+    };
+    let leg = most(true, left).min(most(false, right));
+    let off = (TOUCH_OFF_AXIS / stance.cell()) as usize;
+    let between = [true, false]
+        .into_iter()
+        .flat_map(|left| (0..=off).map(move |steps| thickness(left, steps)))
+        .fold(f64::INFINITY, f64::min);
+    (between < TOUCHING_THIN * leg).then_some([left, right].map(|run| Limb { steps: (0, run.1.min(reach)) }))
 }
 
 /// Two legs inside of a skirt: on either side of the axis there are columns whose rays meet more than those between.
@@ -213,7 +244,7 @@ fn inside(stance: &Stance, row: usize) -> Option<[Limb; 2]> {
                 _ => {}
             }
         }
-        start.map(|start| Limb { steps: (start, end), cover: between / 2 })
+        start.map(|start| Limb { steps: (start, end) })
     });
     let [Some(left), Some(right)] = limbs else { return None };
     let least = (0.02 / stance.cell()) as usize;
@@ -224,16 +255,10 @@ fn inside(stance: &Stance, row: usize) -> Option<[Limb; 2]> {
 }
 
 fn section(stance: &Stance, left: bool, row: usize, limb: Limb) -> Option<Section> {
-    let (mut back, mut front) = (f64::INFINITY, f64::NEG_INFINITY);
-    for steps in limb.steps.0..limb.steps.1 {
-        let hits = stance.grid.hits(stance.column(left, steps), row);
-        if hits.len() >= 2 * limb.cover + 1 {
-            back = back.min(f64::from(hits[limb.cover]));
-            front = front.max(f64::from(hits[hits.len() - 1 - limb.cover]));
-        }
-    }
+    let (back, front) =
+        stance.grid.limb((limb.steps.0..limb.steps.1).map(|steps| (stance.column(left, steps), row)))?;
     let (near, far) = (limb.steps.0 as f64 * stance.cell(), limb.steps.1 as f64 * stance.cell());
-    (back <= front).then(|| Section {
+    Some(Section {
         y: stance.grid.y(row),
         x: 0.5 * (near + far),
         half_width: 0.5 * (far - near),
@@ -283,15 +308,15 @@ pub fn leg(
         })
     };
     let foot: Vec<&Section> = sections.iter().filter(|s| s.y < at(ANKLE_RANGE.1)).collect();
-    let (ankle_y, ankle_seen) = ankle_height(sections, stance.low, length);
+    let Ankle { y: ankle_y, slim, seen: ankle_seen } = ankle_height(sections, stance.low, length);
     let shin = height_of(at(0.3));
-    let above_ankle = height_of(ankle_y.max(at(0.12)));
+    let above_ankle = height_of(slim);
     let ankle = given_ankle.unwrap_or_else(|| stance.point(left, above_ankle.x, ankle_y, above_ankle.z()));
     let hip = given_hip.unwrap_or_else(|| {
         let y = legs.crotch + HIP_OVER_CROTCH * length;
         let top = mean_section(sections, at(0.90), at(0.99)).unwrap_or(shin);
         let steps = (top.x / stance.cell()) as usize;
-        let z = stance.grid.depth(stance.column(left, steps), stance.grid.row(y));
+        let z = stance.grid.thickest(stance.column(left, steps), stance.grid.row(y));
         stance.point(left, top.x, y, z.map_or(top.z(), |(back, front)| 0.5 * (back + front)))
     });
     let knee = given_knee.unwrap_or_else(|| {
@@ -315,18 +340,42 @@ pub fn leg(
     }
 }
 
-fn ankle_height(sections: &[Section], low: f64, length: f64) -> (f64, bool) {
+/// The ankle's height.
+struct Ankle {
+    y: f64,
+    /// Height of the slimmest section above it.
+    slim: f64,
+    seen: bool,
+}
+
+fn ankle_height(sections: &[Section], low: f64, length: f64) -> Ankle {
     let girth = |s: &Section| s.half_width + s.half_depth();
+    let believed = |y: f64| y.clamp(low + ANKLE_RANGE.0 * length, low + ANKLE_RANGE.1 * length);
     let slim = sections
         .iter()
         .filter(|s| s.y >= low + SLIM_RANGE.0 * length && s.y <= low + SLIM_RANGE.1 * length)
         .min_by(|a, b| girth(a).total_cmp(&girth(b)));
+    // Where the front comes back from the foot to the shin.
+    let shin = mean_section(sections, low + 0.30 * length, low + 0.40 * length);
+    let foot = sections
+        .iter()
+        .filter(|s| s.y < low + 0.3 * length)
+        .map(|s| s.front)
+        .fold(f64::NEG_INFINITY, f64::max);
+    let instep = shin.and_then(|shin| {
+        let reach = foot - shin.front;
+        let y = sections
+            .iter()
+            .find(|s| s.y > low + 0.02 * length && s.front <= shin.front + INSTEP_PART * reach)?
+            .y;
+        (reach > 0.3 * 2.0 * shin.half_depth()).then_some(y)
+    });
     if let Some(slim) = slim {
         let below = sections.iter().filter(|s| s.y < slim.y).map(girth).fold(0.0, f64::max);
-        let y = ANKLE_OF_SLIM * (slim.y - low);
-        if below > 1.15 * girth(slim) {
-            return (low + y.clamp(ANKLE_RANGE.0 * length, ANKLE_RANGE.1 * length), true);
+        if below > 1.15 * girth(slim) && slim.y > low + 1.05 * SLIM_RANGE.0 * length {
+            return Ankle { y: believed(low + ANKLE_OF_SLIM * (slim.y - low)), slim: slim.y, seen: true };
         }
     }
-    (low + ANKLE_BY_RATIO * length, false)
+    let y = low + ANKLE_BY_RATIO * length;
+    Ankle { y, slim: low + 0.35 * length, seen: false }
 }

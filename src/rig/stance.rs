@@ -21,12 +21,20 @@ const WIDE_SHARE: f64 = 0.6;
 const FILLED_ROWS: f64 = 0.97;
 /// ... and nearly all of it hangs together.
 const CONNECTED_SHARE: f64 = 0.9;
+/// The front near the axis, within this distance of it, ...
+const FRONT_REACH: f64 = 0.05;
+/// ... lies no further than this behind that of all meshes, ...
+const FRONT_WITHIN: f64 = 0.05;
+/// ... but for this share of the rows.
+const FRONT_MISSING: f64 = 0.12;
 /// Gaps of so many cells within a row are slits between patches, not air.
 const SLIT: usize = 2;
+/// Every so many rows are compared with their mirror image.
+const AXIS_ROWS: usize = 3;
 /// An axis is kept where another one makes no more than this share of the silhouette's mirror image fit better.
 const AXIS_GAIN: f64 = 0.004;
 /// A mesh is symmetric where nearly all of its vertices ...
-const SYMMETRIC_SHARE: f64 = 0.99;
+const SYMMETRIC_SHARE: f64 = 0.999;
 /// ... have a mirror image within this.
 const SYMMETRIC_WITHIN: f64 = 2e-5;
 
@@ -44,7 +52,9 @@ pub struct Stance<'a> {
     pub symmetry: f64,
     /// True where vertices have mirror images, not only the outline.
     pub is_symmetric: bool,
-    /// The lowest and the highest height that is seen.
+    /// At most so many threads; 0 means all cores.
+    pub threads: usize,
+    /// The lowest height that is seen.
     pub low: f64,
     /// The highest.
     pub high: f64,
@@ -54,7 +64,7 @@ pub struct Stance<'a> {
 
 impl<'a> Stance<'a> {
     /// Looks at `layout`.
-    pub fn of(layout: &'a Layout) -> Self {
+    pub fn of(layout: &'a Layout, threads: usize) -> Self {
         let kinds = &layout.kinds;
         let is = |mesh: usize, wanted: &[Option<MeshKind>]| wanted.contains(&kinds[mesh]);
         use MeshKind::*;
@@ -68,27 +78,30 @@ impl<'a> Stance<'a> {
         let triangles_of = |set: &[Option<MeshKind>]| layout.triangles_where(|mesh| is(mesh, set));
         let clothed = triangles_of(sets[2]);
         let reference = if clothed.is_empty() { layout.triangles.clone() } else { clothed };
-        let reference_grid = front(&layout.positions, &reference, 0.0);
+        let reference_grid = front(&layout.positions, &reference, 0.0, threads);
         let whole = Extent::of(&reference_grid);
         let mut chosen = None;
         for set in &sets[..2] {
             let triangles = triangles_of(set);
+            if triangles.len() == reference.len() {
+                break;
+            }
             if triangles.is_empty() {
                 continue;
             }
-            let grid = front(&layout.positions, &triangles, 0.0);
-            if is_whole(&grid, &whole) {
+            let grid = front(&layout.positions, &triangles, 0.0, threads);
+            if is_whole(&grid, &whole) && shows_the_front(&grid, &reference_grid) {
                 chosen = Some((triangles, grid));
                 break;
             }
         }
         let (triangles, grid) = chosen.unwrap_or((reference, reference_grid));
-        Self::seen(&layout.positions, triangles, grid)
+        Self::seen(&layout.positions, triangles, grid, threads)
     }
 
-    fn seen(positions: &'a [DVec3], triangles: Vec<[u32; 3]>, grid: RayGrid) -> Self {
+    fn seen(positions: &'a [DVec3], triangles: Vec<[u32; 3]>, grid: RayGrid, threads: usize) -> Self {
         let (axis, symmetry) = axis(&grid);
-        let grid = if axis == 0.0 { grid } else { front(positions, &triangles, axis) };
+        let grid = if axis == 0.0 { grid } else { front(positions, &triangles, axis, threads) };
         let extent = Extent::of(&grid);
         let runs = (0..grid.frame.rows).map(|row| runs(&grid, row)).collect();
         let is_symmetric = is_symmetric(positions, &triangles, axis);
@@ -98,6 +111,7 @@ impl<'a> Stance<'a> {
             axis,
             symmetry,
             is_symmetric,
+            threads,
             low: extent.low,
             high: extent.high,
             runs,
@@ -161,7 +175,7 @@ impl<'a> Stance<'a> {
         let steps = ((reach / self.cell()) as usize).clamp(1, self.half_columns());
         let half = self.half_columns();
         let (mut back, mut front): (Vec<f64>, Vec<f64>) =
-            (half - steps..half + steps).filter_map(|column| self.grid.depth(column, row)).unzip();
+            (half - steps..half + steps).filter_map(|column| self.grid.thickest(column, row)).unzip();
         if back.is_empty() {
             return None;
         }
@@ -183,7 +197,7 @@ pub fn median(values: &mut [f64]) -> f64 {
     }
 }
 
-fn front(positions: &[DVec3], triangles: &[[u32; 3]], axis: f64) -> RayGrid {
+fn front(positions: &[DVec3], triangles: &[[u32; 3]], axis: f64, threads: usize) -> RayGrid {
     let cell = 1.0 / ROWS as f64;
     let reach = triangles
         .iter()
@@ -200,7 +214,7 @@ fn front(positions: &[DVec3], triangles: &[[u32; 3]], axis: f64) -> RayGrid {
         columns: 2 * half,
         rows: ROWS,
     };
-    RayGrid::new(positions, triangles, frame)
+    RayGrid::new(positions, triangles, frame, threads)
 }
 
 struct Extent {
@@ -240,6 +254,21 @@ fn is_whole(grid: &RayGrid, all: &Extent) -> bool {
     let (first, last) = (grid.row(own.low), grid.row(own.high - 0.5 * grid.frame.cell));
     let filled = (first..=last).filter(|&row| !runs(grid, row).is_empty()).count();
     filled as f64 >= FILLED_ROWS * (last - first + 1) as f64 && connected_share(grid) >= CONNECTED_SHARE
+}
+
+/// True where nearly all rows show the figure's front about the axis, not the back of its head without a face.
+fn shows_the_front(grid: &RayGrid, all: &RayGrid) -> bool {
+    let front = |grid: &RayGrid, row: usize| {
+        let x = |column: usize| grid.x(column).abs() < FRONT_REACH;
+        let depths = (0..grid.frame.columns)
+            .filter(|&column| x(column))
+            .filter_map(|column| grid.depth(column, row))
+            .map(|(_, front)| front);
+        depths.max_by(f64::total_cmp)
+    };
+    let pairs: Vec<f64> = (0..ROWS).filter_map(|row| Some(front(all, row)? - front(grid, row)?)).collect();
+    let behind = pairs.iter().filter(|&&behind| behind > FRONT_WITHIN).count();
+    behind as f64 <= FRONT_MISSING * pairs.len() as f64
 }
 
 /// The share of the silhouette that its largest piece has, where gaps of a slit are bridged.
@@ -288,21 +317,22 @@ fn runs(grid: &RayGrid, row: usize) -> Vec<(usize, usize)> {
 /// The axis about which most of the silhouette is its own mirror image, and the share that is.
 fn axis(grid: &RayGrid) -> (f64, f64) {
     let columns = grid.frame.columns;
-    let step = 4;
-    let filled: Vec<Vec<bool>> = (0..grid.frame.rows)
-        .step_by(step)
-        .map(|row| (0..columns).map(|column| grid.is_filled(column, row)).collect())
-        .collect();
-    let area: usize = filled.iter().flatten().filter(|&&filled| filled).count();
+    let rows: Vec<Vec<(usize, usize)>> =
+        (0..grid.frame.rows).step_by(AXIS_ROWS).map(|row| runs(grid, row)).collect();
+    let area: usize = rows.iter().flatten().map(|run| run.1 - run.0).sum();
     if area == 0 {
         return (0.0, 0.0);
     }
-    // `sum` is the sum of two columns that are each other's image.
+    // `sum` is the sum of two columns that are each other's image: [start, end) has the image (sum - end, sum - start].
     let overlap = |sum: usize| -> f64 {
         let mut count = 0usize;
-        for row in &filled {
-            for column in sum.saturating_sub(columns - 1)..=sum.min(columns - 1) {
-                count += usize::from(row[column] && row[sum - column]);
+        for runs in &rows {
+            for run in runs {
+                for other in runs {
+                    let start = (sum + 1).saturating_sub(other.1).max(run.0);
+                    let end = (sum + 1).saturating_sub(other.0).min(run.1);
+                    count += end.saturating_sub(start);
+                }
             }
         }
         count as f64 / area as f64
@@ -311,7 +341,7 @@ fn axis(grid: &RayGrid) -> (f64, f64) {
     let scores: Vec<f64> = (0..2 * columns - 1).map(overlap).collect();
     let mut best = middle;
     // From the middle outwards, so that the nearer of two equal axes counts.
-    for distance in 1..columns {
+    for distance in 1..middle + 1 {
         for sum in [middle - distance, middle + distance] {
             if scores[sum] > scores[best] + 1e-12 {
                 best = sum;

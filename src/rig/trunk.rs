@@ -5,7 +5,7 @@ use super::stance::{Stance, median};
 /// Above its narrowest row the head is wider by this share, and by this part of the height.
 const HEAD_WIDENS: (f64, f64) = (1.15, 0.006);
 /// The chin's rays start and end at these parts of the way from shoulders to crown.
-const CHIN_RANGE: (f64, f64) = (-0.05, 0.7);
+const CHIN_RANGE: (f64, f64) = (-0.05, 0.55);
 /// Bands above and below a row that are compared, as a part of the same.
 const CHIN_BAND: f64 = 0.05;
 /// A smaller step back than this part of the same is no chin.
@@ -30,16 +30,20 @@ pub struct HeadLine {
     pub chin_seen: bool,
 }
 
-/// Looks for neck, chin and crown above `shoulder_line`.
-pub fn head_line(stance: &Stance, shoulder_line: f64) -> HeadLine {
+/// Looks for neck, chin and crown above `shoulder_line`, where the arms' radius is `radius`.
+pub fn head_line(stance: &Stance, shoulder_line: f64, radius: f64) -> HeadLine {
     let crown = stance.high.max(shoulder_line + 0.02);
     let span = crown - shoulder_line;
     let (first, last) = (stance.grid.row(shoulder_line), stance.grid.row(crown));
     let width = |row: usize| stance.half_width(row);
-    // Upwards from the shoulders: the narrowest row before the head.
-    let mut narrow = (f64::INFINITY, first);
+    // Upwards from the widest row at the shoulders: the narrowest row before the head.
+    let from = (stance.grid.row(shoulder_line - radius)..=stance.grid.row(shoulder_line + radius))
+        .max_by(|&a, &b| width(a).total_cmp(&width(b)).then(a.cmp(&b)))
+        .unwrap_or(first)
+        .max(first);
+    let mut narrow = (f64::INFINITY, from);
     let mut widened = false;
-    for row in first..last {
+    for row in from..last {
         let w = width(row);
         if w <= 0.0 {
             continue;
@@ -52,7 +56,7 @@ pub fn head_line(stance: &Stance, shoulder_line: f64) -> HeadLine {
         }
     }
     // The middle of rows as narrow as that.
-    let alike: Vec<usize> = (first..last)
+    let alike: Vec<usize> = (from..last)
         .filter(|&row| {
             let w = width(row);
             w > 0.0
@@ -110,15 +114,15 @@ fn chin(stance: &Stance, shoulder_line: f64, crown: f64) -> Option<f64> {
     Some(stance.grid.y(low + steepest.1) - 0.5 * stance.cell())
 }
 
-/// Depth of the middle of the trunk, smoothed over some rows.
-pub fn middle_z(stance: &Stance, y: f64) -> f64 {
+/// Depth of the middle of the trunk and half of its depth, smoothed over some rows.
+pub fn middle(stance: &Stance, y: f64) -> (f64, f64) {
     let row = stance.grid.row(y) as i64;
-    let mut middles: Vec<f64> = (row - 4..=row + 4)
+    let (mut middles, mut halves): (Vec<f64>, Vec<f64>) = (row - 4..=row + 4)
         .filter_map(|row| {
             let row = row.clamp(0, stance.grid.frame.rows as i64 - 1) as usize;
             let reach = (0.3 * stance.half_width(row)).clamp(0.005, 0.05);
-            stance.depth(row, reach).map(|(back, front)| 0.5 * (back + front))
+            stance.depth(row, reach).map(|(back, front)| (0.5 * (back + front), 0.5 * (front - back)))
         })
-        .collect();
-    median(&mut middles)
+        .unzip();
+    (median(&mut middles), median(&mut halves))
 }
