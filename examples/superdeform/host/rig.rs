@@ -43,8 +43,56 @@ pub fn rerigged(loaded: &Loaded, skeleton: &Skeleton, weights: &[Weights]) -> Re
         node.as_object_mut().map(|node| node.remove("skin"));
     }
     file.json.as_object_mut().map(|json| json.remove("skins"));
+    let old = file.list("nodes").len();
     add_rig(&mut file, loaded, skeleton, weights)?;
+    hide_empty(&mut file, old);
     Ok(file)
+}
+
+/// Takes those of the first `count` nodes that show nothing any more out of the scenes, with what animates them: joints
+/// of a rig that is no longer there would be taken for the new one's.
+fn hide_empty(file: &mut GltfFile, count: usize) {
+    let nodes = file.list("nodes");
+    let shows = |node: &Value| {
+        ["mesh", "camera"].iter().any(|key| node.get(*key).is_some())
+            || node["extensions"]["KHR_lights_punctual"].is_object()
+    };
+    let mut shown: Vec<bool> =
+        nodes.iter().enumerate().map(|(index, node)| index >= count || shows(node)).collect();
+    // What holds something that is shown stays too; a chain of nodes is no longer than there are nodes.
+    loop {
+        let holds = |node: &Value| {
+            array_at(node, "children").iter().filter_map(Value::as_u64).any(|child| shown[child as usize])
+        };
+        let more: Vec<usize> = (0..nodes.len()).filter(|&node| !shown[node] && holds(&nodes[node])).collect();
+        if more.is_empty() {
+            break;
+        }
+        more.into_iter().for_each(|node| shown[node] = true);
+    }
+    let is_shown = |node: &Value| node.as_u64().is_none_or(|node| shown[node as usize]);
+    for list in file.json.get_mut("scenes").and_then(Value::as_array_mut).into_iter().flatten() {
+        if let Some(nodes) = list.get_mut("nodes").and_then(Value::as_array_mut) {
+            nodes.retain(is_shown);
+        }
+    }
+    for node in file.json.get_mut("nodes").and_then(Value::as_array_mut).into_iter().flatten().take(count) {
+        let Some(children) = node.get_mut("children").and_then(Value::as_array_mut) else { continue };
+        children.retain(is_shown);
+        if children.is_empty() {
+            node.as_object_mut().map(|node| node.remove("children"));
+        }
+    }
+    let Some(animations) = file.json.get_mut("animations").and_then(Value::as_array_mut) else { return };
+    for animation in animations.iter_mut() {
+        if let Some(channels) = animation.get_mut("channels").and_then(Value::as_array_mut) {
+            channels.retain(|channel| is_shown(&channel["target"]["node"]));
+        }
+    }
+    animations.retain(|animation| !array_at(animation, "channels").is_empty());
+    if animations.is_empty() {
+        file.json.as_object_mut().map(|json| json.remove("animations"));
+    }
 }
 
 /// Gives `file`, which holds the meshes of `loaded` without a skin, the joints of `skeleton` and `weights` to them.
