@@ -212,6 +212,7 @@ impl Search<'_> {
                     ([joint(out), joint(out + 0.15), joint(out + 0.29), joint(out + 0.38)], [RATIO; 3])
                 }
             };
+            let joints = self.around_given(left, joints);
             for (index, role) in
                 [Role::LeftUpperArm, Role::LeftLowerArm, Role::LeftHand].into_iter().enumerate()
             {
@@ -294,7 +295,10 @@ impl Search<'_> {
         let lefts: Vec<Role> = self.found.joints.keys().copied().filter(|role| is_left(*role)).collect();
         for role in lefts {
             let other = role.mirrored();
-            if self.given.contains_key(&role) || self.given.contains_key(&other) {
+            if limb(role)
+                .iter()
+                .any(|role| self.given.contains_key(role) || self.given.contains_key(&role.mirrored()))
+            {
                 continue;
             }
             let (one, two) = (self.found.joints[&role], self.found.joints[&other]);
@@ -330,6 +334,14 @@ impl Search<'_> {
 
 fn is_left(role: Role) -> bool {
     role.mirrored() != role && role.name().starts_with("left")
+}
+
+/// The left roles of the arm or the leg that a left role belongs to.
+fn limb(role: Role) -> &'static [Role] {
+    use Role::*;
+    const LEG: [Role; 4] = [LeftUpperLeg, LeftLowerLeg, LeftFoot, LeftToes];
+    const ARM: [Role; 4] = [LeftShoulder, LeftUpperArm, LeftLowerArm, LeftHand];
+    if LEG.contains(&role) { &LEG } else { &ARM }
 }
 
 /// How far from the axis something reaches above `floor`.

@@ -22,7 +22,7 @@ const CROTCH_BY_RATIO: f64 = 0.47;
 /// Legs stand within this distance of the axis.
 const LEG_REACH: f64 = 0.25;
 /// The hip joint lies above the crotch by this part of the crotch's height.
-const HIP_OVER_CROTCH: f64 = 0.065;
+const HIP_OVER_CROTCH: f64 = 0.057;
 /// The knee lies this part of the way from ankle to hip joint.
 const KNEE_PART: f64 = 0.515;
 /// The slimmest section above the foot is looked for between these parts of the crotch's height.
