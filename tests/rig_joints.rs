@@ -131,7 +131,10 @@ fn report(unnamed: bool) {
     let only = std::env::var("ONLY").unwrap_or_default();
     let cases: Vec<Case> = cases()
         .into_iter()
-        .filter(|case| !LEFT_OUT.iter().any(|(name, _)| case.name == *name) && case.name.contains(&only))
+        .filter(|case| {
+            std::env::var_os("ALL").is_some()
+                || !LEFT_OUT.iter().any(|(name, _)| case.name == *name) && case.name.contains(&only)
+        })
         .collect();
     let mut cases = cases;
     if unnamed {
@@ -196,6 +199,38 @@ fn report(unnamed: bool) {
         );
     }
     println!("beyond 0.06: {far_doubted} of {far} doubted; within 0.03: {near_trusted} of {near} trusted");
+    if !only.is_empty() || outcomes.len() < 20 {
+        println!("models are missing: nothing is judged");
+        return;
+    }
+    // Artists' limits; clothes and hair of unknown kinds may hide a limb, as long as that is doubted.
+    let limits = [
+        ("ankle", 0.02),
+        ("knee", if unnamed { 0.03 } else { 0.02 }),
+        ("elbow", 0.02),
+        ("wrist", 0.02),
+        ("shoulder", 0.03),
+        ("hip", 0.03),
+        ("neck", 0.05),
+        ("head", 0.05),
+        ("hips", 0.08),
+        ("chest", 0.05),
+        ("spine", if unnamed { 0.06 } else { 0.05 }),
+    ];
+    for (name, limit) in limits {
+        let middle = median(&errors[name]);
+        assert!(middle <= limit, "{name}: {middle}");
+        let worst = errors[name].iter().copied().fold(0.0, f64::max);
+        let is_limb = LIMBS.iter().any(|(limb, _)| *limb == name);
+        assert!(unnamed || !is_limb || worst <= 0.12, "{name}: {worst}");
+    }
+    assert!(far_doubted as f64 >= 0.9 * far as f64, "{far_doubted} of {far}");
+    assert!(near_trusted as f64 >= 0.8 * near as f64, "{near_trusted} of {near}");
+    let disorders: Vec<String> = outcomes
+        .iter()
+        .filter_map(|outcome| Some(format!("{}: {}", outcome.name, disorder(&outcome.found)?)))
+        .collect();
+    assert!(disorders.is_empty(), "{}", disorders.join("\n"));
     if std::env::var_os("SIGNED").is_some() {
         for (name, values) in signed {
             println!("{name}");
@@ -252,7 +287,9 @@ fn joints_of_analytic_people_are_found() {
                 let error = pair.map(|role| found.joints[&role].position.distance(truth[&role]));
                 let trust = pair.map(|role| found.joints[&role].confidence);
                 print!(" {}{:.3} {:.1}", &label[..2], error[0].max(error[1]), trust[0].min(trust[1]));
-                if error[0].max(error[1]) > 0.06 && trust[0].max(trust[1]) >= 0.5 {
+                // Tubes have no creases: half of a limb's diameter is what their shape tells.
+                let limit = if label == "hip" { 0.055 } else { 0.05 };
+                if error[0].max(error[1]) > limit {
                     failures.push(format!("{name} {unnamed}: {label} {error:?} {trust:?}"));
                 }
             }
@@ -396,6 +433,7 @@ fn things_worn_are_survived() {
         ("robe T", add(0.0, &robe(1.3, 0.5, 0.16))),
         ("shoulder thing", add(30.0, &ellipsoid(DVec3::new(0.45, 1.5, 0.0), DVec3::new(0.4, 0.06, 0.06)))),
     ];
+    let mut failures = Vec::new();
     for (name, character) in variants {
         let outcome = Outcome {
             name: format!("worn {name}"),
@@ -404,8 +442,6 @@ fn things_worn_are_survived() {
             found: FoundJoints::default(),
         };
         let found = find_joints(&outcome.layout, &BTreeMap::new(), false, 2);
-        let angle = character.skeleton.joints[character.humanoid.joint(LeftHand).unwrap()].position();
-        let _ = angle;
         let truth: BTreeMap<Role, DVec3> = character
             .humanoid
             .iter()
@@ -418,6 +454,9 @@ fn things_worn_are_survived() {
             let error = pair.map(|role| found.joints[&role].position.distance(truth[&role]));
             let trust = pair.map(|role| found.joints[&role].confidence);
             let bad = (0..2).any(|side| error[side] > 0.06 && trust[side] >= 0.5);
+            if bad {
+                failures.push(format!("{name}: {label} {error:.3?} {trust:?}"));
+            }
             print!(
                 " {}{:.3},{:.3}{}",
                 &label[..2],
@@ -436,8 +475,10 @@ fn things_worn_are_survived() {
             print!(" {role}{:+.3}", found.joints[&role].position.y - truth[&role].y);
         }
         println!(" {:?}", disorder(&found));
+        failures.extend(disorder(&found).map(|what| format!("{name}: {what}")));
         picture(&Outcome { truth, found, ..outcome });
     }
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
 }
 
 fn joints_of(layout: &Layout, given: &BTreeMap<Role, DVec3>, threads: usize) -> FoundJoints {
@@ -496,5 +537,59 @@ fn neither_threads_nor_the_order_of_triangles_change_the_joints() {
     }
     for (role, joint) in joints_of(&turned, &BTreeMap::new(), 1).joints {
         assert!(joint.position.distance(alone.joints[&role].position) <= 1e-9, "{role}");
+    }
+}
+
+#[test]
+fn a_robe_without_legs_says_so() {
+    for arm_angle in [0.0, 45.0] {
+        let person = Person { arm_angle, ..Person::adult() };
+        let joints = person.joints();
+        let mut character = person.build();
+        let waist = joints[&Spine].y as f32;
+        for mesh in &mut character.meshes {
+            let wide = 0.14;
+            let is_leg =
+                |v: u32| mesh.positions[v as usize].y < waist && mesh.positions[v as usize].x.abs() < wide;
+            mesh.triangles.retain(|corners| !corners.iter().any(|&v| is_leg(v)));
+        }
+        let mut robe = people::Shape { columns: 24, ..people::Shape::default() };
+        let ring =
+            |y: f64, radius: f64| people::Ring { centre: DVec3::Y * y, radius, weights: vec![(Hips, 1.0)] };
+        let top = joints[&Chest].y;
+        robe.tube(
+            DVec3::Y,
+            &[
+                ring(0.0, 0.0),
+                ring(0.001, 0.3),
+                ring(0.5 * top, 0.22),
+                ring(top, 0.14),
+                ring(top + 0.001, 0.0),
+            ],
+            true,
+        );
+        character.meshes.extend(of_points(&robe.positions, robe.triangles).meshes);
+        let (layout, found) = found_of(&character, DVec3::Z);
+        assert_eq!(disorder(&found), None);
+        for (role, joint) in &found.joints {
+            let off = joint.position.distance(layout.to_layout(joints[role]));
+            let is_leg = matches!(
+                role,
+                LeftUpperLeg
+                    | LeftLowerLeg
+                    | LeftFoot
+                    | LeftToes
+                    | RightUpperLeg
+                    | RightLowerLeg
+                    | RightFoot
+                    | RightToes
+            );
+            assert!(!is_leg || joint.confidence < 0.5, "{role}");
+            assert!(off < 0.13, "{role}: {off}");
+        }
+        let said = found.warnings.iter().any(|warning| {
+            warning.code == "joint_by_ratio" && warning.message.contains("the legs were not seen apart")
+        });
+        assert!(said, "{:?}", found.warnings);
     }
 }

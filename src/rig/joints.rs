@@ -103,7 +103,23 @@ fn on(left: bool, role: Role) -> Role {
 impl Search<'_> {
     fn run(mut self) -> FoundJoints {
         let stance = self.stance;
-        let legs = find_legs(stance, 0.8 * stance.high);
+        let mut legs = find_legs(stance, 0.8 * stance.high);
+        let floor = HANDS_ABOVE * legs.crotch;
+        let reach = [true, false].map(|left| reach(stance, left, floor));
+        let most = LONGER_ARM * reach[0].min(reach[1]);
+        let arms = [true, false].map(|left| find_arm(stance, left, legs.crotch, floor, most));
+        let arms = arms.map(|arm| {
+            arm.filter(|arm| {
+                let part = (arm.shoulder.y - legs.crotch) / (stance.high - legs.crotch).max(1e-6);
+                let length = arm.shoulder.distance(arm.elbow) + arm.elbow.distance(arm.tip);
+                (SHOULDER_RANGE.0..=SHOULDER_RANGE.1).contains(&part) && length > SLENDER * arm.radius
+            })
+        });
+        if legs.seen == Seen::No
+            && let [Some(one), Some(other)] = &arms
+        {
+            legs = Legs::below_shoulders(stance, 0.5 * (one.shoulder.y + other.shoulder.y));
+        }
         let pair = [true, false].map(|left| {
             let given = |role| self.given.get(&on(left, role)).copied();
             leg(
@@ -117,17 +133,6 @@ impl Search<'_> {
         });
         self.put_legs(&legs, pair);
 
-        let floor = HANDS_ABOVE * legs.crotch;
-        let reach = [true, false].map(|left| reach(stance, left, floor));
-        let most = LONGER_ARM * reach[0].min(reach[1]);
-        let arms = [true, false].map(|left| find_arm(stance, left, legs.crotch, floor, most));
-        let arms = arms.map(|arm| {
-            arm.filter(|arm| {
-                let part = (arm.shoulder.y - legs.crotch) / (stance.high - legs.crotch).max(1e-6);
-                let length = arm.shoulder.distance(arm.elbow) + arm.elbow.distance(arm.tip);
-                (SHOULDER_RANGE.0..=SHOULDER_RANGE.1).contains(&part) && length > SLENDER * arm.radius
-            })
-        });
         let radius = arms.iter().flatten().map(|arm| arm.radius).fold(0.02, f64::min);
         let armpits = arms.iter().all(|arm| arm.as_ref().is_some_and(|arm| arm.pit_seen));
         self.put_arms(&legs, arms);
@@ -212,6 +217,7 @@ impl Search<'_> {
                     ([joint(out), joint(out + 0.15), joint(out + 0.29), joint(out + 0.38)], [RATIO; 3])
                 }
             };
+            let joints = self.around_given(left, joints);
             for (index, role) in
                 [Role::LeftUpperArm, Role::LeftLowerArm, Role::LeftHand].into_iter().enumerate()
             {
@@ -294,7 +300,10 @@ impl Search<'_> {
         let lefts: Vec<Role> = self.found.joints.keys().copied().filter(|role| is_left(*role)).collect();
         for role in lefts {
             let other = role.mirrored();
-            if self.given.contains_key(&role) || self.given.contains_key(&other) {
+            if limb(role)
+                .iter()
+                .any(|role| self.given.contains_key(role) || self.given.contains_key(&role.mirrored()))
+            {
                 continue;
             }
             let (one, two) = (self.found.joints[&role], self.found.joints[&other]);
@@ -330,6 +339,14 @@ impl Search<'_> {
 
 fn is_left(role: Role) -> bool {
     role.mirrored() != role && role.name().starts_with("left")
+}
+
+/// The left roles of the arm or the leg that a left role belongs to.
+fn limb(role: Role) -> &'static [Role] {
+    use Role::*;
+    const LEG: [Role; 4] = [LeftUpperLeg, LeftLowerLeg, LeftFoot, LeftToes];
+    const ARM: [Role; 4] = [LeftShoulder, LeftUpperArm, LeftLowerArm, LeftHand];
+    if LEG.contains(&role) { &LEG } else { &ARM }
 }
 
 /// How far from the axis something reaches above `floor`.

@@ -17,20 +17,20 @@ const TOUCH_OFF_AXIS: f64 = 0.01;
 const SLIT: usize = 2;
 /// A crotch lower or higher than this is none.
 const CROTCH_RANGE: (f64, f64) = (0.10, 0.62);
-/// The crotch where none is seen: of an adult, and of a figure that is mostly head.
+/// The crotch where none is seen, as a part of the figure's height, ...
 const CROTCH_BY_RATIO: f64 = 0.47;
+/// ... and of the shoulders' height, where those are seen.
+const CROTCH_OF_SHOULDERS: f64 = 0.56;
 /// Legs stand within this distance of the axis.
 const LEG_REACH: f64 = 0.25;
 /// The hip joint lies above the crotch by this part of the crotch's height.
-const HIP_OVER_CROTCH: f64 = 0.065;
+const HIP_OVER_CROTCH: f64 = 0.057;
 /// The knee lies this part of the way from ankle to hip joint.
 const KNEE_PART: f64 = 0.515;
 /// The slimmest section above the foot is looked for between these parts of the crotch's height.
 const SLIM_RANGE: (f64, f64) = (0.08, 0.35);
 /// The ankle joint lies at this part of the slimmest section's height: the section lies above the ankle bones.
 const ANKLE_OF_SLIM: f64 = 0.62;
-/// The instep ends where the front has come back to this part of the foot's reach.
-const INSTEP_PART: f64 = 0.3;
 /// The ankle where none is seen, as a part of the crotch's height, ...
 const ANKLE_BY_RATIO: f64 = 0.10;
 /// ... and the range in which it is believed.
@@ -149,7 +149,21 @@ pub fn find_legs(stance: &Stance, top: f64) -> Legs {
         (Seen::No, _) | (_, None) => (CROTCH_BY_RATIO * (stance.high - stance.low)).min(0.6 * top),
         (_, Some(y)) => y,
     };
-    let sections = [true, false].map(|left| {
+    let sections = sections(stance, crotch, first, &pairs);
+    Legs { crotch, seen, sections }
+}
+
+impl Legs {
+    /// Legs that nobody saw, under shoulders at height `shoulder_line`.
+    pub fn below_shoulders(stance: &Stance, shoulder_line: f64) -> Self {
+        let first = stance.grid.row(stance.low);
+        let crotch = stance.low + CROTCH_OF_SHOULDERS * (shoulder_line - stance.low).max(0.0);
+        Self { crotch, seen: Seen::No, sections: sections(stance, crotch, first, &[]) }
+    }
+}
+
+fn sections(stance: &Stance, crotch: f64, first: usize, pairs: &[Option<[Limb; 2]>]) -> [Vec<Section>; 2] {
+    [true, false].map(|left| {
         let side = usize::from(!left);
         (first..=stance.grid.row(crotch))
             .filter_map(|row| {
@@ -163,8 +177,7 @@ pub fn find_legs(stance: &Stance, top: f64) -> Legs {
                 section(stance, left, row, limb)
             })
             .collect()
-    });
-    Legs { crotch, seen, sections }
+    })
 }
 
 /// Two legs with air between them.
@@ -355,21 +368,6 @@ fn ankle_height(sections: &[Section], low: f64, length: f64) -> Ankle {
         .iter()
         .filter(|s| s.y >= low + SLIM_RANGE.0 * length && s.y <= low + SLIM_RANGE.1 * length)
         .min_by(|a, b| girth(a).total_cmp(&girth(b)));
-    // Where the front comes back from the foot to the shin.
-    let shin = mean_section(sections, low + 0.30 * length, low + 0.40 * length);
-    let foot = sections
-        .iter()
-        .filter(|s| s.y < low + 0.3 * length)
-        .map(|s| s.front)
-        .fold(f64::NEG_INFINITY, f64::max);
-    let instep = shin.and_then(|shin| {
-        let reach = foot - shin.front;
-        let y = sections
-            .iter()
-            .find(|s| s.y > low + 0.02 * length && s.front <= shin.front + INSTEP_PART * reach)?
-            .y;
-        (reach > 0.3 * 2.0 * shin.half_depth()).then_some(y)
-    });
     if let Some(slim) = slim {
         let below = sections.iter().filter(|s| s.y < slim.y).map(girth).fold(0.0, f64::max);
         if below > 1.15 * girth(slim) && slim.y > low + 1.05 * SLIM_RANGE.0 * length {
