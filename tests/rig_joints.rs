@@ -364,8 +364,16 @@ fn what_is_no_figure_is_doubted() {
             (p.x, p.y) = (-p.x, -p.y);
         }
     }
+    let mut state = 1u64;
+    let mut number = || {
+        state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (state >> 11) as f64 / (1u64 << 53) as f64
+    };
+    let points: Vec<DVec3> = (0..60_000).map(|_| DVec3::new(number(), number(), number())).collect();
+    let heap = of_points(&points, (0..20_000).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect());
     let mut failures = Vec::new();
     for (name, character) in [
+        ("heap of large triangles", heap),
         ("triangle", triangle),
         ("plane", plane),
         ("one point", one_point),
