@@ -282,7 +282,7 @@ fn joints_of_analytic_people_are_found() {
                 let error = pair.map(|role| found.joints[&role].position.distance(truth[&role]));
                 let trust = pair.map(|role| found.joints[&role].confidence);
                 print!(" {}{:.3} {:.1}", &label[..2], error[0].max(error[1]), trust[0].min(trust[1]));
-                // Tubes have no creases: half of a limb's diameter is what their shape tells.
+                // Tubes have no creases, and these people's trunks end above their hip joints.
                 let limit = if label == "hip" { 0.055 } else { 0.05 };
                 if error[0].max(error[1]) > limit {
                     failures.push(format!("{name} {unnamed}: {label} {error:?} {trust:?}"));
