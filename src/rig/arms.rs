@@ -185,7 +185,7 @@ fn sections(
     // The foot of the pit on the line, and of the tip.
     let start = through + along * (pit - through).dot(along);
     let length = ((reach - start.x) / along.x.max(0.2)) * 1.02;
-    if !(length > 1e-3) {
+    if length.is_nan() || length <= 1e-3 {
         return None;
     }
     // Some way inside of the pit as well.
@@ -219,10 +219,10 @@ fn sections(
         Some(((begin + end) / 2, station))
     };
     let mut middle = rows / 2;
-    for column in clear..STATIONS {
+    for (column, slot) in stations.iter_mut().enumerate().skip(clear) {
         if let Some((next, station)) = follow(column, middle) {
             middle = next;
-            stations[column] = Some(station);
+            *slot = Some(station);
         }
     }
     let usual = median(&mut stations.iter().flatten().map(|s| s.width).collect::<Vec<_>>());

@@ -3,6 +3,8 @@
 use crate::parallel;
 use glam::DVec3;
 
+/// More hits than this are no figure's.
+const MOST_HITS: f64 = 6e6;
 /// Things that lie further apart than this part of a limb's thickness are not the same limb.
 const LIMB_GAP: f64 = 0.35;
 /// Fewer triangles than this are not worth a thread of their own.
@@ -46,6 +48,25 @@ impl RayGrid {
     ///
     /// O(triangles + hits · log hits of a ray).
     pub fn new(positions: &[DVec3], triangles: &[[u32; 3]], frame: GridFrame, threads: usize) -> Self {
+        // A body meets a ray a few times. A heap of large triangles would fill the memory: of that, some must do.
+        let cells = (frame.columns * frame.rows) as f64;
+        let along = frame.right.cross(frame.up);
+        let expected: f64 = triangles
+            .iter()
+            .map(|corners| {
+                let [a, b, c] = corners.map(|vertex| positions[vertex as usize]);
+                let cells_met = 0.5 * (b - a).cross(c - a).dot(along).abs() / (frame.cell * frame.cell);
+                if cells_met.is_finite() { cells_met.min(cells) } else { cells }
+            })
+            .sum();
+        let step = (expected / MOST_HITS).ceil().max(1.0) as usize;
+        let thinned: Vec<[u32; 3]>;
+        let triangles = if step > 1 {
+            thinned = triangles.iter().step_by(step).copied().collect();
+            &thinned
+        } else {
+            triangles
+        };
         let shares = triangles.len().div_ceil(LEAST_SHARE).clamp(1, 64);
         let share = triangles.len().div_ceil(shares).max(1);
         let hits = parallel::collect(threads, triangles.len().div_ceil(share), 1, |index| {

@@ -8,6 +8,9 @@ const HEAD_WIDENS: (f64, f64) = (1.15, 0.006);
 const CHIN_RANGE: (f64, f64) = (-0.05, 0.55);
 /// Bands above and below a row that are compared, as a part of the same.
 const CHIN_BAND: f64 = 0.05;
+/// The middle's depth is a median over this part of half the width, but no further from the axis than this: a tail is
+/// narrower, arms are outside.
+const MIDDLE_REACH: (f64, f64) = (0.6, 0.08);
 /// A smaller step back than this part of the same is no chin.
 const CHIN_STEP: f64 = 0.04;
 /// The chin where none is seen.
@@ -120,7 +123,7 @@ pub fn middle(stance: &Stance, y: f64) -> (f64, f64) {
     let (mut middles, mut halves): (Vec<f64>, Vec<f64>) = (row - 4..=row + 4)
         .filter_map(|row| {
             let row = row.clamp(0, stance.grid.frame.rows as i64 - 1) as usize;
-            let reach = (0.3 * stance.half_width(row)).clamp(0.005, 0.05);
+            let reach = (MIDDLE_REACH.0 * stance.half_width(row)).clamp(0.005, MIDDLE_REACH.1);
             stance.depth(row, reach).map(|(back, front)| (0.5 * (back + front), 0.5 * (front - back)))
         })
         .unzip();
