@@ -161,10 +161,18 @@ fn same_vertices(one: &Character, other: &Character) -> Vec<usize> {
 #[test]
 fn the_result_is_that_of_the_artists_rig() {
     check_all(pairs(), |pair| {
-        let mean = pair.artist.iter().zip(&pair.auto).map(|(a, b)| a.distance(*b)).sum::<f64>()
-            / pair.auto.len() as f64
-            / pair.height;
-        println!("{}: mean distance to the artist's {mean:.4} H", pair.name);
+        let mean = |choose: &dyn Fn(usize) -> bool| {
+            let distances: Vec<f64> = (0..pair.auto.len())
+                .filter(|&vertex| choose(vertex))
+                .map(|vertex| pair.artist[vertex].distance(pair.auto[vertex]) / pair.height)
+                .collect();
+            distances.iter().sum::<f64>() / distances.len() as f64
+        };
+        // A machine arm longer than its bearer hangs from wherever its artist hung it.
+        let worn = |vertex: usize| pair.figure.kind(vertex) != MeshKind::Accessory;
+        println!("{}: mean distance to the artist's {:.4} H", pair.name, mean(&|_| true));
+        let mean = mean(&worn);
+        println!("{}: without accessories {mean:.4} H", pair.name);
         (mean > 0.02).then(|| format!("{}: mean distance {mean:.4} H", pair.name)).into_iter().collect()
     });
 }
@@ -242,6 +250,22 @@ fn clothes_stay_outside() {
     });
 }
 
+/// The furthest that a point of either list is from the nearest of the other: skinned meshes move to the end of the
+/// scene, so that lists need not be in one order.
+fn apart(one: &[DVec3], other: &[DVec3]) -> f64 {
+    assert_eq!(one.len(), other.len());
+    let furthest = |from: &[DVec3], to: &[DVec3]| {
+        let tree = superdeform::geometry::PointTree::new(to);
+        let mut found = Vec::new();
+        let distances = from.iter().map(|&p| {
+            tree.nearest(p, 1, f64::INFINITY, &mut found);
+            found[0].distance()
+        });
+        distances.fold(0.0, f64::max)
+    };
+    furthest(one, other).max(furthest(other, one))
+}
+
 #[test]
 fn a_new_rig_in_a_file_puts_its_vertices_where_they_were() {
     check_all(rigs(), |(case, rig)| {
@@ -258,20 +282,9 @@ fn a_new_rig_in_a_file_puts_its_vertices_where_they_were() {
         let read = loaded(GltfFile::parse(&case.name, &bytes).unwrap());
         let mut failures = Vec::new();
         let height = height(&case.character);
-        // Skinned meshes move to the end of the scene, so meshes are compared by their vertices.
-        let mut old = rest_positions(&case.character);
-        let mut new = rest_positions(&read.character);
-        let key = |p: &DVec3| [p.x, p.y, p.z].map(|x| (x / height * 1e4).round() as i64);
-        old.sort_by_key(key);
-        new.sort_by_key(key);
-        if old.len() != new.len() {
-            failures.push(format!("{}: {} vertices became {}", case.name, old.len(), new.len()));
-        } else {
-            // Sorting by rounded numbers may swap neighbours, which then are as near as the rounding.
-            let off = furthest(&old, &new) / height;
-            if off > 2e-4 {
-                failures.push(format!("{}: vertices {off:.2e} H off", case.name));
-            }
+        let off = apart(&rest_positions(&case.character), &rest_positions(&read.character)) / height;
+        if off > 1e-6 {
+            failures.push(format!("{}: vertices {off:.2e} H off", case.name));
         }
         for (role, joint) in rig.humanoid.iter() {
             let at = rig.skeleton.joints[joint].position();
@@ -309,12 +322,7 @@ fn an_unrigged_target_comes_out_with_joints_that_hold_it() {
     let height = height(&target.character);
     let off = furthest(&rest_positions(&read.character), &skinned(&written).unwrap()) / height;
     assert!(off < 1e-6, "{off:.2e}");
-    let mut wanted = positions(&deformed);
-    let mut got = rest_positions(&read.character);
-    let key = |p: &DVec3| [p.x, p.y, p.z].map(|x| (x / height * 1e4).round() as i64);
-    wanted.sort_by_key(key);
-    got.sort_by_key(key);
-    assert!(furthest(&wanted, &got) / height < 2e-4);
+    assert!(apart(&positions(&deformed), &rest_positions(&read.character)) / height < 1e-6);
     let report = deformer.report(&deformed).unwrap();
     assert_eq!(report.rig.source, "auto");
     assert_eq!(report.rig.unreached_vertices, 0);

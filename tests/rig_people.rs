@@ -35,15 +35,18 @@ fn distance(rig: &Rig, truth: &Character, role: Role) -> f64 {
     at.distance(truth.skeleton.joints[truth.humanoid.joint(role).unwrap()].position())
 }
 
-/// Limbs and how far off they may be, in heights: capsules have no crease at elbow and knee, so where the two halves
-/// differ in length, half of that difference is the least one can be off.
+/// Limbs and how far off they may be, in heights.
+///
+/// Tubes have no creases, and a hand that is a stump of 0.10 m does not show: with the ratio for an arm without a seen
+/// hand the wrist comes 0.73 down an arm of 0.63 m instead of 0.84, which is 0.041 H, and the elbow moves by half of
+/// that. The trunk ends above the hip joints, so hips are looked for as far above them, and the knee moves by half.
 const LIMBS: [(Role, f64); 8] = [
-    (Role::LeftLowerArm, 0.03),
-    (Role::RightLowerArm, 0.03),
-    (Role::LeftHand, 0.03),
-    (Role::RightHand, 0.03),
-    (Role::LeftLowerLeg, 0.03),
-    (Role::RightLowerLeg, 0.03),
+    (Role::LeftLowerArm, 0.05),
+    (Role::RightLowerArm, 0.05),
+    (Role::LeftHand, 0.05),
+    (Role::RightHand, 0.05),
+    (Role::LeftLowerLeg, 0.05),
+    (Role::RightLowerLeg, 0.05),
     (Role::LeftFoot, 0.03),
     (Role::RightFoot, 0.03),
 ];
@@ -79,7 +82,7 @@ fn limbs_are_found_where_they_are() {
                 failures.push(format!("{name}: {role} is {off:.3} H off"));
             }
         }
-        for (role, bound) in [(Role::LeftUpperArm, 0.04), (Role::RightUpperLeg, 0.04), (Role::Head, 0.06)] {
+        for (role, bound) in [(Role::LeftUpperArm, 0.05), (Role::RightUpperLeg, 0.055), (Role::Head, 0.06)] {
             let off = distance(&rig, &truth, role) / height(&person);
             if off > bound {
                 failures.push(format!("{name}: {role} is {off:.3} H off"));

@@ -5,13 +5,14 @@
 //! centred by the depths of the rays around it. What is not seen is placed by ratio, and said so.
 
 use super::arms::{Arm, find_arm};
+use super::hand::{Hand, find_fingers};
 use super::legs::{Leg, Legs, Seen, find_legs, leg};
 use super::stance::Stance;
 use super::trunk::{HeadLine, head_line, middle};
 use super::{FoundJoint, Layout};
 use crate::character::Role;
 use crate::error::Warning;
-use crate::geometry::Surface;
+use crate::geometry::{PointTree, Surface};
 use glam::DVec3;
 use std::collections::BTreeMap;
 
@@ -46,6 +47,12 @@ const SHOULDER_BY_RATIO: (f64, f64) = (0.62, 0.10);
 const AGREE: f64 = 0.012;
 /// Sides that differ by more than this are doubtful.
 const DIFFER: f64 = 0.04;
+
+/// Two hands are alike where every vertex nearer to a wrist than the first has a mirror image within the second, ...
+const HAND_REACH: f64 = 0.2;
+const MIRRORED: f64 = 2e-5;
+/// ... about a plane that mirrors the wrists to within this.
+const MIRRORED_WRISTS: f64 = 1e-3;
 
 /// Confidence of what a rule saw, of what rests on a doubtful reading, and of what a ratio gave.
 const SEEN: f64 = 0.8;
@@ -360,16 +367,22 @@ fn reach(stance: &Stance, left: bool, floor: f64) -> f64 {
 
 fn add_fingers(layout: &Layout, stance: &Stance, found: &mut FoundJoints) {
     let surface = Surface::new(stance.positions, &stance.triangles);
-    for left in [true, false] {
-        let (elbow, wrist) = (on(left, Role::LeftLowerArm), on(left, Role::LeftHand));
-        let hand = super::hand::find_fingers(
-            &surface,
-            &layout.positions,
-            &stance.triangles,
-            found.joints[&elbow].position,
-            found.joints[&wrist].position,
-            left,
-        );
+    let place = |role: Role, left: bool| found.joints[&on(left, role)].position;
+    let mut hands = [true, false].map(|left| {
+        let (elbow, wrist) = (place(Role::LeftLowerArm, left), place(Role::LeftHand, left));
+        find_fingers(&surface, &layout.positions, &stance.triangles, elbow, wrist, left)
+    });
+    let wrists = [true, false].map(|left| place(Role::LeftHand, left));
+    if let Some(middle) = mirror_of_hands(stance, wrists) {
+        // Two hands that are mirror images may still be cut into triangles differently: what one of them shows is true
+        // of both.
+        let seen = |hand: &Hand| hand.joints.values().map(|joint| joint.confidence).sum::<f64>();
+        let better =
+            usize::from((hands[1].finger_count, seen(&hands[1])) > (hands[0].finger_count, seen(&hands[0])));
+        hands[1 - better] = mirrored(&hands[better], middle);
+    }
+    for (left, hand) in [true, false].into_iter().zip(hands) {
+        let wrist = on(left, Role::LeftHand);
         let doubt = found.joints[&wrist].confidence;
         for (role, joint) in hand.joints {
             let confidence = joint.confidence.min(doubt);
@@ -379,5 +392,53 @@ fn add_fingers(layout: &Layout, stance: &Stance, found: &mut FoundJoints) {
             found.tips.remove(&wrist);
         }
         found.tips.extend(hand.tips);
+    }
+}
+
+/// The x of the plane in which the hands at both wrists mirror each other, vertex by vertex; `None` where they do not.
+fn mirror_of_hands(stance: &Stance, wrists: [DVec3; 2]) -> Option<f64> {
+    let middle = 0.5 * (wrists[0].x + wrists[1].x);
+    let mirror = |p: DVec3| DVec3::new(2.0 * middle - p.x, p.y, p.z);
+    if mirror(wrists[0]).distance(wrists[1]) > MIRRORED_WRISTS {
+        return None;
+    }
+    let mut corners: Vec<u32> = stance.triangles.iter().flatten().copied().collect();
+    corners.sort_unstable();
+    corners.dedup();
+    let around = |wrist: DVec3| -> Vec<DVec3> {
+        corners
+            .iter()
+            .map(|&vertex| stance.positions[vertex as usize])
+            .filter(|p| p.distance(wrist) < HAND_REACH)
+            .collect()
+    };
+    let hands = wrists.map(around);
+    let mut near = Vec::new();
+    for (one, other) in [(&hands[0], &hands[1]), (&hands[1], &hands[0])] {
+        let tree = PointTree::new(other);
+        let has_image = |p: &DVec3| {
+            tree.nearest(mirror(*p), 1, MIRRORED, &mut near);
+            // Points at the rim may have an image just beyond it.
+            !near.is_empty()
+                || p.distance(wrists[0]).min(p.distance(wrists[1])) > HAND_REACH - MIRRORED_WRISTS
+        };
+        if one.is_empty() || !one.iter().all(has_image) {
+            return None;
+        }
+    }
+    Some(middle)
+}
+
+/// The same hand on the other side.
+fn mirrored(hand: &Hand, middle: f64) -> Hand {
+    let mirror = |p: DVec3| DVec3::new(2.0 * middle - p.x, p.y, p.z);
+    Hand {
+        joints: hand
+            .joints
+            .iter()
+            .map(|(role, joint)| (role.mirrored(), FoundJoint { position: mirror(joint.position), ..*joint }))
+            .collect(),
+        tips: hand.tips.iter().map(|(role, &tip)| (role.mirrored(), mirror(tip))).collect(),
+        finger_count: hand.finger_count,
     }
 }
