@@ -136,6 +136,7 @@ pub fn load(path: &Path) -> Loaded {
         kinds: &[],
         find_roles: Some(&find_roles),
         without_rig: false,
+        incomplete_rig: false,
     };
     let file = GltfFile::read(path).expect("the file can be read");
     crate::host::load::load(file, &options).expect("the file holds a character")

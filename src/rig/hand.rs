@@ -62,7 +62,10 @@ pub fn find_fingers(
     let Some(region) = Region::new(positions, triangles, elbow, wrist) else {
         return Hand::default();
     };
-    let fingers = region.fingers();
+    let mut fingers = region.fingers();
+    if fingers.iter().any(|finger| !region.is_buried(surface, finger)) {
+        fingers.retain(|finger| !region.is_buried(surface, finger));
+    }
     let mut hand = region.hand(surface, fingers);
     if !left {
         hand.joints = std::mem::take(&mut hand.joints)
@@ -355,6 +358,17 @@ impl Region {
         path
     }
 
+    /// True where a tip lies within the rest of the hand, as the end of a forearm does in a hand that is a body of its
+    /// own: rays from just beyond it, ahead and all around, meet the surface.
+    fn is_buried(&self, surface: &Surface, finger: &Finger) -> bool {
+        let path = self.path(finger);
+        let tip = self.points[finger.tip as usize];
+        let Some(way) = path.iter().rev().find_map(|&p| (tip - p).try_normalize()) else { return false };
+        let beyond = tip + BEYOND_TIP * self.length * way;
+        let reach = 3.0 * self.wrist_radius;
+        surface.first_hit(beyond, way, self.length).is_some() && enclosed(surface, beyond, way, reach) >= 1.0
+    }
+
     /// Fingers, which of them is the thumb, and joints (of the left hand).
     fn hand(&self, surface: &Surface, mut fingers: Vec<Finger>) -> Hand {
         let mut hand = Hand { finger_count: fingers.len(), ..Hand::default() };
@@ -523,6 +537,9 @@ const WRIST_BEND: f64 = 0.5;
 
 /// Where the knuckles are between wrist and tips.
 const MITTEN_KNUCKLES: f64 = 0.5;
+
+/// Just beyond a tip, as a share of the hand's length.
+const BEYOND_TIP: f64 = 0.02;
 
 /// A finger less unlike the others than this is no thumb.
 const LEAST_THUMB: f64 = 0.12;
