@@ -12,6 +12,7 @@ use superdeform::shape::study::Study;
 #[path = "../examples/superdeform/host/mod.rs"]
 #[allow(dead_code)]
 mod host;
+#[allow(dead_code)]
 mod models;
 
 /// The system's allocator, counted.

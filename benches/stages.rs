@@ -12,6 +12,7 @@ use superdeform_benches::tube;
 #[path = "../examples/superdeform/host/mod.rs"]
 #[allow(dead_code)]
 mod host;
+#[allow(dead_code)]
 mod models;
 
 fn validate(criterion: &mut Criterion) {

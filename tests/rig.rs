@@ -219,7 +219,7 @@ fn depths(character: &Character, kinds: &[MeshKind], positions: &[DVec3]) -> Vec
         .map(|vertex| {
             let p = positions[vertex as usize];
             let closest = surface.closest_point(p).unwrap();
-            let [a, b, c] = body[closest.triangle as usize].map(|vertex| positions[vertex as usize]);
+            let [a, b, c] = body[closest.triangle].map(|vertex| positions[vertex as usize]);
             let normal = (b - a).cross(c - a).normalize_or_zero();
             (closest.point - p).dot(normal)
         })
