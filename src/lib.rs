@@ -84,11 +84,13 @@
 pub mod character;
 pub mod error;
 pub mod face;
+pub mod ffi;
 pub mod geometry;
 pub mod hair;
 pub mod options;
 pub mod parallel;
 pub mod pipeline;
+pub mod progress;
 pub mod report;
 pub mod rig;
 pub mod shape;

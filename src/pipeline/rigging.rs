@@ -5,6 +5,7 @@ use crate::character::{Character, Humanoid, MeshKind, Role, Skeleton, Weights};
 use crate::error::{Error, ErrorKind, Result, Warning};
 use crate::geometry::Surface;
 use crate::parallel;
+use crate::progress::Progress;
 use crate::report::RigReport;
 use crate::rig::eyes::{Eye, find_eyes};
 use crate::rig::facing::find_forward;
@@ -59,8 +60,21 @@ impl Rig {
     /// What [`Character::validate`] refuses, `BadOption` for options out of their range, `NoGeometry` where nothing has
     /// an extent along up.
     pub fn of(character: &Character, options: &RigOptions) -> Result<Self> {
+        Self::with_progress(character, options, &mut Progress::none())
+    }
+
+    /// As [`Rig::of`], and tells how far it is.
+    ///
+    /// # Errors
+    /// As [`Rig::of`]; `Cancelled`.
+    pub fn with_progress(
+        character: &Character,
+        options: &RigOptions,
+        progress: &mut Progress,
+    ) -> Result<Self> {
         character.validate()?;
         validate(options)?;
+        progress.at(0.0)?;
         let clock = Instant::now();
         let (forward, mut warnings) = find_forward(character)?;
         let mut layout = Layout::of(character, forward)?;
@@ -79,6 +93,7 @@ impl Rig {
             found.joints.entry(eye.role).or_insert(joint);
         }
         let joint_time = milliseconds(clock);
+        progress.at(0.3)?;
 
         let at: BTreeMap<Role, DVec3> =
             found.joints.iter().map(|(&role, joint)| (role, joint.position)).collect();
@@ -87,8 +102,11 @@ impl Rig {
         let (_, humanoid) = skeleton_of(&at);
         let mut binder = Binder::new(&layout, &kinds, &bones, &humanoid, &eyes, options);
         warnings.append(&mut binder.warnings);
+        progress.at(0.4)?;
         let (weights, fallback) = binder.weights(options.heat);
+        progress.at(0.7)?;
         let (skin_weights, _) = binder.weights(SKIN_HEAT.max(options.heat));
+        progress.at(1.0)?;
 
         let in_model = at.iter().map(|(&role, &p)| (role, layout.to_model(p))).collect();
         let (skeleton, humanoid) = skeleton_of(&in_model);
