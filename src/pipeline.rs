@@ -455,8 +455,7 @@ impl Deformer {
             }
         };
         let (coefficients, warnings) = part_coefficients(&anatomy.proportions, wanted, &self.options)?;
-        let field =
-            PartField::new(anatomy, coefficients, parts, self.options.hair_length, 1.0);
+        let field = PartField::new(anatomy, coefficients, parts, self.options.hair_length, 1.0);
         Ok(Attempt { field: Field::Parts(Box::new(field)), coefficients, warnings })
     }
 

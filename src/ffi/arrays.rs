@@ -45,7 +45,9 @@ pub fn stride_of(
     size: usize,
 ) -> Outcome<usize> {
     if count > 0 && is_null {
-        return Err(Failure::argument(format!("{what} is NULL, but {count} are to be there: give the array")));
+        return Err(Failure::argument(format!(
+            "{what} is NULL, but {count} are to be there: give the array"
+        )));
     }
     let stride = if stride == 0 { size } else { stride };
     if stride < size {

@@ -65,7 +65,9 @@ pub unsafe fn get_warnings(
 
 fn lines<'a>(warnings: impl Iterator<Item = &'a Warning>) -> String {
     warnings
-        .map(|warning| format!("{}: {}\n", warning.code, in_words_of_hosts(&warning.message).replace('\n', " ")))
+        .map(|warning| {
+            format!("{}: {}\n", warning.code, in_words_of_hosts(&warning.message).replace('\n', " "))
+        })
         .collect()
 }
 
@@ -106,7 +108,8 @@ pub unsafe fn super_deform(
             start = 0.7;
         }
         let middle = 0.5 * (1.0 + start);
-        let deformer = DeformerState::new(&state.ready(), &style, &options, &mut progress.part(start, middle))?;
+        let deformer =
+            DeformerState::new(&state.ready(), &style, &options, &mut progress.part(start, middle))?;
         deformer.apply(&results, &mut progress.part(middle, 1.0))
     };
     unsafe { call(error, body) }

@@ -8,7 +8,9 @@ use super::guard::{Failure, Outcome, call};
 use super::options::one_of;
 use super::table::{self, Object};
 use crate::character::roles::find_roles;
-use crate::character::{Axes, Character, Humanoid, Joint, Mesh, MeshKind, MorphTarget, Role, Skeleton, Weights};
+use crate::character::{
+    Axes, Character, Humanoid, Joint, Mesh, MeshKind, MorphTarget, Role, Skeleton, Weights,
+};
 use crate::error::Warning;
 use crate::pipeline::Rig;
 use crate::progress::Progress;
@@ -112,7 +114,8 @@ impl CharacterState {
         let count = skeleton.joints.len();
         for (index, mesh) in self.character().meshes.iter().enumerate() {
             mesh.weights.validate(mesh.positions.len(), count).map_err(|(vertex, message)| {
-                let failure = Failure::input(format!("{}: {message}", place(index, &mesh.name))).in_mesh(index);
+                let failure =
+                    Failure::input(format!("{}: {message}", place(index, &mesh.name))).in_mesh(index);
                 vertex.map_or(failure.clone(), |vertex| failure.at(vertex))
             })?;
         }
@@ -186,8 +189,9 @@ pub unsafe fn read_skeleton(skeleton: *const SdefSkeleton) -> Outcome<(Skeleton,
         return Err(Failure::argument(format!("joint_count is {count}: give at most 2147483647")));
     }
     let parents = unsafe { Input::new("parents", given.parents, count, 0) }?;
-    let rests =
-        unsafe { Input::<[f64; 16]>::new("rest_matrices", given.rest_matrices.cast(), count, given.rest_stride) }?;
+    let rests = unsafe {
+        Input::<[f64; 16]>::new("rest_matrices", given.rest_matrices.cast(), count, given.rest_stride)
+    }?;
     let mut joints = reserved(count, "joints")?;
     for index in 0..count {
         let name = match given.names.is_null() {
@@ -197,7 +201,8 @@ pub unsafe fn read_skeleton(skeleton: *const SdefSkeleton) -> Outcome<(Skeleton,
         let parent = match parents.get(index) {
             -1 => None,
             parent => Some(usize::try_from(parent).map_err(|_| {
-                let message = format!("joint {index} ({name}): its parent is {parent}: give a joint, or -1 for none");
+                let message =
+                    format!("joint {index} ({name}): its parent is {parent}: give a joint, or -1 for none");
                 Failure::input(message).at(index)
             })?),
         };
@@ -250,7 +255,8 @@ pub unsafe fn read_mesh(given: &SdefMesh) -> Outcome<Mesh> {
         return Err(Failure::argument(format!("vertex_count is {count}: give at most 4294967294")));
     }
     unsafe {
-        let positions = Input::<Vec3>::new("positions", given.positions.cast(), count, given.position_stride)?;
+        let positions =
+            Input::<Vec3>::new("positions", given.positions.cast(), count, given.position_stride)?;
         let triangles = Triangles::new(given)?;
         let weights = Rows::new(given)?;
         Ok(Mesh {
@@ -303,7 +309,8 @@ impl Triangles {
 fn widened<T: arrays::Plain + Into<u32>>(indices: &Input<T>) -> Outcome<Vec<[u32; 3]>> {
     let count = indices.len() / 3;
     let mut triangles = reserved(count, "triangles")?;
-    triangles.extend((0..count).map(|triangle| [0, 1, 2].map(|corner| indices.get(3 * triangle + corner).into())));
+    triangles
+        .extend((0..count).map(|triangle| [0, 1, 2].map(|corner| indices.get(3 * triangle + corner).into())));
     Ok(triangles)
 }
 
@@ -398,7 +405,13 @@ impl Rows {
             };
             let rows = Self {
                 joints: Columns::new("joints", given.joints, shape, given.joint_stride, given.joint_type)?,
-                weights: Columns::new("weights", given.weights, shape, given.weight_stride, given.weight_type)?,
+                weights: Columns::new(
+                    "weights",
+                    given.weights,
+                    shape,
+                    given.weight_stride,
+                    given.weight_type,
+                )?,
                 vertex_count: vertices,
                 influence_count: influences,
                 starts,
@@ -460,7 +473,8 @@ impl Rows {
             let (row, columns) = self.row(vertex);
             for column in columns {
                 // SAFETY: the row lies within what was checked.
-                let (joint, weight) = unsafe { (self.joints.joint(row, column), self.weights.weight(row, column)) };
+                let (joint, weight) =
+                    unsafe { (self.joints.joint(row, column), self.weights.weight(row, column)) };
                 if weight != 0.0 && entries.len() < count {
                     entries.push((joint, weight));
                 }
@@ -535,7 +549,9 @@ pub unsafe fn add_morph_target(
         let count = mesh.positions.len();
         let deltas = |what, start, stride| arrays::optional(what, start, count, stride);
         if count > 0 && given.positions.is_null() {
-            return Err(Failure::argument(format!("positions is NULL, but {count} are to be there: give the array")));
+            return Err(Failure::argument(format!(
+                "positions is NULL, but {count} are to be there: give the array"
+            )));
         }
         let target = MorphTarget {
             name: arrays::text(given.name),
@@ -562,7 +578,11 @@ fn mesh_of(character: &Character, mesh: usize) -> Outcome<&Mesh> {
 }
 
 /// The body of `sdef_character_get_info`.
-pub unsafe fn get_info(character: SdefCharacter, info: *mut SdefCharacterInfo, error: *mut SdefError) -> SdefStatus {
+pub unsafe fn get_info(
+    character: SdefCharacter,
+    info: *mut SdefCharacterInfo,
+    error: *mut SdefError,
+) -> SdefStatus {
     let body = || unsafe {
         let state = table::character(character)?;
         let state = table::read(&state, "character")?;

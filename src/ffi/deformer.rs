@@ -73,7 +73,9 @@ impl DeformerState {
         }
         let mut places = arrays::reserved(results.len(), "results")?;
         for (index, result) in results.iter().enumerate() {
-            places.push(unsafe { Places::new(character, index, result) }.map_err(|error| error.in_mesh(index))?);
+            places.push(
+                unsafe { Places::new(character, index, result) }.map_err(|error| error.in_mesh(index))?,
+            );
         }
         let deformed = self.deformer.apply_with(progress)?;
         for (index, places) in places.iter().enumerate() {
@@ -116,8 +118,13 @@ impl Places {
             )?;
             let normals =
                 Output::new(name("normals"), result.normals.cast(), count, capacity, result.normal_stride)?;
-            let tangents =
-                Output::new(name("tangents"), result.tangents.cast(), count, capacity, result.tangent_stride)?;
+            let tangents = Output::new(
+                name("tangents"),
+                result.tangents.cast(),
+                count,
+                capacity,
+                result.tangent_stride,
+            )?;
             let targets = mesh.morph_targets.len();
             let mut morphs = Vec::new();
             let starts = [
@@ -424,8 +431,9 @@ pub unsafe fn get_report(
         arrays::check_struct_out("SdefReport", report)?;
         let state = table::read(&state, "deformer")?;
         let found = state.report()?;
-        let text = serde_json::to_string_pretty(found)
-            .map_err(|error| Failure::new(SDEF_STATUS_INTERNAL, format!("the report cannot be written: {error}")))?;
+        let text = serde_json::to_string_pretty(found).map_err(|error| {
+            Failure::new(SDEF_STATUS_INTERNAL, format!("the report cannot be written: {error}"))
+        })?;
         arrays::text_out(&text, json, capacity, size)?;
         if report.is_null() {
             return Ok(());

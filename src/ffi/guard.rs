@@ -112,7 +112,8 @@ pub unsafe fn call(error: *mut SdefError, body: impl FnOnce() -> Outcome) -> Sde
         Err(failure) => (failure.status, failure.mesh, failure.element, failure.message.as_str()),
     };
     if !error.is_null() {
-        let index = |index: Option<usize>| index.map_or(SDEF_NONE, |index| index.min(SDEF_NONE as usize) as u32);
+        let index =
+            |index: Option<usize>| index.map_or(SDEF_NONE, |index| index.min(SDEF_NONE as usize) as u32);
         let room = size.min(size_of::<SdefError>()) - HEAD;
         let text = &message.as_bytes()[..message.floor_char_boundary_at(room - 1)];
         // SAFETY: everything written lies within the size that the caller gave.
@@ -207,7 +208,13 @@ mod tests {
     use std::ffi::CStr;
 
     fn error(size: usize) -> SdefError {
-        SdefError { struct_size: size as u32, status: 99, mesh: 99, element: 99, message: [b'x' as c_char; 512] }
+        SdefError {
+            struct_size: size as u32,
+            status: 99,
+            mesh: 99,
+            element: 99,
+            message: [b'x' as c_char; 512],
+        }
     }
 
     fn text(error: &SdefError) -> &str {
@@ -240,16 +247,22 @@ mod tests {
     #[test]
     fn a_message_is_cut_between_characters() {
         for (letter, width) in [("a", 1), ("é", 2), ("髪", 3), ("🦀", 4)] {
-            for size in [HEAD + 1, HEAD + 2, HEAD + 100, size_of::<SdefError>(), size_of::<SdefError>() + 64] {
+            for size in [HEAD + 1, HEAD + 2, HEAD + 100, size_of::<SdefError>(), size_of::<SdefError>() + 64]
+            {
                 let mut told = error(size);
                 let long = letter.repeat(600);
-                let status = unsafe { call(&mut told, || Err(Failure::input(long.as_str()).in_mesh(3).at(7))) };
+                let status =
+                    unsafe { call(&mut told, || Err(Failure::input(long.as_str()).in_mesh(3).at(7))) };
                 assert_eq!(status, SDEF_STATUS_BAD_INPUT);
                 assert_eq!((told.mesh, told.element), (3, 7));
                 let room = (size - HEAD).min(512) - 1;
                 assert_eq!(text(&told), letter.repeat(room / width));
                 if size < size_of::<SdefError>() {
-                    assert_eq!(told.message[size - HEAD], b'x' as c_char, "written beyond the caller's struct");
+                    assert_eq!(
+                        told.message[size - HEAD],
+                        b'x' as c_char,
+                        "written beyond the caller's struct"
+                    );
                 }
             }
         }

@@ -112,11 +112,12 @@ pub unsafe fn read(options: *const SdefOptions) -> Outcome<(Options, RigOptions)
             thickness_transfer: unless_nan(settings.thickness_transfer),
         };
         if options.groups.insert(name.clone(), settings).is_some() {
-            return Err(Failure::argument(format!("groups {index} is {name} again: set each group once")).at(index));
+            return Err(
+                Failure::argument(format!("groups {index} is {name} again: set each group once")).at(index)
+            );
         }
     }
-    let bones =
-        unsafe { Input::new("bone_groups", given.bone_groups, given.bone_group_count as usize, 0) }?;
+    let bones = unsafe { Input::new("bone_groups", given.bone_groups, given.bone_group_count as usize, 0) }?;
     for (index, bone) in bones.iter().enumerate() {
         let role = role(&format!("bone_groups {index}"), bone.role).map_err(|error| error.at(index))?;
         options.bone_groups.insert(role, unsafe { arrays::text(bone.group) });

@@ -32,7 +32,12 @@ fn shape(shape: BodyShape) -> Style {
 }
 
 /// The body of `sdef_style_from_heads`.
-pub unsafe fn from_heads(heads: f64, like: SdefStyle, style: *mut SdefStyle, error: *mut SdefError) -> SdefStatus {
+pub unsafe fn from_heads(
+    heads: f64,
+    like: SdefStyle,
+    style: *mut SdefStyle,
+    error: *mut SdefError,
+) -> SdefStatus {
     let body = || unsafe {
         wanted("style", style)?;
         let plain = Style::heads(heads)?;
@@ -55,7 +60,12 @@ pub unsafe fn from_heads(heads: f64, like: SdefStyle, style: *mut SdefStyle, err
 }
 
 /// The body of `sdef_style_from_text`.
-pub unsafe fn from_text(text: *const c_char, size: usize, style: *mut SdefStyle, error: *mut SdefError) -> SdefStatus {
+pub unsafe fn from_text(
+    text: *const c_char,
+    size: usize,
+    style: *mut SdefStyle,
+    error: *mut SdefError,
+) -> SdefStatus {
     let body = || unsafe {
         wanted("style", style)?;
         let bytes = Input::<u8>::new("text", text.cast(), size, 0)?.to_vec("bytes of text")?;
@@ -311,9 +321,9 @@ pub unsafe fn to_json(
 ) -> SdefStatus {
     let body = || unsafe {
         match &*table::style(style)? {
-            Style::Heads(heads) => {
-                Err(bad(format!("a style of {heads} heads, like no other, has no body to save: save the number")))
-            }
+            Style::Heads(heads) => Err(bad(format!(
+                "a style of {heads} heads, like no other, has no body to save: save the number"
+            ))),
             Style::Shape(shape) => arrays::text_out(&shape.to_json(), text, capacity, size),
         }
     };

@@ -79,9 +79,8 @@ pub fn insert(object: Object) -> Outcome<u64> {
     };
     let entry = &mut table.slots[slot as usize];
     entry.object = Some(object);
-    let id = kind << (SLOT_BITS + GENERATION_BITS)
-        | u64::from(entry.generation) << SLOT_BITS
-        | u64::from(slot);
+    let id =
+        kind << (SLOT_BITS + GENERATION_BITS) | u64::from(entry.generation) << SLOT_BITS | u64::from(slot);
     table.live += 1;
     Ok(id)
 }
@@ -135,9 +134,13 @@ fn bad_handle(id: u64, wanted: &str) -> Failure {
         format!("the {wanted} is none (id 0): make one first")
     } else {
         match find(id) {
-            Some(Object::Character(_)) => format!("the handle {id:#x} is a character, but a {wanted} is asked for"),
+            Some(Object::Character(_)) => {
+                format!("the handle {id:#x} is a character, but a {wanted} is asked for")
+            }
             Some(Object::Style(_)) => format!("the handle {id:#x} is a style, but a {wanted} is asked for"),
-            Some(Object::Deformer(_)) => format!("the handle {id:#x} is a deformer, but a {wanted} is asked for"),
+            Some(Object::Deformer(_)) => {
+                format!("the handle {id:#x} is a deformer, but a {wanted} is asked for")
+            }
             None => format!("the {wanted} {id:#x} was destroyed, or never was: use one that is alive"),
         }
     };
@@ -237,7 +240,7 @@ mod tests {
     fn every_bit_of_an_id_counts() {
         let id = new();
         for bit in 0..64 {
-            assert!(style(SdefStyle { id: id ^ 1 << bit }).is_err() , "bit {bit}");
+            assert!(style(SdefStyle { id: id ^ 1 << bit }).is_err(), "bit {bit}");
         }
         assert!(style(SdefStyle { id }).is_ok());
         remove(id).unwrap();

@@ -4,7 +4,7 @@
 use superdeform as _;
 
 mod c_header;
-mod csharp;
+pub mod csharp;
 
 pub use c_header::c_header;
 pub use csharp::csharp;
@@ -13,7 +13,10 @@ use std::path::{Path, PathBuf};
 
 /// The root of the repository.
 pub fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").canonicalize().expect("the package stands in the repository")
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../..")
+        .canonicalize()
+        .expect("the package stands in the repository")
 }
 
 /// The files of `src/ffi/exports` whose sections make the header, in order.

@@ -283,7 +283,12 @@ pub struct SdefCharacterInfo {
 ///
 /// Errors: BAD_ARGUMENT, BAD_INPUT.
 #[ffi_export]
-pub unsafe extern "C" fn sdef_character_create(up: *const f32, forward: *const f32, character: *mut SdefCharacter, error: *mut SdefError) -> SdefStatus {
+pub unsafe extern "C" fn sdef_character_create(
+    up: *const f32,
+    forward: *const f32,
+    character: *mut SdefCharacter,
+    error: *mut SdefError,
+) -> SdefStatus {
     unsafe { character::create(up, forward, character, error) }
 }
 
@@ -292,7 +297,11 @@ pub unsafe extern "C" fn sdef_character_create(up: *const f32, forward: *const f
 /// Errors: BAD_ARGUMENT; BAD_INPUT with the joint as the element: a parent that is none, a circle of parents, a number
 /// that is not finite, a role for a joint that is none; or weights of a mesh for a joint that is no more.
 #[ffi_export]
-pub unsafe extern "C" fn sdef_character_set_skeleton(character: SdefCharacter, skeleton: *const SdefSkeleton, error: *mut SdefError) -> SdefStatus {
+pub unsafe extern "C" fn sdef_character_set_skeleton(
+    character: SdefCharacter,
+    skeleton: *const SdefSkeleton,
+    error: *mut SdefError,
+) -> SdefStatus {
     unsafe { character::set_skeleton(character, skeleton, error) }
 }
 
@@ -302,7 +311,12 @@ pub unsafe extern "C" fn sdef_character_set_skeleton(character: SdefCharacter, s
 ///
 /// Errors: BAD_ARGUMENT; BAD_INPUT with the vertex or triangle as the element; OUT_OF_MEMORY.
 #[ffi_export]
-pub unsafe extern "C" fn sdef_character_add_mesh(character: SdefCharacter, mesh: *const SdefMesh, index: *mut u32, error: *mut SdefError) -> SdefStatus {
+pub unsafe extern "C" fn sdef_character_add_mesh(
+    character: SdefCharacter,
+    mesh: *const SdefMesh,
+    index: *mut u32,
+    error: *mut SdefError,
+) -> SdefStatus {
     unsafe { character::add_mesh(character, mesh, index, error) }
 }
 
@@ -310,13 +324,22 @@ pub unsafe extern "C" fn sdef_character_add_mesh(character: SdefCharacter, mesh:
 ///
 /// Errors: BAD_ARGUMENT also for a mesh that is none; BAD_INPUT with the vertex as the element; OUT_OF_MEMORY.
 #[ffi_export]
-pub unsafe extern "C" fn sdef_character_add_morph_target(character: SdefCharacter, mesh: u32, target: *const SdefMorphTarget, error: *mut SdefError) -> SdefStatus {
+pub unsafe extern "C" fn sdef_character_add_morph_target(
+    character: SdefCharacter,
+    mesh: u32,
+    target: *const SdefMorphTarget,
+    error: *mut SdefError,
+) -> SdefStatus {
     unsafe { character::add_morph_target(character, mesh, target, error) }
 }
 
 /// Counts what a character holds.
 #[ffi_export]
-pub unsafe extern "C" fn sdef_character_get_info(character: SdefCharacter, info: *mut SdefCharacterInfo, error: *mut SdefError) -> SdefStatus {
+pub unsafe extern "C" fn sdef_character_get_info(
+    character: SdefCharacter,
+    info: *mut SdefCharacterInfo,
+    error: *mut SdefError,
+) -> SdefStatus {
     unsafe { character::get_info(character, info, error) }
 }
 
@@ -329,8 +352,28 @@ pub unsafe extern "C" fn sdef_character_get_info(character: SdefCharacter, info:
 /// capacity:      joints that each array can hold
 /// joint_count:   receives how many joints there are; may be NULL
 #[ffi_export]
-pub unsafe extern "C" fn sdef_character_get_joints(character: SdefCharacter, parents: *mut i32, roles: *mut u32, rest_matrices: *mut f64, confidence: *mut f64, capacity: usize, joint_count: *mut usize, error: *mut SdefError) -> SdefStatus {
-    unsafe { character::get_joints(character, parents, roles, rest_matrices, confidence, capacity, joint_count, error) }
+pub unsafe extern "C" fn sdef_character_get_joints(
+    character: SdefCharacter,
+    parents: *mut i32,
+    roles: *mut u32,
+    rest_matrices: *mut f64,
+    confidence: *mut f64,
+    capacity: usize,
+    joint_count: *mut usize,
+    error: *mut SdefError,
+) -> SdefStatus {
+    unsafe {
+        character::get_joints(
+            character,
+            parents,
+            roles,
+            rest_matrices,
+            confidence,
+            capacity,
+            joint_count,
+            error,
+        )
+    }
 }
 
 /// Gives the weights that animate one mesh: those of a made rig, else its own.
@@ -342,6 +385,14 @@ pub unsafe extern "C" fn sdef_character_get_joints(character: SdefCharacter, par
 ///
 /// Errors: BAD_ARGUMENT also for a mesh that is none; BAD_INPUT for a mesh without weights.
 #[ffi_export]
-pub unsafe extern "C" fn sdef_character_get_weights(character: SdefCharacter, mesh: u32, influence_count: u32, joints: *mut u32, weights: *mut f32, capacity: usize, error: *mut SdefError) -> SdefStatus {
+pub unsafe extern "C" fn sdef_character_get_weights(
+    character: SdefCharacter,
+    mesh: u32,
+    influence_count: u32,
+    joints: *mut u32,
+    weights: *mut f32,
+    capacity: usize,
+    error: *mut SdefError,
+) -> SdefStatus {
     unsafe { character::get_weights(character, mesh, influence_count, joints, weights, capacity, error) }
 }

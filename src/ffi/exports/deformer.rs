@@ -113,7 +113,15 @@ pub struct SdefReport {
 ///
 /// Errors: BAD_OPTION, BAD_STYLE, NO_HUMANOID, NO_GEOMETRY, CANCELLED.
 #[ffi_export]
-pub unsafe extern "C" fn sdef_deformer_create(character: SdefCharacter, style: SdefStyle, options: *const SdefOptions, progress: SdefProgress, user: *mut c_void, deformer: *mut SdefDeformer, error: *mut SdefError) -> SdefStatus {
+pub unsafe extern "C" fn sdef_deformer_create(
+    character: SdefCharacter,
+    style: SdefStyle,
+    options: *const SdefOptions,
+    progress: SdefProgress,
+    user: *mut c_void,
+    deformer: *mut SdefDeformer,
+    error: *mut SdefError,
+) -> SdefStatus {
     unsafe { deformer::create(character, style, options, progress, user, deformer, error) }
 }
 
@@ -122,7 +130,13 @@ pub unsafe extern "C" fn sdef_deformer_create(character: SdefCharacter, style: S
 ///
 /// Errors: as sdef_deformer_create, after which the deformer is as it was; BUSY.
 #[ffi_export]
-pub unsafe extern "C" fn sdef_deformer_set_options(deformer: SdefDeformer, options: *const SdefOptions, progress: SdefProgress, user: *mut c_void, error: *mut SdefError) -> SdefStatus {
+pub unsafe extern "C" fn sdef_deformer_set_options(
+    deformer: SdefDeformer,
+    options: *const SdefOptions,
+    progress: SdefProgress,
+    user: *mut c_void,
+    error: *mut SdefError,
+) -> SdefStatus {
     unsafe { deformer::set_options(deformer, options, progress, user, error) }
 }
 
@@ -133,7 +147,12 @@ pub unsafe extern "C" fn sdef_deformer_set_options(deformer: SdefDeformer, optio
 ///
 /// Errors: BAD_ARGUMENT, BAD_OPTION, BUSY.
 #[ffi_export]
-pub unsafe extern "C" fn sdef_deformer_set_face(deformer: SdefDeformer, squash: f64, curve: u32, error: *mut SdefError) -> SdefStatus {
+pub unsafe extern "C" fn sdef_deformer_set_face(
+    deformer: SdefDeformer,
+    squash: f64,
+    curve: u32,
+    error: *mut SdefError,
+) -> SdefStatus {
     unsafe { deformer::set_face(deformer, squash, curve, error) }
 }
 
@@ -145,7 +164,14 @@ pub unsafe extern "C" fn sdef_deformer_set_face(deformer: SdefDeformer, squash: 
 ///
 /// Errors: BAD_ARGUMENT, BUFFER_TOO_SMALL with the mesh, OUT_OF_MEMORY, CANCELLED.
 #[ffi_export]
-pub unsafe extern "C" fn sdef_deformer_apply(deformer: SdefDeformer, meshes: *const SdefMeshResult, mesh_count: usize, progress: SdefProgress, user: *mut c_void, error: *mut SdefError) -> SdefStatus {
+pub unsafe extern "C" fn sdef_deformer_apply(
+    deformer: SdefDeformer,
+    meshes: *const SdefMeshResult,
+    mesh_count: usize,
+    progress: SdefProgress,
+    user: *mut c_void,
+    error: *mut SdefError,
+) -> SdefStatus {
     unsafe { deformer::apply(deformer, meshes, mesh_count, progress, user, error) }
 }
 
@@ -159,7 +185,14 @@ pub unsafe extern "C" fn sdef_deformer_apply(deformer: SdefDeformer, meshes: *co
 ///
 /// Errors: BAD_INPUT where inverse_binds is wanted and a rest matrix has no inverse.
 #[ffi_export]
-pub unsafe extern "C" fn sdef_deformer_get_joints(deformer: SdefDeformer, positions: *mut f64, inverse_binds: *mut f64, capacity: usize, joint_count: *mut usize, error: *mut SdefError) -> SdefStatus {
+pub unsafe extern "C" fn sdef_deformer_get_joints(
+    deformer: SdefDeformer,
+    positions: *mut f64,
+    inverse_binds: *mut f64,
+    capacity: usize,
+    joint_count: *mut usize,
+    error: *mut SdefError,
+) -> SdefStatus {
     unsafe { deformer::get_joints(deformer, positions, inverse_binds, capacity, joint_count, error) }
 }
 
@@ -174,7 +207,16 @@ pub unsafe extern "C" fn sdef_deformer_get_joints(deformer: SdefDeformer, positi
 ///
 /// Errors: BAD_INPUT with the point as the element.
 #[ffi_export]
-pub unsafe extern "C" fn sdef_deformer_map_points(deformer: SdefDeformer, joints: *const u32, points: *const f64, count: usize, positions: *mut f64, scales: *mut f64, jacobians: *mut f64, error: *mut SdefError) -> SdefStatus {
+pub unsafe extern "C" fn sdef_deformer_map_points(
+    deformer: SdefDeformer,
+    joints: *const u32,
+    points: *const f64,
+    count: usize,
+    positions: *mut f64,
+    scales: *mut f64,
+    jacobians: *mut f64,
+    error: *mut SdefError,
+) -> SdefStatus {
     unsafe { deformer::map_points(deformer, joints, points, count, positions, scales, jacobians, error) }
 }
 
@@ -183,7 +225,13 @@ pub unsafe extern "C" fn sdef_deformer_map_points(deformer: SdefDeformer, joints
 /// capacity:    groups that the array can hold
 /// group_count: receives how many there are; may be NULL
 #[ffi_export]
-pub unsafe extern "C" fn sdef_deformer_get_groups(deformer: SdefDeformer, groups: *mut SdefGroup, capacity: usize, group_count: *mut usize, error: *mut SdefError) -> SdefStatus {
+pub unsafe extern "C" fn sdef_deformer_get_groups(
+    deformer: SdefDeformer,
+    groups: *mut SdefGroup,
+    capacity: usize,
+    group_count: *mut usize,
+    error: *mut SdefError,
+) -> SdefStatus {
     unsafe { deformer::get_groups(deformer, groups, capacity, group_count, error) }
 }
 
@@ -197,6 +245,13 @@ pub unsafe extern "C" fn sdef_deformer_get_groups(deformer: SdefDeformer, groups
 ///
 /// Errors: NO_GEOMETRY where the result is too flat to be measured; BUFFER_TOO_SMALL.
 #[ffi_export]
-pub unsafe extern "C" fn sdef_deformer_get_report(deformer: SdefDeformer, report: *mut SdefReport, json: *mut c_char, capacity: usize, size: *mut usize, error: *mut SdefError) -> SdefStatus {
+pub unsafe extern "C" fn sdef_deformer_get_report(
+    deformer: SdefDeformer,
+    report: *mut SdefReport,
+    json: *mut c_char,
+    capacity: usize,
+    size: *mut usize,
+    error: *mut SdefError,
+) -> SdefStatus {
     unsafe { deformer::get_report(deformer, report, json, capacity, size, error) }
 }

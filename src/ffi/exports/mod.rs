@@ -34,7 +34,7 @@
 //!            that choose (kinds, modes) must be one of the constants; 0 and 1 stand for no and yes.
 //! Errors     Every call that can fail returns a SdefStatus; its last argument, which may be NULL, receives a sentence
 //!            that names the array, the element, the value and the remedy. Other results are then as they were.
-//! Progress   A callback (NULL: none) that is called on the caller's thread alone, with a fraction that rises from 0 to 1.
+//! Progress   A callback (NULL: none) that is called on the caller's thread alone, with a fraction that rises to 1.
 //!            What it returns, if not 0, ends the call with SDEF_STATUS_CANCELLED and leaves everything as it was.
 
 pub mod basics;

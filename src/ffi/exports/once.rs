@@ -20,6 +20,22 @@ use safer_ffi::prelude::*;
 ///
 /// Errors: those of sdef_character_create to sdef_deformer_apply.
 #[ffi_export]
-pub unsafe extern "C" fn sdef_super_deform(up: *const f32, forward: *const f32, skeleton: *const SdefSkeleton, meshes: *const SdefMesh, mesh_count: usize, style: SdefStyle, options: *const SdefOptions, results: *const SdefMeshResult, progress: SdefProgress, user: *mut c_void, error: *mut SdefError) -> SdefStatus {
-    unsafe { bodies::super_deform(up, forward, skeleton, meshes, mesh_count, style, options, results, progress, user, error) }
+pub unsafe extern "C" fn sdef_super_deform(
+    up: *const f32,
+    forward: *const f32,
+    skeleton: *const SdefSkeleton,
+    meshes: *const SdefMesh,
+    mesh_count: usize,
+    style: SdefStyle,
+    options: *const SdefOptions,
+    results: *const SdefMeshResult,
+    progress: SdefProgress,
+    user: *mut c_void,
+    error: *mut SdefError,
+) -> SdefStatus {
+    unsafe {
+        bodies::super_deform(
+            up, forward, skeleton, meshes, mesh_count, style, options, results, progress, user, error,
+        )
+    }
 }

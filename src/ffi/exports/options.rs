@@ -147,6 +147,10 @@ pub struct SdefOptions {
 ///
 /// Errors: BAD_ARGUMENT.
 #[ffi_export]
-pub unsafe extern "C" fn sdef_options_init(options: *mut SdefOptions, struct_size: u32, error: *mut SdefError) -> SdefStatus {
+pub unsafe extern "C" fn sdef_options_init(
+    options: *mut SdefOptions,
+    struct_size: u32,
+    error: *mut SdefError,
+) -> SdefStatus {
     unsafe { bodies::options_init(options, struct_size, error) }
 }

@@ -15,7 +15,13 @@ use safer_ffi::prelude::*;
 /// Read the result with sdef_character_get_joints and sdef_character_get_weights. Errors: BAD_OPTION, NO_GEOMETRY, BUSY,
 /// CANCELLED.
 #[ffi_export]
-pub unsafe extern "C" fn sdef_character_rig(character: SdefCharacter, options: *const SdefOptions, progress: SdefProgress, user: *mut c_void, error: *mut SdefError) -> SdefStatus {
+pub unsafe extern "C" fn sdef_character_rig(
+    character: SdefCharacter,
+    options: *const SdefOptions,
+    progress: SdefProgress,
+    user: *mut c_void,
+    error: *mut SdefError,
+) -> SdefStatus {
     unsafe { character::rig(character, options, progress, user, error) }
 }
 
@@ -27,6 +33,12 @@ pub unsafe extern "C" fn sdef_character_rig(character: SdefCharacter, options: *
 /// capacity: bytes that text can hold
 /// size:     receives the bytes needed, the terminating NUL among them; may be NULL
 #[ffi_export]
-pub unsafe extern "C" fn sdef_get_warnings(handle: u64, text: *mut c_char, capacity: usize, size: *mut usize, error: *mut SdefError) -> SdefStatus {
+pub unsafe extern "C" fn sdef_get_warnings(
+    handle: u64,
+    text: *mut c_char,
+    capacity: usize,
+    size: *mut usize,
+    error: *mut SdefError,
+) -> SdefStatus {
     unsafe { bodies::get_warnings(handle, text, capacity, size, error) }
 }

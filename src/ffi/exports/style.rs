@@ -87,7 +87,12 @@ pub struct SdefStyleNumbers {
 ///
 /// Errors: BAD_OPTION; BAD_STYLE where like has no proportions.
 #[ffi_export]
-pub unsafe extern "C" fn sdef_style_from_heads(heads: f64, like: SdefStyle, style: *mut SdefStyle, error: *mut SdefError) -> SdefStatus {
+pub unsafe extern "C" fn sdef_style_from_heads(
+    heads: f64,
+    like: SdefStyle,
+    style: *mut SdefStyle,
+    error: *mut SdefError,
+) -> SdefStatus {
     unsafe { style::from_heads(heads, like, style, error) }
 }
 
@@ -98,7 +103,12 @@ pub unsafe extern "C" fn sdef_style_from_heads(heads: f64, like: SdefStyle, styl
 ///
 /// Errors: BAD_STYLE.
 #[ffi_export]
-pub unsafe extern "C" fn sdef_style_from_text(text: *const c_char, size: usize, style: *mut SdefStyle, error: *mut SdefError) -> SdefStatus {
+pub unsafe extern "C" fn sdef_style_from_text(
+    text: *const c_char,
+    size: usize,
+    style: *mut SdefStyle,
+    error: *mut SdefError,
+) -> SdefStatus {
     unsafe { style::from_text(text, size, style, error) }
 }
 
@@ -109,7 +119,13 @@ pub unsafe extern "C" fn sdef_style_from_text(text: *const c_char, size: usize, 
 ///
 /// Errors: BAD_OPTION, NO_HUMANOID, NO_GEOMETRY.
 #[ffi_export]
-pub unsafe extern "C" fn sdef_style_measure(character: SdefCharacter, name: *const c_char, options: *const SdefOptions, style: *mut SdefStyle, error: *mut SdefError) -> SdefStatus {
+pub unsafe extern "C" fn sdef_style_measure(
+    character: SdefCharacter,
+    name: *const c_char,
+    options: *const SdefOptions,
+    style: *mut SdefStyle,
+    error: *mut SdefError,
+) -> SdefStatus {
     unsafe { style::measure(character, name, options, style, error) }
 }
 
@@ -119,7 +135,14 @@ pub unsafe extern "C" fn sdef_style_measure(character: SdefCharacter, name: *con
 ///
 /// Errors: BAD_STYLE for numbers out of their range.
 #[ffi_export]
-pub unsafe extern "C" fn sdef_style_from_numbers(name: *const c_char, numbers: *const SdefStyleNumbers, bones: *const SdefBone, bone_count: usize, style: *mut SdefStyle, error: *mut SdefError) -> SdefStatus {
+pub unsafe extern "C" fn sdef_style_from_numbers(
+    name: *const c_char,
+    numbers: *const SdefStyleNumbers,
+    bones: *const SdefBone,
+    bone_count: usize,
+    style: *mut SdefStyle,
+    error: *mut SdefError,
+) -> SdefStatus {
     unsafe { style::from_numbers(name, numbers, bones, bone_count, style, error) }
 }
 
@@ -129,7 +152,13 @@ pub unsafe extern "C" fn sdef_style_from_numbers(name: *const c_char, numbers: *
 ///
 /// Errors: BAD_STYLE for a style of N heads that is like none, or where the result would be no body; BAD_OPTION.
 #[ffi_export]
-pub unsafe extern "C" fn sdef_style_blend(first: SdefStyle, second: SdefStyle, amount: f64, style: *mut SdefStyle, error: *mut SdefError) -> SdefStatus {
+pub unsafe extern "C" fn sdef_style_blend(
+    first: SdefStyle,
+    second: SdefStyle,
+    amount: f64,
+    style: *mut SdefStyle,
+    error: *mut SdefError,
+) -> SdefStatus {
     unsafe { style::blend(first, second, amount, style, error) }
 }
 
@@ -140,7 +169,14 @@ pub unsafe extern "C" fn sdef_style_blend(first: SdefStyle, second: SdefStyle, a
 /// capacity:   bones that the array can hold
 /// bone_count: receives how many there are; may be NULL
 #[ffi_export]
-pub unsafe extern "C" fn sdef_style_get_numbers(style: SdefStyle, numbers: *mut SdefStyleNumbers, bones: *mut SdefBone, capacity: usize, bone_count: *mut usize, error: *mut SdefError) -> SdefStatus {
+pub unsafe extern "C" fn sdef_style_get_numbers(
+    style: SdefStyle,
+    numbers: *mut SdefStyleNumbers,
+    bones: *mut SdefBone,
+    capacity: usize,
+    bone_count: *mut usize,
+    error: *mut SdefError,
+) -> SdefStatus {
     unsafe { style::get_numbers(style, numbers, bones, capacity, bone_count, error) }
 }
 
@@ -152,6 +188,12 @@ pub unsafe extern "C" fn sdef_style_get_numbers(style: SdefStyle, numbers: *mut 
 ///
 /// Errors: BAD_STYLE for a style of N heads that is like none: save the number.
 #[ffi_export]
-pub unsafe extern "C" fn sdef_style_to_json(style: SdefStyle, text: *mut c_char, capacity: usize, size: *mut usize, error: *mut SdefError) -> SdefStatus {
+pub unsafe extern "C" fn sdef_style_to_json(
+    style: SdefStyle,
+    text: *mut c_char,
+    capacity: usize,
+    size: *mut usize,
+    error: *mut SdefError,
+) -> SdefStatus {
     unsafe { style::to_json(style, text, capacity, size, error) }
 }
