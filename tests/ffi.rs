@@ -11,7 +11,7 @@ mod models;
 mod people;
 
 use abi::*;
-use glam::{DVec3, Vec3, Vec4};
+use glam::{DVec3, Vec3};
 use people::Person;
 use std::collections::BTreeSet;
 use std::ffi::{CStr, CString, c_void};
@@ -19,7 +19,9 @@ use std::ptr::{null, null_mut};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, OnceLock, PoisonError, RwLock, RwLockReadGuard};
 use superdeform::character::roles::find_roles;
-use superdeform::ffi::exports::{basics::*, character::*, deformer::*, once::*, options::*, rig::*, style::*};
+use superdeform::ffi::exports::{
+    basics::*, character::*, deformer::*, once::*, options::*, rig::*, style::*,
+};
 use superdeform::pipeline::{Deformer, FaceCurve, GroupSettings, Mode, Options, Stage, Style};
 use superdeform::shape::{BodyShape, Study};
 use superdeform::{Character, Humanoid, MorphTarget, Role};
@@ -51,7 +53,8 @@ fn dressed(person: Person) -> Character {
             .enumerate()
             .map(|(v, normal)| normal.any_orthonormal_vector().extend(if v % 2 == 0 { 1.0 } else { -1.0 }))
             .collect();
-        let some = |v: usize, phase: f32| if v % 3 == 0 { Vec3::ZERO } else { Vec3::splat(0.01 * wave(v, phase)) };
+        let some =
+            |v: usize, phase: f32| if v % 3 == 0 { Vec3::ZERO } else { Vec3::splat(0.01 * wave(v, phase)) };
         mesh.morph_targets = vec![
             MorphTarget {
                 name: "smile".to_string(),
@@ -131,8 +134,12 @@ fn joints_points_and_groups_are_those_of_the_library() {
     }
 
     let joints: Vec<u32> = (0..character.skeleton.joints.len() as u32).collect();
-    let points: Vec<DVec3> =
-        character.skeleton.joints.iter().map(|joint| joint.position() + DVec3::new(0.01, 0.02, 0.03)).collect();
+    let points: Vec<DVec3> = character
+        .skeleton
+        .joints
+        .iter()
+        .map(|joint| joint.position() + DVec3::new(0.01, 0.02, 0.03))
+        .collect();
     let count = points.len();
     let (mut mapped, mut scales, mut jacobians) =
         (vec![DVec3::NAN; count], vec![f64::NAN; count], vec![[f64::NAN; 9]; count]);
@@ -170,10 +177,13 @@ fn joints_points_and_groups_are_those_of_the_library() {
             assert_eq!(group.length_scale, coefficient.length_scale);
             assert_eq!(group.thickness_scale, coefficient.thickness_scale);
         }
-        assert_eq!(group.target_length, shapes[name].length);
-        assert!(group.reference_length > 0.0, "{name}");
+        match shapes.get(name) {
+            Some(shape) => assert_eq!(group.target_length, shape.length),
+            None => assert!(group.target_length.is_nan(), "{name}"),
+        }
     }
-    assert_eq!(groups.len(), shapes.len());
+    let names: BTreeSet<&String> = shapes.keys().chain(library.coefficients().keys()).collect();
+    assert_eq!(groups.len(), names.len());
     for id in [handle.id, style.id, made.id] {
         destroy(id);
     }
@@ -197,7 +207,8 @@ fn the_report_is_the_library_s() {
     assert_eq!(report.result.sole, wanted.result.landmarks.sole);
     assert_eq!(report.reference.head_length, wanted.reference.as_ref().unwrap().head_length);
     assert_eq!((report.head_ratio, report.rig_made, report.unreached_vertices), (wanted.g, 0, 0));
-    let json = text(|t, c, s, e| unsafe { sdef_deformer_get_report(made, null_mut(), t.cast(), c, s, e) }).unwrap();
+    let json =
+        text(|t, c, s, e| unsafe { sdef_deformer_get_report(made, null_mut(), t.cast(), c, s, e) }).unwrap();
     let json: serde_json::Value = serde_json::from_str(&json).unwrap();
     assert_eq!(json["result"]["heads"].as_f64().unwrap(), wanted.result.heads);
     assert_eq!(json["counts"]["vertices"].as_u64().unwrap() as usize, character.vertex_count());
@@ -287,10 +298,14 @@ fn options_that_are_set_later_give_what_a_new_deformer_gives() {
         ask(|error| unsafe { sdef_deformer_set_options(later, options, None, null_mut(), error) }).unwrap();
         let wanted = library_deformer(character, &Style::Shape(Box::new(shape.clone())), library);
         assert!(deformed(later, character) == room(character).bits_of(&wanted.apply()), "{name}");
-        let lines: String =
-            wanted.warnings().iter().map(|warning| format!("{}: {}\n", warning.code, warning.message)).collect();
+        let lines: String = wanted
+            .warnings()
+            .iter()
+            .map(|warning| format!("{}: {}\n", warning.code, warning.message))
+            .collect();
         let told = text(|t, c, s, e| unsafe { sdef_get_warnings(later.id, t.cast(), c, s, e) }).unwrap();
-        let codes = |lines: &str| lines.lines().map(|l| l.split(':').next().unwrap().to_string()).collect::<Vec<_>>();
+        let codes =
+            |lines: &str| lines.lines().map(|l| l.split(':').next().unwrap().to_string()).collect::<Vec<_>>();
         assert_eq!(codes(&told), codes(&lines), "{name}");
     }
     // The face alone, and a change that is refused.
@@ -333,7 +348,9 @@ fn strides_and_types_change_nothing() {
 
     const WIDTH: usize = 5;
     let fixed = |of: &dyn Fn(&(u32, f32)) -> f32| -> Vec<f32> {
-        rows.iter().flat_map(|row| (0..WIDTH).map(|i| row.get(i).map_or(0.0, of)).collect::<Vec<_>>()).collect()
+        rows.iter()
+            .flat_map(|row| (0..WIDTH).map(|i| row.get(i).map_or(0.0, of)).collect::<Vec<_>>())
+            .collect()
     };
     // What weight 0 names is nobody's business.
     let joints: Vec<u32> = rows
@@ -447,7 +464,11 @@ fn strides_and_types_change_nothing() {
     };
     let mut bits = Vec::new();
     for numbers in [0..3, 3..6, 6..10] {
-        bits.extend((0..count).flat_map(|vertex| numbers.clone().map(move |number| (vertex, number))).map(|(v, n)| read(v, n)));
+        bits.extend(
+            (0..count)
+                .flat_map(|vertex| numbers.clone().map(move |number| (vertex, number)))
+                .map(|(v, n)| read(v, n)),
+        );
     }
     assert!(bits == wanted);
     assert!((0..count).all(|vertex| read(vertex, 10) == 0xAAAA_AAAA && read(vertex, 11) == 0xAAAA_AAAA));
@@ -562,7 +583,8 @@ fn styles_come_back_as_text_and_as_numbers() {
     let character = given(person());
     let mut measured = SdefStyle::default();
     let name = CString::new("身長").unwrap();
-    ask(|error| unsafe { sdef_style_measure(character, name.as_ptr(), null(), &mut measured, error) }).unwrap();
+    ask(|error| unsafe { sdef_style_measure(character, name.as_ptr(), null(), &mut measured, error) })
+        .unwrap();
     let study = Study::of(person(), &Options::default()).unwrap();
     let shape = BodyShape { name: "身長".to_string(), ..study.shape };
     assert_eq!(json(measured).unwrap(), shape.to_json());
@@ -575,10 +597,8 @@ fn styles_come_back_as_text_and_as_numbers() {
 
         let mut numbers = SdefStyleNumbers { struct_size: size_of::<SdefStyleNumbers>() as u32, ..zeroed() };
         let mut count = 0;
-        ask(|error| unsafe {
-            sdef_style_get_numbers(style, &mut numbers, null_mut(), 0, &mut count, error)
-        })
-        .unwrap();
+        ask(|error| unsafe { sdef_style_get_numbers(style, &mut numbers, null_mut(), 0, &mut count, error) })
+            .unwrap();
         let mut bones = vec![SdefBone::default(); count];
         ask(|error| unsafe {
             sdef_style_get_numbers(style, null_mut(), bones.as_mut_ptr(), count, null_mut(), error)
@@ -609,7 +629,8 @@ fn styles_come_back_as_text_and_as_numbers() {
     let (two, four) = (of_heads(2.0), of_heads(4.0));
     ask(|error| unsafe { sdef_style_blend(two, four, 0.25, &mut made, error) }).unwrap();
     let mut numbers = SdefStyleNumbers { struct_size: size_of::<SdefStyleNumbers>() as u32, ..zeroed() };
-    ask(|error| unsafe { sdef_style_get_numbers(made, &mut numbers, null_mut(), 0, null_mut(), error) }).unwrap();
+    ask(|error| unsafe { sdef_style_get_numbers(made, &mut numbers, null_mut(), 0, null_mut(), error) })
+        .unwrap();
     assert_eq!(numbers.heads, 2.5);
     assert!(numbers.head_length.is_nan());
     let mut again = SdefStyle::default();
@@ -666,7 +687,9 @@ fn a_destroyed_stale_made_up_or_other_handle_is_refused() {
     destroy(stale);
     let bad = |told: Result<(), Told>| told.unwrap_err().status == SDEF_STATUS_BAD_HANDLE;
     let (info, meshes) = (SdefCharacterInfo { struct_size: 48, ..zeroed() }, room(person()));
-    for id in [0, 1, stale, u64::MAX, 1 << 56, made.id, style.id, 0x0100_0001_0000_FFFF, character.id ^ 1 << 40] {
+    for id in
+        [0, 1, stale, u64::MAX, 1 << 56, made.id, style.id, 0x0100_0001_0000_FFFF, character.id ^ 1 << 40]
+    {
         let handle = SdefCharacter { id };
         let mut info = info;
         assert!(bad(ask(|error| unsafe { sdef_character_get_info(handle, &mut info, error) })), "{id:#x}");
@@ -675,7 +698,16 @@ fn a_destroyed_stale_made_up_or_other_handle_is_refused() {
         assert!(bad(ask(|error| unsafe { sdef_character_set_skeleton(handle, null(), error) })));
         assert!(bad(ask(|error| unsafe { sdef_character_rig(handle, null(), None, null_mut(), error) })));
         assert!(bad(ask(|error| unsafe {
-            sdef_character_get_joints(handle, null_mut(), null_mut(), null_mut(), null_mut(), 0, null_mut(), error)
+            sdef_character_get_joints(
+                handle,
+                null_mut(),
+                null_mut(),
+                null_mut(),
+                null_mut(),
+                0,
+                null_mut(),
+                error,
+            )
         })));
         assert!(bad(ask(|error| unsafe {
             sdef_character_get_weights(handle, 0, 4, null_mut(), null_mut(), 0, error)
@@ -702,8 +734,13 @@ fn a_destroyed_stale_made_up_or_other_handle_is_refused() {
     for id in [0, 3, stale, u64::MAX, style.id, character.id, made.id ^ 1] {
         let handle = SdefDeformer { id };
         let start = meshes.meshes.as_ptr();
-        assert!(bad(ask(|error| unsafe { sdef_deformer_apply(handle, start, 1, None, null_mut(), error) })), "{id:#x}");
-        assert!(bad(ask(|error| unsafe { sdef_deformer_set_options(handle, null(), None, null_mut(), error) })));
+        assert!(
+            bad(ask(|error| unsafe { sdef_deformer_apply(handle, start, 1, None, null_mut(), error) })),
+            "{id:#x}"
+        );
+        assert!(bad(ask(|error| unsafe {
+            sdef_deformer_set_options(handle, null(), None, null_mut(), error)
+        })));
         assert!(bad(ask(|error| unsafe { sdef_deformer_set_face(handle, 1.0, 0, error) })));
         assert!(bad(ask(|error| unsafe {
             sdef_deformer_get_joints(handle, null_mut(), null_mut(), 0, null_mut(), error)
@@ -711,7 +748,9 @@ fn a_destroyed_stale_made_up_or_other_handle_is_refused() {
         assert!(bad(ask(|error| unsafe {
             sdef_deformer_map_points(handle, null(), null(), 0, null_mut(), null_mut(), null_mut(), error)
         })));
-        assert!(bad(ask(|error| unsafe { sdef_deformer_get_groups(handle, null_mut(), 0, null_mut(), error) })));
+        assert!(bad(ask(|error| unsafe {
+            sdef_deformer_get_groups(handle, null_mut(), 0, null_mut(), error)
+        })));
         assert!(bad(ask(|error| unsafe {
             sdef_deformer_get_report(handle, null_mut(), null_mut(), 0, null_mut(), error)
         })));
@@ -753,7 +792,10 @@ fn a_deformer_keeps_the_character_as_it_was() {
 /// A call that must fail, with what it is about.
 type Case = (&'static str, u32, Box<dyn Fn(*mut SdefError) -> SdefStatus>);
 
-fn with_mesh(handle: SdefCharacter, change: impl Fn(&mut SdefMesh) + 'static) -> Box<dyn Fn(*mut SdefError) -> SdefStatus> {
+fn with_mesh(
+    handle: SdefCharacter,
+    change: impl Fn(&mut SdefMesh) + 'static,
+) -> Box<dyn Fn(*mut SdefError) -> SdefStatus> {
     let base = c_mesh(&person().meshes[0]);
     Box::new(move |error| unsafe {
         let mut mesh = base.mesh;
@@ -775,7 +817,10 @@ fn with_options(
     })
 }
 
-fn with_skeleton(handle: SdefCharacter, change: impl Fn(&mut SdefSkeleton) + 'static) -> Box<dyn Fn(*mut SdefError) -> SdefStatus> {
+fn with_skeleton(
+    handle: SdefCharacter,
+    change: impl Fn(&mut SdefSkeleton) + 'static,
+) -> Box<dyn Fn(*mut SdefError) -> SdefStatus> {
     let base = c_skeleton(person());
     Box::new(move |error| unsafe {
         let mut skeleton = base.skeleton;
@@ -798,10 +843,12 @@ fn every_mistake_gets_its_status_and_a_sentence() {
     let high: &'static [u32] = vec![4_000_000_000; 3].leak();
     let negative: &'static [f32] = vec![-0.25; person().meshes[0].positions.len()].leak();
     let zeros: &'static [u32] = vec![0; person().meshes[0].positions.len() + 1].leak();
-    let falling: &'static [u32] = (0..=person().meshes[0].positions.len() as u32).rev().collect::<Vec<_>>().leak();
+    let falling: &'static [u32] =
+        (0..=person().meshes[0].positions.len() as u32).rev().collect::<Vec<_>>().leak();
     let nan_matrix: &'static [f64] = vec![f64::NAN; 16 * person().skeleton.joints.len()].leak();
     let flat: &'static [f32] = vec![0.0; 9].leak();
-    let circle: &'static [i32] = (0..person().skeleton.joints.len() as i32).map(|i| (i + 1) % 3).collect::<Vec<_>>().leak();
+    let circle: &'static [i32] =
+        (0..person().skeleton.joints.len() as i32).map(|i| (i + 1) % 3).collect::<Vec<_>>().leak();
     let wild: &'static [i32] = vec![-7; person().skeleton.joints.len()].leak();
     let text_group = CString::new("knees").unwrap();
     let nan = f64::NAN;
@@ -814,13 +861,13 @@ fn every_mistake_gets_its_status_and_a_sentence() {
             thickness_transfer: nan,
         }),
     ));
-    let unknown: &'static SdefGroupSettings = Box::leak(Box::new(SdefGroupSettings {
-        group: text_group.into_raw(),
-        ..settings[1]
-    }));
+    let unknown: &'static SdefGroupSettings =
+        Box::leak(Box::new(SdefGroupSettings { group: text_group.into_raw(), ..settings[1] }));
     let bone: &'static SdefBoneGroup = Box::leak(Box::new(SdefBoneGroup { role: 77, group: c"x".as_ptr() }));
-    let joint: &'static [SdefGivenJoint] =
-        Box::leak(Box::new([SdefGivenJoint { role: 60, x: 0.0, y: 0.0, z: 0.0 }, SdefGivenJoint { role: 0, x: nan, y: 0.0, z: 0.0 }]));
+    let joint: &'static [SdefGivenJoint] = Box::leak(Box::new([
+        SdefGivenJoint { role: 60, x: 0.0, y: 0.0, z: 0.0 },
+        SdefGivenJoint { role: 0, x: nan, y: 0.0, z: 0.0 },
+    ]));
     let make_style = |text: &'static str| -> Box<dyn Fn(*mut SdefError) -> SdefStatus> {
         Box::new(move |error| unsafe {
             let mut to = SdefStyle::default();
@@ -829,7 +876,8 @@ fn every_mistake_gets_its_status_and_a_sentence() {
     };
     let numbers = |change: fn(&mut SdefStyleNumbers)| -> Box<dyn Fn(*mut SdefError) -> SdefStatus> {
         Box::new(move |error| unsafe {
-            let mut numbers = SdefStyleNumbers { struct_size: size_of::<SdefStyleNumbers>() as u32, ..zeroed() };
+            let mut numbers =
+                SdefStyleNumbers { struct_size: size_of::<SdefStyleNumbers>() as u32, ..zeroed() };
             sdef_style_get_numbers(other, &mut numbers, null_mut(), 0, null_mut(), null_mut());
             change(&mut numbers);
             let mut to = SdefStyle::default();
@@ -838,7 +886,8 @@ fn every_mistake_gets_its_status_and_a_sentence() {
     };
     let bones = |bones: [SdefBone; 2]| -> Box<dyn Fn(*mut SdefError) -> SdefStatus> {
         Box::new(move |error| unsafe {
-            let mut numbers = SdefStyleNumbers { struct_size: size_of::<SdefStyleNumbers>() as u32, ..zeroed() };
+            let mut numbers =
+                SdefStyleNumbers { struct_size: size_of::<SdefStyleNumbers>() as u32, ..zeroed() };
             sdef_style_get_numbers(other, &mut numbers, null_mut(), 0, null_mut(), null_mut());
             let mut to = SdefStyle::default();
             sdef_style_from_numbers(null(), &numbers, bones.as_ptr(), 2, &mut to, error)
@@ -860,173 +909,591 @@ fn every_mistake_gets_its_status_and_a_sentence() {
     };
     use std::ptr::dangling;
     let cases: Vec<Case> = vec![
-        ("up of length 0", SDEF_STATUS_BAD_INPUT, Box::new(move |error| unsafe {
-            let mut to = SdefCharacter::default();
-            sdef_character_create(flat.as_ptr(), null(), &mut to, error)
-        })),
-        ("forward along up", SDEF_STATUS_BAD_INPUT, Box::new(move |error| unsafe {
-            let (up, mut to) = ([0.0, 2.0, 0.0], SdefCharacter::default());
-            sdef_character_create(null(), up.as_ptr(), &mut to, error)
-        })),
-        ("no place for a character", SDEF_STATUS_BAD_ARGUMENT, Box::new(|error| unsafe { sdef_character_create(null(), null(), null_mut(), error) })),
-        ("no mesh", SDEF_STATUS_BAD_ARGUMENT, Box::new(move |error| unsafe { sdef_character_add_mesh(full, null(), null_mut(), error) })),
-        ("a mesh of size 0", SDEF_STATUS_BAD_ARGUMENT, with_mesh(full, |mesh| mesh.struct_size = 0)),
-        ("a mesh of size 7", SDEF_STATUS_BAD_ARGUMENT, with_mesh(full, |mesh| mesh.struct_size = 7)),
-        ("a mesh of wild size", SDEF_STATUS_BAD_ARGUMENT, with_mesh(full, |mesh| mesh.struct_size = 0xDEAD_BEEC)),
-        ("an unknown kind", SDEF_STATUS_BAD_ARGUMENT, with_mesh(full, |mesh| mesh.kind = 6)),
-        ("no positions", SDEF_STATUS_BAD_ARGUMENT, with_mesh(full, |mesh| mesh.positions = null())),
-        ("too many vertices", SDEF_STATUS_BAD_ARGUMENT, with_mesh(full, |mesh| mesh.vertex_count = u32::MAX as usize)),
-        ("far too many vertices", SDEF_STATUS_BAD_ARGUMENT, with_mesh(full, |mesh| mesh.vertex_count = usize::MAX)),
-        ("a stride of 11", SDEF_STATUS_BAD_ARGUMENT, with_mesh(full, |mesh| mesh.position_stride = 11)),
-        ("a stride that overflows", SDEF_STATUS_BAD_ARGUMENT, with_mesh(full, |mesh| mesh.position_stride = usize::MAX / 2)),
-        ("a tangent stride of 12", SDEF_STATUS_BAD_ARGUMENT, with_mesh(full, |mesh| mesh.tangent_stride = 12)),
-        ("a position that is NAN", SDEF_STATUS_BAD_INPUT, with_mesh(full, |mesh| mesh.positions = nans.as_ptr())),
-        ("a normal that is NAN", SDEF_STATUS_BAD_INPUT, with_mesh(full, |mesh| mesh.normals = nans.as_ptr())),
-        ("no indices", SDEF_STATUS_BAD_ARGUMENT, with_mesh(full, |mesh| mesh.indices = null())),
-        ("4 indices", SDEF_STATUS_BAD_ARGUMENT, with_mesh(full, |mesh| mesh.index_count = 4)),
-        ("more indices than memory", SDEF_STATUS_BAD_ARGUMENT, with_mesh(full, |mesh| mesh.index_count = usize::MAX / 3 * 3)),
-        ("an index beyond the vertices", SDEF_STATUS_BAD_INPUT, with_mesh(full, |mesh| (mesh.indices, mesh.index_count) = (high.as_ptr().cast(), 3))),
-        ("indices as floats", SDEF_STATUS_BAD_ARGUMENT, with_mesh(full, |mesh| mesh.index_type = SDEF_TYPE_F32)),
-        ("joints as floats", SDEF_STATUS_BAD_ARGUMENT, with_mesh(full, |mesh| mesh.joint_type = SDEF_TYPE_F32)),
-        ("weights as integers", SDEF_STATUS_BAD_ARGUMENT, with_mesh(full, |mesh| mesh.weight_type = SDEF_TYPE_U32)),
-        ("no joints", SDEF_STATUS_BAD_ARGUMENT, with_mesh(full, |mesh| mesh.joints = null())),
-        ("no weights", SDEF_STATUS_BAD_ARGUMENT, with_mesh(full, |mesh| mesh.weights = null())),
-        ("wild influences", SDEF_STATUS_BAD_ARGUMENT, with_mesh(full, |mesh| (mesh.influence_count, mesh.row_starts) = (usize::MAX / 2, null()))),
-        ("a joint stride of 1", SDEF_STATUS_BAD_ARGUMENT, with_mesh(full, |mesh| {
-            (mesh.influence_count, mesh.row_starts, mesh.joint_stride) = (1, null(), 1);
-        })),
-        ("rows that do not rise", SDEF_STATUS_BAD_INPUT, with_mesh(full, |mesh| mesh.row_starts = falling.as_ptr())),
-        ("rows that end early", SDEF_STATUS_BAD_INPUT, with_mesh(full, |mesh| mesh.row_starts = zeros.as_ptr())),
-        ("a negative weight", SDEF_STATUS_BAD_INPUT, with_mesh(full, |mesh| {
-            (mesh.influence_count, mesh.row_starts) = (1, null());
-            mesh.weights = negative.as_ptr().cast();
-            mesh.joints = zeros.as_ptr().cast();
-        })),
-        ("weights before the skeleton", SDEF_STATUS_BAD_INPUT, with_mesh(empty, |_| ())),
-        ("no morph target", SDEF_STATUS_BAD_ARGUMENT, Box::new(move |error| unsafe { sdef_character_add_morph_target(full, 0, null(), error) })),
-        ("a morph target without positions", SDEF_STATUS_BAD_ARGUMENT, add(|target| target.positions = null(), 0)),
+        (
+            "up of length 0",
+            SDEF_STATUS_BAD_INPUT,
+            Box::new(move |error| unsafe {
+                let mut to = SdefCharacter::default();
+                sdef_character_create(flat.as_ptr(), null(), &mut to, error)
+            }),
+        ),
+        (
+            "forward along up",
+            SDEF_STATUS_BAD_INPUT,
+            Box::new(move |error| unsafe {
+                let (up, mut to) = ([0.0, 2.0, 0.0], SdefCharacter::default());
+                sdef_character_create(null(), up.as_ptr(), &mut to, error)
+            }),
+        ),
+        (
+            "no place for a character",
+            SDEF_STATUS_BAD_ARGUMENT,
+            Box::new(|error| unsafe { sdef_character_create(null(), null(), null_mut(), error) }),
+        ),
+        (
+            "no mesh",
+            SDEF_STATUS_BAD_ARGUMENT,
+            Box::new(move |error| unsafe { sdef_character_add_mesh(full, null(), null_mut(), error) }),
+        ),
+        ("a mesh of size 0", SDEF_STATUS_BAD_ARGUMENT, with_mesh(full, move |mesh| mesh.struct_size = 0)),
+        ("a mesh of size 7", SDEF_STATUS_BAD_ARGUMENT, with_mesh(full, move |mesh| mesh.struct_size = 7)),
+        (
+            "a mesh of wild size",
+            SDEF_STATUS_BAD_ARGUMENT,
+            with_mesh(full, move |mesh| mesh.struct_size = 0xDEAD_BEEC),
+        ),
+        ("an unknown kind", SDEF_STATUS_BAD_ARGUMENT, with_mesh(full, move |mesh| mesh.kind = 6)),
+        ("no positions", SDEF_STATUS_BAD_ARGUMENT, with_mesh(full, move |mesh| mesh.positions = null())),
+        (
+            "too many vertices",
+            SDEF_STATUS_BAD_ARGUMENT,
+            with_mesh(full, move |mesh| mesh.vertex_count = u32::MAX as usize),
+        ),
+        (
+            "far too many vertices",
+            SDEF_STATUS_BAD_ARGUMENT,
+            with_mesh(full, move |mesh| mesh.vertex_count = usize::MAX),
+        ),
+        ("a stride of 11", SDEF_STATUS_BAD_ARGUMENT, with_mesh(full, move |mesh| mesh.position_stride = 11)),
+        (
+            "a stride that overflows",
+            SDEF_STATUS_BAD_ARGUMENT,
+            with_mesh(full, move |mesh| mesh.position_stride = usize::MAX / 2),
+        ),
+        (
+            "a tangent stride of 12",
+            SDEF_STATUS_BAD_ARGUMENT,
+            with_mesh(full, move |mesh| mesh.tangent_stride = 12),
+        ),
+        (
+            "a position that is NAN",
+            SDEF_STATUS_BAD_INPUT,
+            with_mesh(full, move |mesh| mesh.positions = nans.as_ptr()),
+        ),
+        (
+            "a normal that is NAN",
+            SDEF_STATUS_BAD_INPUT,
+            with_mesh(full, move |mesh| mesh.normals = nans.as_ptr()),
+        ),
+        ("no indices", SDEF_STATUS_BAD_ARGUMENT, with_mesh(full, move |mesh| mesh.indices = null())),
+        ("4 indices", SDEF_STATUS_BAD_ARGUMENT, with_mesh(full, move |mesh| mesh.index_count = 4)),
+        (
+            "more indices than memory",
+            SDEF_STATUS_BAD_ARGUMENT,
+            with_mesh(full, move |mesh| mesh.index_count = usize::MAX / 3 * 3),
+        ),
+        (
+            "an index beyond the vertices",
+            SDEF_STATUS_BAD_INPUT,
+            with_mesh(full, move |mesh| (mesh.indices, mesh.index_count) = (high.as_ptr().cast(), 3)),
+        ),
+        (
+            "indices as floats",
+            SDEF_STATUS_BAD_ARGUMENT,
+            with_mesh(full, move |mesh| mesh.index_type = SDEF_TYPE_F32),
+        ),
+        (
+            "joints as floats",
+            SDEF_STATUS_BAD_ARGUMENT,
+            with_mesh(full, move |mesh| mesh.joint_type = SDEF_TYPE_F32),
+        ),
+        (
+            "weights as integers",
+            SDEF_STATUS_BAD_ARGUMENT,
+            with_mesh(full, move |mesh| mesh.weight_type = SDEF_TYPE_U32),
+        ),
+        ("no joints", SDEF_STATUS_BAD_ARGUMENT, with_mesh(full, move |mesh| mesh.joints = null())),
+        ("no weights", SDEF_STATUS_BAD_ARGUMENT, with_mesh(full, move |mesh| mesh.weights = null())),
+        (
+            "wild influences",
+            SDEF_STATUS_BAD_ARGUMENT,
+            with_mesh(full, move |mesh| (mesh.influence_count, mesh.row_starts) = (usize::MAX / 2, null())),
+        ),
+        (
+            "a joint stride of 1",
+            SDEF_STATUS_BAD_ARGUMENT,
+            with_mesh(full, move |mesh| {
+                (mesh.influence_count, mesh.row_starts, mesh.joint_stride) = (1, null(), 1);
+            }),
+        ),
+        (
+            "rows that do not rise",
+            SDEF_STATUS_BAD_INPUT,
+            with_mesh(full, move |mesh| mesh.row_starts = falling.as_ptr()),
+        ),
+        (
+            "rows that end early",
+            SDEF_STATUS_BAD_INPUT,
+            with_mesh(full, move |mesh| mesh.row_starts = zeros.as_ptr()),
+        ),
+        (
+            "a negative weight",
+            SDEF_STATUS_BAD_INPUT,
+            with_mesh(full, move |mesh| {
+                (mesh.influence_count, mesh.row_starts) = (1, null());
+                mesh.weights = negative.as_ptr().cast();
+                mesh.joints = zeros.as_ptr().cast();
+            }),
+        ),
+        ("weights before the skeleton", SDEF_STATUS_BAD_INPUT, with_mesh(empty, move |_| ())),
+        (
+            "no morph target",
+            SDEF_STATUS_BAD_ARGUMENT,
+            Box::new(move |error| unsafe { sdef_character_add_morph_target(full, 0, null(), error) }),
+        ),
+        (
+            "a morph target without positions",
+            SDEF_STATUS_BAD_ARGUMENT,
+            add(|target| target.positions = null(), 0),
+        ),
         ("a morph target of no mesh", SDEF_STATUS_BAD_ARGUMENT, add(|_| (), 99)),
-        ("a delta that is NAN", SDEF_STATUS_BAD_INPUT, Box::new(move |error| unsafe {
-            let mut target = c_morph(&person().meshes[0].morph_targets[0]);
-            target.normals = nans.as_ptr();
-            sdef_character_add_morph_target(full, 0, &target, error)
-        })),
-        ("no skeleton", SDEF_STATUS_BAD_ARGUMENT, Box::new(move |error| unsafe { sdef_character_set_skeleton(empty, null(), error) })),
-        ("no parents", SDEF_STATUS_BAD_ARGUMENT, with_skeleton(empty, |skeleton| skeleton.parents = null())),
-        ("a circle of parents", SDEF_STATUS_BAD_INPUT, with_skeleton(empty, |skeleton| skeleton.parents = circle.as_ptr())),
-        ("a parent of -7", SDEF_STATUS_BAD_INPUT, with_skeleton(empty, |skeleton| skeleton.parents = wild.as_ptr())),
-        ("a rest matrix that is NAN", SDEF_STATUS_BAD_INPUT, with_skeleton(empty, |skeleton| skeleton.rest_matrices = nan_matrix.as_ptr())),
-        ("a matrix stride of 64", SDEF_STATUS_BAD_ARGUMENT, with_skeleton(empty, |skeleton| skeleton.rest_stride = 64)),
-        ("wild joints", SDEF_STATUS_BAD_ARGUMENT, with_skeleton(empty, |skeleton| skeleton.joint_count = usize::MAX)),
-        ("56 roles", SDEF_STATUS_BAD_ARGUMENT, with_skeleton(empty, |skeleton| skeleton.role_count = 56)),
-        ("no roles", SDEF_STATUS_BAD_ARGUMENT, with_skeleton(empty, |skeleton| skeleton.role_joints = null())),
-        ("a role for joint -7", SDEF_STATUS_BAD_INPUT, with_skeleton(empty, |skeleton| (skeleton.role_joints, skeleton.role_count) = (wild.as_ptr(), 3))),
-        ("a skeleton that weights do not fit", SDEF_STATUS_BAD_INPUT, with_skeleton(full, |skeleton| (skeleton.joint_count, skeleton.role_count) = (1, 0))),
-        ("no place for info", SDEF_STATUS_BAD_ARGUMENT, Box::new(move |error| unsafe { sdef_character_get_info(full, null_mut(), error) })),
-        ("weights of no mesh", SDEF_STATUS_BAD_ARGUMENT, Box::new(move |error| unsafe { sdef_character_get_weights(full, 17, 4, null_mut(), null_mut(), 0, error) })),
-        ("0 influences", SDEF_STATUS_BAD_ARGUMENT, Box::new(move |error| unsafe { sdef_character_get_weights(full, 0, 0, null_mut(), null_mut(), 0, error) })),
-        ("room for 2 vertices' joints", SDEF_STATUS_BUFFER_TOO_SMALL, Box::new(move |error| unsafe {
-            let mut joints = [9; 8];
-            sdef_character_get_weights(full, 0, 4, joints.as_mut_ptr(), null_mut(), 2, error)
-        })),
-        ("room for 2 joints", SDEF_STATUS_BUFFER_TOO_SMALL, Box::new(move |error| unsafe {
-            let mut parents = [9; 2];
-            sdef_character_get_joints(full, parents.as_mut_ptr(), null_mut(), null_mut(), null_mut(), 2, null_mut(), error)
-        })),
-        ("rig without meshes", SDEF_STATUS_NO_GEOMETRY, Box::new(move |error| unsafe { sdef_character_rig(empty, null(), None, null_mut(), error) })),
-        ("heat below 0", SDEF_STATUS_BAD_OPTION, Box::new(move |error| unsafe {
-            sdef_character_rig(full, &SdefOptions { rig_heat: -1.0, ..options() }, None, null_mut(), error)
-        })),
-        ("3 voxels", SDEF_STATUS_BAD_OPTION, Box::new(move |error| unsafe {
-            sdef_character_rig(full, &SdefOptions { rig_voxel_resolution: 3, ..options() }, None, null_mut(), error)
-        })),
-        ("a given joint of role 60", SDEF_STATUS_BAD_ARGUMENT, with_options(full, style, |o| (o.rig_joints, o.rig_joint_count) = (joint.as_ptr(), 1))),
-        ("a given joint at NAN", SDEF_STATUS_BAD_OPTION, Box::new(move |error| unsafe {
-            sdef_character_rig(full, &SdefOptions { rig_joints: &joint[1], rig_joint_count: 1, ..options() }, None, null_mut(), error)
-        })),
-        ("an unknown rule of weights", SDEF_STATUS_BAD_ARGUMENT, with_options(full, style, |o| o.rig_weights = 3)),
-        ("options of size 0", SDEF_STATUS_BAD_ARGUMENT, with_options(full, style, |o| o.struct_size = 0)),
-        ("an unknown mode", SDEF_STATUS_BAD_ARGUMENT, with_options(full, style, |o| o.mode = 2)),
-        ("an unknown stage", SDEF_STATUS_BAD_ARGUMENT, with_options(full, style, |o| o.stage = 9)),
-        ("limits of 2", SDEF_STATUS_BAD_ARGUMENT, with_options(full, style, |o| o.limits = 2)),
-        ("an unknown curve", SDEF_STATUS_BAD_ARGUMENT, with_options(full, style, |o| o.face_curve = 3)),
-        ("2 rays", SDEF_STATUS_BAD_OPTION, with_options(full, style, |o| o.rays = 2)),
-        ("a head of NAN", SDEF_STATUS_BAD_OPTION, with_options(full, style, |o| o.head_scale = f64::NAN)),
-        ("an amount of 2", SDEF_STATUS_BAD_OPTION, with_options(full, style, |o| o.amount = 2.0)),
-        ("hair of -1", SDEF_STATUS_BAD_OPTION, with_options(full, style, |o| o.hair_length = -1.0)),
-        ("a squash of 11", SDEF_STATUS_BAD_OPTION, with_options(full, style, |o| o.face_squash = 11.0)),
-        ("no groups", SDEF_STATUS_BAD_ARGUMENT, with_options(full, style, |o| o.group_count = 1)),
-        ("a group twice", SDEF_STATUS_BAD_ARGUMENT, with_options(full, style, |o| (o.groups, o.group_count) = (settings.as_ptr(), 2))),
-        ("a group out of range", SDEF_STATUS_BAD_OPTION, with_options(full, style, |o| (o.groups, o.group_count) = (&settings[2], 1))),
-        ("an unknown group", SDEF_STATUS_BAD_OPTION, with_options(full, style, |o| (o.groups, o.group_count) = (unknown, 1))),
-        ("a bone of role 77", SDEF_STATUS_BAD_ARGUMENT, with_options(full, style, |o| (o.bone_groups, o.bone_group_count) = (bone, 1))),
-        ("N heads in paper mode", SDEF_STATUS_BAD_OPTION, with_options(full, style, |o| o.mode = SDEF_MODE_PAPER)),
-        ("a deformer of nothing", SDEF_STATUS_NO_HUMANOID, with_options(empty, style, |_| ())),
-        ("a deformer of joints alone", SDEF_STATUS_NO_GEOMETRY, with_options(bare, style, |_| ())),
-        ("no place for a deformer", SDEF_STATUS_BAD_ARGUMENT, Box::new(move |error| unsafe {
-            sdef_deformer_create(full, style, null(), None, null_mut(), null_mut(), error)
-        })),
-        ("1.7 heads", SDEF_STATUS_BAD_OPTION, Box::new(|error| unsafe { sdef_style_from_heads(1.7, SdefStyle::default(), &mut SdefStyle::default(), error) })),
-        ("NAN heads", SDEF_STATUS_BAD_OPTION, Box::new(|error| unsafe { sdef_style_from_heads(f64::NAN, SdefStyle::default(), &mut SdefStyle::default(), error) })),
+        (
+            "a delta that is NAN",
+            SDEF_STATUS_BAD_INPUT,
+            Box::new(move |error| unsafe {
+                let mut target = c_morph(&person().meshes[0].morph_targets[0]);
+                target.normals = nans.as_ptr();
+                sdef_character_add_morph_target(full, 0, &target, error)
+            }),
+        ),
+        (
+            "no skeleton",
+            SDEF_STATUS_BAD_ARGUMENT,
+            Box::new(move |error| unsafe { sdef_character_set_skeleton(empty, null(), error) }),
+        ),
+        (
+            "no parents",
+            SDEF_STATUS_BAD_ARGUMENT,
+            with_skeleton(empty, move |skeleton| skeleton.parents = null()),
+        ),
+        (
+            "a circle of parents",
+            SDEF_STATUS_BAD_INPUT,
+            with_skeleton(empty, move |skeleton| skeleton.parents = circle.as_ptr()),
+        ),
+        (
+            "a parent of -7",
+            SDEF_STATUS_BAD_INPUT,
+            with_skeleton(empty, move |skeleton| skeleton.parents = wild.as_ptr()),
+        ),
+        (
+            "a rest matrix that is NAN",
+            SDEF_STATUS_BAD_INPUT,
+            with_skeleton(empty, move |skeleton| skeleton.rest_matrices = nan_matrix.as_ptr()),
+        ),
+        (
+            "a matrix stride of 64",
+            SDEF_STATUS_BAD_ARGUMENT,
+            with_skeleton(empty, move |skeleton| skeleton.rest_stride = 64),
+        ),
+        (
+            "wild joints",
+            SDEF_STATUS_BAD_ARGUMENT,
+            with_skeleton(empty, move |skeleton| skeleton.joint_count = usize::MAX),
+        ),
+        (
+            "56 roles",
+            SDEF_STATUS_BAD_ARGUMENT,
+            with_skeleton(empty, move |skeleton| skeleton.role_count = 56),
+        ),
+        (
+            "no roles",
+            SDEF_STATUS_BAD_ARGUMENT,
+            with_skeleton(empty, move |skeleton| skeleton.role_joints = null()),
+        ),
+        (
+            "a role for joint -7",
+            SDEF_STATUS_BAD_INPUT,
+            with_skeleton(empty, move |skeleton| {
+                (skeleton.role_joints, skeleton.role_count) = (wild.as_ptr(), 3)
+            }),
+        ),
+        (
+            "a skeleton that weights do not fit",
+            SDEF_STATUS_BAD_INPUT,
+            with_skeleton(full, move |skeleton| (skeleton.joint_count, skeleton.role_count) = (1, 0)),
+        ),
+        (
+            "no place for info",
+            SDEF_STATUS_BAD_ARGUMENT,
+            Box::new(move |error| unsafe { sdef_character_get_info(full, null_mut(), error) }),
+        ),
+        (
+            "weights of no mesh",
+            SDEF_STATUS_BAD_ARGUMENT,
+            Box::new(move |error| unsafe {
+                sdef_character_get_weights(full, 17, 4, null_mut(), null_mut(), 0, error)
+            }),
+        ),
+        (
+            "0 influences",
+            SDEF_STATUS_BAD_ARGUMENT,
+            Box::new(move |error| unsafe {
+                sdef_character_get_weights(full, 0, 0, null_mut(), null_mut(), 0, error)
+            }),
+        ),
+        (
+            "room for 2 vertices' joints",
+            SDEF_STATUS_BUFFER_TOO_SMALL,
+            Box::new(move |error| unsafe {
+                let mut joints = [9; 8];
+                sdef_character_get_weights(full, 0, 4, joints.as_mut_ptr(), null_mut(), 2, error)
+            }),
+        ),
+        (
+            "room for 2 joints",
+            SDEF_STATUS_BUFFER_TOO_SMALL,
+            Box::new(move |error| unsafe {
+                let mut parents = [9; 2];
+                sdef_character_get_joints(
+                    full,
+                    parents.as_mut_ptr(),
+                    null_mut(),
+                    null_mut(),
+                    null_mut(),
+                    2,
+                    null_mut(),
+                    error,
+                )
+            }),
+        ),
+        (
+            "rig without meshes",
+            SDEF_STATUS_NO_GEOMETRY,
+            Box::new(move |error| unsafe { sdef_character_rig(empty, null(), None, null_mut(), error) }),
+        ),
+        (
+            "heat below 0",
+            SDEF_STATUS_BAD_OPTION,
+            Box::new(move |error| unsafe {
+                sdef_character_rig(
+                    full,
+                    &SdefOptions { rig_heat: -1.0, ..options() },
+                    None,
+                    null_mut(),
+                    error,
+                )
+            }),
+        ),
+        (
+            "3 voxels",
+            SDEF_STATUS_BAD_OPTION,
+            Box::new(move |error| unsafe {
+                sdef_character_rig(
+                    full,
+                    &SdefOptions { rig_voxel_resolution: 3, ..options() },
+                    None,
+                    null_mut(),
+                    error,
+                )
+            }),
+        ),
+        (
+            "a given joint of role 60",
+            SDEF_STATUS_BAD_ARGUMENT,
+            with_options(full, style, move |o| (o.rig_joints, o.rig_joint_count) = (joint.as_ptr(), 1)),
+        ),
+        (
+            "a given joint at NAN",
+            SDEF_STATUS_BAD_OPTION,
+            Box::new(move |error| unsafe {
+                sdef_character_rig(
+                    full,
+                    &SdefOptions { rig_joints: &joint[1], rig_joint_count: 1, ..options() },
+                    None,
+                    null_mut(),
+                    error,
+                )
+            }),
+        ),
+        (
+            "an unknown rule of weights",
+            SDEF_STATUS_BAD_ARGUMENT,
+            with_options(full, style, move |o| o.rig_weights = 3),
+        ),
+        (
+            "options of size 0",
+            SDEF_STATUS_BAD_ARGUMENT,
+            with_options(full, style, move |o| o.struct_size = 0),
+        ),
+        ("an unknown mode", SDEF_STATUS_BAD_ARGUMENT, with_options(full, style, move |o| o.mode = 2)),
+        ("an unknown stage", SDEF_STATUS_BAD_ARGUMENT, with_options(full, style, move |o| o.stage = 9)),
+        ("limits of 2", SDEF_STATUS_BAD_ARGUMENT, with_options(full, style, move |o| o.limits = 2)),
+        ("an unknown curve", SDEF_STATUS_BAD_ARGUMENT, with_options(full, style, move |o| o.face_curve = 3)),
+        ("2 rays", SDEF_STATUS_BAD_OPTION, with_options(full, style, move |o| o.rays = 2)),
+        (
+            "a head of NAN",
+            SDEF_STATUS_BAD_OPTION,
+            with_options(full, style, move |o| o.head_scale = f64::NAN),
+        ),
+        ("an amount of 2", SDEF_STATUS_BAD_OPTION, with_options(full, style, move |o| o.amount = 2.0)),
+        ("hair of -1", SDEF_STATUS_BAD_OPTION, with_options(full, style, move |o| o.hair_length = -1.0)),
+        ("a squash of 11", SDEF_STATUS_BAD_OPTION, with_options(full, style, move |o| o.face_squash = 11.0)),
+        ("no groups", SDEF_STATUS_BAD_ARGUMENT, with_options(full, style, move |o| o.group_count = 1)),
+        (
+            "a group twice",
+            SDEF_STATUS_BAD_ARGUMENT,
+            with_options(full, style, move |o| (o.groups, o.group_count) = (settings.as_ptr(), 2)),
+        ),
+        (
+            "a group out of range",
+            SDEF_STATUS_BAD_OPTION,
+            with_options(full, style, move |o| (o.groups, o.group_count) = (&settings[2], 1)),
+        ),
+        (
+            "an unknown group",
+            SDEF_STATUS_BAD_OPTION,
+            with_options(full, style, move |o| (o.groups, o.group_count) = (unknown, 1)),
+        ),
+        (
+            "a bone of role 77",
+            SDEF_STATUS_BAD_ARGUMENT,
+            with_options(full, style, move |o| (o.bone_groups, o.bone_group_count) = (bone, 1)),
+        ),
+        (
+            "N heads in paper mode",
+            SDEF_STATUS_BAD_OPTION,
+            with_options(full, style, move |o| o.mode = SDEF_MODE_PAPER),
+        ),
+        ("a deformer of nothing", SDEF_STATUS_NO_HUMANOID, with_options(empty, style, move |_| ())),
+        ("a deformer of joints alone", SDEF_STATUS_NO_GEOMETRY, with_options(bare, style, move |_| ())),
+        (
+            "no place for a deformer",
+            SDEF_STATUS_BAD_ARGUMENT,
+            Box::new(move |error| unsafe {
+                sdef_deformer_create(full, style, null(), None, null_mut(), null_mut(), error)
+            }),
+        ),
+        (
+            "1.7 heads",
+            SDEF_STATUS_BAD_OPTION,
+            Box::new(|error| unsafe {
+                sdef_style_from_heads(1.7, SdefStyle::default(), &mut SdefStyle::default(), error)
+            }),
+        ),
+        (
+            "NAN heads",
+            SDEF_STATUS_BAD_OPTION,
+            Box::new(|error| unsafe {
+                sdef_style_from_heads(f64::NAN, SdefStyle::default(), &mut SdefStyle::default(), error)
+            }),
+        ),
         ("a style of no text", SDEF_STATUS_BAD_STYLE, make_style("")),
         ("a style that is none", SDEF_STATUS_BAD_STYLE, make_style("sd5")),
         ("a style of broken text", SDEF_STATUS_BAD_STYLE, make_style("{\"superdeform_style\": ")),
-        ("a style of a later version", SDEF_STATUS_BAD_STYLE, make_style("{\"superdeform_style\": 99, \"head_length\": 1.0, \"bones\": {}}")),
-        ("a style that is no UTF-8", SDEF_STATUS_BAD_STYLE, Box::new(|error| unsafe {
-            let text = b"{\xFF}";
-            sdef_style_from_text(text.as_ptr().cast(), text.len(), &mut SdefStyle::default(), error)
-        })),
-        ("a style of NULL", SDEF_STATUS_BAD_ARGUMENT, Box::new(|error| unsafe { sdef_style_from_text(null(), 5, &mut SdefStyle::default(), error) })),
-        ("a wild text", SDEF_STATUS_BAD_ARGUMENT, Box::new(|error| unsafe { sdef_style_from_text(dangling(), usize::MAX, &mut SdefStyle::default(), error) })),
-        ("a style of the empty character", SDEF_STATUS_NO_HUMANOID, Box::new(move |error| unsafe { sdef_style_measure(empty, null(), null(), &mut SdefStyle::default(), error) })),
-        ("a style of no numbers", SDEF_STATUS_BAD_ARGUMENT, Box::new(|error| unsafe { sdef_style_from_numbers(null(), null(), null(), 0, &mut SdefStyle::default(), error) })),
+        (
+            "a style of a later version",
+            SDEF_STATUS_BAD_STYLE,
+            make_style("{\"superdeform_style\": 99, \"head_length\": 1.0, \"bones\": {}}"),
+        ),
+        (
+            "a style that is no UTF-8",
+            SDEF_STATUS_BAD_STYLE,
+            Box::new(|error| unsafe {
+                let text = b"{\xFF}";
+                sdef_style_from_text(text.as_ptr().cast(), text.len(), &mut SdefStyle::default(), error)
+            }),
+        ),
+        (
+            "a style of NULL",
+            SDEF_STATUS_BAD_ARGUMENT,
+            Box::new(|error| unsafe { sdef_style_from_text(null(), 5, &mut SdefStyle::default(), error) }),
+        ),
+        (
+            "a wild text",
+            SDEF_STATUS_BAD_ARGUMENT,
+            Box::new(|error| unsafe {
+                sdef_style_from_text(dangling(), usize::MAX, &mut SdefStyle::default(), error)
+            }),
+        ),
+        (
+            "a style of the empty character",
+            SDEF_STATUS_NO_HUMANOID,
+            Box::new(move |error| unsafe {
+                sdef_style_measure(empty, null(), null(), &mut SdefStyle::default(), error)
+            }),
+        ),
+        (
+            "a style of no numbers",
+            SDEF_STATUS_BAD_ARGUMENT,
+            Box::new(|error| unsafe {
+                sdef_style_from_numbers(null(), null(), null(), 0, &mut SdefStyle::default(), error)
+            }),
+        ),
         ("a leg of 0", SDEF_STATUS_BAD_STYLE, numbers(|n| n.leg = 0.0)),
         ("a head of 0", SDEF_STATUS_BAD_STYLE, numbers(|n| n.bone_head_length = 0.0)),
-        ("a bone to 56", SDEF_STATUS_BAD_ARGUMENT, bones([SdefBone { end: 56, reserved: 0, length: 1.0, radius: 1.0 }; 2])),
-        ("a bone twice", SDEF_STATUS_BAD_STYLE, bones([SdefBone { end: 55, reserved: 0, length: 1.0, radius: 1.0 }; 2])),
-        ("a bone of length -1", SDEF_STATUS_BAD_STYLE, bones([SdefBone { end: 55, reserved: 0, length: 1.0, radius: 1.0 }, SdefBone { end: 5, reserved: 0, length: -1.0, radius: 1.0 }])),
-        ("a blend of 11", SDEF_STATUS_BAD_OPTION, Box::new(move |error| unsafe { sdef_style_blend(other, other, 11.0, &mut SdefStyle::default(), error) })),
-        ("a blend with N heads", SDEF_STATUS_BAD_STYLE, Box::new(move |error| unsafe { sdef_style_blend(other, style, 0.5, &mut SdefStyle::default(), error) })),
-        ("N heads as JSON", SDEF_STATUS_BAD_STYLE, Box::new(move |error| unsafe { sdef_style_to_json(style, null_mut(), 0, null_mut(), error) })),
-        ("a short text", SDEF_STATUS_BUFFER_TOO_SMALL, Box::new(move |error| unsafe {
-            let mut text = [0; 10];
-            sdef_style_to_json(other, text.as_mut_ptr(), 10, null_mut(), error)
-        })),
+        (
+            "a bone to 56",
+            SDEF_STATUS_BAD_ARGUMENT,
+            bones([SdefBone { end: 56, reserved: 0, length: 1.0, radius: 1.0 }; 2]),
+        ),
+        (
+            "a bone twice",
+            SDEF_STATUS_BAD_STYLE,
+            bones([SdefBone { end: 55, reserved: 0, length: 1.0, radius: 1.0 }; 2]),
+        ),
+        (
+            "a bone of length -1",
+            SDEF_STATUS_BAD_STYLE,
+            bones([
+                SdefBone { end: 55, reserved: 0, length: 1.0, radius: 1.0 },
+                SdefBone { end: 5, reserved: 0, length: -1.0, radius: 1.0 },
+            ]),
+        ),
+        (
+            "a blend of 11",
+            SDEF_STATUS_BAD_OPTION,
+            Box::new(move |error| unsafe {
+                sdef_style_blend(other, other, 11.0, &mut SdefStyle::default(), error)
+            }),
+        ),
+        (
+            "a blend with N heads",
+            SDEF_STATUS_BAD_STYLE,
+            Box::new(move |error| unsafe {
+                sdef_style_blend(other, style, 0.5, &mut SdefStyle::default(), error)
+            }),
+        ),
+        (
+            "N heads as JSON",
+            SDEF_STATUS_BAD_STYLE,
+            Box::new(move |error| unsafe { sdef_style_to_json(style, null_mut(), 0, null_mut(), error) }),
+        ),
+        (
+            "a short text",
+            SDEF_STATUS_BUFFER_TOO_SMALL,
+            Box::new(move |error| unsafe {
+                let mut text = [0; 10];
+                sdef_style_to_json(other, text.as_mut_ptr(), 10, null_mut(), error)
+            }),
+        ),
         ("results of another size", SDEF_STATUS_BAD_ARGUMENT, result(|mesh| mesh.struct_size = 40)),
         ("room for 5 vertices", SDEF_STATUS_BUFFER_TOO_SMALL, result(|mesh| mesh.vertex_capacity = 5)),
-        ("room for 1 morph target", SDEF_STATUS_BUFFER_TOO_SMALL, result(|mesh| mesh.morph_target_capacity = 1)),
+        (
+            "room for 1 morph target",
+            SDEF_STATUS_BUFFER_TOO_SMALL,
+            result(|mesh| mesh.morph_target_capacity = 1),
+        ),
         ("a result stride of 8", SDEF_STATUS_BAD_ARGUMENT, result(|mesh| mesh.normal_stride = 8)),
-        ("results for no mesh", SDEF_STATUS_BAD_ARGUMENT, Box::new(move |error| unsafe { sdef_deformer_apply(made, null(), 0, None, null_mut(), error) })),
-        ("results of NULL", SDEF_STATUS_BAD_ARGUMENT, Box::new(move |error| unsafe { sdef_deformer_apply(made, null(), 3, None, null_mut(), error) })),
-        ("an unknown curve of the face", SDEF_STATUS_BAD_ARGUMENT, Box::new(move |error| unsafe { sdef_deformer_set_face(made, 1.0, 3, error) })),
-        ("a squash of -11", SDEF_STATUS_BAD_OPTION, Box::new(move |error| unsafe { sdef_deformer_set_face(made, -11.0, 0, error) })),
-        ("a point of joint 4000000000", SDEF_STATUS_BAD_INPUT, Box::new(move |error| unsafe {
-            let point = [0.0; 3];
-            sdef_deformer_map_points(made, high.as_ptr(), point.as_ptr(), 1, null_mut(), null_mut(), null_mut(), error)
-        })),
-        ("a point at NAN", SDEF_STATUS_BAD_INPUT, Box::new(move |error| unsafe {
-            sdef_deformer_map_points(made, zeros.as_ptr(), nan_matrix.as_ptr(), 1, null_mut(), null_mut(), null_mut(), error)
-        })),
-        ("room for 1 joint", SDEF_STATUS_BUFFER_TOO_SMALL, Box::new(move |error| unsafe {
-            let mut place = [0.0; 3];
-            sdef_deformer_get_joints(made, place.as_mut_ptr(), null_mut(), 1, null_mut(), error)
-        })),
-        ("room for 1 group", SDEF_STATUS_BUFFER_TOO_SMALL, Box::new(move |error| unsafe {
-            let mut group = zeroed::<SdefGroup>();
-            sdef_deformer_get_groups(made, &mut group, 1, null_mut(), error)
-        })),
-        ("a report of size 0", SDEF_STATUS_BAD_ARGUMENT, Box::new(move |error| unsafe {
-            let mut report = zeroed::<SdefReport>();
-            sdef_deformer_get_report(made, &mut report, null_mut(), 0, null_mut(), error)
-        })),
-        ("no place for options", SDEF_STATUS_BAD_ARGUMENT, Box::new(|error| unsafe { sdef_options_init(null_mut(), 200, error) })),
-        ("options of size 3", SDEF_STATUS_BAD_ARGUMENT, Box::new(|error| unsafe { sdef_options_init(&mut options(), 3, error) })),
-        ("a handle that is none", SDEF_STATUS_BAD_HANDLE, Box::new(|error| unsafe { sdef_character_get_info(SdefCharacter { id: 0 }, null_mut(), error) })),
-        ("a handle that is made up", SDEF_STATUS_BAD_HANDLE, Box::new(|error| unsafe { sdef_destroy(42, error) })),
-        ("a style for a character", SDEF_STATUS_BAD_HANDLE, Box::new(move |error| unsafe { sdef_character_get_info(SdefCharacter { id: style.id }, null_mut(), error) })),
-        ("a progress that stops", SDEF_STATUS_CANCELLED, Box::new(move |error| unsafe {
-            sdef_deformer_create(full, style, null(), Some(stop), null_mut(), &mut SdefDeformer::default(), error)
-        })),
+        (
+            "results for no mesh",
+            SDEF_STATUS_BAD_ARGUMENT,
+            Box::new(move |error| unsafe { sdef_deformer_apply(made, null(), 0, None, null_mut(), error) }),
+        ),
+        (
+            "results of NULL",
+            SDEF_STATUS_BAD_ARGUMENT,
+            Box::new(move |error| unsafe { sdef_deformer_apply(made, null(), 3, None, null_mut(), error) }),
+        ),
+        (
+            "an unknown curve of the face",
+            SDEF_STATUS_BAD_ARGUMENT,
+            Box::new(move |error| unsafe { sdef_deformer_set_face(made, 1.0, 3, error) }),
+        ),
+        (
+            "a squash of -11",
+            SDEF_STATUS_BAD_OPTION,
+            Box::new(move |error| unsafe { sdef_deformer_set_face(made, -11.0, 0, error) }),
+        ),
+        (
+            "a point of joint 4000000000",
+            SDEF_STATUS_BAD_INPUT,
+            Box::new(move |error| unsafe {
+                let point = [0.0; 3];
+                sdef_deformer_map_points(
+                    made,
+                    high.as_ptr(),
+                    point.as_ptr(),
+                    1,
+                    null_mut(),
+                    null_mut(),
+                    null_mut(),
+                    error,
+                )
+            }),
+        ),
+        (
+            "a point at NAN",
+            SDEF_STATUS_BAD_INPUT,
+            Box::new(move |error| unsafe {
+                sdef_deformer_map_points(
+                    made,
+                    zeros.as_ptr(),
+                    nan_matrix.as_ptr(),
+                    1,
+                    null_mut(),
+                    null_mut(),
+                    null_mut(),
+                    error,
+                )
+            }),
+        ),
+        (
+            "room for 1 joint",
+            SDEF_STATUS_BUFFER_TOO_SMALL,
+            Box::new(move |error| unsafe {
+                let mut place = [0.0; 3];
+                sdef_deformer_get_joints(made, place.as_mut_ptr(), null_mut(), 1, null_mut(), error)
+            }),
+        ),
+        (
+            "room for 1 group",
+            SDEF_STATUS_BUFFER_TOO_SMALL,
+            Box::new(move |error| unsafe {
+                let mut group = zeroed::<SdefGroup>();
+                sdef_deformer_get_groups(made, &mut group, 1, null_mut(), error)
+            }),
+        ),
+        (
+            "a report of size 0",
+            SDEF_STATUS_BAD_ARGUMENT,
+            Box::new(move |error| unsafe {
+                let mut report = zeroed::<SdefReport>();
+                sdef_deformer_get_report(made, &mut report, null_mut(), 0, null_mut(), error)
+            }),
+        ),
+        (
+            "no place for options",
+            SDEF_STATUS_BAD_ARGUMENT,
+            Box::new(|error| unsafe { sdef_options_init(null_mut(), 200, error) }),
+        ),
+        (
+            "options of size 3",
+            SDEF_STATUS_BAD_ARGUMENT,
+            Box::new(|error| unsafe { sdef_options_init(&mut options(), 3, error) }),
+        ),
+        (
+            "a handle that is none",
+            SDEF_STATUS_BAD_HANDLE,
+            Box::new(|error| unsafe { sdef_character_get_info(SdefCharacter { id: 0 }, null_mut(), error) }),
+        ),
+        (
+            "a handle that is made up",
+            SDEF_STATUS_BAD_HANDLE,
+            Box::new(|error| unsafe { sdef_destroy(42, error) }),
+        ),
+        (
+            "a style for a character",
+            SDEF_STATUS_BAD_HANDLE,
+            Box::new(move |error| unsafe {
+                sdef_character_get_info(SdefCharacter { id: style.id }, null_mut(), error)
+            }),
+        ),
+        (
+            "a progress that stops",
+            SDEF_STATUS_CANCELLED,
+            Box::new(move |error| unsafe {
+                sdef_deformer_create(
+                    full,
+                    style,
+                    null(),
+                    Some(stop),
+                    null_mut(),
+                    &mut SdefDeformer::default(),
+                    error,
+                )
+            }),
+        ),
     ];
     let (mut produced, mut wrong) = (BTreeSet::new(), Vec::new());
     for (what, status, call) in &cases {
@@ -1043,8 +1510,9 @@ fn every_mistake_gets_its_status_and_a_sentence() {
             }
             other => wrong.push(format!("{what}: {name} is wanted, but there is {other:?}")),
         }
-        // Without a struct for the error the status is the same.
-        assert_eq!(call(null_mut()), *status, "{what}");
+        if call(null_mut()) != *status {
+            wrong.push(format!("{what}: another status without a struct for the error"));
+        }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
     // OK, BUSY, OUT_OF_MEMORY and INTERNAL are produced by tests of their own.
@@ -1087,7 +1555,11 @@ fn structs_of_older_and_newer_hosts_are_read_and_written_as_far_as_they_go() {
     for (size, amount, wanted) in [
         (older, 0.3, plain.clone()),
         (full, 0.3, expected(person(), &Style::Heads(2.5), &Options { amount: 0.3, ..Options::default() })),
-        (full + 64, 0.3, expected(person(), &Style::Heads(2.5), &Options { amount: 0.3, ..Options::default() })),
+        (
+            full + 64,
+            0.3,
+            expected(person(), &Style::Heads(2.5), &Options { amount: 0.3, ..Options::default() }),
+        ),
     ] {
         let memory = sized(SdefOptions { amount, ..options() }, size);
         let made = deformer_with(character, style, memory.as_ptr().cast(), None, null_mut()).unwrap();
@@ -1108,7 +1580,8 @@ fn structs_of_older_and_newer_hosts_are_read_and_written_as_far_as_they_go() {
         .unwrap();
         assert!(border_is_whole(&memory, size), "a report of {size} bytes");
         let mut memory = sized(zeroed::<SdefCharacterInfo>(), size.min(40));
-        ask(|error| unsafe { sdef_character_get_info(character, memory.as_mut_ptr().cast(), error) }).unwrap();
+        ask(|error| unsafe { sdef_character_get_info(character, memory.as_mut_ptr().cast(), error) })
+            .unwrap();
         assert!(border_is_whole(&memory, size.min(40)));
         let mut memory = sized(zeroed::<SdefStyleNumbers>(), size);
         ask(|error| unsafe {
@@ -1140,7 +1613,8 @@ fn structs_of_older_and_newer_hosts_are_read_and_written_as_far_as_they_go() {
     let mesh = c_mesh(&person().meshes[0]);
     let memory = sized(mesh.mesh, std::mem::offset_of!(SdefMesh, normals));
     let other = create();
-    ask(|error| unsafe { sdef_character_add_mesh(other, memory.as_ptr().cast(), null_mut(), error) }).unwrap();
+    ask(|error| unsafe { sdef_character_add_mesh(other, memory.as_ptr().cast(), null_mut(), error) })
+        .unwrap();
     let mut info = SdefCharacterInfo { struct_size: size_of::<SdefCharacterInfo>() as u32, ..zeroed() };
     ask(|error| unsafe { sdef_character_get_info(other, &mut info, error) }).unwrap();
     assert_eq!((info.vertex_count as usize, info.triangle_count), (person().meshes[0].positions.len(), 0));
@@ -1404,7 +1878,8 @@ fn memory_that_cannot_be_had_is_a_status() {
     let _at_work = at_work();
     let test = std::env::current_exe().unwrap();
     // 720 MB of input and as much again are more than 1.2 GB.
-    let script = format!("ulimit -v 1200000 && exec '{}' --ignored --exact with_little_memory", test.display());
+    let script =
+        format!("ulimit -v 1200000 && exec '{}' --ignored --exact with_little_memory", test.display());
     let result = std::process::Command::new("sh").args(["-c", &script]).output().unwrap();
     assert!(
         result.status.success(),

@@ -131,6 +131,11 @@ impl CharacterState {
     pub fn add_mesh(&mut self, mesh: Mesh) -> Outcome<usize> {
         let character = self.character();
         let index = character.meshes.len();
+        if !mesh.weights.is_empty() && character.skeleton.joints.is_empty() {
+            let message =
+                "has weights, but the character has no joints: call sdef_character_set_skeleton first";
+            return Err(Failure::input(format!("{} {message}", place(index, &mesh.name))).in_mesh(index));
+        }
         mesh.validate(index, character.skeleton.joints.len())?;
         let vertices = character.vertex_count() + mesh.positions.len();
         if vertices >= u32::MAX as usize {
@@ -213,7 +218,7 @@ pub unsafe fn read_skeleton(skeleton: *const SdefSkeleton) -> Outcome<(Skeleton,
     let mut humanoid = Humanoid::default();
     if given.role_count as usize > Role::COUNT {
         return Err(Failure::argument(format!(
-            "role_count is {}: there are {} roles",
+            "role_count is {}: give at most {}, as many as there are roles",
             given.role_count,
             Role::COUNT
         )));

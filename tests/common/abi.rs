@@ -18,7 +18,13 @@ pub struct Told {
 }
 
 pub fn error() -> SdefError {
-    SdefError { struct_size: size_of::<SdefError>() as u32, status: 0, mesh: 0, element: 0, message: [0; 512] }
+    SdefError {
+        struct_size: size_of::<SdefError>() as u32,
+        status: 0,
+        mesh: 0,
+        element: 0,
+        message: [0; 512],
+    }
 }
 
 /// Calls with a struct for the error; the status must be the struct's.
@@ -118,8 +124,7 @@ pub fn c_mesh(mesh: &Mesh) -> Box<CMesh> {
             .collect(),
         kept: mesh.clone(),
     });
-    let kinds =
-        [MeshKind::Body, MeshKind::Garment, MeshKind::Hair, MeshKind::FacePart, MeshKind::Accessory];
+    let kinds = [MeshKind::Body, MeshKind::Garment, MeshKind::Hair, MeshKind::FacePart, MeshKind::Accessory];
     let kept = &made.kept;
     let pointer = |empty: bool, start: *const f32| if empty { null() } else { start };
     let weighted = !made.weights.is_empty();
@@ -220,7 +225,9 @@ pub fn deformer_with(
     user: *mut c_void,
 ) -> Result<SdefDeformer, Told> {
     let mut handle = SdefDeformer::default();
-    ask(|error| unsafe { sdef_deformer_create(character, style, options, progress, user, &mut handle, error) })?;
+    ask(|error| unsafe {
+        sdef_deformer_create(character, style, options, progress, user, &mut handle, error)
+    })?;
     Ok(handle)
 }
 
@@ -290,7 +297,8 @@ impl Room {
 
     /// Every number that was written, as bits.
     pub fn bits(&self) -> Vec<u32> {
-        let threes = |all: &[Vec3]| all.iter().flat_map(|v| v.to_array()).map(f32::to_bits).collect::<Vec<_>>();
+        let threes =
+            |all: &[Vec3]| all.iter().flat_map(|v| v.to_array()).map(f32::to_bits).collect::<Vec<_>>();
         let mut bits = Vec::new();
         for mesh in 0..self.positions.len() {
             bits.extend(threes(&self.positions[mesh]));
@@ -303,7 +311,8 @@ impl Room {
 
     /// What the library's own result would have written.
     pub fn bits_of(&self, deformed: &Deformed) -> Vec<u32> {
-        let threes = |all: &[Vec3]| all.iter().flat_map(|v| v.to_array()).map(f32::to_bits).collect::<Vec<_>>();
+        let threes =
+            |all: &[Vec3]| all.iter().flat_map(|v| v.to_array()).map(f32::to_bits).collect::<Vec<_>>();
         let mut bits = Vec::new();
         for mesh in &deformed.meshes {
             bits.extend(threes(&mesh.positions));
@@ -324,10 +333,8 @@ impl Room {
 /// Where the joints are now.
 pub fn joints_of(deformer: SdefDeformer) -> (Vec<DVec3>, Vec<[f64; 16]>) {
     let mut count = 0;
-    ask(|error| unsafe {
-        sdef_deformer_get_joints(deformer, null_mut(), null_mut(), 0, &mut count, error)
-    })
-    .unwrap();
+    ask(|error| unsafe { sdef_deformer_get_joints(deformer, null_mut(), null_mut(), 0, &mut count, error) })
+        .unwrap();
     let (mut positions, mut binds) = (vec![DVec3::NAN; count], vec![[f64::NAN; 16]; count]);
     ask(|error| unsafe {
         let (p, b) = (positions.as_mut_ptr().cast(), binds.as_mut_ptr().cast());
