@@ -33,7 +33,11 @@ pub fn collect_with<S, T: Send>(
     start: impl Fn() -> S + Sync,
     make: impl Fn(&mut S, usize) -> T + Sync,
 ) -> Vec<T> {
-    let share_count = (count / least).clamp(1, thread_count(threads));
+    // The system takes longer to say how many cores it has than a small work takes.
+    let share_count = match count / least {
+        0 | 1 => 1,
+        most => most.min(thread_count(threads)),
+    };
     let share = count.div_ceil(share_count).max(1);
     let run = |indices: Range<usize>, all: &mut Vec<T>| {
         let mut state = start();

@@ -4,7 +4,6 @@
 
 #[path = "common/abi.rs"]
 mod abi;
-#[allow(dead_code)]
 #[path = "common/models.rs"]
 mod models;
 #[path = "common/people.rs"]
@@ -53,8 +52,9 @@ fn dressed(person: Person) -> Character {
             .enumerate()
             .map(|(v, normal)| normal.any_orthonormal_vector().extend(if v % 2 == 0 { 1.0 } else { -1.0 }))
             .collect();
-        let some =
-            |v: usize, phase: f32| if v % 3 == 0 { Vec3::ZERO } else { Vec3::splat(0.01 * wave(v, phase)) };
+        let some = |v: usize, phase: f32| {
+            if v.is_multiple_of(3) { Vec3::ZERO } else { Vec3::splat(0.01 * wave(v, phase)) }
+        };
         mesh.morph_targets = vec![
             MorphTarget {
                 name: "smile".to_string(),
@@ -1498,7 +1498,7 @@ fn every_mistake_gets_its_status_and_a_sentence() {
     let (mut produced, mut wrong) = (BTreeSet::new(), Vec::new());
     for (what, status, call) in &cases {
         let name = unsafe { CStr::from_ptr(sdef_status_name(*status)) }.to_str().unwrap();
-        match ask(|error| call(error)) {
+        match ask(call) {
             Err(told) if told.status == *status => {
                 println!("{what}: {name}: {}", told.message);
                 for word in ["--", "panicked", "unwrap", "index out of bounds"] {
@@ -1609,6 +1609,19 @@ fn structs_of_older_and_newer_hosts_are_read_and_written_as_far_as_they_go() {
         assert!(results.bits() == plain, "{longer} bytes more");
         results.meshes.clear();
     }
+    // More room than is needed: morph targets stand one behind the other all the same.
+    let count = person().meshes[0].positions.len();
+    let mut wide = vec![Vec3::NAN; 3 * (count + 100)];
+    let mut results = room(person());
+    results.meshes[0].vertex_capacity = count + 100;
+    results.meshes[0].morph_target_capacity = 3;
+    results.meshes[0].morph_positions = wide.as_mut_ptr().cast();
+    results.apply(made).unwrap();
+    let library = library_deformer(person(), &Style::Heads(2.5), &Options::default()).apply();
+    let targets = &library.meshes[0].morph_targets;
+    assert!(wide[..count] == targets[0].positions && wide[count..2 * count] == targets[1].positions);
+    assert!(wide[2 * count..].iter().all(|v| v.is_nan()));
+    results.meshes.clear();
     // A mesh of a host that knows nothing behind its positions.
     let mesh = c_mesh(&person().meshes[0]);
     let memory = sized(mesh.mesh, std::mem::offset_of!(SdefMesh, normals));

@@ -98,7 +98,7 @@ impl<T: Plain> Input<T> {
     }
 
     /// Copies everything.
-    pub fn to_vec(&self, what: impl Display) -> Outcome<Vec<T>> {
+    pub fn to_vec(self, what: impl Display) -> Outcome<Vec<T>> {
         let mut array = reserved(self.count, what)?;
         if self.count == 0 {
             return Ok(array);
@@ -151,7 +151,7 @@ pub unsafe fn text(text: *const c_char) -> String {
 
 fn size_in_struct(what: &str, size: u32, own: usize) -> Outcome<usize> {
     let size = size as usize;
-    if size < 8 || size > LARGEST_STRUCT || !size.is_multiple_of(4) {
+    if !(8..=LARGEST_STRUCT).contains(&size) || !size.is_multiple_of(4) {
         return Err(Failure::argument(format!(
             "struct_size of {what} is {size}: set it to sizeof({what}), which is {own} here"
         )));

@@ -58,19 +58,24 @@ impl DeformerState {
         Ok(self.report.get().expect("it is there"))
     }
 
+    /// Checks that there is a result for each mesh.
+    fn check_count(&self, mesh_count: usize) -> Outcome {
+        let count = self.deformer.character().meshes.len();
+        if mesh_count != count {
+            return Err(Failure::argument(format!(
+                "mesh_count is {mesh_count}, but the character has {count} meshes: give one struct for each"
+            )));
+        }
+        Ok(())
+    }
+
     /// Deforms into the caller's arrays.
     ///
     /// # Safety
     /// The structs and their arrays are as the header says.
     pub unsafe fn apply(&self, results: &[SdefMeshResult], progress: &mut Progress) -> Outcome {
         let character = self.deformer.character();
-        if results.len() != character.meshes.len() {
-            return Err(Failure::argument(format!(
-                "mesh_count is {}, but the character has {} meshes: give one struct for each",
-                results.len(),
-                character.meshes.len()
-            )));
-        }
+        self.check_count(results.len())?;
         let mut places = arrays::reserved(results.len(), "results")?;
         for (index, result) in results.iter().enumerate() {
             places.push(
@@ -149,7 +154,7 @@ impl Places {
                 let mut places = [Output::none(); 3];
                 for (place, (what, start)) in places.iter_mut().zip(starts) {
                     if !start.is_null() {
-                        let start = start.cast::<Vec3>().wrapping_add(target * capacity);
+                        let start = start.cast::<Vec3>().wrapping_add(target * count);
                         *place = Output::new(name(what), start, count, capacity, 0)?;
                     }
                 }
@@ -251,9 +256,11 @@ pub unsafe fn apply(
 ) -> SdefStatus {
     let body = || unsafe {
         let state = table::deformer(deformer)?;
+        let state = table::read(&state, "deformer")?;
+        state.check_count(mesh_count)?;
         let results = arrays::structs_in("SdefMeshResult", meshes, mesh_count)?;
         let mut teller = teller(progress, user);
-        table::read(&state, "deformer")?.apply(&results, &mut Progress::new(&mut teller))
+        state.apply(&results, &mut Progress::new(&mut teller))
     };
     unsafe { call(error, body) }
 }

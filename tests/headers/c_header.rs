@@ -242,7 +242,8 @@ fn wrapped(call: &str) -> String {
 }
 
 fn comment(header: &mut String, lines: &[&str]) {
-    for line in lines {
+    // Fences are for rustdoc.
+    for line in lines.iter().filter(|line| !line.starts_with("```")) {
         header.push_str(format!("// {line}").trim_end());
         header.push('\n');
     }

@@ -3,14 +3,17 @@
 //! A character (meshes, joints, weights) and a style go in; new positions, normals, tangents, morph deltas and joints
 //! come out. Vertex order, triangles and weights are never changed. The order of calls is the order of this header:
 //!
+//! ```text
 //!     sdef_character_create, _set_skeleton, _add_mesh ...   the character, as arrays
 //!     sdef_character_rig                                    only where it has no skeleton
 //!     sdef_style_from_heads, _from_text, _measure ...       what it should become
 //!     sdef_deformer_create, _apply, _map_points ...         made once, applied as often as something changes
 //!     sdef_destroy                                          each handle, once
+//! ```
 //!
 //! Conventions, for all functions:
 //!
+//! ```text
 //! Units      Any. Results are in the units of the input; angles do not occur.
 //! Space      One space for everything ("model space"), in rest pose. Right-handed or left-handed, any direction up.
 //!            Winding is kept. Vertices are floats, joints and points are doubles.
@@ -36,6 +39,7 @@
 //!            that names the array, the element, the value and the remedy. Other results are then as they were.
 //! Progress   A callback (NULL: none) that is called on the caller's thread alone, with a fraction that rises to 1.
 //!            What it returns, if not 0, ends the call with SDEF_STATUS_CANCELLED and leaves everything as it was.
+//! ```
 
 pub mod basics;
 pub mod character;
