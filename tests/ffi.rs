@@ -21,7 +21,8 @@ use superdeform::character::roles::find_roles;
 use superdeform::ffi::exports::{
     basics::*, character::*, deformer::*, once::*, options::*, rig::*, style::*,
 };
-use superdeform::pipeline::{Deformer, FaceCurve, GroupSettings, Mode, Options, Stage, Style};
+use superdeform::pipeline::{Deformer, FaceCurve, GroupSettings, Mode, Options, Rig, Stage, Style};
+use superdeform::rig::RigOptions;
 use superdeform::shape::{BodyShape, Study};
 use superdeform::{Character, Humanoid, MorphTarget, Role};
 
@@ -1524,6 +1525,147 @@ fn every_mistake_gets_its_status_and_a_sentence() {
 
 unsafe extern "C" fn stop(_user: *mut c_void, _fraction: f32) -> i32 {
     1
+}
+
+/// The person as a sculptor leaves it: meshes alone.
+fn statue() -> Character {
+    let mut statue = person().clone();
+    statue.skeleton.joints.clear();
+    statue.humanoid = Humanoid::default();
+    for mesh in &mut statue.meshes {
+        mesh.weights = superdeform::Weights::default();
+        mesh.kind = None;
+        mesh.morph_targets.clear();
+    }
+    statue
+}
+
+fn rig(character: SdefCharacter, options: &SdefOptions) -> Result<(), Told> {
+    ask(|error| unsafe { sdef_character_rig(character, options, None, null_mut(), error) })
+}
+
+#[test]
+fn a_made_rig_is_the_library_s() {
+    let _at_work = at_work();
+    let style = of_heads(2.5);
+    // Without joints of its own, and with some that ride along.
+    for (own, character) in [("none", statue()), ("all", person().clone())] {
+        let library = Rig::of(&character, &RigOptions::default()).unwrap();
+        let handle = given(&character);
+        for threads in [1, 2, 8] {
+            rig(handle, &with_threads(threads)).unwrap();
+            let own_count = character.skeleton.joints.len();
+            let mut info =
+                SdefCharacterInfo { struct_size: size_of::<SdefCharacterInfo>() as u32, ..zeroed() };
+            ask(|error| unsafe { sdef_character_get_info(handle, &mut info, error) }).unwrap();
+            assert_eq!((info.rig_made, info.own_joint_count as usize), (1, own_count));
+            let count = info.joint_count as usize;
+            assert_eq!(count, own_count + library.skeleton.joints.len());
+            let whole = library.applied_to(&character);
+            let (mut parents, mut rests, mut sure) =
+                (vec![9; count], vec![[0.0; 16]; count], vec![9.0; count]);
+            ask(|error| unsafe {
+                let (parents, rests) = (parents.as_mut_ptr(), rests.as_mut_ptr().cast());
+                let sure = sure.as_mut_ptr();
+                sdef_character_get_joints(handle, parents, null_mut(), rests, sure, count, null_mut(), error)
+            })
+            .unwrap();
+            for (index, joint) in whole.skeleton.joints.iter().enumerate() {
+                assert_eq!(parents[index], joint.parent.map_or(-1, |parent| parent as i32));
+                assert_eq!(rests[index], joint.rest.to_cols_array());
+            }
+            assert_eq!(sure[own_count..], library.confidence);
+            for (index, mesh) in character.meshes.iter().enumerate() {
+                let rows = mesh.positions.len();
+                let (mut joints, mut weights) = (vec![9; 4 * rows], vec![9.0; 4 * rows]);
+                ask(|error| unsafe {
+                    let (joints, weights) = (joints.as_mut_ptr(), weights.as_mut_ptr());
+                    sdef_character_get_weights(handle, index as u32, 4, joints, weights, rows, error)
+                })
+                .unwrap();
+                let limited = library.skin_weights[index].limited(4);
+                for vertex in 0..rows {
+                    for (i, &(joint, weight)) in limited.row(vertex).iter().enumerate() {
+                        assert_eq!(joints[4 * vertex + i], joint + own_count as u32);
+                        assert_eq!(weights[4 * vertex + i], weight);
+                    }
+                    let sum: f32 = weights[4 * vertex..4 * vertex + 4].iter().sum();
+                    assert!((sum - 1.0).abs() < 1e-5);
+                }
+            }
+            let made = deformer(handle, style, &with_threads(threads));
+            let wanted =
+                Deformer::with_rig(&character, &library, &Style::Heads(2.5), &Options::default()).unwrap();
+            assert!(
+                deformed(made, &character) == room(&character).bits_of(&wanted.apply()),
+                "own joints: {own}"
+            );
+            assert_eq!(joints_of(made).0, wanted.apply().joints);
+            let mut report = SdefReport { struct_size: size_of::<SdefReport>() as u32, ..zeroed() };
+            ask(|error| unsafe {
+                sdef_deformer_get_report(made, &mut report, null_mut(), 0, null_mut(), error)
+            })
+            .unwrap();
+            assert_eq!((report.rig_made, report.unreached_vertices), (1, 0));
+            let lines = |id| text(|t, c, s, e| unsafe { sdef_get_warnings(id, t.cast(), c, s, e) }).unwrap();
+            assert_eq!(lines(handle.id).lines().count(), library.warnings.len());
+            assert!(lines(made.id).starts_with(&lines(handle.id)));
+            destroy(made.id);
+        }
+        // A rig that is stopped leaves the one before; a new mesh is not in it.
+        let rig_made = || {
+            let mut info =
+                SdefCharacterInfo { struct_size: size_of::<SdefCharacterInfo>() as u32, ..zeroed() };
+            ask(|error| unsafe { sdef_character_get_info(handle, &mut info, error) }).unwrap();
+            info.rig_made
+        };
+        stopped_everywhere(|progress, user| {
+            let result = ask(|error| unsafe { sdef_character_rig(handle, null(), progress, user, error) });
+            assert_eq!(rig_made(), 1);
+            result
+        });
+        let mesh = c_mesh(&statue().meshes[0]);
+        ask(|error| unsafe { sdef_character_add_mesh(handle, &mesh.mesh, null_mut(), error) }).unwrap();
+        assert_eq!(rig_made(), 0);
+        destroy(handle.id);
+    }
+    destroy(style.id);
+}
+
+#[test]
+fn everything_at_once_makes_a_rig_where_there_is_none() {
+    let _at_work = at_work();
+    let character = statue();
+    let library = Rig::of(&character, &RigOptions::default()).unwrap();
+    let wanted = Deformer::with_rig(&character, &library, &Style::Heads(3.0), &Options::default()).unwrap();
+    let style = of_heads(3.0);
+    let meshes: Vec<_> = character.meshes.iter().map(c_mesh).collect();
+    let structs: Vec<SdefMesh> = meshes.iter().map(|mesh| mesh.mesh).collect();
+    let (up, forward) =
+        (character.axes.up.to_array(), character.axes.forward.map(|forward| forward.to_array()));
+    let forward = forward.as_ref().map_or(null(), |forward| forward.as_ptr());
+    let mut results = room(&character);
+    let (start, count) = (structs.as_ptr(), structs.len());
+    let to = results.meshes.as_mut_ptr();
+    ask(|error| unsafe {
+        sdef_super_deform(
+            up.as_ptr(),
+            forward,
+            null(),
+            start,
+            count,
+            style,
+            null(),
+            to,
+            None,
+            null_mut(),
+            error,
+        )
+    })
+    .unwrap();
+    assert!(results.bits() == results.bits_of(&wanted.apply()));
+    results.meshes.clear();
+    destroy(style.id);
 }
 
 /// A struct in memory of another size than ours, with a border behind it that must stay as it is.
