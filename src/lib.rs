@@ -30,7 +30,7 @@
 //!
 //! The library knows arrays, not files. Hosts read a file into a [`Character`], measure a reference
 //! ([`Study`](shape::Study)), make a [`Deformer`](pipeline::Deformer) and apply it; `examples/superdeform.rs` does so
-//! with GLB and VRM files.
+//! with GLB and VRM files. Hosts in C, C++ and C# do the same through [`ffi`] and `include/superdeform.h`.
 //!
 //! ```
 //! use superdeform::pipeline::{Deformer, Options, Style};
