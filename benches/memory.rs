@@ -5,6 +5,8 @@ use std::hint::black_box;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 use superdeform::pipeline::{Deformer, Options};
+use superdeform::rig::WeightBone;
+use superdeform::rig::heat::{HeatOptions, heat_weights};
 use superdeform::shape::study::Study;
 
 #[path = "../examples/superdeform/host/mod.rs"]
@@ -66,6 +68,19 @@ fn peak<T>(name: &str, stage: impl FnOnce() -> T) -> T {
 }
 
 fn main() {
+    for body in models::bodies() {
+        println!("{}: 100,000 vertices, {} bones", body.name, body.bones.len());
+        let (positions, triangles) = superdeform_benches::refined(&body.positions, &body.triangles, 100_000);
+        let options = HeatOptions { heat: 1.0, thread_count: 2 };
+        peak("heat", || heat_weights(&positions, &triangles, &body.bones, &options));
+        // As many bones as a body with fingers has: each once more, beside itself.
+        let twice: Vec<WeightBone> = (body.bones.iter())
+            .chain(&body.bones)
+            .zip(0..)
+            .map(|(bone, joint)| WeightBone { joint, ..bone.clone() })
+            .collect();
+        peak("twice", || heat_weights(&positions, &triangles, &twice, &options));
+    }
     let options = Options::default();
     let style = models::style();
     for model in models::models() {

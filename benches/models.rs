@@ -5,10 +5,14 @@
 
 use crate::host::file::GltfFile;
 use crate::host::load::{LoadOptions, Loaded};
+use glam::DVec3;
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use superdeform::character::roles::find_roles;
 use superdeform::pipeline::{Deformed, Deformer, Style};
-use superdeform::{Axes, Character};
+use superdeform::rig::WeightBone;
+use superdeform::rig::skeleton::weight_bones;
+use superdeform::{Axes, Character, Role};
 
 #[path = "../tests/common/people.rs"]
 mod people;
@@ -32,16 +36,91 @@ pub struct Model {
 pub fn models() -> Vec<Model> {
     let capsules = people::Person::default().build();
     let mut models = vec![Model { name: "capsules".to_string(), path: None, character: capsules }];
-    let folder = std::env::var_os("SUPERDEFORM_MODELS")
-        .map_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/models"), PathBuf::from);
     for name in FILES {
-        let path = folder.join(name);
+        let path = folder().join(name);
         if path.is_file() {
             let character = load(&path).character;
             models.push(Model { name: name.to_string(), path: Some(path), character });
         }
     }
     models
+}
+
+fn folder() -> PathBuf {
+    std::env::var_os("SUPERDEFORM_MODELS")
+        .map_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/models"), PathBuf::from)
+}
+
+/// A body without clothes and its bones without fingers.
+pub struct Body {
+    /// What the figures stand beside.
+    pub name: &'static str,
+    /// One vertex a place.
+    pub positions: Vec<DVec3>,
+    /// Closed, in one piece.
+    pub triangles: Vec<[u32; 3]>,
+    /// One a role, without eyes and jaw.
+    pub bones: Vec<WeightBone>,
+}
+
+/// All bodies that are at hand: one around capsules, and MakeHuman's.
+pub fn bodies() -> Vec<Body> {
+    let joints = people::Person::default().joints();
+    let bones = body_bones(&joints);
+    let radius = |role: Role| match role {
+        Role::Hips | Role::Spine | Role::Chest | Role::UpperChest => 0.13,
+        Role::Head => 0.1,
+        _ => 0.05,
+    };
+    let roles: Vec<Role> = joints.keys().copied().collect();
+    let capsules: Vec<([DVec3; 2], f64)> = bones
+        .iter()
+        .flat_map(|bone| bone.segments.iter().map(|&ends| (ends, radius(roles[bone.joint as usize]))))
+        .collect();
+    let (positions, triangles) = superdeform_benches::body_of_capsules(&capsules, 75.0);
+    let mut bodies = vec![Body { name: "capsules", positions, triangles, bones }];
+    let [target, rigged] =
+        ["makehuman_female_target.glb", "makehuman_female_rigged.glb"].map(|name| folder().join(name));
+    if target.is_file() && rigged.is_file() {
+        let character = load(&target).character;
+        let rigged = load(&rigged).character;
+        let joints =
+            rigged.humanoid.iter().map(|(role, joint)| (role, rigged.skeleton.joints[joint].position()));
+        let mesh = character.meshes.iter().find(|mesh| mesh.name == "body").expect("the file has a body");
+        let positions: Vec<DVec3> = mesh.positions.iter().map(|p| p.as_dvec3()).collect();
+        let weld = superdeform::geometry::weld(&positions, 1e-6);
+        bodies.push(Body {
+            name: "makehuman",
+            positions: weld.first_vertices().iter().map(|&vertex| positions[vertex as usize]).collect(),
+            triangles: mesh.triangles.iter().map(|&corners| weld.triangle(corners)).collect(),
+            bones: body_bones(&joints.collect()),
+        });
+    }
+    bodies
+}
+
+fn body_bones(joints: &BTreeMap<Role, DVec3>) -> Vec<WeightBone> {
+    let is_finger = |role: &Role| {
+        ["Thumb", "Index", "Middle", "Ring", "Little"].iter().any(|finger| role.name().contains(finger))
+    };
+    // Toes go on from the foot along the ground.
+    let toes = |foot: Role, toes: Role| {
+        let way = *joints.get(&toes)? - *joints.get(&foot)?;
+        Some((toes, joints[&toes] + 0.4 * way.with_y(0.0)))
+    };
+    let mut tips: BTreeMap<Role, DVec3> = joints
+        .iter()
+        .filter_map(|(role, &at)| match role {
+            Role::Head => Some((Role::Head, at + 0.15 * DVec3::Y)),
+            Role::LeftMiddleProximal => Some((Role::LeftHand, at)),
+            Role::RightMiddleProximal => Some((Role::RightHand, at)),
+            _ => None,
+        })
+        .collect();
+    tips.extend(toes(Role::LeftFoot, Role::LeftToes));
+    tips.extend(toes(Role::RightFoot, Role::RightToes));
+    let joints = joints.iter().filter(|(role, _)| !is_finger(role)).map(|(&role, &at)| (role, at)).collect();
+    weight_bones(&joints, &tips, None)
 }
 
 /// The style that everything is given.
@@ -57,6 +136,7 @@ pub fn load(path: &Path) -> Loaded {
         kinds: &[],
         find_roles: Some(&find_roles),
         without_rig: false,
+        incomplete_rig: false,
     };
     let file = GltfFile::read(path).expect("the file can be read");
     crate::host::load::load(file, &options).expect("the file holds a character")

@@ -8,6 +8,7 @@
 //! | Section | What | Where |
 //! | --- | --- | --- |
 //! | III, IV-A | meshes, joints, weights, humanoid roles | [`character`] |
+//! | IV-B, Fig. 4 | a rig for what has none: joints, weights, clothes | [`rig`], [`pipeline::Rig`] |
 //! | V-A, Fig. 5 | bone lengths and surrounding-mesh radii | [`shape::measure()`] |
 //! | V-B3, Eqs. 9-11 | how much each bone group shrinks | [`shape::coefficients()`] |
 //! | V-B1, Eqs. 1-4 | the shortened skeleton | [`shape::shorten()`] |

@@ -149,6 +149,16 @@ impl Surface {
         best
     }
 
+    /// Whether anything is met with `0 <= t <= t_max`: as [`Surface::first_hit`], but any hit will do.
+    pub fn is_hit(&self, origin: DVec3, direction: DVec3, t_max: f64) -> bool {
+        let mut is_hit = false;
+        self.for_each_hit(origin, direction, t_max, Order::Nearest, |_| {
+            is_hit = true;
+            f64::NEG_INFINITY
+        });
+        is_hit
+    }
+
     /// The furthest hit of either side with `t >= 0`.
     pub fn last_hit(&self, origin: DVec3, direction: DVec3) -> Option<Hit> {
         let mut best: Option<Hit> = None;
@@ -220,6 +230,45 @@ impl Surface {
             triangle: best.1 as usize,
             barycentric: best.3,
         })
+    }
+
+    /// Fills `found` with the closest point of every triangle within `reach` of `p`, nearest first, by triangle where
+    /// they are equally near; empty for an empty surface.
+    pub fn points_within(&self, p: DVec3, reach: f64, found: &mut Vec<Closest>) {
+        found.clear();
+        if self.is_empty() || !p.is_finite() {
+            return;
+        }
+        let p = (p - self.centre) * self.scale;
+        let limit = reach * self.scale;
+        let mut stack = Stack::new();
+        stack.push((0, 0.0));
+        while let Some((index, _)) = stack.pop() {
+            let node = &self.nodes[index as usize];
+            let (low, high) = bounds(node);
+            if p.distance_squared(p.clamp(low, high)) > limit * limit {
+                continue;
+            }
+            let first = node.first_index;
+            if !node.is_leaf() {
+                stack.push((first, 0.0));
+                stack.push((first + 1, 0.0));
+                continue;
+            }
+            for slot in first..first + node.prim_count {
+                let (point, barycentric) = closest_on_triangle(p, &self.corners[slot as usize]);
+                let distance = p.distance(point);
+                if distance <= limit {
+                    found.push(Closest {
+                        point: point / self.scale + self.centre,
+                        distance: distance / self.scale,
+                        triangle: self.triangles[slot as usize] as usize,
+                        barycentric,
+                    });
+                }
+            }
+        }
+        found.sort_unstable_by(|a, b| a.distance.total_cmp(&b.distance).then(a.triangle.cmp(&b.triangle)));
     }
 
     /// Calls `visit` for every hit with `0 <= t <= t_max`, where `visit` returns the new `t_max`; nearer boxes first, or

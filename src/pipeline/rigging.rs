@@ -4,12 +4,11 @@ use super::milliseconds;
 use crate::character::{Character, Humanoid, MeshKind, Role, Skeleton, Weights};
 use crate::error::{Error, ErrorKind, Result, Warning};
 use crate::geometry::Surface;
-use crate::parallel;
 use crate::progress::Progress;
 use crate::report::RigReport;
 use crate::rig::eyes::{Eye, find_eyes};
 use crate::rig::facing::find_forward;
-use crate::rig::heat::{HeatOptions, heat_weights};
+use crate::rig::heat::HeatSystem;
 use crate::rig::joints::find_joints;
 use crate::rig::kinds::{body_is_whole, guess_kinds, refine_kinds};
 use crate::rig::skeleton::{skeleton_of, weight_bones};
@@ -76,7 +75,7 @@ impl Rig {
         validate(options)?;
         progress.at(0.0)?;
         let clock = Instant::now();
-        let (forward, mut warnings) = find_forward(character)?;
+        let (forward, mut warnings) = find_forward(character);
         let mut layout = Layout::of(character, forward)?;
         let (mut kinds, kind_warnings) = guess_kinds(&layout);
         warnings.extend(kind_warnings);
@@ -105,7 +104,10 @@ impl Rig {
         progress.at(0.4)?;
         let (weights, fallback) = binder.weights(options.heat);
         progress.at(0.7)?;
-        let (skin_weights, _) = binder.weights(SKIN_HEAT.max(options.heat));
+        let skin_weights = match binder.rule {
+            BodyRule::Heat(_) => binder.weights(SKIN_HEAT.max(options.heat)).0,
+            BodyRule::Volume(_) => weights.clone(),
+        };
         progress.at(1.0)?;
 
         let in_model = at.iter().map(|(&role, &p)| (role, layout.to_model(p))).collect();
@@ -118,7 +120,10 @@ impl Rig {
             kinds,
             weights,
             skin_weights,
-            method: binder.method,
+            method: match binder.rule {
+                BodyRule::Heat(_) => WeightMethod::Heat,
+                BodyRule::Volume(_) => WeightMethod::Volume,
+            },
             fallback,
             warnings,
             timing_ms: [joint_time, binder.body_time, binder.garment_time],
@@ -157,7 +162,9 @@ impl Rig {
     fn rides(&self, character: &Character) -> Vec<Option<usize>> {
         let count = character.skeleton.joints.len();
         let mut rides = vec![None; count];
+        let mut has_role = vec![false; count];
         for (role, joint) in character.humanoid.iter() {
+            has_role[joint] = true;
             if rides[joint].is_none() {
                 rides[joint] = role.chain().find_map(|role| self.humanoid.joint(role));
             }
@@ -172,9 +179,8 @@ impl Rig {
                 }
             }
         }
-        for joint in character.skeleton.parents_first() {
-            let above = character.skeleton.ancestors(joint).skip(1).any(|above| rides[above].is_some());
-            if rides[joint].is_none() && !above {
+        for joint in 0..count {
+            if character.skeleton.ancestors(joint).all(|above| !has_role[above]) {
                 let most = moved[joint].iter().max_by(|a, b| a.1.total_cmp(b.1));
                 rides[joint] = most.map(|(&to, _)| to as usize);
             }
@@ -250,19 +256,25 @@ impl Group {
     }
 }
 
+/// What gives the body its weights.
+enum BodyRule {
+    Heat(HeatSystem),
+    /// The volume knows no heat: its weights are the same for every one.
+    Volume(Weighted),
+}
+
 /// What decides the weights of every mesh, as far as it does not depend on the heat.
 struct Binder<'a> {
     layout: &'a Layout,
-    bones: &'a [WeightBone],
     head: Option<u32>,
     eyes: &'a [Eye],
     eye_joints: Vec<Option<u32>>,
     options: &'a RigOptions,
     body: Group,
     garments: Vec<Group>,
-    accessories: Vec<Group>,
+    accessories: Group,
     of_head: Vec<usize>,
-    method: WeightMethod,
+    rule: BodyRule,
     warnings: Vec<Warning>,
     body_time: f64,
     garment_time: f64,
@@ -272,7 +284,7 @@ impl<'a> Binder<'a> {
     fn new(
         layout: &'a Layout,
         kinds: &[MeshKind],
-        bones: &'a [WeightBone],
+        bones: &[WeightBone],
         humanoid: &Humanoid,
         eyes: &'a [Eye],
         options: &'a RigOptions,
@@ -313,22 +325,34 @@ impl<'a> Binder<'a> {
             },
             method => method,
         };
+        let threads = options.thread_count;
+        let rule = match method {
+            WeightMethod::Volume => {
+                let options = VoxelOptions {
+                    resolution: options.voxel_resolution,
+                    falloff: VOXEL_FALLOFF,
+                    thread_count: threads,
+                };
+                BodyRule::Volume(voxel_weights(&body.positions, &body.triangles, bones, &options))
+            }
+            _ => BodyRule::Heat(HeatSystem::new(&body.positions, &body.triangles, bones, threads)),
+        };
         let separate = |meshes: Vec<usize>| -> Vec<Group> {
             meshes.into_iter().map(|mesh| Group::new(layout, vec![mesh])).collect()
         };
         let joint = |role: Role| humanoid.joint(role).map(|joint| joint as u32);
         Self {
             layout,
-            bones,
             head: joint(Role::Head),
             eye_joints: eyes.iter().map(|eye| joint(eye.role)).collect(),
             eyes,
             options,
             body,
             garments: separate(garments),
-            accessories: separate(accessories),
+            // Pieces that touch are one thing, whatever meshes they are in.
+            accessories: Group::new(layout, accessories),
             of_head,
-            method,
+            rule,
             warnings,
             body_time: milliseconds(clock),
             garment_time: 0.0,
@@ -346,21 +370,15 @@ impl<'a> Binder<'a> {
             }
         };
         let body = &self.body;
-        let of_body = match self.method {
-            WeightMethod::Volume => {
-                let options = VoxelOptions {
-                    resolution: self.options.voxel_resolution,
-                    falloff: VOXEL_FALLOFF,
-                    thread_count: threads,
-                };
-                voxel_weights(&body.positions, &body.triangles, self.bones, &options)
-            }
-            _ => {
-                let options = HeatOptions { heat, thread_count: threads };
-                heat_weights(&body.positions, &body.triangles, self.bones, &options)
+        let heated;
+        let of_body = match &self.rule {
+            BodyRule::Volume(weighted) => weighted,
+            BodyRule::Heat(system) => {
+                heated = system.weights(heat);
+                &heated
             }
         };
-        count(&of_body);
+        count(of_body);
         let mut weights = vec![Weights::default(); self.layout.mesh_count()];
         body.share(self.layout, &of_body.weights, &mut weights);
         self.body_time += milliseconds(clock);
@@ -379,14 +397,10 @@ impl<'a> Binder<'a> {
             count(&worn);
             group.share(self.layout, &worn.weights, &mut weights);
         }
-        let carried = parallel::collect(threads, self.accessories.len(), 1, |index| {
-            let group = &self.accessories[index];
-            rigid_weights(&source, &group.positions, &group.triangles)
-        });
-        for (group, carried) in self.accessories.iter().zip(&carried) {
-            count(carried);
-            group.share(self.layout, &carried.weights, &mut weights);
-        }
+        let things = &self.accessories;
+        let carried = rigid_weights(&source, &things.positions, &things.triangles);
+        count(&carried);
+        things.share(self.layout, &carried.weights, &mut weights);
         let head = self.head.unwrap_or(0);
         for &mesh in &self.of_head {
             weights[mesh] = Weights::from_rows(self.layout.vertices(mesh).map(|vertex| {

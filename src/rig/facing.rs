@@ -1,13 +1,448 @@
 //! Which way an unrigged figure looks, found from its geometry.
+//!
+//! Two steps. People are alike on their left and right, and their arms reach to the sides: so the line from right to
+//! left is at right angles to the plane through up in which the figure mirrors best, the wider the better. Which of the
+//! two ways along that plane is forward, feet and face tell.
 
-use crate::character::Character;
-use crate::error::{Result, Warning};
-use glam::DVec3;
+use crate::character::{Character, MeshKind};
+use crate::error::Warning;
+use glam::{DVec2, DVec3, Vec3, Vec4};
+
+/// Cells along the longest side of the box in which the figure is compared with its mirror image.
+const CELL_COUNT: usize = 64;
+
+/// Cells that are compared in the first sweep, about ...
+const SWEEP_CELL_COUNT: usize = 400;
+
+/// ... and around the best plane of that.
+const FINE_CELL_COUNT: usize = 2500;
+
+/// Degrees between the planes of the first sweep.
+const SWEEP_STEP: usize = 3;
+
+/// How much the share of a figure's width counts beside its likeness (0..1) to its mirror image.
+const WIDTH_WEIGHT: f64 = 0.5;
+
+/// Files stand along the axes: within this many degrees of one ...
+const SNAP_ANGLE: f64 = 3.0;
+
+/// ... the axis is taken, if the likeness there is this near the best.
+const SNAP_LOSS: f64 = 0.01;
+
+/// A figure less like its mirror image than this has no left and right to be sure of.
+const LEAST_LIKENESS: f64 = 0.45;
+
+/// A plane at more than 30 degrees from the best one that scores this near to it could as well be the right one.
+const LEAST_MARGIN: f64 = 0.03;
+
+/// Votes that add up to less than this leave a doubt which way is front ...
+const SURE_VOTE: f64 = 0.25;
+
+/// ... and to less than this say nothing.
+const LEAST_VOTE: f64 = 0.1;
+
+/// How much eyes, brows and teeth count beside the feet, where meshes of them are.
+const FACE_VOTE: f64 = 0.5;
+
+/// How much the chin counts beside the feet: hair and hoods hide it, and hang over the neck behind.
+const CHIN_VOTE: f64 = 0.2;
+
+/// Feet stand within this distance of the middle, in heights; hands and swords may be further out.
+const FEET_REACH: f64 = 0.3;
+
+/// Rows of the profile in which the chin is looked for.
+const PROFILE_ROWS: usize = 60;
+
+/// Points of the surface, about, at most: triangles are not taken apart further where there are many large ones.
+const SAMPLE_COUNT: f64 = 2e6;
+
+/// Cells of nothing around the figure.
+const MARGIN: f64 = 4.0;
 
 /// The way `character` looks, model space, at right angles to up, of length 1, and what a person should know.
 ///
-/// # Errors
-/// As [`super::Layout::of`].
-pub fn find_forward(_character: &Character) -> Result<(DVec3, Vec<Warning>)> {
-    unimplemented!()
+/// Given by the character's axes, else found: a figure may look any way, and lie down as long as `axes.up` says so.
+/// Meshes of hair and accessories are left out where there are others. The warning `facing_guessed` says that the
+/// geometry does not tell, of a sphere, of no triangles; the answer is then the likelier way, or +Z (-Y where up is Z).
+///
+/// O(triangles).
+pub fn find_forward(character: &Character) -> (DVec3, Vec<Warning>) {
+    let up = character.axes.up.as_dvec3().normalize_or(DVec3::Y);
+    let across = |v: DVec3| v.reject_from_normalized(up).try_normalize();
+    if let Some(forward) = character.axes.forward.and_then(|forward| across(forward.as_dvec3())) {
+        return (forward, Vec::new());
+    }
+    // What exporters do by default: glTF looks along +Z, programs in which Z is up along -Y.
+    let usual = [DVec3::Z, DVec3::NEG_Y].into_iter().find(|v| v.reject_from_normalized(up).length() > 0.5);
+    let usual = usual.and_then(across).unwrap_or_else(|| up.any_orthonormal_vector());
+    let guessed = |what: &str| {
+        Warning::new(
+            "facing_guessed",
+            format!(
+                "{what}: look whether the result is turned, and if so give the way it looks (--forward +Z)"
+            ),
+        )
+    };
+    // Ground coordinates: x towards the left of a figure that looks the usual way, y the usual way.
+    let side = up.cross(usual);
+    let Some(cells) = Cells::new(character, [side, up, usual]) else {
+        return (
+            usual,
+            vec![guessed("nothing tells which way the character looks: it has no extent along up")],
+        );
+    };
+    let axes = [DVec3::X, DVec3::Y, DVec3::Z]
+        .into_iter()
+        .filter(|axis| axis.reject_from_normalized(up).length() > 0.5)
+        .map(|axis| DVec2::new(axis.dot(side), axis.dot(usual)).normalize());
+    let (mirror, sure_of_sides) = cells.mirror(&axes.collect::<Vec<_>>());
+    let left = mirror.normal;
+    let forward = DVec2::new(-left.y, left.x);
+    let vote = cells.front_vote(character, mirror, forward);
+    // Without a vote the usual way, or what is nearer to it.
+    let turned = if vote.abs() >= LEAST_VOTE { vote < 0.0 } else { forward.y < -1e-9 };
+    let forward = if turned { -forward } else { forward };
+    let found = (forward.x * side + forward.y * usual).normalize();
+    let mut warnings = Vec::new();
+    if !sure_of_sides {
+        warnings.push(guessed("the character's left and right are not clearly told by its shape"));
+    } else if vote.abs() < SURE_VOTE {
+        warnings.push(guessed("neither feet nor face tell the character's front from its back for sure"));
+    }
+    (found, warnings)
+}
+
+/// A plane through up: ground points p with `normal . p = offset`.
+#[derive(Clone, Copy, Debug)]
+struct Mirror {
+    normal: DVec2,
+    offset: f64,
+}
+
+impl Mirror {
+    fn at(degrees: f64, offset: f64) -> Self {
+        Self { normal: DVec2::from_angle(degrees.to_radians()), offset }
+    }
+}
+
+/// The surface of a figure as occupied cells of a grid, 1 wide each: x and z on the ground, y up.
+struct Cells {
+    size: [usize; 3],
+    /// Occupancy, blurred, so that parts which do not quite lie on each other still count.
+    blurred: Vec<f32>,
+    /// Where the surface passes through each occupied cell.
+    points: Vec<DVec3>,
+    /// Many points of the surface, as they are.
+    samples: Vec<Vec3>,
+    /// The middle of the points on the ground.
+    middle: DVec2,
+    /// How they spread on the ground: xx, xz, zz.
+    spread: [f64; 3],
+    /// Left, up and front of the grid in model space, cells in a model unit, and where the grid begins.
+    frame: [DVec3; 3],
+    scale: f64,
+    low: DVec3,
+}
+
+/// What a mesh depicts, as the host or its name says.
+fn kind_of(character: &Character, mesh: usize) -> Option<MeshKind> {
+    let mesh = &character.meshes[mesh];
+    mesh.kind.or_else(|| MeshKind::guess(&mesh.name))
+}
+
+/// Whether a mesh tells anything: hair and accessories do only where there is nothing else.
+fn is_counted(character: &Character) -> impl Fn(usize) -> bool {
+    let is_worn = |mesh: usize| {
+        character.meshes[mesh].triangles.is_empty()
+            || matches!(kind_of(character, mesh), Some(MeshKind::Hair | MeshKind::Accessory))
+    };
+    let all = (0..character.meshes.len()).all(is_worn);
+    move |mesh| all || !is_worn(mesh)
+}
+
+impl Cells {
+    /// `None` where there is no triangle, or none of an extent along up.
+    fn new(character: &Character, frame: [DVec3; 3]) -> Option<Self> {
+        let counted = is_counted(character);
+        let place = |p: Vec3| DVec3::from_array(frame.map(|axis| axis.dot(p.as_dvec3())));
+        let triangles = || {
+            let meshes = character.meshes.iter().enumerate().filter(|&(mesh, _)| counted(mesh));
+            meshes.flat_map(|(_, mesh)| {
+                mesh.triangles.iter().map(move |corners| corners.map(|v| place(mesh.positions[v as usize])))
+            })
+        };
+        let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        for corner in triangles().flatten() {
+            low = low.min(corner);
+            high = high.max(corner);
+        }
+        let extent = (high - low).max_element();
+        if !extent.is_finite() || high.y - low.y <= 1e-9 * extent {
+            return None;
+        }
+        let scale = CELL_COUNT as f64 / extent;
+        let size = (high - low).to_array().map(|side| (side * scale + 2.0 * MARGIN) as usize + 2);
+        let count = size[0] * size[1] * size[2];
+        let mut sums = vec![Vec4::ZERO; count];
+        let mut samples = Vec::new();
+        let triangle_count = triangles().count();
+        let most_steps = (2.0 * SAMPLE_COUNT / triangle_count as f64).sqrt().clamp(1.0, 200.0);
+        let mut add = |p: DVec3| {
+            samples.push(p.as_vec3());
+            let [x, y, z] = p.to_array().map(|c| c as usize);
+            sums[(y * size[2] + z) * size[0] + x] += p.as_vec3().extend(1.0);
+        };
+        for corners in triangles() {
+            let [a, b, c] = corners.map(|corner| (corner - low) * scale + MARGIN);
+            // Points no further apart than 3/4 of a cell.
+            let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
+            let steps = (longest / 0.75).ceil().clamp(1.0, most_steps) as usize;
+            if steps == 1 {
+                add((a + b + c) / 3.0);
+                continue;
+            }
+            for i in 0..steps {
+                for j in 0..steps - i {
+                    let (u, v) =
+                        ((i as f64 + 1.0 / 3.0) / steps as f64, (j as f64 + 1.0 / 3.0) / steps as f64);
+                    add(a + u * (b - a) + v * (c - a));
+                }
+            }
+        }
+        let mut points = Vec::new();
+        let mut blurred = vec![0.0_f32; count];
+        for (sum, cell) in sums.iter().zip(&mut blurred) {
+            if sum.w > 0.0 {
+                points.push((sum.truncate() / sum.w).as_dvec3());
+                *cell = 1.0;
+            }
+        }
+        for stride in [1, size[0], size[0] * size[2]] {
+            blur(&mut blurred, stride);
+        }
+        let ground = |p: &DVec3| DVec2::new(p.x, p.z);
+        let middle = points.iter().map(ground).sum::<DVec2>() / points.len() as f64;
+        let mut spread = [0.0; 3];
+        for d in points.iter().map(|p| ground(p) - middle) {
+            spread[0] += d.x * d.x;
+            spread[1] += d.x * d.y;
+            spread[2] += d.y * d.y;
+        }
+        Some(Self { size, blurred, points, samples, middle, spread, frame, scale, low })
+    }
+
+    /// Model space to cells.
+    fn to_cells(&self, p: Vec3) -> DVec3 {
+        let p = DVec3::from_array(self.frame.map(|axis| axis.dot(p.as_dvec3())));
+        (p - self.low) * self.scale + MARGIN
+    }
+
+    /// Occupancy around `p`, 0 outside.
+    fn sample(&self, p: DVec3) -> f64 {
+        let base = p - 0.5;
+        let [x, y, z] = base.to_array().map(f64::floor);
+        if x < 0.0 || y < 0.0 || z < 0.0 {
+            return 0.0;
+        }
+        let [ix, iy, iz] = [x as usize, y as usize, z as usize];
+        if ix + 1 >= self.size[0] || iy + 1 >= self.size[1] || iz + 1 >= self.size[2] {
+            return 0.0;
+        }
+        // Mirroring keeps the height: the row is taken as it is.
+        let (fx, fz) = ((base.x - x) as f32, (base.z - z) as f32);
+        let iy = p.y as usize;
+        let at = |dx: usize, dz: usize| self.blurred[(iy * self.size[2] + iz + dz) * self.size[0] + ix + dx];
+        let near = at(0, 0) * (1.0 - fx) + at(1, 0) * fx;
+        let far = at(0, 1) * (1.0 - fx) + at(1, 1) * fx;
+        f64::from(near * (1.0 - fz) + far * fz)
+    }
+
+    /// How like its mirror image the figure is, 0..1, by every `step`-th point.
+    fn likeness(&self, mirror: Mirror, step: usize) -> f64 {
+        let (mut own, mut other) = (0.0, 0.0);
+        for p in self.points.iter().step_by(step) {
+            let ahead = 2.0 * (mirror.normal.dot(DVec2::new(p.x, p.z)) - mirror.offset);
+            own += self.sample(*p);
+            other +=
+                self.sample(DVec3::new(p.x - ahead * mirror.normal.x, p.y, p.z - ahead * mirror.normal.y));
+        }
+        if own > 0.0 { other / own } else { 0.0 }
+    }
+
+    /// The share of the figure's spread on the ground that lies along `normal`, 0..1.
+    fn width_share(&self, normal: DVec2) -> f64 {
+        let [xx, xz, zz] = self.spread;
+        let along = xx * normal.x * normal.x + 2.0 * xz * normal.x * normal.y + zz * normal.y * normal.y;
+        if xx + zz > 0.0 { along / (xx + zz) } else { 0.5 }
+    }
+
+    fn score(&self, mirror: Mirror, step: usize) -> f64 {
+        self.likeness(mirror, step) + WIDTH_WEIGHT * self.width_share(mirror.normal)
+    }
+
+    /// The plane between left and right, and whether it is clearly that one; `axes` are ground directions along which
+    /// files stand.
+    fn mirror(&self, axes: &[DVec2]) -> (Mirror, bool) {
+        let step = self.points.len().div_ceil(SWEEP_CELL_COUNT).max(1);
+        let sweep: Vec<(f64, f64, Mirror)> = (0..180)
+            .step_by(SWEEP_STEP)
+            .map(|degrees| {
+                let degrees = degrees as f64;
+                let middle = Mirror::at(degrees, 0.0).normal.dot(self.middle);
+                // What is on one side alone pulls the middle off the plane.
+                let scores = [0.0, -2.0, 2.0, -4.0, 4.0, -6.0, 6.0, -8.0, 8.0].map(|by| {
+                    let mirror = Mirror::at(degrees, middle + by);
+                    (self.score(mirror, step), degrees, mirror)
+                });
+                better_of(scores)
+            })
+            .collect();
+        let (rough, degrees, mirror) = better_of(sweep.iter().copied());
+        let away = |angle: f64| {
+            let between = (angle - degrees).abs();
+            between.min(180.0 - between)
+        };
+        let second = sweep.iter().filter(|(_, angle, _)| away(*angle) > 30.0).map(|(score, ..)| *score);
+        let margin = rough - second.fold(0.0, f64::max);
+
+        let (mut degrees, mut mirror) = (degrees, mirror);
+        let step = self.points.len().div_ceil(FINE_CELL_COUNT).max(1);
+        let mut best = self.score(mirror, step);
+        let (mut turn, mut shift) = (SWEEP_STEP as f64 / 2.0, 1.0);
+        while turn > 0.05 {
+            let offset = |degrees: f64| {
+                // The plane turns about the middle.
+                let ahead = mirror.offset - mirror.normal.dot(self.middle);
+                Mirror::at(degrees, 0.0).normal.dot(self.middle) + ahead
+            };
+            let tries = [
+                (degrees, mirror.offset - shift),
+                (degrees, mirror.offset + shift),
+                (degrees - turn, offset(degrees - turn)),
+                (degrees + turn, offset(degrees + turn)),
+            ];
+            let scored = tries.map(|(degrees, offset)| {
+                let mirror = Mirror::at(degrees, offset);
+                (self.score(mirror, step), degrees, mirror)
+            });
+            let better = better_of(scored);
+            if better.0 > best + 1e-9 {
+                (best, degrees, mirror) = better;
+            } else {
+                (turn, shift) = (turn / 2.0, shift / 2.0);
+            }
+        }
+        for axis in axes.iter().flat_map(|axis| [*axis, axis.perp()]) {
+            let axis = if axis.dot(mirror.normal) < 0.0 { -axis } else { axis };
+            if axis.dot(mirror.normal) < SNAP_ANGLE.to_radians().cos() {
+                continue;
+            }
+            let ahead = mirror.offset - mirror.normal.dot(self.middle);
+            let snapped = Mirror { normal: axis, offset: axis.dot(self.middle) + ahead };
+            if self.score(snapped, step) >= best - SNAP_LOSS {
+                mirror = snapped;
+                break;
+            }
+        }
+        (mirror, self.likeness(mirror, step) >= LEAST_LIKENESS && margin >= LEAST_MARGIN)
+    }
+
+    /// Above 0 for `forward`, below 0 against it: feet, then eyes and the like where meshes of them are, then the chin.
+    fn front_vote(&self, character: &Character, mirror: Mirror, forward: DVec2) -> f64 {
+        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+        for p in &self.samples {
+            low = low.min(p.y.into());
+            high = high.max(p.y.into());
+        }
+        let height = (high - low).max(1e-9);
+        // Sideways, up and ahead in heights of the figure.
+        let place = |p: DVec3| {
+            let ground = DVec2::new(p.x, p.z);
+            let sideways = mirror.normal.dot(ground) - mirror.offset;
+            DVec3::new(sideways, p.y - low, forward.dot(ground - self.middle)) / height
+        };
+        let points: Vec<DVec3> = self.samples.iter().map(|p| place(p.as_dvec3())).collect();
+        let face_parts: Vec<DVec3> = (0..character.meshes.len())
+            .filter(|&mesh| kind_of(character, mesh) == Some(MeshKind::FacePart))
+            .flat_map(|mesh| character.meshes[mesh].positions.iter())
+            .map(|&p| place(self.to_cells(p)))
+            .collect();
+        feet_vote(&points) + FACE_VOTE * face_vote(&points, &face_parts) + CHIN_VOTE * chin_vote(&points)
+    }
+}
+
+/// Feet reach further forward from the shins than back, -1..1; each side by itself, since one may be ahead of the other.
+fn feet_vote(points: &[DVec3]) -> f64 {
+    let mut vote = 0.0;
+    for sign in [-1.0, 1.0] {
+        let range = |from: f64, to: f64| {
+            let near = points
+                .iter()
+                .filter(|p| (from..=to).contains(&p.y) && p.x * sign >= 0.0 && p.x.abs() < FEET_REACH);
+            near.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], p| [least.min(p.z), most.max(p.z)])
+        };
+        let [heel, tip] = range(0.0, 0.04);
+        let [back, shin] = range(0.06, 0.12);
+        let more = (tip + heel - back - shin) / (tip - heel);
+        if more.is_finite() {
+            vote += 0.5 * more.clamp(-1.0, 1.0);
+        }
+    }
+    vote
+}
+
+/// Eyes, brows and teeth lie on the front of the head, -1..1.
+fn face_vote(points: &[DVec3], face_parts: &[DVec3]) -> f64 {
+    let (mut low, mut high, mut sum) = (DVec3::INFINITY, DVec3::NEG_INFINITY, 0.0);
+    for &p in face_parts {
+        low = low.min(p);
+        high = high.max(p);
+        sum += p.z;
+    }
+    let [mut back, mut front] = [f64::INFINITY, f64::NEG_INFINITY];
+    let beside = |p: &&DVec3| (low.y..=high.y).contains(&p.y) && (low.x..=high.x).contains(&p.x);
+    for p in points.iter().filter(beside) {
+        back = back.min(p.z);
+        front = front.max(p.z);
+    }
+    let vote = (2.0 * sum / face_parts.len() as f64 - back - front) / (front - back);
+    if vote.is_finite() { vote.clamp(-1.0, 1.0) } else { 0.0 }
+}
+
+/// The face hangs further over the neck in front than the skull does behind, -1..1.
+fn chin_vote(points: &[DVec3]) -> f64 {
+    let overhang = |sign: f64| {
+        let mut profile = [f64::NAN; PROFILE_ROWS];
+        for p in points.iter().filter(|p| p.x.abs() < 0.03) {
+            let row = ((p.y.max(0.0) * PROFILE_ROWS as f64) as usize).min(PROFILE_ROWS - 1);
+            profile[row] = profile[row].max(sign * p.z);
+        }
+        let mean = |rows: &[f64]| {
+            let seen = rows.iter().filter(|z| z.is_finite());
+            seen.clone().sum::<f64>() / seen.count() as f64
+        };
+        // The head and the neck, be the head large or small.
+        (PROFILE_ROWS * 11 / 20..PROFILE_ROWS * 19 / 20)
+            .map(|row| mean(&profile[row..row + 3]) - mean(&profile[row - 3..row]))
+            .fold(0.0, f64::max)
+    };
+    let (front, back) = (overhang(1.0), overhang(-1.0));
+    // A step below 2 % of the height is no chin.
+    (front - back) / (front + back).max(0.02)
+}
+
+/// The first of those with the highest score.
+fn better_of(scored: impl IntoIterator<Item = (f64, f64, Mirror)>) -> (f64, f64, Mirror) {
+    let none = (f64::NEG_INFINITY, 0.0, Mirror::at(0.0, 0.0));
+    scored.into_iter().fold(none, |one, other| if other.0 > one.0 { other } else { one })
+}
+
+/// Every cell becomes the mean of itself and its two neighbours `stride` away, twice.
+fn blur(cells: &mut [f32], stride: usize) {
+    for _ in 0..2 {
+        let before = cells.to_vec();
+        for index in stride..cells.len().saturating_sub(stride) {
+            cells[index] = (before[index - stride] + before[index] + before[index + stride]) / 3.0;
+        }
+    }
 }

@@ -1,7 +1,60 @@
-//! Body weights by heat equilibrium (Baran and Popović, reference 11).
+//! Body weights by heat equilibrium (§IV-B, reference 11).
+//!
+//! Baran and Popović. Automatic rigging and animation of 3D characters. SIGGRAPH 2007, §4.
+//!
+//! (L + A H) W = A H P: L is the cotangent Laplacian, A the vertices' areas (a third of their triangles'), P the share
+//! of each bone among those nearest to a vertex, and H = k c / d² where these are seen from the vertex, else 0; k is how
+//! many they are, d how far away. On a tube of radius r whose axis is two bones, the weight of the one is
+//! 1 - exp(-√c s / r) / 2 at a distance s from their joint, on its own side.
 
 use super::{WeightBone, Weighted};
+use crate::character::Weights;
+use crate::geometry::laplacian::{Cholesky, Symbolic, cotangent_laplacian, has_area};
+use crate::geometry::{Surface, Weld, components, foot, weld};
+use crate::parallel;
 use glam::DVec3;
+use std::collections::BTreeMap;
+
+/// Vertices this near are one: exporters split seams. In units of the figure.
+const WELD_TOLERANCE: f64 = 1e-6;
+
+/// A bone shares a vertex fully up to this ratio of its distance to the least one, ...
+const EQUAL: f64 = 1.0 + 1e-4;
+/// ... and not at all from this one on. Between them the share falls off, so that a vertex in the plane of symmetry
+/// keeps both legs alike however it is rounded.
+const UNEQUAL: f64 = 1.0 + 1e-3;
+
+/// What lies further than this from the mesh's middle, in units of the figure, counts as this far, so that squares of
+/// distances stay finite.
+const FARTHEST: f64 = 1e6;
+
+/// Distances to bones are at least this, in units of the figure: what is nearer lies on the bone, and H stays finite.
+const LEAST_DISTANCE: f64 = 1e-6;
+
+/// A ray to a bone leaves out this share of the way at either end: it starts on the surface, and a bone may end there.
+const RAY_MARGIN: f64 = 1e-3;
+
+/// A component whose bones warm it this much less than it conducts has one temperature up to that share; the rounding
+/// of the solve would be as large.
+const LEAST_EXCHANGE: f64 = 1e-9;
+
+/// Weights below this are none.
+const LEAST_WEIGHT: f64 = 1e-6;
+
+/// c is taken into this range, outside of which nothing but rounding changes.
+const HEAT_RANGE: [f64; 2] = [1e-4, 1e6];
+
+/// What the diagonal is raised by, relative to itself, where the system is not positive definite for rounding.
+const SHIFTS: [f64; 4] = [0.0, 1e-10, 1e-7, 1e-4];
+
+/// Bones that are solved for together.
+const BLOCK: usize = 4;
+
+/// Vertices that are looked at together.
+const CHUNK: usize = 512;
+
+/// No component: the vertex is in no triangle with an area.
+const LOOSE: u32 = u32::MAX;
 
 /// What heat can be told.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,12 +67,584 @@ pub struct HeatOptions {
 
 /// Weights of all `positions` to the joints of `bones`.
 ///
-/// Positions and bones are in one space in which the figure is about 1 high.
+/// Positions and bones are in one space of any unit. For several c on one mesh see [`HeatSystem`], whose rules these
+/// are.
 pub fn heat_weights(
-    _positions: &[DVec3],
-    _triangles: &[[u32; 3]],
-    _bones: &[WeightBone],
-    _options: &HeatOptions,
+    positions: &[DVec3],
+    triangles: &[[u32; 3]],
+    bones: &[WeightBone],
+    options: &HeatOptions,
 ) -> Weighted {
-    unimplemented!()
+    HeatSystem::new(positions, triangles, bones, options.thread_count).weights(options.heat)
+}
+
+/// The heat equation of a mesh and its bones, for any c.
+///
+/// Vertices at one position are one. What hides a bone from a vertex is the vertex's own connected component alone, so
+/// teeth see through lips; which way triangles face does not matter. Every vertex gets weights, by other rules where the
+/// equation has no answer; the report counts these vertices:
+///
+/// - `component_without_visible_bone`: no vertex of the component sees its nearest bone: all are taken to see it.
+/// - `component_too_small`: a component so small that it has one temperature: the mean of its vertices' nearest bones.
+/// - `vertex_without_triangle`: in no triangle with an area: the nearest bones, in equal shares.
+/// - `vertex_without_heat`: the solution has nothing there for rounding: the nearest bones.
+/// - `system_raised`: rounding made the system indefinite; its diagonal was raised by up to 1e-4 of itself.
+/// - `no_bone`: no bone has a segment with finite ends: all vertices hang from the first bone's joint, or from joint 0.
+#[derive(Debug)]
+pub struct HeatSystem {
+    thread_count: usize,
+    weld: Weld,
+    /// The joint of each bone.
+    joints: Vec<u32>,
+    nearest: Nearest,
+    /// The component of each welded vertex, or `LOOSE`.
+    components: Vec<u32>,
+    /// How each component gets its weights.
+    rules: Vec<Rule>,
+    /// The diagonal of L.
+    diagonal: Vec<f64>,
+    /// The diagonal of A H / c.
+    exchange: Vec<f64>,
+    symbolic: Option<Symbolic>,
+}
+
+/// (vertex, bone, weight) of some bones, by vertices.
+type Solved = Vec<(u32, u32, f64)>;
+
+/// How a component gets its weights.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Rule {
+    /// By the equation.
+    Heat,
+    /// By the equation, where every vertex is taken to see its nearest bones.
+    Unseen,
+    /// As one.
+    Small,
+}
+
+impl HeatSystem {
+    /// Makes the equation ready: welds, looks for the bones, analyses the system.
+    ///
+    /// - `positions`, `bones`: in one space of any unit; a vertex that is not finite counts as the middle of the
+    ///   mesh, a segment that is not finite as none.
+    /// - `triangles`: those with a vertex that is not there are left out.
+    /// - `thread_count`: 0 means all cores. Results are the same for any number.
+    ///
+    /// One ray a vertex, one look at every segment.
+    pub fn new(
+        positions: &[DVec3],
+        triangles: &[[u32; 3]],
+        bones: &[WeightBone],
+        thread_count: usize,
+    ) -> Self {
+        let is_there =
+            |corners: &&[u32; 3]| corners.iter().all(|&vertex| (vertex as usize) < positions.len());
+        let triangles = || triangles.iter().filter(is_there);
+        let frame = Frame::of(positions, triangles(), bones);
+        let mut points: Vec<DVec3> = positions.iter().map(|&p| frame.place(p)).collect();
+        let mut weld = weld(&points, WELD_TOLERANCE);
+        points = weld.first_vertices().iter().map(|&vertex| points[vertex as usize]).collect();
+        arrange(&mut weld, &mut points);
+        let pieces = Pieces::of(&points, triangles().map(|&corners| weld.triangle(corners)));
+        let segments = Segments::of(bones, &frame);
+        let ((laplacian, symbolic), nearest) = parallel::both(
+            thread_count,
+            || {
+                let mut laplacian = cotangent_laplacian(&points, &pieces.triangles);
+                let symbolic = Symbolic::new(points.len(), &laplacian.off_diagonal);
+                laplacian.off_diagonal = Vec::new();
+                (laplacian, symbolic)
+            },
+            || Nearest::of(&points, &pieces, &segments, thread_count),
+        );
+        let mut system = Self {
+            thread_count,
+            weld,
+            joints: bones.iter().map(|bone| bone.joint).collect(),
+            exchange: laplacian.areas.iter().zip(&nearest.heat).map(|(area, heat)| area * heat).collect(),
+            nearest,
+            rules: Vec::new(),
+            components: pieces.components,
+            diagonal: laplacian.diagonal,
+            symbolic,
+        };
+        system.choose_rules(pieces.starts.len() - 1);
+        system
+    }
+
+    /// Tells how each component gets its weights, and takes the rest out of the system.
+    fn choose_rules(&mut self, component_count: usize) {
+        let vertices = || self.components.iter().enumerate().filter(|&(_, &component)| component != LOOSE);
+        self.rules = vec![Rule::Unseen; component_count];
+        for (vertex, &component) in vertices() {
+            if self.nearest.seen[vertex] {
+                self.rules[component as usize] = Rule::Heat;
+            }
+        }
+        let mut exchanged = vec![0.0; component_count];
+        let mut conducted = vec![0.0_f64; component_count];
+        for (vertex, &component) in vertices() {
+            let component = component as usize;
+            if self.rules[component] == Rule::Heat && !self.nearest.seen[vertex] {
+                self.exchange[vertex] = 0.0;
+            }
+            exchanged[component] += self.exchange[vertex];
+            conducted[component] = conducted[component].max(self.diagonal[vertex]);
+        }
+        for component in 0..component_count {
+            if exchanged[component] < LEAST_EXCHANGE * conducted[component] {
+                self.rules[component] = Rule::Small;
+            }
+        }
+        for (vertex, &component) in self.components.iter().enumerate() {
+            if component == LOOSE {
+                self.diagonal[vertex] = 1.0;
+            } else if self.rules[component as usize] == Rule::Small {
+                // Its rows are not asked for; this makes them definite for sure.
+                self.diagonal[vertex] = 2.0 * self.diagonal[vertex] + 1.0;
+            }
+        }
+    }
+
+    /// The weights for one c (1 spreads weights over about a limb's radius; larger is sharper), taken into 1e-4..1e6.
+    ///
+    /// A row has every joint whose weight is at least 1e-6, in ascending order.
+    pub fn weights(&self, heat: f64) -> Weighted {
+        let mut fallback = BTreeMap::new();
+        let mut count = |rule: Option<&'static str>| {
+            if let Some(rule) = rule {
+                *fallback.entry(rule).or_insert(0) += 1;
+            }
+        };
+        if self.nearest.shares.is_empty() {
+            let joint = self.joints.first().copied().unwrap_or(0);
+            let vertex_count = self.weld.representative.len();
+            (0..vertex_count).for_each(|_| count(Some("no_bone")));
+            return Weighted { weights: Weights::rigid(joint, vertex_count), fallback };
+        }
+        // Also where it is not a number.
+        let heat = if heat > HEAT_RANGE[0] { heat.min(HEAT_RANGE[1]) } else { HEAT_RANGE[0] };
+        let (parts, is_raised) = self.solve(heat);
+        let means = self.means();
+        let mut ends = vec![0; parts.len()];
+        let mut starts = Vec::with_capacity(self.weld.count + 1);
+        let mut entries: Vec<(u32, f32)> = Vec::new();
+        let mut rules = Vec::with_capacity(self.weld.count);
+        let mut row: Vec<(u32, f64)> = Vec::new();
+        starts.push(0);
+        for vertex in 0..self.weld.count {
+            row.clear();
+            for (part, end) in parts.iter().zip(&mut ends) {
+                while let Some(&(_, bone, weight)) = part.get(*end).filter(|entry| entry.0 as usize == vertex)
+                {
+                    row.push((bone, weight));
+                    *end += 1;
+                }
+            }
+            let component = self.components[vertex] as usize;
+            let rule = match self.rules.get(component) {
+                None => Some("vertex_without_triangle"),
+                Some(Rule::Small) => Some("component_too_small"),
+                Some(_) if row.is_empty() => Some("vertex_without_heat"),
+                Some(Rule::Unseen) => Some("component_without_visible_bone"),
+                Some(Rule::Heat) => is_raised.then_some("system_raised"),
+            };
+            match rule {
+                Some("vertex_without_triangle" | "vertex_without_heat") => {
+                    row.clear();
+                    row.extend(self.nearest.shares_of(vertex));
+                }
+                Some("component_too_small") => {
+                    row.clear();
+                    row.extend(means[component].iter().map(|(&bone, &weight)| (bone, weight)));
+                }
+                _ => {}
+            }
+            rules.push(rule);
+            self.finish(&mut row);
+            entries.extend(row.iter().map(|&(joint, weight)| (joint, weight as f32)));
+            starts.push(entries.len());
+        }
+        for &welded in &self.weld.representative {
+            count(rules[welded as usize]);
+        }
+        let weights = Weights::from_rows(self.weld.representative.iter().map(|&welded| {
+            let welded = welded as usize;
+            entries[starts[welded]..starts[welded + 1]].iter().copied()
+        }));
+        Weighted { weights, fallback }
+    }
+
+    /// From bones to joints: one entry a joint, ascending, sum 1.
+    fn finish(&self, row: &mut Vec<(u32, f64)>) {
+        for entry in &mut *row {
+            entry.0 = self.joints[entry.0 as usize];
+        }
+        row.sort_by_key(|&(joint, _)| joint);
+        row.dedup_by(|next, last| {
+            let is_same = next.0 == last.0;
+            last.1 += if is_same { next.1 } else { 0.0 };
+            is_same
+        });
+        let sum: f64 = row.iter().map(|&(_, weight)| weight).sum();
+        for entry in row {
+            entry.1 /= sum;
+        }
+    }
+
+    /// The solution by blocks of bones, and whether the diagonal was raised.
+    fn solve(&self, heat: f64) -> (Vec<Solved>, bool) {
+        let Some(symbolic) = &self.symbolic else {
+            return (Vec::new(), false);
+        };
+        let factored = SHIFTS.iter().find_map(|&shift| {
+            let diagonal: Vec<f64> = (self.diagonal.iter().zip(&self.exchange))
+                .map(|(&conducted, &exchanged)| (conducted + heat * exchanged) * (1.0 + shift))
+                .collect();
+            Some((Cholesky::with(symbolic, &diagonal)?, shift))
+        });
+        let Some((cholesky, shift)) = factored else {
+            return (Vec::new(), false);
+        };
+        // (vertex, share) by bones: A H P / c without its zeros.
+        let mut sources: Vec<Vec<(u32, f64)>> = vec![Vec::new(); self.joints.len()];
+        for (vertex, &exchange) in self.exchange.iter().enumerate() {
+            let is_solved = self.rule_of(vertex).is_some_and(|rule| rule != Rule::Small);
+            if exchange > 0.0 && is_solved {
+                for &(bone, share) in self.nearest.shares_of(vertex) {
+                    sources[bone as usize].push((vertex as u32, share));
+                }
+            }
+        }
+        let bones: Vec<usize> = (0..sources.len()).filter(|&bone| !sources[bone].is_empty()).collect();
+        let blocks: Vec<&[usize]> = bones.chunks(BLOCK).collect();
+        let size = self.weld.count;
+        let parts = parallel::collect(self.thread_count, blocks.len(), 1, |block| {
+            let bones = blocks[block];
+            let mut columns = vec![0.0; bones.len() * size];
+            for (column, &bone) in columns.chunks_mut(size).zip(bones) {
+                for &(vertex, share) in &sources[bone] {
+                    column[vertex as usize] = heat * self.exchange[vertex as usize] * share;
+                }
+            }
+            cholesky.solve(&mut columns, bones.len());
+            let mut part = Vec::new();
+            for vertex in 0..size {
+                for (&bone, column) in bones.iter().zip(columns.chunks(size)) {
+                    if column[vertex] >= LEAST_WEIGHT {
+                        part.push((vertex as u32, bone as u32, column[vertex]));
+                    }
+                }
+            }
+            part
+        });
+        (parts, shift > 0.0)
+    }
+
+    /// The bones of components that have one temperature.
+    fn means(&self) -> Vec<BTreeMap<u32, f64>> {
+        let mut means = vec![BTreeMap::new(); self.rules.len()];
+        for vertex in 0..self.weld.count {
+            if self.rule_of(vertex) == Some(Rule::Small) {
+                let mean = &mut means[self.components[vertex] as usize];
+                for &(bone, share) in self.nearest.shares_of(vertex) {
+                    *mean.entry(bone).or_insert(0.0) += share;
+                }
+            }
+        }
+        means
+    }
+
+    /// How the vertex's component gets its weights; `None` where it has no component.
+    fn rule_of(&self, vertex: usize) -> Option<Rule> {
+        self.rules.get(self.components[vertex] as usize).copied()
+    }
+}
+
+/// Numbers the welded vertices along a curve through space, so that neighbours are near each other in memory, whatever
+/// the order of a file: rays, assembly and solves all go through them in order.
+///
+/// Morton. A computer oriented geodetic data base and a new technique in file sequencing. IBM, 1966.
+fn arrange(weld: &mut Weld, points: &mut Vec<DVec3>) {
+    let spread = |x: f64| {
+        let mut bits = ((x + 0.5) * 1023.0) as u64 & 1023;
+        for (shift, mask) in [(16, 0x0300_00ff), (8, 0x0300_f00f), (4, 0x030c_30c3), (2, 0x0924_9249)] {
+            bits = (bits | bits << shift) & mask;
+        }
+        bits
+    };
+    let mut order: Vec<u64> = (0u64..)
+        .zip(&*points)
+        .map(|(vertex, p)| (spread(p.x) | spread(p.y) << 1 | spread(p.z) << 2) << 32 | vertex)
+        .collect();
+    order.sort_unstable();
+    let mut numbers = vec![0; points.len()];
+    for (number, &vertex) in (0u32..).zip(&order) {
+        numbers[vertex as u32 as usize] = number;
+    }
+    *points = order.iter().map(|&vertex| points[vertex as u32 as usize]).collect();
+    for welded in &mut weld.representative {
+        *welded = numbers[*welded as usize];
+    }
+}
+
+/// The space in which the mesh's longest side is 1, around its middle.
+#[derive(Clone, Copy, Debug)]
+struct Frame {
+    centre: DVec3,
+    scale: f64,
+}
+
+impl Frame {
+    /// Of the triangles; where these have no extent of all vertices, or else of the bones.
+    fn of<'a>(
+        positions: &[DVec3],
+        triangles: impl Iterator<Item = &'a [u32; 3]>,
+        bones: &[WeightBone],
+    ) -> Self {
+        let corners = triangles.flatten().map(|&vertex| positions[vertex as usize]);
+        let ends = bones.iter().flat_map(|bone| bone.segments.iter().flatten().copied());
+        Self::around(corners)
+            .or_else(|| Self::around(positions.iter().copied()))
+            .or_else(|| Self::around(ends))
+            .unwrap_or(Self { centre: DVec3::ZERO, scale: 1.0 })
+    }
+
+    fn around(points: impl Iterator<Item = DVec3>) -> Option<Self> {
+        let (low, high) = points
+            .filter(|p| p.is_finite())
+            .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)));
+        let (centre, scale) = (0.5 * low + 0.5 * high, (high - low).max_element().recip());
+        (centre.is_finite() && scale.is_finite() && scale > 0.0).then_some(Self { centre, scale })
+    }
+
+    fn place(&self, p: DVec3) -> DVec3 {
+        let placed = (p - self.centre) * self.scale;
+        let farthest = DVec3::splat(FARTHEST);
+        if placed.is_nan() { DVec3::ZERO } else { placed.clamp(-farthest, farthest) }
+    }
+}
+
+/// The triangles with an area, component by component.
+#[derive(Debug)]
+struct Pieces {
+    triangles: Vec<[u32; 3]>,
+    /// Where each component's triangles start; one more than there are components.
+    starts: Vec<usize>,
+    /// The component of each vertex, or `LOOSE`.
+    components: Vec<u32>,
+}
+
+impl Pieces {
+    fn of(points: &[DVec3], triangles: impl Iterator<Item = [u32; 3]>) -> Self {
+        let triangles: Vec<[u32; 3]> =
+            triangles.filter(|corners| has_area(corners.map(|vertex| points[vertex as usize]))).collect();
+        let alone = Weld { representative: (0..points.len() as u32).collect(), count: points.len() };
+        let mut components = components(&triangles, &alone);
+        // Loose vertices are components as well there; here only triangles make one.
+        let mut numbers = vec![LOOSE; points.len()];
+        let mut starts = vec![0];
+        for &[vertex, ..] in &triangles {
+            let number = &mut numbers[components[vertex as usize] as usize];
+            if *number == LOOSE {
+                *number = starts.len() as u32 - 1;
+                starts.push(0);
+            }
+            starts[*number as usize + 1] += 1;
+        }
+        for component in &mut components {
+            *component = numbers[*component as usize];
+        }
+        for number in 1..starts.len() {
+            starts[number] += starts[number - 1];
+        }
+        let mut ends = starts.clone();
+        let mut sorted = vec![[0; 3]; triangles.len()];
+        for corners in triangles {
+            let end = &mut ends[components[corners[0] as usize] as usize];
+            sorted[*end] = corners;
+            *end += 1;
+        }
+        Self { triangles: sorted, starts, components }
+    }
+
+    fn triangles_of(&self, component: usize) -> &[[u32; 3]] {
+        &self.triangles[self.starts[component]..self.starts[component + 1]]
+    }
+}
+
+/// All segments of all bones, by coordinates, so that the distances to them are found side by side.
+#[derive(Debug, Default)]
+struct Segments {
+    bones: Vec<u32>,
+    starts: [Vec<f64>; 3],
+    ways: [Vec<f64>; 3],
+    /// 1 / length², 0 for a point.
+    inverse: Vec<f64>,
+}
+
+impl Segments {
+    fn of(bones: &[WeightBone], frame: &Frame) -> Self {
+        let mut all = Self::default();
+        for (bone, &[a, b]) in
+            (0u32..).zip(bones).flat_map(|(index, bone)| bone.segments.iter().map(move |ends| (index, ends)))
+        {
+            if !(a.is_finite() && b.is_finite()) {
+                continue;
+            }
+            let (a, b) = (frame.place(a), frame.place(b));
+            let inverse = (b - a).length_squared().recip();
+            all.bones.push(bone);
+            all.inverse.push(if inverse.is_finite() { inverse } else { 0.0 });
+            for axis in 0..3 {
+                all.starts[axis].push(a[axis]);
+                all.ways[axis].push(b[axis] - a[axis]);
+            }
+        }
+        all
+    }
+
+    /// Fills `squared` with the squared distances of all segments to `p`.
+    fn distances(&self, p: DVec3, squared: &mut [f64]) {
+        let count = squared.len();
+        let [x, y, z] = &self.starts;
+        let [u, v, w] = &self.ways;
+        let (x, y, z) = (&x[..count], &y[..count], &z[..count]);
+        let (u, v, w, inverse) = (&u[..count], &v[..count], &w[..count], &self.inverse[..count]);
+        for i in 0..count {
+            let (dx, dy, dz) = (p.x - x[i], p.y - y[i], p.z - z[i]);
+            let t = ((dx * u[i] + dy * v[i] + dz * w[i]) * inverse[i]).clamp(0.0, 1.0);
+            let (dx, dy, dz) = (dx - t * u[i], dy - t * v[i], dz - t * w[i]);
+            squared[i] = dx * dx + dy * dy + dz * dz;
+        }
+    }
+
+    /// The point of a segment that is closest to `p`.
+    fn foot(&self, segment: usize, p: DVec3) -> DVec3 {
+        let at = |of: &[Vec<f64>; 3]| DVec3::new(of[0][segment], of[1][segment], of[2][segment]);
+        let start = at(&self.starts);
+        foot(p, start, start + at(&self.ways)).0
+    }
+}
+
+/// The bones that are nearest to each vertex.
+#[derive(Debug, Default)]
+struct Nearest {
+    /// Where each vertex's bones start in `shares`; one more than there are vertices.
+    starts: Vec<u32>,
+    /// Bones and their shares; those of a vertex sum to 1. Only those that are seen, where any is.
+    shares: Vec<(u32, f64)>,
+    /// k / d² of those.
+    heat: Vec<f64>,
+    /// Whether any is seen.
+    seen: Vec<bool>,
+}
+
+impl Nearest {
+    /// One ray a vertex and bone that is as near as the nearest.
+    fn of(points: &[DVec3], pieces: &Pieces, segments: &Segments, thread_count: usize) -> Self {
+        let component_count = pieces.starts.len() - 1;
+        let surfaces = parallel::collect(thread_count, component_count, 1, |component| {
+            Surface::new(points, pieces.triangles_of(component))
+        });
+        let chunks: Vec<&[DVec3]> = points.chunks(CHUNK).collect();
+        let found = parallel::collect_with(
+            thread_count,
+            chunks.len(),
+            1,
+            || (vec![0.0; segments.bones.len()], Vec::new()),
+            |(squared, near), chunk| {
+                let mut found = Self::default();
+                for (&p, &component) in chunks[chunk].iter().zip(&pieces.components[chunk * CHUNK..]) {
+                    segments.near(p, squared, near);
+                    found.push(p, surfaces.get(component as usize), segments, near);
+                }
+                found
+            },
+        );
+        let mut all = Self { starts: vec![0], ..Self::default() };
+        for chunk in found {
+            let start = all.shares.len() as u32;
+            all.starts.extend(chunk.starts.iter().map(|end| start + end));
+            all.shares.extend(chunk.shares);
+            all.heat.extend(chunk.heat);
+            all.seen.extend(chunk.seen);
+        }
+        all
+    }
+
+    /// Adds a vertex; `near` are the bones near to it. Here `starts` are ends.
+    fn push(&mut self, p: DVec3, surface: Option<&Surface>, segments: &Segments, near: &mut Vec<Near>) {
+        let least = near.iter().fold(f64::INFINITY, |least, bone| least.min(bone.distance));
+        let mut last = None;
+        let is_seen = |bone: &Near| {
+            let way = segments.foot(bone.segment as usize, p) - p;
+            // Bones that share a joint share the ray to it.
+            match last {
+                Some((known, is_seen)) if known == way => is_seen,
+                _ => {
+                    let is_hidden = surface.is_some_and(|surface| {
+                        surface.is_hit(p + RAY_MARGIN * way, way, 1.0 - 2.0 * RAY_MARGIN)
+                    });
+                    last = Some((way, !is_hidden));
+                    !is_hidden
+                }
+            }
+        };
+        let seen: Vec<bool> = near.iter().map(is_seen).collect();
+        let any_seen = seen.contains(&true);
+        if any_seen {
+            let mut seen = seen.into_iter();
+            near.retain(|_| seen.next() == Some(true));
+        }
+        let k: f64 = near.iter().map(|bone| bone.share).sum();
+        self.shares.extend(near.iter().map(|bone| (bone.bone, bone.share / k)));
+        self.starts.push(self.shares.len() as u32);
+        self.heat.push(if near.is_empty() { 0.0 } else { k / (least * least) });
+        self.seen.push(any_seen);
+    }
+
+    fn shares_of(&self, vertex: usize) -> &[(u32, f64)] {
+        &self.shares[self.starts[vertex] as usize..self.starts[vertex + 1] as usize]
+    }
+}
+
+/// A bone about as near to a vertex as the nearest one.
+#[derive(Clone, Copy, Debug)]
+struct Near {
+    bone: u32,
+    /// Its nearest segment.
+    segment: u32,
+    distance: f64,
+    /// 1 as near as the nearest, towards 0 further away.
+    share: f64,
+}
+
+impl Segments {
+    /// Fills `near` with the bones about as near to `p` as the nearest one.
+    fn near(&self, p: DVec3, squared: &mut [f64], near: &mut Vec<Near>) {
+        near.clear();
+        self.distances(p, squared);
+        let least = squared.iter().fold(f64::INFINITY, |least, &distance| least.min(distance));
+        let least = least.sqrt().max(LEAST_DISTANCE);
+        let reach = (UNEQUAL * least).powi(2);
+        for (segment, &squared) in (0u32..).zip(&*squared) {
+            if squared > reach {
+                continue;
+            }
+            let distance = squared.sqrt().max(LEAST_DISTANCE);
+            let share = ((UNEQUAL - distance / least) / (UNEQUAL - EQUAL)).clamp(0.0, 1.0);
+            let bone = self.bones[segment as usize];
+            match near.last_mut() {
+                // Segments of a bone follow each other.
+                Some(last) if last.bone == bone => {
+                    if distance < last.distance {
+                        *last = Near { bone, segment, distance, share };
+                    }
+                }
+                _ => near.push(Near { bone, segment, distance, share }),
+            }
+        }
+        near.retain(|bone| bone.share > 0.0);
+    }
 }

@@ -1,27 +1,719 @@
-//! What each mesh of an unrigged figure depicts: as the host says, else guessed from its name and from where it lies.
+//! What each mesh of an unrigged figure depicts: as the host says, else guessed from where it lies.
+//!
+//! The guess looks at layers. From points all over a mesh one ray goes inwards and one outwards: cloth meets another
+//! mesh's outside right below it, a limb its own far side, an eye is met with from within by the head.
 
 use super::{FoundJoint, Layout};
 use crate::character::{MeshKind, Role};
 use crate::error::Warning;
-use std::collections::BTreeMap;
+use crate::geometry::{Hit, Surface, weld};
+use glam::DVec3;
+use std::cmp::Reverse;
+use std::collections::{BTreeMap, BTreeSet};
 
-/// A kind for every mesh of `layout`, and a warning that names those that were guessed without being sure.
+/// Points on all meshes together, and least and most on one.
+const SAMPLES: (usize, usize, usize) = (12_000, 24, 400);
+
+/// What is as near as this, in heights, lies on the same spot.
+const SAME_SPOT: f64 = 1e-4;
+
+/// Borders this near are one, in heights.
+const SEAM: f64 = 1e-5;
+
+/// Cloth lies over what its inward ray meets within this distance, in heights: a wide skirt, but not an arm over a leg.
+const LAYER_REACH: f64 = 0.12;
+
+/// A layer may be thick itself, like a lump of hair; then what it covers begins right behind it. In heights.
+const LAYER_THICKNESS: f64 = 0.04;
+
+/// How far what lies below a thick layer may be behind it, and from where on a layer is thick, in heights.
+const LAYER_GAP: f64 = 0.02;
+
+/// A mesh of which this share lies over others is a layer.
+const LAYER_SHARE: f64 = 0.5;
+
+/// A mesh of which this share lies within others is something in their inside.
+const ENCLOSED_SHARE: f64 = 0.4;
+
+/// A mesh of which this share lies over another one covers it.
+const COVER_SHARE: f64 = 0.15;
+
+/// A mesh of whose border this share is another mesh's border too goes on where that one ends.
+const SEAM_SHARE: f64 = 0.5;
+
+/// A mesh that makes a body whole adds at least as many slices.
+const LEAST_GAIN: usize = 3;
+
+/// Points on each mesh by which planes of symmetry are compared.
+const PLANE_SAMPLES: usize = 100;
+
+/// So many of the largest meshes are tried as what the plane of symmetry is the middle of.
+const PLANE_CANDIDATES: usize = 6;
+
+/// What is no further from skin and clothes than this, in heights, is worn; what sticks out further is a thing.
+const WORN: f64 = 0.03;
+
+/// A mesh that carries a limb is at least this long, in heights.
+const LIMB: f64 = 0.08;
+
+/// Parts of one body touch within this distance, and limbs are that alike, left and right, in heights.
+const PART_GAP: f64 = 0.04;
+
+/// Hair has at least this share above the chin.
+const HAIR_SHARE: f64 = 0.35;
+
+/// Shares this near to a threshold are doubtful.
+const DOUBT: f64 = 0.12;
+
+/// The height of the chin where no neck is seen: 1 - 1 / 7 of a person of seven heads, and a little below.
+const CHIN: f64 = 0.84;
+
+/// Slices for the reach of the body, along the height and to each side.
+const SLICES: usize = 40;
+
+/// Half the width in which legs and trunk are looked for, in heights; arms begin beyond.
+const TRUNK_HALF_WIDTH: f64 = 0.12;
+
+/// The share of slices in which a whole body shows.
+const WHOLE_SHARE: f64 = 0.9;
+
+/// A kind for every mesh of `layout`, and a warning (`kind_guessed`) that names those that were guessed without being
+/// sure.
+///
+/// Kinds that the layout has stay. Of the rest the innermost volumes are body, what lies over them is clothes, or hair
+/// above the chin; what sits in or on the front of the head is part of the face; what hangs aside is an accessory. In
+/// doubt a mesh is body where it makes the body whole, else clothes. A single mesh is body.
 ///
 /// Runs before joints are known; [`refine_kinds`] looks again once they are.
-pub fn guess_kinds(_layout: &Layout) -> (Vec<MeshKind>, Vec<Warning>) {
-    unimplemented!()
+pub fn guess_kinds(layout: &Layout) -> (Vec<MeshKind>, Vec<Warning>) {
+    let unknown = layout.kinds.iter().filter(|kind| kind.is_none()).count();
+    if unknown == 0 || layout.mesh_count() == 1 {
+        return (layout.kinds.iter().map(|kind| kind.unwrap_or_default()).collect(), Vec::new());
+    }
+    let scene = Scene::new(layout);
+    let guesses = scene.guess(None);
+    let doubtful: Vec<usize> = (0..guesses.len()).filter(|&mesh| !guesses[mesh].sure).collect();
+    let kinds: Vec<MeshKind> = guesses.iter().map(|guess| guess.kind).collect();
+    let warnings = warning(layout, &kinds, &doubtful);
+    (kinds, warnings)
 }
 
 /// Kinds once more, for the meshes that nobody has named, now that it is known where the head is.
+///
+/// What is body stays body; the rest is told apart anew. The warning names the meshes whose kind is another one now.
 pub fn refine_kinds(
-    _layout: &Layout,
-    _kinds: &mut [MeshKind],
-    _joints: &BTreeMap<Role, FoundJoint>,
+    layout: &Layout,
+    kinds: &mut [MeshKind],
+    joints: &BTreeMap<Role, FoundJoint>,
 ) -> Vec<Warning> {
-    unimplemented!()
+    let open = |mesh: usize, kinds: &[MeshKind]| {
+        layout.kinds[mesh].is_none() && kinds.get(mesh).is_some_and(|&kind| kind != MeshKind::Body)
+    };
+    let head = joints.get(&Role::Head).map(|joint| joint.position).filter(|p| p.is_finite());
+    let Some(head) = head.filter(|_| (0..layout.mesh_count()).any(|mesh| open(mesh, kinds))) else {
+        return Vec::new();
+    };
+    let guesses = Scene::new(layout).guess(Some(head));
+    let mut changed = Vec::new();
+    for (mesh, guess) in guesses.iter().enumerate() {
+        if open(mesh, kinds) && guess.kind != kinds[mesh] {
+            kinds[mesh] = guess.kind;
+            changed.push(mesh);
+        }
+    }
+    warning(layout, kinds, &changed)
 }
 
-/// True where the meshes of kind body alone make a whole figure.
-pub fn body_is_whole(_layout: &Layout, _kinds: &[MeshKind]) -> bool {
-    unimplemented!()
+/// True where the body meshes alone reach over the figure: trunk, legs and arms show wherever body and clothes do.
+///
+/// False where there is no body, or where parts hidden below clothes were left out; clothes cannot follow such a body.
+pub fn body_is_whole(layout: &Layout, kinds: &[MeshKind]) -> bool {
+    let is_body = |mesh: usize| kinds.get(mesh) == Some(&MeshKind::Body);
+    let is_figure = |mesh: usize| is_body(mesh) || kinds.get(mesh) == Some(&MeshKind::Garment);
+    reaches_over(layout, middle_plane(layout, &is_figure), &is_body, &is_figure)
+}
+
+/// True where those meshes that `part` accepts show in nearly all slices in which those that `whole` accepts do.
+fn reaches_over(
+    layout: &Layout,
+    middle: f64,
+    part: &dyn Fn(usize) -> bool,
+    whole: &dyn Fn(usize) -> bool,
+) -> bool {
+    let (part, whole) = (slices(layout, middle, part), slices(layout, middle, whole));
+    // Each side's half of the trunk and leg, and each arm for itself.
+    let shows = part.iter().flatten().any(|&shown| shown);
+    shows
+        && part.iter().zip(&whole).all(|(part, whole)| {
+            let shown = whole.iter().filter(|&&shown| shown).count();
+            let both = part.iter().zip(whole).filter(|&(&part, &whole)| part && whole).count();
+            both as f64 >= WHOLE_SHARE * shown as f64
+        })
+}
+
+/// Where triangles are: slices along the height near the middle, and along x beyond; right, then left.
+type Slices = [[bool; SLICES]; 4];
+
+fn slices(layout: &Layout, middle: f64, choose: &dyn Fn(usize) -> bool) -> Slices {
+    let widest = layout.positions.iter().map(|p| (p.x - middle).abs()).fold(0.0, f64::max);
+    let arm = widest - TRUNK_HALF_WIDTH;
+    let mut shown = [[false; SLICES]; 4];
+    let slice = |share: f64| ((share * SLICES as f64).max(0.0) as usize).min(SLICES - 1);
+    for corners in layout.triangles_where(choose) {
+        let corners = corners.map(|vertex| layout.positions[vertex as usize]);
+        let low = corners.into_iter().fold(DVec3::INFINITY, DVec3::min);
+        let high = corners.into_iter().fold(DVec3::NEG_INFINITY, DVec3::max);
+        let (left, right) = (low.x - middle, high.x - middle);
+        for (side, (from, to)) in [(-right, -left), (left, right)].into_iter().enumerate() {
+            if to >= 0.0 && from <= TRUNK_HALF_WIDTH {
+                shown[side][slice(low.y)..=slice(high.y).max(slice(low.y))].fill(true);
+            }
+            // A trunk that is wider than usual is no arm.
+            if to > TRUNK_HALF_WIDTH && arm > 0.05 {
+                let from = slice((from - TRUNK_HALF_WIDTH) / arm);
+                shown[side + 2][from..=slice((to - TRUNK_HALF_WIDTH) / arm).max(from)].fill(true);
+            }
+        }
+    }
+    shown
+}
+
+/// The x of the plane in which those meshes that `choose` accepts mirror best: a thing on one side moves the middle of
+/// the layout, but not the body's.
+fn middle_plane(layout: &Layout, choose: &dyn Fn(usize) -> bool) -> f64 {
+    let meshes: Vec<usize> = (0..layout.mesh_count()).filter(|&mesh| choose(mesh)).collect();
+    let surface = Surface::new(&layout.positions, &layout.triangles_where(choose));
+    let points: Vec<Vec<(DVec3, DVec3)>> =
+        meshes.iter().map(|&mesh| points_on(layout, mesh, PLANE_SAMPLES)).collect();
+    let areas: Vec<f64> = meshes.iter().map(|&mesh| mesh_area(layout, mesh)).collect();
+    let mut order: Vec<usize> = (0..meshes.len()).collect();
+    order.sort_by(|&a, &b| areas[b].total_cmp(&areas[a]).then(a.cmp(&b)));
+    let score = |middle: f64| -> f64 {
+        let shares = points.iter().zip(&areas).map(|(points, area)| {
+            let mirrored = points.iter().filter(|(p, _)| {
+                let mirrored = DVec3::new(2.0 * middle - p.x, p.y, p.z);
+                surface.closest_point(mirrored).is_some_and(|near| near.distance <= PART_GAP / 2.0)
+            });
+            area * mirrored.count() as f64 / points.len().max(1) as f64
+        });
+        shares.sum()
+    };
+    // The middle of the layout, unless another one is clearly better.
+    let mut best = (1.05 * score(0.0), 0.0);
+    for &largest in order.iter().take(PLANE_CANDIDATES) {
+        let corners = layout.triangles_of(meshes[largest]).iter().flatten();
+        let places = corners.map(|&vertex| layout.positions[vertex as usize].x);
+        let (low, high) =
+            places.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
+        let middle = (low + high) / 2.0;
+        let score = score(middle);
+        if middle.is_finite() && score > best.0 {
+            best = (score, middle);
+        }
+    }
+    best.1
+}
+
+/// In how many slices there is something.
+fn shown_count(slices: &Slices) -> usize {
+    slices.iter().flatten().filter(|&&shown| shown).count()
+}
+
+fn warning(layout: &Layout, kinds: &[MeshKind], meshes: &[usize]) -> Vec<Warning> {
+    if meshes.is_empty() {
+        return Vec::new();
+    }
+    let named: Vec<String> = meshes
+        .iter()
+        .map(|&mesh| {
+            let name = &layout.names[mesh];
+            let name = if name.is_empty() { format!("mesh {mesh}") } else { name.clone() };
+            let kind = match kinds[mesh] {
+                MeshKind::Body => "body",
+                MeshKind::Garment => "garment",
+                MeshKind::Hair => "hair",
+                MeshKind::FacePart => "face part",
+                MeshKind::Accessory => "accessory",
+            };
+            format!("{name} ({kind})")
+        })
+        .collect();
+    vec![Warning::new(
+        "kind_guessed",
+        format!(
+            "guessed from where they lie: {}; if that is wrong, name them with --body, --garment, --hair, --face-part or --accessory REGEX",
+            named.join(", ")
+        ),
+    )]
+}
+
+/// A point on a mesh, and what is around it.
+struct Sample {
+    point: DVec3,
+    /// The mesh right below.
+    over: Option<usize>,
+    /// The mesh that the point lies within.
+    within: Option<usize>,
+    /// Below is the far side of the mesh itself.
+    volume: bool,
+}
+
+struct Guess {
+    kind: MeshKind,
+    sure: bool,
+}
+
+/// What is known of a mesh.
+struct Facts {
+    samples: Vec<Sample>,
+    area: f64,
+    low: DVec3,
+    high: DVec3,
+}
+
+impl Facts {
+    fn share(&self, count: impl Fn(&Sample) -> bool) -> f64 {
+        let counted = self.samples.iter().filter(|sample| count(sample)).count();
+        counted as f64 / self.samples.len().max(1) as f64
+    }
+
+    fn middle(&self) -> DVec3 {
+        self.samples.iter().map(|sample| sample.point).sum::<DVec3>() / self.samples.len().max(1) as f64
+    }
+
+    fn extent(&self) -> f64 {
+        (self.high - self.low).max_element()
+    }
+}
+
+struct Scene<'a> {
+    layout: &'a Layout,
+    facts: Vec<Facts>,
+}
+
+impl<'a> Scene<'a> {
+    fn new(layout: &'a Layout) -> Self {
+        let surface = Surface::new(&layout.positions, &layout.triangles);
+        let mesh_of = |hit: &Hit| layout.triangle_starts.partition_point(|&start| start <= hit.triangle) - 1;
+        let (all, least, most) = SAMPLES;
+        let count = (all / layout.mesh_count().max(1)).clamp(least, most);
+        // Points with both rays first: which side is out is known once a mesh's own hits are counted.
+        let shots: Vec<_> = (0..layout.mesh_count())
+            .map(|mesh| {
+                let points = points_on(layout, mesh, count);
+                let shots = points.into_iter().map(|(point, normal)| {
+                    let along = |direction: DVec3| {
+                        let mut hits = surface.all_hits(point, direction);
+                        hits.retain(|hit| hit.t > SAME_SPOT);
+                        hits
+                    };
+                    (point, along(normal), along(-normal))
+                });
+                shots.collect::<Vec<_>>()
+            })
+            .collect();
+        let turned: Vec<bool> = shots
+            .iter()
+            .enumerate()
+            .map(|(mesh, shots)| {
+                let own = |hits: &[Hit]| hits.iter().filter(|hit| mesh_of(hit) == mesh).count();
+                let out: usize = shots.iter().map(|(_, out, _)| own(out)).sum();
+                let inwards: usize = shots.iter().map(|(_, _, inwards)| own(inwards)).sum();
+                out > inwards
+            })
+            .collect();
+        let enters = |hit: &Hit| hit.front != turned[mesh_of(hit)];
+        let facts = shots.iter().enumerate().map(|(mesh, shots)| {
+            let samples = shots.iter().map(|(point, out, inwards)| {
+                let (out, inwards) = if turned[mesh] { (inwards, out) } else { (out, inwards) };
+                let first_other = out.iter().find(|hit| mesh_of(hit) != mesh);
+                let within = first_other.filter(|hit| !enters(hit)).map(mesh_of);
+                let far_side = inwards.iter().find(|hit| mesh_of(hit) == mesh && !enters(hit));
+                let below = inwards.iter().find(|hit| mesh_of(hit) != mesh && enters(hit));
+                let over = below.filter(|below| {
+                    let thickness = far_side.map_or(f64::INFINITY, |hit| hit.t);
+                    if below.t <= thickness || thickness <= LAYER_GAP / 2.0 {
+                        below.t <= LAYER_REACH
+                    } else {
+                        thickness <= LAYER_THICKNESS && below.t - thickness <= LAYER_GAP
+                    }
+                });
+                Sample { point: *point, over: over.map(mesh_of), within, volume: far_side.is_some() }
+            });
+            let corners =
+                || layout.triangles_of(mesh).iter().flatten().map(|&v| layout.positions[v as usize]);
+            Facts {
+                samples: samples.collect(),
+                area: mesh_area(layout, mesh),
+                low: corners().fold(DVec3::INFINITY, DVec3::min),
+                high: corners().fold(DVec3::NEG_INFINITY, DVec3::max),
+            }
+        });
+        let facts = facts.collect();
+        Self { layout, facts }
+    }
+
+    /// The share of a mesh that lies over others that are no crumbs beside it.
+    fn layer_share(&self, mesh: usize) -> f64 {
+        let facts = &self.facts[mesh];
+        facts.share(|sample| sample.over.is_some_and(|below| self.facts[below].area > 0.1 * facts.area))
+    }
+
+    /// The share of a mesh that lies within others larger than itself.
+    fn enclosed_share(&self, mesh: usize) -> f64 {
+        let facts = &self.facts[mesh];
+        // What lies over this mesh does not enclose it: skin is below clothes, not inside them.
+        let lies_over =
+            |around: usize| self.facts[around].share(|sample| sample.over == Some(mesh)) >= COVER_SHARE;
+        let encloses: Vec<bool> = (0..self.facts.len())
+            .map(|around| self.facts[around].area > facts.area && !lies_over(around))
+            .collect();
+        facts.share(|sample| sample.within.is_some_and(|around| encloses[around]))
+    }
+
+    /// Kinds of all meshes, where the head's joint is known or not.
+    fn guess(&self, head: Option<DVec3>) -> Vec<Guess> {
+        let layout = self.layout;
+        let count = layout.mesh_count();
+        let mut guesses: Vec<Option<Guess>> =
+            layout.kinds.iter().map(|kind| kind.map(|kind| Guess { kind, sure: true })).collect();
+        let is_open = |guesses: &[Option<Guess>], mesh: usize| guesses[mesh].is_none();
+        for mesh in 0..count {
+            // Nothing to see: it counts as what is not asked for elsewhere.
+            if is_open(&guesses, mesh) && self.facts[mesh].samples.is_empty() {
+                guesses[mesh] = Some(Guess { kind: MeshKind::Body, sure: true });
+            }
+        }
+
+        // Volumes that lie over nothing and within nothing, the largest first.
+        let mut volumes: Vec<usize> = (0..count)
+            .filter(|&mesh| is_open(&guesses, mesh))
+            .filter(|&mesh| self.layer_share(mesh) < LAYER_SHARE)
+            .filter(|&mesh| self.enclosed_share(mesh) < ENCLOSED_SHARE)
+            .collect();
+        volumes.sort_by(|&a, &b| self.facts[b].area.total_cmp(&self.facts[a].area).then(a.cmp(&b)));
+        let mut is_body: Vec<bool> = layout
+            .kinds
+            .iter()
+            .zip(&self.facts)
+            .map(|(kind, facts)| *kind == Some(MeshKind::Body) && !facts.samples.is_empty())
+            .collect();
+        let is_volume = |mesh: usize| volumes.contains(&mesh) || layout.kinds[mesh] == Some(MeshKind::Body);
+        let middle = middle_plane(layout, &is_volume);
+        if !is_body.contains(&true) {
+            // Where everything lies over something, the one that reaches furthest carries the rest.
+            let open: Vec<usize> = (0..count).filter(|&mesh| guesses[mesh].is_none()).collect();
+            let choice = if volumes.is_empty() { &open } else { &volumes };
+            let reach = |mesh: usize| shown_count(&slices(layout, middle, &|other| other == mesh));
+            let reaches: Vec<(usize, usize)> = choice.iter().map(|&mesh| (reach(mesh), mesh)).collect();
+            let furthest = reaches.iter().max_by(|a, b| {
+                let area = |mesh: usize| self.facts[mesh].area;
+                a.0.cmp(&b.0).then(area(a.1).total_cmp(&area(b.1))).then(b.1.cmp(&a.1))
+            });
+            if let Some(&(_, furthest)) = furthest {
+                is_body[furthest] = true;
+            }
+        }
+        let first = is_body.clone();
+        let seams = self.seams();
+        self.join_seams(&mut is_body, &seams);
+        // The head's joint lies between the chin and the middle of the head.
+        let chin = self.chin(&is_body, &volumes, middle);
+        let chin = head.map_or(chin, |head| chin.min(head.y).max(head.y - 0.35 * (1.0 - head.y).max(0.0)));
+        let region = self.head_region(chin, head, &is_body, middle);
+        self.grow_body(&mut is_body, &volumes, &region, &seams);
+        for mesh in (0..count).filter(|&mesh| is_body[mesh]) {
+            guesses[mesh].get_or_insert(Guess { kind: MeshKind::Body, sure: first[mesh] });
+        }
+
+        for mesh in 0..count {
+            if is_open(&guesses, mesh) {
+                guesses[mesh] = Some(self.guess_other(mesh, &is_body, &region));
+            }
+        }
+        guesses
+            .into_iter()
+            .map(|guess| guess.unwrap_or(Guess { kind: MeshKind::Body, sure: false }))
+            .collect()
+    }
+
+    /// For each mesh those whose border a good part of its own border is.
+    fn seams(&self) -> Vec<Vec<usize>> {
+        let layout = self.layout;
+        let welded = weld(&layout.positions, SEAM);
+        // Edges that one triangle of a mesh has.
+        let borders: Vec<BTreeSet<u32>> = (0..layout.mesh_count())
+            .map(|mesh| {
+                let triangles = layout.triangles_of(mesh).iter().map(|&corners| welded.triangle(corners));
+                let mut edges: Vec<(u32, u32)> = triangles
+                    .flat_map(|[a, b, c]| [(a, b), (b, c), (c, a)])
+                    .map(|(one, two)| (one.min(two), one.max(two)))
+                    .collect();
+                edges.sort_unstable();
+                let single = edges.chunk_by(|a, b| a == b).filter(|same| same.len() == 1);
+                single.flat_map(|same| [same[0].0, same[0].1]).collect()
+            })
+            .collect();
+        let mut meshes_at: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
+        for (mesh, border) in borders.iter().enumerate() {
+            for &vertex in border {
+                meshes_at.entry(vertex).or_default().push(mesh);
+            }
+        }
+        borders
+            .iter()
+            .enumerate()
+            .map(|(mesh, border)| {
+                let mut shared: BTreeMap<usize, usize> = BTreeMap::new();
+                for other in border.iter().flat_map(|vertex| &meshes_at[vertex]).filter(|&&o| o != mesh) {
+                    *shared.entry(*other).or_default() += 1;
+                }
+                let most = SEAM_SHARE * border.len() as f64;
+                shared
+                    .into_iter()
+                    .filter(|&(_, count)| count as f64 >= most)
+                    .map(|(other, _)| other)
+                    .collect()
+            })
+            .collect()
+    }
+
+    /// Adds to the body what goes on where it ends: one skin of several materials.
+    fn join_seams(&self, is_body: &mut [bool], seams: &[Vec<usize>]) {
+        let mut changed = true;
+        while changed {
+            changed = false;
+            for mesh in 0..is_body.len() {
+                let joins = seams[mesh].iter().any(|&other| is_body[other]);
+                if !is_body[mesh] && joins && self.layout.kinds[mesh].is_none() {
+                    is_body[mesh] = true;
+                    changed = true;
+                }
+            }
+        }
+    }
+
+    /// Adds volumes to the body as long as it is not whole: what touches it, has its like on the other side, is no
+    /// thing in front of or behind the trunk, and shows where the body does not; what adds most comes first.
+    fn grow_body(&self, is_body: &mut [bool], volumes: &[usize], region: &HeadRegion, seams: &[Vec<usize>]) {
+        let layout = self.layout;
+        let of_figure = |mesh: usize| {
+            volumes.contains(&mesh)
+                || matches!(layout.kinds[mesh], Some(MeshKind::Body | MeshKind::Garment))
+                || (layout.kinds[mesh].is_none() && self.layer_share(mesh) >= LAYER_SHARE)
+        };
+        let like = |mesh: usize| volumes.contains(&mesh) || layout.kinds[mesh] == Some(MeshKind::Body);
+        let all = Surface::new(&layout.positions, &layout.triangles_where(like));
+        let middle = region.plane;
+        let axis = self.trunk_axis(is_body, middle);
+        let mut candidates: Vec<(usize, Slices)> = volumes
+            .iter()
+            .copied()
+            .filter(|&mesh| {
+                let facts = &self.facts[mesh];
+                let mirrored = facts.share(|sample| {
+                    let mirrored = DVec3::new(2.0 * middle - sample.point.x, sample.point.y, sample.point.z);
+                    all.closest_point(mirrored).is_some_and(|near| near.distance <= PART_GAP)
+                });
+                let on_axis = facts.low.x > middle
+                    || facts.high.x < middle
+                    || (facts.low.z <= axis && facts.high.z >= axis);
+                let has_volume = facts.share(|sample| sample.volume) >= 0.4;
+                facts.extent() >= LIMB && mirrored >= 0.6 && on_axis && has_volume
+            })
+            .filter(|&mesh| !region.is_on_face(&self.facts[mesh]))
+            .map(|mesh| (mesh, slices(layout, middle, &|other| other == mesh)))
+            .collect();
+        while !reaches_over(layout, middle, &|mesh| is_body[mesh], &of_figure) {
+            let body = Surface::new(&layout.positions, &layout.triangles_where(|mesh| is_body[mesh]));
+            let shown = slices(layout, middle, &|mesh| is_body[mesh]);
+            let gain = |of: &Slices| {
+                of.iter().flatten().zip(shown.iter().flatten()).filter(|&(&new, &old)| new && !old).count()
+            };
+            candidates.retain(|(mesh, of)| !is_body[*mesh] && gain(of) >= LEAST_GAIN);
+            candidates.sort_by_key(|(mesh, of)| (Reverse(gain(of)), *mesh));
+            let touches = |mesh: usize| {
+                let vertices = layout.triangles_of(mesh).iter().flatten();
+                let mut near =
+                    vertices.filter_map(|&vertex| body.closest_point(layout.positions[vertex as usize]));
+                near.any(|near| near.distance <= PART_GAP)
+            };
+            let Some(&(mesh, _)) = candidates.iter().find(|(mesh, _)| touches(*mesh)) else {
+                return;
+            };
+            is_body[mesh] = true;
+            self.join_seams(is_body, seams);
+        }
+    }
+
+    /// Where the trunk's middle is along z.
+    fn trunk_axis(&self, is_body: &[bool], middle: f64) -> f64 {
+        let mut depths: Vec<f64> = (0..is_body.len())
+            .filter(|&mesh| is_body[mesh])
+            .flat_map(|mesh| &self.facts[mesh].samples)
+            .filter(|sample| (sample.point.x - middle).abs() <= TRUNK_HALF_WIDTH && sample.point.y >= 0.3)
+            .map(|sample| sample.point.z)
+            .collect();
+        depths.sort_by(f64::total_cmp);
+        depths.get(depths.len() / 2).copied().unwrap_or(0.0)
+    }
+
+    /// The chin's height: the narrowest place between the head and the first slice from above that is much wider.
+    fn chin(&self, is_body: &[bool], volumes: &[usize], middle: f64) -> f64 {
+        let mut widths = [0.0f64; 2 * SLICES];
+        let count = widths.len();
+        let slice = |y: f64| ((y * count as f64).max(0.0) as usize).min(count - 1);
+        let layout = self.layout;
+        for corners in layout.triangles_where(|mesh| is_body[mesh] || volumes.contains(&mesh)) {
+            let corners = corners.map(|vertex| layout.positions[vertex as usize]);
+            let heights = corners.map(|p| slice(p.y));
+            let low = heights.into_iter().fold(usize::MAX, usize::min);
+            let high = heights.into_iter().fold(0, usize::max);
+            let width = corners.into_iter().map(|p| (p.x - middle).abs()).fold(0.0, f64::max);
+            widths[low..=high].iter_mut().for_each(|widest| *widest = widest.max(width));
+        }
+        let top_down: Vec<(usize, f64)> =
+            (0..widths.len()).rev().map(|slice| (slice, widths[slice])).collect();
+        let mut widest = (0usize, 0.0f64);
+        for (place, &(_, width)) in top_down.iter().enumerate() {
+            if place >= 6 && width > 1.35 * widest.1 {
+                // Between the head's widest slice and here.
+                let neck = top_down[widest.0..place].iter().filter(|(_, width)| *width > 0.0);
+                let neck = neck.min_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)));
+                return neck.map_or(CHIN, |&(slice, _)| (slice as f64 + 0.5) / widths.len() as f64);
+            }
+            if width > widest.1 {
+                widest = (place, width);
+            }
+        }
+        CHIN
+    }
+
+    fn head_region(&self, chin: f64, head: Option<DVec3>, is_body: &[bool], plane: f64) -> HeadRegion {
+        let skin = self.layout.triangles_where(|mesh| is_body[mesh]);
+        let points = skin.iter().flatten().map(|&vertex| self.layout.positions[vertex as usize]);
+        let (low, high) = points
+            .filter(|p| p.y > chin)
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| (low.min(p.z), high.max(p.z)));
+        let middle = if low <= high { (low + high) / 2.0 } else { 0.0 };
+        HeadRegion { plane, chin, middle: head.map_or(middle, |head| head.z), length: (1.0 - chin).max(0.05) }
+    }
+
+    /// What a mesh is that is not body.
+    fn guess_other(&self, mesh: usize, is_body: &[bool], region: &HeadRegion) -> Guess {
+        let facts = &self.facts[mesh];
+        let layer = self.layer_share(mesh);
+        let above = facts.share(|sample| sample.point.y > region.chin);
+        let doubtful = |share: f64, limit: f64| (share - limit).abs() < DOUBT;
+        let inside = self.enclosed_share(mesh) >= ENCLOSED_SHARE;
+        // Teeth reach below the chin's height where that is the head joint's.
+        let at_head = facts.middle().y > region.chin - 0.25 * region.length;
+        if region.is_on_face(facts) || (inside && at_head && facts.extent() <= 0.8 * region.length) {
+            return Guess {
+                kind: MeshKind::FacePart,
+                sure: self.enclosed_share(mesh) >= ENCLOSED_SHARE - DOUBT,
+            };
+        }
+        // A head of its own: round the head's axis, with nothing below.
+        let on_axis = facts.low.x < region.plane
+            && facts.high.x > region.plane
+            && facts.low.z < region.middle
+            && facts.high.z > region.middle;
+        let volume = facts.share(|sample| sample.volume);
+        if above >= 0.8 && layer < 0.3 && volume >= 0.6 && on_axis && facts.extent() >= 0.5 * region.length {
+            return Guess { kind: MeshKind::Body, sure: false };
+        }
+        if above >= HAIR_SHARE && facts.high.y > region.chin + 0.5 * region.length {
+            return Guess {
+                kind: MeshKind::Hair,
+                sure: layer >= LAYER_SHARE && !doubtful(above, HAIR_SHARE),
+            };
+        }
+        if layer >= LAYER_SHARE {
+            return Guess { kind: MeshKind::Garment, sure: !doubtful(layer, LAYER_SHARE) };
+        }
+        // How far it sticks out from what is below, and where it begins.
+        let around = |other: usize| other != mesh && (is_body[other] || self.facts[other].area > facts.area);
+        let rest = Surface::new(&self.layout.positions, &self.layout.triangles_where(around));
+        let distances: Vec<(f64, f64)> = facts
+            .samples
+            .iter()
+            .filter_map(|sample| Some((rest.closest_point(sample.point)?.distance, sample.point.y)))
+            .collect();
+        let furthest = distances.iter().map(|&(distance, _)| distance).fold(0.0, f64::max);
+        let nearest = distances.iter().min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
+        let from_head = nearest.is_some_and(|&(_, height)| height > region.chin);
+        let over_body = facts.share(|sample| sample.over.is_some_and(|below| is_body[below]));
+        let kind = if from_head && facts.extent() >= 0.5 * region.length {
+            MeshKind::Hair
+        } else if furthest <= WORN || (over_body >= 0.2 && volume <= 0.5) {
+            // Wide cloth, such as a cape, is an open sheet; a thing is closed.
+            MeshKind::Garment
+        } else {
+            MeshKind::Accessory
+        };
+        Guess { kind, sure: false }
+    }
+}
+
+/// Where the head is.
+struct HeadRegion {
+    /// The x of the plane of symmetry.
+    plane: f64,
+    chin: f64,
+    /// Its middle along z.
+    middle: f64,
+    length: f64,
+}
+
+impl HeadRegion {
+    /// True for what is small, above the chin and not behind the middle.
+    fn is_on_face(&self, facts: &Facts) -> bool {
+        let middle = facts.middle();
+        let size = facts.high - facts.low;
+        middle.y > self.chin
+            && facts.low.y > self.chin - 0.1 * self.length
+            && middle.z > self.middle
+            && size.y <= 0.55 * self.length
+            && size.max_element() <= 0.8 * self.length
+            && middle.y < self.chin + 0.85 * self.length
+    }
+}
+
+/// The normal of a triangle, as long as its area.
+fn area_of(layout: &Layout, corners: [u32; 3]) -> DVec3 {
+    let [a, b, c] = corners.map(|vertex| layout.positions[vertex as usize]);
+    let normal = 0.5 * (b - a).cross(c - a);
+    if normal.is_finite() { normal } else { DVec3::ZERO }
+}
+
+fn mesh_area(layout: &Layout, mesh: usize) -> f64 {
+    layout.triangles_of(mesh).iter().map(|&corners| area_of(layout, corners).length()).sum()
+}
+
+/// Points evenly over the area of a mesh, with the unit normals of their triangles.
+fn points_on(layout: &Layout, mesh: usize, count: usize) -> Vec<(DVec3, DVec3)> {
+    let triangles = layout.triangles_of(mesh);
+    let normals: Vec<DVec3> = triangles.iter().map(|&corners| area_of(layout, corners)).collect();
+    let area: f64 = normals.iter().map(|normal| normal.length()).sum();
+    let step = area / count as f64;
+    if !(step.is_finite() && step > 0.0) {
+        return Vec::new();
+    }
+    let mut points = Vec::with_capacity(count);
+    let (mut passed, mut next) = (0.0, 0.5 * step);
+    for (corners, normal) in triangles.iter().zip(&normals) {
+        passed += normal.length();
+        while next < passed && points.len() < count {
+            // The golden ratios of the plane spread points evenly, whatever triangles they fall on.
+            let turn = points.len() as f64 + 0.5;
+            let (u, v) = ((turn * 0.754_877_666_246_692_7).fract(), (turn * 0.569_840_290_998_053_3).fract());
+            let (u, v) = if u + v > 1.0 { (1.0 - u, 1.0 - v) } else { (u, v) };
+            let [a, b, c] = corners.map(|vertex| layout.positions[vertex as usize]);
+            points.push((a + u * (b - a) + v * (c - a), normal.normalize_or_zero()));
+            next += step;
+        }
+    }
+    points.retain(|&(_, normal)| normal != DVec3::ZERO);
+    points
 }

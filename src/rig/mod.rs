@@ -3,15 +3,23 @@
 //! Every stage works on a [`Layout`]: x towards the character's left, y up, z forward, soles at 0, the whole figure 1
 //! high, so that no threshold depends on the unit of a file.
 
+pub mod arms;
 pub mod eyes;
 pub mod facing;
+pub mod geodesic;
 pub mod hand;
 pub mod heat;
 pub mod joints;
 pub mod kinds;
 pub mod layout;
+pub mod legs;
+pub mod pieces;
+pub mod silhouette;
 pub mod skeleton;
+pub mod stance;
 pub mod transfer;
+pub mod trunk;
+pub mod volume;
 pub mod voxel;
 
 use crate::character::{Role, Weights};

@@ -48,6 +48,8 @@ const SOLE_BAND: (f64, f64) = (0.15, 0.7);
 const HAIR_REACH: (f64, f64) = (0.36, 0.5);
 /// Loose pieces smaller than this part of H keep their shape: buttons, buckles, badges.
 const SMALL_PIECE: f64 = 0.04;
+/// Boxes closer than this part of H touch.
+const TOUCHING: f64 = 0.005;
 /// A vertex with this much weight to one joint counts as rigid.
 const RIGID_WEIGHT: f64 = 0.99;
 
@@ -158,6 +160,7 @@ pub fn part_bindings(
 
     let mut pieces = Vec::new();
     let joint_pieces = rigid_groups(figure, skeleton, &members, &head_only, &mut manners, &mut pieces);
+    accessories(figure, &members, &head_only, &parts, &mut manners, &mut pieces);
     small_pieces(figure, &members, &head_only, &parts, &mut manners, &mut pieces);
 
     let hair = HairOutline::of(
@@ -610,6 +613,99 @@ fn rigid_groups(
         pieces.push(Piece { anchor: figure.joints[joint], lowest, weights });
     }
     top.iter().map(|top| top.and_then(|top| piece_of_top[top])).collect()
+}
+
+/// Bags, swords, machine arms that are meshes of kind accessory and hang rigidly from the body: components whose boxes
+/// touch and whose weights are the same keep their shape as one, held where they are nearest to the body.
+fn accessories(
+    figure: &Figure,
+    members: &[Vec<u32>],
+    head_only: &[bool],
+    parts: &[PartWeights],
+    manners: &mut [Manner],
+    pieces: &mut Vec<Piece>,
+) {
+    let is_loose = |vertex: usize| {
+        figure.kind(vertex) == MeshKind::Accessory && !head_only[vertex] && manners[vertex] == Manner::Plain
+    };
+    let rigid = |members: &&Vec<u32>| {
+        let row = |vertex: u32| &figure.role_weights[vertex as usize];
+        members.len() >= 3
+            && members.iter().all(|&vertex| is_loose(vertex as usize) && row(vertex) == row(members[0]))
+    };
+    let components: Vec<&Vec<u32>> = members.iter().filter(rigid).collect();
+    if components.is_empty() {
+        return;
+    }
+    let place = |vertex: u32| figure.positions[vertex as usize];
+    let margin = DVec3::splat(TOUCHING * figure.height());
+    let boxes: Vec<(DVec3, DVec3)> = components
+        .iter()
+        .map(|members| {
+            let low = members.iter().map(|&vertex| place(vertex)).fold(DVec3::INFINITY, DVec3::min);
+            let high = members.iter().map(|&vertex| place(vertex)).fold(DVec3::NEG_INFINITY, DVec3::max);
+            (low - margin, high + margin)
+        })
+        .collect();
+    // Components in order of where they begin along x meet only those that begin before they end.
+    let mut order: Vec<usize> = (0..components.len()).collect();
+    order.sort_by(|&a, &b| boxes[a].0.x.total_cmp(&boxes[b].0.x).then(a.cmp(&b)));
+    let mut thing: Vec<usize> = (0..components.len()).collect();
+    let root = |thing: &[usize], mut one: usize| {
+        while thing[one] != one {
+            one = thing[one];
+        }
+        one
+    };
+    for (at, &one) in order.iter().enumerate() {
+        for &other in order[at + 1..].iter().take_while(|&&other| boxes[other].0.x <= boxes[one].1.x) {
+            let touch = boxes[one].0.cmple(boxes[other].1).all() && boxes[other].0.cmple(boxes[one].1).all();
+            let row = |component: usize| &figure.role_weights[components[component][0] as usize];
+            if touch && row(one) == row(other) {
+                let (a, b) = (root(&thing, one), root(&thing, other));
+                thing[a.max(b)] = a.min(b);
+            }
+        }
+    }
+    let body: Vec<DVec3> = (0..figure.positions.len())
+        .filter(|&vertex| figure.kind(vertex) != MeshKind::Accessory)
+        .map(|vertex| figure.positions[vertex])
+        .collect();
+    let tree = PointTree::new(&body);
+    let mut near = Vec::new();
+    for first in (0..components.len()).filter(|&component| thing[component] == component) {
+        let whole: Vec<u32> = (0..components.len())
+            .filter(|&component| root(&thing, component) == first)
+            .flat_map(|component| components[component])
+            .copied()
+            .collect();
+        let distances: Vec<f64> = whole
+            .iter()
+            .map(|&vertex| {
+                tree.nearest(place(vertex), 1, f64::INFINITY, &mut near);
+                near.first().map_or(0.0, |near| near.distance())
+            })
+            .collect();
+        let least = distances.iter().copied().fold(f64::INFINITY, f64::min) + TOUCHING * figure.height();
+        let held: Vec<u32> = whole
+            .iter()
+            .zip(&distances)
+            .filter(|&(_, &distance)| distance <= least)
+            .map(|(&vertex, _)| vertex)
+            .collect();
+        let mut weights = [0.0; PART_COUNT];
+        for &vertex in &held {
+            add(&mut weights, &parts[vertex as usize], 1.0 / held.len() as f32);
+        }
+        for &vertex in &whole {
+            manners[vertex as usize] = Manner::Piece(pieces.len());
+        }
+        pieces.push(Piece {
+            anchor: held.iter().map(|&vertex| place(vertex)).sum::<DVec3>() / held.len() as f64,
+            lowest: whole.iter().map(|&vertex| place(vertex).y).fold(f64::INFINITY, f64::min),
+            weights,
+        });
+    }
 }
 
 /// Buttons, buckles, badges: small loose components keep their shape.

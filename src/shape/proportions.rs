@@ -172,22 +172,27 @@ impl Anatomy {
             leg(figure, &landmarks, false),
         ];
         let middle_x = limbs.iter().map(|limb| limb.root.x).sum::<f64>() / 4.0;
-        let own = |part: usize| figure.triangles_where(|vertex| parts[vertex][part] > 0.5);
+        // Bags and weapons are no girth of anybody's, unless there is nothing else.
+        let own = |part: usize| {
+            let of_part = |vertex: usize| parts[vertex][part] > 0.5;
+            let bare = figure.triangles_where(|vertex| of_part(vertex) && !is_carried(figure, vertex));
+            if bare.is_empty() { figure.triangles_where(of_part) } else { bare }
+        };
         // What hangs from joints without a role (bags, machine arms, tails) does not make a trunk broad, unless the
         // trunk's own surface is too little to measure.
         let trunk = {
             let bare = figure.triangles_where(|vertex| {
-                parts[vertex][Part::Trunk as usize] > 0.5 && figure.extra_weight[vertex] < 0.5
+                parts[vertex][Part::Trunk as usize] > 0.5
+                    && figure.extra_weight[vertex] < 0.5
+                    && !is_carried(figure, vertex)
             });
             let measurable =
                 slice(figure, &bare, 0.5 * (landmarks.crotch + landmarks.shoulder_line), 0.03, 0.97);
             if measurable.is_some() { bare } else { own(Part::Trunk as usize) }
         };
         let head_joint = figure.role_position(Role::Head).unwrap_or_default();
-        let bare_head = figure.triangles_where(|vertex| {
-            figure.weight_of(vertex, is_head) > 0.5
-                && !matches!(figure.kind(vertex), MeshKind::Hair | MeshKind::Accessory)
-        });
+        let bare_head = figure
+            .triangles_where(|vertex| figure.weight_of(vertex, is_head) > 0.5 && !is_carried(figure, vertex));
         let head = if bare_head.is_empty() { own(Part::Head as usize) } else { bare_head };
         let head_centre =
             centre(figure, &head).unwrap_or(DVec3::new(middle_x, landmarks.crown, head_joint.z));
@@ -214,7 +219,7 @@ impl Anatomy {
         let extremity = |limbs: &[Limb], reach: &dyn Fn(&Limb, &[DVec3]) -> f64| {
             mean(limbs.iter().filter_map(|limb| {
                 let points: Vec<DVec3> = (0..figure.positions.len())
-                    .filter(|&vertex| parts[vertex][limb.parts[2]] > 0.5)
+                    .filter(|&vertex| parts[vertex][limb.parts[2]] > 0.5 && !is_carried(figure, vertex))
                     .map(|vertex| figure.positions[vertex])
                     .collect();
                 (points.len() > 2).then(|| reach(limb, &points)).filter(|&reach| reach > 0.02 * length)
@@ -278,6 +283,11 @@ impl Anatomy {
         }
         (line[line.len() - 1].1, 0.0)
     }
+}
+
+/// True for hair and for things that are worn or carried.
+fn is_carried(figure: &Figure, vertex: usize) -> bool {
+    matches!(figure.kind(vertex), MeshKind::Hair | MeshKind::Accessory)
 }
 
 fn mean(values: impl Iterator<Item = f64>) -> Option<f64> {

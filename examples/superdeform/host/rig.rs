@@ -26,28 +26,73 @@ const AVATAR_HEADERS: [&str; 5] =
 /// As [`add_rig`].
 pub fn rerigged(loaded: &Loaded, skeleton: &Skeleton, weights: &[Weights]) -> Result<GltfFile> {
     let mut file = loaded.file.clone();
-    if let Some(extensions) = file.json["extensions"].as_object_mut() {
+    if let Some(extensions) = file.json.get_mut("extensions").and_then(Value::as_object_mut) {
         extensions.retain(|name, _| !AVATAR_HEADERS.contains(&name.as_str()));
         if extensions.is_empty() {
             file.json.as_object_mut().map(|json| json.remove("extensions"));
         }
     }
     for list in ["extensionsUsed", "extensionsRequired"] {
-        if let Some(names) = file.json[list].as_array_mut() {
-            names.retain(|name| !name.as_str().is_some_and(|name| AVATAR_HEADERS.contains(&name)));
-            if names.is_empty() {
-                file.json.as_object_mut().map(|json| json.remove(list));
-            }
-        } else {
+        let Some(names) = file.json.get_mut(list).and_then(Value::as_array_mut) else { continue };
+        names.retain(|name| !name.as_str().is_some_and(|name| AVATAR_HEADERS.contains(&name)));
+        if names.is_empty() {
             file.json.as_object_mut().map(|json| json.remove(list));
         }
     }
-    for node in file.json["nodes"].as_array_mut().into_iter().flatten() {
+    for node in file.json.get_mut("nodes").and_then(Value::as_array_mut).into_iter().flatten() {
         node.as_object_mut().map(|node| node.remove("skin"));
     }
     file.json.as_object_mut().map(|json| json.remove("skins"));
+    let old = file.list("nodes").len();
     add_rig(&mut file, loaded, skeleton, weights)?;
+    hide_empty(&mut file, old);
     Ok(file)
+}
+
+/// Takes those of the first `count` nodes that show nothing any more out of the scenes, with what animates them: joints
+/// of a rig that is no longer there would be taken for the new one's.
+fn hide_empty(file: &mut GltfFile, count: usize) {
+    let nodes = file.list("nodes");
+    let shows = |node: &Value| {
+        ["mesh", "camera"].iter().any(|key| node.get(*key).is_some())
+            || node["extensions"]["KHR_lights_punctual"].is_object()
+    };
+    let mut shown: Vec<bool> =
+        nodes.iter().enumerate().map(|(index, node)| index >= count || shows(node)).collect();
+    // What holds something that is shown stays too; a chain of nodes is no longer than there are nodes.
+    loop {
+        let holds = |node: &Value| {
+            array_at(node, "children").iter().filter_map(Value::as_u64).any(|child| shown[child as usize])
+        };
+        let more: Vec<usize> = (0..nodes.len()).filter(|&node| !shown[node] && holds(&nodes[node])).collect();
+        if more.is_empty() {
+            break;
+        }
+        more.into_iter().for_each(|node| shown[node] = true);
+    }
+    let is_shown = |node: &Value| node.as_u64().is_none_or(|node| shown[node as usize]);
+    for list in file.json.get_mut("scenes").and_then(Value::as_array_mut).into_iter().flatten() {
+        if let Some(nodes) = list.get_mut("nodes").and_then(Value::as_array_mut) {
+            nodes.retain(is_shown);
+        }
+    }
+    for node in file.json.get_mut("nodes").and_then(Value::as_array_mut).into_iter().flatten().take(count) {
+        let Some(children) = node.get_mut("children").and_then(Value::as_array_mut) else { continue };
+        children.retain(is_shown);
+        if children.is_empty() {
+            node.as_object_mut().map(|node| node.remove("children"));
+        }
+    }
+    let Some(animations) = file.json.get_mut("animations").and_then(Value::as_array_mut) else { return };
+    for animation in animations.iter_mut() {
+        if let Some(channels) = animation.get_mut("channels").and_then(Value::as_array_mut) {
+            channels.retain(|channel| is_shown(&channel["target"]["node"]));
+        }
+    }
+    animations.retain(|animation| !array_at(animation, "channels").is_empty());
+    if animations.is_empty() {
+        file.json.as_object_mut().map(|json| json.remove("animations"));
+    }
 }
 
 /// Gives `file`, which holds the meshes of `loaded` without a skin, the joints of `skeleton` and `weights` to them.
@@ -240,9 +285,9 @@ fn show(file: &mut GltfFile, loaded: &Loaded, node: usize, mesh: usize, skin: us
     let new = push(&mut file.json["nodes"], Value::Object(shown));
     add_to_scene(file, new);
     // Expressions that an animation plays are the mesh's.
-    for animation in file.json["animations"].as_array_mut().into_iter().flatten() {
-        for channel in animation["channels"].as_array_mut().into_iter().flatten() {
-            let target = &mut channel["target"];
+    for animation in file.json.get_mut("animations").and_then(Value::as_array_mut).into_iter().flatten() {
+        for channel in animation.get_mut("channels").and_then(Value::as_array_mut).into_iter().flatten() {
+            let Some(target) = channel.get_mut("target") else { continue };
             if target["path"] == "weights" && index_at(target, "node") == Some(node) {
                 target["node"] = json!(new);
             }

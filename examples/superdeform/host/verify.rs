@@ -3,9 +3,9 @@
 use super::accessor::Reader;
 use super::bind::NodeTree;
 use super::file::GltfFile;
-use super::index_at;
 use super::load::{Loaded, read_primitive, read_skins};
 use super::write::{extent, new_rest};
+use super::{array_at, index_at};
 use glam::{DMat4, DVec3};
 use superdeform::Result;
 use superdeform::pipeline::Deformed;
@@ -17,6 +17,37 @@ pub struct Closure {
     pub rest: f64,
     /// By the written nodes; `None` where the file's nodes stand in another pose.
     pub nodes: Option<f64>,
+}
+
+/// The vertices of all meshes of a file, skinned by its nodes as they stand, in the order of its nodes.
+///
+/// # Errors
+/// When the file cannot be read.
+pub fn skinned(file: &GltfFile) -> Result<Vec<DVec3>> {
+    let tree = NodeTree::read(file)?;
+    let reader = Reader::new(file);
+    let skins = read_skins(&reader)?;
+    let mut places = Vec::new();
+    for &node in &tree.order {
+        let json = &file.list("nodes")[node];
+        let Some(mesh) = index_at(json, "mesh") else { continue };
+        let skin = index_at(json, "skin").map(|skin| &skins[skin]);
+        for primitive in 0..array_at(&file.list("meshes")[mesh], "primitives").len() {
+            let joint_count = skin.map(|skin| skin.joints.len());
+            let Some(raw) = read_primitive(&reader, node, mesh, primitive, joint_count)? else { continue };
+            for (vertex, place) in raw.positions.iter().enumerate() {
+                let matrix = match skin {
+                    None => tree.world[node],
+                    Some(skin) => raw.rows[vertex].iter().fold(DMat4::ZERO, |sum, &(slot, weight)| {
+                        let slot = slot as usize;
+                        sum + tree.world[skin.joints[slot]] * skin.inverse_binds[slot] * f64::from(weight)
+                    }),
+                };
+                places.push(matrix.transform_point3(place.as_dvec3()));
+            }
+        }
+    }
+    Ok(places)
 }
 
 /// Reads a written file and skins it at rest.

@@ -1,0 +1,469 @@
+//! Distances from bones through a volume.
+//!
+//! Dionne and de Lasa. Geodesic voxel binding for production character meshes. SCA 2013, §3.2. They add up steps from
+//! voxel to voxel, which is up to a tenth too long and shows as blocks; here a voxel that sees its bone takes the straight
+//! distance, and steps are added up only around corners.
+
+use super::volume::{OUTSIDE, Volume, nearest};
+use crate::geometry::foot;
+use glam::{DVec3, IVec3};
+
+/// Buckets a voxel: a voxel is always settled in a later bucket than the one on its way to the bone.
+const BUCKETS: f32 = 4.0;
+/// A bone is sampled this often a voxel.
+const SAMPLES: f64 = 4.0;
+/// Voxels this much further away than the nearest are as near: a bone in a plane of symmetry starts on both sides.
+const TIE: f64 = 1e-6;
+/// How much deeper than its first contact an island is tied to the volume beside it, in voxels.
+const CONTACT: f32 = 2.0;
+/// Ends of bones that are this close, in voxels, are one.
+const SAME: f64 = 1e-6;
+
+/// A bone in voxels.
+#[derive(Clone, Debug)]
+pub struct Bone {
+    /// Both ends of each of its segments; at least one.
+    pub segments: Vec<[DVec3; 2]>,
+    /// The voxels that it starts from: those it passes, or the nearest.
+    pub starts: Vec<u32>,
+}
+
+impl Bone {
+    /// The point of the bone that is closest to `p`.
+    pub fn foot(&self, p: DVec3) -> DVec3 {
+        let feet = self.segments.iter().map(|&[a, b]| foot(p, a, b).0);
+        feet.min_by(|one, other| one.distance_squared(p).total_cmp(&other.distance_squared(p))).unwrap_or(p)
+    }
+
+    /// Whether an end of one bone is an end of the other.
+    pub fn touches(&self, other: &Self) -> bool {
+        let mut ends = self.segments.iter().flatten();
+        ends.any(|p| other.segments.iter().flatten().any(|q| p.distance(*q) <= SAME))
+    }
+
+    /// The length of the longest segment.
+    pub fn length(&self) -> f64 {
+        self.segments.iter().map(|[a, b]| a.distance(*b)).fold(0.0, f64::max)
+    }
+
+    /// How far the volume reaches around the longest segment, in voxels: the median over directions at right angles to
+    /// it, at least; 0 where it is out of the volume or has no length.
+    pub fn thickness(&self, volume: &Volume) -> f64 {
+        let longest = |one: &&[DVec3; 2], other: &&[DVec3; 2]| {
+            one[0].distance(one[1]).total_cmp(&other[0].distance(other[1]))
+        };
+        let Some(&[a, b]) = self.segments.iter().max_by(longest) else {
+            return 0.0;
+        };
+        if a.distance(b) <= SAME {
+            return 0.0;
+        }
+        let mut reaches = Vec::new();
+        for offset in neighbourhood() {
+            let direction = offset.as_dvec3().reject_from_normalized((b - a).normalize()).normalize_or_zero();
+            if direction == DVec3::ZERO {
+                continue;
+            }
+            for t in [0.25, 0.5, 0.75] {
+                let from = a.lerp(b, t);
+                let steps =
+                    (0..).take_while(|&step| is_in(volume, from + direction * f64::from(step) / SAMPLES));
+                // A voxel is in the volume where its corner is touched: a voxel less is enclosed for certain.
+                reaches.push((steps.count() as f64 / SAMPLES - 1.0).max(0.0));
+            }
+        }
+        reaches.sort_by(f64::total_cmp);
+        reaches[reaches.len() / 2]
+    }
+}
+
+/// The bones in voxels, each with at least one voxel to start from; `volume` has at least one.
+///
+/// A bone without length at the end of another one goes on in that one's direction to the volume's end: else the whole
+/// of a head whose top nobody knows is as near to the neck as to the head.
+pub fn place_bones(volume: &Volume, bones: &[Vec<[DVec3; 2]>]) -> Vec<Bone> {
+    let in_grid = |p: DVec3| if p.is_finite() { volume.to_grid_free(p) } else { volume.to_grid(p) };
+    let mut all: Vec<Vec<[DVec3; 2]>> = bones
+        .iter()
+        .map(|segments| segments.iter().map(|&[a, b]| [in_grid(a), in_grid(b)]).collect())
+        .collect();
+    let lines: Vec<[DVec3; 2]> = all.iter().flatten().copied().collect();
+    for segment in all.iter_mut().flatten() {
+        let [joint, end] = *segment;
+        if joint.distance(end) > SAME {
+            continue;
+        }
+        let arriving =
+            lines.iter().filter(|[from, to]| to.distance(joint) <= SAME && from.distance(joint) > SAME);
+        let direction: DVec3 = arriving.map(|&[from, to]| (to - from).normalize_or_zero()).sum();
+        let step = direction.normalize_or_zero() / SAMPLES;
+        while step != DVec3::ZERO && is_in(volume, segment[1] + step) {
+            segment[1] += step;
+        }
+    }
+    let placed = all.into_iter().map(|segments| {
+        let mut starts: Vec<u32> = samples(volume, &segments)
+            .map(|p| volume.slot(nearest(p)))
+            .filter(|&slot| slot != OUTSIDE)
+            .collect();
+        starts.sort_unstable();
+        starts.dedup();
+        let mut bone = Bone { segments, starts };
+        if bone.starts.is_empty() {
+            bone.starts = nearest_voxels(volume, &bone);
+        }
+        bone
+    });
+    placed.collect()
+}
+
+fn is_in(volume: &Volume, p: DVec3) -> bool {
+    volume.slot(nearest(p)) != OUTSIDE
+}
+
+/// Points along the segments, the part of them that lies in the grid.
+fn samples<'a>(volume: &Volume, segments: &'a [[DVec3; 2]]) -> impl Iterator<Item = DVec3> + 'a {
+    // A bone of another scale than the mesh must not take forever.
+    let most = SAMPLES * 2.0 * f64::from(volume.size.element_sum());
+    segments.iter().flat_map(move |&[a, b]| {
+        let count = (SAMPLES * a.distance(b)).ceil().clamp(1.0, most);
+        (0..=count as usize).map(move |sample| a.lerp(b, sample as f64 / count))
+    })
+}
+
+/// The voxels that are nearest to a bone outside the volume.
+fn nearest_voxels(volume: &Volume, bone: &Bone) -> Vec<u32> {
+    let distance = |cell: &u32| {
+        let p = volume.place(*cell).as_dvec3();
+        bone.foot(p).distance(p)
+    };
+    let least = volume.cells.iter().map(distance).fold(f64::INFINITY, f64::min);
+    let near =
+        volume.cells.iter().enumerate().filter(|(_, cell)| distance(cell) <= least * (1.0 + TIE) + TIE);
+    near.map(|(slot, _)| slot as u32).collect()
+}
+
+/// A way into a part of the volume that touches no bone's, from the nearest voxel that does.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Link {
+    from: u32,
+    to: u32,
+    length: f32,
+}
+
+/// How voxels hang together.
+#[derive(Clone, Debug)]
+pub struct Paths<'a> {
+    /// The voxels.
+    pub volume: &'a Volume,
+    /// For each voxel, whether it lies in a part of the volume that no bone starts in.
+    pub is_apart: Vec<bool>,
+    /// Ascending by `from`.
+    links: Vec<Link>,
+    has_links: Vec<bool>,
+    /// Offsets of the 26 neighbours in memory, and how far they are.
+    steps: Vec<(isize, f32)>,
+}
+
+impl<'a> Paths<'a> {
+    /// Parts of the volume that no bone starts in are tied to the nearest that one starts in, where they are nearest to
+    /// it; ways lead into them, not through them.
+    pub fn new(volume: &'a Volume, bones: &[Bone]) -> Self {
+        let steps = neighbourhood().map(|at| (volume.stride(at), at.as_vec3().length())).collect();
+        let count = volume.cells.len();
+        let mut paths = Self {
+            volume,
+            is_apart: vec![true; count],
+            links: Vec::new(),
+            has_links: vec![false; count],
+            steps,
+        };
+        let mut open: Vec<u32> = bones.iter().flat_map(|bone| bone.starts.iter().copied()).collect();
+        while let Some(slot) = open.pop() {
+            if std::mem::replace(&mut paths.is_apart[slot as usize], false) {
+                open.extend(paths.neighbours(slot).map(|(next, _)| next));
+            }
+        }
+        paths.tie_islands();
+        for link in &paths.links {
+            paths.has_links[link.from as usize] = true;
+        }
+        paths
+    }
+
+    fn neighbours(&self, slot: u32) -> impl Iterator<Item = (u32, f32)> + '_ {
+        let cell = self.volume.cells[slot as usize] as isize;
+        let near =
+            self.steps.iter().map(move |&(step, length)| (self.volume.slots[(cell + step) as usize], length));
+        near.filter(|&(next, _)| next != OUTSIDE)
+    }
+
+    fn links_of(&self, slot: u32) -> &[Link] {
+        let first = self.links.partition_point(|link| link.from < slot);
+        let count = self.links[first..].iter().take_while(|link| link.from == slot).count();
+        &self.links[first..first + count]
+    }
+
+    /// For each voxel the number of its island, counted from 0, or `OUTSIDE` where it is not apart; and their number.
+    fn islands(&self) -> (Vec<u32>, usize) {
+        let mut islands = vec![OUTSIDE; self.is_apart.len()];
+        let mut count = 0;
+        for first in 0..islands.len() as u32 {
+            if !self.is_apart[first as usize] || islands[first as usize] != OUTSIDE {
+                continue;
+            }
+            let mut open = vec![first];
+            while let Some(slot) = open.pop() {
+                if islands[slot as usize] == OUTSIDE {
+                    islands[slot as usize] = count;
+                    open.extend(self.neighbours(slot).map(|(next, _)| next));
+                }
+            }
+            count += 1;
+        }
+        (islands, count as usize)
+    }
+
+    /// A wave through the air, from all voxels that are not apart, which remembers where it came from.
+    fn tie_islands(&mut self) {
+        let (islands, island_count) = self.islands();
+        if island_count == 0 {
+            return;
+        }
+        let volume = self.volume;
+        let mut origins = vec![OUTSIDE; volume.slots.len()];
+        let mut is_settled = vec![false; volume.slots.len()];
+        let mut queue = Queue::default();
+        for (slot, _) in self.is_apart.iter().enumerate().filter(|&(_, &is_apart)| !is_apart) {
+            origins[volume.cells[slot] as usize] = slot as u32;
+            queue.push(0.0, volume.cells[slot]);
+        }
+        let length = |cell: u32, origin: u32| {
+            let from = volume.place(volume.cells[origin as usize]);
+            (volume.place(cell) - from).as_vec3().length()
+        };
+        let mut contacts = vec![f32::INFINITY; island_count];
+        let mut untouched = island_count;
+        let mut last = f32::INFINITY;
+        while let Some((key, cell)) = queue.pop() {
+            if key > last {
+                break;
+            }
+            if std::mem::replace(&mut is_settled[cell as usize], true) {
+                continue;
+            }
+            let least = length(cell, origins[cell as usize]);
+            let slot = volume.slots[cell as usize];
+            let island = if slot == OUTSIDE { OUTSIDE } else { islands[slot as usize] };
+            if island != OUTSIDE {
+                let contact = &mut contacts[island as usize];
+                if *contact == f32::INFINITY {
+                    *contact = least;
+                    untouched -= 1;
+                    if untouched == 0 {
+                        last = least + CONTACT;
+                    }
+                }
+                if least <= *contact + CONTACT {
+                    let first = self.links.len();
+                    let at = volume.place(cell);
+                    for offset in neighbourhood() {
+                        let next = at + offset;
+                        if next.cmplt(IVec3::ZERO).any() || next.cmpge(volume.size).any() {
+                            continue;
+                        }
+                        // All origins that are as near: else a midline would choose a side.
+                        let from = origins[volume.cell(next)];
+                        if from != OUTSIDE
+                            && length(cell, from) <= least + TIE as f32
+                            && self.links[first..].iter().all(|link| link.from != from)
+                        {
+                            self.links.push(Link { from, to: slot, length: least });
+                        }
+                    }
+                }
+            }
+            let at = volume.place(cell);
+            for offset in neighbourhood() {
+                let next = at + offset;
+                if next.cmplt(IVec3::ZERO).any() || next.cmpge(volume.size).any() {
+                    continue;
+                }
+                let next = volume.cell(next);
+                let (origin, known) = (origins[cell as usize], origins[next]);
+                let candidate = length(next as u32, origin);
+                if !is_settled[next] && (known == OUTSIDE || candidate < length(next as u32, known)) {
+                    origins[next] = origin;
+                    queue.push(candidate, next as u32);
+                }
+            }
+        }
+        self.links.sort_by_key(|link| (link.from, link.to));
+    }
+}
+
+/// The offsets of the 26 neighbours.
+fn neighbourhood() -> impl Iterator<Item = IVec3> {
+    (0..27).filter(|&i| i != 13).map(|i| IVec3::new(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1))
+}
+
+/// Voxels by distance, in buckets: those of one bucket come in no particular order.
+#[derive(Clone, Debug, Default)]
+struct Queue {
+    buckets: Vec<Vec<u32>>,
+    current: usize,
+}
+
+impl Queue {
+    fn push(&mut self, distance: f32, item: u32) {
+        let bucket = ((distance * BUCKETS) as usize).max(self.current);
+        if bucket >= self.buckets.len() {
+            self.buckets.resize(bucket + 1, Vec::new());
+        }
+        self.buckets[bucket].push(item);
+    }
+
+    /// The next item, and the least distance of its bucket.
+    fn pop(&mut self) -> Option<(f32, u32)> {
+        while let Some(bucket) = self.buckets.get_mut(self.current) {
+            if let Some(item) = bucket.pop() {
+                return Some((self.current as f32 / BUCKETS, item));
+            }
+            self.current += 1;
+        }
+        None
+    }
+
+    fn clear(&mut self) {
+        self.buckets.iter_mut().for_each(Vec::clear);
+        self.current = 0;
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum State {
+    Unknown,
+    Waiting,
+    /// The way to the bone goes around a corner.
+    Bent,
+    /// The way to the bone is straight.
+    Straight,
+    /// The way to the bone is longer than asked for.
+    Beyond,
+}
+
+/// Distances through a volume, in voxels; may be used again.
+#[derive(Clone, Debug)]
+pub struct Distances {
+    /// For each voxel the distance from the nearest of the bones; meaningful where it was reached.
+    pub lengths: Vec<f32>,
+    /// For each voxel that bone's index.
+    pub bones: Vec<u32>,
+    states: Vec<State>,
+    visited: Vec<u32>,
+    queue: Queue,
+}
+
+impl Distances {
+    /// Room for the distances of `voxel_count` voxels.
+    pub fn new(voxel_count: usize) -> Self {
+        Self {
+            lengths: vec![0.0; voxel_count],
+            bones: vec![0; voxel_count],
+            states: vec![State::Unknown; voxel_count],
+            visited: Vec::new(),
+            queue: Queue::default(),
+        }
+    }
+
+    /// Whether a way leads to the voxel.
+    pub fn is_reached(&self, slot: u32) -> bool {
+        matches!(self.states[slot as usize], State::Bent | State::Straight)
+    }
+
+    /// Whether that way is straight.
+    pub fn is_straight(&self, slot: u32) -> bool {
+        self.states[slot as usize] == State::Straight
+    }
+
+    /// Spreads from the bones whose indices are `sources`, no further than `limit` allows for each voxel.
+    pub fn spread(
+        &mut self,
+        paths: &Paths,
+        all: &[Bone],
+        sources: impl Iterator<Item = usize>,
+        limit: impl Fn(u32) -> f32,
+    ) {
+        for &slot in &self.visited {
+            self.states[slot as usize] = State::Unknown;
+        }
+        self.visited.clear();
+        self.queue.clear();
+        let volume = paths.volume;
+        let middle = |slot: u32| volume.place(volume.cells[slot as usize]).as_dvec3();
+        for bone in sources {
+            for &slot in &all[bone].starts {
+                let p = middle(slot);
+                self.offer(slot, p.distance(all[bone].foot(p)) as f32, bone as u32);
+            }
+        }
+        // What a bone starts from sees it; settled here, so that all of it is there when others look for it.
+        for &slot in &self.visited {
+            self.states[slot as usize] = State::Straight;
+        }
+        for start in 0..self.visited.len() {
+            self.offer_around(paths, self.visited[start]);
+        }
+        while let Some((_, slot)) = self.queue.pop() {
+            if self.states[slot as usize] != State::Waiting {
+                continue;
+            }
+            let bone = self.bones[slot as usize];
+            let p = middle(slot);
+            let foot = all[bone as usize].foot(p);
+            let way = foot - p;
+            let before = volume.slot(nearest(p + way / way.abs().max_element().max(1.0)));
+            // The voxel on the straight way is nearer to the bone, so it is settled already if it is in the volume.
+            let sees = before == slot
+                || before != OUTSIDE && self.is_straight(before) && self.bones[before as usize] == bone;
+            self.states[slot as usize] = if sees { State::Straight } else { State::Bent };
+            if sees {
+                self.lengths[slot as usize] = way.length() as f32;
+            }
+            if self.lengths[slot as usize] > limit(slot) {
+                self.states[slot as usize] = State::Beyond;
+                continue;
+            }
+            self.offer_around(paths, slot);
+        }
+    }
+
+    fn offer_around(&mut self, paths: &Paths, slot: u32) {
+        let (length, bone) = (self.lengths[slot as usize], self.bones[slot as usize]);
+        let cell = paths.volume.cells[slot as usize] as isize;
+        for &(step, step_length) in &paths.steps {
+            let next = paths.volume.slots[(cell + step) as usize];
+            if next != OUTSIDE {
+                self.offer(next, length + step_length, bone);
+            }
+        }
+        if paths.has_links[slot as usize] {
+            for link in paths.links_of(slot) {
+                self.offer(link.to, length + link.length, bone);
+            }
+        }
+    }
+
+    fn offer(&mut self, slot: u32, length: f32, bone: u32) {
+        let at = slot as usize;
+        match self.states[at] {
+            State::Unknown => self.visited.push(slot),
+            State::Waiting if length < self.lengths[at] => {}
+            _ => return,
+        }
+        self.states[at] = State::Waiting;
+        self.lengths[at] = length;
+        self.bones[at] = bone;
+        self.queue.push(length, slot);
+    }
+}

@@ -1,0 +1,151 @@
+//! Whether a surface is whole enough for heat: what flows along it stops where it ends.
+
+use super::WeightBone;
+use super::volume::{Volume, nearest};
+use crate::geometry::{components, foot, weld};
+use glam::DVec3;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Vertices this near are one, in units of the figure's longest side.
+const WELD_TOLERANCE: f64 = 1e-6;
+/// Ends of bones this near meet, in the same units.
+const MEETING: f64 = 1e-4;
+/// Shorter bones are fingers: how they bend says little about the body. In the same units.
+const LEAST_LENGTH: f64 = 0.02;
+/// A component with this share of a bone's surface bends with it.
+const CARRYING: f64 = 0.25;
+/// Voxels along the longest side in which components are looked for that lie on each other.
+const RESOLUTION: usize = 64;
+
+/// More of the joints than this without a component across them: the body comes in pieces.
+const MOST_UNJOINED: f64 = 0.15;
+/// More of the surface than this in more than one component: shells on shells.
+const MOST_SHARED: f64 = 0.5;
+/// A longer border than this, in square roots of the area: patches. A body without head, hands and feet has about 1.
+const MOST_OPEN: f64 = 3.0;
+
+/// What there is to say about a surface and the bones in it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Pieces {
+    /// Connected components that bend with at least one bone.
+    pub carrying: usize,
+    /// Joints between bones with a surface of their own.
+    pub joints: usize,
+    /// Those that no component bends across: heat gives each piece weights of its own, and seams tear.
+    pub unjoined: usize,
+    /// Share of those components' voxels that more than one component passes through.
+    pub shared: f64,
+    /// Length of their edges with one triangle, in square roots of their area.
+    pub open: f64,
+}
+
+impl Pieces {
+    /// Measures a surface; all in one space.
+    pub fn of(positions: &[DVec3], triangles: &[[u32; 3]], bones: &[WeightBone]) -> Self {
+        let volume = Volume::grid(positions, triangles, RESOLUTION);
+        let points: Vec<DVec3> = positions.iter().map(|&p| volume.to_grid(p)).collect();
+        let size = RESOLUTION as f64;
+        let bones: Vec<Vec<[DVec3; 2]>> = bones
+            .iter()
+            .map(|bone| bone.segments.iter().map(|ends| ends.map(|p| volume.to_grid_free(p))).collect())
+            .collect();
+        let weld = weld(&points, WELD_TOLERANCE * size);
+        let components = components(triangles, &weld);
+        let component_of = |vertex: u32| components[weld.representative[vertex as usize] as usize];
+
+        let nearest_bone = |p: DVec3| {
+            let distance = |bone: &Vec<[DVec3; 2]>| {
+                bone.iter().map(|&[a, b]| foot(p, a, b).0.distance_squared(p)).fold(f64::INFINITY, f64::min)
+            };
+            let distances = bones.iter().map(distance).enumerate();
+            distances.min_by(|one, other| one.1.total_cmp(&other.1)).map_or(0, |(bone, _)| bone)
+        };
+        // Area by bone and component.
+        let mut shares: BTreeMap<(usize, u32), f64> = BTreeMap::new();
+        let mut areas = vec![0.0; bones.len().max(1)];
+        for triangle in triangles {
+            let [a, b, c] = triangle.map(|vertex| points[vertex as usize]);
+            let part = (b - a).cross(c - a).length() / 2.0;
+            let bone = nearest_bone((a + b + c) / 3.0);
+            *shares.entry((bone, component_of(triangle[0]))).or_default() += part;
+            areas[bone] += part;
+        }
+        let carried: Vec<BTreeSet<u32>> = (0..bones.len())
+            .map(|bone| {
+                let of_bone = shares.range((bone, 0)..=(bone, u32::MAX));
+                of_bone.filter(|&(_, &part)| part >= CARRYING * areas[bone]).map(|(&(_, c), _)| c).collect()
+            })
+            .collect();
+        // Hair cards, lashes and badges say nothing about the body.
+        let body: BTreeSet<u32> = carried.iter().flatten().copied().collect();
+        let carrying = body.len();
+        let area: f64 = shares.iter().filter(|((_, c), _)| body.contains(c)).map(|(_, part)| part).sum();
+
+        let length = |bone: &Vec<[DVec3; 2]>| bone.iter().map(|[a, b]| a.distance(*b)).fold(0.0, f64::max);
+        let meet = |one: &Vec<[DVec3; 2]>, other: &Vec<[DVec3; 2]>| {
+            one.iter().flatten().any(|p| other.iter().flatten().any(|q| p.distance(*q) <= MEETING * size))
+        };
+        let (mut joints, mut unjoined) = (0, 0);
+        for one in 0..bones.len() {
+            for other in one + 1..bones.len() {
+                let is_long = [one, other].iter().all(|&bone| length(&bones[bone]) > LEAST_LENGTH * size);
+                let has_surface = areas[one] > 0.0 && areas[other] > 0.0;
+                if is_long && has_surface && meet(&bones[one], &bones[other]) {
+                    joints += 1;
+                    unjoined += usize::from(carried[one].is_disjoint(&carried[other]));
+                }
+            }
+        }
+
+        let mut edges: Vec<(u32, u32)> = Vec::with_capacity(3 * triangles.len());
+        let mut voxels: Vec<(u32, u32)> = Vec::new();
+        for triangle in triangles {
+            let [a, b, c] = weld.triangle(*triangle);
+            if a == b || b == c || c == a || !body.contains(&component_of(triangle[0])) {
+                continue;
+            }
+            edges.extend([(a, b), (b, c), (c, a)].map(|(one, other)| (one.min(other), one.max(other))));
+            let middle = triangle.iter().map(|&vertex| points[vertex as usize]).sum::<DVec3>() / 3.0;
+            voxels.push((volume.cell(nearest(middle)) as u32, component_of(triangle[0])));
+        }
+        edges.sort_unstable();
+        let first = weld.first_vertices();
+        let at = |welded: u32| points[first[welded as usize] as usize];
+        let border: f64 = edges
+            .chunk_by(|one, other| one == other)
+            .filter(|edge| edge.len() == 1)
+            .map(|edge| at(edge[0].0).distance(at(edge[0].1)))
+            .sum();
+        voxels.sort_unstable();
+        voxels.dedup();
+        let (mut all, mut shared) = (0, 0);
+        for voxel in voxels.chunk_by(|one, other| one.0 == other.0) {
+            all += 1;
+            shared += usize::from(voxel.len() > 1);
+        }
+        let ratio = |part: f64, whole: f64| if whole > 0.0 { part / whole } else { 0.0 };
+        Self {
+            carrying,
+            joints,
+            unjoined,
+            shared: ratio(shared as f64, all as f64),
+            open: ratio(border, area.sqrt()),
+        }
+    }
+
+    /// Why heat would be poor, as a sentence for a person; `None` where it does well.
+    pub fn trouble(&self) -> Option<String> {
+        let Self { carrying, joints, unjoined, shared, open } = *self;
+        if unjoined as f64 > MOST_UNJOINED * joints as f64 {
+            Some(format!(
+                "the body comes in {carrying} pieces: no surface leads across {unjoined} of {joints} joints"
+            ))
+        } else if shared > MOST_SHARED {
+            Some(format!("{:.0} % of the body lies in shells upon shells", 100.0 * shared))
+        } else if open > MOST_OPEN {
+            Some(format!("the body is open: its borders are {open:.1} times as long as the root of its area"))
+        } else {
+            None
+        }
+    }
+}

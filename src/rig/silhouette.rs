@@ -1,0 +1,266 @@
+//! A grid of parallel rays and all that they meet: the body's silhouette, its depth, and what lies inside of it.
+
+use crate::parallel;
+use glam::DVec3;
+
+/// More hits than this are no figure's.
+const MOST_HITS: f64 = 6e6;
+/// Things that lie further apart than this part of a limb's thickness are not the same limb.
+const LIMB_GAP: f64 = 0.35;
+/// Fewer triangles than this are not worth a thread of their own.
+const LEAST_SHARE: usize = 4096;
+
+/// The plane that a grid of rays starts from, and how fine the grid is.
+#[derive(Clone, Copy, Debug)]
+pub struct GridFrame {
+    /// The corner of the grid: where column 0, row 0 begins.
+    pub origin: DVec3,
+    /// The way columns count; of length 1.
+    pub right: DVec3,
+    /// The way rows count; of length 1, at right angles to `right`.
+    pub up: DVec3,
+    /// The side of a cell.
+    pub cell: f64,
+    /// How many columns there are.
+    pub columns: usize,
+    /// How many rows there are.
+    pub rows: usize,
+}
+
+/// All that a grid of parallel rays meets. The rays run through the middles of the cells, along `right` × `up`.
+#[derive(Clone, Debug)]
+pub struct RayGrid {
+    /// Where the grid stands.
+    pub frame: GridFrame,
+    /// Where each cell's hits start; one more than there are cells.
+    starts: Vec<u32>,
+    /// Depths along `right` × `up`, ascending in each cell, and whether the ray leaves there.
+    hits: Vec<(f32, bool)>,
+}
+
+impl RayGrid {
+    /// Casts the rays of `frame` at `triangles`.
+    ///
+    /// Each triangle looks for the rays that it meets, which for parallel rays is the same as each ray looking for its
+    /// triangles and needs no tree. A ray through an edge meets one of the two triangles.
+    ///
+    /// `threads`: at most so many; 0 means all cores.
+    ///
+    /// O(triangles + hits · log hits of a ray).
+    pub fn new(positions: &[DVec3], triangles: &[[u32; 3]], frame: GridFrame, threads: usize) -> Self {
+        // A body meets a ray a few times. A heap of large triangles would fill the memory: of that, some must do.
+        let cells = (frame.columns * frame.rows) as f64;
+        let along = frame.right.cross(frame.up);
+        let expected: f64 = triangles
+            .iter()
+            .map(|corners| {
+                let [a, b, c] = corners.map(|vertex| positions[vertex as usize]);
+                let cells_met = 0.5 * (b - a).cross(c - a).dot(along).abs() / (frame.cell * frame.cell);
+                if cells_met.is_finite() { cells_met.min(cells) } else { cells }
+            })
+            .sum();
+        let step = (expected / MOST_HITS).ceil().max(1.0) as usize;
+        let thinned: Vec<[u32; 3]>;
+        let triangles = if step > 1 {
+            thinned = triangles.iter().step_by(step).copied().collect();
+            &thinned
+        } else {
+            triangles
+        };
+        let shares = triangles.len().div_ceil(LEAST_SHARE).clamp(1, 64);
+        let share = triangles.len().div_ceil(shares).max(1);
+        let hits = parallel::collect(threads, triangles.len().div_ceil(share), 1, |index| {
+            let last = ((index + 1) * share).min(triangles.len());
+            Self::meet(positions, &triangles[index * share..last], &frame)
+        });
+        Self::sorted(frame, hits)
+    }
+
+    /// Cell, depth and whether the ray leaves, of all that some triangles meet.
+    fn meet(positions: &[DVec3], triangles: &[[u32; 3]], frame: &GridFrame) -> Vec<(u32, f32, bool)> {
+        let along = frame.right.cross(frame.up);
+        let mut hits = Vec::new();
+        let (columns, rows) = (frame.columns as f64, frame.rows as f64);
+        for corners in triangles {
+            // In cells, so that rays stand at whole numbers.
+            let [a, b, c] = corners.map(|vertex| {
+                let p = positions[vertex as usize] - frame.origin;
+                DVec3::new(
+                    p.dot(frame.right) / frame.cell - 0.5,
+                    p.dot(frame.up) / frame.cell - 0.5,
+                    p.dot(along),
+                )
+            });
+            let (low, high) = (a.min(b).min(c), a.max(b).max(c));
+            if !(low.is_finite() && high.is_finite())
+                || high.x < 0.0
+                || high.y < 0.0
+                || low.x > columns - 1.0
+                || low.y > rows - 1.0
+            {
+                continue;
+            }
+            let double_area = (b - a).truncate().perp_dot((c - a).truncate());
+            if double_area == 0.0 {
+                continue;
+            }
+            // Edges always run from the lesser to the greater end, so that two triangles compute the same line.
+            let first_row = low.y.max(0.0).ceil() as usize;
+            let last_row = high.y.min(rows - 1.0).floor() as usize;
+            for row in first_row..=last_row {
+                let y = row as f64;
+                let (mut left, mut right) = (f64::INFINITY, f64::NEG_INFINITY);
+                for (p, q) in [(a, b), (b, c), (c, a)] {
+                    let (p, q) = if (p.y, p.x) <= (q.y, q.x) { (p, q) } else { (q, p) };
+                    // Half open along up, as well: each crossing counts once.
+                    if p.y <= y && y < q.y {
+                        let x = p.x + (q.x - p.x) * ((y - p.y) / (q.y - p.y));
+                        left = left.min(x);
+                        right = right.max(x);
+                    }
+                }
+                if right.is_nan() || left >= right {
+                    continue;
+                }
+                let first = left.max(0.0).ceil();
+                let last = right.min(columns);
+                let mut x = first;
+                while x < last {
+                    let u = ((x - a.x) * (c.y - a.y) - (y - a.y) * (c.x - a.x)) / double_area;
+                    let v = ((b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x)) / double_area;
+                    let depth = (a.z + u * (b.z - a.z) + v * (c.z - a.z)).clamp(low.z, high.z);
+                    let cell = (row * frame.columns + x as usize) as u32;
+                    hits.push((cell, depth as f32, double_area > 0.0));
+                    x += 1.0;
+                }
+            }
+        }
+        hits
+    }
+
+    fn sorted(frame: GridFrame, found: Vec<Vec<(u32, f32, bool)>>) -> Self {
+        let cell_count = frame.columns * frame.rows;
+        let mut starts = vec![0u32; cell_count + 1];
+        for &(cell, ..) in found.iter().flatten() {
+            starts[cell as usize + 1] += 1;
+        }
+        for cell in 0..cell_count {
+            starts[cell + 1] += starts[cell];
+        }
+        let mut next = starts.clone();
+        let mut hits = vec![(0.0, false); starts[cell_count] as usize];
+        for &(cell, depth, leaves) in found.iter().flatten() {
+            hits[next[cell as usize] as usize] = (depth, leaves);
+            next[cell as usize] += 1;
+        }
+        // A mesh may be wound the other way round: of rays that meet two things, most enter first.
+        let (mut as_wound, mut inside_out) = (0usize, 0usize);
+        for cell in 0..cell_count {
+            let hits = &mut hits[starts[cell] as usize..starts[cell + 1] as usize];
+            hits.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+            if let [(_, first), (_, second)] = *hits
+                && first != second
+            {
+                if second {
+                    as_wound += 1;
+                } else {
+                    inside_out += 1;
+                }
+            }
+        }
+        if inside_out > as_wound {
+            hits.iter_mut().for_each(|hit| hit.1 = !hit.1);
+        }
+        Self { frame, starts, hits }
+    }
+
+    /// The depths at which the ray of a cell meets something, ascending, and whether it leaves there.
+    pub fn hits(&self, column: usize, row: usize) -> &[(f32, bool)] {
+        let cell = row * self.frame.columns + column;
+        &self.hits[self.starts[cell] as usize..self.starts[cell + 1] as usize]
+    }
+
+    /// True where the ray of a cell meets something.
+    pub fn is_filled(&self, column: usize, row: usize) -> bool {
+        !self.hits(column, row).is_empty()
+    }
+
+    /// The first and the last depth of a cell.
+    pub fn depth(&self, column: usize, row: usize) -> Option<(f64, f64)> {
+        let hits = self.hits(column, row);
+        Some((f64::from(hits.first()?.0), f64::from(hits.last()?.0)))
+    }
+
+    /// Where the ray of a cell is inside of the thickest thing that stands apart from others, whatever is in that thing.
+    /// Its first and last depth where rays do not leave as often as they enter.
+    pub fn thickest(&self, column: usize, row: usize) -> Option<(f64, f64)> {
+        let mut best: Option<(f64, f64)> = None;
+        let (mut inside, mut back) = (0i32, 0.0);
+        for &(depth, leaves) in self.hits(column, row) {
+            let depth = f64::from(depth);
+            if inside == 0 {
+                back = depth;
+            }
+            inside += if leaves { -1 } else { 1 };
+            if inside < 0 {
+                return self.depth(column, row);
+            }
+            if inside == 0 && best.is_none_or(|(low, high)| depth - back > high - low) {
+                best = Some((back, depth));
+            }
+        }
+        if inside == 0 { best } else { self.depth(column, row) }
+    }
+
+    /// Back and front of the limb that some cells show: of the thickest thing that rays enter and leave with nothing
+    /// between, and of all that lies beside it within a part of its thickness (fingers).
+    pub fn limb(&self, cells: impl Iterator<Item = (usize, usize)>) -> Option<(f64, f64)> {
+        let mut found: Vec<(f64, f64)> = Vec::new();
+        for (column, row) in cells {
+            let before = found.len();
+            let pairs = self.hits(column, row).windows(2).filter(|pair| !pair[0].1 && pair[1].1);
+            found.extend(pairs.map(|pair| (f64::from(pair[0].0), f64::from(pair[1].0))));
+            if found.len() == before {
+                found.extend(self.depth(column, row));
+            }
+        }
+        let thickest = found.iter().copied().max_by(|a, b| (a.1 - a.0).total_cmp(&(b.1 - b.0)))?;
+        let reach = LIMB_GAP * (thickest.1 - thickest.0);
+        let mut all = thickest;
+        found.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+        for one in found.iter().filter(|one| one.1 >= thickest.0) {
+            if one.0 <= all.1 + reach {
+                all.1 = all.1.max(one.1);
+            }
+        }
+        found.sort_unstable_by(|a, b| b.1.total_cmp(&a.1));
+        for one in found.iter().filter(|one| one.0 <= thickest.1) {
+            if one.1 >= all.0 - reach {
+                all.0 = all.0.min(one.0);
+            }
+        }
+        Some(all)
+    }
+
+    /// How far along `right` a column's rays run.
+    pub fn x(&self, column: usize) -> f64 {
+        self.frame.origin.dot(self.frame.right) + (column as f64 + 0.5) * self.frame.cell
+    }
+
+    /// How far along `up` a row's rays run.
+    pub fn y(&self, row: usize) -> f64 {
+        self.frame.origin.dot(self.frame.up) + (row as f64 + 0.5) * self.frame.cell
+    }
+
+    /// The row whose rays run nearest to a distance along `up`, clamped to the grid.
+    pub fn row(&self, y: f64) -> usize {
+        let row = ((y - self.frame.origin.dot(self.frame.up)) / self.frame.cell).floor();
+        row.clamp(0.0, self.frame.rows as f64 - 1.0) as usize
+    }
+
+    /// The column whose rays run nearest to a distance along `right`, clamped to the grid.
+    pub fn column(&self, x: f64) -> usize {
+        let column = ((x - self.frame.origin.dot(self.frame.right)) / self.frame.cell).floor();
+        column.clamp(0.0, self.frame.columns as f64 - 1.0) as usize
+    }
+}

@@ -1,0 +1,383 @@
+//! The figure as rays from the front see it: which meshes to look at, where its plane of symmetry is, and its silhouette.
+
+use super::Layout;
+use super::silhouette::{GridFrame, RayGrid};
+use crate::character::MeshKind;
+use crate::geometry::cells::CellMap;
+use glam::DVec3;
+
+/// Rows of rays over the height of a figure.
+pub const ROWS: usize = 400;
+/// A silhouette with fewer columns on either side is widened to this.
+const LEAST_HALF_COLUMNS: usize = 8;
+/// More columns on either side than this (4 heights) show nothing of a figure.
+const MOST_HALF_COLUMNS: usize = 4 * ROWS;
+/// A set of meshes is whole where its feet and its head reach to within this of those of all meshes, ...
+const LOW_REACH: f64 = 0.04;
+const HIGH_REACH: f64 = 0.12;
+/// ... its arms to within this share of them, ...
+const WIDE_SHARE: f64 = 0.6;
+/// ... nearly all rows between show something, ...
+const FILLED_ROWS: f64 = 0.97;
+/// ... and nearly all of it hangs together.
+const CONNECTED_SHARE: f64 = 0.9;
+/// The front near the axis, within this distance of it, ...
+const FRONT_REACH: f64 = 0.05;
+/// ... lies no further than this behind that of all meshes, ...
+const FRONT_WITHIN: f64 = 0.05;
+/// ... but for this share of the rows.
+const FRONT_MISSING: f64 = 0.12;
+/// Gaps of so many cells within a row are slits between patches, not air.
+const SLIT: usize = 2;
+/// Every so many rows are compared with their mirror image.
+const AXIS_ROWS: usize = 3;
+/// An axis is kept where another one makes no more than this share of the silhouette's mirror image fit better.
+const AXIS_GAIN: f64 = 0.004;
+/// A mesh is symmetric where nearly all of its vertices ...
+const SYMMETRIC_SHARE: f64 = 0.999;
+/// ... have a mirror image within this.
+const SYMMETRIC_WITHIN: f64 = 2e-5;
+
+/// A figure seen from the front.
+pub struct Stance<'a> {
+    /// Vertices of the layout.
+    pub positions: &'a [DVec3],
+    /// The triangles that are looked at.
+    pub triangles: Vec<[u32; 3]>,
+    /// What the rays meet: columns to the left, rows up, an even number of columns about the axis.
+    pub grid: RayGrid,
+    /// x of the plane of symmetry.
+    pub axis: f64,
+    /// 0..1: the share of the silhouette that its mirror image covers.
+    pub symmetry: f64,
+    /// True where vertices have mirror images, not only the outline.
+    pub is_symmetric: bool,
+    /// At most so many threads; 0 means all cores.
+    pub threads: usize,
+    /// The lowest height that is seen.
+    pub low: f64,
+    /// The highest.
+    pub high: f64,
+    /// Runs of filled cells of each row, as half-open ranges of columns, slits bridged.
+    pub runs: Vec<Vec<(usize, usize)>>,
+}
+
+impl<'a> Stance<'a> {
+    /// Looks at `layout`.
+    pub fn of(layout: &'a Layout, threads: usize) -> Self {
+        let kinds = &layout.kinds;
+        let is = |mesh: usize, wanted: &[Option<MeshKind>]| wanted.contains(&kinds[mesh]);
+        use MeshKind::*;
+        let sets: [&[Option<MeshKind>]; 5] = [
+            &[Some(Body), Some(FacePart)],
+            &[Some(Body), Some(FacePart), None],
+            &[Some(Body), Some(FacePart), None, Some(Garment)],
+            &[Some(Body), Some(FacePart), None, Some(Garment), Some(Accessory)],
+            &[Some(Body), Some(FacePart), None, Some(Garment), Some(Accessory), Some(Hair)],
+        ];
+        let triangles_of = |set: &[Option<MeshKind>]| layout.triangles_where(|mesh| is(mesh, set));
+        let clothed = triangles_of(sets[2]);
+        let reference = if clothed.is_empty() { layout.triangles.clone() } else { clothed };
+        let reference_grid = front(&layout.positions, &reference, 0.0, threads);
+        let whole = Extent::of(&reference_grid);
+        let mut chosen = None;
+        for set in &sets[..2] {
+            let triangles = triangles_of(set);
+            if triangles.len() == reference.len() {
+                break;
+            }
+            if triangles.is_empty() {
+                continue;
+            }
+            let grid = front(&layout.positions, &triangles, 0.0, threads);
+            if is_whole(&grid, &whole) && shows_the_front(&grid, &reference_grid) {
+                chosen = Some((triangles, grid));
+                break;
+            }
+        }
+        let (triangles, grid) = chosen.unwrap_or((reference, reference_grid));
+        Self::seen(&layout.positions, triangles, grid, threads)
+    }
+
+    fn seen(positions: &'a [DVec3], triangles: Vec<[u32; 3]>, grid: RayGrid, threads: usize) -> Self {
+        let (axis, symmetry) = axis(&grid);
+        let grid = if axis == 0.0 { grid } else { front(positions, &triangles, axis, threads) };
+        let extent = Extent::of(&grid);
+        let runs = (0..grid.frame.rows).map(|row| runs(&grid, row)).collect();
+        let is_symmetric = is_symmetric(positions, &triangles, axis);
+        Self {
+            positions,
+            triangles,
+            axis,
+            symmetry,
+            is_symmetric,
+            threads,
+            low: extent.low,
+            high: extent.high,
+            runs,
+            grid,
+        }
+    }
+
+    /// The side of a cell.
+    pub fn cell(&self) -> f64 {
+        self.grid.frame.cell
+    }
+
+    /// How many columns there are on either side of the axis.
+    pub fn half_columns(&self) -> usize {
+        self.grid.frame.columns / 2
+    }
+
+    /// The column that lies `steps` cells from the axis on one side.
+    pub fn column(&self, left: bool, steps: usize) -> usize {
+        let half = self.half_columns();
+        let steps = steps.min(half - 1);
+        if left { half + steps } else { half - 1 - steps }
+    }
+
+    /// How far from the axis the rays of that column run.
+    pub fn distance(&self, steps: usize) -> f64 {
+        (steps as f64 + 0.5) * self.cell()
+    }
+
+    /// The runs of a row on one side, as half-open ranges of steps from the axis, nearest first; a run across the axis is
+    /// cut there.
+    pub fn side_runs(&self, left: bool, row: usize) -> Vec<(usize, usize)> {
+        let half = self.half_columns();
+        let mut runs: Vec<(usize, usize)> = self.runs[row]
+            .iter()
+            .filter_map(|&(start, end)| {
+                let (start, end) = if left {
+                    (start.max(half) - half, end.max(half) - half)
+                } else {
+                    (half - end.min(half), half - start.min(half))
+                };
+                (start < end).then_some((start, end))
+            })
+            .collect();
+        runs.sort_unstable();
+        runs
+    }
+
+    /// Half the width of what stands on the axis in a row: the lesser of both sides, so that a thing on one side counts
+    /// for nothing. 0 where the axis is in the air.
+    pub fn half_width(&self, row: usize) -> f64 {
+        let side = |left: bool| {
+            let runs = self.side_runs(left, row);
+            runs.first().filter(|run| run.0 <= SLIT).map_or(0, |run| run.1)
+        };
+        side(true).min(side(false)) as f64 * self.cell()
+    }
+
+    /// Median of the front, and of the back, over the columns within `reach` of the axis.
+    pub fn depth(&self, row: usize, reach: f64) -> Option<(f64, f64)> {
+        let steps = ((reach / self.cell()) as usize).clamp(1, self.half_columns());
+        let half = self.half_columns();
+        let (mut back, mut front): (Vec<f64>, Vec<f64>) =
+            (half - steps..half + steps).filter_map(|column| self.grid.thickest(column, row)).unzip();
+        if back.is_empty() {
+            return None;
+        }
+        Some((median(&mut back), median(&mut front)))
+    }
+
+    /// A point of the layout from a distance to the axis on one side.
+    pub fn point(&self, left: bool, distance: f64, y: f64, z: f64) -> DVec3 {
+        DVec3::new(if left { self.axis + distance } else { self.axis - distance }, y, z)
+    }
+}
+
+/// The middle value, the mean of both where there are two; 0 of nothing.
+pub fn median(values: &mut [f64]) -> f64 {
+    values.sort_unstable_by(f64::total_cmp);
+    match values.len() {
+        0 => 0.0,
+        count => 0.5 * (values[(count - 1) / 2] + values[count / 2]),
+    }
+}
+
+fn front(positions: &[DVec3], triangles: &[[u32; 3]], axis: f64, threads: usize) -> RayGrid {
+    let cell = 1.0 / ROWS as f64;
+    let reach = triangles
+        .iter()
+        .flatten()
+        .map(|&vertex| (positions[vertex as usize].x - axis).abs())
+        .filter(|reach| reach.is_finite())
+        .fold(0.0, f64::max);
+    let half = ((reach / cell).ceil() as usize + 2).clamp(LEAST_HALF_COLUMNS, MOST_HALF_COLUMNS);
+    let frame = GridFrame {
+        origin: DVec3::X * (axis - half as f64 * cell),
+        right: DVec3::X,
+        up: DVec3::Y,
+        cell,
+        columns: 2 * half,
+        rows: ROWS,
+    };
+    RayGrid::new(positions, triangles, frame, threads)
+}
+
+struct Extent {
+    low: f64,
+    high: f64,
+    width: f64,
+}
+
+impl Extent {
+    fn of(grid: &RayGrid) -> Self {
+        let (mut low, mut high) = (usize::MAX, 0);
+        let (mut first, mut last) = (usize::MAX, 0);
+        for row in 0..grid.frame.rows {
+            for column in 0..grid.frame.columns {
+                if grid.is_filled(column, row) {
+                    low = low.min(row);
+                    high = row + 1;
+                    first = first.min(column);
+                    last = last.max(column + 1);
+                }
+            }
+        }
+        if high == 0 {
+            return Self { low: 0.0, high: 1.0, width: 0.0 };
+        }
+        let cell = grid.frame.cell;
+        Self { low: low as f64 * cell, high: high as f64 * cell, width: (last - first) as f64 * cell }
+    }
+}
+
+fn is_whole(grid: &RayGrid, all: &Extent) -> bool {
+    let own = Extent::of(grid);
+    if own.low > all.low + LOW_REACH || own.high < all.high - HIGH_REACH || own.width < WIDE_SHARE * all.width
+    {
+        return false;
+    }
+    let (first, last) = (grid.row(own.low), grid.row(own.high - 0.5 * grid.frame.cell));
+    let filled = (first..=last).filter(|&row| !runs(grid, row).is_empty()).count();
+    filled as f64 >= FILLED_ROWS * (last - first + 1) as f64 && connected_share(grid) >= CONNECTED_SHARE
+}
+
+/// True where nearly all rows show the figure's front about the axis, not the back of its head without a face.
+fn shows_the_front(grid: &RayGrid, all: &RayGrid) -> bool {
+    let front = |grid: &RayGrid, row: usize| {
+        let x = |column: usize| grid.x(column).abs() < FRONT_REACH;
+        let depths = (0..grid.frame.columns)
+            .filter(|&column| x(column))
+            .filter_map(|column| grid.depth(column, row))
+            .map(|(_, front)| front);
+        depths.max_by(f64::total_cmp)
+    };
+    let pairs: Vec<f64> = (0..ROWS).filter_map(|row| Some(front(all, row)? - front(grid, row)?)).collect();
+    let behind = pairs.iter().filter(|&&behind| behind > FRONT_WITHIN).count();
+    behind as f64 <= FRONT_MISSING * pairs.len() as f64
+}
+
+/// The share of the silhouette that its largest piece has, where gaps of a slit are bridged.
+fn connected_share(grid: &RayGrid) -> f64 {
+    let (columns, rows) = (grid.frame.columns, grid.frame.rows);
+    let mut seen = vec![false; columns * rows];
+    let (mut most, mut all) = (0usize, 0usize);
+    let reach = SLIT as i64 + 1;
+    for start in 0..columns * rows {
+        if seen[start] || !grid.is_filled(start % columns, start / columns) {
+            continue;
+        }
+        seen[start] = true;
+        let mut count = 0;
+        let mut stack = vec![start];
+        while let Some(cell) = stack.pop() {
+            count += 1;
+            let (column, row) = ((cell % columns) as i64, (cell / columns) as i64);
+            for y in (row - reach).max(0)..=(row + reach).min(rows as i64 - 1) {
+                for x in (column - reach).max(0)..=(column + reach).min(columns as i64 - 1) {
+                    let other = y as usize * columns + x as usize;
+                    if !seen[other] && grid.is_filled(x as usize, y as usize) {
+                        seen[other] = true;
+                        stack.push(other);
+                    }
+                }
+            }
+        }
+        most = most.max(count);
+        all += count;
+    }
+    if all == 0 { 0.0 } else { most as f64 / all as f64 }
+}
+
+fn runs(grid: &RayGrid, row: usize) -> Vec<(usize, usize)> {
+    let mut runs: Vec<(usize, usize)> = Vec::new();
+    for column in (0..grid.frame.columns).filter(|&column| grid.is_filled(column, row)) {
+        match runs.last_mut() {
+            Some(run) if column <= run.1 + SLIT => run.1 = column + 1,
+            _ => runs.push((column, column + 1)),
+        }
+    }
+    runs
+}
+
+/// The axis about which most of the silhouette is its own mirror image, and the share that is.
+fn axis(grid: &RayGrid) -> (f64, f64) {
+    let columns = grid.frame.columns;
+    let rows: Vec<Vec<(usize, usize)>> =
+        (0..grid.frame.rows).step_by(AXIS_ROWS).map(|row| runs(grid, row)).collect();
+    let area: usize = rows.iter().flatten().map(|run| run.1 - run.0).sum();
+    if area == 0 {
+        return (0.0, 0.0);
+    }
+    // `sum` is the sum of two columns that are each other's image: [start, end) has the image (sum - end, sum - start].
+    let overlap = |sum: usize| -> f64 {
+        let mut count = 0usize;
+        for runs in &rows {
+            for run in runs {
+                for other in runs {
+                    let start = (sum + 1).saturating_sub(other.1).max(run.0);
+                    let end = (sum + 1).saturating_sub(other.0).min(run.1);
+                    count += end.saturating_sub(start);
+                }
+            }
+        }
+        count as f64 / area as f64
+    };
+    let middle = columns - 1;
+    let scores: Vec<f64> = (0..2 * columns - 1).map(overlap).collect();
+    let mut best = middle;
+    // From the middle outwards, so that the nearer of two equal axes counts.
+    for distance in 1..middle + 1 {
+        for sum in [middle - distance, middle + distance] {
+            if scores[sum] > scores[best] + 1e-12 {
+                best = sum;
+            }
+        }
+    }
+    if scores[middle] >= scores[best] - AXIS_GAIN {
+        return (0.0, scores[middle]);
+    }
+    // A parabola through the best and its neighbours.
+    let value = |sum: usize| scores.get(sum).copied().unwrap_or(0.0);
+    let (before, after) = (value(best.wrapping_sub(1)), value(best + 1));
+    let bend = before - 2.0 * scores[best] + after;
+    let shift = if bend < 0.0 { (0.5 * (before - after) / bend).clamp(-0.5, 0.5) } else { 0.0 };
+    (0.5 * (best as f64 + shift - middle as f64) * grid.frame.cell, scores[best])
+}
+
+fn is_symmetric(positions: &[DVec3], triangles: &[[u32; 3]], axis: f64) -> bool {
+    let size = 2.0 * SYMMETRIC_WITHIN;
+    let cell_of = |p: DVec3| (p / size).to_array().map(|x| x.floor() as i64);
+    let mut used: Vec<u32> = triangles.iter().flatten().copied().collect();
+    used.sort_unstable();
+    used.dedup();
+    let mut cells: CellMap<[i64; 3], ()> = CellMap::default();
+    for &vertex in &used {
+        cells.insert(cell_of(positions[vertex as usize]), ());
+    }
+    let offsets = [-0.5, 0.5];
+    let paired = used.iter().filter(|&&vertex| {
+        let p = positions[vertex as usize];
+        let image = DVec3::new(2.0 * axis - p.x, p.y, p.z);
+        offsets.iter().any(|x| {
+            offsets.iter().any(|y| {
+                offsets.iter().any(|z| cells.contains_key(&cell_of(image + size * DVec3::new(*x, *y, *z))))
+            })
+        })
+    });
+    paired.count() as f64 >= SYMMETRIC_SHARE * used.len() as f64
+}
