@@ -31,7 +31,7 @@
 //!
 //! The library knows arrays, not files. Hosts read a file into a [`Character`], measure a reference
 //! ([`Study`](shape::Study)), make a [`Deformer`](pipeline::Deformer) and apply it; `examples/superdeform.rs` does so
-//! with GLB and VRM files.
+//! with GLB and VRM files. Hosts in C, C++ and C# do the same through [`ffi`] and `include/superdeform.h`.
 //!
 //! ```
 //! use superdeform::pipeline::{Deformer, Options, Style};
@@ -85,11 +85,13 @@
 pub mod character;
 pub mod error;
 pub mod face;
+pub mod ffi;
 pub mod geometry;
 pub mod hair;
 pub mod options;
 pub mod parallel;
 pub mod pipeline;
+pub mod progress;
 pub mod report;
 pub mod rig;
 pub mod shape;

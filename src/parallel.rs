@@ -2,6 +2,9 @@
 
 use std::ops::Range;
 
+/// The name of every thread that this module starts.
+pub const WORKER: &str = "superdeform";
+
 /// The number of threads that `asked` stands for: 0 means all cores.
 pub fn thread_count(asked: usize) -> usize {
     if asked == 0 { std::thread::available_parallelism().map_or(1, usize::from) } else { asked }
@@ -30,20 +33,28 @@ pub fn collect_with<S, T: Send>(
     start: impl Fn() -> S + Sync,
     make: impl Fn(&mut S, usize) -> T + Sync,
 ) -> Vec<T> {
-    let share_count = (count / least).clamp(1, thread_count(threads));
+    // The system takes longer to say how many cores it has than a small work takes.
+    let share_count = match count / least {
+        0 | 1 => 1,
+        most => most.min(thread_count(threads)),
+    };
     let share = count.div_ceil(share_count).max(1);
     let run = |indices: Range<usize>, all: &mut Vec<T>| {
         let mut state = start();
         all.extend(indices.map(|index| make(&mut state, index)));
     };
     let mut all = Vec::with_capacity(count);
+    if share_count == 1 {
+        run(0..count, &mut all);
+        return all;
+    }
     std::thread::scope(|scope| {
         let run = &run;
         let others: Vec<_> = (share..count)
             .step_by(share)
             .map(|first| {
                 let indices = first..(first + share).min(count);
-                scope.spawn(move || {
+                spawn(scope, move || {
                     let mut all = Vec::with_capacity(indices.len());
                     run(indices, &mut all);
                     all
@@ -58,13 +69,21 @@ pub fn collect_with<S, T: Send>(
     all
 }
 
+fn spawn<'scope, T: Send + 'scope>(
+    scope: &'scope std::thread::Scope<'scope, '_>,
+    work: impl FnOnce() -> T + Send + 'scope,
+) -> std::thread::ScopedJoinHandle<'scope, T> {
+    let thread = std::thread::Builder::new().name(WORKER.to_string());
+    thread.spawn_scoped(scope, work).expect("the system has a thread left")
+}
+
 /// Both results, made side by side where there are two threads to use.
 pub fn both<A: Send, B>(threads: usize, one: impl FnOnce() -> A + Send, other: impl FnOnce() -> B) -> (A, B) {
     if thread_count(threads) == 1 {
         return (one(), other());
     }
     std::thread::scope(|scope| {
-        let one = scope.spawn(one);
+        let one = spawn(scope, one);
         let other = other();
         (one.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)), other)
     })

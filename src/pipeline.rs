@@ -12,6 +12,7 @@ use crate::geometry::weld::{Weld, components, neighbours, weld};
 use crate::hair::keep_outside;
 pub use crate::options::{FaceCurve, GroupSettings, Mode, Options, Stage};
 use crate::parallel;
+use crate::progress::Progress;
 use crate::report::{Coefficient, Counts, FigureReport, GroupShape, Report, RigReport, Timing};
 use crate::shape::BodyShape;
 use crate::shape::attributes::{fitted_jacobians, normal_matrix};
@@ -90,9 +91,10 @@ const ALREADY_SD: f64 = 1.2;
 #[derive(Clone, Debug)]
 pub struct Deformer {
     character: Arc<Character>,
-    study: Study,
+    style: Style,
+    study: Arc<Study>,
     options: Options,
-    weld: Weld,
+    weld: Arc<Weld>,
     field: Field,
     bindings: Vec<Binding>,
     joint_bindings: Vec<Binding>,
@@ -102,6 +104,10 @@ pub struct Deformer {
     coefficients: BTreeMap<String, Coefficient>,
     reference: Option<FigureReport>,
     warnings: Vec<Warning>,
+    /// How many of the warnings do not depend on amount and face.
+    warnings_of_shape: usize,
+    /// What is left of a head count that could not be reached.
+    heads_left: Option<Warning>,
     timing: Timing,
     made_rig: Option<MadeRig>,
 }
@@ -110,6 +116,7 @@ pub struct Deformer {
 #[derive(Clone, Debug)]
 struct MadeRig {
     report: RigReport,
+    warnings: Vec<Warning>,
     /// Roles of the character's own joints, which ride along.
     own: Humanoid,
     own_count: usize,
@@ -122,66 +129,20 @@ impl Deformer {
     /// What [`Character::validate`] and [`Figure::of`] refuse; `BadOption` for options out of their range and for a style
     /// of N heads in paper mode; `BadStyle` for a style without what the mode transfers.
     pub fn new(character: Arc<Character>, style: &Style, options: &Options) -> Result<Self> {
-        options.validate()?;
-        if let Style::Heads(heads) = style {
-            Style::heads(*heads)?;
-        }
-        let clock = Instant::now();
-        let study = Study::of(&character, options)?;
-        let measure = milliseconds(clock);
-        let clock = Instant::now();
-        let weld = weld(&study.figure.positions, WELD_TOLERANCE * study.figure.height());
-        let mut warnings = study.anatomy.landmarks.warnings("target");
-        let roles = match style {
-            Style::Shape(shape) => {
-                study.joints.keys().copied().filter(|role| shape.roles().contains(role)).collect()
-            }
-            Style::Heads(_) => study.joints.keys().copied().collect(),
-        };
-        if let (Style::Shape(shape), Some(proportions)) = (style, &study.shape.proportions)
-            && let Some(heads) = shape.heads()
-            && proportions.heads() <= ALREADY_SD * heads
-            && shape.proportions != study.shape.proportions
-        {
-            warnings.push(Warning::new(
-                "already_super_deformed",
-                format!(
-                    "the target is {:.1} heads tall and the style {heads:.1}: little is left to deform",
-                    proportions.heads()
-                ),
-            ));
-        }
-        let mut deformer = Self {
-            character,
-            options: options.clone(),
-            weld,
-            field: Field::Bones(PaperField {
-                bones: BoneField::default(),
-                stage: options.stage,
-                face: FaceShape::None,
-                amount: options.amount,
-                ground: 0.0,
-            }),
-            bindings: Vec::new(),
-            joint_bindings: Vec::new(),
-            roles,
-            head_ratio: 1.0,
-            coefficients: BTreeMap::new(),
-            reference: None,
-            warnings,
-            timing: Timing { measure, ..Timing::default() },
-            made_rig: None,
-            study,
-        };
-        match options.mode {
-            Mode::Product => deformer.make_parts(style)?,
-            Mode::Paper => deformer.make_bones(style)?,
-        }
-        if let Style::Shape(shape) = style {
-            deformer.reference = Some(style_report(shape, &deformer.roles, options));
-        }
-        deformer.timing.deform = milliseconds(clock);
-        Ok(deformer)
+        Self::with_progress(character, style, options, &mut Progress::none())
+    }
+
+    /// As [`Deformer::new`], and tells how far it is.
+    ///
+    /// # Errors
+    /// As [`Deformer::new`]; `Cancelled`.
+    pub fn with_progress(
+        character: Arc<Character>,
+        style: &Style,
+        options: &Options,
+        progress: &mut Progress,
+    ) -> Result<Self> {
+        Self::made(character, None, style, options, progress)
     }
 
     /// As [`Deformer::new`], by a rig that was made for `character`: its own joints, if any, ride along and come first in
@@ -190,16 +151,170 @@ impl Deformer {
     /// # Errors
     /// As [`Deformer::new`].
     pub fn with_rig(character: &Character, rig: &Rig, style: &Style, options: &Options) -> Result<Self> {
-        let mut deformer = Self::new(Arc::new(rig.applied_to(character)), style, options)?;
-        deformer.warnings.splice(0..0, rig.warnings.iter().cloned());
-        let [rig_joints, rig_weights, transfer] = rig.timing_ms;
-        deformer.timing = Timing { rig_joints, rig_weights, transfer, ..deformer.timing };
-        deformer.made_rig = Some(MadeRig {
+        let rigged = Arc::new(rig.applied_to(character));
+        Self::of_rigged(rigged, character, rig, style, options, &mut Progress::none())
+    }
+
+    /// As [`Deformer::with_rig`], with `rigged`, what [`Rig::applied_to`] gave for `character`.
+    ///
+    /// # Errors
+    /// As [`Deformer::with_progress`].
+    pub fn of_rigged(
+        rigged: Arc<Character>,
+        character: &Character,
+        rig: &Rig,
+        style: &Style,
+        options: &Options,
+        progress: &mut Progress,
+    ) -> Result<Self> {
+        let made_rig = MadeRig {
             report: rig.report(),
+            warnings: rig.warnings.clone(),
             own: character.humanoid.clone(),
             own_count: character.skeleton.joints.len(),
-        });
+        };
+        let mut deformer = Self::made(rigged, Some(made_rig), style, options, progress)?;
+        let [rig_joints, rig_weights, transfer] = rig.timing_ms;
+        deformer.timing = Timing { rig_joints, rig_weights, transfer, ..deformer.timing };
         Ok(deformer)
+    }
+
+    fn made(
+        character: Arc<Character>,
+        made_rig: Option<MadeRig>,
+        style: &Style,
+        options: &Options,
+        progress: &mut Progress,
+    ) -> Result<Self> {
+        options.validate()?;
+        if let Style::Heads(heads) = style {
+            Style::heads(*heads)?;
+        }
+        progress.at(0.0)?;
+        let clock = Instant::now();
+        let study = Arc::new(Study::of(&character, options)?);
+        let measure = milliseconds(clock);
+        progress.at(0.4)?;
+        let weld = Arc::new(weld(&study.figure.positions, WELD_TOLERANCE * study.figure.height()));
+        let mut deformer = Self {
+            character,
+            style: style.clone(),
+            options: options.clone(),
+            weld,
+            field: Field::Bones(PaperField {
+                bones: BoneField::default(),
+                stage: options.stage,
+                face: FaceShape::None,
+                amount: 1.0,
+                ground: 0.0,
+            }),
+            bindings: Vec::new(),
+            joint_bindings: Vec::new(),
+            roles: BTreeSet::new(),
+            head_ratio: 1.0,
+            coefficients: BTreeMap::new(),
+            reference: None,
+            warnings: Vec::new(),
+            warnings_of_shape: 0,
+            heads_left: None,
+            timing: Timing { measure, ..Timing::default() },
+            made_rig,
+            study,
+        };
+        deformer.make_field(&mut progress.part(0.45, 1.0))?;
+        Ok(deformer)
+    }
+
+    /// Changes the options, with the same result as a deformer made anew; only what depends on the change is done
+    /// again. Where it fails the deformer is as it was.
+    ///
+    /// # Errors
+    /// As [`Deformer::with_progress`].
+    pub fn set_options(&mut self, options: &Options, progress: &mut Progress) -> Result<()> {
+        options.validate()?;
+        progress.at(0.0)?;
+        // The field of another amount, face or number of threads, as it is now.
+        let same_shape = Options {
+            amount: self.options.amount,
+            face_squash: self.options.face_squash,
+            face_curve: self.options.face_curve,
+            thread_count: self.options.thread_count,
+            ..options.clone()
+        };
+        if same_shape == self.options {
+            let same_amount = options.amount == self.options.amount;
+            self.options = options.clone();
+            match same_amount {
+                true => self.set_face_squash(self.face_squash()),
+                false => self.finish(),
+            }
+            return Ok(());
+        }
+        let mut next = self.clone();
+        next.options = options.clone();
+        if options.ray_count() != self.options.ray_count() || options.bone_groups != self.options.bone_groups
+        {
+            let clock = Instant::now();
+            next.study = Arc::new(Study::of_figure(self.study.figure.clone(), options)?);
+            next.timing.measure = milliseconds(clock);
+        }
+        next.make_field(&mut progress.part(0.4, 1.0))?;
+        *self = next;
+        Ok(())
+    }
+
+    /// Everything that follows from the measured target, the style and the options.
+    fn make_field(&mut self, progress: &mut Progress) -> Result<()> {
+        progress.at(0.0)?;
+        let clock = Instant::now();
+        let style = self.style.clone();
+        let study = Arc::clone(&self.study);
+        self.warnings = self.made_rig.as_ref().map(|rig| rig.warnings.clone()).unwrap_or_default();
+        self.warnings.extend(study.anatomy.landmarks.warnings("target"));
+        self.roles = match &style {
+            Style::Shape(shape) => {
+                study.joints.keys().copied().filter(|role| shape.roles().contains(role)).collect()
+            }
+            Style::Heads(_) => study.joints.keys().copied().collect(),
+        };
+        if let (Style::Shape(shape), Some(proportions)) = (&style, &study.shape.proportions)
+            && let Some(heads) = shape.heads()
+            && proportions.heads() <= ALREADY_SD * heads
+            && shape.proportions != study.shape.proportions
+        {
+            self.warnings.push(Warning::new(
+                "already_super_deformed",
+                format!(
+                    "the target is {:.1} heads tall and the style {heads:.1}: little is left to deform",
+                    proportions.heads()
+                ),
+            ));
+        }
+        self.heads_left = None;
+        match self.options.mode {
+            Mode::Product => self.make_parts(&style, progress)?,
+            Mode::Paper => self.make_bones(&style)?,
+        }
+        self.warnings_of_shape = self.warnings.len();
+        self.finish();
+        self.reference = match &style {
+            Style::Shape(shape) => Some(style_report(shape, &self.roles, &self.options)),
+            Style::Heads(_) => None,
+        };
+        self.timing.deform = milliseconds(clock);
+        progress.at(1.0)
+    }
+
+    /// Amount, ground and face: what is done last, in this order.
+    fn finish(&mut self) {
+        self.warnings.truncate(self.warnings_of_shape);
+        if self.options.amount == 1.0 {
+            self.warnings.extend(self.heads_left.clone());
+        }
+        self.field.set_face(FaceShape::None);
+        self.field.set_amount(self.options.amount);
+        self.stand_on_ground();
+        self.set_face_squash(self.face_squash());
     }
 
     /// gamma as set, else the mode's own.
@@ -212,7 +327,7 @@ impl Deformer {
     }
 
     /// Product mode: bindings once, then the field, and again while the head count measured on the result is off.
-    fn make_parts(&mut self, style: &Style) -> Result<()> {
+    fn make_parts(&mut self, style: &Style, progress: &mut Progress) -> Result<()> {
         let proportions = self.study.anatomy.proportions.clone();
         let (figure, anatomy) = (&self.study.figure, &self.study.anatomy);
         let parts =
@@ -259,7 +374,8 @@ impl Deformer {
         let mut best: Option<(f64, Attempt)> = None;
         // Only what the field moves is made anew in each attempt.
         let mut result = self.study.figure.clone();
-        for _ in 0..HEADS_ATTEMPTS {
+        for count in 0..HEADS_ATTEMPTS {
+            progress.at(0.3 + 0.1 * count as f32)?;
             let attempt = self.attempt(style, aim / asked, &parts)?;
             self.field = attempt.field.clone();
             self.stand_on_ground();
@@ -281,17 +397,17 @@ impl Deformer {
         self.stand_on_ground();
         self.coefficients = attempt.coefficients.by_group();
         self.warnings.extend(attempt.warnings);
-        if error > HEADS_TOLD && self.options.amount == 1.0 {
+        if error > HEADS_TOLD {
             let measured = landmarks(self.whole_result(&mut result)).heads();
-            self.warnings.push(Warning::new(
+            self.heads_left = Some(Warning::new(
                 "heads_limited",
                 format!(
                     "{measured:.2} heads are measured on the result instead of {asked:.2}: its chin or crown reads differently from the target's"
                 ),
             ));
         }
+        progress.at(0.9)?;
         self.keep_hair_outside();
-        self.set_face_squash(self.face_squash());
         Ok(())
     }
 
@@ -311,9 +427,7 @@ impl Deformer {
         }
         let of_head = |vertex: usize| part(vertex, Part::Hair) + part(vertex, Part::Head);
         let body = figure.triangles_where(|vertex| of_head(vertex) < 0.5);
-        let mut whole = self.field.clone();
-        whole.set_amount(1.0);
-        let after = self.positions_by(&whole);
+        let after = self.positions_by(&self.field);
         let (low, high) = extent(&after);
         let around = neighbours(&figure.triangles, &self.weld);
         let offsets = keep_outside(&figure.positions, &after, &body, &hair, &self.weld, &around, high - low);
@@ -341,8 +455,7 @@ impl Deformer {
             }
         };
         let (coefficients, warnings) = part_coefficients(&anatomy.proportions, wanted, &self.options)?;
-        let field =
-            PartField::new(anatomy, coefficients, parts, self.options.hair_length, self.options.amount);
+        let field = PartField::new(anatomy, coefficients, parts, self.options.hair_length, 1.0);
         Ok(Attempt { field: Field::Parts(Box::new(field)), coefficients, warnings })
     }
 
@@ -392,11 +505,9 @@ impl Deformer {
             bones: field,
             stage: options.stage,
             face: FaceShape::None,
-            amount: options.amount,
+            amount: 1.0,
             ground: 0.0,
         });
-        self.stand_on_ground();
-        self.set_face_squash(self.face_squash());
         Ok(())
     }
 
@@ -505,15 +616,13 @@ impl Deformer {
         })
     }
 
-    /// `figure`, a copy of the target's, as the field leaves it all the way, without the face map.
+    /// `figure`, a copy of the target's, as the field leaves it.
     fn whole_result<'a>(&self, figure: &'a mut Figure) -> &'a Figure {
-        let mut field = self.field.clone();
-        field.set_amount(1.0);
-        figure.positions = self.positions_by(&field);
+        figure.positions = self.positions_by(&self.field);
         for ((p, &rest), binding) in
             figure.joints.iter_mut().zip(&self.study.figure.joints).zip(&self.joint_bindings)
         {
-            *p = field.map(rest, binding).0;
+            *p = self.field.map(rest, binding).0;
         }
         figure.extent = extent(&figure.positions);
         figure
@@ -521,21 +630,41 @@ impl Deformer {
 
     /// The whole result.
     pub fn apply(&self) -> Deformed {
+        self.apply_with(&mut Progress::none()).unwrap_or_default()
+    }
+
+    /// As [`Deformer::apply`], and tells how far it is.
+    ///
+    /// # Errors
+    /// `Cancelled`.
+    pub fn apply_with(&self, progress: &mut Progress) -> Result<Deformed> {
+        progress.at(0.0)?;
         if self.options.amount == 0.0 {
             // The way to the canonical frame and back costs a last digit.
-            return Deformed {
-                meshes: (0..self.character.meshes.len()).map(|mesh| self.unchanged_mesh(mesh)).collect(),
-                joints: self.character.skeleton.joints.iter().map(|joint| joint.position()).collect(),
-            };
+            let meshes = (0..self.character.meshes.len()).map(|mesh| self.unchanged_mesh(mesh)).collect();
+            progress.at(1.0)?;
+            return Ok(Deformed { meshes, joints: self.deformed_joints() });
         }
         let figure = &self.study.figure;
         let after = self.positions_by(&self.field);
+        progress.at(0.3)?;
         let jacobians = fitted_jacobians(&figure.positions, &after, &figure.triangles, &self.weld);
+        progress.at(0.6)?;
         let threads = if after.len() < LEAST_VERTICES { 1 } else { self.options.thread_count };
         let meshes = parallel::collect(threads, self.character.meshes.len(), 1, |mesh| {
             self.deform_mesh(mesh, &after, &jacobians)
         });
-        let joints = figure
+        progress.at(1.0)?;
+        Ok(Deformed { meshes, joints: self.deformed_joints() })
+    }
+
+    /// Where each joint is now, as in [`Deformed::joints`].
+    pub fn deformed_joints(&self) -> Vec<DVec3> {
+        let figure = &self.study.figure;
+        if self.options.amount == 0.0 {
+            return self.character.skeleton.joints.iter().map(|joint| joint.position()).collect();
+        }
+        figure
             .joints
             .iter()
             .zip(&self.joint_bindings)
@@ -544,8 +673,7 @@ impl Deformer {
                 Binding::Fixed => joint.position(),
                 _ => figure.frame.to_model(self.field.map(p, binding).0),
             })
-            .collect();
-        Deformed { meshes, joints }
+            .collect()
     }
 
     /// The mesh as it came.
@@ -640,6 +768,26 @@ impl Deformer {
     /// Length and radius of another body's bone groups, measured over the roles that target and style share.
     pub fn group_shapes(&self, shape: &BodyShape) -> BTreeMap<String, GroupShape> {
         group_shapes(shape, &self.roles, &self.options)
+    }
+
+    /// The character that is deformed: with the rig in place, where one was made.
+    pub fn character(&self) -> &Arc<Character> {
+        &self.character
+    }
+
+    /// What is set.
+    pub fn options(&self) -> &Options {
+        &self.options
+    }
+
+    /// What the style is.
+    pub fn style(&self) -> &Style {
+        &self.style
+    }
+
+    /// alpha and beta by group.
+    pub fn coefficients(&self) -> &BTreeMap<String, Coefficient> {
+        &self.coefficients
     }
 
     /// The target as it was measured.

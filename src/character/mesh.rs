@@ -250,6 +250,42 @@ pub struct MorphTarget {
     pub tangents: Vec<Vec3>,
 }
 
+impl MorphTarget {
+    /// Checks target number `target` against the number of vertices; the error is the vertex and a sentence.
+    pub(crate) fn validate(
+        &self,
+        target: usize,
+        vertex_count: usize,
+    ) -> std::result::Result<(), (Option<usize>, String)> {
+        for (what, deltas, may_be_empty) in [
+            ("position", &self.positions, false),
+            ("normal", &self.normals, true),
+            ("tangent", &self.tangents, true),
+        ] {
+            if deltas.len() != vertex_count && !(may_be_empty && deltas.is_empty()) {
+                return Err((
+                    None,
+                    format!(
+                        "morph target {target} ({}) has {} {what} deltas for {vertex_count} vertices: give one a vertex",
+                        self.name,
+                        deltas.len()
+                    ),
+                ));
+            }
+            if let Some(vertex) = deltas.iter().position(|d| !d.is_finite()) {
+                return Err((
+                    Some(vertex),
+                    format!(
+                        "morph target {target} ({}) moves the {what} of vertex {vertex} by {}: deltas must be finite",
+                        self.name, deltas[vertex]
+                    ),
+                ));
+            }
+        }
+        Ok(())
+    }
+}
+
 /// One mesh in rest pose, in model space.
 #[derive(Clone, Debug, Default)]
 pub struct Mesh {
@@ -335,31 +371,7 @@ impl Mesh {
             );
         }
         for (target, morph) in self.morph_targets.iter().enumerate() {
-            for (what, deltas, may_be_empty) in [
-                ("position", &morph.positions, false),
-                ("normal", &morph.normals, true),
-                ("tangent", &morph.tangents, true),
-            ] {
-                if deltas.len() != count && !(may_be_empty && deltas.is_empty()) {
-                    return bad(
-                        None,
-                        format!(
-                            "morph target {target} ({}) has {} {what} deltas for {count} vertices: give one a vertex",
-                            morph.name,
-                            deltas.len()
-                        ),
-                    );
-                }
-                if let Some(vertex) = deltas.iter().position(|d| !d.is_finite()) {
-                    return bad(
-                        Some(vertex),
-                        format!(
-                            "morph target {target} ({}) moves the {what} of vertex {vertex} by {}: deltas must be finite",
-                            morph.name, deltas[vertex]
-                        ),
-                    );
-                }
-            }
+            morph.validate(target, count).or_else(|(element, message)| bad(element, message))?;
         }
         self.weights.validate(count, joint_count).or_else(|(element, message)| bad(element, message))
     }

@@ -20,6 +20,12 @@ impl Weights {
         Self { starts, entries }
     }
 
+    /// Rows that are laid out already: row v is `starts[v]..starts[v + 1]` of `entries`.
+    pub(crate) fn from_parts(starts: Vec<u32>, entries: Vec<(u32, f32)>) -> Self {
+        debug_assert_eq!(starts.last().copied().unwrap_or(0) as usize, entries.len());
+        Self { starts, entries }
+    }
+
     /// `row_count` rows that each hold weight 1 to `joint`: a mesh that hangs rigidly from it.
     pub fn rigid(joint: u32, row_count: usize) -> Self {
         Self::from_rows((0..row_count).map(|_| [(joint, 1.0)]))

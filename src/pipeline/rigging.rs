@@ -4,6 +4,7 @@ use super::milliseconds;
 use crate::character::{Character, Humanoid, MeshKind, Role, Skeleton, Weights};
 use crate::error::{Error, ErrorKind, Result, Warning};
 use crate::geometry::Surface;
+use crate::progress::Progress;
 use crate::report::RigReport;
 use crate::rig::eyes::{Eye, find_eyes};
 use crate::rig::facing::find_forward;
@@ -58,8 +59,21 @@ impl Rig {
     /// What [`Character::validate`] refuses, `BadOption` for options out of their range, `NoGeometry` where nothing has
     /// an extent along up.
     pub fn of(character: &Character, options: &RigOptions) -> Result<Self> {
+        Self::with_progress(character, options, &mut Progress::none())
+    }
+
+    /// As [`Rig::of`], and tells how far it is.
+    ///
+    /// # Errors
+    /// As [`Rig::of`]; `Cancelled`.
+    pub fn with_progress(
+        character: &Character,
+        options: &RigOptions,
+        progress: &mut Progress,
+    ) -> Result<Self> {
         character.validate()?;
         validate(options)?;
+        progress.at(0.0)?;
         let clock = Instant::now();
         let (forward, mut warnings) = find_forward(character);
         let mut layout = Layout::of(character, forward)?;
@@ -78,6 +92,7 @@ impl Rig {
             found.joints.entry(eye.role).or_insert(joint);
         }
         let joint_time = milliseconds(clock);
+        progress.at(0.3)?;
 
         let at: BTreeMap<Role, DVec3> =
             found.joints.iter().map(|(&role, joint)| (role, joint.position)).collect();
@@ -86,11 +101,14 @@ impl Rig {
         let (_, humanoid) = skeleton_of(&at);
         let mut binder = Binder::new(&layout, &kinds, &bones, &humanoid, &eyes, options);
         warnings.append(&mut binder.warnings);
+        progress.at(0.4)?;
         let (weights, fallback) = binder.weights(options.heat);
+        progress.at(0.7)?;
         let skin_weights = match binder.rule {
             BodyRule::Heat(_) => binder.weights(SKIN_HEAT.max(options.heat)).0,
             BodyRule::Volume(_) => weights.clone(),
         };
+        progress.at(1.0)?;
 
         let in_model = at.iter().map(|(&role, &p)| (role, layout.to_model(p))).collect();
         let (skeleton, humanoid) = skeleton_of(&in_model);

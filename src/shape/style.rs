@@ -77,10 +77,20 @@ impl BodyShape {
                 shape.version
             )));
         }
-        if !(shape.head_length.is_finite() && shape.head_length > 0.0) {
-            return Err(bad(format!("the style's head_length is {}: it must be above 0", shape.head_length)));
+        shape.validate()?;
+        Ok(shape)
+    }
+
+    /// Checks every number against its range.
+    ///
+    /// # Errors
+    /// `ErrorKind::BadStyle` names the number and its value.
+    pub fn validate(&self) -> Result<()> {
+        let bad = |message: String| Error::new(ErrorKind::BadStyle, message);
+        if !(self.head_length.is_finite() && self.head_length > 0.0) {
+            return Err(bad(format!("the style's head_length is {}: it must be above 0", self.head_length)));
         }
-        for (name, bone) in &shape.bones {
+        for (name, bone) in &self.bones {
             let radius = bone.radius.unwrap_or(1.0);
             if !(bone.length.is_finite() && bone.length >= 0.0 && radius.is_finite() && radius > 0.0) {
                 return Err(bad(format!(
@@ -89,10 +99,10 @@ impl BodyShape {
                 )));
             }
         }
-        if let Some(proportions) = &shape.proportions {
+        if let Some(proportions) = &self.proportions {
             proportions.validate()?;
         }
-        Ok(shape)
+        Ok(())
     }
 
     /// How many heads tall, where the proportions are known.

@@ -1,0 +1,348 @@
+//! Arrays, texts and structs of the caller, in and out. Every size is checked before anything is reserved or read.
+
+use super::exports::basics::*;
+use super::guard::{Failure, Outcome};
+use core::ffi::{CStr, c_char};
+use glam::{DMat4, DVec3, Vec3, Vec4};
+use std::fmt::Display;
+
+/// Structs larger than this are no structs of ours, but uninitialised memory.
+const LARGEST_STRUCT: usize = 1 << 16;
+
+/// Types that any bytes make: numbers and what consists of them without gaps that matter.
+///
+/// # Safety
+/// Any bytes are a value of the type.
+pub unsafe trait Plain: Copy {}
+macro_rules! plain { ($($name:ty),*) => { $(unsafe impl Plain for $name {})* } }
+plain!(u8, u16, u32, i32, f32, f64, [f32; 3], [f32; 4], [f64; 3], [f64; 9], [f64; 16], [u32; 3], Vec3, Vec4);
+plain!(super::exports::options::SdefGroupSettings, super::exports::options::SdefBoneGroup);
+plain!(super::exports::options::SdefGivenJoint, super::exports::options::SdefOptions);
+plain!(super::exports::character::SdefMesh, super::exports::character::SdefMorphTarget);
+plain!(super::exports::character::SdefSkeleton, super::exports::character::SdefCharacterInfo);
+plain!(super::exports::style::SdefBone, super::exports::style::SdefStyleNumbers);
+plain!(super::exports::deformer::SdefMeshResult, super::exports::deformer::SdefReport);
+plain!(super::exports::deformer::SdefGroup);
+
+/// An empty array that can hold `count` elements.
+pub fn reserved<T>(count: usize, what: impl Display) -> Outcome<Vec<T>> {
+    let mut array = Vec::new();
+    array.try_reserve_exact(count).map_err(|_| {
+        Failure::new(
+            SDEF_STATUS_OUT_OF_MEMORY,
+            format!("there is no memory for {count} {what}: give less, or free some"),
+        )
+    })?;
+    Ok(array)
+}
+
+/// Checks an array of `count` elements of `size` bytes that begin `stride` bytes apart, and gives the stride.
+pub fn stride_of(
+    what: &impl Display,
+    is_null: bool,
+    count: usize,
+    stride: usize,
+    size: usize,
+) -> Outcome<usize> {
+    if count > 0 && is_null {
+        return Err(Failure::argument(format!(
+            "{what} is NULL, but {count} are to be there: give the array"
+        )));
+    }
+    let stride = if stride == 0 { size } else { stride };
+    if stride < size {
+        return Err(Failure::argument(format!(
+            "the stride of {what} is {stride} bytes, but one takes {size}: give 0 or at least that"
+        )));
+    }
+    match count.checked_mul(stride) {
+        Some(bytes) if isize::try_from(bytes).is_ok() => Ok(stride),
+        _ => Err(Failure::argument(format!(
+            "{what}: {count} with a stride of {stride} bytes are more than memory can hold"
+        ))),
+    }
+}
+
+/// An array of the caller's, checked and not yet copied.
+#[derive(Clone, Copy)]
+pub struct Input<T> {
+    start: *const u8,
+    count: usize,
+    stride: usize,
+    element: std::marker::PhantomData<T>,
+}
+
+impl<T: Plain> Input<T> {
+    /// Checks pointer, count and stride.
+    ///
+    /// # Safety
+    /// `start` is NULL or holds as much as `count` and `stride` say, for as long as this is used.
+    pub unsafe fn new(what: impl Display, start: *const T, count: usize, stride: usize) -> Outcome<Self> {
+        let stride = stride_of(&what, start.is_null(), count, stride, size_of::<T>())?;
+        Ok(Self { start: start.cast(), count, stride, element: std::marker::PhantomData })
+    }
+
+    /// How many elements there are.
+    pub fn len(&self) -> usize {
+        self.count
+    }
+
+    pub fn get(&self, index: usize) -> T {
+        debug_assert!(index < self.count);
+        // SAFETY: within what the caller said that the array holds; any bytes are a value.
+        unsafe { self.start.add(index * self.stride).cast::<T>().read_unaligned() }
+    }
+
+    pub fn iter(&self) -> impl Iterator<Item = T> + '_ {
+        (0..self.count).map(|index| self.get(index))
+    }
+
+    /// Copies everything.
+    pub fn to_vec(self, what: impl Display) -> Outcome<Vec<T>> {
+        let mut array = reserved(self.count, what)?;
+        if self.count == 0 {
+            return Ok(array);
+        }
+        if self.stride == size_of::<T>() {
+            // SAFETY: as many bytes are reserved, and the caller's array holds as many.
+            unsafe {
+                let to: *mut T = array.as_mut_ptr();
+                to.cast::<u8>().copy_from_nonoverlapping(self.start, self.count * self.stride);
+                array.set_len(self.count);
+            }
+        } else {
+            array.extend(self.iter());
+        }
+        Ok(array)
+    }
+}
+
+/// Reads vectors; NULL where they may be left out.
+///
+/// # Safety
+/// As [`Input::new`].
+pub unsafe fn optional<T: Plain>(
+    what: impl Display,
+    start: *const f32,
+    count: usize,
+    stride: usize,
+) -> Outcome<Vec<T>> {
+    if start.is_null() {
+        return Ok(Vec::new());
+    }
+    unsafe { Input::<T>::new(&what, start.cast(), count, stride) }?.to_vec(what)
+}
+
+/// Matrices as the library has them.
+pub fn matrix(numbers: [f64; 16]) -> DMat4 {
+    DMat4::from_cols_array(&numbers)
+}
+
+/// A text of the caller's; what is no UTF-8 is replaced, for names of old files come in any encoding.
+///
+/// # Safety
+/// `text` is NULL or ends with a NUL.
+pub unsafe fn text(text: *const c_char) -> String {
+    if text.is_null() {
+        return String::new();
+    }
+    unsafe { CStr::from_ptr(text) }.to_string_lossy().into_owned()
+}
+
+fn size_in_struct(what: &str, size: u32, own: usize) -> Outcome<usize> {
+    let size = size as usize;
+    if !(8..=LARGEST_STRUCT).contains(&size) || !size.is_multiple_of(4) {
+        return Err(Failure::argument(format!(
+            "struct_size of {what} is {size}: set it to sizeof({what}), which is {own} here"
+        )));
+    }
+    Ok(size)
+}
+
+/// A copy of the caller's struct, which may be older (shorter) or newer (longer) than ours, over `defaults`.
+///
+/// # Safety
+/// `from` is NULL or points to as many bytes as its first number says.
+pub unsafe fn struct_in<T: Plain>(what: &str, from: *const T, defaults: T) -> Outcome<T> {
+    if from.is_null() {
+        return Err(Failure::argument(format!("{what} is NULL: give one")));
+    }
+    unsafe {
+        let size = size_in_struct(what, from.cast::<u32>().read_unaligned(), size_of::<T>())?;
+        let mut copy = defaults;
+        (&raw mut copy).cast::<u8>().copy_from_nonoverlapping(from.cast(), size.min(size_of::<T>()));
+        Ok(copy)
+    }
+}
+
+/// As [`struct_in`], over zeros.
+///
+/// # Safety
+/// As [`struct_in`].
+pub unsafe fn zeroed_in<T: Plain>(what: &str, from: *const T) -> Outcome<T> {
+    // SAFETY: any bytes are a value.
+    unsafe { struct_in(what, from, core::mem::zeroed()) }
+}
+
+/// Structs of an array, all of the size that the first one says.
+///
+/// # Safety
+/// `from` is NULL or holds `count` structs.
+pub unsafe fn structs_in<T: Plain>(what: &str, from: *const T, count: usize) -> Outcome<Vec<T>> {
+    let mut all = Vec::new();
+    if count == 0 {
+        return Ok(all);
+    }
+    if from.is_null() {
+        return Err(Failure::argument(format!("the array of {what} is NULL, but {count} are to be there")));
+    }
+    unsafe {
+        let size = from.cast::<u32>().read_unaligned();
+        let stride = size_in_struct(what, size, size_of::<T>())?;
+        stride_of(&what, false, count, stride, 8)?;
+        all = reserved(count, what)?;
+        for index in 0..count {
+            let from = from.cast::<u8>().add(index * stride).cast::<T>();
+            if from.cast::<u32>().read_unaligned() != size {
+                return Err(Failure::argument(format!(
+                    "struct_size of {what} {index} is {}, but of the first it is {size}: give all the same",
+                    from.cast::<u32>().read_unaligned()
+                )));
+            }
+            all.push(zeroed_in(what, from)?);
+        }
+    }
+    Ok(all)
+}
+
+/// Checks a struct that is to be written, so that errors come before work.
+///
+/// # Safety
+/// As [`struct_out`].
+pub unsafe fn check_struct_out<T: Plain>(what: &str, to: *mut T) -> Outcome {
+    if !to.is_null() {
+        size_in_struct(what, unsafe { to.cast::<u32>().read_unaligned() }, size_of::<T>())?;
+    }
+    Ok(())
+}
+
+/// Writes `value` into the caller's struct, as much of it as that one has; its size stays.
+///
+/// # Safety
+/// `to` points to as many bytes as its first number says.
+pub unsafe fn struct_out<T: Plain>(what: &str, to: *mut T, value: &T) -> Outcome {
+    if to.is_null() {
+        return Err(Failure::argument(format!("{what} is NULL: give one")));
+    }
+    unsafe {
+        let size = size_in_struct(what, to.cast::<u32>().read_unaligned(), size_of::<T>())?;
+        let rest = size.min(size_of::<T>()) - 4;
+        to.cast::<u8>().add(4).copy_from_nonoverlapping((&raw const *value).cast::<u8>().add(4), rest);
+    }
+    Ok(())
+}
+
+/// Writes a result where the caller wants it.
+///
+/// # Safety
+/// `to` is NULL or can be written.
+pub unsafe fn tell<T: Copy>(to: *mut T, value: T) {
+    if !to.is_null() {
+        unsafe { to.write_unaligned(value) };
+    }
+}
+
+/// A result that the caller must want.
+pub fn wanted<T>(what: &str, to: *mut T) -> Outcome {
+    match to.is_null() {
+        true => Err(Failure::argument(format!("{what} is NULL: give a place for the result"))),
+        false => Ok(()),
+    }
+}
+
+/// An array of the caller's that results go to, checked; `None` where it is not wanted.
+#[derive(Clone, Copy)]
+pub struct Output<T> {
+    start: *mut u8,
+    count: usize,
+    stride: usize,
+    element: std::marker::PhantomData<T>,
+}
+
+impl<T: Plain> Output<T> {
+    /// An array that is not wanted.
+    pub fn none() -> Self {
+        Self { start: std::ptr::null_mut(), count: 0, stride: 1, element: std::marker::PhantomData }
+    }
+
+    /// Checks that `count` elements fit.
+    ///
+    /// # Safety
+    /// `start` is NULL or holds `capacity` elements that begin `stride` bytes apart, for as long as this is used.
+    pub unsafe fn new(
+        what: impl Display,
+        start: *mut T,
+        count: usize,
+        capacity: usize,
+        stride: usize,
+    ) -> Outcome<Self> {
+        if start.is_null() {
+            return Ok(Self::none());
+        }
+        if capacity < count {
+            return Err(Failure::new(
+                SDEF_STATUS_BUFFER_TOO_SMALL,
+                format!("{what} can hold {capacity}, but {count} are needed: give a larger array"),
+            ));
+        }
+        let stride = stride_of(&what, false, count, stride, size_of::<T>())?;
+        Ok(Self { start: start.cast(), count, stride, element: std::marker::PhantomData })
+    }
+
+    /// Writes `values`, of which there are as many as were checked.
+    pub fn write(&self, values: &[T]) {
+        let count = self.count.min(values.len());
+        if self.stride == size_of::<T>() {
+            // SAFETY: the caller's array holds as many.
+            unsafe { self.start.copy_from_nonoverlapping(values.as_ptr().cast(), count * self.stride) };
+        } else {
+            self.write_each(values.iter().copied());
+        }
+    }
+
+    /// Writes `values`, of which there are as many as were checked; those of an array that is not wanted are not made.
+    pub fn write_each(&self, values: impl IntoIterator<Item = T>) {
+        for (index, value) in values.into_iter().take(self.count).enumerate() {
+            // SAFETY: the caller's array holds as many.
+            unsafe { self.start.add(index * self.stride).cast::<T>().write_unaligned(value) };
+        }
+    }
+}
+
+/// Gives a text into the caller's bytes, and tells how many it takes.
+///
+/// # Safety
+/// `to` is NULL or holds `capacity` bytes; `size` is NULL or can be written.
+pub unsafe fn text_out(text: &str, to: *mut c_char, capacity: usize, size: *mut usize) -> Outcome {
+    let need = text.len() + 1;
+    unsafe { tell(size, need) };
+    if to.is_null() {
+        return Ok(());
+    }
+    if capacity < need {
+        return Err(Failure::new(
+            SDEF_STATUS_BUFFER_TOO_SMALL,
+            format!("the text takes {need} bytes with its NUL, but there is room for {capacity}: give more"),
+        ));
+    }
+    unsafe {
+        to.cast::<u8>().copy_from_nonoverlapping(text.as_ptr(), text.len());
+        to.add(text.len()).write(0);
+    }
+    Ok(())
+}
+
+/// A place as numbers.
+pub fn numbers(p: DVec3) -> [f64; 3] {
+    p.to_array()
+}

@@ -1,0 +1,115 @@
+//! Version, status, errors, handles
+
+use crate::ffi::{bodies, guard, table};
+use core::ffi::{c_char, c_void};
+use safer_ffi::prelude::*;
+
+/// Compared with sdef_abi_version() before anything else.
+pub const SDEF_ABI_VERSION: u32 = 1;
+
+/// No mesh, no element, no role.
+pub const SDEF_NONE: u32 = 0xFFFF_FFFF;
+
+/// How a call ended: one of SDEF_STATUS_*.
+pub type SdefStatus = u32;
+/// Done.
+pub const SDEF_STATUS_OK: u32 = 0;
+/// A NULL, size, stride or constant that cannot be: a slip in the host's code.
+pub const SDEF_STATUS_BAD_ARGUMENT: u32 = 1;
+/// The handle is none, was destroyed, was never given, or is of another kind.
+pub const SDEF_STATUS_BAD_HANDLE: u32 = 2;
+/// A number in an array is wrong: an index, a position that is not finite.
+pub const SDEF_STATUS_BAD_INPUT: u32 = 3;
+/// An option is out of its range.
+pub const SDEF_STATUS_BAD_OPTION: u32 = 4;
+/// A style cannot be read, or lacks what the mode transfers.
+pub const SDEF_STATUS_BAD_STYLE: u32 = 5;
+/// No joints for hips, head, upper legs and upper arms: name them, or make a rig.
+pub const SDEF_STATUS_NO_HUMANOID: u32 = 6;
+/// There are no triangles, or they have no extent along up.
+pub const SDEF_STATUS_NO_GEOMETRY: u32 = 7;
+/// An array of the caller's is too small; how much is needed is told.
+pub const SDEF_STATUS_BUFFER_TOO_SMALL: u32 = 8;
+/// The handle is in use, by another thread or by the call around this one.
+pub const SDEF_STATUS_BUSY: u32 = 9;
+/// The progress callback asked to stop.
+pub const SDEF_STATUS_CANCELLED: u32 = 10;
+/// Memory for the caller's arrays could not be had.
+pub const SDEF_STATUS_OUT_OF_MEMORY: u32 = 11;
+/// A fault of this library; the host goes on. Please report it with the message.
+pub const SDEF_STATUS_INTERNAL: u32 = 12;
+
+/// What went wrong. The caller's; struct_size is set before a call (SDEF_ERROR_INIT does so), everything else by it.
+#[derive_ReprC]
+#[repr(C)]
+pub struct SdefError {
+    /// sizeof(SdefError)
+    pub struct_size: u32,
+    /// as returned
+    pub status: SdefStatus,
+    /// index of the mesh concerned, or SDEF_NONE
+    pub mesh: u32,
+    /// index of the vertex, triangle or joint concerned, or SDEF_NONE
+    pub element: u32,
+    /// one sentence, UTF-8, always terminated, cut between characters; empty after SDEF_STATUS_OK
+    pub message: [c_char; 512],
+}
+
+/// Called now and then with what part of the work is done, 0 to 1; anything but 0 cancels.
+pub type SdefProgress = Option<unsafe extern "C" fn(user: *mut c_void, fraction: f32) -> i32>;
+
+/// A character: meshes, joints, weights.
+#[derive_ReprC]
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct SdefCharacter {
+    /// 0: none
+    pub id: u64,
+}
+
+/// What a character should become.
+#[derive_ReprC]
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct SdefStyle {
+    /// 0: none
+    pub id: u64,
+}
+
+/// A character together with the deformation that gives it a style.
+#[derive_ReprC]
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct SdefDeformer {
+    /// 0: none
+    pub id: u64,
+}
+
+/// The library's version, to compare with SDEF_ABI_VERSION: another number is another ABI.
+#[ffi_export]
+pub extern "C" fn sdef_abi_version() -> u32 {
+    SDEF_ABI_VERSION
+}
+
+/// The name of a status, such as "SDEF_STATUS_BUSY"; "unknown status" for other numbers. Static text.
+#[ffi_export]
+pub extern "C" fn sdef_status_name(status: SdefStatus) -> *const c_char {
+    guard::status_name(status)
+}
+
+/// How many handles there are that nobody has destroyed, of all kinds and all threads; 0 where nothing leaks.
+#[ffi_export]
+pub extern "C" fn sdef_live_handles() -> u64 {
+    table::live()
+}
+
+/// Destroys what a handle stands for.
+///
+/// handle: the id of a character, style or deformer; 0 is allowed and does nothing.
+///
+/// Never BUSY: calls that use the handle on other threads end first, and their memory goes with the last of them.
+/// Errors: BAD_HANDLE.
+#[ffi_export]
+pub unsafe extern "C" fn sdef_destroy(handle: u64, error: *mut SdefError) -> SdefStatus {
+    unsafe { bodies::destroy(handle, error) }
+}

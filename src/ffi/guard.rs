@@ -1,0 +1,286 @@
+//! What stands around every call: errors become a status and a sentence, panics stop here.
+
+use super::exports::basics::*;
+use crate::error::{Error, ErrorKind};
+use core::ffi::c_char;
+use std::cell::Cell;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::ptr::{addr_of, addr_of_mut};
+use std::sync::Once;
+
+/// Why a call failed.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Failure {
+    pub status: SdefStatus,
+    pub mesh: Option<usize>,
+    pub element: Option<usize>,
+    pub message: String,
+}
+
+/// What a body gives.
+pub type Outcome<T = ()> = Result<T, Failure>;
+
+impl Failure {
+    pub fn new(status: SdefStatus, message: impl Into<String>) -> Self {
+        Self { status, mesh: None, element: None, message: message.into() }
+    }
+
+    /// A mistake in the host's code.
+    pub fn argument(message: impl Into<String>) -> Self {
+        Self::new(SDEF_STATUS_BAD_ARGUMENT, message)
+    }
+
+    /// A wrong number in an array.
+    pub fn input(message: impl Into<String>) -> Self {
+        Self::new(SDEF_STATUS_BAD_INPUT, message)
+    }
+
+    pub fn in_mesh(mut self, mesh: usize) -> Self {
+        self.mesh = Some(mesh);
+        self
+    }
+
+    pub fn at(mut self, element: usize) -> Self {
+        self.element = Some(element);
+        self
+    }
+}
+
+impl From<Error> for Failure {
+    fn from(error: Error) -> Self {
+        let status = match error.kind {
+            ErrorKind::BadInput => SDEF_STATUS_BAD_INPUT,
+            ErrorKind::NoHumanoid => SDEF_STATUS_NO_HUMANOID,
+            ErrorKind::NoGeometry => SDEF_STATUS_NO_GEOMETRY,
+            ErrorKind::BadStyle => SDEF_STATUS_BAD_STYLE,
+            ErrorKind::BadOption => SDEF_STATUS_BAD_OPTION,
+            ErrorKind::Cancelled => SDEF_STATUS_CANCELLED,
+        };
+        let message = in_words_of_hosts(&error.message);
+        Self { status, mesh: error.mesh, element: error.element, message }
+    }
+}
+
+/// The library's sentences name what a person at the command line would turn; a host has fields instead.
+pub fn in_words_of_hosts(message: &str) -> String {
+    const WORDS: [(&str, &str); 8] = [
+        ("name it with --humanoid (", "name it in role_joints, or make a rig ("),
+        (": JOINT NAME)", ": its joint)"),
+        ("give forward (--forward +Z)", "give forward"),
+        ("save one with --save-style", "save one with sdef_style_to_json"),
+        ("(--hair-length)", "(hair_length)"),
+        ("or use --paper", "or use SDEF_MODE_PAPER"),
+        ("leave --paper out", "set SDEF_MODE_PRODUCT"),
+        ("--rig auto", "sdef_character_rig"),
+    ];
+    WORDS.iter().fold(message.to_string(), |text, (command, host)| text.replace(command, host))
+}
+
+/// The bytes of `SdefError` before its message.
+const HEAD: usize = core::mem::offset_of!(SdefError, message);
+
+/// Runs `body` and tells how it ended.
+///
+/// # Safety
+/// `error` is NULL or points to as many bytes as its `struct_size` says.
+pub unsafe fn call(error: *mut SdefError, body: impl FnOnce() -> Outcome) -> SdefStatus {
+    let size = match error.is_null() {
+        true => 0,
+        // SAFETY: the caller's struct begins with its size.
+        false => unsafe { addr_of!((*error).struct_size).read_unaligned() as usize },
+    };
+    if !error.is_null() && size <= HEAD {
+        return SDEF_STATUS_BAD_ARGUMENT;
+    }
+    keep_quiet();
+    let outcome = {
+        let _inside = Inside::enter();
+        catch_unwind(AssertUnwindSafe(body)).unwrap_or_else(|panic| {
+            let text = panic
+                .downcast_ref::<&str>()
+                .map(|text| (*text).to_string())
+                .or_else(|| panic.downcast_ref::<String>().cloned())
+                .unwrap_or_default();
+            Err(Failure::new(
+                SDEF_STATUS_INTERNAL,
+                format!("a fault of the library, please report it: {text}"),
+            ))
+        })
+    };
+    let (status, mesh, element, message) = match &outcome {
+        Ok(()) => (SDEF_STATUS_OK, None, None, ""),
+        Err(failure) => (failure.status, failure.mesh, failure.element, failure.message.as_str()),
+    };
+    if !error.is_null() {
+        let index =
+            |index: Option<usize>| index.map_or(SDEF_NONE, |index| index.min(SDEF_NONE as usize) as u32);
+        let room = size.min(size_of::<SdefError>()) - HEAD;
+        let text = &message.as_bytes()[..message.floor_char_boundary_at(room - 1)];
+        // SAFETY: everything written lies within the size that the caller gave.
+        unsafe {
+            addr_of_mut!((*error).status).write_unaligned(status);
+            addr_of_mut!((*error).mesh).write_unaligned(index(mesh));
+            addr_of_mut!((*error).element).write_unaligned(index(element));
+            let to = addr_of_mut!((*error).message).cast::<u8>();
+            to.copy_from_nonoverlapping(text.as_ptr(), text.len());
+            to.add(text.len()).write(0);
+        }
+    }
+    status
+}
+
+trait CharBoundary {
+    /// The last boundary between characters at or before `most`.
+    fn floor_char_boundary_at(&self, most: usize) -> usize;
+}
+
+impl CharBoundary for str {
+    fn floor_char_boundary_at(&self, most: usize) -> usize {
+        (0..=most.min(self.len())).rev().find(|&at| self.is_char_boundary(at)).unwrap_or(0)
+    }
+}
+
+/// `text` cut to fit `room` bytes with its NUL.
+pub fn cut(text: &str, room: usize) -> &str {
+    &text[..text.floor_char_boundary_at(room.saturating_sub(1))]
+}
+
+thread_local! {
+    /// How many calls of the library this thread is in: progress callbacks may call back.
+    static DEPTH: Cell<usize> = const { Cell::new(0) };
+}
+
+/// This thread is in a call.
+struct Inside;
+
+impl Inside {
+    fn enter() -> Self {
+        DEPTH.with(|depth| depth.set(depth.get() + 1));
+        Inside
+    }
+}
+
+impl Drop for Inside {
+    fn drop(&mut self) {
+        DEPTH.with(|depth| depth.set(depth.get() - 1));
+    }
+}
+
+/// Keeps panics of our calls, which become a status, from the host's standard error; others are told as before.
+fn keep_quiet() {
+    static ONCE: Once = Once::new();
+    ONCE.call_once(|| {
+        let before = std::panic::take_hook();
+        std::panic::set_hook(Box::new(move |info| {
+            let in_call = DEPTH.try_with(|depth| depth.get() > 0).unwrap_or(false);
+            let worker = std::thread::current().name() == Some(crate::parallel::WORKER);
+            if !in_call && !worker {
+                before(info);
+            }
+        }));
+    });
+}
+
+/// The name of a status.
+pub fn status_name(status: SdefStatus) -> *const c_char {
+    let name = match status {
+        SDEF_STATUS_OK => c"SDEF_STATUS_OK",
+        SDEF_STATUS_BAD_ARGUMENT => c"SDEF_STATUS_BAD_ARGUMENT",
+        SDEF_STATUS_BAD_HANDLE => c"SDEF_STATUS_BAD_HANDLE",
+        SDEF_STATUS_BAD_INPUT => c"SDEF_STATUS_BAD_INPUT",
+        SDEF_STATUS_BAD_OPTION => c"SDEF_STATUS_BAD_OPTION",
+        SDEF_STATUS_BAD_STYLE => c"SDEF_STATUS_BAD_STYLE",
+        SDEF_STATUS_NO_HUMANOID => c"SDEF_STATUS_NO_HUMANOID",
+        SDEF_STATUS_NO_GEOMETRY => c"SDEF_STATUS_NO_GEOMETRY",
+        SDEF_STATUS_BUFFER_TOO_SMALL => c"SDEF_STATUS_BUFFER_TOO_SMALL",
+        SDEF_STATUS_BUSY => c"SDEF_STATUS_BUSY",
+        SDEF_STATUS_CANCELLED => c"SDEF_STATUS_CANCELLED",
+        SDEF_STATUS_OUT_OF_MEMORY => c"SDEF_STATUS_OUT_OF_MEMORY",
+        SDEF_STATUS_INTERNAL => c"SDEF_STATUS_INTERNAL",
+        _ => c"unknown status",
+    };
+    name.as_ptr()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::ffi::CStr;
+
+    fn error(size: usize) -> SdefError {
+        SdefError {
+            struct_size: size as u32,
+            status: 99,
+            mesh: 99,
+            element: 99,
+            message: [b'x' as c_char; 512],
+        }
+    }
+
+    fn text(error: &SdefError) -> &str {
+        // SAFETY: every call ends the message with a NUL.
+        unsafe { CStr::from_ptr(error.message.as_ptr()) }.to_str().unwrap()
+    }
+
+    #[test]
+    fn a_panic_becomes_a_status() {
+        let mut told = error(size_of::<SdefError>());
+        let status = unsafe { call(&mut told, || panic!("at the disco")) };
+        assert_eq!((status, told.status), (SDEF_STATUS_INTERNAL, SDEF_STATUS_INTERNAL));
+        assert_eq!((told.mesh, told.element), (SDEF_NONE, SDEF_NONE));
+        assert_eq!(text(&told), "a fault of the library, please report it: at the disco");
+        let status = unsafe { call(std::ptr::null_mut(), || panic!("{}", 1)) };
+        assert_eq!(status, SDEF_STATUS_INTERNAL);
+    }
+
+    #[test]
+    fn a_panic_of_a_worker_becomes_a_status() {
+        let body = || {
+            crate::parallel::collect(2, 10, 1, |index| assert_ne!(index, 9, "nine"));
+            Ok(())
+        };
+        let mut told = error(size_of::<SdefError>());
+        assert_eq!(unsafe { call(&mut told, body) }, SDEF_STATUS_INTERNAL);
+        assert!(text(&told).contains("nine"));
+    }
+
+    #[test]
+    fn a_message_is_cut_between_characters() {
+        for (letter, width) in [("a", 1), ("é", 2), ("髪", 3), ("🦀", 4)] {
+            for size in [HEAD + 1, HEAD + 2, HEAD + 100, size_of::<SdefError>(), size_of::<SdefError>() + 64]
+            {
+                let mut told = error(size);
+                let long = letter.repeat(600);
+                let status =
+                    unsafe { call(&mut told, || Err(Failure::input(long.as_str()).in_mesh(3).at(7))) };
+                assert_eq!(status, SDEF_STATUS_BAD_INPUT);
+                assert_eq!((told.mesh, told.element), (3, 7));
+                let room = (size - HEAD).min(512) - 1;
+                assert_eq!(text(&told), letter.repeat(room / width));
+                if size < size_of::<SdefError>() {
+                    assert_eq!(
+                        told.message[size - HEAD],
+                        b'x' as c_char,
+                        "written beyond the caller's struct"
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn an_error_struct_without_a_size_is_refused() {
+        for size in [0, 4, HEAD] {
+            let mut told = error(size);
+            assert_eq!(unsafe { call(&mut told, || Ok(())) }, SDEF_STATUS_BAD_ARGUMENT);
+            assert_eq!(told.status, 99);
+        }
+    }
+
+    #[test]
+    fn success_clears_the_error() {
+        let mut told = error(size_of::<SdefError>());
+        assert_eq!(unsafe { call(&mut told, || Ok(())) }, SDEF_STATUS_OK);
+        assert_eq!((told.status, text(&told)), (SDEF_STATUS_OK, ""));
+    }
+}

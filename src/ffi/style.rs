@@ -1,0 +1,331 @@
+//! Styles: numbers in and out.
+
+use super::arrays::{self, Input, Output, tell, wanted};
+use super::exports::basics::*;
+use super::exports::options::SdefOptions;
+use super::exports::style::*;
+use super::guard::{Failure, Outcome, call};
+use super::table::{self, Object};
+use crate::character::Role;
+use crate::character::bones::HEAD_TOP;
+use crate::pipeline::Style;
+use crate::report::LandmarkHeights;
+use crate::shape::proportions::Proportions;
+use crate::shape::style::BUILT_IN;
+use crate::shape::{BodyShape, BoneShape, Study};
+use core::ffi::c_char;
+use std::sync::Arc;
+
+fn bad(message: impl Into<String>) -> Failure {
+    Failure::new(SDEF_STATUS_BAD_STYLE, message)
+}
+
+/// Gives a style a handle.
+unsafe fn give(style: Style, to: *mut SdefStyle) -> Outcome {
+    let id = table::insert(Object::Style(Arc::new(style)))?;
+    unsafe { tell(to, SdefStyle { id }) };
+    Ok(())
+}
+
+fn shape(shape: BodyShape) -> Style {
+    Style::Shape(Box::new(shape))
+}
+
+/// The body of `sdef_style_from_heads`.
+pub unsafe fn from_heads(
+    heads: f64,
+    like: SdefStyle,
+    style: *mut SdefStyle,
+    error: *mut SdefError,
+) -> SdefStatus {
+    let body = || unsafe {
+        wanted("style", style)?;
+        let plain = Style::heads(heads)?;
+        let made = match like.id {
+            0 => plain,
+            _ => match &*table::style(like)? {
+                Style::Heads(_) => plain,
+                Style::Shape(like) if like.proportions.is_none() => {
+                    return Err(bad(format!(
+                        "the style {} holds no proportions to stretch: measure its model again",
+                        like.name
+                    )));
+                }
+                Style::Shape(like) => shape(like.with_heads(heads)),
+            },
+        };
+        give(made, style)
+    };
+    unsafe { call(error, body) }
+}
+
+/// The body of `sdef_style_from_text`.
+pub unsafe fn from_text(
+    text: *const c_char,
+    size: usize,
+    style: *mut SdefStyle,
+    error: *mut SdefError,
+) -> SdefStatus {
+    let body = || unsafe {
+        wanted("style", style)?;
+        let bytes = Input::<u8>::new("text", text.cast(), size, 0)?.to_vec("bytes of text")?;
+        let text = String::from_utf8(bytes).map_err(|error| {
+            let at = error.utf8_error().valid_up_to();
+            bad(format!("the style's text is no UTF-8 at byte {at}: give what sdef_style_to_json gave"))
+        })?;
+        let made = match BodyShape::built_in(text.trim()) {
+            Some(shape) => shape,
+            None if !text.trim_start().starts_with('{') => {
+                let start: String = text.chars().take(40).collect();
+                return Err(bad(format!(
+                    "\"{start}\" is neither a saved style nor one of {}",
+                    BUILT_IN.join(", ")
+                )));
+            }
+            None => BodyShape::from_json(&text)?,
+        };
+        give(shape(made), style)
+    };
+    unsafe { call(error, body) }
+}
+
+/// The body of `sdef_style_measure`.
+pub unsafe fn measure(
+    character: SdefCharacter,
+    name: *const c_char,
+    options: *const SdefOptions,
+    style: *mut SdefStyle,
+    error: *mut SdefError,
+) -> SdefStatus {
+    let body = || unsafe {
+        wanted("style", style)?;
+        let state = table::character(character)?;
+        let (options, _) = super::options::read(options)?;
+        options.validate()?;
+        let ready = table::read(&state, "character")?.ready();
+        let study = Study::of(ready.character(), &options)?;
+        give(shape(BodyShape { name: arrays::text(name), ..study.shape }), style)
+    };
+    unsafe { call(error, body) }
+}
+
+/// The body of `sdef_style_blend`.
+pub unsafe fn blend(
+    first: SdefStyle,
+    second: SdefStyle,
+    amount: f64,
+    style: *mut SdefStyle,
+    error: *mut SdefError,
+) -> SdefStatus {
+    let body = || unsafe {
+        wanted("style", style)?;
+        let (first, second) = (table::style(first)?, table::style(second)?);
+        if !(-10.0..=10.0).contains(&amount) {
+            let message = format!("amount is {amount}: give a number from -10 to 10");
+            return Err(Failure::new(SDEF_STATUS_BAD_OPTION, message));
+        }
+        let made = match (&*first, &*second) {
+            (Style::Heads(first), Style::Heads(second)) => Style::heads(first + amount * (second - first))?,
+            (Style::Shape(first), Style::Shape(second)) => {
+                let blended = first.blended(second, amount);
+                blended.validate()?;
+                shape(blended)
+            }
+            _ => {
+                return Err(bad(
+                    "a style of N heads has no body to blend with a measured one: make it like that one first (sdef_style_from_heads)",
+                ));
+            }
+        };
+        give(made, style)
+    };
+    unsafe { call(error, body) }
+}
+
+const UNKNOWN: SdefStyleNumbers = SdefStyleNumbers {
+    struct_size: 0,
+    reserved: 0,
+    heads: f64::NAN,
+    bone_head_length: f64::NAN,
+    crown: f64::NAN,
+    chin: f64::NAN,
+    shoulder_line: f64::NAN,
+    crotch: f64::NAN,
+    sole: f64::NAN,
+    head_length: f64::NAN,
+    head_half_width: f64::NAN,
+    neck: f64::NAN,
+    torso: f64::NAN,
+    arm: f64::NAN,
+    leg: f64::NAN,
+    ankle_height: f64::NAN,
+    hand: f64::NAN,
+    foot: f64::NAN,
+    trunk_half_width: f64::NAN,
+    upper_arm_radius: f64::NAN,
+    lower_arm_radius: f64::NAN,
+    upper_leg_radius: f64::NAN,
+    lower_leg_radius: f64::NAN,
+};
+
+fn numbers_of(style: &Style) -> SdefStyleNumbers {
+    let shape = match style {
+        Style::Heads(heads) => return SdefStyleNumbers { heads: *heads, ..UNKNOWN },
+        Style::Shape(shape) => shape,
+    };
+    let mut numbers = SdefStyleNumbers {
+        heads: shape.heads().unwrap_or(f64::NAN),
+        bone_head_length: shape.head_length,
+        ..UNKNOWN
+    };
+    if let Some(marks) = &shape.landmarks {
+        numbers = SdefStyleNumbers {
+            crown: marks.crown,
+            chin: marks.chin,
+            shoulder_line: marks.shoulder_line,
+            crotch: marks.crotch,
+            sole: marks.sole,
+            ..numbers
+        };
+    }
+    if let Some(p) = &shape.proportions {
+        let or_nan = |number: Option<f64>| number.unwrap_or(f64::NAN);
+        numbers = SdefStyleNumbers {
+            head_length: p.head_length,
+            head_half_width: p.head_half_width,
+            neck: p.neck,
+            torso: p.torso,
+            arm: p.arm,
+            leg: p.leg,
+            ankle_height: p.ankle_height,
+            hand: or_nan(p.hand),
+            foot: or_nan(p.foot),
+            trunk_half_width: or_nan(p.trunk_half_width),
+            upper_arm_radius: or_nan(p.upper_arm_radius),
+            lower_arm_radius: or_nan(p.lower_arm_radius),
+            upper_leg_radius: or_nan(p.upper_leg_radius),
+            lower_leg_radius: or_nan(p.lower_leg_radius),
+            ..numbers
+        };
+    }
+    numbers
+}
+
+fn bones_of(style: &Style) -> Vec<SdefBone> {
+    let Style::Shape(shape) = style else { return Vec::new() };
+    let ends = Role::all().map(|role| (role as u32, role.name()));
+    ends.chain([(SDEF_BONE_HEAD_TOP, HEAD_TOP)])
+        .filter_map(|(end, name)| shape.bones.get(name).map(|bone| (end, bone)))
+        .map(|(end, bone)| SdefBone {
+            end,
+            reserved: 0,
+            length: bone.length,
+            radius: bone.radius.unwrap_or(f64::NAN),
+        })
+        .collect()
+}
+
+/// The body of `sdef_style_from_numbers`.
+pub unsafe fn from_numbers(
+    name: *const c_char,
+    numbers: *const SdefStyleNumbers,
+    bones: *const SdefBone,
+    bone_count: usize,
+    style: *mut SdefStyle,
+    error: *mut SdefError,
+) -> SdefStatus {
+    let body = || unsafe {
+        wanted("style", style)?;
+        let given = arrays::struct_in("SdefStyleNumbers", numbers, UNKNOWN)?;
+        let bones = Input::new("bones", bones, bone_count, 0)?;
+        if bone_count == 0 && given.bone_head_length.is_nan() && given.head_length.is_nan() {
+            return give(Style::heads(given.heads)?, style);
+        }
+        let known = |number: f64| (!number.is_nan()).then_some(number);
+        let mut made = BodyShape {
+            name: arrays::text(name),
+            head_length: given.bone_head_length,
+            landmarks: known(given.crown).map(|crown| LandmarkHeights {
+                crown,
+                chin: given.chin,
+                shoulder_line: given.shoulder_line,
+                crotch: given.crotch,
+                sole: given.sole,
+            }),
+            proportions: known(given.head_length).map(|head_length| Proportions {
+                head_length,
+                head_half_width: given.head_half_width,
+                neck: given.neck,
+                torso: given.torso,
+                arm: given.arm,
+                leg: given.leg,
+                ankle_height: given.ankle_height,
+                hand: known(given.hand),
+                foot: known(given.foot),
+                trunk_half_width: known(given.trunk_half_width),
+                upper_arm_radius: known(given.upper_arm_radius),
+                lower_arm_radius: known(given.lower_arm_radius),
+                upper_leg_radius: known(given.upper_leg_radius),
+                lower_leg_radius: known(given.lower_leg_radius),
+            }),
+            ..BodyShape::default()
+        };
+        for (index, bone) in bones.iter().enumerate() {
+            let name = match bone.end {
+                SDEF_BONE_HEAD_TOP => HEAD_TOP,
+                end => super::options::role(&format!("bones {index}"), end)
+                    .map_err(|error| error.at(index))?
+                    .name(),
+            };
+            let measured = BoneShape { length: bone.length, radius: known(bone.radius) };
+            if made.bones.insert(name.to_string(), measured).is_some() {
+                return Err(bad(format!("bones {index} ends at {name} again: give each end once")).at(index));
+            }
+        }
+        made.validate()?;
+        give(shape(made), style)
+    };
+    unsafe { call(error, body) }
+}
+
+/// The body of `sdef_style_get_numbers`.
+pub unsafe fn get_numbers(
+    style: SdefStyle,
+    numbers: *mut SdefStyleNumbers,
+    bones: *mut SdefBone,
+    capacity: usize,
+    bone_count: *mut usize,
+    error: *mut SdefError,
+) -> SdefStatus {
+    let body = || unsafe {
+        let style = table::style(style)?;
+        arrays::check_struct_out("SdefStyleNumbers", numbers)?;
+        let known = bones_of(&style);
+        tell(bone_count, known.len());
+        Output::new("bones", bones, known.len(), capacity, 0)?.write(&known);
+        match numbers.is_null() {
+            true => Ok(()),
+            false => arrays::struct_out("SdefStyleNumbers", numbers, &numbers_of(&style)),
+        }
+    };
+    unsafe { call(error, body) }
+}
+
+/// The body of `sdef_style_to_json`.
+pub unsafe fn to_json(
+    style: SdefStyle,
+    text: *mut c_char,
+    capacity: usize,
+    size: *mut usize,
+    error: *mut SdefError,
+) -> SdefStatus {
+    let body = || unsafe {
+        match &*table::style(style)? {
+            Style::Heads(heads) => Err(bad(format!(
+                "a style of {heads} heads, like no other, has no body to save: save the number"
+            ))),
+            Style::Shape(shape) => arrays::text_out(&shape.to_json(), text, capacity, size),
+        }
+    };
+    unsafe { call(error, body) }
+}

@@ -1,0 +1,271 @@
+//! The committed header and C# imports are those that the sources generate, and both say the same as the library.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use superdeform_headers::csharp::{constants_of, printed};
+use superdeform_headers::{SECTIONS, c_header, csharp, root, source};
+
+/// Compares a generated text with the committed file, or writes it where `SUPERDEFORM_BLESS` is set.
+fn check(path: &str, text: &str) {
+    let file = root().join(path);
+    if std::env::var_os("SUPERDEFORM_BLESS").is_some() {
+        std::fs::create_dir_all(file.parent().unwrap()).unwrap();
+        std::fs::write(&file, text).unwrap();
+    }
+    let committed = std::fs::read_to_string(&file).unwrap_or_default().replace("\r\n", "\n");
+    let line = committed.lines().zip(text.lines()).position(|(old, new)| old != new);
+    assert!(
+        committed == text,
+        "{path} is not what src/ffi/exports generates (first at line {:?}): set SUPERDEFORM_BLESS=1 and run again",
+        line.map(|line| line + 1)
+    );
+}
+
+#[test]
+fn the_committed_header_is_generated() {
+    check("include/superdeform.h", &c_header());
+}
+
+#[test]
+fn the_committed_imports_are_generated() {
+    check("unity/Runtime/Native.g.cs", &csharp());
+}
+
+#[test]
+fn the_header_can_be_read_on_one_afternoon() {
+    let header = c_header();
+    assert!(header.lines().count() < 600, "{} lines", header.lines().count());
+    for (number, line) in header.lines().enumerate() {
+        assert!(line.chars().count() <= 120, "line {} is too long: {line}", number + 1);
+    }
+    assert!(header.is_ascii());
+    assert!(functions_of(&header).len() <= 30);
+}
+
+/// Of every function the return type and the arguments, as how many pointers each is and whether it is a plain number,
+/// a struct or a callback.
+type Functions = BTreeMap<String, Vec<String>>;
+
+/// Reads declarations of functions, in C or in C#.
+fn functions_of(text: &str) -> Functions {
+    let code: String = text
+        .lines()
+        .map(|line| line.split("//").next().unwrap_or("").trim())
+        .filter(|line| !line.starts_with('#') && !line.starts_with('*') && !line.starts_with("/*"))
+        .collect::<Vec<_>>()
+        .join(" ");
+    let mut functions = Functions::new();
+    for (at, _) in code.match_indices("sdef_") {
+        let rest = &code[at..];
+        let name: String = rest.chars().take_while(|c| c.is_ascii_alphanumeric() || *c == '_').collect();
+        let after = rest[name.len()..].trim_start();
+        if !after.starts_with('(') {
+            continue;
+        }
+        let mut depth = 0;
+        let end = after
+            .find(|c| {
+                depth += i32::from(c == '(') - i32::from(c == ')');
+                depth == 0
+            })
+            .expect("an end of the arguments");
+        let before = &code[..at];
+        let start = before.rfind([';', '}', '{', ']']).map_or(0, |at| at + 1);
+        let mut parts = vec![shape(&before[start..])];
+        let (mut depth, mut argument) = (0, String::new());
+        for letter in after[1..end].chars().chain([',']) {
+            depth += i32::from(letter == '(') - i32::from(letter == ')');
+            if letter == ',' && depth == 0 {
+                parts.push(shape(&std::mem::take(&mut argument)));
+            } else {
+                argument.push(letter);
+            }
+        }
+        parts.retain(|part| part != "no argument");
+        functions.insert(name, parts);
+    }
+    functions
+}
+
+/// What a type is, in words that both generators share.
+fn shape(declared: &str) -> String {
+    let declared = declared.trim();
+    if declared == "void" || declared.is_empty() {
+        return "no argument".to_string();
+    }
+    if declared.contains("(*") || declared.contains("SdefProgress") {
+        return "callback".to_string();
+    }
+    let depth = declared.matches('*').count();
+    let words: Vec<&str> =
+        declared.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').filter(|w| !w.is_empty()).collect();
+    let base = words
+        .iter()
+        .find(|word| !["const", "extern", "internal", "static", "struct"].contains(word))
+        .unwrap_or(&"")
+        .trim_end_matches("_t")
+        .to_lowercase();
+    let base = match base.as_str() {
+        "sdefstatus" | "uint32" => "uint32",
+        "char" | "int8" | "sbyte" => "char",
+        "uintptr" | "size" => "size",
+        "single" => "float",
+        other => other,
+    };
+    format!("{base} {}", "*".repeat(depth)).trim_end().to_string()
+}
+
+#[test]
+fn both_generators_see_the_same_functions() {
+    let ours = functions_of(&c_header());
+    let exports: usize =
+        SECTIONS.iter().map(|section| source(section).matches("#[ffi_export]").count()).sum();
+    assert_eq!(ours.len(), exports);
+    assert_eq!(ours, functions_of(&printed(safer_ffi::headers::Language::C)));
+    assert_eq!(ours, functions_of(&csharp()));
+}
+
+#[test]
+fn both_files_have_every_constant() {
+    let (header, imports) = (c_header(), csharp());
+    for section in SECTIONS {
+        for (name, number) in constants_of(&source(section)) {
+            let number = if number == "0xFFFFFFFF" { "UINT32_MAX".to_string() } else { number };
+            let defined = [format!("#define {name} {number}"), format!("{name} = {number}")];
+            assert!(defined.iter().any(|line| header.contains(line)), "{name}");
+            assert!(imports.contains(&format!("const UInt32 {name} = ")), "{name}");
+        }
+    }
+}
+
+/// The shared library that cargo built beside this test, or else builds now.
+fn library() -> Option<PathBuf> {
+    let name = format!("{}superdeform{}", std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX);
+    let deps = std::env::current_exe().ok()?.parent()?.to_path_buf();
+    let built = deps.join(&name);
+    if !built.exists() {
+        let mut cargo = Command::new(env!("CARGO"));
+        cargo.args(["build", "--quiet", "--package", "superdeform", "--lib"]).current_dir(root());
+        if !cfg!(debug_assertions) {
+            cargo.arg("--release");
+        }
+        assert!(cargo.status().ok()?.success(), "cargo build failed");
+        return Some(deps.parent()?.join(&name));
+    }
+    Some(built)
+}
+
+fn output(program: &str, arguments: &[&str]) -> Option<String> {
+    let output = Command::new(program).args(arguments).output().ok()?;
+    assert!(output.status.success(), "{program}: {}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).ok()
+}
+
+#[test]
+fn the_library_exports_what_the_header_says_and_nothing_else() {
+    let Some(library) = library() else { return };
+    let Some(symbols) = output("nm", &["-D", "--defined-only", &library.display().to_string()]) else {
+        println!("there is no nm: the exported symbols are not checked");
+        return;
+    };
+    let exported: Vec<&str> = symbols.lines().filter_map(|line| line.split_whitespace().last()).collect();
+    let ours = functions_of(&c_header());
+    let names: Vec<&str> = ours.keys().map(String::as_str).collect();
+    let mut sorted = exported.clone();
+    sorted.sort_unstable();
+    assert_eq!(sorted, names);
+    if let Some(dynamic) = output("readelf", &["-d", &library.display().to_string()]) {
+        assert!(dynamic.contains("Library soname: [libsuperdeform.so]"), "{dynamic}");
+    }
+}
+
+#[test]
+fn the_header_compiles_without_warnings() {
+    let folder = std::env::temp_dir().join(format!("superdeform-compile-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let source = "#include \"superdeform.h\"\n#include \"superdeform.h\"\n\
+        uint32_t version(void) { SdefError error = SDEF_ERROR_INIT; return error.struct_size + sdef_abi_version(); }\n";
+    let mut checked = 0;
+    for (compilers, ending, standards) in [
+        (["gcc", "clang", "x86_64-w64-mingw32-gcc"], "c", ["c99", "c11", "c17"]),
+        (["g++", "clang++", "x86_64-w64-mingw32-g++"], "cpp", ["c++11", "c++17", "c++20"]),
+    ] {
+        let file = folder.join(format!("unit.{ending}"));
+        std::fs::write(&file, source).unwrap();
+        for compiler in compilers {
+            if Command::new(compiler).arg("--version").output().is_err() {
+                println!("there is no {compiler}");
+                continue;
+            }
+            for standard in standards {
+                compiles(compiler, standard, &file, &folder);
+                checked += 1;
+            }
+        }
+    }
+    let _ = std::fs::remove_dir_all(&folder);
+    println!("{checked} compilations");
+}
+
+fn compiles(compiler: &str, standard: &str, file: &Path, folder: &Path) {
+    let result = Command::new(compiler)
+        .arg(format!("-std={standard}"))
+        .args(["-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror", "-c", "-I"])
+        .arg(root().join("include"))
+        .arg(file)
+        .arg("-o")
+        .arg(folder.join("unit.o"))
+        .output()
+        .unwrap();
+    assert!(result.status.success(), "{compiler} {standard}: {}", String::from_utf8_lossy(&result.stderr));
+}
+
+#[test]
+fn the_imports_compile() {
+    if Command::new("mcs").arg("--version").output().is_err() {
+        println!("there is no mcs: the C# imports are not compiled");
+        return;
+    }
+    let to = std::env::temp_dir().join(format!("superdeform-{}.dll", std::process::id()));
+    let result = Command::new("mcs")
+        .args(["-unsafe", "-langversion:7.2", "-target:library", "-warnaserror"])
+        .arg(format!("-out:{}", to.display()))
+        .arg(root().join("unity/Runtime/Native.g.cs"))
+        .output()
+        .unwrap();
+    let _ = std::fs::remove_file(&to);
+    assert!(result.status.success(), "{}", String::from_utf8_lossy(&result.stderr));
+}
+
+/// The README's program, built against the header and the library alone.
+#[test]
+fn the_minimal_host_makes_a_figure_super_deformed() {
+    let Some(library) = library() else { return };
+    if Command::new("cc").arg("--version").output().is_err() || !cfg!(target_os = "linux") {
+        println!("there is no C compiler: examples/minimal.c is not built");
+        return;
+    }
+    let folder = std::env::temp_dir().join(format!("superdeform-minimal-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let result = Command::new("cc")
+        .args(["-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Werror", "-I"])
+        .arg(root().join("include"))
+        .arg(root().join("examples/minimal.c"))
+        .arg("-L")
+        .arg(library.parent().unwrap())
+        .args(["-lsuperdeform", "-o"])
+        .arg(folder.join("minimal"))
+        .output()
+        .unwrap();
+    assert!(result.status.success(), "{}", String::from_utf8_lossy(&result.stderr));
+    let result = Command::new(folder.join("minimal"))
+        .env("LD_LIBRARY_PATH", library.parent().unwrap())
+        .output()
+        .unwrap();
+    let _ = std::fs::remove_dir_all(&folder);
+    let said = String::from_utf8_lossy(&result.stdout);
+    assert!(result.status.success(), "{said}{}", String::from_utf8_lossy(&result.stderr));
+    let numbers: Vec<f64> = said.split_whitespace().filter_map(|word| word.parse().ok()).collect();
+    assert!(numbers.len() == 2 && numbers[1] < numbers[0], "{said}");
+}
