@@ -1,6 +1,6 @@
 //! Arms: followed from the fingertips inwards to the armpit.
 
-use super::silhouette::{GridFrame, RayGrid};
+use super::silhouette::{GridFrame, RayGrid, lowest};
 use super::stance::{Stance, median};
 use glam::{DVec2, DVec3};
 
@@ -290,14 +290,18 @@ fn sections(
     let range: Vec<usize> = (0..known.len())
         .filter(|&index| arc[index] >= way(WRIST_RANGE.0) && arc[index] <= way(WRIST_RANGE.1))
         .collect();
-    let slim = range.iter().copied().min_by(|&a, &b| girth[a].total_cmp(&girth[b]));
+    let girths: Vec<(f64, f64)> = range.iter().map(|&index| (arc[index], girth[index])).collect();
+    let slim = lowest(&girths).map(|at| {
+        let index = arc.partition_point(|&a| a < at).min(known.len() - 1);
+        (at, index)
+    });
     let mut wrist_arc = way(WRIST_BY_RATIO);
     let mut wrist_seen = false;
-    if let Some(slim) = slim {
+    if let Some((at, slim)) = slim {
         let hand = girth[slim..].iter().copied().fold(0.0, f64::max);
         let arm = girth[..slim].iter().copied().fold(0.0, f64::max);
-        if hand > 1.12 * girth[slim] && arm > 1.05 * girth[slim] && arc[slim] < way(WRIST_RANGE.1) - 0.01 {
-            wrist_arc = arc[slim];
+        if hand > 1.12 * girth[slim] && arm > 1.05 * girth[slim] && at < way(WRIST_RANGE.1) - 0.01 {
+            wrist_arc = at;
             wrist_seen = true;
         }
     }

@@ -358,6 +358,22 @@ impl Region {
         path
     }
 
+    /// The outer part of the line from the wrist to the end of the hand. A blunt end has many tips, of which rounding
+    /// would choose one: its middle is the end.
+    fn mitten(&self) -> Vec<DVec3> {
+        let out = |p: &DVec3| (*p - self.wrist).dot(self.along);
+        let furthest = self.points.iter().map(out).fold(0.0, f64::max);
+        let ends: Vec<DVec3> =
+            self.points.iter().filter(|p| out(p) >= (1.0 - BLUNT) * furthest).copied().collect();
+        let end = ends.iter().sum::<DVec3>() / ends.len().max(1) as f64;
+        (0..=SECTION_COUNT)
+            .map(|step| {
+                let part = (step as f64 + 0.5).min(SECTION_COUNT as f64) / SECTION_COUNT as f64;
+                self.wrist.lerp(end, MITTEN_KNUCKLES + (1.0 - MITTEN_KNUCKLES) * part)
+            })
+            .collect()
+    }
+
     /// True where a tip lies within the rest of the hand, as the end of a forearm does in a hand that is a body of its
     /// own: rays from just beyond it, ahead and all around, meet the surface.
     fn is_buried(&self, surface: &Surface, finger: &Finger) -> bool {
@@ -395,7 +411,7 @@ impl Region {
             let is_mitten = hand.finger_count <= 2 && role == 2;
             if is_mitten {
                 finger.web_distance = finger.web_distance.max(MITTEN_KNUCKLES * finger.tip_distance);
-                path = self.path(&finger);
+                path = self.mitten();
             }
             let shares = match role {
                 0 => THUMB_JOINTS,
@@ -537,6 +553,9 @@ const WRIST_BEND: f64 = 0.5;
 
 /// Where the knuckles are between wrist and tips.
 const MITTEN_KNUCKLES: f64 = 0.5;
+
+/// What reaches as far along the forearm as the furthest point, to within this share, is the end of a mitten.
+const BLUNT: f64 = 0.05;
 
 /// Just beyond a tip, as a share of the hand's length.
 const BEYOND_TIP: f64 = 0.02;

@@ -1,5 +1,6 @@
 //! Legs: where they part, and where hip, knee, ankle and toes are in them.
 
+use super::silhouette::lowest;
 use super::stance::Stance;
 use glam::DVec3;
 
@@ -364,14 +365,16 @@ struct Ankle {
 fn ankle_height(sections: &[Section], low: f64, length: f64) -> Ankle {
     let girth = |s: &Section| s.half_width + s.half_depth();
     let believed = |y: f64| y.clamp(low + ANKLE_RANGE.0 * length, low + ANKLE_RANGE.1 * length);
-    let slim = sections
+    let calf: Vec<(f64, f64)> = sections
         .iter()
         .filter(|s| s.y >= low + SLIM_RANGE.0 * length && s.y <= low + SLIM_RANGE.1 * length)
-        .min_by(|a, b| girth(a).total_cmp(&girth(b)));
-    if let Some(slim) = slim {
-        let below = sections.iter().filter(|s| s.y < slim.y).map(girth).fold(0.0, f64::max);
-        if below > 1.15 * girth(slim) && slim.y > low + 1.05 * SLIM_RANGE.0 * length {
-            return Ankle { y: believed(low + ANKLE_OF_SLIM * (slim.y - low)), slim: slim.y, seen: true };
+        .map(|s| (s.y, girth(s)))
+        .collect();
+    if let Some(slim) = lowest(&calf) {
+        let least = calf.iter().map(|&(_, girth)| girth).fold(f64::INFINITY, f64::min);
+        let below = sections.iter().filter(|s| s.y < slim).map(girth).fold(0.0, f64::max);
+        if below > 1.15 * least && slim > low + 1.05 * SLIM_RANGE.0 * length {
+            return Ankle { y: believed(low + ANKLE_OF_SLIM * (slim - low)), slim, seen: true };
         }
     }
     let y = low + ANKLE_BY_RATIO * length;

@@ -98,7 +98,14 @@ fn off(
     if !one.keys().eq(other.keys()) {
         return f64::INFINITY;
     }
-    one.iter().map(|(role, &at)| place(at).distance(other[role]) / height).fold(0.0, f64::max)
+    let apart: Vec<(f64, Role)> =
+        one.iter().map(|(&role, &at)| (place(at).distance(other[&role]) / height, role)).collect();
+    let far: Vec<String> =
+        apart.iter().filter(|(off, _)| *off > CLOSE).map(|(off, role)| format!("{role} {off:.1e}")).collect();
+    if !far.is_empty() {
+        println!("{}", far.join(", "));
+    }
+    apart.into_iter().map(|(off, _)| off).fold(0.0, f64::max)
 }
 
 /// The greatest difference between two weights of one vertex to one joint.
