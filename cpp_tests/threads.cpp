@@ -124,11 +124,18 @@ static void a_callback_that_changes_what_calls_it_is_told_so() {
   const superdeform::Style style = superdeform::Style::from_heads(2.5);
   SdefStatus inside = SDEF_STATUS_OK;
   std::uint64_t calls = 0;
-  superdeform::Deformer deformer(made, style, superdeform::Options(), [&](float) {
+  superdeform::Options options;
+  options.rig_voxel_resolution = 32;
+  made.rig(options, [&](float) {
     calls++;
     inside = sdef_character_add_mesh(made.get(), &figure().mesh, nullptr, nullptr);
   });
-  CHECK(calls > 0 && inside == SDEF_STATUS_BUSY);
+  CHECK(calls > 0 && inside == SDEF_STATUS_BUSY && made.info().mesh_count == 1);
+  // A deformer has read all that it needs before it begins.
+  superdeform::Deformer deformer(made, style, superdeform::Options(), [&](float) {
+    inside = sdef_character_add_mesh(made.get(), &figure().mesh, nullptr, nullptr);
+  });
+  CHECK(inside == SDEF_STATUS_OK && made.info().mesh_count > 1);
   Positions positions;
   deformer.apply({&positions.result, 1}, [&](float) {
     inside = sdef_deformer_set_face(deformer.get(), 0, SDEF_FACE_CURVE_F4, nullptr);
