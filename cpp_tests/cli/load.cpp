@@ -125,12 +125,17 @@ void order_joints(Loaded &loaded) {
   for (const int node : loaded.nodes.order) add(node);
 }
 
+// What the library guesses the mesh's kind from: "node/mesh/material".
 std::string name_of(const tinygltf::Model &model, const Part &part) {
   const tinygltf::Mesh &mesh = model.meshes[part.mesh];
   const int material = mesh.primitives[part.primitive].material;
-  std::string name = mesh.name.empty() ? model.nodes[part.node].name : mesh.name;
-  if (mesh.primitives.size() > 1 && material >= 0 && !model.materials.at(material).name.empty())
-    name += "/" + model.materials[material].name;
+  std::string name;
+  const auto add = [&](const std::string &text) {
+    if (!text.empty()) name += (name.empty() ? "" : "/") + text;
+  };
+  add(model.nodes[part.node].name);
+  add(mesh.name);
+  if (material >= 0) add(model.materials.at(material).name);
   return name;
 }
 
