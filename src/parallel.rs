@@ -44,6 +44,10 @@ pub fn collect_with<S, T: Send>(
         all.extend(indices.map(|index| make(&mut state, index)));
     };
     let mut all = Vec::with_capacity(count);
+    if share_count == 1 {
+        run(0..count, &mut all);
+        return all;
+    }
     std::thread::scope(|scope| {
         let run = &run;
         let others: Vec<_> = (share..count)

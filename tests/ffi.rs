@@ -799,7 +799,8 @@ fn statue() -> Character {
     statue.humanoid = Humanoid::default();
     for mesh in &mut statue.meshes {
         mesh.weights = superdeform::Weights::default();
-        mesh.kind = None;
+        // What SDEF_MESH_UNKNOWN stands for.
+        mesh.kind = superdeform::MeshKind::guess(&mesh.name);
         mesh.morph_targets.clear();
     }
     statue
@@ -905,7 +906,8 @@ fn everything_at_once_makes_a_rig_where_there_is_none() {
     let wanted = Deformer::with_rig(&character, &library, &Style::Heads(3.0), &Options::default()).unwrap();
     let style = of_heads(3.0);
     let meshes: Vec<_> = character.meshes.iter().map(c_mesh).collect();
-    let structs: Vec<SdefMesh> = meshes.iter().map(|mesh| mesh.mesh).collect();
+    let structs: Vec<SdefMesh> =
+        meshes.iter().map(|mesh| SdefMesh { kind: SDEF_MESH_UNKNOWN, ..mesh.mesh }).collect();
     let (up, forward) =
         (character.axes.up.to_array(), character.axes.forward.map(|forward| forward.to_array()));
     let forward = forward.as_ref().map_or(null(), |forward| forward.as_ptr());
