@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <fstream>
 #include <limits>
 #include <stdexcept>
 
@@ -111,7 +112,9 @@ void write_gltf(const std::string &path, tinygltf::Model &model) {
   if (!model.buffers.empty()) pad(model.buffers[0].data);
   tinygltf::TinyGLTF writer;
   writer.SetImageWriter(keep_uri, nullptr);
-  if (!writer.WriteGltfSceneToFile(&model, path, false, true, false, true))
+  // By a stream of our own: tinygltf's does not tell whether the file could be opened.
+  std::ofstream file(path, std::ios::binary);
+  if (!file || !writer.WriteGltfSceneToStream(&model, file, false, true) || !file.flush())
     throw std::runtime_error(path + " cannot be written");
 }
 
