@@ -18,5 +18,5 @@ if "$compare" "$target" "$scratch/cpp_$name" 1e-2 >/dev/null 2>&1; then
   exit 1
 fi
 if command -v python3 >/dev/null; then
-  python3 "$(dirname "${BASH_SOURCE[0]}")/kept.py" "$target" "$scratch/cpp_$name"
+  python3 "$(dirname "${BASH_SOURCE[0]}")/kept.py" "$target" "$scratch/cpp_$name" "$scratch/rust_$name"
 fi

@@ -1,4 +1,5 @@
 #include "write.hpp"
+#include "vrm.hpp"
 
 #include <algorithm>
 #include <map>
@@ -239,5 +240,6 @@ void deform(Loaded &loaded, const superdeform::Deformer &deformer) {
     return;
   }
   move_binds(loaded, files, rest);
+  move_points(loaded, deformer, rest);
   move_nodes(loaded, rest);
 }
