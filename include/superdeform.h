@@ -242,7 +242,8 @@ enum {
 typedef struct SdefMesh {
   uint32_t struct_size;       // sizeof(SdefMesh)
   uint32_t kind;              // SDEF_MESH_*
-  const char *name;           // for messages, and for guessing the kind; may be NULL
+  const char *name;           // for messages, and for guessing the kind, as in "node/mesh/material", of which the last
+                              // that says one counts; may be NULL
   size_t vertex_count;        // up to 4294967294
   const float *positions;     // 3 floats a vertex, model units
   size_t position_stride;     // bytes from vertex to vertex; 0: 12
@@ -508,7 +509,8 @@ typedef struct SdefReport {
   uint64_t fallback_vertices;  // vertices that were weighted by another rule than the chosen one
 } SdefReport;
 
-// Makes the deformation that gives a character a style.
+// Makes the deformation that gives a character a style. What it needs of the character is read before it begins: that
+// may be changed meanwhile.
 // options:        NULL for the defaults; rig_* are not read
 // progress, user: see Progress above; user is handed on
 // deformer:       receives the handle

@@ -247,7 +247,8 @@ pub unsafe fn read_skeleton(skeleton: *const SdefSkeleton) -> Outcome<(Skeleton,
 pub unsafe fn read_mesh(given: &SdefMesh) -> Outcome<Mesh> {
     let name = unsafe { arrays::text(given.name) };
     let kinds = [
-        MeshKind::guess(&name),
+        // What stands last says most about it: a material more than the node that shows it.
+        name.rsplit('/').find_map(MeshKind::guess),
         Some(MeshKind::Body),
         Some(MeshKind::Garment),
         Some(MeshKind::Hair),

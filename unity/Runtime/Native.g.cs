@@ -261,7 +261,8 @@ internal static unsafe partial class Native
         SdefError* error);
 
     /// <summary>
-    /// Makes the deformation that gives a character a style.
+    /// Makes the deformation that gives a character a style. What it needs of the character is read before it begins: that
+    /// may be changed meanwhile.
     ///
     /// options:        NULL for the defaults; rig_* are not read
     /// progress, user: see Progress above; user is handed on
@@ -614,7 +615,8 @@ internal unsafe struct SdefMesh {
     public UInt32 kind;
 
     /// <summary>
-    /// for messages, and for guessing the kind; may be NULL
+    /// for messages, and for guessing the kind, as in "node/mesh/material", of which the last
+    /// that says one counts; may be NULL
     /// </summary>
     public sbyte* name;
 

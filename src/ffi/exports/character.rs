@@ -160,7 +160,8 @@ pub struct SdefMesh {
     pub struct_size: u32,
     /// SDEF_MESH_*
     pub kind: u32,
-    /// for messages, and for guessing the kind; may be NULL
+    /// for messages, and for guessing the kind, as in "node/mesh/material", of which the last
+    /// that says one counts; may be NULL
     pub name: *const c_char,
     /// up to 4294967294
     pub vertex_count: usize,

@@ -105,7 +105,8 @@ pub struct SdefReport {
     pub fallback_vertices: u64,
 }
 
-/// Makes the deformation that gives a character a style.
+/// Makes the deformation that gives a character a style. What it needs of the character is read before it begins: that
+/// may be changed meanwhile.
 ///
 /// options:        NULL for the defaults; rig_* are not read
 /// progress, user: see Progress above; user is handed on

@@ -1,0 +1,22 @@
+#!/usr/bin/env bash
+# compare.sh CLI COMPARE EXAMPLE TARGET REFERENCE: the host in C++ and the one in Rust make the same of one character,
+# and everything that is not reshaped comes out of the host in C++ as it went in.
+set -euo pipefail
+cli=$1 compare=$2 example=$3 target=$4 reference=$5
+for file in "$target" "$example"; do
+  [[ -e $file ]] || { echo "skipped: $file is not there"; exit 77; }
+done
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+name=$(basename "$target")
+"$example" --quiet "$target" "$reference" -o "$scratch/rust_$name"
+"$cli" "$target" "$reference" "$scratch/cpp_$name" 2>/dev/null
+"$compare" "$scratch/rust_$name" "$scratch/cpp_$name" 1e-6
+# The comparison sees a difference where there is one.
+if "$compare" "$target" "$scratch/cpp_$name" 1e-2 >/dev/null 2>&1; then
+  echo "the character has not changed"
+  exit 1
+fi
+if command -v python3 >/dev/null; then
+  python3 "$(dirname "${BASH_SOURCE[0]}")/kept.py" "$target" "$scratch/cpp_$name" "$scratch/rust_$name"
+fi

@@ -1,0 +1,51 @@
+// superdeform_cli TARGET REFERENCE OUT: makes TARGET (GLB or VRM) super-deformed and writes OUT.
+// REFERENCE is a super-deformed character (GLB or VRM), a built-in style such as sd2.5, or a number of heads.
+#include "load.hpp"
+#include "write.hpp"
+
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+
+namespace {
+
+superdeform::Style style_of(const std::string &reference) {
+  char *end = nullptr;
+  const double heads = std::strtod(reference.c_str(), &end);
+  if (end != reference.c_str() && *end == 0) return superdeform::Style::from_heads(heads);
+  if (reference.find('.') == std::string::npos || reference.compare(0, 2, "sd") == 0)
+    try {
+      return superdeform::Style::from_text(reference);
+    } catch (const superdeform::Error &) {
+      // A file then.
+    }
+  Loaded model;
+  load(reference, model);
+  return superdeform::Style::measure(model.character, reference.c_str());
+}
+
+void print_lines(const std::string &text) {
+  if (!text.empty()) std::fputs(text.c_str(), stderr);
+}
+
+} // namespace
+
+int main(int argc, char **argv) try {
+  if (argc != 4) {
+    std::fprintf(stderr, "superdeform_cli TARGET REFERENCE OUT\n");
+    return 2;
+  }
+  Loaded target;
+  load(argv[1], target);
+  const superdeform::Style style = style_of(argv[2]);
+  const superdeform::Deformer deformer(target.character, style);
+  print_lines(deformer.warnings());
+  deform(target, deformer);
+  write_gltf(argv[3], target.model);
+  const SdefReport report = deformer.report();
+  std::printf("%s: %.2f heads, was %.2f\n", argv[3], report.result.heads, report.target.heads);
+  return 0;
+} catch (const std::exception &error) {
+  std::fprintf(stderr, "%s\n", error.what());
+  return 1;
+}

@@ -1,0 +1,3 @@
+// tinygltf itself, where it is a plain header: built once.
+#define TINYGLTF_IMPLEMENTATION
+#include <tiny_gltf.h>

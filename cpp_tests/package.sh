@@ -1,0 +1,58 @@
+#!/usr/bin/env bash
+# package.sh BUILD CMAKE: installs what BUILD holds into a temporary folder, and lets other projects there find it: by
+# CMake (shared and static) and by pkg-config, all after the folder was moved.
+set -euo pipefail
+source=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+build=$1
+cmake=$2
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+"$cmake" --install "$build" --prefix "$scratch/first" >/dev/null
+mv "$scratch/first" "$scratch/moved"
+prefix=$scratch/moved
+mkdir "$scratch/project"
+cp "$source/examples/minimal.c" "$scratch/project"
+cat >"$scratch/project/hello.cpp" <<'END'
+#include <superdeform.hpp>
+#include <cstdio>
+int main() { std::puts(superdeform::Style::from_text("sd3") ? "found" : "lost"); }
+END
+cat >"$scratch/project/CMakeLists.txt" <<'END'
+cmake_minimum_required(VERSION 3.20)
+project(consumer LANGUAGES C CXX)
+find_package(superdeform 0.1 REQUIRED)
+foreach(kind superdeform static)
+  add_executable(minimal_${kind} minimal.c)
+  target_link_libraries(minimal_${kind} PRIVATE superdeform::${kind})
+  add_executable(hello_${kind} hello.cpp)
+  target_compile_features(hello_${kind} PRIVATE cxx_std_17)
+  target_link_libraries(hello_${kind} PRIVATE superdeform::${kind})
+endforeach()
+END
+"$cmake" -S "$scratch/project" -B "$scratch/build" -DCMAKE_PREFIX_PATH="$prefix" >"$scratch/log" || { cat "$scratch/log"; exit 1; }
+"$cmake" --build "$scratch/build" >"$scratch/log" || { cat "$scratch/log"; exit 1; }
+for kind in superdeform static; do
+  "$scratch/build/minimal_$kind"
+  [[ $("$scratch/build/hello_$kind") == found ]]
+done
+# The one needs the shared library, the other does not.
+readelf -d "$scratch/build/minimal_superdeform" | grep -q 'NEEDED.*\[libsuperdeform.so\]'
+if readelf -d "$scratch/build/minimal_static" | grep -q superdeform; then
+  echo "the static program needs the shared library"
+  exit 1
+fi
+if command -v pkg-config >/dev/null; then
+  pc=$(dirname "$(find "$prefix" -name superdeform.pc)")
+  export PKG_CONFIG_PATH=$pc
+  flags=$(pkg-config --cflags --libs superdeform)
+  libdir=$(pkg-config --variable=libdir superdeform)
+  # shellcheck disable=SC2086
+  ${CC:-cc} -std=c99 "$scratch/project/minimal.c" $flags -o "$scratch/by_pkg_config"
+  LD_LIBRARY_PATH=$libdir "$scratch/by_pkg_config"
+  # shellcheck disable=SC2046
+  ${CC:-cc} -std=c99 "$scratch/project/minimal.c" $(pkg-config --cflags superdeform) "$libdir/libsuperdeform.a" \
+    $(pkg-config --libs --static superdeform | sed 's/-lsuperdeform//') -o "$scratch/static_by_pkg_config"
+  "$scratch/static_by_pkg_config"
+else
+  echo "pkg-config is not installed: not tried"
+fi

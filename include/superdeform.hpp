@@ -1,0 +1,436 @@
+// superdeform for C++17: superdeform.h with handles that destroy themselves, exceptions, views and lambdas.
+//
+//     superdeform::Character character;
+//     character.set_skeleton(skeleton);                     // SdefSkeleton, see superdeform.h
+//     character.add_mesh(mesh);
+//     superdeform::Deformer deformer(character, superdeform::Style::from_heads(2.5));
+//     deformer.apply({results.data(), results.size()}, [&](float fraction) { return window.closed(); });
+//
+// What each call does, takes and refuses stands in superdeform.h. Every status but SDEF_STATUS_OK comes as an Error. A
+// progress function may return nothing, or true to cancel; what it throws comes out of the call that it was given to.
+
+#ifndef SUPERDEFORM_HPP
+#define SUPERDEFORM_HPP
+
+#include "superdeform.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <iterator>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace superdeform {
+
+// What a call that failed says.
+class Error : public std::runtime_error {
+public:
+  Error(SdefStatus status, const std::string &message, std::uint32_t mesh = SDEF_NONE,
+        std::uint32_t element = SDEF_NONE)
+      : std::runtime_error(message), status_(status), mesh_(mesh), element_(element) {}
+
+  SdefStatus status() const noexcept { return status_; }      // SDEF_STATUS_*
+  std::uint32_t mesh() const noexcept { return mesh_; }       // the mesh concerned, or SDEF_NONE
+  std::uint32_t element() const noexcept { return element_; } // its vertex, triangle or joint, or SDEF_NONE
+
+private:
+  SdefStatus status_;
+  std::uint32_t mesh_, element_;
+};
+
+// Elements of somebody else's: std::span as far as it is needed here. Made from a pointer and a count, from an array,
+// or from a container such as std::vector; empty stands for an array that is left out.
+template <class T> class View {
+public:
+  View() noexcept = default;
+  View(T *data, std::size_t size) noexcept : data_(data), size_(size) {}
+  template <class Container,
+            class = std::enable_if_t<std::is_convertible_v<
+                std::remove_pointer_t<decltype(std::data(std::declval<Container &>()))> (*)[], T (*)[]>>>
+  View(Container &&container) : data_(std::data(container)), size_(std::size(container)) {}
+
+  T *data() const noexcept { return data_; }
+  std::size_t size() const noexcept { return size_; }
+  bool empty() const noexcept { return size_ == 0; }
+  T *begin() const noexcept { return data_; }
+  T *end() const noexcept { return data_ + size_; }
+  T &operator[](std::size_t index) const { return data_[index]; }
+
+private:
+  T *data_ = nullptr;
+  std::size_t size_ = 0;
+};
+
+namespace detail {
+
+inline void check(SdefStatus status, const SdefError &error) {
+  if (status != SDEF_STATUS_OK) throw Error(status, error.message, error.mesh, error.element);
+}
+
+// Refuses a library of another ABI; asked once.
+inline void check_version() {
+  static const bool checked = [] {
+    const std::uint32_t version = sdef_abi_version();
+    if (version == SDEF_ABI_VERSION) return true;
+    throw Error(SDEF_STATUS_BAD_ARGUMENT, "superdeform.hpp is for version " + std::to_string(SDEF_ABI_VERSION) +
+                                              " of the ABI, but the library has version " + std::to_string(version) +
+                                              ": take both from one release");
+  }();
+  (void)checked;
+}
+
+// Calls a function of the ABI, which gets `arguments` and the error.
+template <class Function, class... Arguments> void call(Function function, Arguments... arguments) {
+  check_version();
+  SdefError error = SDEF_ERROR_INIT;
+  check(function(arguments..., &error), error);
+}
+
+// The same with a progress function: no exception may cross the library, so it waits until the call is over.
+template <class Progress, class Function, class... Arguments>
+void call_with_progress(Progress &&progress, Function function, Arguments... arguments) {
+  if constexpr (std::is_null_pointer_v<std::decay_t<Progress>>) {
+    call(function, arguments..., SdefProgress(nullptr), static_cast<void *>(nullptr));
+  } else {
+    struct State {
+      std::remove_reference_t<Progress> &progress;
+      std::exception_ptr thrown;
+    } state{progress, nullptr};
+    const auto trampoline = [](void *user, float fraction) -> std::int32_t {
+      State &called = *static_cast<State *>(user);
+      try {
+        if constexpr (std::is_void_v<std::invoke_result_t<Progress &, float>>) {
+          called.progress(fraction);
+          return 0;
+        } else {
+          return called.progress(fraction) ? 1 : 0;
+        }
+      } catch (...) {
+        called.thrown = std::current_exception();
+        return 1;
+      }
+    };
+    check_version();
+    SdefError error = SDEF_ERROR_INIT;
+    const SdefStatus status = function(arguments..., SdefProgress(trampoline), static_cast<void *>(&state), &error);
+    if (state.thrown) std::rethrow_exception(state.thrown);
+    check(status, error);
+  }
+}
+
+// Text of a function that tells how much room it needs. What it writes of may change in between.
+template <class Function> std::string text(Function function) {
+  std::string text;
+  std::size_t size = 0;
+  call([&](SdefError *error) { return function(static_cast<char *>(nullptr), std::size_t(0), &size, error); });
+  for (;;) {
+    text.resize(size);
+    SdefError error = SDEF_ERROR_INIT;
+    const SdefStatus status = function(text.data(), text.size(), &size, &error);
+    if (status == SDEF_STATUS_BUFFER_TOO_SMALL && size > text.size()) continue;
+    check(status, error);
+    text.resize(size == 0 ? 0 : size - 1);
+    return text;
+  }
+}
+
+inline void check_size(const char *name, std::size_t size, std::size_t needed) {
+  if (size != needed)
+    throw Error(SDEF_STATUS_BAD_ARGUMENT,
+                std::string(name) + " has " + std::to_string(size) + " numbers: give " + std::to_string(needed));
+}
+
+// The owner of a handle.
+template <class Raw> class Handle {
+public:
+  Handle() noexcept = default;
+  explicit Handle(Raw raw) noexcept : raw_(raw) {}
+  Handle(Handle &&other) noexcept : raw_(other.release()) {}
+  Handle &operator=(Handle &&other) noexcept {
+    if (this != &other) reset(other.release());
+    return *this;
+  }
+  ~Handle() { reset(); }
+
+  Raw get() const noexcept { return raw_; }
+  std::uint64_t id() const noexcept { return raw_.id; }
+  explicit operator bool() const noexcept { return raw_.id != 0; }
+
+  // Gives the handle away: who calls sdef_destroy is the caller's business from then on.
+  Raw release() noexcept { return std::exchange(raw_, Raw{0}); }
+
+  // Destroys what it holds and holds another.
+  void reset(Raw raw = Raw{0}) noexcept {
+    if (raw_.id != 0) sdef_destroy(raw_.id, nullptr);
+    raw_ = raw;
+  }
+
+protected:
+  Raw raw_{0};
+};
+
+} // namespace detail
+
+// A struct with everything 0 but its struct_size: make<SdefMesh>().
+template <class T> T make() {
+  T made{};
+  made.struct_size = static_cast<std::uint32_t>(sizeof(T));
+  return made;
+}
+
+// The options with their defaults.
+struct Options : SdefOptions {
+  Options() : SdefOptions() {
+    detail::call(sdef_options_init, static_cast<SdefOptions *>(this), static_cast<std::uint32_t>(sizeof(SdefOptions)));
+  }
+};
+
+// How many handles there are that nobody has destroyed.
+inline std::uint64_t live_handles() {
+  detail::check_version();
+  return sdef_live_handles();
+}
+
+// The name of a status.
+inline const char *status_name(SdefStatus status) {
+  detail::check_version();
+  return sdef_status_name(status);
+}
+
+// What a person should know about the rig and the roles of a character, or about a deformer and all before it.
+template <class Raw> std::string warnings(const detail::Handle<Raw> &handle) {
+  return detail::text([&](char *text, std::size_t capacity, std::size_t *size, SdefError *error) {
+    return sdef_get_warnings(handle.id(), text, capacity, size, error);
+  });
+}
+
+// A character: meshes, joints, weights.
+class Character : public detail::Handle<SdefCharacter> {
+public:
+  // Joints as arrays: own ones first, then those of a made rig.
+  struct Joints {
+    std::vector<std::int32_t> parents;
+    std::vector<std::uint32_t> roles;
+    std::vector<double> rest_matrices; // 16 a joint
+    std::vector<double> confidence;
+  };
+
+  // up, forward: 3 floats each; NULL as in sdef_character_create.
+  explicit Character(const float *up = nullptr, const float *forward = nullptr) {
+    detail::call(sdef_character_create, up, forward, &raw_);
+  }
+  // Takes a handle over.
+  explicit Character(SdefCharacter raw) noexcept : Handle(raw) {}
+
+  void set_skeleton(const SdefSkeleton &skeleton) { detail::call(sdef_character_set_skeleton, raw_, &skeleton); }
+
+  std::uint32_t add_mesh(const SdefMesh &mesh) {
+    std::uint32_t index = SDEF_NONE;
+    detail::call(sdef_character_add_mesh, raw_, &mesh, &index);
+    return index;
+  }
+
+  void add_morph_target(std::uint32_t mesh, const SdefMorphTarget &target) {
+    detail::call(sdef_character_add_morph_target, raw_, mesh, &target);
+  }
+
+  // Finds joints and weights.
+  template <class Progress = std::nullptr_t>
+  void rig(const SdefOptions &options = Options(), Progress &&progress = Progress()) {
+    detail::call_with_progress(std::forward<Progress>(progress), sdef_character_rig, raw_, &options);
+  }
+
+  SdefCharacterInfo info() const {
+    SdefCharacterInfo info = make<SdefCharacterInfo>();
+    detail::call(sdef_character_get_info, raw_, &info);
+    return info;
+  }
+
+  Joints joints() const {
+    std::size_t count = info().joint_count;
+    Joints joints{std::vector<std::int32_t>(count), std::vector<std::uint32_t>(count), std::vector<double>(16 * count),
+                  std::vector<double>(count)};
+    detail::call(sdef_character_get_joints, raw_, joints.parents.data(), joints.roles.data(),
+                 joints.rest_matrices.data(), joints.confidence.data(), count, &count);
+    return joints;
+  }
+
+  // The weights that animate a mesh: influence_count numbers a vertex in each array.
+  void weights(std::uint32_t mesh, std::uint32_t influence_count, View<std::uint32_t> joints,
+               View<float> weights) const {
+    detail::check_size("joints", joints.size(), weights.size());
+    const std::size_t capacity = influence_count == 0 ? 0 : weights.size() / influence_count;
+    detail::call(sdef_character_get_weights, raw_, mesh, influence_count, joints.data(), weights.data(), capacity);
+  }
+
+  std::string warnings() const { return superdeform::warnings(*this); }
+};
+
+// What a character should become.
+class Style : public detail::Handle<SdefStyle> {
+public:
+  // Takes a handle over.
+  explicit Style(SdefStyle raw) noexcept : Handle(raw) {}
+
+  static Style from_heads(double heads) { return from_heads_like(heads, SdefStyle{0}); }
+  static Style from_heads(double heads, const Style &like) { return from_heads_like(heads, like.get()); }
+
+  static Style from_text(std::string_view text) {
+    Style style;
+    detail::call(sdef_style_from_text, text.data(), text.size(), &style.raw_);
+    return style;
+  }
+
+  // name: may be NULL
+  static Style measure(const Character &character, const char *name = nullptr,
+                       const SdefOptions &options = Options()) {
+    Style style;
+    detail::call(sdef_style_measure, character.get(), name, &options, &style.raw_);
+    return style;
+  }
+
+  static Style from_numbers(const SdefStyleNumbers &numbers, View<const SdefBone> bones, const char *name = nullptr) {
+    Style style;
+    detail::call(sdef_style_from_numbers, name, &numbers, bones.data(), bones.size(), &style.raw_);
+    return style;
+  }
+
+  static Style blend(const Style &first, const Style &second, double amount) {
+    Style style;
+    detail::call(sdef_style_blend, first.raw_, second.raw_, amount, &style.raw_);
+    return style;
+  }
+
+  SdefStyleNumbers numbers() const {
+    SdefStyleNumbers numbers = make<SdefStyleNumbers>();
+    detail::call(sdef_style_get_numbers, raw_, &numbers, static_cast<SdefBone *>(nullptr), std::size_t(0),
+                 static_cast<std::size_t *>(nullptr));
+    return numbers;
+  }
+
+  std::vector<SdefBone> bones() const {
+    std::size_t count = 0;
+    detail::call(sdef_style_get_numbers, raw_, static_cast<SdefStyleNumbers *>(nullptr),
+                 static_cast<SdefBone *>(nullptr), std::size_t(0), &count);
+    std::vector<SdefBone> bones(count);
+    detail::call(sdef_style_get_numbers, raw_, static_cast<SdefStyleNumbers *>(nullptr), bones.data(), bones.size(),
+                 &count);
+    return bones;
+  }
+
+  std::string to_json() const {
+    return detail::text([&](char *text, std::size_t capacity, std::size_t *size, SdefError *error) {
+      return sdef_style_to_json(raw_, text, capacity, size, error);
+    });
+  }
+
+private:
+  Style() noexcept = default;
+
+  static Style from_heads_like(double heads, SdefStyle like) {
+    Style style;
+    detail::call(sdef_style_from_heads, heads, like, &style.raw_);
+    return style;
+  }
+};
+
+// A character together with the deformation that gives it a style.
+class Deformer : public detail::Handle<SdefDeformer> {
+public:
+  // Joints after the deformation.
+  struct Joints {
+    std::vector<double> positions;     // 3 a joint
+    std::vector<double> inverse_binds; // 16 a joint
+  };
+
+  template <class Progress = std::nullptr_t>
+  Deformer(const Character &character, const Style &style, const SdefOptions &options = Options(),
+           Progress &&progress = Progress()) {
+    detail::call_with_progress(
+        std::forward<Progress>(progress),
+        [&](SdefProgress callback, void *user, SdefError *error) {
+          return sdef_deformer_create(character.get(), style.get(), &options, callback, user, &raw_, error);
+        });
+  }
+  // Takes a handle over.
+  explicit Deformer(SdefDeformer raw) noexcept : Handle(raw) {}
+
+  template <class Progress = std::nullptr_t>
+  void set_options(const SdefOptions &options, Progress &&progress = Progress()) {
+    detail::call_with_progress(std::forward<Progress>(progress), sdef_deformer_set_options, raw_, &options);
+  }
+
+  void set_face(double squash, std::uint32_t curve = SDEF_FACE_CURVE_F4) {
+    detail::call(sdef_deformer_set_face, raw_, squash, curve);
+  }
+
+  // results: one for each mesh of the character
+  template <class Progress = std::nullptr_t>
+  void apply(View<const SdefMeshResult> results, Progress &&progress = Progress()) const {
+    detail::call_with_progress(std::forward<Progress>(progress), sdef_deformer_apply, raw_, results.data(),
+                               results.size());
+  }
+
+  Joints joints() const {
+    std::size_t count = 0;
+    detail::call(sdef_deformer_get_joints, raw_, static_cast<double *>(nullptr), static_cast<double *>(nullptr),
+                 std::size_t(0), &count);
+    Joints joints{std::vector<double>(3 * count), std::vector<double>(16 * count)};
+    detail::call(sdef_deformer_get_joints, raw_, joints.positions.data(), joints.inverse_binds.data(), count, &count);
+    return joints;
+  }
+
+  // joints: one a point; points, positions: 3 numbers a point; scales: one; jacobians: 9. What is empty is not wanted.
+  void map_points(View<const std::uint32_t> joints, View<const double> points, View<double> positions,
+                  View<double> scales = {}, View<double> jacobians = {}) const {
+    const std::size_t count = joints.size();
+    detail::check_size("points", points.size(), 3 * count);
+    if (!positions.empty()) detail::check_size("positions", positions.size(), 3 * count);
+    if (!scales.empty()) detail::check_size("scales", scales.size(), count);
+    if (!jacobians.empty()) detail::check_size("jacobians", jacobians.size(), 9 * count);
+    detail::call(sdef_deformer_map_points, raw_, joints.data(), points.data(), count, positions.data(), scales.data(),
+                 jacobians.data());
+  }
+
+  std::vector<SdefGroup> groups() const {
+    std::size_t count = 0;
+    detail::call(sdef_deformer_get_groups, raw_, static_cast<SdefGroup *>(nullptr), std::size_t(0), &count);
+    std::vector<SdefGroup> groups(count);
+    detail::call(sdef_deformer_get_groups, raw_, groups.data(), groups.size(), &count);
+    return groups;
+  }
+
+  SdefReport report() const {
+    SdefReport report = make<SdefReport>();
+    detail::call(sdef_deformer_get_report, raw_, &report, static_cast<char *>(nullptr), std::size_t(0),
+                 static_cast<std::size_t *>(nullptr));
+    return report;
+  }
+
+  std::string report_json() const {
+    return detail::text([&](char *text, std::size_t capacity, std::size_t *size, SdefError *error) {
+      return sdef_deformer_get_report(raw_, nullptr, text, capacity, size, error);
+    });
+  }
+
+  std::string warnings() const { return superdeform::warnings(*this); }
+};
+
+// Deforms meshes in one call. skeleton: NULL makes a rig. up, forward: NULL as in sdef_character_create.
+template <class Progress = std::nullptr_t>
+void super_deform(const SdefSkeleton *skeleton, View<const SdefMesh> meshes, const Style &style,
+                  View<const SdefMeshResult> results, const SdefOptions &options = Options(),
+                  Progress &&progress = Progress(), const float *up = nullptr, const float *forward = nullptr) {
+  detail::check_size("results", results.size(), meshes.size());
+  detail::call_with_progress(std::forward<Progress>(progress), sdef_super_deform, up, forward, skeleton, meshes.data(),
+                             meshes.size(), style.get(), &options, results.data());
+}
+
+} // namespace superdeform
+
+#endif // SUPERDEFORM_HPP
