@@ -840,6 +840,9 @@ impl Host<'_> {
                     160..220 => {
                         let mut text = STYLE.with(Vec::clone);
                         for _ in 0..1 + bytes.below(4) {
+                            if text.len() < 2 {
+                                break;
+                            }
                             let at = usize::from(u16::from_le_bytes([bytes.byte(), bytes.byte()])) % text.len();
                             match bytes.below(4) {
                                 0 => text[at] = bytes.byte(),
