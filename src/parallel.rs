@@ -5,14 +5,21 @@ use std::ops::Range;
 /// The name of every thread that this module starts.
 pub const WORKER: &str = "superdeform";
 
+/// More threads than this are of no use, and tens of thousands are more than a system can start.
+const MOST_THREADS: usize = 1024;
+
 /// The number of threads that `asked` stands for: 0 means all cores.
 pub fn thread_count(asked: usize) -> usize {
-    if asked == 0 { std::thread::available_parallelism().map_or(1, usize::from) } else { asked }
+    if asked == 0 {
+        std::thread::available_parallelism().map_or(1, usize::from)
+    } else {
+        asked.min(MOST_THREADS)
+    }
 }
 
 /// `make` of every index below `count`, in order.
 ///
-/// - `threads`: at most this many; 0 means all cores.
+/// - `threads`: at most this many, and at most 1024; 0 means all cores.
 /// - `least`: fewer items than this are not worth a thread of their own, 1 or more.
 ///
 /// The caller's thread does its share; alone it starts no other. A panic of `make` goes on in the caller.

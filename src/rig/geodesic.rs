@@ -16,6 +16,8 @@ const SAMPLES: f64 = 4.0;
 const TIE: f64 = 1e-6;
 /// How much deeper than its first contact an island is tied to the volume beside it, in voxels.
 const CONTACT: f32 = 2.0;
+/// No bone is further from the middle of the volume than this, in sizes of the volume.
+const FARTHEST: f64 = 4.0;
 /// Ends of bones that are this close, in voxels, are one.
 const SAME: f64 = 1e-6;
 
@@ -82,7 +84,13 @@ impl Bone {
 /// A bone without length at the end of another one goes on in that one's direction to the volume's end: else the whole
 /// of a head whose top nobody knows is as near to the neck as to the head.
 pub fn place_bones(volume: &Volume, bones: &[Vec<[DVec3; 2]>]) -> Vec<Bone> {
-    let in_grid = |p: DVec3| if p.is_finite() { volume.to_grid_free(p) } else { volume.to_grid(p) };
+    // A joint given in another unit than the mesh is far away all the same.
+    let middle = (volume.size / 2).as_dvec3();
+    let reach = DVec3::splat(FARTHEST * f64::from(volume.size.max_element()));
+    let in_grid = |p: DVec3| match p.is_finite() {
+        true => volume.to_grid_free(p).clamp(middle - reach, middle + reach),
+        false => volume.to_grid(p),
+    };
     let mut all: Vec<Vec<[DVec3; 2]>> = bones
         .iter()
         .map(|segments| segments.iter().map(|&[a, b]| [in_grid(a), in_grid(b)]).collect())
