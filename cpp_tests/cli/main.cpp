@@ -1,5 +1,9 @@
 // superdeform_cli TARGET REFERENCE OUT: makes TARGET (GLB or VRM) super-deformed and writes OUT.
 // REFERENCE is a super-deformed character (GLB or VRM), a built-in style such as sd2.5, or a number of heads.
+//
+// What is not reshaped stays: materials, images (as bytes), texture coordinates, names, extras, extensions. Animations
+// stay as they are too, so those that move joints, and not only turn them, move them as far as before. tinygltf's model
+// has no place for empty lists and objects, nor for members of glTF that it does not know.
 #include "load.hpp"
 #include "write.hpp"
 
