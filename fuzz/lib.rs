@@ -86,8 +86,25 @@ impl Bytes<'_> {
     /// Bytes until a 0 or `most`, with names that mean something among them.
     pub fn text(&mut self, most: usize) -> Vec<u8> {
         const NAMES: &[&str] = &[
-            "", "Body", "Hair_01", "hat", "skirt", "eyeball", "head", "torso", "upper_arm", "finger", "mine",
-            "mixamorig:Hips", "J_Bip_C_Head", "LeftUpLeg", "RightArm", "thigh.L", "\u{fffd}髪", "neck", "hips",
+            "",
+            "Body",
+            "Hair_01",
+            "hat",
+            "skirt",
+            "eyeball",
+            "head",
+            "torso",
+            "upper_arm",
+            "finger",
+            "mine",
+            "mixamorig:Hips",
+            "J_Bip_C_Head",
+            "LeftUpLeg",
+            "RightArm",
+            "thigh.L",
+            "\u{fffd}髪",
+            "neck",
+            "hips",
         ];
         match self.byte() {
             0..200 => NAMES[self.below(NAMES.len())].as_bytes().to_vec(),
@@ -277,9 +294,7 @@ pub fn weights(bytes: &mut Bytes, count: usize, joint_count: usize) -> Weights {
     let rows: Vec<Vec<(u32, f32)>> = (0..period)
         .map(|_| {
             let influences = bytes.below(5);
-            (0..influences)
-                .map(|_| (bytes.below(joint_count) as u32, bytes.finite().abs()))
-                .collect()
+            (0..influences).map(|_| (bytes.below(joint_count) as u32, bytes.finite().abs())).collect()
         })
         .collect();
     Weights::from_rows((0..count).map(|vertex| rows[vertex % period].iter().copied()))

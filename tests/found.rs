@@ -1,9 +1,11 @@
 //! Inputs that fuzzing found, each with what went wrong.
 
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 use superdeform::parallel;
-use superdeform::rig::WeightBone;
+use superdeform::pipeline::Rig;
 use superdeform::rig::voxel::{VoxelOptions, voxel_weights};
+use superdeform::rig::{RigOptions, WeightBone};
+use superdeform::{Character, Mesh};
 
 #[test]
 fn more_threads_than_a_system_has_are_no_fault() {
@@ -26,5 +28,18 @@ fn a_bone_far_outside_the_body_is_far_away() {
         assert!(alone.weights.rows().all(|row| row == [(7, 1.0)]), "{far}");
         let beside = voxel_weights(&positions, &triangles, &[bone(7, far), bone(3, 0.5)], &options);
         assert!(beside.weights.rows().all(|row| row.iter().all(|&(_, weight)| weight >= 0.0)), "{far}");
+    }
+}
+
+#[test]
+fn a_sheet_any_number_of_times_as_wide_as_high_is_laid_out() {
+    // Its width in cells of its height, and two more, was beyond all numbers.
+    for height in [1e-19, 1e-25, 1e-40] {
+        let positions = vec![Vec3::NEG_X, Vec3::X, Vec3::new(0.0, height, 0.0), Vec3::new(0.5, height, 1.0)];
+        let mesh = Mesh { positions, triangles: vec![[0, 1, 2], [1, 3, 2]], ..Mesh::default() };
+        let character = Character { meshes: vec![mesh], ..Character::default() };
+        let options = RigOptions { voxel_resolution: 16, thread_count: 1, ..RigOptions::default() };
+        let rig = Rig::of(&character, &options).unwrap();
+        assert!(rig.skeleton.joints.iter().all(|joint| joint.rest.is_finite()), "{height}");
     }
 }

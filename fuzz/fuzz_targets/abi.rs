@@ -168,14 +168,19 @@ unsafe extern "C" fn watch(user: *mut c_void, fraction: f32) -> i32 {
     let (what, handle) = {
         let mut watcher = watcher.borrow_mut();
         watcher.calls += 1;
-        assert!((0.0..=1.0).contains(&fraction) && fraction >= watcher.last, "{fraction} comes after {}", watcher.last);
+        assert!(
+            (0.0..=1.0).contains(&fraction) && fraction >= watcher.last,
+            "{fraction} comes after {}",
+            watcher.last
+        );
         watcher.last = fraction;
         (watcher.what, watcher.handle)
     };
     unsafe {
         match what {
             0 => {
-                let mut info = SdefCharacterInfo { struct_size: size_of::<SdefCharacterInfo>() as u32, ..zeroed() };
+                let mut info =
+                    SdefCharacterInfo { struct_size: size_of::<SdefCharacterInfo>() as u32, ..zeroed() };
                 sdef_character_get_info(SdefCharacter { id: handle }, &mut info, null_mut());
             }
             1 => {
@@ -187,7 +192,14 @@ unsafe extern "C" fn watch(user: *mut c_void, fraction: f32) -> i32 {
                 sdef_deformer_set_face(SdefDeformer { id: handle }, 1.0, 0, null_mut());
             }
             3 => {
-                sdef_deformer_get_report(SdefDeformer { id: handle }, null_mut(), null_mut(), 0, null_mut(), null_mut());
+                sdef_deformer_get_report(
+                    SdefDeformer { id: handle },
+                    null_mut(),
+                    null_mut(),
+                    0,
+                    null_mut(),
+                    null_mut(),
+                );
             }
             _ => {}
         }
@@ -220,7 +232,15 @@ fn held(stride: usize, size: usize) -> usize {
 
 /// A count that an array of `count` elements may have, and now and then one that only NULL can have.
 fn too_many(bytes: &mut Bytes) -> usize {
-    bytes.of(&[usize::MAX, usize::MAX / 3, 1 << 61, u32::MAX as usize, u32::MAX as usize - 1, 1 << 31, 1 << 40])
+    bytes.of(&[
+        usize::MAX,
+        usize::MAX / 3,
+        1 << 61,
+        u32::MAX as usize,
+        u32::MAX as usize - 1,
+        1 << 31,
+        1 << 40,
+    ])
 }
 
 impl Host<'_> {
@@ -246,7 +266,8 @@ impl Host<'_> {
         match self.bytes.byte() {
             0..215 => self.handles.iter().rev().find(|handle| handle.0 == kind).map_or(0, |handle| handle.1),
             215..235 => {
-                let all: Vec<u64> = self.handles.iter().filter(|handle| handle.0 == kind).map(|handle| handle.1).collect();
+                let all: Vec<u64> =
+                    self.handles.iter().filter(|handle| handle.0 == kind).map(|handle| handle.1).collect();
                 if all.is_empty() { 0 } else { all[self.bytes.below(all.len())] }
             }
             235..245 => match self.handles.len() {
@@ -317,7 +338,10 @@ impl Host<'_> {
                 19 | 20 => {
                     let count = bytes.below(5);
                     let bones: Vec<_> = (0..count)
-                        .map(|_| SdefBoneGroup { role: u32::from(bytes.byte() % 60), group: memory.text(bytes) })
+                        .map(|_| SdefBoneGroup {
+                            role: u32::from(bytes.byte() % 60),
+                            group: memory.text(bytes),
+                        })
                         .collect();
                     options.bone_groups = memory.input_or_null(bytes, &bones, 0);
                     options.bone_group_count = count as u32;
@@ -405,7 +429,8 @@ impl Host<'_> {
         let bytes = &mut self.bytes;
         let mut made = match bytes.byte() {
             0..110 => {
-                let person: Character = figure(3 + bytes.below(3), 2 + bytes.below(2), bytes.chance(128), bytes.chance(170));
+                let person: Character =
+                    figure(3 + bytes.below(3), 2 + bytes.below(2), bytes.chance(128), bytes.chance(170));
                 let index = bytes.below(person.meshes.len());
                 person.meshes[index].clone()
             }
@@ -440,7 +465,8 @@ impl Host<'_> {
             ..zeroed()
         };
         if bytes.chance(60) {
-            let normals: Vec<[f32; 3]> = (0..count).map(|_| bytes.point().normalize_or_zero().to_array()).collect();
+            let normals: Vec<[f32; 3]> =
+                (0..count).map(|_| bytes.point().normalize_or_zero().to_array()).collect();
             mesh.normals = memory.input(bytes, &normals, held(normal_stride, 12)).cast();
         }
         if bytes.chance(40) {
@@ -518,7 +544,9 @@ impl Host<'_> {
                 let limit = joint_count.max(1);
                 let joints: Vec<u8> = match bytes.chance(220) {
                     true => vec![0; joint_size],
-                    false => (0..joint_size).map(|at| if at % 4 == 0 { bytes.below(limit) as u8 } else { 0 }).collect(),
+                    false => (0..joint_size)
+                        .map(|at| if at % 4 == 0 { bytes.below(limit) as u8 } else { 0 })
+                        .collect(),
                 };
                 let pattern = [bytes.byte(), bytes.byte(), 0x80, 0x3f];
                 let weights: Vec<u8> = (0..weight_size).map(|at| pattern[at % 4]).collect();
@@ -554,7 +582,12 @@ impl Host<'_> {
         let held_size = if size > 1 << 16 { own } else { size.max(4) };
         let (_, start) = memory.place(bytes, held_size * count);
         for index in 0..count {
-            let mesh = known.get(index).copied().unwrap_or(Known { vertices: 3, normals: false, tangents: false, targets: 0 });
+            let mesh = known.get(index).copied().unwrap_or(Known {
+                vertices: 3,
+                normals: false,
+                tangents: false,
+                targets: 0,
+            });
             let vertices = match bytes.byte() {
                 0..235 => mesh.vertices.min(4096),
                 _ => bytes.below(20),
@@ -612,9 +645,14 @@ impl Host<'_> {
         unsafe {
             assert_eq!(sdef_character_create(null(), null(), &mut character, null_mut()), SDEF_STATUS_OK);
             self.given(0, character.id);
-            let parents: Vec<i32> =
-                person.skeleton.joints.iter().map(|joint| joint.parent.map_or(-1, |parent| parent as i32)).collect();
-            let rests: Vec<[f64; 16]> = person.skeleton.joints.iter().map(|joint| joint.rest.to_cols_array()).collect();
+            let parents: Vec<i32> = person
+                .skeleton
+                .joints
+                .iter()
+                .map(|joint| joint.parent.map_or(-1, |parent| parent as i32))
+                .collect();
+            let rests: Vec<[f64; 16]> =
+                person.skeleton.joints.iter().map(|joint| joint.rest.to_cols_array()).collect();
             let mut roles = vec![-1; Role::COUNT];
             person.humanoid.iter().for_each(|(role, joint)| roles[role as usize] = joint as i32);
             let skeleton = SdefSkeleton {
@@ -663,7 +701,8 @@ impl Host<'_> {
                 let up: Vec<[f32; 3]> = vec![[(); 3].map(|()| self.bytes.number() as f32)];
                 let up = if self.bytes.chance(200) { null() } else { memory.input(&mut self.bytes, &up, 0) };
                 let forward: Vec<[f32; 3]> = vec![[(); 3].map(|()| self.bytes.number() as f32)];
-                let forward = if self.bytes.chance(200) { null() } else { memory.input(&mut self.bytes, &forward, 0) };
+                let forward =
+                    if self.bytes.chance(200) { null() } else { memory.input(&mut self.bytes, &forward, 0) };
                 let mut handle = SdefCharacter::default();
                 let to = if self.bytes.chance(4) { null_mut() } else { &raw mut handle };
                 let status = ask(&mut self.bytes, |error| unsafe {
@@ -703,7 +742,8 @@ impl Host<'_> {
                 });
                 if status == SDEF_STATUS_OK {
                     // A shorter struct of the caller's leaves things out: ask what there is.
-                    let mut info = SdefCharacterInfo { struct_size: size_of::<SdefCharacterInfo>() as u32, ..zeroed() };
+                    let mut info =
+                        SdefCharacterInfo { struct_size: size_of::<SdefCharacterInfo>() as u32, ..zeroed() };
                     let all = self.meshes.entry(id).or_default();
                     let before: u64 = all.iter().map(|mesh| mesh.vertices as u64).sum();
                     unsafe { sdef_character_get_info(SdefCharacter { id }, &mut info, null_mut()) };
@@ -759,8 +799,9 @@ impl Host<'_> {
                 let id = self.handle(0);
                 let info: SdefCharacterInfo = zeroed();
                 let info = memory.sized(&mut self.bytes, &info, false);
-                let status =
-                    ask(&mut self.bytes, |error| unsafe { sdef_character_get_info(SdefCharacter { id }, info, error) });
+                let status = ask(&mut self.bytes, |error| unsafe {
+                    sdef_character_get_info(SdefCharacter { id }, info, error)
+                });
                 ("get_info", status)
             }
             13 => {
@@ -775,7 +816,14 @@ impl Host<'_> {
                     let confidence = memory.output(bytes, capacity, 0);
                     ask(bytes, |error| unsafe {
                         sdef_character_get_joints(
-                            SdefCharacter { id }, parents, roles, rests, confidence, capacity, &mut count, error,
+                            SdefCharacter { id },
+                            parents,
+                            roles,
+                            rests,
+                            confidence,
+                            capacity,
+                            &mut count,
+                            error,
                         )
                     })
                 };
@@ -787,13 +835,26 @@ impl Host<'_> {
                 let all = self.meshes.get(&id).cloned().unwrap_or_default();
                 let bytes = &mut self.bytes;
                 let mesh = if bytes.chance(240) { bytes.below(all.len()) as u32 } else { bytes.u32() };
-                let most = if bytes.chance(240) { bytes.below(9) as u32 } else { bytes.of(&[255, 256, u32::MAX]) };
-                let capacity = if bytes.chance(30) { bytes.below(12) } else { all.get(mesh as usize).map_or(4, |m| m.vertices) };
+                let most =
+                    if bytes.chance(240) { bytes.below(9) as u32 } else { bytes.of(&[255, 256, u32::MAX]) };
+                let capacity = if bytes.chance(30) {
+                    bytes.below(12)
+                } else {
+                    all.get(mesh as usize).map_or(4, |m| m.vertices)
+                };
                 let numbers = capacity * most.min(300) as usize;
                 let joints = memory.output(bytes, numbers, 0);
                 let weights = memory.output(bytes, numbers, 0);
                 let status = ask(bytes, |error| unsafe {
-                    sdef_character_get_weights(SdefCharacter { id }, mesh, most, joints, weights, capacity, error)
+                    sdef_character_get_weights(
+                        SdefCharacter { id },
+                        mesh,
+                        most,
+                        joints,
+                        weights,
+                        capacity,
+                        error,
+                    )
                 });
                 ("get_weights", status)
             }
@@ -817,12 +878,17 @@ impl Host<'_> {
                 let capacity = if self.bytes.chance(100) { self.bytes.below(200) } else { 4000 };
                 let text = memory.output(&mut self.bytes, capacity, 0);
                 let mut size = 0;
-                let status =
-                    ask(&mut self.bytes, |error| unsafe { sdef_get_warnings(id, text, capacity, &mut size, error) });
+                let status = ask(&mut self.bytes, |error| unsafe {
+                    sdef_get_warnings(id, text, capacity, &mut size, error)
+                });
                 ("get_warnings", status)
             }
             17 | 18 => {
-                let heads = if self.bytes.chance(200) { 2.0 + self.bytes.tame().abs() / 4.0 } else { self.bytes.number() };
+                let heads = if self.bytes.chance(200) {
+                    2.0 + self.bytes.tame().abs() / 4.0
+                } else {
+                    self.bytes.number()
+                };
                 let id = self.handle(1);
                 let mut style = SdefStyle::default();
                 let status = ask(&mut self.bytes, |error| unsafe {
@@ -843,7 +909,8 @@ impl Host<'_> {
                             if text.len() < 2 {
                                 break;
                             }
-                            let at = usize::from(u16::from_le_bytes([bytes.byte(), bytes.byte()])) % text.len();
+                            let at =
+                                usize::from(u16::from_le_bytes([bytes.byte(), bytes.byte()])) % text.len();
                             match bytes.below(4) {
                                 0 => text[at] = bytes.byte(),
                                 1 => drop(text.remove(at)),
@@ -861,7 +928,9 @@ impl Host<'_> {
                 let start = memory.input_or_null(bytes, &text, 0);
                 let size = if start.is_null() && bytes.chance(128) { too_many(bytes) } else { text.len() };
                 let mut style = SdefStyle::default();
-                let status = ask(bytes, |error| unsafe { sdef_style_from_text(start.cast(), size, &mut style, error) });
+                let status = ask(bytes, |error| unsafe {
+                    sdef_style_from_text(start.cast(), size, &mut style, error)
+                });
                 if status == SDEF_STATUS_OK {
                     self.given(1, style.id);
                 }
@@ -918,7 +987,13 @@ impl Host<'_> {
                 let amount = self.bytes.number();
                 let mut style = SdefStyle::default();
                 let status = ask(&mut self.bytes, |error| unsafe {
-                    sdef_style_blend(SdefStyle { id: first }, SdefStyle { id: second }, amount, &mut style, error)
+                    sdef_style_blend(
+                        SdefStyle { id: first },
+                        SdefStyle { id: second },
+                        amount,
+                        &mut style,
+                        error,
+                    )
                 });
                 if status == SDEF_STATUS_OK {
                     self.given(1, style.id);
@@ -967,7 +1042,13 @@ impl Host<'_> {
                 let mut deformer = SdefDeformer::default();
                 let status = ask(&mut self.bytes, |error| unsafe {
                     sdef_deformer_create(
-                        SdefCharacter { id: character }, SdefStyle { id: style }, options, progress, user, &mut deformer, error,
+                        SdefCharacter { id: character },
+                        SdefStyle { id: style },
+                        options,
+                        progress,
+                        user,
+                        &mut deformer,
+                        error,
                     )
                 });
                 if status == SDEF_STATUS_OK {
@@ -997,8 +1078,9 @@ impl Host<'_> {
                 }
                 let squash = self.bytes.number();
                 let curve = self.bytes.below(5) as u32;
-                let status =
-                    ask(&mut self.bytes, |error| unsafe { sdef_deformer_set_face(SdefDeformer { id }, squash, curve, error) });
+                let status = ask(&mut self.bytes, |error| unsafe {
+                    sdef_deformer_set_face(SdefDeformer { id }, squash, curve, error)
+                });
                 ("set_face", status)
             }
             30 | 31 => {
@@ -1020,7 +1102,14 @@ impl Host<'_> {
                 let binds = memory.output::<[f64; 16]>(bytes, capacity, 0).cast();
                 let mut count = 0;
                 let status = ask(bytes, |error| unsafe {
-                    sdef_deformer_get_joints(SdefDeformer { id }, positions, binds, capacity, &mut count, error)
+                    sdef_deformer_get_joints(
+                        SdefDeformer { id },
+                        positions,
+                        binds,
+                        capacity,
+                        &mut count,
+                        error,
+                    )
                 });
                 ("deformer_get_joints", status)
             }
@@ -1045,7 +1134,14 @@ impl Host<'_> {
                 };
                 let status = ask(bytes, |error| unsafe {
                     sdef_deformer_map_points(
-                        SdefDeformer { id }, joints, points, count, positions, scales, jacobians, error,
+                        SdefDeformer { id },
+                        joints,
+                        points,
+                        count,
+                        positions,
+                        scales,
+                        jacobians,
+                        error,
                     )
                 });
                 ("map_points", status)
@@ -1105,8 +1201,7 @@ impl Host<'_> {
                     return;
                 }
                 let with_skeleton = self.bytes.chance(160);
-                let (skeleton, joint_count) =
-                    if with_skeleton { self.skeleton(memory) } else { (null(), 0) };
+                let (skeleton, joint_count) = if with_skeleton { self.skeleton(memory) } else { (null(), 0) };
                 let count = self.bytes.below(3);
                 let mut meshes = Vec::new();
                 let mut all = Vec::new();
@@ -1126,7 +1221,17 @@ impl Host<'_> {
                 let user = (&raw const watcher).cast_mut().cast();
                 let status = ask(&mut self.bytes, |error| unsafe {
                     sdef_super_deform(
-                        null(), null(), skeleton, meshes, count, SdefStyle { id: style }, options, results, progress, user, error,
+                        null(),
+                        null(),
+                        skeleton,
+                        meshes,
+                        count,
+                        SdefStyle { id: style },
+                        options,
+                        results,
+                        progress,
+                        user,
+                        error,
                     )
                 });
                 ("super_deform", status)
@@ -1159,8 +1264,11 @@ struct Lasting {
 static LASTING: OnceLock<Lasting> = OnceLock::new();
 
 fn start() {
-    let none: &'static Lasting =
-        Box::leak(Box::new(Lasting { handles: Vec::new(), meshes: BTreeMap::new(), joints: BTreeMap::new() }));
+    let none: &'static Lasting = Box::leak(Box::new(Lasting {
+        handles: Vec::new(),
+        meshes: BTreeMap::new(),
+        joints: BTreeMap::new(),
+    }));
     let options = DEFAULTS.with(|defaults| *defaults);
     // Bytes that choose a figure without joints, and one with them.
     let mut host = Host::new(&[0, 255, 0, 0], none, true);

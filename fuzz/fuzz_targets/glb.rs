@@ -44,7 +44,10 @@ fn run(data: &[u8]) {
             .collect(),
         joints: character.skeleton.joints.iter().map(|joint| joint.position()).collect(),
     };
-    let stays = |_: usize, point: DVec3| superdeform::pipeline::Mapped { position: point, jacobian: glam::DMat3::IDENTITY };
+    let stays = |_: usize, point: DVec3| superdeform::pipeline::Mapped {
+        position: point,
+        jacobian: glam::DMat3::IDENTITY,
+    };
     if let Ok(written) = host::write::write(&loaded, &same, &stays) {
         let again = GltfFile::parse("fuzz.glb", &written).expect("what was written can be read");
         let _ = host::load::load(again, &options);
@@ -149,10 +152,40 @@ fn any_value(numbers: &mut impl FnMut() -> u64) -> Value {
 }
 
 const KEYS: &[&str] = &[
-    "byteOffset", "byteStride", "byteLength", "bufferView", "count", "normalized", "sparse", "indices", "mode",
-    "targets", "skin", "mesh", "matrix", "translation", "rotation", "scale", "children", "joints",
-    "inverseBindMatrices", "skeleton", "min", "max", "weights", "extensions", "extras", "JOINTS_1", "WEIGHTS_1",
-    "NORMAL", "TANGENT", "KHR_draco_mesh_compression", "VRM", "VRMC_vrm", "nodes", "scene",
+    "byteOffset",
+    "byteStride",
+    "byteLength",
+    "bufferView",
+    "count",
+    "normalized",
+    "sparse",
+    "indices",
+    "mode",
+    "targets",
+    "skin",
+    "mesh",
+    "matrix",
+    "translation",
+    "rotation",
+    "scale",
+    "children",
+    "joints",
+    "inverseBindMatrices",
+    "skeleton",
+    "min",
+    "max",
+    "weights",
+    "extensions",
+    "extras",
+    "JOINTS_1",
+    "WEIGHTS_1",
+    "NORMAL",
+    "TANGENT",
+    "KHR_draco_mesh_compression",
+    "VRM",
+    "VRMC_vrm",
+    "nodes",
+    "scene",
 ];
 
 /// Changes the JSON where there is some, and now and then the bytes as they are.

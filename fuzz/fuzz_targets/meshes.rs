@@ -3,10 +3,10 @@
 
 use libfuzzer_sys::fuzz_target;
 use std::sync::Arc;
+use superdeform::options::{FaceCurve, Mode, Options, Stage};
 use superdeform::pipeline::{Deformer, Rig, Style};
 use superdeform::rig::{GarmentWeights, RigOptions, WeightMethod};
 use superdeform::shape::{BodyShape, Study};
-use superdeform::options::{FaceCurve, Mode, Options, Stage};
 use superdeform::{Character, Joint, MeshKind, MorphTarget, Role};
 use superdeform_fuzz::{Bytes, figure, panics_abort, rest, shape, weights};
 

@@ -70,7 +70,7 @@ pub fn find_arm(stance: &Stance, left: bool, crotch: f64, floor: f64, most: f64)
         runs
     };
     let floor_row = stance.grid.row(floor);
-    let outermost = (0..half.min((most / cell).ceil() as usize + 1))
+    let outermost = (0..half.min(((most / cell).ceil() as usize).saturating_add(1)))
         .rev()
         .find(|&steps| column_runs(steps).iter().any(|run| run.1 > floor_row))?;
     let mut run = *column_runs(outermost).iter().rev().find(|run| run.1 > floor_row)?;

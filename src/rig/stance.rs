@@ -205,7 +205,9 @@ fn front(positions: &[DVec3], triangles: &[[u32; 3]], axis: f64, threads: usize)
         .map(|&vertex| (positions[vertex as usize].x - axis).abs())
         .filter(|reach| reach.is_finite())
         .fold(0.0, f64::max);
-    let half = ((reach / cell).ceil() as usize + 2).clamp(LEAST_HALF_COLUMNS, MOST_HALF_COLUMNS);
+    // A sheet may be any number of times as wide as it is high.
+    let half =
+        ((reach / cell).ceil() as usize).saturating_add(2).clamp(LEAST_HALF_COLUMNS, MOST_HALF_COLUMNS);
     let frame = GridFrame {
         origin: DVec3::X * (axis - half as f64 * cell),
         right: DVec3::X,
