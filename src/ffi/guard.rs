@@ -63,10 +63,12 @@ impl From<Error> for Failure {
 
 /// The library's sentences name what a person at the command line would turn; a host has fields instead.
 pub fn in_words_of_hosts(message: &str) -> String {
-    const WORDS: [(&str, &str); 8] = [
+    const WORDS: [(&str, &str); 10] = [
         ("name it with --humanoid (", "name it in role_joints, or make a rig ("),
         (": JOINT NAME)", ": its joint)"),
         ("give forward (--forward +Z)", "give forward"),
+        ("give the way it looks (--forward +Z)", "give forward"),
+        ("name them with --body, --garment, --hair, --face-part or --accessory REGEX", "give their kind"),
         ("save one with --save-style", "save one with sdef_style_to_json"),
         ("(--hair-length)", "(hair_length)"),
         ("or use --paper", "or use SDEF_MODE_PAPER"),

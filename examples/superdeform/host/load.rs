@@ -218,12 +218,15 @@ pub fn load(file: GltfFile, options: &LoadOptions) -> Result<Loaded> {
             }
         }
     }
+    if !rigged {
+        // Nodes that only hold meshes may be called like joints.
+        humanoid = Humanoid::default();
+    }
     set_kinds(&mut meshes, &labels, options.kinds, &skeleton, &humanoid, &mut warnings);
     let mut character = Character { meshes, skeleton, humanoid, axes: options.axes };
     let mut node_of_joint = tree.order.clone();
     if !rigged {
         character.skeleton = Skeleton::default();
-        character.humanoid = Humanoid::default();
         character.meshes.iter_mut().for_each(|mesh| mesh.weights = Weights::default());
         node_of_joint.clear();
     }
