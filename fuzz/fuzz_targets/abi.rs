@@ -1264,14 +1264,11 @@ struct Lasting {
 static LASTING: OnceLock<Lasting> = OnceLock::new();
 
 fn start() {
-    let none: &'static Lasting = Box::leak(Box::new(Lasting {
-        handles: Vec::new(),
-        meshes: BTreeMap::new(),
-        joints: BTreeMap::new(),
-    }));
+    static NONE: Lasting =
+        Lasting { handles: Vec::new(), meshes: BTreeMap::new(), joints: BTreeMap::new() };
     let options = DEFAULTS.with(|defaults| *defaults);
     // Bytes that choose a figure without joints, and one with them.
-    let mut host = Host::new(&[0, 255, 0, 0], none, true);
+    let mut host = Host::new(&[0, 255, 0, 0], &NONE, true);
     let mut style = SdefStyle::default();
     unsafe {
         host.person();
