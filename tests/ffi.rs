@@ -734,7 +734,7 @@ fn a_destroyed_stale_made_up_or_other_handle_is_refused() {
         }
         assert_eq!(to.id, 0);
     }
-    for id in [0, 3, stale, u64::MAX, style.id, character.id, made.id ^ 1] {
+    for id in [0, 3, stale, u64::MAX, style.id, character.id, made.id ^ 1 << 40] {
         let handle = SdefDeformer { id };
         let start = meshes.meshes.as_ptr();
         assert!(
