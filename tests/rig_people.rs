@@ -206,7 +206,8 @@ fn every_way() -> Vec<RigOptions> {
     let mut ways = Vec::new();
     for method in [WeightMethod::Auto, WeightMethod::Heat, WeightMethod::Volume] {
         for garments in [GarmentWeights::Robust, GarmentWeights::Nearest, GarmentWeights::Heat] {
-            ways.push(RigOptions { method, garments, ..RigOptions::default() });
+            // A coarse volume is as hostile as a fine one, and quicker.
+            ways.push(RigOptions { method, garments, voxel_resolution: 40, ..RigOptions::default() });
         }
     }
     ways
@@ -371,16 +372,16 @@ fn own_joints_come_first_and_ride_along() {
 }
 
 #[test]
-fn a_million_triangles_are_rigged() {
+fn a_hundred_thousand_triangles_are_rigged() {
     let mut positions = Vec::new();
     let mut triangles = Vec::new();
-    // A snowman of three balls: 3 x 2 x 410 x 820 triangles.
+    // A snowman of three balls: 3 x 2 x 130 x 260 triangles.
     for (height, radius) in [(0.5, 0.5), (1.3, 0.4), (1.9, 0.3)] {
-        let (points, faces) = ball(Vec3::Y * height, radius, 410);
+        let (points, faces) = ball(Vec3::Y * height, radius, 130);
         let start = positions.len() as u32;
         positions.extend(points);
         triangles.extend(faces.into_iter().map(|corners| corners.map(|vertex| vertex + start)));
     }
-    assert!(triangles.len() > 1_000_000);
-    is_rigged("a million triangles", &soup(positions, triangles), &RigOptions::default());
+    assert!(triangles.len() > 100_000);
+    is_rigged("a hundred thousand triangles", &soup(positions, triangles), &RigOptions::default());
 }

@@ -424,8 +424,8 @@ mod tests {
         let reference = load_reference(&command).unwrap().unwrap();
         let study = measure(&reference, &command).unwrap();
         let style = style(&command, Some(&study)).unwrap();
-        let character = Arc::new(target.host.character.clone());
-        let deformer = Deformer::new(character, &style, &command.options).unwrap();
+        let rig = Rig::of(&target.host.character, &command.rig_options).unwrap();
+        let deformer = Deformer::with_rig(&target.host.character, &rig, &style, &command.options).unwrap();
         let deformed = deformer.apply();
         let map = |joint: usize, point: DVec3| deformer.map(joint, point);
         let written = host::write::rewrite(&target.host, &deformed, &map).unwrap();
