@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
-# package.sh BUILD CMAKE: installs what BUILD holds into a temporary folder, and lets other projects there find it: by
+# package.sh BUILD CMAKE CHARACTER.obj: installs what BUILD holds into a temporary folder, and lets other projects there find it: by
 # CMake (shared and static) and by pkg-config, all after the folder was moved.
 set -euo pipefail
 source=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build=$1
 cmake=$2
+character=$3
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 "$cmake" --install "$build" --prefix "$scratch/first" >/dev/null
@@ -31,8 +32,13 @@ endforeach()
 END
 "$cmake" -S "$scratch/project" -B "$scratch/build" -DCMAKE_PREFIX_PATH="$prefix" >"$scratch/log" || { cat "$scratch/log"; exit 1; }
 "$cmake" --build "$scratch/build" >"$scratch/log" || { cat "$scratch/log"; exit 1; }
+# deforms PROGRAM: minimal.c, built as PROGRAM, gives as many lines as it got, and others.
+deforms() {
+  "$1" <"$character" >"$scratch/after.obj"
+  [[ $(wc -l <"$scratch/after.obj") == $(wc -l <"$character") ]] && ! cmp -s "$character" "$scratch/after.obj"
+}
 for kind in superdeform static; do
-  "$scratch/build/minimal_$kind"
+  deforms "$scratch/build/minimal_$kind"
   [[ $("$scratch/build/hello_$kind") == found ]]
 done
 # The one needs the shared library, the other does not.
@@ -48,11 +54,11 @@ if command -v pkg-config >/dev/null; then
   libdir=$(pkg-config --variable=libdir superdeform)
   # shellcheck disable=SC2086
   ${CC:-cc} -std=c99 "$scratch/project/minimal.c" $flags -o "$scratch/by_pkg_config"
-  LD_LIBRARY_PATH=$libdir "$scratch/by_pkg_config"
+  LD_LIBRARY_PATH=$libdir deforms "$scratch/by_pkg_config"
   # shellcheck disable=SC2046
   ${CC:-cc} -std=c99 "$scratch/project/minimal.c" $(pkg-config --cflags superdeform) "$libdir/libsuperdeform.a" \
     $(pkg-config --libs --static superdeform | sed 's/-lsuperdeform//') -o "$scratch/static_by_pkg_config"
-  "$scratch/static_by_pkg_config"
+  deforms "$scratch/static_by_pkg_config"
 else
   echo "pkg-config is not installed: not tried"
 fi
