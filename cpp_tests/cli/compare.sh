@@ -11,6 +11,7 @@ trap 'rm -rf "$scratch"' EXIT
 name=$(basename "$target")
 "$example" --quiet "$target" "$reference" -o "$scratch/rust_$name"
 "$cli" "$target" "$reference" "$scratch/cpp_$name" 2>/dev/null
+printf '%-42s' "$name"
 "$compare" "$scratch/rust_$name" "$scratch/cpp_$name" 1e-6
 # The comparison sees a difference where there is one.
 if "$compare" "$target" "$scratch/cpp_$name" 1e-2 >/dev/null 2>&1; then
