@@ -30,14 +30,24 @@ RESHAPED = {"translation", "matrix", "accessors", "bufferViews", "buffers", "min
 # In model units, in VRM extensions.
 POINTS = {"offset", "tail", "radius", "hitRadius", "stiffness", "stiffiness", "gravityPower", "offsetFromHeadBone",
           "firstPersonBoneOffset"}
+# What tinygltf's model has no place for: other members of the file than these, and empty lists and objects.
+MEMBERS = {"extensionsUsed", "extensionsRequired", "accessors", "animations", "asset", "buffers", "bufferViews", "cameras",
+           "images", "materials", "meshes", "nodes", "samplers", "scene", "scenes", "skins", "textures", "extensions",
+           "extras"}
 DEFAULTS = (0, 1, -1, [], {}, "", False, [0, 0, 0], [1, 1, 1, 1], [0, 0, 0, 1], [1, 1, 1], "OPAQUE", 0.5, "LINEAR", None)
+
+
+def is_empty(value):
+    """Whether there is nothing in it, at any depth."""
+    values = value.values() if isinstance(value, dict) else value
+    return isinstance(value, (dict, list)) and all(is_empty(inner) for inner in values)
 
 
 def lost(before, after, place="", ignored=RESHAPED | POINTS):
     """Places of `before` that `after` lacks or has otherwise."""
     if isinstance(before, dict):
         if not isinstance(after, dict):
-            return [] if before in DEFAULTS else [place]
+            return [] if is_empty(before) else [place]
         found = []
         for key, value in before.items():
             if key in ignored:
@@ -45,7 +55,7 @@ def lost(before, after, place="", ignored=RESHAPED | POINTS):
             if key == "attributes":
                 found += [f"{place}.{key}.{name}" for name in value if name not in after.get(key, {})]
             elif key not in after:
-                found += [] if value in DEFAULTS else [f"{place}.{key}"]
+                found += [] if value in DEFAULTS or is_empty(value) else [f"{place}.{key}"]
             else:
                 found += lost(value, after[key], f"{place}.{key}", ignored)
         return found
@@ -59,7 +69,7 @@ def lost(before, after, place="", ignored=RESHAPED | POINTS):
 
 
 (before, old_binary), (after, new_binary) = read(sys.argv[1]), read(sys.argv[2])
-missing = lost(before, after)
+missing = lost({key: value for key, value in before.items() if key in MEMBERS}, after)
 for index in range(len(before.get("images", []))):
     if image(before, old_binary, index) != image(after, new_binary, index):
         missing.append(f".images[{index}]: other bytes")

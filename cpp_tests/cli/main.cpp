@@ -32,24 +32,33 @@ void print_lines(const std::string &text) {
   if (!text.empty()) std::fputs(text.c_str(), stderr);
 }
 
+void run(const char *target_path, const char *reference, const char *out) {
+  Loaded target;
+  load(target_path, target);
+  const superdeform::Style style = style_of(reference);
+  const superdeform::Deformer deformer(target.character, style);
+  print_lines(deformer.warnings());
+  deform(target, deformer);
+  write_gltf(out, target.model);
+  const SdefReport report = deformer.report();
+  std::printf("%s: %.2f heads, was %.2f\n", out, report.result.heads, report.target.heads);
+}
+
 } // namespace
 
-int main(int argc, char **argv) try {
+int main(int argc, char **argv) {
   if (argc != 4) {
     std::fprintf(stderr, "superdeform_cli TARGET REFERENCE OUT\n");
     return 2;
   }
-  Loaded target;
-  load(argv[1], target);
-  const superdeform::Style style = style_of(argv[2]);
-  const superdeform::Deformer deformer(target.character, style);
-  print_lines(deformer.warnings());
-  deform(target, deformer);
-  write_gltf(argv[3], target.model);
-  const SdefReport report = deformer.report();
-  std::printf("%s: %.2f heads, was %.2f\n", argv[3], report.result.heads, report.target.heads);
-  return 0;
-} catch (const std::exception &error) {
-  std::fprintf(stderr, "%s\n", error.what());
-  return 1;
+  int code = 0;
+  try {
+    run(argv[1], argv[2], argv[3]);
+  } catch (const std::exception &error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    code = 1;
+  }
+  if (sdef_live_handles() == 0) return code;
+  std::fprintf(stderr, "handles are left: a fault of this program\n");
+  return 3;
 }
