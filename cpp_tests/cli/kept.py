@@ -34,7 +34,7 @@ POINTS = {"offset", "tail", "radius", "hitRadius", "stiffness", "stiffiness", "g
 MEMBERS = {"extensionsUsed", "extensionsRequired", "accessors", "animations", "asset", "buffers", "bufferViews", "cameras",
            "images", "materials", "meshes", "nodes", "samplers", "scene", "scenes", "skins", "textures", "extensions",
            "extras"}
-DEFAULTS = (0, 1, -1, [], {}, "", False, [0, 0, 0], [1, 1, 1, 1], [0, 0, 0, 1], [1, 1, 1], "OPAQUE", 0.5, "LINEAR", None)
+DEFAULTS = (0, 1, -1, "", False, [0, 0, 0], [1, 1, 1, 1], [0, 0, 0, 1], [1, 1, 1], "OPAQUE", 0.5, "LINEAR", None)
 
 
 def is_empty(value):
