@@ -16,7 +16,10 @@ cp "$source/examples/minimal.c" "$scratch/project"
 cat >"$scratch/project/hello.cpp" <<'END'
 #include <superdeform.hpp>
 #include <cstdio>
-int main() { std::puts(superdeform::Style::from_text("sd3") ? "found" : "lost"); }
+int main() {
+  std::puts(superdeform::Style::from_text("sd3") ? "found" : "lost");
+  return superdeform::live_handles() == 0 ? 0 : 1;
+}
 END
 cat >"$scratch/project/CMakeLists.txt" <<'END'
 cmake_minimum_required(VERSION 3.20)
@@ -35,11 +38,14 @@ END
 # deforms PROGRAM: minimal.c, built as PROGRAM, gives as many lines as it got, and others.
 deforms() {
   "$1" <"$character" >"$scratch/after.obj"
-  [[ $(wc -l <"$scratch/after.obj") == $(wc -l <"$character") ]] && ! cmp -s "$character" "$scratch/after.obj"
+  [[ $(wc -l <"$scratch/after.obj") == $(wc -l <"$character") ]] && ! cmp -s "$character" "$scratch/after.obj" && return
+  echo "$1 has not deformed the character"
+  return 1
 }
 for kind in superdeform static; do
   deforms "$scratch/build/minimal_$kind"
-  [[ $("$scratch/build/hello_$kind") == found ]]
+  said=$("$scratch/build/hello_$kind")
+  [[ $said == found ]]
 done
 # The one needs the shared library, the other does not.
 readelf -d "$scratch/build/minimal_superdeform" | grep -q 'NEEDED.*\[libsuperdeform.so\]'
@@ -60,5 +66,5 @@ if command -v pkg-config >/dev/null; then
     $(pkg-config --libs --static superdeform | sed 's/-lsuperdeform//') -o "$scratch/static_by_pkg_config"
   deforms "$scratch/static_by_pkg_config"
 else
-  echo "pkg-config is not installed: not tried"
+  echo "skipped: no pkg-config here"
 fi

@@ -28,5 +28,5 @@ int main(void) {
   for (uint32_t i = 0; i < vertex_count; i++) printf("v %.9g %.9g %.9g\n", points[i][0], points[i][1], points[i][2]);
   for (uint32_t i = 0; i < triangle_count; i++)
     printf("f %u %u %u\n", triangles[i][0] + 1, triangles[i][1] + 1, triangles[i][2] + 1);
-  return 0;
+  return sdef_live_handles() == 0 ? 0 : 1;
 }
