@@ -760,8 +760,20 @@ impl Deformer {
 
     /// Where the field takes `point`, attached to `joint`; both in model space.
     pub fn map(&self, joint: usize, point: DVec3) -> Mapped {
-        let frame = &self.study.figure.frame;
-        let (position, jacobian) = self.field.map(frame.to_canonical(point), &self.joint_bindings[joint]);
+        let figure = &self.study.figure;
+        let frame = &figure.frame;
+        let p = frame.to_canonical(point);
+        let chin = match &self.field {
+            Field::Parts(field) => field.before().chin,
+            Field::Bones(_) => f64::INFINITY,
+        };
+        let in_the_neck = figure.humanoid.joint(Role::Head) == Some(joint) && figure.joints[joint].y < chin;
+        let (position, jacobian) = if in_the_neck && p.y >= chin {
+            // The joint moves as the neck does, but what hangs from it up there is on the head.
+            self.field.map(p, &Binding::Parts(PartBinding::to(Part::Head)))
+        } else {
+            self.field.map(p, &self.joint_bindings[joint])
+        };
         Mapped { position: frame.to_model(position), jacobian: frame.jacobian_to_model(jacobian) }
     }
 

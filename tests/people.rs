@@ -777,3 +777,21 @@ fn symmetric_people_stay_symmetric() {
 fn the_way_a_person_looks_does_not_matter() {
     check_facing(Mode::Product);
 }
+
+#[test]
+fn what_hangs_from_the_head_goes_with_it_even_where_its_joint_lies_in_the_neck() {
+    let person = adult();
+    let mut character = person.build();
+    let head = character.humanoid.joint(Role::Head).unwrap();
+    character.skeleton.joints[head].rest.w_axis.y = person.chin() - 0.1 * person.proportions.head;
+    let run = Run::try_new(character, &Style::Heads(2.5), &options(Mode::Product)).unwrap();
+    let (before, after) = (run.before(), run.after());
+    let crown = (0..before.len()).max_by(|&one, &other| before[one].y.total_cmp(&before[other].y)).unwrap();
+    let hat = run.deformer.map(head, before[crown]);
+    let off = hat.position.distance(after[crown]) / run.height();
+    assert!(off < 1e-6, "a hat on the crown is {off} H away from it");
+    assert!(hat.local_scale() > 1.0, "on a head that grows a hat shrinks to {}", hat.local_scale());
+    let joint = run.character.skeleton.joints[head].position();
+    let off = run.deformer.map(head, joint).position.distance(run.joint(Role::Head)) / run.height();
+    assert!(off < 1e-9, "the joint is {off} H away from a point that hangs from it there");
+}
