@@ -3,12 +3,15 @@
 
 #[path = "common/models.rs"]
 mod models;
+#[path = "common/truth.rs"]
+mod truth;
 
 use glam::{DMat4, DVec3, Vec3};
 use models::{check_all, furthest, positions, present, style, style_of};
 use std::sync::Arc;
 use superdeform::Character;
-use superdeform::pipeline::{Deformed, Deformer, Options, Style};
+use superdeform::pipeline::{Deformed, Deformer, Options, Rig, Style};
+use superdeform::rig::RigOptions;
 use superdeform::shape::figure::Frame;
 
 /// Characters with long hair, armour, one mesh or many, that look along +Z or another way.
@@ -36,17 +39,21 @@ enum Winding {
     Kept,
 }
 
+/// The way a rigged character looks.
+fn forward(character: &Character) -> DVec3 {
+    Frame::of(character).unwrap().to_model(DVec3::Z)
+}
+
 fn mirror(v: Vec3) -> Vec3 {
     Vec3::new(-v.x, v.y, v.z)
 }
 
-/// `character` with x the other way: its left is its left still, in left-handed axes.
-fn mirrored(character: &Character, winding: Winding) -> Character {
+/// `character`, which looks along `forward`, with x the other way: its left is its left still, in left-handed axes.
+fn mirrored(character: &Character, forward: DVec3, winding: Winding) -> Character {
     let flip = DMat4::from_diagonal(glam::DVec4::new(-1.0, 1.0, 1.0, 1.0));
-    let forward = Frame::of(character).unwrap().to_model(DVec3::Z).as_vec3();
     let mut image = character.clone();
     image.axes.up = mirror(character.axes.up);
-    image.axes.forward = Some(mirror(forward));
+    image.axes.forward = Some(mirror(forward.as_vec3()));
     for joint in &mut image.skeleton.joints {
         joint.rest = flip * joint.rest * flip;
     }
@@ -82,7 +89,7 @@ fn morph_positions(deformed: &Deformed) -> Vec<DVec3> {
     targets.flat_map(|target| &target.positions).map(|delta| delta.as_dvec3()).collect()
 }
 
-fn image(mut points: Vec<DVec3>) -> Vec<DVec3> {
+fn points_mirrored(mut points: Vec<DVec3>) -> Vec<DVec3> {
     points.iter_mut().for_each(|p| p.x = -p.x);
     points
 }
@@ -90,18 +97,25 @@ fn image(mut points: Vec<DVec3>) -> Vec<DVec3> {
 /// How far the result of a mirrored target is from the mirrored result: what, and by how much.
 fn differences(target: &Character, styles: [&Style; 2], winding: Winding) -> Vec<(&'static str, f64)> {
     let options = Options::default();
-    let made = |character: Character, style: &Style| {
-        Deformer::new(Arc::new(character), style, &options).unwrap()
-    };
+    let made =
+        |character: Character, style: &Style| Deformer::new(Arc::new(character), style, &options).unwrap();
     let straight = made(target.clone(), styles[0]);
-    let turned = made(mirrored(target, winding), styles[1]);
+    let turned = made(mirrored(target, forward(target), winding), styles[1]);
+    compared(&straight, &turned)
+}
+
+/// How far what `turned` gives is from the mirror image of what `straight` gives.
+fn compared(straight: &Deformer, turned: &Deformer) -> Vec<(&'static str, f64)> {
     let height = straight.target().figure.height();
     let (one, other) = (straight.apply(), turned.apply());
     vec![
-        ("vertices", furthest(&positions(&one), &image(positions(&other))) / height),
-        ("joints", furthest(&one.joints, &image(other.joints.clone())) / height),
-        ("morph targets", furthest(&morph_positions(&one), &image(morph_positions(&other))) / height),
-        ("directions", furthest(&directions(&one), &image(directions(&other)))),
+        ("vertices", furthest(&positions(&one), &points_mirrored(positions(&other))) / height),
+        ("joints", furthest(&one.joints, &points_mirrored(other.joints.clone())) / height),
+        (
+            "morph targets",
+            furthest(&morph_positions(&one), &points_mirrored(morph_positions(&other))) / height,
+        ),
+        ("directions", furthest(&directions(&one), &points_mirrored(directions(&other)))),
     ]
 }
 
@@ -137,10 +151,36 @@ fn a_mirrored_reference_is_the_same_style() {
         [Winding::Turned, Winding::Kept]
             .into_iter()
             .flat_map(|winding| {
-                let of_image = style(&mirrored(reference, winding), &options);
+                let of_image = style(&mirrored(reference, forward(reference), winding), &options);
                 let name = format!("{name}, winding {winding:?}, like the rogue");
                 failures(&name, differences(target, [&own, &of_image], winding))
             })
             .collect()
     });
+}
+
+#[test]
+fn a_rig_made_in_left_handed_axes_calls_left_what_is_left() {
+    let case =
+        truth::cases().into_iter().find(|case| case.name == "quaternius_female_dress_unrigged.glb").unwrap();
+    let mut straight = case.character;
+    straight.axes.forward = Some(case.forward.as_vec3());
+    let image = mirrored(&straight, case.forward, Winding::Turned);
+    let made = |character: &Character, left_handed: bool| {
+        let options = RigOptions { left_handed, voxel_resolution: 64, ..RigOptions::default() };
+        Rig::of(character, &options).unwrap()
+    };
+    let rigs = [made(&straight, false), made(&image, true)];
+    let joints = |rig: &Rig| -> Vec<DVec3> {
+        rig.humanoid.iter().map(|(_, joint)| rig.skeleton.joints[joint].position()).collect()
+    };
+    assert_eq!(rigs[0].humanoid, rigs[1].humanoid);
+    let apart = furthest(&joints(&rigs[0]), &points_mirrored(joints(&rigs[1])));
+    let height = rigs[0].skeleton.joints.iter().map(|joint| joint.position().y).fold(0.0, f64::max);
+    assert!(apart <= NEAR * height, "joints differ by {apart:e}");
+    let (style, options) = (Style::Heads(2.5), Options::default());
+    let straight = Deformer::with_rig(&straight, &rigs[0], &style, &options).unwrap();
+    let turned = Deformer::with_rig(&image, &rigs[1], &style, &options).unwrap();
+    let failures = failures("with a made rig", compared(&straight, &turned));
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
 }
