@@ -30,7 +30,7 @@ pub struct SdefMeshResult {
     pub tangents: *mut f32,
     /// bytes from vertex to vertex; 0: 16
     pub tangent_stride: usize,
-    /// 3 floats a vertex, packed: what target t adds at weight 1, from float 3 * t * (the mesh's vertices) on
+    /// 3 floats a vertex, packed: what a target adds at weight 1, all vertices of the mesh for one target after the other
     pub morph_positions: *mut f32,
     /// likewise; 0 for targets that were given without
     pub morph_normals: *mut f32,

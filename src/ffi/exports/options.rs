@@ -136,7 +136,7 @@ pub struct SdefOptions {
     pub rig_joints: *const SdefGivenJoint,
     /// elements of rig_joints
     pub rig_joint_count: u32,
-    /// rig: 1 where the axes are left-handed, as Unity's, to tell left from right; default 0
+    /// rig: 1 tells left from right in left-handed axes (Unity's); default 0
     pub rig_left_handed: u32,
 }
 
