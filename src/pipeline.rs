@@ -5,7 +5,7 @@ pub mod rigging;
 pub use rigging::Rig;
 
 use crate::character::bones::Bone;
-use crate::character::{Character, Humanoid, MeshKind, MorphTarget, Role};
+use crate::character::{Character, Humanoid, Mesh, MeshKind, MorphTarget, Role};
 use crate::error::{Error, ErrorKind, Result, Warning};
 use crate::face::FaceShape;
 use crate::geometry::{SEAM, Weld, components, neighbours, weld};
@@ -15,7 +15,7 @@ use crate::parallel;
 use crate::progress::Progress;
 use crate::report::{Coefficient, Counts, FigureReport, GroupShape, Report, RigReport, Timing};
 use crate::shape::BodyShape;
-use crate::shape::attributes::{fitted_jacobians, normal_matrix};
+use crate::shape::attributes::{RestTriangles, normal_matrix};
 use crate::shape::bones::BoneField;
 use crate::shape::coefficients::coefficients;
 use crate::shape::field::{Binding, BoneBinding, Field, PaperField};
@@ -30,7 +30,7 @@ use crate::shape::study::{Study, group_shapes, is_of_head};
 pub use crate::shape::style::Style;
 use glam::{DMat3, DVec3, Vec3, Vec4};
 use std::collections::{BTreeMap, BTreeSet};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 use std::time::Instant;
 
 /// One mesh as it came out; arrays the input lacked are empty here too.
@@ -54,6 +54,22 @@ pub struct Deformed {
     /// Where each joint of the input's skeleton is now, model space. Joints move and do not turn or scale:
     /// the new rest transform is the old one with this translation.
     pub joints: Vec<DVec3>,
+}
+
+/// What is wanted of one mesh beside its positions. What is not is left empty, and costs nothing.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct MeshOutputs {
+    /// Normals.
+    pub normals: bool,
+    /// Tangents.
+    pub tangents: bool,
+    /// Morph targets: positions, normals and tangents.
+    pub morph_targets: bool,
+}
+
+impl MeshOutputs {
+    /// Everything that the mesh has.
+    pub const ALL: Self = Self { normals: true, tangents: true, morph_targets: true };
 }
 
 /// Where the field takes a point, and what it does around it.
@@ -95,6 +111,8 @@ pub struct Deformer {
     study: Arc<Study>,
     options: Options,
     weld: Arc<Weld>,
+    /// Made when directions are first wanted.
+    rest_triangles: OnceLock<Arc<RestTriangles>>,
     field: Field,
     bindings: Vec<Binding>,
     joint_bindings: Vec<Binding>,
@@ -201,6 +219,7 @@ impl Deformer {
             style: style.clone(),
             options: options.clone(),
             weld,
+            rest_triangles: OnceLock::new(),
             field: Field::Bones(PaperField {
                 bones: BoneField::default(),
                 stage: options.stage,
@@ -638,22 +657,81 @@ impl Deformer {
     /// # Errors
     /// `Cancelled`.
     pub fn apply_with(&self, progress: &mut Progress) -> Result<Deformed> {
+        self.apply_to(&vec![MeshOutputs::ALL; self.character.meshes.len()], progress)
+    }
+
+    /// As [`Deformer::apply_with`], for what is wanted of each mesh.
+    ///
+    /// # Errors
+    /// `Cancelled`.
+    ///
+    /// # Panics
+    /// `outputs` is not as long as the character has meshes.
+    pub fn apply_to(&self, outputs: &[MeshOutputs], progress: &mut Progress) -> Result<Deformed> {
+        let character = &self.character;
+        assert_eq!(outputs.len(), character.meshes.len(), "one for each mesh");
         progress.at(0.0)?;
         if self.options.amount == 0.0 {
             // The way to the canonical frame and back costs a last digit.
-            let meshes = (0..self.character.meshes.len()).map(|mesh| self.unchanged_mesh(mesh)).collect();
+            let meshes =
+                character.meshes.iter().zip(outputs).map(|(mesh, &wanted)| unchanged(mesh, wanted)).collect();
             progress.at(1.0)?;
             return Ok(Deformed { meshes, joints: self.deformed_joints() });
         }
         let figure = &self.study.figure;
+        let threads = self.options.thread_count;
         let after = self.positions_by(&self.field);
         progress.at(0.3)?;
-        let jacobians = fitted_jacobians(&figure.positions, &after, &figure.triangles, &self.weld);
+        let has_directions = |(mesh, wanted): (&Mesh, &MeshOutputs)| {
+            (wanted.normals || wanted.tangents || wanted.morph_targets)
+                && !(mesh.normals.is_empty() && mesh.tangents.is_empty())
+        };
+        let jacobians = if character.meshes.iter().zip(outputs).any(has_directions) {
+            let rest = self.rest_triangles.get_or_init(|| {
+                Arc::new(RestTriangles::of(&figure.positions, &figure.triangles, &self.weld))
+            });
+            rest.fitted_jacobians(&after, threads)
+        } else {
+            Vec::new()
+        };
         progress.at(0.6)?;
-        let threads = if after.len() < LEAST_VERTICES { 1 } else { self.options.thread_count };
-        let meshes = parallel::collect(threads, self.character.meshes.len(), 1, |mesh| {
-            self.deform_mesh(mesh, &after, &jacobians)
-        });
+        let turns: Vec<Turns> = (0..character.meshes.len())
+            .map(|mesh| match has_directions((&character.meshes[mesh], &outputs[mesh])) {
+                true => self.turns(mesh, &jacobians),
+                false => Turns::default(),
+            })
+            .collect();
+        // Morph targets one by one, whichever mesh they belong to: a face may hold them all.
+        let targets: Vec<(usize, usize)> = (0..character.meshes.len())
+            .filter(|&mesh| outputs[mesh].morph_targets)
+            .flat_map(|mesh| (0..character.meshes[mesh].morph_targets.len()).map(move |target| (mesh, target)))
+            .collect();
+        let least = if after.len() < LEAST_VERTICES { usize::MAX } else { 1 };
+        let mut targets = parallel::collect(threads, targets.len(), least, |index| {
+            let (mesh, target) = targets[index];
+            self.deform_target(mesh, target, &after, &turns[mesh])
+        })
+        .into_iter();
+        let meshes = turns
+            .into_iter()
+            .enumerate()
+            .map(|(index, turns)| {
+                let (mesh, wanted) = (&character.meshes[index], outputs[index]);
+                let start = figure.mesh_starts[index];
+                let of_mesh = &after[start..start + mesh.positions.len()];
+                let tangents = turns.tangents.iter().zip(&mesh.tangents);
+                let target_count = if wanted.morph_targets { mesh.morph_targets.len() } else { 0 };
+                DeformedMesh {
+                    positions: of_mesh.iter().map(|&p| figure.frame.to_model(p).as_vec3()).collect(),
+                    tangents: match wanted.tangents {
+                        true => tangents.map(|(tangent, old)| tangent.extend(old.w)).collect(),
+                        false => Vec::new(),
+                    },
+                    normals: if wanted.normals { turns.normals } else { Vec::new() },
+                    morph_targets: targets.by_ref().take(target_count).collect(),
+                }
+            })
+            .collect();
         progress.at(1.0)?;
         Ok(Deformed { meshes, joints: self.deformed_joints() })
     }
@@ -676,71 +754,49 @@ impl Deformer {
             .collect()
     }
 
-    /// The mesh as it came.
-    fn unchanged_mesh(&self, index: usize) -> DeformedMesh {
-        let mesh = &self.character.meshes[index];
-        DeformedMesh {
-            positions: mesh.positions.clone(),
-            normals: mesh.normals.clone(),
-            tangents: mesh.tangents.clone(),
-            morph_targets: mesh.morph_targets.clone(),
-        }
-    }
-
-    fn deform_mesh(&self, index: usize, after: &[DVec3], jacobians: &[Option<DMat3>]) -> DeformedMesh {
+    /// What the directions of a mesh turn into.
+    fn turns(&self, index: usize, jacobians: &[Option<DMat3>]) -> Turns {
         let mesh = &self.character.meshes[index];
         let figure = &self.study.figure;
-        let frame = &figure.frame;
         let start = figure.mesh_starts[index];
+        let threads = self.options.thread_count;
         let count = mesh.positions.len();
-        let positions = after[start..start + count].iter().map(|&p| frame.to_model(p).as_vec3()).collect();
-        let needs_jacobian = !mesh.normals.is_empty() || !mesh.tangents.is_empty();
-        let turns: Vec<DMat3> = (0..if needs_jacobian { count } else { 0 })
-            .map(|vertex| {
-                let whole = start + vertex;
-                let fitted = jacobians[self.weld.representative[whole] as usize];
-                let jacobian = fitted
-                    .filter(|jacobian| jacobian.determinant().abs() > 1e-12)
-                    .unwrap_or_else(|| self.field.map(figure.positions[whole], &self.bindings[whole]).1);
-                frame.jacobian_to_model(jacobian)
-            })
-            .collect();
-        let turn_normal = |vertex: usize, normal: Vec3| {
-            (normal_matrix(turns[vertex]) * normal.as_dvec3()).normalize_or(normal.as_dvec3())
+        let turns = parallel::collect(threads, count, LEAST_VERTICES, |vertex| {
+            let whole = start + vertex;
+            let fitted = jacobians[self.weld.representative[whole] as usize];
+            let jacobian = fitted
+                .filter(|jacobian| jacobian.determinant().abs() > 1e-12)
+                .unwrap_or_else(|| self.field.map(figure.positions[whole], &self.bindings[whole]).1);
+            figure.frame.jacobian_to_model(jacobian)
+        });
+        let mut turns = Turns { turns, normals: Vec::new(), tangents: Vec::new() };
+        turns.normals = parallel::collect(threads, mesh.normals.len(), LEAST_VERTICES, |vertex| {
+            turns.normal(vertex, mesh.normals[vertex]).as_vec3()
+        });
+        turns.tangents = parallel::collect(threads, mesh.tangents.len(), LEAST_VERTICES, |vertex| {
+            turns.tangent(vertex, mesh.tangents[vertex].truncate()).as_vec3()
+        });
+        turns
+    }
+
+    fn deform_target(&self, mesh: usize, target: usize, after: &[DVec3], turns: &Turns) -> MorphTarget {
+        let start = self.study.figure.mesh_starts[mesh];
+        let mesh = &self.character.meshes[mesh];
+        let target = &mesh.morph_targets[target];
+        let directions: Vec<Vec3> = match target.tangents.is_empty() {
+            true => Vec::new(),
+            false => mesh.tangents.iter().map(|tangent| tangent.truncate()).collect(),
         };
-        let normals: Vec<Vec3> = mesh
-            .normals
-            .iter()
-            .enumerate()
-            .map(|(vertex, &normal)| turn_normal(vertex, normal).as_vec3())
-            .collect();
-        let turn_tangent = |vertex: usize, tangent: Vec3| {
-            let turned = turns[vertex] * tangent.as_dvec3();
-            let flat = match normals.get(vertex) {
-                Some(normal) => turned.reject_from_normalized(normal.as_dvec3()),
-                None => turned,
-            };
-            flat.normalize_or(tangent.as_dvec3())
-        };
-        let directions: Vec<Vec3> = mesh.tangents.iter().map(|tangent| tangent.truncate()).collect();
-        let new_directions: Vec<Vec3> = directions
-            .iter()
-            .enumerate()
-            .map(|(vertex, &tangent)| turn_tangent(vertex, tangent).as_vec3())
-            .collect();
-        let tangents =
-            new_directions.iter().zip(&mesh.tangents).map(|(tangent, old)| tangent.extend(old.w)).collect();
-        let morph_targets = mesh
-            .morph_targets
-            .iter()
-            .map(|target| MorphTarget {
-                name: target.name.clone(),
-                positions: self.morph_positions(start, &target.positions, after),
-                normals: morph_turns(&target.normals, &mesh.normals, &normals, &turn_normal),
-                tangents: morph_turns(&target.tangents, &directions, &new_directions, &turn_tangent),
-            })
-            .collect();
-        DeformedMesh { positions, normals, tangents, morph_targets }
+        MorphTarget {
+            name: target.name.clone(),
+            positions: self.morph_positions(start, &target.positions, after),
+            normals: morph_turns(&target.normals, &mesh.normals, &turns.normals, &|vertex, normal| {
+                turns.normal(vertex, normal)
+            }),
+            tangents: morph_turns(&target.tangents, &directions, &turns.tangents, &|vertex, tangent| {
+                turns.tangent(vertex, tangent)
+            }),
+        }
     }
 
     /// D(v + d) - D(v): exact, and zero where d is.
@@ -859,6 +915,44 @@ impl Deformer {
             warnings: self.warnings.clone(),
         })
     }
+}
+
+/// How the directions at each vertex of a mesh turn, and what its own turn into; all empty where it has none.
+#[derive(Default)]
+struct Turns {
+    turns: Vec<DMat3>,
+    normals: Vec<Vec3>,
+    tangents: Vec<Vec3>,
+}
+
+impl Turns {
+    fn normal(&self, vertex: usize, normal: Vec3) -> DVec3 {
+        (normal_matrix(self.turns[vertex]) * normal.as_dvec3()).normalize_or(normal.as_dvec3())
+    }
+
+    fn tangent(&self, vertex: usize, tangent: Vec3) -> DVec3 {
+        let turned = self.turns[vertex] * tangent.as_dvec3();
+        let flat = match self.normals.get(vertex) {
+            Some(normal) => turned.reject_from_normalized(normal.as_dvec3()),
+            None => turned,
+        };
+        flat.normalize_or(tangent.as_dvec3())
+    }
+}
+
+/// The mesh as it came, of it what is wanted.
+fn unchanged(mesh: &Mesh, wanted: MeshOutputs) -> DeformedMesh {
+    let mut all = DeformedMesh { positions: mesh.positions.clone(), ..DeformedMesh::default() };
+    if wanted.normals {
+        all.normals.clone_from(&mesh.normals);
+    }
+    if wanted.tangents {
+        all.tangents.clone_from(&mesh.tangents);
+    }
+    if wanted.morph_targets {
+        all.morph_targets.clone_from(&mesh.morph_targets);
+    }
+    all
 }
 
 /// Where the joints of `humanoid` are, by role.
