@@ -8,8 +8,8 @@ use crate::character::bones::Bone;
 use crate::character::{Character, Humanoid, Mesh, MeshKind, MorphTarget, Role};
 use crate::error::{Error, ErrorKind, Result, Warning};
 use crate::face::FaceShape;
-use crate::geometry::{SEAM, Weld, components, neighbours, weld};
-use crate::hair::keep_outside;
+use crate::geometry::{SEAM, Weld, components, weld};
+use crate::hair::HairOnBody;
 pub use crate::options::{FaceCurve, GroupSettings, Mode, Options, Stage};
 use crate::parallel;
 use crate::progress::Progress;
@@ -20,7 +20,7 @@ use crate::shape::bones::BoneField;
 use crate::shape::coefficients::coefficients;
 use crate::shape::field::{Binding, BoneBinding, Field, PaperField};
 use crate::shape::figure::{Figure, extent, is_head};
-use crate::shape::landmarks::landmarks;
+use crate::shape::landmarks::heads;
 use crate::shape::part_coefficients::{PartCoefficients, Wanted, part_coefficients};
 use crate::shape::part_weights::{PartBinding, PartBindings, joint_binding, part_bindings};
 use crate::shape::parts::{Heights, PartField};
@@ -116,6 +116,10 @@ pub struct Deformer {
     field: Field,
     bindings: Vec<Binding>,
     joint_bindings: Vec<Binding>,
+    /// What product mode's bindings were made with, less the vertices' own: no option but the study's changes it.
+    parts: Option<Arc<PartBindings>>,
+    /// Made where hair is first looked at.
+    hair: OnceLock<Arc<HairOnBody>>,
     /// Roles that target and style share.
     roles: BTreeSet<Role>,
     head_ratio: f64,
@@ -229,6 +233,8 @@ impl Deformer {
             }),
             bindings: Vec::new(),
             joint_bindings: Vec::new(),
+            parts: None,
+            hair: OnceLock::new(),
             roles: BTreeSet::new(),
             head_ratio: 1.0,
             coefficients: BTreeMap::new(),
@@ -276,6 +282,10 @@ impl Deformer {
             let clock = Instant::now();
             next.study = Arc::new(Study::of_figure(self.study.figure.clone(), options)?);
             next.timing.measure = milliseconds(clock);
+            (next.parts, next.hair) = (None, OnceLock::new());
+        }
+        if options.mode != self.options.mode {
+            (next.parts, next.hair) = (None, OnceLock::new());
         }
         next.make_field(&mut progress.part(0.4, 1.0))?;
         *self = next;
@@ -348,10 +358,8 @@ impl Deformer {
     /// Product mode: bindings once, then the field, and again while the head count measured on the result is off.
     fn make_parts(&mut self, style: &Style, progress: &mut Progress) -> Result<()> {
         let proportions = self.study.anatomy.proportions.clone();
-        let (figure, anatomy) = (&self.study.figure, &self.study.anatomy);
-        let parts =
-            part_bindings(figure, anatomy, &self.character.skeleton, &self.weld, self.options.thread_count);
-        self.warnings.extend(anatomy.warnings());
+        let parts = self.bind_to_parts();
+        self.warnings.extend(self.study.anatomy.warnings());
         if let Some(hair) = &parts.hair
             && hair.depth > HAIR_TOLD * proportions.head_length
         {
@@ -363,16 +371,6 @@ impl Deformer {
                 ),
             ));
         }
-        self.bindings = parts.vertices.iter().map(|&binding| Binding::Parts(binding)).collect();
-        self.joint_bindings = self.joint_bindings(|figure, joint| {
-            if figure.humanoid.joint(Role::Head) == Some(joint)
-                && figure.joints[joint].y < anatomy.landmarks.chin
-            {
-                // The head turns about a point in the neck: below the chin it moves as the neck does.
-                return Binding::Parts(PartBinding::to(Part::Neck));
-            }
-            Binding::Parts(joint_binding(figure, &parts, joint))
-        });
         let (asked, head_ratio) = match style {
             Style::Heads(heads) => (*heads, 1.0),
             Style::Shape(shape) => {
@@ -398,7 +396,7 @@ impl Deformer {
             let attempt = self.attempt(style, aim / asked, &parts)?;
             self.field = attempt.field.clone();
             self.stand_on_ground();
-            let measured = landmarks(self.whole_result(&mut result)).heads();
+            let measured = heads(self.whole_result(&mut result));
             let predicted = crate::shape::part_coefficients::heads_of(&proportions, &attempt.coefficients);
             let limited = attempt.warnings.iter().any(|warning| warning.code == "heads_limited");
             let reach = if limited { predicted } else { asked };
@@ -417,7 +415,7 @@ impl Deformer {
         self.coefficients = attempt.coefficients.by_group();
         self.warnings.extend(attempt.warnings);
         if error > HEADS_TOLD {
-            let measured = landmarks(self.whole_result(&mut result)).heads();
+            let measured = heads(self.whole_result(&mut result));
             self.heads_left = Some(Warning::new(
                 "heads_limited",
                 format!(
@@ -430,27 +428,61 @@ impl Deformer {
         Ok(())
     }
 
+    /// Binds vertices and joints to parts, where that is not done yet.
+    fn bind_to_parts(&mut self) -> Arc<PartBindings> {
+        if let Some(parts) = &self.parts {
+            for binding in &mut self.bindings {
+                if let Binding::Parts(binding) = binding {
+                    binding.offset = DVec3::ZERO;
+                }
+            }
+            return parts.clone();
+        }
+        let (figure, anatomy) = (&self.study.figure, &self.study.anatomy);
+        let mut parts =
+            part_bindings(figure, anatomy, &self.character.skeleton, &self.weld, self.options.thread_count);
+        let vertices = std::mem::take(&mut parts.vertices);
+        let joint_bindings = self.joint_bindings(|figure, joint| {
+            if figure.humanoid.joint(Role::Head) == Some(joint)
+                && figure.joints[joint].y < anatomy.landmarks.chin
+            {
+                // The head turns about a point in the neck: below the chin it moves as the neck does.
+                return Binding::Parts(PartBinding::to(Part::Neck));
+            }
+            Binding::Parts(joint_binding(figure, &parts, joint))
+        });
+        self.bindings = vertices.into_iter().map(Binding::Parts).collect();
+        self.joint_bindings = joint_bindings;
+        let parts = Arc::new(parts);
+        self.parts = Some(parts.clone());
+        parts
+    }
+
     /// Locks that lay on the body still do.
     fn keep_hair_outside(&mut self) {
         let figure = &self.study.figure;
-        let chin = self.study.anatomy.landmarks.chin;
-        let part = |vertex: usize, part: Part| match &self.bindings[vertex] {
-            Binding::Parts(binding) => binding.weights[part as usize],
-            _ => 0.0,
-        };
-        let hair: Vec<usize> = (0..figure.positions.len())
-            .filter(|&vertex| figure.positions[vertex].y < chin && part(vertex, Part::Hair) > 0.5)
-            .collect();
+        let hair = self.hair.get_or_init(|| {
+            let chin = self.study.anatomy.landmarks.chin;
+            let part = |vertex: usize, part: Part| match &self.bindings[vertex] {
+                Binding::Parts(binding) => binding.weights[part as usize],
+                _ => 0.0,
+            };
+            let hair: Vec<usize> = (0..figure.positions.len())
+                .filter(|&vertex| figure.positions[vertex].y < chin && part(vertex, Part::Hair) > 0.5)
+                .collect();
+            let of_head = |vertex: usize| part(vertex, Part::Hair) + part(vertex, Part::Head);
+            let body = match hair.is_empty() {
+                true => Vec::new(),
+                false => figure.triangles_where(|vertex| of_head(vertex) < 0.5),
+            };
+            Arc::new(HairOnBody::of(&figure.positions, &figure.triangles, body, hair, &self.weld))
+        });
         if hair.is_empty() {
             return;
         }
-        let of_head = |vertex: usize| part(vertex, Part::Hair) + part(vertex, Part::Head);
-        let body = figure.triangles_where(|vertex| of_head(vertex) < 0.5);
         let after = self.positions_by(&self.field);
         let (low, high) = extent(&after);
-        let around = neighbours(&figure.triangles, &self.weld);
-        let offsets = keep_outside(&figure.positions, &after, &body, &hair, &self.weld, &around, high - low);
-        for (vertex, offset) in hair.into_iter().zip(offsets) {
+        for (vertex, offset) in hair.kept_outside(&after, &self.weld, high - low) {
             if let Binding::Parts(binding) = &mut self.bindings[vertex] {
                 binding.offset = offset;
             }
@@ -704,7 +736,9 @@ impl Deformer {
         // Morph targets one by one, whichever mesh they belong to: a face may hold them all.
         let targets: Vec<(usize, usize)> = (0..character.meshes.len())
             .filter(|&mesh| outputs[mesh].morph_targets)
-            .flat_map(|mesh| (0..character.meshes[mesh].morph_targets.len()).map(move |target| (mesh, target)))
+            .flat_map(|mesh| {
+                (0..character.meshes[mesh].morph_targets.len()).map(move |target| (mesh, target))
+            })
             .collect();
         let least = if after.len() < LEAST_VERTICES { usize::MAX } else { 1 };
         let mut targets = parallel::collect(threads, targets.len(), least, |index| {

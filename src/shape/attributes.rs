@@ -92,8 +92,9 @@ impl RestTriangles {
                     return (DMat3::ZERO, 0.0);
                 }
                 let normal_after = cross / area_after * (area_after / area).sqrt();
-                let outer =
-                    |column: DVec3, row: DVec3| DMat3::from_cols(column * row.x, column * row.y, column * row.z);
+                let outer = |column: DVec3, row: DVec3| {
+                    DMat3::from_cols(column * row.x, column * row.y, column * row.z)
+                };
                 ((outer(a, rows[0]) + outer(b, rows[1]) + outer(normal_after, normal)) * area, area)
             });
         parallel::collect(threads, self.starts.len() - 1, LEAST_TRIANGLES, |vertex| {
