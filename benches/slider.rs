@@ -14,18 +14,19 @@ mod host;
 mod models;
 
 /// Columns of a person's tubes that make 50,000 vertices of it.
-const COLUMNS: usize = 240;
+const COLUMNS: usize = 60;
 
 fn slider(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("slider");
     group.sample_size(20);
     let character = models::capsules(COLUMNS);
     println!("{} vertices, {} triangles", character.vertex_count(), character.triangle_count());
+    let mesh_count = character.meshes.len();
     let options = Options::default();
     let mut deformer =
         Deformer::new(Arc::new(character), &models::style(), &options).expect("the model is whole");
-    let positions = [MeshOutputs::default()];
-    let directions = [MeshOutputs { normals: true, ..MeshOutputs::default() }];
+    let positions = vec![MeshOutputs::default(); mesh_count];
+    let directions = vec![MeshOutputs { normals: true, ..MeshOutputs::default() }; mesh_count];
     let mut none = Progress::none();
     group.bench_function("apply, positions", |bencher| {
         bencher.iter(|| black_box(deformer.apply_to(&positions, &mut none)));
