@@ -132,6 +132,7 @@ impl HairMap {
     }
 
     /// Where the point `p` below the chin goes, and the Jacobian there.
+    #[inline(always)]
     pub fn map(&self, p: DVec3) -> (DVec3, DMat3) {
         let from = p - self.axis[0];
         let d = -from.y;

@@ -15,11 +15,11 @@ use crate::parallel;
 use crate::progress::Progress;
 use crate::report::{Coefficient, Counts, FigureReport, GroupShape, Report, RigReport, Timing};
 use crate::shape::BodyShape;
-use crate::shape::attributes::{RestTriangles, normal_matrix};
+use crate::shape::attributes::{Gradients, RestTriangles, normal_matrix};
 use crate::shape::bones::BoneField;
 use crate::shape::coefficients::coefficients;
 use crate::shape::field::{Binding, BoneBinding, Field, PaperField};
-use crate::shape::figure::{Figure, extent, is_head};
+use crate::shape::figure::{Figure, Frame, extent, is_head};
 use crate::shape::landmarks::heads;
 use crate::shape::part_coefficients::{PartCoefficients, Wanted, part_coefficients};
 use crate::shape::part_weights::{PartBinding, PartBindings, joint_binding, part_bindings};
@@ -540,8 +540,12 @@ impl Deformer {
             head: weights.iter().filter(|&&(role, _)| is_head(role)).map(|&(_, weight)| weight).sum(),
             on_face: None,
         };
-        let mut bindings: Vec<BoneBinding> =
-            figure.positions.iter().zip(&figure.role_weights).map(|(&p, weights)| bind(p, weights)).collect();
+        let mut bindings: Vec<BoneBinding> = figure
+            .positions
+            .iter()
+            .zip(figure.role_weights.iter())
+            .map(|(&p, weights)| bind(p, weights))
+            .collect();
         for (members, centre) in head_accessories(figure, &self.weld) {
             for vertex in members {
                 bindings[vertex].on_face = Some(centre);
@@ -593,7 +597,7 @@ impl Deformer {
             if matches!(figure.kind(vertex), MeshKind::Body | MeshKind::FacePart)
                 && is_of_head(figure, vertex)
             {
-                let p = whole.map(figure.positions[vertex], &self.bindings[vertex]).0;
+                let p = whole.place(figure.positions[vertex], &self.bindings[vertex]);
                 low = low.min(p);
                 high = high.max(p);
             }
@@ -630,7 +634,7 @@ impl Deformer {
         let feet = self.options.mode == Mode::Product;
         let before = lowest(&|vertex| figure.positions[vertex].y, feet);
         let after =
-            lowest(&|vertex| self.field.map(figure.positions[vertex], &self.bindings[vertex]).0.y, feet);
+            lowest(&|vertex| self.field.place(figure.positions[vertex], &self.bindings[vertex]).y, feet);
         if let (Some(before), Some(after)) = (before, after) {
             self.field.set_ground(before - after);
         }
@@ -663,7 +667,7 @@ impl Deformer {
     fn positions_by(&self, field: &Field) -> Vec<DVec3> {
         let positions = &self.study.figure.positions;
         parallel::collect(self.options.thread_count, positions.len(), LEAST_VERTICES, |vertex| {
-            field.map(positions[vertex], &self.bindings[vertex]).0
+            field.place(positions[vertex], &self.bindings[vertex])
         })
     }
 
@@ -673,7 +677,7 @@ impl Deformer {
         for ((p, &rest), binding) in
             figure.joints.iter_mut().zip(&self.study.figure.joints).zip(&self.joint_bindings)
         {
-            *p = self.field.map(rest, binding).0;
+            *p = self.field.place(rest, binding);
         }
         figure.extent = extent(&figure.positions);
         figure
@@ -718,19 +722,18 @@ impl Deformer {
             (wanted.normals || wanted.tangents || wanted.morph_targets)
                 && !(mesh.normals.is_empty() && mesh.tangents.is_empty())
         };
-        let jacobians = if character.meshes.iter().zip(outputs).any(has_directions) {
-            let rest = self.rest_triangles.get_or_init(|| {
-                Arc::new(RestTriangles::of(&figure.positions, &figure.triangles, &self.weld))
-            });
-            rest.fitted_jacobians(&after, threads)
-        } else {
-            Vec::new()
-        };
+        let rest = character.meshes.iter().zip(outputs).any(has_directions).then(|| {
+            self.rest_triangles
+                .get_or_init(|| Arc::new(RestTriangles::of(&figure.positions, &figure.triangles, &self.weld)))
+        });
+        let gradients = rest.map(|rest| rest.gradients(&after, threads));
         progress.at(0.6)?;
         let turns: Vec<Turns> = (0..character.meshes.len())
-            .map(|mesh| match has_directions((&character.meshes[mesh], &outputs[mesh])) {
-                true => self.turns(mesh, &jacobians),
-                false => Turns::default(),
+            .map(|mesh| match &gradients {
+                Some(gradients) if has_directions((&character.meshes[mesh], &outputs[mesh])) => {
+                    self.turns(mesh, outputs[mesh], gradients)
+                }
+                _ => Turns::default(),
             })
             .collect();
         // Morph targets one by one, whichever mesh they belong to: a face may hold them all.
@@ -783,27 +786,35 @@ impl Deformer {
             .zip(&self.character.skeleton.joints)
             .map(|((&p, binding), joint)| match binding {
                 Binding::Fixed => joint.position(),
-                _ => figure.frame.to_model(self.field.map(p, binding).0),
+                _ => figure.frame.to_model(self.field.place(p, binding)),
             })
             .collect()
     }
 
     /// What the directions of a mesh turn into.
-    fn turns(&self, index: usize, jacobians: &[Option<DMat3>]) -> Turns {
+    fn turns(&self, index: usize, wanted: MeshOutputs, gradients: &Gradients) -> Turns {
         let mesh = &self.character.meshes[index];
         let figure = &self.study.figure;
+        let frame = figure.frame;
         let start = figure.mesh_starts[index];
         let threads = self.options.thread_count;
-        let count = mesh.positions.len();
-        let turns = parallel::collect(threads, count, LEAST_VERTICES, |vertex| {
+        let turn = |vertex: usize| {
             let whole = start + vertex;
-            let fitted = jacobians[self.weld.representative[whole] as usize];
-            let jacobian = fitted
+            gradients
+                .jacobian(self.weld.representative[whole] as usize)
                 .filter(|jacobian| jacobian.determinant().abs() > 1e-12)
-                .unwrap_or_else(|| self.field.map(figure.positions[whole], &self.bindings[whole]).1);
-            figure.frame.jacobian_to_model(jacobian)
-        });
-        let mut turns = Turns { turns, normals: Vec::new(), tangents: Vec::new() };
+                .unwrap_or_else(|| self.field.map(figure.positions[whole], &self.bindings[whole]).1)
+        };
+        let has_targets = wanted.morph_targets && !mesh.morph_targets.is_empty();
+        if !(wanted.tangents || has_targets) {
+            // The turns themselves are not needed any more.
+            let normals = parallel::collect(threads, mesh.normals.len(), LEAST_VERTICES, |vertex| {
+                turned_normal(&frame, &turn(vertex), mesh.normals[vertex]).as_vec3()
+            });
+            return Turns { normals, ..Turns::default() };
+        }
+        let turns = parallel::collect(threads, mesh.positions.len(), LEAST_VERTICES, turn);
+        let mut turns = Turns { frame: Some(frame), turns, normals: Vec::new(), tangents: Vec::new() };
         turns.normals = parallel::collect(threads, mesh.normals.len(), LEAST_VERTICES, |vertex| {
             turns.normal(vertex, mesh.normals[vertex]).as_vec3()
         });
@@ -842,7 +853,7 @@ impl Deformer {
             }
             let whole = start + vertex;
             let p = figure.positions[whole] + figure.frame.to_canonical(delta.as_dvec3());
-            let to = self.field.map(p, &self.bindings[whole]).0;
+            let to = self.field.place(p, &self.bindings[whole]);
             figure.frame.to_model(to - after[whole]).as_vec3()
         };
         deltas.iter().enumerate().map(moved).collect()
@@ -951,27 +962,40 @@ impl Deformer {
     }
 }
 
-/// How the directions at each vertex of a mesh turn, and what its own turn into; all empty where it has none.
+/// How the directions at each vertex of a mesh turn, and what its own turn into; all empty where nothing of it is wanted.
 #[derive(Default)]
 struct Turns {
+    frame: Option<Frame>,
+    /// Canonical frame; empty where normals alone are wanted.
     turns: Vec<DMat3>,
     normals: Vec<Vec3>,
     tangents: Vec<Vec3>,
 }
 
 impl Turns {
+    fn frame(&self) -> &Frame {
+        self.frame.as_ref().expect("there are turns")
+    }
+
     fn normal(&self, vertex: usize, normal: Vec3) -> DVec3 {
-        (normal_matrix(self.turns[vertex]) * normal.as_dvec3()).normalize_or(normal.as_dvec3())
+        turned_normal(self.frame(), &self.turns[vertex], normal)
     }
 
     fn tangent(&self, vertex: usize, tangent: Vec3) -> DVec3 {
-        let turned = self.turns[vertex] * tangent.as_dvec3();
+        let frame = self.frame();
+        let turned = frame.to_model(self.turns[vertex] * frame.to_canonical(tangent.as_dvec3()));
         let flat = match self.normals.get(vertex) {
             Some(normal) => turned.reject_from_normalized(normal.as_dvec3()),
             None => turned,
         };
         flat.normalize_or(tangent.as_dvec3())
     }
+}
+
+/// What `normal` becomes where the surface turns by `turn`.
+fn turned_normal(frame: &Frame, turn: &DMat3, normal: Vec3) -> DVec3 {
+    let normal = normal.as_dvec3();
+    frame.to_model(normal_matrix(*turn) * frame.to_canonical(normal)).normalize_or(normal)
 }
 
 /// The mesh as it came, of it what is wanted.
