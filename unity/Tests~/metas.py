@@ -84,14 +84,19 @@ PLUGIN = """  externalObjects: {{}}
 
 
 def seen(root):
-    """Every path that Unity imports, relative to the root, without metas."""
-    found = []
-    for path in sorted(root.rglob("*")):
+    """Every file that Unity imports and every folder with such a file, relative to the root, without metas."""
+    found = set()
+    for path in root.rglob("*"):
         parts = path.relative_to(root).parts
-        if any(part.endswith("~") or part.startswith(".") for part in parts) or path.suffix == ".meta":
+        if hidden(parts) or path.suffix == ".meta" or path.is_dir():
             continue
-        found.append("/".join(parts))
-    return found
+        # An empty folder is no part of a package: neither git nor a tarball of files keeps it.
+        found.update("/".join(parts[:depth]) for depth in range(1, len(parts) + 1))
+    return sorted(found)
+
+
+def hidden(parts):
+    return any(part.endswith("~") or part.startswith(".") for part in parts)
 
 
 def guid(path):
@@ -125,7 +130,7 @@ def wanted(root):
 
 def present(root):
     return {path.relative_to(root).as_posix(): path for path in root.rglob("*.meta")
-            if not any(part.endswith("~") or part.startswith(".") for part in path.relative_to(root).parts)}
+            if not hidden(path.relative_to(root).parts)}
 
 
 def faults(root):

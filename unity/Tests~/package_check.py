@@ -1,0 +1,397 @@
+#!/usr/bin/env python3
+"""Checks the package without Unity: metas, manifest, assemblies, imports, API, texts, libraries.
+
+package_check.py [ROOT]   ROOT: the package's folder, in the repository or unpacked from a tarball (default: this one)
+
+Each check gives a sentence for each fault. After the checks of ROOT each one is tried on a copy with a fault put in:
+a check that says nothing there is broken itself. Ends with `N passed, N failed`; exit code 1 where one failed.
+"""
+
+import json
+import re
+import shutil
+import sys
+import tempfile
+from pathlib import Path
+
+sys.dont_write_bytecode = True
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE))
+import metas  # noqa: E402
+
+REPOSITORY = HERE.parent.parent
+NAME = metas.PACKAGE
+
+# Assemblies that other packages bring, and the one define without which they may be missing (None: always there).
+FOREIGN = {"UnityEngine.TestRunner": "UNITY_INCLUDE_TESTS", "UnityEditor.TestRunner": "UNITY_INCLUDE_TESTS",
+           "VRM": "SUPERDEFORM_VRM0", "VRM10": "SUPERDEFORM_VRM1"}
+
+# What Unity 2021.3 or the C# and .NET of its editor do not know. That everything else exists there is seen by compiling
+# against the stubs, which hold nothing newer; this list names what is written by habit.
+NEWER = {
+    r"\bFind(Objects|FirstObject|AnyObject)ByType\b": "Object.FindObjectsOfType",
+    r"\bFindObjectsSortMode\b": "Object.FindObjectsOfType",
+    r"\bAwaitable\b": "a coroutine or EditorApplication.update",
+    r"\bdestroyCancellationToken\b|\bexitCancellationToken\b": "a token of your own",
+    r"\b(Get|Set)(Local)?PositionAndRotation\s*\(\s*out\b": "position and rotation one by one",
+    r"\b(Inverse)?Transform(Points|Vectors|Directions)\s*\(": "TransformPoint for each",
+    r"\bAssetPathExists\b": "AssetDatabase.GetMainAssetTypeAtPath",
+    r"\bReplacePrefabAssetOfPrefabInstance\b|\bConvertToPrefabInstance\b|\bFindAllInstancesOfPrefab\b":
+        "PrefabUtility.SaveAsPrefabAsset",
+    r"\bPhysicsMaterial\b|\blinearVelocity\b|\blinearDamping\b": "the names before Unity 6",
+    r"\bGetEntityId\b|\bEntityId\b|\bInstantiateAsync\b": "the names before Unity 6",
+    r"\blodSelectionCurve\b|\bMeshLodUtility\b": "no levels of detail in meshes",
+    r"\[UxmlElement|\[UxmlAttribute": "IMGUI",
+    r"\bArgumentNullException\.ThrowIfNull\b|\bRandom\.Shared\b|\bConvert\.ToHexString\b|\bSystem\.Text\.Json\b"
+    r"|\bEnvironment\.ProcessId\b|\bFile\.(Write|Read)AllTextAsync\b.*\bappend\b": "what .NET Standard 2.1 has",
+    r"^\s*namespace\s+[\w.]+\s*;": "a namespace with braces",
+    r"\bglobal\s+using\b|\brecord\s+(class\s+|struct\s+)?\w+|\brequired\s+\w+\s+\w+\s*\{": "C# 7.2",
+    r"\{[^}]*\binit\s*;": "set",
+}
+
+
+def read(path):
+    return path.read_text(encoding="utf-8")
+
+
+def sources(root, folder=""):
+    """C# files that Unity compiles, and those of the samples."""
+    return sorted(path for path in (root / folder).rglob("*.cs")
+                  if not metas.hidden(path.relative_to(root).parts[:-1]) or "Samples~" in path.relative_to(root).parts)
+
+
+def bare(text):
+    """C# without comments and without what stands in quotes."""
+    return re.sub(r'//[^\n]*|/\*.*?\*/|@"(?:[^"]|"")*"|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])+\'',
+                  lambda match: '""' if match.group()[0] in '@"' else " ", text, flags=re.S)
+
+
+def assemblies(root):
+    return {path: json.loads(read(path)) for path in sorted(root.rglob("*.asmdef"))
+            if not metas.hidden(path.relative_to(root).parts)}
+
+
+def owner(root, source, definitions):
+    """The assembly definition whose folder is nearest above a source."""
+    for folder in source.parents:
+        for path in definitions:
+            if path.parent == folder:
+                return path
+        if folder == root:
+            return None
+    return None
+
+
+def check_metas(root):
+    return metas.faults(root)
+
+
+def check_json(root):
+    said = []
+    for path in sorted(root.rglob("*.json")) + sorted(root.rglob("*.asmdef")):
+        try:
+            json.loads(read(path))
+        except ValueError as error:
+            said.append(f"{path.relative_to(root)}: {error}")
+    return said
+
+
+def check_manifest(root):
+    said = []
+    manifest = json.loads(read(root / "package.json"))
+    for key, value in {"name": NAME, "unity": "2021.3", "license": "MIT OR Apache-2.0"}.items():
+        if manifest.get(key) != value:
+            said.append(f"package.json: {key} is {manifest.get(key)!r}, not {value!r}")
+    version = manifest.get("version", "")
+    cargo = root.parent / "Cargo.toml"
+    cargo = cargo if cargo.exists() else REPOSITORY / "Cargo.toml"
+    library = re.search(r'^version = "(.*)"$', read(cargo), re.M).group(1) if cargo.exists() else version
+    if version != library:
+        said.append(f"package.json: version is {version}, the library's is {library}")
+    if f"[{version}]" not in read(root / "CHANGELOG.md") and "[Unreleased]" not in read(root / "CHANGELOG.md"):
+        said.append(f"CHANGELOG.md has no entry for {version}")
+    for sample in manifest.get("samples", []):
+        if not any((root / sample["path"]).rglob("*.cs")):
+            said.append(f"package.json: the sample {sample['displayName']} has no script in {sample['path']}")
+    for file in ["README.md", "CHANGELOG.md", "LICENSE.md", "Third Party Notices.md", "Documentation~/superdeform.md"]:
+        if not (root / file).is_file():
+            said.append(f"{file} is missing")
+    return said
+
+
+def check_paths(root):
+    said, lower = [], {}
+    for path in metas.seen(root):
+        if path.lower() in lower:
+            said.append(f"{path} and {lower[path.lower()]} are one file on Windows")
+        lower[path.lower()] = path
+        # Library/PackageCache/NAME@VERSION before it, and Windows takes 260.
+        if len(path) > 140:
+            said.append(f"{path} is too long for Windows")
+    return said
+
+
+def check_assemblies(root):
+    said = []
+    definitions = assemblies(root)
+    names = {definition["name"]: path for path, definition in definitions.items()}
+    if len(names) != len(definitions):
+        said.append("two assemblies have the same name")
+    for path, definition in definitions.items():
+        name = definition["name"]
+        if path.stem != name:
+            said.append(f"{path.relative_to(root)} defines {name}")
+        defines = {entry["define"] for entry in definition.get("versionDefines", [])} | {"UNITY_INCLUDE_TESTS"}
+        for reference in definition.get("references", []):
+            if reference in names:
+                other = definitions[names[reference]]
+                if "Editor" in other["includePlatforms"] and "Editor" not in definition["includePlatforms"]:
+                    said.append(f"{name} is for all platforms but refers to {reference}, which is for the editor")
+            elif reference not in FOREIGN:
+                said.append(f"{name} refers to {reference}, which nobody defines")
+            elif FOREIGN[reference] not in definition["defineConstraints"] or FOREIGN[reference] not in defines:
+                said.append(f"{name} refers to {reference} but compiles where that is missing: constrain it to "
+                            f"{FOREIGN[reference]}")
+    for source in sources(root):
+        path = owner(root, source, definitions)
+        if path is None:
+            if "Samples~" not in source.parts:
+                said.append(f"{source.relative_to(root)} belongs to no assembly")
+            continue
+        definition = definitions[path]
+        text = bare(read(source))
+        if definition["noEngineReferences"] and re.search(r"\bUnity(Engine|Editor)\b", text):
+            said.append(f"{source.relative_to(root)} uses the engine, but {definition['name']} does without")
+        if re.search(r"\bunsafe\b", text) and not definition["allowUnsafeCode"]:
+            said.append(f"{source.relative_to(root)} is unsafe, but {definition['name']} does not allow it")
+        if re.search(r"\bUnityEditor\b", text) and "Editor" not in definition["includePlatforms"]:
+            said.append(f"{source.relative_to(root)} uses the editor, but {definition['name']} is for all platforms")
+    return said
+
+
+def header(root):
+    for folder in (root.parent, REPOSITORY):
+        path = folder / "include" / "superdeform.h"
+        if path.is_file():
+            return read(path)
+    return None
+
+
+def check_imports(root):
+    """The C# imports are the header's functions."""
+    declared = header(root)
+    if declared is None:
+        return []
+    functions = set(re.findall(r"^(?!//)[^\n(]*?\b(sdef_\w+)\(", declared, re.M))
+    imports = read(root / "Runtime" / "Native.g.cs")
+    imported = re.findall(r"\[DllImport\([^\]]*\]\s*internal static[^;(]*?\b(sdef_\w+)\s*\(", imports)
+    said = [f"{name} stands in the header but is not imported" for name in sorted(functions - set(imported))]
+    said += [f"{name} is imported but stands not in the header" for name in sorted(set(imported) - functions)]
+    if imports.count("[DllImport") != len(imported) or not functions:
+        said.append(f"{imports.count('[DllImport')} imports, {len(imported)} understood, {len(functions)} functions")
+    version = re.search(r"#define SDEF_ABI_VERSION (\d+)", declared).group(1)
+    if f"SDEF_ABI_VERSION = {version};" not in imports:
+        said.append(f"the header's ABI version {version} is not that of the imports")
+    return said
+
+
+def check_api(root):
+    said = []
+    for source in sources(root):
+        for number, line in enumerate(bare(read(source)).splitlines(), 1):
+            for pattern, instead in NEWER.items():
+                if re.search(pattern, line):
+                    said.append(f"{source.relative_to(root)}:{number} is newer than 2021.3: use {instead}")
+    return said
+
+
+def texts(root, language):
+    return json.loads(read(root / "Editor" / "Localization" / f"{language}.json"))
+
+
+def keys_used(root):
+    """Keys in the sources: what is handed to Strings.Get or said of a finding."""
+    used = {}
+    for source in sources(root, "Editor"):
+        # Comments show examples.
+        text = re.sub(r"^\s*//[^\n]*", "", read(source), flags=re.M)
+        for key in re.findall(r'(?:Strings\.Get|Finding|FixKey\s*=|Key\s*=)\s*\(?\s*"([\w.]+)"(?!\s*\+)', text):
+            used.setdefault(key, source.relative_to(root))
+    return used
+
+
+def check_strings(root):
+    said = []
+    english, japanese = texts(root, "en"), texts(root, "ja")
+    said += [f"en.json lacks {key}" for key in sorted(japanese.keys() - english.keys())]
+    said += [f"ja.json lacks {key}" for key in sorted(english.keys() - japanese.keys())]
+    for key in sorted(english.keys() & japanese.keys()):
+        places = [set(re.findall(r"\{(\d+)", text)) for text in (english[key], japanese[key])]
+        if places[0] != places[1]:
+            said.append(f"{key} has the values {sorted(places[0])} in English, {sorted(places[1])} in Japanese")
+    for key, source in sorted(keys_used(root).items()):
+        if key not in english:
+            said.append(f"{source} says {key}, of which en.json knows nothing")
+    literals = "\n".join(read(source) for source in sources(root, "Editor"))
+    for key in sorted(english):
+        # A key may be put together: "check." + name.
+        parts = [".".join(key.split(".")[:depth]) + "." for depth in range(1, key.count(".") + 1)]
+        if f'"{key}"' not in literals and not any(f'"{part}"' in literals for part in parts):
+            said.append(f"nothing says {key}: delete it from the texts")
+    return said
+
+
+def failures(root):
+    """Keys whose sentence an artist reads when something is wrong."""
+    return [key for key in texts(root, "en") if re.match(r"(check|error|failure|warning)\.", key)]
+
+
+def plain(text):
+    """Words alone: marks of Markdown and values do not count."""
+    return re.sub(r"[\s`*_|]+", " ", re.sub(r"\{\d+[^}]*\}", "…", text)).strip()
+
+
+def check_documentation(root):
+    """Every sentence of a failure stands in the manual; so does every link's target."""
+    manual = read(root / "Documentation~" / "superdeform.md")
+    words = plain(manual)
+    said = [f"Documentation~/superdeform.md does not explain {key}: {texts(root, 'en')[key]}"
+            for key in failures(root) if plain(texts(root, "en")[key]) not in words]
+    for page in [root / "README.md", root / "Documentation~" / "superdeform.md"]:
+        for target in re.findall(r"\]\((?!https?:|#)([^)#]+)", read(page)):
+            if not (page.parent / target.replace("%20", " ")).exists():
+                said.append(f"{page.relative_to(root)} links to {target}, which is not there")
+    return said
+
+
+MAGIC = {"superdeform.dll": (b"MZ",), "libsuperdeform.so": (b"\x7fELF",),
+         "libsuperdeform.dylib": (b"\xca\xfe\xba\xbe", b"\xcf\xfa\xed\xfe")}
+
+
+def check_libraries(root):
+    """Libraries of a packed tree are what their names say and bring every function."""
+    said = []
+    plugins = root / "Plugins"
+    if not plugins.is_dir():
+        return said
+    declared = header(root)
+    for path in sorted(file for file in plugins.rglob("*") if file.is_file() and file.suffix != ".meta"):
+        content = path.read_bytes()
+        if path.name not in MAGIC or not content.startswith(MAGIC[path.name]):
+            said.append(f"{path.relative_to(root)} is no library for its system")
+        for name in set(re.findall(r"^(?!//)[^\n(]*?\b(sdef_\w+)\(", declared or "", re.M)):
+            if name.encode() not in content:
+                said.append(f"{path.relative_to(root)} has no {name}: it is another version's")
+    return said
+
+
+CHECKS = [check_metas, check_json, check_manifest, check_paths, check_assemblies, check_imports, check_api, check_strings,
+          check_documentation, check_libraries]
+
+
+def edit(path, before, after):
+    text = read(path)
+    if before not in text:
+        raise AssertionError(f"{path} has no {before!r} to break")
+    path.write_text(text.replace(before, after, 1), encoding="utf-8")
+
+
+def put(path, text):
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(text, encoding="utf-8")
+
+
+# A fault for a check to find: the check, what is broken, how, and words of the sentence that it must then say.
+BREAKS = [
+    (check_metas, "a file without meta", lambda root: (root / "README.md.meta").unlink(), "README.md.meta is missing"),
+    (check_metas, "a meta without file", lambda root: put(root / "gone.txt.meta", "guid: 1\n"), "belongs to no file"),
+    (check_metas, "a GUID twice", lambda root: (root / "README.md.meta").write_text(read(root / "LICENSE.md.meta")),
+     "GUID"),
+    (check_metas, "another importer", lambda root: edit(root / "Runtime/Native.g.cs.meta", "MonoImporter", "Default"),
+     "differs"),
+    (check_json, "a comma too many", lambda root: edit(root / "package.json", "{", "{,"), "package.json"),
+    (check_manifest, "another version", lambda root: edit(root / "package.json", '"version": "', '"version": "9'),
+     "version is 9"),
+    (check_manifest, "a newer editor", lambda root: edit(root / "package.json", "2021.3", "2022.3"), "unity is"),
+    (check_manifest, "no sample", lambda root: shutil.rmtree(root / "Samples~"), "has no script"),
+    (check_manifest, "no licence", lambda root: (root / "LICENSE.md").unlink(), "LICENSE.md is missing"),
+    (check_paths, "names that differ in case", lambda root: put(root / "readme.md", ""), "one file on Windows"),
+    (check_paths, "a long path", lambda root: put(root / ("a" * 80) / ("b" * 80), ""), "too long"),
+    (check_assemblies, "a reference to nothing",
+     lambda root: edit(root / "Editor/SuperDeform.Editor.asmdef", '"SuperDeform"\n', '"SuperDeformed"\n'),
+     "nobody defines"),
+    (check_assemblies, "UniVRM wanted always",
+     lambda root: edit(root / "Editor/Vrm0/SuperDeform.Editor.Vrm0.asmdef", '"SUPERDEFORM_VRM0"\n    ],', "],"),
+     "constrain it"),
+    (check_assemblies, "the engine in the runtime",
+     lambda root: put(root / "Runtime/Engine.cs", "using UnityEngine;\n"), "uses the engine"),
+    (check_assemblies, "a source without assembly", lambda root: put(root / "Loose.cs", "class Loose { }\n"),
+     "belongs to no assembly"),
+    (check_imports, "a function that is not imported",
+     lambda root: edit(root / "Runtime/Native.g.cs", "sdef_destroy", "sdef_destroyed"), "sdef_destroy stands"),
+    (check_imports, "an older ABI",
+     lambda root: edit(root / "Runtime/Native.g.cs", "SDEF_ABI_VERSION = 1;", "SDEF_ABI_VERSION = 0;"), "ABI version"),
+    (check_api, "a newer function",
+     lambda root: put(root / "Editor/Newer.cs", "class Newer { object all = Object.FindObjectsByType<int>(0); }\n"),
+     "Editor/Newer.cs:1"),
+    (check_api, "newer C#", lambda root: put(root / "Editor/Newer.cs", "namespace A;\n"), "Editor/Newer.cs:1"),
+    (check_strings, "a key without text",
+     lambda root: put(root / "Editor/Key.cs", 'class Key { string text = Strings.Get("no.such.key"); }\n'),
+     "no.such.key"),
+    (check_strings, "a text without Japanese", lambda root: edit(root / "Editor/Localization/en.json", "{",
+                                                                 '{ "only.english": "one",'), "ja.json lacks"),
+    (check_strings, "a value lost in Japanese",
+     lambda root: [edit(root / f"Editor/Localization/{language}.json", "{", f'{{ "a.value": "{text}",')
+                   for language, text in (("en", "{0}"), ("ja", "x"))], "a.value has the values"),
+    (check_strings, "a text that nothing says",
+     lambda root: [edit(root / f"Editor/Localization/{language}.json", "{", '{ "unsaid": "x",')
+                   for language in ("en", "ja")], "nothing says unsaid"),
+    (check_documentation, "a sentence unexplained",
+     lambda root: edit(root / "Editor/Localization/en.json", "{", '{ "check.new": "The moon is full.",'), "check.new"),
+    (check_documentation, "a dead link", lambda root: put(root / "README.md", "[a](nowhere.md)"), "nowhere.md"),
+    (check_libraries, "a library of another system",
+     lambda root: put(root / "Plugins/x86_64/superdeform.dll", "\x7fELF"), "no library for its system"),
+    (check_libraries, "a library of another version",
+     lambda root: put(root / "Plugins/x86_64/superdeform.dll", "MZ"), "another version's"),
+]
+
+
+def main():
+    root = Path(sys.argv[1] if len(sys.argv) > 1 else HERE.parent).resolve()
+    passed = failed = 0
+
+    def result(name, said):
+        nonlocal passed, failed
+        passed, failed = passed + (not said), failed + bool(said)
+        print(f"{'FAILED' if said else 'passed'}: {name}")
+        for sentence in said:
+            print(f"    {sentence}")
+
+    print(f"=== {root}")
+    for check in CHECKS:
+        try:
+            result(check.__name__[6:], check(root))
+        except (OSError, ValueError, KeyError) as error:
+            result(check.__name__[6:], [f"cannot be checked: {error!r}"])
+    if header(root) is None:
+        print("    without include/superdeform.h: imports and libraries were not compared with it")
+
+    print("=== each check, on a copy with a fault")
+    with tempfile.TemporaryDirectory() as folder:
+        for check, fault, damage, words in BREAKS:
+            copy = Path(folder) / "package"
+            shutil.copytree(root, copy, ignore=shutil.ignore_patterns("Tests~", "Plugins", "Plugins.meta"))
+            try:
+                damage(copy)
+                said = check(copy)
+                result(f"{check.__name__[6:]} finds {fault}",
+                       [] if any(words in sentence for sentence in said) else [f"it said {said}, not {words!r}"])
+            except (OSError, ValueError, KeyError, AssertionError) as error:
+                result(f"{check.__name__[6:]} finds {fault}", [repr(error)])
+            shutil.rmtree(copy)
+    print(f"{passed} passed, {failed} failed")
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
