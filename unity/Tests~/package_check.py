@@ -215,7 +215,7 @@ def keys_used(root):
     for source in sources(root, "Editor"):
         # Comments show examples.
         text = re.sub(r"^\s*//[^\n]*", "", read(source), flags=re.M)
-        for key in re.findall(r'(?:Strings\.Get|Finding|FixKey\s*=|Key\s*=)\s*\(?\s*"([\w.]+)"(?!\s*\+)', text):
+        for key in re.findall(r'(?:Strings\.Get|Finding|WithFix|FixKey\s*=|Key\s*=)\s*\(?\s*"([\w.]+)"(?!\s*\+)', text):
             used.setdefault(key, source.relative_to(root))
     return used
 
@@ -232,18 +232,24 @@ def check_strings(root):
     for key, source in sorted(keys_used(root).items()):
         if key not in english:
             said.append(f"{source} says {key}, of which en.json knows nothing")
-    literals = "\n".join(read(source) for source in sources(root, "Editor"))
+    literals = set(re.findall(r'"([\w.]+)"', "\n".join(read(source) for source in sources(root, "Editor"))))
     for key in sorted(english):
-        # A key may be put together: "check." + name.
-        parts = [".".join(key.split(".")[:depth]) + "." for depth in range(1, key.count(".") + 1)]
-        if f'"{key}"' not in literals and not any(f'"{part}"' in literals for part in parts):
+        if not is_said(key, literals):
             said.append(f"nothing says {key}: delete it from the texts")
     return said
 
 
+def is_said(key, literals):
+    """Does it stand in the sources, whole or put together: "group." + name, or key + ".tooltip"?"""
+    heads = {key[:place + 1] for place in range(len(key)) if key[place] in "._"}
+    base, dot, tail = key.rpartition(".")
+    return key in literals or bool(heads & literals) or (dot + tail in literals and is_said(base, literals))
+
+
 def failures(root):
-    """Keys whose sentence an artist reads when something is wrong."""
-    return [key for key in texts(root, "en") if re.match(r"(check|error|failure|warning)\.", key)]
+    """Keys whose sentence a person reads when something is wrong: findings have no dot in their keys."""
+    return [key for key in texts(root, "en")
+            if re.match(r"(error|warning)\.|batch\.(no|not|bad|two|style_not|unknown|twice)|(?!stage_|fix|show$)\w+$", key)]
 
 
 def plain(text):
@@ -347,7 +353,7 @@ BREAKS = [
      lambda root: [edit(root / f"Editor/Localization/{language}.json", "{", '{ "unsaid": "x",')
                    for language in ("en", "ja")], "nothing says unsaid"),
     (check_documentation, "a sentence unexplained",
-     lambda root: edit(root / "Editor/Localization/en.json", "{", '{ "check.new": "The moon is full.",'), "check.new"),
+     lambda root: edit(root / "Editor/Localization/en.json", "{", '{ "moon_is_full": "The moon is full.",'), "moon_is_full"),
     (check_documentation, "a dead link", lambda root: put(root / "README.md", "[a](nowhere.md)"), "nowhere.md"),
     (check_libraries, "a library of another system",
      lambda root: put(root / "Plugins/x86_64/superdeform.dll", "\x7fELF"), "no library for its system"),
