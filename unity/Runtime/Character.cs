@@ -65,7 +65,7 @@ public sealed class Character : NativeObject
         using (Loan loan = new Loan())
         {
             SdefMesh native = new SdefMesh();
-            loan.Fill(&native, mesh);
+            loan.Fill(&native, mesh, vertexCounts.Count);
             uint index = Native.SDEF_NONE;
             SdefError error = Failure.None();
             // Held during the call, so that counts stay in the order of meshes.
@@ -95,7 +95,7 @@ public sealed class Character : NativeObject
         using (Loan loan = new Loan())
         {
             SdefMorphTarget native = new SdefMorphTarget();
-            loan.Fill(&native, target, count);
+            loan.Fill(&native, target, mesh, count);
             SdefError error = Failure.None();
             uint status = Native.sdef_character_add_morph_target(Raw, (uint)mesh, &native, &error);
             GC.KeepAlive(this);

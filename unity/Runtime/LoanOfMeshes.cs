@@ -10,40 +10,42 @@ namespace SuperDeform
 /// </summary>
 internal static unsafe class LoanOfMeshes
 {
-    internal static void Fill(this Loan loan, SdefMesh* mesh, MeshArrays arrays)
+    internal static void Fill(this Loan loan, SdefMesh* mesh, MeshArrays arrays, int index)
     {
-        if (arrays == null) throw Failure.Argument("the mesh is null: give its arrays");
-        string owner = arrays.Name ?? "mesh";
-        int count = VertexCount(arrays);
+        Owner owner = new Owner("mesh", index, arrays == null ? null : arrays.Name);
+        if (arrays == null) throw owner.Wrong("it is null: give its arrays");
+        int count = VertexCount(arrays, owner);
+        if (arrays.FirstVertex < 0) throw owner.Wrong("FirstVertex is " + arrays.FirstVertex + ": give 0 or more");
         mesh->struct_size = (uint)sizeof(SdefMesh);
         mesh->kind = (uint)arrays.Kind;
         mesh->name = loan.Text(arrays.Name);
         mesh->vertex_count = (UIntPtr)(uint)count;
-        mesh->positions = loan.Vectors(arrays.Positions, owner, "Positions", 3, arrays.FirstVertex, count);
-        mesh->normals = loan.Vectors(arrays.Normals, owner, "Normals", 3, arrays.FirstVertex, count);
-        mesh->tangents = loan.Vectors(arrays.Tangents, owner, "Tangents", 4, arrays.FirstVertex, count);
+        mesh->positions = Vectors(loan, arrays.Positions, owner, "Positions", 3, arrays.FirstVertex, count);
+        mesh->normals = Vectors(loan, arrays.Normals, owner, "Normals", 3, arrays.FirstVertex, count);
+        mesh->tangents = Vectors(loan, arrays.Tangents, owner, "Tangents", 4, arrays.FirstVertex, count);
         FillIndices(loan, mesh, arrays, owner);
         if (arrays.RowStarts != null) FillRows(loan, mesh, arrays, owner, count);
         else if (arrays.Joints != null || arrays.Weights != null) FillFixed(loan, mesh, arrays, owner, count);
     }
 
-    internal static void Fill(this Loan loan, SdefMorphTarget* target, MorphArrays arrays, int count)
+    internal static void Fill(this Loan loan, SdefMorphTarget* target, MorphArrays arrays, int mesh, int count)
     {
-        string owner = arrays.Name ?? "morph target";
+        Owner owner = new Owner("morph target of mesh", mesh, arrays.Name);
         target->struct_size = (uint)sizeof(SdefMorphTarget);
         target->name = loan.Text(arrays.Name);
-        target->positions = loan.Vectors(arrays.Positions, owner, "Positions", 3, arrays.FirstVertex, count);
-        target->normals = loan.Vectors(arrays.Normals, owner, "Normals", 3, arrays.FirstVertex, count);
-        target->tangents = loan.Vectors(arrays.Tangents, owner, "Tangents", 3, arrays.FirstVertex, count);
+        target->positions = Vectors(loan, arrays.Positions, owner, "Positions", 3, arrays.FirstVertex, count);
+        target->normals = Vectors(loan, arrays.Normals, owner, "Normals", 3, arrays.FirstVertex, count);
+        target->tangents = Vectors(loan, arrays.Tangents, owner, "Tangents", 3, arrays.FirstVertex, count);
     }
 
     internal static void Fill(this Loan loan, SdefSkeleton* skeleton, SkeletonArrays arrays)
     {
-        if (arrays.Parents == null) throw Failure.Argument("Parents of the skeleton is null: give one a joint");
+        Owner owner = new Owner("skeleton");
+        if (arrays.Parents == null) throw owner.Wrong("Parents is null: give one a joint");
         int count = arrays.Parents.Length;
-        CheckLength(arrays.Names, "skeleton", "Names", count);
-        if (arrays.RestMatrices == null) throw Failure.Argument("RestMatrices of the skeleton is null: give 16 a joint");
-        CheckLength(arrays.RestMatrices, "skeleton", "RestMatrices", 16L * count);
+        CheckLength(arrays.Names, owner, "Names", count);
+        if (arrays.RestMatrices == null) throw owner.Wrong("RestMatrices is null: give 16 a joint");
+        CheckLength(arrays.RestMatrices, owner, "RestMatrices", 16L * count);
         skeleton->struct_size = (uint)sizeof(SdefSkeleton);
         skeleton->joint_count = (UIntPtr)(uint)count;
         skeleton->parents = (int*)loan.Pin(arrays.Parents, "Parents");
@@ -65,18 +67,18 @@ internal static unsafe class LoanOfMeshes
 
     private static void Fill(Loan loan, SdefMeshResult* result, MeshOutput output, int mesh)
     {
-        string owner = "output " + mesh;
-        if (output == null) throw Failure.Argument(owner + " is null: give one with null arrays for what is not wanted");
+        Owner owner = new Owner("output", mesh);
+        if (output == null) throw owner.Wrong("it is null: give one with null arrays for what is not wanted");
         int count = output.VertexCount, targets = output.MorphTargetCount;
         if (count < 0 || targets < 0)
-            throw Failure.Argument(owner + ": VertexCount " + count + " and MorphTargetCount " + targets
+            throw owner.Wrong("VertexCount " + count + " and MorphTargetCount " + targets
                 + " must be 0 or more");
         result->struct_size = (uint)sizeof(SdefMeshResult);
         result->vertex_capacity = (UIntPtr)(uint)count;
         result->morph_target_capacity = (uint)targets;
-        result->positions = loan.Vectors(output.Positions, owner, "Positions", 3, output.FirstVertex, count);
-        result->normals = loan.Vectors(output.Normals, owner, "Normals", 3, output.FirstVertex, count);
-        result->tangents = loan.Vectors(output.Tangents, owner, "Tangents", 4, output.FirstVertex, count);
+        result->positions = Vectors(loan, output.Positions, owner, "Positions", 3, output.FirstVertex, count);
+        result->normals = Vectors(loan, output.Normals, owner, "Normals", 3, output.FirstVertex, count);
+        result->tangents = Vectors(loan, output.Tangents, owner, "Tangents", 4, output.FirstVertex, count);
         long floats = 3L * count * targets;
         result->morph_positions = Packed(loan, output.MorphPositions, owner, "MorphPositions", floats);
         result->morph_normals = Packed(loan, output.MorphNormals, owner, "MorphNormals", floats);
@@ -84,27 +86,27 @@ internal static unsafe class LoanOfMeshes
     }
 
     /// <summary>How many vertices a mesh has.</summary>
-    internal static int VertexCount(MeshArrays arrays)
+    private static int VertexCount(MeshArrays arrays, Owner owner)
     {
         if (arrays.VertexCount >= 0) return arrays.VertexCount;
         if (arrays.Positions == null) return 0;
-        return (int)Math.Max(0, Bytes(arrays.Positions, "Positions", 3) / 12 - arrays.FirstVertex);
+        return (int)Math.Max(0, Bytes(arrays.Positions, owner, "Positions", 3) / 12 - arrays.FirstVertex);
     }
 
     /// <summary>The address of one vertex of an array, from which on `count` vertices are wanted.</summary>
-    internal static float* Vectors(this Loan loan, Array array, string owner, string name, int floats, int first, int count)
+    private static float* Vectors(Loan loan, Array array, Owner owner, string name, int floats, int first, int count)
     {
         if (array == null) return null;
-        long bytes = Bytes(array, owner + ": " + name, floats), stride = 4 * floats;
+        long bytes = Bytes(array, owner, name, floats), stride = 4 * floats;
         if (first < 0 || (first + (long)count) * stride > bytes)
-            throw Failure.Argument(owner + ": " + name + " holds " + bytes / stride + " vertices, but vertices " + first
+            throw owner.Wrong(name + " holds " + bytes / stride + " vertices, but vertices " + first
                 + " to " + (first + (long)count - 1) + " are wanted: give all of them, or other FirstVertex and VertexCount");
         byte* start = loan.Pin(array, name);
         return start == null ? null : (float*)(start + first * stride);
     }
 
     // Bytes of an array of vectors.
-    private static long Bytes(Array array, string name, int floats)
+    private static long Bytes(Array array, Owner owner, string name, int floats)
     {
         Type element = array.GetType().GetElementType();
         if (element == typeof(float)) return 4L * array.Length;
@@ -114,29 +116,29 @@ internal static unsafe class LoanOfMeshes
             int size = Marshal.SizeOf(element);
             if (size == 4 * floats) return (long)size * array.Length;
         }
-        throw Failure.Argument(name + " is an array of " + element.Name + ": give float[], or structs of " + floats
+        throw owner.Wrong(name + " is an array of " + element.Name + ": give float[], or structs of " + floats
             + " floats");
     }
 
-    private static void FillIndices(Loan loan, SdefMesh* mesh, MeshArrays arrays, string owner)
+    private static void FillIndices(Loan loan, SdefMesh* mesh, MeshArrays arrays, Owner owner)
     {
         if (arrays.Indices == null)
         {
             if (arrays.IndexCount <= 0) return;
-            throw Failure.Argument(owner + ": Indices is null, but IndexCount is " + arrays.IndexCount);
+            throw owner.Wrong("Indices is null, but IndexCount is " + arrays.IndexCount);
         }
         Type element = arrays.Indices.GetType().GetElementType();
         int size;
         if (element == typeof(ushort)) size = 2;
         else if (element == typeof(uint) || element == typeof(int)) size = 4;
         else if (element == typeof(byte)) size = 1;
-        else throw Failure.Argument(owner + ": Indices is an array of " + element.Name
+        else throw owner.Wrong("Indices is an array of " + element.Name
             + ": give ushort[], uint[], int[] or byte[]");
         int first = arrays.FirstIndex, length = arrays.Indices.Length;
         int count = arrays.IndexCount >= 0 ? arrays.IndexCount : length - first;
         if (first < 0 || count < 0 || first + (long)count > length)
-            throw Failure.Argument(owner + ": Indices holds " + length + " numbers, but FirstIndex is " + first
-                + " and IndexCount " + arrays.IndexCount + ": name a part of them");
+            throw owner.Wrong("Indices holds " + length + " numbers, but FirstIndex is " + first
+                + " and IndexCount " + count + ": name a part of them");
         byte* start = loan.Pin(arrays.Indices, "Indices");
         mesh->indices = start == null ? null : start + (long)first * size;
         mesh->index_count = (UIntPtr)(uint)count;
@@ -144,10 +146,10 @@ internal static unsafe class LoanOfMeshes
             : size == 2 ? Native.SDEF_TYPE_U16 : Native.SDEF_TYPE_U8;
     }
 
-    private static void FillFixed(Loan loan, SdefMesh* mesh, MeshArrays arrays, string owner, int count)
+    private static void FillFixed(Loan loan, SdefMesh* mesh, MeshArrays arrays, Owner owner, int count)
     {
         int each = arrays.InfluenceCount;
-        if (each < 1) throw Failure.Argument(owner + ": InfluenceCount is " + each
+        if (each < 1) throw owner.Wrong("InfluenceCount is " + each
             + ": say how many joints and weights each vertex has, or give RowStarts");
         long first = (long)arrays.FirstVertex * each, end = first + (long)count * each;
         CheckWeights(arrays, owner, end);
@@ -155,16 +157,16 @@ internal static unsafe class LoanOfMeshes
         Weights(loan, mesh, arrays, first);
     }
 
-    private static void FillRows(Loan loan, SdefMesh* mesh, MeshArrays arrays, string owner, int count)
+    private static void FillRows(Loan loan, SdefMesh* mesh, MeshArrays arrays, Owner owner, int count)
     {
         uint[] rows = arrays.RowStarts;
         int first = arrays.FirstVertex;
         if (first < 0 || first + (long)count + 1 > rows.Length)
-            throw Failure.Argument(owner + ": RowStarts holds " + rows.Length + " numbers, but vertices " + first + " to "
+            throw owner.Wrong("RowStarts holds " + rows.Length + " numbers, but vertices " + first + " to "
                 + (first + (long)count - 1) + " need " + (first + (long)count + 1));
         uint start = rows[first], end = rows[first + count];
         if (end < start)
-            throw Failure.Argument(owner + ": RowStarts falls from " + start + " to " + end + ": it must rise");
+            throw owner.Wrong("RowStarts falls from " + start + " to " + end + ": it must rise");
         CheckWeights(arrays, owner, end);
         mesh->influence_count = (UIntPtr)(end - start);
         Weights(loan, mesh, arrays, start);
@@ -179,10 +181,10 @@ internal static unsafe class LoanOfMeshes
         mesh->row_starts = own;
     }
 
-    private static void CheckWeights(MeshArrays arrays, string owner, long needed)
+    private static void CheckWeights(MeshArrays arrays, Owner owner, long needed)
     {
         if (arrays.Joints == null || arrays.Weights == null)
-            throw Failure.Argument(owner + ": " + (arrays.Joints == null ? "Joints" : "Weights")
+            throw owner.Wrong((arrays.Joints == null ? "Joints" : "Weights")
                 + " is null, but the other is not: give both or neither");
         CheckLength(arrays.Joints, owner, "Joints", needed);
         CheckLength(arrays.Weights, owner, "Weights", needed);
@@ -197,16 +199,16 @@ internal static unsafe class LoanOfMeshes
         mesh->weights = weights + first;
     }
 
-    private static float* Packed(Loan loan, float[] array, string owner, string name, long needed)
+    private static float* Packed(Loan loan, float[] array, Owner owner, string name, long needed)
     {
         CheckLength(array, owner, name, needed);
         return (float*)loan.Pin(array, name);
     }
 
-    private static void CheckLength(Array array, string owner, string name, long needed)
+    private static void CheckLength(Array array, Owner owner, string name, long needed)
     {
         if (array == null || array.Length >= needed) return;
-        throw Failure.Argument(owner + ": " + name + " holds " + array.Length + " elements, but " + needed
+        throw owner.Wrong(name + " holds " + array.Length + " elements, but " + needed
             + " are needed");
     }
 }

@@ -33,7 +33,7 @@ public static class OneCall
             SdefSkeleton joints = new SdefSkeleton();
             if (skeleton != null) loan.Fill(&joints, skeleton);
             SdefMesh* inputs = (SdefMesh*)loan.Room(checked(count * sizeof(SdefMesh)));
-            for (int mesh = 0; mesh < count; mesh++) loan.Fill(inputs + mesh, meshes[mesh]);
+            for (int mesh = 0; mesh < count; mesh++) loan.Fill(inputs + mesh, meshes[mesh], mesh);
             SdefMeshResult* results = loan.Results(outputs);
             SdefError error = Failure.None();
             uint status = Native.sdef_super_deform((float*)loan.Pin(up, "up"), (float*)loan.Pin(forward, "forward"),
