@@ -7,12 +7,12 @@ namespace SuperDeform.Tests
 [TestFixture]
 public sealed class ArrayTests
 {
-    private static readonly Figure figure = new Figure();
+    private static readonly Mannequin figure = new Mannequin();
 
     [Test]
     public void Structs_floats_and_bytes_are_the_same()
     {
-        MeshOutput expected = Deformed(figure.Mesh(), Figure.Output(figure.VertexCount));
+        MeshOutput expected = Deformed(figure.Mesh(), Mannequin.Output(figure.VertexCount));
         MeshArrays mesh = figure.Mesh();
         mesh.Positions = Floats(figure.Positions);
         mesh.Normals = Floats(figure.Normals);
@@ -34,13 +34,13 @@ public sealed class ArrayTests
     [Test]
     public void Indices_of_every_width_are_the_same()
     {
-        MeshOutput expected = Deformed(figure.Mesh(), Figure.Output(figure.VertexCount));
+        MeshOutput expected = Deformed(figure.Mesh(), Mannequin.Output(figure.VertexCount));
         foreach (Array indices in new Array[] { Array.ConvertAll(figure.Indices, i => (uint)i),
             Array.ConvertAll(figure.Indices, i => (int)i) })
         {
             MeshArrays mesh = figure.Mesh();
             mesh.Indices = indices;
-            AssertSame(expected, Deformed(mesh, Figure.Output(figure.VertexCount)));
+            AssertSame(expected, Deformed(mesh, Mannequin.Output(figure.VertexCount)));
         }
         using (Character character = new Character())
         {
@@ -52,8 +52,8 @@ public sealed class ArrayTests
     [Test]
     public void Rows_of_weights_and_a_fixed_number_are_the_same()
     {
-        MeshOutput expected = Deformed(figure.Mesh(), Figure.Output(figure.VertexCount));
-        AssertSame(expected, Deformed(InRows(figure.Mesh()), Figure.Output(figure.VertexCount)));
+        MeshOutput expected = Deformed(figure.Mesh(), Mannequin.Output(figure.VertexCount));
+        AssertSame(expected, Deformed(InRows(figure.Mesh()), Mannequin.Output(figure.VertexCount)));
     }
 
     [Test]
@@ -72,8 +72,8 @@ public sealed class ArrayTests
     public void A_slice_writes_its_own_part_alone()
     {
         const int before = 5, after = 3;
-        MeshOutput expected = Deformed(figure.Mesh(), Figure.Output(figure.VertexCount));
-        MeshOutput output = Figure.Output(before + figure.VertexCount + after);
+        MeshOutput expected = Deformed(figure.Mesh(), Mannequin.Output(figure.VertexCount));
+        MeshOutput output = Mannequin.Output(before + figure.VertexCount + after);
         output.FirstVertex = before;
         output.VertexCount = figure.VertexCount;
         Triple untouched = new Triple(-1, -2, -3);
@@ -94,7 +94,7 @@ public sealed class ArrayTests
         using (Style style = Style.FromHeads(2.5))
         {
             character.SetSkeleton(figure.Skeleton);
-            int first = 3 * Figure.PartVertices;
+            int first = 3 * Mannequin.PartVertices;
             AddParts(character, 0, 3, mesh => mesh);
             int head = AddParts(character, 3, 1, mesh => mesh);
             AddParts(character, 4, figure.JointCount - 4, mesh => mesh);
@@ -106,8 +106,8 @@ public sealed class ArrayTests
             character.AddMorphTarget(head, smile);
             using (Deformer deformer = new Deformer(character, style))
             {
-                int floats = 3 * Figure.PartVertices;
-                MeshOutput output = new MeshOutput { VertexCount = Figure.PartVertices, MorphTargetCount = 2,
+                int floats = 3 * Mannequin.PartVertices;
+                MeshOutput output = new MeshOutput { VertexCount = Mannequin.PartVertices, MorphTargetCount = 2,
                     MorphPositions = new float[2 * floats], MorphNormals = new float[2 * floats],
                     MorphTangents = new float[2 * floats] };
                 deformer.Apply(new[] { new MeshOutput(), output, new MeshOutput() });
@@ -119,7 +119,7 @@ public sealed class ArrayTests
                     moved = moved || output.MorphPositions[i] != 0;
                 }
                 Assert.IsTrue(moved, "the smile moves nothing");
-                int caps = Figure.Rings * Figure.Sides;
+                int caps = Mannequin.Rings * Mannequin.Sides;
                 Assert.AreEqual(0f, output.MorphPositions[3 * caps + 2], "where the smile is 0, it stays 0");
             }
         }
@@ -160,7 +160,7 @@ public sealed class ArrayTests
     public void Indices_count_from_the_first_vertex()
     {
         MeshArrays mesh = figure.Mesh();
-        mesh.FirstVertex = Figure.PartVertices;
+        mesh.FirstVertex = Mannequin.PartVertices;
         using (Character character = new Character())
         {
             character.SetSkeleton(figure.Skeleton);
@@ -198,12 +198,12 @@ public sealed class ArrayTests
         using (Style style = Style.FromHeads(2.5))
         using (Deformer deformer = new Deformer(character, style))
         {
-            MeshOutput output = Figure.Output(figure.VertexCount);
+            MeshOutput output = Mannequin.Output(figure.VertexCount);
             output.Normals = new Triple[3];
             InvalidInputException exception = Thrown.Invalid(Status.BadArgument, () => deformer.Apply(new[] { output }));
             Thrown.Says(exception, "output 0", "Normals");
             Assert.AreEqual(0, exception.Mesh);
-            output = Figure.Output(figure.VertexCount);
+            output = Mannequin.Output(figure.VertexCount);
             output.FirstVertex = 1;
             Thrown.Says(Thrown.Invalid(Status.BadArgument, () => deformer.Apply(new[] { output })), "Positions");
             output.FirstVertex = 0;
@@ -219,8 +219,8 @@ public sealed class ArrayTests
     // The figure in three slices of the same arrays.
     private static void AssertSlices(Func<MeshArrays, MeshArrays> form)
     {
-        MeshOutput expected = Deformed(figure.Mesh(), Figure.Output(figure.VertexCount));
-        MeshOutput shared = Figure.Output(figure.VertexCount);
+        MeshOutput expected = Deformed(figure.Mesh(), Mannequin.Output(figure.VertexCount));
+        MeshOutput shared = Mannequin.Output(figure.VertexCount);
         using (Character character = new Character())
         using (Style style = Style.FromHeads(2.5))
         {
@@ -231,8 +231,8 @@ public sealed class ArrayTests
             {
                 AddParts(character, cuts[slice], cuts[slice + 1] - cuts[slice], form);
                 outputs[slice] = new MeshOutput { Positions = shared.Positions, Normals = shared.Normals,
-                    Tangents = shared.Tangents, FirstVertex = cuts[slice] * Figure.PartVertices,
-                    VertexCount = (cuts[slice + 1] - cuts[slice]) * Figure.PartVertices };
+                    Tangents = shared.Tangents, FirstVertex = cuts[slice] * Mannequin.PartVertices,
+                    VertexCount = (cuts[slice + 1] - cuts[slice]) * Mannequin.PartVertices };
             }
             using (Deformer deformer = new Deformer(character, style)) deformer.Apply(outputs);
         }
@@ -244,10 +244,10 @@ public sealed class ArrayTests
     private static int AddParts(Character character, int part, int count, Func<MeshArrays, MeshArrays> form)
     {
         MeshArrays mesh = form(figure.Mesh());
-        mesh.FirstVertex = part * Figure.PartVertices;
-        mesh.VertexCount = count * Figure.PartVertices;
-        mesh.FirstIndex = part * Figure.PartIndices;
-        mesh.IndexCount = count * Figure.PartIndices;
+        mesh.FirstVertex = part * Mannequin.PartVertices;
+        mesh.VertexCount = count * Mannequin.PartVertices;
+        mesh.FirstIndex = part * Mannequin.PartIndices;
+        mesh.IndexCount = count * Mannequin.PartIndices;
         // Indices count from the slice's first vertex.
         ushort[] indices = (ushort[])figure.Indices.Clone();
         for (int i = mesh.FirstIndex; i < mesh.FirstIndex + mesh.IndexCount; i++)
@@ -319,7 +319,7 @@ public sealed class ArrayTests
 
     private static void AssertSkeletonRefused(Action<SkeletonArrays> spoil, string word)
     {
-        SkeletonArrays skeleton = new Figure().Skeleton;
+        SkeletonArrays skeleton = new Mannequin().Skeleton;
         spoil(skeleton);
         using (Character character = new Character())
             Thrown.Says(Thrown.Invalid(Status.BadArgument, () => character.SetSkeleton(skeleton)), word);

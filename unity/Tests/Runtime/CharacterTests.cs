@@ -9,7 +9,7 @@ public sealed class CharacterTests
     [Test]
     public void It_counts_what_it_holds()
     {
-        Figure figure = new Figure();
+        Mannequin figure = new Mannequin();
         using (Character character = figure.Character())
         {
             character.AddMorphTarget(0, figure.SmileTarget());
@@ -27,7 +27,7 @@ public sealed class CharacterTests
     [Test]
     public void Its_joints_come_back_as_given()
     {
-        Figure figure = new Figure();
+        Mannequin figure = new Mannequin();
         using (Character character = figure.Character())
         {
             Joints joints = character.GetJoints();
@@ -45,7 +45,7 @@ public sealed class CharacterTests
     [Test]
     public void A_joint_without_a_role_has_none()
     {
-        Figure figure = new Figure();
+        Mannequin figure = new Mannequin();
         SkeletonArrays skeleton = figure.Skeleton;
         int tail = figure.JointCount;
         System.Array.Resize(ref skeleton.Parents, tail + 1);
@@ -60,7 +60,7 @@ public sealed class CharacterTests
     [Test]
     public void Its_weights_come_back_largest_first()
     {
-        Figure figure = new Figure();
+        Mannequin figure = new Mannequin();
         MeshArrays mesh = figure.Mesh();
         mesh.InfluenceCount = 2;
         mesh.Joints = new uint[2 * figure.VertexCount];
@@ -95,7 +95,7 @@ public sealed class CharacterTests
     [Test]
     public void A_rig_is_made_where_there_is_none_and_has_warnings()
     {
-        Figure figure = new Figure();
+        Mannequin figure = new Mannequin();
         MeshArrays mesh = figure.Mesh();
         mesh.Joints = null;
         mesh.Weights = null;
@@ -133,7 +133,7 @@ public sealed class CharacterTests
     [Test]
     public void A_character_whose_rig_is_its_own_has_no_warnings()
     {
-        using (Character character = new Figure().Character()) Assert.AreEqual(0, character.Warnings.Count);
+        using (Character character = new Mannequin().Character()) Assert.AreEqual(0, character.Warnings.Count);
     }
 
     [Test]
@@ -147,7 +147,7 @@ public sealed class CharacterTests
     [Test]
     public void A_morph_target_of_a_mesh_that_is_none_is_refused()
     {
-        Figure figure = new Figure();
+        Mannequin figure = new Mannequin();
         using (Character character = figure.Character())
         {
             Thrown.Says(Thrown.Invalid(Status.BadArgument, () => character.AddMorphTarget(1, figure.SmileTarget())), "1");

@@ -8,7 +8,7 @@ namespace SuperDeform.Tests
 [TestFixture]
 public sealed class DeformerTests
 {
-    private readonly Figure figure = new Figure();
+    private readonly Mannequin figure = new Mannequin();
     private Character character;
     private Style style;
     private Deformer deformer;
@@ -32,7 +32,7 @@ public sealed class DeformerTests
     [Test]
     public void One_call_gives_the_same_bits()
     {
-        MeshOutput expected = Figure.Output(figure.VertexCount), output = Figure.Output(figure.VertexCount);
+        MeshOutput expected = Mannequin.Output(figure.VertexCount), output = Mannequin.Output(figure.VertexCount);
         deformer.Apply(new[] { expected });
         OneCall.SuperDeform(null, null, figure.Skeleton, new[] { figure.Mesh() }, style, null, new[] { output });
         Assert.AreEqual(Bits((Triple[])expected.Positions), Bits((Triple[])output.Positions));
@@ -44,9 +44,9 @@ public sealed class DeformerTests
     [Test]
     public void One_call_may_write_where_it_read_and_reports_progress()
     {
-        MeshOutput expected = Figure.Output(figure.VertexCount);
+        MeshOutput expected = Mannequin.Output(figure.VertexCount);
         deformer.Apply(new[] { expected });
-        Figure own = new Figure();
+        Mannequin own = new Mannequin();
         MeshOutput output = new MeshOutput { Positions = own.Positions, VertexCount = own.VertexCount };
         float last = 0;
         OneCall.SuperDeform(new float[] { 0, 1, 0 }, new float[] { 0, 0, 1 }, own.Skeleton, new[] { own.Mesh() }, style,
@@ -65,7 +65,7 @@ public sealed class DeformerTests
     public void Amount_0_gives_the_original_back()
     {
         deformer.SetOptions(new Options { Amount = 0, FaceSquash = 0 });
-        MeshOutput output = Figure.Output(figure.VertexCount);
+        MeshOutput output = Mannequin.Output(figure.VertexCount);
         deformer.Apply(new[] { output });
         Triple[] positions = (Triple[])output.Positions;
         for (int i = 0; i < positions.Length; i++)
@@ -81,7 +81,7 @@ public sealed class DeformerTests
     {
         Options options = new Options { HeadScale = 1.1, HairLength = 0.5, FaceSquash = 0.3, FaceCurve = FaceCurve.F2 };
         options.Groups.Add(new GroupSettings { Group = "hand", LengthScale = 1.2, ThicknessScale = 1.3 });
-        MeshOutput expected = Figure.Output(figure.VertexCount), output = Figure.Output(figure.VertexCount);
+        MeshOutput expected = Mannequin.Output(figure.VertexCount), output = Mannequin.Output(figure.VertexCount);
         using (Deformer other = new Deformer(character, style, options)) other.Apply(new[] { expected });
         deformer.SetOptions(options);
         deformer.Apply(new[] { output });
@@ -91,7 +91,7 @@ public sealed class DeformerTests
     [Test]
     public void The_face_alone_gives_what_options_give()
     {
-        MeshOutput expected = Figure.Output(figure.VertexCount), output = Figure.Output(figure.VertexCount);
+        MeshOutput expected = Mannequin.Output(figure.VertexCount), output = Mannequin.Output(figure.VertexCount);
         using (Deformer other = new Deformer(character, style, new Options { FaceSquash = 0.25, FaceCurve = FaceCurve.F2 }))
             other.Apply(new[] { expected });
         deformer.SetFace(0.25, FaceCurve.F2);
@@ -104,7 +104,7 @@ public sealed class DeformerTests
     [Test]
     public void It_keeps_what_it_needs()
     {
-        MeshOutput expected = Figure.Output(figure.VertexCount), output = Figure.Output(figure.VertexCount);
+        MeshOutput expected = Mannequin.Output(figure.VertexCount), output = Mannequin.Output(figure.VertexCount);
         deformer.Apply(new[] { expected });
         character.Dispose();
         style.Dispose();
@@ -202,7 +202,7 @@ public sealed class DeformerTests
     [Test]
     public void Applying_leaves_no_garbage()
     {
-        MeshOutput[] outputs = { Figure.Output(figure.VertexCount) };
+        MeshOutput[] outputs = { Mannequin.Output(figure.VertexCount) };
         for (int i = 0; i < 3; i++) deformer.Apply(outputs);
         // Not in every library that this compiles against.
         System.Reflection.MethodInfo counter = typeof(GC).GetMethod("GetAllocatedBytesForCurrentThread");
@@ -218,7 +218,7 @@ public sealed class DeformerTests
     [Test]
     public void Threads_may_share_it()
     {
-        MeshOutput expected = Figure.Output(figure.VertexCount);
+        MeshOutput expected = Mannequin.Output(figure.VertexCount);
         deformer.Apply(new[] { expected });
         Exception failed = null;
         Thread[] threads = new Thread[4];
@@ -228,7 +228,7 @@ public sealed class DeformerTests
             {
                 try
                 {
-                    MeshOutput output = Figure.Output(figure.VertexCount);
+                    MeshOutput output = Mannequin.Output(figure.VertexCount);
                     for (int time = 0; time < 20; time++)
                     {
                         deformer.Apply(new[] { output });

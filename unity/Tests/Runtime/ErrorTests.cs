@@ -21,7 +21,7 @@ public sealed class ErrorTests
     [Test]
     public void A_constant_that_is_none_is_a_bad_argument()
     {
-        MeshArrays mesh = new Figure().Mesh();
+        MeshArrays mesh = new Mannequin().Mesh();
         mesh.Kind = (MeshKind)99;
         using (Character character = new Character())
             Thrown.Says(Thrown.Invalid(Status.BadArgument, () => character.AddMesh(mesh)), "99");
@@ -30,7 +30,7 @@ public sealed class ErrorTests
     [Test]
     public void A_position_that_is_not_finite_is_named_with_its_mesh_and_vertex()
     {
-        Figure figure = new Figure();
+        Mannequin figure = new Mannequin();
         figure.Positions[7].Y = float.NaN;
         using (Character character = new Character())
         {
@@ -54,7 +54,7 @@ public sealed class ErrorTests
     [Test]
     public void An_option_out_of_its_range_is_named()
     {
-        using (Character character = new Figure().Character())
+        using (Character character = new Mannequin().Character())
         using (Style style = Style.FromHeads(2.5))
         {
             InvalidInputException exception = Thrown.Invalid(Status.BadOption,
@@ -69,7 +69,7 @@ public sealed class ErrorTests
         using (Character character = new Character())
         using (Style style = Style.FromHeads(2.5))
         {
-            MeshArrays mesh = new Figure().Mesh();
+            MeshArrays mesh = new Mannequin().Mesh();
             mesh.Joints = null;
             mesh.Weights = null;
             character.AddMesh(mesh);
@@ -89,13 +89,13 @@ public sealed class ErrorTests
     [Test]
     public void An_output_that_is_too_small_is_named_with_its_mesh()
     {
-        Figure figure = new Figure();
+        Mannequin figure = new Mannequin();
         using (Character character = figure.Character())
         using (Style style = Style.FromHeads(2.5))
         using (Deformer deformer = new Deformer(character, style))
         {
             InvalidInputException exception = Thrown.Invalid(Status.BufferTooSmall,
-                () => deformer.Apply(new[] { Figure.Output(figure.VertexCount - 1) }));
+                () => deformer.Apply(new[] { Mannequin.Output(figure.VertexCount - 1) }));
             Assert.AreEqual(0, exception.Mesh);
         }
     }
@@ -121,7 +121,7 @@ public sealed class ErrorTests
     [Test]
     public void What_was_disposed_of_says_its_name()
     {
-        Figure figure = new Figure();
+        Mannequin figure = new Mannequin();
         Character character = figure.Character();
         Style style = Style.FromHeads(2.5);
         Deformer deformer = new Deformer(character, style);

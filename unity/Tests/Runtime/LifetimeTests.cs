@@ -7,7 +7,7 @@ namespace SuperDeform.Tests
 [TestFixture]
 public sealed class LifetimeTests
 {
-    private readonly Figure figure = new Figure();
+    private readonly Mannequin figure = new Mannequin();
 
     [Test]
     public void A_thousand_forgotten_objects_are_collected()
@@ -66,6 +66,30 @@ public sealed class LifetimeTests
             foreach (Thread thread in threads) thread.Join();
         }
         Assert.AreEqual(before, SuperDeformLibrary.LiveHandles);
+    }
+
+    [Test]
+    public void What_nobody_keeps_lives_as_long_as_its_call()
+    {
+        bool done = false;
+        Thread collector = new Thread(() =>
+        {
+            while (!Volatile.Read(ref done)) GC.Collect();
+        });
+        collector.Start();
+        try
+        {
+            for (int i = 0; i < 500; i++)
+            {
+                Assert.AreEqual(2.5, Style.FromText("sd2.5").Numbers.Heads, 1e-9);
+                Assert.AreEqual(0, new Character().Info.MeshCount);
+            }
+        }
+        finally
+        {
+            Volatile.Write(ref done, true);
+            collector.Join();
+        }
     }
 
     private ulong Forget()

@@ -8,7 +8,7 @@ public sealed class NameTests
     [Test]
     public void A_mesh_with_a_Japanese_name_is_named_in_errors()
     {
-        Figure figure = new Figure();
+        Mannequin figure = new Mannequin();
         figure.Positions[3].X = float.PositiveInfinity;
         using (Character character = new Character())
         {
@@ -20,7 +20,7 @@ public sealed class NameTests
     [Test]
     public void A_message_is_cut_between_characters()
     {
-        Figure figure = new Figure();
+        Mannequin figure = new Mannequin();
         figure.Positions[3].X = float.NaN;
         using (Character character = new Character())
         {
@@ -41,7 +41,7 @@ public sealed class NameTests
         Options options = new Options();
         options.BoneGroups.Add(new BoneGroup { Role = HumanoidRole.LeftHand, Group = "手袋" });
         options.Mode = Mode.Paper;
-        using (Character character = new Figure().Character())
+        using (Character character = new Mannequin().Character())
         using (Style style = Style.Measure(character, "ちびキャラ", options))
         using (Deformer deformer = new Deformer(character, style, options))
         {
@@ -57,7 +57,7 @@ public sealed class NameTests
     {
         Options options = new Options();
         options.Groups.Add(new GroupSettings { Group = "尻尾", LengthScale = 2 });
-        using (Character character = new Figure().Character())
+        using (Character character = new Mannequin().Character())
         using (Style style = Style.FromHeads(2.5))
             Thrown.Says(Thrown.Invalid(Status.BadOption, () => new Deformer(character, style, options)), "尻尾");
     }
@@ -76,7 +76,7 @@ public sealed class NameTests
     [Test]
     public void Names_may_be_null()
     {
-        Figure figure = new Figure();
+        Mannequin figure = new Mannequin();
         figure.Skeleton.Names[2] = null;
         MeshArrays mesh = figure.Mesh(null);
         using (Character character = new Character())

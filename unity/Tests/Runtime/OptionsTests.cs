@@ -87,14 +87,14 @@ public sealed class OptionsTests
     [Test]
     public void Lists_may_be_null_and_so_may_the_options()
     {
-        Figure figure = new Figure();
+        Mannequin figure = new Mannequin();
         Options options = new Options { Groups = null, BoneGroups = null, RigJoints = null };
         using (Character character = figure.Character())
         using (Style style = Style.FromHeads(2.5))
         using (Deformer with = new Deformer(character, style, options))
         using (Deformer without = new Deformer(character, style))
         {
-            MeshOutput first = Figure.Output(figure.VertexCount), second = Figure.Output(figure.VertexCount);
+            MeshOutput first = Mannequin.Output(figure.VertexCount), second = Mannequin.Output(figure.VertexCount);
             with.Apply(new[] { first });
             without.Apply(new[] { second });
             Assert.AreEqual(first.Positions, second.Positions);
@@ -108,7 +108,7 @@ public sealed class OptionsTests
         options.Groups.Add(null);
         InvalidInputException exception = Thrown.Invalid(Status.BadArgument, () =>
         {
-            using (Character character = new Figure().Character())
+            using (Character character = new Mannequin().Character())
             using (Style.Measure(character, null, options)) { }
         });
         Thrown.Says(exception, "Groups[0]");

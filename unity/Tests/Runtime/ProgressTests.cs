@@ -8,7 +8,7 @@ namespace SuperDeform.Tests
 [TestFixture]
 public sealed class ProgressTests
 {
-    private readonly Figure figure = new Figure();
+    private readonly Mannequin figure = new Mannequin();
     private Character character;
     private Style style;
 
@@ -42,7 +42,7 @@ public sealed class ProgressTests
             AssertRises(fractions);
             deformer.SetOptions(new Options { HeadScale = 1.2 }, progress);
             AssertRises(fractions);
-            deformer.Apply(new[] { Figure.Output(figure.VertexCount) }, progress);
+            deformer.Apply(new[] { Mannequin.Output(figure.VertexCount) }, progress);
             AssertRises(fractions);
         }
         using (Character bare = Bare())
@@ -61,7 +61,7 @@ public sealed class ProgressTests
         Assert.AreEqual(before, SuperDeformLibrary.LiveHandles);
         using (Deformer deformer = new Deformer(character, style))
         {
-            MeshOutput expected = Figure.Output(figure.VertexCount), output = Figure.Output(figure.VertexCount);
+            MeshOutput expected = Mannequin.Output(figure.VertexCount), output = Mannequin.Output(figure.VertexCount);
             deformer.Apply(new[] { expected });
             Thrown.With<CancelledException>(Status.Cancelled,
                 () => deformer.SetOptions(new Options { HeadScale = 1.2 }, fraction => false));
@@ -88,12 +88,12 @@ public sealed class ProgressTests
         using (Deformer deformer = new Deformer(character, style))
         {
             AssertThrows(own, () => deformer.SetOptions(null, throws));
-            AssertThrows(own, () => deformer.Apply(new[] { Figure.Output(figure.VertexCount) }, throws));
-            deformer.Apply(new[] { Figure.Output(figure.VertexCount) }, fraction => true);
+            AssertThrows(own, () => deformer.Apply(new[] { Mannequin.Output(figure.VertexCount) }, throws));
+            deformer.Apply(new[] { Mannequin.Output(figure.VertexCount) }, fraction => true);
         }
         using (Character bare = Bare()) AssertThrows(own, () => bare.Rig(null, throws));
         AssertThrows(own, () => OneCall.SuperDeform(null, null, figure.Skeleton, new[] { figure.Mesh() }, style, null,
-            new[] { Figure.Output(figure.VertexCount) }, throws));
+            new[] { Mannequin.Output(figure.VertexCount) }, throws));
     }
 
     [Test]
@@ -130,7 +130,7 @@ public sealed class ProgressTests
     public void A_collection_during_a_call_does_no_harm()
     {
         using (Deformer deformer = new Deformer(character, style, null, Collect))
-            deformer.Apply(new[] { Figure.Output(figure.VertexCount) }, Collect);
+            deformer.Apply(new[] { Mannequin.Output(figure.VertexCount) }, Collect);
     }
 
     [Test]
@@ -138,7 +138,7 @@ public sealed class ProgressTests
     {
         ulong before = SuperDeformLibrary.LiveHandles;
         Deformer deformer = new Deformer(character, style);
-        MeshOutput output = Figure.Output(figure.VertexCount);
+        MeshOutput output = Mannequin.Output(figure.VertexCount);
         deformer.Apply(new[] { output }, fraction =>
         {
             deformer.Dispose();

@@ -8,7 +8,7 @@ public sealed class StyleTests
     [Test]
     public void A_style_of_so_many_heads_makes_so_many()
     {
-        using (Character character = new Figure().Character())
+        using (Character character = new Mannequin().Character())
         using (Style style = Style.FromHeads(3))
         using (Deformer deformer = new Deformer(character, style))
         {
@@ -32,7 +32,7 @@ public sealed class StyleTests
     [Test]
     public void A_measured_style_comes_back_from_its_JSON_and_from_its_numbers()
     {
-        using (Character character = new Figure().Character())
+        using (Character character = new Mannequin().Character())
         using (Style measured = Style.Measure(character, "figure"))
         using (Style read = Style.FromText(measured.ToJson()))
         using (Style made = Style.FromNumbers("figure", measured.Numbers, measured.Bones))
@@ -50,7 +50,7 @@ public sealed class StyleTests
     [Test]
     public void Numbers_measure_the_figure()
     {
-        using (Character character = new Figure().Character())
+        using (Character character = new Mannequin().Character())
         using (Style measured = Style.Measure(character))
         {
             StyleNumbers numbers = measured.Numbers;
