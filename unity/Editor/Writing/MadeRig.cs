@@ -1,0 +1,251 @@
+using System;
+using System.Collections.Generic;
+using Unity.Collections;
+using UnityEngine;
+
+namespace SuperDeform.Editor
+{
+    /// <summary>
+    /// Gives an avatar that came without bones the rig that the library has made: transforms, weights, an Animator with an
+    /// Avatar.
+    /// </summary>
+    internal static class MadeRig
+    {
+        /// <summary>What most platforms read of a vertex.</summary>
+        const int Influences = 4;
+
+        /// <summary>The object that holds the bones.</summary>
+        const string Holder = "Armature";
+
+        internal static void Add(GameObject copy, PointMap map, AvatarData source, AvatarResult result)
+        {
+            Joints joints = source.Character.GetJoints();
+            Transform[] bones = AddBones(copy.transform, joints, result.JointPositions);
+            foreach (RendererResult renderer in result.Renderers)
+            {
+                Mesh mesh = map.MeshFor(renderer.Source.Renderer);
+                Weigh(mesh, renderer, source, result.JointPositions);
+                Show(mesh, map.CopyOf(renderer.Source.Renderer.transform), bones, joints, renderer, result.JointPositions);
+            }
+            AddAvatar(copy, map, source, joints, result.JointPositions);
+        }
+
+        static string NameOf(Joints joints, int joint)
+        {
+            return joints.Roles[joint] == HumanoidRole.None ? "Bone" + joint : joints.Roles[joint].ToString();
+        }
+
+        static Double3 Place(double[] positions, int joint)
+        {
+            return new Double3(positions[3 * joint], positions[3 * joint + 1], positions[3 * joint + 2]);
+        }
+
+        /// <summary>Where a joint is in its parent's space; made joints neither turn nor scale.</summary>
+        static Vector3 Local(Joints joints, double[] positions, int joint)
+        {
+            int parent = joints.Parents[joint];
+            Double3 place = Place(positions, joint);
+            return (parent < 0 ? place : place - Place(positions, parent)).ToVector3();
+        }
+
+        static Transform[] AddBones(Transform root, Joints joints, double[] positions)
+        {
+            Transform holder = new GameObject(Holder).transform;
+            holder.SetParent(root, false);
+            Transform[] bones = new Transform[joints.Count];
+            for (int joint = 0; joint < joints.Count; joint++)
+            {
+                bones[joint] = new GameObject(NameOf(joints, joint)).transform;
+            }
+            for (int joint = 0; joint < joints.Count; joint++)
+            {
+                int parent = joints.Parents[joint];
+                bones[joint].SetParent(parent < 0 ? holder : bones[parent], false);
+                bones[joint].localPosition = Local(joints, positions, joint);
+            }
+            return bones;
+        }
+
+        /// <summary>Weights and bind poses.</summary>
+        static void Weigh(Mesh mesh, RendererResult renderer, AvatarData source, double[] positions)
+        {
+            int count = renderer.Positions.Length;
+            uint[][] bones = new uint[count][];
+            float[][] weights = new float[count][];
+            foreach (PartData part in renderer.Source.Parts)
+            {
+                uint[] partBones = new uint[Influences * part.VertexCount];
+                float[] partWeights = new float[partBones.Length];
+                source.Character.GetWeights(source.Parts.IndexOf(part), Influences, partBones, partWeights);
+                for (int vertex = 0; vertex < part.VertexCount; vertex++)
+                {
+                    int place = part.VertexOf(vertex);
+                    bones[place] = new uint[Influences];
+                    weights[place] = new float[Influences];
+                    Array.Copy(partBones, Influences * vertex, bones[place], 0, Influences);
+                    Array.Copy(partWeights, Influences * vertex, weights[place], 0, Influences);
+                }
+            }
+            byte[] perVertex = new byte[count];
+            List<BoneWeight1> all = new List<BoneWeight1>();
+            for (int vertex = 0; vertex < count; vertex++)
+            {
+                // The largest comes first, and what a vertex has no use for is 0.
+                for (int influence = 0; influence < Influences; influence++)
+                {
+                    if (influence > 0 && weights[vertex][influence] == 0f) continue;
+                    all.Add(new BoneWeight1 { boneIndex = (int)bones[vertex][influence], weight = weights[vertex][influence] });
+                    perVertex[vertex]++;
+                }
+            }
+            using (NativeArray<byte> counts = new NativeArray<byte>(perVertex, Allocator.Temp))
+            using (NativeArray<BoneWeight1> flat = new NativeArray<BoneWeight1>(all.ToArray(), Allocator.Temp))
+            {
+                mesh.SetBoneWeights(counts, flat);
+            }
+            Affine placement = renderer.Source.Placement;
+            Matrix4x4[] binds = new Matrix4x4[positions.Length / 3];
+            for (int joint = 0; joint < binds.Length; joint++)
+            {
+                binds[joint] = (Affine.Translation(Place(positions, joint) * -1) * placement).ToMatrix4x4();
+            }
+            mesh.bindposes = binds;
+        }
+
+        static void Show(Mesh mesh, Transform place, Transform[] bones, Joints joints, RendererResult renderer, double[] positions)
+        {
+            SkinnedMeshRenderer skinned = place.GetComponent<SkinnedMeshRenderer>();
+            if (skinned == null) skinned = Replace(place);
+            int hips = Math.Max(0, Array.IndexOf(joints.Roles, HumanoidRole.Hips));
+            skinned.sharedMesh = mesh;
+            skinned.bones = bones;
+            skinned.rootBone = bones[hips];
+            Box box = Box.Around(renderer.Positions, Affine.Translation(Place(positions, hips) * -1) * renderer.Source.Placement);
+            Bounds bounds = new Bounds();
+            bounds.SetMinMax(box.Low.ToVector3(), box.High.ToVector3());
+            skinned.localBounds = bounds;
+        }
+
+        /// <summary>A skinned renderer in the place of a plain one.</summary>
+        static SkinnedMeshRenderer Replace(Transform place)
+        {
+            MeshRenderer plain = place.GetComponent<MeshRenderer>();
+            Material[] materials = plain.sharedMaterials;
+            bool enabled = plain.enabled, receiveShadows = plain.receiveShadows;
+            UnityEngine.Rendering.ShadowCastingMode shadows = plain.shadowCastingMode;
+            UnityEngine.Rendering.LightProbeUsage lightProbes = plain.lightProbeUsage;
+            UnityEngine.Rendering.ReflectionProbeUsage reflectionProbes = plain.reflectionProbeUsage;
+            Transform anchor = plain.probeAnchor;
+            UnityEngine.Object.DestroyImmediate(plain);
+            UnityEngine.Object.DestroyImmediate(place.GetComponent<MeshFilter>());
+            SkinnedMeshRenderer skinned = place.gameObject.AddComponent<SkinnedMeshRenderer>();
+            skinned.sharedMaterials = materials;
+            skinned.enabled = enabled;
+            skinned.receiveShadows = receiveShadows;
+            skinned.shadowCastingMode = shadows;
+            skinned.lightProbeUsage = lightProbes;
+            skinned.reflectionProbeUsage = reflectionProbes;
+            skinned.probeAnchor = anchor;
+            return skinned;
+        }
+
+        static void AddAvatar(GameObject copy, PointMap map, AvatarData source, Joints joints, double[] positions)
+        {
+            int[] roles = new int[HumanoidRoles.Count];
+            for (int role = 0; role < roles.Length; role++)
+            {
+                roles[role] = Array.IndexOf(joints.Roles, (HumanoidRole)role);
+            }
+            List<AvatarNode> nodes = new List<AvatarNode>
+            {
+                new AvatarNode { Name = Holder, Parent = -1, Rotation = Quaternion.identity, Scale = new Vector3(1, 1, 1) }
+            };
+            Dictionary<int, int> nodeOf = new Dictionary<int, int>();
+            Quaternion[] turns = Straightened(joints, roles, positions);
+            foreach (int joint in ParentsFirst(joints.Parents))
+            {
+                int parent = joints.Parents[joint];
+                nodeOf[joint] = nodes.Count;
+                nodes.Add(new AvatarNode
+                {
+                    Name = NameOf(joints, joint),
+                    Parent = parent < 0 ? 0 : nodeOf[parent],
+                    Position = Local(joints, positions, joint),
+                    Rotation = parent < 0 ? turns[joint] : Quaternion.Inverse(turns[parent]) * turns[joint],
+                    Scale = new Vector3(1, 1, 1)
+                });
+            }
+            HumanDescription description = new HumanDescription
+            {
+                human = HumanoidAvatar.Human(roles, joint => NameOf(joints, joint)),
+                upperArmTwist = 0.5f,
+                lowerArmTwist = 0.5f,
+                upperLegTwist = 0.5f,
+                lowerLegTwist = 0.5f,
+                armStretch = 0.05f,
+                legStretch = 0.05f
+            };
+            Animator animator = copy.GetComponent<Animator>();
+            if (animator == null) animator = copy.AddComponent<Animator>();
+            animator.avatar = HumanoidAvatar.Build(copy.name, nodes, description, source);
+            animator.avatar.name = copy.name;
+            map.AddAsset(animator.avatar);
+        }
+
+        static List<int> ParentsFirst(int[] parents)
+        {
+            List<int> order = new List<int>();
+            for (int joint = 0; joint < parents.Length; joint++)
+            {
+                int place = order.Count;
+                for (int above = joint; above >= 0 && !order.Contains(above); above = parents[above])
+                {
+                    order.Insert(place, above);
+                }
+            }
+            return order;
+        }
+
+        /// <summary>
+        /// By joint, how it turns from the pose of the mesh to a T pose: arms level, legs down, hands and feet along.
+        /// </summary>
+        static Quaternion[] Straightened(Joints joints, int[] roles, double[] positions)
+        {
+            Quaternion[] turns = new Quaternion[joints.Count];
+            Vector3 left = new Vector3(-1, 0, 0), right = new Vector3(1, 0, 0), down = new Vector3(0, -1, 0);
+            Dictionary<int, Quaternion> limbs = new Dictionary<int, Quaternion>();
+            Straighten(limbs, roles, positions, HumanoidRole.LeftUpperArm, HumanoidRole.LeftLowerArm, left);
+            Straighten(limbs, roles, positions, HumanoidRole.LeftLowerArm, HumanoidRole.LeftHand, left);
+            Straighten(limbs, roles, positions, HumanoidRole.RightUpperArm, HumanoidRole.RightLowerArm, right);
+            Straighten(limbs, roles, positions, HumanoidRole.RightLowerArm, HumanoidRole.RightHand, right);
+            Straighten(limbs, roles, positions, HumanoidRole.LeftUpperLeg, HumanoidRole.LeftLowerLeg, down);
+            Straighten(limbs, roles, positions, HumanoidRole.LeftLowerLeg, HumanoidRole.LeftFoot, down);
+            Straighten(limbs, roles, positions, HumanoidRole.RightUpperLeg, HumanoidRole.RightLowerLeg, down);
+            Straighten(limbs, roles, positions, HumanoidRole.RightLowerLeg, HumanoidRole.RightFoot, down);
+            Level(limbs, roles, HumanoidRole.LeftFoot);
+            Level(limbs, roles, HumanoidRole.RightFoot);
+            foreach (int joint in ParentsFirst(joints.Parents))
+            {
+                int parent = joints.Parents[joint];
+                Quaternion turn;
+                if (!limbs.TryGetValue(joint, out turn)) turn = parent < 0 ? Quaternion.identity : turns[parent];
+                turns[joint] = turn;
+            }
+            return turns;
+        }
+
+        static void Straighten(Dictionary<int, Quaternion> turns, int[] roles, double[] positions, HumanoidRole from, HumanoidRole to, Vector3 direction)
+        {
+            int start = roles[(int)from], end = roles[(int)to];
+            if (start < 0 || end < 0) return;
+            Double3 bone = Place(positions, end) - Place(positions, start);
+            if (bone.Length > 0) turns[start] = Quaternion.FromToRotation(bone.Normalized.ToVector3(), direction);
+        }
+
+        /// <summary>Feet stand on the ground in both poses.</summary>
+        static void Level(Dictionary<int, Quaternion> turns, int[] roles, HumanoidRole foot)
+        {
+            if (roles[(int)foot] >= 0) turns[roles[(int)foot]] = Quaternion.identity;
+        }
+    }
+}
