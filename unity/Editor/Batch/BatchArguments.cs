@@ -77,7 +77,9 @@ namespace SuperDeform.Editor
                 Settings.FaceCurve = (FaceCurve)Array.IndexOf(curves, Word("FaceCurve", curves));
             if (given.ContainsKey("Rig"))
                 Settings.RigAuto = Word("Rig", "keep", "auto") == "auto";
-            given.TryGetValue("Output", out Settings.OutputFolder);
+            string folder;
+            if (given.TryGetValue("Output", out folder))
+                Settings.OutputFolder = folder.Replace('\\', '/');
             given.TryGetValue("Report", out ReportPath);
             foreach (string group in groups)
                 TakeGroup(group);

@@ -82,18 +82,18 @@ namespace SuperDeform.Editor
             return Convert(avatars, settings, null);
         }
 
-        /// <summary>As above, with progress; cancelling leaves out the avatar at work and those after it.</summary>
+        /// <summary>As above, with progress over all; cancelling leaves out the avatar at work and those after it.</summary>
         public static BatchReport Convert(IEnumerable<GameObject> avatars, ConversionSettings settings,
             IConversionProgress progress)
         {
             var report = new BatchReport();
-            foreach (GameObject avatar in avatars)
+            List<GameObject> all = new List<GameObject>(avatars).FindAll(avatar => avatar != null);
+            for (int i = 0; i < all.Count; i++)
             {
-                if (avatar == null)
-                    continue;
+                GameObject avatar = all[i];
                 try
                 {
-                    report.Entries.Add(ConvertOne(avatar, settings, progress));
+                    report.Entries.Add(ConvertOne(avatar, settings, Share.Of(progress, i, all.Count)));
                 }
                 catch (ConversionException)
                 {
@@ -123,6 +123,23 @@ namespace SuperDeform.Editor
                 entry.Failure = reason.Message;
             }
             return entry;
+        }
+
+        /// <summary>One avatar's share of the progress of a batch.</summary>
+        private sealed class Share : IConversionProgress
+        {
+            private IConversionProgress whole;
+            private int index, count;
+
+            internal static Share Of(IConversionProgress whole, int index, int count)
+            {
+                return whole == null ? null : new Share { whole = whole, index = index, count = count };
+            }
+
+            public bool Report(string stageKey, float fraction)
+            {
+                return whole.Report(stageKey, (index + fraction) / count);
+            }
         }
 
         private static bool WriteReport(string path, BatchReport report)

@@ -17,7 +17,7 @@ namespace SuperDeform.Editor
         private readonly List<ProxyRenderer> renderers = new List<ProxyRenderer>();
         private readonly List<Renderer> hidden = new List<Renderer>();
         private readonly int[] jointOf;
-        private MeshOutput[] outputs;
+        private AvatarResult result;
         private ProxySkeleton skeleton;
         private Deformer deformer;
         private ConversionSettings shown;
@@ -37,10 +37,10 @@ namespace SuperDeform.Editor
                 jointOf = JointsByRole(this.avatar);
                 Deform(settings, SettingsChange.Style);
                 skeleton = new ProxySkeleton(this.avatar);
-                outputs = new MeshOutput[this.avatar.Parts.Count];
-                foreach (RendererData renderer in this.avatar.Renderers)
-                    if (renderer.Parts.Count > 0)
-                        renderers.Add(new ProxyRenderer(this.avatar, renderer, skeleton, outputs));
+                result = new AvatarResult(this.avatar, true);
+                foreach (RendererResult renderer in result.Renderers)
+                    if (renderer.Source.Parts.Count > 0)
+                        renderers.Add(new ProxyRenderer(this.avatar, renderer, skeleton));
                 Show();
                 Place();
                 ApplyVisibility();
@@ -103,8 +103,8 @@ namespace SuperDeform.Editor
 
         private void Show()
         {
-            deformer.Apply(outputs, null);
-            skeleton.Move(deformer);
+            result.Apply(deformer, null);
+            skeleton.Move(result);
             foreach (ProxyRenderer renderer in renderers)
                 renderer.Show(skeleton);
         }
@@ -141,14 +141,14 @@ namespace SuperDeform.Editor
             }
         }
 
-        /// <summary>How the proxy stands. An avatar whose rig was made anew stands as it does.</summary>
+        /// <summary>How the proxy stands. An avatar without bones stands as it does.</summary>
         public PreviewPose Pose
         {
             get { return pose; }
             set
             {
                 pose = value;
-                if (!avatar.RigMade)
+                if (avatar.Rigged)
                     PreviewPoses.Take(pose, skeleton, jointOf);
             }
         }

@@ -37,7 +37,7 @@ namespace SuperDeform.Editor
         public BatchReport Convert()
         {
             BatchReport report;
-            using (var progress = new BatchProgress(avatars.Count))
+            using (var progress = new EditorProgress(Strings.Get("batch.avatars")))
                 report = BatchConvert.Convert(avatars, ConverterWindow.LastSettings(), progress);
             lines = report.Lines();
             Repaint();

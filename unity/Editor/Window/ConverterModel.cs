@@ -63,7 +63,7 @@ namespace SuperDeform.Editor
             get
             {
                 if (findings == null)
-                    findings = Avatar == null ? new List<Finding>() : AvatarChecks.Of(Avatar);
+                    findings = Avatar == null ? new List<Finding>() : AvatarChecks.Of(Avatar, Settings.RigAuto);
                 return findings;
             }
         }

@@ -32,11 +32,17 @@ namespace SuperDeform.Editor
             });
             if (model.Avatar == null)
                 section.Rows.Add(new TextRow { Label = Strings.Get("avatar.hint") });
+            else if (model.Findings.Count == 0)
+                section.Rows.Add(new CheckRow { Severity = Severity.Info, Label = Strings.Get("avatar.ready") });
             foreach (Finding finding in model.Findings)
                 section.Rows.Add(Check(model, finding));
             if (model.Avatar != null)
                 section.Rows.Add(Toggle("avatar.rig", true, () => model.Settings.RigAuto,
-                    value => model.Change("undo.rig", () => model.Settings.RigAuto = value)));
+                    value =>
+                    {
+                        model.Change("undo.rig", () => model.Settings.RigAuto = value);
+                        model.Recheck();
+                    }));
             return section;
         }
 
@@ -274,11 +280,22 @@ namespace SuperDeform.Editor
                     Severity = Severity.Info, Label = Strings.Get("report.made", model.Result.PrefabPath),
                     Where = model.Result.Prefab
                 });
-                if (model.Result.Findings != null)
-                    foreach (Finding finding in model.Result.Findings)
+                foreach (Finding finding in model.Result.Findings)
+                    if (IsNews(model, finding))
                         section.Rows.Add(Check(model, finding));
             }
             return section;
+        }
+
+        // What the checks of the avatar or the preview say already is not said again.
+        private static bool IsNews(ConverterModel model, Finding finding)
+        {
+            if (finding.Key == "library_notes")
+                return model.Numbers == null;
+            foreach (Finding known in model.Findings)
+                if (known.Text == finding.Text)
+                    return false;
+            return true;
         }
 
         private static string Missing(ConverterModel model)
