@@ -22,9 +22,10 @@ namespace SuperDeform.Editor
             normalScales = Ones(renderer.Normals == null ? 0 : renderer.Vertices.Length);
             tangentScales = Ones(renderer.Tangents == null ? 0 : renderer.Vertices.Length);
             FrameSource frames = new FrameSource(renderer);
+            Frame frame = frames.At(0);
             for (int vertex = 0; vertex < renderer.Vertices.Length; vertex++)
             {
-                Frame frame = frames.At(vertex);
+                if (frames.EachItsOwn) frame = frames.At(vertex);
                 if (renderer.Normals != null) frame.Normal(renderer.Normals[vertex], out normalScales[vertex]);
                 if (renderer.Tangents != null) frame.Tangent(renderer.Tangents[vertex], out tangentScales[vertex]);
             }
@@ -53,9 +54,10 @@ namespace SuperDeform.Editor
                 Tangents = frame.Tangents == null ? null : new Vector3[frame.Positions.Length]
             };
             FrameSource frames = new FrameSource(renderer);
+            Frame at = frames.At(0);
             for (int vertex = 0; vertex < frame.Positions.Length; vertex++)
             {
-                Frame at = frames.At(vertex);
+                if (frames.EachItsOwn) at = frames.At(vertex);
                 placed.Positions[vertex] = at.Delta(frame.Positions[vertex], 1);
                 if (placed.Normals != null) placed.Normals[vertex] = at.NormalDelta(frame.Normals[vertex], normalScales[vertex]);
                 if (placed.Tangents != null) placed.Tangents[vertex] = at.Delta(frame.Tangents[vertex], tangentScales[vertex]);
@@ -90,9 +92,14 @@ namespace SuperDeform.Editor
             common = new Frame(renderer.Placement);
         }
 
+        internal bool EachItsOwn
+        {
+            get { return renderer.Placements != null; }
+        }
+
         internal Frame At(int vertex)
         {
-            return renderer.Placements == null ? common : new Frame(renderer.Placements[vertex]);
+            return EachItsOwn ? new Frame(renderer.Placements[vertex]) : common;
         }
     }
 }

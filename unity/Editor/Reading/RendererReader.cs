@@ -146,9 +146,10 @@ namespace SuperDeform.Editor
             bool ownNormals = renderer.ModelNormals != renderer.Normals, ownTangents = renderer.ModelTangents != renderer.Tangents;
             if (plain && !ownNormals && !ownTangents) return;
             double scale;
+            Frame frame = frames.At(0);
             for (int vertex = 0; vertex < count; vertex++)
             {
-                Frame frame = frames.At(vertex);
+                if (frames.EachItsOwn) frame = frames.At(vertex);
                 if (!plain) renderer.ModelVertices[vertex] = frame.Point(renderer.Vertices[vertex]);
                 if (ownNormals) renderer.ModelNormals[vertex] = frame.Normal(renderer.Normals[vertex], out scale);
                 if (ownTangents) renderer.ModelTangents[vertex] = frame.Tangent(renderer.Tangents[vertex], out scale);

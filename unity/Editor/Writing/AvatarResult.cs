@@ -5,7 +5,7 @@ using UnityEngine;
 namespace SuperDeform.Editor
 {
     /// <summary>
-    /// What becomes of an avatar, as arrays that are made once and written anew by each Apply: for a preview as for a result.
+    /// What becomes of an avatar, as arrays that are made once and written anew by each Apply: for a result as for a preview.
     /// </summary>
     public sealed class AvatarResult
     {
@@ -39,17 +39,18 @@ namespace SuperDeform.Editor
         readonly MeshOutput[] outputs;
         readonly bool forPreview;
 
-        /// <summary>
-        /// forPreview: vertices stay in the root's space, and nothing is done that only a result needs; for data that was
-        /// read without blend shapes
-        /// </summary>
+        /// <param name="source">What is deformed.</param>
+        /// <param name="forPreview">
+        /// Vertices stay at rest in the root's space, and nothing is done that only a result needs; for a source that was
+        /// read without blend shapes.
+        /// </param>
         public AvatarResult(AvatarData source, bool forPreview)
         {
             Source = source;
             this.forPreview = forPreview;
             foreach (RendererData renderer in source.Renderers)
             {
-                Renderers.Add(new RendererResult(renderer, !forPreview));
+                Renderers.Add(new RendererResult(renderer));
             }
             List<MeshOutput> ordered = new List<MeshOutput>();
             foreach (RendererResult renderer in Renderers)
@@ -78,7 +79,6 @@ namespace SuperDeform.Editor
             foreach (RendererResult renderer in Renderers)
             {
                 renderer.Spread();
-                renderer.WriteBindPoses(Source.Rest, Rest);
             }
             if (forPreview) return;
             MeasureHeight();
@@ -87,6 +87,7 @@ namespace SuperDeform.Editor
                 int bounds = renderer.Source.BoundsJoint;
                 if (bounds < 0) renderer.Measure(Affine.Identity, Affine.Identity);
                 else renderer.Measure(Source.Rest[bounds], Rest[bounds]);
+                renderer.WriteBindPoses(Source.Rest, Rest);
                 renderer.ToMeshSpace(Source.Rest, Rest);
             }
         }
@@ -102,18 +103,18 @@ namespace SuperDeform.Editor
             }
             for (int joint = 0; joint < Rest.Length; joint++)
             {
-                LocalShifts[joint] = Shift(joint);
-                Vector3 local = Source.Joints[joint].localPosition;
-                LocalPositions[joint] = new Vector3(local.x + LocalShifts[joint].x, local.y + LocalShifts[joint].y, local.z + LocalShifts[joint].z);
+                Double3 shift = Shift(joint);
+                LocalShifts[joint] = shift.ToVector3();
+                LocalPositions[joint] = (Double3.Of(Source.Joints[joint].localPosition) + shift).ToVector3();
             }
         }
 
         /// <summary>How far a joint moves in its parent's space; 0 where that cannot be told.</summary>
-        Vector3 Shift(int joint)
+        Double3 Shift(int joint)
         {
             int parent = Source.Parents[joint];
             bool sameParent = parent < 0 || Rest[parent].Equals(Source.Rest[parent]);
-            if (sameParent && Rest[joint].Equals(Source.Rest[joint])) return new Vector3(0, 0, 0);
+            if (sameParent && Rest[joint].Equals(Source.Rest[joint])) return new Double3(0, 0, 0);
             Double3 before = Source.Rest[joint].Position, after = Rest[joint].Position;
             if (parent >= 0)
             {
@@ -121,7 +122,7 @@ namespace SuperDeform.Editor
                 after = Rest[parent].Inverse.Point(after);
             }
             Double3 change = after - before;
-            return change.IsFinite && change.Length > 1e-12 * before.Length ? change.ToVector3() : new Vector3(0, 0, 0);
+            return change.IsFinite && change.Length > 1e-12 * before.Length ? change : new Double3(0, 0, 0);
         }
 
         void MeasureHeight()

@@ -10,7 +10,7 @@ namespace SuperDeform.Editor
         internal readonly MeshOutput Output;
         readonly RendererResult renderer;
 
-        internal PartResult(PartData part, RendererResult renderer, bool withMorphs)
+        internal PartResult(PartData part, RendererResult renderer)
         {
             Part = part;
             this.renderer = renderer;
@@ -24,7 +24,7 @@ namespace SuperDeform.Editor
                 Tangents = renderer.Tangents != null && aside ? new Vector4[part.VertexCount] : renderer.Tangents
             };
             int frames = part.Renderer.Frames.Count;
-            if (!withMorphs || frames == 0) return;
+            if (frames == 0) return;
             int numbers = checked(3 * part.VertexCount * frames);
             Output.MorphTargetCount = frames;
             Output.MorphPositions = new float[numbers];

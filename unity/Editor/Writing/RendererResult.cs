@@ -12,8 +12,7 @@ namespace SuperDeform.Editor
         public readonly RendererData Source;
 
         /// <summary>
-        /// One a vertex, in mesh space (in the avatar's space where the result is for a preview there); Normals and Tangents
-        /// null where the mesh has none.
+        /// One a vertex, in mesh space (for a preview: in the root's); Normals and Tangents null where the mesh has none.
         /// </summary>
         public readonly Vector3[] Positions, Normals;
         public readonly Vector4[] Tangents;
@@ -34,7 +33,7 @@ namespace SuperDeform.Editor
         readonly double[] normalScales, tangentScales;
         readonly bool[] normalKept, tangentKept;
 
-        internal RendererResult(RendererData source, bool withMorphs)
+        internal RendererResult(RendererData source)
         {
             Source = source;
             int count = source.Vertices.Length;
@@ -44,9 +43,9 @@ namespace SuperDeform.Editor
             if (source.Skin != null) BindPoses = Array.ConvertAll(source.Skin.InverseBinds, bind => bind.ToMatrix4x4());
             foreach (PartData part in source.Parts)
             {
-                Parts.Add(new PartResult(part, this, withMorphs));
+                Parts.Add(new PartResult(part, this));
             }
-            if (!withMorphs || source.Frames.Count == 0) return;
+            if (source.Frames.Count == 0) return;
             normalScales = new double[count];
             tangentScales = new double[count];
             normalKept = new bool[count];
@@ -84,22 +83,23 @@ namespace SuperDeform.Editor
             bool plainNormals = plain && normalScales == null && Source.ModelNormals == Source.Normals;
             bool plainTangents = plain && normalScales == null && Source.ModelTangents == Source.Tangents;
             if (plain && plainNormals && plainTangents) return;
+            Frame frame = back.At(0);
             for (int vertex = 0; vertex < Positions.Length; vertex++)
             {
-                Frame frame = back.At(vertex);
-                if (!plain) Positions[vertex] = Point(frame, vertex);
-                if (Normals != null && !plainNormals) Normals[vertex] = Normal(frame, vertex);
-                if (Tangents != null && !plainTangents) Tangents[vertex] = Tangent(frame, vertex);
+                if (back.EachItsOwn) frame = back.At(vertex);
+                if (!plain) Positions[vertex] = Point(ref frame, vertex);
+                if (Normals != null && !plainNormals) Normals[vertex] = Normal(ref frame, vertex);
+                if (Tangents != null && !plainTangents) Tangents[vertex] = Tangent(ref frame, vertex);
             }
         }
 
-        Vector3 Point(Frame frame, int vertex)
+        Vector3 Point(ref Frame frame, int vertex)
         {
             bool kept = sameWay && Same(Positions[vertex], Source.ModelVertices[vertex]);
             return kept ? Source.Vertices[vertex] : frame.Point(Positions[vertex]);
         }
 
-        Vector3 Normal(Frame frame, int vertex)
+        Vector3 Normal(ref Frame frame, int vertex)
         {
             double scale;
             Vector3 normal = frame.Normal(Normals[vertex], out scale);
@@ -112,7 +112,7 @@ namespace SuperDeform.Editor
             return kept ? Source.Normals[vertex] : normal;
         }
 
-        Vector4 Tangent(Frame frame, int vertex)
+        Vector4 Tangent(ref Frame frame, int vertex)
         {
             double scale;
             Vector4 given = Tangents[vertex], before = Source.ModelTangents[vertex];
@@ -140,12 +140,13 @@ namespace SuperDeform.Editor
         internal void WriteFrame(int index, BlendFrame placed, BlendFrame into)
         {
             BlendFrame source = Source.Frames[index];
+            Frame frame = back.At(0);
             foreach (PartResult part in Parts)
             {
                 for (int vertex = 0; vertex < part.Part.VertexCount; vertex++)
                 {
                     int place = part.Part.VertexOf(vertex);
-                    Frame frame = back.At(place);
+                    if (back.EachItsOwn) frame = back.At(place);
                     Vector3 delta = part.Delta(part.Output.MorphPositions, index, vertex);
                     bool kept = sameWay && Same(delta, placed.Positions[place]);
                     into.Positions[place] = kept ? source.Positions[place] : frame.Delta(delta, 1);
@@ -226,14 +227,19 @@ namespace SuperDeform.Editor
             common = new Frame(placement.Equals(Affine.Identity) ? placement : placement.Inverse);
         }
 
+        internal bool EachItsOwn
+        {
+            get { return renderer.Placements != null; }
+        }
+
         internal bool IsIdentity
         {
-            get { return renderer.Placements == null && common.IsIdentity; }
+            get { return !EachItsOwn && common.IsIdentity; }
         }
 
         internal Frame At(int vertex)
         {
-            return renderer.Placements == null ? common : new Frame(renderer.Placements[vertex].Inverse);
+            return EachItsOwn ? new Frame(renderer.Placements[vertex].Inverse) : common;
         }
     }
 }
