@@ -170,9 +170,9 @@ internal static unsafe class LoanOfMeshes
         CheckWeights(arrays, owner, end);
         mesh->influence_count = (UIntPtr)(end - start);
         Weights(loan, mesh, arrays, start);
-        if (start == 0)
+        if (first == 0 && start == 0)
         {
-            mesh->row_starts = (uint*)loan.Pin(rows, "RowStarts") + first;
+            mesh->row_starts = (uint*)loan.Pin(rows, "RowStarts");
             return;
         }
         // The library's rows rise from 0: those of a slice are counted anew.

@@ -69,6 +69,21 @@ public sealed class ArrayTests
     }
 
     [Test]
+    public void Rows_of_a_slice_are_its_own_where_those_before_it_are_empty()
+    {
+        MeshArrays mesh = new MeshArrays { Positions = new Triple[5], FirstVertex = 2, VertexCount = 3,
+            RowStarts = new uint[] { 0, 0, 0, 1, 2, 3 }, Joints = new uint[] { 3, 4, 5 }, Weights = new[] { 1f, 1f, 1f } };
+        using (Character character = new Character())
+        {
+            character.SetSkeleton(figure.Skeleton);
+            character.AddMesh(mesh);
+            uint[] joints = new uint[3];
+            character.GetWeights(0, 1, joints, new float[3]);
+            Assert.AreEqual(mesh.Joints, joints);
+        }
+    }
+
+    [Test]
     public void A_slice_writes_its_own_part_alone()
     {
         const int before = 5, after = 3;
@@ -145,6 +160,22 @@ public sealed class ArrayTests
         AssertRefused(mesh => mesh.FirstIndex = -3, "Indices", "-3");
         AssertRefused(mesh => mesh.FirstIndex = mesh.Indices.Length + 3, "Indices", "FirstIndex");
         AssertRefused(mesh => { mesh.Indices = null; mesh.IndexCount = 3; }, "Indices", "null");
+    }
+
+    [Test]
+    public void Morph_targets_that_are_too_short_are_named_with_their_mesh()
+    {
+        using (Character character = figure.Character())
+        {
+            MorphArrays target = new MorphArrays { Name = "笑顔", Positions = new Triple[figure.VertexCount - 1] };
+            InvalidInputException exception = Thrown.Invalid(Status.BadArgument, () => character.AddMorphTarget(0, target));
+            Thrown.Says(exception, "mesh 0", "笑顔", "Positions");
+            Assert.AreEqual(0, exception.Mesh);
+            target.Positions = figure.Smile;
+            target.Normals = new float[3];
+            Thrown.Says(Thrown.Invalid(Status.BadArgument, () => character.AddMorphTarget(0, target)), "Normals");
+            Assert.AreEqual(0, character.Info.MorphTargetCount);
+        }
     }
 
     [Test]

@@ -92,6 +92,33 @@ public sealed class LifetimeTests
         }
     }
 
+    [Test]
+    public void What_a_call_borrows_goes_back()
+    {
+        string name = new string('名', 1000000);
+        StyleNumbers numbers;
+        using (Style style = Style.FromText("sd3")) numbers = style.Numbers;
+        // 3 MB of UTF-8 each time; what the runtime itself needs is settled after a few.
+        long before = 0;
+        for (int i = 0; i < 50; i++)
+        {
+            if (i == 10) before = Resident();
+            Style.FromNumbers(name, numbers).Dispose();
+            GC.Collect();
+        }
+        long grown = Resident() - before;
+        Assert.IsTrue(grown < 60, grown + " MB more after 40 calls with 3 MB each");
+    }
+
+    private static long Resident()
+    {
+        using (System.Diagnostics.Process self = System.Diagnostics.Process.GetCurrentProcess())
+        {
+            Assert.IsTrue(self.WorkingSet64 > 0, "this runtime does not tell how much memory it has");
+            return self.WorkingSet64 >> 20;
+        }
+    }
+
     private ulong Forget()
     {
         ulong most = 0;
