@@ -9,6 +9,7 @@ namespace SuperDeform.Editor
         [SerializeField] private ConverterModel model = new ConverterModel();
         [SerializeField] private Vector2 scroll;
         private ConverterController controller;
+        private ConverterModel connected;
         private static ConverterWindow open;
 
         /// <summary>Shows the window.</summary>
@@ -38,53 +39,69 @@ namespace SuperDeform.Editor
             open = this;
             titleContent = new GUIContent(Strings.Get("window.title"));
             minSize = new Vector2(360, 300);
-            controller = new ConverterController(model);
-            model.Changing += RecordUndo;
-            model.Converting += ConvertSoon;
-            model.SavingStyle += SaveStyleSoon;
+            Connect();
             EditorApplication.update += Tick;
-            EditorApplication.hierarchyChanged += model.Recheck;
-            Undo.undoRedoPerformed += model.Touch;
+            Undo.undoRedoPerformed += AfterUndo;
             // Native objects outlive the scripts that made them.
-            AssemblyReloadEvents.beforeAssemblyReload += EndPreview;
-            EditorApplication.playModeStateChanged += EndPreview;
+            AssemblyReloadEvents.beforeAssemblyReload += Disconnect;
+            EditorApplication.playModeStateChanged += FollowPlayMode;
         }
 
         private void OnDisable()
         {
-            model.Changing -= RecordUndo;
-            model.Converting -= ConvertSoon;
-            model.SavingStyle -= SaveStyleSoon;
             EditorApplication.update -= Tick;
-            EditorApplication.hierarchyChanged -= model.Recheck;
-            Undo.undoRedoPerformed -= model.Touch;
-            AssemblyReloadEvents.beforeAssemblyReload -= EndPreview;
-            EditorApplication.playModeStateChanged -= EndPreview;
-            EndPreview();
+            Undo.undoRedoPerformed -= AfterUndo;
+            AssemblyReloadEvents.beforeAssemblyReload -= Disconnect;
+            EditorApplication.playModeStateChanged -= FollowPlayMode;
+            Disconnect();
             if (open == this)
                 open = null;
+        }
+
+        private void Connect()
+        {
+            Disconnect();
+            connected = model;
+            connected.Changing += RecordUndo;
+            connected.Converting += ConvertSoon;
+            connected.SavingStyle += SaveStyleSoon;
+            controller = new ConverterController(connected);
+        }
+
+        private void Disconnect()
+        {
+            if (connected == null)
+                return;
+            connected.Changing -= RecordUndo;
+            connected.Converting -= ConvertSoon;
+            connected.SavingStyle -= SaveStyleSoon;
+            controller.Dispose();
+            controller = null;
+            connected = null;
+        }
+
+        private void AfterUndo()
+        {
+            // Undo may put another object in the place of one that it restores.
+            if (connected != null && connected != model)
+                Connect();
+            model.Recheck();
+            Repaint();
+        }
+
+        private void FollowPlayMode(PlayModeStateChange change)
+        {
+            // The preview belongs to the scene that is edited.
+            if (change == PlayModeStateChange.ExitingEditMode)
+                Disconnect();
+            else if (change == PlayModeStateChange.EnteredEditMode)
+                Connect();
         }
 
         private void OnFocus()
         {
             // An import setting may have been mended elsewhere.
             model.Recheck();
-        }
-
-        private void EndPreview(PlayModeStateChange change)
-        {
-            // The preview belongs to the scene that is edited.
-            if (change == PlayModeStateChange.ExitingEditMode)
-                EndPreview();
-            if (change == PlayModeStateChange.EnteredEditMode && controller == null)
-                controller = new ConverterController(model);
-        }
-
-        private void EndPreview()
-        {
-            if (controller != null)
-                controller.Dispose();
-            controller = null;
         }
 
         private void Tick()
