@@ -27,7 +27,8 @@ SHAPES = [
     ("spine", "plane", {"offset": [0, 0.1, 0.05], "normal": [0.2672612, 0.5345225, 0.8017837]}),
     ("hand.r", "sphere", {"offset": [0.01, 0.02, 0.03], "radius": 0.05}),
 ]
-CHAINS = [["upperarm.l", "lowerarm.l", "wrist.l", "hand.l"], ["head"], ["upperleg.r", "lowerleg.r", "foot.r"]]
+CHAINS = [["upperarm.l", "lowerarm.l", "wrist.l", "hand.l", "handslot.l"], ["head"],
+          ["upperleg.r", "lowerleg.r", "foot.r", "toes.r"]]
 
 
 def read(path):
@@ -121,7 +122,9 @@ def main():
         fixture(sys.argv[2], sys.argv[3])
         return
     document, _ = read(sys.argv[2])
-    names = [entry.get("name", "").replace(" ", "_") for entry in document["nodes"]]
+    names = [entry.get("name", "") for entry in document["nodes"]]
+    if any(" " in name for name in names):
+        sys.exit(f"{sys.argv[2]}: names with spaces cannot stand in the lines")
     (list_vrm0 if "VRM" in document["extensions"] else list_vrm1)(document, names)
 
 
