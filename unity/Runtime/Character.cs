@@ -16,8 +16,8 @@ public sealed class Character : NativeObject
     /// <summary>Makes an empty character.</summary>
     /// <param name="up">3 floats, from the feet to the head, any length but 0; null: (0, 1, 0).</param>
     /// <param name="forward">
-    /// 3 floats, the way the face looks; null: found from left and right limbs, as in right-handed axes, so a left-handed
-    /// host gives it.
+    /// 3 floats, the way the face looks; null: found from left and right limbs, as in right-handed axes, so a
+    /// left-handed host gives it.
     /// </param>
     public unsafe Character(float[] up = null, float[] forward = null)
     {
@@ -39,9 +39,9 @@ public sealed class Character : NativeObject
         get { return new SdefCharacter { id = Handle }; }
     }
 
-    /// <summary>Gives the character its joints, in place of any that it had. Comes before meshes with weights.</summary>
-    /// <exception cref="InvalidInputException">With the joint: a parent that is none, a circle of parents, a number that
-    /// is not finite, a role for a joint that is none.</exception>
+    /// <summary>Gives it joints, in place of any that it had. Comes before meshes with weights.</summary>
+    /// <exception cref="InvalidInputException">With the joint: a parent that is none, a circle of parents, a number
+    /// that is not finite, a role for a joint that is none.</exception>
     public unsafe void SetSkeleton(SkeletonArrays skeleton)
     {
         if (skeleton == null) throw new ArgumentNullException("skeleton");
@@ -81,7 +81,7 @@ public sealed class Character : NativeObject
     }
 
     /// <summary>Adds a morph target to a mesh, after those that it has.</summary>
-    /// <exception cref="InvalidInputException">With the vertex: a number that is not finite; or no such mesh.</exception>
+    /// <exception cref="InvalidInputException">With the vertex that is not finite; or no such mesh.</exception>
     public unsafe void AddMorphTarget(int mesh, MorphArrays target)
     {
         if (target == null) throw new ArgumentNullException("target");

@@ -5,8 +5,8 @@ using System.Threading;
 namespace SuperDeform
 {
 /// <summary>
-/// A character together with the deformation that gives it a style: made once, applied as often as something changes. It
-/// keeps what it needs of the character and the style, which may be disposed of before it. Any thread may use it.
+/// A character together with the deformation that gives it a style: made once, applied as often as something changes.
+/// It keeps what it needs of the character and the style, which may be disposed of before it. Any thread may use it.
 /// </summary>
 public sealed class Deformer : NativeObject
 {
@@ -53,7 +53,8 @@ public sealed class Deformer : NativeObject
         using (ProgressCall call = ProgressCall.Of(progress))
         {
             SdefError error = Failure.None();
-            uint status = Native.sdef_deformer_set_options(Raw, loan.Options(options), call.Callback, call.User, &error);
+            uint status = Native.sdef_deformer_set_options(Raw, loan.Options(options), call.Callback, call.User,
+                &error);
             GC.KeepAlive(this);
             call.Check(status, &error);
         }
@@ -158,8 +159,8 @@ public sealed class Deformer : NativeObject
         fixed (uint* jointsIn = joints)
         fixed (double* pointsIn = points, positionsOut = positions, scalesOut = scales, jacobiansOut = jacobians)
         {
-            status = Native.sdef_deformer_map_points(Raw, jointsIn, pointsIn, (UIntPtr)(uint)joints.Length, positionsOut,
-                scalesOut, jacobiansOut, &error);
+            status = Native.sdef_deformer_map_points(Raw, jointsIn, pointsIn, (UIntPtr)(uint)joints.Length,
+                positionsOut, scalesOut, jacobiansOut, &error);
         }
         GC.KeepAlive(this);
         Failure.Check(status, &error);

@@ -1,8 +1,8 @@
 namespace SuperDeform
 {
 /// <summary>
-/// The parts that joints play in a human body. Names and numbers are those of UnityEngine.HumanBodyBones, so that one may
-/// be cast to the other.
+/// The parts that joints play in a human body. Names and numbers are those of UnityEngine.HumanBodyBones, so that one
+/// may be cast to the other.
 /// </summary>
 public enum HumanoidRole
 {

@@ -100,7 +100,8 @@ internal static unsafe class LoanOfMeshes
         long bytes = Bytes(array, owner, name, floats), stride = 4 * floats;
         if (first < 0 || (first + (long)count) * stride > bytes)
             throw owner.Wrong(name + " holds " + bytes / stride + " vertices, but vertices " + first
-                + " to " + (first + (long)count - 1) + " are wanted: give all of them, or other FirstVertex and VertexCount");
+                + " to " + (first + (long)count - 1)
+                + " are wanted: give all of them, or other FirstVertex and VertexCount");
         byte* start = loan.Pin(array, name);
         return start == null ? null : (float*)(start + first * stride);
     }

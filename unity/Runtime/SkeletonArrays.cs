@@ -13,8 +13,8 @@ public sealed class SkeletonArrays
     public double[] RestMatrices;
 
     /// <summary>
-    /// By <see cref="HumanoidRole"/>: the joint that plays it, or -1. Up to 55; roles that are left out are guessed where
-    /// required ones are missing. May be null.
+    /// By <see cref="HumanoidRole"/>: the joint that plays it, or -1. Up to 55; roles that are left out are guessed
+    /// where required ones are missing. May be null.
     /// </summary>
     public int[] RoleJoints;
 }

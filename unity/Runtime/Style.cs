@@ -60,7 +60,8 @@ public sealed class Style : NativeObject
         SdefError error = Failure.None();
         using (Loan loan = new Loan())
         {
-            uint status = Native.sdef_style_measure(character.Raw, loan.Text(name), loan.Options(options), &made, &error);
+            uint status = Native.sdef_style_measure(character.Raw, loan.Text(name), loan.Options(options), &made,
+                &error);
             GC.KeepAlive(character);
             return style.Take(status, &error, made);
         }

@@ -72,7 +72,8 @@ public sealed class ArrayTests
     public void Rows_of_a_slice_are_its_own_where_those_before_it_are_empty()
     {
         MeshArrays mesh = new MeshArrays { Positions = new Triple[5], FirstVertex = 2, VertexCount = 3,
-            RowStarts = new uint[] { 0, 0, 0, 1, 2, 3 }, Joints = new uint[] { 3, 4, 5 }, Weights = new[] { 1f, 1f, 1f } };
+            RowStarts = new uint[] { 0, 0, 0, 1, 2, 3 }, Joints = new uint[] { 3, 4, 5 },
+            Weights = new[] { 1f, 1f, 1f } };
         using (Character character = new Character())
         {
             character.SetSkeleton(figure.Skeleton);
@@ -98,7 +99,8 @@ public sealed class ArrayTests
         for (int i = 0; i < positions.Length; i++)
         {
             bool inside = i >= before && i < before + figure.VertexCount;
-            Assert.AreEqual(inside ? ((Triple[])expected.Positions)[i - before] : untouched, positions[i], "vertex " + i);
+            Triple wanted = inside ? ((Triple[])expected.Positions)[i - before] : untouched;
+            Assert.AreEqual(wanted, positions[i], "vertex " + i);
         }
     }
 
@@ -129,7 +131,8 @@ public sealed class ArrayTests
                 bool moved = false;
                 for (int i = 0; i < floats; i++)
                 {
-                    Assert.AreEqual(output.MorphPositions[i], output.MorphPositions[floats + i], "the targets are the same");
+                    Assert.AreEqual(output.MorphPositions[i], output.MorphPositions[floats + i],
+                        "the targets are the same");
                     Assert.AreEqual(0f, output.MorphNormals[i], "the first target came without normals");
                     moved = moved || output.MorphPositions[i] != 0;
                 }
@@ -154,8 +157,11 @@ public sealed class ArrayTests
         AssertRefused(mesh => mesh.InfluenceCount = 0, "InfluenceCount");
         AssertRefused(mesh => mesh.Weights = null, "Weights", "null");
         AssertRefused(mesh => mesh.RowStarts = new uint[count], "RowStarts", (count + 1).ToString());
-        AssertRefused(mesh => { mesh.RowStarts = new uint[count + 1]; mesh.RowStarts[count] = uint.MaxValue; }, "Joints");
-        AssertRefused(mesh => { mesh.RowStarts = new uint[count + 1]; mesh.RowStarts[0] = 1; }, "RowStarts", "falls");
+        uint[] far = new uint[count + 1], falling = new uint[count + 1];
+        far[count] = uint.MaxValue;
+        falling[0] = 1;
+        AssertRefused(mesh => mesh.RowStarts = far, "Joints");
+        AssertRefused(mesh => mesh.RowStarts = falling, "RowStarts", "falls");
         AssertRefused(mesh => mesh.IndexCount = mesh.Indices.Length + 3, "Indices", "IndexCount");
         AssertRefused(mesh => mesh.FirstIndex = -3, "Indices", "-3");
         AssertRefused(mesh => mesh.FirstIndex = mesh.Indices.Length + 3, "Indices", "FirstIndex");
@@ -168,7 +174,8 @@ public sealed class ArrayTests
         using (Character character = figure.Character())
         {
             MorphArrays target = new MorphArrays { Name = "笑顔", Positions = new Triple[figure.VertexCount - 1] };
-            InvalidInputException exception = Thrown.Invalid(Status.BadArgument, () => character.AddMorphTarget(0, target));
+            InvalidInputException exception = Thrown.Invalid(Status.BadArgument,
+                () => character.AddMorphTarget(0, target));
             Thrown.Says(exception, "mesh 0", "笑顔", "Positions");
             Assert.AreEqual(0, exception.Mesh);
             target.Positions = figure.Smile;
@@ -207,7 +214,8 @@ public sealed class ArrayTests
         using (Character character = new Character())
         {
             Assert.AreEqual(0, character.AddMesh(new MeshArrays()));
-            Assert.AreEqual(1, character.AddMesh(new MeshArrays { Positions = new Triple[0], Indices = new ushort[0] }));
+            MeshArrays empty = new MeshArrays { Positions = new Triple[0], Indices = new ushort[0] };
+            Assert.AreEqual(1, character.AddMesh(empty));
             Assert.AreEqual(2, character.Info.MeshCount);
         }
     }
@@ -215,7 +223,8 @@ public sealed class ArrayTests
     [Test]
     public void Skeletons_that_are_too_short_are_named()
     {
-        AssertSkeletonRefused(skeleton => skeleton.RestMatrices = new double[16 * figure.JointCount - 1], "RestMatrices");
+        double[] matrices = new double[16 * figure.JointCount - 1];
+        AssertSkeletonRefused(skeleton => skeleton.RestMatrices = matrices, "RestMatrices");
         AssertSkeletonRefused(skeleton => skeleton.RestMatrices = null, "RestMatrices");
         AssertSkeletonRefused(skeleton => skeleton.Parents = null, "Parents");
         AssertSkeletonRefused(skeleton => skeleton.Names = new string[1], "Names");
@@ -231,7 +240,8 @@ public sealed class ArrayTests
         {
             MeshOutput output = Mannequin.Output(figure.VertexCount);
             output.Normals = new Triple[3];
-            InvalidInputException exception = Thrown.Invalid(Status.BadArgument, () => deformer.Apply(new[] { output }));
+            InvalidInputException exception = Thrown.Invalid(Status.BadArgument,
+                () => deformer.Apply(new[] { output }));
             Thrown.Says(exception, "output 0", "Normals");
             Assert.AreEqual(0, exception.Mesh);
             output = Mannequin.Output(figure.VertexCount);
@@ -240,9 +250,11 @@ public sealed class ArrayTests
             output.FirstVertex = 0;
             output.VertexCount = -1;
             Thrown.Says(Thrown.Invalid(Status.BadArgument, () => deformer.Apply(new[] { output })), "VertexCount -1");
-            Thrown.Says(Thrown.Invalid(Status.BadArgument, () => deformer.Apply(new MeshOutput[1])), "output 0", "null");
+            Thrown.Says(Thrown.Invalid(Status.BadArgument, () => deformer.Apply(new MeshOutput[1])), "output 0",
+                "null");
             Thrown.Invalid(Status.BadArgument, () => deformer.Apply(new MeshOutput[0]));
-            output = new MeshOutput { VertexCount = figure.VertexCount, MorphTargetCount = 1, MorphPositions = new float[3] };
+            output = new MeshOutput { VertexCount = figure.VertexCount, MorphTargetCount = 1,
+                MorphPositions = new float[3] };
             Thrown.Says(Thrown.Invalid(Status.BadArgument, () => deformer.Apply(new[] { output })), "MorphPositions");
         }
     }

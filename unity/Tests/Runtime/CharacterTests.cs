@@ -150,8 +150,9 @@ public sealed class CharacterTests
         Mannequin figure = new Mannequin();
         using (Character character = figure.Character())
         {
-            Thrown.Says(Thrown.Invalid(Status.BadArgument, () => character.AddMorphTarget(1, figure.SmileTarget())), "1");
-            Thrown.Says(Thrown.Invalid(Status.BadArgument, () => character.AddMorphTarget(-1, figure.SmileTarget())), "-1");
+            MorphArrays target = figure.SmileTarget();
+            Thrown.Says(Thrown.Invalid(Status.BadArgument, () => character.AddMorphTarget(1, target)), "1");
+            Thrown.Says(Thrown.Invalid(Status.BadArgument, () => character.AddMorphTarget(-1, target)), "-1");
         }
     }
 }

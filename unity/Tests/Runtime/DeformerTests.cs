@@ -92,7 +92,8 @@ public sealed class DeformerTests
     public void The_face_alone_gives_what_options_give()
     {
         MeshOutput expected = Mannequin.Output(figure.VertexCount), output = Mannequin.Output(figure.VertexCount);
-        using (Deformer other = new Deformer(character, style, new Options { FaceSquash = 0.25, FaceCurve = FaceCurve.F2 }))
+        Options options = new Options { FaceSquash = 0.25, FaceCurve = FaceCurve.F2 };
+        using (Deformer other = new Deformer(character, style, options))
             other.Apply(new[] { expected });
         deformer.SetFace(0.25, FaceCurve.F2);
         deformer.Apply(new[] { output });
@@ -155,8 +156,9 @@ public sealed class DeformerTests
         deformer.MapPoints(new uint[0], new double[0], new double[0]);
         joints[5] = 99;
         Assert.AreEqual(5, Thrown.Invalid(Status.BadInput, () => deformer.MapPoints(joints, points, again)).Element);
-        Thrown.Says(Thrown.Invalid(Status.BadArgument, () => deformer.MapPoints(joints, points, new double[3])), "positions");
-        Thrown.Says(Thrown.Invalid(Status.BadArgument, () => deformer.MapPoints(joints, new double[3], again)), "points");
+        double[] few = new double[3];
+        Thrown.Says(Thrown.Invalid(Status.BadArgument, () => deformer.MapPoints(joints, points, few)), "positions");
+        Thrown.Says(Thrown.Invalid(Status.BadArgument, () => deformer.MapPoints(joints, few, again)), "points");
     }
 
     [Test]

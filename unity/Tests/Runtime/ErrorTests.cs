@@ -35,7 +35,8 @@ public sealed class ErrorTests
         using (Character character = new Character())
         {
             character.SetSkeleton(figure.Skeleton);
-            InvalidInputException exception = Thrown.Invalid(Status.BadInput, () => character.AddMesh(figure.Mesh("skin")));
+            MeshArrays mesh = figure.Mesh("skin");
+            InvalidInputException exception = Thrown.Invalid(Status.BadInput, () => character.AddMesh(mesh));
             Assert.AreEqual(7, exception.Element);
             Assert.AreEqual(0, exception.Mesh);
             Thrown.Says(exception, "skin", "7");
@@ -142,11 +143,16 @@ public sealed class ErrorTests
     {
         using (Character character = new Character())
         {
-            Assert.AreEqual("mesh", Assert.Throws<ArgumentNullException>(() => character.AddMesh(null)).ParamName);
-            Assert.AreEqual("skeleton", Assert.Throws<ArgumentNullException>(() => character.SetSkeleton(null)).ParamName);
-            Assert.AreEqual("text", Assert.Throws<ArgumentNullException>(() => Style.FromText(null)).ParamName);
-            Assert.AreEqual("style", Assert.Throws<ArgumentNullException>(() => new Deformer(character, null)).ParamName);
+            AssertNull("mesh", () => character.AddMesh(null));
+            AssertNull("skeleton", () => character.SetSkeleton(null));
+            AssertNull("text", () => Style.FromText(null));
+            AssertNull("style", () => new Deformer(character, null));
         }
+    }
+
+    private static void AssertNull(string name, TestDelegate call)
+    {
+        Assert.AreEqual(name, Assert.Throws<ArgumentNullException>(call).ParamName);
     }
 
     private static void AssertClass(Type type, params Status[] statuses)

@@ -94,7 +94,8 @@ public sealed class Json
             else if (escaped == 'u')
             {
                 if (at + 4 > text.Length) throw Wrong();
-                value.Append((char)int.Parse(text.Substring(at, 4), NumberStyles.HexNumber, CultureInfo.InvariantCulture));
+                string digits = text.Substring(at, 4);
+                value.Append((char)int.Parse(digits, NumberStyles.HexNumber, CultureInfo.InvariantCulture));
                 at += 4;
             }
             else throw Wrong();
@@ -107,8 +108,9 @@ public sealed class Json
     {
         int start = at;
         while (at < text.Length && "+-.0123456789eE".IndexOf(text[at]) >= 0) at++;
+        string digits = text.Substring(start, at - start);
         double number;
-        if (!double.TryParse(text.Substring(start, at - start), NumberStyles.Float, CultureInfo.InvariantCulture, out number))
+        if (!double.TryParse(digits, NumberStyles.Float, CultureInfo.InvariantCulture, out number))
             throw Wrong();
         return number;
     }

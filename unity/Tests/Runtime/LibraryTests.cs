@@ -18,7 +18,8 @@ public sealed class LibraryTests
     {
         LibraryVersionException exception = Thrown.With<LibraryVersionException>(Status.Internal,
             () => SuperDeformLibrary.CheckVersion(Native.SDEF_ABI_VERSION + 1));
-        Thrown.Says(exception, "version 2", "version 1", "restart the editor", "superdeform-" + SuperDeformLibrary.Version + ".tgz");
+        Thrown.Says(exception, "version 2", "version 1", "restart the editor",
+            "superdeform-" + SuperDeformLibrary.Version + ".tgz");
     }
 
     [Test]

@@ -4,8 +4,8 @@ using System.Collections.Generic;
 namespace SuperDeform.Tests
 {
 /// <summary>
-/// A figure of tubes with joints, arms out, about 1.75 high, that looks along +Z with its left at +X: what tests deform.
-/// Each part is a tube with caps that hangs from one joint.
+/// A figure of tubes with joints, arms out, about 1.75 high, that looks along +Z with its left at +X: what tests
+/// deform. Each part is a tube with caps that hangs from one joint.
 /// </summary>
 public sealed class Mannequin
 {

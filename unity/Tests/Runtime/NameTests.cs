@@ -28,7 +28,8 @@ public sealed class NameTests
             for (int padding = 0; padding < 3; padding++)
             {
                 string name = new string('a', padding) + new string('髪', 300);
-                InvalidInputException exception = Thrown.Invalid(Status.BadInput, () => character.AddMesh(figure.Mesh(name)));
+                MeshArrays mesh = figure.Mesh(name);
+                InvalidInputException exception = Thrown.Invalid(Status.BadInput, () => character.AddMesh(mesh));
                 Assert.IsFalse(exception.Message.Contains("\uFFFD"), exception.Message);
                 Thrown.Says(exception, "髪髪髪");
             }

@@ -57,7 +57,8 @@ public sealed class ProgressTests
     public void False_cancels_and_leaves_everything_as_it_was()
     {
         ulong before = SuperDeformLibrary.LiveHandles;
-        Thrown.With<CancelledException>(Status.Cancelled, () => new Deformer(character, style, null, fraction => false));
+        Thrown.With<CancelledException>(Status.Cancelled,
+            () => new Deformer(character, style, null, fraction => false));
         Assert.AreEqual(before, SuperDeformLibrary.LiveHandles);
         using (Deformer deformer = new Deformer(character, style))
         {
@@ -65,7 +66,8 @@ public sealed class ProgressTests
             deformer.Apply(new[] { expected });
             Thrown.With<CancelledException>(Status.Cancelled,
                 () => deformer.SetOptions(new Options { HeadScale = 1.2 }, fraction => false));
-            Thrown.With<CancelledException>(Status.Cancelled, () => deformer.Apply(new[] { output }, fraction => false));
+            Thrown.With<CancelledException>(Status.Cancelled,
+                () => deformer.Apply(new[] { output }, fraction => false));
             Assert.AreEqual(new Triple[figure.VertexCount], output.Positions, "something was written");
             deformer.Apply(new[] { output });
             Assert.AreEqual(expected.Positions, output.Positions);
@@ -101,7 +103,8 @@ public sealed class ProgressTests
     {
         using (Deformer deformer = new Deformer(character, style))
         {
-            Thrown.With<BusyException>(Status.Busy, () => deformer.SetOptions(new Options { HeadScale = 1.2 }, fraction =>
+            Options options = new Options { HeadScale = 1.2 };
+            Thrown.With<BusyException>(Status.Busy, () => deformer.SetOptions(options, fraction =>
             {
                 deformer.SetFace(0, FaceCurve.F4);
                 return true;

@@ -5,8 +5,8 @@ using NUnit.Framework;
 namespace SuperDeform.Tests
 {
 /// <summary>
-/// Runs every test of this assembly where NUnit's own runner does not start, as on CoreCLR. Ends with how many passed and
-/// failed.
+/// Runs every test of this assembly where NUnit's own runner does not start, as on CoreCLR. Ends with how many passed
+/// and failed.
 /// </summary>
 public static class RunTests
 {

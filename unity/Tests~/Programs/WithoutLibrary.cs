@@ -2,7 +2,9 @@ using System;
 
 namespace SuperDeform.Tests
 {
-/// <summary>What is said where the library is missing or another one: run without it, and with others of its name.</summary>
+/// <summary>
+/// What is said where the library is missing or another one: run without it, and with others of its name.
+/// </summary>
 public static class WithoutLibrary
 {
     public static void Main()
