@@ -1,0 +1,359 @@
+using System;
+using System.Collections.Generic;
+using System.IO;
+using NUnit.Framework;
+using UnityEditor;
+using UnityEngine;
+using UnityStubs;
+
+namespace SuperDeform.Editor.Tests
+{
+    [TestFixture]
+    public class ConversionTests
+    {
+        private const double Height = 1.9;
+
+        [SetUp]
+        public void Begin()
+        {
+            ConversionFigure.NewProject();
+        }
+
+        private static ConversionSettings Settings()
+        {
+            return new ConversionSettings { Heads = 2.5f, OutputFolder = "Assets/Out", PlaceInScene = false };
+        }
+
+        /// <summary>The vertices of a renderer as it is drawn, in its avatar's space.</summary>
+        internal static Vector3[] Drawn(GameObject root, string name)
+        {
+            Transform holder = Find(root, name);
+            Matrix4x4 space = root.transform.worldToLocalMatrix;
+            var skinned = holder.GetComponent<SkinnedMeshRenderer>();
+            if (skinned == null)
+                return Array.ConvertAll(holder.GetComponent<MeshFilter>().sharedMesh.vertices, p => (space * holder.localToWorldMatrix).MultiplyPoint3x4(p));
+            Vector3[] positions, normals;
+            Skinning.Drawn(skinned, space, out positions, out normals);
+            return positions;
+        }
+
+        internal static Transform Find(GameObject root, string name)
+        {
+            Transform found = Array.Find(root.GetComponentsInChildren<Transform>(true), transform => transform.name == name);
+            Assert.That(found, Is.Not.Null, name);
+            return found;
+        }
+
+        private static double Apart(Vector3[] one, Vector3[] other)
+        {
+            Assert.AreEqual(one.Length, other.Length);
+            double most = 0;
+            for (int i = 0; i < one.Length; i++)
+                most = Math.Max(most, Vector3.Distance(one[i], other[i]));
+            return most;
+        }
+
+        [Test]
+        public void the_result_is_drawn_where_the_library_puts_it()
+        {
+            foreach (bool turned in new[] { false, true })
+            {
+                ConversionFigure figure = new ConversionFigure { Turned = turned }.Make();
+                ConversionSettings settings = Settings();
+                ConversionResult result = Converter.Convert(figure.Root, settings, null);
+                using (AvatarData data = CharacterReader.Read(figure.Root, new ReadOptions()))
+                using (Style style = settings.MakeStyle())
+                using (var deformer = new Deformer(data.Character, style, settings.MakeOptions(), null))
+                {
+                    var expected = new AvatarResult(data, true);
+                    expected.Apply(deformer, null);
+                    foreach (RendererResult renderer in expected.Renderers)
+                        Assert.That(Apart(renderer.Positions, Drawn(result.Prefab, renderer.Source.Renderer.name)), Is.LessThan(1e-5 * Height), renderer.Source.Renderer.name);
+                }
+                Assert.That(result.Report.Result.Heads, Is.LessThan(result.Report.Target.Heads));
+            }
+        }
+
+        [Test]
+        public void a_turned_and_scaled_armature_changes_nothing()
+        {
+            ConversionResult plain = Converter.Convert(new ConversionFigure().Make().Root, Settings(), null);
+            ConversionResult turned = Converter.Convert(new ConversionFigure { Turned = true }.Make().Root, Settings(), null);
+            foreach (string name in new[] { "Body", "Hair", "Hat" })
+                Assert.That(Apart(Drawn(plain.Prefab, name), Drawn(turned.Prefab, name)), Is.LessThan(1e-4 * Height), name);
+        }
+
+        [Test]
+        public void nothing_of_the_source_changes()
+        {
+            ConversionFigure figure = new ConversionFigure { Turned = true, WithShapes = true }.Make();
+            string before = Fingerprint.Of(figure.Root);
+            Converter.Convert(figure.Root, Settings(), null);
+            Assert.AreEqual(before, Fingerprint.Of(figure.Root));
+        }
+
+        [Test]
+        public void an_amount_of_0_gives_every_bit_back()
+        {
+            ConversionFigure figure = new ConversionFigure { Turned = true, WithShapes = true }.Make();
+            ConversionSettings settings = Settings();
+            settings.Amount = 0;
+            GameObject prefab = Converter.Convert(figure.Root, settings, null).Prefab;
+            Mesh old = figure.Body.sharedMesh, made = Find(prefab, "Body").GetComponent<SkinnedMeshRenderer>().sharedMesh;
+            Assert.AreNotSame(old, made);
+            Assert.AreEqual(old.vertices, made.vertices);
+            Assert.AreEqual(old.normals, made.normals);
+            Assert.AreEqual(old.tangents, made.tangents);
+            Assert.AreEqual(old.bindposes, made.bindposes);
+            Assert.AreEqual(Frames(old), Frames(made));
+            foreach (Transform bone in figure.Bones.Values)
+                Assert.AreEqual(bone.localPosition, Find(prefab, bone.name).localPosition);
+            Assert.AreEqual(0.1f, Find(prefab, "J_Head").GetComponent<SphereCollider>().radius, 1e-6);
+        }
+
+        private static List<Vector3> Frames(Mesh mesh)
+        {
+            var all = new List<Vector3>();
+            for (int shape = 0; shape < mesh.blendShapeCount; shape++)
+                for (int frame = 0; frame < mesh.GetBlendShapeFrameCount(shape); frame++)
+                {
+                    Vector3[] positions = new Vector3[mesh.vertexCount], normals = new Vector3[mesh.vertexCount], tangents = new Vector3[mesh.vertexCount];
+                    mesh.GetBlendShapeFrameVertices(shape, frame, positions, normals, tangents);
+                    all.AddRange(positions);
+                    all.AddRange(normals);
+                    all.AddRange(tangents);
+                }
+            return all;
+        }
+
+        [Test]
+        public void a_blend_shape_at_full_weight_is_the_deformed_face()
+        {
+            // Deforming the figure with the shape baked into its vertices must give what the shape gives on the result.
+            ConversionFigure figure = new ConversionFigure { Turned = true, WithShapes = true }.Make();
+            ConversionSettings settings = Settings();
+            settings.FaceSquash = 0.5f;
+            GameObject prefab = Converter.Convert(figure.Root, settings, null).Prefab;
+            var body = Find(prefab, "Body").GetComponent<SkinnedMeshRenderer>();
+            Vector3[] rest = Drawn(prefab, "Body");
+            using (AvatarData data = CharacterReader.Read(figure.Root, new ReadOptions { WithMorphs = true }))
+            using (Style style = settings.MakeStyle())
+            using (var deformer = new Deformer(data.Character, style, settings.MakeOptions(), null))
+            {
+                RendererData renderer = data.Renderers.Find(r => r.Renderer == figure.Body);
+                Assert.AreEqual(3, renderer.Frames.Count);
+                Assert.AreEqual(2, body.sharedMesh.blendShapeCount);
+                Assert.AreEqual(2, body.sharedMesh.GetBlendShapeFrameCount(0));
+                Assert.AreEqual(50f, body.sharedMesh.GetBlendShapeFrameWeight(0, 0));
+                Vector3[] written = new Vector3[rest.Length], none = new Vector3[rest.Length];
+                body.sharedMesh.GetBlendShapeFrameVertices(0, 1, written, none, null);
+                Affine toModel = renderer.Placement;
+                int moved = 0;
+                for (int vertex = 0; vertex < rest.Length; vertex++)
+                {
+                    Vector3 delta = toModel.Direction(Double3.Of(renderer.Frames[1].Positions[vertex])).ToVector3();
+                    Vector3 now = toModel.Direction(Double3.Of(written[vertex])).ToVector3();
+                    if (delta == Vector3.zero)
+                    {
+                        Assert.AreEqual(Vector3.zero, written[vertex]);
+                        continue;
+                    }
+                    // A head that grows moves its shapes further: the same way, in the head's measure.
+                    moved++;
+                    Assert.That(Vector3.Dot(now.normalized, delta.normalized), Is.GreaterThan(0.7f));
+                    Assert.That(now.magnitude, Is.InRange(0.3f * delta.magnitude, 4f * delta.magnitude));
+                }
+                Assert.That(moved, Is.GreaterThan(50));
+            }
+        }
+
+        [Test]
+        public void the_prefab_holds_what_the_source_held()
+        {
+            ConversionFigure figure = new ConversionFigure { WithShapes = true }.Make();
+            ConversionResult result = Converter.Convert(figure.Root, Settings(), null);
+            Mesh old = figure.Body.sharedMesh;
+            var body = Find(result.Prefab, "Body").GetComponent<SkinnedMeshRenderer>();
+            Assert.AreEqual("Assets/Out/Mika_SD/Mika_SD.prefab", result.PrefabPath);
+            Assert.AreEqual(old.uv, body.sharedMesh.uv);
+            Assert.AreEqual(old.GetIndices(1), body.sharedMesh.GetIndices(1));
+            Assert.AreEqual(old.GetAllBoneWeights().ToArray(), body.sharedMesh.GetAllBoneWeights().ToArray());
+            Assert.AreEqual(old.name, body.sharedMesh.name);
+            Assert.AreEqual(Array.ConvertAll(figure.Body.sharedMaterials, m => m.name), Array.ConvertAll(body.sharedMaterials, m => m.name));
+            Assert.AreEqual(figure.Body.bones.Length, body.bones.Length);
+            foreach (Transform bone in body.bones)
+                Assert.That(bone.IsChildOf(result.Prefab.transform), bone.name);
+            Assert.AreEqual("Assets/Out/Mika_SD/Mika_SD.asset", AssetDatabase.GetAssetPath(body.sharedMesh));
+            var preset = AssetDatabase.LoadAssetAtPath<SuperDeformPreset>("Assets/Out/Mika_SD/Mika_SD.asset");
+            Assert.AreEqual(2.5f, preset.Settings.Heads);
+            // Nothing of the work is left in the scene.
+            Assert.That(GameObject.Find("Mika_SD"), Is.Null);
+        }
+
+        [Test]
+        public void the_avatar_knows_the_new_bones()
+        {
+            ConversionFigure figure = new ConversionFigure { Turned = true }.Make();
+            GameObject prefab = Converter.Convert(figure.Root, Settings(), null).Prefab;
+            Avatar avatar = prefab.GetComponent<Animator>().avatar, old = figure.Root.GetComponent<Animator>().avatar;
+            Assert.AreNotSame(old, avatar);
+            Assert.That(avatar.isValid && avatar.isHuman);
+            Assert.AreEqual(old.humanDescription.human.Length, avatar.humanDescription.human.Length);
+            Assert.AreEqual(0.25f, avatar.humanDescription.upperArmTwist);
+            foreach (SkeletonBone bone in avatar.humanDescription.skeleton)
+                if (bone.name != prefab.name)
+                    Assert.That(Vector3.Distance(bone.position, Find(prefab, bone.name).localPosition), Is.LessThan(1e-4), bone.name);
+            Assert.AreSame(Find(prefab, "J_Head"), prefab.GetComponent<Animator>().GetBoneTransform(HumanBodyBones.Head));
+        }
+
+        [Test]
+        public void colliders_follow_what_they_are_around()
+        {
+            ConversionFigure figure = new ConversionFigure().Make();
+            ConversionResult result = Converter.Convert(figure.Root, Settings(), null);
+            double height = result.Report.Result.Height / result.Report.Target.Height;
+            var sphere = Find(result.Prefab, "J_Head").GetComponent<SphereCollider>();
+            Vector3 center = sphere.transform.TransformPoint(sphere.center);
+            Vector3[] hair = Drawn(result.Prefab, "Hair");
+            var box = new Bounds(hair[0], Vector3.zero);
+            foreach (Vector3 p in hair)
+                box.Encapsulate(p);
+            Assert.That(Vector3.Distance(box.center, center), Is.LessThan(0.2f * box.extents.y));
+            Assert.That(sphere.radius, Is.InRange(0.6f * box.extents.x, 1.2f * box.extents.x));
+            var controller = result.Prefab.GetComponent<CharacterController>();
+            Assert.AreEqual(1.8 * height, controller.height, 1e-3);
+            Assert.AreEqual(0.9 * height, controller.center.y, 0.02);
+            var capsule = Find(result.Prefab, "J_LeftUpperLeg").GetComponent<CapsuleCollider>();
+            Assert.That(capsule.height, Is.LessThan(0.45f));
+        }
+
+        [Test]
+        public void bounds_hold_the_new_mesh()
+        {
+            ConversionFigure figure = new ConversionFigure { Turned = true }.Make();
+            GameObject prefab = Converter.Convert(figure.Root, Settings(), null).Prefab;
+            var body = Find(prefab, "Body").GetComponent<SkinnedMeshRenderer>();
+            Matrix4x4 toBone = body.rootBone.worldToLocalMatrix * prefab.transform.localToWorldMatrix;
+            Bounds wide = body.localBounds;
+            wide.Expand(1e-3f * wide.size.magnitude);
+            foreach (Vector3 p in Drawn(prefab, "Body"))
+                Assert.That(wide.Contains(toBone.MultiplyPoint3x4(p)));
+        }
+
+        [Test]
+        public void an_instance_stands_beside_the_source_until_undone()
+        {
+            ConversionFigure figure = new ConversionFigure().Make();
+            ConversionSettings settings = Settings();
+            settings.PlaceInScene = true;
+            GameObject instance = Converter.Convert(figure.Root, settings, null).Instance;
+            Assert.That(instance, Is.Not.Null);
+            Assert.That(instance.transform.localPosition.x, Is.GreaterThan(1));
+            Undo.PerformUndo();
+            Assert.That(instance == null);
+            Assert.That(File.Exists("Assets/Out/Mika_SD/Mika_SD.prefab"));
+        }
+
+        [Test]
+        public void converting_again_overwrites_nothing()
+        {
+            ConversionFigure figure = new ConversionFigure().Make();
+            string first = Converter.Convert(figure.Root, Settings(), null).PrefabPath;
+            byte[] bytes = File.ReadAllBytes(first);
+            string second = Converter.Convert(figure.Root, Settings(), null).PrefabPath;
+            Assert.AreNotEqual(first, second);
+            Assert.AreEqual(bytes, File.ReadAllBytes(first));
+        }
+
+        [Test]
+        public void a_refused_write_leaves_nothing()
+        {
+            ConversionFigure figure = new ConversionFigure().Make();
+            foreach (string ending in new[] { ".prefab", ".asset", "Out" })
+            {
+                StubDisk.Refuse = path => path.EndsWith(ending);
+                Refused(figure);
+            }
+            StubDisk.Refuse = null;
+            Converter.Convert(figure.Root, Settings(), null);
+        }
+
+        [Test]
+        public void a_full_disk_leaves_nothing()
+        {
+            ConversionFigure figure = new ConversionFigure().Make();
+            Converter.Convert(figure.Root, Settings(), null);
+            long whole = StubDisk.Written;
+            Assert.That(AssetDatabase.DeleteAsset("Assets/Out"));
+            for (int share = 0; share < 10; share++)
+            {
+                StubDisk.FailAfterBytes = whole * share / 10;
+                Refused(figure);
+            }
+        }
+
+        /// <summary>All objects that are not destroyed.</summary>
+        private static HashSet<int> Objects()
+        {
+            return new HashSet<int>(Registry.All().ConvertAll(value => value.GetInstanceID()));
+        }
+
+        private static void Refused(ConversionFigure figure)
+        {
+            HashSet<int> objects = Objects();
+            var refused = Assert.Throws<ConversionException>(() => Converter.Convert(figure.Root, Settings(), null));
+            Assert.AreEqual("write_refused", refused.Finding.Key);
+            Assert.AreEqual(new string[0], StubProject.FilesOnDisk());
+            Assert.That(Objects(), Is.SubsetOf(objects));
+        }
+
+        private sealed class Stops : IConversionProgress
+        {
+            public int After;
+            public readonly List<string> Stages = new List<string>();
+            private float last;
+
+            public bool Report(string stageKey, float fraction)
+            {
+                Assert.That(fraction, Is.InRange(last, 1f));
+                last = fraction;
+                if (!Stages.Contains(stageKey))
+                    Stages.Add(stageKey);
+                return After-- > 0;
+            }
+        }
+
+        [Test]
+        public void cancelling_at_any_time_leaves_nothing()
+        {
+            ConversionFigure figure = new ConversionFigure().Make();
+            var whole = new Stops { After = int.MaxValue };
+            Converter.Convert(figure.Root, Settings(), whole);
+            Assert.That(AssetDatabase.DeleteAsset("Assets/Out"));
+            int calls = int.MaxValue - whole.After;
+            HashSet<int> objects = Objects();
+            // The last call only says that all is done.
+            for (int after = 0; after < calls - 1; after += 1 + calls / 12)
+            {
+                var cancelled = Assert.Throws<ConversionException>(() => Converter.Convert(figure.Root, Settings(), new Stops { After = after }));
+                Assert.That(cancelled.Cancelled, after.ToString());
+                Assert.AreEqual(new string[0], StubProject.FilesOnDisk());
+                Assert.That(Objects(), Is.SubsetOf(objects));
+            }
+        }
+
+        [Test]
+        public void renderers_of_one_mesh_share_the_new_one_where_they_come_out_the_same()
+        {
+            ConversionFigure figure = new ConversionFigure().Make();
+            GameObject twin = UnityEngine.Object.Instantiate(figure.Hair.gameObject, figure.Root.transform);
+            twin.name = "Hair twin";
+            GameObject second = UnityEngine.Object.Instantiate(figure.Hat.gameObject, figure.Bones[HumanBodyBones.LeftHand]);
+            second.name = "Hat in hand";
+            twin.GetComponent<SkinnedMeshRenderer>().bones = figure.Hair.bones;
+            GameObject prefab = Converter.Convert(figure.Root, Settings(), null).Prefab;
+            Assert.AreSame(Find(prefab, "Hair").GetComponent<SkinnedMeshRenderer>().sharedMesh, Find(prefab, "Hair twin").GetComponent<SkinnedMeshRenderer>().sharedMesh);
+            Assert.AreNotSame(Find(prefab, "Hat").GetComponent<MeshFilter>().sharedMesh, Find(prefab, "Hat in hand").GetComponent<MeshFilter>().sharedMesh);
+        }
+    }
+}
