@@ -47,7 +47,7 @@ cp "$nunit" "$out/"
 compile -target:library -out:"$out/SuperDeform.dll" unity/Runtime/*.cs
 compile -target:exe -r:"$out/SuperDeform.dll" -r:"$out/nunit.framework.dll" -out:"$out/SuperDeform.Tests.exe" \
   unity/Tests/Runtime/*.cs "$tests"/Runtime/*.cs "$tests/Programs/RunTests.cs"
-for program in WithoutLibrary DomainReload; do
+for program in WithoutLibrary DomainReload LittleMemory; do
   compile -target:exe -r:"$out/SuperDeform.dll" -out:"$out/$program.exe" "$tests/Programs/$program.cs"
 done
 
@@ -80,6 +80,15 @@ done
 
 # ---- A reload of scripts: objects that nobody disposed of go with their domain ----
 check "objects outlive their domain" test "$(mono "$out/DomainReload.exe" 2>&1)" = "0 20 0"
+
+# ---- Memory that cannot be had: 720 MB of input and as much again are more than 1.3 GB ----
+little_memory() {
+  local text
+  text=$(ulimit -v 1300000 && mono "$out/LittleMemory.exe" 2>&1) || true
+  echo "$text"
+  [[ $text == "SuperDeformException OutOfMemory: "*"60000000 positions"*$'\n'1 ]]
+}
+check "memory that cannot be had" little_memory
 
 # ---- Without the library, and with others of its name ----
 # says WHERE ERROR WORDS...: every line of the program but the last is the error with all the words.
