@@ -50,6 +50,17 @@ NEWER = {
 }
 
 
+# Which types come with which module of Unity.
+MODULES = {
+    "animation": "Animator|Avatar|AvatarBuilder|HumanDescription|HumanBodyBones|AnimationClip",
+    "audio": "AudioSource|AudioClip", "cloth": "Cloth|ClothSphereColliderPair",
+    "imageconversion": "ImageConversion|EncodeToPNG", "imgui": "GUI|GUILayout|GUIStyle|GUIContent",
+    "jsonserialize": "JsonUtility", "particlesystem": "ParticleSystem",
+    "physics": "SphereCollider|CapsuleCollider|BoxCollider|MeshCollider|CharacterController|Rigidbody|Joint",
+    "physics2d": "Collider2D|Rigidbody2D", "uielements": "VisualElement", "unitywebrequest": "UnityWebRequest",
+}
+
+
 def read(path):
     return path.read_text(encoding="utf-8")
 
@@ -117,6 +128,15 @@ def check_manifest(root):
         if not (root / file).is_file():
             said.append(f"{file} is missing")
     return said
+
+
+def check_modules(root):
+    """Unity's own modules can be turned off in a project: those whose types are used are named in the manifest."""
+    needed = set(json.loads(read(root / "package.json")).get("dependencies", {}))
+    text = "\n".join(bare(read(source)) for source in sources(root) if "Tests" not in source.parts)
+    used = {f"com.unity.modules.{module}" for module, types in MODULES.items() if re.search(rf"\b({types})\b", text)}
+    return ([f"package.json names no {module}, of which types are used" for module in sorted(used - needed)]
+            + [f"package.json names {module}, of which nothing is used" for module in sorted(needed - used)])
 
 
 def check_paths(root):
@@ -291,7 +311,7 @@ def check_libraries(root):
     return said
 
 
-CHECKS = [check_metas, check_json, check_manifest, check_paths, check_assemblies, check_imports, check_api, check_strings,
+CHECKS = [check_metas, check_json, check_manifest, check_modules, check_paths, check_assemblies, check_imports, check_api, check_strings,
           check_documentation, check_libraries]
 
 
@@ -321,6 +341,11 @@ BREAKS = [
     (check_manifest, "a newer editor", lambda root: edit(root / "package.json", "2021.3", "2022.3"), "unity is"),
     (check_manifest, "no sample", lambda root: shutil.rmtree(root / "Samples~"), "has no script"),
     (check_manifest, "no licence", lambda root: (root / "LICENSE.md").unlink(), "LICENSE.md is missing"),
+    (check_modules, "a module that is not named",
+     lambda root: edit(root / "package.json", '"com.unity.modules.physics"', '"com.unity.modules.wind"'), "modules.physics"),
+    (check_modules, "a module without use", lambda root: edit(
+        root / "package.json", '"com.unity.modules.physics"', '"com.unity.modules.vr": "1.0.0", "com.unity.modules.physics"'),
+     "names com.unity.modules.vr"),
     (check_paths, "names that differ in case", lambda root: put(root / "readme.md", ""), "one file on Windows"),
     (check_paths, "a long path", lambda root: put(root / ("a" * 80) / ("b" * 80), ""), "too long"),
     (check_assemblies, "a reference to nothing",
