@@ -128,7 +128,7 @@ namespace UnityEditor
         public static void Beep() { }
         public static void QueuePlayerLoopUpdate() { }
         public static void RepaintHierarchyWindow() { }
-        public static bool ExecuteMenuItem(string menuItemPath) { return MenuItems.Execute(menuItemPath); }
+        public static bool ExecuteMenuItem(string menuItemPath) { return StubMenu.Execute(menuItemPath); }
         internal static void Raise(PlayModeStateChange change) { if (playModeStateChanged != null) playModeStateChanged(change); }
         internal static void RaiseQuitting() { if (quitting != null) quitting(); if (hierarchyChanged != null) hierarchyChanged(); if (projectChanged != null) projectChanged(); }
     }
@@ -275,7 +275,7 @@ namespace UnityStubs
     }
 
     /// Menu commands of all loaded assemblies, found by their attribute as the editor finds them.
-    public static class MenuItems
+    public static class StubMenu
     {
         public static List<string> All()
         {
@@ -323,13 +323,15 @@ namespace UnityStubs
         /// Runs every [InitializeOnLoadMethod] of the loaded assemblies.
         public static void LoadScripts()
         {
-            foreach (Type type in MenuItems.Editors())
+            foreach (Type type in StubMenu.Editors())
                 foreach (MethodInfo method in type.GetMethods(BindingFlags.Static | BindingFlags.Public | BindingFlags.NonPublic | BindingFlags.DeclaredOnly))
                     if (method.IsDefined(typeof(InitializeOnLoadMethodAttribute), false)) method.Invoke(null, null);
         }
         public static void ReloadScripts() { AssemblyReloadEvents.Raise(); }
         public static void Tick() { EditorApplication.CallbackFunction update = EditorApplication.update, later = EditorApplication.delayCall; EditorApplication.delayCall = null; if (later != null) later(); if (update != null) update(); }
         public static void ChangePlayMode(PlayModeStateChange change) { EditorApplication.Raise(change); }
+        /// As an importer with "Optimize Game Objects" leaves it.
+        public static void SetOptimized(Animator animator, bool optimized) { animator.hasTransformHierarchy = !optimized; }
         public static int UndoSteps { get { return Undo.StepCount; } }
         public static int AssetEditing { get { return AssetDatabase.Editing; } }
         public static int RunningProgress { get { return Progress.Running.Count; } }
