@@ -18,6 +18,7 @@ sys.dont_write_bytecode = True
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))
 import metas  # noqa: E402
+from package_faults import FAULTS  # noqa: E402
 
 REPOSITORY = HERE.parent.parent
 NAME = metas.PACKAGE
@@ -268,8 +269,9 @@ def is_said(key, literals):
 
 def failures(root):
     """Keys whose sentence a person reads when something is wrong: findings have no dot in their keys."""
-    return [key for key in texts(root, "en")
-            if re.match(r"(error|warning)\.|batch\.(no|not|bad|two|style_not|unknown|twice)|(?!stage_|fix|show$)\w+$", key)]
+    kinds = (r"(error|warning|menu)\.|report\.(no_|not_)|batch\.(no|not|bad|two|style_not|unknown|twice)"
+             r"|(?!stage_|fix|show$)\w+$")
+    return [key for key in texts(root, "en") if re.match(kinds, key)]
 
 
 def plain(text):
@@ -311,80 +313,8 @@ def check_libraries(root):
     return said
 
 
-CHECKS = [check_metas, check_json, check_manifest, check_modules, check_paths, check_assemblies, check_imports, check_api, check_strings,
-          check_documentation, check_libraries]
-
-
-def edit(path, before, after):
-    text = read(path)
-    if before not in text:
-        raise AssertionError(f"{path} has no {before!r} to break")
-    path.write_text(text.replace(before, after, 1), encoding="utf-8")
-
-
-def put(path, text):
-    path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(text, encoding="utf-8")
-
-
-# A fault for a check to find: the check, what is broken, how, and words of the sentence that it must then say.
-BREAKS = [
-    (check_metas, "a file without meta", lambda root: (root / "README.md.meta").unlink(), "README.md.meta is missing"),
-    (check_metas, "a meta without file", lambda root: put(root / "gone.txt.meta", "guid: 1\n"), "belongs to no file"),
-    (check_metas, "a GUID twice", lambda root: (root / "README.md.meta").write_text(read(root / "LICENSE.md.meta")),
-     "GUID"),
-    (check_metas, "another importer", lambda root: edit(root / "Runtime/Native.g.cs.meta", "MonoImporter", "Default"),
-     "differs"),
-    (check_json, "a comma too many", lambda root: edit(root / "package.json", "{", "{,"), "package.json"),
-    (check_manifest, "another version", lambda root: edit(root / "package.json", '"version": "', '"version": "9'),
-     "version is 9"),
-    (check_manifest, "a newer editor", lambda root: edit(root / "package.json", "2021.3", "2022.3"), "unity is"),
-    (check_manifest, "no sample", lambda root: shutil.rmtree(root / "Samples~"), "has no script"),
-    (check_manifest, "no licence", lambda root: (root / "LICENSE.md").unlink(), "LICENSE.md is missing"),
-    (check_modules, "a module that is not named",
-     lambda root: edit(root / "package.json", '"com.unity.modules.physics"', '"com.unity.modules.wind"'), "modules.physics"),
-    (check_modules, "a module without use", lambda root: edit(
-        root / "package.json", '"com.unity.modules.physics"', '"com.unity.modules.vr": "1.0.0", "com.unity.modules.physics"'),
-     "names com.unity.modules.vr"),
-    (check_paths, "names that differ in case", lambda root: put(root / "readme.md", ""), "one file on Windows"),
-    (check_paths, "a long path", lambda root: put(root / ("a" * 80) / ("b" * 80), ""), "too long"),
-    (check_assemblies, "a reference to nothing",
-     lambda root: edit(root / "Editor/SuperDeform.Editor.asmdef", '"SuperDeform"\n', '"SuperDeformed"\n'),
-     "nobody defines"),
-    (check_assemblies, "UniVRM wanted always",
-     lambda root: edit(root / "Editor/Vrm0/SuperDeform.Editor.Vrm0.asmdef", '"SUPERDEFORM_VRM0"\n    ],', "],"),
-     "constrain it"),
-    (check_assemblies, "the engine in the runtime",
-     lambda root: put(root / "Runtime/Engine.cs", "using UnityEngine;\n"), "uses the engine"),
-    (check_assemblies, "a source without assembly", lambda root: put(root / "Loose.cs", "class Loose { }\n"),
-     "belongs to no assembly"),
-    (check_imports, "a function that is not imported",
-     lambda root: edit(root / "Runtime/Native.g.cs", "sdef_destroy", "sdef_destroyed"), "sdef_destroy stands"),
-    (check_imports, "an older ABI",
-     lambda root: edit(root / "Runtime/Native.g.cs", "SDEF_ABI_VERSION = 1;", "SDEF_ABI_VERSION = 0;"), "ABI version"),
-    (check_api, "a newer function",
-     lambda root: put(root / "Editor/Newer.cs", "class Newer { object all = Object.FindObjectsByType<int>(0); }\n"),
-     "Editor/Newer.cs:1"),
-    (check_api, "newer C#", lambda root: put(root / "Editor/Newer.cs", "namespace A;\n"), "Editor/Newer.cs:1"),
-    (check_strings, "a key without text",
-     lambda root: put(root / "Editor/Key.cs", 'class Key { string text = Strings.Get("no.such.key"); }\n'),
-     "no.such.key"),
-    (check_strings, "a text without Japanese", lambda root: edit(root / "Editor/Localization/en.json", "{",
-                                                                 '{ "only.english": "one",'), "ja.json lacks"),
-    (check_strings, "a value lost in Japanese",
-     lambda root: [edit(root / f"Editor/Localization/{language}.json", "{", f'{{ "a.value": "{text}",')
-                   for language, text in (("en", "{0}"), ("ja", "x"))], "a.value has the values"),
-    (check_strings, "a text that nothing says",
-     lambda root: [edit(root / f"Editor/Localization/{language}.json", "{", '{ "unsaid": "x",')
-                   for language in ("en", "ja")], "nothing says unsaid"),
-    (check_documentation, "a sentence unexplained",
-     lambda root: edit(root / "Editor/Localization/en.json", "{", '{ "moon_is_full": "The moon is full.",'), "moon_is_full"),
-    (check_documentation, "a dead link", lambda root: put(root / "README.md", "[a](nowhere.md)"), "nowhere.md"),
-    (check_libraries, "a library of another system",
-     lambda root: put(root / "Plugins/x86_64/superdeform.dll", "\x7fELF"), "no library for its system"),
-    (check_libraries, "a library of another version",
-     lambda root: put(root / "Plugins/x86_64/superdeform.dll", "MZ"), "another version's"),
-]
+CHECKS = [check_metas, check_json, check_manifest, check_modules, check_paths, check_assemblies, check_imports, check_api,
+          check_strings, check_documentation, check_libraries]
 
 
 def main():
@@ -409,16 +339,17 @@ def main():
 
     print("=== each check, on a copy with a fault")
     with tempfile.TemporaryDirectory() as folder:
-        for check, fault, damage, words in BREAKS:
+        for name, fault, damage, words in FAULTS:
+            check = globals()["check_" + name]
             copy = Path(folder) / "package"
             shutil.copytree(root, copy, ignore=shutil.ignore_patterns("Tests~", "Plugins", "Plugins.meta"))
             try:
                 damage(copy)
                 said = check(copy)
-                result(f"{check.__name__[6:]} finds {fault}",
+                result(f"{name} finds {fault}",
                        [] if any(words in sentence for sentence in said) else [f"it said {said}, not {words!r}"])
             except (OSError, ValueError, KeyError, AssertionError) as error:
-                result(f"{check.__name__[6:]} finds {fault}", [repr(error)])
+                result(f"{name} finds {fault}", [repr(error)])
             shutil.rmtree(copy)
     print(f"{passed} passed, {failed} failed")
     return 1 if failed else 0
