@@ -133,7 +133,7 @@ namespace SuperDeform.Editor
             }
             findings.AddRange(data.Findings);
             bool skinned = data.Renderers.Exists(renderer => renderer.Skin != null);
-            int[] roles = library ? Guessed(data) : data.Roles;
+            int[] roles = library ? CharacterReader.RolesOf(data) : data.Roles;
             HumanBodyBones? missing = HumanoidRoles.Missing(role => roles[role] >= 0);
             if (!HumanoidRoles.IsHumanoid(data.Animator)) CheckHumanoid(data, skinned, rigAuto, missing, findings);
             if (missing != null) return;
@@ -141,28 +141,13 @@ namespace SuperDeform.Editor
             CheckPose(data, roles, findings);
         }
 
-        /// <summary>By role, the joint that the avatar says or the library guesses; -1 where neither does.</summary>
-        static int[] Guessed(AvatarData data)
-        {
-            if (HumanoidRoles.Missing(role => data.Roles[role] >= 0) == null) return data.Roles;
-            using (Character character = new Character(new float[] { 0, 1, 0 }, new float[] { 0, 0, 1 }))
-            {
-                character.SetSkeleton(CharacterReader.Skeleton(data));
-                HumanoidRole[] found = character.GetJoints().Roles;
-                int[] roles = new int[HumanoidRoles.Count];
-                for (int role = 0; role < roles.Length; role++)
-                {
-                    roles[role] = Array.IndexOf(found, (HumanoidRole)role);
-                }
-                return roles;
-            }
-        }
-
         static void CheckHumanoid(AvatarData data, bool skinned, bool rigAuto, HumanBodyBones? missing, List<Finding> findings)
         {
             if (!skinned && missing != null)
             {
-                findings.Add(new Finding("rig_will_be_made", Severity.Info, data.Root, data.Root.name));
+                // Nothing tells where its head is but the way that its root stands.
+                bool lies = (data.Root.transform.rotation * Vector3.up).y < 0.5f;
+                findings.Add(new Finding(lies ? "not_upright" : "rig_will_be_made", lies ? Severity.Error : Severity.Info, data.Root, data.Root.name));
                 return;
             }
             if (missing != null)
@@ -224,29 +209,18 @@ namespace SuperDeform.Editor
 
         static void CheckPose(AvatarData data, int[] roles, List<Finding> findings)
         {
-            Double3 up = Place(data, roles, HumanBodyBones.Head) - Place(data, roles, HumanBodyBones.Hips);
-            Double3 right = Place(data, roles, HumanBodyBones.RightUpperArm) - Place(data, roles, HumanBodyBones.LeftUpperArm);
+            Double3 up = data.Rest[roles[(int)HumanBodyBones.Head]].Position - data.Rest[roles[(int)HumanBodyBones.Hips]].Position;
             if (!(up.Y > 0.5 * up.Length))
             {
                 findings.Add(new Finding("not_upright", Severity.Error, data.Root, data.Root.name));
                 return;
             }
-            if (!(right.X > 0.5 * right.Length))
-            {
-                findings.Add(new Finding("not_forward", Severity.Error, data.Root, data.Root.name));
-                return;
-            }
             PoseMeasure pose = PoseMeasure.Of(roles, data.Rest);
             if (!(pose.Degrees > PoseMeasure.Limit)) return;
-            Finding finding = new Finding("pose_far", Severity.Warning, data.Joints[roles[(int)pose.Limb]], data.Root.name,
-                Math.Round(pose.Degrees), data.Joints[roles[(int)pose.Limb]].name);
+            Transform limb = data.Joints[roles[(int)pose.Limb]];
+            Finding finding = new Finding("pose_far", Severity.Warning, limb, data.Root.name, Math.Round(pose.Degrees), limb.name);
             if (TPose.CanStand(data)) finding.WithFix("fix_pose", () => TPose.Stand(data));
             findings.Add(finding);
-        }
-
-        static Double3 Place(AvatarData data, int[] roles, HumanBodyBones role)
-        {
-            return data.Rest[roles[(int)role]].Position;
         }
     }
 }

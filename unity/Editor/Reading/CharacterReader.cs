@@ -13,7 +13,6 @@ namespace SuperDeform.Editor
     public static class CharacterReader
     {
         static readonly float[] Up = { 0, 1, 0 };
-        static readonly float[] Forward = { 0, 0, 1 };
 
         /// <summary>
         /// avatar: the root, an object of a scene or a prefab; nothing of it is changed
@@ -145,29 +144,63 @@ namespace SuperDeform.Editor
         static void MakeCharacter(AvatarData data, ReadOptions options)
         {
             bool skinned = data.Renderers.Exists(renderer => renderer.Skin != null);
-            data.Character = new Character(Up, Forward);
+            data.Character = Empty(Facing.Of(data.Roles, data.Rest));
             data.Character.SetSkeleton(Skeleton(data));
             AddMeshes(data, true);
-            HumanoidRole[] found = data.Character.GetJoints().Roles;
-            HumanBodyBones? missing = HumanoidRoles.Missing(role => Array.IndexOf(found, (HumanoidRole)role) >= 0);
+            int[] roles = RolesOf(data.Character);
+            HumanBodyBones? missing = HumanoidRoles.Missing(role => roles[role] >= 0);
             data.Rigged = skinned || missing == null;
             data.RigMade = options.RigAuto || missing != null;
             if (missing != null && skinned && !options.RigAuto)
             {
                 throw new ConversionException(AvatarChecks.NotHumanoid(data, missing.Value, Severity.Error));
             }
-            if (!data.Rigged)
-            {
-                // Transforms that only hold meshes may be called like joints.
-                data.Character.Dispose();
-                data.Character = new Character(Up, Forward);
-                AddMeshes(data, false);
-            }
+            // Transforms that only hold meshes may be called like joints.
+            if (!data.Rigged) Begin(data, new Double3(0, 0, 1), false);
+            // The library has told the limbs, and they tell the way it looks.
+            else if (HumanoidRoles.Missing(role => data.Roles[role] >= 0) != null) Begin(data, Facing.Of(roles, data.Rest), true);
             AddMorphTargets(data);
             if (data.RigMade) data.Character.Rig(options.RigOptions, options.RigProgress);
         }
 
-        internal static SkeletonArrays Skeleton(AvatarData data)
+        static Character Empty(Double3 forward)
+        {
+            return new Character(Up, new[] { (float)forward.X, (float)forward.Y, (float)forward.Z });
+        }
+
+        /// <summary>Begins again with what has been learned.</summary>
+        static void Begin(AvatarData data, Double3 forward, bool rigged)
+        {
+            data.Character.Dispose();
+            data.Character = Empty(forward);
+            if (rigged) data.Character.SetSkeleton(Skeleton(data));
+            AddMeshes(data, rigged);
+        }
+
+        /// <summary>By HumanBodyBones: the joint that is given or guessed to play the role; -1: none.</summary>
+        static int[] RolesOf(Character character)
+        {
+            HumanoidRole[] found = character.GetJoints().Roles;
+            int[] roles = new int[HumanoidRoles.Count];
+            for (int role = 0; role < roles.Length; role++)
+            {
+                roles[role] = Array.IndexOf(found, (HumanoidRole)role);
+            }
+            return roles;
+        }
+
+        /// <summary>The same from the joints alone, for checks.</summary>
+        internal static int[] RolesOf(AvatarData data)
+        {
+            if (HumanoidRoles.Missing(role => data.Roles[role] >= 0) == null) return data.Roles;
+            using (Character character = Empty(Facing.Of(data.Roles, data.Rest)))
+            {
+                character.SetSkeleton(Skeleton(data));
+                return RolesOf(character);
+            }
+        }
+
+        static SkeletonArrays Skeleton(AvatarData data)
         {
             SkeletonArrays skeleton = new SkeletonArrays
             {

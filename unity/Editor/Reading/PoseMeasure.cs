@@ -4,8 +4,8 @@ using UnityEngine;
 namespace SuperDeform.Editor
 {
     /// <summary>
-    /// How far a pose is from both a T and an A pose: arms out to the side, level or up to 60 degrees down, legs down and at
-    /// most 25 degrees apart from that.
+    /// How far a pose is from both a T and an A pose: arms out to the side, level or up to 60 degrees down, elbows bent by 30
+    /// at most, legs within 25 degrees of straight down.
     /// </summary>
     public struct PoseMeasure
     {
@@ -15,7 +15,7 @@ namespace SuperDeform.Editor
         /// <summary>Below this many degrees one pose is no better than another.</summary>
         public const double Clearly = 10;
 
-        const double LowestArm = 60, WidestLeg = 25;
+        const double LowestArm = 60, BentElbow = 30, WidestLeg = 25;
 
         /// <summary>The largest angle of a limb to where it may be; 0 where the joints are not known.</summary>
         public double Degrees;
@@ -23,30 +23,29 @@ namespace SuperDeform.Editor
         /// <summary>The joint at the beginning of that limb.</summary>
         public HumanBodyBones Limb;
 
-        /// <summary>
-        /// roles: by HumanBodyBones, a joint or -1
-        /// rest: by joint, in a space where up is +Y and forward +Z
-        /// </summary>
+        /// <param name="roles">By HumanBodyBones: a joint, or -1.</param>
+        /// <param name="rest">By joint, in a space where up is +Y.</param>
         public static PoseMeasure Of(int[] roles, Affine[] rest)
         {
+            Double3 right = Facing.Up.Cross(Facing.Of(roles, rest));
             PoseMeasure worst = new PoseMeasure { Limb = HumanBodyBones.LeftUpperArm };
-            worst.Arm(roles, rest, HumanBodyBones.LeftUpperArm, HumanBodyBones.LeftLowerArm, HumanBodyBones.LeftHand, -1);
-            worst.Arm(roles, rest, HumanBodyBones.RightUpperArm, HumanBodyBones.RightLowerArm, HumanBodyBones.RightHand, 1);
+            worst.Arm(roles, rest, HumanBodyBones.LeftUpperArm, HumanBodyBones.LeftLowerArm, HumanBodyBones.LeftHand, right * -1);
+            worst.Arm(roles, rest, HumanBodyBones.RightUpperArm, HumanBodyBones.RightLowerArm, HumanBodyBones.RightHand, right);
             worst.Leg(roles, rest, HumanBodyBones.LeftUpperLeg, HumanBodyBones.LeftLowerLeg);
             worst.Leg(roles, rest, HumanBodyBones.RightUpperLeg, HumanBodyBones.RightLowerLeg);
             return worst;
         }
 
-        void Arm(int[] roles, Affine[] rest, HumanBodyBones upper, HumanBodyBones lower, HumanBodyBones hand, double side)
+        void Arm(int[] roles, Affine[] rest, HumanBodyBones upper, HumanBodyBones lower, HumanBodyBones hand, Double3 outward)
         {
-            Take(upper, ArmAngle(Direction(roles, rest, upper, lower), side));
-            Take(lower, ArmAngle(Direction(roles, rest, lower, hand), side));
+            Take(upper, ArmAngle(Direction(roles, rest, upper, lower), outward));
+            Take(lower, ArmAngle(Direction(roles, rest, lower, hand), outward) - BentElbow);
         }
 
         void Leg(int[] roles, Affine[] rest, HumanBodyBones upper, HumanBodyBones lower)
         {
             Double3? leg = Direction(roles, rest, upper, lower);
-            if (leg.HasValue) Take(upper, Math.Max(0, Angle(leg.Value, new Double3(0, -1, 0)) - WidestLeg));
+            if (leg.HasValue) Take(upper, Angle(leg.Value, Facing.Up * -1) - WidestLeg);
         }
 
         void Take(HumanBodyBones limb, double degrees)
@@ -56,14 +55,14 @@ namespace SuperDeform.Editor
             Limb = limb;
         }
 
-        static double ArmAngle(Double3? arm, double side)
+        static double ArmAngle(Double3? arm, Double3 outward)
         {
             if (!arm.HasValue) return 0;
-            double down = Math.Atan2(-arm.Value.Y, arm.Value.X * side) * 180 / Math.PI;
-            double nearest = Math.Min(Math.Max(down, 0), LowestArm) * Math.PI / 180;
-            // An arm that points inwards is nearer to the lowest place, or to the level one where it points up.
-            if (down < -90) nearest = 0;
-            return Angle(arm.Value, new Double3(side * Math.Cos(nearest), -Math.Sin(nearest), 0));
+            double down = Math.Atan2(-arm.Value.Y, arm.Value.Dot(outward)) * 180 / Math.PI;
+            // Of an arm that points inwards the nearest place is the lowest, or the level one where it points up, too.
+            double nearest = down < -90 ? 0 : Math.Min(Math.Max(down, 0), LowestArm);
+            double angle = nearest * Math.PI / 180;
+            return Angle(arm.Value, outward * Math.Cos(angle) - Facing.Up * Math.Sin(angle));
         }
 
         static Double3? Direction(int[] roles, Affine[] rest, HumanBodyBones from, HumanBodyBones to)
