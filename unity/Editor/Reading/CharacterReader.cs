@@ -243,23 +243,25 @@ namespace SuperDeform.Editor
                 FramePlacer placer = new FramePlacer(renderer);
                 foreach (PartData part in renderer.Parts)
                 {
-                    part.HasNormals = new bool[renderer.Frames.Count];
-                    part.HasTangents = new bool[renderer.Frames.Count];
+                    part.MovesPlaces = new bool[renderer.Frames.Count];
+                    part.MovesNormals = new bool[renderer.Frames.Count];
+                    part.MovesTangents = new bool[renderer.Frames.Count];
                 }
                 for (int index = 0; index < renderer.Frames.Count; index++)
                 {
                     BlendFrame frame = placer.ToModel(renderer.Frames[index]);
                     foreach (PartData part in renderer.Parts)
                     {
-                        part.HasNormals[index] = FramePlacer.Changes(frame.Normals, part);
-                        part.HasTangents[index] = FramePlacer.Changes(frame.Tangents, part);
+                        part.MovesPlaces[index] = FramePlacer.Changes(frame.Positions, part);
+                        part.MovesNormals[index] = FramePlacer.Changes(frame.Normals, part);
+                        part.MovesTangents[index] = FramePlacer.Changes(frame.Tangents, part);
                         data.Character.AddMorphTarget(data.Parts.IndexOf(part), new MorphArrays
                         {
                             Name = frame.ShapeName,
                             FirstVertex = part.Start,
                             Positions = part.Gather(frame.Positions),
-                            Normals = part.HasNormals[index] ? part.Gather(frame.Normals) : null,
-                            Tangents = part.HasTangents[index] ? part.Gather(frame.Tangents) : null
+                            Normals = part.MovesNormals[index] ? part.Gather(frame.Normals) : null,
+                            Tangents = part.MovesTangents[index] ? part.Gather(frame.Tangents) : null
                         });
                     }
                 }

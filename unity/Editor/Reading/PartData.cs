@@ -24,8 +24,8 @@ namespace SuperDeform.Editor
         /// <summary>Triangles; FirstVertex, or the first of Vertices, counts as 0.</summary>
         public int[] Indices;
 
-        /// <summary>By blend frame of the renderer: whether a normal or a tangent of this part changes.</summary>
-        internal bool[] HasNormals, HasTangents;
+        /// <summary>By blend frame of the renderer: whether it changes a place, a normal, a tangent of this part.</summary>
+        internal bool[] MovesPlaces, MovesNormals, MovesTangents;
 
         /// <summary>
         /// What an array by vertex of the mesh holds of this part: the array itself where the vertices lie side by side.

@@ -28,8 +28,8 @@ namespace SuperDeform.Editor
             int numbers = checked(3 * part.VertexCount * frames);
             Output.MorphTargetCount = frames;
             Output.MorphPositions = new float[numbers];
-            if (Array.IndexOf(part.HasNormals, true) >= 0) Output.MorphNormals = new float[numbers];
-            if (Array.IndexOf(part.HasTangents, true) >= 0) Output.MorphTangents = new float[numbers];
+            if (Array.IndexOf(part.MovesNormals, true) >= 0) Output.MorphNormals = new float[numbers];
+            if (Array.IndexOf(part.MovesTangents, true) >= 0) Output.MorphTangents = new float[numbers];
         }
 
         /// <summary>Brings vertices that do not lie side by side to their places.</summary>

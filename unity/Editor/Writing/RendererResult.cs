@@ -140,29 +140,41 @@ namespace SuperDeform.Editor
         internal void WriteFrame(int index, BlendFrame placed, BlendFrame into)
         {
             BlendFrame source = Source.Frames[index];
-            Frame frame = back.At(0);
             foreach (PartResult part in Parts)
             {
-                for (int vertex = 0; vertex < part.Part.VertexCount; vertex++)
+                MeshOutput output = part.Output;
+                bool normals = part.Part.MovesNormals[index], tangents = part.Part.MovesTangents[index];
+                WriteDeltas(part, index, part.Part.MovesPlaces[index], output.MorphPositions, source.Positions, placed.Positions, into.Positions, Change.Place);
+                WriteDeltas(part, index, normals, output.MorphNormals, source.Normals, placed.Normals, into.Normals, Change.Normal);
+                WriteDeltas(part, index, tangents, output.MorphTangents, source.Tangents, placed.Tangents, into.Tangents, Change.Tangent);
+            }
+        }
+
+        enum Change { Place, Normal, Tangent }
+
+        /// <summary>One part's changes in mesh space. What has not changed keeps its bits; what moves nothing is 0.</summary>
+        void WriteDeltas(PartResult part, int index, bool moves, float[] packed, Vector3[] source, Vector3[] placed, Vector3[] into, Change change)
+        {
+            Frame frame = back.At(0);
+            for (int vertex = 0; vertex < part.Part.VertexCount; vertex++)
+            {
+                int place = part.Part.VertexOf(vertex);
+                if (!moves)
                 {
-                    int place = part.Part.VertexOf(vertex);
-                    if (back.EachItsOwn) frame = back.At(place);
-                    Vector3 delta = part.Delta(part.Output.MorphPositions, index, vertex);
-                    bool kept = sameWay && Same(delta, placed.Positions[place]);
-                    into.Positions[place] = kept ? source.Positions[place] : frame.Delta(delta, 1);
-                    if (source.Normals != null)
-                    {
-                        delta = part.Delta(part.Output.MorphNormals, index, vertex);
-                        kept = sameWay && normalKept[place] && Same(delta, placed.Normals[place]);
-                        into.Normals[place] = kept ? source.Normals[place] : frame.NormalDelta(delta, normalScales[place]);
-                    }
-                    if (source.Tangents != null)
-                    {
-                        delta = part.Delta(part.Output.MorphTangents, index, vertex);
-                        kept = sameWay && tangentKept[place] && Same(delta, placed.Tangents[place]);
-                        into.Tangents[place] = kept ? source.Tangents[place] : frame.Delta(delta, tangentScales[place]);
-                    }
+                    into[place] = new Vector3(0, 0, 0);
+                    continue;
                 }
+                Vector3 delta = part.Delta(packed, index, vertex);
+                bool steady = change == Change.Place || (change == Change.Normal ? normalKept[place] : tangentKept[place]);
+                if (sameWay && steady && Same(delta, placed[place]))
+                {
+                    into[place] = source[place];
+                    continue;
+                }
+                if (back.EachItsOwn) frame = back.At(place);
+                if (change == Change.Place) into[place] = frame.Delta(delta, 1);
+                else if (change == Change.Normal) into[place] = frame.NormalDelta(delta, normalScales[place]);
+                else into[place] = frame.Delta(delta, tangentScales[place]);
             }
         }
 
