@@ -160,9 +160,10 @@ namespace SuperDeform.Editor
                 Get = () => (int)settings.FaceCurve,
                 Set = value => model.Change("undo.face", () => settings.FaceCurve = (FaceCurve)value)
             });
+            section.Rows.Add(new TextRow { Label = Strings.Get("tune.groups"), Strong = true });
             section.Rows.Add(new ColumnsRow
             {
-                Label = Strings.Get("tune.groups"), Columns = Words("tune.length", "tune.thickness")
+                Label = Strings.Get("report.group"), Columns = Words("tune.length", "tune.thickness")
             });
             foreach (TunableGroup group in GroupTunings.Groups)
                 section.Rows.Add(GroupOf(model, group));
@@ -254,7 +255,7 @@ namespace SuperDeform.Editor
                 });
                 section.Rows.Add(Groups(numbers));
                 foreach (Warning warning in numbers.Warnings)
-                    section.Rows.Add(new CheckRow { Severity = Severity.Warning, Label = Sentence(warning) });
+                    section.Rows.Add(Told(warning));
             }
             else
                 section.Rows.Add(new TextRow { Label = Strings.Get("report.none") });
@@ -322,11 +323,18 @@ namespace SuperDeform.Editor
             return table;
         }
 
-        /// <summary>What the library warns of: its own sentence, after one in the person's language where there is one.</summary>
-        internal static string Sentence(Warning warning)
+        // Codes of the library for what a person may like to know, but need not do anything about.
+        private static readonly string[] harmless = { "coefficient_limited", "crown_with_hair", "hair_shortened", "kind_guessed" };
+
+        /// <summary>What the library warns of, in words for people; its own sentence where there are none.</summary>
+        private static CheckRow Told(Warning warning)
         {
             string key = "warning." + warning.Code;
-            return Strings.Language == "en" || !Strings.Has(key) ? warning.Text : Strings.Get(key, warning.Text);
+            return new CheckRow
+            {
+                Label = Strings.Has(key) ? Strings.Get(key, warning.Text) : warning.Text,
+                Severity = Array.IndexOf(harmless, warning.Code) >= 0 ? Severity.Info : Severity.Warning
+            };
         }
 
         // ---- Small things -------------------------------------------------------------------------------------------

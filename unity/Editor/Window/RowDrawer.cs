@@ -173,7 +173,12 @@ namespace SuperDeform.Editor
 
         private static void Action(ActionRow row, GUIContent label)
         {
-            if (row.Main ? GUILayout.Button(label, GUILayout.Height(32)) : GUILayout.Button(label))
+            Color before = GUI.backgroundColor;
+            if (row.Main)
+                GUI.backgroundColor = new Color(0.55f, 0.8f, 1);
+            bool pressed = row.Main ? GUILayout.Button(label, GUILayout.Height(32)) : GUILayout.Button(label);
+            GUI.backgroundColor = before;
+            if (pressed)
                 row.Do();
         }
     }

@@ -128,7 +128,8 @@ namespace SuperDeform.Editor.WindowPicture
 
         private void Check(CheckRow row)
         {
-            double buttons = (row.Fix == null ? 0 : 72) + (row.Where == null ? 0 : 56);
+            double fix = row.Fix == null ? 0 : Canvas.Width(row.FixLabel) + 20, show = row.Where == null ? 0 : 52;
+            double buttons = fix + show;
             List<string> lines = Canvas.Wrap(row.Label, To - From - 32 - buttons);
             double height = Math.Max(24, 16 * lines.Count + 8);
             canvas.Rectangle(From, y, To - From - buttons, height, Canvas.Box, 3, Canvas.Line);
@@ -140,12 +141,9 @@ namespace SuperDeform.Editor.WindowPicture
                 canvas.Text(From + 28, y + (height - 16 * lines.Count) / 2 + 12 + 16 * i, lines[i], Canvas.Words);
             double x = To - buttons + 4;
             if (row.Fix != null)
-            {
-                Button(row.FixLabel, x, 68, height, true, false);
-                x += 72;
-            }
+                Button(row.FixLabel, x, fix - 4, 21, true, false);
             if (row.Where != null)
-                Button(Strings.Get("show"), x, 52, height, true, false);
+                Button(Strings.Get("show"), x + fix, show - 4, 21, true, false);
             y += height + 3;
         }
 
@@ -214,10 +212,9 @@ namespace SuperDeform.Editor.WindowPicture
 
         private void Columns(ColumnsRow row)
         {
-            y += 4;
-            canvas.Text(From, y + 15, row.Label, Canvas.Words, "start", true);
+            canvas.Text(From, y + 15, row.Label, Canvas.Faint);
             for (int i = 0; i < row.Columns.Length; i++)
-                canvas.Text(From + GroupLabel + i * GroupColumn + (i == 0 && Canvas.Width(row.Label) > GroupLabel ? 40 : 5), y + 15, row.Columns[i], Canvas.Faint);
+                canvas.Text(From + GroupLabel + i * GroupColumn + 5, y + 15, row.Columns[i], Canvas.Faint);
             y += RowHeight;
         }
 
@@ -252,7 +249,7 @@ namespace SuperDeform.Editor.WindowPicture
         {
             y += 2;
             double height = row.Main ? 34 : 21;
-            Button(row.Label, From, To - From, height, row.Enabled, false);
+            Button(row.Label, From, To - From, height, row.Enabled, row.Main && row.Enabled);
             y += height + 5;
         }
     }
