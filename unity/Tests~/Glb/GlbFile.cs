@@ -101,6 +101,17 @@ namespace SuperDeform.Tests.Glb
                 }
         }
 
+        /// The bytes of some elements of an accessor, packed.
+        public byte[] Elements(int accessor, int[] which)
+        {
+            Json told = Root["accessors"][accessor], view = Root["bufferViews"][told["bufferView"].Int()];
+            int type = told["componentType"].Int(), size = (type == 5120 || type == 5121 ? 1 : type == 5122 || type == 5123 ? 2 : 4) * Components(told["type"].Text());
+            int start = view["byteOffset"].Int(0) + told["byteOffset"].Int(0), stride = view["byteStride"].Int(0);
+            byte[] bytes = new byte[which.Length * size];
+            for (int at = 0; at < which.Length; at++) Buffer.BlockCopy(m_Binary, start + which[at] * (stride == 0 ? size : stride), bytes, at * size, size);
+            return bytes;
+        }
+
         public int[] Integers(int accessor) { int components; return Array.ConvertAll(Numbers(accessor, out components), delegate (double number) { return (int)number; }); }
     }
 }

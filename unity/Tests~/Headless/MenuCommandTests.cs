@@ -42,7 +42,7 @@ namespace SuperDeform.Editor.Tests
         [Test]
         public void the_command_makes_a_prefab_with_everything_and_leaves_the_source_alone()
         {
-            Model model = Models.Load("quaternius_female_dress.glb");
+            Model model = Models.Load("kaykit_rogue.glb");
             string before = Fingerprint.Of(model.Root);
             GameObject prefab = Convert(model.Root);
             Assert.AreEqual(before, Fingerprint.Of(model.Root), "the source changed");
@@ -277,7 +277,7 @@ namespace SuperDeform.Editor.Tests
                     SkinnedMeshRenderer into = source;
                     if (piece > 0)
                     {
-                        GameObject made = new GameObject(source.name + "_" + piece);
+                        GameObject made = new GameObject(source.name + " part " + piece);
                         made.transform.SetParent(source.transform.parent, false);
                         into = made.AddComponent<SkinnedMeshRenderer>();
                         into.bones = source.bones;

@@ -27,9 +27,10 @@ namespace SuperDeform.Editor.Tests
         public static string Repository { get { return Environment.GetEnvironmentVariable("SUPERDEFORM_REPOSITORY") ?? "."; } }
         public static string Out { get { return Environment.GetEnvironmentVariable("SUPERDEFORM_OUT") ?? Path.GetTempPath(); } }
 
-        /// Null where the file is not there: the models of the second folder are not in the repository.
+        /// A whole path stays. Null where the file is not there: the models of the second folder are not in the repository.
         public static string Find(string file)
         {
+            if (Path.IsPathRooted(file)) return file;
             string models = Environment.GetEnvironmentVariable("SUPERDEFORM_MODELS") ?? Path.Combine(Repository, "../shared/models");
             foreach (string folder in new[] { Path.Combine(Repository, "tests/data"), models })
                 if (System.IO.File.Exists(Path.Combine(folder, file))) return Path.GetFullPath(Path.Combine(folder, file));
@@ -82,19 +83,58 @@ namespace SuperDeform.Editor.Tests
             StubEditor.AddModelImporter(model.AssetPath, true);
         }
 
+        /// A post of three bones in a row that look like nothing.
+        public static GameObject Post()
+        {
+            GameObject root = new GameObject("Post");
+            Transform[] bones = new Transform[3];
+            Mesh mesh = new Mesh();
+            mesh.name = "post";
+            Vector3[] corners = new Vector3[24];
+            BoneWeight[] weights = new BoneWeight[24];
+            int[] triangles = new int[6 * 6 * 3];
+            int[][] faces = { new[] { 0, 2, 3, 1 }, new[] { 4, 5, 7, 6 }, new[] { 0, 1, 5, 4 }, new[] { 2, 6, 7, 3 }, new[] { 0, 4, 6, 2 }, new[] { 1, 3, 7, 5 } };
+            for (int bone = 0; bone < 3; bone++)
+            {
+                bones[bone] = new GameObject("piece " + bone).transform;
+                bones[bone].SetParent(bone == 0 ? root.transform : bones[bone - 1], false);
+                bones[bone].localPosition = new Vector3(0, bone == 0 ? 0f : 0.5f, 0);
+                for (int corner = 0; corner < 8; corner++)
+                {
+                    corners[bone * 8 + corner] = new Vector3((corner & 1) * 0.2f - 0.1f, bone * 0.5f + (corner & 2) * 0.25f, (corner & 4) * 0.05f - 0.1f);
+                    weights[bone * 8 + corner] = new BoneWeight { boneIndex0 = bone, weight0 = 1f };
+                }
+                for (int face = 0; face < 6; face++)
+                    for (int corner = 0; corner < 6; corner++) triangles[(bone * 6 + face) * 6 + corner] = bone * 8 + faces[face][new[] { 0, 1, 2, 0, 2, 3 }[corner]];
+            }
+            mesh.vertices = corners;
+            mesh.triangles = triangles;
+            mesh.boneWeights = weights;
+            mesh.bindposes = Array.ConvertAll(bones, delegate (Transform bone) { return bone.worldToLocalMatrix; });
+            mesh.RecalculateNormals();
+            StubProject.Import("Assets/Models/post.fbx", mesh);
+            StubEditor.AddModelImporter("Assets/Models/post.fbx", true);
+            SkinnedMeshRenderer renderer = new GameObject("post mesh").AddComponent<SkinnedMeshRenderer>();
+            renderer.transform.SetParent(root.transform, false);
+            renderer.bones = bones;
+            renderer.rootBone = bones[0];
+            renderer.sharedMesh = mesh;
+            renderer.localBounds = mesh.bounds;
+            return root;
+        }
+
         public static ConversionSettings Settings()
         {
             return new ConversionSettings { Heads = 2.5f };
         }
 
-        /// VRM 1.0 role -> node name, for files that do not say; null for VRM files.
+        /// VRM 1.0 role -> node name, for files that do not say; null for VRM files and for those that cannot be humanoids in Unity.
         public static Dictionary<string, string> RolesOf(string file)
         {
             if (file.EndsWith(".vrm")) return null;
             if (file.StartsWith("kaykit")) return Sided("hips hips spine spine chest chest head head", "UpperArm upperarm LowerArm lowerarm Hand hand UpperLeg upperleg LowerLeg lowerleg Foot foot Toes toes", ".l", ".r", "");
-            if (file.StartsWith("quaternius_female"))
-                return Sided("hips Body spine Hips chest Abdomen upperChest Torso neck Neck head Head",
-                    "Shoulder Shoulder UpperArm UpperArm LowerArm LowerArm Hand Palm UpperLeg UpperLeg LowerLeg LowerLeg Foot Foot ThumbProximal Thumb1 ThumbDistal Thumb2 MiddleProximal Fingers", ".L", ".R", "");
+            // Its feet hang from the root beside the legs, which no humanoid Avatar allows: its joints are told by their names.
+            if (file.StartsWith("quaternius_female")) return null;
             if (file.StartsWith("makehuman_female_rigged"))
             {
                 const string m = "mixamorig:";

@@ -44,6 +44,11 @@ namespace UnityEngine
         public byte[] bytes { get { return System.Text.Encoding.UTF8.GetBytes(text); } }
         public override string ToString() { return text; }
     }
+    public sealed class Resources
+    {
+        public static T[] FindObjectsOfTypeAll<T>() where T : Object { return UnityStubs.Registry.All().FindAll(delegate (Object value) { return value is T; }).ConvertAll(delegate (Object value) { return (T)value; }).ToArray(); }
+        public static Object[] FindObjectsOfTypeAll(Type type) { return UnityStubs.Registry.All().FindAll(type.IsInstanceOfType).ToArray(); }
+    }
     public class RuntimeAnimatorController : Object { }
     public sealed class AnimationClip : Object { public float length { get { return 1f; } } public bool legacy { get; set; } }
     public sealed class AvatarMask : Object { }
