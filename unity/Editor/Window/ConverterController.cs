@@ -58,6 +58,7 @@ namespace SuperDeform.Editor
             if (!model.PreviewOn || !model.CanConvert)
             {
                 Drop();
+                model.SetPreviewFailure(null);
                 return;
             }
             try
@@ -71,12 +72,12 @@ namespace SuperDeform.Editor
                 preview.ShowBefore = model.ShowBefore;
                 preview.Beside = model.Beside;
                 preview.Pose = model.Pose;
-                model.SetFailure(null);
+                model.SetPreviewFailure(null);
             }
             catch (Exception fault)
             {
                 Drop();
-                Fail(fault);
+                model.SetPreviewFailure(Reason(fault));
             }
         }
 
@@ -88,7 +89,7 @@ namespace SuperDeform.Editor
             }
             catch (Exception fault)
             {
-                Fail(fault);
+                model.SetPreviewFailure(Reason(fault));
             }
         }
 
@@ -106,7 +107,7 @@ namespace SuperDeform.Editor
             }
             catch (Exception fault)
             {
-                Fail(fault);
+                model.SetFailure(Reason(fault));
                 return false;
             }
         }
@@ -123,16 +124,17 @@ namespace SuperDeform.Editor
             }
             catch (Exception fault)
             {
-                Fail(fault);
+                model.SetFailure(Reason(fault));
             }
         }
 
-        private void Fail(Exception fault)
+        private Finding Reason(Exception fault)
         {
-            ConversionException reason = ConversionException.From(fault, model.Avatar);
-            if (reason.Finding.Key == "failed")
+            Finding reason = ConversionException.From(fault, model.Avatar).Finding;
+            // A reason that nobody foresaw: where it came from is worth a report.
+            if (reason.Key == "failed")
                 Debug.LogException(fault);
-            model.SetFailure(reason.Finding);
+            return reason;
         }
 
         private void MarkStale()

@@ -26,7 +26,7 @@ namespace SuperDeform.Editor
 
         [NonSerialized] private List<Section> sections;
         [NonSerialized] private List<Finding> findings;
-        [NonSerialized] private Finding failure;
+        [NonSerialized] private Finding failure, previewFailure;
         [NonSerialized] private PreviewNumbers numbers;
         [NonSerialized] private ConversionResult result;
         [NonSerialized] private string language;
@@ -68,8 +68,11 @@ namespace SuperDeform.Editor
             }
         }
 
-        /// <summary>Why there is no preview, or why the last conversion failed; null where all is well.</summary>
+        /// <summary>Why the last conversion failed; null where it did not, and after a change.</summary>
         public Finding Failure { get { return failure; } }
+
+        /// <summary>Why there is no preview; null where there is one, or none is wanted.</summary>
+        public Finding PreviewFailure { get { return previewFailure; } }
 
         /// <summary>What the preview measured; null before it has.</summary>
         public PreviewNumbers Numbers { get { return numbers; } }
@@ -112,6 +115,7 @@ namespace SuperDeform.Editor
             if (Changing != null)
                 Changing(Strings.Get(key));
             change();
+            failure = null;
             Touch();
         }
 
@@ -122,8 +126,8 @@ namespace SuperDeform.Editor
                 return;
             Change("undo.avatar", () => Avatar = avatar);
             result = null;
-            failure = null;
             numbers = null;
+            previewFailure = null;
             Recheck();
         }
 
@@ -138,12 +142,19 @@ namespace SuperDeform.Editor
         public void SetNumbers(PreviewNumbers measured)
         {
             numbers = measured;
-            if (measured != null)
-                failure = null;
             sections = null;
         }
 
-        /// <summary>Takes the reason why something could not be done; null for none.</summary>
+        /// <summary>Takes the reason why there is no preview; null for none.</summary>
+        public void SetPreviewFailure(Finding reason)
+        {
+            previewFailure = reason;
+            if (reason != null)
+                numbers = null;
+            sections = null;
+        }
+
+        /// <summary>Takes the reason why a conversion failed; null for none.</summary>
         public void SetFailure(Finding reason)
         {
             failure = reason;

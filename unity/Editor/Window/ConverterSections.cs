@@ -259,7 +259,9 @@ namespace SuperDeform.Editor
             }
             else
                 section.Rows.Add(new TextRow { Label = Strings.Get("report.none") });
-            if (model.Failure != null)
+            if (model.PreviewFailure != null)
+                section.Rows.Add(Check(model, model.PreviewFailure));
+            if (model.Failure != null && (model.PreviewFailure == null || model.PreviewFailure.Text != model.Failure.Text))
                 section.Rows.Add(Check(model, model.Failure));
             section.Rows.Add(new FieldRow
             {
