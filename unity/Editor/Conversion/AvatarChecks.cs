@@ -189,22 +189,25 @@ namespace SuperDeform.Editor
             return string.IsNullOrEmpty(path) ? null : AssetImporter.GetAtPath(path) as ModelImporter;
         }
 
-        /// <summary>Is there a mesh that trunk or limbs move?</summary>
+        /// <summary>Is there a mesh that hips or limbs move?</summary>
         static void CheckBody(AvatarData data, int[] roles, List<Finding> findings)
         {
+            HumanBodyBones[] limbs = { HumanBodyBones.LeftUpperArm, HumanBodyBones.RightUpperArm, HumanBodyBones.LeftUpperLeg, HumanBodyBones.RightUpperLeg };
             bool[] ofBody = new bool[data.Joints.Length];
-            bool[] ofHead = new bool[data.Joints.Length];
             for (int joint = 0; joint < ofBody.Length; joint++)
             {
                 int parent = data.Parents[joint];
-                ofHead[joint] = joint == roles[(int)HumanBodyBones.Head] || parent >= 0 && ofHead[parent];
-                ofBody[joint] = (joint == roles[(int)HumanBodyBones.Hips] || parent >= 0 && ofBody[parent]) && !ofHead[joint];
+                ofBody[joint] = Array.Exists(limbs, limb => roles[(int)limb] == joint) || parent >= 0 && ofBody[parent];
             }
+            ofBody[roles[(int)HumanBodyBones.Hips]] = true;
+            double held = 0, all = 0;
             foreach (RendererData renderer in data.Renderers)
             {
-                if (renderer.Skin == null ? renderer.Joint >= 0 && ofBody[renderer.Joint] : Array.Exists(renderer.Skin.Joints, joint => joint >= 0 && ofBody[joint])) return;
+                all += renderer.Vertices.Length;
+                held += RendererReader.Held(renderer, ofBody);
             }
-            findings.Add(new Finding("no_body_mesh", Severity.Error, data.Root, data.Root.name));
+            // A head's mesh may reach a little way down.
+            if (held < 0.01 * all) findings.Add(new Finding("no_body_mesh", Severity.Error, data.Root, data.Root.name));
         }
 
         static void CheckPose(AvatarData data, int[] roles, List<Finding> findings)

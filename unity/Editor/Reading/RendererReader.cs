@@ -112,6 +112,19 @@ namespace SuperDeform.Editor
             return true;
         }
 
+        /// <summary>How many vertices some joints move, counting shares; before Place.</summary>
+        internal static double Held(RendererData renderer, bool[] byJoint)
+        {
+            if (renderer.Skin == null) return renderer.Joint >= 0 && byJoint[renderer.Joint] ? renderer.Vertices.Length : 0;
+            double held = 0;
+            for (int row = 0; row < renderer.RowJoints.Length; row++)
+            {
+                int joint = renderer.Skin.Joints[renderer.RowJoints[row]];
+                if (joint >= 0 && byJoint[joint]) held += renderer.RowWeights[row];
+            }
+            return held;
+        }
+
         /// <summary>
         /// Brings the mesh to the avatar's space at rest.
         ///
