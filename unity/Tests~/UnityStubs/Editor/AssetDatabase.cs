@@ -371,9 +371,15 @@ namespace UnityStubs
             Reset();
         }
 
-        /// Forgets assets, scene objects, undo steps, the log and all settings; files stay.
+        /// Closes the windows and forgets assets, scene objects, undo steps, preferences, the log and all settings; files stay.
         public static void Reset()
         {
+            EditorWindow.CloseAll();
+            EditorApplication.delayCall = null;
+            EditorPrefs.DeleteAll();
+            AssetImporter.All.Clear();
+            GUI.enabled = true;
+            GUI.changed = false;
             foreach (Object value in Registry.All())
             {
                 GameObject top = value as GameObject;

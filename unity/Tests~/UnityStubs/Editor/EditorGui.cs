@@ -167,6 +167,7 @@ namespace UnityEditor
         public static T CreateWindow<T>() where T : EditorWindow { return CreateInstance<T>(); }
         public static bool HasOpenInstances<T>() where T : Object { EditorWindow open; return s_Open.TryGetValue(typeof(T), out open) && open != null; }
         public void Show() { s_Open[GetType()] = this; }
+        internal static void CloseAll() { foreach (EditorWindow window in new List<EditorWindow>(s_Open.Values)) if (window != null) window.Close(); s_Open.Clear(); focusedWindow = null; }
         public void ShowUtility() { Show(); }
         public void Focus() { focusedWindow = this; }
         public void Repaint() { }

@@ -51,6 +51,24 @@ namespace UnityEditor
         public static GameObject CreateGameObjectWithHideFlags(string name, HideFlags flags, params Type[] components) { GameObject made = new GameObject(name, components); made.hideFlags = flags; return made; }
     }
 
+    public sealed class GameObjectUtility
+    {
+        public static int GetMonoBehavioursWithMissingScriptCount(GameObject go) { return go.components.FindAll(delegate (Component component) { return component is MissingScript; }).Count; }
+        public static int RemoveMonoBehavioursWithMissingScript(GameObject go)
+        {
+            int count = GetMonoBehavioursWithMissingScriptCount(go);
+            foreach (Component component in go.components.ToArray()) if (component is MissingScript) component.OnDestroyed();
+            return count;
+        }
+        public static string GetUniqueNameForSibling(Transform parent, string name)
+        {
+            string tried = name;
+            for (int number = 1; parent != null && parent.children.Exists(delegate (Transform child) { return child.name == tried; }); number++) tried = name + " (" + number + ")";
+            return tried;
+        }
+        public static void SetParentAndAlign(GameObject child, GameObject parent) { if (parent != null) { child.transform.SetParent(parent.transform, false); child.layer = parent.layer; } }
+    }
+
     public class EditorGUIUtility
     {
         public static float labelWidth = 150f, fieldWidth = 50f;
@@ -330,6 +348,8 @@ namespace UnityStubs
         public static void ReloadScripts() { AssemblyReloadEvents.Raise(); }
         public static void Tick() { EditorApplication.CallbackFunction update = EditorApplication.update, later = EditorApplication.delayCall; EditorApplication.delayCall = null; if (later != null) later(); if (update != null) update(); }
         public static void ChangePlayMode(PlayModeStateChange change) { EditorApplication.Raise(change); }
+        /// A component whose script is gone.
+        public static void AddMissingScript(GameObject owner) { owner.AddComponent(typeof(MissingScript)); }
         /// As an importer with "Optimize Game Objects" leaves it.
         public static void SetOptimized(Animator animator, bool optimized) { animator.hasTransformHierarchy = !optimized; }
         public static int UndoSteps { get { return Undo.StepCount; } }

@@ -29,6 +29,12 @@ namespace UnityEditor
             if (!AssetDatabase.InProject(assetPath)) throw new ArgumentException("Given path is not in the project: '" + assetPath + "'", "assetPath");
             string folder = assetPath.Substring(0, assetPath.LastIndexOf('/'));
             if (!AssetDatabase.IsValidFolder(folder)) throw new ArgumentException("The folder '" + folder + "' does not exist", "assetPath");
+            foreach (Transform at in instanceRoot.GetComponentsInChildren<Transform>(true))
+                if (GameObjectUtility.GetMonoBehavioursWithMissingScriptCount(at.gameObject) > 0)
+                {
+                    Debug.LogError("Saving Prefab to '" + assetPath + "' failed: '" + at.name + "' has a missing script.");
+                    return null;
+                }
             Dictionary<Object, Object> made = new Dictionary<Object, Object>(ByReference.Instance);
             GameObject asset = Cloning.CloneHierarchy(instanceRoot, delegate (Object reference) { return reference != null && reference.assetPath != null ? reference : null; }, made);
             asset.m_Name = System.IO.Path.GetFileNameWithoutExtension(assetPath);

@@ -71,13 +71,22 @@ namespace UnityEngine
             return type;
         }
 
-        public Component GetComponent(Type type) { Alive(); foreach (Component component in components) if (type.IsInstanceOfType(component)) return component; return null; }
+        public Component GetComponent(Type type) { Alive(); foreach (Component component in components) if (type.IsInstanceOfType(component) && !(component is MissingScript)) return component; return null; }
         public Component GetComponent(string type) { Alive(); foreach (Component component in components) if (component.GetType().Name == type) return component; return null; }
-        public T GetComponent<T>() { Alive(); foreach (Component component in components) if (component is T) return (T)(object)component; return default(T); }
+        public T GetComponent<T>() { Alive(); foreach (Component component in components) if (component is T && !(component is MissingScript)) return (T)(object)component; return default(T); }
         public bool TryGetComponent<T>(out T component) { component = GetComponent<T>(); return component != null; }
         public bool TryGetComponent(Type type, out Component component) { component = GetComponent(type); return component != null; }
         public T[] GetComponents<T>() { List<T> found = new List<T>(); GetComponents(found); return found.ToArray(); }
-        public void GetComponents<T>(List<T> results) { Alive(); results.Clear(); foreach (Component component in components) if (component is T) results.Add((T)(object)component); }
+        public void GetComponents<T>(List<T> results) { Alive(); results.Clear(); Own(results); }
+        // A component whose script is missing is a null among the components of all scripts.
+        void Own<T>(List<T> found)
+        {
+            foreach (Component component in components)
+            {
+                if (component is MissingScript) { if (typeof(T).IsAssignableFrom(typeof(MonoBehaviour))) found.Add(default(T)); }
+                else if (component is T) found.Add((T)(object)component);
+            }
+        }
         public Component[] GetComponents(Type type) { return GetComponents<Component>().Filter(type); }
         public T GetComponentInChildren<T>() { return GetComponentInChildren<T>(false); }
         public T GetComponentInChildren<T>(bool includeInactive) { T[] all = GetComponentsInChildren<T>(includeInactive); return all.Length == 0 ? default(T) : all[0]; }
@@ -94,7 +103,7 @@ namespace UnityEngine
             at.Alive();
             // An asset is in no scene, and yet its components are found; only a switched-off branch is left out.
             if (!includeInactive && !at.m_Active) return;
-            foreach (Component component in at.components) if (component is T) found.Add((T)(object)component);
+            at.Own(found);
             foreach (Transform child in at.transform.children) Collect(child.gameObject, includeInactive, found);
         }
         public T GetComponentInParent<T>() { return GetComponentInParent<T>(false); }
@@ -176,6 +185,8 @@ namespace UnityEngine
     {
         public static void print(object message) { Debug.Log(message); }
     }
+
+    internal sealed class MissingScript : MonoBehaviour { }
 
     [DisallowMultipleComponent]
     public class Transform : Component, IEnumerable
