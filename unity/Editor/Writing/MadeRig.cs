@@ -20,19 +20,30 @@ namespace SuperDeform.Editor
         internal static void Add(GameObject copy, PointMap map, AvatarData source, AvatarResult result)
         {
             Joints joints = source.Character.GetJoints();
-            Transform[] bones = AddBones(copy.transform, joints, result.JointPositions);
+            HumanoidRole[] roles = Array.ConvertAll(joints.Roles, Mirrored);
+            Transform[] bones = AddBones(copy.transform, joints, roles, result.JointPositions);
             foreach (RendererResult renderer in result.Renderers)
             {
                 Mesh mesh = map.MeshFor(renderer.Source.Renderer);
                 Weigh(mesh, renderer, source, result.JointPositions);
-                Show(mesh, map.CopyOf(renderer.Source.Renderer.transform), bones, joints, renderer, result.JointPositions);
+                Show(mesh, map.CopyOf(renderer.Source.Renderer.transform), bones, roles, renderer, result.JointPositions);
             }
-            AddAvatar(copy, map, source, joints, result.JointPositions);
+            AddAvatar(copy, map, source, joints, roles, result.JointPositions);
         }
 
-        static string NameOf(Joints joints, int joint)
+        /// <summary>
+        /// The library tells left from right as in right-handed axes, and Unity's are left-handed: its left is our right.
+        /// </summary>
+        static HumanoidRole Mirrored(HumanoidRole role)
         {
-            return joints.Roles[joint] == HumanoidRole.None ? "Bone" + joint : joints.Roles[joint].ToString();
+            string name = role.ToString();
+            string other = name.StartsWith("Left") ? "Right" + name.Substring(4) : name.StartsWith("Right") ? "Left" + name.Substring(5) : name;
+            return (HumanoidRole)Enum.Parse(typeof(HumanoidRole), other);
+        }
+
+        static string NameOf(HumanoidRole[] roles, int joint)
+        {
+            return roles[joint] == HumanoidRole.None ? "Bone" + joint : roles[joint].ToString();
         }
 
         static Double3 Place(double[] positions, int joint)
@@ -48,14 +59,14 @@ namespace SuperDeform.Editor
             return (parent < 0 ? place : place - Place(positions, parent)).ToVector3();
         }
 
-        static Transform[] AddBones(Transform root, Joints joints, double[] positions)
+        static Transform[] AddBones(Transform root, Joints joints, HumanoidRole[] roles, double[] positions)
         {
             Transform holder = new GameObject(Holder).transform;
             holder.SetParent(root, false);
             Transform[] bones = new Transform[joints.Count];
             for (int joint = 0; joint < joints.Count; joint++)
             {
-                bones[joint] = new GameObject(NameOf(joints, joint)).transform;
+                bones[joint] = new GameObject(NameOf(roles, joint)).transform;
             }
             for (int joint = 0; joint < joints.Count; joint++)
             {
@@ -112,11 +123,11 @@ namespace SuperDeform.Editor
             mesh.bindposes = binds;
         }
 
-        static void Show(Mesh mesh, Transform place, Transform[] bones, Joints joints, RendererResult renderer, double[] positions)
+        static void Show(Mesh mesh, Transform place, Transform[] bones, HumanoidRole[] roles, RendererResult renderer, double[] positions)
         {
             SkinnedMeshRenderer skinned = place.GetComponent<SkinnedMeshRenderer>();
             if (skinned == null) skinned = Replace(place);
-            int hips = Math.Max(0, Array.IndexOf(joints.Roles, HumanoidRole.Hips));
+            int hips = Math.Max(0, Array.IndexOf(roles, HumanoidRole.Hips));
             skinned.sharedMesh = mesh;
             skinned.bones = bones;
             skinned.rootBone = bones[hips];
@@ -149,26 +160,26 @@ namespace SuperDeform.Editor
             return skinned;
         }
 
-        static void AddAvatar(GameObject copy, PointMap map, AvatarData source, Joints joints, double[] positions)
+        static void AddAvatar(GameObject copy, PointMap map, AvatarData source, Joints joints, HumanoidRole[] roles, double[] positions)
         {
-            int[] roles = new int[HumanoidRoles.Count];
-            for (int role = 0; role < roles.Length; role++)
+            int[] jointOf = new int[HumanoidRoles.Count];
+            for (int role = 0; role < jointOf.Length; role++)
             {
-                roles[role] = Array.IndexOf(joints.Roles, (HumanoidRole)role);
+                jointOf[role] = Array.IndexOf(roles, (HumanoidRole)role);
             }
             List<AvatarNode> nodes = new List<AvatarNode>
             {
                 new AvatarNode { Name = Holder, Parent = -1, Rotation = Quaternion.identity, Scale = new Vector3(1, 1, 1) }
             };
             Dictionary<int, int> nodeOf = new Dictionary<int, int>();
-            Quaternion[] turns = Straightened(joints, roles, positions);
+            Quaternion[] turns = Straightened(joints, jointOf, positions);
             foreach (int joint in ParentsFirst(joints.Parents))
             {
                 int parent = joints.Parents[joint];
                 nodeOf[joint] = nodes.Count;
                 nodes.Add(new AvatarNode
                 {
-                    Name = NameOf(joints, joint),
+                    Name = NameOf(roles, joint),
                     Parent = parent < 0 ? 0 : nodeOf[parent],
                     Position = Local(joints, positions, joint),
                     Rotation = parent < 0 ? turns[joint] : Quaternion.Inverse(turns[parent]) * turns[joint],
@@ -177,7 +188,7 @@ namespace SuperDeform.Editor
             }
             HumanDescription description = new HumanDescription
             {
-                human = HumanoidAvatar.Human(roles, joint => NameOf(joints, joint)),
+                human = HumanoidAvatar.Human(jointOf, joint => NameOf(roles, joint)),
                 upperArmTwist = 0.5f,
                 lowerArmTwist = 0.5f,
                 upperLegTwist = 0.5f,

@@ -59,17 +59,7 @@ namespace SuperDeform.Editor.Tests
             foreach (bool turned in new[] { false, true })
             {
                 ConversionFigure figure = new ConversionFigure { Turned = turned }.Make();
-                ConversionSettings settings = Settings();
-                ConversionResult result = Converter.Convert(figure.Root, settings, null);
-                using (AvatarData data = CharacterReader.Read(figure.Root, new ReadOptions()))
-                using (Style style = settings.MakeStyle())
-                using (var deformer = new Deformer(data.Character, style, settings.MakeOptions(), null))
-                {
-                    var expected = new AvatarResult(data, true);
-                    expected.Apply(deformer, null);
-                    foreach (RendererResult renderer in expected.Renderers)
-                        Assert.That(Apart(renderer.Positions, Drawn(result.Prefab, renderer.Source.Renderer.name)), Is.LessThan(1e-5 * Height), renderer.Source.Renderer.name);
-                }
+                ConversionResult result = DrawsWhatTheLibraryGives(figure.Root, Settings());
                 Assert.That(result.Report.Result.Heads, Is.LessThan(result.Report.Target.Heads));
             }
         }
@@ -354,6 +344,201 @@ namespace SuperDeform.Editor.Tests
             GameObject prefab = Converter.Convert(figure.Root, Settings(), null).Prefab;
             Assert.AreSame(Find(prefab, "Hair").GetComponent<SkinnedMeshRenderer>().sharedMesh, Find(prefab, "Hair twin").GetComponent<SkinnedMeshRenderer>().sharedMesh);
             Assert.AreNotSame(Find(prefab, "Hat").GetComponent<MeshFilter>().sharedMesh, Find(prefab, "Hat in hand").GetComponent<MeshFilter>().sharedMesh);
+        }
+
+        /// <summary>The figure as meshes alone: no bones, no animator.</summary>
+        private static GameObject Unrigged(ConversionFigure figure)
+        {
+            var root = new GameObject("Statue");
+            foreach (SkinnedMeshRenderer skinned in new[] { figure.Body, figure.Hair })
+            {
+                var holder = new GameObject(skinned.name);
+                holder.transform.SetParent(root.transform, false);
+                holder.transform.localRotation = skinned.transform.localRotation;
+                holder.transform.localScale = skinned.transform.localScale;
+                Mesh mesh = UnityEngine.Object.Instantiate(skinned.sharedMesh);
+                mesh.boneWeights = new BoneWeight[0];
+                mesh.bindposes = new Matrix4x4[0];
+                holder.AddComponent<MeshFilter>().sharedMesh = mesh;
+                holder.AddComponent<MeshRenderer>().sharedMaterials = skinned.sharedMaterials;
+            }
+            UnityEngine.Object.DestroyImmediate(figure.Root);
+            return root;
+        }
+
+        [Test]
+        public void an_avatar_without_bones_gets_a_rig_that_holds_it()
+        {
+            GameObject statue = Unrigged(new ConversionFigure { Turned = true }.Make());
+            string before = Fingerprint.Of(statue);
+            ConversionResult result = DrawsWhatTheLibraryGives(statue, Settings());
+            Assert.AreEqual(before, Fingerprint.Of(statue));
+            Assert.That(result.Findings.Exists(finding => finding.Key == "rig_will_be_made"));
+            Assert.That(result.Report.RigMade);
+            var body = Find(result.Prefab, "Body").GetComponent<SkinnedMeshRenderer>();
+            Assert.That(body.GetComponent<MeshFilter>() == null && body.GetComponent<MeshRenderer>() == null);
+            Assert.AreEqual(2, body.sharedMaterials.Length);
+            Assert.AreSame(Find(result.Prefab, "Hips"), body.rootBone);
+            foreach (byte count in body.sharedMesh.GetBonesPerVertex())
+                Assert.That(count, Is.InRange(1, 4));
+            var animator = result.Prefab.GetComponent<Animator>();
+            Assert.That(animator.avatar.isValid && animator.avatar.isHuman);
+            Assert.AreSame(Find(result.Prefab, "LeftUpperArm"), animator.GetBoneTransform(HumanBodyBones.LeftUpperArm));
+            // A made rig is that of a person: the left arm is on the left.
+            Assert.That(Find(result.Prefab, "LeftLowerArm").position.x, Is.LessThan(Find(result.Prefab, "LeftUpperArm").position.x));
+            Assert.That(Find(result.Prefab, "LeftUpperArm").position.x, Is.LessThan(Find(result.Prefab, "RightUpperArm").position.x));
+        }
+
+        [Test]
+        public void the_avatar_of_a_made_rig_stands_in_t_pose()
+        {
+            ConversionFigure figure = new ConversionFigure().Make();
+            // Arms 45 degrees down, bound so.
+            GameObject statue = Unrigged(figure);
+            foreach (MeshFilter filter in statue.GetComponentsInChildren<MeshFilter>())
+                filter.sharedMesh.vertices = Array.ConvertAll(filter.sharedMesh.vertices, Lowered);
+            GameObject prefab = Converter.Convert(statue, Settings(), null).Prefab;
+            var turned = new Dictionary<string, Quaternion>();
+            var places = new Dictionary<string, Vector3>();
+            foreach (SkeletonBone bone in prefab.GetComponent<Animator>().avatar.humanDescription.skeleton)
+            {
+                Transform transform = bone.name == prefab.name ? prefab.transform : Find(prefab, bone.name);
+                bool root = transform == prefab.transform;
+                turned[bone.name] = root ? Quaternion.identity : turned[transform.parent.name] * bone.rotation;
+                places[bone.name] = root ? Vector3.zero : places[transform.parent.name] + turned[transform.parent.name] * bone.position;
+            }
+            foreach (string side in new[] { "Left", "Right" })
+            {
+                Vector3 arm = places[side + "Hand"] - places[side + "UpperArm"], leg = places[side + "Foot"] - places[side + "UpperLeg"];
+                Assert.That(Vector3.Angle(arm, side == "Left" ? Vector3.left : Vector3.right), Is.LessThan(1f), side + " arm");
+                Assert.That(Vector3.Angle(leg, Vector3.down), Is.LessThan(1f), side + " leg");
+            }
+            // The transforms themselves stay in the pose of the mesh.
+            Vector3 stands = Find(prefab, "LeftHand").position - Find(prefab, "LeftUpperArm").position;
+            Assert.That(Vector3.Angle(stands, Vector3.left), Is.InRange(30f, 60f));
+        }
+
+        private static Vector3 Lowered(Vector3 p)
+        {
+            float beyond = Mathf.Abs(p.x) - 0.18f;
+            if (p.y < 1.3f || beyond <= 0)
+                return p;
+            var shoulder = new Vector3(0.18f * Mathf.Sign(p.x), 1.45f, 0);
+            return shoulder + Quaternion.AngleAxis(-45 * Mathf.Sign(p.x), Vector3.forward) * (p - shoulder);
+        }
+
+        [Test]
+        public void a_new_rig_is_made_for_a_rigged_avatar_where_it_is_wanted()
+        {
+            ConversionFigure figure = new ConversionFigure { Turned = true }.Make();
+            ConversionSettings settings = Settings();
+            settings.RigAuto = true;
+            ConversionResult result = Converter.Convert(figure.Root, settings, null);
+            Assert.That(result.Report.RigMade);
+            // Its own bones ride along, and hold the meshes as before.
+            Assert.AreEqual(figure.Root.GetComponentsInChildren<Transform>(true).Length, result.Prefab.GetComponentsInChildren<Transform>(true).Length);
+            Assert.That(Find(result.Prefab, "J_Head").position.y, Is.LessThan(figure.Bones[HumanBodyBones.Head].position.y));
+        }
+
+        [Test]
+        public void an_avatar_in_another_pose_comes_out_in_that_pose()
+        {
+            ConversionFigure figure = new ConversionFigure().Make();
+            GameObject plain = Converter.Convert(figure.Root, Settings(), null).Prefab;
+            Quaternion lowered = Quaternion.AngleAxis(70, Vector3.forward);
+            figure.Bones[HumanBodyBones.LeftUpperArm].localRotation = lowered;
+            ConversionResult posed = Converter.Convert(figure.Root, Settings(), null);
+            Assert.That(posed.Findings.Exists(finding => finding.Key == "pose_not_rest"));
+            Assert.AreEqual(lowered, Find(posed.Prefab, "J_LeftUpperArm").localRotation);
+            Assert.That(Apart(Find(plain, "Body").GetComponent<SkinnedMeshRenderer>().sharedMesh.vertices, Find(posed.Prefab, "Body").GetComponent<SkinnedMeshRenderer>().sharedMesh.vertices), Is.LessThan(1e-5 * Height));
+        }
+
+        [Test]
+        public void an_avatar_that_was_bound_with_its_arms_down_is_read_as_it_stands()
+        {
+            ConversionFigure figure = new ConversionFigure().Make();
+            Transform arm = figure.Bones[HumanBodyBones.LeftUpperArm];
+            // Bound with the arm down, as the mesh has it; then stood up again.
+            arm.localRotation = Quaternion.AngleAxis(89, Vector3.forward);
+            Vector3[] down = Drawn(figure.Root, "Body");
+            figure.Body.sharedMesh.vertices = down;
+            figure.Body.sharedMesh.bindposes = Array.ConvertAll(figure.Body.bones, bone => bone.worldToLocalMatrix);
+            figure.Hair.sharedMesh.bindposes = Array.ConvertAll(figure.Hair.bones, bone => bone.worldToLocalMatrix);
+            Assert.That(AvatarChecks.Of(figure.Root).Exists(finding => finding.Key == "pose_far"));
+            arm.localRotation = Quaternion.identity;
+            Assert.That(AvatarChecks.Of(figure.Root).Exists(finding => finding.Key == "pose_far"), Is.False);
+            DrawsWhatTheLibraryGives(figure.Root, Settings());
+        }
+
+        /// <summary>Converts, and compares what is drawn with what the library gives for the avatar.</summary>
+        private static ConversionResult DrawsWhatTheLibraryGives(GameObject avatar, ConversionSettings settings)
+        {
+            ConversionResult result = Converter.Convert(avatar, settings, null);
+            using (AvatarData data = CharacterReader.Read(avatar, new ReadOptions { RigAuto = settings.RigAuto }))
+            using (Style style = settings.MakeStyle())
+            using (var deformer = new Deformer(data.Character, style, settings.MakeOptions(), null))
+            {
+                var expected = new AvatarResult(data, true);
+                expected.Apply(deformer, null);
+                foreach (RendererResult renderer in expected.Renderers)
+                    Assert.That(Apart(renderer.Positions, Drawn(result.Prefab, renderer.Source.Renderer.name)), Is.LessThan(1e-5 * Height), renderer.Source.Renderer.name);
+            }
+            return result;
+        }
+
+        [Test]
+        public void submeshes_are_told_apart_where_they_share_no_vertex()
+        {
+            var mesh = new Mesh { name = "M" };
+            mesh.vertices = new Vector3[10];
+            mesh.subMeshCount = 4;
+            mesh.SetTriangles(new[] { 1, 2, 3 }, 0);
+            mesh.SetTriangles(new[] { 4, 6, 8 }, 1);
+            mesh.SetTriangles(new[] { 5, 7, 9, 5, 9, 7 }, 2);
+            mesh.SetTriangles(new[] { 3, 2, 1 }, 3);
+            var holder = new GameObject("H");
+            holder.AddComponent<MeshFilter>().sharedMesh = mesh;
+            var shown = holder.AddComponent<MeshRenderer>();
+            shown.sharedMaterials = Array.ConvertAll(new[] { "a", "b", "c" }, name => new Material(Shader.Find("Standard")) { name = name });
+            List<PartData> parts = SubmeshParts.Of(new RendererData { Renderer = shown, Mesh = mesh, Vertices = mesh.vertices });
+            Assert.AreEqual(new[] { "H/M/a", "H/M/b", "H/M/c" }, parts.ConvertAll(part => part.Name).ToArray());
+            // The first two share all vertices with the fourth; vertex 0 goes with what follows it.
+            Assert.AreEqual(new[] { 0, 4 }, new[] { parts[0].FirstVertex, parts[0].VertexCount });
+            Assert.AreEqual(new[] { 1, 2, 3, 3, 2, 1 }, parts[0].Indices);
+            Assert.AreEqual(new[] { 4, 6, 8 }, parts[1].Vertices);
+            Assert.AreEqual(new[] { 0, 1, 2 }, parts[1].Indices);
+            Assert.AreEqual(new[] { 5, 7, 9 }, parts[2].Vertices);
+            Assert.AreEqual(new[] { 0, 1, 2, 0, 2, 1 }, parts[2].Indices);
+        }
+
+        [Test]
+        public void poses_are_measured_against_t_and_a()
+        {
+            Assert.AreEqual(0, Angle(0, 0), 1e-4);
+            Assert.AreEqual(0, Angle(60, 0), 1e-4);
+            Assert.AreEqual(25, Angle(85, 0), 1e-3);
+            Assert.AreEqual(40, Angle(-40, 0), 1e-3);
+            // The way the figure looks makes no difference.
+            Assert.AreEqual(25, Angle(85, 130), 1e-3);
+        }
+
+        /// <summary>What is measured with both arms so many degrees down, seen from another side.</summary>
+        private static double Angle(double down, double turned)
+        {
+            int[] roles = new int[HumanoidRoles.Count];
+            for (int role = 0; role < roles.Length; role++)
+                roles[role] = -1;
+            var places = new List<Affine>();
+            double x = Math.Cos(down * Math.PI / 180), y = -Math.Sin(down * Math.PI / 180);
+            for (int side = -1; side <= 1; side += 2)
+                for (int joint = 0; joint < 3; joint++)
+                {
+                    var role = (HumanBodyBones)((int)HumanBodyBones.LeftUpperArm + 2 * joint + (side + 1) / 2);
+                    roles[(int)role] = places.Count;
+                    double a = turned * Math.PI / 180, across = side * (0.2 + 0.3 * joint * x);
+                    places.Add(Affine.Translation(new Double3(across * Math.Cos(a), 1.4 + 0.3 * joint * y, across * Math.Sin(a))));
+                }
+            return PoseMeasure.Of(roles, places.ToArray()).Degrees;
         }
     }
 }
