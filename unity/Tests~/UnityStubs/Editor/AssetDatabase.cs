@@ -48,7 +48,7 @@ namespace UnityEditor
             if (asset == null) throw new ArgumentNullException("asset");
             path = (path ?? "").Replace('\\', '/');
             if (!InProject(path)) throw new UnityException("Creating asset at path " + path + " failed: it is not in the project's Assets folder.");
-            if (Contains(asset)) throw new UnityException("Couldn't add object to asset file because the " + asset.GetType().Name + " '" + asset.name + "' is already an asset at '" + asset.assetPath + "'!");
+            if (Contains(asset)) throw new UnityException("the " + asset.GetType().Name + " '" + asset.name + "' is an asset already, at '" + asset.assetPath + "'");
             if (asset is GameObject || asset is Component) throw new UnityException("Creating asset at path " + path + " failed: game objects are saved with PrefabUtility.");
             if (Path.GetExtension(path).Length == 0) throw new UnityException("Creating asset at path " + path + " failed: the path has no extension.");
             if (!IsValidFolder(Folder(path))) throw new UnityException("Creating asset at path " + path + " failed: parent directory '" + Folder(path) + "' does not exist.");
@@ -64,16 +64,16 @@ namespace UnityEditor
         }
         public static void AddObjectToAsset(Object objectToAdd, Object assetObject)
         {
-            if (assetObject == null || !Contains(assetObject)) throw new UnityException("AddAssetToSameFile failed because the other asset is not persistent");
+            if (assetObject == null || !Contains(assetObject)) throw new UnityException("the object to add to is no asset");
             AddObjectToAsset(objectToAdd, assetObject.assetPath);
         }
         public static void AddObjectToAsset(Object objectToAdd, string path)
         {
             if (objectToAdd == null) throw new ArgumentNullException("objectToAdd");
             File file;
-            if (!Files.TryGetValue(path, out file)) throw new UnityException("Couldn't add object to asset file: there is no asset at '" + path + "'");
-            if (Contains(objectToAdd)) throw new UnityException("Couldn't add object to asset file because the " + objectToAdd.GetType().Name + " '" + objectToAdd.name + "' is already an asset at '" + objectToAdd.assetPath + "'!");
-            if (objectToAdd is GameObject || objectToAdd is Component) throw new UnityException("Couldn't add object to asset file: game objects are saved with PrefabUtility.");
+            if (!Files.TryGetValue(path, out file)) throw new UnityException("there is no asset at '" + path + "' to add to");
+            if (Contains(objectToAdd)) throw new UnityException("the " + objectToAdd.GetType().Name + " '" + objectToAdd.name + "' is an asset already, at '" + objectToAdd.assetPath + "'");
+            if (objectToAdd is GameObject || objectToAdd is Component) throw new UnityException("game objects are saved with PrefabUtility");
             objectToAdd.assetPath = path;
             file.Subs.Add(objectToAdd);
             file.Dirty = true;
@@ -157,9 +157,9 @@ namespace UnityEditor
         public static bool MoveAssetToTrash(string path) { return DeleteAsset(path); }
         public static string ValidateMoveAsset(string oldPath, string newPath)
         {
-            if (!Exists(oldPath)) return "Trying to move asset from location '" + oldPath + "', which doesn't exist";
-            if (!InProject(newPath) || !IsValidFolder(Folder(newPath))) return "Trying to move asset to '" + newPath + "': the parent directory does not exist";
-            return Exists(newPath) ? "Destination path name does already exist: " + newPath : "";
+            if (!Exists(oldPath)) return "there is no asset at '" + oldPath + "'";
+            if (!InProject(newPath) || !IsValidFolder(Folder(newPath))) return "the folder of '" + newPath + "' does not exist";
+            return Exists(newPath) ? "there is an asset at '" + newPath + "' already" : "";
         }
         public static string MoveAsset(string oldPath, string newPath)
         {
@@ -312,7 +312,7 @@ namespace UnityEditor
         public static void StartAssetEditing() { s_Editing++; }
         public static void StopAssetEditing()
         {
-            if (s_Editing == 0) { Debug.LogError("StopAssetEditing called without StartAssetEditing"); return; }
+            if (s_Editing == 0) { Debug.LogError("StopAssetEditing without StartAssetEditing"); return; }
             s_Editing--;
         }
         internal static int Editing { get { return s_Editing; } set { s_Editing = value; } }

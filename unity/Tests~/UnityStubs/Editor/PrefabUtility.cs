@@ -24,9 +24,10 @@ namespace UnityEditor
             success = false;
             if (instanceRoot == null) throw new ArgumentNullException("instanceRoot");
             if (EditorUtility.IsPersistent(instanceRoot)) throw new ArgumentException("Can't save a Prefab from an object that is an asset: '" + instanceRoot.name + "'", "instanceRoot");
+            if (IsPartOfPrefabInstance(instanceRoot) && !IsOutermostPrefabInstanceRoot(instanceRoot)) throw new ArgumentException("'" + instanceRoot.name + "' is inside a Prefab instance: unpack it first, or save its root", "instanceRoot");
             if (string.IsNullOrEmpty(assetPath)) throw new ArgumentException("The path is empty", "assetPath");
-            if (!assetPath.EndsWith(".prefab", StringComparison.OrdinalIgnoreCase)) throw new ArgumentException("Given path does not end with .prefab: '" + assetPath + "'", "assetPath");
-            if (!AssetDatabase.InProject(assetPath)) throw new ArgumentException("Given path is not in the project: '" + assetPath + "'", "assetPath");
+            if (!assetPath.EndsWith(".prefab", StringComparison.OrdinalIgnoreCase)) throw new ArgumentException("'" + assetPath + "' does not end in .prefab", "assetPath");
+            if (!AssetDatabase.InProject(assetPath)) throw new ArgumentException("'" + assetPath + "' is not in the project", "assetPath");
             string folder = assetPath.Substring(0, assetPath.LastIndexOf('/'));
             if (!AssetDatabase.IsValidFolder(folder)) throw new ArgumentException("The folder '" + folder + "' does not exist", "assetPath");
             foreach (Transform at in instanceRoot.GetComponentsInChildren<Transform>(true))
@@ -133,7 +134,7 @@ namespace UnityEditor
         public static GameObject LoadPrefabContents(string assetPath)
         {
             GameObject asset = AssetDatabase.LoadAssetAtPath<GameObject>(assetPath);
-            if (asset == null) throw new ArgumentException("Could not load Prefab contents at path " + assetPath);
+            if (asset == null) throw new ArgumentException("there is no prefab at '" + assetPath + "'");
             GameObject copy = Object.Instantiate(asset);
             copy.name = asset.name;
             UnityEngine.SceneManagement.SceneManager.MoveGameObjectToScene(copy, SceneManagement.EditorSceneManager.NewPreviewScene());

@@ -35,7 +35,7 @@ namespace UnityEngine
         public bool activeSelf { get { Alive(); return m_Active; } }
         public bool activeInHierarchy { get { Alive(); for (Transform at = transform; !ReferenceEquals(at, null); at = at.m_Parent) if (!at.gameObject.m_Active) return false; return assetPath == null; } }
         public void SetActive(bool value) { Alive(); m_Active = value; }
-        public int layer { get { Alive(); return m_Layer; } set { if (value < 0 || value > 31) Debug.LogError("A game object can only be in one layer. The layer needs to be in the range [0...31]"); else m_Layer = value; } }
+        public int layer { get { Alive(); return m_Layer; } set { if (value < 0 || value > 31) Debug.LogError("layers are 0 to 31, not " + value); else m_Layer = value; } }
         public string tag { get { Alive(); return m_Tag; } set { m_Tag = value; } }
         public bool isStatic { get { return m_Static; } set { m_Static = value; } }
         public bool CompareTag(string tag) { return m_Tag == tag; }
@@ -47,7 +47,7 @@ namespace UnityEngine
             Alive();
             if (type == null || type.IsAbstract || !typeof(Component).IsAssignableFrom(type) || type == typeof(Transform))
             {
-                Debug.LogError("Can't add component because class '" + (type == null ? "null" : type.Name) + "' cannot be added.");
+                Debug.LogError("'" + (type == null ? "null" : type.Name) + "' is no component that can be added");
                 return null;
             }
             foreach (RequireComponent need in type.GetCustomAttributes(typeof(RequireComponent), true))
@@ -55,7 +55,7 @@ namespace UnityEngine
                     if (other != null && GetComponent(other) == null) AddComponent(other);
             if (OnlyOne(type) && GetComponent(OnlyOneOf(type)) != null)
             {
-                Debug.LogError("Can't add '" + type.Name + "' to " + name + " because a '" + type.Name + "' is already added to the game object!");
+                Debug.LogError("'" + name + "' has a " + type.Name + " already, and may have only one");
                 return null;
             }
             Component made = (Component)Activator.CreateInstance(type, true);
@@ -266,15 +266,15 @@ namespace UnityEngine
         public Transform GetChild(int index)
         {
             Alive();
-            if (index < 0 || index >= children.Count) throw new UnityException("Transform child out of bounds");
+            if (index < 0 || index >= children.Count) throw new UnityException("'" + name + "' has no child " + index);
             return children[index];
         }
         public void SetParent(Transform parent) { SetParent(parent, true); }
         public void SetParent(Transform parent, bool worldPositionStays)
         {
             Alive();
-            if (parent != null && parent.IsChildOf(this)) { Debug.LogError("Cannot set the parent of '" + name + "' to itself or to one of its children."); return; }
-            if (gameObject.assetPath != null) { Debug.LogError("Setting the parent of a transform which resides in a Prefab Asset is disabled to prevent data corruption (GameObject: '" + name + "')."); return; }
+            if (parent != null && parent.IsChildOf(this)) { Debug.LogError("'" + name + "' cannot hang from itself or from its children"); return; }
+            if (gameObject.assetPath != null) { Debug.LogError("'" + name + "' is part of a prefab asset: its parent cannot be set"); return; }
             Matrix4x4 world = localToWorldMatrix;
             Quaternion turned = rotation;
             Scene scene = gameObject.scene;

@@ -24,7 +24,7 @@ namespace UnityEngine
         public static object FromJson(string json, Type type)
         {
             if (string.IsNullOrEmpty(json)) return null;
-            if (typeof(Object).IsAssignableFrom(type)) throw new ArgumentException("Cannot deserialize JSON to new instances of type '" + type.Name + ".'");
+            if (typeof(Object).IsAssignableFrom(type)) throw new ArgumentException("a " + type.Name + " is not made from JSON: use FromJsonOverwrite");
             return Fill(type.IsValueType || type.GetConstructor(Type.EmptyTypes) != null ? Activator.CreateInstance(type) : FormatterServices.GetUninitializedObject(type), Parse(json));
         }
         public static void FromJsonOverwrite(string json, object objectToOverwrite) { if (!string.IsNullOrEmpty(json)) Fill(objectToOverwrite, Parse(json)); }
@@ -69,7 +69,7 @@ namespace UnityEngine
         static object Fill(object target, object json)
         {
             Dictionary<string, object> members = json as Dictionary<string, object>;
-            if (members == null) throw new ArgumentException("JSON must represent an object type.");
+            if (members == null) throw new ArgumentException("the JSON is no object");
             foreach (FieldInfo field in Fields.Of(target.GetType()))
             {
                 object member;

@@ -81,13 +81,13 @@ namespace UnityEngine
         {
             Alive();
             if (m_Readable) return true;
-            Debug.LogError("Not allowed to access " + channel + " on mesh '" + m_Name + "' (isReadable is false; Read/Write must be enabled in import settings)");
+            Debug.LogError("mesh '" + m_Name + "': its " + channel + " are not readable; turn on Read/Write");
             return false;
         }
         T[] Read<T>(T[] data, string channel) { return May(channel) ? (T[])data.Clone() : new T[0]; }
         void ReadTo<T>(T[] data, List<T> list, string channel)
         {
-            if (list == null) throw new ArgumentNullException("list", "The result list cannot be null.");
+            if (list == null) throw new ArgumentNullException("list", "there is no list to write to");
             list.Clear();
             if (May(channel)) list.AddRange(data);
         }
@@ -96,7 +96,7 @@ namespace UnityEngine
         {
             if (!May(channel)) return false;
             if (length == 0 || length == m_Vertices.Length) return true;
-            Debug.LogError("Mesh." + channel + " is out of bounds. The supplied array needs to be the same size as the Mesh.vertices array.");
+            Debug.LogError("mesh '" + m_Name + "': " + length + " " + channel + " for " + m_Vertices.Length + " vertices");
             return false;
         }
         // Same size as before: written into the array that is there, so that a live preview allocates nothing.
@@ -123,7 +123,7 @@ namespace UnityEngine
                     foreach (int index in part.Indices)
                         if (index + part.BaseVertex >= length)
                         {
-                            Debug.LogError("Mesh.vertices is too small. The supplied vertex array has less vertices than are referenced by the triangles array.");
+                            Debug.LogError("mesh '" + m_Name + "': a triangle uses vertex " + (index + part.BaseVertex) + ", but there would be " + length);
                             return;
                         }
                 // What Unity makes of blend shapes whose mesh changes its size is not documented; nobody should build on it.
@@ -140,9 +140,9 @@ namespace UnityEngine
         {
             if (array == null && length == 0) return;
             if (array == null) throw new ArgumentNullException("array");
-            if (start < 0) throw new ArgumentOutOfRangeException("start", start, "Mesh data start can't be negative.");
-            if (length < 0) throw new ArgumentOutOfRangeException("length", length, "Mesh data length can't be negative.");
-            if (start + length > array.Length) throw new ArgumentOutOfRangeException("length", start + length, "Mesh data start+length must not be past the array: it has " + array.Length + " elements.");
+            if (start < 0) throw new ArgumentOutOfRangeException("start", start, "start must be 0 or more");
+            if (length < 0) throw new ArgumentOutOfRangeException("length", length, "length must be 0 or more");
+            if (start + length > array.Length) throw new ArgumentOutOfRangeException("length", start + length, "start and length go past the array's " + array.Length + " elements");
         }
 
         public Vector3[] normals { get { return Read(m_Normals, "normals"); } set { SetNormals(value ?? new Vector3[0]); } }
@@ -182,7 +182,7 @@ namespace UnityEngine
         Vector2[] Uv(int channel) { List<Vector2> list = new List<Vector2>(); GetUVs(channel, list); return list.ToArray(); }
         Vector4[] UvOf(int channel)
         {
-            if (channel < 0 || channel > 7) throw new ArgumentOutOfRangeException("channel", channel, "The uv index is invalid. Must be in the range 0 to 7.");
+            if (channel < 0 || channel > 7) throw new ArgumentOutOfRangeException("channel", channel, "UV channels are 0 to 7");
             return May("uv") && m_Uv[channel] != null ? m_Uv[channel] : new Vector4[0];
         }
         public void GetUVs(int channel, List<Vector2> uvs) { uvs.Clear(); foreach (Vector4 v in UvOf(channel)) uvs.Add(new Vector2(v.x, v.y)); }
@@ -231,7 +231,7 @@ namespace UnityEngine
         }
         SubMesh Part(int submesh)
         {
-            if (submesh < 0 || submesh >= m_SubMeshes.Count) throw new IndexOutOfRangeException("Specified sub mesh is out of range. Must be greater or equal to 0 and less than " + m_SubMeshes.Count + ".");
+            if (submesh < 0 || submesh >= m_SubMeshes.Count) throw new IndexOutOfRangeException("mesh '" + m_Name + "' has no submesh " + submesh + ": it has " + m_SubMeshes.Count);
             return m_SubMeshes[submesh];
         }
         public int[] triangles
@@ -274,17 +274,17 @@ namespace UnityEngine
             SubMesh part = Part(submesh);
             if (!May("indices")) return;
             indices = indices ?? new int[0];
-            if (topology == MeshTopology.Triangles && indices.Length % 3 != 0) { Debug.LogError("Failed setting triangles. The number of supplied triangle indices must be a multiple of 3."); return; }
+            if (topology == MeshTopology.Triangles && indices.Length % 3 != 0) { Debug.LogError("mesh '" + m_Name + "': " + indices.Length + " corners make no whole triangles"); return; }
             foreach (int index in indices)
             {
                 if (index < 0 || index + baseVertex < 0 || index + baseVertex >= m_Vertices.Length)
                 {
-                    Debug.LogError("Failed setting indices. Some indices are referencing out of bounds vertices: " + index + " of " + m_Vertices.Length + " vertices in mesh '" + m_Name + "'.");
+                    Debug.LogError("mesh '" + m_Name + "': index " + index + ", but there are " + m_Vertices.Length + " vertices");
                     return;
                 }
                 if (m_IndexFormat == IndexFormat.UInt16 && index > 65535)
                 {
-                    Debug.LogError("Failed setting indices. Index " + index + " does not fit 16 bits; set Mesh.indexFormat to UInt32.");
+                    Debug.LogError("mesh '" + m_Name + "': index " + index + " does not fit 16 bits; set indexFormat to UInt32");
                     return;
                 }
             }
@@ -323,7 +323,8 @@ namespace UnityEngine
         public NativeArray<byte> GetBonesPerVertex() { return NativeArray<byte>.View(Read(m_BonesPerVertex, "bone weights")); }
         public NativeArray<BoneWeight1> GetAllBoneWeights() { return NativeArray<BoneWeight1>.View(Read(m_BoneWeights, "bone weights")); }
 
-        // Documented: as many counts as vertices, as many weights as the counts' sum, each vertex's weights descending; 16 bits a weight are kept.
+        // Documented: as many counts as vertices, as many weights as the counts' sum, each vertex's weights descending; zeros are
+        // left out, and at least 16 bits of a weight are kept: here, just those.
         public void SetBoneWeights(NativeArray<byte> bonesPerVertex, NativeArray<BoneWeight1> weights)
         {
             if (!May("bone weights")) return;
@@ -333,6 +334,8 @@ namespace UnityEngine
             foreach (byte count in bonesPerVertex) sum += count;
             if (sum != weights.Length) throw new ArgumentException("bonesPerVertex sums to " + sum + "; there are " + weights.Length + " weights", "weights");
             BoneWeight1[] stored = weights.ToArray();
+            List<BoneWeight1> kept = new List<BoneWeight1>(stored.Length);
+            byte[] counts = bonesPerVertex.ToArray();
             int at = 0;
             for (int vertex = 0; vertex < bonesPerVertex.Length; vertex++)
             {
@@ -346,10 +349,11 @@ namespace UnityEngine
                     if (stored[at].boneIndex < 0) throw new ArgumentException("vertex " + vertex + " names bone " + stored[at].boneIndex, "weights");
                     last = weight;
                     stored[at].weight = (float)(Math.Round(Math.Min(weight, 1f) * 65535.0) / 65535.0);
+                    if (weight > 0f) kept.Add(stored[at]); else counts[vertex]--;
                 }
             }
-            m_BonesPerVertex = bonesPerVertex.ToArray();
-            m_BoneWeights = stored;
+            m_BonesPerVertex = counts;
+            m_BoneWeights = kept.ToArray();
         }
         public BoneWeight[] boneWeights
         {
@@ -373,7 +377,7 @@ namespace UnityEngine
             {
                 if (!May("bone weights")) return;
                 if (value == null) value = new BoneWeight[0];
-                if (value.Length != 0 && value.Length != m_Vertices.Length) { Debug.LogError("Mesh.boneWeights is out of bounds. The supplied array needs to be the same size as the Mesh.vertices array."); return; }
+                if (value.Length != 0 && value.Length != m_Vertices.Length) { Debug.LogError("mesh '" + m_Name + "': " + value.Length + " bone weights for " + m_Vertices.Length + " vertices"); return; }
                 List<BoneWeight1> weights = new List<BoneWeight1>();
                 byte[] counts = new byte[value.Length];
                 for (int vertex = 0; vertex < value.Length; vertex++)

@@ -27,14 +27,14 @@ namespace Unity.Collections
         public NativeArray(int length, Allocator allocator) : this(length, allocator, NativeArrayOptions.ClearMemory) { }
         public NativeArray(int length, Allocator allocator, NativeArrayOptions options) : this()
         {
-            if (allocator <= Allocator.None) throw new ArgumentException("Allocator must be Temp, TempJob or Persistent", "allocator");
-            if (length < 0) throw new ArgumentOutOfRangeException("length", "Length must be >= 0");
+            if (allocator <= Allocator.None) throw new ArgumentException("use Temp, TempJob or Persistent", "allocator");
+            if (length < 0) throw new ArgumentOutOfRangeException("length", "the length must be 0 or more");
             Fill(new T[length], allocator);
         }
         public NativeArray(T[] array, Allocator allocator) : this()
         {
             if (array == null) throw new ArgumentNullException("array");
-            if (allocator <= Allocator.None) throw new ArgumentException("Allocator must be Temp, TempJob or Persistent", "allocator");
+            if (allocator <= Allocator.None) throw new ArgumentException("use Temp, TempJob or Persistent", "allocator");
             Fill((T[])array.Clone(), allocator);
         }
         public NativeArray(NativeArray<T> array, Allocator allocator) : this(array.ToArray(), allocator) { }
@@ -46,8 +46,8 @@ namespace Unity.Collections
         {
             get
             {
-                if (m_Store == null) throw new NullReferenceException("The NativeArray was never allocated");
-                if (m_Store.Data == null) throw new ObjectDisposedException("The NativeArray has been deallocated");
+                if (m_Store == null) throw new NullReferenceException("this array was never allocated");
+                if (m_Store.Data == null) throw new ObjectDisposedException("this array was disposed");
                 return m_Store.Data;
             }
         }
@@ -58,10 +58,10 @@ namespace Unity.Collections
             get { Inside(index); return Data[m_Start + index]; }
             set { Inside(index); Data[m_Start + index] = value; }
         }
-        void Inside(int index) { if (index < 0 || index >= m_Length) throw new IndexOutOfRangeException("Index " + index + " is out of range of '" + m_Length + "' Length."); }
+        void Inside(int index) { if (index < 0 || index >= m_Length) throw new IndexOutOfRangeException("index " + index + " of " + m_Length + " elements"); }
         public void Dispose()
         {
-            if (m_Store == null || m_Store.Data == null) throw new ObjectDisposedException("The NativeArray is already disposed or was never allocated");
+            if (m_Store == null || m_Store.Data == null) throw new ObjectDisposedException("this array was disposed before or never allocated");
             if (m_Allocator > Allocator.None) m_Store.Free();
             m_Store = null; m_Length = 0;
         }
@@ -70,7 +70,7 @@ namespace Unity.Collections
         public void CopyTo(NativeArray<T> array) { Same(array.Length); Array.Copy(Data, m_Start, array.Data, array.m_Start, m_Length); }
         public void CopyFrom(T[] array) { Same(array.Length); Array.Copy(array, 0, Data, m_Start, m_Length); }
         public void CopyFrom(NativeArray<T> array) { array.CopyTo(this); }
-        void Same(int length) { if (length != m_Length) throw new ArgumentException("source and destination length must be the same"); }
+        void Same(int length) { if (length != m_Length) throw new ArgumentException(length + " elements for " + m_Length); }
         public static void Copy(NativeArray<T> source, NativeArray<T> destination) { source.CopyTo(destination); }
         public static void Copy(NativeArray<T> source, T[] destination) { source.CopyTo(destination); }
         public static void Copy(T[] source, NativeArray<T> destination) { destination.CopyFrom(source); }
@@ -78,7 +78,7 @@ namespace Unity.Collections
         public static void Copy(T[] source, int sourceIndex, NativeArray<T> destination, int destinationIndex, int length) { Array.Copy(source, sourceIndex, destination.Data, destination.m_Start + destinationIndex, length); }
         public NativeArray<T> GetSubArray(int start, int length)
         {
-            if (start < 0 || length < 0 || start + length > m_Length) throw new ArgumentOutOfRangeException("start", "sub array range " + start + "-" + (start + length - 1) + " is outside the range of the native array 0-" + (m_Length - 1));
+            if (start < 0 || length < 0 || start + length > m_Length) throw new ArgumentOutOfRangeException("start", "elements " + start + " to " + (start + length - 1) + " of " + m_Length);
             NativeArray<T> part = this;
             part.m_Start += start; part.m_Length = length; part.m_Allocator = Allocator.None;
             return part;

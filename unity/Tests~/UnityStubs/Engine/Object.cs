@@ -52,7 +52,7 @@ namespace UnityEngine
 
         internal void Alive()
         {
-            if (destroyed) throw new MissingReferenceException("The object of type '" + GetType().Name + "' has been destroyed but you are still trying to access it.");
+            if (destroyed) throw new MissingReferenceException("this " + GetType().Name + " was destroyed");
         }
 
         // A component has the name of its game object.
@@ -70,7 +70,7 @@ namespace UnityEngine
 
         public static Object Instantiate(Object original)
         {
-            if (Gone(original)) throw new ArgumentException("The Object you want to instantiate is null.");
+            if (Gone(original)) throw new ArgumentException("there is nothing to instantiate");
             return Cloning.Clone(original, null, "(Clone)");
         }
         public static Object Instantiate(Object original, Transform parent) { return Instantiate(original, parent, false); }
@@ -95,14 +95,14 @@ namespace UnityEngine
         public static T Instantiate<T>(T original, Vector3 position, Quaternion rotation) where T : Object { return (T)Instantiate((Object)original, position, rotation); }
 
         // Outside play mode Unity refuses Destroy and names DestroyImmediate; nothing here is ever in play mode.
-        public static void Destroy(Object value) { Debug.LogError("Destroy may not be called from edit mode! Use DestroyImmediate instead."); }
+        public static void Destroy(Object value) { Debug.LogError("Destroy is for play mode: use DestroyImmediate"); }
         public static void Destroy(Object value, float delay) { Destroy(value); }
         public static void DestroyImmediate(Object value) { DestroyImmediate(value, false); }
         public static void DestroyImmediate(Object value, bool allowDestroyingAssets)
         {
             if (Gone(value)) return;
-            if (value.assetPath != null && !allowDestroyingAssets) { Debug.LogError("Destroying assets is not permitted to avoid data loss: " + value.name); return; }
-            if (value is Transform) { Debug.LogError("Can't destroy Transform component of '" + value.name + "'"); return; }
+            if (value.assetPath != null && !allowDestroyingAssets) { Debug.LogError("'" + value.name + "' is an asset, which is only destroyed when that is allowed"); return; }
+            if (value is Transform) { Debug.LogError("the Transform of '" + value.name + "' cannot be destroyed alone"); return; }
             value.OnDestroyed();
         }
         internal virtual void OnDestroyed() { Mark(); }

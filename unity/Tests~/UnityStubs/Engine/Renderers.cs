@@ -79,8 +79,8 @@ namespace UnityEngine
         }
         public void GetSharedMaterials(List<Material> m) { m.Clear(); m.AddRange(m_Materials); }
         // Unity leaks an instance of the material for each of these in edit mode and logs an error for it.
-        public Material[] materials { get { Debug.LogError("Instantiating material due to calling renderer.material during edit mode. This will leak materials into the scene. You most likely want to use renderer.sharedMaterial instead."); return sharedMaterials; } set { sharedMaterials = value; } }
-        public Material material { get { Debug.LogError("Instantiating material due to calling renderer.material during edit mode. This will leak materials into the scene. You most likely want to use renderer.sharedMaterial instead."); return sharedMaterial; } set { sharedMaterial = value; } }
+        public Material[] materials { get { Debug.LogError("renderer.material makes a copy that nobody destroys in edit mode: use sharedMaterial"); return sharedMaterials; } set { sharedMaterials = value; } }
+        public Material material { get { Debug.LogError("renderer.material makes a copy that nobody destroys in edit mode: use sharedMaterial"); return sharedMaterial; } set { sharedMaterial = value; } }
         public Matrix4x4 localToWorldMatrix { get { return transform.localToWorldMatrix; } }
         public Matrix4x4 worldToLocalMatrix { get { return transform.worldToLocalMatrix; } }
         public virtual Bounds bounds { get { return World(LocalBounds, transform.localToWorldMatrix); } }
@@ -105,7 +105,7 @@ namespace UnityEngine
         public Mesh sharedMesh { get { Alive(); return m_Mesh; } set { Alive(); m_Mesh = value; } }
         public Mesh mesh
         {
-            get { Debug.LogError("Instantiating mesh due to calling MeshFilter.mesh during edit mode. This will leak meshes. Please use MeshFilter.sharedMesh instead."); return m_Mesh; }
+            get { Debug.LogError("MeshFilter.mesh makes a copy that nobody destroys in edit mode: use sharedMesh"); return m_Mesh; }
             set { m_Mesh = value; }
         }
     }
