@@ -50,7 +50,6 @@ namespace SuperDeform.Editor
         /// <param name="jointOf">By role, the joint; -1: none, and its limb stays.</param>
         internal static void Take(PreviewPose pose, ProxySkeleton skeleton, int[] jointOf)
         {
-            skeleton.Stand();
             if (pose == PreviewPose.AsItStands)
                 return;
             foreach (Limb limb in pose == PreviewPose.Walks ? walks : sits)

@@ -23,19 +23,22 @@ namespace SuperDeform.Editor
         private ConversionSettings shown;
         private bool showBefore, beside;
         private PreviewPose pose;
+        private Matrix4x4 placedAt;
 
         /// <summary>Reads the avatar and shows the result in its place.</summary>
+        /// <param name="progress">Hears how far it is, which takes long where a rig is made; null for none.</param>
         /// <exception cref="ConversionException">It cannot be done, and why.</exception>
-        public PreviewSession(GameObject avatar, ConversionSettings settings)
+        public PreviewSession(GameObject avatar, ConversionSettings settings, IConversionProgress progress = null)
         {
             try
             {
                 this.avatar = CharacterReader.Read(avatar, new ReadOptions
                 {
-                    WithMorphs = false, RigAuto = settings.RigAuto, RigOptions = settings.MakeOptions()
+                    WithMorphs = false, RigAuto = settings.RigAuto, RigOptions = settings.MakeOptions(),
+                    RigProgress = Part(progress, ConversionStage.Rigging, 0, 0.7f)
                 });
                 jointOf = JointsByRole(this.avatar);
-                Deform(settings, SettingsChange.Style);
+                Deform(settings, SettingsChange.Style, Part(progress, ConversionStage.Deforming, 0.7f, 1));
                 skeleton = new ProxySkeleton(this.avatar);
                 result = new AvatarResult(this.avatar, true);
                 foreach (RendererResult renderer in result.Renderers)
@@ -75,7 +78,7 @@ namespace SuperDeform.Editor
                 throw new InvalidOperationException("Another rig needs a new session.");
             try
             {
-                Deform(settings, change);
+                Deform(settings, change, null);
                 Show();
             }
             catch (Exception cause)
@@ -84,7 +87,7 @@ namespace SuperDeform.Editor
             }
         }
 
-        private void Deform(ConversionSettings settings, SettingsChange change)
+        private void Deform(ConversionSettings settings, SettingsChange change, ProgressHandler progress)
         {
             if (change == SettingsChange.Face)
                 deformer.SetFace(settings.FaceSquash, settings.FaceCurve);
@@ -93,7 +96,7 @@ namespace SuperDeform.Editor
             else
                 using (Style wanted = style.Make(settings))
                 {
-                    var made = new Deformer(avatar.Character, wanted, settings.MakeOptions(), null);
+                    var made = new Deformer(avatar.Character, wanted, settings.MakeOptions(), progress);
                     if (deformer != null)
                         deformer.Dispose();
                     deformer = made;
@@ -105,6 +108,7 @@ namespace SuperDeform.Editor
         {
             result.Apply(deformer, null);
             skeleton.Move(result);
+            Stand();
             foreach (ProxyRenderer renderer in renderers)
                 renderer.Show(skeleton);
         }
@@ -148,15 +152,33 @@ namespace SuperDeform.Editor
             set
             {
                 pose = value;
-                if (avatar.Rigged)
-                    PreviewPoses.Take(pose, skeleton, jointOf);
+                Stand();
             }
         }
 
-        /// <summary>Puts the proxy where the avatar is, which may have been moved.</summary>
-        public void Place()
+        private void Stand()
+        {
+            skeleton.Stand(result);
+            if (avatar.Rigged)
+                PreviewPoses.Take(pose, skeleton, jointOf);
+        }
+
+        /// <summary>Follows the avatar, which may have been moved or posed.</summary>
+        /// <returns>Whether it had been.</returns>
+        public bool Follow()
+        {
+            bool placed = !placedAt.Equals(avatar.Root.transform.localToWorldMatrix), posed = skeleton.HasMoved();
+            if (placed)
+                Place();
+            if (posed)
+                Stand();
+            return placed || posed;
+        }
+
+        private void Place()
         {
             Transform root = avatar.Root.transform;
+            placedAt = root.localToWorldMatrix;
             Vector3 aside = beside ? root.right * (1.2f * Width() * root.lossyScale.x) : Vector3.zero;
             skeleton.Root.position = root.position + aside;
             skeleton.Root.rotation = root.rotation;
@@ -202,6 +224,11 @@ namespace SuperDeform.Editor
                 if (renderer != null)
                     renderer.forceRenderingOff = false;
             hidden.Clear();
+        }
+
+        private static ProgressHandler Part(IConversionProgress progress, string stage, float from, float to)
+        {
+            return progress == null ? (ProgressHandler)null : fraction => progress.Report(stage, from + (to - from) * fraction);
         }
 
         private static int[] JointsByRole(AvatarData avatar)

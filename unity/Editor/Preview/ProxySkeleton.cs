@@ -8,6 +8,8 @@ namespace SuperDeform.Editor
         private readonly AvatarData avatar;
         private readonly Transform[] joints;
         private readonly Matrix4x4[] inverses;
+        private readonly Vector3[] places;
+        private readonly Quaternion[] turns;
 
         internal Transform Root { get; private set; }
 
@@ -17,6 +19,8 @@ namespace SuperDeform.Editor
             Root = new GameObject(avatar.Root.name + " (preview)") { hideFlags = HideFlags.HideAndDontSave }.transform;
             joints = new Transform[avatar.Joints.Length];
             inverses = new Matrix4x4[joints.Length];
+            places = new Vector3[joints.Length];
+            turns = new Quaternion[joints.Length];
             for (int joint = 0; joint < joints.Length; joint++)
             {
                 Transform source = avatar.Joints[joint];
@@ -29,7 +33,6 @@ namespace SuperDeform.Editor
                 joints[joint].SetParent(Of(avatar.Parents[joint]), false);
                 joints[joint].localScale = source.localScale;
             }
-            Stand();
         }
 
         /// <summary>The transform that stands for a joint; the root for -1.</summary>
@@ -44,23 +47,40 @@ namespace SuperDeform.Editor
             return joint < 0 ? Matrix4x4.identity : inverses[joint];
         }
 
-        /// <summary>Brings the joints to their new places. Without garbage.</summary>
+        /// <summary>Takes the joints' rest pose for the bind poses. Without garbage.</summary>
         internal void Move(AvatarResult result)
         {
             for (int joint = 0; joint < joints.Length; joint++)
-            {
-                if (joints[joint] != Root)
-                    joints[joint].localPosition = result.LocalPositions[joint];
                 inverses[joint] = result.Rest[joint].Inverse.ToMatrix4x4();
-            }
         }
 
-        /// <summary>Takes the rotations in which the avatar stands.</summary>
-        internal void Stand()
+        /// <summary>Whether the avatar stands otherwise than at the last Stand. Without garbage.</summary>
+        internal bool HasMoved()
         {
             for (int joint = 0; joint < joints.Length; joint++)
-                if (joints[joint] != Root && avatar.Joints[joint] != null)
-                    joints[joint].localRotation = avatar.Joints[joint].localRotation;
+            {
+                Transform source = avatar.Joints[joint];
+                // Against what was read, not against the copy, whose rotation Unity normalizes.
+                if (source != null && joints[joint] != Root
+                    && !(source.localPosition.Equals(places[joint]) && source.localRotation.Equals(turns[joint])))
+                    return true;
+            }
+            return false;
+        }
+
+        /// <summary>Stands as the avatar stands now, each joint moved by what the result says.</summary>
+        internal void Stand(AvatarResult result)
+        {
+            for (int joint = 0; joint < joints.Length; joint++)
+            {
+                Transform source = avatar.Joints[joint];
+                if (source == null || joints[joint] == Root)
+                    continue;
+                places[joint] = source.localPosition;
+                turns[joint] = source.localRotation;
+                joints[joint].localPosition = places[joint] + result.LocalShifts[joint];
+                joints[joint].localRotation = turns[joint];
+            }
         }
 
         internal void Destroy()

@@ -46,6 +46,8 @@ namespace SuperDeform.Editor
                 Follow();
                 return true;
             }
+            if (preview != null && preview.Follow())
+                return true;
             if (preview == null || measured || now - changedAt < Rest)
                 return false;
             measured = true;
@@ -65,10 +67,11 @@ namespace SuperDeform.Editor
             {
                 if (preview != null && !preview.Fits(model.Avatar, model.Settings))
                     Drop();
-                if (preview == null)
-                    preview = new PreviewSession(model.Avatar, model.Settings);
-                else
+                if (preview != null)
                     preview.Update(model.Settings);
+                else
+                    using (var progress = new EditorProgress(model.Avatar.name, 1))
+                        preview = new PreviewSession(model.Avatar, model.Settings, progress);
                 preview.ShowBefore = model.ShowBefore;
                 preview.Beside = model.Beside;
                 preview.Pose = model.Pose;

@@ -1,3 +1,4 @@
+using System;
 using UnityEditor;
 using UnityEngine;
 
@@ -8,8 +9,9 @@ namespace SuperDeform.Editor
     {
         [SerializeField] private ConverterModel model = new ConverterModel();
         [SerializeField] private Vector2 scroll;
-        private ConverterController controller;
-        private ConverterModel connected;
+        // Unity would keep private fields when scripts reload, and make an empty object of none.
+        [NonSerialized] private ConverterController controller;
+        [NonSerialized] private ConverterModel connected;
         private static ConverterWindow open;
 
         /// <summary>Shows the window.</summary>
@@ -61,6 +63,9 @@ namespace SuperDeform.Editor
         private void Connect()
         {
             Disconnect();
+            // The preview belongs to the scene that is edited; FollowPlayMode comes back when that is.
+            if (EditorApplication.isPlayingOrWillChangePlaymode)
+                return;
             connected = model;
             connected.Changing += RecordUndo;
             connected.Converting += ConvertSoon;
@@ -91,7 +96,6 @@ namespace SuperDeform.Editor
 
         private void FollowPlayMode(PlayModeStateChange change)
         {
-            // The preview belongs to the scene that is edited.
             if (change == PlayModeStateChange.ExitingEditMode)
                 Disconnect();
             else if (change == PlayModeStateChange.EnteredEditMode)
@@ -149,11 +153,15 @@ namespace SuperDeform.Editor
         private void OnGUI()
         {
             DrawLanguage();
+            if (connected == null)
+                EditorGUILayout.HelpBox(Strings.Get("window.rests"), MessageType.Info);
+            EditorGUI.BeginDisabledGroup(connected == null);
             scroll = EditorGUILayout.BeginScrollView(scroll);
             // A press makes new sections; this pass ends with the old ones, as IMGUI wants.
             foreach (Section section in model.Sections)
                 DrawSection(section);
             EditorGUILayout.EndScrollView();
+            EditorGUI.EndDisabledGroup();
         }
 
         private void DrawSection(Section section)
@@ -162,10 +170,7 @@ namespace SuperDeform.Editor
                 ? section.Title : section.Title + "    " + section.Summary;
             bool now = EditorGUILayout.BeginFoldoutHeaderGroup(section.Open, title);
             if (now != section.Open)
-            {
-                RecordUndo(section.Title);
                 section.Open = model.Open[(int)section.Id] = now;
-            }
             if (section.Open)
             {
                 EditorGUI.indentLevel++;

@@ -8,16 +8,19 @@ namespace SuperDeform.Editor
     internal sealed class EditorProgress : IConversionProgress, IDisposable
     {
         private readonly string title;
+        private readonly double from;
         private bool shown;
 
-        internal EditorProgress(string name)
+        /// <param name="patience">Seconds without a bar: what takes less shows none.</param>
+        internal EditorProgress(string name, double patience = 0)
         {
             title = Strings.Get("progress.title", name);
+            from = EditorApplication.timeSinceStartup + patience;
         }
 
         public bool Report(string stageKey, float fraction)
         {
-            if (Application.isBatchMode)
+            if (Application.isBatchMode || EditorApplication.timeSinceStartup < from)
                 return true;
             shown = true;
             return !EditorUtility.DisplayCancelableProgressBar(title, Strings.Get(stageKey), fraction);

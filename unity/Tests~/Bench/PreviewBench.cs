@@ -100,6 +100,7 @@ namespace SuperDeform.Editor.Bench
             internal void Show()
             {
                 skeleton.Move(result);
+                skeleton.Stand(result);
                 foreach (ProxyRenderer renderer in renderers)
                     renderer.Show(skeleton);
             }

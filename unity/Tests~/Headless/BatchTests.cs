@@ -16,7 +16,7 @@ namespace SuperDeform.Editor.Tests
         [SetUp]
         public void Begin()
         {
-            WindowProject.Open();
+            Models.NewProject();
             handles = SuperDeformLibrary.LiveHandles;
         }
 

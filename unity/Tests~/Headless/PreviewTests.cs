@@ -19,7 +19,7 @@ namespace SuperDeform.Editor.Tests
         [SetUp]
         public void Begin()
         {
-            WindowProject.Open();
+            Models.NewProject();
             handles = SuperDeformLibrary.LiveHandles;
             figure = new WindowFigure("Mika", 4000, 2);
             settings = new ConversionSettings { Source = StyleSource.BuiltIn, PlaceInScene = false };
@@ -236,6 +236,38 @@ namespace SuperDeform.Editor.Tests
                     Is.GreaterThan(hips.Find("RightUpperLeg/RightLowerLeg/RightFoot").position.z + 0.05f));
                 Transform arm = hips.Find("Spine/Chest/LeftShoulder/LeftUpperArm");
                 Assert.That(arm.Find("LeftLowerArm").position.y, Is.LessThan(arm.position.y));
+            }
+        }
+
+        [Test]
+        public void the_preview_follows_an_avatar_that_is_moved_and_posed()
+        {
+            using (var session = new PreviewSession(figure.Root, settings))
+            {
+                Assert.IsFalse(session.Follow());
+                figure.Root.transform.position = new Vector3(0, 0, 5);
+                figure["RightUpperArm"].localRotation = Quaternion.Euler(0, 0, -60);
+                figure["Hips"].localPosition += new Vector3(0, 0.05f, 0);
+                Assert.IsTrue(session.Follow());
+                Assert.IsFalse(session.Follow());
+                SameAsConverted(session);
+            }
+        }
+
+        [Test]
+        public void a_preview_that_is_cancelled_leaves_nothing()
+        {
+            var progress = new Refusal();
+            var reason = Assert.Throws<ConversionException>(() => new PreviewSession(figure.Root, settings, progress));
+            Assert.IsTrue(reason.Cancelled);
+            Assert.IsFalse(figure.Body.forceRenderingOff);
+        }
+
+        private sealed class Refusal : IConversionProgress
+        {
+            public bool Report(string stageKey, float fraction)
+            {
+                return false;
             }
         }
 

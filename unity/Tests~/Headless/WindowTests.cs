@@ -17,7 +17,7 @@ namespace SuperDeform.Editor.Tests
         [SetUp]
         public void Begin()
         {
-            WindowProject.Open();
+            Models.NewProject();
             handles = SuperDeformLibrary.LiveHandles;
             figure = new WindowFigure("Mika", 3000);
         }
@@ -328,6 +328,8 @@ namespace SuperDeform.Editor.Tests
             Assert.IsTrue(figure.Body.forceRenderingOff);
             StubEditor.ChangePlayMode(PlayModeStateChange.ExitingEditMode);
             Assert.IsFalse(figure.Body.forceRenderingOff, "play mode");
+            Draw(window);
+            StringAssert.Contains(Strings.Get("window.rests"), string.Join("\n", Gui.Drawn));
             StubEditor.ChangePlayMode(PlayModeStateChange.EnteredEditMode);
             Settle(window);
             Assert.IsTrue(figure.Body.forceRenderingOff, "back from play mode");
