@@ -131,9 +131,9 @@ namespace SuperDeform.Editor
                 findings.Add(cause.Finding);
                 return;
             }
-            findings.AddRange(data.Findings);
             bool skinned = data.Renderers.Exists(renderer => renderer.Skin != null);
-            int[] roles = library ? CharacterReader.RolesOf(data) : data.Roles;
+            int[] roles = library ? GuessedRoles.Of(data, false) : data.Roles;
+            findings.AddRange(data.Findings);
             HumanBodyBones? missing = HumanoidRoles.Missing(role => roles[role] >= 0);
             if (!HumanoidRoles.IsHumanoid(data.Animator)) CheckHumanoid(data, skinned, rigAuto, missing, findings);
             if (missing != null) return;

@@ -26,11 +26,8 @@ namespace SuperDeform.Editor
             Finding = finding;
         }
 
-        /// <summary>
-        /// The reason behind what the library or the editor threw.
-        ///
-        /// where: what was being converted; may be null
-        /// </summary>
+        /// <summary>The reason behind what the library or the editor threw.</summary>
+        /// <param name="where">What was being converted; may be null.</param>
         public static ConversionException From(Exception cause, UnityEngine.Object where)
         {
             ConversionException known = cause as ConversionException;

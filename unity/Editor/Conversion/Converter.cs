@@ -8,15 +8,14 @@ namespace SuperDeform.Editor
     /// <summary>Makes a super-deformed avatar of another: a new prefab, and nothing of the source changed.</summary>
     public static class Converter
     {
-        /// <summary>
-        /// Converts one avatar: all or nothing.
-        ///
-        /// avatar: its root, an object of a scene or a prefab
-        /// progress: null for none
-        /// Shows no dialog. Where the avatar stands in a scene and the settings want it, an instance of the result is put beside
-        /// it, which Undo takes away; the assets stay.
-        /// Throws ConversionException, with nothing left behind.
-        /// </summary>
+        /// <summary>Converts one avatar: all or nothing.</summary>
+        /// <param name="avatar">Its root, an object of a scene or a prefab.</param>
+        /// <param name="progress">Null for none.</param>
+        /// <remarks>
+        /// Shows no dialog. Where the avatar stands in a scene and the settings want it, an instance of the result is
+        /// put beside it, which Undo takes away; the assets stay.
+        /// </remarks>
+        /// <exception cref="ConversionException">It cannot be done, and why; nothing is left behind.</exception>
         public static ConversionResult Convert(GameObject avatar, ConversionSettings settings, IConversionProgress progress)
         {
             if (settings == null) throw new ArgumentNullException("settings");

@@ -3,11 +3,10 @@ namespace SuperDeform.Editor
     /// <summary>What a conversion tells while it runs; called on the caller's thread.</summary>
     public interface IConversionProgress
     {
-        /// <summary>
-        /// stageKey: the key of the stage's name, one of ConversionStage
-        /// fraction: of the whole conversion, 0 to 1, never falling
-        /// Gives true to go on, false to cancel.
-        /// </summary>
+        /// <summary>What part of the work is done.</summary>
+        /// <param name="stageKey">The key of the stage's name, one of ConversionStage.</param>
+        /// <param name="fraction">Of the whole conversion, 0 to 1, never falling.</param>
+        /// <returns>True to go on, false to cancel.</returns>
         bool Report(string stageKey, float fraction);
     }
 

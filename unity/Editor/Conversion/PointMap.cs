@@ -69,12 +69,9 @@ namespace SuperDeform.Editor
             return copyOf.ContainsKey(sourceOrCopy) ? sourceOrCopy : null;
         }
 
-        /// <summary>
-        /// Where a point goes.
-        ///
-        /// local: in the joint's space, in the source's units
-        /// Gives it in the moved joint's space. One of a transform outside the avatar stays.
-        /// </summary>
+        /// <summary>Where a point goes.</summary>
+        /// <param name="local">In the joint's space, in the source's units.</param>
+        /// <returns>It in the moved joint's space. One of a transform outside the avatar stays.</returns>
         public Vector3 Point(Transform joint, Vector3 local)
         {
             Place(joint, Double3.Of(local));

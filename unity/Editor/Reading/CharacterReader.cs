@@ -14,11 +14,11 @@ namespace SuperDeform.Editor
     {
         static readonly float[] Up = { 0, 1, 0 };
 
-        /// <summary>
-        /// avatar: the root, an object of a scene or a prefab; nothing of it is changed
-        /// Gives a character that is ready for a deformer, with a rig that was made where there was none.
-        /// Throws ConversionException.
-        /// </summary>
+        /// <summary>Reads an avatar; nothing of it is changed.</summary>
+        /// <param name="avatar">The root, an object of a scene or a prefab.</param>
+        /// <param name="options">What is read, and what is done where there is no rig.</param>
+        /// <returns>A character that is ready for a deformer, with a rig that was made where there was none.</returns>
+        /// <exception cref="ConversionException">It cannot be read; the finding says why and often mends it.</exception>
         public static AvatarData Read(GameObject avatar, ReadOptions options)
         {
             if (avatar == null) throw new ConversionException(new Finding("no_avatar", Severity.Error, null));
@@ -144,70 +144,31 @@ namespace SuperDeform.Editor
         static void MakeCharacter(AvatarData data, ReadOptions options)
         {
             bool skinned = data.Renderers.Exists(renderer => renderer.Skin != null);
-            data.Character = Empty(Facing.Of(data.Roles, data.Rest));
-            data.Character.SetSkeleton(Skeleton(data));
-            AddMeshes(data, true);
-            int[] roles = RolesOf(data.Character);
+            int[] roles = GuessedRoles.Of(data, true);
             HumanBodyBones? missing = HumanoidRoles.Missing(role => roles[role] >= 0);
+            // Transforms that only hold meshes may be called like joints.
             data.Rigged = skinned || missing == null;
             data.RigMade = options.RigAuto || missing != null;
             if (missing != null && skinned && !options.RigAuto)
             {
                 throw new ConversionException(AvatarChecks.NotHumanoid(data, missing.Value, Severity.Error));
             }
-            // Transforms that only hold meshes may be called like joints.
-            if (!data.Rigged) Begin(data, new Double3(0, 0, 1), false);
-            // The library has told the limbs, and they tell the way it looks.
-            else if (HumanoidRoles.Missing(role => data.Roles[role] >= 0) != null) Begin(data, Facing.Of(roles, data.Rest), true);
+            Double3 forward = data.Rigged ? Facing.Of(roles, data.Rest) : new Double3(0, 0, 1);
+            data.Character = new Character(Up, new[] { (float)forward.X, (float)forward.Y, (float)forward.Z });
+            if (data.Rigged) data.Character.SetSkeleton(Skeleton(data, roles));
+            AddMeshes(data);
             AddMorphTargets(data);
             if (data.RigMade) data.Character.Rig(options.RigOptions, options.RigProgress);
         }
 
-        static Character Empty(Double3 forward)
-        {
-            return new Character(Up, new[] { (float)forward.X, (float)forward.Y, (float)forward.Z });
-        }
-
-        /// <summary>Begins again with what has been learned.</summary>
-        static void Begin(AvatarData data, Double3 forward, bool rigged)
-        {
-            data.Character.Dispose();
-            data.Character = Empty(forward);
-            if (rigged) data.Character.SetSkeleton(Skeleton(data));
-            AddMeshes(data, rigged);
-        }
-
-        /// <summary>By HumanBodyBones: the joint that is given or guessed to play the role; -1: none.</summary>
-        static int[] RolesOf(Character character)
-        {
-            HumanoidRole[] found = character.GetJoints().Roles;
-            int[] roles = new int[HumanoidRoles.Count];
-            for (int role = 0; role < roles.Length; role++)
-            {
-                roles[role] = Array.IndexOf(found, (HumanoidRole)role);
-            }
-            return roles;
-        }
-
-        /// <summary>The same from the joints alone, for checks.</summary>
-        internal static int[] RolesOf(AvatarData data)
-        {
-            if (HumanoidRoles.Missing(role => data.Roles[role] >= 0) == null) return data.Roles;
-            using (Character character = Empty(Facing.Of(data.Roles, data.Rest)))
-            {
-                character.SetSkeleton(Skeleton(data));
-                return RolesOf(character);
-            }
-        }
-
-        static SkeletonArrays Skeleton(AvatarData data)
+        static SkeletonArrays Skeleton(AvatarData data, int[] roles)
         {
             SkeletonArrays skeleton = new SkeletonArrays
             {
                 Names = Array.ConvertAll(data.Joints, joint => joint.name),
                 Parents = data.Parents,
                 RestMatrices = new double[16 * data.Joints.Length],
-                RoleJoints = data.Roles
+                RoleJoints = roles
             };
             for (int joint = 0; joint < data.Joints.Length; joint++)
             {
@@ -216,7 +177,7 @@ namespace SuperDeform.Editor
             return skeleton;
         }
 
-        static void AddMeshes(AvatarData data, bool withWeights)
+        static void AddMeshes(AvatarData data)
         {
             foreach (PartData part in data.Parts)
             {
@@ -231,7 +192,7 @@ namespace SuperDeform.Editor
                     Tangents = part.Gather(renderer.ModelTangents),
                     Indices = part.Indices
                 };
-                if (withWeights) RendererReader.GiveWeights(part, mesh);
+                if (data.Rigged) RendererReader.GiveWeights(part, mesh);
                 data.Character.AddMesh(mesh);
             }
         }

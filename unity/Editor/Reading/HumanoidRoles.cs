@@ -62,11 +62,8 @@ namespace SuperDeform.Editor
             return roles;
         }
 
-        /// <summary>
-        /// The first required role that no joint plays; null where all are there.
-        ///
-        /// has: whether a joint plays a role
-        /// </summary>
+        /// <summary>The first required role that no joint plays; null where all are there.</summary>
+        /// <param name="has">Whether a joint plays a role.</param>
         public static HumanBodyBones? Missing(Func<int, bool> has)
         {
             foreach (HumanBodyBones role in Required)

@@ -35,11 +35,8 @@ namespace SuperDeform.Editor
             return rooted ? skinned.rootBone : renderer.transform;
         }
 
-        /// <summary>
-        /// Reads bones, bind poses and weights.
-        ///
-        /// world: by joint, as the transforms stand
-        /// </summary>
+        /// <summary>Reads bones, bind poses and weights.</summary>
+        /// <param name="world">By joint, as the transforms stand.</param>
         internal static void ReadSkin(RendererData renderer, AvatarData data, Affine[] world)
         {
             SkinnedMeshRenderer skinned = renderer.Renderer as SkinnedMeshRenderer;
@@ -125,11 +122,8 @@ namespace SuperDeform.Editor
             return held;
         }
 
-        /// <summary>
-        /// Brings the mesh to the avatar's space at rest.
-        ///
-        /// rest: by joint
-        /// </summary>
+        /// <summary>Brings the mesh to the avatar's space at rest.</summary>
+        /// <param name="rest">By joint.</param>
         internal static void Place(RendererData renderer, Affine[] rest)
         {
             Vector3[] normals = renderer.Mesh.normals;

@@ -64,11 +64,11 @@ namespace SuperDeform.Editor
             this.world = world;
         }
 
-        /// <summary>
-        /// parents: by joint, every parent before its children, -1: none
-        /// local, world: of each transform as it stands; to its parent's space, to model space
-        /// skins: Common, ByBone and Uniform are filled in
-        /// </summary>
+        /// <summary>The pose in which meshes and joints fit together, as the bind poses of all skins tell it.</summary>
+        /// <param name="parents">By joint, every parent before its children; -1: none.</param>
+        /// <param name="local">By joint: its transform to its parent's space, as it stands.</param>
+        /// <param name="world">By joint: its transform to model space, as it stands.</param>
+        /// <param name="skins">Common, ByBone and Uniform are filled in.</param>
         public static RestPose OfBindPoses(int[] parents, Affine[] local, Affine[] world, IList<Skin> skins)
         {
             RestPose pose = new RestPose(parents, world);

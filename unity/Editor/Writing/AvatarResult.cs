@@ -64,11 +64,8 @@ namespace SuperDeform.Editor
             HeightRatio = 1;
         }
 
-        /// <summary>
-        /// Deforms the avatar into the arrays.
-        ///
-        /// deformer: of the source's character
-        /// </summary>
+        /// <summary>Deforms the avatar into the arrays.</summary>
+        /// <param name="deformer">Of the source's character.</param>
         public void Apply(Deformer deformer, ProgressHandler progress)
         {
             deformer.Apply(outputs, progress);

@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using UnityEditor;
 using UnityEngine;
 
 namespace SuperDeform.Editor
@@ -19,12 +20,13 @@ namespace SuperDeform.Editor
             "VRMFirstPerson", "VRM10SpringBoneJoint", "VRM10SpringBoneCollider", "Vrm10Instance"
         };
 
-        /// <summary>
-        /// copy: an instance of the source
-        /// Gives the map that was used; its assets are the new meshes, the Avatar, and what adapters have made.
-        /// </summary>
+        /// <summary>Makes a copy of the source what the result says.</summary>
+        /// <param name="copy">An instance of the source.</param>
+        /// <param name="map">Receives as assets the new meshes, the Avatar, and what adapters make.</param>
+        /// <param name="findings">Receives what a person should know.</param>
         internal static void Write(GameObject copy, PointMap map, AvatarData source, AvatarResult result, List<Finding> findings)
         {
+            RemoveMissingScripts(copy, source, findings);
             Dictionary<RendererResult, Mesh> made = new Dictionary<RendererResult, Mesh>();
             foreach (RendererResult renderer in result.Renderers)
             {
@@ -66,6 +68,17 @@ namespace SuperDeform.Editor
                 if (renderer.IsLike(other.Key)) return other.Value;
             }
             return null;
+        }
+
+        /// <summary>Unity saves no prefab of objects whose scripts are missing.</summary>
+        static void RemoveMissingScripts(GameObject copy, AvatarData source, List<Finding> findings)
+        {
+            int removed = 0;
+            foreach (Transform transform in copy.GetComponentsInChildren<Transform>(true))
+            {
+                removed += GameObjectUtility.RemoveMonoBehavioursWithMissingScript(transform.gameObject);
+            }
+            if (removed > 0) findings.Add(new Finding("missing_scripts", Severity.Warning, source.Root, source.Root.name, removed));
         }
 
         static void Show(RendererResult renderer, PointMap map)

@@ -1,6 +1,5 @@
 using System;
 using System.Collections.Generic;
-using Unity.Collections;
 using UnityEngine;
 
 namespace SuperDeform.Editor
@@ -80,40 +79,30 @@ namespace SuperDeform.Editor
         /// <summary>Weights and bind poses.</summary>
         static void Weigh(Mesh mesh, RendererResult renderer, AvatarData source, double[] positions)
         {
-            int count = renderer.Positions.Length;
-            uint[][] bones = new uint[count][];
-            float[][] weights = new float[count][];
+            // SetBoneWeights would round them to 16 bits.
+            BoneWeight[] weights = new BoneWeight[renderer.Positions.Length];
             foreach (PartData part in renderer.Source.Parts)
             {
-                uint[] partBones = new uint[Influences * part.VertexCount];
-                float[] partWeights = new float[partBones.Length];
-                source.Character.GetWeights(source.Parts.IndexOf(part), Influences, partBones, partWeights);
+                uint[] bones = new uint[Influences * part.VertexCount];
+                float[] shares = new float[bones.Length];
+                source.Character.GetWeights(source.Parts.IndexOf(part), Influences, bones, shares);
                 for (int vertex = 0; vertex < part.VertexCount; vertex++)
                 {
-                    int place = part.VertexOf(vertex);
-                    bones[place] = new uint[Influences];
-                    weights[place] = new float[Influences];
-                    Array.Copy(partBones, Influences * vertex, bones[place], 0, Influences);
-                    Array.Copy(partWeights, Influences * vertex, weights[place], 0, Influences);
+                    int first = Influences * vertex;
+                    weights[part.VertexOf(vertex)] = new BoneWeight
+                    {
+                        boneIndex0 = (int)bones[first],
+                        boneIndex1 = (int)bones[first + 1],
+                        boneIndex2 = (int)bones[first + 2],
+                        boneIndex3 = (int)bones[first + 3],
+                        weight0 = shares[first],
+                        weight1 = shares[first + 1],
+                        weight2 = shares[first + 2],
+                        weight3 = shares[first + 3]
+                    };
                 }
             }
-            byte[] perVertex = new byte[count];
-            List<BoneWeight1> all = new List<BoneWeight1>();
-            for (int vertex = 0; vertex < count; vertex++)
-            {
-                // The largest comes first, and what a vertex has no use for is 0.
-                for (int influence = 0; influence < Influences; influence++)
-                {
-                    if (influence > 0 && weights[vertex][influence] == 0f) continue;
-                    all.Add(new BoneWeight1 { boneIndex = (int)bones[vertex][influence], weight = weights[vertex][influence] });
-                    perVertex[vertex]++;
-                }
-            }
-            using (NativeArray<byte> counts = new NativeArray<byte>(perVertex, Allocator.Temp))
-            using (NativeArray<BoneWeight1> flat = new NativeArray<BoneWeight1>(all.ToArray(), Allocator.Temp))
-            {
-                mesh.SetBoneWeights(counts, flat);
-            }
+            mesh.boneWeights = weights;
             Affine placement = renderer.Source.Placement;
             Matrix4x4[] binds = new Matrix4x4[positions.Length / 3];
             for (int joint = 0; joint < binds.Length; joint++)

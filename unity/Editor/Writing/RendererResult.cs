@@ -70,11 +70,9 @@ namespace SuperDeform.Editor
             NewBox = Box.Around(Positions, newJoint.Inverse);
         }
 
-        /// <summary>
-        /// Brings vertices from the avatar's space to mesh space. What has not changed keeps its bits.
-        ///
-        /// oldRest, newRest: by joint
-        /// </summary>
+        /// <summary>Brings vertices from the avatar's space to mesh space. What has not changed keeps its bits.</summary>
+        /// <param name="oldRest">By joint: where it rests before.</param>
+        /// <param name="newRest">By joint: where it rests after.</param>
         internal void ToMeshSpace(Affine[] oldRest, Affine[] newRest)
         {
             sameWay = Source.Skin != null || newRest[Source.Joint].Equals(oldRest[Source.Joint]);
@@ -131,12 +129,9 @@ namespace SuperDeform.Editor
             return one.x == other.x && one.y == other.y && one.z == other.z;
         }
 
-        /// <summary>
-        /// One frame of a blend shape in mesh space, after ToMeshSpace.
-        ///
-        /// placed: the source's frame in the avatar's space
-        /// into: its arrays are written, each as long as the mesh
-        /// </summary>
+        /// <summary>One frame of a blend shape in mesh space, after ToMeshSpace.</summary>
+        /// <param name="placed">The source's frame in the avatar's space.</param>
+        /// <param name="into">Its arrays are written, each as long as the mesh.</param>
         internal void WriteFrame(int index, BlendFrame placed, BlendFrame into)
         {
             BlendFrame source = Source.Frames[index];

@@ -73,11 +73,8 @@ namespace SuperDeform.Editor
             return path;
         }
 
-        /// <summary>
-        /// Writes both files and gives the folder its name.
-        ///
-        /// Gives the prefab's path.
-        /// </summary>
+        /// <summary>Writes both files and gives the folder its name.</summary>
+        /// <returns>The prefab's path.</returns>
         internal string Save(GameObject copy, UnityEngine.Object container, IList<UnityEngine.Object> assets)
         {
             string containerPath = unfinished + "/" + name + ".asset", prefabPath = unfinished + "/" + name + ".prefab";

@@ -245,6 +245,16 @@ namespace SuperDeform.Editor.Tests
         }
 
         [Test]
+        public void missing_scripts_are_left_out_and_that_is_said()
+        {
+            ConversionFigure figure = new ConversionFigure().Make();
+            StubEditor.AddMissingScript(figure.Bones[HumanBodyBones.Head].gameObject);
+            ConversionResult result = Converter.Convert(figure.Root, Settings(), null);
+            Assert.That(result.Findings.Exists(finding => finding.Key == "missing_scripts" && (int)finding.Values[1] == 1));
+            Assert.AreEqual(1, GameObjectUtility.GetMonoBehavioursWithMissingScriptCount(figure.Bones[HumanBodyBones.Head].gameObject));
+        }
+
+        [Test]
         public void converting_again_overwrites_nothing()
         {
             ConversionFigure figure = new ConversionFigure().Make();
@@ -484,6 +494,20 @@ namespace SuperDeform.Editor.Tests
                     Assert.That(Apart(renderer.Positions, Drawn(result.Prefab, renderer.Source.Renderer.name)), Is.LessThan(1e-5 * Height), renderer.Source.Renderer.name);
             }
             return result;
+        }
+
+        [Test]
+        public void bones_without_names_are_told_by_their_shape_and_the_face_is_in_front()
+        {
+            GameObject named = Converter.Convert(new ConversionFigure().Make().Root, Settings(), null).Prefab;
+            ConversionFigure figure = new ConversionFigure().Make();
+            UnityEngine.Object.DestroyImmediate(figure.Root.GetComponent<Animator>());
+            int number = 0;
+            foreach (Transform bone in figure.Bones.Values)
+                bone.name = "b" + number++;
+            ConversionResult result = Converter.Convert(figure.Root, Settings(), null);
+            Assert.That(result.Findings.Exists(finding => finding.Key == "no_animator"));
+            Assert.That(Apart(Drawn(named, "Body"), Drawn(result.Prefab, "Body")), Is.LessThan(1e-3 * Height));
         }
 
         [Test]
