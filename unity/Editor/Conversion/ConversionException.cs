@@ -37,6 +37,8 @@ namespace SuperDeform.Editor
             if (cause is LibraryMissingException) key = "library_missing";
             else if (cause is LibraryVersionException) key = "library_version";
             else if (cause is SuperDeformException) key = "library_says";
+            // A fault of this package, perhaps: where it happened helps to mend it.
+            else UnityEngine.Debug.LogException(cause, where);
             return new ConversionException(new Finding(key, Severity.Error, where, cause.Message), cause);
         }
     }

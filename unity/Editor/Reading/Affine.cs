@@ -60,18 +60,6 @@ namespace SuperDeform.Editor
             return Identity.At(by);
         }
 
-        /// <summary>From 16 numbers, column by column, as the library has them.</summary>
-        public static Affine OfColumns(double[] numbers, int start)
-        {
-            return new Affine
-            {
-                M00 = numbers[start], M10 = numbers[start + 1], M20 = numbers[start + 2],
-                M01 = numbers[start + 4], M11 = numbers[start + 5], M21 = numbers[start + 6],
-                M02 = numbers[start + 8], M12 = numbers[start + 9], M22 = numbers[start + 10],
-                M03 = numbers[start + 12], M13 = numbers[start + 13], M23 = numbers[start + 14]
-            };
-        }
-
         /// <summary>Writes 16 numbers, column by column, as the library has them.</summary>
         public void ToColumns(double[] numbers, int start)
         {

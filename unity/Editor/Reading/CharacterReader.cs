@@ -31,6 +31,8 @@ namespace SuperDeform.Editor
                 ReadJoints(data);
                 ReadSkins(data);
                 ReadPose(data);
+                // What is hidden by a scale of 0 stays as it is: there is no way back from a point.
+                data.Renderers.RemoveAll(renderer => renderer.Skin == null && !data.Rest[renderer.Joint].IsInvertible);
                 foreach (RendererData renderer in data.Renderers)
                 {
                     RendererReader.Place(renderer, data.Rest);

@@ -46,10 +46,5 @@ namespace SuperDeform.Editor
 
         /// <summary>The joint in whose space Unity keeps the renderer's bounds; -1: the avatar's root.</summary>
         public int BoundsJoint;
-
-        internal Affine PlacementAt(int vertex)
-        {
-            return Placements == null ? Placement : Placements[vertex];
-        }
     }
 }

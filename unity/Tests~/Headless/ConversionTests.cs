@@ -255,6 +255,18 @@ namespace SuperDeform.Editor.Tests
         }
 
         [Test]
+        public void what_is_hidden_by_a_scale_of_0_stays_as_it_is()
+        {
+            ConversionFigure figure = new ConversionFigure().Make();
+            figure.Hat.transform.localScale = Vector3.zero;
+            Mesh hat = figure.Hat.GetComponent<MeshFilter>().sharedMesh;
+            AssetDatabase.CreateAsset(hat, "Assets/Hat.asset");
+            GameObject prefab = Converter.Convert(figure.Root, Settings(), null).Prefab;
+            Assert.AreSame(hat, Find(prefab, "Hat").GetComponent<MeshFilter>().sharedMesh);
+            Assert.That(Find(prefab, "Hat").localScale == Vector3.zero);
+        }
+
+        [Test]
         public void converting_again_overwrites_nothing()
         {
             ConversionFigure figure = new ConversionFigure().Make();
