@@ -130,7 +130,7 @@ namespace SuperDeform.Editor.WindowPicture
         {
             double fix = row.Fix == null ? 0 : Canvas.Width(row.FixLabel) + 20, show = row.Where == null ? 0 : 52;
             double buttons = fix + show;
-            List<string> lines = Canvas.Wrap(row.Label, To - From - 32 - buttons);
+            List<string> lines = Canvas.Wrap(row.Label, To - From - 40 - buttons);
             double height = Math.Max(24, 16 * lines.Count + 8);
             canvas.Rectangle(From, y, To - From - buttons, height, Canvas.Box, 3, Canvas.Line);
             string colour = row.Severity == Severity.Error ? "#d9534f" : row.Severity == Severity.Warning ? "#e0b040" : "#5b9bd5";
