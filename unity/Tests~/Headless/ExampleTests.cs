@@ -122,7 +122,7 @@ namespace SuperDeform.Editor.Tests
             normals = turned == null ? null : Array.ConvertAll(corners, delegate (int vertex) { return turned[vertex]; });
         }
 
-        static float Farthest(Vector3[] a, Vector3[] b)
+        internal static float Farthest(Vector3[] a, Vector3[] b)
         {
             float far = 0f;
             for (int at = 0; at < a.Length; at++)

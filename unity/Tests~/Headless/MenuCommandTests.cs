@@ -292,8 +292,12 @@ namespace SuperDeform.Editor.Tests
             }
             foreach (KeyValuePair<SkinnedMeshRenderer, Material[]> pair in s_Later) pair.Key.sharedMaterials = pair.Value;
             s_Later.Clear();
-            // Shapes on the head: waves of a few millimetres, some with normals, one with two frames.
-            Mesh head = model.Glb.Meshes.Find(delegate (Mesh mesh) { return mesh.name.StartsWith("head"); });
+            AddShapes(model.Glb.Meshes.Find(delegate (Mesh mesh) { return mesh.name.StartsWith("head"); }), shapeCount);
+        }
+
+        /// Waves of a few millimetres; every third with normals, the first in two frames.
+        public static void AddShapes(Mesh head, int shapeCount)
+        {
             Vector3[] places = head.vertices;
             for (int shape = 0; shape < shapeCount; shape++)
             {
