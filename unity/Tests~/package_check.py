@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """Checks the package without Unity: metas, manifest, assemblies, imports, API, texts, libraries.
 
-package_check.py [ROOT]   ROOT: the package's folder, in the repository or unpacked from a tarball (default: this one)
+package_check.py        checks the package of this repository; then tries each check on a copy with a fault put in:
+                        a check that says nothing there is broken itself
+package_check.py ROOT   checks a package elsewhere, such as one unpacked from a tarball
 
-Each check gives a sentence for each fault. After the checks of ROOT each one is tried on a copy with a fault put in:
-a check that says nothing there is broken itself. Ends with `N passed, N failed`; exit code 1 where one failed.
+Each check gives a sentence for each fault. Ends with `N passed, N failed`; exit code 1 where one failed.
 """
 
 import json
@@ -317,6 +318,24 @@ CHECKS = [check_metas, check_json, check_manifest, check_modules, check_paths, c
           check_strings, check_documentation, check_libraries]
 
 
+def try_checks(root, result):
+    """Each check finds the faults that are there to be found."""
+    print("=== each check, on a copy with a fault")
+    with tempfile.TemporaryDirectory() as folder:
+        for name, fault, damage, words in FAULTS:
+            check = globals()["check_" + name]
+            copy = Path(folder) / "package"
+            shutil.copytree(root, copy, ignore=shutil.ignore_patterns("Tests~", "Plugins", "Plugins.meta"))
+            try:
+                damage(copy)
+                said = check(copy)
+                result(f"{name} finds {fault}",
+                       [] if any(words in sentence for sentence in said) else [f"it said {said}, not {words!r}"])
+            except (OSError, ValueError, KeyError, AssertionError) as error:
+                result(f"{name} finds {fault}", [repr(error)])
+            shutil.rmtree(copy)
+
+
 def main():
     root = Path(sys.argv[1] if len(sys.argv) > 1 else HERE.parent).resolve()
     passed = failed = 0
@@ -337,20 +356,8 @@ def main():
     if header(root) is None:
         print("    without include/superdeform.h: imports and libraries were not compared with it")
 
-    print("=== each check, on a copy with a fault")
-    with tempfile.TemporaryDirectory() as folder:
-        for name, fault, damage, words in FAULTS:
-            check = globals()["check_" + name]
-            copy = Path(folder) / "package"
-            shutil.copytree(root, copy, ignore=shutil.ignore_patterns("Tests~", "Plugins", "Plugins.meta"))
-            try:
-                damage(copy)
-                said = check(copy)
-                result(f"{name} finds {fault}",
-                       [] if any(words in sentence for sentence in said) else [f"it said {said}, not {words!r}"])
-            except (OSError, ValueError, KeyError, AssertionError) as error:
-                result(f"{name} finds {fault}", [repr(error)])
-            shutil.rmtree(copy)
+    if len(sys.argv) == 1:
+        try_checks(root, result)
     print(f"{passed} passed, {failed} failed")
     return 1 if failed else 0
 
