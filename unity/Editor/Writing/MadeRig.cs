@@ -45,7 +45,7 @@ namespace SuperDeform.Editor
             return roles[joint] == HumanoidRole.None ? "Bone" + joint : roles[joint].ToString();
         }
 
-        static Double3 Place(double[] positions, int joint)
+        internal static Double3 Place(double[] positions, int joint)
         {
             return new Double3(positions[3 * joint], positions[3 * joint + 1], positions[3 * joint + 2]);
         }
@@ -161,8 +161,8 @@ namespace SuperDeform.Editor
                 new AvatarNode { Name = Holder, Parent = -1, Rotation = Quaternion.identity, Scale = new Vector3(1, 1, 1) }
             };
             Dictionary<int, int> nodeOf = new Dictionary<int, int>();
-            Quaternion[] turns = Straightened(joints, jointOf, positions);
-            foreach (int joint in ParentsFirst(joints.Parents))
+            Quaternion[] turns = Straightening.Turns(joints.Parents, jointOf, positions);
+            foreach (int joint in Straightening.ParentsFirst(joints.Parents))
             {
                 int parent = joints.Parents[joint];
                 nodeOf[joint] = nodes.Count;
@@ -190,62 +190,6 @@ namespace SuperDeform.Editor
             animator.avatar = HumanoidAvatar.Build(copy.name, nodes, description, source);
             animator.avatar.name = copy.name;
             map.AddAsset(animator.avatar);
-        }
-
-        static List<int> ParentsFirst(int[] parents)
-        {
-            List<int> order = new List<int>();
-            for (int joint = 0; joint < parents.Length; joint++)
-            {
-                int place = order.Count;
-                for (int above = joint; above >= 0 && !order.Contains(above); above = parents[above])
-                {
-                    order.Insert(place, above);
-                }
-            }
-            return order;
-        }
-
-        /// <summary>
-        /// By joint, how it turns from the pose of the mesh to a T pose: arms level, legs down, hands and feet along.
-        /// </summary>
-        static Quaternion[] Straightened(Joints joints, int[] roles, double[] positions)
-        {
-            Quaternion[] turns = new Quaternion[joints.Count];
-            Vector3 left = new Vector3(-1, 0, 0), right = new Vector3(1, 0, 0), down = new Vector3(0, -1, 0);
-            Dictionary<int, Quaternion> limbs = new Dictionary<int, Quaternion>();
-            Straighten(limbs, roles, positions, HumanoidRole.LeftUpperArm, HumanoidRole.LeftLowerArm, left);
-            Straighten(limbs, roles, positions, HumanoidRole.LeftLowerArm, HumanoidRole.LeftHand, left);
-            Straighten(limbs, roles, positions, HumanoidRole.RightUpperArm, HumanoidRole.RightLowerArm, right);
-            Straighten(limbs, roles, positions, HumanoidRole.RightLowerArm, HumanoidRole.RightHand, right);
-            Straighten(limbs, roles, positions, HumanoidRole.LeftUpperLeg, HumanoidRole.LeftLowerLeg, down);
-            Straighten(limbs, roles, positions, HumanoidRole.LeftLowerLeg, HumanoidRole.LeftFoot, down);
-            Straighten(limbs, roles, positions, HumanoidRole.RightUpperLeg, HumanoidRole.RightLowerLeg, down);
-            Straighten(limbs, roles, positions, HumanoidRole.RightLowerLeg, HumanoidRole.RightFoot, down);
-            Level(limbs, roles, HumanoidRole.LeftFoot);
-            Level(limbs, roles, HumanoidRole.RightFoot);
-            foreach (int joint in ParentsFirst(joints.Parents))
-            {
-                int parent = joints.Parents[joint];
-                Quaternion turn;
-                if (!limbs.TryGetValue(joint, out turn)) turn = parent < 0 ? Quaternion.identity : turns[parent];
-                turns[joint] = turn;
-            }
-            return turns;
-        }
-
-        static void Straighten(Dictionary<int, Quaternion> turns, int[] roles, double[] positions, HumanoidRole from, HumanoidRole to, Vector3 direction)
-        {
-            int start = roles[(int)from], end = roles[(int)to];
-            if (start < 0 || end < 0) return;
-            Double3 bone = Place(positions, end) - Place(positions, start);
-            if (bone.Length > 0) turns[start] = Quaternion.FromToRotation(bone.Normalized.ToVector3(), direction);
-        }
-
-        /// <summary>Feet stand on the ground in both poses.</summary>
-        static void Level(Dictionary<int, Quaternion> turns, int[] roles, HumanoidRole foot)
-        {
-            if (roles[(int)foot] >= 0) turns[roles[(int)foot]] = Quaternion.identity;
         }
     }
 }
