@@ -24,6 +24,7 @@ namespace SuperDeform.Editor
         private bool showBefore, beside;
         private PreviewPose pose;
         private Matrix4x4 placedAt;
+        private float width;
 
         /// <summary>Reads the avatar and shows the result in its place.</summary>
         /// <param name="progress">Hears how far it is, which takes long where a rig is made; null for none.</param>
@@ -133,12 +134,14 @@ namespace SuperDeform.Editor
             }
         }
 
-        /// <summary>Shows the result to the avatar's right as one faces it, and the avatar as well.</summary>
+        /// <summary>Shows the result to the avatar's right, and the avatar as well.</summary>
         public bool Beside
         {
             get { return beside; }
             set
             {
+                if (beside == value)
+                    return;
                 beside = value;
                 Place();
                 ApplyVisibility();
@@ -151,6 +154,8 @@ namespace SuperDeform.Editor
             get { return pose; }
             set
             {
+                if (pose == value)
+                    return;
                 pose = value;
                 Stand();
             }
@@ -187,6 +192,8 @@ namespace SuperDeform.Editor
 
         private float Width()
         {
+            if (width > 0)
+                return width;
             float low = 0, high = 0;
             foreach (RendererData renderer in avatar.Renderers)
                 foreach (Vector3 vertex in renderer.ModelVertices)
@@ -194,7 +201,7 @@ namespace SuperDeform.Editor
                     low = Mathf.Min(low, vertex.x);
                     high = Mathf.Max(high, vertex.x);
                 }
-            return high - low;
+            return width = high - low;
         }
 
         private void ApplyVisibility()

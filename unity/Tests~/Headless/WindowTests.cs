@@ -349,6 +349,8 @@ namespace SuperDeform.Editor.Tests
             StubEditor.Tick();
             Assert.IsNotNull(window.Model.Result.Prefab);
             Assert.AreSame(window.Model.Result.Prefab, Dialogs.Pinged);
+            foreach (Renderer renderer in window.Model.Result.Prefab.GetComponentsInChildren<Renderer>(true))
+                Assert.IsFalse(renderer.forceRenderingOff, "hidden by the preview: " + renderer.name);
             Assert.That(Dialogs.Bars.Count, Is.GreaterThan(3));
             Assert.IsFalse(Dialogs.BarOpen);
             Assert.IsEmpty(Dialogs.Shown, "dialogs");
