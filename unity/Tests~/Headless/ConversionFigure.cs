@@ -227,7 +227,7 @@ namespace SuperDeform.Editor.Tests
             return new Vector4(tangent.x, tangent.y, tangent.z, -1);
         }
 
-        /// <summary>At the beginning of a bone half is the parent's.</summary>
+        /// <summary>At the beginning of a bone 2 of 5 are the parent's: fifths keep their sum in 16 bits.</summary>
         private static void SetWeights(Mesh mesh, List<Vector3> positions, List<KeyValuePair<int, int>> weights, List<HumanBodyBones> names)
         {
             var counts = new byte[positions.Count];
@@ -236,9 +236,9 @@ namespace SuperDeform.Editor.Tests
             {
                 bool near = vertex % 108 < 24;
                 counts[vertex] = (byte)(near ? 2 : 1);
-                all.Add(new BoneWeight1 { boneIndex = weights[vertex].Key, weight = near ? 0.5f : 1 });
+                all.Add(new BoneWeight1 { boneIndex = weights[vertex].Key, weight = near ? 0.6f : 1 });
                 if (near)
-                    all.Add(new BoneWeight1 { boneIndex = weights[vertex].Value, weight = 0.5f });
+                    all.Add(new BoneWeight1 { boneIndex = weights[vertex].Value, weight = 0.4f });
             }
             using (var native = new NativeArray<byte>(counts, Allocator.Temp))
             using (var flat = new NativeArray<BoneWeight1>(all.ToArray(), Allocator.Temp))

@@ -509,6 +509,26 @@ namespace SuperDeform.Editor.Tests
         }
 
         [Test]
+        public void an_avatar_inside_another_object_may_be_turned_and_scaled_there()
+        {
+            ConversionFigure figure = new ConversionFigure { WithShapes = true }.Make();
+            ConversionResult alone = Converter.Convert(figure.Root, Settings(), null);
+            var wrapper = new GameObject("Wrapper");
+            figure.Root.transform.SetParent(wrapper.transform, false);
+            figure.Root.transform.localRotation = Quaternion.AngleAxis(150, Vector3.up);
+            figure.Root.transform.localScale = Vector3.one * 2;
+            figure.Root.transform.localPosition = new Vector3(3, 0, 1);
+            ConversionResult result = DrawsWhatTheLibraryGives(wrapper, Settings());
+            Assert.AreEqual(alone.Report.Result.Heads, result.Report.Result.Heads, 0.01);
+            Transform inside = Find(result.Prefab, "Mika");
+            Assert.That(inside.GetComponent<Animator>().avatar.isHuman);
+            // The same shape, in the space of the object that was turned.
+            Matrix4x4 back = inside.worldToLocalMatrix * result.Prefab.transform.localToWorldMatrix;
+            Vector3[] there = Array.ConvertAll(Drawn(result.Prefab, "Body"), p => back.MultiplyPoint3x4(p));
+            Assert.That(Apart(Drawn(alone.Prefab, "Body"), there), Is.LessThan(2e-3 * Height));
+        }
+
+        [Test]
         public void bones_without_names_are_told_by_their_shape_and_the_face_is_in_front()
         {
             GameObject named = Converter.Convert(new ConversionFigure().Make().Root, Settings(), null).Prefab;
