@@ -136,6 +136,18 @@ namespace SuperDeform.Editor.Tests
         }
 
         [Test]
+        public void whether_the_animator_knows_its_bones_yet()
+        {
+            MakesNoDifference(delegate { Settings.AnimatorsKnowTheirBones = false; });
+        }
+
+        [Test]
+        public void whether_the_avatar_is_switched_on()
+        {
+            MakesNoDifference(delegate (Model model) { model.Root.SetActive(false); });
+        }
+
+        [Test]
         public void a_blend_shape_that_is_turned_up_a_bit()
         {
             Look plain, unused;

@@ -393,6 +393,7 @@ namespace UnityStubs
             Dialogs.Reset();
             Log.Clear();
             Settings.BatchMode = true;
+            Settings.AnimatorsKnowTheirBones = true;
             Settings.Language = SystemLanguage.English;
             Gui.Drawn.Clear(); Gui.Press.Clear(); Gui.Enter.Clear();
         }

@@ -258,6 +258,7 @@ namespace UnityEngine
             if (m_Avatar == null) throw new InvalidOperationException("The Animator of '" + name + "' has no Avatar");
             if (!m_Avatar.isValid) throw new InvalidOperationException("The Avatar of '" + name + "' is not valid");
             if (!m_Avatar.isHuman) throw new InvalidOperationException("The Avatar of '" + name + "' is not humanoid");
+            if (!UnityStubs.Settings.AnimatorsKnowTheirBones) return null;
             string human = HumanTrait.BoneName[(int)humanBoneId];
             foreach (HumanBone bone in m_Avatar.m_Description.human)
             {

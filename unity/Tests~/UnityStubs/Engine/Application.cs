@@ -117,6 +117,8 @@ namespace UnityStubs
     public static class Settings
     {
         public static bool BatchMode = true;
+        /// False: GetBoneTransform gives null, as Unity does under some conditions in the editor (github.com/vrm-c/UniVRM/pull/1603).
+        public static bool AnimatorsKnowTheirBones = true;
         public static SystemLanguage Language = SystemLanguage.English;
         public static string ProjectFolder = System.IO.Directory.GetCurrentDirectory();
     }
