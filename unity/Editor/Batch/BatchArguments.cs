@@ -89,6 +89,9 @@ namespace SuperDeform.Editor
         // In the order of FaceCurve.
         private static readonly string[] curves = { "f4", "f2", "sphere" };
 
+        // superdeform.h, sdef_style_from_text.
+        private static readonly string[] builtIn = { "sd2", "sd2.5", "sd3", "sd4" };
+
         private void TakeStyle()
         {
             string reference, style;
@@ -104,7 +107,12 @@ namespace SuperDeform.Editor
                 if (Settings.ReferenceAvatar == null)
                     throw Wrong("batch.not_found", reference);
             }
-            if (style != null)
+            if (Array.IndexOf(builtIn, style) >= 0)
+            {
+                Settings.Source = StyleSource.BuiltIn;
+                Settings.BuiltInStyle = style;
+            }
+            else if (style != null)
             {
                 Settings.Source = StyleSource.SavedStyle;
                 Settings.SavedStyle = AssetDatabase.LoadAssetAtPath<TextAsset>(style.Replace('\\', '/'));

@@ -13,7 +13,7 @@ namespace SuperDeform.Editor
     ///   -superdeformAvatars "Assets/A.prefab;Assets/B.prefab"
     ///   -superdeformHeads 2.5                            1.8 to 6; or
     ///   -superdeformReference Assets/Chibi.prefab        a rigged SD character; or
-    ///   -superdeformStyle Assets/chibi.json              a saved style
+    ///   -superdeformStyle sd2.5                          sd2, sd2.5, sd3, sd4, or a saved style: Assets/chibi.json
     ///   -superdeformBlend 0.5                            0 the reference or saved style, 1 the heads
     ///   -superdeformAmount 1                             0 the avatar as it is, 1 the style
     ///   -superdeformHeadScale 1.5  -superdeformHairLength 1  -superdeformFaceSquash 0.8  -superdeformFaceCurve f4|f2|sphere

@@ -127,10 +127,18 @@ namespace SuperDeform.Editor.Tests
         }
 
         [Test]
+        public void a_style_can_be_a_built_in_one()
+        {
+            ConversionSettings settings = Read("-superdeformAvatars", "A", "-superdeformStyle", "sd3").Settings;
+            Assert.AreEqual(StyleSource.BuiltIn, settings.Source);
+            Assert.AreEqual("sd3", settings.BuiltInStyle);
+        }
+
+        [Test]
         public void a_style_that_is_not_there_or_is_two_is_refused()
         {
             Refused("no prefab at Assets/None.prefab", "-superdeformAvatars", "A", "-superdeformReference", "Assets/None.prefab");
-            Refused("no style file at Assets/none.json", "-superdeformAvatars", "A", "-superdeformStyle", "Assets/none.json");
+            Refused("no style Assets/none.json", "-superdeformAvatars", "A", "-superdeformStyle", "Assets/none.json");
             Refused("-superdeformReference and -superdeformStyle both", "-superdeformAvatars", "A", "-superdeformReference",
                 "B", "-superdeformStyle", "C");
         }
