@@ -285,16 +285,16 @@ namespace SuperDeform.Editor.Tests
             Assert.That(File.Exists("Assets/a.prefab"), Is.False);
         }
 
-        [Serializable] public class Settings2 { public float Amount = float.NaN; public List<string> Names = new List<string>(); public int[] Numbers; [NonSerialized] public int Skipped = 3; [SerializeField] int m_Hidden = 1; public int Hidden { get { return m_Hidden; } set { m_Hidden = value; } } }
+        [Serializable] public class Saved { public float Amount = float.NaN; public List<string> Names = new List<string>(); public int[] Numbers; [NonSerialized] public int Skipped = 3; [SerializeField] int m_Hidden = 1; public int Hidden { get { return m_Hidden; } set { m_Hidden = value; } } }
 
         [Test]
         public void json_holds_the_serialized_fields()
         {
-            Settings2 settings = new Settings2 { Amount = 0.25f, Numbers = new[] { 1, 2 }, Skipped = 9, Hidden = 7 };
+            Saved settings = new Saved { Amount = 0.25f, Numbers = new[] { 1, 2 }, Skipped = 9, Hidden = 7 };
             settings.Names.Add("日本語 \"x\"");
             string json = JsonUtility.ToJson(settings);
             StringAssert.DoesNotContain("Skipped", json);
-            Settings2 read = JsonUtility.FromJson<Settings2>(json);
+            Saved read = JsonUtility.FromJson<Saved>(json);
             Assert.AreEqual(0.25f, read.Amount);
             Assert.AreEqual(settings.Names, read.Names);
             Assert.AreEqual(settings.Numbers, read.Numbers);

@@ -80,8 +80,6 @@ namespace UnityEditor
         public static bool isProSkin { get { return true; } }
         public static GUIContent IconContent(string name) { return new GUIContent("", (Texture)null, name); }
         public static GUIContent IconContent(string name, string text) { return new GUIContent(text); }
-        public static GUIContent TrTextContent(string text) { return new GUIContent(text); }
-        public static GUIContent TrTextContent(string text, string tooltip) { return new GUIContent(text, tooltip); }
         public static void PingObject(Object obj) { Dialogs.Pinged = obj; }
         public static Texture2D FindTexture(string name) { return null; }
         public static GUIContent ObjectContent(Object obj, Type type) { return new GUIContent(obj == null ? "None" : obj.name); }
