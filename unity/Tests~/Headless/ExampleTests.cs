@@ -18,14 +18,14 @@ namespace SuperDeform.Editor.Tests
         const float Tolerance = 1e-5f, NormalTolerance = 1e-4f;
 
         /// What the command line writes, or null where there is no such program.
-        static string RunExample(string file, float heads)
+        static string RunExample(string file, string more)
         {
             string example = Environment.GetEnvironmentVariable("SUPERDEFORM_EXAMPLE");
             if (string.IsNullOrEmpty(example)) { Console.WriteLine("left out, since SUPERDEFORM_EXAMPLE names no program"); return null; }
             string folder = Path.Combine(Models.Out, "example");
             Directory.CreateDirectory(folder);
             string made = Path.Combine(folder, Path.GetFileNameWithoutExtension(file) + "_sd" + Path.GetExtension(file));
-            string arguments = "\"" + Models.Find(file) + "\" --heads " + heads.ToString(System.Globalization.CultureInfo.InvariantCulture) + " -o \"" + made + "\"";
+            string arguments = "\"" + Models.Find(file) + "\" " + more + " -o \"" + made + "\"";
             IDictionary<string, string> roles = Models.RolesOf(file);
             if (roles != null)
             {
@@ -43,16 +43,19 @@ namespace SuperDeform.Editor.Tests
             return made;
         }
 
-        static void Compare(string file) { Compare(file, 2.5f); }
+        static void Compare(string file) { Compare(file, "--heads 2.5", null); }
 
-        static void Compare(string file, float heads)
+        /// arguments: the command line's; settings: makes the same of new settings
+        static void Compare(string file, string arguments, Action<ConversionSettings> settings)
         {
             if (!Models.Has(file)) return;
-            string made = RunExample(file, heads);
+            string made = RunExample(file, arguments);
             if (made == null) return;
             Model model = Models.Load(file);
             float height = Models.Height(model.Root);
-            ConversionResult result = Converter.Convert(model.Root, new ConversionSettings { Heads = heads }, null);
+            ConversionSettings chosen = Models.Settings();
+            if (settings != null) settings(chosen);
+            ConversionResult result = Converter.Convert(model.Root, chosen, null);
             Assert.That(result.Prefab != null, "a prefab");
             // Roles only tell which joints are which; the written file may be loaded without them.
             GlbAvatar expected = GlbLoader.Load(made, null);
@@ -134,7 +137,7 @@ namespace SuperDeform.Editor.Tests
         }
 
         [Test] public void a_woman_in_a_dress_comes_out_as_the_command_line_makes_her() { Compare("quaternius_female_dress.glb"); }
-        [Test] public void a_rogue_of_rigid_and_skinned_parts_comes_out_as_the_command_line_makes_him() { Compare("kaykit_rogue.glb", 4f); }
+        [Test] public void a_rogue_of_rigid_and_skinned_parts_comes_out_as_the_command_line_makes_him() { Compare("kaykit_rogue.glb", "--heads 4", delegate (ConversionSettings settings) { settings.Heads = 4f; }); }
         [Test] public void a_vrm_1_avatar_comes_out_as_the_command_line_makes_it() { Compare("seedsan_vrm1.vrm"); }
         [Test] public void a_vrm_0_avatar_with_expressions_comes_out_as_the_command_line_makes_it() 
         {
@@ -148,5 +151,33 @@ namespace SuperDeform.Editor.Tests
 
         [Test] public void a_closed_body_with_separate_clothes_comes_out_as_the_command_line_makes_it() { Compare("makehuman_female_rigged.glb"); }
         [Test] public void a_figure_that_stands_in_another_pose_than_its_bind_pose_comes_out_as_the_command_line_makes_it() { Compare("gdquest_mannequiny.glb"); }
+
+        [Test]
+        public void another_avatar_as_the_style_gives_what_it_gives_on_the_command_line()
+        {
+            string map = Path.Combine(Models.Out, "reference.roles.json");
+            File.WriteAllText(map, Models.Json(Models.RolesOf("kaykit_rogue.glb")));
+            Compare("quaternius_female_dress.glb", "\"" + Models.Find("kaykit_rogue.glb") + "\" --reference-humanoid \"" + map + "\"", delegate (ConversionSettings settings)
+            {
+                settings.Source = StyleSource.ReferenceAvatar;
+                settings.ReferenceAvatar = Models.Add("kaykit_rogue.glb").Root;
+            });
+        }
+
+        [Test]
+        public void tuning_gives_what_it_gives_on_the_command_line()
+        {
+            Compare("quaternius_female_dress.glb", "--heads 3 --head-scale 1.3 --face-squash 0.4 --face-curve f2 --amount 0.8 --hair-length 0.5 --group upper_leg:length=0.6,thickness=0.9 --group hand:thickness=1.4", delegate (ConversionSettings settings)
+            {
+                settings.Heads = 3f;
+                settings.HeadScale = 1.3f;
+                settings.FaceSquash = 0.4f;
+                settings.FaceCurve = FaceCurve.F2;
+                settings.Amount = 0.8f;
+                settings.HairLength = 0.5f;
+                settings.Groups.Add(new GroupTuning { Group = "upper_leg", LengthScale = 0.6f, ThicknessScale = 0.9f });
+                settings.Groups.Add(new GroupTuning { Group = "hand", ThicknessScale = 1.4f });
+            });
+        }
     }
 }
