@@ -10,11 +10,10 @@ namespace SuperDeform.Editor
     /// </summary>
     internal static class CharacterWriter
     {
-        /// <summary>
-        /// Components of others that hold lengths, which nobody adapts unless an adapter is registered.
-        /// </summary>
+        /// <summary>Components that hold lengths, which nobody adapts unless an adapter is registered.</summary>
         static readonly string[] KnownForLengths =
         {
+            "PositionConstraint", "ParentConstraint", "CharacterJoint", "ConfigurableJoint", "HingeJoint", "SpringJoint",
             "VRCPhysBone", "VRCPhysBoneCollider", "VRCContactSender", "VRCContactReceiver", "VRCAvatarDescriptor", "DynamicBone",
             "DynamicBoneCollider", "DynamicBonePlaneCollider", "MagicaCloth", "VRMSpringBone", "VRMSpringBoneColliderGroup",
             "VRMFirstPerson", "VRM10SpringBoneJoint", "VRM10SpringBoneCollider", "Vrm10Instance"

@@ -12,14 +12,22 @@ namespace SuperDeform.Editor
         {
             RendererData source = result.Source;
             Mesh mesh = Object.Instantiate(source.Mesh);
-            mesh.name = source.Mesh.name;
-            mesh.vertices = result.Positions;
-            if (result.Normals != null) mesh.normals = result.Normals;
-            if (result.Tangents != null) mesh.tangents = result.Tangents;
-            if (result.BindPoses != null) mesh.bindposes = result.BindPoses;
-            if (source.Frames.Count > 0) WriteFrames(mesh, result);
-            mesh.RecalculateBounds();
-            return mesh;
+            try
+            {
+                mesh.name = source.Mesh.name;
+                mesh.vertices = result.Positions;
+                if (result.Normals != null) mesh.normals = result.Normals;
+                if (result.Tangents != null) mesh.tangents = result.Tangents;
+                if (result.BindPoses != null) mesh.bindposes = result.BindPoses;
+                if (source.Frames.Count > 0) WriteFrames(mesh, result);
+                mesh.RecalculateBounds();
+                return mesh;
+            }
+            catch
+            {
+                Object.DestroyImmediate(mesh);
+                throw;
+            }
         }
 
         static void WriteFrames(Mesh mesh, RendererResult result)
