@@ -300,9 +300,9 @@ namespace SuperDeform.Editor.Tests
             Model model = Models.Load("kaykit_rogue.glb");
             State state = new State(model.Root);
             ConversionSettings settings = Models.Settings();
-            settings.OutputFolder = "/tmp/elsewhere";
+            settings.OutputFolder = "/elsewhere/chibis";
             ConversionException fault = Assert.Throws<ConversionException>(delegate { Converter.Convert(model.Root, settings, null); });
-            Says(fault.Finding, "folder_outside", "/tmp/elsewhere", "Assets");
+            Says(fault.Finding, "folder_outside", "/elsewhere/chibis", "Assets");
             state.StillHolds();
         }
 

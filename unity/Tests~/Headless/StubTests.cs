@@ -249,7 +249,7 @@ namespace SuperDeform.Editor.Tests
         {
             Mesh mesh = Triangle();
             Assert.Throws<UnityException>(delegate { AssetDatabase.CreateAsset(mesh, "Assets/none/mesh.asset"); });
-            Assert.Throws<UnityException>(delegate { AssetDatabase.CreateAsset(mesh, "/tmp/mesh.asset"); });
+            Assert.Throws<UnityException>(delegate { AssetDatabase.CreateAsset(mesh, "/elsewhere/mesh.asset"); });
             string folder = AssetDatabase.GUIDToAssetPath(AssetDatabase.CreateFolder("Assets", "folder"));
             Assert.AreEqual("Assets/folder", folder);
             AssetDatabase.CreateAsset(mesh, "Assets/folder/mesh.asset");
