@@ -29,8 +29,14 @@ namespace UnityEngine
         Shader m_Shader;
         Color m_Color = Color.white;
         Texture m_Texture;
+        Dictionary<string, float> m_Floats = new Dictionary<string, float>();
         public Material(Shader shader) { m_Shader = shader; }
-        public Material(Material source) { m_Shader = source.m_Shader; m_Color = source.m_Color; m_Texture = source.m_Texture; }
+        public Material(Material source) { m_Shader = source.m_Shader; m_Color = source.m_Color; m_Texture = source.m_Texture; m_Floats = new Dictionary<string, float>(source.m_Floats); }
+        // Shaders declare nothing here: a material has the properties that were set.
+        public bool HasProperty(string name) { Alive(); return m_Floats.ContainsKey(name); }
+        public bool HasFloat(string name) { return HasProperty(name); }
+        public float GetFloat(string name) { float value; Alive(); return m_Floats.TryGetValue(name, out value) ? value : 0f; }
+        public void SetFloat(string name, float value) { Alive(); m_Floats[name] = value; }
         public Shader shader { get { return m_Shader; } set { m_Shader = value; } }
         public Color color { get { return m_Color; } set { m_Color = value; } }
         public Texture mainTexture { get { return m_Texture; } set { m_Texture = value; } }
