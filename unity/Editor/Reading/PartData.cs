@@ -41,6 +41,13 @@ namespace SuperDeform.Editor
             return part;
         }
 
+        /// <summary>Makes an array by vertex of the mesh 0 at the vertices of this part.</summary>
+        internal void Clear(Vector3[] whole)
+        {
+            if (Vertices == null) System.Array.Clear(whole, FirstVertex, VertexCount);
+            else System.Array.ForEach(Vertices, vertex => whole[vertex] = new Vector3(0, 0, 0));
+        }
+
         /// <summary>Where this part begins in what Gather gives.</summary>
         internal int Start
         {

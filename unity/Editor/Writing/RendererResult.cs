@@ -150,16 +150,22 @@ namespace SuperDeform.Editor
         /// <summary>One part's changes in mesh space. What has not changed keeps its bits; what moves nothing is 0.</summary>
         void WriteDeltas(PartResult part, int index, bool moves, float[] packed, Vector3[] source, Vector3[] placed, Vector3[] into, Change change)
         {
+            if (!moves)
+            {
+                part.Part.Clear(into);
+                return;
+            }
             Frame frame = back.At(0);
+            bool plain = back.IsIdentity && change == Change.Place;
             for (int vertex = 0; vertex < part.Part.VertexCount; vertex++)
             {
                 int place = part.Part.VertexOf(vertex);
-                if (!moves)
+                Vector3 delta = part.Delta(packed, index, vertex);
+                if (plain)
                 {
-                    into[place] = new Vector3(0, 0, 0);
+                    into[place] = delta;
                     continue;
                 }
-                Vector3 delta = part.Delta(packed, index, vertex);
                 bool steady = change == Change.Place || (change == Change.Normal ? normalKept[place] : tangentKept[place]);
                 if (sameWay && steady && Same(delta, placed[place]))
                 {
