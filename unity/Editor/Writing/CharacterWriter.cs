@@ -45,6 +45,7 @@ namespace SuperDeform.Editor
                 if (shift.x == 0 && shift.y == 0 && shift.z == 0) continue;
                 map.CopyOf(source.Joints[joint]).localPosition = result.LocalPositions[joint];
             }
+            Outlines.Scale(copy, map);
             if (source.Rigged)
             {
                 foreach (RendererResult renderer in result.Renderers)

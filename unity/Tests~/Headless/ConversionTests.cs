@@ -245,6 +245,27 @@ namespace SuperDeform.Editor.Tests
         }
 
         [Test]
+        public void outlines_of_a_width_in_the_world_shrink_with_the_figure()
+        {
+            ConversionFigure figure = new ConversionFigure().Make();
+            Material[] skin = figure.Body.sharedMaterials, hair = figure.Hair.sharedMaterials;
+            foreach (Material material in new[] { skin[0], skin[1], hair[0] })
+            {
+                material.SetFloat("_OutlineWidthMode", material == skin[1] ? 2 : 1);
+                material.SetFloat("_OutlineWidth", 0.4f);
+            }
+            figure.Hat.sharedMaterials = new[] { skin[0] };
+            ConversionResult result = Converter.Convert(figure.Root, Settings(), null);
+            Material[] made = Find(result.Prefab, "Body").GetComponent<Renderer>().sharedMaterials;
+            double ratio = result.Report.Result.Height / result.Report.Target.Height;
+            Assert.AreEqual(0.4 * ratio, made[0].GetFloat("_OutlineWidth"), 1e-4);
+            Assert.AreEqual(skin[0].name, made[0].name);
+            Assert.AreEqual(0.4f, skin[0].GetFloat("_OutlineWidth"));
+            Assert.AreSame(skin[1], made[1]);
+            Assert.AreSame(made[0], Find(result.Prefab, "Hat").GetComponent<Renderer>().sharedMaterial);
+        }
+
+        [Test]
         public void missing_scripts_are_left_out_and_that_is_said()
         {
             ConversionFigure figure = new ConversionFigure().Make();
