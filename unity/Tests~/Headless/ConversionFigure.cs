@@ -1,6 +1,5 @@
 using System;
 using System.Collections.Generic;
-using System.IO;
 using Unity.Collections;
 using UnityEngine;
 using UnityStubs;
@@ -45,13 +44,6 @@ namespace SuperDeform.Editor.Tests
             { HumanBodyBones.RightToes, new Vector3(0.1f, 0.03f, 0.2f) }, { HumanBodyBones.LeftHand, new Vector3(-0.85f, 1.45f, 0) },
             { HumanBodyBones.RightHand, new Vector3(0.85f, 1.45f, 0) }
         };
-
-        /// <summary>A new empty project, so that each test begins alone.</summary>
-        public static void NewProject()
-        {
-            string folder = Path.Combine(Path.GetTempPath(), "superdeform-conversion-" + Guid.NewGuid().ToString("N"));
-            StubProject.Open(folder);
-        }
 
         public ConversionFigure Make()
         {

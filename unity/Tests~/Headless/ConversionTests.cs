@@ -16,7 +16,8 @@ namespace SuperDeform.Editor.Tests
         [SetUp]
         public void Begin()
         {
-            ConversionFigure.NewProject();
+            // Without a single file, so that whatever is left behind stands out.
+            Directory.Delete(Path.Combine(Models.NewProject(), "Assets/Models"));
         }
 
         private static ConversionSettings Settings()
