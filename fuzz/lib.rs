@@ -1,7 +1,13 @@
-//! What the targets share: bytes read as choices and numbers, small meshes made from them, and a figure with joints.
+//! What is fuzzed, and what the targets share: bytes read as choices and numbers, small meshes made from them, and a
+//! figure with joints.
 #![allow(missing_docs)]
 
+pub mod abi;
+pub mod glb;
+pub mod meshes;
+
 use glam::{DMat4, DVec3, Vec3};
+use std::io::Write as _;
 use superdeform::{Character, Joint, Mesh, MeshKind, Role, Weights};
 
 /// Bytes that are used up; then everything is 0.
@@ -311,11 +317,27 @@ pub fn rest(bytes: &mut Bytes) -> DMat4 {
     }
 }
 
+/// What one input may cost, in seconds of the processor: on a machine that does other things too, the clock tells less.
+const MOST_SECONDS: f64 = 5.0;
+
+/// Runs `work` and ends the process where that took too long. What never ends is left to the fuzzer's own clock.
+pub fn in_time(work: impl FnOnce()) {
+    unsafe extern "C" {
+        /// Of C: microseconds of the processor that the process has used, on any POSIX system.
+        safe fn clock() -> std::ffi::c_long;
+    }
+    let start = clock();
+    work();
+    let seconds = (clock() - start) as f64 / 1e6;
+    assert!(seconds < MOST_SECONDS, "took {seconds:.1} seconds");
+}
+
 /// Ends the process with the place of a panic, wherever it is caught.
 pub fn panics_abort() {
     let tell = |info: &std::panic::PanicHookInfo| {
         let trace = std::backtrace::Backtrace::force_capture();
-        eprintln!("{info}\n{trace}");
+        // Not eprintln: what a test prints is held back, and lost with the process.
+        let _ = writeln!(std::io::stderr(), "{info}\n{trace}");
         std::process::abort();
     };
     std::panic::set_hook(Box::new(tell));
