@@ -7,6 +7,7 @@ use super::{Bytes, figure, panics_abort, rest, shape};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::ffi::{CStr, c_char, c_void};
+use std::mem::offset_of;
 use std::ptr::{null, null_mut};
 use std::sync::OnceLock;
 use superdeform::ffi::exports::{
@@ -88,6 +89,11 @@ impl Memory {
 
     /// A struct that begins with its size; as many bytes as that says, as far as it may be true.
     fn sized<T>(&mut self, bytes: &mut Bytes, value: &T, has_pointers: bool) -> *mut T {
+        self.sized_from(bytes, value, has_pointers, 0)
+    }
+
+    /// As [`Memory::sized`]; a shorter one has the first `least` bytes.
+    fn sized_from<T>(&mut self, bytes: &mut Bytes, value: &T, has_pointers: bool, least: usize) -> *mut T {
         let own = size_of::<T>();
         let size = match bytes.byte() {
             0..200 => own,
@@ -95,7 +101,7 @@ impl Memory {
             210..240 => {
                 // No struct ends within a pointer.
                 let step = if has_pointers { 8 } else { 4 };
-                step * (1 + bytes.below(own / step))
+                (step * (1 + bytes.below(own / step))).max(least)
             }
             240..244 => return null_mut(),
             _ => bytes.of(&[0, 1, 4, 7, own + 1, own - 1, (1 << 16) + 8, u32::MAX as usize]),
@@ -733,7 +739,13 @@ impl Host<'_> {
                 }
                 let joint_count = self.joints.get(&id).copied().unwrap_or(0);
                 let (mesh, known) = self.mesh(memory, joint_count);
-                let mesh = memory.sized(&mut self.bytes, &mesh, true);
+                // What says how an array is to be read cannot be left out where the array is there.
+                let least = match (mesh.row_starts.is_null(), mesh.index_type) {
+                    (false, _) => size_of::<SdefMesh>(),
+                    (true, SDEF_TYPE_U8 | SDEF_TYPE_U16) => offset_of!(SdefMesh, weight_type),
+                    (true, _) => 0,
+                };
+                let mesh = memory.sized_from(&mut self.bytes, &mesh, true, least);
                 let mut index = u32::MAX;
                 let status = ask(&mut self.bytes, |error| unsafe {
                     sdef_character_add_mesh(SdefCharacter { id }, mesh, &mut index, error)
