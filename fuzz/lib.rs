@@ -152,8 +152,11 @@ pub fn tube(from: Vec3, to: Vec3, radius: f32, columns: usize, rings: usize, clo
     mesh
 }
 
-/// The limbs of a figure: role, parent, joint, tip, radius.
-const LIMBS: [(Role, Option<usize>, [f32; 3], [f32; 3], f32); 11] = [
+/// Role, parent, joint, tip, radius.
+type Limb = (Role, Option<usize>, [f32; 3], [f32; 3], f32);
+
+/// The limbs of a figure.
+const LIMBS: [Limb; 11] = [
     (Role::Hips, None, [0.0, 1.0, 0.0], [0.0, 1.15, 0.0], 0.14),
     (Role::Chest, Some(0), [0.0, 1.15, 0.0], [0.0, 1.42, 0.0], 0.15),
     (Role::Neck, Some(1), [0.0, 1.42, 0.0], [0.0, 1.52, 0.0], 0.05),
