@@ -8,6 +8,7 @@ use crate::host::load::{LoadOptions, Loaded};
 use glam::DVec3;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use superdeform::character::bones::Group;
 use superdeform::character::roles::find_roles;
 use superdeform::pipeline::{Deformed, Deformer, Style};
 use superdeform::rig::WeightBone;
@@ -100,9 +101,8 @@ pub fn bodies() -> Vec<Body> {
 }
 
 fn body_bones(joints: &BTreeMap<Role, DVec3>) -> Vec<WeightBone> {
-    let is_finger = |role: &Role| {
-        ["Thumb", "Index", "Middle", "Ring", "Little"].iter().any(|finger| role.name().contains(finger))
-    };
+    // The palm ends where the first joint of a finger is.
+    let is_finger = |role: Role| matches!(Group::ending_at(role), Some(Group::Hand | Group::Finger));
     // Toes go on from the foot along the ground.
     let toes = |foot: Role, toes: Role| {
         let way = *joints.get(&toes)? - *joints.get(&foot)?;
@@ -119,7 +119,8 @@ fn body_bones(joints: &BTreeMap<Role, DVec3>) -> Vec<WeightBone> {
         .collect();
     tips.extend(toes(Role::LeftFoot, Role::LeftToes));
     tips.extend(toes(Role::RightFoot, Role::RightToes));
-    let joints = joints.iter().filter(|(role, _)| !is_finger(role)).map(|(&role, &at)| (role, at)).collect();
+    let joints =
+        joints.iter().filter(|&(&role, _)| !is_finger(role)).map(|(&role, &at)| (role, at)).collect();
     weight_bones(&joints, &tips, None)
 }
 

@@ -13,9 +13,10 @@
 // Conventions, for all functions:
 //
 // Units      Any. Results are in the units of the input; angles do not occur.
-// Space      One space for everything ("model space"), in rest pose. Right-handed or left-handed, any direction up.
-//            Winding is kept. Vertices are floats, joints and points are doubles.
-// Matrices   16 doubles, column by column, for column vectors: the translation is numbers 12, 13 and 14.
+// Space      One space for everything ("model space"), in rest pose. Right-handed or left-handed, any direction up, any
+//            winding: a mirrored character gives the mirrored result. Vertices are floats, joints and points doubles.
+// Matrices   16 doubles, column by column, for column vectors: the translation is numbers 12, 13 and 14, and numbers
+//            3, 7, 11 and 15 are 0, 0, 0 and 1.
 // Handles    A handle is a number, not an address. 0 is none. One that is destroyed, made up or of another kind gives
 //            SDEF_STATUS_BAD_HANDLE and nothing worse. Styles and deformers keep what they need of a character, which
 //            may be changed or destroyed before them.
@@ -63,8 +64,7 @@ typedef uint32_t SdefStatus;
 #define SDEF_STATUS_BAD_INPUT 3         // A number in an array is wrong: an index, a position that is not finite.
 #define SDEF_STATUS_BAD_OPTION 4        // An option is out of its range.
 #define SDEF_STATUS_BAD_STYLE 5         // A style cannot be read, or lacks what the mode transfers.
-// No joints for hips, head, upper legs and upper arms: name them, or make a rig.
-#define SDEF_STATUS_NO_HUMANOID 6
+#define SDEF_STATUS_NO_HUMANOID 6       // No joints for hips, head, upper legs, upper arms: name them, or make a rig.
 #define SDEF_STATUS_NO_GEOMETRY 7       // There are no triangles, or they have no extent along up.
 #define SDEF_STATUS_BUFFER_TOO_SMALL 8  // An array of the caller's is too small; how much is needed is told.
 #define SDEF_STATUS_BUSY 9              // The handle is in use, by another thread or by the call around this one.
@@ -74,7 +74,7 @@ typedef uint32_t SdefStatus;
 
 // What went wrong. The caller's; struct_size is set before a call (SDEF_ERROR_INIT does so), everything else by it.
 typedef struct SdefError {
-  uint32_t struct_size; // sizeof(SdefError)
+  uint32_t struct_size; // sizeof(SdefError); 0 or else too small to hold a sentence gives BAD_ARGUMENT and none
   SdefStatus status;    // as returned
   uint32_t mesh;        // index of the mesh concerned, or SDEF_NONE
   uint32_t element;     // index of the vertex, triangle or joint concerned, or SDEF_NONE
@@ -115,8 +115,7 @@ SdefStatus sdef_destroy(uint64_t handle, SdefError *error);
 // One struct for everything that can be set; each function reads what concerns it.
 
 #define SDEF_MODE_PRODUCT 0             // 15 parts that meet at landmarks of the body: what most hosts want.
-// The chain of bones of the paper (Wang et al., Body-shape Transfer), literally.
-#define SDEF_MODE_PAPER 1
+#define SDEF_MODE_PAPER 1               // The paper's chain of bones (Wang et al., Body-shape Transfer), literally.
 
 #define SDEF_STAGE_LENGTH 0             // Lengths only.
 #define SDEF_STAGE_THICKNESS 1          // Lengths and thickness.
@@ -184,7 +183,7 @@ typedef struct SdefOptions {
   double rig_heat;                  // rig: how sharp weights by heat are, 0.01 to 1000; default 1
   const SdefGivenJoint *rig_joints; // rig: joints that are known; the rest is found
   uint32_t rig_joint_count;         // elements of rig_joints
-  uint32_t reserved;                // 0
+  uint32_t rig_left_handed;         // rig: 1 tells left from right in left-handed axes (Unity's); default 0
 } SdefOptions;
 
 // Fills *options with the defaults.
@@ -238,7 +237,8 @@ enum {
 // fixed: influence_count joints and weights a vertex, vertex after vertex; row_starts is NULL.
 // rows:  vertex v has the joints and weights row_starts[v] to row_starts[v + 1] - 1; influence_count is how many there
 //        are in all, row_starts holds vertex_count + 1 numbers that rise from 0, both strides are 0.
-// Weights are 0 or more; each vertex's are scaled to sum 1 where it matters. Weight 0 may name any joint.
+// Weights are 0 or more; each vertex's are scaled to sum 1 where it matters. Weight 0 may name any joint. A vertex
+// whose weights are all 0 moves with the hips.
 typedef struct SdefMesh {
   uint32_t struct_size;       // sizeof(SdefMesh)
   uint32_t kind;              // SDEF_MESH_*
@@ -247,15 +247,15 @@ typedef struct SdefMesh {
   size_t vertex_count;        // up to 4294967294
   const float *positions;     // 3 floats a vertex, model units
   size_t position_stride;     // bytes from vertex to vertex; 0: 12
-  const float *normals;       // 3 floats a vertex, unit length; may be NULL
+  const float *normals;       // 3 floats a vertex, of any length: unit vectors come out; may be NULL
   size_t normal_stride;       // bytes from vertex to vertex; 0: 12
-  const float *tangents;      // 4 floats a vertex: a unit vector and the handedness; may be NULL
+  const float *tangents;      // 4 floats a vertex: a vector, of any length too, and the handedness; may be NULL
   size_t tangent_stride;      // bytes from vertex to vertex; 0: 16
   const void *indices;        // 3 vertices a triangle, packed
   size_t index_count;         // numbers in indices: 3 times the triangles
-  uint32_t index_type;        // SDEF_TYPE_U8, _U16 or _U32
-  uint32_t joint_type;        // SDEF_TYPE_U8, _U16 or _U32
-  uint32_t weight_type;       // SDEF_TYPE_F32, _U8 or _U16
+  uint32_t index_type;        // SDEF_TYPE_U8, _U16 or _U32 (or 0): how wide the array's numbers are
+  uint32_t joint_type;        // SDEF_TYPE_U8, _U16 or _U32 (or 0), likewise
+  uint32_t weight_type;       // SDEF_TYPE_U8, _U16 or _F32 (or 0), likewise
   uint32_t reserved;          // 0
   size_t influence_count;     // joints a vertex (fixed), or in all (rows)
   const void *joints;         // indices of joints
@@ -287,9 +287,9 @@ typedef struct SdefSkeleton {
   const int32_t *parents;      // the joint that each hangs from, or -1; in any order
   const double *rest_matrices; // a matrix a joint, joint space to model space, at rest
   size_t rest_stride;          // bytes from matrix to matrix; 0: 128
-  const int32_t *role_joints;  // by SDEF_ROLE_*: the joint that plays the role, or -1; roles that are left out are
-                               // guessed where required ones are missing, from names and from the shape of the
-                               // skeleton; may be NULL
+  const int32_t *role_joints;  // by SDEF_ROLE_*: the joint that plays the role, or -1; a joint plays one role; where
+                               // hips, head, an upper leg or upper arm is left out, roles are guessed from names and
+                               // the shape of the skeleton; may be NULL
 } SdefSkeleton;
 
 // What a character holds.
@@ -307,14 +307,15 @@ typedef struct SdefCharacterInfo {
 // Makes an empty character.
 // up:        3 floats, from the feet to the head, any length but 0; NULL: (0, 1, 0)
 // forward:   3 floats, the way the face looks, at any angle to up but 0; NULL: found from left and right limbs, as in
-//            right-handed axes, so a left-handed host gives it
+//            right-handed axes, so a left-handed host gives it; without joints from feet and face
 // character: receives the handle
 // Errors: BAD_ARGUMENT, BAD_INPUT.
 SdefStatus sdef_character_create(const float *up, const float *forward, SdefCharacter *character, SdefError *error);
 
 // Gives a character its joints, in place of any that it had. Comes before meshes with weights, which name joints.
 // Errors: BAD_ARGUMENT; BAD_INPUT with the joint as the element: a parent that is none, a circle of parents, a number
-// that is not finite, a role for a joint that is none; or weights of a mesh for a joint that is no more.
+// that is not finite, a matrix row by row, a role for a joint that is none or has one; or weights of a mesh for a joint
+// that is no more.
 SdefStatus sdef_character_set_skeleton(SdefCharacter character, const SdefSkeleton *skeleton, SdefError *error);
 
 // Adds a mesh; everything is copied. A rig made before goes: it did not know this mesh.
@@ -354,7 +355,7 @@ SdefStatus sdef_character_get_weights(SdefCharacter character, uint32_t mesh, ui
 // Finds joints and weights for a character, in place of any rig that was made before. Joints of its own stay, come
 // first, and ride along with the body; its own weights are not used.
 // options: NULL for the defaults; thread_count, rig_weights, rig_garments, rig_voxel_resolution, rig_fingers,
-//          rig_chin_segment, rig_heat and rig_joints are read
+//          rig_chin_segment, rig_heat, rig_joints and rig_left_handed are read
 // Read the result with sdef_character_get_joints and sdef_character_get_weights. Errors: BAD_OPTION, NO_GEOMETRY, BUSY,
 // CANCELLED.
 SdefStatus sdef_character_rig(SdefCharacter character, const SdefOptions *options, SdefProgress progress, void *user,
@@ -412,7 +413,7 @@ typedef struct SdefStyleNumbers {
 
 // A style of so many heads.
 // heads: 1.8 to 6, crown to sole over crown to chin
-// like:  a style with everything below its head stretched or shortened; none ({0}): everything after the target
+// like:  a style with everything below its head stretched or shortened; the handle 0: everything after the target
 // Errors: BAD_OPTION; BAD_STYLE where like has no proportions.
 SdefStatus sdef_style_from_heads(double heads, SdefStyle like, SdefStyle *style, SdefError *error);
 
@@ -469,7 +470,8 @@ typedef struct SdefMeshResult {
   size_t normal_stride;           // bytes from vertex to vertex; 0: 12
   float *tangents;                // 4 floats a vertex, the handedness kept
   size_t tangent_stride;          // bytes from vertex to vertex; 0: 16
-  float *morph_positions;         // 3 floats a vertex, all vertices of the mesh for one target after the other, packed
+  float *morph_positions;         // 3 floats a vertex, packed: what a target adds at weight 1, all vertices of the mesh
+                                  // for one target after the other
   float *morph_normals;           // likewise; 0 for targets that were given without
   float *morph_tangents;          // likewise
 } SdefMeshResult;
@@ -519,13 +521,13 @@ SdefStatus sdef_deformer_create(SdefCharacter character, SdefStyle style, const 
     SdefProgress progress, void *user, SdefDeformer *deformer, SdefError *error);
 
 // Changes the options of a deformer, with the same results as a new one and for less: only what hangs on the change is
-// done again. For sliders.
+// done again. For sliders. What sdef_deformer_set_face has set goes too.
 // Errors: as sdef_deformer_create, after which the deformer is as it was; BUSY.
 SdefStatus sdef_deformer_set_options(SdefDeformer deformer, const SdefOptions *options, SdefProgress progress,
     void *user, SdefError *error);
 
-// Changes the face alone; nothing of the body is done again.
-// squash: SdefOptions.face_squash
+// Changes the face alone, until options are set again; nothing of the body is done again.
+// squash: as SdefOptions.face_squash, NAN too
 // curve:  SDEF_FACE_CURVE_*
 // Errors: BAD_ARGUMENT, BAD_OPTION, BUSY.
 SdefStatus sdef_deformer_set_face(SdefDeformer deformer, double squash, uint32_t curve, SdefError *error);

@@ -5,8 +5,7 @@
 //! body's, and nowhere becomes broader than it is on the head: hair that spreads over the shoulders of an adult would
 //! stand out like a skirt from a child's.
 
-use crate::geometry::surface::Surface;
-use crate::geometry::weld::{Neighbours, Weld};
+use crate::geometry::{Neighbours, Surface, Weld, double_area};
 use crate::shape::part_weights::smoothstep;
 use glam::{DMat3, DVec3};
 
@@ -185,6 +184,8 @@ pub fn keep_outside(
     if body.is_empty() || hair.is_empty() {
         return nothing;
     }
+    // Mirrored bodies are wound the other way.
+    let outwards = if volume(before, body) < 0.0 { -1.0 } else { 1.0 };
     let distances = |points: &[DVec3]| -> Vec<(f64, DVec3)> {
         let surface = Surface::new(points, body);
         let normals = vertex_normals(points, body, weld);
@@ -195,7 +196,7 @@ pub fn keep_outside(
                     let normal: DVec3 = corners
                         .iter()
                         .zip(closest.barycentric)
-                        .map(|(&corner, share)| share * normals[corner as usize])
+                        .map(|(&corner, share)| outwards * share * normals[corner as usize])
                         .sum();
                     if normal == DVec3::ZERO {
                         // Beside a rim there is no inside.
@@ -256,12 +257,25 @@ pub fn keep_outside(
     hair.iter().map(|&vertex| push[weld.representative[vertex] as usize]).collect()
 }
 
+/// Six times the volume within `triangles`, below 0 where they are wound to look inwards.
+fn volume(points: &[DVec3], triangles: &[[u32; 3]]) -> f64 {
+    let corners = || triangles.iter().flatten().map(|&vertex| points[vertex as usize]);
+    // About its own middle, or the holes of an open body would count.
+    let middle = corners().sum::<DVec3>() / (3 * triangles.len()) as f64;
+    triangles
+        .iter()
+        .map(|corners| {
+            let [a, b, c] = corners.map(|vertex| points[vertex as usize] - middle);
+            a.dot(b.cross(c))
+        })
+        .sum()
+}
+
 /// Normals of the welded vertices that `triangles` use, by area; zero elsewhere and at rims, where a surface ends.
 fn vertex_normals(points: &[DVec3], triangles: &[[u32; 3]], weld: &Weld) -> Vec<DVec3> {
     let mut normals = vec![DVec3::ZERO; weld.count];
     for corners in triangles {
-        let [a, b, c] = corners.map(|vertex| points[vertex as usize]);
-        let normal = (b - a).cross(c - a);
+        let normal = double_area(points, *corners);
         for corner in weld.triangle(*corners) {
             normals[corner as usize] += normal;
         }

@@ -8,7 +8,7 @@ use crate::character::bones::Bone;
 use crate::character::{Character, Humanoid, MeshKind, MorphTarget, Role};
 use crate::error::{Error, ErrorKind, Result, Warning};
 use crate::face::FaceShape;
-use crate::geometry::weld::{Weld, components, neighbours, weld};
+use crate::geometry::{SEAM, Weld, components, neighbours, weld};
 use crate::hair::keep_outside;
 pub use crate::options::{FaceCurve, GroupSettings, Mode, Options, Stage};
 use crate::parallel;
@@ -22,7 +22,7 @@ use crate::shape::field::{Binding, BoneBinding, Field, PaperField};
 use crate::shape::figure::{Figure, extent, is_head};
 use crate::shape::landmarks::landmarks;
 use crate::shape::part_coefficients::{PartCoefficients, Wanted, part_coefficients};
-use crate::shape::part_weights::{PartBinding, PartBindings, WELD_TOLERANCE, joint_binding, part_bindings};
+use crate::shape::part_weights::{PartBinding, PartBindings, joint_binding, part_bindings};
 use crate::shape::parts::{Heights, PartField};
 use crate::shape::proportions::Part;
 use crate::shape::shorten::{Shortened, shorten};
@@ -195,7 +195,7 @@ impl Deformer {
         let study = Arc::new(Study::of(&character, options)?);
         let measure = milliseconds(clock);
         progress.at(0.4)?;
-        let weld = Arc::new(weld(&study.figure.positions, WELD_TOLERANCE * study.figure.height()));
+        let weld = Arc::new(weld(&study.figure.positions, SEAM * study.figure.height()));
         let mut deformer = Self {
             character,
             style: style.clone(),
@@ -948,7 +948,9 @@ fn morph_turns(
                 return Vec3::ZERO;
             }
             let changed = before[vertex] + delta;
-            (turn(vertex, changed) * f64::from(changed.length())).as_vec3() - after[vertex]
+            // What comes out is of unit length, whatever came in.
+            let length = if before[vertex] == Vec3::ZERO { 1.0 } else { before[vertex].as_dvec3().length() };
+            (turn(vertex, changed) * (changed.as_dvec3().length() / length)).as_vec3() - after[vertex]
         })
         .collect()
 }

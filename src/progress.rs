@@ -32,7 +32,10 @@ impl<'a> Progress<'a> {
         match &mut self.tell {
             Some(tell) => match tell(fraction) {
                 true => Ok(()),
-                false => Err(Error::new(ErrorKind::Cancelled, "the progress callback asked to stop")),
+                false => Err(Error::new(
+                    ErrorKind::Cancelled,
+                    "the progress callback asked to stop: everything is as it was",
+                )),
             },
             None => Ok(()),
         }

@@ -326,6 +326,54 @@ fn options_that_are_set_later_give_what_a_new_deformer_gives() {
 }
 
 /// The same mesh in every shape that arrays can come in.
+/// All numbers of a result, in order.
+fn numbers(character: &Character) -> Vec<f32> {
+    let result = library_deformer(character, &Style::Heads(2.5), &Options::default()).apply();
+    let vectors = result.meshes.iter().flat_map(|mesh| {
+        let tangents = mesh.tangents.iter().map(|tangent| tangent.truncate());
+        let targets = mesh.morph_targets.iter();
+        let changes = targets.flat_map(|t| t.positions.iter().chain(&t.normals).chain(&t.tangents).copied());
+        mesh.positions.iter().chain(&mesh.normals).copied().chain(tangents).chain(changes)
+    });
+    vectors.flat_map(|v| v.to_array()).collect()
+}
+
+fn is_near(one: &[f32], other: &[f32]) {
+    assert_eq!(one.len(), other.len());
+    for (index, (one, other)) in one.iter().zip(other).enumerate() {
+        assert!((one - other).abs() < 1e-5, "number {index}: {one} and {other}");
+    }
+}
+
+#[test]
+fn normals_and_tangents_of_any_length_give_what_unit_vectors_give() {
+    let mut long = person().clone();
+    for mesh in &mut long.meshes {
+        mesh.normals.iter_mut().for_each(|normal| *normal *= 3.0);
+        mesh.tangents.iter_mut().for_each(|tangent| *tangent = (tangent.truncate() * 3.0).extend(tangent.w));
+        for target in &mut mesh.morph_targets {
+            target.normals.iter_mut().chain(&mut target.tangents).for_each(|delta| *delta *= 3.0);
+        }
+    }
+    is_near(&numbers(person()), &numbers(&long));
+}
+
+#[test]
+fn a_vertex_whose_weights_are_all_0_moves_with_the_hips() {
+    let hips = person().humanoid.joint(Role::Hips).unwrap() as u32;
+    let [none, of_hips] = [vec![], vec![(hips, 1.0)]].map(|row: Vec<(u32, f32)>| {
+        let mut character = person().clone();
+        for mesh in &mut character.meshes {
+            let rows = mesh.weights.rows().enumerate();
+            mesh.weights = superdeform::Weights::from_rows(
+                rows.map(|(vertex, own)| if vertex % 7 == 0 { row.clone() } else { own.to_vec() }),
+            );
+        }
+        character
+    });
+    is_near(&numbers(&of_hips), &numbers(&none));
+}
+
 #[test]
 fn strides_and_types_change_nothing() {
     let _at_work = at_work();

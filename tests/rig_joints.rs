@@ -46,7 +46,7 @@ fn outcome(case: &Case) -> Outcome {
     let layout = Layout::of(&case.character, case.forward).unwrap();
     let truth = case.joints.iter().map(|(&role, &at)| (role, layout.to_layout(at))).collect();
     let start = std::time::Instant::now();
-    let found = find_joints(&layout, &BTreeMap::new(), false, 2);
+    let found = find_joints(&layout, &layout.kinds, &BTreeMap::new(), false, 2);
     if std::env::var_os("PICTURES").is_some() {
         println!("{}: {} triangles, {:?}", case.name, layout.triangles.len(), start.elapsed());
     }
@@ -238,7 +238,7 @@ fn report(unnamed: bool) {
 
 fn found_of(character: &Character, forward: DVec3) -> (Layout, FoundJoints) {
     let layout = Layout::of(character, forward).unwrap();
-    let found = find_joints(&layout, &BTreeMap::new(), false, 1);
+    let found = find_joints(&layout, &layout.kinds, &BTreeMap::new(), false, 1);
     (layout, found)
 }
 
@@ -384,7 +384,7 @@ fn what_is_no_figure_is_doubted() {
         ("upside down", upside_down),
     ] {
         let Ok(layout) = Layout::of(&character, DVec3::Z) else { continue };
-        let found = find_joints(&layout, &BTreeMap::new(), false, 1);
+        let found = find_joints(&layout, &layout.kinds, &BTreeMap::new(), false, 1);
         for (role, joint) in &found.joints {
             assert!(joint.position.is_finite(), "{name}: {role}");
             if joint.confidence >= 0.5 {
@@ -458,7 +458,7 @@ fn things_worn_are_survived() {
             truth: BTreeMap::new(),
             found: FoundJoints::default(),
         };
-        let found = find_joints(&outcome.layout, &BTreeMap::new(), false, 2);
+        let found = find_joints(&outcome.layout, &outcome.layout.kinds, &BTreeMap::new(), false, 2);
         let truth: BTreeMap<Role, DVec3> = character
             .humanoid
             .iter()
@@ -499,7 +499,7 @@ fn things_worn_are_survived() {
 }
 
 fn joints_of(layout: &Layout, given: &BTreeMap<Role, DVec3>, threads: usize) -> FoundJoints {
-    find_joints(layout, given, false, threads)
+    find_joints(layout, &layout.kinds, given, false, threads)
 }
 
 #[test]

@@ -12,16 +12,27 @@ use std::collections::HashMap;
 use std::sync::Arc;
 use superdeform::geometry::Surface;
 use superdeform::pipeline::{Deformer, Options};
-use superdeform::rig::transfer::{Source, rigid_weights, transfer_weights};
+use superdeform::rig::transfer::{Skin, Source, Worn, rigid_weights};
 use superdeform::rig::{GarmentWeights, Layout, Weighted};
 use superdeform::{Character, MeshKind, Role, Weights};
 
-/// A character laid out, with the body's surface and weights.
+/// A character laid out, with the body's skin and weights.
 struct Dressed {
     layout: Layout,
-    surface: Surface,
+    skin: Skin,
     triangles: Vec<[u32; 3]>,
     weights: Weights,
+}
+
+/// Weights of a garment after those of the body under it.
+fn transfer_weights(
+    source: &Source,
+    positions: &[DVec3],
+    triangles: &[[u32; 3]],
+    manner: GarmentWeights,
+    threads: usize,
+) -> Weighted {
+    Worn::new(source.skin, source.triangles, (positions, triangles), manner, threads).weights(source, threads)
 }
 
 impl Dressed {
@@ -29,16 +40,16 @@ impl Dressed {
     fn new(character: &Character) -> Self {
         let layout = Layout::of(character, DVec3::Z).unwrap();
         let triangles = layout.triangles_where(|mesh| layout.kinds[mesh] == Some(MeshKind::Body));
-        let surface = Surface::new(&layout.positions, &triangles);
+        let skin = Skin::new(&layout.positions, &triangles);
         let weights = Weights::from_rows(
             character.meshes.iter().flat_map(|mesh| mesh.weights.rows().map(|row| row.iter().copied())),
         );
-        Self { layout, surface, triangles, weights }
+        Self { layout, skin, triangles, weights }
     }
 
     fn source(&self) -> Source<'_> {
         Source {
-            surface: &self.surface,
+            skin: &self.skin,
             positions: &self.layout.positions,
             triangles: &self.triangles,
             weights: &self.weights,
@@ -173,10 +184,10 @@ fn from_two_joints(
     garment: &Shape,
     manner: GarmentWeights,
 ) -> Weighted {
-    let surface = Surface::new(&body.0, &body.1);
+    let skin = Skin::new(&body.0, &body.1);
     let rows = body.0.iter().map(|&p| [(0, 1.0 - weight(p) as f32), (1, weight(p) as f32)]);
     let weights = Weights::from_rows(rows);
-    let source = Source { surface: &surface, positions: &body.0, triangles: &body.1, weights: &weights };
+    let source = Source { skin: &skin, positions: &body.0, triangles: &body.1, weights: &weights };
     transfer_weights(&source, &garment.0, &garment.1, manner, 1)
 }
 
@@ -435,9 +446,9 @@ fn no_input_leaves_a_row_empty() {
                 (0..count).map(|v| if v % 2 == 0 { vec![(3, 0.25), (1, 0.5)] } else { vec![] }),
             ),
         ];
-        let surface = Surface::new(&body.0, &body.1);
+        let skin = Skin::new(&body.0, &body.1);
         for weights in &sources {
-            let source = Source { surface: &surface, positions: &body.0, triangles: &body.1, weights };
+            let source = Source { skin: &skin, positions: &body.0, triangles: &body.1, weights };
             for garment in &shapes {
                 let rigid = rigid_weights(&source, &garment.0, &garment.1);
                 let transferred =

@@ -341,7 +341,7 @@ impl Mesh {
                 return bad(
                     Some(triangle),
                     format!(
-                        "triangle {triangle} uses vertex {vertex}, but the mesh has {count} vertices; indices start at 0"
+                        "triangle {triangle} uses vertex {vertex}, but the mesh has {count} vertices: give indices from 0 to that less 1"
                     ),
                 );
             }

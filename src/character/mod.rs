@@ -75,7 +75,7 @@ impl Character {
                 return Err(Error::new(
                     ErrorKind::BadInput,
                     format!(
-                        "role {} names joint {joint}, but there are {} joints",
+                        "role {} names joint {joint}, but there are {} joints: name one of them",
                         role.name(),
                         self.skeleton.joints.len()
                     ),

@@ -3,6 +3,9 @@
 use crate::error::{Error, ErrorKind, Result};
 use glam::{DMat4, DVec3};
 
+/// What a matrix's last row may be off 0 and 1, against its largest number: rounding.
+const LEAST_NUMBER: f64 = 1e-4;
+
 /// One joint.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Joint {
@@ -29,7 +32,7 @@ pub struct Skeleton {
 }
 
 impl Skeleton {
-    /// Checks that parents exist, that no joint is its own ancestor, and that transforms are finite.
+    /// Checks that parents exist, that no joint is its own ancestor, and that transforms are finite and affine.
     ///
     /// # Errors
     /// `ErrorKind::BadInput` names the joint.
@@ -46,10 +49,32 @@ impl Skeleton {
             if let Some(parent) = joint.parent
                 && parent >= count
             {
-                return bad(index, format!("its parent is joint {parent}, but there are {count} joints"));
+                return bad(
+                    index,
+                    format!(
+                        "its parent is joint {parent}, but there are {count} joints: name one of them, or none"
+                    ),
+                );
             }
             if !joint.rest.is_finite() {
-                return bad(index, "its rest transform holds a number that is not finite".to_string());
+                return bad(
+                    index,
+                    "its rest matrix holds a number that is not finite: give finite numbers".to_string(),
+                );
+            }
+            let last = joint.rest.row(3);
+            let most =
+                joint.rest.to_cols_array().iter().fold(0.0, |most: f64, number| most.max(number.abs()));
+            if last.truncate().abs().max_element() > LEAST_NUMBER * most
+                || (last.w - 1.0).abs() > LEAST_NUMBER
+            {
+                return bad(
+                    index,
+                    format!(
+                        "numbers 3, 7, 11 and 15 of its rest matrix are {}, {}, {} and {}, not 0, 0, 0 and 1: give it column by column, with the translation in 12, 13 and 14",
+                        last.x, last.y, last.z, last.w
+                    ),
+                );
             }
         }
         // A chain of parents longer than the number of joints runs in a circle. Depths are remembered, so that
@@ -64,7 +89,7 @@ impl Skeleton {
                     break;
                 }
                 if path.len() >= count {
-                    return bad(start, "its chain of parents runs in a circle".to_string());
+                    return bad(start, "its parents run in a circle: one of them must have none".to_string());
                 }
                 path.push(joint);
                 current = self.joints[joint].parent;

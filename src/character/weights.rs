@@ -38,6 +38,7 @@ impl Weights {
             let mut row = row.to_vec();
             row.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
             row.truncate(most.max(1));
+            row.retain(|&(_, weight)| weight > 0.0);
             let sum: f64 = row.iter().map(|&(_, weight)| f64::from(weight)).sum();
             row.into_iter().map(move |(joint, weight)| (joint, (f64::from(weight) / sum) as f32))
         }))
@@ -93,7 +94,7 @@ impl Weights {
                     return Err((
                         Some(vertex),
                         format!(
-                            "vertex {vertex} is weighted to joint {joint}, but there are {joint_count} joints"
+                            "vertex {vertex} is weighted to joint {joint}, but there are {joint_count} joints: name one of them"
                         ),
                     ));
                 }

@@ -58,7 +58,7 @@ pub fn stride_of(
     match count.checked_mul(stride) {
         Some(bytes) if isize::try_from(bytes).is_ok() => Ok(stride),
         _ => Err(Failure::argument(format!(
-            "{what}: {count} with a stride of {stride} bytes are more than memory can hold"
+            "{what}: {count} with a stride of {stride} bytes are more than memory can hold: give fewer"
         ))),
     }
 }
@@ -194,7 +194,9 @@ pub unsafe fn structs_in<T: Plain>(what: &str, from: *const T, count: usize) -> 
         return Ok(all);
     }
     if from.is_null() {
-        return Err(Failure::argument(format!("the array of {what} is NULL, but {count} are to be there")));
+        return Err(Failure::argument(format!(
+            "the array of {what} is NULL, but {count} are to be there: give the array"
+        )));
     }
     unsafe {
         let size = from.cast::<u32>().read_unaligned();

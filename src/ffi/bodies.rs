@@ -54,7 +54,9 @@ pub unsafe fn get_warnings(
             Object::Style(_) => {
                 return Err(Failure::new(
                     SDEF_STATUS_BAD_HANDLE,
-                    format!("the handle {handle:#x} is a style, but a character or deformer is asked for"),
+                    format!(
+                        "the handle {handle:#x} is a style, but a character or deformer is asked for: give one"
+                    ),
                 ));
             }
         };
@@ -97,7 +99,7 @@ pub unsafe fn super_deform(
             state.set_skeleton(skeleton, roles)?;
         }
         for (index, mesh) in arrays::structs_in("SdefMesh", meshes, mesh_count)?.iter().enumerate() {
-            let read = character::read_mesh(mesh).map_err(|error| error.in_mesh(index))?;
+            let read = character::read_mesh_at(index, mesh)?;
             state.add_mesh(read)?;
         }
         let mut teller = teller(progress, user);

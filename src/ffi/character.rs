@@ -229,7 +229,15 @@ pub unsafe fn read_skeleton(skeleton: *const SdefSkeleton) -> Outcome<(Skeleton,
             continue;
         }
         match usize::try_from(joint) {
-            Ok(joint) if joint < count => humanoid.set(role, joint),
+            Ok(joint) if joint < count => {
+                if let Some((other, _)) = humanoid.iter().find(|&(_, taken)| taken == joint) {
+                    return Err(Failure::input(format!(
+                        "role_joints gives {other} and {role} the joint {joint}: a joint plays one role, and -1 stands for none"
+                    ))
+                    .at(joint));
+                }
+                humanoid.set(role, joint);
+            }
             _ => {
                 return Err(Failure::input(format!(
                     "role_joints gives {role} the joint {joint}, but there are {count} joints: give one of them, or -1"
@@ -240,11 +248,22 @@ pub unsafe fn read_skeleton(skeleton: *const SdefSkeleton) -> Outcome<(Skeleton,
     Ok((skeleton, humanoid))
 }
 
+/// As [`read_mesh`], with the mesh in what is said of a mistake: it will be number `index`.
+///
+/// # Safety
+/// The struct and its arrays are as the header says.
+pub unsafe fn read_mesh_at(index: usize, given: &SdefMesh) -> Outcome<Mesh> {
+    unsafe { read_mesh(given) }.map_err(|failure| {
+        let name = unsafe { arrays::text(given.name) };
+        Failure { message: format!("{}: {}", place(index, &name), failure.message), ..failure }.in_mesh(index)
+    })
+}
+
 /// Reads a mesh, but for what needs the character.
 ///
 /// # Safety
 /// The struct and its arrays are as the header says.
-pub unsafe fn read_mesh(given: &SdefMesh) -> Outcome<Mesh> {
+unsafe fn read_mesh(given: &SdefMesh) -> Outcome<Mesh> {
     let name = unsafe { arrays::text(given.name) };
     let kinds = [
         // What stands last says most about it: a material more than the node that shows it.
@@ -344,10 +363,9 @@ impl Columns {
             SDEF_TYPE_U16 => 2,
             _ => 4,
         };
-        let row = columns
-            .checked_mul(size)
-            .filter(|&row| isize::try_from(row).is_ok())
-            .ok_or_else(|| Failure::argument(format!("{what}: {columns} are more than memory can hold")))?;
+        let row = columns.checked_mul(size).filter(|&row| isize::try_from(row).is_ok()).ok_or_else(|| {
+            Failure::argument(format!("{what}: {columns} are more than memory can hold: give fewer"))
+        })?;
         let stride = arrays::stride_of(&what, start.is_null(), if row == 0 { 0 } else { rows }, stride, row)?;
         Ok(Self { start: start.cast(), stride, kind })
     }
@@ -530,7 +548,9 @@ pub unsafe fn add_mesh(
 ) -> SdefStatus {
     let body = || unsafe {
         let state = table::character(character)?;
-        let mesh = read_mesh(&arrays::zeroed_in("SdefMesh", mesh)?)?;
+        let given = arrays::zeroed_in("SdefMesh", mesh)?;
+        let index_to_be = table::read(&state, "character")?.character().meshes.len();
+        let mesh = read_mesh_at(index_to_be, &given)?;
         let added = table::write(&state, "character")?.add_mesh(mesh)?;
         tell(index, added as u32);
         Ok(())

@@ -332,7 +332,7 @@ pub unsafe fn map_points(
             let point = DVec3::from_array(point);
             if joint as usize >= joint_count {
                 return Err(Failure::input(format!(
-                    "point {index} hangs from joint {joint}, but there are {joint_count} joints"
+                    "point {index} hangs from joint {joint}, but there are {joint_count} joints: name one of them"
                 ))
                 .at(index));
             }

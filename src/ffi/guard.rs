@@ -63,9 +63,7 @@ impl From<Error> for Failure {
 
 /// The library's sentences name what a person at the command line would turn; a host has fields instead.
 pub fn in_words_of_hosts(message: &str) -> String {
-    const WORDS: [(&str, &str); 10] = [
-        ("name it with --humanoid (", "name it in role_joints, or make a rig ("),
-        (": JOINT NAME)", ": its joint)"),
+    const WORDS: [(&str, &str); 8] = [
         ("give forward (--forward +Z)", "give forward"),
         ("give the way it looks (--forward +Z)", "give forward"),
         ("name them with --body, --garment, --hair, --face-part or --accessory REGEX", "give their kind"),
@@ -75,7 +73,12 @@ pub fn in_words_of_hosts(message: &str) -> String {
         ("leave --paper out", "set SDEF_MODE_PRODUCT"),
         ("--rig auto", "sdef_character_rig"),
     ];
-    WORDS.iter().fold(message.to_string(), |text, (command, host)| text.replace(command, host))
+    let message = match message.split_once("name it with --humanoid (") {
+        // A host names joints by their numbers.
+        Some((before, _)) => format!("{before}name it in role_joints, or make a rig with sdef_character_rig"),
+        None => message.to_string(),
+    };
+    WORDS.iter().fold(message, |text, (command, host)| text.replace(command, host))
 }
 
 /// The bytes of `SdefError` before its message.

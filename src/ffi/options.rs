@@ -36,7 +36,7 @@ pub fn defaults() -> SdefOptions {
         rig_heat: rig.heat,
         rig_joints: null(),
         rig_joint_count: 0,
-        reserved: 0,
+        rig_left_handed: 0,
     }
 }
 
@@ -137,6 +137,7 @@ pub unsafe fn read(options: *const SdefOptions) -> Outcome<(Options, RigOptions)
         chin_segment: one_of("rig_chin_segment", given.rig_chin_segment, &[false, true])?,
         voxel_resolution: given.rig_voxel_resolution as usize,
         fingers: one_of("rig_fingers", given.rig_fingers, &[false, true])?,
+        left_handed: one_of("rig_left_handed", given.rig_left_handed, &[false, true])?,
         thread_count: given.thread_count as usize,
         ..RigOptions::default()
     };

@@ -78,7 +78,7 @@ pub unsafe fn from_text(
             None if !text.trim_start().starts_with('{') => {
                 let start: String = text.chars().take(40).collect();
                 return Err(bad(format!(
-                    "\"{start}\" is neither a saved style nor one of {}",
+                    "\"{start}\" is neither a saved style nor one of {}: give one of them",
                     BUILT_IN.join(", ")
                 )));
             }

@@ -65,14 +65,17 @@ pub fn insert(object: Object) -> Outcome<u64> {
     let slot = match table.free.pop() {
         Some(slot) => slot,
         None => {
-            let full = |_| Failure::new(SDEF_STATUS_OUT_OF_MEMORY, "there is no memory for another handle");
+            let full = |_| {
+                Failure::new(SDEF_STATUS_OUT_OF_MEMORY, "there is no memory for another handle: destroy some")
+            };
             table.slots.try_reserve(1).map_err(full)?;
             // So that destroying never needs memory.
             let count = table.slots.len() + 1;
             let room = count - table.free.len();
             table.free.try_reserve(room).map_err(full)?;
-            let slot = u32::try_from(table.slots.len())
-                .map_err(|_| Failure::new(SDEF_STATUS_OUT_OF_MEMORY, "there are 4294967296 handles"))?;
+            let slot = u32::try_from(table.slots.len()).map_err(|_| {
+                Failure::new(SDEF_STATUS_OUT_OF_MEMORY, "there are 4294967296 handles: destroy some")
+            })?;
             table.slots.push(Slot { generation: 1, object: None });
             slot
         }
@@ -135,11 +138,13 @@ fn bad_handle(id: u64, wanted: &str) -> Failure {
     } else {
         match find(id) {
             Some(Object::Character(_)) => {
-                format!("the handle {id:#x} is a character, but a {wanted} is asked for")
+                format!("the handle {id:#x} is a character, but a {wanted} is asked for: give one")
             }
-            Some(Object::Style(_)) => format!("the handle {id:#x} is a style, but a {wanted} is asked for"),
+            Some(Object::Style(_)) => {
+                format!("the handle {id:#x} is a style, but a {wanted} is asked for: give one")
+            }
             Some(Object::Deformer(_)) => {
-                format!("the handle {id:#x} is a deformer, but a {wanted} is asked for")
+                format!("the handle {id:#x} is a deformer, but a {wanted} is asked for: give one")
             }
             None => format!("the {wanted} {id:#x} was destroyed, or never was: use one that is alive"),
         }

@@ -1,14 +1,18 @@
-//! What the paper's sections stand on: segments, surfaces, near and shared positions.
+//! What the paper's sections stand on: segments, triangles, surfaces, near and shared positions, groups.
 
 pub mod cells;
+pub mod groups;
 pub mod laplacian;
 pub mod point_tree;
 pub mod segment;
 pub mod surface;
+pub mod triangle;
 pub mod weld;
 
 pub use cells::CellMap;
+pub use groups::{Bounds, Groups, bounds, touching};
 pub use point_tree::PointTree;
 pub use segment::foot;
 pub use surface::{Closest, Hit, Surface};
-pub use weld::{Neighbours, Weld, components, neighbours, weld};
+pub use triangle::double_area;
+pub use weld::{Neighbours, SEAM, Weld, components, neighbours, weld};

@@ -1,7 +1,12 @@
 //! Vertices that share a position: seam copies become one, so that a mesh can be walked along its surface.
 
 use super::cells::CellMap;
+use super::groups::Groups;
 use glam::DVec3;
+
+/// Vertices this near are one, as a part of the figure's height: exporters split vertices along seams, and rounding to
+/// floats far from the origin moves the copies apart by less.
+pub const SEAM: f64 = 1e-6;
 
 /// Which vertices share a position.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -91,31 +96,22 @@ pub fn weld(positions: &[DVec3], tolerance: f64) -> Weld {
 ///
 /// Components are numbered in order of their first welded vertex; a vertex in no triangle is a component of its own.
 pub fn components(triangles: &[[u32; 3]], weld: &Weld) -> Vec<u32> {
-    let mut above: Vec<u32> = (0..weld.count as u32).collect();
-    fn root(above: &mut [u32], mut vertex: u32) -> u32 {
-        while above[vertex as usize] != vertex {
-            above[vertex as usize] = above[above[vertex as usize] as usize];
-            vertex = above[vertex as usize];
-        }
-        vertex
-    }
+    let mut groups = Groups::new(weld.count);
     for &corners in triangles {
-        let [a, b, c] = weld.triangle(corners);
-        for other in [b, c] {
-            let (one, two) = (root(&mut above, a), root(&mut above, other));
-            above[one.max(two) as usize] = one.min(two);
-        }
+        let [a, b, c] = weld.triangle(corners).map(|vertex| vertex as usize);
+        groups.join(a, b);
+        groups.join(a, c);
     }
-    // A root is the least vertex of its component, so it comes first.
+    // The least vertex of a component comes first.
     let mut component_count = 0;
     let mut components = vec![0; weld.count];
-    for vertex in 0..weld.count as u32 {
-        let root = root(&mut above, vertex);
-        components[vertex as usize] = if root == vertex {
+    for vertex in 0..weld.count {
+        let least = groups.least(vertex);
+        components[vertex] = if least == vertex {
             component_count += 1;
             component_count - 1
         } else {
-            components[root as usize]
+            components[least]
         };
     }
     components

@@ -3,7 +3,6 @@
 use super::milliseconds;
 use crate::character::{Character, Humanoid, MeshKind, Role, Skeleton, Weights};
 use crate::error::{Error, ErrorKind, Result, Warning};
-use crate::geometry::Surface;
 use crate::progress::Progress;
 use crate::report::RigReport;
 use crate::rig::eyes::{Eye, find_eyes};
@@ -12,7 +11,7 @@ use crate::rig::heat::HeatSystem;
 use crate::rig::joints::find_joints;
 use crate::rig::kinds::{body_is_whole, guess_kinds, refine_kinds};
 use crate::rig::skeleton::{skeleton_of, weight_bones};
-use crate::rig::transfer::{Source, rigid_weights, transfer_weights};
+use crate::rig::transfer::{Skin, Source, Worn, rigid_weights};
 use crate::rig::voxel::{VoxelOptions, heat_would_be_poor, voxel_weights};
 use crate::rig::{FoundJoint, GarmentWeights, Layout, RigOptions, WeightBone, WeightMethod, Weighted};
 use glam::DVec3;
@@ -76,15 +75,13 @@ impl Rig {
         progress.at(0.0)?;
         let clock = Instant::now();
         let (forward, mut warnings) = find_forward(character);
-        let mut layout = Layout::of(character, forward)?;
+        let layout = Layout::in_axes(character, forward, options.left_handed)?;
         let (mut kinds, kind_warnings) = guess_kinds(&layout);
         warnings.extend(kind_warnings);
-        let known = layout.kinds.clone();
-        layout.kinds = kinds.iter().copied().map(Some).collect();
         let given = options.given.iter().map(|(&role, &at)| (role, layout.to_layout(at))).collect();
-        let mut found = find_joints(&layout, &given, options.fingers, options.thread_count);
+        let guessed: Vec<Option<MeshKind>> = kinds.iter().copied().map(Some).collect();
+        let mut found = find_joints(&layout, &guessed, &given, options.fingers, options.thread_count);
         warnings.append(&mut found.warnings);
-        layout.kinds = known;
         warnings.extend(refine_kinds(&layout, &mut kinds, &found.joints));
         let eyes = find_eyes(&layout, &kinds, &found);
         for eye in &eyes {
@@ -274,6 +271,9 @@ struct Binder<'a> {
     garments: Vec<Group>,
     accessories: Group,
     of_head: Vec<usize>,
+    /// The body's skin and each garment on it, made when weights are first asked for; `None` until then, and where
+    /// nothing is worn.
+    worn: Option<(Skin, Vec<Worn>)>,
     rule: BodyRule,
     warnings: Vec<Warning>,
     body_time: f64,
@@ -352,6 +352,7 @@ impl<'a> Binder<'a> {
             // Pieces that touch are one thing, whatever meshes they are in.
             accessories: Group::new(layout, accessories),
             of_head,
+            worn: None,
             rule,
             warnings,
             body_time: milliseconds(clock),
@@ -384,23 +385,32 @@ impl<'a> Binder<'a> {
         self.body_time += milliseconds(clock);
 
         let clock = Instant::now();
-        let surface = Surface::new(&body.positions, &body.triangles);
-        let source = Source {
-            surface: &surface,
-            positions: &body.positions,
-            triangles: &body.triangles,
-            weights: &of_body.weights,
-        };
-        let manner = self.options.garments;
-        for group in &self.garments {
-            let worn = transfer_weights(&source, &group.positions, &group.triangles, manner, threads);
-            count(&worn);
-            group.share(self.layout, &worn.weights, &mut weights);
+        if !self.garments.is_empty() || !self.accessories.meshes.is_empty() {
+            let (skin, worn) = self.worn.get_or_insert_with(|| {
+                let skin = Skin::new(&body.positions, &body.triangles);
+                let on_skin = |group: &Group| {
+                    let garment = (&group.positions[..], &group.triangles[..]);
+                    Worn::new(&skin, &body.triangles, garment, self.options.garments, threads)
+                };
+                let worn = self.garments.iter().map(on_skin).collect();
+                (skin, worn)
+            });
+            let source = Source {
+                skin,
+                positions: &body.positions,
+                triangles: &body.triangles,
+                weights: &of_body.weights,
+            };
+            for (group, worn) in self.garments.iter().zip(worn) {
+                let weighted = worn.weights(&source, threads);
+                count(&weighted);
+                group.share(self.layout, &weighted.weights, &mut weights);
+            }
+            let things = &self.accessories;
+            let carried = rigid_weights(&source, &things.positions, &things.triangles);
+            count(&carried);
+            things.share(self.layout, &carried.weights, &mut weights);
         }
-        let things = &self.accessories;
-        let carried = rigid_weights(&source, &things.positions, &things.triangles);
-        count(&carried);
-        things.share(self.layout, &carried.weights, &mut weights);
         let head = self.head.unwrap_or(0);
         for &mesh in &self.of_head {
             weights[mesh] = Weights::from_rows(self.layout.vertices(mesh).map(|vertex| {

@@ -3,12 +3,10 @@
 use super::Layout;
 use super::joints::FoundJoints;
 use crate::character::{MeshKind, Role};
-use crate::geometry::weld::{components, weld};
+use crate::geometry::{SEAM, components, weld};
 use glam::DVec3;
 use std::collections::BTreeMap;
 
-/// Vertices closer than this, in heights, are one.
-const WELD_TOLERANCE: f64 = 1e-6;
 /// An eyeball is no thinner than this part of its width: what is flatter is a brow, a lash or a painted eye.
 const ROUNDNESS: f64 = 0.6;
 /// Two eyes mirror each other to within this part of the head's length.
@@ -36,7 +34,7 @@ pub fn find_eyes(layout: &Layout, kinds: &[MeshKind], found: &FoundJoints) -> Ve
         return Vec::new();
     };
     let length = (crown.y - found.chin.y).abs();
-    let welded = weld(&layout.positions, WELD_TOLERANCE);
+    let welded = weld(&layout.positions, SEAM);
     let component = components(&layout.triangles, &welded);
     let mut pieces: BTreeMap<u32, (DVec3, DVec3, Vec<usize>)> = BTreeMap::new();
     for mesh in (0..layout.mesh_count()).filter(|&mesh| kinds[mesh] == MeshKind::FacePart) {

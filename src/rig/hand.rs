@@ -2,7 +2,7 @@
 
 use super::FoundJoint;
 use crate::character::Role;
-use crate::geometry::{Surface, components, neighbours, weld};
+use crate::geometry::{SEAM, Surface, components, neighbours, weld};
 use glam::DVec3;
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BinaryHeap};
@@ -141,7 +141,7 @@ impl Region {
             .map(|corners| corners.map(|vertex| index[vertex as usize]))
             .filter(|corners| !corners.contains(&u32::MAX))
             .collect();
-        let weld = weld(&points, 1e-6);
+        let weld = weld(&points, SEAM);
         let pieces = components(&near, &weld);
         let around = neighbours(&near, &weld);
         let firsts = weld.first_vertices();
@@ -636,7 +636,7 @@ impl Section {
             }
         }
         // Ends of neighbours lie on one edge.
-        let weld = weld(pieces.as_flattened(), 1e-6);
+        let weld = weld(pieces.as_flattened(), SEAM);
         let lines: Vec<[u32; 3]> =
             (0..pieces.len() as u32).map(|piece| [2 * piece, 2 * piece + 1, 2 * piece]).collect();
         let outline_of_end = components(&lines, &weld);

@@ -10,13 +10,10 @@
 use super::{WeightBone, Weighted};
 use crate::character::Weights;
 use crate::geometry::laplacian::{Cholesky, Symbolic, cotangent_laplacian, has_area};
-use crate::geometry::{Surface, Weld, components, foot, weld};
+use crate::geometry::{SEAM, Surface, Weld, components, foot, weld};
 use crate::parallel;
 use glam::DVec3;
 use std::collections::BTreeMap;
-
-/// Vertices this near are one: exporters split seams. In units of the figure.
-const WELD_TOLERANCE: f64 = 1e-6;
 
 /// A bone shares a vertex fully up to this ratio of its distance to the least one, ...
 const EQUAL: f64 = 1.0 + 1e-4;
@@ -142,7 +139,7 @@ impl HeatSystem {
         let triangles = || triangles.iter().filter(is_there);
         let frame = Frame::of(positions, triangles(), bones);
         let mut points: Vec<DVec3> = positions.iter().map(|&p| frame.place(p)).collect();
-        let mut weld = weld(&points, WELD_TOLERANCE);
+        let mut weld = weld(&points, SEAM);
         points = weld.first_vertices().iter().map(|&vertex| points[vertex as usize]).collect();
         arrange(&mut weld, &mut points);
         let pieces = Pieces::of(&points, triangles().map(|&corners| weld.triangle(corners)));

@@ -10,7 +10,7 @@ use super::legs::{Leg, Legs, Seen, find_legs, leg};
 use super::stance::Stance;
 use super::trunk::{HeadLine, head_line, middle};
 use super::{FoundJoint, Layout};
-use crate::character::Role;
+use crate::character::{MeshKind, Role};
 use crate::error::Warning;
 use crate::geometry::{PointTree, Surface};
 use glam::DVec3;
@@ -79,16 +79,18 @@ pub struct FoundJoints {
 
 /// Finds the joints of the figure in `layout`. Never fails: what is not seen is placed by ratio.
 ///
-/// `given` joints (layout space) stay where they are, with confidence 1, and the rest is found around them.
+/// `kinds` are those of the layout's meshes, `None` where nobody knows. `given` joints (layout space) stay where they are,
+/// with confidence 1, and the rest is found around them.
 pub fn find_joints(
     layout: &Layout,
+    kinds: &[Option<MeshKind>],
     given: &BTreeMap<Role, DVec3>,
     fingers: bool,
     thread_count: usize,
 ) -> FoundJoints {
     let given: BTreeMap<Role, DVec3> =
         given.iter().filter(|(_, at)| at.is_finite()).map(|(&role, &at)| (role, at)).collect();
-    let stance = Stance::of(layout, thread_count);
+    let stance = Stance::of(layout, kinds, thread_count);
     let mut found = Search { stance: &stance, given: &given, found: FoundJoints::default() }.run();
     if fingers {
         add_fingers(layout, &stance, &mut found);

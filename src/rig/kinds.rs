@@ -6,7 +6,7 @@
 use super::{FoundJoint, Layout};
 use crate::character::{MeshKind, Role};
 use crate::error::Warning;
-use crate::geometry::{Hit, Surface, weld};
+use crate::geometry::{Hit, Surface, double_area, weld};
 use glam::DVec3;
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
@@ -682,9 +682,7 @@ impl HeadRegion {
 
 /// The normal of a triangle, as long as its area.
 fn area_of(layout: &Layout, corners: [u32; 3]) -> DVec3 {
-    let [a, b, c] = corners.map(|vertex| layout.positions[vertex as usize]);
-    let normal = 0.5 * (b - a).cross(c - a);
-    if normal.is_finite() { normal } else { DVec3::ZERO }
+    0.5 * double_area(&layout.positions, corners)
 }
 
 fn mesh_area(layout: &Layout, mesh: usize) -> f64 {

@@ -35,7 +35,16 @@ impl Layout {
     /// # Errors
     /// `ErrorKind::NoGeometry` where nothing has an extent along up.
     pub fn of(character: &Character, forward: DVec3) -> Result<Self> {
+        Self::in_axes(character, forward, false)
+    }
+
+    /// As [`Layout::of`], of a character in left-handed axes where `left_handed`: mirrored, so that x is its left here too.
+    ///
+    /// # Errors
+    /// As [`Layout::of`].
+    pub fn in_axes(character: &Character, forward: DVec3, left_handed: bool) -> Result<Self> {
         let frame = Frame::new(character.axes.up.as_dvec3(), forward);
+        let frame = if left_handed { frame.mirrored() } else { frame };
         let mut layout = Self {
             positions: Vec::with_capacity(character.vertex_count()),
             triangles: Vec::with_capacity(character.triangle_count()),
@@ -53,6 +62,12 @@ impl Layout {
             layout
                 .triangles
                 .extend(mesh.triangles.iter().map(|corners| corners.map(|vertex| vertex + start)));
+            if left_handed {
+                // What looked outwards does so still.
+                layout.triangles[layout.triangle_starts[layout.triangle_starts.len() - 1]..]
+                    .iter_mut()
+                    .for_each(|corners| corners.swap(1, 2));
+            }
             layout.mesh_starts.push(layout.positions.len());
             layout.triangle_starts.push(layout.triangles.len());
         }

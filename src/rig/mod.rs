@@ -68,6 +68,8 @@ pub struct RigOptions {
     pub given: BTreeMap<Role, DVec3>,
     /// Looks for fingers.
     pub fingers: bool,
+    /// The axes of model space are left-handed, as Unity's: which of two sides is the left one depends on it.
+    pub left_handed: bool,
     /// Threads to use; 0 means all cores.
     pub thread_count: usize,
 }
@@ -82,6 +84,7 @@ impl Default for RigOptions {
             voxel_resolution: 128,
             given: BTreeMap::new(),
             fingers: true,
+            left_handed: false,
             thread_count: 0,
         }
     }

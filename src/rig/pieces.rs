@@ -2,12 +2,10 @@
 
 use super::WeightBone;
 use super::volume::{Volume, nearest};
-use crate::geometry::{components, foot, weld};
+use crate::geometry::{SEAM, components, foot, weld};
 use glam::DVec3;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Vertices this near are one, in units of the figure's longest side.
-const WELD_TOLERANCE: f64 = 1e-6;
 /// Ends of bones this near meet, in the same units.
 const MEETING: f64 = 1e-4;
 /// Shorter bones are fingers: how they bend says little about the body. In the same units.
@@ -49,7 +47,7 @@ impl Pieces {
             .iter()
             .map(|bone| bone.segments.iter().map(|ends| ends.map(|p| volume.to_grid_free(p))).collect())
             .collect();
-        let weld = weld(&points, WELD_TOLERANCE * size);
+        let weld = weld(&points, SEAM * size);
         let components = components(triangles, &weld);
         let component_of = |vertex: u32| components[weld.representative[vertex as usize] as usize];
 

@@ -63,9 +63,8 @@ pub struct Stance<'a> {
 }
 
 impl<'a> Stance<'a> {
-    /// Looks at `layout`.
-    pub fn of(layout: &'a Layout, threads: usize) -> Self {
-        let kinds = &layout.kinds;
+    /// Looks at `layout`, whose meshes are of these `kinds`, as far as known.
+    pub fn of(layout: &'a Layout, kinds: &[Option<MeshKind>], threads: usize) -> Self {
         let is = |mesh: usize, wanted: &[Option<MeshKind>]| wanted.contains(&kinds[mesh]);
         use MeshKind::*;
         let sets: [&[Option<MeshKind>]; 5] = [

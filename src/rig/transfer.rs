@@ -8,13 +8,13 @@
 use super::{GarmentWeights, Weighted};
 use crate::character::Weights;
 use crate::geometry::laplacian::{Cholesky, cotangent_laplacian};
-use crate::geometry::{Closest, Neighbours, PointTree, Surface, Weld, components, neighbours, weld};
+use crate::geometry::{
+    Closest, Groups, Neighbours, PointTree, SEAM, Surface, Weld, bounds, components, double_area, neighbours,
+    touching, weld,
+};
 use crate::parallel;
 use glam::DVec3;
 use std::collections::BTreeMap;
-
-/// Vertices this near are one, in heights.
-const WELD: f64 = 1e-6;
 
 /// Closest points this much further than the closest one, relatively, still have a share, which falls to 0 there: where
 /// two legs are equally far, neither is the closest by chance.
@@ -67,10 +67,64 @@ const MOST_PIECES: usize = 500;
 /// Columns solved together: fixed, so that results do not depend on the threads.
 const BATCH: usize = 4;
 
-/// A surface whose weights are known.
+/// A surface that weights are taken from, as far as it does not depend on them: made once for any number of weights.
+pub struct Skin {
+    surface: Surface,
+    /// Unit normals by vertex, 0 where there is none.
+    normals: Vec<DVec3>,
+}
+
+impl Skin {
+    /// The skin of `positions` and `triangles`.
+    pub fn new(positions: &[DVec3], triangles: &[[u32; 3]]) -> Self {
+        let welded = weld(positions, SEAM);
+        let points = places(&welded, positions);
+        let corners: Vec<[u32; 3]> = triangles.iter().map(|&corners| welded.triangle(corners)).collect();
+        let normals = normals(&points, &corners);
+        Self {
+            surface: Surface::new(positions, triangles),
+            normals: welded.representative.iter().map(|&vertex| normals[vertex as usize]).collect(),
+        }
+    }
+
+    /// The unit normal at a point of the surface; 0 where there is none.
+    fn normal(&self, triangles: &[[u32; 3]], at: &Closest) -> DVec3 {
+        let corners = triangles[at.triangle].into_iter().zip(at.barycentric);
+        corners
+            .map(|(vertex, share)| share * self.normals[vertex as usize])
+            .sum::<DVec3>()
+            .normalize_or_zero()
+    }
+
+    /// The places closest to `p` and their shares, most of all the closest.
+    fn places(&self, p: DVec3) -> Vec<(Closest, f64)> {
+        let Some(closest) = self.surface.closest_point(p) else {
+            return Vec::new();
+        };
+        let mut places = vec![(closest, 1.0)];
+        let slack = TIE * closest.distance;
+        if slack > 0.0 {
+            let mut near = Vec::new();
+            self.surface.points_within(p, closest.distance + slack, &mut near);
+            for other in near {
+                let share = 1.0 - (other.distance - closest.distance) / slack;
+                let apart = |(known, _): &(Closest, f64)| {
+                    known.point.distance(other.point) > SAME_PLACE * closest.distance
+                };
+                if share > 0.0 && places.iter().all(apart) {
+                    places.push((other, share.min(1.0)));
+                }
+            }
+        }
+        places
+    }
+}
+
+/// A skin whose weights are known.
+#[derive(Clone, Copy)]
 pub struct Source<'a> {
-    /// The surface, made of `positions` and `triangles`.
-    pub surface: &'a Surface,
+    /// Made of `positions` and `triangles`.
+    pub skin: &'a Skin,
     /// Its vertices.
     pub positions: &'a [DVec3],
     /// Its triangles.
@@ -82,42 +136,91 @@ pub struct Source<'a> {
 /// Weights by joint, ascending; they sum to 1.
 type Row = Vec<(u32, f64)>;
 
-/// Weights of a garment's `positions` after those of the body under it.
-///
-/// All in one space in which the figure is about 1 high. `manner` is `Robust` (which `Heat` falls to) or `Nearest`.
-///
-/// - `Nearest`: the barycentric blend at the closest surface point; where several places are equally far, to 1 %, all of
-///   them. Nothing counts as fallback but `loose_vertex` and `no_source`.
-/// - `Robust`: the same where the closest point is near and the normals are alike, facing either way. The rest of each
-///   connected piece is filled in smoothly (`inpainted`). A piece without a match follows the nearest surface, be it the
-///   body or a piece that has its weights (`component_without_match`), and pieces below 2 % of the height move as one
-///   (`rigid_piece`).
-///
-/// A vertex in no triangle takes the closest point's weights (`loose_vertex`); without any source everything goes to
-/// joint 0 (`no_source`); `unsolved` counts what a failed solve left to the closest point.
-///
-/// O(vertices · log triangles) and one sparse factorisation of the vertices without a match.
-pub fn transfer_weights(
-    source: &Source,
-    positions: &[DVec3],
-    triangles: &[[u32; 3]],
+/// A garment on a skin: where its vertices touch it, which no weights change.
+pub struct Worn {
+    welded: Weld,
+    points: Vec<DVec3>,
+    corners: Vec<[u32; 3]>,
+    touches: Vec<Touch>,
     manner: GarmentWeights,
-    thread_count: usize,
-) -> Weighted {
-    let body = Body::new(source);
-    let welded = weld(positions, WELD);
-    let points = places(&welded, positions);
-    let corners: Vec<[u32; 3]> = triangles.iter().map(|&corners| welded.triangle(corners)).collect();
-    let mut rules: Vec<Option<&'static str>> = vec![None; welded.count];
-    let rows = if body.is_empty() {
-        rules.fill(Some("no_source"));
-        vec![body.anything(); welded.count]
-    } else if manner == GarmentWeights::Nearest {
-        parallel::collect(thread_count, welded.count, 256, |vertex| body.closest(points[vertex]))
-    } else {
-        Cloth::new(&points, &corners).robust(&body, &mut rules, thread_count)
-    };
-    finish(&welded, rows, &rules)
+}
+
+/// The places of a skin that are closest to a vertex.
+struct Touch {
+    /// With their shares.
+    places: Vec<(Closest, f64)>,
+    /// How well each matches the vertex, 0 to its share; for `Robust` alone.
+    fits: Vec<f64>,
+}
+
+impl Worn {
+    /// Looks where a garment's `positions` touch the skin of `positions` and `triangles`.
+    ///
+    /// All in one space in which the figure is about 1 high. `manner` is `Robust` (which `Heat` falls to) or `Nearest`.
+    ///
+    /// O(vertices · log triangles).
+    pub fn new(
+        skin: &Skin,
+        skin_triangles: &[[u32; 3]],
+        (positions, triangles): (&[DVec3], &[[u32; 3]]),
+        manner: GarmentWeights,
+        thread_count: usize,
+    ) -> Self {
+        let welded = weld(positions, SEAM);
+        let points = places(&welded, positions);
+        let corners: Vec<[u32; 3]> = triangles.iter().map(|&corners| welded.triangle(corners)).collect();
+        let touches = if manner == GarmentWeights::Nearest {
+            parallel::collect(thread_count, welded.count, 256, |vertex| Touch {
+                places: skin.places(points[vertex]),
+                fits: Vec::new(),
+            })
+        } else {
+            let normals = normals(&points, &corners);
+            let reach = reach(&points);
+            parallel::collect(thread_count, welded.count, 256, |vertex| {
+                let places = skin.places(points[vertex]);
+                let fit = |(at, share): &(Closest, f64)| {
+                    let near = (DISTANCE_RAMP - at.distance / reach) / (DISTANCE_RAMP - 1.0);
+                    // Either side of double-sided cloth.
+                    let cosine = skin.normal(skin_triangles, at).dot(normals[vertex]).abs();
+                    let alike = (cosine - MATCH_COSINE[1]) / (MATCH_COSINE[0] - MATCH_COSINE[1]);
+                    share * near.clamp(0.0, 1.0) * alike.clamp(0.0, 1.0)
+                };
+                Touch { fits: places.iter().map(fit).collect(), places }
+            })
+        };
+        Self { welded, points, corners, touches, manner }
+    }
+
+    /// Weights of the garment after those of the skin under it, which is the one that it was made with.
+    ///
+    /// - `Nearest`: the barycentric blend at the closest surface point; where several places are equally far, to 1 %, all
+    ///   of them. Nothing counts as fallback but `loose_vertex` and `no_source`.
+    /// - `Robust`: the same where the closest point is near and the normals are alike, facing either way. The rest of
+    ///   each connected piece is filled in smoothly (`inpainted`). A piece without a match follows the nearest surface,
+    ///   be it the body or a piece that has its weights (`component_without_match`), and pieces below 2 % of the height
+    ///   move as one (`rigid_piece`).
+    ///
+    /// A vertex in no triangle takes the closest point's weights (`loose_vertex`); without any source everything goes to
+    /// joint 0 (`no_source`); `unsolved` counts what a failed solve left to the closest point.
+    ///
+    /// One sparse factorisation of the vertices without a match.
+    pub fn weights(&self, source: &Source, thread_count: usize) -> Weighted {
+        let body = Body::new(source);
+        let count = self.welded.count;
+        let mut rules: Vec<Option<&'static str>> = vec![None; count];
+        let rows = if body.is_empty() {
+            rules.fill(Some("no_source"));
+            vec![body.anything(); count]
+        } else if self.manner == GarmentWeights::Nearest {
+            parallel::collect(thread_count, count, 256, |vertex| {
+                body.mixed(self.points[vertex], &self.touches[vertex].places)
+            })
+        } else {
+            Cloth::new(&self.points, &self.corners).robust(&body, &self.touches, &mut rules, thread_count)
+        };
+        finish(&self.welded, rows, &rules)
+    }
 }
 
 /// Weights of things that keep their shape: each connected piece, or cluster of pieces that touch, has one row, taken
@@ -126,7 +229,7 @@ pub fn transfer_weights(
 /// All in one space in which the figure is about 1 high. Every vertex counts as `rigid_piece`, or as `no_source`.
 pub fn rigid_weights(source: &Source, positions: &[DVec3], triangles: &[[u32; 3]]) -> Weighted {
     let body = Body::new(source);
-    let welded = weld(positions, WELD);
+    let welded = weld(positions, SEAM);
     if body.is_empty() {
         return finish(&welded, vec![body.anything(); welded.count], &vec![Some("no_source"); welded.count]);
     }
@@ -134,7 +237,7 @@ pub fn rigid_weights(source: &Source, positions: &[DVec3], triangles: &[[u32; 3]
     let mut rows = vec![Row::new(); welded.count];
     for piece in clusters(&points, &welded, triangles) {
         let near: Vec<Option<Closest>> =
-            piece.iter().map(|&vertex| body.surface.closest_point(points[vertex as usize])).collect();
+            piece.iter().map(|&vertex| source.skin.surface.closest_point(points[vertex as usize])).collect();
         let least = near.iter().flatten().map(|near| near.distance).fold(f64::INFINITY, f64::min);
         let mut row = Row::new();
         for near in near.into_iter().flatten() {
@@ -155,9 +258,9 @@ pub fn rigid_weights(source: &Source, positions: &[DVec3], triangles: &[[u32; 3]
 /// Welded vertices by cluster: components that touch, or whose boxes do.
 fn clusters(points: &[DVec3], welded: &Weld, triangles: &[[u32; 3]]) -> Vec<Vec<u32>> {
     let corners: Vec<[u32; 3]> = triangles.iter().map(|&corners| welded.triangle(corners)).collect();
-    let touching = weld(points, TOUCH);
-    let component = components(&corners, &touching);
-    let component = |vertex: usize| component[touching.representative[vertex] as usize] as usize;
+    let near = weld(points, TOUCH);
+    let component = components(&corners, &near);
+    let component = |vertex: usize| component[near.representative[vertex] as usize] as usize;
     let count = (0..points.len()).map(|vertex| component(vertex) + 1).max().unwrap_or(0);
     let mut boxes = vec![(DVec3::INFINITY, DVec3::NEG_INFINITY); count];
     for (vertex, &p) in points.iter().enumerate() {
@@ -165,30 +268,26 @@ fn clusters(points: &[DVec3], welded: &Weld, triangles: &[[u32; 3]]) -> Vec<Vec<
         *low = low.min(p - TOUCH / 2.0);
         *high = high.max(p + TOUCH / 2.0);
     }
-    // Boxes that overlap become one, until none does; crumbs by the thousand are left as they are.
-    let mut cluster: Vec<usize> = (0..count).collect();
-    let overlap = |a: &(DVec3, DVec3), b: &(DVec3, DVec3)| a.0.cmple(b.1).all() && b.0.cmple(a.1).all();
-    let mut changed = count <= MOST_PIECES;
-    while changed {
-        changed = false;
-        for one in 0..count {
-            for other in one + 1..count {
-                let is_root = cluster[one] == one && cluster[other] == other;
-                if is_root && overlap(&boxes[one], &boxes[other]) {
-                    boxes[one] = (boxes[one].0.min(boxes[other].0), boxes[one].1.max(boxes[other].1));
-                    cluster[other] = one;
-                    changed = true;
-                }
-            }
+    // Boxes that touch become one, until none does; crumbs by the thousand are left as they are.
+    let mut groups = Groups::new(count);
+    let mut open: Vec<usize> = if count <= MOST_PIECES { (0..count).collect() } else { Vec::new() };
+    loop {
+        let pairs = touching(&open.iter().map(|&group| boxes[group]).collect::<Vec<_>>());
+        if pairs.is_empty() {
+            break;
         }
+        for (one, other) in pairs {
+            groups.join(open[one], open[other]);
+        }
+        for &group in &open {
+            let least = groups.least(group);
+            boxes[least] = (boxes[least].0.min(boxes[group].0), boxes[least].1.max(boxes[group].1));
+        }
+        open.retain(|&group| groups.least(group) == group);
     }
     let mut members: BTreeMap<usize, Vec<u32>> = BTreeMap::new();
     for vertex in 0..points.len() {
-        let mut root = component(vertex);
-        while cluster[root] != root {
-            root = cluster[root];
-        }
-        members.entry(root).or_default().push(vertex as u32);
+        members.entry(groups.least(component(vertex))).or_default().push(vertex as u32);
     }
     members.into_values().collect()
 }
@@ -243,22 +342,13 @@ fn finish(welded: &Weld, rows: Vec<Row>, rules: &[Option<&'static str>]) -> Weig
 
 /// A source made ready.
 struct Body<'a> {
-    surface: &'a Surface,
-    triangles: &'a [[u32; 3]],
-    weights: &'a Weights,
-    /// Unit normals by vertex, 0 where there is none.
-    normals: Vec<DVec3>,
+    source: Source<'a>,
     /// Vertices that have weights, and where they are.
     weighted: (PointTree, Vec<u32>),
 }
 
 impl<'a> Body<'a> {
     fn new(source: &Source<'a>) -> Self {
-        let welded = weld(source.positions, WELD);
-        let points = places(&welded, source.positions);
-        let corners: Vec<[u32; 3]> =
-            source.triangles.iter().map(|&corners| welded.triangle(corners)).collect();
-        let normals = normals(&points, &corners);
         let vertices: Vec<u32> = (0..source.positions.len().min(source.weights.row_count()))
             .filter(|&vertex| {
                 source.positions[vertex].is_finite()
@@ -267,13 +357,7 @@ impl<'a> Body<'a> {
             .map(|vertex| vertex as u32)
             .collect();
         let places: Vec<DVec3> = vertices.iter().map(|&vertex| source.positions[vertex as usize]).collect();
-        Self {
-            surface: source.surface,
-            triangles: source.triangles,
-            weights: source.weights,
-            normals: welded.representative.iter().map(|&vertex| normals[vertex as usize]).collect(),
-            weighted: (PointTree::new(&places), vertices),
-        }
+        Self { source: *source, weighted: (PointTree::new(&places), vertices) }
     }
 
     /// True where there is nothing to take weights from.
@@ -288,17 +372,18 @@ impl<'a> Body<'a> {
     }
 
     fn row(&self, vertex: u32) -> Row {
-        if vertex as usize >= self.weights.row_count() {
+        let weights = self.source.weights;
+        if vertex as usize >= weights.row_count() {
             return Row::new();
         }
         normalised(
-            self.weights.row(vertex as usize).iter().map(|&(joint, weight)| (joint, weight.into())).collect(),
+            weights.row(vertex as usize).iter().map(|&(joint, weight)| (joint, weight.into())).collect(),
         )
     }
 
     /// The barycentric blend; empty where no corner has weights.
     fn blend(&self, at: &Closest) -> Row {
-        let corners = self.triangles[at.triangle].into_iter().zip(at.barycentric);
+        let corners = self.source.triangles[at.triangle].into_iter().zip(at.barycentric);
         normalised(
             corners
                 .flat_map(|(vertex, share)| {
@@ -308,47 +393,15 @@ impl<'a> Body<'a> {
         )
     }
 
-    /// The unit normal at a point of the surface; 0 where there is none.
-    fn normal(&self, at: &Closest) -> DVec3 {
-        let corners = self.triangles[at.triangle].into_iter().zip(at.barycentric);
-        corners
-            .map(|(vertex, share)| share * self.normals[vertex as usize])
-            .sum::<DVec3>()
-            .normalize_or_zero()
-    }
-
-    /// The places closest to `p` and their shares, most of all the closest.
-    fn places(&self, p: DVec3, near: &mut Vec<Closest>) -> Vec<(Closest, f64)> {
-        let Some(closest) = self.surface.closest_point(p) else {
-            return Vec::new();
-        };
-        let mut places = vec![(closest, 1.0)];
-        let slack = TIE * closest.distance;
-        if slack > 0.0 {
-            self.surface.points_within(p, closest.distance + slack, near);
-            for &other in near.iter() {
-                let share = 1.0 - (other.distance - closest.distance) / slack;
-                let apart = |(known, _): &(Closest, f64)| {
-                    known.point.distance(other.point) > SAME_PLACE * closest.distance
-                };
-                if share > 0.0 && places.iter().all(apart) {
-                    places.push((other, share.min(1.0)));
-                }
-            }
-        }
-        places
-    }
-
     /// The row of the closest place or places; never empty.
     fn closest(&self, p: DVec3) -> Row {
-        let places = self.places(p, &mut Vec::new());
-        self.mixed(p, places.iter().map(|(at, share)| (at, *share)))
+        self.mixed(p, &self.source.skin.places(p))
     }
 
     /// Rows of several places by their shares; never empty.
-    fn mixed<'b>(&self, p: DVec3, places: impl Iterator<Item = (&'b Closest, f64)>) -> Row {
+    fn mixed(&self, p: DVec3, places: &[(Closest, f64)]) -> Row {
         let mut row = Row::new();
-        for (at, share) in places {
+        for &(ref at, share) in places {
             row.extend(self.blend(at).into_iter().map(|(joint, weight)| (joint, share * weight)));
         }
         let row = normalised(row);
@@ -363,28 +416,18 @@ impl<'a> Body<'a> {
         found.first().map_or_else(|| self.anything(), |near| self.row(self.weighted.1[near.index() as usize]))
     }
 
-    /// The row of the closest places that match `normal`, how well they match (0 to 1), and how far they are. Where none
-    /// matches the row is that of the closest place all the same.
-    fn matched(&self, p: DVec3, normal: DVec3, reach: f64) -> Match {
-        let places = self.places(p, &mut Vec::new());
+    /// The row of those places of `touch` that match the vertex at `p`, how well they do (0 to 1), and how far they are.
+    /// Where none matches the row is that of the closest place all the same.
+    fn matched(&self, p: DVec3, touch: &Touch) -> Match {
+        let Touch { places, fits } = touch;
         let distance = places.first().map_or(f64::INFINITY, |(at, _)| at.distance);
-        let fits: Vec<f64> = places
-            .iter()
-            .map(|(at, share)| {
-                let near = (DISTANCE_RAMP - at.distance / reach) / (DISTANCE_RAMP - 1.0);
-                // Either side of double-sided cloth.
-                let cosine = self.normal(at).dot(normal).abs();
-                let alike = (cosine - MATCH_COSINE[1]) / (MATCH_COSINE[0] - MATCH_COSINE[1]);
-                share * near.clamp(0.0, 1.0) * alike.clamp(0.0, 1.0)
-            })
-            .collect();
         let fit: f64 = fits.iter().sum();
-        let all: f64 = places.iter().map(|(_, share)| share).sum();
         if fit > 0.0 {
-            let row = self.mixed(p, places.iter().zip(&fits).map(|((at, _), &share)| (at, share)));
-            return Match { row, fit: fit / all, distance };
+            let all: f64 = places.iter().map(|(_, share)| share).sum();
+            let fitting: Vec<_> = places.iter().zip(fits).map(|(&(at, _), &share)| (at, share)).collect();
+            return Match { row: self.mixed(p, &fitting), fit: fit / all, distance };
         }
-        Match { row: self.mixed(p, places.iter().map(|(at, share)| (at, *share))), fit: 0.0, distance }
+        Match { row: self.mixed(p, places), fit: 0.0, distance }
     }
 }
 
@@ -399,14 +442,9 @@ struct Match {
 /// Unit normals of welded vertices: means over the triangles, weighted by area; where two sides of one cloth cancel out,
 /// all are turned to the side of the largest triangle. 0 where there is no triangle with an area.
 fn normals(points: &[DVec3], triangles: &[[u32; 3]]) -> Vec<DVec3> {
-    let area = |corners: &[u32; 3]| {
-        let [a, b, c] = corners.map(|vertex| points[vertex as usize]);
-        let normal = (b - a).cross(c - a);
-        if normal.is_finite() { normal } else { DVec3::ZERO }
-    };
     let mut sums = vec![(DVec3::ZERO, 0.0, DVec3::ZERO); points.len()];
     for corners in triangles {
-        let normal = area(corners);
+        let normal = double_area(points, *corners);
         for &vertex in corners {
             let (sum, total, largest) = &mut sums[vertex as usize];
             *sum += normal;
@@ -420,7 +458,7 @@ fn normals(points: &[DVec3], triangles: &[[u32; 3]]) -> Vec<DVec3> {
     let mut one_sided = vec![DVec3::ZERO; points.len()];
     if sums.iter().any(cancels) {
         for corners in triangles {
-            let normal = area(corners);
+            let normal = double_area(points, *corners);
             for &vertex in corners {
                 let side = normal.dot(sums[vertex as usize].2);
                 one_sided[vertex as usize] += if side < 0.0 { -normal } else { normal };
@@ -431,6 +469,13 @@ fn normals(points: &[DVec3], triangles: &[[u32; 3]]) -> Vec<DVec3> {
         .zip(one_sided)
         .map(|(sums, one_sided)| if cancels(sums) { one_sided } else { sums.0 }.normalize_or_zero())
         .collect()
+}
+
+/// How far a match may be, for a garment of `points`.
+fn reach(points: &[DVec3]) -> f64 {
+    let (low, high) = bounds(points.iter().copied().filter(|p| p.is_finite()));
+    let [least, most] = MATCH_DISTANCE_RANGE;
+    (MATCH_DISTANCE * (high - low).length()).clamp(least, most)
 }
 
 /// A garment between welded vertices.
@@ -463,20 +508,15 @@ impl<'a> Cloth<'a> {
         }
     }
 
-    /// How far a match may be.
-    fn reach(&self) -> f64 {
-        let finite = self.points.iter().filter(|p| p.is_finite());
-        let (low, high) =
-            finite.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), &p| (low.min(p), high.max(p)));
-        let [least, most] = MATCH_DISTANCE_RANGE;
-        (MATCH_DISTANCE * (high - low).length()).clamp(least, most)
-    }
-
-    fn robust(&self, body: &Body, rules: &mut [Option<&'static str>], threads: usize) -> Vec<Row> {
-        let normals = normals(self.points, self.triangles);
-        let reach = self.reach();
+    fn robust(
+        &self,
+        body: &Body,
+        touches: &[Touch],
+        rules: &mut [Option<&'static str>],
+        threads: usize,
+    ) -> Vec<Row> {
         let mut matches = parallel::collect(threads, self.points.len(), 256, |vertex| {
-            body.matched(self.points[vertex], normals[vertex], reach)
+            body.matched(self.points[vertex], &touches[vertex])
         });
         let is_loose = |vertex: usize| self.around.of(vertex).is_empty();
         let is_small = |vertex: usize| self.extents[self.component[vertex] as usize] < RIGID_EXTENT;
@@ -538,6 +578,14 @@ impl<'a> Cloth<'a> {
         matches.into_iter().map(|found| found.row).collect()
     }
 
+    /// The triangles between vertices that are `done`, and their surface.
+    fn made_of(&self, done: &[bool]) -> (Vec<[u32; 3]>, Surface) {
+        let is_done = |corners: &&[u32; 3]| corners.iter().all(|&vertex| done[vertex as usize]);
+        let triangles: Vec<[u32; 3]> = self.triangles.iter().filter(is_done).copied().collect();
+        let surface = Surface::new(self.points, &triangles);
+        (triangles, surface)
+    }
+
     /// Gives the vertices that `choose` accepts the row of the closest cloth that is `done`, where that is nearer than
     /// the body.
     fn follow_cloth(
@@ -547,13 +595,7 @@ impl<'a> Cloth<'a> {
         choose: impl Fn(usize) -> bool + Sync,
         threads: usize,
     ) {
-        let triangles: Vec<[u32; 3]> = self
-            .triangles
-            .iter()
-            .filter(|corners| corners.iter().all(|&vertex| done[vertex as usize]))
-            .copied()
-            .collect();
-        let surface = Surface::new(self.points, &triangles);
+        let (triangles, surface) = self.made_of(done);
         if surface.is_empty() {
             return;
         }
@@ -588,13 +630,7 @@ impl<'a> Cloth<'a> {
         if pieces.is_empty() {
             return;
         }
-        let triangles: Vec<[u32; 3]> = self
-            .triangles
-            .iter()
-            .filter(|corners| corners.iter().all(|&vertex| done[vertex as usize]))
-            .copied()
-            .collect();
-        let surface = Surface::new(self.points, &triangles);
+        let (triangles, surface) = self.made_of(done);
         for piece in pieces.into_values() {
             let middle = piece.iter().map(|&vertex| self.points[vertex]).sum::<DVec3>() / piece.len() as f64;
             let to_body = piece.iter().map(|&vertex| matches[vertex].distance).fold(f64::INFINITY, f64::min);

@@ -256,11 +256,11 @@ fn radii(points: &[DVec3], triangles: &[[u32; 3]], rows: &Rows, bone_count: usiz
             samples[bone as usize].push((length, view * ownership(nearest, f64::from(length))));
         }
     }
-    samples.into_iter().map(median).collect()
+    samples.into_iter().map(median_by_share).collect()
 }
 
 /// The length that half of the shares lie below; 0 where there is none.
-fn median(mut samples: Vec<(f32, f64)>) -> f64 {
+fn median_by_share(mut samples: Vec<(f32, f64)>) -> f64 {
     samples.sort_by(|one, other| one.0.total_cmp(&other.0).then(one.1.total_cmp(&other.1)));
     let half = samples.iter().map(|(_, share)| share).sum::<f64>() / 2.0;
     let mut below = 0.0;

@@ -217,7 +217,7 @@ fn check(head_scale: f64, settings: &BTreeMap<String, GroupSettings>, bones: &[B
     for (group, given) in settings {
         if !names.contains(group.as_str()) {
             let known = names.into_iter().collect::<Vec<_>>().join(", ");
-            return bad(format!("there is no bone group {group}; the groups are {known}"));
+            return bad(format!("there is no bone group {group}: give one of {known}"));
         }
         for (what, scale) in
             [("length_scale", given.length_scale), ("thickness_scale", given.thickness_scale)]

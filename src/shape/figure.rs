@@ -9,7 +9,7 @@ use crate::character::{Character, Humanoid, MeshKind, Role};
 use crate::error::{Error, ErrorKind, Result};
 use glam::{DMat3, DVec3};
 
-/// Model space to the canonical frame: a rotation.
+/// Model space to the canonical frame: a rotation, or a mirrored one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frame {
     /// Rows are the character's left, up and forward in model space.
@@ -54,6 +54,11 @@ impl Frame {
         let up = up.normalize();
         let forward = forward.reject_from_normalized(up).normalize();
         Self { to_canonical: DMat3::from_cols(up.cross(forward), up, forward).transpose() }
+    }
+
+    /// The same, x the other way: in left-handed axes the character's left is there.
+    pub fn mirrored(self) -> Self {
+        Self { to_canonical: DMat3::from_diagonal(DVec3::new(-1.0, 1.0, 1.0)) * self.to_canonical }
     }
 
     /// Model space to the canonical frame.

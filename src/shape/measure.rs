@@ -55,7 +55,7 @@ pub fn measure(
     }
     let joint = |role: Role| {
         joints.get(&role).copied().ok_or_else(|| {
-            let message = format!("a bone ends at the role {role}, but no joint is known for it");
+            let message = format!("a bone ends at the role {role}, but no joint is known for it: name one");
             Error::new(ErrorKind::NoHumanoid, message)
         })
     };

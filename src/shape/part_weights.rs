@@ -9,13 +9,12 @@ use super::figure::Figure;
 use super::proportions::{Anatomy, PART_COUNT, Part, PartWeights, fold_to_parts};
 use crate::character::{MeshKind, Role, Skeleton};
 use crate::geometry::point_tree::{Near, PointTree};
-use crate::geometry::weld::{Neighbours, Weld, components, neighbours};
+use crate::geometry::{Bounds, Groups, Neighbours, Weld, bounds, components, neighbours, touching};
 use crate::hair::HairOutline;
 use crate::parallel;
 use glam::DVec3;
+use std::collections::BTreeMap;
 
-/// Positions closer than this part of H are one vertex.
-pub const WELD_TOLERANCE: f64 = 1e-6;
 /// One step of smoothing along the mesh moves a vertex's weights this far to the mean of its neighbours'.
 const UMBRELLA_STEP: f32 = 0.6;
 /// The width of both kinds of smoothing, as a part of H.
@@ -531,9 +530,7 @@ fn mark_head_pieces(
         if !members.iter().all(|&vertex| head_only[vertex as usize]) {
             continue;
         }
-        let positions = members.iter().map(|&vertex| figure.positions[vertex as usize]);
-        let low = positions.clone().fold(DVec3::INFINITY, DVec3::min);
-        let high = positions.fold(DVec3::NEG_INFINITY, DVec3::max);
+        let (low, high) = bounds(members.iter().map(|&vertex| figure.positions[vertex as usize]));
         let hangs = low.y < anatomy.landmarks.shoulder_line;
         for &vertex in members {
             let vertex = vertex as usize;
@@ -639,33 +636,21 @@ fn accessories(
     }
     let place = |vertex: u32| figure.positions[vertex as usize];
     let margin = DVec3::splat(TOUCHING * figure.height());
-    let boxes: Vec<(DVec3, DVec3)> = components
+    let boxes: Vec<Bounds> = components
         .iter()
-        .map(|members| {
-            let low = members.iter().map(|&vertex| place(vertex)).fold(DVec3::INFINITY, DVec3::min);
-            let high = members.iter().map(|&vertex| place(vertex)).fold(DVec3::NEG_INFINITY, DVec3::max);
-            (low - margin, high + margin)
-        })
+        .map(|members| bounds(members.iter().map(|&vertex| place(vertex))))
+        .map(|(low, high)| (low - margin, high + margin))
         .collect();
-    // Components in order of where they begin along x meet only those that begin before they end.
-    let mut order: Vec<usize> = (0..components.len()).collect();
-    order.sort_by(|&a, &b| boxes[a].0.x.total_cmp(&boxes[b].0.x).then(a.cmp(&b)));
-    let mut thing: Vec<usize> = (0..components.len()).collect();
-    let root = |thing: &[usize], mut one: usize| {
-        while thing[one] != one {
-            one = thing[one];
+    let mut groups = Groups::new(components.len());
+    let row = |component: usize| &figure.role_weights[components[component][0] as usize];
+    for (one, other) in touching(&boxes) {
+        if row(one) == row(other) {
+            groups.join(one, other);
         }
-        one
-    };
-    for (at, &one) in order.iter().enumerate() {
-        for &other in order[at + 1..].iter().take_while(|&&other| boxes[other].0.x <= boxes[one].1.x) {
-            let touch = boxes[one].0.cmple(boxes[other].1).all() && boxes[other].0.cmple(boxes[one].1).all();
-            let row = |component: usize| &figure.role_weights[components[component][0] as usize];
-            if touch && row(one) == row(other) {
-                let (a, b) = (root(&thing, one), root(&thing, other));
-                thing[a.max(b)] = a.min(b);
-            }
-        }
+    }
+    let mut things: BTreeMap<usize, Vec<u32>> = BTreeMap::new();
+    for (component, members) in components.iter().enumerate() {
+        things.entry(groups.least(component)).or_default().extend(*members);
     }
     let body: Vec<DVec3> = (0..figure.positions.len())
         .filter(|&vertex| figure.kind(vertex) != MeshKind::Accessory)
@@ -673,12 +658,7 @@ fn accessories(
         .collect();
     let tree = PointTree::new(&body);
     let mut near = Vec::new();
-    for first in (0..components.len()).filter(|&component| thing[component] == component) {
-        let whole: Vec<u32> = (0..components.len())
-            .filter(|&component| root(&thing, component) == first)
-            .flat_map(|component| components[component])
-            .copied()
-            .collect();
+    for whole in things.into_values() {
         let distances: Vec<f64> = whole
             .iter()
             .map(|&vertex| {
@@ -722,9 +702,7 @@ fn small_pieces(
         if members.iter().any(|&v| head_only[v as usize] || manners[v as usize] != Manner::Plain) {
             continue;
         }
-        let positions = members.iter().map(|&vertex| figure.positions[vertex as usize]);
-        let low = positions.clone().fold(DVec3::INFINITY, DVec3::min);
-        let high = positions.fold(DVec3::NEG_INFINITY, DVec3::max);
+        let (low, high) = bounds(members.iter().map(|&vertex| figure.positions[vertex as usize]));
         if (high - low).max_element() > limit {
             continue;
         }

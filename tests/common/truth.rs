@@ -5,7 +5,6 @@ use super::models::host::file::GltfFile;
 use super::models::host::load::{LoadOptions, load};
 use super::models::models;
 use glam::DVec3;
-use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use superdeform::shape::figure::Frame;
@@ -61,16 +60,4 @@ fn case(name: &str, file: GltfFile, rigged: &Character) -> Case {
         .collect();
     let forward = Frame::of(rigged).unwrap().to_model(DVec3::Z);
     Case { name: name.to_string(), character, joints, forward }
-}
-
-/// Joints of a `*.joints.json` by role, under the names that `roles` (role -> joint name) gives.
-pub fn joints_of_json(text: &str, roles: &Value) -> BTreeMap<Role, DVec3> {
-    let joints: BTreeMap<String, [f64; 3]> = serde_json::from_str(text).unwrap();
-    let roles = roles.as_object().unwrap().iter();
-    roles
-        .filter_map(|(role, name)| {
-            let at = joints.get(name.as_str()?)?;
-            Some((Role::all().find(|known| known.name() == role)?, DVec3::from_array(*at)))
-        })
-        .collect()
 }

@@ -62,6 +62,13 @@ fn every_mistake_gets_its_status_and_a_sentence() {
     let flat: &'static [f32] = vec![0.0; 9].leak();
     let circle: &'static [i32] =
         (0..person().skeleton.joints.len() as i32).map(|i| (i + 1) % 3).collect::<Vec<_>>().leak();
+    let by_rows: &'static [[f64; 16]] = person()
+        .skeleton
+        .joints
+        .iter()
+        .map(|joint| joint.rest.transpose().to_cols_array())
+        .collect::<Vec<_>>()
+        .leak();
     let wild: &'static [i32] = vec![-7; person().skeleton.joints.len()].leak();
     let text_group = CString::new("knees").unwrap();
     let nan = f64::NAN;
@@ -293,6 +300,18 @@ fn every_mistake_gets_its_status_and_a_sentence() {
             "a rest matrix that is NAN",
             SDEF_STATUS_BAD_INPUT,
             with_skeleton(empty, move |skeleton| skeleton.rest_matrices = nan_matrix.as_ptr()),
+        ),
+        (
+            "rest matrices row by row",
+            SDEF_STATUS_BAD_INPUT,
+            with_skeleton(empty, move |skeleton| skeleton.rest_matrices = by_rows.as_ptr().cast()),
+        ),
+        (
+            "one joint for two roles",
+            SDEF_STATUS_BAD_INPUT,
+            with_skeleton(empty, move |skeleton| {
+                (skeleton.role_joints, skeleton.role_count) = (zeros.as_ptr().cast(), 2);
+            }),
         ),
         (
             "a matrix stride of 64",

@@ -150,7 +150,7 @@ internal static unsafe partial class Native
     ///
     /// up:        3 floats, from the feet to the head, any length but 0; NULL: (0, 1, 0)
     /// forward:   3 floats, the way the face looks, at any angle to up but 0; NULL: found from left and right limbs, as in
-    /// right-handed axes, so a left-handed host gives it
+    /// right-handed axes, so a left-handed host gives it; without joints from feet and face
     /// character: receives the handle
     ///
     /// Errors: BAD_ARGUMENT, BAD_INPUT.
@@ -217,7 +217,7 @@ internal static unsafe partial class Native
     /// first, and ride along with the body; its own weights are not used.
     ///
     /// options: NULL for the defaults; thread_count, rig_weights, rig_garments, rig_voxel_resolution, rig_fingers,
-    /// rig_chin_segment, rig_heat and rig_joints are read
+    /// rig_chin_segment, rig_heat, rig_joints and rig_left_handed are read
     ///
     /// Read the result with sdef_character_get_joints and sdef_character_get_weights. Errors: BAD_OPTION, NO_GEOMETRY, BUSY,
     /// CANCELLED.
@@ -234,7 +234,8 @@ internal static unsafe partial class Native
     /// Gives a character its joints, in place of any that it had. Comes before meshes with weights, which name joints.
     ///
     /// Errors: BAD_ARGUMENT; BAD_INPUT with the joint as the element: a parent that is none, a circle of parents, a number
-    /// that is not finite, a role for a joint that is none; or weights of a mesh for a joint that is no more.
+    /// that is not finite, a matrix row by row, a role for a joint that is none or has one; or weights of a mesh for a joint
+    /// that is no more.
     /// </summary>
     [DllImport(Library, ExactSpelling = true, CallingConvention = CallingConvention.Cdecl)]
     internal static extern UInt32 sdef_character_set_skeleton(
@@ -358,9 +359,9 @@ internal static unsafe partial class Native
         SdefError* error);
 
     /// <summary>
-    /// Changes the face alone; nothing of the body is done again.
+    /// Changes the face alone, until options are set again; nothing of the body is done again.
     ///
-    /// squash: SdefOptions.face_squash
+    /// squash: as SdefOptions.face_squash, NAN too
     /// curve:  SDEF_FACE_CURVE_*
     ///
     /// Errors: BAD_ARGUMENT, BAD_OPTION, BUSY.
@@ -374,7 +375,7 @@ internal static unsafe partial class Native
 
     /// <summary>
     /// Changes the options of a deformer, with the same results as a new one and for less: only what hangs on the change is
-    /// done again. For sliders.
+    /// done again. For sliders. What sdef_deformer_set_face has set goes too.
     ///
     /// Errors: as sdef_deformer_create, after which the deformer is as it was; BUSY.
     /// </summary>
@@ -462,7 +463,7 @@ internal static unsafe partial class Native
     /// A style of so many heads.
     ///
     /// heads: 1.8 to 6, crown to sole over crown to chin
-    /// like:  a style with everything below its head stretched or shortened; none ({0}): everything after the target
+    /// like:  a style with everything below its head stretched or shortened; the handle 0: everything after the target
     ///
     /// Errors: BAD_OPTION; BAD_STYLE where like has no proportions.
     /// </summary>
@@ -600,7 +601,8 @@ internal unsafe struct SdefCharacter {
 /// fixed: influence_count joints and weights a vertex, vertex after vertex; row_starts is NULL.
 /// rows:  vertex v has the joints and weights row_starts[v] to row_starts[v + 1] - 1; influence_count is how many there
 /// are in all, row_starts holds vertex_count + 1 numbers that rise from 0, both strides are 0.
-/// Weights are 0 or more; each vertex's are scaled to sum 1 where it matters. Weight 0 may name any joint.
+/// Weights are 0 or more; each vertex's are scaled to sum 1 where it matters. Weight 0 may name any joint. A vertex
+/// whose weights are all 0 moves with the hips.
 /// </summary>
 [StructLayout(LayoutKind.Sequential)]
 internal unsafe struct SdefMesh {
@@ -636,7 +638,7 @@ internal unsafe struct SdefMesh {
     public UIntPtr position_stride;
 
     /// <summary>
-    /// 3 floats a vertex, unit length; may be NULL
+    /// 3 floats a vertex, of any length: unit vectors come out; may be NULL
     /// </summary>
     public float* normals;
 
@@ -646,7 +648,7 @@ internal unsafe struct SdefMesh {
     public UIntPtr normal_stride;
 
     /// <summary>
-    /// 4 floats a vertex: a unit vector and the handedness; may be NULL
+    /// 4 floats a vertex: a vector, of any length too, and the handedness; may be NULL
     /// </summary>
     public float* tangents;
 
@@ -666,17 +668,17 @@ internal unsafe struct SdefMesh {
     public UIntPtr index_count;
 
     /// <summary>
-    /// SDEF_TYPE_U8, _U16 or _U32
+    /// SDEF_TYPE_U8, _U16 or _U32 (or 0): how wide the array's numbers are
     /// </summary>
     public UInt32 index_type;
 
     /// <summary>
-    /// SDEF_TYPE_U8, _U16 or _U32
+    /// SDEF_TYPE_U8, _U16 or _U32 (or 0), likewise
     /// </summary>
     public UInt32 joint_type;
 
     /// <summary>
-    /// SDEF_TYPE_F32, _U8 or _U16
+    /// SDEF_TYPE_U8, _U16 or _F32 (or 0), likewise
     /// </summary>
     public UInt32 weight_type;
 
@@ -722,7 +724,7 @@ internal unsafe struct SdefMesh {
 [StructLayout(LayoutKind.Sequential)]
 internal unsafe struct SdefError {
     /// <summary>
-    /// sizeof(SdefError)
+    /// sizeof(SdefError); 0 or else too small to hold a sentence gives BAD_ARGUMENT and none
     /// </summary>
     public UInt32 struct_size;
 
@@ -1040,9 +1042,9 @@ internal unsafe struct SdefOptions {
     public UInt32 rig_joint_count;
 
     /// <summary>
-    /// 0
+    /// rig: 1 tells left from right in left-handed axes (Unity's); default 0
     /// </summary>
-    public UInt32 reserved;
+    public UInt32 rig_left_handed;
 }
 
 [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
@@ -1089,8 +1091,8 @@ internal unsafe struct SdefSkeleton {
     public UIntPtr rest_stride;
 
     /// <summary>
-    /// by SDEF_ROLE_*: the joint that plays the role, or -1; roles that are left out are guessed where required ones are
-    /// missing, from names and from the shape of the skeleton; may be NULL
+    /// by SDEF_ROLE_*: the joint that plays the role, or -1; a joint plays one role; where hips, head, an upper leg or
+    /// upper arm is left out, roles are guessed from names and the shape of the skeleton; may be NULL
     /// </summary>
     public Int32* role_joints;
 }
@@ -1158,7 +1160,7 @@ internal unsafe struct SdefMeshResult {
     public UIntPtr tangent_stride;
 
     /// <summary>
-    /// 3 floats a vertex, all vertices of the mesh for one target after the other, packed
+    /// 3 floats a vertex, packed: what a target adds at weight 1, all vertices of the mesh for one target after the other
     /// </summary>
     public float* morph_positions;
 

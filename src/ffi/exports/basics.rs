@@ -24,7 +24,7 @@ pub const SDEF_STATUS_BAD_INPUT: u32 = 3;
 pub const SDEF_STATUS_BAD_OPTION: u32 = 4;
 /// A style cannot be read, or lacks what the mode transfers.
 pub const SDEF_STATUS_BAD_STYLE: u32 = 5;
-/// No joints for hips, head, upper legs and upper arms: name them, or make a rig.
+/// No joints for hips, head, upper legs, upper arms: name them, or make a rig.
 pub const SDEF_STATUS_NO_HUMANOID: u32 = 6;
 /// There are no triangles, or they have no extent along up.
 pub const SDEF_STATUS_NO_GEOMETRY: u32 = 7;
@@ -43,7 +43,7 @@ pub const SDEF_STATUS_INTERNAL: u32 = 12;
 #[derive_ReprC]
 #[repr(C)]
 pub struct SdefError {
-    /// sizeof(SdefError)
+    /// sizeof(SdefError); 0 or else too small to hold a sentence gives BAD_ARGUMENT and none
     pub struct_size: u32,
     /// as returned
     pub status: SdefStatus,

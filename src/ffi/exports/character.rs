@@ -151,7 +151,8 @@ pub const SDEF_ROLE_UPPER_CHEST: u32 = 54;
 /// fixed: influence_count joints and weights a vertex, vertex after vertex; row_starts is NULL.
 /// rows:  vertex v has the joints and weights row_starts[v] to row_starts[v + 1] - 1; influence_count is how many there
 ///        are in all, row_starts holds vertex_count + 1 numbers that rise from 0, both strides are 0.
-/// Weights are 0 or more; each vertex's are scaled to sum 1 where it matters. Weight 0 may name any joint.
+/// Weights are 0 or more; each vertex's are scaled to sum 1 where it matters. Weight 0 may name any joint. A vertex
+/// whose weights are all 0 moves with the hips.
 #[derive_ReprC]
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
@@ -169,11 +170,11 @@ pub struct SdefMesh {
     pub positions: *const f32,
     /// bytes from vertex to vertex; 0: 12
     pub position_stride: usize,
-    /// 3 floats a vertex, unit length; may be NULL
+    /// 3 floats a vertex, of any length: unit vectors come out; may be NULL
     pub normals: *const f32,
     /// bytes from vertex to vertex; 0: 12
     pub normal_stride: usize,
-    /// 4 floats a vertex: a unit vector and the handedness; may be NULL
+    /// 4 floats a vertex: a vector, of any length too, and the handedness; may be NULL
     pub tangents: *const f32,
     /// bytes from vertex to vertex; 0: 16
     pub tangent_stride: usize,
@@ -181,11 +182,11 @@ pub struct SdefMesh {
     pub indices: *const c_void,
     /// numbers in indices: 3 times the triangles
     pub index_count: usize,
-    /// SDEF_TYPE_U8, _U16 or _U32
+    /// SDEF_TYPE_U8, _U16 or _U32 (or 0): how wide the array's numbers are
     pub index_type: u32,
-    /// SDEF_TYPE_U8, _U16 or _U32
+    /// SDEF_TYPE_U8, _U16 or _U32 (or 0), likewise
     pub joint_type: u32,
-    /// SDEF_TYPE_F32, _U8 or _U16
+    /// SDEF_TYPE_U8, _U16 or _F32 (or 0), likewise
     pub weight_type: u32,
     /// 0
     pub reserved: u32,
@@ -247,8 +248,8 @@ pub struct SdefSkeleton {
     pub rest_matrices: *const f64,
     /// bytes from matrix to matrix; 0: 128
     pub rest_stride: usize,
-    /// by SDEF_ROLE_*: the joint that plays the role, or -1; roles that are left out are guessed where required ones are
-    /// missing, from names and from the shape of the skeleton; may be NULL
+    /// by SDEF_ROLE_*: the joint that plays the role, or -1; a joint plays one role; where hips, head, an upper leg or
+    /// upper arm is left out, roles are guessed from names and the shape of the skeleton; may be NULL
     pub role_joints: *const i32,
 }
 
@@ -279,7 +280,7 @@ pub struct SdefCharacterInfo {
 ///
 /// up:        3 floats, from the feet to the head, any length but 0; NULL: (0, 1, 0)
 /// forward:   3 floats, the way the face looks, at any angle to up but 0; NULL: found from left and right limbs, as in
-///            right-handed axes, so a left-handed host gives it
+///            right-handed axes, so a left-handed host gives it; without joints from feet and face
 /// character: receives the handle
 ///
 /// Errors: BAD_ARGUMENT, BAD_INPUT.
@@ -296,7 +297,8 @@ pub unsafe extern "C" fn sdef_character_create(
 /// Gives a character its joints, in place of any that it had. Comes before meshes with weights, which name joints.
 ///
 /// Errors: BAD_ARGUMENT; BAD_INPUT with the joint as the element: a parent that is none, a circle of parents, a number
-/// that is not finite, a role for a joint that is none; or weights of a mesh for a joint that is no more.
+/// that is not finite, a matrix row by row, a role for a joint that is none or has one; or weights of a mesh for a joint
+/// that is no more.
 #[ffi_export]
 pub unsafe extern "C" fn sdef_character_set_skeleton(
     character: SdefCharacter,

@@ -30,7 +30,7 @@ pub struct SdefMeshResult {
     pub tangents: *mut f32,
     /// bytes from vertex to vertex; 0: 16
     pub tangent_stride: usize,
-    /// 3 floats a vertex, all vertices of the mesh for one target after the other, packed
+    /// 3 floats a vertex, packed: what a target adds at weight 1, all vertices of the mesh for one target after the other
     pub morph_positions: *mut f32,
     /// likewise; 0 for targets that were given without
     pub morph_normals: *mut f32,
@@ -127,7 +127,7 @@ pub unsafe extern "C" fn sdef_deformer_create(
 }
 
 /// Changes the options of a deformer, with the same results as a new one and for less: only what hangs on the change is
-/// done again. For sliders.
+/// done again. For sliders. What sdef_deformer_set_face has set goes too.
 ///
 /// Errors: as sdef_deformer_create, after which the deformer is as it was; BUSY.
 #[ffi_export]
@@ -141,9 +141,9 @@ pub unsafe extern "C" fn sdef_deformer_set_options(
     unsafe { deformer::set_options(deformer, options, progress, user, error) }
 }
 
-/// Changes the face alone; nothing of the body is done again.
+/// Changes the face alone, until options are set again; nothing of the body is done again.
 ///
-/// squash: SdefOptions.face_squash
+/// squash: as SdefOptions.face_squash, NAN too
 /// curve:  SDEF_FACE_CURVE_*
 ///
 /// Errors: BAD_ARGUMENT, BAD_OPTION, BUSY.

@@ -15,9 +15,10 @@
 //!
 //! ```text
 //! Units      Any. Results are in the units of the input; angles do not occur.
-//! Space      One space for everything ("model space"), in rest pose. Right-handed or left-handed, any direction up.
-//!            Winding is kept. Vertices are floats, joints and points are doubles.
-//! Matrices   16 doubles, column by column, for column vectors: the translation is numbers 12, 13 and 14.
+//! Space      One space for everything ("model space"), in rest pose. Right-handed or left-handed, any direction up, any
+//!            winding: a mirrored character gives the mirrored result. Vertices are floats, joints and points doubles.
+//! Matrices   16 doubles, column by column, for column vectors: the translation is numbers 12, 13 and 14, and numbers
+//!            3, 7, 11 and 15 are 0, 0, 0 and 1.
 //! Handles    A handle is a number, not an address. 0 is none. One that is destroyed, made up or of another kind gives
 //!            SDEF_STATUS_BAD_HANDLE and nothing worse. Styles and deformers keep what they need of a character, which
 //!            may be changed or destroyed before them.

@@ -9,7 +9,7 @@ use safer_ffi::prelude::*;
 
 /// 15 parts that meet at landmarks of the body: what most hosts want.
 pub const SDEF_MODE_PRODUCT: u32 = 0;
-/// The chain of bones of the paper (Wang et al., Body-shape Transfer), literally.
+/// The paper's chain of bones (Wang et al., Body-shape Transfer), literally.
 pub const SDEF_MODE_PAPER: u32 = 1;
 
 /// Lengths only.
@@ -136,8 +136,8 @@ pub struct SdefOptions {
     pub rig_joints: *const SdefGivenJoint,
     /// elements of rig_joints
     pub rig_joint_count: u32,
-    /// 0
-    pub reserved: u32,
+    /// rig: 1 tells left from right in left-handed axes (Unity's); default 0
+    pub rig_left_handed: u32,
 }
 
 /// Fills *options with the defaults.

@@ -83,7 +83,7 @@ pub struct SdefStyleNumbers {
 /// A style of so many heads.
 ///
 /// heads: 1.8 to 6, crown to sole over crown to chin
-/// like:  a style with everything below its head stretched or shortened; none ({0}): everything after the target
+/// like:  a style with everything below its head stretched or shortened; the handle 0: everything after the target
 ///
 /// Errors: BAD_OPTION; BAD_STYLE where like has no proportions.
 #[ffi_export]
