@@ -1,0 +1,45 @@
+using System;
+
+namespace SuperDeform.Editor
+{
+    /// <summary>
+    /// A conversion that ended without a result, for a reason that an artist can read and often mend. Nothing is left behind.
+    /// </summary>
+    public sealed class ConversionException : Exception
+    {
+        /// <summary>The reason.</summary>
+        public Finding Finding { get; private set; }
+
+        /// <summary>True where the person asked to stop: nothing went wrong.</summary>
+        public bool Cancelled
+        {
+            get { return Finding.Key == "cancelled"; }
+        }
+
+        public ConversionException(Finding finding) : base(finding.Text)
+        {
+            Finding = finding;
+        }
+
+        public ConversionException(Finding finding, Exception cause) : base(finding.Text, cause)
+        {
+            Finding = finding;
+        }
+
+        /// <summary>The reason behind what the library or the editor threw.</summary>
+        /// <param name="where">What was being converted; may be null.</param>
+        public static ConversionException From(Exception cause, UnityEngine.Object where)
+        {
+            ConversionException known = cause as ConversionException;
+            if (known != null) return known;
+            string key = "failed";
+            if (cause is CancelledException) return new ConversionException(new Finding("cancelled", Severity.Info, where), cause);
+            if (cause is LibraryMissingException) key = "library_missing";
+            else if (cause is LibraryVersionException) key = "library_version";
+            else if (cause is SuperDeformException) key = "library_says";
+            // A fault of this package, perhaps: where it happened helps to mend it.
+            else UnityEngine.Debug.LogException(cause, where);
+            return new ConversionException(new Finding(key, Severity.Error, where, cause.Message), cause);
+        }
+    }
+}

@@ -1,0 +1,31 @@
+using System.Collections.Generic;
+using UnityEngine;
+
+namespace SuperDeform.Editor
+{
+    /// <summary>What a conversion leaves behind.</summary>
+    public sealed class ConversionResult
+    {
+        /// <summary>The prefab of the super-deformed avatar.</summary>
+        public GameObject Prefab;
+
+        /// <summary>
+        /// Its path, such as "Assets/Mika_SD/Mika_SD.prefab"; meshes, Avatar and settings are in the .asset beside it.
+        /// </summary>
+        public string PrefabPath;
+
+        /// <summary>
+        /// The prefab's instance beside the source; null where the source is no object of a scene or none was wanted.
+        /// </summary>
+        public GameObject Instance;
+
+        /// <summary>The numbers of the run.</summary>
+        public Report Report;
+
+        /// <summary>The same and more, as JSON text.</summary>
+        public string ReportJson;
+
+        /// <summary>What a person should know about it.</summary>
+        public List<Finding> Findings = new List<Finding>();
+    }
+}

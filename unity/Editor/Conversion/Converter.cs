@@ -1,0 +1,151 @@
+using System;
+using System.Collections.Generic;
+using UnityEditor;
+using UnityEngine;
+
+namespace SuperDeform.Editor
+{
+    /// <summary>Makes a super-deformed avatar of another: a new prefab, and nothing of the source changed.</summary>
+    public static class Converter
+    {
+        /// <summary>Converts one avatar: all or nothing.</summary>
+        /// <param name="avatar">Its root, an object of a scene or a prefab.</param>
+        /// <param name="progress">Null for none.</param>
+        /// <remarks>
+        /// Shows no dialog. Where the avatar stands in a scene and the settings want it, an instance of the result is
+        /// put beside it, which Undo takes away; the assets stay.
+        /// </remarks>
+        /// <exception cref="ConversionException">It cannot be done, and why; nothing is left behind.</exception>
+        public static ConversionResult Convert(GameObject avatar, ConversionSettings settings, IConversionProgress progress)
+        {
+            if (settings == null) throw new ArgumentNullException("settings");
+            try
+            {
+                StageProgress stages = new StageProgress(progress);
+                stages.Begin(ConversionStage.Reading);
+                List<Finding> findings = AvatarChecks.Of(avatar, settings.RigAuto);
+                if (findings.Count > 0 && findings[0].Severity == Severity.Error) throw new ConversionException(findings[0]);
+                Options options = settings.MakeOptions();
+                ReadOptions reading = new ReadOptions
+                {
+                    WithMorphs = true,
+                    RigAuto = settings.RigAuto,
+                    RigOptions = options,
+                    RigProgress = stages.Within(ConversionStage.Rigging)
+                };
+                using (AvatarData source = CharacterReader.Read(avatar, reading))
+                {
+                    stages.Begin(ConversionStage.Measuring);
+                    using (Style style = settings.MakeStyle())
+                    using (Deformer deformer = new Deformer(source.Character, style, options, stages.Part(ConversionStage.Deforming, 0f, 0.5f)))
+                    {
+                        return Finish(source, deformer, settings, findings, stages);
+                    }
+                }
+            }
+            catch (Exception cause)
+            {
+                throw ConversionException.From(cause, avatar);
+            }
+        }
+
+        static ConversionResult Finish(AvatarData source, Deformer deformer, ConversionSettings settings, List<Finding> findings, StageProgress stages)
+        {
+            AvatarResult result = new AvatarResult(source, false);
+            result.Apply(deformer, stages.Part(ConversionStage.Deforming, 0.5f, 1f));
+            stages.Begin(ConversionStage.Reporting);
+            ConversionResult done = new ConversionResult
+            {
+                Report = deformer.GetReport(),
+                ReportJson = deformer.GetReportJson(),
+                Findings = findings
+            };
+            foreach (Warning warning in deformer.Warnings)
+            {
+                done.Findings.Add(new Finding("library_notes", Severity.Warning, source.Root, warning.Text));
+            }
+            stages.Begin(ConversionStage.Writing);
+            using (ResultFolder folder = new ResultFolder(ParentFolder(source.Root, settings), source.Root.name))
+            {
+                Save(source, result, deformer, settings, folder, done, stages);
+            }
+            if (settings.PlaceInScene && !EditorUtility.IsPersistent(source.Root)) done.Instance = PlaceBeside(source, done.Prefab, result);
+            stages.End();
+            return done;
+        }
+
+        static void Save(AvatarData source, AvatarResult result, Deformer deformer, ConversionSettings settings, ResultFolder folder, ConversionResult done, StageProgress stages)
+        {
+            GameObject copy = UnityEngine.Object.Instantiate(source.Root);
+            PointMap map = new PointMap(source, result, deformer, copy.transform);
+            SuperDeformPreset preset = ScriptableObject.CreateInstance<SuperDeformPreset>();
+            bool saved = false;
+            try
+            {
+                copy.name = source.Root.name + "_SD";
+                if (!EditorUtility.IsPersistent(source.Root))
+                {
+                    copy.transform.localPosition = new Vector3(0, 0, 0);
+                    copy.transform.localRotation = Quaternion.identity;
+                }
+                CharacterWriter.Write(copy, map, source, result, done.Findings);
+                preset.Settings = settings.Clone();
+                // An asset cannot name objects of a scene.
+                if (preset.Settings.ReferenceAvatar != null && !EditorUtility.IsPersistent(preset.Settings.ReferenceAvatar)) preset.Settings.ReferenceAvatar = null;
+                stages.Begin(ConversionStage.Saving);
+                done.PrefabPath = folder.Save(copy, preset, map.Assets);
+                done.Prefab = AssetDatabase.LoadAssetAtPath<GameObject>(done.PrefabPath);
+                saved = true;
+            }
+            finally
+            {
+                UnityEngine.Object.DestroyImmediate(copy);
+                if (!saved)
+                {
+                    // The folder goes with those that are assets by now.
+                    folder.Dispose();
+                    map.Assets.Add(preset);
+                    foreach (UnityEngine.Object asset in map.Assets)
+                    {
+                        if (asset != null) UnityEngine.Object.DestroyImmediate(asset, true);
+                    }
+                }
+            }
+        }
+
+        /// <summary>The settings' folder, else that of the avatar's own asset, else "Assets".</summary>
+        static string ParentFolder(GameObject avatar, ConversionSettings settings)
+        {
+            string folder = (settings.OutputFolder ?? "").Replace('\\', '/').Trim().TrimEnd('/');
+            if (folder.Length > 0)
+            {
+                bool inProject = folder == "Assets" || folder.StartsWith("Assets/") || folder.StartsWith("Packages/");
+                if (!inProject) throw new ConversionException(new Finding("folder_outside", Severity.Error, null, folder));
+                return folder;
+            }
+            string path = AssetDatabase.GetAssetPath(avatar);
+            int slash = string.IsNullOrEmpty(path) ? -1 : path.LastIndexOf('/');
+            return slash > 0 && path.StartsWith("Assets/") ? path.Substring(0, slash) : "Assets";
+        }
+
+        /// <summary>An instance of the result, to the right of the source, as a child of the same object.</summary>
+        static GameObject PlaceBeside(AvatarData source, GameObject prefab, AvatarResult result)
+        {
+            GameObject instance = (GameObject)PrefabUtility.InstantiatePrefab(prefab);
+            Undo.RegisterCreatedObjectUndo(instance, Strings.Get("undo_convert"));
+            Box box = new Box();
+            foreach (RendererData renderer in source.Renderers)
+            {
+                Box of = Box.Around(renderer.ModelVertices);
+                box.Add(of.Low);
+                box.Add(of.High);
+            }
+            Transform original = source.Root.transform, placed = instance.transform;
+            placed.SetParent(original.parent, false);
+            Vector3 aside = new Vector3((float)box.Size.X * original.localScale.x, 0, 0);
+            placed.localRotation = original.localRotation;
+            placed.localPosition = original.localPosition + original.localRotation * aside;
+            return instance;
+        }
+    }
+}

@@ -1,0 +1,192 @@
+using System;
+using System.Collections.Generic;
+using UnityEngine;
+
+namespace SuperDeform.Editor
+{
+    /// <summary>
+    /// Where points that hang from transforms go: colliders, eyes, viewpoints, the tails of springs.
+    ///
+    /// Transforms of the source and of the new avatar mean the same. What hangs from the root itself, or from an avatar that
+    /// came without bones, keeps its place on the ground and grows with the avatar's height.
+    /// </summary>
+    public sealed class PointMap
+    {
+        readonly AvatarData source;
+        readonly AvatarResult result;
+        readonly Deformer deformer;
+        readonly Dictionary<Transform, Transform> sourceOf = new Dictionary<Transform, Transform>();
+        readonly Dictionary<Transform, Transform> copyOf = new Dictionary<Transform, Transform>();
+        readonly Dictionary<Renderer, Mesh> newMeshes = new Dictionary<Renderer, Mesh>();
+        readonly List<UnityEngine.Object> assets = new List<UnityEngine.Object>();
+        readonly uint[] joints = new uint[1];
+        readonly double[] points = new double[3], positions = new double[3], scales = new double[1], jacobian = new double[9];
+
+        /// <summary>copy: the new avatar's root, whose hierarchy is the source's</summary>
+        internal PointMap(AvatarData source, AvatarResult result, Deformer deformer, Transform copy)
+        {
+            this.source = source;
+            this.result = result;
+            this.deformer = deformer;
+            Pair(source.Root.transform, copy);
+        }
+
+        void Pair(Transform original, Transform copy)
+        {
+            sourceOf[copy] = original;
+            copyOf[original] = copy;
+            for (int child = 0; child < original.childCount && child < copy.childCount; child++)
+            {
+                Pair(original.GetChild(child), copy.GetChild(child));
+            }
+        }
+
+        /// <summary>New over old height of the avatar; for lengths that belong to all of it.</summary>
+        public float HeightRatio
+        {
+            get { return (float)result.HeightRatio; }
+        }
+
+        /// <summary>
+        /// The new avatar's transform that stands for one of the source; one of the new avatar is given back, others are null.
+        /// </summary>
+        public Transform Joint(Transform sourceOrCopy)
+        {
+            if (sourceOrCopy == null) return null;
+            Transform copy;
+            if (copyOf.TryGetValue(sourceOrCopy, out copy)) return copy;
+            return sourceOf.ContainsKey(sourceOrCopy) ? sourceOrCopy : null;
+        }
+
+        /// <summary>
+        /// The source's transform that stands for one of the new avatar; one of the source is given back, others are null.
+        /// </summary>
+        public Transform Source(Transform sourceOrCopy)
+        {
+            if (sourceOrCopy == null) return null;
+            Transform original;
+            if (sourceOf.TryGetValue(sourceOrCopy, out original)) return original;
+            return copyOf.ContainsKey(sourceOrCopy) ? sourceOrCopy : null;
+        }
+
+        /// <summary>Where a point goes.</summary>
+        /// <param name="local">In the joint's space, in the source's units.</param>
+        /// <returns>It in the moved joint's space. One of a transform outside the avatar stays.</returns>
+        public Vector3 Point(Transform joint, Vector3 local)
+        {
+            Place(joint, Double3.Of(local));
+            Double3 moved = new Double3(positions[0], positions[1], positions[2]);
+            Double3 back = NewRest(joint).Inverse.Point(moved);
+            return back.IsFinite ? back.ToVector3() : local;
+        }
+
+        /// <summary>By how much small things at a point grow: the radius of a collider.</summary>
+        public float Scale(Transform joint, Vector3 local)
+        {
+            Place(joint, Double3.Of(local));
+            return double.IsNaN(scales[0]) || double.IsInfinity(scales[0]) ? 1 : (float)scales[0];
+        }
+
+        /// <summary>The new normal of a small plane, in the moved joint's space; it keeps its length.</summary>
+        public Vector3 Normal(Transform joint, Vector3 local, Vector3 normal)
+        {
+            Place(joint, Double3.Of(local));
+            Affine stretch = new Affine
+            {
+                M00 = jacobian[0], M10 = jacobian[1], M20 = jacobian[2],
+                M01 = jacobian[3], M11 = jacobian[4], M21 = jacobian[5],
+                M02 = jacobian[6], M12 = jacobian[7], M22 = jacobian[8]
+            };
+            Affine axes = OldRest(joint);
+            Double3 old = Double3.Of(normal);
+            Double3 model = axes.Inverse.LinearTransposed.Direction(old);
+            Double3 turned = axes.LinearTransposed.Direction(stretch.Inverse.LinearTransposed.Direction(model)).Normalized * old.Length;
+            return turned.IsFinite && turned.Length > 0 ? turned.ToVector3() : normal;
+        }
+
+        /// <summary>
+        /// The mesh that stands for the one that a renderer of the source or the new avatar showed; null where there is none.
+        /// </summary>
+        public Mesh MeshOf(Mesh old)
+        {
+            foreach (KeyValuePair<Renderer, Mesh> made in newMeshes)
+            {
+                if (RendererReader.MeshOf(made.Key) == old) return made.Value;
+            }
+            return null;
+        }
+
+        /// <summary>
+        /// Keeps an asset that an adapter has made beside the new meshes, and destroys it where the conversion fails.
+        /// </summary>
+        public void AddAsset(UnityEngine.Object asset)
+        {
+            if (asset == null) throw new ArgumentNullException("asset");
+            if (!assets.Contains(asset)) assets.Add(asset);
+        }
+
+        internal List<UnityEngine.Object> Assets
+        {
+            get { return assets; }
+        }
+
+        internal void Remember(Renderer original, Mesh made)
+        {
+            newMeshes[original] = made;
+            AddAsset(made);
+        }
+
+        /// <summary>The mesh that was made for a renderer of the source.</summary>
+        internal Mesh MeshFor(Renderer original)
+        {
+            return newMeshes[original];
+        }
+
+        internal Transform CopyOf(Transform original)
+        {
+            return copyOf[original];
+        }
+
+        int IndexOf(Transform joint)
+        {
+            int index = source.Rigged ? source.IndexOf(Source(joint)) : -1;
+            return index == 0 && source.HoldsRoot ? -1 : index;
+        }
+
+        Affine OldRest(Transform joint)
+        {
+            int index = source.IndexOf(Source(joint));
+            return index < 0 ? Affine.Identity : source.Rest[index];
+        }
+
+        Affine NewRest(Transform joint)
+        {
+            int index = source.IndexOf(Source(joint));
+            return index < 0 ? Affine.Identity : result.Rest[index];
+        }
+
+        /// <summary>Fills positions, scales and jacobian, in the root's space.</summary>
+        void Place(Transform joint, Double3 local)
+        {
+            Double3 model = OldRest(joint).Point(local);
+            int index = IndexOf(joint);
+            if (index < 0)
+            {
+                bool outside = Source(joint) == null;
+                double ratio = outside ? 1 : result.HeightRatio, oldLow = outside ? 0 : result.OldLow, newLow = outside ? 0 : result.NewLow;
+                positions[0] = model.X * ratio;
+                positions[1] = newLow + (model.Y - oldLow) * ratio;
+                positions[2] = model.Z * ratio;
+                scales[0] = ratio;
+                Array.Clear(jacobian, 0, 9);
+                jacobian[0] = jacobian[4] = jacobian[8] = ratio;
+                return;
+            }
+            joints[0] = (uint)index;
+            points[0] = model.X;
+            points[1] = model.Y;
+            points[2] = model.Z;
+            deformer.MapPoints(joints, points, positions, scales, jacobian);
+        }
+    }
+}

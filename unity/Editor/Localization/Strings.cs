@@ -1,0 +1,109 @@
+using System;
+using System.Collections.Generic;
+using System.Globalization;
+using System.IO;
+using System.Runtime.CompilerServices;
+using UnityEditor;
+using UnityEngine;
+
+namespace SuperDeform.Editor
+{
+    /// <summary>What the package says to people, in their language.</summary>
+    /// <remarks>
+    /// The texts stand in one file a language beside this one, <c>en.json</c> and <c>ja.json</c>: an object from keys to
+    /// texts, in which {0}, {1} stand for values. Both have the same keys. English answers where another language cannot.
+    /// </remarks>
+    public static class Strings
+    {
+        private const string Chosen = "SuperDeform.Language";
+        private static readonly string[] languages = { "en", "ja" };
+        private static readonly Dictionary<string, Dictionary<string, string>> read =
+            new Dictionary<string, Dictionary<string, string>>();
+        private static string language;
+
+        /// <summary>The languages there are: "en", "ja".</summary>
+        public static IList<string> Languages { get { return Array.AsReadOnly(languages); } }
+
+        /// <summary>The language in use. At first the one chosen last, else the system's, else "en".</summary>
+        /// <exception cref="ArgumentException">There is no such language.</exception>
+        public static string Language
+        {
+            get
+            {
+                if (language == null)
+                {
+                    string own = Application.systemLanguage == SystemLanguage.Japanese ? "ja" : "en";
+                    string chosen = EditorPrefs.GetString(Chosen, own);
+                    language = Array.IndexOf(languages, chosen) >= 0 ? chosen : own;
+                }
+                return language;
+            }
+            set
+            {
+                if (Array.IndexOf(languages, value) < 0)
+                    throw new ArgumentException("There is no language " + value + ": use one of "
+                        + string.Join(", ", languages) + ".");
+                language = value;
+                EditorPrefs.SetString(Chosen, value);
+            }
+        }
+
+        /// <summary>The text of a key, with the values put in; numbers are written with a point in every language.</summary>
+        /// <returns>The key itself, and the values after it, where no language has it: nothing is lost.</returns>
+        public static string Get(string key, params object[] values)
+        {
+            string text;
+            if (!Of(Language).TryGetValue(key, out text) && !Of("en").TryGetValue(key, out text))
+                return values == null || values.Length == 0 ? key : key + ": " + string.Join(", ", values);
+            try
+            {
+                return values == null || values.Length == 0
+                    ? text : string.Format(CultureInfo.InvariantCulture, text, values);
+            }
+            catch (FormatException)
+            {
+                return text;
+            }
+        }
+
+        /// <summary>Whether English has a text for a key.</summary>
+        public static bool Has(string key)
+        {
+            return Of("en").ContainsKey(key);
+        }
+
+        private static Dictionary<string, string> Of(string language)
+        {
+            Dictionary<string, string> texts;
+            if (read.TryGetValue(language, out texts))
+                return texts;
+            texts = new Dictionary<string, string>();
+            // A file that cannot be read must not take the window down with it: then keys are shown.
+            try
+            {
+                foreach (KeyValuePair<string, string> text in FlatJson.Read(File.ReadAllText(FileOf(language))))
+                    texts.Add(text.Key, text.Value);
+            }
+            catch (Exception wrong)
+            {
+                Debug.LogWarning("Super Deform: the texts in " + FileOf(language) + " cannot be read: " + wrong.Message);
+            }
+            read.Add(language, texts);
+            return texts;
+        }
+
+        /// <summary>Where the texts of a language are: in the package, or beside this file where it was compiled.</summary>
+        internal static string FileOf(string language)
+        {
+            // Unity maps this virtual path to wherever the package lies (manual: Accessing package assets).
+            string inPackage = Path.GetFullPath("Packages/com.superdeform.converter/Editor/Localization/" + language
+                + ".json");
+            return File.Exists(inPackage) ? inPackage : Path.Combine(Path.GetDirectoryName(ThisFile()), language + ".json");
+        }
+
+        private static string ThisFile([CallerFilePath] string path = "")
+        {
+            return path;
+        }
+    }
+}

@@ -1,0 +1,272 @@
+using System;
+using System.Collections.Generic;
+using UnityEngine;
+
+namespace SuperDeform.Editor
+{
+    /// <summary>Shows what an avatar becomes, in the Scene view, while settings change. The avatar is never changed.</summary>
+    /// <remarks>
+    /// The avatar is read and measured once. A slider then costs what the library has to do again, a deformation into arrays
+    /// that are kept, and handing those to the proxy's meshes. Blend shapes take no part. The proxy is never saved, and
+    /// Dispose takes it away: on closing, before scripts reload, and before play mode.
+    /// </remarks>
+    public sealed class PreviewSession : IDisposable
+    {
+        private readonly AvatarData avatar;
+        private readonly PreviewStyle style = new PreviewStyle();
+        private readonly List<ProxyRenderer> renderers = new List<ProxyRenderer>();
+        private readonly List<Renderer> hidden = new List<Renderer>();
+        private readonly int[] jointOf;
+        private AvatarResult result;
+        private ProxySkeleton skeleton;
+        private Deformer deformer;
+        private ConversionSettings shown;
+        private bool showBefore, beside;
+        private PreviewPose pose;
+        private Matrix4x4 placedAt;
+        private float width;
+
+        /// <summary>Reads the avatar and shows the result in its place.</summary>
+        /// <param name="progress">Hears how far it is, which takes long where a rig is made; null for none.</param>
+        /// <exception cref="ConversionException">It cannot be done, and why.</exception>
+        public PreviewSession(GameObject avatar, ConversionSettings settings, IConversionProgress progress = null)
+        {
+            try
+            {
+                this.avatar = CharacterReader.Read(avatar, new ReadOptions
+                {
+                    WithMorphs = false, RigAuto = settings.RigAuto, RigOptions = settings.MakeOptions(),
+                    RigProgress = Part(progress, ConversionStage.Rigging, 0, 0.7f)
+                });
+                jointOf = JointsByRole(this.avatar);
+                Deform(settings, SettingsChange.Style, Part(progress, ConversionStage.Deforming, 0.7f, 1));
+                skeleton = new ProxySkeleton(this.avatar);
+                result = new AvatarResult(this.avatar, true);
+                foreach (RendererResult renderer in result.Renderers)
+                    if (renderer.Source.Parts.Count > 0)
+                        renderers.Add(new ProxyRenderer(this.avatar, renderer, skeleton));
+                Show();
+                Place();
+                ApplyVisibility();
+            }
+            catch (Exception cause)
+            {
+                Dispose();
+                throw ConversionException.From(cause, avatar);
+            }
+        }
+
+        /// <summary>The root of what is shown.</summary>
+        public GameObject Proxy { get { return skeleton == null || skeleton.Root == null ? null : skeleton.Root.gameObject; } }
+
+        /// <summary>Whether the avatar and the proxy are still there.</summary>
+        public bool IsAlive { get { return avatar.Root != null && Proxy != null; } }
+
+        /// <summary>Whether this session is for an avatar and its rig.</summary>
+        public bool Fits(GameObject candidate, ConversionSettings settings)
+        {
+            return IsAlive && candidate == avatar.Root && settings.RigAuto == shown.RigAuto;
+        }
+
+        /// <summary>Brings the proxy up to the settings; only what hangs on the change is done again.</summary>
+        /// <exception cref="ConversionException">They cannot be; the proxy stays as it was.</exception>
+        public void Update(ConversionSettings settings)
+        {
+            SettingsChange change = SettingsChanges.Between(shown, settings);
+            if (change == SettingsChange.None)
+                return;
+            if (change == SettingsChange.Rig)
+                throw new InvalidOperationException("Another rig needs a new session.");
+            try
+            {
+                Deform(settings, change, null);
+                Show();
+            }
+            catch (Exception cause)
+            {
+                throw ConversionException.From(cause, avatar.Root);
+            }
+        }
+
+        private void Deform(ConversionSettings settings, SettingsChange change, ProgressHandler progress)
+        {
+            if (change == SettingsChange.Face)
+                deformer.SetFace(settings.FaceSquash, settings.FaceCurve);
+            else if (change == SettingsChange.Options)
+                deformer.SetOptions(settings.MakeOptions(), null);
+            else
+                using (Style wanted = style.Make(settings))
+                {
+                    var made = new Deformer(avatar.Character, wanted, settings.MakeOptions(), progress);
+                    if (deformer != null)
+                        deformer.Dispose();
+                    deformer = made;
+                }
+            shown = settings.Clone();
+        }
+
+        private void Show()
+        {
+            result.Apply(deformer, null);
+            skeleton.Move(result);
+            Stand();
+            foreach (ProxyRenderer renderer in renderers)
+                renderer.Show(skeleton);
+        }
+
+        /// <summary>Measures the result. Takes longer than a frame: for when settings rest.</summary>
+        public PreviewNumbers Measure()
+        {
+            return new PreviewNumbers
+            {
+                Report = deformer.GetReport(), Groups = deformer.GetGroups(), Warnings = deformer.Warnings
+            };
+        }
+
+        /// <summary>Shows the avatar as it is, in place of the result.</summary>
+        public bool ShowBefore
+        {
+            get { return showBefore; }
+            set
+            {
+                showBefore = value;
+                ApplyVisibility();
+            }
+        }
+
+        /// <summary>Shows the result to the avatar's right, and the avatar as well.</summary>
+        public bool Beside
+        {
+            get { return beside; }
+            set
+            {
+                if (beside == value)
+                    return;
+                beside = value;
+                Place();
+                ApplyVisibility();
+            }
+        }
+
+        /// <summary>How the proxy stands. An avatar without bones stands as it does.</summary>
+        public PreviewPose Pose
+        {
+            get { return pose; }
+            set
+            {
+                if (pose == value)
+                    return;
+                pose = value;
+                Stand();
+            }
+        }
+
+        private void Stand()
+        {
+            skeleton.Stand(result);
+            if (avatar.Rigged)
+                PreviewPoses.Take(pose, skeleton, jointOf);
+        }
+
+        /// <summary>Follows the avatar, which may have been moved or posed.</summary>
+        /// <returns>Whether it had been.</returns>
+        public bool Follow()
+        {
+            bool placed = !placedAt.Equals(avatar.Root.transform.localToWorldMatrix), posed = skeleton.HasMoved();
+            if (placed)
+                Place();
+            if (posed)
+                Stand();
+            return placed || posed;
+        }
+
+        private void Place()
+        {
+            Transform root = avatar.Root.transform;
+            placedAt = root.localToWorldMatrix;
+            Vector3 aside = beside ? root.right * (1.2f * Width() * root.lossyScale.x) : Vector3.zero;
+            skeleton.Root.position = root.position + aside;
+            skeleton.Root.rotation = root.rotation;
+            skeleton.Root.localScale = root.lossyScale;
+        }
+
+        private float Width()
+        {
+            if (width > 0)
+                return width;
+            float low = 0, high = 0;
+            foreach (RendererData renderer in avatar.Renderers)
+                foreach (Vector3 vertex in renderer.ModelVertices)
+                {
+                    low = Mathf.Min(low, vertex.x);
+                    high = Mathf.Max(high, vertex.x);
+                }
+            return width = high - low;
+        }
+
+        private void ApplyVisibility()
+        {
+            foreach (ProxyRenderer renderer in renderers)
+                renderer.Visible = !showBefore;
+            if (showBefore || beside)
+                Unhide();
+            else if (hidden.Count == 0)
+                Hide();
+        }
+
+        // forceRenderingOff is not saved and is no change of the object: nothing of the avatar is left different.
+        private void Hide()
+        {
+            foreach (RendererData data in avatar.Renderers)
+                if (data.Renderer != null && data.Parts.Count > 0 && !data.Renderer.forceRenderingOff)
+                {
+                    data.Renderer.forceRenderingOff = true;
+                    hidden.Add(data.Renderer);
+                }
+        }
+
+        private void Unhide()
+        {
+            foreach (Renderer renderer in hidden)
+                if (renderer != null)
+                    renderer.forceRenderingOff = false;
+            hidden.Clear();
+        }
+
+        private static ProgressHandler Part(IConversionProgress progress, string stage, float from, float to)
+        {
+            return progress == null ? (ProgressHandler)null : fraction => progress.Report(stage, from + (to - from) * fraction);
+        }
+
+        private static int[] JointsByRole(AvatarData avatar)
+        {
+            var joints = new int[55];
+            for (int role = 0; role < joints.Length; role++)
+                joints[role] = -1;
+            if (!avatar.Rigged)
+                return joints;
+            // Guessed roles too, not only those that the avatar says.
+            HumanoidRole[] roles = avatar.Character.GetJoints().Roles;
+            for (int joint = 0; joint < avatar.Joints.Length; joint++)
+                if (roles[joint] >= 0 && (int)roles[joint] < joints.Length)
+                    joints[(int)roles[joint]] = joint;
+            return joints;
+        }
+
+        public void Dispose()
+        {
+            Unhide();
+            foreach (ProxyRenderer renderer in renderers)
+                renderer.Destroy();
+            renderers.Clear();
+            if (skeleton != null)
+                skeleton.Destroy();
+            skeleton = null;
+            if (deformer != null)
+                deformer.Dispose();
+            style.Dispose();
+            if (avatar != null)
+                avatar.Dispose();
+        }
+    }
+}

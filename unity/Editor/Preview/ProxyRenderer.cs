@@ -1,0 +1,100 @@
+using UnityEngine;
+
+namespace SuperDeform.Editor
+{
+    /// <summary>A renderer that stands for one of the avatar's: the same look, vertices that follow the deformer.</summary>
+    /// <remarks>
+    /// Its vertices are in the space of the avatar's root at rest, as the library gives them; so the bind pose of a bone is
+    /// the inverse of its rest matrix there. A mesh that hangs from one joint gets that joint as its only bone. It has no
+    /// blend shapes: nothing that a slider moves takes time for them.
+    /// </remarks>
+    internal sealed class ProxyRenderer
+    {
+        private readonly RendererResult result;
+        private readonly int[] joints;
+        private readonly Mesh mesh;
+        private readonly Matrix4x4[] bindPoses;
+        private readonly SkinnedMeshRenderer renderer;
+
+        internal ProxyRenderer(AvatarData avatar, RendererResult result, ProxySkeleton skeleton)
+        {
+            this.result = result;
+            RendererData source = result.Source;
+            mesh = Object.Instantiate(source.Mesh);
+            mesh.name = source.Mesh.name + " (preview)";
+            mesh.hideFlags = HideFlags.HideAndDontSave;
+            mesh.ClearBlendShapes();
+            mesh.MarkDynamic();
+            bool skinned = avatar.Rigged && source.Skin != null && source.Skin.Joints.Length > 0;
+            // An avatar without bones gets them in the result alone: here its meshes hang from the root.
+            joints = skinned ? source.Skin.Joints : new[] { avatar.Rigged && source.Skin == null ? source.Joint : -1 };
+            bindPoses = new Matrix4x4[joints.Length];
+            if (!skinned)
+            {
+                mesh.boneWeights = WholeWeights(mesh.vertexCount);
+                mesh.bindposes = bindPoses;
+            }
+
+            var holder = new GameObject(source.Renderer.name) { hideFlags = HideFlags.HideAndDontSave };
+            holder.layer = source.Renderer.gameObject.layer;
+            holder.transform.SetParent(skeleton.Root, false);
+            renderer = holder.AddComponent<SkinnedMeshRenderer>();
+            renderer.sharedMesh = mesh;
+            renderer.sharedMaterials = source.Renderer.sharedMaterials;
+            renderer.rootBone = skeleton.Root;
+            var bones = new Transform[joints.Length];
+            for (int bone = 0; bone < bones.Length; bone++)
+                bones[bone] = skeleton.Of(joints[bone]);
+            renderer.bones = bones;
+            renderer.localBounds = Around(source.ModelVertices);
+        }
+
+        /// <summary>Shows what the library has written. Without garbage.</summary>
+        internal void Show(ProxySkeleton skeleton)
+        {
+            mesh.SetVertices(result.Positions);
+            if (result.Normals != null)
+                mesh.SetNormals(result.Normals);
+            if (result.Tangents != null)
+                mesh.SetTangents(result.Tangents);
+            for (int bone = 0; bone < bindPoses.Length; bone++)
+                bindPoses[bone] = skeleton.InverseRest(joints[bone]);
+            mesh.bindposes = bindPoses;
+        }
+
+        /// <summary>Whether it is to be seen, where the avatar's renderer is.</summary>
+        internal bool Visible
+        {
+            set
+            {
+                Renderer original = result.Source.Renderer;
+                renderer.enabled = value && original != null && original.enabled && original.gameObject.activeInHierarchy;
+            }
+        }
+
+        internal void Destroy()
+        {
+            // The object goes with the skeleton's root; a mesh belongs to nobody.
+            if (mesh != null)
+                Object.DestroyImmediate(mesh);
+        }
+
+        private static BoneWeight[] WholeWeights(int count)
+        {
+            var weights = new BoneWeight[count];
+            for (int i = 0; i < count; i++)
+                weights[i].weight0 = 1;
+            return weights;
+        }
+
+        // Well beyond the mesh: what a slider does stays inside, and Unity does not cull it.
+        private static Bounds Around(Vector3[] points)
+        {
+            var bounds = new Bounds(points.Length > 0 ? points[0] : Vector3.zero, Vector3.zero);
+            foreach (Vector3 point in points)
+                bounds.Encapsulate(point);
+            bounds.Expand(bounds.size.magnitude);
+            return bounds;
+        }
+    }
+}

@@ -1,0 +1,77 @@
+using System;
+using System.Collections.Generic;
+using UnityEngine;
+
+namespace SuperDeform.Editor
+{
+    /// <summary>An avatar as the library sees it: everything in the space of the avatar's root, at rest.</summary>
+    public sealed class AvatarData : IDisposable
+    {
+        public GameObject Root;
+
+        /// <summary>The animator with the humanoid Avatar, on the root or below; null where there is none.</summary>
+        public Animator Animator;
+
+        /// <summary>
+        /// All transforms below the root, every parent before its children; the root itself comes first where a mesh hangs
+        /// from it.
+        /// </summary>
+        public Transform[] Joints;
+
+        /// <summary>By joint: the joint that it hangs from; -1 for those that hang from the root.</summary>
+        public int[] Parents;
+
+        /// <summary>By joint: its transform to its parent's space, as it stands.</summary>
+        public Affine[] Local;
+
+        /// <summary>By joint: joint space to the root's space, at rest.</summary>
+        public Affine[] Rest;
+
+        /// <summary>
+        /// By HumanBodyBones: the joint that the avatar says plays the role; -1 where it does not say.
+        /// </summary>
+        public int[] Roles;
+
+        /// <summary>In the order of the hierarchy.</summary>
+        public readonly List<RendererData> Renderers = new List<RendererData>();
+
+        /// <summary>The library's meshes, in the library's order.</summary>
+        public readonly List<PartData> Parts = new List<PartData>();
+
+        /// <summary>Ready for a deformer.</summary>
+        public Character Character;
+
+        /// <summary>
+        /// False where the avatar came without bones: its joints are then all of a made rig, and none of Joints.
+        /// </summary>
+        public bool Rigged;
+
+        /// <summary>True where the library has made a rig.</summary>
+        public bool RigMade;
+
+        /// <summary>What a person should know about the avatar.</summary>
+        public readonly List<Finding> Findings = new List<Finding>();
+
+        internal readonly Dictionary<Transform, int> JointOf = new Dictionary<Transform, int>();
+
+        /// <summary>True where the root is the first of Joints. It never moves.</summary>
+        public bool HoldsRoot
+        {
+            get { return Joints.Length > 0 && Joints[0] == Root.transform; }
+        }
+
+        /// <summary>
+        /// The joint that a transform is; -1 for the root where it is none, and for what is not below the root.
+        /// </summary>
+        public int IndexOf(Transform transform)
+        {
+            int joint;
+            return transform != null && JointOf.TryGetValue(transform, out joint) ? joint : -1;
+        }
+
+        public void Dispose()
+        {
+            if (Character != null) Character.Dispose();
+        }
+    }
+}

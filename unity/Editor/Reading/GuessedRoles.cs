@@ -1,0 +1,77 @@
+using System;
+using UnityEngine;
+
+namespace SuperDeform.Editor
+{
+    /// <summary>The roles of joints whose avatar does not tell them: the library's guess from names and shape.</summary>
+    internal static class GuessedRoles
+    {
+        /// <summary>
+        /// By HumanBodyBones: the joint that the avatar says or the library guesses to play the role; -1 where neither does.
+        /// </summary>
+        /// <param name="data">Where the library guesses something odd, its findings say so.</param>
+        /// <param name="withMeshes">The meshes are placed: feet and noses help to tell front from back.</param>
+        internal static int[] Of(AvatarData data, bool withMeshes)
+        {
+            if (HumanoidRoles.Missing(role => data.Roles[role] >= 0) == null) return data.Roles;
+            // The library tells left from right as in right-handed axes, so it is shown Unity's world in a mirror.
+            using (Character mirrored = new Character(new float[] { 0, 1, 0 }, null))
+            {
+                mirrored.SetSkeleton(Mirrored(data));
+                foreach (PartData part in data.Parts)
+                {
+                    if (withMeshes) mirrored.AddMesh(Mirrored(part));
+                }
+                HumanoidRole[] found = mirrored.GetJoints().Roles;
+                int[] roles = new int[HumanoidRoles.Count];
+                for (int role = 0; role < roles.Length; role++)
+                {
+                    roles[role] = Array.IndexOf(found, (HumanoidRole)role);
+                }
+                // Of joints that make no body nobody wants to know.
+                if (HumanoidRoles.Missing(role => roles[role] >= 0) != null) return roles;
+                foreach (Warning warning in mirrored.Warnings)
+                {
+                    data.Findings.Add(new Finding("library_notes", Severity.Warning, data.Root, warning.Text));
+                }
+                return roles;
+            }
+        }
+
+        static SkeletonArrays Mirrored(AvatarData data)
+        {
+            SkeletonArrays skeleton = new SkeletonArrays
+            {
+                Names = Array.ConvertAll(data.Joints, joint => joint.name),
+                Parents = data.Parents,
+                RestMatrices = new double[16 * data.Joints.Length],
+                RoleJoints = data.Roles
+            };
+            for (int joint = 0; joint < data.Joints.Length; joint++)
+            {
+                Affine rest = data.Rest[joint];
+                rest.M01 = -rest.M01;
+                rest.M02 = -rest.M02;
+                rest.M03 = -rest.M03;
+                rest.M10 = -rest.M10;
+                rest.M20 = -rest.M20;
+                rest.ToColumns(skeleton.RestMatrices, 16 * joint);
+            }
+            return skeleton;
+        }
+
+        static MeshArrays Mirrored(PartData part)
+        {
+            MeshArrays mesh = new MeshArrays
+            {
+                Name = part.Name,
+                FirstVertex = part.Start,
+                VertexCount = part.VertexCount,
+                Positions = Array.ConvertAll(part.Gather(part.Renderer.ModelVertices), p => new Vector3(-p.x, p.y, p.z)),
+                Indices = part.Indices
+            };
+            RendererReader.GiveWeights(part, mesh);
+            return mesh;
+        }
+    }
+}

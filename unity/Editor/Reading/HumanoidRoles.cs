@@ -1,0 +1,76 @@
+using System;
+using System.Collections.Generic;
+using UnityEngine;
+
+namespace SuperDeform.Editor
+{
+    /// <summary>Which transforms play which parts of a human body, as an Animator's Avatar says it.</summary>
+    public static class HumanoidRoles
+    {
+        /// <summary>How many roles there are.</summary>
+        public const int Count = 55;
+
+        /// <summary>Roles without which nothing can be deformed.</summary>
+        public static readonly HumanBodyBones[] Required =
+        {
+            HumanBodyBones.Hips, HumanBodyBones.Head, HumanBodyBones.LeftUpperLeg, HumanBodyBones.RightUpperLeg,
+            HumanBodyBones.LeftUpperArm, HumanBodyBones.RightUpperArm
+        };
+
+        /// <summary>True where an animator has a humanoid Avatar that Unity can use.</summary>
+        public static bool IsHumanoid(Animator animator)
+        {
+            return animator != null && animator.avatar != null && animator.avatar.isValid && animator.avatar.isHuman;
+        }
+
+        /// <summary>
+        /// The animator that speaks for an avatar: the root's own, else the only humanoid one below; null where there is none.
+        /// </summary>
+        public static Animator Speaker(GameObject root)
+        {
+            Animator own = root.GetComponent<Animator>();
+            if (IsHumanoid(own)) return own;
+            Animator[] below = Array.FindAll(root.GetComponentsInChildren<Animator>(true), IsHumanoid);
+            return below.Length == 1 ? below[0] : own;
+        }
+
+        /// <summary>
+        /// By role, the transform that plays it, or null; all null where the animator has no humanoid Avatar.
+        /// </summary>
+        public static Transform[] Of(Animator animator)
+        {
+            Transform[] roles = new Transform[Count];
+            if (!IsHumanoid(animator)) return roles;
+            Dictionary<string, Transform> byName = new Dictionary<string, Transform>();
+            foreach (Transform transform in animator.GetComponentsInChildren<Transform>(true))
+            {
+                if (!byName.ContainsKey(transform.name)) byName.Add(transform.name, transform);
+            }
+            HumanBone[] human = animator.avatar.humanDescription.human ?? new HumanBone[0];
+            for (int role = 0; role < Count; role++)
+            {
+                roles[role] = animator.GetBoneTransform((HumanBodyBones)role);
+                // Animators of prefabs and of inactive objects may not know their bones yet.
+                if (roles[role] != null) continue;
+                string humanName = HumanTrait.BoneName[role];
+                foreach (HumanBone bone in human)
+                {
+                    Transform named;
+                    if (bone.humanName == humanName && byName.TryGetValue(bone.boneName, out named)) roles[role] = named;
+                }
+            }
+            return roles;
+        }
+
+        /// <summary>The first required role that no joint plays; null where all are there.</summary>
+        /// <param name="has">Whether a joint plays a role.</param>
+        public static HumanBodyBones? Missing(Func<int, bool> has)
+        {
+            foreach (HumanBodyBones role in Required)
+            {
+                if (!has((int)role)) return role;
+            }
+            return null;
+        }
+    }
+}

@@ -1,0 +1,18 @@
+namespace SuperDeform.Editor
+{
+    /// <summary>How an avatar is read.</summary>
+    public sealed class ReadOptions
+    {
+        /// <summary>Reads blend shapes too: needed for a result, not for a preview or a measurement.</summary>
+        public bool WithMorphs;
+
+        /// <summary>Makes a rig even where the avatar has one, and takes rigs that show no humanoid.</summary>
+        public bool RigAuto;
+
+        /// <summary>How a rig is made where one is; null for the defaults.</summary>
+        public Options RigOptions;
+
+        /// <summary>Hears how far the making of a rig is; null for none.</summary>
+        public ProgressHandler RigProgress;
+    }
+}

@@ -1,0 +1,37 @@
+using UnityEditor;
+using UnityEngine;
+
+namespace SuperDeform.Editor
+{
+    /// <summary>Meshes that Unity keeps to the graphics card alone, and how they become readable.</summary>
+    internal static class Readability
+    {
+        internal static Finding NotReadable(Mesh mesh, UnityEngine.Object where)
+        {
+            Finding finding = new Finding("not_readable", Severity.Error, where, mesh.name, where.name);
+            return CanMend(mesh) ? finding.WithFix("fix_readable", () => Mend(mesh)) : finding;
+        }
+
+        static bool CanMend(Mesh mesh)
+        {
+            string path = AssetDatabase.GetAssetPath(mesh);
+            return !string.IsNullOrEmpty(path) && (path.StartsWith("Assets/") || AssetImporter.GetAtPath(path) is ModelImporter);
+        }
+
+        static void Mend(Mesh mesh)
+        {
+            ModelImporter importer = AssetImporter.GetAtPath(AssetDatabase.GetAssetPath(mesh)) as ModelImporter;
+            if (importer != null)
+            {
+                importer.isReadable = true;
+                importer.SaveAndReimport();
+                return;
+            }
+            // A mesh asset of its own, or within a prefab.
+            SerializedObject asset = new SerializedObject(mesh);
+            asset.FindProperty("m_IsReadable").boolValue = true;
+            asset.ApplyModifiedPropertiesWithoutUndo();
+            AssetDatabase.SaveAssetIfDirty(mesh);
+        }
+    }
+}

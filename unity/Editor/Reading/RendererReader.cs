@@ -1,0 +1,288 @@
+using System;
+using System.Collections.Generic;
+using Unity.Collections;
+using UnityEngine;
+
+namespace SuperDeform.Editor
+{
+    /// <summary>Reads one renderer: its mesh, its bones, its blend shapes.</summary>
+    internal static class RendererReader
+    {
+        /// <summary>The mesh that a renderer shows; null for empty meshes and for renderers of other things.</summary>
+        internal static Mesh MeshOf(Renderer renderer)
+        {
+            SkinnedMeshRenderer skinned = renderer as SkinnedMeshRenderer;
+            MeshFilter filter = renderer is MeshRenderer ? renderer.GetComponent<MeshFilter>() : null;
+            Mesh mesh = skinned != null ? skinned.sharedMesh : filter != null ? filter.sharedMesh : null;
+            return mesh == null || mesh.vertexCount == 0 || mesh.subMeshCount == 0 ? null : mesh;
+        }
+
+        /// <summary>True where a transform moves the renderer's mesh.</summary>
+        internal static bool Uses(Renderer renderer, Transform transform)
+        {
+            SkinnedMeshRenderer skinned = renderer as SkinnedMeshRenderer;
+            if (skinned == null || skinned.bones.Length == 0) return Carrier(renderer) == transform;
+            if (Array.IndexOf(skinned.bones, transform) >= 0) return true;
+            return renderer.transform == transform && skinned.sharedMesh != null && skinned.sharedMesh.GetBonesPerVertex().Length == 0;
+        }
+
+        /// <summary>The transform that carries a mesh without bones.</summary>
+        static Transform Carrier(Renderer renderer)
+        {
+            SkinnedMeshRenderer skinned = renderer as SkinnedMeshRenderer;
+            // Unity draws skinned renderers in the space of their root bone.
+            bool rooted = skinned != null && skinned.bones.Length == 0 && skinned.rootBone != null;
+            return rooted ? skinned.rootBone : renderer.transform;
+        }
+
+        /// <summary>Reads bones, bind poses and weights.</summary>
+        /// <param name="world">By joint, as the transforms stand.</param>
+        internal static void ReadSkin(RendererData renderer, AvatarData data, Affine[] world)
+        {
+            SkinnedMeshRenderer skinned = renderer.Renderer as SkinnedMeshRenderer;
+            Transform carrier = Carrier(renderer.Renderer);
+            renderer.Joint = carrier == data.Root.transform ? data.IndexOf(carrier) : Inside(carrier, renderer, data);
+            renderer.BoundsJoint = data.IndexOf(skinned != null && skinned.rootBone != null ? skinned.rootBone : renderer.Renderer.transform);
+            if (skinned == null || skinned.bones.Length == 0) return;
+            Transform[] bones = skinned.bones;
+            Matrix4x4[] binds = renderer.Mesh.bindposes;
+            Skin skin = new Skin
+            {
+                Joints = new int[bones.Length],
+                InverseBinds = new Affine[bones.Length],
+                Bounds = Box.Around(renderer.Vertices)
+            };
+            int own = data.IndexOf(renderer.Renderer.transform);
+            skin.MeshToModel = own < 0 ? Affine.Identity : world[own];
+            for (int bone = 0; bone < bones.Length; bone++)
+            {
+                skin.Joints[bone] = bones[bone] == null ? -1 : Inside(bones[bone], renderer, data);
+                skin.InverseBinds[bone] = bone < binds.Length ? Affine.Of(binds[bone]) : Affine.Identity;
+            }
+            if (ReadWeights(renderer, skin)) renderer.Skin = skin;
+        }
+
+        static int Inside(Transform bone, RendererData renderer, AvatarData data)
+        {
+            int joint = data.IndexOf(bone);
+            if (joint >= 0) return joint;
+            throw new ConversionException(new Finding("bone_outside", Severity.Error, renderer.Renderer, renderer.Renderer.name, bone.name, data.Root.name));
+        }
+
+        /// <summary>
+        /// Reads all influences of all vertices; false where the mesh has none. A vertex without any goes to the first bone.
+        /// </summary>
+        static bool ReadWeights(RendererData renderer, Skin skin)
+        {
+            int vertexCount = renderer.Vertices.Length;
+            NativeArray<byte> counts = renderer.Mesh.GetBonesPerVertex();
+            if (counts.Length != vertexCount) return false;
+            byte[] perVertex = counts.ToArray();
+            BoneWeight1[] all = renderer.Mesh.GetAllBoneWeights().ToArray();
+            int spare = Math.Max(0, Array.FindIndex(skin.Joints, joint => joint >= 0));
+            if (skin.Joints[spare] < 0) return false;
+            uint[] starts = new uint[vertexCount + 1];
+            List<uint> bones = new List<uint>(all.Length);
+            List<float> weights = new List<float>(all.Length);
+            int next = 0;
+            for (int vertex = 0; vertex < vertexCount; vertex++)
+            {
+                for (int influence = 0; influence < perVertex[vertex]; influence++, next++)
+                {
+                    int bone = all[next].boneIndex;
+                    bool known = bone >= 0 && bone < skin.Joints.Length && skin.Joints[bone] >= 0;
+                    if (!known || all[next].weight == 0f) continue;
+                    bones.Add((uint)bone);
+                    weights.Add(all[next].weight);
+                }
+                if (weights.Count == starts[vertex])
+                {
+                    bones.Add((uint)spare);
+                    weights.Add(1f);
+                }
+                starts[vertex + 1] = (uint)weights.Count;
+            }
+            renderer.RowStarts = starts;
+            renderer.RowWeights = weights.ToArray();
+            // Bones for now; joints from Place on.
+            renderer.RowJoints = bones.ToArray();
+            return true;
+        }
+
+        /// <summary>How many vertices some joints move, counting shares; before Place.</summary>
+        internal static double Held(RendererData renderer, bool[] byJoint)
+        {
+            if (renderer.Skin == null) return renderer.Joint >= 0 && byJoint[renderer.Joint] ? renderer.Vertices.Length : 0;
+            double held = 0;
+            for (int row = 0; row < renderer.RowJoints.Length; row++)
+            {
+                int joint = renderer.Skin.Joints[renderer.RowJoints[row]];
+                if (joint >= 0 && byJoint[joint]) held += renderer.RowWeights[row];
+            }
+            return held;
+        }
+
+        /// <summary>Brings the mesh to the avatar's space at rest.</summary>
+        /// <param name="rest">By joint.</param>
+        internal static void Place(RendererData renderer, Affine[] rest)
+        {
+            Vector3[] normals = renderer.Mesh.normals;
+            Vector4[] tangents = renderer.Mesh.tangents;
+            int count = renderer.Vertices.Length;
+            renderer.Normals = normals.Length == count ? normals : null;
+            renderer.Tangents = tangents.Length == count ? tangents : null;
+            Skin skin = renderer.Skin;
+            if (skin == null)
+            {
+                renderer.Placement = rest[renderer.Joint];
+            }
+            else
+            {
+                renderer.Placement = skin.Common;
+                if (!skin.Uniform) renderer.Placements = Blend(renderer, skin);
+                for (int row = 0; row < renderer.RowJoints.Length; row++)
+                {
+                    renderer.RowJoints[row] = (uint)skin.Joints[renderer.RowJoints[row]];
+                }
+            }
+            bool plain = renderer.Placements == null && renderer.Placement.Equals(Affine.Identity);
+            FrameSource frames = new FrameSource(renderer);
+            renderer.ModelVertices = plain ? renderer.Vertices : new Vector3[count];
+            renderer.ModelNormals = plain && AreUnit(renderer.Normals) ? renderer.Normals : renderer.Normals == null ? null : new Vector3[count];
+            renderer.ModelTangents = plain && AreUnit(renderer.Tangents) ? renderer.Tangents : renderer.Tangents == null ? null : new Vector4[count];
+            bool ownNormals = renderer.ModelNormals != renderer.Normals, ownTangents = renderer.ModelTangents != renderer.Tangents;
+            if (plain && !ownNormals && !ownTangents) return;
+            double scale;
+            Frame frame = frames.At(0);
+            for (int vertex = 0; vertex < count; vertex++)
+            {
+                if (frames.EachItsOwn) frame = frames.At(vertex);
+                if (!plain) renderer.ModelVertices[vertex] = frame.Point(renderer.Vertices[vertex]);
+                if (ownNormals) renderer.ModelNormals[vertex] = frame.Normal(renderer.Normals[vertex], out scale);
+                if (ownTangents) renderer.ModelTangents[vertex] = frame.Tangent(renderer.Tangents[vertex], out scale);
+            }
+        }
+
+        static bool AreUnit(Vector3[] vectors)
+        {
+            if (vectors == null) return true;
+            foreach (Vector3 v in vectors)
+            {
+                if (!(Math.Abs((double)v.x * v.x + (double)v.y * v.y + (double)v.z * v.z - 1) < 1e-4)) return false;
+            }
+            return true;
+        }
+
+        static bool AreUnit(Vector4[] vectors)
+        {
+            if (vectors == null) return true;
+            foreach (Vector4 v in vectors)
+            {
+                if (!(Math.Abs((double)v.x * v.x + (double)v.y * v.y + (double)v.z * v.z - 1) < 1e-4)) return false;
+            }
+            return true;
+        }
+
+        /// <summary>The matrix of each vertex, where bones are bound in different poses.</summary>
+        static Affine[] Blend(RendererData renderer, Skin skin)
+        {
+            Affine[] placements = new Affine[renderer.Vertices.Length];
+            for (int vertex = 0; vertex < placements.Length; vertex++)
+            {
+                uint from = renderer.RowStarts[vertex], to = renderer.RowStarts[vertex + 1];
+                double sum = 0;
+                for (uint row = from; row < to; row++)
+                {
+                    sum += renderer.RowWeights[row];
+                }
+                Affine blended = new Affine();
+                for (uint row = from; row < to; row++)
+                {
+                    blended.Add(ref skin.ByBone[renderer.RowJoints[row]], renderer.RowWeights[row] / sum);
+                }
+                placements[vertex] = Math.Abs(blended.Determinant) > 1e-30 ? blended : skin.Common;
+            }
+            return placements;
+        }
+
+        /// <summary>Gives the library's mesh the weights of a part.</summary>
+        internal static void GiveWeights(PartData part, MeshArrays mesh)
+        {
+            RendererData renderer = part.Renderer;
+            if (renderer.Skin == null)
+            {
+                mesh.InfluenceCount = 1;
+                mesh.Joints = new uint[part.Start + part.VertexCount];
+                mesh.Weights = new float[mesh.Joints.Length];
+                for (int vertex = part.Start; vertex < mesh.Joints.Length; vertex++)
+                {
+                    mesh.Joints[vertex] = (uint)renderer.Joint;
+                    mesh.Weights[vertex] = 1f;
+                }
+            }
+            else if (part.Vertices == null)
+            {
+                mesh.RowStarts = renderer.RowStarts;
+                mesh.Joints = renderer.RowJoints;
+                mesh.Weights = renderer.RowWeights;
+            }
+            else
+            {
+                GatherRows(part, mesh);
+            }
+        }
+
+        static void GatherRows(PartData part, MeshArrays mesh)
+        {
+            RendererData renderer = part.Renderer;
+            List<uint> joints = new List<uint>();
+            List<float> weights = new List<float>();
+            mesh.RowStarts = new uint[part.VertexCount + 1];
+            for (int vertex = 0; vertex < part.VertexCount; vertex++)
+            {
+                int source = part.Vertices[vertex];
+                for (uint row = renderer.RowStarts[source]; row < renderer.RowStarts[source + 1]; row++)
+                {
+                    joints.Add(renderer.RowJoints[row]);
+                    weights.Add(renderer.RowWeights[row]);
+                }
+                mesh.RowStarts[vertex + 1] = (uint)weights.Count;
+            }
+            mesh.Joints = joints.ToArray();
+            mesh.Weights = weights.ToArray();
+        }
+
+        /// <summary>Reads all frames of all blend shapes.</summary>
+        internal static void ReadFrames(RendererData renderer)
+        {
+            Mesh mesh = renderer.Mesh;
+            int count = renderer.Vertices.Length;
+            for (int shape = 0; shape < mesh.blendShapeCount; shape++)
+            {
+                for (int frame = 0; frame < mesh.GetBlendShapeFrameCount(shape); frame++)
+                {
+                    Vector3[] positions = new Vector3[count], normals = new Vector3[count], tangents = new Vector3[count];
+                    mesh.GetBlendShapeFrameVertices(shape, frame, positions, normals, tangents);
+                    renderer.Frames.Add(new BlendFrame
+                    {
+                        ShapeName = mesh.GetBlendShapeName(shape),
+                        Weight = mesh.GetBlendShapeFrameWeight(shape, frame),
+                        Positions = positions,
+                        // What has no normals itself can have no changes of them.
+                        Normals = renderer.Normals != null && Any(normals) ? normals : null,
+                        Tangents = renderer.Tangents != null && Any(tangents) ? tangents : null
+                    });
+                }
+            }
+        }
+
+        static bool Any(Vector3[] deltas)
+        {
+            foreach (Vector3 delta in deltas)
+            {
+                if (delta.x != 0 || delta.y != 0 || delta.z != 0) return true;
+            }
+            return false;
+        }
+    }
+}

@@ -1,0 +1,84 @@
+using System.Collections.Generic;
+using UnityEditor;
+using UnityEngine;
+
+namespace SuperDeform.Editor
+{
+    /// <summary>Tools > Super Deform > Batch...: a list of avatars, and a button that converts them all.</summary>
+    public sealed class BatchWindow : EditorWindow
+    {
+        [SerializeField] private List<GameObject> avatars = new List<GameObject>();
+        [SerializeField] private List<string> lines = new List<string>();
+        [SerializeField] private Vector2 scroll;
+
+        public static BatchWindow Open()
+        {
+            BatchWindow window = GetWindow<BatchWindow>();
+            window.Show();
+            return window;
+        }
+
+        /// <summary>What will be converted.</summary>
+        public IList<GameObject> Avatars { get { return avatars; } }
+
+        /// <summary>What the last batch said.</summary>
+        public IList<string> Lines { get { return lines; } }
+
+        /// <summary>Adds humanoids that are not yet in the list.</summary>
+        public void Add(IEnumerable<GameObject> candidates)
+        {
+            Undo.RecordObject(this, Strings.Get("undo.batch"));
+            foreach (GameObject candidate in candidates)
+                if (candidate != null && candidate.GetComponentInChildren<Renderer>(true) != null && !avatars.Contains(candidate))
+                    avatars.Add(candidate);
+        }
+
+        /// <summary>Converts all, with the settings of the converter window.</summary>
+        public BatchReport Convert()
+        {
+            BatchReport report;
+            using (var progress = new EditorProgress(Strings.Get("batch.avatars")))
+                report = BatchConvert.Convert(avatars, ConverterWindow.LastSettings(), progress);
+            lines = report.Lines();
+            Repaint();
+            return report;
+        }
+
+        private void OnEnable()
+        {
+            titleContent = new GUIContent(Strings.Get("batch.title"));
+            minSize = new Vector2(360, 240);
+        }
+
+        private void OnGUI()
+        {
+            scroll = EditorGUILayout.BeginScrollView(scroll);
+            EditorGUILayout.LabelField(Strings.Get("batch.avatars"), EditorStyles.boldLabel);
+            if (avatars.Count == 0)
+                EditorGUILayout.LabelField(Strings.Get("batch.empty"), EditorStyles.wordWrappedLabel);
+            foreach (GameObject avatar in avatars)
+                EditorGUILayout.LabelField(avatar == null ? "-" : avatar.name);
+            EditorGUILayout.BeginHorizontal();
+            if (GUILayout.Button(Strings.Get("batch.add")))
+                Add(Selection.gameObjects);
+            if (GUILayout.Button(Strings.Get("batch.clear")))
+            {
+                Undo.RecordObject(this, Strings.Get("undo.batch"));
+                avatars.Clear();
+                lines.Clear();
+            }
+            EditorGUILayout.EndHorizontal();
+            EditorGUILayout.Space();
+            EditorGUILayout.LabelField(Strings.Get("batch.settings"), EditorStyles.wordWrappedLabel);
+            if (GUILayout.Button(Strings.Get("batch.settings.open")))
+                MenuItems.OpenConverter();
+            EditorGUI.BeginDisabledGroup(avatars.Count == 0);
+            if (GUILayout.Button(Strings.Get("batch.convert", avatars.Count), GUILayout.Height(32)))
+                EditorApplication.delayCall += () => Convert();
+            EditorGUI.EndDisabledGroup();
+            foreach (string line in lines)
+                EditorGUILayout.LabelField(line, EditorStyles.wordWrappedLabel);
+            EditorGUILayout.EndScrollView();
+        }
+    }
+}

@@ -1,0 +1,162 @@
+using System;
+using System.IO;
+using UnityEditor;
+using UnityEngine;
+
+namespace SuperDeform.Editor
+{
+    /// <summary>What happens behind the converter window: the preview follows the model, and buttons do their work.</summary>
+    /// <remarks>The window, which draws, calls Tick on every update of the editor; tests call it too.</remarks>
+    public sealed class ConverterController : IDisposable
+    {
+        // How long settings rest before the result is measured: measuring takes longer than a frame.
+        private const double Rest = 0.25;
+
+        private readonly ConverterModel model;
+        private PreviewSession preview;
+        private bool stale = true;
+        private bool measured;
+        private double changedAt;
+
+        public ConverterController(ConverterModel model)
+        {
+            this.model = model;
+            model.Changed += MarkStale;
+        }
+
+        /// <summary>What the Scene view shows; null where there is no preview.</summary>
+        public PreviewSession Preview { get { return preview; } }
+
+        /// <summary>Brings the preview up to the model, and measures once settings rest.</summary>
+        /// <param name="now">Seconds, as EditorApplication.timeSinceStartup.</param>
+        /// <returns>Whether something on the screen has changed.</returns>
+        public bool Tick(double now)
+        {
+            if (preview != null && !preview.IsAlive)
+            {
+                // The avatar was deleted, or its scene was closed.
+                Drop();
+                stale = true;
+            }
+            if (stale)
+            {
+                stale = false;
+                measured = false;
+                changedAt = now;
+                Follow();
+                return true;
+            }
+            if (preview != null && preview.Follow())
+                return true;
+            if (preview == null || measured || now - changedAt < Rest)
+                return false;
+            measured = true;
+            Measure();
+            return true;
+        }
+
+        private void Follow()
+        {
+            if (!model.PreviewOn || !model.CanConvert)
+            {
+                Drop();
+                model.SetPreviewFailure(null);
+                return;
+            }
+            try
+            {
+                if (preview != null && !preview.Fits(model.Avatar, model.Settings))
+                    Drop();
+                if (preview != null)
+                    preview.Update(model.Settings);
+                else
+                    using (var progress = new EditorProgress(model.Avatar.name, 1))
+                        preview = new PreviewSession(model.Avatar, model.Settings, progress);
+                preview.ShowBefore = model.ShowBefore;
+                preview.Beside = model.Beside;
+                preview.Pose = model.Pose;
+                model.SetPreviewFailure(null);
+            }
+            catch (Exception fault)
+            {
+                Drop();
+                model.SetPreviewFailure(Reason(fault));
+            }
+        }
+
+        private void Measure()
+        {
+            try
+            {
+                model.SetNumbers(preview.Measure());
+            }
+            catch (Exception fault)
+            {
+                model.SetPreviewFailure(Reason(fault));
+            }
+        }
+
+        /// <summary>Makes the prefab; what went wrong is told by the model.</summary>
+        /// <returns>Whether there is a prefab.</returns>
+        public bool Convert(IConversionProgress progress)
+        {
+            // The avatar is to be seen, and copied, as it is.
+            Drop();
+            stale = true;
+            try
+            {
+                model.SetResult(Converter.Convert(model.Avatar, model.Settings, progress));
+                return true;
+            }
+            catch (Exception fault)
+            {
+                model.SetFailure(Reason(fault));
+                return false;
+            }
+        }
+
+        /// <summary>Saves the style as a file that can be chosen as a saved style.</summary>
+        /// <param name="path">From the project's folder, such as Assets/chibi.json.</param>
+        public void SaveStyle(string path)
+        {
+            try
+            {
+                using (Style style = model.Settings.MakeStyle())
+                    File.WriteAllText(path, style.ToJson());
+                AssetDatabase.ImportAsset(path);
+            }
+            catch (Exception fault)
+            {
+                model.SetFailure(Reason(fault));
+            }
+        }
+
+        private Finding Reason(Exception fault)
+        {
+            Finding reason = ConversionException.From(fault, model.Avatar).Finding;
+            // A reason that nobody foresaw: where it came from is worth a report.
+            if (reason.Key == "failed")
+                Debug.LogException(fault);
+            return reason;
+        }
+
+        private void MarkStale()
+        {
+            stale = true;
+        }
+
+        private void Drop()
+        {
+            if (preview != null)
+                preview.Dispose();
+            preview = null;
+        }
+
+        /// <summary>Ends the preview: the avatar is seen again as it is.</summary>
+        public void Dispose()
+        {
+            model.Changed -= MarkStale;
+            Drop();
+        }
+    }
+}

@@ -1,0 +1,36 @@
+using System;
+using UnityEditor;
+using UnityEngine;
+
+namespace SuperDeform.Editor
+{
+    /// <summary>A progress bar of the editor with a button to cancel; none in batch mode. Dispose takes it away.</summary>
+    internal sealed class EditorProgress : IConversionProgress, IDisposable
+    {
+        private readonly string title;
+        private readonly double from;
+        private bool shown;
+
+        /// <param name="patience">Seconds without a bar: what takes less shows none.</param>
+        internal EditorProgress(string name, double patience = 0)
+        {
+            title = Strings.Get("progress.title", name);
+            from = EditorApplication.timeSinceStartup + patience;
+        }
+
+        public bool Report(string stageKey, float fraction)
+        {
+            if (Application.isBatchMode || EditorApplication.timeSinceStartup < from)
+                return true;
+            shown = true;
+            return !EditorUtility.DisplayCancelableProgressBar(title, Strings.Get(stageKey), fraction);
+        }
+
+        public void Dispose()
+        {
+            if (shown)
+                EditorUtility.ClearProgressBar();
+            shown = false;
+        }
+    }
+}

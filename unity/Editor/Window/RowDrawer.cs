@@ -1,0 +1,185 @@
+using System;
+using UnityEditor;
+using UnityEngine;
+
+namespace SuperDeform.Editor
+{
+    /// <summary>Draws rows with IMGUI.</summary>
+    internal static class RowDrawer
+    {
+        private const float GroupLabel = 116;
+        private const float ButtonWidth = 64;
+        private const float ResetWidth = 24;
+
+        internal static void Draw(Row row)
+        {
+            EditorGUI.BeginDisabledGroup(!row.Enabled);
+            var label = new GUIContent(row.Label, row.Tooltip);
+            if (row is TextRow)
+                EditorGUILayout.LabelField(label, ((TextRow)row).Strong ? EditorStyles.boldLabel : EditorStyles.wordWrappedLabel);
+            else if (row is CheckRow)
+                Check((CheckRow)row);
+            else if (row is ObjectRow)
+                Object((ObjectRow)row, label);
+            else if (row is ChoiceRow)
+                Choice((ChoiceRow)row, label);
+            else if (row is PopupRow)
+                Popup((PopupRow)row, label);
+            else if (row is SliderRow)
+                Slider((SliderRow)row, label);
+            else if (row is ColumnsRow)
+                Columns((ColumnsRow)row, label);
+            else if (row is GroupRow)
+                Group((GroupRow)row, label);
+            else if (row is ToggleRow)
+                Toggle((ToggleRow)row, label);
+            else if (row is TableRow)
+                Table((TableRow)row);
+            else if (row is FieldRow)
+                Field((FieldRow)row, label);
+            else if (row is ActionRow)
+                Action((ActionRow)row, label);
+            EditorGUI.EndDisabledGroup();
+        }
+
+        private static void Check(CheckRow row)
+        {
+            EditorGUILayout.BeginHorizontal();
+            MessageType type = row.Severity == Severity.Error ? MessageType.Error
+                : row.Severity == Severity.Warning ? MessageType.Warning : MessageType.Info;
+            EditorGUILayout.HelpBox(row.Label, type);
+            if (row.Fix != null && GUILayout.Button(row.FixLabel, GUILayout.MinWidth(ButtonWidth), GUILayout.ExpandWidth(false)))
+                // Importing while a window draws ends its drawing.
+                EditorApplication.delayCall += () => row.Fix();
+            if (row.Where != null && GUILayout.Button(Strings.Get("show"), GUILayout.ExpandWidth(false)))
+                EditorGUIUtility.PingObject(row.Where);
+            EditorGUILayout.EndHorizontal();
+        }
+
+        private static void Object(ObjectRow row, GUIContent label)
+        {
+            EditorGUI.BeginChangeCheck();
+            UnityEngine.Object value = EditorGUILayout.ObjectField(label, row.Get(), row.Type, row.SceneObjects);
+            if (EditorGUI.EndChangeCheck())
+                row.Set(value);
+        }
+
+        private static void Choice(ChoiceRow row, GUIContent label)
+        {
+            EditorGUILayout.BeginHorizontal();
+            EditorGUILayout.LabelField(label, GUILayout.Width(EditorGUIUtility.labelWidth));
+            EditorGUI.BeginChangeCheck();
+            int value = GUILayout.Toolbar(row.Get(), row.Choices);
+            if (EditorGUI.EndChangeCheck() && value >= 0)
+                row.Set(value);
+            EditorGUILayout.EndHorizontal();
+        }
+
+        private static void Popup(PopupRow row, GUIContent label)
+        {
+            EditorGUI.BeginChangeCheck();
+            int value = EditorGUILayout.Popup(label, row.Get(), Array.ConvertAll(row.Choices, text => new GUIContent(text)));
+            if (EditorGUI.EndChangeCheck())
+                row.Set(value);
+        }
+
+        private static void Slider(SliderRow row, GUIContent label)
+        {
+            EditorGUILayout.BeginHorizontal();
+            EditorGUI.BeginChangeCheck();
+            float value = EditorGUILayout.Slider(label, row.Get(), row.Low, row.High);
+            if (EditorGUI.EndChangeCheck())
+                row.Set(value);
+            if (row.Reset != null)
+                Reset(row.IsOwn(), row.Reset);
+            EditorGUILayout.EndHorizontal();
+        }
+
+        private static void Columns(ColumnsRow row, GUIContent label)
+        {
+            EditorGUILayout.BeginHorizontal();
+            EditorGUILayout.LabelField(label, EditorStyles.boldLabel, GUILayout.Width(GroupLabel));
+            foreach (string column in row.Columns)
+                EditorGUILayout.LabelField(column, EditorStyles.miniLabel, GUILayout.MinWidth(40));
+            GUILayout.Space(ResetWidth);
+            EditorGUILayout.EndHorizontal();
+        }
+
+        private static void Group(GroupRow row, GUIContent label)
+        {
+            bool own = row.Length.IsOwn() || row.Thickness != null && row.Thickness.IsOwn();
+            EditorGUILayout.BeginHorizontal();
+            EditorGUILayout.LabelField(label, own ? EditorStyles.boldLabel : EditorStyles.label, GUILayout.Width(GroupLabel));
+            BareSlider(row.Length);
+            if (row.Thickness != null)
+                BareSlider(row.Thickness);
+            else
+                EditorGUILayout.LabelField("", GUILayout.MinWidth(40));
+            Reset(own, () =>
+            {
+                row.Length.Reset();
+                if (row.Thickness != null)
+                    row.Thickness.Reset();
+            });
+            EditorGUILayout.EndHorizontal();
+        }
+
+        private static void BareSlider(SliderRow row)
+        {
+            EditorGUI.BeginChangeCheck();
+            float value = EditorGUILayout.Slider(row.Get(), row.Low, row.High, GUILayout.MinWidth(40));
+            if (EditorGUI.EndChangeCheck())
+                row.Set(value);
+        }
+
+        private static void Reset(bool possible, Action reset)
+        {
+            EditorGUI.BeginDisabledGroup(!possible);
+            if (GUILayout.Button(new GUIContent("\u21ba", Strings.Get("tune.reset.one")), GUILayout.Width(ResetWidth)))
+                reset();
+            EditorGUI.EndDisabledGroup();
+        }
+
+        private static void Toggle(ToggleRow row, GUIContent label)
+        {
+            EditorGUI.BeginChangeCheck();
+            bool value = EditorGUILayout.Toggle(label, row.Get());
+            if (EditorGUI.EndChangeCheck())
+                row.Set(value);
+        }
+
+        private static void Table(TableRow row)
+        {
+            Cells(row.Columns, EditorStyles.miniLabel);
+            foreach (string[] cells in row.Cells)
+                Cells(cells, EditorStyles.label);
+        }
+
+        private static void Cells(string[] cells, GUIStyle style)
+        {
+            EditorGUILayout.BeginHorizontal();
+            foreach (string cell in cells)
+                EditorGUILayout.LabelField(cell, style, GUILayout.MinWidth(40));
+            EditorGUILayout.EndHorizontal();
+        }
+
+        private static void Field(FieldRow row, GUIContent label)
+        {
+            EditorGUI.BeginChangeCheck();
+            string value = EditorGUILayout.TextField(label, row.Get());
+            if (EditorGUI.EndChangeCheck())
+                row.Set(value);
+        }
+
+        private static void Action(ActionRow row, GUIContent label)
+        {
+            Color before = GUI.backgroundColor;
+            if (row.Main)
+                GUI.backgroundColor = new Color(0.55f, 0.8f, 1);
+            bool pressed = row.Main ? GUILayout.Button(label, GUILayout.Height(32)) : GUILayout.Button(label);
+            GUI.backgroundColor = before;
+            if (pressed)
+                row.Do();
+        }
+    }
+}

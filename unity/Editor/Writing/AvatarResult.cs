@@ -1,0 +1,144 @@
+using System;
+using System.Collections.Generic;
+using UnityEngine;
+
+namespace SuperDeform.Editor
+{
+    /// <summary>
+    /// What becomes of an avatar, as arrays that are made once and written anew by each Apply: for a result as for a preview.
+    /// </summary>
+    public sealed class AvatarResult
+    {
+        public readonly AvatarData Source;
+
+        public readonly List<RendererResult> Renderers = new List<RendererResult>();
+
+        /// <summary>
+        /// By joint of the source: joint space to the root's space, at rest. Joints move, and neither turn nor scale.
+        /// </summary>
+        public readonly Affine[] Rest;
+
+        /// <summary>
+        /// By joint of the source: the transform's local position, in the pose that the avatar stands in.
+        /// </summary>
+        public readonly Vector3[] LocalPositions;
+
+        /// <summary>
+        /// By joint of the source: what was added to LocalPositions; 0 where a transform stays as it is.
+        /// </summary>
+        public readonly Vector3[] LocalShifts;
+
+        /// <summary>By joint of the library, those of a made rig among them: 3 numbers in the root's space.</summary>
+        public double[] JointPositions { get; private set; }
+
+        /// <summary>The lowest vertex before and after, and new over old height; not for a preview.</summary>
+        public double OldLow { get; private set; }
+        public double NewLow { get; private set; }
+        public double HeightRatio { get; private set; }
+
+        readonly MeshOutput[] outputs;
+        readonly bool forPreview;
+
+        /// <param name="source">What is deformed.</param>
+        /// <param name="forPreview">
+        /// Vertices stay at rest in the root's space, and nothing is done that only a result needs; for a source that was
+        /// read without blend shapes.
+        /// </param>
+        public AvatarResult(AvatarData source, bool forPreview)
+        {
+            Source = source;
+            this.forPreview = forPreview;
+            foreach (RendererData renderer in source.Renderers)
+            {
+                Renderers.Add(new RendererResult(renderer));
+            }
+            List<MeshOutput> ordered = new List<MeshOutput>();
+            foreach (RendererResult renderer in Renderers)
+            {
+                ordered.AddRange(renderer.Parts.ConvertAll(part => part.Output));
+            }
+            outputs = ordered.ToArray();
+            Rest = (Affine[])source.Rest.Clone();
+            LocalPositions = Array.ConvertAll(source.Joints, joint => joint.localPosition);
+            LocalShifts = new Vector3[source.Joints.Length];
+            HeightRatio = 1;
+        }
+
+        /// <summary>Deforms the avatar into the arrays.</summary>
+        /// <param name="deformer">Of the source's character.</param>
+        public void Apply(Deformer deformer, ProgressHandler progress)
+        {
+            deformer.Apply(outputs, progress);
+            int joints = deformer.JointCount;
+            if (JointPositions == null || JointPositions.Length != 3 * joints) JointPositions = new double[3 * joints];
+            deformer.GetJoints(JointPositions, null);
+            MoveJoints();
+            foreach (RendererResult renderer in Renderers)
+            {
+                renderer.Spread();
+            }
+            if (forPreview) return;
+            MeasureHeight();
+            foreach (RendererResult renderer in Renderers)
+            {
+                int bounds = renderer.Source.BoundsJoint;
+                if (bounds < 0) renderer.Measure(Affine.Identity, Affine.Identity);
+                else renderer.Measure(Source.Rest[bounds], Rest[bounds]);
+                renderer.WriteBindPoses(Source.Rest, Rest);
+                renderer.ToMeshSpace(Source.Rest, Rest);
+            }
+        }
+
+        void MoveJoints()
+        {
+            if (!Source.Rigged) return;
+            for (int joint = 0; joint < Rest.Length; joint++)
+            {
+                bool fixedRoot = joint == 0 && Source.HoldsRoot;
+                if (fixedRoot) continue;
+                Rest[joint] = Source.Rest[joint].At(new Double3(JointPositions[3 * joint], JointPositions[3 * joint + 1], JointPositions[3 * joint + 2]));
+            }
+            for (int joint = 0; joint < Rest.Length; joint++)
+            {
+                Double3 shift = Shift(joint);
+                LocalShifts[joint] = shift.ToVector3();
+                LocalPositions[joint] = (Double3.Of(Source.Joints[joint].localPosition) + shift).ToVector3();
+            }
+        }
+
+        /// <summary>How far a joint moves in its parent's space; 0 where that cannot be told.</summary>
+        Double3 Shift(int joint)
+        {
+            int parent = Source.Parents[joint];
+            bool sameParent = parent < 0 || Rest[parent].Equals(Source.Rest[parent]);
+            if (sameParent && Rest[joint].Equals(Source.Rest[joint])) return new Double3(0, 0, 0);
+            Double3 before = Source.Rest[joint].Position, after = Rest[joint].Position;
+            if (parent >= 0)
+            {
+                before = Source.Rest[parent].Inverse.Point(before);
+                after = Rest[parent].Inverse.Point(after);
+            }
+            Double3 change = after - before;
+            return change.IsFinite && change.Length > 1e-12 * before.Length ? change : new Double3(0, 0, 0);
+        }
+
+        void MeasureHeight()
+        {
+            double oldHigh = double.NegativeInfinity, newHigh = double.NegativeInfinity;
+            OldLow = NewLow = double.PositiveInfinity;
+            foreach (RendererResult renderer in Renderers)
+            {
+                for (int vertex = 0; vertex < renderer.Positions.Length; vertex++)
+                {
+                    double old = renderer.Source.ModelVertices[vertex].y, now = renderer.Positions[vertex].y;
+                    OldLow = Math.Min(OldLow, old);
+                    oldHigh = Math.Max(oldHigh, old);
+                    NewLow = Math.Min(NewLow, now);
+                    newHigh = Math.Max(newHigh, now);
+                }
+            }
+            double ratio = (newHigh - NewLow) / (oldHigh - OldLow);
+            HeightRatio = ratio > 0 && !double.IsInfinity(ratio) ? ratio : 1;
+        }
+    }
+}

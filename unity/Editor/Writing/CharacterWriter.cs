@@ -1,0 +1,126 @@
+using System;
+using System.Collections.Generic;
+using UnityEditor;
+using UnityEngine;
+
+namespace SuperDeform.Editor
+{
+    /// <summary>
+    /// Makes the new avatar: a copy of the source with moved transforms, new meshes, adapted components and a new Avatar.
+    /// </summary>
+    internal static class CharacterWriter
+    {
+        /// <summary>Components that hold lengths, which nobody adapts unless an adapter is registered.</summary>
+        static readonly string[] KnownForLengths =
+        {
+            "PositionConstraint", "ParentConstraint", "CharacterJoint", "ConfigurableJoint", "HingeJoint", "SpringJoint",
+            "VRCPhysBone", "VRCPhysBoneCollider", "VRCContactSender", "VRCContactReceiver", "VRCAvatarDescriptor", "DynamicBone",
+            "DynamicBoneCollider", "DynamicBonePlaneCollider", "MagicaCloth", "VRMSpringBone", "VRMSpringBoneColliderGroup",
+            "VRMFirstPerson", "VRM10SpringBoneJoint", "VRM10SpringBoneCollider", "Vrm10Instance"
+        };
+
+        /// <summary>Makes a copy of the source what the result says.</summary>
+        /// <param name="copy">An instance of the source.</param>
+        /// <param name="map">Receives as assets the new meshes, the Avatar, and what adapters make.</param>
+        /// <param name="findings">Receives what a person should know.</param>
+        internal static void Write(GameObject copy, PointMap map, AvatarData source, AvatarResult result, List<Finding> findings)
+        {
+            RemoveMissingScripts(copy, source, findings);
+            Dictionary<RendererResult, Mesh> made = new Dictionary<RendererResult, Mesh>();
+            foreach (RendererResult renderer in result.Renderers)
+            {
+                Mesh mesh = source.Rigged ? Shared(renderer, made) : null;
+                if (mesh == null)
+                {
+                    mesh = MeshWriter.Make(renderer);
+                    made.Add(renderer, mesh);
+                }
+                map.Remember(renderer.Source.Renderer, mesh);
+            }
+            // Before any mesh changes hands: adapters may ask for the old one.
+            Adapt(copy, map, findings);
+            for (int joint = 0; joint < source.Joints.Length; joint++)
+            {
+                Vector3 shift = result.LocalShifts[joint];
+                if (shift.x == 0 && shift.y == 0 && shift.z == 0) continue;
+                map.CopyOf(source.Joints[joint]).localPosition = result.LocalPositions[joint];
+            }
+            Outlines.Scale(copy, map);
+            if (source.Rigged)
+            {
+                foreach (RendererResult renderer in result.Renderers)
+                {
+                    Show(renderer, map);
+                }
+                HumanoidAvatar.Rebuild(map, source, result);
+            }
+            else
+            {
+                MadeRig.Add(copy, map, source, result);
+            }
+        }
+
+        /// <summary>The mesh of another renderer that shows the same; null where there is none.</summary>
+        static Mesh Shared(RendererResult renderer, Dictionary<RendererResult, Mesh> made)
+        {
+            foreach (KeyValuePair<RendererResult, Mesh> other in made)
+            {
+                if (renderer.IsLike(other.Key)) return other.Value;
+            }
+            return null;
+        }
+
+        /// <summary>Unity saves no prefab of objects whose scripts are missing.</summary>
+        static void RemoveMissingScripts(GameObject copy, AvatarData source, List<Finding> findings)
+        {
+            int removed = 0;
+            foreach (Transform transform in copy.GetComponentsInChildren<Transform>(true))
+            {
+                removed += GameObjectUtility.RemoveMonoBehavioursWithMissingScript(transform.gameObject);
+            }
+            if (removed > 0) findings.Add(new Finding("missing_scripts", Severity.Warning, source.Root, source.Root.name, removed));
+        }
+
+        static void Show(RendererResult renderer, PointMap map)
+        {
+            Renderer original = renderer.Source.Renderer;
+            Transform place = map.CopyOf(original.transform);
+            Mesh mesh = map.MeshFor(original);
+            if (!(original is SkinnedMeshRenderer))
+            {
+                place.GetComponent<MeshFilter>().sharedMesh = mesh;
+                return;
+            }
+            SkinnedMeshRenderer skinned = place.GetComponent<SkinnedMeshRenderer>();
+            Bounds bounds = skinned.localBounds;
+            skinned.sharedMesh = mesh;
+            skinned.localBounds = MeshWriter.NewBounds(bounds, renderer);
+        }
+
+        static void Adapt(GameObject copy, PointMap map, List<Finding> findings)
+        {
+            SortedDictionary<string, bool> left = new SortedDictionary<string, bool>(StringComparer.Ordinal);
+            foreach (Component component in copy.GetComponentsInChildren<Component>(true))
+            {
+                // Null where a script is missing.
+                if (component == null) continue;
+                string type = component.GetType().Name;
+                IComponentAdapter adapter = ComponentAdapters.For(component);
+                if (adapter == null)
+                {
+                    if (Array.IndexOf(KnownForLengths, type) >= 0) left[type] = true;
+                    continue;
+                }
+                try
+                {
+                    adapter.Adapt(component, map);
+                }
+                catch (Exception cause)
+                {
+                    findings.Add(new Finding("adapter_failed", Severity.Warning, null, type, component.name, cause.Message));
+                }
+            }
+            if (left.Count > 0) findings.Add(new Finding("not_adapted", Severity.Warning, null, string.Join(", ", new List<string>(left.Keys).ToArray())));
+        }
+    }
+}

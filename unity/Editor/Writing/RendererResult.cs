@@ -1,0 +1,258 @@
+using System;
+using System.Collections.Generic;
+using UnityEngine;
+
+namespace SuperDeform.Editor
+{
+    /// <summary>
+    /// What becomes of one renderer. The arrays are made once and written anew by each AvatarResult.Apply.
+    /// </summary>
+    public sealed class RendererResult
+    {
+        public readonly RendererData Source;
+
+        /// <summary>
+        /// One a vertex, in mesh space (for a preview: in the root's); Normals and Tangents null where the mesh has none.
+        /// </summary>
+        public readonly Vector3[] Positions, Normals;
+        public readonly Vector4[] Tangents;
+
+        /// <summary>Mesh space to bone space, a bone; null for a mesh that one joint carries.</summary>
+        public readonly Matrix4x4[] BindPoses;
+
+        internal readonly List<PartResult> Parts = new List<PartResult>();
+
+        /// <summary>
+        /// The boxes around all vertices in the space that Unity keeps the bounds in, before and after.
+        /// </summary>
+        internal Box OldBox, NewBox;
+
+        // The way back to mesh space, for the frames of blend shapes.
+        BackFrames back;
+        bool sameWay;
+        readonly double[] normalScales, tangentScales;
+        readonly bool[] normalKept, tangentKept;
+
+        internal RendererResult(RendererData source)
+        {
+            Source = source;
+            int count = source.Vertices.Length;
+            Positions = new Vector3[count];
+            Normals = source.Normals == null ? null : new Vector3[count];
+            Tangents = source.Tangents == null ? null : new Vector4[count];
+            if (source.Skin != null) BindPoses = Array.ConvertAll(source.Skin.InverseBinds, bind => bind.ToMatrix4x4());
+            foreach (PartData part in source.Parts)
+            {
+                Parts.Add(new PartResult(part, this));
+            }
+            if (source.Frames.Count == 0) return;
+            normalScales = new double[count];
+            tangentScales = new double[count];
+            normalKept = new bool[count];
+            tangentKept = new bool[count];
+        }
+
+        /// <summary>
+        /// Brings what the library wrote to its places; all vertices are then at rest in the avatar's space.
+        /// </summary>
+        internal void Spread()
+        {
+            foreach (PartResult part in Parts)
+            {
+                part.Spread();
+            }
+        }
+
+        /// <summary>oldJoint, newJoint: the joint that the bounds are kept in, at rest, before and after</summary>
+        internal void Measure(Affine oldJoint, Affine newJoint)
+        {
+            OldBox = Box.Around(Source.ModelVertices, oldJoint.Inverse);
+            NewBox = Box.Around(Positions, newJoint.Inverse);
+        }
+
+        /// <summary>Brings vertices from the avatar's space to mesh space. What has not changed keeps its bits.</summary>
+        /// <param name="oldRest">By joint: where it rests before.</param>
+        /// <param name="newRest">By joint: where it rests after.</param>
+        internal void ToMeshSpace(Affine[] oldRest, Affine[] newRest)
+        {
+            sameWay = Source.Skin != null || newRest[Source.Joint].Equals(oldRest[Source.Joint]);
+            back = new BackFrames(Source, sameWay ? Source.Placement : newRest[Source.Joint]);
+            bool plain = sameWay && back.IsIdentity;
+            bool plainNormals = plain && normalScales == null && Source.ModelNormals == Source.Normals;
+            bool plainTangents = plain && normalScales == null && Source.ModelTangents == Source.Tangents;
+            if (plain && plainNormals && plainTangents) return;
+            Frame frame = back.At(0);
+            for (int vertex = 0; vertex < Positions.Length; vertex++)
+            {
+                if (back.EachItsOwn) frame = back.At(vertex);
+                if (!plain) Positions[vertex] = Point(ref frame, vertex);
+                if (Normals != null && !plainNormals) Normals[vertex] = Normal(ref frame, vertex);
+                if (Tangents != null && !plainTangents) Tangents[vertex] = Tangent(ref frame, vertex);
+            }
+        }
+
+        Vector3 Point(ref Frame frame, int vertex)
+        {
+            bool kept = sameWay && Same(Positions[vertex], Source.ModelVertices[vertex]);
+            return kept ? Source.Vertices[vertex] : frame.Point(Positions[vertex]);
+        }
+
+        Vector3 Normal(ref Frame frame, int vertex)
+        {
+            double scale;
+            Vector3 normal = frame.Normal(Normals[vertex], out scale);
+            bool kept = sameWay && Same(Normals[vertex], Source.ModelNormals[vertex]);
+            if (normalScales != null)
+            {
+                normalScales[vertex] = scale;
+                normalKept[vertex] = kept;
+            }
+            return kept ? Source.Normals[vertex] : normal;
+        }
+
+        Vector4 Tangent(ref Frame frame, int vertex)
+        {
+            double scale;
+            Vector4 given = Tangents[vertex], before = Source.ModelTangents[vertex];
+            Vector4 tangent = frame.Tangent(given, out scale);
+            bool kept = sameWay && given.x == before.x && given.y == before.y && given.z == before.z && given.w == before.w;
+            if (tangentScales != null)
+            {
+                tangentScales[vertex] = scale;
+                tangentKept[vertex] = kept;
+            }
+            return kept ? Source.Tangents[vertex] : tangent;
+        }
+
+        static bool Same(Vector3 one, Vector3 other)
+        {
+            return one.x == other.x && one.y == other.y && one.z == other.z;
+        }
+
+        /// <summary>One frame of a blend shape in mesh space, after ToMeshSpace.</summary>
+        /// <param name="placed">The source's frame in the avatar's space.</param>
+        /// <param name="into">Its arrays are written, each as long as the mesh.</param>
+        internal void WriteFrame(int index, BlendFrame placed, BlendFrame into)
+        {
+            BlendFrame source = Source.Frames[index];
+            foreach (PartResult part in Parts)
+            {
+                MeshOutput output = part.Output;
+                bool normals = part.Part.MovesNormals[index], tangents = part.Part.MovesTangents[index];
+                WriteDeltas(part, index, part.Part.MovesPlaces[index], output.MorphPositions, source.Positions, placed.Positions, into.Positions, Change.Place);
+                WriteDeltas(part, index, normals, output.MorphNormals, source.Normals, placed.Normals, into.Normals, Change.Normal);
+                WriteDeltas(part, index, tangents, output.MorphTangents, source.Tangents, placed.Tangents, into.Tangents, Change.Tangent);
+            }
+        }
+
+        enum Change { Place, Normal, Tangent }
+
+        /// <summary>One part's changes in mesh space. What has not changed keeps its bits; what moves nothing is 0.</summary>
+        void WriteDeltas(PartResult part, int index, bool moves, float[] packed, Vector3[] source, Vector3[] placed, Vector3[] into, Change change)
+        {
+            if (!moves)
+            {
+                part.Part.Clear(into);
+                return;
+            }
+            Frame frame = back.At(0);
+            bool plain = back.IsIdentity && change == Change.Place;
+            for (int vertex = 0; vertex < part.Part.VertexCount; vertex++)
+            {
+                int place = part.Part.VertexOf(vertex);
+                Vector3 delta = part.Delta(packed, index, vertex);
+                if (plain)
+                {
+                    into[place] = delta;
+                    continue;
+                }
+                bool steady = change == Change.Place || (change == Change.Normal ? normalKept[place] : tangentKept[place]);
+                if (sameWay && steady && Same(delta, placed[place]))
+                {
+                    into[place] = source[place];
+                    continue;
+                }
+                if (back.EachItsOwn) frame = back.At(place);
+                if (change == Change.Place) into[place] = frame.Delta(delta, 1);
+                else if (change == Change.Normal) into[place] = frame.NormalDelta(delta, normalScales[place]);
+                else into[place] = frame.Delta(delta, tangentScales[place]);
+            }
+        }
+
+        /// <summary>
+        /// Bind poses for moved joints: joint times bind pose stays what it was, so that all weights keep their meaning.
+        /// </summary>
+        internal void WriteBindPoses(Affine[] oldRest, Affine[] newRest)
+        {
+            Skin skin = Source.Skin;
+            if (skin == null) return;
+            for (int bone = 0; bone < skin.Joints.Length; bone++)
+            {
+                int joint = skin.Joints[bone];
+                if (joint < 0) continue;
+                bool moved = !newRest[joint].Equals(oldRest[joint]) && newRest[joint].Determinant != 0;
+                BindPoses[bone] = (moved ? newRest[joint].Inverse * skin.ByBone[bone] : skin.InverseBinds[bone]).ToMatrix4x4();
+            }
+        }
+
+        /// <summary>
+        /// True where another renderer of the same mesh came out the same, so that both can show one mesh.
+        /// </summary>
+        internal bool IsLike(RendererResult other)
+        {
+            if (other.Source.Mesh != Source.Mesh || other.Parts.Count != Parts.Count) return false;
+            if (!Equal(BindPoses, other.BindPoses) || !Equal(Positions, other.Positions)) return false;
+            if (!Equal(Normals, other.Normals) || !Equal(Tangents, other.Tangents)) return false;
+            for (int part = 0; part < Parts.Count; part++)
+            {
+                MeshOutput one = Parts[part].Output, two = other.Parts[part].Output;
+                bool equal = Equal(one.MorphPositions, two.MorphPositions) && Equal(one.MorphNormals, two.MorphNormals)
+                    && Equal(one.MorphTangents, two.MorphTangents);
+                if (!equal) return false;
+            }
+            return true;
+        }
+
+        static bool Equal<T>(T[] one, T[] other) where T : struct, IEquatable<T>
+        {
+            if (one == null || other == null) return one == other;
+            if (one.Length != other.Length) return false;
+            for (int index = 0; index < one.Length; index++)
+            {
+                if (!one[index].Equals(other[index])) return false;
+            }
+            return true;
+        }
+    }
+
+    /// <summary>
+    /// The map of each vertex of a renderer back to mesh space, made once where it is the same for all.
+    /// </summary>
+    internal struct BackFrames
+    {
+        readonly RendererData renderer;
+        readonly Frame common;
+
+        /// <summary>placement: mesh space to the avatar's space, where it is the same for all vertices</summary>
+        internal BackFrames(RendererData renderer, Affine placement)
+        {
+            this.renderer = renderer;
+            common = new Frame(placement.Equals(Affine.Identity) ? placement : placement.Inverse);
+        }
+
+        internal bool EachItsOwn
+        {
+            get { return renderer.Placements != null; }
+        }
+
+        internal bool IsIdentity
+        {
+            get { return !EachItsOwn && common.IsIdentity; }
+        }
+
+        internal Frame At(int vertex)
+        {
+            return EachItsOwn ? new Frame(renderer.Placements[vertex].Inverse) : common;
+        }
+    }
+}

@@ -1,0 +1,202 @@
+using System;
+using System.Collections.Generic;
+
+namespace SuperDeform
+{
+/// <summary>
+/// A character: meshes, joints, weights, all in one space (model space) and in rest pose, best with arms out. Units are
+/// any, and so are handedness and direction up. Joints come first, then meshes, which name them, then morph targets.
+/// Any thread may use it; calls that change it throw <see cref="BusyException"/> beside others.
+/// </summary>
+public sealed class Character : NativeObject
+{
+    // By mesh: the library tells vertices of all meshes together only.
+    private readonly List<int> vertexCounts = new List<int>();
+
+    /// <summary>Makes an empty character.</summary>
+    /// <param name="up">3 floats, from the feet to the head, any length but 0; null: (0, 1, 0).</param>
+    /// <param name="forward">
+    /// 3 floats, the way the face looks; null: found from left and right limbs, as in right-handed axes, so a
+    /// left-handed host gives it.
+    /// </param>
+    public unsafe Character(float[] up = null, float[] forward = null)
+    {
+        CheckDirection(up, "up");
+        CheckDirection(forward, "forward");
+        SdefCharacter made = new SdefCharacter();
+        SdefError error = Failure.None();
+        uint status;
+        fixed (float* upwards = up, ahead = forward)
+        {
+            status = Native.sdef_character_create(upwards, ahead, &made, &error);
+        }
+        Failure.Check(status, &error);
+        Handle = made.id;
+    }
+
+    internal SdefCharacter Raw
+    {
+        get { return new SdefCharacter { id = Handle }; }
+    }
+
+    /// <summary>Gives it joints, in place of any that it had. Comes before meshes with weights.</summary>
+    /// <exception cref="InvalidInputException">With the joint: a parent that is none, a circle of parents, a number
+    /// that is not finite, a role for a joint that is none.</exception>
+    public unsafe void SetSkeleton(SkeletonArrays skeleton)
+    {
+        if (skeleton == null) throw new ArgumentNullException("skeleton");
+        using (Loan loan = new Loan())
+        {
+            SdefSkeleton native = new SdefSkeleton();
+            loan.Fill(&native, skeleton);
+            SdefError error = Failure.None();
+            uint status = Native.sdef_character_set_skeleton(Raw, &native, &error);
+            GC.KeepAlive(this);
+            Failure.Check(status, &error);
+        }
+    }
+
+    /// <summary>Adds a mesh and gives its index, counted from 0. A rig made before goes.</summary>
+    /// <exception cref="InvalidInputException">With the vertex or triangle: an index, weight or position that cannot
+    /// be.</exception>
+    public unsafe int AddMesh(MeshArrays mesh)
+    {
+        if (mesh == null) throw new ArgumentNullException("mesh");
+        using (Loan loan = new Loan())
+        {
+            SdefMesh native = new SdefMesh();
+            loan.Fill(&native, mesh, vertexCounts.Count);
+            uint index = Native.SDEF_NONE;
+            SdefError error = Failure.None();
+            // Held during the call, so that counts stay in the order of meshes.
+            lock (vertexCounts)
+            {
+                uint status = Native.sdef_character_add_mesh(Raw, &native, &index, &error);
+                GC.KeepAlive(this);
+                Failure.Check(status, &error);
+                vertexCounts.Add((int)native.vertex_count);
+            }
+            return (int)index;
+        }
+    }
+
+    /// <summary>Adds a morph target to a mesh, after those that it has.</summary>
+    /// <exception cref="InvalidInputException">With the vertex that is not finite; or no such mesh.</exception>
+    public unsafe void AddMorphTarget(int mesh, MorphArrays target)
+    {
+        if (target == null) throw new ArgumentNullException("target");
+        int count;
+        lock (vertexCounts)
+        {
+            if (mesh < 0 || mesh >= vertexCounts.Count)
+                throw Failure.Argument("there is no mesh " + mesh + ": the character has " + vertexCounts.Count);
+            count = vertexCounts[mesh];
+        }
+        using (Loan loan = new Loan())
+        {
+            SdefMorphTarget native = new SdefMorphTarget();
+            loan.Fill(&native, target, mesh, count);
+            SdefError error = Failure.None();
+            uint status = Native.sdef_character_add_morph_target(Raw, (uint)mesh, &native, &error);
+            GC.KeepAlive(this);
+            Failure.Check(status, &error);
+        }
+    }
+
+    /// <summary>What it holds.</summary>
+    public unsafe CharacterInfo Info
+    {
+        get
+        {
+            SdefCharacterInfo info = new SdefCharacterInfo();
+            info.struct_size = (uint)sizeof(SdefCharacterInfo);
+            SdefError error = Failure.None();
+            uint status = Native.sdef_character_get_info(Raw, &info, &error);
+            GC.KeepAlive(this);
+            Failure.Check(status, &error);
+            return new CharacterInfo(info);
+        }
+    }
+
+    /// <summary>The joints: own ones first, then those of a made rig.</summary>
+    public unsafe Joints GetJoints()
+    {
+        Joints joints = new Joints(Info.JointCount);
+        SdefError error = Failure.None();
+        uint status;
+        UIntPtr count;
+        fixed (int* parents = joints.Parents)
+        fixed (HumanoidRole* roles = joints.Roles)
+        fixed (double* matrices = joints.RestMatrices, confidence = joints.Confidence)
+        {
+            status = Native.sdef_character_get_joints(Raw, parents, (uint*)roles, matrices, confidence,
+                (UIntPtr)(uint)joints.Count, &count, &error);
+        }
+        GC.KeepAlive(this);
+        Failure.Check(status, &error);
+        return joints;
+    }
+
+    /// <summary>Gives the weights that animate one mesh: those of a made rig, else its own.</summary>
+    /// <param name="mesh">Its index.</param>
+    /// <param name="influences">
+    /// Joints a vertex, 1 to 255: the largest weights, largest first, scaled to sum 1; what a vertex has no use for is
+    /// joint 0 with weight 0.
+    /// </param>
+    /// <param name="joints">Receives `influences` numbers a vertex.</param>
+    /// <param name="weights">Likewise.</param>
+    /// <exception cref="InvalidInputException">The mesh has no weights, or an array is too small.</exception>
+    public unsafe void GetWeights(int mesh, int influences, uint[] joints, float[] weights)
+    {
+        if (joints == null) throw new ArgumentNullException("joints");
+        if (weights == null) throw new ArgumentNullException("weights");
+        uint each = influences < 0 ? 0 : (uint)influences;
+        uint capacity = each == 0 ? 0 : (uint)Math.Min(joints.Length, weights.Length) / each;
+        SdefError error = Failure.None();
+        uint status;
+        fixed (uint* jointsOut = joints)
+        fixed (float* weightsOut = weights)
+        {
+            status = Native.sdef_character_get_weights(Raw, unchecked((uint)mesh), each, jointsOut, weightsOut,
+                (UIntPtr)capacity, &error);
+        }
+        GC.KeepAlive(this);
+        Failure.Check(status, &error);
+    }
+
+    /// <summary>
+    /// Finds joints and weights for a character without a rig, in place of any that was made before. Its own joints
+    /// stay, come first and ride along; its own weights are not used. Takes seconds.
+    /// </summary>
+    /// <param name="options">ThreadCount and what begins with Rig are read; null: the defaults.</param>
+    /// <param name="progress">May be null.</param>
+    public unsafe void Rig(Options options = null, ProgressHandler progress = null)
+    {
+        using (Loan loan = new Loan())
+        using (ProgressCall call = ProgressCall.Of(progress))
+        {
+            SdefError error = Failure.None();
+            uint status = Native.sdef_character_rig(Raw, loan.Options(options), call.Callback, call.User, &error);
+            GC.KeepAlive(this);
+            call.Check(status, &error);
+        }
+    }
+
+    /// <summary>What a person should know about the rig and the roles; empty where all is well.</summary>
+    public IList<Warning> Warnings
+    {
+        get
+        {
+            IList<Warning> warnings = Warning.Of(Handle);
+            GC.KeepAlive(this);
+            return warnings;
+        }
+    }
+
+    internal static void CheckDirection(float[] direction, string name)
+    {
+        if (direction != null && direction.Length != 3)
+            throw Failure.Argument(name + " holds " + direction.Length + " numbers: give 3, or null");
+    }
+}
+}

@@ -1,0 +1,231 @@
+using System;
+using System.Collections.Generic;
+using System.Threading;
+
+namespace SuperDeform
+{
+/// <summary>
+/// A character together with the deformation that gives it a style: made once, applied as often as something changes.
+/// It keeps what it needs of the character and the style, which may be disposed of before it. Any thread may use it.
+/// </summary>
+public sealed class Deformer : NativeObject
+{
+    // Kept from one Apply to the next, so that a slider leaves no garbage.
+    private Loan spare;
+
+    /// <summary>Makes the deformation.</summary>
+    /// <param name="character">With a skeleton or a made rig.</param>
+    /// <param name="style">What it should become.</param>
+    /// <param name="options">What begins with Rig is not read; null: the defaults.</param>
+    /// <param name="progress">May be null.</param>
+    /// <exception cref="NotHumanoidException">Required joints are missing.</exception>
+    /// <exception cref="InvalidInputException">An option, the style or the meshes cannot be.</exception>
+    public unsafe Deformer(Character character, Style style, Options options = null, ProgressHandler progress = null)
+    {
+        if (character == null) throw new ArgumentNullException("character");
+        if (style == null) throw new ArgumentNullException("style");
+        using (Loan loan = new Loan())
+        using (ProgressCall call = ProgressCall.Of(progress))
+        {
+            SdefDeformer made = new SdefDeformer();
+            SdefError error = Failure.None();
+            uint status = Native.sdef_deformer_create(character.Raw, style.Raw, loan.Options(options), call.Callback,
+                call.User, &made, &error);
+            GC.KeepAlive(character);
+            GC.KeepAlive(style);
+            Handle = made.id;
+            call.Check(status, &error);
+        }
+    }
+
+    private SdefDeformer Raw
+    {
+        get { return new SdefDeformer { id = Handle }; }
+    }
+
+    /// <summary>
+    /// Changes the options, with the same results as a new deformer and for less: only what hangs on the change is done
+    /// again. After an exception everything is as it was.
+    /// </summary>
+    public unsafe void SetOptions(Options options, ProgressHandler progress = null)
+    {
+        using (Loan loan = new Loan())
+        using (ProgressCall call = ProgressCall.Of(progress))
+        {
+            SdefError error = Failure.None();
+            uint status = Native.sdef_deformer_set_options(Raw, loan.Options(options), call.Callback, call.User,
+                &error);
+            GC.KeepAlive(this);
+            call.Check(status, &error);
+        }
+    }
+
+    /// <summary>Changes the face alone; nothing of the body is done again.</summary>
+    /// <param name="squash">As <see cref="Options.FaceSquash"/>.</param>
+    /// <param name="curve">As <see cref="Options.FaceCurve"/>.</param>
+    public unsafe void SetFace(double squash, FaceCurve curve)
+    {
+        SdefError error = Failure.None();
+        uint status = Native.sdef_deformer_set_face(Raw, squash, (uint)curve, &error);
+        GC.KeepAlive(this);
+        Failure.Check(status, &error);
+    }
+
+    /// <summary>
+    /// Deforms the meshes into the given arrays, in place and without garbage. Nothing is written where it throws.
+    /// </summary>
+    /// <param name="outputs">One for each mesh of the character, in their order.</param>
+    /// <param name="progress">May be null.</param>
+    public unsafe void Apply(IList<MeshOutput> outputs, ProgressHandler progress = null)
+    {
+        if (outputs == null) throw new ArgumentNullException("outputs");
+        Loan loan = Interlocked.Exchange(ref spare, null) ?? new Loan();
+        try
+        {
+            int count = outputs.Count;
+            SdefMeshResult* results = loan.Results(outputs);
+            using (ProgressCall call = ProgressCall.Of(progress))
+            {
+                SdefError error = Failure.None();
+                uint status = Native.sdef_deformer_apply(Raw, results, (UIntPtr)(uint)count, call.Callback, call.User,
+                    &error);
+                GC.KeepAlive(this);
+                call.Check(status, &error);
+            }
+        }
+        finally
+        {
+            loan.Dispose();
+            spare = loan;
+        }
+    }
+
+    /// <summary>How many joints there are, in the order of <see cref="Character.GetJoints"/>.</summary>
+    public unsafe int JointCount
+    {
+        get
+        {
+            UIntPtr count = UIntPtr.Zero;
+            SdefError error = Failure.None();
+            uint status = Native.sdef_deformer_get_joints(Raw, null, null, UIntPtr.Zero, &count, &error);
+            GC.KeepAlive(this);
+            Failure.Check(status, &error);
+            return (int)count;
+        }
+    }
+
+    /// <summary>
+    /// Gives the joints where they are now. They move, and neither turn nor scale: the new rest matrix is the old one
+    /// with this translation.
+    /// </summary>
+    /// <param name="positions">Receives 3 a joint, model space; may be null.</param>
+    /// <param name="inverseBinds">Receives 16 a joint, model space to joint space; may be null.</param>
+    public unsafe void GetJoints(double[] positions, double[] inverseBinds)
+    {
+        uint capacity = uint.MaxValue;
+        if (positions != null) capacity = (uint)positions.Length / 3;
+        if (inverseBinds != null) capacity = Math.Min(capacity, (uint)inverseBinds.Length / 16);
+        UIntPtr count = UIntPtr.Zero;
+        SdefError error = Failure.None();
+        uint status;
+        fixed (double* positionsOut = positions, bindsOut = inverseBinds)
+        {
+            status = Native.sdef_deformer_get_joints(Raw, positionsOut, bindsOut, (UIntPtr)capacity, &count, &error);
+        }
+        GC.KeepAlive(this);
+        Failure.Check(status, &error);
+    }
+
+    /// <summary>Maps points that hang from joints: colliders, eyes, viewpoints, the tails of springs.</summary>
+    /// <param name="joints">The joint that each point hangs from.</param>
+    /// <param name="points">3 a point, model space.</param>
+    /// <param name="positions">Receives 3 a point, model space; may be null.</param>
+    /// <param name="scales">Receives one a point: by how much small things there grow; may be null.</param>
+    /// <param name="jacobians">
+    /// Receives 9 a point, column by column: how directions and lengths there change; may be null.
+    /// </param>
+    /// <exception cref="InvalidInputException">With the point as the element.</exception>
+    public unsafe void MapPoints(uint[] joints, double[] points, double[] positions, double[] scales = null,
+        double[] jacobians = null)
+    {
+        if (joints == null) throw new ArgumentNullException("joints");
+        if (points == null) throw new ArgumentNullException("points");
+        CheckPoints(points, "points", joints.Length, 3);
+        CheckPoints(positions, "positions", joints.Length, 3);
+        CheckPoints(scales, "scales", joints.Length, 1);
+        CheckPoints(jacobians, "jacobians", joints.Length, 9);
+        SdefError error = Failure.None();
+        uint status;
+        fixed (uint* jointsIn = joints)
+        fixed (double* pointsIn = points, positionsOut = positions, scalesOut = scales, jacobiansOut = jacobians)
+        {
+            status = Native.sdef_deformer_map_points(Raw, jointsIn, pointsIn, (UIntPtr)(uint)joints.Length,
+                positionsOut, scalesOut, jacobiansOut, &error);
+        }
+        GC.KeepAlive(this);
+        Failure.Check(status, &error);
+    }
+
+    /// <summary>What is done to each bone group.</summary>
+    public unsafe Group[] GetGroups()
+    {
+        UIntPtr count = UIntPtr.Zero;
+        SdefError error = Failure.None();
+        uint status = Native.sdef_deformer_get_groups(Raw, null, UIntPtr.Zero, &count, &error);
+        Failure.Check(status, &error);
+        SdefGroup[] native = new SdefGroup[(int)count];
+        Group[] groups = new Group[native.Length];
+        fixed (SdefGroup* start = native)
+        {
+            status = Native.sdef_deformer_get_groups(Raw, start, count, &count, &error);
+            GC.KeepAlive(this);
+            Failure.Check(status, &error);
+            for (int i = 0; i < groups.Length; i++) groups[i] = new Group(start + i);
+        }
+        return groups;
+    }
+
+    /// <summary>
+    /// Measures the result. The first call after a change takes as long as an apply and a measurement together.
+    /// </summary>
+    /// <exception cref="InvalidInputException">NoGeometry where the result is too flat to be measured.</exception>
+    public unsafe Report GetReport()
+    {
+        SdefReport report = new SdefReport();
+        report.struct_size = (uint)sizeof(SdefReport);
+        SdefError error = Failure.None();
+        uint status = Native.sdef_deformer_get_report(Raw, &report, null, UIntPtr.Zero, null, &error);
+        GC.KeepAlive(this);
+        Failure.Check(status, &error);
+        return new Report(report);
+    }
+
+    /// <summary>The report as JSON text: numbers by group and role, times, warnings.</summary>
+    public unsafe string GetReportJson()
+    {
+        SdefDeformer raw = Raw;
+        string json = Text.Read((text, capacity, size, error) =>
+            Native.sdef_deformer_get_report(raw, null, text, capacity, size, error));
+        GC.KeepAlive(this);
+        return json;
+    }
+
+    /// <summary>What a person should know about the deformation and all before it; empty where all is well.</summary>
+    public IList<Warning> Warnings
+    {
+        get
+        {
+            IList<Warning> warnings = Warning.Of(Handle);
+            GC.KeepAlive(this);
+            return warnings;
+        }
+    }
+
+    private static void CheckPoints(double[] array, string name, int count, int each)
+    {
+        if (array == null || array.Length >= (long)each * count) return;
+        throw Failure.Argument(name + " holds " + array.Length + " numbers, but " + count + " points need "
+            + (long)each * count);
+    }
+}
+}

@@ -1,0 +1,19 @@
+namespace SuperDeform
+{
+/// <summary>What a mesh is of a character: the numbers of SDEF_MESH_*.</summary>
+public enum MeshKind : uint
+{
+    /// <summary>Guessed from the name; else body, or what making a rig sees in it.</summary>
+    Unknown = 0,
+    /// <summary>Skin, or skin fused with clothes.</summary>
+    Body = 1,
+    /// <summary>Clothes.</summary>
+    Garment = 2,
+    /// <summary>Hair of the head.</summary>
+    Hair = 3,
+    /// <summary>Eyes, brows, lashes, teeth, tongue: what follows the face.</summary>
+    FacePart = 4,
+    /// <summary>Hats, glasses, bags, weapons: what keeps its shape.</summary>
+    Accessory = 5,
+}
+}

@@ -1,0 +1,123 @@
+using System.Collections.Generic;
+
+namespace SuperDeform
+{
+/// <summary>Everything that can be set; each call reads what concerns it. Null stands for the defaults.</summary>
+public sealed class Options
+{
+    /// <summary>Threads to use; 0 (default): all cores.</summary>
+    public uint ThreadCount;
+
+    /// <summary>Default <see cref="SuperDeform.Mode.Product"/>.</summary>
+    public Mode Mode = Mode.Product;
+
+    /// <summary>Stop after it; default <see cref="SuperDeform.Stage.Face"/>, which is everything.</summary>
+    public Stage Stage = Stage.Face;
+
+    /// <summary>Rays around a sample of a bone, 3 to 4096; 0 (default): the mode's own, 48 or 12.</summary>
+    public uint Rays;
+
+    /// <summary>Bounds what product mode may do to a body (default).</summary>
+    public bool Limits = true;
+
+    /// <summary>Size of the head against what the style says, 0.1 to 10; default 1.5, the paper's.</summary>
+    public double HeadScale = 1.5;
+
+    /// <summary>0 gives the original back, 1 (default) the style.</summary>
+    public double Amount = 1;
+
+    /// <summary>Hair below the chin: 1 (default) ends where it ended on the body, 0 at the chin.</summary>
+    public double HairLength = 1;
+
+    /// <summary>
+    /// How much younger the face gets, -10 to 10 (bounded where it would fold); 0 leaves it; NaN (default): 0.8 in
+    /// product mode where a face is found, 0 in paper mode.
+    /// </summary>
+    public double FaceSquash = double.NaN;
+
+    /// <summary>Default <see cref="SuperDeform.FaceCurve.F4"/>.</summary>
+    public FaceCurve FaceCurve = FaceCurve.F4;
+
+    /// <summary>Settings by bone group. May be null.</summary>
+    public List<GroupSettings> Groups = new List<GroupSettings>();
+
+    /// <summary>Bone groups of your own. May be null.</summary>
+    public List<BoneGroup> BoneGroups = new List<BoneGroup>();
+
+    /// <summary>Rig: how the weights of the body are made; default Auto.</summary>
+    public BodyWeights RigWeights = BodyWeights.Auto;
+
+    /// <summary>Rig: how the weights of clothes are made; default Robust.</summary>
+    public GarmentWeights RigGarments = GarmentWeights.Robust;
+
+    /// <summary>Rig: voxels along the longest side of the volume, 16 to 512; default 128.</summary>
+    public uint RigVoxelResolution = 128;
+
+    /// <summary>Rig: looks for fingers (default).</summary>
+    public bool RigFingers = true;
+
+    /// <summary>Rig: keeps jaws from sticking to the neck (default).</summary>
+    public bool RigChinSegment = true;
+
+    /// <summary>Rig: how sharp weights by heat are, 0.01 to 1000; default 1.</summary>
+    public double RigHeat = 1;
+
+    /// <summary>Rig: joints that are known; the rest is found. May be null.</summary>
+    public List<GivenJoint> RigJoints = new List<GivenJoint>();
+}
+
+/// <summary>Settings of one bone group; NaN in any number (default) leaves the measured or the default value.</summary>
+public sealed class GroupSettings
+{
+    /// <summary>
+    /// head, neck, torso, shoulder, upper_arm, lower_arm, hand, finger, hip, upper_leg, lower_leg, foot, or a name of
+    /// your own from <see cref="Options.BoneGroups"/>.
+    /// </summary>
+    public string Group;
+
+    /// <summary>1 keeps the length of the group's bones; 0.01 to 100.</summary>
+    public double LengthScale = double.NaN;
+
+    /// <summary>1 keeps the girth; 0.01 to 100.</summary>
+    public double ThicknessScale = double.NaN;
+
+    /// <summary>0 keeps the target's length, 1 takes all of the reference's; -10 to 10.</summary>
+    public double LengthTransfer = double.NaN;
+
+    /// <summary>0 keeps the target's girth, 1 takes all of the reference's; -10 to 10.</summary>
+    public double ThicknessTransfer = double.NaN;
+}
+
+/// <summary>A bone in a group of your own.</summary>
+public sealed class BoneGroup
+{
+    /// <summary>The role at the end of the bone: LeftLowerLeg is the left thigh.</summary>
+    public HumanoidRole Role;
+
+    /// <summary>The group's name.</summary>
+    public string Group;
+}
+
+/// <summary>Where a joint is known to be, for making a rig.</summary>
+public struct GivenJoint
+{
+    public GivenJoint(HumanoidRole role, double x, double y, double z)
+    {
+        Role = role;
+        X = x;
+        Y = y;
+        Z = z;
+    }
+
+    public HumanoidRole Role;
+
+    /// <summary>Model space.</summary>
+    public double X;
+
+    /// <summary>Model space.</summary>
+    public double Y;
+
+    /// <summary>Model space.</summary>
+    public double Z;
+}
+}

@@ -1,0 +1,263 @@
+using System;
+using System.Collections.Generic;
+using System.Threading;
+using NUnit.Framework;
+
+namespace SuperDeform.Tests
+{
+[TestFixture]
+public sealed class DeformerTests
+{
+    private readonly Mannequin figure = new Mannequin();
+    private Character character;
+    private Style style;
+    private Deformer deformer;
+
+    [SetUp]
+    public void Make()
+    {
+        character = figure.Character();
+        style = Style.FromHeads(2.5);
+        deformer = new Deformer(character, style);
+    }
+
+    [TearDown]
+    public void Destroy()
+    {
+        deformer.Dispose();
+        style.Dispose();
+        character.Dispose();
+    }
+
+    [Test]
+    public void One_call_gives_the_same_bits()
+    {
+        MeshOutput expected = Mannequin.Output(figure.VertexCount), output = Mannequin.Output(figure.VertexCount);
+        deformer.Apply(new[] { expected });
+        OneCall.SuperDeform(null, null, figure.Skeleton, new[] { figure.Mesh() }, style, null, new[] { output });
+        Assert.AreEqual(Bits((Triple[])expected.Positions), Bits((Triple[])output.Positions));
+        Assert.AreEqual(Bits((Triple[])expected.Normals), Bits((Triple[])output.Normals));
+        Assert.AreEqual(expected.Tangents, output.Tangents);
+        Assert.AreNotEqual(Bits(figure.Positions), Bits((Triple[])output.Positions));
+    }
+
+    [Test]
+    public void One_call_may_write_where_it_read_and_reports_progress()
+    {
+        MeshOutput expected = Mannequin.Output(figure.VertexCount);
+        deformer.Apply(new[] { expected });
+        Mannequin own = new Mannequin();
+        MeshOutput output = new MeshOutput { Positions = own.Positions, VertexCount = own.VertexCount };
+        float last = 0;
+        OneCall.SuperDeform(new float[] { 0, 1, 0 }, new float[] { 0, 0, 1 }, own.Skeleton, new[] { own.Mesh() }, style,
+            new Options { ThreadCount = 1 }, new[] { output }, fraction =>
+            {
+                last = fraction;
+                return true;
+            });
+        Assert.AreEqual(Bits((Triple[])expected.Positions), Bits(own.Positions));
+        Assert.AreEqual(1f, last);
+        Thrown.Invalid(Status.BadArgument, () => OneCall.SuperDeform(null, null, own.Skeleton, new[] { own.Mesh() },
+            style, null, new MeshOutput[0]));
+    }
+
+    [Test]
+    public void Amount_0_gives_the_original_back()
+    {
+        deformer.SetOptions(new Options { Amount = 0, FaceSquash = 0 });
+        MeshOutput output = Mannequin.Output(figure.VertexCount);
+        deformer.Apply(new[] { output });
+        Triple[] positions = (Triple[])output.Positions;
+        for (int i = 0; i < positions.Length; i++)
+        {
+            Assert.AreEqual(figure.Positions[i].X, positions[i].X, 1e-5f);
+            Assert.AreEqual(figure.Positions[i].Y, positions[i].Y, 1e-5f);
+            Assert.AreEqual(figure.Positions[i].Z, positions[i].Z, 1e-5f);
+        }
+    }
+
+    [Test]
+    public void Options_set_later_give_what_options_set_first_give()
+    {
+        Options options = new Options { HeadScale = 1.1, HairLength = 0.5, FaceSquash = 0.3, FaceCurve = FaceCurve.F2 };
+        options.Groups.Add(new GroupSettings { Group = "hand", LengthScale = 1.2, ThicknessScale = 1.3 });
+        MeshOutput expected = Mannequin.Output(figure.VertexCount), output = Mannequin.Output(figure.VertexCount);
+        using (Deformer other = new Deformer(character, style, options)) other.Apply(new[] { expected });
+        deformer.SetOptions(options);
+        deformer.Apply(new[] { output });
+        Assert.AreEqual(Bits((Triple[])expected.Positions), Bits((Triple[])output.Positions));
+    }
+
+    [Test]
+    public void The_face_alone_gives_what_options_give()
+    {
+        MeshOutput expected = Mannequin.Output(figure.VertexCount), output = Mannequin.Output(figure.VertexCount);
+        Options options = new Options { FaceSquash = 0.25, FaceCurve = FaceCurve.F2 };
+        using (Deformer other = new Deformer(character, style, options))
+            other.Apply(new[] { expected });
+        deformer.SetFace(0.25, FaceCurve.F2);
+        deformer.Apply(new[] { output });
+        Assert.AreEqual(Bits((Triple[])expected.Positions), Bits((Triple[])output.Positions));
+        Thrown.Invalid(Status.BadArgument, () => deformer.SetFace(0.25, (FaceCurve)9));
+        Thrown.Invalid(Status.BadOption, () => deformer.SetFace(11, FaceCurve.F4));
+    }
+
+    [Test]
+    public void It_keeps_what_it_needs()
+    {
+        MeshOutput expected = Mannequin.Output(figure.VertexCount), output = Mannequin.Output(figure.VertexCount);
+        deformer.Apply(new[] { expected });
+        character.Dispose();
+        style.Dispose();
+        deformer.Apply(new[] { output });
+        Assert.AreEqual(Bits((Triple[])expected.Positions), Bits((Triple[])output.Positions));
+    }
+
+    [Test]
+    public void Joints_move_and_their_inverse_binds_follow()
+    {
+        int count = deformer.JointCount;
+        Assert.AreEqual(figure.JointCount, count);
+        double[] positions = new double[3 * count], binds = new double[16 * count];
+        deformer.GetJoints(positions, binds);
+        for (int joint = 0; joint < count; joint++)
+        {
+            // The figure's joints do not turn, so the inverse is the translation back.
+            for (int i = 0; i < 3; i++) Assert.AreEqual(-positions[3 * joint + i], binds[16 * joint + 12 + i], 1e-12);
+            for (int i = 0; i < 4; i++) Assert.AreEqual(1.0, binds[16 * joint + 5 * i]);
+        }
+        int head = figure.Skeleton.RoleJoints[(int)HumanoidRole.Head];
+        Assert.IsTrue(positions[3 * head + 1] < 1.4, "the head stays at " + positions[3 * head + 1]);
+        deformer.GetJoints(positions, null);
+        deformer.GetJoints(null, binds);
+        Thrown.Invalid(Status.BufferTooSmall, () => deformer.GetJoints(new double[3], null));
+        Thrown.Invalid(Status.BufferTooSmall, () => deformer.GetJoints(positions, new double[16]));
+    }
+
+    [Test]
+    public void Points_go_where_the_joints_go()
+    {
+        int count = figure.JointCount;
+        uint[] joints = new uint[count];
+        double[] points = new double[3 * count], positions = new double[3 * count], expected = new double[3 * count];
+        double[] scales = new double[count], jacobians = new double[9 * count];
+        for (int joint = 0; joint < count; joint++)
+        {
+            joints[joint] = (uint)joint;
+            for (int i = 0; i < 3; i++) points[3 * joint + i] = figure.Skeleton.RestMatrices[16 * joint + 12 + i];
+        }
+        deformer.MapPoints(joints, points, positions, scales, jacobians);
+        deformer.GetJoints(expected, null);
+        for (int i = 0; i < 3 * count; i++) Assert.AreEqual(expected[i], positions[i], 1e-9, "number " + i);
+        foreach (double scale in scales) Assert.IsTrue(scale > 0 && scale < 10, scale.ToString());
+        double[] again = new double[3 * count];
+        deformer.MapPoints(joints, points, again);
+        Assert.AreEqual(positions, again);
+        deformer.MapPoints(new uint[0], new double[0], new double[0]);
+        joints[5] = 99;
+        Assert.AreEqual(5, Thrown.Invalid(Status.BadInput, () => deformer.MapPoints(joints, points, again)).Element);
+        double[] few = new double[3];
+        Thrown.Says(Thrown.Invalid(Status.BadArgument, () => deformer.MapPoints(joints, points, few)), "positions");
+        Thrown.Says(Thrown.Invalid(Status.BadArgument, () => deformer.MapPoints(joints, few, again)), "points");
+    }
+
+    [Test]
+    public void Groups_have_names_scales_and_sizes()
+    {
+        Options options = new Options();
+        options.Groups.Add(new GroupSettings { Group = "lower_arm", ThicknessScale = 1.25 });
+        deformer.SetOptions(options);
+        Dictionary<string, Group> groups = new Dictionary<string, Group>();
+        foreach (Group group in deformer.GetGroups()) groups.Add(group.Name, group);
+        Assert.AreEqual(1.25, groups["lower_arm"].ThicknessScale, 1e-9);
+        // Both lower arms of the figure, elbow to wrist.
+        Assert.AreEqual(2 * 0.25, groups["lower_arm"].TargetLength, 0.02);
+        Assert.AreEqual(0.04, groups["lower_arm"].TargetRadius, 0.004);
+        Assert.IsTrue(double.IsNaN(groups["lower_arm"].ReferenceLength), "a style of N heads has no lengths");
+        Assert.IsTrue(groups["upper_leg"].LengthScale < 1, groups["upper_leg"].LengthScale.ToString());
+    }
+
+    [Test]
+    public void The_report_is_numbers_and_the_same_numbers_as_JSON()
+    {
+        Report report = deformer.GetReport();
+        Assert.IsFalse(report.RigMade);
+        Assert.AreEqual(1.75, report.Target.Height, 0.05);
+        Assert.IsTrue(report.Result.Height < report.Target.Height);
+        Assert.AreEqual(0, report.UnreachedVertices);
+        Dictionary<string, object> json = (Dictionary<string, object>)Json.Read(deformer.GetReportJson());
+        Dictionary<string, object> result = (Dictionary<string, object>)json["result"];
+        Assert.AreEqual(report.Result.Heads, (double)result["heads"], 1e-9);
+        Assert.AreEqual(report.Result.Height, (double)result["height"], 1e-9);
+    }
+
+    [Test]
+    public void Warnings_are_a_list()
+    {
+        deformer.SetOptions(new Options { FaceSquash = 10 });
+        IList<Warning> warnings = deformer.Warnings;
+        bool found = false;
+        foreach (Warning warning in warnings) found = found || warning.Code == "face_squash_clamped";
+        Assert.IsTrue(found, "no word of a face that was squashed too far among " + warnings.Count + " warnings");
+    }
+
+    [Test]
+    public void Applying_leaves_no_garbage()
+    {
+        MeshOutput[] outputs = { Mannequin.Output(figure.VertexCount) };
+        for (int i = 0; i < 3; i++) deformer.Apply(outputs);
+        // Not in every library that this compiles against.
+        System.Reflection.MethodInfo counter = typeof(GC).GetMethod("GetAllocatedBytesForCurrentThread");
+        if (counter == null) Assert.Ignore("this runtime does not count what is allocated");
+        Func<long> allocated = (Func<long>)Delegate.CreateDelegate(typeof(Func<long>), counter);
+        const int times = 200;
+        long before = allocated();
+        for (int i = 0; i < times; i++) deformer.Apply(outputs);
+        long bytes = allocated() - before;
+        Assert.IsTrue(bytes < 1000, bytes + " bytes for " + times + " times " + figure.VertexCount + " vertices");
+    }
+
+    [Test]
+    public void Threads_may_share_it()
+    {
+        MeshOutput expected = Mannequin.Output(figure.VertexCount);
+        deformer.Apply(new[] { expected });
+        Exception failed = null;
+        Thread[] threads = new Thread[4];
+        for (int i = 0; i < threads.Length; i++)
+        {
+            threads[i] = new Thread(() =>
+            {
+                try
+                {
+                    MeshOutput output = Mannequin.Output(figure.VertexCount);
+                    for (int time = 0; time < 20; time++)
+                    {
+                        deformer.Apply(new[] { output });
+                        Assert.AreEqual(Bits((Triple[])expected.Positions), Bits((Triple[])output.Positions));
+                    }
+                }
+                catch (Exception exception)
+                {
+                    failed = exception;
+                }
+            });
+            threads[i].Start();
+        }
+        foreach (Thread thread in threads) thread.Join();
+        Assert.IsNull(failed, failed == null ? "" : failed.ToString());
+    }
+
+    private static int[] Bits(Triple[] vectors)
+    {
+        int[] bits = new int[3 * vectors.Length];
+        for (int i = 0; i < vectors.Length; i++)
+        {
+            bits[3 * i] = BitConverter.ToInt32(BitConverter.GetBytes(vectors[i].X), 0);
+            bits[3 * i + 1] = BitConverter.ToInt32(BitConverter.GetBytes(vectors[i].Y), 0);
+            bits[3 * i + 2] = BitConverter.ToInt32(BitConverter.GetBytes(vectors[i].Z), 0);
+        }
+        return bits;
+    }
+}
+}

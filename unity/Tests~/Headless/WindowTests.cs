@@ -1,0 +1,484 @@
+using System;
+using System.Collections.Generic;
+using System.IO;
+using NUnit.Framework;
+using UnityEditor;
+using UnityEngine;
+using UnityStubs;
+
+namespace SuperDeform.Editor.Tests
+{
+    [TestFixture]
+    public class WindowTests
+    {
+        private WindowFigure figure;
+        private ulong handles;
+
+        [SetUp]
+        public void Begin()
+        {
+            Models.NewProject();
+            handles = SuperDeformLibrary.LiveHandles;
+            figure = new WindowFigure("Mika", 3000);
+        }
+
+        [TearDown]
+        public void NothingIsLeft()
+        {
+            foreach (ConverterWindow window in Resources.FindObjectsOfTypeAll<ConverterWindow>())
+                window.Close();
+            Assert.AreEqual(handles, SuperDeformLibrary.LiveHandles, "live handles");
+            Assert.IsFalse(Dialogs.BarOpen, "a progress bar is open");
+        }
+
+        private static T Find<T>(ConverterModel model, SectionId section, string key) where T : Row
+        {
+            string label = Strings.Get(key);
+            foreach (Row row in model.Sections[(int)section].Rows)
+                if (row is T && row.Label == label)
+                    return (T)row;
+            throw new AssertionException("there is no " + typeof(T).Name + " \"" + label + "\" in " + section);
+        }
+
+        private static List<string> Labels(ConverterModel model, SectionId section)
+        {
+            return model.Sections[(int)section].Rows.ConvertAll(row => row.Label);
+        }
+
+        private ConverterWindow Open()
+        {
+            ConverterWindow window = ConverterWindow.Open(null);
+            window.Model.SetAvatar(figure.Root);
+            return window;
+        }
+
+        // The editor's clock stands still in these tests: time is given.
+        private static void Settle(ConverterWindow window)
+        {
+            double now = 1e6;
+            window.Controller.Tick(now);
+            window.Controller.Tick(now + 1);
+        }
+
+        private static void Draw(ConverterWindow window)
+        {
+            Gui.Pass(() => typeof(ConverterWindow).GetMethod("OnGUI", System.Reflection.BindingFlags.Instance
+                | System.Reflection.BindingFlags.NonPublic).Invoke(window, null));
+        }
+
+        [Test]
+        public void there_are_five_sections_in_their_order()
+        {
+            var model = new ConverterModel();
+            Assert.AreEqual(5, model.Sections.Count);
+            for (int i = 0; i < 5; i++)
+            {
+                Assert.AreEqual((SectionId)i, model.Sections[i].Id);
+                StringAssert.StartsWith((i + 1) + "  ", model.Sections[i].Title);
+            }
+        }
+
+        [Test]
+        public void without_an_avatar_nothing_can_be_converted_and_the_window_says_what_to_do()
+        {
+            var model = new ConverterModel();
+            Assert.IsFalse(model.CanConvert);
+            CollectionAssert.Contains(Labels(model, SectionId.Avatar), Strings.Get("avatar.hint"));
+            Assert.IsFalse(Find<ActionRow>(model, SectionId.Report, "report.convert").Enabled);
+            CollectionAssert.Contains(Labels(model, SectionId.Report), Strings.Get("report.no_avatar"));
+            bool asked = false;
+            model.Converting += () => asked = true;
+            model.Convert();
+            Assert.IsFalse(asked);
+        }
+
+        [Test]
+        public void an_error_of_the_checks_stands_with_its_fix_and_stops_the_conversion()
+        {
+            var model = new ConverterModel();
+            StubProject.Import("Assets/Mika.fbx", figure.Body.sharedMesh);
+            StubEditor.AddModelImporter("Assets/Mika.fbx", false);
+            StubProject.SetReadable(figure.Body.sharedMesh, false);
+            model.SetAvatar(figure.Root);
+            CheckRow row = (CheckRow)model.Sections[0].Rows.Find(found => found is CheckRow && ((CheckRow)found).Severity == Severity.Error);
+            Assert.AreEqual(Strings.Get("fix_readable"), row.FixLabel);
+            Assert.IsFalse(model.CanConvert);
+            CollectionAssert.Contains(Labels(model, SectionId.Report), Strings.Get("report.not_ready"));
+        }
+
+        [Test]
+        public void a_fix_makes_the_window_look_again()
+        {
+            var model = new ConverterModel();
+            model.SetAvatar(figure.Root);
+            bool mended = false;
+            var finding = new Finding("not_readable", Severity.Error, null, "a", "b").WithFix("fix_readable", () => mended = true);
+            IList<Finding> before = model.Findings;
+            ConverterSections.Check(model, finding).Fix();
+            Assert.IsTrue(mended);
+            Assert.AreNotSame(before, model.Findings);
+        }
+
+        [Test]
+        public void a_preset_is_a_built_in_style_of_so_many_heads()
+        {
+            var model = new ConverterModel();
+            ChoiceRow presets = Find<ChoiceRow>(model, SectionId.Style, "style.presets");
+            Assert.AreEqual("2 heads 2.5 heads 3 heads 4 heads", string.Join(" ", presets.Choices));
+            Assert.AreEqual(1, presets.Get());
+            model.Settings.Blend = 0.5f;
+            presets.Set(3);
+            Assert.AreEqual(StyleSource.BuiltIn, model.Settings.Source);
+            Assert.AreEqual("sd4", model.Settings.BuiltInStyle);
+            Assert.AreEqual(4, model.Settings.Heads);
+            Assert.AreEqual(0, model.Settings.Blend);
+            Assert.AreEqual(-1, Find<ChoiceRow>(model, SectionId.Style, "style.source").Get());
+        }
+
+        [Test]
+        public void each_source_of_a_style_shows_its_own_field()
+        {
+            var model = new ConverterModel();
+            Find<ChoiceRow>(model, SectionId.Style, "style.source").Set(0);
+            Assert.AreEqual(StyleSource.Heads, model.Settings.Source);
+            Find<SliderRow>(model, SectionId.Style, "style.heads").Set(3.25f);
+            Assert.AreEqual("3.25 heads", model.Sections[1].Summary);
+            Find<ChoiceRow>(model, SectionId.Style, "style.source").Set(1);
+            Assert.IsFalse(model.HasStyle);
+            Assert.IsFalse(Find<ActionRow>(model, SectionId.Style, "style.save").Enabled);
+            CollectionAssert.DoesNotContain(Labels(model, SectionId.Style), Strings.Get("style.heads"));
+            Find<ObjectRow>(model, SectionId.Style, "style.reference").Set(figure.Root);
+            Assert.IsTrue(model.HasStyle);
+            Find<SliderRow>(model, SectionId.Style, "style.blend").Set(0.5f);
+            Find<SliderRow>(model, SectionId.Style, "style.heads");
+            Find<ChoiceRow>(model, SectionId.Style, "style.source").Set(2);
+            Assert.AreEqual(typeof(TextAsset), Find<ObjectRow>(model, SectionId.Style, "style.saved").Type);
+        }
+
+        [Test]
+        public void a_group_shows_what_the_style_found_until_it_is_moved_and_again_after_a_reset()
+        {
+            ConverterWindow window = Open();
+            Settle(window);
+            ConverterModel model = window.Model;
+            Group found = Array.Find(model.Numbers.Groups, group => group.Name == "upper_leg");
+            GroupRow row = (GroupRow)model.Sections[2].Rows.Find(candidate => candidate.Label == Strings.Get("group.upper_leg"));
+            Assert.AreEqual((float)found.LengthScale, row.Length.Get());
+            Assert.AreEqual((float)found.ThicknessScale, row.Thickness.Get());
+            Assert.IsFalse(row.Length.IsOwn());
+            row.Length.Set(0.5f);
+            Assert.AreEqual(0.5f, row.Length.Get());
+            Assert.IsTrue(row.Length.IsOwn());
+            Assert.AreEqual("1 changed", model.Sections[2].Summary);
+            row.Length.Reset();
+            Assert.AreEqual((float)found.LengthScale, row.Length.Get());
+            Assert.AreEqual("", model.Sections[2].Summary);
+        }
+
+        [Test]
+        public void every_slider_changes_what_it_says_within_its_bounds()
+        {
+            var model = new ConverterModel();
+            foreach (Row row in model.Sections[2].Rows)
+            {
+                var sliders = new List<SliderRow>();
+                if (row is SliderRow)
+                    sliders.Add((SliderRow)row);
+                if (row is GroupRow)
+                {
+                    sliders.Add(((GroupRow)row).Length);
+                    if (((GroupRow)row).Thickness != null)
+                        sliders.Add(((GroupRow)row).Thickness);
+                }
+                foreach (SliderRow slider in sliders)
+                    foreach (float value in new[] { slider.Low, slider.High })
+                    {
+                        slider.Set(value);
+                        Assert.AreEqual(value, slider.Get(), row.Label);
+                    }
+            }
+            // The library takes the bounds of all of them.
+            model.SetAvatar(figure.Root);
+            using (var session = new PreviewSession(figure.Root, model.Settings))
+                Assert.IsTrue(session.IsAlive);
+        }
+
+        [Test]
+        public void resetting_takes_all_fine_tuning_of_parts_away()
+        {
+            var model = new ConverterModel();
+            GroupTunings.Set(model.Settings, "head", false, 1.2f);
+            model.Touch();
+            ActionRow reset = Find<ActionRow>(model, SectionId.FineTuning, "tune.reset");
+            Assert.IsTrue(reset.Enabled);
+            reset.Do();
+            Assert.AreEqual(0, GroupTunings.Count(model.Settings));
+            Assert.IsFalse(Find<ActionRow>(model, SectionId.FineTuning, "tune.reset").Enabled);
+        }
+
+        [Test]
+        public void the_preview_follows_the_model()
+        {
+            ConverterWindow window = Open();
+            Assert.IsNull(window.Controller.Preview);
+            Settle(window);
+            PreviewSession session = window.Controller.Preview;
+            Assert.IsTrue(session.IsAlive);
+            Find<ChoiceRow>(window.Model, SectionId.Preview, "preview.show").Set(0);
+            Settle(window);
+            Assert.AreSame(session, window.Controller.Preview);
+            Assert.IsTrue(session.ShowBefore);
+            Find<ToggleRow>(window.Model, SectionId.Preview, "preview.live").Set(false);
+            Settle(window);
+            Assert.IsNull(window.Controller.Preview);
+            Assert.IsFalse(session.IsAlive);
+        }
+
+        [Test]
+        public void the_result_is_measured_once_when_settings_rest()
+        {
+            ConverterWindow window = Open();
+            Assert.IsTrue(window.Controller.Tick(10));
+            Assert.IsNull(window.Model.Numbers);
+            Assert.IsFalse(window.Controller.Tick(10.1));
+            Assert.IsNull(window.Model.Numbers);
+            Assert.IsTrue(window.Controller.Tick(10.5));
+            Assert.IsNotNull(window.Model.Numbers);
+            Assert.IsFalse(window.Controller.Tick(11));
+        }
+
+        [Test]
+        public void a_style_that_cannot_be_is_told_and_mending_it_brings_the_preview_back()
+        {
+            ConverterWindow window = Open();
+            Settle(window);
+            window.Model.Change("undo.style", () =>
+            {
+                window.Model.Settings.Source = StyleSource.SavedStyle;
+                window.Model.Settings.SavedStyle = new TextAsset("{ this is no style }");
+            });
+            Settle(window);
+            Assert.IsNull(window.Controller.Preview);
+            Assert.AreEqual("library_says", window.Model.PreviewFailure.Key);
+            Assert.That(window.Model.Sections[4].Rows.Exists(row => row is CheckRow && ((CheckRow)row).Severity == Severity.Error));
+            window.Model.Change("undo.style", () => window.Model.Settings.Source = StyleSource.BuiltIn);
+            Settle(window);
+            Assert.IsNull(window.Model.PreviewFailure);
+            Assert.IsNotNull(window.Controller.Preview);
+        }
+
+        [Test]
+        public void another_avatar_gets_another_preview_and_the_first_is_seen_again()
+        {
+            ConverterWindow window = Open();
+            Settle(window);
+            var other = new WindowFigure("Yuki", 3000);
+            window.Model.SetAvatar(other.Root);
+            Settle(window);
+            Assert.IsFalse(figure.Body.forceRenderingOff);
+            Assert.IsTrue(other.Body.forceRenderingOff);
+        }
+
+        [Test]
+        public void a_deleted_avatar_is_no_fault()
+        {
+            ConverterWindow window = Open();
+            Settle(window);
+            UnityEngine.Object.DestroyImmediate(figure.Root);
+            window.Model.Touch();
+            Settle(window);
+            Assert.IsNull(window.Controller.Preview);
+            Assert.IsFalse(window.Model.CanConvert);
+            Draw(window);
+        }
+
+        [Test]
+        public void changes_can_be_undone_and_the_preview_follows()
+        {
+            ConverterWindow window = Open();
+            Settle(window);
+            // Unity does so with every press of the mouse.
+            Undo.IncrementCurrentGroup();
+            Find<ChoiceRow>(window.Model, SectionId.Style, "style.presets").Set(3);
+            Settle(window);
+            Assert.AreEqual("sd4", window.Model.Settings.BuiltInStyle);
+            double after = window.Model.Numbers.Report.Result.Heads;
+            Undo.PerformUndo();
+            Assert.AreSame(figure.Root, window.Model.Avatar);
+            Assert.AreEqual("sd2.5", window.Model.Settings.BuiltInStyle);
+            Settle(window);
+            Assert.AreNotEqual(after, window.Model.Numbers.Report.Result.Heads);
+            // Still connected: presses count.
+            Find<ToggleRow>(window.Model, SectionId.Preview, "preview.live").Set(false);
+            Settle(window);
+            Assert.IsNull(window.Controller.Preview);
+        }
+
+        [Test]
+        public void the_preview_ends_before_scripts_reload_before_play_mode_and_on_closing()
+        {
+            ConverterWindow window = Open();
+            Settle(window);
+            StubEditor.ReloadScripts();
+            Assert.IsFalse(figure.Body.forceRenderingOff, "reload");
+            Assert.AreEqual(handles, SuperDeformLibrary.LiveHandles, "reload");
+            window.Close();
+            window = Open();
+            Settle(window);
+            Assert.IsTrue(figure.Body.forceRenderingOff);
+            StubEditor.ChangePlayMode(PlayModeStateChange.ExitingEditMode);
+            Assert.IsFalse(figure.Body.forceRenderingOff, "play mode");
+            Draw(window);
+            StringAssert.Contains(Strings.Get("window.rests"), string.Join("\n", Gui.Drawn));
+            StubEditor.ChangePlayMode(PlayModeStateChange.EnteredEditMode);
+            Settle(window);
+            Assert.IsTrue(figure.Body.forceRenderingOff, "back from play mode");
+            window.Close();
+            Assert.IsFalse(figure.Body.forceRenderingOff, "closing");
+        }
+
+        [Test]
+        public void the_button_makes_a_prefab_and_shows_it()
+        {
+            Settings.BatchMode = false;
+            ConverterWindow window = Open();
+            Settle(window);
+            Gui.Press.Add(Strings.Get("report.convert"));
+            Draw(window);
+            Assert.IsNull(window.Model.Result, "while the window draws");
+            StubEditor.Tick();
+            Assert.IsNotNull(window.Model.Result.Prefab);
+            Assert.AreSame(window.Model.Result.Prefab, Dialogs.Pinged);
+            foreach (Renderer renderer in window.Model.Result.Prefab.GetComponentsInChildren<Renderer>(true))
+                Assert.IsFalse(renderer.forceRenderingOff, "hidden by the preview: " + renderer.name);
+            Assert.That(Dialogs.Bars.Count, Is.GreaterThan(3));
+            Assert.IsFalse(Dialogs.BarOpen);
+            Assert.IsEmpty(Dialogs.Shown, "dialogs");
+            CollectionAssert.Contains(Labels(window.Model, SectionId.Report), "Created " + window.Model.Result.PrefabPath);
+        }
+
+        [Test]
+        public void cancelling_leaves_no_bar_no_files_and_says_so()
+        {
+            Settings.BatchMode = false;
+            ConverterWindow window = Open();
+            Settle(window);
+            string[] before = StubProject.FilesOnDisk();
+            Dialogs.Cancel = fraction => fraction > 0.3f;
+            window.Model.Convert();
+            StubEditor.Tick();
+            Assert.IsNull(window.Model.Result);
+            Assert.AreEqual("cancelled", window.Model.Failure.Key);
+            Assert.IsFalse(Dialogs.BarOpen);
+            CollectionAssert.AreEqual(before, StubProject.FilesOnDisk());
+        }
+
+        [Test]
+        public void a_failure_of_the_disk_is_told_without_a_dialog_and_the_bar_goes()
+        {
+            Settings.BatchMode = false;
+            ConverterWindow window = Open();
+            Settle(window);
+            StubDisk.FailAfterBytes = 1000;
+            window.Model.Convert();
+            StubEditor.Tick();
+            Assert.AreEqual("write_refused", window.Model.Failure.Key);
+            Assert.IsFalse(Dialogs.BarOpen);
+            Assert.IsEmpty(Dialogs.Shown);
+        }
+
+        [Test]
+        public void a_reference_can_be_saved_as_a_style_and_used_again()
+        {
+            Settings.BatchMode = false;
+            ConverterWindow window = Open();
+            window.Model.Change("undo.style", () =>
+            {
+                window.Model.Settings.Source = StyleSource.ReferenceAvatar;
+                window.Model.Settings.ReferenceAvatar = new WindowFigure("Chibi", 2000).Root;
+            });
+            Dialogs.Paths.Enqueue("Assets/chibi.json");
+            Find<ActionRow>(window.Model, SectionId.Style, "style.save").Do();
+            StubEditor.Tick();
+            string json = File.ReadAllText(Path.Combine(Settings.ProjectFolder, "Assets/chibi.json"));
+            using (Style style = Style.FromText(json))
+                Assert.That(style.Numbers.Heads, Is.GreaterThan(1));
+        }
+
+        [Test]
+        public void everything_is_drawn_in_both_languages()
+        {
+            ConverterWindow window = Open();
+            for (int section = 0; section < 5; section++)
+                window.Model.Open[section] = true;
+            window.Model.Touch();
+            Settle(window);
+            foreach (string language in Strings.Languages)
+            {
+                Strings.Language = language;
+                Draw(window);
+                string drawn = string.Join("\n", Gui.Drawn);
+                foreach (Section section in window.Model.Sections)
+                {
+                    StringAssert.Contains(section.Title, drawn);
+                    foreach (Row row in section.Rows)
+                        if (row.Label.Length > 0 && !(row is TableRow))
+                            StringAssert.Contains(row.Label, drawn);
+                }
+            }
+        }
+
+        [Test]
+        public void folding_a_section_hides_its_rows_and_shows_its_summary()
+        {
+            ConverterWindow window = Open();
+            Draw(window);
+            string title = window.Model.Sections[1].Title;
+            window.Model.Open[1] = false;
+            window.Model.Touch();
+            Draw(window);
+            string drawn = string.Join("\n", Gui.Drawn);
+            StringAssert.Contains(title + "    2.5 heads", drawn);
+            StringAssert.DoesNotContain(Strings.Get("style.presets"), drawn);
+        }
+
+        [Test]
+        public void the_language_can_be_changed_in_the_window()
+        {
+            ConverterWindow window = Open();
+            Gui.Press.Add("日本語");
+            Draw(window);
+            Assert.AreEqual("ja", Strings.Language);
+            Assert.AreEqual("1  アバター", window.Model.Sections[0].Title);
+        }
+
+        [Test]
+        public void the_menu_opens_the_window_with_the_selected_humanoid()
+        {
+            Assert.IsTrue(StubMenu.Execute("Tools/Super Deform/Converter..."));
+            Assert.AreEqual(1, Resources.FindObjectsOfTypeAll<ConverterWindow>().Length);
+            Assert.IsTrue(StubMenu.Execute("Tools/Super Deform/Converter..."));
+            Assert.AreEqual(1, Resources.FindObjectsOfTypeAll<ConverterWindow>().Length);
+            Assert.IsTrue(StubMenu.Execute("Tools/Super Deform/Batch..."));
+        }
+
+        [Test]
+        public void the_command_of_the_hierarchy_is_for_one_humanoid()
+        {
+            const string command = "GameObject/Super Deform/Convert selected avatar";
+            Assert.AreEqual(false, StubMenu.Validate(command));
+            Selection.activeGameObject = figure.Root;
+            Assert.AreEqual(false, StubMenu.Validate(command), "no Animator");
+        }
+
+        [Test]
+        public void commands_work_by_the_settings_of_the_open_window()
+        {
+            ConverterWindow window = Open();
+            window.Model.Change("undo.heads", () => window.Model.Settings.BuiltInStyle = "sd4");
+            Assert.AreEqual("sd4", ConverterWindow.LastSettings().BuiltInStyle);
+            window.Close();
+            Assert.AreEqual("sd2.5", ConverterWindow.LastSettings().BuiltInStyle);
+        }
+    }
+}

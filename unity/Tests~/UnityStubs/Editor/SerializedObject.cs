@@ -1,0 +1,127 @@
+// Serialized objects: properties by path over the fields of an object, "a.b" and "a.Array.data[0]".
+using System;
+using System.Collections;
+using System.Collections.Generic;
+using System.Reflection;
+using UnityEngine;
+using UnityStubs;
+using Object = UnityEngine.Object;
+
+namespace UnityEditor
+{
+    public class SerializedObject : IDisposable
+    {
+        readonly Object[] m_Targets;
+        internal readonly List<Action> Pending = new List<Action>();
+        public SerializedObject(Object obj) : this(new[] { obj }) { }
+        public SerializedObject(Object[] objs)
+        {
+            foreach (Object value in objs) if (value == null) throw new ArgumentException("Object at index 0 is null");
+            m_Targets = objs;
+        }
+        public Object targetObject { get { return m_Targets[0]; } }
+        public Object[] targetObjects { get { return m_Targets; } }
+        public bool hasModifiedProperties { get { return Pending.Count > 0; } }
+        public SerializedProperty FindProperty(string propertyPath)
+        {
+            SerializedProperty found = new SerializedProperty(this, propertyPath);
+            return found.Exists ? found : null;
+        }
+        public void Update() { Pending.Clear(); }
+        public void UpdateIfRequiredOrScript() { Update(); }
+        public bool ApplyModifiedProperties() { if (Pending.Count == 0) return false; Undo.RecordObject(targetObject, null); return ApplyModifiedPropertiesWithoutUndo(); }
+        public bool ApplyModifiedPropertiesWithoutUndo()
+        {
+            if (Pending.Count == 0) return false;
+            foreach (Action change in Pending) change();
+            Pending.Clear();
+            AssetDatabase.SetDirty(targetObject);
+            return true;
+        }
+        public void Dispose() { }
+    }
+
+    public class SerializedProperty
+    {
+        readonly SerializedObject m_Owner;
+        readonly string m_Path;
+        object m_New;
+        bool m_Changed;
+        internal SerializedProperty(SerializedObject owner, string path) { m_Owner = owner; m_Path = path; }
+
+        public string propertyPath { get { return m_Path; } }
+        public string name { get { return m_Path.Substring(m_Path.LastIndexOf('.') + 1); } }
+        public SerializedObject serializedObject { get { return m_Owner; } }
+
+        // Unity's own names of engine fields that are called otherwise here.
+        static string FieldName(object target, string name)
+        {
+            if (target is Mesh && name == "m_IsReadable") return "m_Readable";
+            return name;
+        }
+        static FieldInfo FieldOf(object target, string name)
+        {
+            if (target == null) return null;
+            name = FieldName(target, name);
+            return Array.Find(Fields.Of(target.GetType()), delegate (FieldInfo field) { return field.Name == name; });
+        }
+        internal bool Exists { get { object value; return Get(out value); } }
+        bool Get(out object value)
+        {
+            value = m_Owner.targetObject;
+            string[] parts = m_Path.Replace(".Array.data[", "[").Split('.');
+            foreach (string part in parts)
+            {
+                string name = part;
+                int bracket = part.IndexOf('['), index = -1;
+                if (bracket >= 0) { name = part.Substring(0, bracket); index = int.Parse(part.Substring(bracket + 1).TrimEnd(']')); }
+                FieldInfo field = FieldOf(value, name);
+                if (field == null) return false;
+                value = field.GetValue(value);
+                if (index < 0) continue;
+                IList list = value as IList;
+                if (list == null || index >= list.Count) return false;
+                value = list[index];
+            }
+            return true;
+        }
+        object Value
+        {
+            get { object value; if (m_Changed) return m_New; if (!Get(out value)) throw new InvalidOperationException("property '" + m_Path + "' is gone"); return value; }
+            set { m_New = value; m_Changed = true; m_Owner.Pending.Add(delegate { Assign(m_Owner.targetObject, m_Path.Replace(".Array.data[", "[").Split('.'), 0, value); m_Changed = false; }); }
+        }
+        static object Assign(object target, string[] parts, int at, object value)
+        {
+            string part = parts[at];
+            int bracket = part.IndexOf('[');
+            FieldInfo field = FieldOf(target, bracket < 0 ? part : part.Substring(0, bracket));
+            object held = field.GetValue(target);
+            if (bracket < 0) field.SetValue(target, at == parts.Length - 1 ? Fit(value, field.FieldType) : Assign(held, parts, at + 1, value));
+            else
+            {
+                int index = int.Parse(part.Substring(bracket + 1).TrimEnd(']'));
+                IList list = (IList)held;
+                list[index] = at == parts.Length - 1 ? Fit(value, list[index] == null ? typeof(object) : list[index].GetType()) : Assign(list[index], parts, at + 1, value);
+                field.SetValue(target, list);
+            }
+            return target;
+        }
+        static object Fit(object value, Type type) { return value is IConvertible && !type.IsInstanceOfType(value) ? (type.IsEnum ? Enum.ToObject(type, value) : Convert.ChangeType(value, type)) : value; }
+
+        public bool boolValue { get { return Convert.ToBoolean(Value); } set { Value = value; } }
+        public int intValue { get { return Convert.ToInt32(Value); } set { Value = value; } }
+        public float floatValue { get { return Convert.ToSingle(Value); } set { Value = value; } }
+        public string stringValue { get { return (string)Value; } set { Value = value; } }
+        public int enumValueIndex { get { return Convert.ToInt32(Value); } set { Value = value; } }
+        public Vector3 vector3Value { get { return (Vector3)Value; } set { Value = value; } }
+        public Object objectReferenceValue { get { return Value as Object; } set { Value = value; } }
+        public bool isArray { get { return Value is IList; } }
+        public int arraySize { get { IList list = Value as IList; return list == null ? 0 : list.Count; } }
+        public SerializedProperty GetArrayElementAtIndex(int index) { return new SerializedProperty(m_Owner, m_Path + ".Array.data[" + index + "]"); }
+        public SerializedProperty FindPropertyRelative(string relativePropertyPath)
+        {
+            SerializedProperty found = new SerializedProperty(m_Owner, m_Path + "." + relativePropertyPath);
+            return found.Exists ? found : null;
+        }
+    }
+}

@@ -1,0 +1,43 @@
+using SuperDeform.Editor.Tests;
+using UnityStubs;
+
+namespace SuperDeform.Editor.WindowPicture
+{
+    /// <summary>The picture of the converter window in the documentation: a character of tests/data in it, two sliders moved.
+    /// </summary>
+    internal static class Picture
+    {
+        internal static readonly string[] Files = { "window.svg", "window.ja.svg" };
+
+        /// <summary>Draws the window in one language.</summary>
+        /// <param name="file">One of Files.</param>
+        internal static string Draw(string file)
+        {
+            Model character = Models.Load("quaternius_female_dress.glb");
+            character.Root.name = "Mika";
+            Strings.Language = file == "window.ja.svg" ? "ja" : "en";
+            try
+            {
+                var model = new ConverterModel();
+                for (int section = 0; section < model.Open.Length; section++)
+                    model.Open[section] = true;
+                model.SetAvatar(character.Root);
+                GroupTunings.Set(model.Settings, "upper_arm", true, 0.8f);
+                GroupTunings.Set(model.Settings, "hand", false, 0.9f);
+                using (var controller = new ConverterController(model))
+                {
+                    controller.Tick(0);
+                    controller.Tick(1);
+                    var canvas = new Canvas();
+                    double height = WindowDrawing.Draw(canvas, model, 8, 8) + 8;
+                    return canvas.Finish(WindowDrawing.Width + 16, height);
+                }
+            }
+            finally
+            {
+                Strings.Language = "en";
+                StubProject.Reset();
+            }
+        }
+    }
+}
