@@ -1,7 +1,13 @@
-//! What the targets share: bytes read as choices and numbers, small meshes made from them, and a figure with joints.
+//! What is fuzzed, and what the targets share: bytes read as choices and numbers, small meshes made from them, and a
+//! figure with joints.
 #![allow(missing_docs)]
 
+pub mod abi;
+pub mod glb;
+pub mod meshes;
+
 use glam::{DMat4, DVec3, Vec3};
+use std::io::Write as _;
 use superdeform::{Character, Joint, Mesh, MeshKind, Role, Weights};
 
 /// Bytes that are used up; then everything is 0.
@@ -146,8 +152,11 @@ pub fn tube(from: Vec3, to: Vec3, radius: f32, columns: usize, rings: usize, clo
     mesh
 }
 
-/// The limbs of a figure: role, parent, joint, tip, radius.
-const LIMBS: [(Role, Option<usize>, [f32; 3], [f32; 3], f32); 11] = [
+/// Role, parent, joint, tip, radius.
+type Limb = (Role, Option<usize>, [f32; 3], [f32; 3], f32);
+
+/// The limbs of a figure.
+const LIMBS: [Limb; 11] = [
     (Role::Hips, None, [0.0, 1.0, 0.0], [0.0, 1.15, 0.0], 0.14),
     (Role::Chest, Some(0), [0.0, 1.15, 0.0], [0.0, 1.42, 0.0], 0.15),
     (Role::Neck, Some(1), [0.0, 1.42, 0.0], [0.0, 1.52, 0.0], 0.05),
@@ -311,11 +320,27 @@ pub fn rest(bytes: &mut Bytes) -> DMat4 {
     }
 }
 
+/// What one input may cost, in seconds of the processor: on a machine that does other things too, the clock tells less.
+const MOST_SECONDS: f64 = 5.0;
+
+/// Runs `work` and ends the process where that took too long. What never ends is left to the fuzzer's own clock.
+pub fn in_time(work: impl FnOnce()) {
+    unsafe extern "C" {
+        /// Of C: microseconds of the processor that the process has used, on any POSIX system.
+        safe fn clock() -> std::ffi::c_long;
+    }
+    let start = clock();
+    work();
+    let seconds = (clock() - start) as f64 / 1e6;
+    assert!(seconds < MOST_SECONDS, "took {seconds:.1} seconds");
+}
+
 /// Ends the process with the place of a panic, wherever it is caught.
 pub fn panics_abort() {
     let tell = |info: &std::panic::PanicHookInfo| {
         let trace = std::backtrace::Backtrace::force_capture();
-        eprintln!("{info}\n{trace}");
+        // Not eprintln: what a test prints is held back, and lost with the process.
+        let _ = writeln!(std::io::stderr(), "{info}\n{trace}");
         std::process::abort();
     };
     std::panic::set_hook(Box::new(tell));

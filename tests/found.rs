@@ -3,8 +3,11 @@
 use glam::{DVec3, Vec3};
 use superdeform::parallel;
 use superdeform::pipeline::Rig;
+use superdeform::report::LandmarkHeights;
 use superdeform::rig::voxel::{VoxelOptions, voxel_weights};
 use superdeform::rig::{RigOptions, WeightBone};
+use superdeform::shape::BodyShape;
+use superdeform::shape::proportions::Proportions;
 use superdeform::{Character, Mesh};
 
 #[test]
@@ -41,5 +44,47 @@ fn a_sheet_any_number_of_times_as_wide_as_high_is_laid_out() {
         let options = RigOptions { voxel_resolution: 16, thread_count: 1, ..RigOptions::default() };
         let rig = Rig::of(&character, &options).unwrap();
         assert!(rig.skeleton.joints.iter().all(|joint| joint.rest.is_finite()), "{height}");
+    }
+}
+
+#[test]
+fn a_style_that_is_taken_can_be_saved_and_loaded() {
+    // Landmarks that are no numbers were taken, saved as null, and not loaded again.
+    let good =
+        BodyShape { head_length: 1.0, landmarks: Some(LandmarkHeights::default()), ..BodyShape::default() };
+    assert_eq!(BodyShape::from_json(&good.to_json()).unwrap(), good);
+    for wrong in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        let chin = LandmarkHeights { chin: wrong, ..LandmarkHeights::default() };
+        let sole = LandmarkHeights { sole: wrong, ..LandmarkHeights::default() };
+        for (name, landmarks) in [("chin", chin), ("sole", sole)] {
+            let style = BodyShape { landmarks: Some(landmarks), ..good.clone() };
+            let error = style.validate().unwrap_err().to_string();
+            assert!(error.contains(name) && error.contains(&wrong.to_string()), "{error}");
+        }
+    }
+}
+
+#[test]
+#[allow(unsafe_code)]
+fn a_style_cannot_be_stretched_beyond_all_numbers() {
+    use superdeform::ffi::exports::{basics::*, style::*};
+    // Lengths that are next to nothing beside the head: stretched to so many heads they were infinite.
+    let lengths = Proportions {
+        head_length: 1e300,
+        head_half_width: 1.0,
+        torso: 1e-300,
+        arm: 1.0,
+        leg: 1e-300,
+        ..Proportions::default()
+    };
+    let text = BodyShape { head_length: 1.0, proportions: Some(lengths), ..BodyShape::default() }.to_json();
+    let (mut flat, mut tall) = (SdefStyle::default(), SdefStyle::default());
+    let null = std::ptr::null_mut();
+    unsafe {
+        let taken = sdef_style_from_text(text.as_ptr().cast(), text.len(), &mut flat, null);
+        assert_eq!(taken, SDEF_STATUS_OK);
+        assert_eq!(sdef_style_from_heads(3.0, flat, &mut tall, null), SDEF_STATUS_BAD_STYLE);
+        assert_eq!(tall.id, 0);
+        assert_eq!(sdef_destroy(flat.id, null), SDEF_STATUS_OK);
     }
 }

@@ -51,7 +51,11 @@ pub unsafe fn from_heads(
                         like.name
                     )));
                 }
-                Style::Shape(like) => shape(like.with_heads(heads)),
+                Style::Shape(like) => {
+                    let stretched = like.with_heads(heads);
+                    stretched.validate()?;
+                    shape(stretched)
+                }
             },
         };
         give(made, style)

@@ -99,6 +99,21 @@ impl BodyShape {
                 )));
             }
         }
+        if let Some(landmarks) = &self.landmarks {
+            for (name, height) in [
+                ("crown", landmarks.crown),
+                ("chin", landmarks.chin),
+                ("shoulder_line", landmarks.shoulder_line),
+                ("crotch", landmarks.crotch),
+                ("sole", landmarks.sole),
+            ] {
+                if !height.is_finite() {
+                    return Err(bad(format!(
+                        "the style's {name} is at {height}: give each landmark's height along up, or no crown"
+                    )));
+                }
+            }
+        }
         if let Some(proportions) = &self.proportions {
             proportions.validate()?;
         }
