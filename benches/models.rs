@@ -47,6 +47,11 @@ pub fn models() -> Vec<Model> {
     models
 }
 
+/// A person of capsules whose tubes have so many columns.
+pub fn capsules(columns: usize) -> Character {
+    people::Person { columns, ..people::Person::default() }.build()
+}
+
 fn folder() -> PathBuf {
     std::env::var_os("SUPERDEFORM_MODELS")
         .map_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/models"), PathBuf::from)

@@ -158,6 +158,7 @@ impl FaceShape {
     }
 
     /// Where the map takes `p`, and its Jacobian there.
+    #[inline(always)]
     pub fn map(&self, p: DVec3) -> (DVec3, DMat3) {
         match self {
             Self::None => (p, DMat3::IDENTITY),

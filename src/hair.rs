@@ -5,7 +5,7 @@
 //! body's, and nowhere becomes broader than it is on the head: hair that spreads over the shoulders of an adult would
 //! stand out like a skirt from a child's.
 
-use crate::geometry::{Neighbours, Surface, Weld, double_area};
+use crate::geometry::{Neighbours, Surface, Weld, double_area, neighbours};
 use crate::shape::part_weights::smoothstep;
 use glam::{DMat3, DVec3};
 
@@ -132,6 +132,7 @@ impl HairMap {
     }
 
     /// Where the point `p` below the chin goes, and the Jacobian there.
+    #[inline(always)]
     pub fn map(&self, p: DVec3) -> (DVec3, DMat3) {
         let from = p - self.axis[0];
         let d = -from.y;
@@ -162,41 +163,61 @@ const KEPT_DISTANCE: f64 = 0.5;
 /// See [`KEPT_DISTANCE`].
 const CLEARANCE: f64 = 0.008;
 
-/// What must be added to hair below the chin so that locks which lay on the body still do.
-///
-/// The body's heights and girths change, the head's place too, so a lock that lay on the chest may end inside it. Every
-/// vertex of `hair` that was outside the body and no longer is moves out along the body's normal; its neighbours are
-/// drawn along.
-///
-/// - `before`, `after`: all vertices; `body`: triangles that hair must not enter; `hair`: vertices to look at.
-/// - `height`: of the figure afterwards.
-/// - Returns a displacement for each of `hair`, zero where nothing is to do.
-pub fn keep_outside(
-    before: &[DVec3],
-    after: &[DVec3],
-    body: &[[u32; 3]],
-    hair: &[usize],
-    weld: &Weld,
-    around: &Neighbours,
-    height: f64,
-) -> Vec<DVec3> {
-    let nothing = vec![DVec3::ZERO; hair.len()];
-    if body.is_empty() || hair.is_empty() {
-        return nothing;
+/// Hair below the chin and the body that it lies on, before anything moves.
+#[derive(Clone, Debug)]
+pub struct HairOnBody {
+    /// Triangles that hair must not enter.
+    body: Vec<[u32; 3]>,
+    /// The hair's vertices.
+    hair: Vec<usize>,
+    around: Neighbours,
+    /// 1, or -1 for a body that is wound to look inwards, as mirrored ones are.
+    outwards: f64,
+    /// How far outside of the body each vertex of hair is, below 0 inside.
+    distances: Vec<f64>,
+}
+
+impl HairOnBody {
+    /// What there is before.
+    ///
+    /// - `positions`: all vertices; `triangles`: all of the figure's, `body`: those that hair must not enter.
+    /// - `hair`: vertices to look at.
+    pub fn of(
+        positions: &[DVec3],
+        triangles: &[[u32; 3]],
+        body: Vec<[u32; 3]>,
+        hair: Vec<usize>,
+        weld: &Weld,
+    ) -> Self {
+        let is_needed = !(body.is_empty() || hair.is_empty());
+        let outwards = if volume(positions, &body) < 0.0 { -1.0 } else { 1.0 };
+        let around = if is_needed { neighbours(triangles, weld) } else { Neighbours::default() };
+        let mut hair = Self { body, hair, around, outwards, distances: Vec::new() };
+        if is_needed {
+            hair.distances =
+                hair.to_body(positions, weld).into_iter().map(|(distance, _)| distance).collect();
+        }
+        hair
     }
-    // Mirrored bodies are wound the other way.
-    let outwards = if volume(before, body) < 0.0 { -1.0 } else { 1.0 };
-    let distances = |points: &[DVec3]| -> Vec<(f64, DVec3)> {
-        let surface = Surface::new(points, body);
-        let normals = vertex_normals(points, body, weld);
-        hair.iter()
+
+    /// True where there is no hair to look at, or no body.
+    pub fn is_empty(&self) -> bool {
+        self.distances.is_empty()
+    }
+
+    /// How far outside of the body each vertex is, and which way out is there.
+    fn to_body(&self, points: &[DVec3], weld: &Weld) -> Vec<(f64, DVec3)> {
+        let surface = Surface::new(points, &self.body);
+        let normals = vertex_normals(points, &self.body, weld);
+        self.hair
+            .iter()
             .map(|&vertex| match surface.closest_point(points[vertex]) {
                 Some(closest) => {
-                    let corners = weld.triangle(body[closest.triangle]);
+                    let corners = weld.triangle(self.body[closest.triangle]);
                     let normal: DVec3 = corners
                         .iter()
                         .zip(closest.barycentric)
-                        .map(|(&corner, share)| outwards * share * normals[corner as usize])
+                        .map(|(&corner, share)| self.outwards * share * normals[corner as usize])
                         .sum();
                     if normal == DVec3::ZERO {
                         // Beside a rim there is no inside.
@@ -209,52 +230,65 @@ pub fn keep_outside(
                 None => (f64::INFINITY, DVec3::ZERO),
             })
             .collect()
-    };
-    let old = distances(before);
-    let new = distances(after);
-    let needs: Vec<DVec3> = old
-        .iter()
-        .zip(&new)
-        .map(|(&(old, _), &(new, normal))| {
-            let wanted = (KEPT_DISTANCE * old).min(CLEARANCE * height);
-            if old > 0.0 && new < wanted { normal * (wanted - new) } else { DVec3::ZERO }
-        })
-        .collect();
-    if needs.iter().all(|&need| need == DVec3::ZERO) {
-        return nothing;
     }
-    // On the welded mesh, so that seams stay closed: the largest need of the vertices at one place counts for all.
-    let mut need_at = vec![DVec3::ZERO; weld.count];
-    let mut is_hair = vec![false; weld.count];
-    for (&vertex, &need) in hair.iter().zip(&needs) {
-        let welded = weld.representative[vertex] as usize;
-        is_hair[welded] = true;
-        if need.length_squared() > need_at[welded].length_squared() {
-            need_at[welded] = need;
+
+    /// The vertices of hair, and what must be added to each so that locks which lay on the body still do.
+    ///
+    /// The body's heights and girths change, the head's place too, so a lock that lay on the chest may end inside it.
+    /// Every vertex that was outside the body and no longer is moves out along the body's normal; its neighbours are
+    /// drawn along.
+    ///
+    /// - `after`: where all vertices are now; `height`: of the figure then.
+    /// - Returns hair's vertices with their displacements; none where nothing is to do.
+    pub fn kept_outside(&self, after: &[DVec3], weld: &Weld, height: f64) -> Vec<(usize, DVec3)> {
+        if self.is_empty() {
+            return Vec::new();
         }
-    }
-    let mut push = need_at.clone();
-    for _ in 0..SPREAD_PASSES {
-        let last = push.clone();
-        for welded in (0..weld.count).filter(|&welded| is_hair[welded]) {
-            let near = around.of(welded);
-            if near.is_empty() {
-                continue;
+        let needs: Vec<DVec3> = self
+            .distances
+            .iter()
+            .zip(self.to_body(after, weld))
+            .map(|(&old, (new, normal))| {
+                let wanted = (KEPT_DISTANCE * old).min(CLEARANCE * height);
+                if old > 0.0 && new < wanted { normal * (wanted - new) } else { DVec3::ZERO }
+            })
+            .collect();
+        if needs.iter().all(|&need| need == DVec3::ZERO) {
+            return Vec::new();
+        }
+        // On the welded mesh, so that seams stay closed: the largest need of the vertices at one place counts for all.
+        let mut need_at = vec![DVec3::ZERO; weld.count];
+        let mut is_hair = vec![false; weld.count];
+        for (&vertex, &need) in self.hair.iter().zip(&needs) {
+            let welded = weld.representative[vertex] as usize;
+            is_hair[welded] = true;
+            if need.length_squared() > need_at[welded].length_squared() {
+                need_at[welded] = need;
             }
-            // Neighbours that are no hair (the scalp) do not move, and hold.
-            let mean = near.iter().map(|&other| last[other as usize]).sum::<DVec3>() / near.len() as f64;
-            let spread = 0.5 * (last[welded] + mean);
-            let need = need_at[welded];
-            let length = need.length();
-            push[welded] = if length > 0.0 {
-                let missing = length - spread.dot(need) / length;
-                spread + need / length * missing.max(0.0)
-            } else {
-                spread
-            };
         }
+        let mut push = need_at.clone();
+        for _ in 0..SPREAD_PASSES {
+            let last = push.clone();
+            for welded in (0..weld.count).filter(|&welded| is_hair[welded]) {
+                let near = self.around.of(welded);
+                if near.is_empty() {
+                    continue;
+                }
+                // Neighbours that are no hair (the scalp) do not move, and hold.
+                let mean = near.iter().map(|&other| last[other as usize]).sum::<DVec3>() / near.len() as f64;
+                let spread = 0.5 * (last[welded] + mean);
+                let need = need_at[welded];
+                let length = need.length();
+                push[welded] = if length > 0.0 {
+                    let missing = length - spread.dot(need) / length;
+                    spread + need / length * missing.max(0.0)
+                } else {
+                    spread
+                };
+            }
+        }
+        self.hair.iter().map(|&vertex| (vertex, push[weld.representative[vertex] as usize])).collect()
     }
-    hair.iter().map(|&vertex| push[weld.representative[vertex] as usize]).collect()
 }
 
 /// Six times the volume within `triangles`, below 0 where they are wound to look inwards.

@@ -5,22 +5,22 @@ pub mod rigging;
 pub use rigging::Rig;
 
 use crate::character::bones::Bone;
-use crate::character::{Character, Humanoid, MeshKind, MorphTarget, Role};
+use crate::character::{Character, Humanoid, Mesh, MeshKind, MorphTarget, Role};
 use crate::error::{Error, ErrorKind, Result, Warning};
 use crate::face::FaceShape;
-use crate::geometry::{SEAM, Weld, components, neighbours, weld};
-use crate::hair::keep_outside;
+use crate::geometry::{SEAM, Weld, components, weld};
+use crate::hair::HairOnBody;
 pub use crate::options::{FaceCurve, GroupSettings, Mode, Options, Stage};
 use crate::parallel;
 use crate::progress::Progress;
 use crate::report::{Coefficient, Counts, FigureReport, GroupShape, Report, RigReport, Timing};
 use crate::shape::BodyShape;
-use crate::shape::attributes::{fitted_jacobians, normal_matrix};
+use crate::shape::attributes::{Gradients, RestTriangles, normal_matrix};
 use crate::shape::bones::BoneField;
 use crate::shape::coefficients::coefficients;
 use crate::shape::field::{Binding, BoneBinding, Field, PaperField};
-use crate::shape::figure::{Figure, extent, is_head};
-use crate::shape::landmarks::landmarks;
+use crate::shape::figure::{Figure, Frame, extent, is_head};
+use crate::shape::landmarks::heads;
 use crate::shape::part_coefficients::{PartCoefficients, Wanted, part_coefficients};
 use crate::shape::part_weights::{PartBinding, PartBindings, joint_binding, part_bindings};
 use crate::shape::parts::{Heights, PartField};
@@ -30,7 +30,7 @@ use crate::shape::study::{Study, group_shapes, is_of_head};
 pub use crate::shape::style::Style;
 use glam::{DMat3, DVec3, Vec3, Vec4};
 use std::collections::{BTreeMap, BTreeSet};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 use std::time::Instant;
 
 /// One mesh as it came out; arrays the input lacked are empty here too.
@@ -54,6 +54,22 @@ pub struct Deformed {
     /// Where each joint of the input's skeleton is now, model space. Joints move and do not turn or scale:
     /// the new rest transform is the old one with this translation.
     pub joints: Vec<DVec3>,
+}
+
+/// What is wanted of one mesh beside its positions. What is not is left empty, and costs nothing.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct MeshOutputs {
+    /// Normals.
+    pub normals: bool,
+    /// Tangents.
+    pub tangents: bool,
+    /// Morph targets: positions, normals and tangents.
+    pub morph_targets: bool,
+}
+
+impl MeshOutputs {
+    /// Everything that the mesh has.
+    pub const ALL: Self = Self { normals: true, tangents: true, morph_targets: true };
 }
 
 /// Where the field takes a point, and what it does around it.
@@ -95,9 +111,15 @@ pub struct Deformer {
     study: Arc<Study>,
     options: Options,
     weld: Arc<Weld>,
+    /// Made when directions are first wanted.
+    rest_triangles: OnceLock<Arc<RestTriangles>>,
     field: Field,
     bindings: Vec<Binding>,
     joint_bindings: Vec<Binding>,
+    /// What product mode's bindings were made with, less the vertices' own: no option but the study's changes it.
+    parts: Option<Arc<PartBindings>>,
+    /// Made where hair is first looked at.
+    hair: OnceLock<Arc<HairOnBody>>,
     /// Roles that target and style share.
     roles: BTreeSet<Role>,
     head_ratio: f64,
@@ -201,6 +223,7 @@ impl Deformer {
             style: style.clone(),
             options: options.clone(),
             weld,
+            rest_triangles: OnceLock::new(),
             field: Field::Bones(PaperField {
                 bones: BoneField::default(),
                 stage: options.stage,
@@ -210,6 +233,8 @@ impl Deformer {
             }),
             bindings: Vec::new(),
             joint_bindings: Vec::new(),
+            parts: None,
+            hair: OnceLock::new(),
             roles: BTreeSet::new(),
             head_ratio: 1.0,
             coefficients: BTreeMap::new(),
@@ -257,6 +282,10 @@ impl Deformer {
             let clock = Instant::now();
             next.study = Arc::new(Study::of_figure(self.study.figure.clone(), options)?);
             next.timing.measure = milliseconds(clock);
+            (next.parts, next.hair) = (None, OnceLock::new());
+        }
+        if options.mode != self.options.mode {
+            (next.parts, next.hair) = (None, OnceLock::new());
         }
         next.make_field(&mut progress.part(0.4, 1.0))?;
         *self = next;
@@ -329,10 +358,8 @@ impl Deformer {
     /// Product mode: bindings once, then the field, and again while the head count measured on the result is off.
     fn make_parts(&mut self, style: &Style, progress: &mut Progress) -> Result<()> {
         let proportions = self.study.anatomy.proportions.clone();
-        let (figure, anatomy) = (&self.study.figure, &self.study.anatomy);
-        let parts =
-            part_bindings(figure, anatomy, &self.character.skeleton, &self.weld, self.options.thread_count);
-        self.warnings.extend(anatomy.warnings());
+        let parts = self.bind_to_parts();
+        self.warnings.extend(self.study.anatomy.warnings());
         if let Some(hair) = &parts.hair
             && hair.depth > HAIR_TOLD * proportions.head_length
         {
@@ -344,16 +371,6 @@ impl Deformer {
                 ),
             ));
         }
-        self.bindings = parts.vertices.iter().map(|&binding| Binding::Parts(binding)).collect();
-        self.joint_bindings = self.joint_bindings(|figure, joint| {
-            if figure.humanoid.joint(Role::Head) == Some(joint)
-                && figure.joints[joint].y < anatomy.landmarks.chin
-            {
-                // The head turns about a point in the neck: below the chin it moves as the neck does.
-                return Binding::Parts(PartBinding::to(Part::Neck));
-            }
-            Binding::Parts(joint_binding(figure, &parts, joint))
-        });
         let (asked, head_ratio) = match style {
             Style::Heads(heads) => (*heads, 1.0),
             Style::Shape(shape) => {
@@ -379,7 +396,7 @@ impl Deformer {
             let attempt = self.attempt(style, aim / asked, &parts)?;
             self.field = attempt.field.clone();
             self.stand_on_ground();
-            let measured = landmarks(self.whole_result(&mut result)).heads();
+            let measured = heads(self.whole_result(&mut result));
             let predicted = crate::shape::part_coefficients::heads_of(&proportions, &attempt.coefficients);
             let limited = attempt.warnings.iter().any(|warning| warning.code == "heads_limited");
             let reach = if limited { predicted } else { asked };
@@ -398,7 +415,7 @@ impl Deformer {
         self.coefficients = attempt.coefficients.by_group();
         self.warnings.extend(attempt.warnings);
         if error > HEADS_TOLD {
-            let measured = landmarks(self.whole_result(&mut result)).heads();
+            let measured = heads(self.whole_result(&mut result));
             self.heads_left = Some(Warning::new(
                 "heads_limited",
                 format!(
@@ -411,27 +428,61 @@ impl Deformer {
         Ok(())
     }
 
+    /// Binds vertices and joints to parts, where that is not done yet.
+    fn bind_to_parts(&mut self) -> Arc<PartBindings> {
+        if let Some(parts) = &self.parts {
+            for binding in &mut self.bindings {
+                if let Binding::Parts(binding) = binding {
+                    binding.offset = DVec3::ZERO;
+                }
+            }
+            return parts.clone();
+        }
+        let (figure, anatomy) = (&self.study.figure, &self.study.anatomy);
+        let mut parts =
+            part_bindings(figure, anatomy, &self.character.skeleton, &self.weld, self.options.thread_count);
+        let vertices = std::mem::take(&mut parts.vertices);
+        let joint_bindings = self.joint_bindings(|figure, joint| {
+            if figure.humanoid.joint(Role::Head) == Some(joint)
+                && figure.joints[joint].y < anatomy.landmarks.chin
+            {
+                // The head turns about a point in the neck: below the chin it moves as the neck does.
+                return Binding::Parts(PartBinding::to(Part::Neck));
+            }
+            Binding::Parts(joint_binding(figure, &parts, joint))
+        });
+        self.bindings = vertices.into_iter().map(Binding::Parts).collect();
+        self.joint_bindings = joint_bindings;
+        let parts = Arc::new(parts);
+        self.parts = Some(parts.clone());
+        parts
+    }
+
     /// Locks that lay on the body still do.
     fn keep_hair_outside(&mut self) {
         let figure = &self.study.figure;
-        let chin = self.study.anatomy.landmarks.chin;
-        let part = |vertex: usize, part: Part| match &self.bindings[vertex] {
-            Binding::Parts(binding) => binding.weights[part as usize],
-            _ => 0.0,
-        };
-        let hair: Vec<usize> = (0..figure.positions.len())
-            .filter(|&vertex| figure.positions[vertex].y < chin && part(vertex, Part::Hair) > 0.5)
-            .collect();
+        let hair = self.hair.get_or_init(|| {
+            let chin = self.study.anatomy.landmarks.chin;
+            let part = |vertex: usize, part: Part| match &self.bindings[vertex] {
+                Binding::Parts(binding) => binding.weights[part as usize],
+                _ => 0.0,
+            };
+            let hair: Vec<usize> = (0..figure.positions.len())
+                .filter(|&vertex| figure.positions[vertex].y < chin && part(vertex, Part::Hair) > 0.5)
+                .collect();
+            let of_head = |vertex: usize| part(vertex, Part::Hair) + part(vertex, Part::Head);
+            let body = match hair.is_empty() {
+                true => Vec::new(),
+                false => figure.triangles_where(|vertex| of_head(vertex) < 0.5),
+            };
+            Arc::new(HairOnBody::of(&figure.positions, &figure.triangles, body, hair, &self.weld))
+        });
         if hair.is_empty() {
             return;
         }
-        let of_head = |vertex: usize| part(vertex, Part::Hair) + part(vertex, Part::Head);
-        let body = figure.triangles_where(|vertex| of_head(vertex) < 0.5);
         let after = self.positions_by(&self.field);
         let (low, high) = extent(&after);
-        let around = neighbours(&figure.triangles, &self.weld);
-        let offsets = keep_outside(&figure.positions, &after, &body, &hair, &self.weld, &around, high - low);
-        for (vertex, offset) in hair.into_iter().zip(offsets) {
+        for (vertex, offset) in hair.kept_outside(&after, &self.weld, high - low) {
             if let Binding::Parts(binding) = &mut self.bindings[vertex] {
                 binding.offset = offset;
             }
@@ -489,8 +540,12 @@ impl Deformer {
             head: weights.iter().filter(|&&(role, _)| is_head(role)).map(|&(_, weight)| weight).sum(),
             on_face: None,
         };
-        let mut bindings: Vec<BoneBinding> =
-            figure.positions.iter().zip(&figure.role_weights).map(|(&p, weights)| bind(p, weights)).collect();
+        let mut bindings: Vec<BoneBinding> = figure
+            .positions
+            .iter()
+            .zip(figure.role_weights.iter())
+            .map(|(&p, weights)| bind(p, weights))
+            .collect();
         for (members, centre) in head_accessories(figure, &self.weld) {
             for vertex in members {
                 bindings[vertex].on_face = Some(centre);
@@ -542,7 +597,7 @@ impl Deformer {
             if matches!(figure.kind(vertex), MeshKind::Body | MeshKind::FacePart)
                 && is_of_head(figure, vertex)
             {
-                let p = whole.map(figure.positions[vertex], &self.bindings[vertex]).0;
+                let p = whole.place(figure.positions[vertex], &self.bindings[vertex]);
                 low = low.min(p);
                 high = high.max(p);
             }
@@ -579,7 +634,7 @@ impl Deformer {
         let feet = self.options.mode == Mode::Product;
         let before = lowest(&|vertex| figure.positions[vertex].y, feet);
         let after =
-            lowest(&|vertex| self.field.map(figure.positions[vertex], &self.bindings[vertex]).0.y, feet);
+            lowest(&|vertex| self.field.place(figure.positions[vertex], &self.bindings[vertex]).y, feet);
         if let (Some(before), Some(after)) = (before, after) {
             self.field.set_ground(before - after);
         }
@@ -612,7 +667,7 @@ impl Deformer {
     fn positions_by(&self, field: &Field) -> Vec<DVec3> {
         let positions = &self.study.figure.positions;
         parallel::collect(self.options.thread_count, positions.len(), LEAST_VERTICES, |vertex| {
-            field.map(positions[vertex], &self.bindings[vertex]).0
+            field.place(positions[vertex], &self.bindings[vertex])
         })
     }
 
@@ -622,7 +677,7 @@ impl Deformer {
         for ((p, &rest), binding) in
             figure.joints.iter_mut().zip(&self.study.figure.joints).zip(&self.joint_bindings)
         {
-            *p = self.field.map(rest, binding).0;
+            *p = self.field.place(rest, binding);
         }
         figure.extent = extent(&figure.positions);
         figure
@@ -638,22 +693,82 @@ impl Deformer {
     /// # Errors
     /// `Cancelled`.
     pub fn apply_with(&self, progress: &mut Progress) -> Result<Deformed> {
+        self.apply_to(&vec![MeshOutputs::ALL; self.character.meshes.len()], progress)
+    }
+
+    /// As [`Deformer::apply_with`], for what is wanted of each mesh.
+    ///
+    /// # Errors
+    /// `Cancelled`.
+    ///
+    /// # Panics
+    /// `outputs` is not as long as the character has meshes.
+    pub fn apply_to(&self, outputs: &[MeshOutputs], progress: &mut Progress) -> Result<Deformed> {
+        let character = &self.character;
+        assert_eq!(outputs.len(), character.meshes.len(), "one for each mesh");
         progress.at(0.0)?;
         if self.options.amount == 0.0 {
             // The way to the canonical frame and back costs a last digit.
-            let meshes = (0..self.character.meshes.len()).map(|mesh| self.unchanged_mesh(mesh)).collect();
+            let meshes =
+                character.meshes.iter().zip(outputs).map(|(mesh, &wanted)| unchanged(mesh, wanted)).collect();
             progress.at(1.0)?;
             return Ok(Deformed { meshes, joints: self.deformed_joints() });
         }
         let figure = &self.study.figure;
+        let threads = self.options.thread_count;
         let after = self.positions_by(&self.field);
         progress.at(0.3)?;
-        let jacobians = fitted_jacobians(&figure.positions, &after, &figure.triangles, &self.weld);
-        progress.at(0.6)?;
-        let threads = if after.len() < LEAST_VERTICES { 1 } else { self.options.thread_count };
-        let meshes = parallel::collect(threads, self.character.meshes.len(), 1, |mesh| {
-            self.deform_mesh(mesh, &after, &jacobians)
+        let has_directions = |(mesh, wanted): (&Mesh, &MeshOutputs)| {
+            (wanted.normals || wanted.tangents || wanted.morph_targets)
+                && !(mesh.normals.is_empty() && mesh.tangents.is_empty())
+        };
+        let rest = character.meshes.iter().zip(outputs).any(has_directions).then(|| {
+            self.rest_triangles
+                .get_or_init(|| Arc::new(RestTriangles::of(&figure.positions, &figure.triangles, &self.weld)))
         });
+        let gradients = rest.map(|rest| rest.gradients(&after, threads));
+        progress.at(0.6)?;
+        let turns: Vec<Turns> = (0..character.meshes.len())
+            .map(|mesh| match &gradients {
+                Some(gradients) if has_directions((&character.meshes[mesh], &outputs[mesh])) => {
+                    self.turns(mesh, outputs[mesh], gradients)
+                }
+                _ => Turns::default(),
+            })
+            .collect();
+        // Morph targets one by one, whichever mesh they belong to: a face may hold them all.
+        let targets: Vec<(usize, usize)> = (0..character.meshes.len())
+            .filter(|&mesh| outputs[mesh].morph_targets)
+            .flat_map(|mesh| {
+                (0..character.meshes[mesh].morph_targets.len()).map(move |target| (mesh, target))
+            })
+            .collect();
+        let least = if after.len() < LEAST_VERTICES { usize::MAX } else { 1 };
+        let mut targets = parallel::collect(threads, targets.len(), least, |index| {
+            let (mesh, target) = targets[index];
+            self.deform_target(mesh, target, &after, &turns[mesh])
+        })
+        .into_iter();
+        let meshes = turns
+            .into_iter()
+            .enumerate()
+            .map(|(index, turns)| {
+                let (mesh, wanted) = (&character.meshes[index], outputs[index]);
+                let start = figure.mesh_starts[index];
+                let of_mesh = &after[start..start + mesh.positions.len()];
+                let tangents = turns.tangents.iter().zip(&mesh.tangents);
+                let target_count = if wanted.morph_targets { mesh.morph_targets.len() } else { 0 };
+                DeformedMesh {
+                    positions: of_mesh.iter().map(|&p| figure.frame.to_model(p).as_vec3()).collect(),
+                    tangents: match wanted.tangents {
+                        true => tangents.map(|(tangent, old)| tangent.extend(old.w)).collect(),
+                        false => Vec::new(),
+                    },
+                    normals: if wanted.normals { turns.normals } else { Vec::new() },
+                    morph_targets: targets.by_ref().take(target_count).collect(),
+                }
+            })
+            .collect();
         progress.at(1.0)?;
         Ok(Deformed { meshes, joints: self.deformed_joints() })
     }
@@ -671,76 +786,62 @@ impl Deformer {
             .zip(&self.character.skeleton.joints)
             .map(|((&p, binding), joint)| match binding {
                 Binding::Fixed => joint.position(),
-                _ => figure.frame.to_model(self.field.map(p, binding).0),
+                _ => figure.frame.to_model(self.field.place(p, binding)),
             })
             .collect()
     }
 
-    /// The mesh as it came.
-    fn unchanged_mesh(&self, index: usize) -> DeformedMesh {
-        let mesh = &self.character.meshes[index];
-        DeformedMesh {
-            positions: mesh.positions.clone(),
-            normals: mesh.normals.clone(),
-            tangents: mesh.tangents.clone(),
-            morph_targets: mesh.morph_targets.clone(),
-        }
-    }
-
-    fn deform_mesh(&self, index: usize, after: &[DVec3], jacobians: &[Option<DMat3>]) -> DeformedMesh {
+    /// What the directions of a mesh turn into.
+    fn turns(&self, index: usize, wanted: MeshOutputs, gradients: &Gradients) -> Turns {
         let mesh = &self.character.meshes[index];
         let figure = &self.study.figure;
-        let frame = &figure.frame;
+        let frame = figure.frame;
         let start = figure.mesh_starts[index];
-        let count = mesh.positions.len();
-        let positions = after[start..start + count].iter().map(|&p| frame.to_model(p).as_vec3()).collect();
-        let needs_jacobian = !mesh.normals.is_empty() || !mesh.tangents.is_empty();
-        let turns: Vec<DMat3> = (0..if needs_jacobian { count } else { 0 })
-            .map(|vertex| {
-                let whole = start + vertex;
-                let fitted = jacobians[self.weld.representative[whole] as usize];
-                let jacobian = fitted
-                    .filter(|jacobian| jacobian.determinant().abs() > 1e-12)
-                    .unwrap_or_else(|| self.field.map(figure.positions[whole], &self.bindings[whole]).1);
-                frame.jacobian_to_model(jacobian)
-            })
-            .collect();
-        let turn_normal = |vertex: usize, normal: Vec3| {
-            (normal_matrix(turns[vertex]) * normal.as_dvec3()).normalize_or(normal.as_dvec3())
+        let threads = self.options.thread_count;
+        let turn = |vertex: usize| {
+            let whole = start + vertex;
+            gradients
+                .jacobian(self.weld.representative[whole] as usize)
+                .filter(|jacobian| jacobian.determinant().abs() > 1e-12)
+                .unwrap_or_else(|| self.field.map(figure.positions[whole], &self.bindings[whole]).1)
         };
-        let normals: Vec<Vec3> = mesh
-            .normals
-            .iter()
-            .enumerate()
-            .map(|(vertex, &normal)| turn_normal(vertex, normal).as_vec3())
-            .collect();
-        let turn_tangent = |vertex: usize, tangent: Vec3| {
-            let turned = turns[vertex] * tangent.as_dvec3();
-            let flat = match normals.get(vertex) {
-                Some(normal) => turned.reject_from_normalized(normal.as_dvec3()),
-                None => turned,
-            };
-            flat.normalize_or(tangent.as_dvec3())
+        let has_targets = wanted.morph_targets && !mesh.morph_targets.is_empty();
+        if !(wanted.tangents || has_targets) {
+            // The turns themselves are not needed any more.
+            let normals = parallel::collect(threads, mesh.normals.len(), LEAST_VERTICES, |vertex| {
+                turned_normal(&frame, &turn(vertex), mesh.normals[vertex]).as_vec3()
+            });
+            return Turns { normals, ..Turns::default() };
+        }
+        let turns = parallel::collect(threads, mesh.positions.len(), LEAST_VERTICES, turn);
+        let mut turns = Turns { frame: Some(frame), turns, normals: Vec::new(), tangents: Vec::new() };
+        turns.normals = parallel::collect(threads, mesh.normals.len(), LEAST_VERTICES, |vertex| {
+            turns.normal(vertex, mesh.normals[vertex]).as_vec3()
+        });
+        turns.tangents = parallel::collect(threads, mesh.tangents.len(), LEAST_VERTICES, |vertex| {
+            turns.tangent(vertex, mesh.tangents[vertex].truncate()).as_vec3()
+        });
+        turns
+    }
+
+    fn deform_target(&self, mesh: usize, target: usize, after: &[DVec3], turns: &Turns) -> MorphTarget {
+        let start = self.study.figure.mesh_starts[mesh];
+        let mesh = &self.character.meshes[mesh];
+        let target = &mesh.morph_targets[target];
+        let directions: Vec<Vec3> = match target.tangents.is_empty() {
+            true => Vec::new(),
+            false => mesh.tangents.iter().map(|tangent| tangent.truncate()).collect(),
         };
-        let directions: Vec<Vec3> = mesh.tangents.iter().map(|tangent| tangent.truncate()).collect();
-        let new_directions: Vec<Vec3> = directions
-            .iter()
-            .enumerate()
-            .map(|(vertex, &tangent)| turn_tangent(vertex, tangent).as_vec3())
-            .collect();
-        let tangents =
-            new_directions.iter().zip(&mesh.tangents).map(|(tangent, old)| tangent.extend(old.w)).collect();
-        let morph_targets = mesh
-            .morph_targets
-            .iter()
-            .map(|target| MorphTarget {
-                name: target.name.clone(),
-                positions: self.morph_positions(start, &target.positions, after),
-                normals: morph_turns(&target.normals, &mesh.normals, &normals, &turn_normal),
-                tangents: morph_turns(&target.tangents, &directions, &new_directions, &turn_tangent),
-            })
-            .collect();
-        DeformedMesh { positions, normals, tangents, morph_targets }
+        MorphTarget {
+            name: target.name.clone(),
+            positions: self.morph_positions(start, &target.positions, after),
+            normals: morph_turns(&target.normals, &mesh.normals, &turns.normals, &|vertex, normal| {
+                turns.normal(vertex, normal)
+            }),
+            tangents: morph_turns(&target.tangents, &directions, &turns.tangents, &|vertex, tangent| {
+                turns.tangent(vertex, tangent)
+            }),
+        }
     }
 
     /// D(v + d) - D(v): exact, and zero where d is.
@@ -752,7 +853,7 @@ impl Deformer {
             }
             let whole = start + vertex;
             let p = figure.positions[whole] + figure.frame.to_canonical(delta.as_dvec3());
-            let to = self.field.map(p, &self.bindings[whole]).0;
+            let to = self.field.place(p, &self.bindings[whole]);
             figure.frame.to_model(to - after[whole]).as_vec3()
         };
         deltas.iter().enumerate().map(moved).collect()
@@ -859,6 +960,57 @@ impl Deformer {
             warnings: self.warnings.clone(),
         })
     }
+}
+
+/// How the directions at each vertex of a mesh turn, and what its own turn into; all empty where nothing of it is wanted.
+#[derive(Default)]
+struct Turns {
+    frame: Option<Frame>,
+    /// Canonical frame; empty where normals alone are wanted.
+    turns: Vec<DMat3>,
+    normals: Vec<Vec3>,
+    tangents: Vec<Vec3>,
+}
+
+impl Turns {
+    fn frame(&self) -> &Frame {
+        self.frame.as_ref().expect("there are turns")
+    }
+
+    fn normal(&self, vertex: usize, normal: Vec3) -> DVec3 {
+        turned_normal(self.frame(), &self.turns[vertex], normal)
+    }
+
+    fn tangent(&self, vertex: usize, tangent: Vec3) -> DVec3 {
+        let frame = self.frame();
+        let turned = frame.to_model(self.turns[vertex] * frame.to_canonical(tangent.as_dvec3()));
+        let flat = match self.normals.get(vertex) {
+            Some(normal) => turned.reject_from_normalized(normal.as_dvec3()),
+            None => turned,
+        };
+        flat.normalize_or(tangent.as_dvec3())
+    }
+}
+
+/// What `normal` becomes where the surface turns by `turn`.
+fn turned_normal(frame: &Frame, turn: &DMat3, normal: Vec3) -> DVec3 {
+    let normal = normal.as_dvec3();
+    frame.to_model(normal_matrix(*turn) * frame.to_canonical(normal)).normalize_or(normal)
+}
+
+/// The mesh as it came, of it what is wanted.
+fn unchanged(mesh: &Mesh, wanted: MeshOutputs) -> DeformedMesh {
+    let mut all = DeformedMesh { positions: mesh.positions.clone(), ..DeformedMesh::default() };
+    if wanted.normals {
+        all.normals.clone_from(&mesh.normals);
+    }
+    if wanted.tangents {
+        all.tangents.clone_from(&mesh.tangents);
+    }
+    if wanted.morph_targets {
+        all.morph_targets.clone_from(&mesh.morph_targets);
+    }
+    all
 }
 
 /// Where the joints of `humanoid` are, by role.

@@ -344,7 +344,7 @@ fn turned(run: &Run) -> [usize; 3] {
     let least = 1e-10 * run.height().powi(2);
     let face = run.deformer.target().anatomy.head_centre.z;
     let mut counts = [0; 3];
-    for corners in &before.triangles {
+    for corners in before.triangles.iter() {
         let corners = corners.map(|vertex| vertex as usize);
         let normal = |figure: &Figure| {
             let [a, b, c] = corners.map(|vertex| figure.positions[vertex]);

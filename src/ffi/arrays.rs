@@ -301,6 +301,11 @@ impl<T: Plain> Output<T> {
         Ok(Self { start: start.cast(), count, stride, element: std::marker::PhantomData })
     }
 
+    /// Whether there is an array to write to.
+    pub fn is_wanted(&self) -> bool {
+        !self.start.is_null()
+    }
+
     /// Writes `values`, of which there are as many as were checked.
     pub fn write(&self, values: &[T]) {
         let count = self.count.min(values.len());

@@ -11,7 +11,7 @@ use super::table::{self, Object};
 use crate::character::Character;
 use crate::error::Warning;
 use crate::options::Options;
-use crate::pipeline::{Deformed, Deformer, Style};
+use crate::pipeline::{Deformed, Deformer, MeshOutputs, Style};
 use crate::progress::Progress;
 use crate::report::{FigureReport, GroupShape, Report};
 use core::ffi::{c_char, c_void};
@@ -82,7 +82,8 @@ impl DeformerState {
                 unsafe { Places::new(character, index, result) }.map_err(|error| error.in_mesh(index))?,
             );
         }
-        let deformed = self.deformer.apply_with(progress)?;
+        let outputs: Vec<MeshOutputs> = places.iter().map(Places::outputs).collect();
+        let deformed = self.deformer.apply_to(&outputs, progress)?;
         for (index, places) in places.iter().enumerate() {
             places.write(&deformed, index);
         }
@@ -161,6 +162,14 @@ impl Places {
                 morphs.push(places);
             }
             Ok(Self { positions, normals, tangents, morphs })
+        }
+    }
+
+    fn outputs(&self) -> MeshOutputs {
+        MeshOutputs {
+            normals: self.normals.is_wanted(),
+            tangents: self.tangents.is_wanted(),
+            morph_targets: self.morphs.iter().flatten().any(Output::is_wanted),
         }
     }
 

@@ -56,25 +56,39 @@ pub struct PaperField {
 }
 
 impl PaperField {
-    fn map(&self, p: DVec3, binding: &BoneBinding) -> (DVec3, DMat3) {
+    fn place(&self, p: DVec3, binding: &BoneBinding) -> DVec3 {
         let mut to = self.bones.displace(p, &binding.weights, self.stage);
-        let mut jacobian = self.bones.jacobian(p, &binding.weights, self.stage);
         if binding.head > 0.0 && self.face != FaceShape::None {
-            if let Some(centre) = binding.on_face {
-                let centre = self.bones.displace(centre, &binding.weights, self.stage);
-                to += binding.head * (self.face.map(centre).0 - centre);
-            } else {
-                let (younger, face_jacobian) = self.face.map(to);
-                to += binding.head * (younger - to);
-                jacobian += (face_jacobian - DMat3::IDENTITY) * binding.head * jacobian;
-            }
+            let from = match binding.on_face {
+                Some(centre) => self.bones.displace(centre, &binding.weights, self.stage),
+                None => to,
+            };
+            to += binding.head * (self.face.map(from).0 - from);
         }
-        let moved = p + self.amount * (to - p) + DVec3::Y * self.ground;
-        (moved, DMat3::IDENTITY + (jacobian - DMat3::IDENTITY) * self.amount)
+        p + self.amount * (to - p) + DVec3::Y * self.ground
+    }
+
+    fn map(&self, p: DVec3, binding: &BoneBinding) -> (DVec3, DMat3) {
+        let mut jacobian = self.bones.jacobian(p, &binding.weights, self.stage);
+        if binding.head > 0.0 && self.face != FaceShape::None && binding.on_face.is_none() {
+            let on_face = self.bones.displace(p, &binding.weights, self.stage);
+            jacobian += (self.face.map(on_face).1 - DMat3::IDENTITY) * binding.head * jacobian;
+        }
+        let jacobian = DMat3::IDENTITY + (jacobian - DMat3::IDENTITY) * self.amount;
+        (self.place(p, binding), jacobian)
     }
 }
 
 impl Field {
+    /// Where `p` goes.
+    pub fn place(&self, p: DVec3, binding: &Binding) -> DVec3 {
+        match (self, binding) {
+            (Field::Parts(field), Binding::Parts(binding)) => field.place(p, binding),
+            (Field::Bones(field), Binding::Bones(binding)) => field.place(p, binding),
+            _ => p,
+        }
+    }
+
     /// Where `p` goes, and the Jacobian there at fixed weights.
     pub fn map(&self, p: DVec3, binding: &Binding) -> (DVec3, DMat3) {
         match (self, binding) {

@@ -8,6 +8,7 @@ use super::proportions::Part;
 use crate::character::{Character, Humanoid, MeshKind, Role};
 use crate::error::{Error, ErrorKind, Result};
 use glam::{DMat3, DVec3};
+use std::sync::Arc;
 
 /// Model space to the canonical frame: a rotation, or a mirrored one.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -85,7 +86,7 @@ pub struct Figure {
     /// Rest positions of all meshes' vertices, one mesh after the other.
     pub positions: Vec<DVec3>,
     /// Triangles of all meshes, as indices into `positions`.
-    pub triangles: Vec<[u32; 3]>,
+    pub triangles: Arc<Vec<[u32; 3]>>,
     /// Where each mesh's vertices start; one more than there are meshes.
     pub mesh_starts: Vec<usize>,
     /// What each vertex belongs to.
@@ -97,7 +98,7 @@ pub struct Figure {
     /// The role each joint folds into: its own, else its nearest ancestor's; `None` for joints outside the humanoid.
     pub joint_roles: Vec<Option<Role>>,
     /// Each vertex's weights by role; they sum to 1.
-    pub role_weights: Vec<Vec<(Role, f64)>>,
+    pub role_weights: Arc<Vec<Vec<(Role, f64)>>>,
     /// Each vertex's weight to joints that play no role themselves (hair, skirts, helpers).
     pub extra_weight: Vec<f64>,
     /// The joint of each vertex's largest weight.
@@ -154,13 +155,13 @@ impl Figure {
         Ok(Self {
             frame,
             positions,
-            triangles,
+            triangles: Arc::new(triangles),
             mesh_starts,
             kinds,
             joints,
             humanoid,
             joint_roles,
-            role_weights,
+            role_weights: Arc::new(role_weights),
             extra_weight,
             main_joint: main.iter().map(|main| main.map(|(joint, _)| joint)).collect(),
             main_weight: main.iter().map(|main| main.map_or(0.0, |(_, weight)| weight)).collect(),

@@ -88,17 +88,37 @@ impl Landmarks {
 /// Reads the landmarks of `figure`.
 pub fn landmarks(figure: &Figure) -> Landmarks {
     let height = figure.height();
-    let shoulder_line = mean_height(figure, [Role::LeftUpperArm, Role::RightUpperArm]);
+    let Upper { crown, chin, shoulder_line, chin_seen, crown_with_hair } = upper(figure);
     let sole = sole(figure);
-    let (crown, crown_with_hair) = crown(figure);
-    // A head whose crown lies below the shoulders is no head; keep a sliver so that nothing divides by 0.
-    let crown = crown.max(shoulder_line + 0.01 * height);
-    let (chin, chin_seen) = chin(figure, shoulder_line, crown);
     let hip_line = mean_height(figure, [Role::LeftUpperLeg, Role::RightUpperLeg]);
     let (crotch, crotch_seen) = crotch(figure, hip_line);
     let crotch =
         crotch.clamp(sole + 0.01 * height, (shoulder_line - 0.01 * height).max(sole + 0.01 * height));
     Landmarks { crown, chin, shoulder_line, crotch, sole, chin_seen, crotch_seen, crown_with_hair }
+}
+
+/// How many heads tall `figure` is: [`Landmarks::heads`], without what that does not need.
+pub fn heads(figure: &Figure) -> f64 {
+    let Upper { crown, chin, .. } = upper(figure);
+    (crown - sole(figure)) / (crown - chin)
+}
+
+/// What is read above the waist.
+struct Upper {
+    crown: f64,
+    chin: f64,
+    shoulder_line: f64,
+    chin_seen: bool,
+    crown_with_hair: bool,
+}
+
+fn upper(figure: &Figure) -> Upper {
+    let shoulder_line = mean_height(figure, [Role::LeftUpperArm, Role::RightUpperArm]);
+    let (crown, crown_with_hair) = crown(figure);
+    // A head whose crown lies below the shoulders is no head; keep a sliver so that nothing divides by 0.
+    let crown = crown.max(shoulder_line + 0.01 * figure.height());
+    let (chin, chin_seen) = chin(figure, shoulder_line, crown);
+    Upper { crown, chin, shoulder_line, chin_seen, crown_with_hair }
 }
 
 fn mean_height(figure: &Figure, roles: [Role; 2]) -> f64 {
@@ -148,6 +168,26 @@ fn middle(figure: &Figure, triangles: &[[u32; 3]]) -> Option<(DVec3, DVec3)> {
     (low.x <= high.x).then(|| ((low + high) / 2.0, (high - low) / 2.0))
 }
 
+/// Those of `triangles` that share a point with the box from `low` to `high` along the `axes` asked for, and a sliver
+/// more.
+fn within(
+    figure: &Figure,
+    mut triangles: Vec<[u32; 3]>,
+    low: DVec3,
+    high: DVec3,
+    axes: [bool; 3],
+) -> Vec<[u32; 3]> {
+    let sliver = 1e-3 * figure.height();
+    triangles.retain(|corners| {
+        let [a, b, c] = corners.map(|vertex| figure.positions[vertex as usize]);
+        let (least, most) = (a.min(b).min(c), a.max(b).max(c));
+        (0..3).all(|axis| {
+            !axes[axis] || (least[axis] <= high[axis] + sliver && most[axis] >= low[axis] - sliver)
+        })
+    });
+    triangles
+}
+
 /// The crown: the median height of seven vertical rays, one over the head joint and six around it at a quarter of
 /// the head's half width; without hair where at least five of them meet a skull.
 ///
@@ -167,8 +207,11 @@ fn crown(figure: &Figure) -> (f64, bool) {
             .copied()
             .collect();
         let half = middle(figure, &sure).map_or(half, |(_, half)| half);
-        let surface = Surface::new(&figure.positions, &triangles);
         let centre = if over_joint { joint } else { centre };
+        let reach = DVec3::splat(half.x / 4.0);
+        // No ray meets anything else, and a tree of few triangles is made soon.
+        let near = within(figure, triangles, centre - reach, centre + reach, [true, false, true]);
+        let surface = Surface::new(&figure.positions, &near);
         let above = figure.extent.1 + 0.01 * figure.height();
         let mut hits: Vec<f64> = (0..7)
             .filter_map(|ray| {
@@ -206,10 +249,13 @@ fn chin(figure: &Figure, shoulder_line: f64, crown: f64) -> (f64, bool) {
     else {
         return by_ratio;
     };
-    let surface = Surface::new(&figure.positions, &triangles);
     let front =
         triangles.iter().flatten().map(|&v| figure.positions[v as usize].z).fold(f64::NEG_INFINITY, f64::max)
             + 0.01 * span;
+    let reach = CHIN_COLUMNS.iter().fold(0.0, |reach: f64, column| reach.max(column.abs())) * 2.0 * half.x;
+    let around = |sign: f64| face + DVec3::splat(sign * reach);
+    let near = within(figure, triangles, around(-1.0), around(1.0), [true, false, false]);
+    let surface = Surface::new(&figure.positions, &near);
     let row_height = (CHIN_RANGE.1 - CHIN_RANGE.0) * span / CHIN_ROWS as f64;
     let row_y = |row: usize| shoulder_line + CHIN_RANGE.0 * span + (row as f64 + 0.5) * row_height;
     let depths: Vec<Option<f64>> = (0..CHIN_ROWS)

@@ -205,7 +205,14 @@ impl PartField {
         self.face = face;
     }
 
+    /// Where `p` goes.
+    pub fn place(&self, p: DVec3, binding: &PartBinding) -> DVec3 {
+        // Everything below is inlined, so that the Jacobian is not made here.
+        self.map(p, binding).0
+    }
+
     /// Where `p` goes, and the Jacobian there at fixed binding.
+    #[inline(always)]
     pub fn map(&self, p: DVec3, binding: &PartBinding) -> (DVec3, DMat3) {
         let (to, jacobian) = match binding.manner {
             Manner::Piece(piece) => (self.pieces[piece].map(p), self.pieces[piece].linear),
@@ -216,6 +223,7 @@ impl PartField {
         (moved, DMat3::IDENTITY + (jacobian - DMat3::IDENTITY) * self.amount)
     }
 
+    #[inline(always)]
     fn blend(&self, p: DVec3, weights: &PartWeights, manner: Manner) -> (DVec3, DMat3) {
         let mut to = DVec3::ZERO;
         let mut jacobian = DMat3::ZERO;
@@ -230,6 +238,7 @@ impl PartField {
         (to / total, jacobian * (1.0 / total))
     }
 
+    #[inline(always)]
     fn part(&self, part: usize, p: DVec3, manner: Manner) -> (DVec3, DMat3) {
         match part {
             TRUNK => self.trunk(p),
@@ -242,6 +251,7 @@ impl PartField {
 
     /// Heights piecewise between the landmarks, x about the middle, z about the centre line, which itself is
     /// flattened: else the curve of the back is exaggerated.
+    #[inline(always)]
     fn trunk(&self, p: DVec3) -> (DVec3, DMat3) {
         let [length_scale, thickness_scale] = self.coefficients.trunk;
         let (before, after) = (&self.before, &self.after);
@@ -265,6 +275,7 @@ impl PartField {
         (DVec3::new(x, y, z), jacobian)
     }
 
+    #[inline(always)]
     fn neck(&self, p: DVec3) -> (DVec3, DMat3) {
         let [length_scale, thickness_scale] = self.coefficients.neck;
         let length = self.anatomy.proportions.neck;
@@ -287,6 +298,7 @@ impl PartField {
         (to, jacobian)
     }
 
+    #[inline(always)]
     fn head(&self, p: DVec3, manner: Manner, is_hair: bool) -> (DVec3, DMat3) {
         let affine = &self.affine[HEAD];
         let (to, jacobian) = match &self.hair {
