@@ -3,9 +3,9 @@
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use std::hint::black_box;
 use std::sync::Arc;
-use superdeform::geometry::weld;
+use superdeform::geometry::{SEAM, weld};
 use superdeform::pipeline::{Deformer, Options};
-use superdeform::shape::part_weights::{WELD_TOLERANCE, part_bindings};
+use superdeform::shape::part_weights::part_bindings;
 use superdeform::shape::study::Study;
 use superdeform_benches::tube;
 
@@ -38,7 +38,7 @@ fn pipeline(criterion: &mut Criterion) {
         let character = Arc::new(model.character);
         let new = || Deformer::new(character.clone(), &style, &options).expect("the model is whole");
         let study = Study::of(&character, &options).expect("the model is whole");
-        let weld = weld(&study.figure.positions, WELD_TOLERANCE * study.figure.height());
+        let weld = weld(&study.figure.positions, SEAM * study.figure.height());
         let mut deformer = new();
         let deformed = deformer.apply();
         group.bench_function("study", |bencher| bencher.iter(|| Study::of(&character, &options)));
