@@ -237,35 +237,3 @@ fn the_imports_compile() {
     let _ = std::fs::remove_file(&to);
     assert!(result.status.success(), "{}", String::from_utf8_lossy(&result.stderr));
 }
-
-/// The README's program, built against the header and the library alone.
-#[test]
-fn the_minimal_host_makes_a_figure_super_deformed() {
-    let Some(library) = library() else { return };
-    if Command::new("cc").arg("--version").output().is_err() || !cfg!(target_os = "linux") {
-        println!("there is no C compiler: examples/minimal.c is not built");
-        return;
-    }
-    let folder = std::env::temp_dir().join(format!("superdeform-minimal-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).unwrap();
-    let result = Command::new("cc")
-        .args(["-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Werror", "-I"])
-        .arg(root().join("include"))
-        .arg(root().join("examples/minimal.c"))
-        .arg("-L")
-        .arg(library.parent().unwrap())
-        .args(["-lsuperdeform", "-o"])
-        .arg(folder.join("minimal"))
-        .output()
-        .unwrap();
-    assert!(result.status.success(), "{}", String::from_utf8_lossy(&result.stderr));
-    let result = Command::new(folder.join("minimal"))
-        .env("LD_LIBRARY_PATH", library.parent().unwrap())
-        .output()
-        .unwrap();
-    let _ = std::fs::remove_dir_all(&folder);
-    let said = String::from_utf8_lossy(&result.stdout);
-    assert!(result.status.success(), "{said}{}", String::from_utf8_lossy(&result.stderr));
-    let numbers: Vec<f64> = said.split_whitespace().filter_map(|word| word.parse().ok()).collect();
-    assert!(numbers.len() == 2 && numbers[1] < numbers[0], "{said}");
-}
