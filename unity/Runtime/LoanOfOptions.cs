@@ -27,6 +27,7 @@ internal static unsafe class LoanOfOptions
         native->rig_fingers = options.RigFingers ? 1u : 0u;
         native->rig_chin_segment = options.RigChinSegment ? 1u : 0u;
         native->rig_heat = options.RigHeat;
+        native->rig_left_handed = options.RigLeftHanded ? 1u : 0u;
         Groups(loan, native, options);
         BoneGroups(loan, native, options);
         RigJoints(loan, native, options);

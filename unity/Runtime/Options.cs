@@ -62,6 +62,9 @@ public sealed class Options
     /// <summary>Rig: how sharp weights by heat are, 0.01 to 1000; default 1.</summary>
     public double RigHeat = 1;
 
+    /// <summary>Rig: tells left from right in left-handed axes, Unity's; default false.</summary>
+    public bool RigLeftHanded = false;
+
     /// <summary>Rig: joints that are known; the rest is found. May be null.</summary>
     public List<GivenJoint> RigJoints = new List<GivenJoint>();
 }

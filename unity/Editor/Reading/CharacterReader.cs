@@ -160,7 +160,10 @@ namespace SuperDeform.Editor
             if (data.Rigged) data.Character.SetSkeleton(Skeleton(data, roles));
             AddMeshes(data);
             AddMorphTargets(data);
-            if (data.RigMade) data.Character.Rig(options.RigOptions, options.RigProgress);
+            if (!data.RigMade) return;
+            Options rig = options.RigOptions ?? new Options();
+            rig.RigLeftHanded = true;
+            data.Character.Rig(rig, options.RigProgress);
         }
 
         static SkeletonArrays Skeleton(AvatarData data, int[] roles)

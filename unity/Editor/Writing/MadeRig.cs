@@ -19,7 +19,7 @@ namespace SuperDeform.Editor
         internal static void Add(GameObject copy, PointMap map, AvatarData source, AvatarResult result)
         {
             Joints joints = source.Character.GetJoints();
-            HumanoidRole[] roles = Array.ConvertAll(joints.Roles, Mirrored);
+            HumanoidRole[] roles = joints.Roles;
             Transform[] bones = AddBones(copy.transform, joints, roles, result.JointPositions);
             foreach (RendererResult renderer in result.Renderers)
             {
@@ -28,16 +28,6 @@ namespace SuperDeform.Editor
                 Show(mesh, map.CopyOf(renderer.Source.Renderer.transform), bones, roles, renderer, result.JointPositions);
             }
             AddAvatar(copy, map, source, joints, roles, result.JointPositions);
-        }
-
-        /// <summary>
-        /// The library tells left from right as in right-handed axes, and Unity's are left-handed: its left is our right.
-        /// </summary>
-        static HumanoidRole Mirrored(HumanoidRole role)
-        {
-            string name = role.ToString();
-            string other = name.StartsWith("Left") ? "Right" + name.Substring(4) : name.StartsWith("Right") ? "Left" + name.Substring(5) : name;
-            return (HumanoidRole)Enum.Parse(typeof(HumanoidRole), other);
         }
 
         static string NameOf(HumanoidRole[] roles, int joint)

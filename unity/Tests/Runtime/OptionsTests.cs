@@ -44,6 +44,7 @@ public sealed class OptionsTests
         options.RigFingers = false;
         options.RigChinSegment = false;
         options.RigHeat = 2.5;
+        options.RigLeftHanded = true;
         options.Groups.Add(new GroupSettings { Group = "head", LengthScale = 2, ThicknessScale = 3, LengthTransfer = 4,
             ThicknessTransfer = 5 });
         options.BoneGroups.Add(new BoneGroup { Role = HumanoidRole.LeftHand, Group = "手" });
@@ -67,6 +68,7 @@ public sealed class OptionsTests
             Assert.AreEqual(0u, given->rig_fingers);
             Assert.AreEqual(0u, given->rig_chin_segment);
             Assert.AreEqual(2.5, given->rig_heat);
+            Assert.AreEqual(1u, given->rig_left_handed);
             Assert.AreEqual(1u, given->group_count);
             Assert.AreEqual("head", Text.Of(given->groups->group));
             Assert.AreEqual(2.0, given->groups->length_scale);
