@@ -13,7 +13,7 @@ use superdeform::report::Report;
 use superdeform::shape::landmarks::landmarks;
 use superdeform::shape::style::BUILT_IN;
 use superdeform::shape::{BodyShape, Study};
-use superdeform::{Character, Error, ErrorKind, MeshKind, Role};
+use superdeform::{Character, Error, ErrorKind, Mesh, MeshKind, Role, Weights};
 
 const MODES: [Mode; 2] = [Mode::Product, Mode::Paper];
 
@@ -794,4 +794,53 @@ fn what_hangs_from_the_head_goes_with_it_even_where_its_joint_lies_in_the_neck()
     let joint = run.character.skeleton.joints[head].position();
     let off = run.deformer.map(head, joint).position.distance(run.joint(Role::Head)) / run.height();
     assert!(off < 1e-9, "the joint is {off} H away from a point that hangs from it there");
+}
+
+/// Files often hand one set of vertices to all meshes, of which each draws its own.
+#[test]
+fn meshes_that_share_their_vertices_come_out_as_those_that_do_not() {
+    let mut separate = adult().build();
+    let spine = separate.humanoid.joint(Role::Spine).unwrap() as u32;
+    let middle = separate.skeleton.joints[spine as usize].position();
+    let corner = |index: usize| {
+        let side = |bit: usize| if index >> bit & 1 == 1 { 0.5 } else { -0.5 };
+        middle + DVec3::new(0.3 * side(0), 0.3 * side(1), 0.12 * side(2) - 0.25)
+    };
+    let faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+    let bag = Mesh {
+        name: "bag".to_string(),
+        kind: Some(MeshKind::Accessory),
+        positions: (0..8).map(|index| corner(index).as_vec3()).collect(),
+        triangles: faces.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect(),
+        weights: Weights::from_rows(vec![vec![(spine, 1.0)]; 8]),
+        ..Mesh::default()
+    };
+    separate.meshes.push(bag);
+    let mut shared = separate.clone();
+    for (mesh, own) in shared.meshes.iter_mut().zip(&separate.meshes) {
+        let before: usize = separate
+            .meshes
+            .iter()
+            .take_while(|other| other.name != own.name)
+            .map(|m| m.positions.len())
+            .sum();
+        mesh.positions = separate.meshes.iter().flat_map(|mesh| mesh.positions.clone()).collect();
+        let rows = separate.meshes.iter().flat_map(|mesh| mesh.weights.rows().map(<[_]>::to_vec));
+        mesh.weights = Weights::from_rows(rows.collect::<Vec<_>>());
+        mesh.triangles = own.triangles.iter().map(|corners| corners.map(|v| v + before as u32)).collect();
+        (mesh.normals, mesh.tangents, mesh.morph_targets) = Default::default();
+    }
+    let made = |character: &Character| {
+        let style = Style::heads(2.5).unwrap();
+        Deformer::new(Arc::new(character.clone()), &style, &Options::default()).unwrap().apply()
+    };
+    let (one, other) = (made(&separate), made(&shared));
+    let mut start = 0;
+    for (index, mesh) in one.meshes.iter().enumerate() {
+        for (vertex, &p) in mesh.positions.iter().enumerate() {
+            let q = other.meshes[index].positions[start + vertex];
+            assert!(p.distance(q) < 1e-6, "{}: {p} is at {q}", separate.meshes[index].name);
+        }
+        start += mesh.positions.len();
+    }
 }

@@ -8,6 +8,7 @@ use super::proportions::Part;
 use crate::character::{Character, Humanoid, MeshKind, Role};
 use crate::error::{Error, ErrorKind, Result};
 use glam::{DMat3, DVec3};
+use std::collections::HashMap;
 use std::sync::Arc;
 
 /// Model space to the canonical frame: a rotation, or a mirrored one.
@@ -152,6 +153,7 @@ impl Figure {
         for (kind, weights) in kinds.iter_mut().zip(&role_weights) {
             *kind = believable_kind(*kind, weights);
         }
+        copy_kinds_of_drawn(&mut kinds, &positions, &triangles);
         Ok(Self {
             frame,
             positions,
@@ -197,6 +199,27 @@ impl Figure {
             .filter(|corners| corners.iter().all(|&vertex| chosen[vertex as usize]))
             .copied()
             .collect()
+    }
+}
+
+/// Meshes may share their arrays, each with triangles of its own: then each has copies of what another one draws. Such
+/// copies are what is drawn at their place, or a bag would hold together with the whole body.
+fn copy_kinds_of_drawn(kinds: &mut [MeshKind], positions: &[DVec3], triangles: &[[u32; 3]]) {
+    let mut is_drawn = vec![false; positions.len()];
+    for &vertex in triangles.iter().flatten() {
+        is_drawn[vertex as usize] = true;
+    }
+    if is_drawn.iter().all(|&is_drawn| is_drawn) {
+        return;
+    }
+    let place = |vertex: usize| positions[vertex].to_array().map(f64::to_bits);
+    let drawn: HashMap<[u64; 3], MeshKind> = (0..positions.len())
+        .rev() // the first one stays
+        .filter(|&vertex| is_drawn[vertex])
+        .map(|vertex| (place(vertex), kinds[vertex]))
+        .collect();
+    for vertex in (0..positions.len()).filter(|&vertex| !is_drawn[vertex]) {
+        kinds[vertex] = drawn.get(&place(vertex)).copied().unwrap_or_default();
     }
 }
 
