@@ -6,14 +6,13 @@
 
 use crate::geometry::weld::Weld;
 use crate::parallel;
-use glam::{DMat3, DVec3, Mat3, Vec3};
+use glam::{DMat3, DVec3, Mat3};
 
 /// Fewer triangles than this are not worth a thread.
 const LEAST_TRIANGLES: usize = 4000;
 
 /// What a mesh is at rest, to fit Jacobians to what happens to it.
 ///
-/// Single precision: directions come out as floats, and what is read for each of them is half as much.
 #[derive(Clone, Debug, Default)]
 pub struct RestTriangles {
     /// One for each triangle that has an area.
@@ -30,9 +29,9 @@ pub struct RestTriangles {
 struct RestTriangle {
     corners: [u32; 3],
     /// Rows by which the two edges after, and a normal, make up the gradient, by area.
-    rows: [Vec3; 3],
+    rows: [DVec3; 3],
     /// Twice the triangle's.
-    area: f32,
+    area: f64,
 }
 
 impl RestTriangles {
@@ -68,8 +67,7 @@ impl RestTriangles {
             let cross = a.cross(b);
             let area = cross.length();
             let normal = cross / area;
-            let rows = [b.cross(normal), normal.cross(a), area * normal].map(|row| row.as_vec3());
-            RestTriangle { corners, rows, area: area as f32 }
+            RestTriangle { corners, rows: [b.cross(normal), normal.cross(a), area * normal], area }
         };
         Self { triangles: triangles.into_iter().map(rest).collect(), starts, around, scale }
     }
@@ -84,14 +82,15 @@ impl RestTriangles {
         let gradient = |index: usize| {
             let RestTriangle { corners, rows, area } = self.triangles[index];
             let (a, b) = edges(after, corners);
-            let (a, b) = ((a * self.scale).as_vec3(), (b * self.scale).as_vec3());
+            let (a, b) = (a * self.scale, b * self.scale);
             let cross = a.cross(b);
             let area_after = cross.length();
             if area_after <= 0.0 {
                 return (Mat3::ZERO, 0.0);
             }
             let normal = cross * ((area_after / area).sqrt() / area_after);
-            (outer(a, rows[0]) + outer(b, rows[1]) + outer(normal, rows[2]), area)
+            let gradient = outer(a, rows[0]) + outer(b, rows[1]) + outer(normal, rows[2]);
+            (gradient.as_mat3(), area as f32)
         };
         let by_area = parallel::collect(threads, self.triangles.len(), LEAST_TRIANGLES, gradient);
         Gradients { rest: self, by_area }
@@ -101,7 +100,8 @@ impl RestTriangles {
 /// What happens to each triangle of a mesh.
 pub struct Gradients<'a> {
     rest: &'a RestTriangles,
-    /// Times its area, and that area; 0 for a triangle that has lost its own.
+    /// Times its area, and that area; 0 for a triangle that has lost its own. Directions come out as floats, so these are
+    /// kept as such: half as much to read.
     by_area: Vec<(Mat3, f32)>,
 }
 
@@ -119,8 +119,8 @@ impl Gradients<'_> {
     }
 }
 
-fn outer(column: Vec3, row: Vec3) -> Mat3 {
-    Mat3::from_cols(column * row.x, column * row.y, column * row.z)
+fn outer(column: DVec3, row: DVec3) -> DMat3 {
+    DMat3::from_cols(column * row.x, column * row.y, column * row.z)
 }
 
 /// From a triangle's first corner to the others.
