@@ -465,6 +465,13 @@ fn animation_slots(
             if text_at(&channel["target"], "path") != "translation" {
                 continue;
             }
+            let node_count = loaded.pose.rest.len();
+            if node >= node_count {
+                return Err(bad_input(format!(
+                    "{}: channel {index} of animation {animation} moves node {node}, but there are {node_count} nodes: export the file anew",
+                    loaded.file.name
+                )));
+            }
             let Some(sampler_json) = samplers.get(sampler) else {
                 continue;
             };
