@@ -757,7 +757,13 @@ impl Host<'_> {
                     let all = self.meshes.entry(id).or_default();
                     let before: u64 = all.iter().map(|mesh| mesh.vertices as u64).sum();
                     unsafe { sdef_character_get_info(SdefCharacter { id }, &mut info, null_mut()) };
-                    assert_eq!(index as usize, all.len());
+                    assert_eq!(index + 1, info.mesh_count);
+                    // Callbacks add meshes too, without a vertex.
+                    assert!(all.len() <= index as usize);
+                    all.resize(
+                        index as usize,
+                        Known { vertices: 0, normals: false, tangents: false, targets: 0 },
+                    );
                     all.push(Known { vertices: (info.vertex_count - before) as usize, ..known });
                 }
                 ("add_mesh", status)
