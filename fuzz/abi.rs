@@ -807,7 +807,10 @@ impl Host<'_> {
                     sdef_character_add_morph_target(SdefCharacter { id }, mesh, target, error)
                 });
                 if status == SDEF_STATUS_OK {
-                    self.meshes.get_mut(&id).unwrap()[mesh as usize].targets += 1;
+                    // One that a callback has added is not known.
+                    if let Some(known) = self.meshes.get_mut(&id).and_then(|all| all.get_mut(mesh as usize)) {
+                        known.targets += 1;
+                    }
                 }
                 ("add_morph_target", status)
             }
