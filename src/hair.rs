@@ -241,9 +241,6 @@ impl HairOnBody {
     /// - `after`: where all vertices are now; `height`: of the figure then.
     /// - Returns hair's vertices with their displacements; none where nothing is to do.
     pub fn kept_outside(&self, after: &[DVec3], weld: &Weld, height: f64) -> Vec<(usize, DVec3)> {
-        if self.is_empty() {
-            return Vec::new();
-        }
         let needs: Vec<DVec3> = self
             .distances
             .iter()

@@ -277,14 +277,14 @@ impl Deformer {
         }
         let mut next = self.clone();
         next.options = options.clone();
-        if options.ray_count() != self.options.ray_count() || options.bone_groups != self.options.bone_groups
-        {
+        let measures_anew = options.ray_count() != self.options.ray_count()
+            || options.bone_groups != self.options.bone_groups;
+        if measures_anew {
             let clock = Instant::now();
             next.study = Arc::new(Study::of_figure(self.study.figure.clone(), options)?);
             next.timing.measure = milliseconds(clock);
-            (next.parts, next.hair) = (None, OnceLock::new());
         }
-        if options.mode != self.options.mode {
+        if measures_anew || options.mode != self.options.mode {
             (next.parts, next.hair) = (None, OnceLock::new());
         }
         next.make_field(&mut progress.part(0.4, 1.0))?;
@@ -443,10 +443,7 @@ impl Deformer {
             part_bindings(figure, anatomy, &self.character.skeleton, &self.weld, self.options.thread_count);
         let vertices = std::mem::take(&mut parts.vertices);
         let joint_bindings = self.joint_bindings(|figure, joint| {
-            if figure.humanoid.joint(Role::Head) == Some(joint)
-                && figure.joints[joint].y < anatomy.landmarks.chin
-            {
-                // The head turns about a point in the neck: below the chin it moves as the neck does.
+            if self.is_head_joint_in_neck(joint) {
                 return Binding::Parts(PartBinding::to(Part::Neck));
             }
             Binding::Parts(joint_binding(figure, &parts, joint))
@@ -859,22 +856,25 @@ impl Deformer {
         deltas.iter().enumerate().map(moved).collect()
     }
 
+    /// Heads often turn about a point in the neck: a head joint below the chin moves as the neck does (product mode).
+    fn is_head_joint_in_neck(&self, joint: usize) -> bool {
+        let figure = &self.study.figure;
+        figure.humanoid.joint(Role::Head) == Some(joint)
+            && figure.joints[joint].y < self.study.anatomy.landmarks.chin
+    }
+
     /// Where the field takes `point`, attached to `joint`; both in model space.
     pub fn map(&self, joint: usize, point: DVec3) -> Mapped {
-        let figure = &self.study.figure;
-        let frame = &figure.frame;
+        let frame = &self.study.figure.frame;
         let p = frame.to_canonical(point);
-        let chin = match &self.field {
-            Field::Parts(field) => field.before().chin,
-            Field::Bones(_) => f64::INFINITY,
+        let is_above_chin = p.y >= self.study.anatomy.landmarks.chin;
+        // What hangs from a head joint in the neck is on the head all the same, above the chin.
+        let on_head = Binding::Parts(PartBinding::to(Part::Head));
+        let binding = match &self.field {
+            Field::Parts(_) if is_above_chin && self.is_head_joint_in_neck(joint) => &on_head,
+            _ => &self.joint_bindings[joint],
         };
-        let in_the_neck = figure.humanoid.joint(Role::Head) == Some(joint) && figure.joints[joint].y < chin;
-        let (position, jacobian) = if in_the_neck && p.y >= chin {
-            // The joint moves as the neck does, but what hangs from it up there is on the head.
-            self.field.map(p, &Binding::Parts(PartBinding::to(Part::Head)))
-        } else {
-            self.field.map(p, &self.joint_bindings[joint])
-        };
+        let (position, jacobian) = self.field.map(p, binding);
         Mapped { position: frame.to_model(position), jacobian: frame.jacobian_to_model(jacobian) }
     }
 
