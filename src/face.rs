@@ -158,7 +158,9 @@ impl FaceShape {
     }
 
     /// Where the map takes `p`, and its Jacobian there.
-    #[inline(always)]
+    // Inlined, every shape's arithmetic is done ahead of the choice, on another shape's bytes: these are often subnormal,
+    // and a hundred times as slow.
+    #[inline(never)]
     pub fn map(&self, p: DVec3) -> (DVec3, DMat3) {
         match self {
             Self::None => (p, DMat3::IDENTITY),
