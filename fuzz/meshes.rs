@@ -125,15 +125,6 @@ pub fn run(data: &[u8]) {
     };
     let Ok(deformer) = deformer else { return };
     let deformed = deformer.apply();
-    // What grows may leave the range of floats where it was near its end.
-    let is_in_range = |p: &glam::Vec3| p.abs().max_element() < 1e30;
-    let has_room = deformer.character().meshes.iter().all(|mesh| {
-        let deltas = mesh.morph_targets.iter().flat_map(|target| &target.positions);
-        mesh.positions.iter().chain(deltas).all(is_in_range)
-    });
-    if !has_room {
-        return;
-    }
     for (index, mesh) in deformed.meshes.iter().enumerate() {
         let deltas = mesh.morph_targets.iter().flat_map(|target| &target.positions);
         for p in mesh.positions.iter().chain(&mesh.normals).chain(deltas) {

@@ -15,12 +15,12 @@ use crate::parallel;
 use crate::progress::Progress;
 use crate::report::{Coefficient, Counts, FigureReport, GroupShape, Report, RigReport, Timing};
 use crate::shape::BodyShape;
-use crate::shape::attributes::{Gradients, RestTriangles, normal_matrix};
+use crate::shape::attributes::{Gradients, RestTriangles, has_volume, normal_matrix};
 use crate::shape::bones::BoneField;
 use crate::shape::coefficients::coefficients;
 use crate::shape::field::{Binding, BoneBinding, Field, PaperField};
-use crate::shape::figure::{Figure, Frame, extent, is_head};
-use crate::shape::landmarks::heads;
+use crate::shape::figure::{Figure, extent, is_head};
+use crate::shape::landmarks::{HeadSources, Posed};
 use crate::shape::part_coefficients::{PartCoefficients, Wanted, part_coefficients};
 use crate::shape::part_weights::{PartBinding, PartBindings, joint_binding, part_bindings};
 use crate::shape::parts::{Heights, PartField};
@@ -28,7 +28,7 @@ use crate::shape::proportions::Part;
 use crate::shape::shorten::{Shortened, shorten};
 use crate::shape::study::{Study, group_shapes, is_of_head};
 pub use crate::shape::style::Style;
-use glam::{DMat3, DVec3, Vec3, Vec4};
+use glam::{DMat3, DVec3, Mat3A, Vec3, Vec3A, Vec4};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Arc, OnceLock};
 use std::time::Instant;
@@ -114,12 +114,11 @@ pub struct Deformer {
     /// Made when directions are first wanted.
     rest_triangles: OnceLock<Arc<RestTriangles>>,
     field: Field,
-    bindings: Vec<Binding>,
+    bindings: Arc<Vec<Binding>>,
     joint_bindings: Vec<Binding>,
-    /// What product mode's bindings were made with, less the vertices' own: no option but the study's changes it.
-    parts: Option<Arc<PartBindings>>,
-    /// Made where hair is first looked at.
-    hair: OnceLock<Arc<HairOnBody>>,
+    /// What keeps locks of hair outside the body, added to each vertex at the end; empty where nothing does.
+    hair_offsets: Vec<DVec3>,
+    found: Found,
     /// Roles that target and style share.
     roles: BTreeSet<Role>,
     head_ratio: f64,
@@ -132,6 +131,23 @@ pub struct Deformer {
     heads_left: Option<Warning>,
     timing: Timing,
     made_rig: Option<MadeRig>,
+}
+
+/// What no option but the mode, and what the study depends on, changes: found when first wanted.
+#[derive(Clone, Debug, Default)]
+struct Found {
+    /// What product mode's bindings were made with, less the vertices' own.
+    parts: Option<Arc<PartBindings>>,
+    hair: OnceLock<Arc<HairOnBody>>,
+    head_sources: OnceLock<Arc<HeadSources>>,
+    standing: OnceLock<Arc<Standing>>,
+}
+
+/// Vertices of which the lowest stays where it is, and its height.
+#[derive(Clone, Debug)]
+struct Standing {
+    vertices: Vec<u32>,
+    lowest: f64,
 }
 
 /// What the report says of a rig that was made.
@@ -231,10 +247,10 @@ impl Deformer {
                 amount: 1.0,
                 ground: 0.0,
             }),
-            bindings: Vec::new(),
+            bindings: Arc::default(),
             joint_bindings: Vec::new(),
-            parts: None,
-            hair: OnceLock::new(),
+            hair_offsets: Vec::new(),
+            found: Found::default(),
             roles: BTreeSet::new(),
             head_ratio: 1.0,
             coefficients: BTreeMap::new(),
@@ -285,7 +301,7 @@ impl Deformer {
             next.timing.measure = milliseconds(clock);
         }
         if measures_anew || options.mode != self.options.mode {
-            (next.parts, next.hair) = (None, OnceLock::new());
+            next.found = Found::default();
         }
         next.make_field(&mut progress.part(0.4, 1.0))?;
         *self = next;
@@ -320,6 +336,7 @@ impl Deformer {
             ));
         }
         self.heads_left = None;
+        self.hair_offsets = Vec::new();
         match self.options.mode {
             Mode::Product => self.make_parts(&style, progress)?,
             Mode::Paper => self.make_bones(&style)?,
@@ -389,14 +406,10 @@ impl Deformer {
         self.head_ratio = head_ratio;
         let mut aim = asked;
         let mut best: Option<(f64, Attempt)> = None;
-        // Only what the field moves is made anew in each attempt.
-        let mut result = self.study.figure.clone();
         for count in 0..HEADS_ATTEMPTS {
             progress.at(0.3 + 0.1 * count as f32)?;
             let attempt = self.attempt(style, aim / asked, &parts)?;
-            self.field = attempt.field.clone();
-            self.stand_on_ground();
-            let measured = heads(self.whole_result(&mut result));
+            let measured = self.heads_by(&attempt.field);
             let predicted = crate::shape::part_coefficients::heads_of(&proportions, &attempt.coefficients);
             let limited = attempt.warnings.iter().any(|warning| warning.code == "heads_limited");
             let reach = if limited { predicted } else { asked };
@@ -411,11 +424,10 @@ impl Deformer {
         }
         let (error, attempt) = best.expect("there is at least one attempt");
         self.field = attempt.field;
-        self.stand_on_ground();
         self.coefficients = attempt.coefficients.by_group();
         self.warnings.extend(attempt.warnings);
         if error > HEADS_TOLD {
-            let measured = heads(self.whole_result(&mut result));
+            let measured = self.heads_by(&self.field);
             self.heads_left = Some(Warning::new(
                 "heads_limited",
                 format!(
@@ -430,12 +442,7 @@ impl Deformer {
 
     /// Binds vertices and joints to parts, where that is not done yet.
     fn bind_to_parts(&mut self) -> Arc<PartBindings> {
-        if let Some(parts) = &self.parts {
-            for binding in &mut self.bindings {
-                if let Binding::Parts(binding) = binding {
-                    binding.offset = DVec3::ZERO;
-                }
-            }
+        if let Some(parts) = &self.found.parts {
             return parts.clone();
         }
         let (figure, anatomy) = (&self.study.figure, &self.study.anatomy);
@@ -448,17 +455,17 @@ impl Deformer {
             }
             Binding::Parts(joint_binding(figure, &parts, joint))
         });
-        self.bindings = vertices.into_iter().map(Binding::Parts).collect();
+        self.bindings = Arc::new(vertices.into_iter().map(Binding::Parts).collect());
         self.joint_bindings = joint_bindings;
         let parts = Arc::new(parts);
-        self.parts = Some(parts.clone());
+        self.found.parts = Some(parts.clone());
         parts
     }
 
     /// Locks that lay on the body still do.
     fn keep_hair_outside(&mut self) {
         let figure = &self.study.figure;
-        let hair = self.hair.get_or_init(|| {
+        let hair = self.found.hair.get_or_init(|| {
             let chin = self.study.anatomy.landmarks.chin;
             let part = |vertex: usize, part: Part| match &self.bindings[vertex] {
                 Binding::Parts(binding) => binding.weights[part as usize],
@@ -479,9 +486,11 @@ impl Deformer {
         }
         let after = self.positions_by(&self.field);
         let (low, high) = extent(&after);
-        for (vertex, offset) in hair.kept_outside(&after, &self.weld, high - low) {
-            if let Binding::Parts(binding) = &mut self.bindings[vertex] {
-                binding.offset = offset;
+        let offsets = hair.kept_outside(&after, &self.weld, high - low);
+        if !offsets.is_empty() {
+            self.hair_offsets = vec![DVec3::ZERO; after.len()];
+            for (vertex, offset) in offsets {
+                self.hair_offsets[vertex] = offset;
             }
         }
     }
@@ -552,7 +561,7 @@ impl Deformer {
             let role = figure.joint_roles[joint].unwrap_or(Role::Hips);
             Binding::Bones(bind(figure.joints[joint], &[(role, 1.0)]))
         });
-        self.bindings = bindings.into_iter().map(Binding::Bones).collect();
+        self.bindings = Arc::new(bindings.into_iter().map(Binding::Bones).collect());
         self.field = Field::Bones(PaperField {
             bones: field,
             stage: options.stage,
@@ -594,7 +603,7 @@ impl Deformer {
             if matches!(figure.kind(vertex), MeshKind::Body | MeshKind::FacePart)
                 && is_of_head(figure, vertex)
             {
-                let p = whole.place(figure.positions[vertex], &self.bindings[vertex]);
+                let p = self.place_by(&whole, vertex, figure.positions[vertex]);
                 low = low.min(p);
                 high = high.max(p);
             }
@@ -616,25 +625,29 @@ impl Deformer {
     /// mode the lowest one that the legs move.
     fn stand_on_ground(&mut self) {
         self.field.set_ground(0.0);
-        let figure = &self.study.figure;
-        let lowest = |height: &dyn Fn(usize) -> f64, feet: bool| {
-            (0..figure.positions.len())
-                .filter(|&vertex| match &self.bindings[vertex] {
-                    Binding::Parts(binding) if feet => {
-                        binding.weights[Part::LeftUpperLeg as usize..].iter().sum::<f32>() > 0.5
-                    }
-                    _ => figure.kind(vertex) != MeshKind::Hair,
-                })
-                .map(height)
-                .min_by(f64::total_cmp)
-        };
-        let feet = self.options.mode == Mode::Product;
-        let before = lowest(&|vertex| figure.positions[vertex].y, feet);
-        let after =
-            lowest(&|vertex| self.field.place(figure.positions[vertex], &self.bindings[vertex]).y, feet);
-        if let (Some(before), Some(after)) = (before, after) {
-            self.field.set_ground(before - after);
+        let standing = self.found.standing.get_or_init(|| Arc::new(self.standing()));
+        let heights = self.vertices_by(&self.field, &standing.vertices);
+        if let Some(after) = heights.iter().map(|p| p.y).min_by(f64::total_cmp) {
+            self.field.set_ground(standing.lowest - after);
         }
+    }
+
+    fn standing(&self) -> Standing {
+        let figure = &self.study.figure;
+        let feet = self.options.mode == Mode::Product;
+        let stands = |vertex: usize| match &self.bindings[vertex] {
+            Binding::Parts(binding) if feet => {
+                binding.weights[Part::LeftUpperLeg as usize..].iter().sum::<f32>() > 0.5
+            }
+            _ => figure.kind(vertex) != MeshKind::Hair,
+        };
+        let vertices: Vec<u32> = (0..figure.positions.len())
+            .filter(|&vertex| stands(vertex))
+            .map(|vertex| vertex as u32)
+            .collect();
+        let heights = vertices.iter().map(|&vertex| figure.positions[vertex as usize].y);
+        let lowest = heights.fold(f64::INFINITY, f64::min);
+        Standing { vertices, lowest }
     }
 
     /// How each joint is attached: by the role it folds into, as `bind` says; what lies above the hips stays.
@@ -660,24 +673,39 @@ impl Deformer {
             .collect()
     }
 
+    /// Where `field` takes `vertex`, or a point `p` near it that moves with it; canonical frame.
+    fn place_by(&self, field: &Field, vertex: usize, p: DVec3) -> DVec3 {
+        let to = field.place(p, &self.bindings[vertex]);
+        match self.hair_offsets.get(vertex) {
+            Some(&offset) => to + field.amount() * offset,
+            None => to,
+        }
+    }
+
     /// Where `field` takes every vertex, canonical frame.
     fn positions_by(&self, field: &Field) -> Vec<DVec3> {
         let positions = &self.study.figure.positions;
         parallel::collect(self.options.thread_count, positions.len(), LEAST_VERTICES, |vertex| {
-            field.place(positions[vertex], &self.bindings[vertex])
+            self.place_by(field, vertex, positions[vertex])
         })
     }
 
-    /// `figure`, a copy of the target's, as the field leaves it.
-    fn whole_result<'a>(&self, figure: &'a mut Figure) -> &'a Figure {
-        figure.positions = self.positions_by(&self.field);
-        for ((p, &rest), binding) in
-            figure.joints.iter_mut().zip(&self.study.figure.joints).zip(&self.joint_bindings)
-        {
-            *p = self.field.place(rest, binding);
-        }
-        figure.extent = extent(&figure.positions);
-        figure
+    /// As [`Self::positions_by`], of these vertices.
+    fn vertices_by(&self, field: &Field, vertices: &[u32]) -> Vec<DVec3> {
+        let positions = &self.study.figure.positions;
+        parallel::collect(self.options.thread_count, vertices.len(), LEAST_VERTICES, |index| {
+            let vertex = vertices[index] as usize;
+            self.place_by(field, vertex, positions[vertex])
+        })
+    }
+
+    /// How many heads tall `field` makes the target, measured on the result.
+    fn heads_by(&self, field: &Field) -> f64 {
+        let figure = &self.study.figure;
+        let sources = self.found.head_sources.get_or_init(|| Arc::new(HeadSources::of(figure)));
+        let positions = self.vertices_by(field, &sources.vertices);
+        let place_joint = |joint: usize| field.place(figure.joints[joint], &self.joint_bindings[joint]);
+        sources.heads(&Posed::of(figure, positions, place_joint))
     }
 
     /// The whole result.
@@ -756,7 +784,7 @@ impl Deformer {
                 let tangents = turns.tangents.iter().zip(&mesh.tangents);
                 let target_count = if wanted.morph_targets { mesh.morph_targets.len() } else { 0 };
                 DeformedMesh {
-                    positions: of_mesh.iter().map(|&p| figure.frame.to_model(p).as_vec3()).collect(),
+                    positions: of_mesh.iter().map(|&p| single(figure.frame.to_model(p))).collect(),
                     tangents: match wanted.tangents {
                         true => tangents.map(|(tangent, old)| tangent.extend(old.w)).collect(),
                         false => Vec::new(),
@@ -792,31 +820,35 @@ impl Deformer {
     fn turns(&self, index: usize, wanted: MeshOutputs, gradients: &Gradients) -> Turns {
         let mesh = &self.character.meshes[index];
         let figure = &self.study.figure;
-        let frame = figure.frame;
+        let frame = figure.frame.rotation();
+        let back = frame.transpose();
         let start = figure.mesh_starts[index];
         let threads = self.options.thread_count;
         let turn = |vertex: usize| {
             let whole = start + vertex;
-            gradients
+            let jacobian = gradients
                 .jacobian(self.weld.representative[whole] as usize)
-                .filter(|jacobian| jacobian.determinant().abs() > 1e-12)
-                .unwrap_or_else(|| self.field.map(figure.positions[whole], &self.bindings[whole]).1)
+                .filter(has_volume)
+                .unwrap_or_else(|| {
+                    self.field.map(figure.positions[whole], &self.bindings[whole]).1.as_mat3().into()
+                });
+            back * jacobian * frame
         };
         let has_targets = wanted.morph_targets && !mesh.morph_targets.is_empty();
         if !(wanted.tangents || has_targets) {
             // The turns themselves are not needed any more.
             let normals = parallel::collect(threads, mesh.normals.len(), LEAST_VERTICES, |vertex| {
-                turned_normal(&frame, &turn(vertex), mesh.normals[vertex]).as_vec3()
+                turned_normal(&turn(vertex), mesh.normals[vertex])
             });
             return Turns { normals, ..Turns::default() };
         }
         let turns = parallel::collect(threads, mesh.positions.len(), LEAST_VERTICES, turn);
-        let mut turns = Turns { frame: Some(frame), turns, normals: Vec::new(), tangents: Vec::new() };
+        let mut turns = Turns { turns, normals: Vec::new(), tangents: Vec::new() };
         turns.normals = parallel::collect(threads, mesh.normals.len(), LEAST_VERTICES, |vertex| {
-            turns.normal(vertex, mesh.normals[vertex]).as_vec3()
+            turns.normal(vertex, mesh.normals[vertex])
         });
         turns.tangents = parallel::collect(threads, mesh.tangents.len(), LEAST_VERTICES, |vertex| {
-            turns.tangent(vertex, mesh.tangents[vertex].truncate()).as_vec3()
+            turns.tangent(vertex, mesh.tangents[vertex].truncate())
         });
         turns
     }
@@ -850,8 +882,8 @@ impl Deformer {
             }
             let whole = start + vertex;
             let p = figure.positions[whole] + figure.frame.to_canonical(delta.as_dvec3());
-            let to = self.field.place(p, &self.bindings[whole]);
-            figure.frame.to_model(to - after[whole]).as_vec3()
+            let to = self.place_by(&self.field, whole, p);
+            single(figure.frame.to_model(to - after[whole]))
         };
         deltas.iter().enumerate().map(moved).collect()
     }
@@ -965,37 +997,30 @@ impl Deformer {
 /// How the directions at each vertex of a mesh turn, and what its own turn into; all empty where nothing of it is wanted.
 #[derive(Default)]
 struct Turns {
-    frame: Option<Frame>,
-    /// Canonical frame; empty where normals alone are wanted.
-    turns: Vec<DMat3>,
+    /// Model space; empty where normals alone are wanted.
+    turns: Vec<Mat3A>,
     normals: Vec<Vec3>,
     tangents: Vec<Vec3>,
 }
 
 impl Turns {
-    fn frame(&self) -> &Frame {
-        self.frame.as_ref().expect("there are turns")
+    fn normal(&self, vertex: usize, normal: Vec3) -> Vec3 {
+        turned_normal(&self.turns[vertex], normal)
     }
 
-    fn normal(&self, vertex: usize, normal: Vec3) -> DVec3 {
-        turned_normal(self.frame(), &self.turns[vertex], normal)
-    }
-
-    fn tangent(&self, vertex: usize, tangent: Vec3) -> DVec3 {
-        let frame = self.frame();
-        let turned = frame.to_model(self.turns[vertex] * frame.to_canonical(tangent.as_dvec3()));
+    fn tangent(&self, vertex: usize, tangent: Vec3) -> Vec3 {
+        let turned = Vec3::from(self.turns[vertex] * Vec3A::from(tangent));
         let flat = match self.normals.get(vertex) {
-            Some(normal) => turned.reject_from_normalized(normal.as_dvec3()),
+            Some(&normal) => turned.reject_from_normalized(normal),
             None => turned,
         };
-        flat.normalize_or(tangent.as_dvec3())
+        flat.normalize_or(tangent)
     }
 }
 
 /// What `normal` becomes where the surface turns by `turn`.
-fn turned_normal(frame: &Frame, turn: &DMat3, normal: Vec3) -> DVec3 {
-    let normal = normal.as_dvec3();
-    frame.to_model(normal_matrix(*turn) * frame.to_canonical(normal)).normalize_or(normal)
+fn turned_normal(turn: &Mat3A, normal: Vec3) -> Vec3 {
+    (normal_matrix(turn) * Vec3A::from(normal)).normalize_or(normal.into()).into()
 }
 
 /// The mesh as it came, of it what is wanted.
@@ -1059,6 +1084,11 @@ impl Character {
     }
 }
 
+/// As floats. What lies beyond their range, which takes a model of over 1e30 units, ends there instead of at infinity.
+fn single(p: DVec3) -> Vec3 {
+    p.clamp(DVec3::splat(f32::MIN.into()), DVec3::splat(f32::MAX.into())).as_vec3()
+}
+
 fn milliseconds(since: Instant) -> f64 {
     since.elapsed().as_secs_f64() * 1e3
 }
@@ -1086,7 +1116,7 @@ fn morph_turns(
     deltas: &[Vec3],
     before: &[Vec3],
     after: &[Vec3],
-    turn: &dyn Fn(usize, Vec3) -> DVec3,
+    turn: &dyn Fn(usize, Vec3) -> Vec3,
 ) -> Vec<Vec3> {
     if before.len() != deltas.len() {
         // Without base vectors there is nothing that the deltas change.
@@ -1101,8 +1131,8 @@ fn morph_turns(
             }
             let changed = before[vertex] + delta;
             // What comes out is of unit length, whatever came in.
-            let length = if before[vertex] == Vec3::ZERO { 1.0 } else { before[vertex].as_dvec3().length() };
-            (turn(vertex, changed) * (changed.as_dvec3().length() / length)).as_vec3() - after[vertex]
+            let length = if before[vertex] == Vec3::ZERO { 1.0 } else { before[vertex].length() };
+            turn(vertex, changed) * (changed.length() / length) - after[vertex]
         })
         .collect()
 }

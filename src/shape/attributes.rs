@@ -6,7 +6,7 @@
 
 use crate::geometry::weld::Weld;
 use crate::parallel;
-use glam::{DMat3, DVec3, Mat3};
+use glam::{DVec3, Mat3A, Vec3, Vec3A, Vec4};
 
 /// Fewer triangles than this are not worth a thread.
 const LEAST_TRIANGLES: usize = 4000;
@@ -25,13 +25,14 @@ pub struct RestTriangles {
     scale: f64,
 }
 
+/// Directions come out as floats, so these numbers are kept as such: half as much to read.
 #[derive(Clone, Debug)]
 struct RestTriangle {
     corners: [u32; 3],
     /// Rows by which the two edges after, and a normal, make up the gradient, by area.
-    rows: [DVec3; 3],
+    rows: [Vec3; 3],
     /// Twice the triangle's.
-    area: f64,
+    area: f32,
 }
 
 impl RestTriangles {
@@ -67,7 +68,8 @@ impl RestTriangles {
             let cross = a.cross(b);
             let area = cross.length();
             let normal = cross / area;
-            RestTriangle { corners, rows: [b.cross(normal), normal.cross(a), area * normal], area }
+            let rows = [b.cross(normal), normal.cross(a), area * normal].map(|row| row.as_vec3());
+            RestTriangle { corners, rows, area: area as f32 }
         };
         Self { triangles: triangles.into_iter().map(rest).collect(), starts, around, scale }
     }
@@ -80,17 +82,17 @@ impl RestTriangles {
     /// - `threads`: at most this many, 0 for all cores; the result does not depend on it.
     pub fn gradients(&self, after: &[DVec3], threads: usize) -> Gradients<'_> {
         let gradient = |index: usize| {
-            let RestTriangle { corners, rows, area } = self.triangles[index];
-            let (a, b) = edges(after, corners);
-            let (a, b) = (a * self.scale, b * self.scale);
+            let RestTriangle { corners, rows, area } = &self.triangles[index];
+            let (a, b) = edges(after, *corners);
+            let [a, b] = [a, b].map(|edge| (edge * self.scale).as_vec3a());
             let cross = a.cross(b);
             let area_after = cross.length();
-            if area_after <= 0.0 {
-                return (Mat3::ZERO, 0.0);
+            if area_after <= 0.0 || !area_after.is_finite() {
+                return [Vec4::ZERO; 3];
             }
             let normal = cross * ((area_after / area).sqrt() / area_after);
-            let gradient = outer(a, rows[0]) + outer(b, rows[1]) + outer(normal, rows[2]);
-            (gradient.as_mat3(), area as f32)
+            let column = |axis: usize| a * rows[0][axis] + b * rows[1][axis] + normal * rows[2][axis];
+            [column(0).extend(*area), column(1).extend(0.0), column(2).extend(0.0)]
         };
         let by_area = parallel::collect(threads, self.triangles.len(), LEAST_TRIANGLES, gradient);
         Gradients { rest: self, by_area }
@@ -100,27 +102,24 @@ impl RestTriangles {
 /// What happens to each triangle of a mesh.
 pub struct Gradients<'a> {
     rest: &'a RestTriangles,
-    /// Times its area, and that area; 0 for a triangle that has lost its own. Directions come out as floats, so these are
-    /// kept as such: half as much to read.
-    by_area: Vec<(Mat3, f32)>,
+    /// Columns times the triangle's area, and that area as the first one's w; all 0 for a triangle that has lost its own.
+    by_area: Vec<[Vec4; 3]>,
 }
 
 impl Gradients<'_> {
     /// The Jacobian fitted to the triangles around a welded vertex, their mean by area; `None` where none has an area.
-    pub fn jacobian(&self, welded: usize) -> Option<DMat3> {
+    pub fn jacobian(&self, welded: usize) -> Option<Mat3A> {
         let around = self.rest.starts[welded] as usize..self.rest.starts[welded + 1] as usize;
-        let (mut sum, mut total) = (Mat3::ZERO, 0.0);
+        let mut sum = [Vec4::ZERO; 3];
         for &triangle in &self.rest.around[around] {
-            let (gradient, area) = self.by_area[triangle as usize];
-            sum += gradient;
-            total += area;
+            for (sum, column) in sum.iter_mut().zip(&self.by_area[triangle as usize]) {
+                *sum += *column;
+            }
         }
-        (total > 0.0).then(|| (sum * (1.0 / total)).as_dmat3())
+        let total = sum[0].w;
+        let [x, y, z] = sum.map(|column| Vec3A::from_vec4(column) * total.recip());
+        (total > 0.0).then(|| Mat3A::from_cols(x, y, z))
     }
-}
-
-fn outer(column: DVec3, row: DVec3) -> DMat3 {
-    DMat3::from_cols(column * row.x, column * row.y, column * row.z)
 }
 
 /// From a triangle's first corner to the others.
@@ -129,9 +128,18 @@ fn edges(points: &[DVec3], [a, b, c]: [u32; 3]) -> (DVec3, DVec3) {
     (points[b as usize] - first, points[c as usize] - first)
 }
 
+/// Below this determinant a Jacobian has no volume left, and turns nothing.
+const LEAST_VOLUME: f32 = 1e-12;
+
+/// Whether normals can be turned by `jacobian`.
+pub fn has_volume(jacobian: &Mat3A) -> bool {
+    jacobian.determinant().abs() > LEAST_VOLUME
+}
+
 /// The matrix that turns normals where `jacobian` moves points: its inverse transpose, up to a factor.
-pub fn normal_matrix(jacobian: DMat3) -> DMat3 {
+pub fn normal_matrix(jacobian: &Mat3A) -> Mat3A {
     let (x, y, z) = (jacobian.x_axis, jacobian.y_axis, jacobian.z_axis);
-    let cofactors = DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y));
-    if jacobian.determinant() < 0.0 { cofactors * -1.0 } else { cofactors }
+    let volume = y.cross(z);
+    let cofactors = Mat3A::from_cols(volume, z.cross(x), x.cross(y));
+    if volume.dot(x) < 0.0 { -cofactors } else { cofactors }
 }

@@ -114,6 +114,14 @@ impl Field {
         }
     }
 
+    /// See [`Field::set_amount`].
+    pub fn amount(&self) -> f64 {
+        match self {
+            Field::Parts(field) => field.amount(),
+            Field::Bones(field) => field.amount,
+        }
+    }
+
     /// 0 leaves everything where it is, 1 goes all the way.
     pub fn set_amount(&mut self, amount: f64) {
         match self {

@@ -7,7 +7,7 @@
 use super::proportions::Part;
 use crate::character::{Character, Humanoid, MeshKind, Role};
 use crate::error::{Error, ErrorKind, Result};
-use glam::{DMat3, DVec3};
+use glam::{DMat3, DVec3, Mat3A};
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -71,6 +71,11 @@ impl Frame {
     /// The canonical frame to model space.
     pub fn to_model(&self, v: DVec3) -> DVec3 {
         self.to_canonical.transpose() * v
+    }
+
+    /// Model space to the canonical frame, for directions.
+    pub fn rotation(&self) -> Mat3A {
+        self.to_canonical.as_mat3().into()
     }
 
     /// A Jacobian of the canonical frame, in model space.

@@ -3,7 +3,7 @@
 //! Every artist puts the neck and the head joint elsewhere, so lengths taken from joints carry each rig's
 //! conventions into the result. These five heights are read by one rule from target and reference alike.
 
-use super::figure::{Figure, is_head};
+use super::figure::{Figure, extent, is_head};
 use crate::character::{MeshKind, Role};
 use crate::error::Warning;
 use crate::geometry::surface::Surface;
@@ -11,6 +11,8 @@ use glam::DVec3;
 
 /// A vertex with this much weight to the head moves with it alone.
 const SURE_WEIGHT: f64 = 0.999;
+/// Triangles this far beside a box of rays are looked at too, as a part of H.
+const SLIVER: f64 = 1e-3;
 /// Rows of rays that look for the chin.
 const CHIN_ROWS: usize = 120;
 /// Where those rows start and end, as parts of (crown - shoulder line), from the shoulder line.
@@ -88,104 +90,186 @@ impl Landmarks {
 /// Reads the landmarks of `figure`.
 pub fn landmarks(figure: &Figure) -> Landmarks {
     let height = figure.height();
-    let Upper { crown, chin, shoulder_line, chin_seen, crown_with_hair } = upper(figure);
-    let sole = sole(figure);
-    let hip_line = mean_height(figure, [Role::LeftUpperLeg, Role::RightUpperLeg]);
+    let sources = HeadSources::of(figure);
+    let positions = sources.vertices.iter().map(|&vertex| figure.positions[vertex as usize]).collect();
+    let posed = Posed::of(figure, positions, |joint| figure.joints[joint]);
+    let Upper { crown, chin, chin_seen, crown_with_hair } = upper(&sources, &posed);
+    let sole = sources.sole(&posed);
+    let shoulder_line = posed.shoulder_line;
+    let hip_line =
+        mean_height(figure, [Role::LeftUpperLeg, Role::RightUpperLeg], |joint| figure.joints[joint]);
     let (crotch, crotch_seen) = crotch(figure, hip_line);
     let crotch =
         crotch.clamp(sole + 0.01 * height, (shoulder_line - 0.01 * height).max(sole + 0.01 * height));
     Landmarks { crown, chin, shoulder_line, crotch, sole, chin_seen, crotch_seen, crown_with_hair }
 }
 
-/// How many heads tall `figure` is: [`Landmarks::heads`], without what that does not need.
-pub fn heads(figure: &Figure) -> f64 {
-    let Upper { crown, chin, .. } = upper(figure);
-    (crown - sole(figure)) / (crown - chin)
+/// What crown, chin and soles of a figure are read from: its weights and kinds say so, not where it is, so it is found once
+/// for all results of a deformer.
+#[derive(Clone, Debug)]
+pub struct HeadSources {
+    /// The figure's vertices that all else is numbered by.
+    pub vertices: Vec<u32>,
+    /// The head's own triangles: without hair, hats and the like, and with them.
+    bare: HeadTriangles,
+    with_hair: HeadTriangles,
+    /// Head, neck and trunk, without hair, hats and the like.
+    upper: Vec<[u32; 3]>,
+    /// Vertices whose lowest is the sole.
+    soles: Vec<u32>,
+}
+
+#[derive(Clone, Debug)]
+struct HeadTriangles {
+    all: Vec<[u32; 3]>,
+    /// Those that move with the head alone.
+    sure: Vec<[u32; 3]>,
+}
+
+/// Where that is.
+pub struct Posed {
+    /// By [`HeadSources::vertices`].
+    positions: Vec<DVec3>,
+    head_joint: DVec3,
+    shoulder_line: f64,
+}
+
+impl HeadSources {
+    /// What there is in `figure`.
+    pub fn of(figure: &Figure) -> Self {
+        let of_head = |bare: bool| {
+            let all = figure.triangles_where(|vertex| {
+                figure.weight_of(vertex, is_head) > 0.5 && !(bare && is_worn(figure.kind(vertex)))
+            });
+            let is_sure = |&v: &u32| figure.weight_of(v as usize, is_head) > SURE_WEIGHT;
+            let sure = all.iter().filter(|corners| corners.iter().all(is_sure)).copied().collect();
+            HeadTriangles { all, sure }
+        };
+        let is_upper = |role: Role| {
+            is_head(role)
+                || matches!(role, Role::Neck | Role::UpperChest | Role::Chest | Role::Spine | Role::Hips)
+                || matches!(role, Role::LeftShoulder | Role::RightShoulder)
+        };
+        let upper = figure.triangles_where(|vertex| {
+            !is_worn(figure.kind(vertex)) && figure.weight_of(vertex, is_upper) > 0.5
+        });
+        let (bare, with_hair) = (of_head(true), of_head(false));
+        let mut sources = Self { vertices: Vec::new(), bare, with_hair, upper, soles: soles(figure) };
+        sources.number(figure.positions.len());
+        sources
+    }
+
+    /// Numbers all by `vertices`.
+    fn number(&mut self, vertex_count: usize) {
+        let Self { vertices, bare, with_hair, upper, soles } = self;
+        let lists = [&mut bare.all, &mut bare.sure, &mut with_hair.all, &mut with_hair.sure, upper];
+        // A figure without a head has the highest point of all as its crown.
+        let mut is_used = vec![lists[2].is_empty(); vertex_count];
+        for &vertex in lists.iter().flat_map(|list| list.iter().flatten()).chain(soles.iter()) {
+            is_used[vertex as usize] = true;
+        }
+        vertices.extend((0..vertex_count as u32).filter(|&vertex| is_used[vertex as usize]));
+        let mut numbers = vec![0; vertex_count];
+        for (number, &vertex) in vertices.iter().enumerate() {
+            numbers[vertex as usize] = number as u32;
+        }
+        let corners = lists.into_iter().flat_map(|list| list.iter_mut().flatten());
+        corners.chain(soles).for_each(|vertex| *vertex = numbers[*vertex as usize]);
+    }
+
+    fn sole(&self, posed: &Posed) -> f64 {
+        let heights = self.soles.iter().map(|&vertex| posed.positions[vertex as usize].y);
+        heights.min_by(f64::total_cmp).unwrap_or(extent(&posed.positions).0)
+    }
+
+    /// How many heads tall that is: [`Landmarks::heads`], without what that does not need.
+    pub fn heads(&self, posed: &Posed) -> f64 {
+        let Upper { crown, chin, .. } = upper(self, posed);
+        (crown - self.sole(posed)) / (crown - chin)
+    }
+}
+
+impl Posed {
+    /// `figure` with the vertices of its [`HeadSources`] at `positions`, and joints where `place_joint` says.
+    pub fn of(figure: &Figure, positions: Vec<DVec3>, place_joint: impl Fn(usize) -> DVec3) -> Self {
+        Self {
+            positions,
+            head_joint: figure.humanoid.joint(Role::Head).map_or(DVec3::ZERO, &place_joint),
+            shoulder_line: mean_height(figure, [Role::LeftUpperArm, Role::RightUpperArm], place_joint),
+        }
+    }
+}
+
+/// True for what is no part of a body.
+fn is_worn(kind: MeshKind) -> bool {
+    matches!(kind, MeshKind::Hair | MeshKind::Accessory)
 }
 
 /// What is read above the waist.
 struct Upper {
     crown: f64,
     chin: f64,
-    shoulder_line: f64,
     chin_seen: bool,
     crown_with_hair: bool,
 }
 
-fn upper(figure: &Figure) -> Upper {
-    let shoulder_line = mean_height(figure, [Role::LeftUpperArm, Role::RightUpperArm]);
-    let (crown, crown_with_hair) = crown(figure);
+fn upper(sources: &HeadSources, posed: &Posed) -> Upper {
+    let (low, high) = extent(&posed.positions);
+    let (crown, crown_with_hair) = crown(sources, posed, low, high);
     // A head whose crown lies below the shoulders is no head; keep a sliver so that nothing divides by 0.
-    let crown = crown.max(shoulder_line + 0.01 * figure.height());
-    let (chin, chin_seen) = chin(figure, shoulder_line, crown);
-    Upper { crown, chin, shoulder_line, chin_seen, crown_with_hair }
+    let crown = crown.max(posed.shoulder_line + 0.01 * (high - low));
+    let (chin, chin_seen) = chin(sources, posed, crown, high - low);
+    Upper { crown, chin, chin_seen, crown_with_hair }
 }
 
-fn mean_height(figure: &Figure, roles: [Role; 2]) -> f64 {
-    let heights: Vec<f64> =
-        roles.iter().filter_map(|&role| figure.role_position(role)).map(|p| p.y).collect();
+fn mean_height(figure: &Figure, roles: [Role; 2], place_joint: impl Fn(usize) -> DVec3) -> f64 {
+    let heights: Vec<f64> = roles
+        .iter()
+        .filter_map(|&role| figure.humanoid.joint(role))
+        .map(|joint| place_joint(joint).y)
+        .collect();
     heights.iter().sum::<f64>() / heights.len() as f64
 }
 
-fn sole(figure: &Figure) -> f64 {
+/// Vertices of feet and shins, as boots are often weighted to the shin alone; without these, of the legs.
+fn soles(figure: &Figure) -> Vec<u32> {
     use Role::*;
-    let lowest = |roles: &[Role]| {
-        (0..figure.positions.len())
-            .filter(|&vertex| figure.weight_of(vertex, |role| roles.contains(&role)) > 0.5)
-            .map(|vertex| figure.positions[vertex].y)
-            .min_by(f64::total_cmp)
+    let moved_by = |roles: &[Role]| -> Vec<u32> {
+        (0..figure.positions.len() as u32)
+            .filter(|&vertex| figure.weight_of(vertex as usize, |role| roles.contains(&role)) > 0.5)
+            .collect()
     };
-    let feet = [LeftFoot, RightFoot, LeftToes, RightToes];
     let legs =
         [LeftFoot, RightFoot, LeftToes, RightToes, LeftLowerLeg, RightLowerLeg, LeftUpperLeg, RightUpperLeg];
-    let knees_down = &legs[..6];
-    // Boots are often weighted to the shin alone: what lies lower than the foot's vertices by more than a
-    // sliver, on the same legs, is sole too.
-    match (lowest(&feet), lowest(knees_down)) {
-        (Some(feet), Some(shins)) => feet.min(shins),
-        (Some(feet), None) => feet,
-        (None, Some(shins)) => shins,
-        (None, None) => lowest(&legs).unwrap_or(figure.extent.0),
-    }
-}
-
-/// The head's own vertices, without hair, hats and the like where `bare`.
-fn head_triangles(figure: &Figure, bare: bool) -> Vec<[u32; 3]> {
-    figure.triangles_where(|vertex| {
-        figure.weight_of(vertex, is_head) > 0.5
-            && !(bare && matches!(figure.kind(vertex), MeshKind::Hair | MeshKind::Accessory))
-    })
+    let from_the_knees = moved_by(&legs[..6]);
+    if from_the_knees.is_empty() { moved_by(&legs) } else { from_the_knees }
 }
 
 /// Middle and half extent in x and z of the vertices that `triangles` use.
-fn middle(figure: &Figure, triangles: &[[u32; 3]]) -> Option<(DVec3, DVec3)> {
+fn middle(positions: &[DVec3], triangles: &[[u32; 3]]) -> Option<(DVec3, DVec3)> {
     let mut low = DVec3::INFINITY;
     let mut high = DVec3::NEG_INFINITY;
     for &vertex in triangles.iter().flatten() {
-        low = low.min(figure.positions[vertex as usize]);
-        high = high.max(figure.positions[vertex as usize]);
+        low = low.min(positions[vertex as usize]);
+        high = high.max(positions[vertex as usize]);
     }
     (low.x <= high.x).then(|| ((low + high) / 2.0, (high - low) / 2.0))
 }
 
-/// Those of `triangles` that share a point with the box from `low` to `high` along the `axes` asked for, and a sliver
-/// more.
+/// Those of `triangles` that share a point with the box from `low` to `high` along the `axes` asked for, `sliver` more.
 fn within(
-    figure: &Figure,
-    mut triangles: Vec<[u32; 3]>,
-    low: DVec3,
-    high: DVec3,
-    axes: [bool; 3],
+    positions: &[DVec3],
+    triangles: &[[u32; 3]],
+    [low, high]: [DVec3; 2],
+    axes: &[usize],
+    sliver: f64,
 ) -> Vec<[u32; 3]> {
-    let sliver = 1e-3 * figure.height();
-    triangles.retain(|corners| {
-        let [a, b, c] = corners.map(|vertex| figure.positions[vertex as usize]);
+    let is_near = |corners: &&[u32; 3]| {
+        let [a, b, c] = corners.map(|vertex| positions[vertex as usize]);
         let (least, most) = (a.min(b).min(c), a.max(b).max(c));
-        (0..3).all(|axis| {
-            !axes[axis] || (least[axis] <= high[axis] + sliver && most[axis] >= low[axis] - sliver)
-        })
-    });
-    triangles
+        axes.iter().all(|&axis| least[axis] <= high[axis] + sliver && most[axis] >= low[axis] - sliver)
+    };
+    triangles.iter().filter(is_near).copied().collect()
 }
 
 /// The crown: the median height of seven vertical rays, one over the head joint and six around it at a quarter of
@@ -193,26 +277,21 @@ fn within(
 ///
 /// The rays stand over the joint, about which paper mode scales the head: so the crown of the result is that of the
 /// target, scaled. A joint that lies outside of its head gets a ring around the head's middle.
-fn crown(figure: &Figure) -> (f64, bool) {
-    let joint = figure.role_position(Role::Head).unwrap_or_default();
+fn crown(sources: &HeadSources, posed: &Posed, low: f64, high: f64) -> (f64, bool) {
+    let (positions, joint) = (&posed.positions, posed.head_joint);
     for (bare, over_joint, hits_needed) in
         [(true, true, 5), (true, false, 5), (false, true, 5), (false, false, 1)]
     {
-        let triangles = head_triangles(figure, bare);
-        let Some((centre, half)) = middle(figure, &triangles) else { continue };
+        let HeadTriangles { all, sure } = if bare { &sources.bare } else { &sources.with_hair };
+        let Some((centre, half)) = middle(positions, all) else { continue };
         // Where some of the head is the head's alone, its width: vertices that the neck moves too change it.
-        let sure: Vec<[u32; 3]> = triangles
-            .iter()
-            .filter(|corners| corners.iter().all(|&v| figure.weight_of(v as usize, is_head) > SURE_WEIGHT))
-            .copied()
-            .collect();
-        let half = middle(figure, &sure).map_or(half, |(_, half)| half);
+        let half = middle(positions, sure).map_or(half, |(_, half)| half);
         let centre = if over_joint { joint } else { centre };
         let reach = DVec3::splat(half.x / 4.0);
         // No ray meets anything else, and a tree of few triangles is made soon.
-        let near = within(figure, triangles, centre - reach, centre + reach, [true, false, true]);
-        let surface = Surface::new(&figure.positions, &near);
-        let above = figure.extent.1 + 0.01 * figure.height();
+        let near = within(positions, all, [centre - reach, centre + reach], &[0, 2], SLIVER * (high - low));
+        let surface = Surface::new(positions, &near);
+        let above = high + 0.01 * (high - low);
         let mut hits: Vec<f64> = (0..7)
             .filter_map(|ray| {
                 let reach = if ray == 0 { 0.0 } else { half.x / 4.0 };
@@ -228,34 +307,25 @@ fn crown(figure: &Figure) -> (f64, bool) {
         }
     }
     // No head geometry over the head joint: the highest point of the whole figure.
-    (figure.extent.1, true)
+    (high, true)
 }
 
 /// The chin: the deepest step back below the face, seen from the front.
-fn chin(figure: &Figure, shoulder_line: f64, crown: f64) -> (f64, bool) {
+fn chin(sources: &HeadSources, posed: &Posed, crown: f64, height: f64) -> (f64, bool) {
+    let (positions, triangles, shoulder_line) = (&posed.positions, &sources.upper, posed.shoulder_line);
     let span = crown - shoulder_line;
     let by_ratio = (shoulder_line + CHIN_BY_RATIO * span, false);
-    let is_upper = |role: Role| {
-        is_head(role)
-            || matches!(role, Role::Neck | Role::UpperChest | Role::Chest | Role::Spine | Role::Hips)
-            || matches!(role, Role::LeftShoulder | Role::RightShoulder)
-    };
-    let triangles = figure.triangles_where(|vertex| {
-        !matches!(figure.kind(vertex), MeshKind::Hair | MeshKind::Accessory)
-            && figure.weight_of(vertex, is_upper) > 0.5
-    });
-    let Some((face, half)) =
-        middle(figure, &head_triangles(figure, true)).or_else(|| middle(figure, &triangles))
+    let Some((face, half)) = middle(positions, &sources.bare.all).or_else(|| middle(positions, triangles))
     else {
         return by_ratio;
     };
     let front =
-        triangles.iter().flatten().map(|&v| figure.positions[v as usize].z).fold(f64::NEG_INFINITY, f64::max)
+        triangles.iter().flatten().map(|&v| positions[v as usize].z).fold(f64::NEG_INFINITY, f64::max)
             + 0.01 * span;
     let reach = CHIN_COLUMNS.iter().fold(0.0, |reach: f64, column| reach.max(column.abs())) * 2.0 * half.x;
     let around = |sign: f64| face + DVec3::splat(sign * reach);
-    let near = within(figure, triangles, around(-1.0), around(1.0), [true, false, false]);
-    let surface = Surface::new(&figure.positions, &near);
+    let near = within(positions, triangles, [around(-1.0), around(1.0)], &[0], SLIVER * height);
+    let surface = Surface::new(positions, &near);
     let row_height = (CHIN_RANGE.1 - CHIN_RANGE.0) * span / CHIN_ROWS as f64;
     let row_y = |row: usize| shoulder_line + CHIN_RANGE.0 * span + (row as f64 + 0.5) * row_height;
     let depths: Vec<Option<f64>> = (0..CHIN_ROWS)
@@ -328,7 +398,7 @@ fn crotch(figure: &Figure, hip_line: f64) -> (f64, bool) {
         }) > 0.5
     });
     let surface = Surface::new(&figure.positions, &triangles);
-    let Some((_, half)) = middle(figure, &triangles) else {
+    let Some((_, half)) = middle(&figure.positions, &triangles) else {
         return by_ratio;
     };
     let middle_x = (left.x + right.x) / 2.0;

@@ -71,8 +71,6 @@ pub struct PartBinding {
     pub weights: PartWeights,
     /// Besides the weights.
     pub manner: Manner,
-    /// Added at the end: what keeps a lock of hair outside the body.
-    pub offset: DVec3,
 }
 
 impl PartBinding {
@@ -80,7 +78,7 @@ impl PartBinding {
     pub fn to(part: Part) -> Self {
         let mut weights = [0.0; PART_COUNT];
         weights[part as usize] = 1.0;
-        Self { weights, manner: Manner::Plain, offset: DVec3::ZERO }
+        Self { weights, manner: Manner::Plain }
     }
 }
 
@@ -168,11 +166,8 @@ pub fn part_bindings(
             .map(|vertex| figure.positions[vertex]),
         DVec3::new(anatomy.middle_x, anatomy.landmarks.chin, anatomy.head_joint.z),
     );
-    let vertices = parts
-        .into_iter()
-        .zip(manners)
-        .map(|(weights, manner)| PartBinding { weights, manner, offset: DVec3::ZERO })
-        .collect();
+    let vertices =
+        parts.into_iter().zip(manners).map(|(weights, manner)| PartBinding { weights, manner }).collect();
     PartBindings { vertices, pieces, joint_pieces, hair }
 }
 

@@ -200,6 +200,11 @@ impl PartField {
         self.amount = amount;
     }
 
+    /// See [`PartField::set_amount`].
+    pub fn amount(&self) -> f64 {
+        self.amount
+    }
+
     /// Changes the face alone; nothing else is done again.
     pub fn set_face(&mut self, face: FaceShape) {
         self.face = face;
@@ -219,7 +224,7 @@ impl PartField {
             manner => self.blend(p, &binding.weights, manner),
         };
         // Written so that amount 0 gives p itself, bit for bit.
-        let moved = p + self.amount * (to + binding.offset - p) + DVec3::Y * self.ground;
+        let moved = p + self.amount * (to - p) + DVec3::Y * self.ground;
         (moved, DMat3::IDENTITY + (jacobian - DMat3::IDENTITY) * self.amount)
     }
 
