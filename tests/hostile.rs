@@ -91,6 +91,22 @@ fn tiny_huge_and_far_away_figures_are_survived() {
 }
 
 #[test]
+fn what_grows_beyond_single_precision_ends_at_its_end() {
+    // The back of the head is the end of the range, and the head grows.
+    let adult = adult();
+    let head = adult.humanoid.joint(Role::Head).unwrap();
+    let body = adult.meshes.iter().flat_map(|mesh| mesh.positions.iter().zip(mesh.weights.rows()));
+    let of_head = body.filter(|(_, row)| row.iter().any(|&(joint, _)| joint as usize == head));
+    let back = f64::from(of_head.map(|(p, _)| p.z).fold(f32::INFINITY, f32::min));
+    let end = f64::from(f32::MIN);
+    let at_the_end = moved(adult, |p| (p * 1e37).with_z(((p.z - back) * 1e37 + end).max(end)));
+    assert!(survives("the end of the range", at_the_end.clone()) > 0);
+    let deformer = Deformer::new(Arc::new(at_the_end), &Style::Heads(2.0), &Options::default()).unwrap();
+    let deformed = deformer.apply();
+    assert!(deformed.meshes.iter().flat_map(|mesh| &mesh.positions).any(|p| p.z == f32::MIN));
+}
+
+#[test]
 fn joints_at_random_places_are_survived() {
     let mut numbers = Numbers(1);
     for case in 0..15 {

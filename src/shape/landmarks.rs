@@ -163,8 +163,8 @@ impl HeadSources {
     fn number(&mut self, vertex_count: usize) {
         let Self { vertices, bare, with_hair, upper, soles } = self;
         let lists = [&mut bare.all, &mut bare.sure, &mut with_hair.all, &mut with_hair.sure, upper];
-        // A figure without a head has the highest point of all as its crown.
-        let mut is_used = vec![lists[2].is_empty(); vertex_count];
+        // Without a head the highest point of all is the crown, without legs the lowest one the sole.
+        let mut is_used = vec![lists[2].is_empty() || soles.is_empty(); vertex_count];
         for &vertex in lists.iter().flat_map(|list| list.iter().flatten()).chain(soles.iter()) {
             is_used[vertex as usize] = true;
         }
