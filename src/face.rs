@@ -158,8 +158,8 @@ impl FaceShape {
     }
 
     /// Where the map takes `p`, and its Jacobian there.
-    // Inlined, every shape's arithmetic is done ahead of the choice, on another shape's bytes: these are often subnormal,
-    // and a hundred times as slow.
+    // Inlined, its arithmetic is done ahead of the choice, for every point and on the bytes of another choice: these are
+    // often subnormal numbers, which processors are a hundred times as slow with.
     #[inline(never)]
     pub fn map(&self, p: DVec3) -> (DVec3, DMat3) {
         match self {

@@ -132,7 +132,8 @@ impl HairMap {
     }
 
     /// Where the point `p` below the chin goes, and the Jacobian there.
-    #[inline(always)]
+    // Not inlined: see `FaceShape::map`.
+    #[inline(never)]
     pub fn map(&self, p: DVec3) -> (DVec3, DMat3) {
         let from = p - self.axis[0];
         let d = -from.y;

@@ -310,12 +310,19 @@ impl PartField {
             Some(hair) if is_hair && p.y < self.before.chin => hair.map(p),
             _ => (affine.map(p), affine.linear),
         };
-        if let Manner::OnFace(centre) = manner {
-            let centre = affine.map(centre);
-            return (to + self.face.map(centre).0 - centre, jacobian);
+        if let Manner::OnFace(centre) = &manner {
+            return (to + self.shift_on_face(centre), jacobian);
         }
         let (made_younger, face_jacobian) = self.face.map(to);
         (made_younger, face_jacobian * jacobian)
+    }
+
+    /// How far the face map moves what stands at `centre` at rest.
+    // Not inlined: see `FaceShape::map`.
+    #[inline(never)]
+    fn shift_on_face(&self, centre: &DVec3) -> DVec3 {
+        let centre = self.affine[HEAD].map(*centre);
+        self.face.map(centre).0 - centre
     }
 
     /// The head is scaled about the chin's level on the neck's axis, and moved back over the chest.
