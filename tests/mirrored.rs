@@ -26,10 +26,9 @@ const TARGETS: [&str; 8] = [
     "cryptovoxels.vrm",
 ];
 
-/// Parts of the height, and of a unit vector, by which a mirrored result may be off: twice what a float rounds, and the
-/// same for directions, which cancel.
+/// The part of the height by which a mirrored result may be off: twice what a float rounds.
 const NEAR: f64 = 1e-6;
-/// The same for directions, which are turned in single precision: tens of roundings of 6e-8.
+/// The same for unit vectors, which are turned in single precision: tens of roundings of 6e-8, and sums that cancel.
 const NEAR_DIRECTIONS: f64 = 1e-5;
 
 /// What a host with x the other way makes of the triangles.
