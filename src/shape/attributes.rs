@@ -12,7 +12,6 @@ use glam::{DVec3, Mat3A, Vec3, Vec3A, Vec4};
 const LEAST_TRIANGLES: usize = 4000;
 
 /// What a mesh is at rest, to fit Jacobians to what happens to it.
-///
 #[derive(Clone, Debug, Default)]
 pub struct RestTriangles {
     /// One for each triangle that has an area.
@@ -21,7 +20,8 @@ pub struct RestTriangles {
     starts: Vec<u32>,
     /// Triangles around each welded vertex, ascending; twice where two of a triangle's corners are one vertex.
     around: Vec<u32>,
-    /// From model units to mean edges of 1, so that no unit is out of a float's range.
+    /// From model units to edges of about 1, so that no unit is out of a float's range. A power of two, by which nothing is
+    /// rounded: a mirrored mesh, wound the other way, may have another one.
     scale: f64,
 }
 
@@ -45,7 +45,7 @@ impl RestTriangles {
         };
         let triangles: Vec<[u32; 3]> = triangles.iter().copied().filter(has_area).collect();
         let total: f64 = triangles.iter().map(|&corners| edges(positions, corners).0.length()).sum();
-        let scale = triangles.len() as f64 / total;
+        let scale = 2f64.powi((triangles.len() as f64 / total).log2().round() as i32);
         let mut starts = vec![0u32; weld.count + 1];
         for corner in triangles.iter().flat_map(|&corners| weld.triangle(corners)) {
             starts[corner as usize + 1] += 1;
