@@ -405,7 +405,7 @@ impl Deformer {
         };
         self.head_ratio = head_ratio;
         let mut aim = asked;
-        let mut best: Option<(f64, Attempt)> = None;
+        let mut best: Option<(f64, f64, Attempt)> = None;
         for count in 0..HEADS_ATTEMPTS {
             progress.at(0.3 + 0.1 * count as f32)?;
             let attempt = self.attempt(style, aim / asked, &parts)?;
@@ -414,20 +414,19 @@ impl Deformer {
             let limited = attempt.warnings.iter().any(|warning| warning.code == "heads_limited");
             let reach = if limited { predicted } else { asked };
             let error = (measured / reach).ln().abs();
-            if best.as_ref().is_none_or(|(least, _)| error < *least) {
-                best = Some((error, attempt));
+            if best.as_ref().is_none_or(|(least, ..)| error < *least) {
+                best = Some((error, measured, attempt));
             }
             if error <= HEADS_TOLERANCE || limited {
                 break;
             }
             aim = (aim - 1.0) * ((asked - 1.0) / (measured - 1.0)).clamp(0.8, 1.25) + 1.0;
         }
-        let (error, attempt) = best.expect("there is at least one attempt");
+        let (error, measured, attempt) = best.expect("there is at least one attempt");
         self.field = attempt.field;
         self.coefficients = attempt.coefficients.by_group();
         self.warnings.extend(attempt.warnings);
         if error > HEADS_TOLD {
-            let measured = self.heads_by(&self.field);
             self.heads_left = Some(Warning::new(
                 "heads_limited",
                 format!(

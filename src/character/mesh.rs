@@ -192,6 +192,11 @@ const GARMENT_WORDS: &[&str] = &[
 ];
 
 impl MeshKind {
+    /// True for hair and for things that are worn or carried: no part of a body's girth.
+    pub fn is_carried(self) -> bool {
+        matches!(self, Self::Hair | Self::Accessory)
+    }
+
     /// Guesses what a mesh depicts from the name of its material, mesh or node; `None` where no word of it is known.
     ///
     /// A name is cut into words at anything that is no letter and before a capital (`HairBack_01` is hair, back), so

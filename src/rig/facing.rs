@@ -154,7 +154,7 @@ fn kind_of(character: &Character, mesh: usize) -> Option<MeshKind> {
 fn is_counted(character: &Character) -> impl Fn(usize) -> bool {
     let is_worn = |mesh: usize| {
         character.meshes[mesh].triangles.is_empty()
-            || matches!(kind_of(character, mesh), Some(MeshKind::Hair | MeshKind::Accessory))
+            || kind_of(character, mesh).is_some_and(MeshKind::is_carried)
     };
     let all = (0..character.meshes.len()).all(is_worn);
     move |mesh| all || !is_worn(mesh)

@@ -191,6 +191,11 @@ impl Figure {
         self.kinds[vertex]
     }
 
+    /// [`MeshKind::is_carried`] of what `vertex` belongs to.
+    pub fn is_carried(&self, vertex: usize) -> bool {
+        self.kind(vertex).is_carried()
+    }
+
     /// The part of a vertex's weight that `choose` accepts, 0 to 1.
     pub fn weight_of(&self, vertex: usize, choose: impl Fn(Role) -> bool) -> f64 {
         self.role_weights[vertex].iter().filter(|&&(role, _)| choose(role)).map(|&(_, weight)| weight).sum()

@@ -4,7 +4,7 @@
 //! conventions into the result. These five heights are read by one rule from target and reference alike.
 
 use super::figure::{Figure, extent, is_head};
-use crate::character::{MeshKind, Role};
+use crate::character::Role;
 use crate::error::Warning;
 use crate::geometry::surface::Surface;
 use glam::DVec3;
@@ -139,7 +139,7 @@ impl HeadSources {
     pub fn of(figure: &Figure) -> Self {
         let of_head = |bare: bool| {
             let all = figure.triangles_where(|vertex| {
-                figure.weight_of(vertex, is_head) > 0.5 && !(bare && is_worn(figure.kind(vertex)))
+                figure.weight_of(vertex, is_head) > 0.5 && !(bare && figure.is_carried(vertex))
             });
             let is_sure = |&v: &u32| figure.weight_of(v as usize, is_head) > SURE_WEIGHT;
             let sure = all.iter().filter(|corners| corners.iter().all(is_sure)).copied().collect();
@@ -150,9 +150,8 @@ impl HeadSources {
                 || matches!(role, Role::Neck | Role::UpperChest | Role::Chest | Role::Spine | Role::Hips)
                 || matches!(role, Role::LeftShoulder | Role::RightShoulder)
         };
-        let upper = figure.triangles_where(|vertex| {
-            !is_worn(figure.kind(vertex)) && figure.weight_of(vertex, is_upper) > 0.5
-        });
+        let upper = figure
+            .triangles_where(|vertex| !figure.is_carried(vertex) && figure.weight_of(vertex, is_upper) > 0.5);
         let (bare, with_hair) = (of_head(true), of_head(false));
         let mut sources = Self { vertices: Vec::new(), bare, with_hair, upper, soles: soles(figure) };
         sources.number(figure.positions.len());
@@ -198,11 +197,6 @@ impl Posed {
             shoulder_line: mean_height(figure, [Role::LeftUpperArm, Role::RightUpperArm], place_joint),
         }
     }
-}
-
-/// True for what is no part of a body.
-fn is_worn(kind: MeshKind) -> bool {
-    matches!(kind, MeshKind::Hair | MeshKind::Accessory)
 }
 
 /// What is read above the waist.

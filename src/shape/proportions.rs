@@ -6,7 +6,7 @@
 
 use super::figure::{Figure, is_head};
 use super::landmarks::{Landmarks, landmarks};
-use crate::character::{MeshKind, Role};
+use crate::character::Role;
 use crate::error::Warning;
 use crate::geometry::segment::foot;
 use glam::DVec3;
@@ -175,7 +175,7 @@ impl Anatomy {
         // Bags and weapons are no girth of anybody's, unless there is nothing else.
         let own = |part: usize| {
             let of_part = |vertex: usize| parts[vertex][part] > 0.5;
-            let bare = figure.triangles_where(|vertex| of_part(vertex) && !is_carried(figure, vertex));
+            let bare = figure.triangles_where(|vertex| of_part(vertex) && !figure.is_carried(vertex));
             if bare.is_empty() { figure.triangles_where(of_part) } else { bare }
         };
         // What hangs from joints without a role (bags, machine arms, tails) does not make a trunk broad, unless the
@@ -184,7 +184,7 @@ impl Anatomy {
             let bare = figure.triangles_where(|vertex| {
                 parts[vertex][Part::Trunk as usize] > 0.5
                     && figure.extra_weight[vertex] < 0.5
-                    && !is_carried(figure, vertex)
+                    && !figure.is_carried(vertex)
             });
             let measurable =
                 slice(figure, &bare, 0.5 * (landmarks.crotch + landmarks.shoulder_line), 0.03, 0.97);
@@ -192,7 +192,7 @@ impl Anatomy {
         };
         let head_joint = figure.role_position(Role::Head).unwrap_or_default();
         let bare_head = figure
-            .triangles_where(|vertex| figure.weight_of(vertex, is_head) > 0.5 && !is_carried(figure, vertex));
+            .triangles_where(|vertex| figure.weight_of(vertex, is_head) > 0.5 && !figure.is_carried(vertex));
         let head = if bare_head.is_empty() { own(Part::Head as usize) } else { bare_head };
         let head_centre =
             centre(figure, &head).unwrap_or(DVec3::new(middle_x, landmarks.crown, head_joint.z));
@@ -219,7 +219,7 @@ impl Anatomy {
         let extremity = |limbs: &[Limb], reach: &dyn Fn(&Limb, &[DVec3]) -> f64| {
             mean(limbs.iter().filter_map(|limb| {
                 let points: Vec<DVec3> = (0..figure.positions.len())
-                    .filter(|&vertex| parts[vertex][limb.parts[2]] > 0.5 && !is_carried(figure, vertex))
+                    .filter(|&vertex| parts[vertex][limb.parts[2]] > 0.5 && !figure.is_carried(vertex))
                     .map(|vertex| figure.positions[vertex])
                     .collect();
                 (points.len() > 2).then(|| reach(limb, &points)).filter(|&reach| reach > 0.02 * length)
@@ -283,11 +283,6 @@ impl Anatomy {
         }
         (line[line.len() - 1].1, 0.0)
     }
-}
-
-/// True for hair and for things that are worn or carried.
-fn is_carried(figure: &Figure, vertex: usize) -> bool {
-    matches!(figure.kind(vertex), MeshKind::Hair | MeshKind::Accessory)
 }
 
 fn mean(values: impl Iterator<Item = f64>) -> Option<f64> {

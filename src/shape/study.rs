@@ -126,7 +126,7 @@ pub fn group_shapes(
 /// where there is neither.
 fn surfaces(figure: &Figure) -> Vec<Surface> {
     let body = mesh_set(figure, |kind| kind == MeshKind::Body);
-    let dressed = mesh_set(figure, |kind| !matches!(kind, MeshKind::Hair | MeshKind::Accessory));
+    let dressed = mesh_set(figure, |kind| !kind.is_carried());
     let mut surfaces = vec![Surface::new(&figure.positions, &body)];
     // Both keep the figure's order, so as many triangles are the same triangles.
     if dressed.len() > body.len() {
