@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 use superdeform::pipeline::{Deformer, Options};
 use superdeform::rig::WeightBone;
 use superdeform::rig::heat::{HeatOptions, heat_weights};
-use superdeform::shape::study::Study;
+use superdeform::shape::measured::Measured;
 
 #[path = "../examples/superdeform/host/mod.rs"]
 #[allow(dead_code)]
@@ -88,7 +88,7 @@ fn main() {
         println!("{}", model.name);
         let loaded = model.path.as_ref().map(|path| peak("load", || models::load(path)));
         let character = Arc::new(model.character);
-        peak("study", || Study::of(&character, &options).expect("the model is whole"));
+        peak("study", || Measured::of(&character, &options).expect("the model is whole"));
         let mut deformer = peak("deformer", || {
             Deformer::new(character.clone(), &style, &options).expect("the model is whole")
         });

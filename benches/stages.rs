@@ -5,8 +5,8 @@ use std::hint::black_box;
 use std::sync::Arc;
 use superdeform::geometry::{SEAM, weld};
 use superdeform::pipeline::{Deformer, Options};
-use superdeform::shape::part_weights::part_bindings;
-use superdeform::shape::study::Study;
+use superdeform::shape::measured::Measured;
+use superdeform::shape::product::weights::part_bindings;
 use superdeform_benches::tube;
 
 #[path = "../examples/superdeform/host/mod.rs"]
@@ -37,17 +37,17 @@ fn pipeline(criterion: &mut Criterion) {
         group.sample_size(10);
         let character = Arc::new(model.character);
         let new = || Deformer::new(character.clone(), &style, &options).expect("the model is whole");
-        let study = Study::of(&character, &options).expect("the model is whole");
+        let study = Measured::of(&character, &options).expect("the model is whole");
         let weld = weld(&study.figure.positions, SEAM * study.figure.height());
         let mut deformer = new();
         let deformed = deformer.apply();
-        group.bench_function("study", |bencher| bencher.iter(|| Study::of(&character, &options)));
+        group.bench_function("study", |bencher| bencher.iter(|| Measured::of(&character, &options)));
         group.bench_function("part_bindings", |bencher| {
             bencher.iter(|| {
                 part_bindings(&study.figure, &study.anatomy, &character.skeleton, &weld, options.thread_count)
             });
         });
-        // Study, bindings and field.
+        // Measured, bindings and field.
         group.bench_function("deformer", |bencher| bencher.iter(new));
         group.bench_function("apply", |bencher| bencher.iter(|| deformer.apply()));
         group.bench_function("report", |bencher| bencher.iter(|| deformer.report(&deformed)));

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use superdeform::options::{FaceCurve, Mode, Options, Stage};
 use superdeform::pipeline::{Deformer, Rig, Style};
 use superdeform::rig::{GarmentWeights, RigOptions, WeightMethod};
-use superdeform::shape::{BodyShape, Study};
+use superdeform::shape::{BodyShape, Measured};
 use superdeform::{Character, Joint, MeshKind, MorphTarget, Role};
 
 fn character(bytes: &mut Bytes) -> Character {
@@ -135,7 +135,7 @@ pub fn run(data: &[u8]) {
         assert!(p.is_finite(), "joint {joint} is at {p}");
     }
     let _ = deformer.report(&deformed);
-    let _ = Study::of(&deformer.character().with(&deformed), &options);
+    let _ = Measured::of(&deformer.character().with(&deformed), &options);
 }
 
 /// What every made rig holds.

@@ -4,7 +4,7 @@
 //! Shen, Luo, Huang and Chen. SD models: super-deformed character models. Pacific Graphics 2012 (the sphere of Fig. 7f).
 
 use crate::error::Warning;
-use crate::pipeline::FaceCurve;
+use crate::options::FaceCurve;
 use glam::{DMat3, DVec3};
 
 /// Beyond 2, f4 folds the chin: its slope at the ends is 1 -+ gamma / 2.

@@ -21,8 +21,8 @@
 //! [`Mode::Paper`](pipeline::Mode::Paper) is the paper's chain of bones, literally. Real characters put the neck and the
 //! head joint where each artist likes, and the chain adds these habits up: heads end in chests, arms above eyes. So
 //! [`Mode::Product`](pipeline::Mode::Product), the default, keeps the idea (measure, transfer, blend by weights) and
-//! reads five landmarks from the geometry instead ([`shape::landmarks`]); fifteen parts move by one map each and agree
-//! where they meet ([`shape::parts`]).
+//! reads five landmarks from the geometry instead ([`shape::product::landmarks`]); fifteen parts move by one map each and agree
+//! where they meet ([`shape::product::field`]).
 //!
 //! Either way the deformation is a field, from a point and its weights to a place and a Jacobian ([`shape::field`]), and
 //! everything goes through it: vertices, morph targets, joints, and any point that hangs from a joint.
@@ -30,7 +30,7 @@
 //! # From files to a result
 //!
 //! The library knows arrays, not files. Hosts read a file into a [`Character`], measure a reference
-//! ([`Study`](shape::Study)), make a [`Deformer`](pipeline::Deformer) and apply it; `examples/superdeform.rs` does so
+//! ([`Measured`](shape::Measured)), make a [`Deformer`](pipeline::Deformer) and apply it; `examples/superdeform.rs` does so
 //! with GLB and VRM files. Hosts in C, C++ and C# do the same through [`ffi`] and `include/superdeform.h`.
 //!
 //! ```
@@ -87,7 +87,7 @@ pub mod error;
 pub mod face;
 pub mod ffi;
 pub mod geometry;
-pub mod hair;
+
 pub mod options;
 pub mod parallel;
 pub mod pipeline;

@@ -11,8 +11,8 @@ use superdeform::face::{FaceMap, SphereMap, bearable_squash, f2, f2_slope, f4, f
 use superdeform::geometry::Surface;
 use superdeform::pipeline::{FaceCurve, GroupSettings, Stage};
 use superdeform::report::Coefficient;
-use superdeform::shape::bones::{FieldBone, shares};
 use superdeform::shape::measure::radius;
+use superdeform::shape::paper::field::{FieldBone, shares};
 use superdeform::shape::{BodyShape, BoneField, BoneShape, coefficients, head_top, measure, shorten};
 use superdeform::{Error, ErrorKind, MeshKind, Role};
 

@@ -25,7 +25,7 @@ use superdeform::ffi::exports::{
 };
 use superdeform::pipeline::{Deformer, FaceCurve, GroupSettings, Mode, Options, Rig, Stage, Style};
 use superdeform::rig::RigOptions;
-use superdeform::shape::{BodyShape, Study};
+use superdeform::shape::{BodyShape, Measured};
 use superdeform::{Character, Humanoid, MorphTarget, Role};
 
 /// Held by every test, so that one can wait until no other is at work and count the handles that are left.
@@ -636,7 +636,7 @@ fn styles_come_back_as_text_and_as_numbers() {
     let name = CString::new("身長").unwrap();
     ask(|error| unsafe { sdef_style_measure(character, name.as_ptr(), null(), &mut measured, error) })
         .unwrap();
-    let study = Study::of(person(), &Options::default()).unwrap();
+    let study = Measured::of(person(), &Options::default()).unwrap();
     let shape = BodyShape { name: "身長".to_string(), ..study.shape };
     assert_eq!(json(measured).unwrap(), shape.to_json());
     let built_in = from_text(" sd2.5\n").unwrap();

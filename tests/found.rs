@@ -7,7 +7,7 @@ use superdeform::report::LandmarkHeights;
 use superdeform::rig::voxel::{VoxelOptions, voxel_weights};
 use superdeform::rig::{RigOptions, WeightBone};
 use superdeform::shape::BodyShape;
-use superdeform::shape::proportions::Proportions;
+use superdeform::shape::product::anatomy::Proportions;
 use superdeform::{Character, Mesh};
 
 #[test]

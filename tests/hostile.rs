@@ -7,7 +7,7 @@ use glam::{DMat4, DVec3, Vec3};
 use people::Person;
 use std::sync::Arc;
 use superdeform::pipeline::{Deformer, Mode, Options, Style};
-use superdeform::shape::Study;
+use superdeform::shape::Measured;
 use superdeform::{Character, MorphTarget, Role, Weights};
 
 /// A generator of numbers that are the same in every run.
@@ -26,7 +26,7 @@ impl Numbers {
 
 /// Runs the whole pipeline in both modes; tells what came out as an error, and fails on a number that is not finite.
 fn survives(name: &str, character: Character) -> usize {
-    let reference = Study::of(&Person::chibi().build(), &Options::default()).unwrap().shape;
+    let reference = Measured::of(&Person::chibi().build(), &Options::default()).unwrap().shape;
     let character = Arc::new(character);
     let mut results = 0;
     for (mode, style) in [

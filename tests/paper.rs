@@ -15,7 +15,7 @@ use std::sync::{Arc, OnceLock};
 use superdeform::character::bones::Group;
 use superdeform::geometry::foot;
 use superdeform::pipeline::{Deformed, Deformer, Mode, Options, Stage, Style};
-use superdeform::shape::Study;
+use superdeform::shape::Measured;
 use superdeform::shape::figure::Figure;
 use superdeform::{Character, Role};
 
@@ -327,7 +327,7 @@ fn half_of_the_way_lies_in_the_middle() {
 #[test]
 fn measuring_twice_gives_the_same_numbers() {
     for loaded in all_models().values().take(4) {
-        let [one, other] = [0, 1].map(|_| Study::of(&loaded.character, &paper()).unwrap().shape);
+        let [one, other] = [0, 1].map(|_| Measured::of(&loaded.character, &paper()).unwrap().shape);
         assert_eq!(one, other);
     }
 }

@@ -10,9 +10,9 @@ use std::sync::Arc;
 use superdeform::character::humanoid::REQUIRED_ROLES;
 use superdeform::pipeline::{Deformed, Deformer, FaceCurve, GroupSettings, Mode, Options, Style};
 use superdeform::report::Report;
-use superdeform::shape::landmarks::landmarks;
+use superdeform::shape::product::landmarks::landmarks;
 use superdeform::shape::style::BUILT_IN;
-use superdeform::shape::{BodyShape, Study};
+use superdeform::shape::{BodyShape, Measured};
 use superdeform::{Character, Error, ErrorKind, Mesh, MeshKind, Role, Weights};
 
 const MODES: [Mode; 2] = [Mode::Product, Mode::Paper];
@@ -50,7 +50,7 @@ fn options(mode: Mode) -> Options {
 }
 
 fn shape_of(person: &Person, options: &Options) -> BodyShape {
-    Study::of(&person.build(), options).unwrap().shape
+    Measured::of(&person.build(), options).unwrap().shape
 }
 
 fn style_of(person: &Person, options: &Options) -> Style {
@@ -131,7 +131,7 @@ fn landmarks_are_read_where_people_were_built() {
     let mut failures = Vec::new();
     for (name, person) in all_people() {
         let person = Person { columns: people::COLUMNS, ..person };
-        let study = Study::of(&person.build(), &Options::default()).unwrap();
+        let study = Measured::of(&person.build(), &Options::default()).unwrap();
         let marks = &study.anatomy.landmarks;
         let height = study.figure.height();
         let p = &person.proportions;

@@ -15,7 +15,7 @@ use std::collections::{BTreeMap, HashMap};
 use std::sync::{Arc, OnceLock};
 use superdeform::geometry::Surface;
 use superdeform::pipeline::{Deformed, Deformer, Options, Style};
-use superdeform::shape::Study;
+use superdeform::shape::Measured;
 use superdeform::shape::figure::{Figure, is_head};
 use superdeform::{MeshKind, Role};
 
@@ -102,7 +102,7 @@ fn landmarks_lie_where_they_were_read_by_eye() {
     let mut failures = Vec::new();
     for (name, expected) in read_by_eye {
         let Some(loaded) = model(name) else { continue };
-        let study = Study::of(&loaded.character, &Options::default()).unwrap();
+        let study = Measured::of(&loaded.character, &Options::default()).unwrap();
         let head = crown_with_hair(&study.figure) - study.anatomy.landmarks.chin;
         let found = study.anatomy.proportions;
         let found = [found.neck, found.torso, found.leg, found.arm].map(|length| length / head);
@@ -118,7 +118,7 @@ fn landmarks_lie_where_they_were_read_by_eye() {
 #[test]
 fn a_result_is_as_many_heads_tall_as_its_reference() {
     let heads_of =
-        |name: &str| Study::of(&all_models()[name].character, &Options::default()).unwrap().anatomy;
+        |name: &str| Measured::of(&all_models()[name].character, &Options::default()).unwrap().anatomy;
     // Boxes and animals have heads, but are no people.
     let tall: BTreeMap<&str, f64> = all_models()
         .keys()
@@ -130,7 +130,7 @@ fn a_result_is_as_many_heads_tall_as_its_reference() {
     let runs: Vec<&Run> = runs().iter().filter(|run| tall.contains_key(run.target)).collect();
     check_all(&runs, |run| {
         let asked = heads_of(run.style).landmarks.heads();
-        let written = Study::of(&run.written().character, &Options::default()).unwrap();
+        let written = Measured::of(&run.written().character, &Options::default()).unwrap();
         let heads = written.anatomy.landmarks.heads();
         let off = (heads / asked - 1.0).abs();
         (off > 0.03 && !run.has_warning("heads_limited"))
@@ -143,7 +143,7 @@ fn a_result_is_as_many_heads_tall_as_its_reference() {
 #[test]
 fn a_result_has_as_many_heads_as_were_asked_for() {
     let off: Vec<(bool, bool, String)> = in_parallel(heads_runs(), |(asked, run)| {
-        let written = Study::of(&run.written().character, &Options::default()).unwrap();
+        let written = Measured::of(&run.written().character, &Options::default()).unwrap();
         let heads = written.anatomy.landmarks.heads();
         let close = (heads / asked - 1.0).abs() <= 0.02;
         let limited = run.has_warning("heads_limited");

@@ -10,7 +10,7 @@ mod truth;
 use glam::{DVec3, Vec3};
 use people::Person;
 use std::collections::BTreeMap;
-use superdeform::rig::kinds::{body_is_whole, guess_kinds, refine_kinds};
+use superdeform::rig::mesh_kinds::{body_is_whole, guess_kinds, refine_kinds};
 use superdeform::rig::{FoundJoint, Layout};
 use superdeform::{Character, Mesh, MeshKind, Role};
 

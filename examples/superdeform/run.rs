@@ -24,7 +24,7 @@ use superdeform::pipeline::{Deformed, Deformer, Rig, Style};
 use superdeform::report::Report;
 use superdeform::rig::RigOptions;
 use superdeform::shape::BodyShape;
-use superdeform::shape::study::Study;
+use superdeform::shape::measured::Measured;
 use superdeform::shape::style::BUILT_IN;
 use superdeform::{Axes, Character, Error, MeshKind, Role, Warning, Weights};
 
@@ -300,7 +300,7 @@ fn appearance(host: &host::load::Loaded) -> Appearance {
 }
 
 /// Measures a reference; its errors begin with the file's name.
-fn measure(reference: &Loaded, command: &Command) -> Result<Study, String> {
+fn measure(reference: &Loaded, command: &Command) -> Result<Measured, String> {
     let name = &reference.host.file.name;
     let rigged = match reference.host.rigged {
         true => None,
@@ -309,13 +309,13 @@ fn measure(reference: &Loaded, command: &Command) -> Result<Study, String> {
     let rigged = rigged.transpose().map_err(|error| format!("{name}: {error}"))?;
     let rigged = rigged.map(|rig| rig.applied_to(&reference.host.character));
     let character = rigged.as_ref().unwrap_or(&reference.host.character);
-    let mut study = Study::of(character, &command.options).map_err(|error| format!("{name}: {error}"))?;
+    let mut study = Measured::of(character, &command.options).map_err(|error| format!("{name}: {error}"))?;
     study.shape.name = name.rsplit_once('.').map_or(name.as_str(), |(stem, _)| stem).to_string();
     Ok(study)
 }
 
 /// The style that the command line asks for, mixed with a second one where it says so.
-fn style(command: &Command, study: Option<&Study>) -> Result<Style, String> {
+fn style(command: &Command, study: Option<&Measured>) -> Result<Style, String> {
     let shape = match (&command.reference, study) {
         (Reference::Heads(heads), _) => return Style::heads(*heads).map_err(sentence),
         (Reference::Style(path), _) => read_style(path)?,

@@ -10,9 +10,9 @@ use crate::character::Role;
 use crate::character::bones::HEAD_TOP;
 use crate::pipeline::Style;
 use crate::report::LandmarkHeights;
-use crate::shape::proportions::Proportions;
+use crate::shape::product::anatomy::Proportions;
 use crate::shape::style::BUILT_IN;
-use crate::shape::{BodyShape, BoneShape, Study};
+use crate::shape::{BodyShape, BoneShape, Measured};
 use core::ffi::c_char;
 use std::sync::Arc;
 
@@ -107,7 +107,7 @@ pub unsafe fn measure(
         let (options, _) = super::options::read(options)?;
         options.validate()?;
         let ready = table::read(&state, "character")?.ready();
-        let study = Study::of(ready.character(), &options)?;
+        let study = Measured::of(ready.character(), &options)?;
         give(shape(BodyShape { name: arrays::text(name), ..study.shape }), style)
     };
     unsafe { call(error, body) }

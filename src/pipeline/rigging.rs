@@ -9,7 +9,7 @@ use crate::rig::eyes::{Eye, find_eyes};
 use crate::rig::facing::find_forward;
 use crate::rig::heat::HeatSystem;
 use crate::rig::joints::find_joints;
-use crate::rig::kinds::{body_is_whole, guess_kinds, refine_kinds};
+use crate::rig::mesh_kinds::{body_is_whole, guess_kinds, refine_kinds};
 use crate::rig::skeleton::{skeleton_of, weight_bones};
 use crate::rig::transfer::{Skin, Source, Worn, rigid_weights};
 use crate::rig::voxel::{VoxelOptions, heat_would_be_poor, voxel_weights};

@@ -1,7 +1,7 @@
 //! Arms: followed from the fingertips inwards to the armpit.
 
+use super::front_view::{Stance, median};
 use super::silhouette::{GridFrame, RayGrid, lowest};
-use super::stance::{Stance, median};
 use glam::{DVec2, DVec3};
 
 /// An arm's column of cells that reaches lower than the arm by so many of its thicknesses belongs to the trunk.

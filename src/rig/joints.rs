@@ -5,10 +5,10 @@
 //! centred by the depths of the rays around it. What is not seen is placed by ratio, and said so.
 
 use super::arms::{Arm, find_arm};
+use super::front_view::Stance;
 use super::hand::{Hand, find_fingers};
+use super::head_line::{HeadLine, head_line, middle};
 use super::legs::{Leg, Legs, Seen, find_legs, leg};
-use super::stance::Stance;
-use super::trunk::{HeadLine, head_line, middle};
 use super::{FoundJoint, Layout};
 use crate::character::{MeshKind, Role};
 use crate::error::Warning;

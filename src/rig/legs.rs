@@ -1,7 +1,7 @@
 //! Legs: where they part, and where hip, knee, ankle and toes are in them.
 
+use super::front_view::Stance;
 use super::silhouette::lowest;
-use super::stance::Stance;
 use glam::DVec3;
 
 /// Filled rows between two legs of up to this height do not end the gap between them: shoes, knees, a ribbon.

@@ -6,26 +6,26 @@
 pub mod arms;
 pub mod eyes;
 pub mod facing;
+pub mod front_view;
 pub mod geodesic;
 pub mod hand;
+pub mod head_line;
 pub mod heat;
 pub mod joints;
-pub mod kinds;
-pub mod layout;
 pub mod legs;
-pub mod pieces;
+pub mod mesh_kinds;
 pub mod silhouette;
 pub mod skeleton;
-pub mod stance;
 pub mod transfer;
-pub mod trunk;
+pub mod unit_figure;
 pub mod volume;
 pub mod voxel;
+pub mod wholeness;
 
 use crate::character::{Role, Weights};
 use glam::DVec3;
-pub use layout::Layout;
 use std::collections::BTreeMap;
+pub use unit_figure::Layout;
 
 /// Which rule gives the body its weights.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

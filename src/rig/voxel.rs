@@ -3,8 +3,8 @@
 //! Dionne and de Lasa. Geodesic voxel binding for production character meshes. SCA 2013 (reference 14).
 
 use super::geodesic::{Bone, Distances, Paths, place_bones};
-use super::pieces::Pieces;
 use super::volume::{OUTSIDE, Volume, nearest};
+use super::wholeness::Pieces;
 use super::{WeightBone, Weighted};
 use crate::character::Weights;
 use crate::parallel;

@@ -3,7 +3,7 @@
 use crate::character::Role;
 use crate::character::bones::HEAD_TOP;
 use crate::report::LandmarkHeights;
-use crate::shape::proportions::Proportions;
+use crate::shape::product::anatomy::Proportions;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -2,11 +2,11 @@
 //!
 //! Everything goes through one field: vertices, morph targets, joints, and any point a host attaches to a joint.
 
-use super::bones::BoneField;
-use super::part_weights::PartBinding;
-use super::parts::PartField;
+use super::paper::field::BoneField;
+use super::product::field::PartField;
+use super::product::weights::PartBinding;
 use crate::face::FaceShape;
-use crate::pipeline::Stage;
+use crate::options::Stage;
 use glam::{DMat3, DVec3};
 
 /// A deformation of space around a body.

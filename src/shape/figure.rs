@@ -4,7 +4,7 @@
 //! units of the model. Extra joints (hair, skirts, twist helpers) fold into their nearest humanoid ancestor;
 //! that is for the deformation only, the animation weights of the character are not touched.
 
-use super::proportions::Part;
+use super::product::anatomy::Part;
 use crate::character::{Character, Humanoid, MeshKind, Role};
 use crate::error::{Error, ErrorKind, Result};
 use glam::{DMat3, DVec3, Mat3A};

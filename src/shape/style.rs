@@ -4,7 +4,7 @@
 //! its model, blended with another, or stretched to a number of heads.
 
 use super::body_shape::{BodyShape, BoneShape, VERSION};
-use super::proportions::Proportions;
+use super::product::anatomy::Proportions;
 use crate::error::{Error, ErrorKind, Result};
 
 /// Fewest and most heads that a style may ask for.

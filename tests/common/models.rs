@@ -19,7 +19,7 @@ use std::sync::{Arc, Mutex, OnceLock};
 use superdeform::Character;
 use superdeform::character::roles::find_roles;
 use superdeform::pipeline::{Deformed, Deformer, Options, Style};
-use superdeform::shape::Study;
+use superdeform::shape::Measured;
 use superdeform::shape::figure::Figure;
 
 /// Models that the others are made like: 2.3, 3.4 and 4.6 heads.
@@ -82,7 +82,7 @@ pub fn style_of(name: &str, options: &Options) -> Style {
 
 /// The style of `character`.
 pub fn style(character: &Character, options: &Options) -> Style {
-    Style::Shape(Box::new(Study::of(character, options).unwrap().shape))
+    Style::Shape(Box::new(Measured::of(character, options).unwrap().shape))
 }
 
 /// A model and what came out of it.

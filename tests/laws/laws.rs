@@ -7,7 +7,7 @@ use proptest::test_runner::RngSeed;
 use std::sync::Arc;
 use superdeform::character::bones::Group;
 use superdeform::pipeline::{Deformer, GroupSettings, Mode, Options, Style};
-use superdeform::shape::Study;
+use superdeform::shape::Measured;
 use superdeform::shape::figure::Figure;
 use superdeform::{Axes, Character, Humanoid, Role, Weights};
 use superdeform_laws::{skeletons, weight_rows, weights};
@@ -96,7 +96,7 @@ struct Outcome {
 impl Outcome {
     /// What comes out of `target` made like `reference`.
     fn of(target: &Character, reference: &Character, options: &Options) -> Self {
-        let style = Style::Shape(Box::new(Study::of(reference, options).unwrap().shape));
+        let style = Style::Shape(Box::new(Measured::of(reference, options).unwrap().shape));
         let deformer = Deformer::new(Arc::new(target.clone()), &style, options).unwrap();
         let deformed = deformer.apply();
         let vertices = deformed.meshes.iter().flat_map(|mesh| mesh.positions.iter().map(|p| p.as_dvec3()));

@@ -3,10 +3,10 @@
 //! Every artist puts the neck and the head joint elsewhere, so lengths taken from joints carry each rig's
 //! conventions into the result. These five heights are read by one rule from target and reference alike.
 
-use super::figure::{Figure, extent, is_head};
 use crate::character::Role;
 use crate::error::Warning;
 use crate::geometry::surface::Surface;
+use crate::shape::figure::{Figure, extent, is_head};
 use glam::DVec3;
 
 /// A vertex with this much weight to the head moves with it alone.

@@ -4,10 +4,10 @@
 //! reference's proportions. Widths are judged against the head's width, not its height. Bounds keep what the paper's
 //! linear maps cannot carry (shins that fold into rings, hands larger than the face); every bound that acts is told.
 
-use super::proportions::Proportions;
+use super::anatomy::Proportions;
 use crate::character::bones::Group;
 use crate::error::{Error, ErrorKind, Result, Warning};
-use crate::pipeline::{GroupSettings, Options, Stage};
+use crate::options::{GroupSettings, Options, Stage};
 use crate::report::Coefficient;
 use std::collections::BTreeMap;
 

@@ -1,11 +1,11 @@
 //! alpha and beta of every bone group from two measured bodies (§V-B3, Eqs. 9-11), and the paper's constants.
 
-use super::BodyShape;
 use crate::character::Role;
 use crate::character::bones::{Bone, Group, bones};
 use crate::error::{Error, ErrorKind, Result, Warning};
-use crate::pipeline::GroupSettings;
+use crate::options::GroupSettings;
 use crate::report::Coefficient;
+use crate::shape::BodyShape;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// alpha_head. Paper, V-B1.

@@ -1,6 +1,6 @@
 //! The middle line: neck, chin and head above the shoulders, spine below them.
 
-use super::stance::{Stance, median};
+use super::front_view::{Stance, median};
 
 /// Above its narrowest row the head is wider by this share, and by this part of the height.
 const HEAD_WIDENS: (f64, f64) = (1.15, 0.006);

@@ -4,11 +4,11 @@
 //! line to chin, the torso from crotch to shoulder line, the leg from crotch to sole, whole arms; so that it does
 //! not matter where an artist put the joints in between.
 
-use super::figure::{Figure, is_head};
 use super::landmarks::{Landmarks, landmarks};
 use crate::character::Role;
 use crate::error::Warning;
 use crate::geometry::segment::foot;
+use crate::shape::figure::{Figure, is_head};
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 

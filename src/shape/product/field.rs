@@ -5,11 +5,11 @@
 //! ground up; soles, crotch, shoulder line and chin are where neighbouring maps meet, and limbs start where the
 //! trunk's map puts their joints. A vertex goes where the weighted mean of its parts' maps puts it.
 
-use super::part_coefficients::PartCoefficients;
-use super::part_weights::{Manner, PartBinding, PartBindings};
-use super::proportions::{Anatomy, PART_COUNT, Part, PartWeights};
+use super::anatomy::{Anatomy, PART_COUNT, Part, PartWeights};
+use super::coefficients::PartCoefficients;
+use super::weights::{Manner, PartBinding, PartBindings};
 use crate::face::FaceShape;
-use crate::hair::HairMap;
+use crate::shape::product::hair::HairMap;
 use glam::{DMat3, DVec3};
 
 /// The head moves back by this part of its distance before the chest, at most so many new heads.

@@ -3,7 +3,7 @@
 use super::body_shape::BodyShape;
 use super::figure::{Figure, is_head};
 use super::measure::measure;
-use super::proportions::Anatomy;
+use super::product::anatomy::Anatomy;
 use crate::character::bones::{Bone, bones};
 use crate::character::{Character, MeshKind, Role};
 use crate::error::Result;
@@ -19,7 +19,7 @@ const LEAST_TRIANGLES: usize = 10_000;
 
 /// One character, measured.
 #[derive(Clone, Debug)]
-pub struct Study {
+pub struct Measured {
     /// The character in one space.
     pub figure: Figure,
     /// Landmarks and proportions.
@@ -32,7 +32,7 @@ pub struct Study {
     pub shape: BodyShape,
 }
 
-impl Study {
+impl Measured {
     /// Measures `character`.
     ///
     /// # Errors

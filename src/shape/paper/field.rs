@@ -1,11 +1,11 @@
 //! The paper's field: the mesh follows the shortened bones, then its thickness is adjusted (§V-B2, Eqs. 5-8).
 
-use super::Shortened;
 use crate::character::Role;
 use crate::character::bones::{Bone, Group};
 use crate::geometry::foot;
-use crate::pipeline::Stage;
+use crate::options::Stage;
 use crate::report::Coefficient;
+use crate::shape::Shortened;
 use glam::{DMat3, DVec3};
 use std::collections::BTreeMap;
 

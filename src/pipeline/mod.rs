@@ -9,24 +9,24 @@ use crate::character::{Character, Humanoid, Mesh, MeshKind, MorphTarget, Role};
 use crate::error::{Error, ErrorKind, Result, Warning};
 use crate::face::FaceShape;
 use crate::geometry::{SEAM, Weld, components, weld};
-use crate::hair::HairOnBody;
 pub use crate::options::{FaceCurve, GroupSettings, Mode, Options, Stage};
 use crate::parallel;
 use crate::progress::Progress;
 use crate::report::{Coefficient, Counts, FigureReport, GroupShape, Report, RigReport, Timing};
 use crate::shape::BodyShape;
-use crate::shape::attributes::{Gradients, RestTriangles, has_volume, normal_matrix};
-use crate::shape::bones::BoneField;
-use crate::shape::coefficients::coefficients;
+use crate::shape::directions::{Gradients, RestTriangles, has_volume, normal_matrix};
 use crate::shape::field::{Binding, BoneBinding, Field, PaperField};
 use crate::shape::figure::{Figure, extent, is_head};
-use crate::shape::landmarks::{HeadSources, Posed};
-use crate::shape::part_coefficients::{PartCoefficients, Wanted, part_coefficients};
-use crate::shape::part_weights::{PartBinding, PartBindings, joint_binding, part_bindings};
-use crate::shape::parts::{Heights, PartField};
-use crate::shape::proportions::Part;
-use crate::shape::shorten::{Shortened, shorten};
-use crate::shape::study::{Study, group_shapes, is_of_head};
+use crate::shape::measured::{Measured, group_shapes, is_of_head};
+use crate::shape::paper::coefficients::coefficients;
+use crate::shape::paper::field::BoneField;
+use crate::shape::paper::shorten::{Shortened, shorten};
+use crate::shape::product::anatomy::Part;
+use crate::shape::product::coefficients::{PartCoefficients, Wanted, part_coefficients};
+use crate::shape::product::field::{Heights, PartField};
+use crate::shape::product::hair::HairOnBody;
+use crate::shape::product::landmarks::{HeadSources, Posed};
+use crate::shape::product::weights::{PartBinding, PartBindings, joint_binding, part_bindings};
 pub use crate::shape::style::Style;
 use glam::{DMat3, DVec3, Mat3A, Vec3, Vec3A, Vec4};
 use std::collections::{BTreeMap, BTreeSet};
@@ -108,7 +108,7 @@ const ALREADY_SD: f64 = 1.2;
 pub struct Deformer {
     character: Arc<Character>,
     style: Style,
-    study: Arc<Study>,
+    study: Arc<Measured>,
     options: Options,
     weld: Arc<Weld>,
     /// Made when directions are first wanted.
@@ -230,7 +230,7 @@ impl Deformer {
         }
         progress.at(0.0)?;
         let clock = Instant::now();
-        let study = Arc::new(Study::of(&character, options)?);
+        let study = Arc::new(Measured::of(&character, options)?);
         let measure = milliseconds(clock);
         progress.at(0.4)?;
         let weld = Arc::new(weld(&study.figure.positions, SEAM * study.figure.height()));
@@ -297,7 +297,7 @@ impl Deformer {
             || options.bone_groups != self.options.bone_groups;
         if measures_anew {
             let clock = Instant::now();
-            next.study = Arc::new(Study::of_figure(self.study.figure.clone(), options)?);
+            next.study = Arc::new(Measured::of_figure(self.study.figure.clone(), options)?);
             next.timing.measure = milliseconds(clock);
         }
         if measures_anew || options.mode != self.options.mode {
@@ -410,7 +410,8 @@ impl Deformer {
             progress.at(0.3 + 0.1 * count as f32)?;
             let attempt = self.attempt(style, aim / asked, &parts)?;
             let measured = self.heads_by(&attempt.field);
-            let predicted = crate::shape::part_coefficients::heads_of(&proportions, &attempt.coefficients);
+            let predicted =
+                crate::shape::product::coefficients::heads_of(&proportions, &attempt.coefficients);
             let limited = attempt.warnings.iter().any(|warning| warning.code == "heads_limited");
             let reach = if limited { predicted } else { asked };
             let error = (measured / reach).ln().abs();
@@ -935,7 +936,7 @@ impl Deformer {
     }
 
     /// The target as it was measured.
-    pub fn target(&self) -> &Study {
+    pub fn target(&self) -> &Measured {
         &self.study
     }
 
@@ -947,9 +948,9 @@ impl Deformer {
     /// The numbers of the run; `result` is measured anew on `deformed`. The host adds its own times and warnings.
     ///
     /// # Errors
-    /// As [`Study::of`] on the result.
+    /// As [`Measured::of`] on the result.
     pub fn report(&self, deformed: &Deformed) -> Result<Report> {
-        let result = Study::of(&self.character.with(deformed), &self.options)?;
+        let result = Measured::of(&self.character.with(deformed), &self.options)?;
         let character = &self.character;
         let mut target = self.study.report(&self.roles, &self.options);
         let mut result = result.report(&self.roles, &self.options);

@@ -5,13 +5,13 @@
 //! into parts, head and neck are told apart by the geometry, and then all is smoothed along the mesh and across
 //! layers of cloth; the file's own weights stay as they are.
 
-use super::figure::Figure;
-use super::proportions::{Anatomy, PART_COUNT, Part, PartWeights, fold_to_parts};
+use super::anatomy::{Anatomy, PART_COUNT, Part, PartWeights, fold_to_parts};
 use crate::character::{MeshKind, Role, Skeleton};
 use crate::geometry::point_tree::{Near, PointTree};
 use crate::geometry::{Bounds, Groups, Neighbours, Weld, bounds, components, neighbours, touching};
-use crate::hair::HairOutline;
 use crate::parallel;
+use crate::shape::figure::Figure;
+use crate::shape::product::hair::HairOutline;
 use glam::DVec3;
 use std::collections::BTreeMap;
 

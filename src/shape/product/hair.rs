@@ -6,7 +6,7 @@
 //! stand out like a skirt from a child's.
 
 use crate::geometry::{Neighbours, Surface, Weld, double_area, neighbours};
-use crate::shape::part_weights::smoothstep;
+use crate::shape::product::weights::smoothstep;
 use glam::{DMat3, DVec3};
 
 /// The slope of the height's map at the chin, against the mean slope: 1 would be straight, 2 would come to rest at

@@ -1,0 +1,8 @@
+//! The product's way: parts that meet at landmarks read from the geometry, one map each, blended by smoothed weights.
+
+pub mod anatomy;
+pub mod coefficients;
+pub mod field;
+pub mod hair;
+pub mod landmarks;
+pub mod weights;
