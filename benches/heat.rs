@@ -2,12 +2,7 @@
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use superdeform::rig::heat::{HeatOptions, HeatSystem, heat_weights};
-
-#[path = "../examples/superdeform/host/mod.rs"]
-#[allow(dead_code)]
-mod host;
-#[allow(dead_code)]
-mod models;
+use superdeform_benches::models;
 
 fn heat(criterion: &mut Criterion) {
     for body in models::bodies() {

@@ -1,5 +1,7 @@
 //! Characters to measure on: made here, so that a number means the same on every machine.
 
+pub mod models;
+
 use glam::{DMat4, DVec3, Vec3};
 use superdeform::{Axes, Character, Humanoid, Joint, Mesh, Role, Skeleton, Weights};
 

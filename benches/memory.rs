@@ -8,12 +8,7 @@ use superdeform::pipeline::{Deformer, Options};
 use superdeform::rig::WeightBone;
 use superdeform::rig::heat::{HeatOptions, heat_weights};
 use superdeform::shape::measured::Measured;
-
-#[path = "../examples/superdeform/host/mod.rs"]
-#[allow(dead_code)]
-mod host;
-#[allow(dead_code)]
-mod models;
+use superdeform_benches::models;
 
 /// The system's allocator, counted.
 struct Counted;

@@ -1,10 +1,7 @@
 //! What is measured on: a person of capsules, and two files where they are at hand.
 //!
 //! `SUPERDEFORM_MODELS` names the folder of the files, `../shared/models` beside the repository where it is not set.
-//! The target that uses this file brings the example's `host`.
 
-use crate::host::file::GltfFile;
-use crate::host::load::{LoadOptions, Loaded};
 use glam::DVec3;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -14,6 +11,8 @@ use superdeform::pipeline::{Deformed, Deformer, Style};
 use superdeform::rig::WeightBone;
 use superdeform::rig::skeleton::weight_bones;
 use superdeform::{Axes, Character, Role};
+use superdeform_host::file::GltfFile;
+use superdeform_host::load::{LoadOptions, Loaded};
 
 #[path = "../tests/common/people.rs"]
 mod people;
@@ -83,7 +82,7 @@ pub fn bodies() -> Vec<Body> {
         .iter()
         .flat_map(|bone| bone.segments.iter().map(|&ends| (ends, radius(roles[bone.joint as usize]))))
         .collect();
-    let (positions, triangles) = superdeform_benches::body_of_capsules(&capsules, 75.0);
+    let (positions, triangles) = crate::body_of_capsules(&capsules, 75.0);
     let mut bodies = vec![Body { name: "capsules", positions, triangles, bones }];
     let [target, rigged] =
         ["makehuman_female_target.glb", "makehuman_female_rigged.glb"].map(|name| folder().join(name));
@@ -145,11 +144,11 @@ pub fn load(path: &Path) -> Loaded {
         incomplete_rig: false,
     };
     let file = GltfFile::read(path).expect("the file can be read");
-    crate::host::load::load(file, &options).expect("the file holds a character")
+    superdeform_host::load::load(file, &options).expect("the file holds a character")
 }
 
 /// The file with the new shape, in memory.
 pub fn write(loaded: &Loaded, deformer: &Deformer, deformed: &Deformed) -> Vec<u8> {
-    crate::host::write::write(loaded, deformed, &|joint, point| deformer.map(joint, point))
+    superdeform_host::write::write(loaded, deformed, &|joint, point| deformer.map(joint, point))
         .expect("the result can be written")
 }

@@ -6,12 +6,7 @@ use std::hint::black_box;
 use std::sync::Arc;
 use superdeform::pipeline::{Deformer, MeshOutputs, Options};
 use superdeform::progress::Progress;
-
-#[path = "../examples/superdeform/host/mod.rs"]
-#[allow(dead_code)]
-mod host;
-#[allow(dead_code)]
-mod models;
+use superdeform_benches::models;
 
 /// Columns of a person's tubes that make 50,000 vertices of it.
 const COLUMNS: usize = 60;

@@ -7,13 +7,7 @@ use superdeform::geometry::{SEAM, weld};
 use superdeform::pipeline::{Deformer, Options};
 use superdeform::shape::measured::Measured;
 use superdeform::shape::product::weights::part_bindings;
-use superdeform_benches::tube;
-
-#[path = "../examples/superdeform/host/mod.rs"]
-#[allow(dead_code)]
-mod host;
-#[allow(dead_code)]
-mod models;
+use superdeform_benches::{models, tube};
 
 fn validate(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("validate");

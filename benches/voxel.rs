@@ -8,12 +8,7 @@ use superdeform::rig::Layout;
 use superdeform::rig::skeleton::weight_bones;
 use superdeform::rig::voxel::{VoxelOptions, heat_would_be_poor, voxel_weights};
 use superdeform::shape::figure::Frame;
-
-#[path = "../examples/superdeform/host/mod.rs"]
-#[allow(dead_code)]
-mod host;
-#[allow(dead_code)]
-mod models;
+use superdeform_benches::models;
 
 fn volume(criterion: &mut Criterion) {
     for model in models::models() {

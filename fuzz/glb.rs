@@ -1,18 +1,14 @@
 //! Bytes go through the example's loader, and what loads through the deformer and its writer.
 
-#[allow(dead_code, missing_docs)]
-#[path = "../examples/superdeform/host/mod.rs"]
-mod host;
-
 use glam::DVec3;
-use host::file::GltfFile;
-use host::load::LoadOptions;
 use serde_json::{Map, Value, json};
 use std::sync::Arc;
 use superdeform::character::roles::find_roles;
 use superdeform::options::Options;
 use superdeform::pipeline::{Deformed, DeformedMesh, Deformer, Rig, Style};
 use superdeform::rig::{RigOptions, WeightMethod};
+use superdeform_host::file::GltfFile;
+use superdeform_host::load::LoadOptions;
 
 /// Characters larger than this are loaded and written, but not deformed: that takes long.
 const MOST_VERTICES: usize = 600;
@@ -26,7 +22,7 @@ pub fn run(data: &[u8]) {
         incomplete_rig: choice & 2 != 0,
         ..LoadOptions::default()
     };
-    let Ok(loaded) = host::load::load(file, &options) else { return };
+    let Ok(loaded) = superdeform_host::load::load(file, &options) else { return };
     let character = &loaded.character;
     let same = Deformed {
         meshes: character
@@ -45,9 +41,9 @@ pub fn run(data: &[u8]) {
         position: point,
         jacobian: glam::DMat3::IDENTITY,
     };
-    if let Ok(written) = host::write::write(&loaded, &same, &stays) {
+    if let Ok(written) = superdeform_host::write::write(&loaded, &same, &stays) {
         let again = GltfFile::parse("fuzz.glb", &written).expect("what was written can be read");
-        let _ = host::load::load(again, &options);
+        let _ = superdeform_host::load::load(again, &options);
     }
     // Deforming takes long beside reading and writing.
     if character.vertex_count() > MOST_VERTICES || choice & 0xf8 != 0 {
@@ -58,7 +54,7 @@ pub fn run(data: &[u8]) {
     if character.humanoid.missing().is_empty() {
         let Ok(deformer) = Deformer::new(Arc::new(character.clone()), &style, &options) else { return };
         let map = |joint: usize, point: DVec3| deformer.map(joint, point);
-        let _ = host::write::write(&loaded, &deformer.apply(), &map);
+        let _ = superdeform_host::write::write(&loaded, &deformer.apply(), &map);
         return;
     }
     let rig_options = RigOptions {
@@ -70,8 +66,8 @@ pub fn run(data: &[u8]) {
     };
     let Ok(rig) = Rig::of(character, &rig_options) else { return };
     let limited: Vec<_> =
-        rig.skin_weights.iter().map(|weights| weights.limited(host::rig::INFLUENCES)).collect();
-    if let Ok(file) = host::rig::rerigged(&loaded, &rig.skeleton, &limited) {
+        rig.skin_weights.iter().map(|weights| weights.limited(superdeform_host::rig::INFLUENCES)).collect();
+    if let Ok(file) = superdeform_host::rig::rerigged(&loaded, &rig.skeleton, &limited) {
         let bytes = file.to_bytes().expect("what was rigged can be written");
         GltfFile::parse("fuzz.glb", &bytes).expect("what was rigged can be read");
     }

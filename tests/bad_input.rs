@@ -1,17 +1,14 @@
 //! Damaged and hostile files: each gives one clear sentence, never a panic and never a file.
 
 #[allow(dead_code)]
-#[path = "../examples/superdeform/host/mod.rs"]
-mod host;
-#[allow(dead_code)]
 mod made;
 
-use host::file::GltfFile;
-use host::load::{LoadOptions, load};
 use made::{Made, bytes_of, container, figure, stay_point};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use superdeform_host::file::GltfFile;
+use superdeform_host::load::{LoadOptions, load};
 
 /// What is wrong, and the file.
 type Case = (String, Vec<u8>);
@@ -344,10 +341,11 @@ fn outcome(bytes: &[u8]) -> Result<(), String> {
     let file = GltfFile::parse("bad.glb", bytes).map_err(|error| error.message)?;
     let loaded = load(file, &LoadOptions::default()).map_err(|error| error.message)?;
     let result = made::deformed(&loaded.character, Some(made::squash));
-    let written = host::write::write(&loaded, &result, &made::squash_point).map_err(|error| error.message)?;
+    let written = superdeform_host::write::write(&loaded, &result, &made::squash_point)
+        .map_err(|error| error.message)?;
     GltfFile::parse("written.glb", &written).map_err(|error| error.message)?;
     let same = made::deformed(&loaded.character, None);
-    host::write::write(&loaded, &same, &stay_point).map_err(|error| error.message)?;
+    superdeform_host::write::write(&loaded, &same, &stay_point).map_err(|error| error.message)?;
     Ok(())
 }
 

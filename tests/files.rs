@@ -1,17 +1,9 @@
 //! Files through the example host: read, deformed, written, read again.
 
 #[allow(dead_code)]
-#[path = "../examples/superdeform/host/mod.rs"]
-mod host;
-#[allow(dead_code)]
 mod made;
 
 use glam::{DVec3, Vec3};
-use host::accessor::Reader;
-use host::file::{GltfFile, write_atomically};
-use host::load::{LoadOptions, Loaded, load};
-use host::verify::closure;
-use host::write::rewrite;
 use made::{
     JOINTS, Made, boxes, bytes_of, deformed, figure, squash, squash_jacobian, squash_point, stay_point,
 };
@@ -19,6 +11,11 @@ use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use superdeform::MeshKind;
+use superdeform_host::accessor::Reader;
+use superdeform_host::file::{GltfFile, write_atomically};
+use superdeform_host::load::{LoadOptions, Loaded, load};
+use superdeform_host::verify::closure;
+use superdeform_host::write::rewrite;
 
 fn loaded(made: &Made) -> Loaded {
     load(GltfFile::parse("made.glb", &made.bytes()).unwrap(), &LoadOptions::default()).unwrap()
@@ -126,7 +123,9 @@ fn a_changed_character_keeps_all_but_its_shape() {
         // Weights, indices, texture coordinates and all else that is not shape: bit for bit.
         let (old, new) = (Reader::new(&loaded.file), Reader::new(&written));
         for (mesh, mesh_json) in loaded.file.list("meshes").iter().enumerate() {
-            for (primitive, primitive_json) in host::array_at(mesh_json, "primitives").iter().enumerate() {
+            for (primitive, primitive_json) in
+                superdeform_host::array_at(mesh_json, "primitives").iter().enumerate()
+            {
                 let after = &written.list("meshes")[mesh]["primitives"][primitive];
                 for (key, accessor) in primitive_json["attributes"].as_object().unwrap() {
                     if ["POSITION", "NORMAL", "TANGENT"].contains(&key.as_str()) {
@@ -135,7 +134,7 @@ fn a_changed_character_keeps_all_but_its_shape() {
                     let accessor = accessor.as_u64().unwrap() as usize;
                     let components = old.layout(accessor).unwrap().components;
                     let one = old.floats(accessor, components, None).unwrap();
-                    let other = host::index_at(&after["attributes"], key).unwrap();
+                    let other = superdeform_host::index_at(&after["attributes"], key).unwrap();
                     let other = new.floats(other, components, None).unwrap();
                     assert!(one.iter().zip(&other).all(|(a, b)| a.to_bits() == b.to_bits()));
                 }
@@ -243,7 +242,8 @@ fn interleaved_vertices_are_written_where_they_stand() {
     let written = squashed(&loaded);
     assert_eq!(written.binary.len(), loaded.file.binary.len());
     let accessor =
-        host::index_at(&written.json["meshes"][0]["primitives"][0]["attributes"], "TEXCOORD_0").unwrap();
+        superdeform_host::index_at(&written.json["meshes"][0]["primitives"][0]["attributes"], "TEXCOORD_0")
+            .unwrap();
     let coordinates = Reader::new(&written).floats(accessor, 2, None).unwrap();
     assert!(coordinates.chunks(2).enumerate().all(|(vertex, uv)| uv == [vertex as f32, 0.5]));
 }
@@ -282,7 +282,7 @@ fn quantised_positions_are_read_and_written_as_floats() {
         .flat_map(|x| ((x / 2.0 * 32767.0) as i16).to_le_bytes())
         .collect();
     let accessor = made.accessor(&bytes, 5122, "VEC3", of_vertex.len());
-    let view = host::index_at(&made.json["accessors"][accessor], "bufferView").unwrap();
+    let view = superdeform_host::index_at(&made.json["accessors"][accessor], "bufferView").unwrap();
     made.json["bufferViews"][view]["byteStride"] = json!(8);
     made.json["accessors"][accessor]["normalized"] = json!(true);
     made.json["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = json!(accessor);
@@ -434,7 +434,7 @@ fn a_skin_without_matrices_has_identities_and_gets_matrices_where_it_moves() {
     let result = load(GltfFile::parse("made.glb", &made.bytes()).unwrap(), &LoadOptions::default()).unwrap();
     let written =
         rewrite(&result, &deformed(&result.character, Some(|p| p + DVec3::X)), &stay_point).unwrap();
-    assert!(host::index_at(&written.json["skins"][0], "inverseBindMatrices").is_some());
+    assert!(superdeform_host::index_at(&written.json["skins"][0], "inverseBindMatrices").is_some());
 }
 
 #[test]
@@ -465,8 +465,8 @@ fn the_hips_track_is_scaled_with_their_height_and_others_move_with_their_rest() 
     let written = squashed(&loaded);
     let animation = &written.json["animations"][0];
     let output = |channel: usize| {
-        let sampler = host::index_at(&animation["channels"][channel], "sampler").unwrap();
-        let accessor = host::index_at(&animation["samplers"][sampler], "output").unwrap();
+        let sampler = superdeform_host::index_at(&animation["channels"][channel], "sampler").unwrap();
+        let accessor = superdeform_host::index_at(&animation["samplers"][sampler], "output").unwrap();
         Reader::new(&written).floats(accessor, if channel == 3 { 4 } else { 3 }, None).unwrap()
     };
     let moved = squash(DVec3::new(0.0, 0.9, 0.0));

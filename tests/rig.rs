@@ -8,11 +8,6 @@ mod people;
 mod truth;
 
 use glam::DVec3;
-use models::host::file::GltfFile;
-use models::host::load::{LoadOptions, Loaded, load};
-use models::host::rig::{INFLUENCES, add_rig, rerigged};
-use models::host::verify::skinned;
-use models::host::write::rewrite;
 use models::{check_all, furthest, in_parallel, loaded, model, positions, rest_positions, style_of};
 use std::collections::BTreeMap;
 use std::sync::{Arc, OnceLock};
@@ -21,6 +16,11 @@ use superdeform::pipeline::{Deformer, Options, Rig};
 use superdeform::rig::RigOptions;
 use superdeform::shape::figure::Figure;
 use superdeform::{Character, Humanoid, MeshKind, Role, Weights};
+use superdeform_host::file::GltfFile;
+use superdeform_host::load::{LoadOptions, Loaded, load};
+use superdeform_host::rig::{INFLUENCES, add_rig, rerigged};
+use superdeform_host::verify::skinned;
+use superdeform_host::write::rewrite;
 use truth::{Case, cases, path_of};
 
 /// Cases with their rigs, made once.
@@ -355,7 +355,7 @@ fn joints_that_nobody_knows_ride_along() {
         // Written with its own joints: they hold the vertices as before.
         let map = |joint: usize, point: DVec3| deformer.map(joint, point);
         let written = rewrite(twin, &deformed, &map).unwrap();
-        let closure = models::host::verify::closure(&written, twin, &deformed).unwrap();
+        let closure = superdeform_host::verify::closure(&written, twin, &deformed).unwrap();
         assert!(closure.rest < 1e-5, "{name}: {closure:?}");
         // The artist's limbs go where the new rig's limbs go.
         let height = height(&character);

@@ -7,13 +7,7 @@ use serde_json::{Map, Value, json};
 use std::time::Instant;
 use superdeform::rig::WeightBone;
 use superdeform::rig::heat::HeatSystem;
-
-#[path = "../../examples/superdeform/host/mod.rs"]
-#[allow(dead_code)]
-mod host;
-#[path = "../models.rs"]
-#[allow(dead_code)]
-mod models;
+use superdeform_benches::models;
 
 fn main() {
     let mut arguments = std::env::args().skip(1);

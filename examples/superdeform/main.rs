@@ -5,7 +5,6 @@
 
 mod appearance;
 mod cli;
-mod host;
 mod lettering;
 mod materials;
 mod output;

@@ -1,8 +1,8 @@
 //! Files that are there whole or not at all.
 
-use crate::host::file::write_atomically;
 use std::fs;
 use std::path::Path;
+use superdeform_host::file::write_atomically;
 
 /// Writes `bytes` to `path`, making folders as needed: a reader never sees half a file, and a failure leaves what was
 /// there before.

@@ -4,14 +4,10 @@
 
 use crate::appearance::{self, Appearance};
 use crate::cli::{self, Command, Reference};
-use crate::host::accessor::Reader;
-use crate::host::file::GltfFile;
-use crate::host::load::LoadOptions;
-use crate::host::rig::INFLUENCES;
 use crate::materials::Material;
 use crate::picture::{self, PictureMesh, View};
 use crate::progress::Progress;
-use crate::{host, output, report};
+use crate::{output, report};
 use glam::{DVec3, Vec3};
 use regex::Regex;
 use serde_json::Value;
@@ -27,6 +23,7 @@ use superdeform::shape::BodyShape;
 use superdeform::shape::measured::Measured;
 use superdeform::shape::style::BUILT_IN;
 use superdeform::{Axes, Character, Error, MeshKind, Role, Warning, Weights};
+use superdeform_host::{self as host, accessor::Reader, file::GltfFile, load::LoadOptions, rig::INFLUENCES};
 
 /// Stages that the progress bar counts.
 const STAGE_COUNT: u64 = 7;

@@ -4,14 +4,7 @@
 //! left out with a line that says so where there is no such folder.
 #![allow(dead_code)]
 
-#[path = "../../examples/superdeform/host/mod.rs"]
-pub mod host;
-
 use glam::DVec3;
-use host::file::GltfFile;
-use host::load::{LoadOptions, Loaded, load};
-use host::verify::{Closure, closure};
-use host::write::{rewrite, write};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -21,6 +14,10 @@ use superdeform::character::roles::find_roles;
 use superdeform::pipeline::{Deformed, Deformer, Options, Style};
 use superdeform::shape::Measured;
 use superdeform::shape::figure::Figure;
+use superdeform_host::file::GltfFile;
+use superdeform_host::load::{LoadOptions, Loaded, load};
+use superdeform_host::verify::{Closure, closure};
+use superdeform_host::write::{rewrite, write};
 
 /// Models that the others are made like: 2.3, 3.4 and 4.6 heads.
 pub const REFERENCES: [&str; 3] = ["kaykit_rogue.glb", "godette.vrm", "makehuman_baby_reference.glb"];

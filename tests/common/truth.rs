@@ -1,14 +1,14 @@
 //! Real characters without their rigs, and where their artists put the joints.
 #![allow(dead_code)]
 
-use super::models::host::file::GltfFile;
-use super::models::host::load::{LoadOptions, load};
 use super::models::models;
 use glam::DVec3;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use superdeform::shape::figure::Frame;
 use superdeform::{Character, Role};
+use superdeform_host::file::GltfFile;
+use superdeform_host::load::{LoadOptions, load};
 
 /// A character without a rig.
 pub struct Case {

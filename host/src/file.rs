@@ -1,4 +1,10 @@
 //! The GLB container: raw JSON and one binary chunk.
+//!
+//! The `gltf` crate has a typed tree for this, which is used to check a file and for nothing else. A round trip through it
+//! would lose what it does not know: extensions such as VRM's, members that glTF does not define, the spelling of numbers,
+//! the difference between a member that is absent and one that has its default. What is not reshaped must come out as it
+//! went in, so the JSON is kept raw and changed in place; and since every number is written back over the one that was
+//! read, accessors are read here by the layout that the writer needs too (`accessor.rs`).
 
 use super::{array_at, bad_input, index_at, text_at};
 use gltf::json::validation::Validate;

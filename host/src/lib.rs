@@ -7,12 +7,8 @@ pub mod accessor;
 pub mod bind;
 pub mod file;
 pub mod load;
-// Tests of rigged files write no new rig.
-#[allow(dead_code)]
 pub mod rig;
 pub mod roles;
-// Tests skin what was written; a run does not.
-#[allow(dead_code)]
 pub mod verify;
 pub mod vrm;
 pub mod write;
