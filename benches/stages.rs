@@ -6,7 +6,7 @@ use std::sync::Arc;
 use superdeform::geometry::{SEAM, weld};
 use superdeform::pipeline::{Deformer, Options};
 use superdeform::shape::measured::Measured;
-use superdeform::shape::product::weights::part_bindings;
+use superdeform::shape::product::binding::part_bindings;
 use superdeform_benches::{models, tube};
 
 fn validate(criterion: &mut Criterion) {

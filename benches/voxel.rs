@@ -4,10 +4,10 @@ use criterion::{Criterion, criterion_group, criterion_main};
 use glam::DVec3;
 use std::collections::BTreeMap;
 use superdeform::Role;
+use superdeform::character::Frame;
 use superdeform::rig::Layout;
 use superdeform::rig::skeleton::weight_bones;
 use superdeform::rig::voxel::{VoxelOptions, heat_would_be_poor, voxel_weights};
-use superdeform::shape::figure::Frame;
 use superdeform_benches::models;
 
 fn volume(criterion: &mut Criterion) {

@@ -1,29 +1,10 @@
 //! The numbers of a run, under the names that tools rely on.
 
 use crate::error::Warning;
-use serde::{Deserialize, Serialize};
+use crate::shape::group::{Coefficient, GroupShape};
+use crate::shape::heights::Heights;
+use serde::Serialize;
 use std::collections::BTreeMap;
-
-/// Length and radius of a bone group, model units.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
-pub struct GroupShape {
-    /// Sum over the group's bones, left and right.
-    pub length: f64,
-    /// Mean surrounding-mesh radius of the group's bones; absent where no ray met a surface.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub radius: Option<f64>,
-}
-
-/// Heights along up, model units.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[allow(missing_docs)]
-pub struct LandmarkHeights {
-    pub crown: f64,
-    pub chin: f64,
-    pub shoulder_line: f64,
-    pub crotch: f64,
-    pub sole: f64,
-}
 
 /// What was measured on one character.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -41,16 +22,7 @@ pub struct FigureReport {
     /// The file's own joints, by role, model space.
     pub file_joints: BTreeMap<String, [f64; 3]>,
     /// Read from the geometry.
-    pub landmarks: LandmarkHeights,
-}
-
-/// alpha and beta of a group.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Coefficient {
-    /// alpha_b.
-    pub length_scale: f64,
-    /// beta_b.
-    pub thickness_scale: f64,
+    pub landmarks: Heights,
 }
 
 /// Where the rig came from and how sure it is.

@@ -10,7 +10,7 @@ use superdeform::character::bones::{Bone, Group, HEAD_TOP, bones};
 use superdeform::face::{FaceMap, SphereMap, bearable_squash, f2, f2_slope, f4, f4_slope};
 use superdeform::geometry::Surface;
 use superdeform::pipeline::{FaceCurve, GroupSettings, Stage};
-use superdeform::report::Coefficient;
+use superdeform::shape::Coefficient;
 use superdeform::shape::measure::radius;
 use superdeform::shape::paper::field::{FieldBone, shares};
 use superdeform::shape::{BodyShape, BoneField, BoneShape, coefficients, head_top, measure, shorten};

@@ -3,10 +3,10 @@
 use glam::{DVec3, Vec3};
 use superdeform::parallel;
 use superdeform::pipeline::Rig;
-use superdeform::report::LandmarkHeights;
 use superdeform::rig::voxel::{VoxelOptions, voxel_weights};
 use superdeform::rig::{RigOptions, WeightBone};
 use superdeform::shape::BodyShape;
+use superdeform::shape::Heights;
 use superdeform::shape::product::anatomy::Proportions;
 use superdeform::{Character, Mesh};
 
@@ -50,12 +50,11 @@ fn a_sheet_any_number_of_times_as_wide_as_high_is_laid_out() {
 #[test]
 fn a_style_that_is_taken_can_be_saved_and_loaded() {
     // Landmarks that are no numbers were taken, saved as null, and not loaded again.
-    let good =
-        BodyShape { head_length: 1.0, landmarks: Some(LandmarkHeights::default()), ..BodyShape::default() };
+    let good = BodyShape { head_length: 1.0, landmarks: Some(Heights::default()), ..BodyShape::default() };
     assert_eq!(BodyShape::from_json(&good.to_json()).unwrap(), good);
     for wrong in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
-        let chin = LandmarkHeights { chin: wrong, ..LandmarkHeights::default() };
-        let sole = LandmarkHeights { sole: wrong, ..LandmarkHeights::default() };
+        let chin = Heights { chin: wrong, ..Heights::default() };
+        let sole = Heights { sole: wrong, ..Heights::default() };
         for (name, landmarks) in [("chin", chin), ("sole", sole)] {
             let style = BodyShape { landmarks: Some(landmarks), ..good.clone() };
             let error = style.validate().unwrap_err().to_string();

@@ -145,11 +145,11 @@ fn landmarks_are_read_where_people_were_built() {
         let hip_line = joints[&Role::LeftUpperLeg].y;
         let crotch = if person.skirt { hip_line - 0.03 * height } else { person.crotch() };
         for (what, found, expected, tolerance) in [
-            ("sole", marks.sole, 0.0, 1e-6),
-            ("crown", marks.crown, person.head_top(), 0.002 * height),
-            ("chin", marks.chin, person.chin(), 2.0 * row),
-            ("shoulder line", marks.shoulder_line, person.shoulder_line(), 1e-9),
-            ("crotch", marks.crotch, crotch, leg_row + hole + 1e-9),
+            ("sole", marks.heights.sole, 0.0, 1e-6),
+            ("crown", marks.heights.crown, person.head_top(), 0.002 * height),
+            ("chin", marks.heights.chin, person.chin(), 2.0 * row),
+            ("shoulder line", marks.heights.shoulder_line, person.shoulder_line(), 1e-9),
+            ("crotch", marks.heights.crotch, crotch, leg_row + hole + 1e-9),
         ] {
             if (found - expected).abs() > tolerance {
                 let off = (found - expected) / height;
@@ -392,7 +392,7 @@ fn the_ends_of_the_face_stay_for_any_squash() {
             let at = plain.character.skeleton.joints[head].position();
             let marks = landmarks(&plain.deformer.target().figure);
             let (chin, crown) = match mode {
-                Mode::Product => (marks.chin, marks.crown),
+                Mode::Product => (marks.heights.chin, marks.heights.crown),
                 // The paper's box is that of the head's vertices.
                 Mode::Paper => (adult().chin(), adult().crown()),
             };

@@ -16,7 +16,7 @@ use std::sync::{Arc, OnceLock};
 use superdeform::geometry::Surface;
 use superdeform::pipeline::{Deformed, Deformer, Options, Style};
 use superdeform::shape::Measured;
-use superdeform::shape::figure::{Figure, is_head};
+use superdeform::shape::figure::Figure;
 use superdeform::{MeshKind, Role};
 
 /// People of the usual build, in casual and formal clothes, one without a face, one in a dance pose.
@@ -62,14 +62,14 @@ fn new_chin(run: &Run) -> f64 {
     let before = run.before();
     let anatomy = &run.deformer.target().anatomy;
     let head = before.humanoid.joint(Role::Head).unwrap();
-    let chin = before.frame.to_model(anatomy.head_joint.with_y(anatomy.landmarks.chin));
+    let chin = before.frame.to_model(anatomy.head_joint.with_y(anatomy.landmarks.heights.chin));
     before.frame.to_canonical(run.deformer.map(head, chin).position).y
 }
 
 /// The median height of seven vertical rays on all that the head moves: in the middle of the bare head and a quarter of
 /// its half width around it.
 fn crown_with_hair(figure: &Figure) -> f64 {
-    let of_head = |vertex: usize| figure.weight_of(vertex, is_head) > 0.5;
+    let of_head = |vertex: usize| figure.weight_of(vertex, Role::is_head) > 0.5;
     let bare = (0..figure.positions.len())
         .filter(|&vertex| of_head(vertex) && figure.kind(vertex) != MeshKind::Hair)
         .map(|vertex| figure.positions[vertex]);
@@ -103,7 +103,7 @@ fn landmarks_lie_where_they_were_read_by_eye() {
     for (name, expected) in read_by_eye {
         let Some(loaded) = model(name) else { continue };
         let study = Measured::of(&loaded.character, &Options::default()).unwrap();
-        let head = crown_with_hair(&study.figure) - study.anatomy.landmarks.chin;
+        let head = crown_with_hair(&study.figure) - study.anatomy.landmarks.heights.chin;
         let found = study.anatomy.proportions;
         let found = [found.neck, found.torso, found.leg, found.arm].map(|length| length / head);
         for ((what, found), expected) in ["neck", "torso", "leg", "arm"].iter().zip(found).zip(expected) {
@@ -123,15 +123,15 @@ fn a_result_is_as_many_heads_tall_as_its_reference() {
     let tall: BTreeMap<&str, f64> = all_models()
         .keys()
         .filter(|name| !name.starts_with("cool_loops") && !name.starts_with("catbot"))
-        .map(|name| (name.as_str(), heads_of(name).landmarks.heads()))
+        .map(|name| (name.as_str(), heads_of(name).landmarks.heights.heads()))
         .filter(|&(_, heads)| heads >= 4.0)
         .collect();
     println!("people of 4 heads or more: {tall:.2?}");
     let runs: Vec<&Run> = runs().iter().filter(|run| tall.contains_key(run.target)).collect();
     check_all(&runs, |run| {
-        let asked = heads_of(run.style).landmarks.heads();
+        let asked = heads_of(run.style).landmarks.heights.heads();
         let written = Measured::of(&run.written().character, &Options::default()).unwrap();
-        let heads = written.anatomy.landmarks.heads();
+        let heads = written.anatomy.landmarks.heights.heads();
         let off = (heads / asked - 1.0).abs();
         (off > 0.03 && !run.has_warning("heads_limited"))
             .then(|| format!("{}: {heads:.3} heads instead of {asked:.3}", run.name))
@@ -144,7 +144,7 @@ fn a_result_is_as_many_heads_tall_as_its_reference() {
 fn a_result_has_as_many_heads_as_were_asked_for() {
     let off: Vec<(bool, bool, String)> = in_parallel(heads_runs(), |(asked, run)| {
         let written = Measured::of(&run.written().character, &Options::default()).unwrap();
-        let heads = written.anatomy.landmarks.heads();
+        let heads = written.anatomy.landmarks.heights.heads();
         let close = (heads / asked - 1.0).abs() <= 0.02;
         let limited = run.has_warning("heads_limited");
         (close, limited, format!("{}: {heads:.3} heads, limited {limited}", run.name))
@@ -164,7 +164,7 @@ fn the_chin_stays_above_the_shoulders() {
         }
         // Where the trunk takes the height of the shoulder line: joints of unequal height have another mean.
         let before = run.before();
-        let line = DVec3::Y * study.anatomy.landmarks.shoulder_line;
+        let line = DVec3::Y * study.anatomy.landmarks.heights.shoulder_line;
         let hips = before.humanoid.joint(Role::Hips).unwrap();
         let line = run.deformer.map(hips, before.frame.to_model(line)).position;
         let head = 1.5 * study.anatomy.proportions.head_length;
@@ -201,7 +201,7 @@ fn shoulders_lie_below_the_eyes() {
 fn nothing_but_feet_reaches_below_the_soles() {
     check_all(runs(), |run| {
         let (before, after) = (run.before(), run.after());
-        let sole = run.deformer.target().anatomy.landmarks.sole;
+        let sole = run.deformer.target().anatomy.landmarks.heights.sole;
         let line = sole - 1e-4 * run.height();
         let below: Vec<usize> = (0..before.positions.len())
             .filter(|&vertex| before.positions[vertex].y >= line && after.positions[vertex].y < line)
@@ -222,7 +222,7 @@ fn nothing_but_feet_reaches_below_the_soles() {
 fn soles_stay_as_flat_as_they_were() {
     check_all(runs(), |run| {
         let (before, after) = (run.before(), run.after());
-        let sole = run.deformer.target().anatomy.landmarks.sole;
+        let sole = run.deformer.target().anatomy.landmarks.heights.sole;
         let report = run.deformer.report(&run.deformed).unwrap();
         let foot = report.coefficients["foot"].length_scale;
         let of_sole: Vec<usize> = (0..before.positions.len())
@@ -259,7 +259,7 @@ fn what_belongs_to_the_head_alone_keeps_its_shape() {
         for (mesh, given) in run.loaded.character.meshes.iter().enumerate() {
             let vertices = before.mesh_starts[mesh]..before.mesh_starts[mesh + 1];
             let of_head = !vertices.is_empty()
-                && vertices.clone().all(|vertex| before.weight_of(vertex, is_head) >= 1.0 - 1e-6);
+                && vertices.clone().all(|vertex| before.weight_of(vertex, Role::is_head) >= 1.0 - 1e-6);
             if given.kind == Some(MeshKind::Hair) || !of_head {
                 continue;
             }
@@ -356,8 +356,9 @@ fn turned(run: &Run) -> [usize; 3] {
             continue;
         }
         counts[1] += 1;
-        let on_face =
-            |&vertex: &usize| before.weight_of(vertex, is_head) > 0.95 && before.positions[vertex].z > face;
+        let on_face = |&vertex: &usize| {
+            before.weight_of(vertex, Role::is_head) > 0.95 && before.positions[vertex].z > face
+        };
         counts[2] += usize::from(corners.iter().all(on_face));
     }
     counts

@@ -175,6 +175,18 @@ impl Role {
     pub fn is_left(self) -> bool {
         self.name().starts_with("left")
     }
+
+    /// True for the head and what moves with it: eyes and jaw.
+    pub fn is_head(self) -> bool {
+        matches!(self, Head | LeftEye | RightEye | Jaw)
+    }
+
+    /// True for arms and legs, from upper arm and upper leg to the tips of fingers and toes.
+    pub fn is_limb(self) -> bool {
+        let is_trunk =
+            matches!(self, Hips | Spine | Chest | UpperChest | LeftShoulder | RightShoulder | Neck);
+        !(is_trunk || self.is_head())
+    }
 }
 
 impl fmt::Display for Role {

@@ -1,6 +1,7 @@
 //! What a character is (§III, §IV-A): meshes, joints, weights and the humanoid roles of its joints.
 
 pub mod bones;
+pub mod frame;
 pub mod humanoid;
 pub mod mesh;
 pub mod naming;
@@ -10,6 +11,7 @@ pub mod tree_roles;
 pub mod weights;
 
 use crate::error::{Error, ErrorKind, Result};
+pub use frame::Frame;
 use glam::Vec3;
 pub use humanoid::{Humanoid, Role};
 pub use mesh::{Mesh, MeshKind, MorphTarget};

@@ -9,10 +9,9 @@ use super::table::{self, Object};
 use crate::character::Role;
 use crate::character::bones::HEAD_TOP;
 use crate::pipeline::Style;
-use crate::report::LandmarkHeights;
 use crate::shape::product::anatomy::Proportions;
 use crate::shape::style::BUILT_IN;
-use crate::shape::{BodyShape, BoneShape, Measured};
+use crate::shape::{BodyShape, BoneShape, Heights, Measured};
 use core::ffi::c_char;
 use std::sync::Arc;
 
@@ -249,7 +248,7 @@ pub unsafe fn from_numbers(
         let mut made = BodyShape {
             name: arrays::text(name),
             head_length: given.bone_head_length,
-            landmarks: known(given.crown).map(|crown| LandmarkHeights {
+            landmarks: known(given.crown).map(|crown| Heights {
                 crown,
                 chin: given.chin,
                 shoulder_line: given.shoulder_line,

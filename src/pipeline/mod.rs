@@ -12,22 +12,24 @@ use crate::geometry::{SEAM, Weld, components, weld};
 pub use crate::options::{FaceCurve, GroupSettings, Mode, Options, Stage};
 use crate::parallel;
 use crate::progress::Progress;
-use crate::report::{Coefficient, Counts, FigureReport, GroupShape, Report, RigReport, Timing};
-use crate::shape::BodyShape;
+use crate::report::{Counts, FigureReport, Report, RigReport, Timing};
 use crate::shape::directions::{Gradients, RestTriangles, has_volume, normal_matrix};
 use crate::shape::field::{Binding, BoneBinding, Field, PaperField};
-use crate::shape::figure::{Figure, extent, is_head};
-use crate::shape::measured::{Measured, group_shapes, is_of_head};
+use crate::shape::figure::{Figure, extent};
+use crate::shape::group::group_shapes;
+use crate::shape::heights::Heights;
+use crate::shape::measured::{Measured, is_of_head};
 use crate::shape::paper::coefficients::coefficients;
 use crate::shape::paper::field::BoneField;
 use crate::shape::paper::shorten::{Shortened, shorten};
-use crate::shape::product::anatomy::Part;
+use crate::shape::product::binding::{PartBinding, PartBindings, joint_binding, part_bindings};
 use crate::shape::product::coefficients::{PartCoefficients, Wanted, part_coefficients};
-use crate::shape::product::field::{Heights, PartField};
+use crate::shape::product::field::PartField;
 use crate::shape::product::hair::HairOnBody;
 use crate::shape::product::landmarks::{HeadSources, Posed};
-use crate::shape::product::weights::{PartBinding, PartBindings, joint_binding, part_bindings};
+use crate::shape::product::part::Part;
 pub use crate::shape::style::Style;
+use crate::shape::{BodyShape, Coefficient, GroupShape};
 use glam::{DMat3, DVec3, Mat3A, Vec3, Vec3A, Vec4};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Arc, OnceLock};
@@ -466,7 +468,7 @@ impl Deformer {
     fn keep_hair_outside(&mut self) {
         let figure = &self.study.figure;
         let hair = self.found.hair.get_or_init(|| {
-            let chin = self.study.anatomy.landmarks.chin;
+            let chin = self.study.anatomy.landmarks.heights.chin;
             let part = |vertex: usize, part: Part| match &self.bindings[vertex] {
                 Binding::Parts(binding) => binding.weights[part as usize],
                 _ => 0.0,
@@ -543,7 +545,7 @@ impl Deformer {
         let figure = &self.study.figure;
         let bind = |p: DVec3, weights: &[(Role, f64)]| BoneBinding {
             weights: field.bone_weights(p, weights),
-            head: weights.iter().filter(|&&(role, _)| is_head(role)).map(|&(_, weight)| weight).sum(),
+            head: weights.iter().filter(|&&(role, _)| role.is_head()).map(|&(_, weight)| weight).sum(),
             on_face: None,
         };
         let mut bindings: Vec<BoneBinding> = figure
@@ -892,14 +894,14 @@ impl Deformer {
     fn is_head_joint_in_neck(&self, joint: usize) -> bool {
         let figure = &self.study.figure;
         figure.humanoid.joint(Role::Head) == Some(joint)
-            && figure.joints[joint].y < self.study.anatomy.landmarks.chin
+            && figure.joints[joint].y < self.study.anatomy.landmarks.heights.chin
     }
 
     /// Where the field takes `point`, attached to `joint`; both in model space.
     pub fn map(&self, joint: usize, point: DVec3) -> Mapped {
         let frame = &self.study.figure.frame;
         let p = frame.to_canonical(point);
-        let is_above_chin = p.y >= self.study.anatomy.landmarks.chin;
+        let is_above_chin = p.y >= self.study.anatomy.landmarks.heights.chin;
         // What hangs from a head joint in the neck is on the head all the same, above the chin.
         let on_head = Binding::Parts(PartBinding::to(Part::Head));
         let binding = match &self.field {

@@ -1,9 +1,8 @@
 //! The meshes to rig, laid out in one space: x towards the character's left, y up, z forward, the lowest vertex at y = 0,
 //! the highest at y = 1, the middle of the bounding box at x = z = 0.
 
-use crate::character::{Character, MeshKind};
+use crate::character::{Character, Frame, MeshKind};
 use crate::error::{Error, ErrorKind, Result};
-use crate::shape::figure::Frame;
 use glam::DVec3;
 use std::ops::Range;
 

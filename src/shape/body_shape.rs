@@ -1,8 +1,8 @@
 //! A body's shape: two numbers for every bone, L and R of §V-A. All that is needed of a reference.
 
+use super::heights::Heights;
 use crate::character::Role;
 use crate::character::bones::HEAD_TOP;
-use crate::report::LandmarkHeights;
 use crate::shape::product::anatomy::Proportions;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
@@ -36,7 +36,7 @@ pub struct BodyShape {
     pub bones: BTreeMap<String, BoneShape>,
     /// Heights of landmarks.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub landmarks: Option<LandmarkHeights>,
+    pub landmarks: Option<Heights>,
     /// Lengths and widths of the fifteen parts, which product mode transfers.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub proportions: Option<Proportions>,

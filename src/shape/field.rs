@@ -3,8 +3,8 @@
 //! Everything goes through one field: vertices, morph targets, joints, and any point a host attaches to a joint.
 
 use super::paper::field::BoneField;
+use super::product::binding::PartBinding;
 use super::product::field::PartField;
-use super::product::weights::PartBinding;
 use crate::face::FaceShape;
 use crate::options::Stage;
 use glam::{DMat3, DVec3};

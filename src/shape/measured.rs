@@ -1,7 +1,8 @@
 //! All that is read from one character before anything is deformed (§V-A): layout, anatomy, bones, body shape.
 
 use super::body_shape::BodyShape;
-use super::figure::{Figure, is_head};
+use super::figure::Figure;
+use super::group::group_shapes;
 use super::measure::measure;
 use super::product::anatomy::Anatomy;
 use crate::character::bones::{Bone, bones};
@@ -10,7 +11,7 @@ use crate::error::Result;
 use crate::geometry::Surface;
 use crate::options::{Mode, Options};
 use crate::parallel;
-use crate::report::{FigureReport, GroupShape, LandmarkHeights};
+use crate::report::FigureReport;
 use glam::DVec3;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -50,21 +51,15 @@ impl Measured {
         let (surfaces, anatomy) = parallel::both(threads, || surfaces(&figure), || Anatomy::of(&figure));
         let joints: BTreeMap<Role, DVec3> =
             figure.humanoid.iter().map(|(role, joint)| (role, figure.joints[joint])).collect();
-        let marks = &anatomy.landmarks;
+        let heights = anatomy.landmarks.heights;
         // A head joint above the crown would make a head of no length; a sliver is left.
         let least = anatomy.head_joint.y + 0.01 * figure.height();
-        let head_top = anatomy.head_joint.with_y(marks.crown.max(least));
+        let head_top = anatomy.head_joint.with_y(heights.crown.max(least));
         let roles: BTreeSet<Role> = joints.keys().copied().collect();
         let bones = bones(&roles, &options.bone_groups);
         let surfaces: Vec<&Surface> = surfaces.iter().collect();
         let mut shape = measure(&bones, &joints, head_top, &surfaces, options.ray_count())?;
-        shape.landmarks = Some(LandmarkHeights {
-            crown: marks.crown,
-            chin: marks.chin,
-            shoulder_line: marks.shoulder_line,
-            crotch: marks.crotch,
-            sole: marks.sole,
-        });
+        shape.landmarks = Some(heights);
         shape.proportions = Some(anatomy.proportions.clone());
         Ok(Self { figure, anatomy, joints, head_top, shape })
     }
@@ -77,7 +72,7 @@ impl Measured {
 
     /// The numbers for the report, with the groups measured over `roles` alone.
     pub fn report(&self, roles: &BTreeSet<Role>, options: &Options) -> FigureReport {
-        let marks = &self.anatomy.landmarks;
+        let heights = self.anatomy.landmarks.heights;
         let joints: BTreeMap<String, [f64; 3]> = self
             .joints
             .iter()
@@ -87,39 +82,15 @@ impl Measured {
             height: self.figure.height(),
             head_length: match options.mode {
                 Mode::Paper => self.shape.head_length,
-                Mode::Product => marks.head_length(),
+                Mode::Product => heights.head_length(),
             },
-            heads: marks.heads(),
+            heads: heights.heads(),
             shape: group_shapes(&self.shape, roles, options),
             file_joints: joints.clone(),
             joints,
-            landmarks: self.shape.landmarks.unwrap_or_default(),
+            landmarks: heights,
         }
     }
-}
-
-/// Length and radius of every bone group, measured over `roles` alone, so that two bodies can be compared.
-pub fn group_shapes(
-    shape: &BodyShape,
-    roles: &BTreeSet<Role>,
-    options: &Options,
-) -> BTreeMap<String, GroupShape> {
-    let shape = shape.restricted_to(roles);
-    let common: BTreeSet<Role> = shape.roles();
-    let mut radii: BTreeMap<String, Vec<f64>> = BTreeMap::new();
-    let mut groups: BTreeMap<String, GroupShape> = BTreeMap::new();
-    for bone in bones(&common, &options.bone_groups) {
-        let Some(measured) = shape.bones.get(bone.key()) else {
-            continue;
-        };
-        groups.entry(bone.group.clone()).or_default().length += measured.length;
-        radii.entry(bone.group).or_default().extend(measured.radius);
-    }
-    for (name, group) in &mut groups {
-        let radii = &radii[name];
-        group.radius = (!radii.is_empty()).then(|| radii.iter().sum::<f64>() / radii.len() as f64);
-    }
-    groups
 }
 
 /// What the rays meet, from narrow to wide: the body, and the body with its garments where it has some; everything
@@ -146,5 +117,5 @@ fn mesh_set(figure: &Figure, choose: impl Fn(MeshKind) -> bool) -> Vec<[u32; 3]>
 
 /// True where most of a vertex's weight is the head's.
 pub fn is_of_head(figure: &Figure, vertex: usize) -> bool {
-    figure.weight_of(vertex, is_head) > 0.5
+    figure.weight_of(vertex, Role::is_head) > 0.5
 }

@@ -4,6 +4,8 @@ pub mod body_shape;
 pub mod directions;
 pub mod field;
 pub mod figure;
+pub mod group;
+pub mod heights;
 pub mod measure;
 pub mod measured;
 pub mod paper;
@@ -11,6 +13,8 @@ pub mod product;
 pub mod style;
 
 pub use body_shape::{BodyShape, BoneShape};
+pub use group::{Coefficient, GroupShape};
+pub use heights::Heights;
 pub use measure::{HeadTop, head_top, measure};
 pub use measured::Measured;
 pub use paper::{BoneField, Coefficients, Shortened, coefficients, shorten};

@@ -4,8 +4,7 @@ use crate::character::Role;
 use crate::character::bones::{Bone, Group, bones};
 use crate::error::{Error, ErrorKind, Result, Warning};
 use crate::options::GroupSettings;
-use crate::report::Coefficient;
-use crate::shape::BodyShape;
+use crate::shape::{BodyShape, Coefficient};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// alpha_head. Paper, V-B1.

@@ -4,8 +4,7 @@ use crate::character::Role;
 use crate::character::bones::{Bone, Group};
 use crate::geometry::foot;
 use crate::options::Stage;
-use crate::report::Coefficient;
-use crate::shape::Shortened;
+use crate::shape::{Coefficient, Shortened};
 use glam::{DMat3, DVec3};
 use std::collections::BTreeMap;
 

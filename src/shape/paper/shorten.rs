@@ -2,7 +2,7 @@
 
 use crate::character::Role;
 use crate::character::bones::Bone;
-use crate::report::Coefficient;
+use crate::shape::Coefficient;
 use glam::DVec3;
 use std::collections::BTreeMap;
 

@@ -5,79 +5,17 @@
 //! not matter where an artist put the joints in between.
 
 use super::landmarks::{Landmarks, landmarks};
+use super::part::{Part, PartWeights, fold_to_parts};
 use crate::character::Role;
 use crate::error::Warning;
 use crate::geometry::segment::foot;
-use crate::shape::figure::{Figure, is_head};
+use crate::shape::figure::Figure;
+use crate::shape::heights::Heights;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-/// One of the fifteen parts of a body that move by one map each, or hair, whose map is the head's above the chin.
-#[allow(missing_docs)]
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-#[repr(u8)]
-pub enum Part {
-    Trunk,
-    Neck,
-    Head,
-    LeftUpperArm,
-    LeftLowerArm,
-    LeftHand,
-    RightUpperArm,
-    RightLowerArm,
-    RightHand,
-    LeftUpperLeg,
-    LeftLowerLeg,
-    LeftFoot,
-    RightUpperLeg,
-    RightLowerLeg,
-    RightFoot,
-    /// What moves with the head, but below the chin follows the heights of the body.
-    Hair,
-}
-
 /// A chin at or below the shoulder line still leaves this much neck, as a part of L.
 const SHORTEST_NECK: f64 = 0.02;
-
-/// How many parts there are, hair included.
-pub const PART_COUNT: usize = 16;
-
-impl Part {
-    /// The part that the role's joint moves.
-    pub fn of(role: Role) -> Part {
-        use Role::*;
-        match role {
-            Hips | Spine | Chest | UpperChest | LeftShoulder | RightShoulder => Part::Trunk,
-            Neck => Part::Neck,
-            Head | LeftEye | RightEye | Jaw => Part::Head,
-            LeftUpperArm => Part::LeftUpperArm,
-            LeftLowerArm => Part::LeftLowerArm,
-            RightUpperArm => Part::RightUpperArm,
-            RightLowerArm => Part::RightLowerArm,
-            LeftUpperLeg => Part::LeftUpperLeg,
-            LeftLowerLeg => Part::LeftLowerLeg,
-            LeftFoot | LeftToes => Part::LeftFoot,
-            RightUpperLeg => Part::RightUpperLeg,
-            RightLowerLeg => Part::RightLowerLeg,
-            RightFoot | RightToes => Part::RightFoot,
-            // The rest are hands and fingers.
-            other if other.is_left() => Part::LeftHand,
-            _ => Part::RightHand,
-        }
-    }
-}
-
-/// Weights to the parts, in the order of [`Part`].
-pub type PartWeights = [f32; PART_COUNT];
-
-/// A vertex's role weights summed by part.
-pub fn fold_to_parts(role_weights: &[(Role, f64)]) -> PartWeights {
-    let mut parts = [0.0; PART_COUNT];
-    for &(role, weight) in role_weights {
-        parts[Part::of(role) as usize] += weight as f32;
-    }
-    parts
-}
 
 /// An arm from shoulder to wrist, or a leg from the height of the crotch to the ankle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -164,12 +102,13 @@ impl Anatomy {
     /// Reads the anatomy of `figure`.
     pub fn of(figure: &Figure) -> Self {
         let landmarks = landmarks(figure);
+        let heights = landmarks.heights;
         let parts: Vec<PartWeights> = figure.role_weights.iter().map(|row| fold_to_parts(row)).collect();
         let limbs = [
             arm(figure, &parts, true),
             arm(figure, &parts, false),
-            leg(figure, &landmarks, true),
-            leg(figure, &landmarks, false),
+            leg(figure, heights, true),
+            leg(figure, heights, false),
         ];
         let middle_x = limbs.iter().map(|limb| limb.root.x).sum::<f64>() / 4.0;
         // Bags and weapons are no girth of anybody's, unless there is nothing else.
@@ -186,23 +125,22 @@ impl Anatomy {
                     && figure.extra_weight[vertex] < 0.5
                     && !figure.is_carried(vertex)
             });
-            let measurable =
-                slice(figure, &bare, 0.5 * (landmarks.crotch + landmarks.shoulder_line), 0.03, 0.97);
+            let measurable = slice(figure, &bare, 0.5 * (heights.crotch + heights.shoulder_line), 0.03, 0.97);
             if measurable.is_some() { bare } else { own(Part::Trunk as usize) }
         };
         let head_joint = figure.role_position(Role::Head).unwrap_or_default();
-        let bare_head = figure
-            .triangles_where(|vertex| figure.weight_of(vertex, is_head) > 0.5 && !figure.is_carried(vertex));
+        let bare_head = figure.triangles_where(|vertex| {
+            figure.weight_of(vertex, Role::is_head) > 0.5 && !figure.is_carried(vertex)
+        });
         let head = if bare_head.is_empty() { own(Part::Head as usize) } else { bare_head };
-        let head_centre =
-            centre(figure, &head).unwrap_or(DVec3::new(middle_x, landmarks.crown, head_joint.z));
+        let head_centre = centre(figure, &head).unwrap_or(DVec3::new(middle_x, heights.crown, head_joint.z));
 
-        let length = landmarks.head_length();
-        let head_half_width = slice(figure, &head, landmarks.chin + 0.35 * length, 0.03, 0.97)
+        let length = heights.head_length();
+        let head_half_width = slice(figure, &head, heights.chin + 0.35 * length, 0.03, 0.97)
             .map(|slice| slice.half_width)
             .filter(|&half| half > 0.05 * length)
             .unwrap_or(0.4 * length);
-        let (bottom, top) = (landmarks.crotch, landmarks.shoulder_line);
+        let (bottom, top) = (heights.crotch, heights.shoulder_line);
         let mut widths: Vec<f64> = (1..=5)
             .filter_map(|step| {
                 slice(figure, &trunk, bottom + 0.15 * f64::from(step) * (top - bottom), 0.03, 0.97)
@@ -231,11 +169,11 @@ impl Anatomy {
         let proportions = Proportions {
             head_length: length,
             head_half_width,
-            neck: (landmarks.chin - landmarks.shoulder_line).max(SHORTEST_NECK * length),
+            neck: (heights.chin - heights.shoulder_line).max(SHORTEST_NECK * length),
             torso: (top - bottom).max(least),
             arm: (arms.iter().map(Limb::length).sum::<f64>() / 2.0).max(least),
-            leg: (bottom - landmarks.sole).max(least),
-            ankle_height: legs.iter().map(|leg| leg.end.y - landmarks.sole).sum::<f64>() / 2.0,
+            leg: (bottom - heights.sole).max(least),
+            ankle_height: legs.iter().map(|leg| leg.end.y - heights.sole).sum::<f64>() / 2.0,
             hand: extremity(arms, &|limb, points| {
                 let along = (limb.end - limb.middle).normalize_or_zero();
                 points.iter().map(|p| (*p - limb.end).dot(along)).fold(0.0, f64::max)
@@ -252,7 +190,7 @@ impl Anatomy {
             upper_leg_radius: radius(0, legs),
             lower_leg_radius: radius(1, legs),
         };
-        let centre_line = centre_line(figure, &trunk, &landmarks);
+        let centre_line = centre_line(figure, &trunk, heights);
         Self { landmarks, limbs, middle_x, centre_line, head_centre, head_joint, proportions }
     }
 
@@ -326,13 +264,13 @@ fn arm(figure: &Figure, parts: &[PartWeights], left: bool) -> Limb {
 }
 
 /// Hip (at the height of the crotch), knee and ankle of one side.
-fn leg(figure: &Figure, landmarks: &Landmarks, left: bool) -> Limb {
+fn leg(figure: &Figure, heights: Heights, left: bool) -> Limb {
     use Role::*;
     let side = |role: Role| if left { role } else { role.mirrored() };
     let hip = figure.role_position(side(LeftUpperLeg)).unwrap_or_default();
-    let root = DVec3::new(hip.x, landmarks.crotch, hip.z);
-    let length = landmarks.crotch - landmarks.sole;
-    let between = |y: f64| y > landmarks.sole + 0.02 * length && y < landmarks.crotch - 0.1 * length;
+    let root = DVec3::new(hip.x, heights.crotch, hip.z);
+    let length = heights.crotch - heights.sole;
+    let between = |y: f64| y > heights.sole + 0.02 * length && y < heights.crotch - 0.1 * length;
     let foot_joint = figure.role_position(side(LeftFoot));
     let knee = figure.role_position(side(LeftLowerLeg)).filter(|knee| between(knee.y)).unwrap_or_else(|| {
         match foot_joint.filter(|foot| between(foot.y)) {
@@ -342,11 +280,10 @@ fn leg(figure: &Figure, landmarks: &Landmarks, left: bool) -> Limb {
     });
     // A foot joint may be missing, lie on the sole, or be the far root of an IK chain.
     let near = |foot: &DVec3| (*foot - knee).with_y(0.0).length() < 0.35 * length;
-    let end = foot_joint.filter(|foot| {
-        near(foot) && foot.y < knee.y - 0.1 * length && foot.y > landmarks.sole + 0.02 * length
-    });
+    let end = foot_joint
+        .filter(|foot| near(foot) && foot.y < knee.y - 0.1 * length && foot.y > heights.sole + 0.02 * length);
     let ankle = end.unwrap_or_else(|| {
-        let y = landmarks.sole + 0.1 * length;
+        let y = heights.sole + 0.1 * length;
         let x = match foot_joint.filter(near) {
             Some(foot) if foot.y < y => knee.x + (foot.x - knee.x) * (knee.y - y) / (knee.y - foot.y),
             _ => knee.x,
@@ -436,9 +373,9 @@ fn surface_radius(figure: &Figure, triangles: &[[u32; 3]], a: DVec3, b: DVec3) -
 }
 
 /// The trunk's centre line from the crotch to the shoulder line, smoothed.
-fn centre_line(figure: &Figure, trunk: &[[u32; 3]], landmarks: &Landmarks) -> Vec<(f64, f64)> {
+fn centre_line(figure: &Figure, trunk: &[[u32; 3]], heights: Heights) -> Vec<(f64, f64)> {
     const SLICES: usize = 13;
-    let (bottom, top) = (landmarks.crotch, landmarks.shoulder_line);
+    let (bottom, top) = (heights.crotch, heights.shoulder_line);
     let raw: Vec<(f64, f64)> = (0..SLICES)
         .filter_map(|index| {
             let y = bottom + (top - bottom) * index as f64 / (SLICES - 1) as f64;

@@ -8,7 +8,7 @@ use super::anatomy::Proportions;
 use crate::character::bones::Group;
 use crate::error::{Error, ErrorKind, Result, Warning};
 use crate::options::{GroupSettings, Options, Stage};
-use crate::report::Coefficient;
+use crate::shape::Coefficient;
 use std::collections::BTreeMap;
 
 /// The head grows this much more in width and depth than in height.

@@ -5,11 +5,14 @@
 //! ground up; soles, crotch, shoulder line and chin are where neighbouring maps meet, and limbs start where the
 //! trunk's map puts their joints. A vertex goes where the weighted mean of its parts' maps puts it.
 
-use super::anatomy::{Anatomy, PART_COUNT, Part, PartWeights};
+use super::anatomy::Anatomy;
+use super::binding::{PartBinding, PartBindings};
 use super::coefficients::PartCoefficients;
-use super::weights::{Manner, PartBinding, PartBindings};
+use super::hair::HairMap;
+use super::part::{PART_COUNT, Part, PartWeights};
+use super::pieces::Attachment;
 use crate::face::FaceShape;
-use crate::shape::product::hair::HairMap;
+use crate::shape::heights::Heights;
 use glam::{DMat3, DVec3};
 
 /// The head moves back by this part of its distance before the chest, at most so many new heads.
@@ -24,21 +27,6 @@ const TRUNK: usize = Part::Trunk as usize;
 const NECK: usize = Part::Neck as usize;
 const HEAD: usize = Part::Head as usize;
 const HAIR: usize = Part::Hair as usize;
-
-/// Heights that neighbouring parts share.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Heights {
-    /// The lowest point of the feet.
-    pub sole: f64,
-    /// Where the legs meet.
-    pub crotch: f64,
-    /// Height of the upper-arm joints.
-    pub shoulder_line: f64,
-    /// The underside of the face.
-    pub chin: f64,
-    /// The top of the head.
-    pub crown: f64,
-}
 
 /// p -> to + linear (p - from).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -100,21 +88,14 @@ impl PartField {
         hair_length: f64,
         amount: f64,
     ) -> Self {
-        let marks = &anatomy.landmarks;
         let proportions = &anatomy.proportions;
-        let before = Heights {
-            sole: marks.sole,
-            crotch: marks.crotch,
-            shoulder_line: marks.shoulder_line,
-            chin: marks.chin,
-            crown: marks.crown,
-        };
+        let before = anatomy.landmarks.heights;
         let leg = anatomy.limbs[2..]
             .iter()
             .map(|leg| {
                 coefficients.limbs[2][0] * (leg.root.y - leg.middle.y)
                     + coefficients.limbs[3][0] * (leg.middle.y - leg.end.y)
-                    + coefficients.foot * (leg.end.y - marks.sole)
+                    + coefficients.foot * (leg.end.y - before.sole)
             })
             .sum::<f64>()
             / 2.0;
@@ -167,7 +148,7 @@ impl PartField {
             .pieces
             .iter()
             .map(|piece| {
-                let (to, jacobian) = field.blend(piece.anchor, &piece.weights, Manner::Plain);
+                let (to, jacobian) = field.blend(piece.anchor, &piece.weights, Attachment::Plain);
                 let mut scale = jacobian.determinant().abs().cbrt();
                 if piece.lowest >= before.sole && piece.anchor.y > piece.lowest {
                     // What did not reach the ground does not reach below it.
@@ -219,9 +200,9 @@ impl PartField {
     /// Where `p` goes, and the Jacobian there at fixed binding.
     #[inline(always)]
     pub fn map(&self, p: DVec3, binding: &PartBinding) -> (DVec3, DMat3) {
-        let (to, jacobian) = match binding.manner {
-            Manner::Piece(piece) => (self.pieces[piece].map(p), self.pieces[piece].linear),
-            manner => self.blend(p, &binding.weights, manner),
+        let (to, jacobian) = match binding.attachment {
+            Attachment::Piece(piece) => (self.pieces[piece].map(p), self.pieces[piece].linear),
+            attachment => self.blend(p, &binding.weights, attachment),
         };
         // Written so that amount 0 gives p itself, bit for bit.
         let moved = p + self.amount * (to - p) + DVec3::Y * self.ground;
@@ -229,13 +210,13 @@ impl PartField {
     }
 
     #[inline(always)]
-    fn blend(&self, p: DVec3, weights: &PartWeights, manner: Manner) -> (DVec3, DMat3) {
+    fn blend(&self, p: DVec3, weights: &PartWeights, attachment: Attachment) -> (DVec3, DMat3) {
         let mut to = DVec3::ZERO;
         let mut jacobian = DMat3::ZERO;
         let mut total = 0.0;
         for (part, &weight) in weights.iter().enumerate().filter(|&(_, &weight)| weight > 0.0) {
             let weight = f64::from(weight);
-            let (q, j) = self.part(part, p, manner);
+            let (q, j) = self.part(part, p, attachment);
             to += weight * q;
             jacobian += j * weight;
             total += weight;
@@ -244,12 +225,12 @@ impl PartField {
     }
 
     #[inline(always)]
-    fn part(&self, part: usize, p: DVec3, manner: Manner) -> (DVec3, DMat3) {
+    fn part(&self, part: usize, p: DVec3, attachment: Attachment) -> (DVec3, DMat3) {
         match part {
             TRUNK => self.trunk(p),
             NECK => self.neck(p),
-            HEAD => self.head(p, manner, false),
-            HAIR => self.head(p, manner, true),
+            HEAD => self.head(p, attachment, false),
+            HAIR => self.head(p, attachment, true),
             _ => (self.affine[part].map(p), self.affine[part].linear),
         }
     }
@@ -304,13 +285,13 @@ impl PartField {
     }
 
     #[inline(always)]
-    fn head(&self, p: DVec3, manner: Manner, is_hair: bool) -> (DVec3, DMat3) {
+    fn head(&self, p: DVec3, attachment: Attachment, is_hair: bool) -> (DVec3, DMat3) {
         let affine = &self.affine[HEAD];
         let (to, jacobian) = match &self.hair {
             Some(hair) if is_hair && p.y < self.before.chin => hair.map(p),
             _ => (affine.map(p), affine.linear),
         };
-        if let Manner::OnFace(centre) = &manner {
+        if let Attachment::OnFace(centre) = &attachment {
             return (to + self.shift_on_face(centre), jacobian);
         }
         let (made_younger, face_jacobian) = self.face.map(to);

@@ -5,8 +5,7 @@
 //! body's, and nowhere becomes broader than it is on the head: hair that spreads over the shoulders of an adult would
 //! stand out like a skirt from a child's.
 
-use crate::geometry::{Neighbours, Surface, Weld, double_area, neighbours};
-use crate::shape::product::weights::smoothstep;
+use crate::geometry::{Neighbours, Surface, Weld, double_area, neighbours, smoothstep};
 use glam::{DMat3, DVec3};
 
 /// The slope of the height's map at the chin, against the mean slope: 1 would be straight, 2 would come to rest at

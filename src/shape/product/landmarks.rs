@@ -6,7 +6,8 @@
 use crate::character::Role;
 use crate::error::Warning;
 use crate::geometry::surface::Surface;
-use crate::shape::figure::{Figure, extent, is_head};
+use crate::shape::figure::{Figure, extent};
+use crate::shape::heights::Heights;
 use glam::DVec3;
 
 /// A vertex with this much weight to the head moves with it alone.
@@ -36,19 +37,11 @@ const BESIDE_MIDDLE: f64 = 7e-4;
 /// Rows of rays that look for the crotch.
 const CROTCH_ROWS: usize = 200;
 
-/// Heights along up in the figure's units, and how they were found.
+/// The landmarks of a figure, in its units, and how they were found.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Landmarks {
-    /// The top of the head, without hair where the head has a skull.
-    pub crown: f64,
-    /// The underside of the face.
-    pub chin: f64,
-    /// Mean height of the two upper-arm joints.
-    pub shoulder_line: f64,
-    /// Where the legs meet.
-    pub crotch: f64,
-    /// The lowest point of the feet.
-    pub sole: f64,
+    /// Where they are.
+    pub heights: Heights,
     /// False where no chin was seen and a ratio stands in for it.
     pub chin_seen: bool,
     /// False where a skirt or a robe hides the crotch and a ratio stands in for it.
@@ -58,16 +51,6 @@ pub struct Landmarks {
 }
 
 impl Landmarks {
-    /// L: chin to crown.
-    pub fn head_length(&self) -> f64 {
-        self.crown - self.chin
-    }
-
-    /// How many heads tall: (crown - sole) / (crown - chin).
-    pub fn heads(&self) -> f64 {
-        (self.crown - self.sole) / self.head_length()
-    }
-
     /// What a person should know about how these were found; `whose` is `target` or `reference`.
     pub fn warnings(&self, whose: &str) -> Vec<Warning> {
         let mut warnings = Vec::new();
@@ -101,7 +84,8 @@ pub fn landmarks(figure: &Figure) -> Landmarks {
     let (crotch, crotch_seen) = crotch(figure, hip_line);
     let crotch =
         crotch.clamp(sole + 0.01 * height, (shoulder_line - 0.01 * height).max(sole + 0.01 * height));
-    Landmarks { crown, chin, shoulder_line, crotch, sole, chin_seen, crotch_seen, crown_with_hair }
+    let heights = Heights { crown, chin, shoulder_line, crotch, sole };
+    Landmarks { heights, chin_seen, crotch_seen, crown_with_hair }
 }
 
 /// What crown, chin and soles of a figure are read from: its weights and kinds say so, not where it is, so it is found once
@@ -139,14 +123,14 @@ impl HeadSources {
     pub fn of(figure: &Figure) -> Self {
         let of_head = |bare: bool| {
             let all = figure.triangles_where(|vertex| {
-                figure.weight_of(vertex, is_head) > 0.5 && !(bare && figure.is_carried(vertex))
+                figure.weight_of(vertex, Role::is_head) > 0.5 && !(bare && figure.is_carried(vertex))
             });
-            let is_sure = |&v: &u32| figure.weight_of(v as usize, is_head) > SURE_WEIGHT;
+            let is_sure = |&v: &u32| figure.weight_of(v as usize, Role::is_head) > SURE_WEIGHT;
             let sure = all.iter().filter(|corners| corners.iter().all(is_sure)).copied().collect();
             HeadTriangles { all, sure }
         };
         let is_upper = |role: Role| {
-            is_head(role)
+            role.is_head()
                 || matches!(role, Role::Neck | Role::UpperChest | Role::Chest | Role::Spine | Role::Hips)
                 || matches!(role, Role::LeftShoulder | Role::RightShoulder)
         };
@@ -181,7 +165,7 @@ impl HeadSources {
         heights.min_by(f64::total_cmp).unwrap_or(extent(&posed.positions).0)
     }
 
-    /// How many heads tall that is: [`Landmarks::heads`], without what that does not need.
+    /// How many heads tall that is: [`Heights::heads`], without what that does not need.
     pub fn heads(&self, posed: &Posed) -> f64 {
         let Upper { crown, chin, .. } = upper(self, posed);
         (crown - self.sole(posed)) / (crown - chin)

@@ -1,0 +1,283 @@
+//! What keeps its shape: hats, bags, buttons move and scale as one (product mode).
+
+use super::part::{PART_COUNT, Part, PartWeights, add};
+use crate::character::{MeshKind, Role, Skeleton};
+use crate::geometry::{Bounds, Groups, PointTree, bounds, touching};
+use crate::shape::figure::Figure;
+use glam::DVec3;
+use std::collections::BTreeMap;
+
+/// Loose pieces smaller than this share of H keep their shape: buttons, buckles, badges.
+const SMALL_PIECE: f64 = 0.04;
+/// Boxes closer than this share of H touch.
+const TOUCHING: f64 = 0.005;
+/// A vertex with this much weight to one joint counts as rigid.
+const RIGID_WEIGHT: f64 = 0.99;
+
+/// How a point takes part in the deformation, besides its weights.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Attachment {
+    /// By its weights alone.
+    #[default]
+    Plain,
+    /// A hat or glasses: takes the face map of this point as a whole.
+    OnFace(DVec3),
+    /// Moves with piece number so-and-so, which keeps its shape.
+    Piece(usize),
+}
+
+/// A piece that keeps its shape: it is moved and scaled as one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Piece {
+    /// The point that the body carries along.
+    pub anchor: DVec3,
+    /// The height of its lowest vertex.
+    pub lowest: f64,
+    /// The parts that move the anchor.
+    pub weights: PartWeights,
+}
+
+/// The pieces of a figure.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pieces {
+    /// One for each vertex.
+    pub attachments: Vec<Attachment>,
+    /// The pieces that [`Attachment::Piece`] speaks of.
+    pub pieces: Vec<Piece>,
+    /// For each joint the piece it belongs to.
+    pub of_joints: Vec<Option<usize>>,
+}
+
+impl Pieces {
+    /// Finds the pieces of `figure`.
+    ///
+    /// - `members`: the vertices of each connected component. `head_only`: whether the head alone moves a vertex.
+    /// - `weights`: each vertex's weights to the parts.
+    pub fn of(
+        figure: &Figure,
+        skeleton: &Skeleton,
+        members: &[Vec<u32>],
+        head_only: &[bool],
+        weights: &[PartWeights],
+    ) -> Self {
+        let mut pieces = Self {
+            attachments: vec![Attachment::Plain; figure.positions.len()],
+            pieces: Vec::new(),
+            of_joints: Vec::new(),
+        };
+        pieces.add_hats(figure, members, head_only);
+        pieces.add_carried(figure, skeleton, members, head_only);
+        pieces.add_accessories(figure, members, head_only, weights);
+        pieces.add_small(figure, members, head_only, weights);
+        pieces
+    }
+
+    /// Makes one piece of `members`.
+    fn add(&mut self, members: &[u32], piece: Piece) {
+        for &vertex in members {
+            self.attachments[vertex as usize] = Attachment::Piece(self.pieces.len());
+        }
+        self.pieces.push(piece);
+    }
+
+    fn is_plain(&self, vertex: u32) -> bool {
+        self.attachments[vertex as usize] == Attachment::Plain
+    }
+
+    /// Hats and glasses take the face map as a whole.
+    fn add_hats(&mut self, figure: &Figure, members: &[Vec<u32>], head_only: &[bool]) {
+        for members in members {
+            if !members.iter().all(|&vertex| head_only[vertex as usize]) {
+                continue;
+            }
+            let (low, high) = bounds(members.iter().map(|&vertex| figure.positions[vertex as usize]));
+            for &vertex in members {
+                if figure.kind(vertex as usize) == MeshKind::Accessory {
+                    self.attachments[vertex as usize] = Attachment::OnFace((low + high) / 2.0);
+                }
+            }
+        }
+    }
+
+    /// Things carried on the body (a bag, a machine arm, a tail of plates): what hangs from one joint without a role and is
+    /// made of rigid components for the greater part keeps its shape as one.
+    fn add_carried(
+        &mut self,
+        figure: &Figure,
+        skeleton: &Skeleton,
+        members: &[Vec<u32>],
+        head_only: &[bool],
+    ) {
+        let joint_count = figure.joints.len();
+        let top = uppermost_without_role(figure, skeleton);
+        let main = |vertex: u32| figure.main_joint[vertex as usize].map(|joint| joint as usize);
+        let mut rigid_count = vec![0usize; joint_count];
+        let mut whole_count = vec![0usize; joint_count];
+        let mut carried: Vec<Vec<u32>> = vec![Vec::new(); joint_count];
+        for members in members.iter().filter(|members| !members.is_empty()) {
+            let first = main(members[0]);
+            let rigid = members
+                .iter()
+                .all(|&vertex| main(vertex) == first && figure.main_weight[vertex as usize] > RIGID_WEIGHT);
+            let top_of = |vertex: u32| main(vertex).and_then(|joint| top[joint]);
+            let first_top = top_of(members[0]);
+            for &vertex in members {
+                if let Some(top) = top_of(vertex) {
+                    whole_count[top] += 1;
+                    rigid_count[top] += usize::from(rigid);
+                }
+            }
+            // A strap that goes over into the body stays with the body.
+            if let Some(first_top) = first_top
+                && members
+                    .iter()
+                    .all(|&vertex| top_of(vertex) == Some(first_top) && !head_only[vertex as usize])
+            {
+                carried[first_top].extend(members);
+            }
+        }
+        let mut piece_of_top = vec![None; joint_count];
+        for joint in 0..joint_count {
+            if carried[joint].is_empty() || 2 * rigid_count[joint] < whole_count[joint] {
+                continue;
+            }
+            // The body carries the piece at its own joint; the part it folds into moves that point.
+            let role = figure.joint_roles[joint].unwrap_or(Role::Hips);
+            piece_of_top[joint] = Some(self.pieces.len());
+            let piece = Piece {
+                anchor: figure.joints[joint],
+                lowest: lowest(figure, &carried[joint]),
+                weights: Part::of(role).alone(),
+            };
+            self.add(&carried[joint], piece);
+        }
+        self.of_joints = top.iter().map(|top| top.and_then(|top| piece_of_top[top])).collect();
+    }
+
+    /// Bags, swords, machine arms that are meshes of kind accessory and hang rigidly from the body: components whose boxes
+    /// touch and whose weights are the same keep their shape as one, held where they are nearest to the body.
+    fn add_accessories(
+        &mut self,
+        figure: &Figure,
+        members: &[Vec<u32>],
+        head_only: &[bool],
+        weights: &[PartWeights],
+    ) {
+        let things = self.accessories(figure, members, head_only);
+        if things.is_empty() {
+            return;
+        }
+        let body: Vec<DVec3> = (0..figure.positions.len())
+            .filter(|&vertex| figure.kind(vertex) != MeshKind::Accessory)
+            .map(|vertex| figure.positions[vertex])
+            .collect();
+        let tree = PointTree::new(&body);
+        let mut near = Vec::new();
+        let place = |vertex: u32| figure.positions[vertex as usize];
+        for whole in things {
+            let distances: Vec<f64> = whole
+                .iter()
+                .map(|&vertex| {
+                    tree.nearest(place(vertex), 1, f64::INFINITY, &mut near);
+                    near.first().map_or(0.0, |near| near.distance())
+                })
+                .collect();
+            let least = distances.iter().copied().fold(f64::INFINITY, f64::min) + TOUCHING * figure.height();
+            let held: Vec<u32> = whole
+                .iter()
+                .zip(&distances)
+                .filter(|&(_, &distance)| distance <= least)
+                .map(|(&vertex, _)| vertex)
+                .collect();
+            let piece = Piece {
+                anchor: held.iter().map(|&vertex| place(vertex)).sum::<DVec3>() / held.len() as f64,
+                lowest: lowest(figure, &whole),
+                weights: mean_weights(weights, &held),
+            };
+            self.add(&whole, piece);
+        }
+    }
+
+    /// The vertices of each thing that is made of rigid components of accessories which touch and weigh the same.
+    fn accessories(&self, figure: &Figure, members: &[Vec<u32>], head_only: &[bool]) -> Vec<Vec<u32>> {
+        let is_loose = |vertex: u32| {
+            figure.kind(vertex as usize) == MeshKind::Accessory
+                && !head_only[vertex as usize]
+                && self.is_plain(vertex)
+        };
+        let row = |vertex: u32| &figure.role_weights[vertex as usize];
+        let rigid = |members: &&Vec<u32>| {
+            members.len() >= 3
+                && members.iter().all(|&vertex| is_loose(vertex) && row(vertex) == row(members[0]))
+        };
+        let components: Vec<&Vec<u32>> = members.iter().filter(rigid).collect();
+        let margin = DVec3::splat(TOUCHING * figure.height());
+        let boxes: Vec<Bounds> = components
+            .iter()
+            .map(|members| bounds(members.iter().map(|&vertex| figure.positions[vertex as usize])))
+            .map(|(low, high)| (low - margin, high + margin))
+            .collect();
+        let mut groups = Groups::new(components.len());
+        for (one, other) in touching(&boxes) {
+            if row(components[one][0]) == row(components[other][0]) {
+                groups.join(one, other);
+            }
+        }
+        let mut things: BTreeMap<usize, Vec<u32>> = BTreeMap::new();
+        for (component, members) in components.iter().enumerate() {
+            things.entry(groups.least(component)).or_default().extend(*members);
+        }
+        things.into_values().collect()
+    }
+
+    /// Buttons, buckles, badges: small loose components keep their shape.
+    fn add_small(
+        &mut self,
+        figure: &Figure,
+        members: &[Vec<u32>],
+        head_only: &[bool],
+        weights: &[PartWeights],
+    ) {
+        let limit = SMALL_PIECE * figure.height();
+        for members in members.iter().filter(|members| members.len() >= 3) {
+            if members.iter().any(|&vertex| head_only[vertex as usize] || !self.is_plain(vertex)) {
+                continue;
+            }
+            let (low, high) = bounds(members.iter().map(|&vertex| figure.positions[vertex as usize]));
+            if (high - low).max_element() > limit {
+                continue;
+            }
+            let weights = mean_weights(weights, members);
+            self.add(members, Piece { anchor: (low + high) / 2.0, lowest: low.y, weights });
+        }
+    }
+}
+
+/// For each joint the uppermost joint without a role that it hangs from, below a joint that has one.
+fn uppermost_without_role(figure: &Figure, skeleton: &Skeleton) -> Vec<Option<usize>> {
+    let joint_count = figure.joints.len();
+    let mut has_role = vec![false; joint_count];
+    for (_, joint) in figure.humanoid.iter() {
+        has_role[joint] = true;
+    }
+    (0..joint_count)
+        .map(|joint| {
+            if has_role[joint] || figure.joint_roles[joint].is_none() {
+                return None;
+            }
+            skeleton.ancestors(joint).take_while(|&above| !has_role[above]).last()
+        })
+        .collect()
+}
+
+fn lowest(figure: &Figure, members: &[u32]) -> f64 {
+    members.iter().map(|&vertex| figure.positions[vertex as usize].y).fold(f64::INFINITY, f64::min)
+}
+
+fn mean_weights(weights: &[PartWeights], members: &[u32]) -> PartWeights {
+    let mut mean = [0.0; PART_COUNT];
+    for &vertex in members {
+        add(&mut mean, &weights[vertex as usize], 1.0 / members.len() as f32);
+    }
+    mean
+}

@@ -1,0 +1,260 @@
+//! Smooths the weights of the parts along the mesh, then across layers of cloth (product mode).
+
+use super::part::{PART_COUNT, Part, PartWeights, add};
+use crate::geometry::point_tree::{Near, PointTree};
+use crate::geometry::{Neighbours, Weld, neighbours};
+use crate::parallel;
+use crate::shape::figure::Figure;
+use glam::DVec3;
+
+/// One step of smoothing along the mesh moves a vertex's weights this far to the mean of its neighbours'.
+const UMBRELLA_STEP: f32 = 0.6;
+/// The width of both kinds of smoothing, as a part of H.
+const SMOOTHING_WIDTH: f64 = 0.012;
+/// Bounds of the number of steps along the mesh.
+const UMBRELLA_PASSES: (f64, f64) = (4.0, 60.0);
+/// Steps across layers, and vertices that each takes into account.
+const LAYER_PASSES: usize = 3;
+const LAYER_NEIGHBOURS: usize = 24;
+/// Left arm, right arm, the rest.
+const CLASS_COUNT: usize = 3;
+/// Fewer samples than this are not worth a thread.
+const LEAST_SAMPLES: usize = 4000;
+/// A vertex with more than this weight to an arm is the arm's. Not a half: where two pieces meet half and half is common,
+/// and the last digits would decide.
+const ARM_MAJORITY: f32 = 0.503;
+
+/// Umbrella steps on the welded mesh; `frozen` vertices stay.
+pub fn smooth_along(
+    figure: &Figure,
+    weld: &Weld,
+    frozen: &[bool],
+    parts: &mut [PartWeights],
+    threads: usize,
+) {
+    let around = neighbours(&figure.triangles, weld);
+    let firsts = weld.first_vertices();
+    let mut edges: Vec<f64> = Vec::new();
+    for vertex in 0..weld.count {
+        let p = figure.positions[firsts[vertex] as usize];
+        edges.extend(
+            around
+                .of(vertex)
+                .iter()
+                .filter(|&&other| other as usize > vertex)
+                .map(|&other| p.distance(figure.positions[firsts[other as usize] as usize])),
+        );
+    }
+    if edges.is_empty() {
+        return;
+    }
+    let middle = edges.len() / 2;
+    let median = *edges.select_nth_unstable_by(middle, f64::total_cmp).1;
+    let width = SMOOTHING_WIDTH * figure.height() / median.max(1e-12 * figure.height());
+    let passes = (10.0 * width * width).clamp(UMBRELLA_PASSES.0, UMBRELLA_PASSES.1).round() as usize;
+
+    // Vertices at one place share one row from here on: their mean, so that seams stay closed.
+    let mut rows = vec![[0.0f32; PART_COUNT]; weld.count];
+    let mut counts = vec![0.0f32; weld.count];
+    let mut still = vec![false; weld.count];
+    for (vertex, row) in parts.iter().enumerate() {
+        let welded = weld.representative[vertex] as usize;
+        // Where hair is rooted in the scalp both must move as the frozen one does.
+        if frozen[vertex] && !still[welded] {
+            still[welded] = true;
+            rows[welded] = [0.0; PART_COUNT];
+            counts[welded] = 0.0;
+        }
+        if still[welded] == frozen[vertex] {
+            add(&mut rows[welded], row, 1.0);
+            counts[welded] += 1.0;
+        }
+    }
+    for (row, count) in rows.iter_mut().zip(&counts) {
+        row.iter_mut().for_each(|weight| *weight /= count.max(1.0));
+    }
+    // Parts do not mix, so each thread takes some of them; parts of one limb touch the same vertices.
+    let threads = if weld.count < LEAST_SAMPLES { 1 } else { threads };
+    let smoothed = parallel::collect(threads, SMOOTHED_TOGETHER.len(), 1, |group| {
+        let columns: Vec<[f32; 4]> =
+            rows.iter().map(|row| SMOOTHED_TOGETHER[group].map(|part| row[part as usize])).collect();
+        umbrella_steps(columns, &around, &still, passes)
+    });
+    for (vertex, row) in parts.iter_mut().enumerate() {
+        let welded = weld.representative[vertex] as usize;
+        for (group, columns) in SMOOTHED_TOGETHER.iter().zip(&smoothed) {
+            for (&part, &weight) in group.iter().zip(&columns[welded]) {
+                row[part as usize] = weight;
+            }
+        }
+    }
+}
+
+/// All parts, in groups that are smoothed together.
+const SMOOTHED_TOGETHER: [[Part; 4]; 4] = [
+    [Part::Trunk, Part::Neck, Part::Head, Part::Hair],
+    [Part::LeftUpperArm, Part::LeftLowerArm, Part::LeftHand, Part::LeftFoot],
+    [Part::RightUpperArm, Part::RightLowerArm, Part::RightHand, Part::RightFoot],
+    [Part::LeftUpperLeg, Part::LeftLowerLeg, Part::RightUpperLeg, Part::RightLowerLeg],
+];
+
+/// `passes` steps towards the mean of the neighbours, for the weights of four parts; `still` vertices stay.
+fn umbrella_steps(
+    mut rows: Vec<[f32; 4]>,
+    around: &Neighbours,
+    still: &[bool],
+    passes: usize,
+) -> Vec<[f32; 4]> {
+    // Weights reach one edge further with each step: what lies beyond stays 0.
+    let mut reached: Vec<bool> = rows.iter().map(|row| *row != [0.0; 4]).collect();
+    let mut moving: Vec<u32> = (0..rows.len() as u32).filter(|&vertex| reached[vertex as usize]).collect();
+    let mut first = 0;
+    for _ in 0..passes {
+        let last = moving.len();
+        for index in first..last {
+            for &other in around.of(moving[index] as usize) {
+                if !reached[other as usize] && !still[other as usize] {
+                    reached[other as usize] = true;
+                    moving.push(other);
+                }
+            }
+        }
+        first = last;
+    }
+    moving.retain(|&vertex| !still[vertex as usize] && !around.of(vertex as usize).is_empty());
+    moving.sort_unstable();
+    let mut before = rows.clone();
+    for _ in 0..passes {
+        std::mem::swap(&mut rows, &mut before);
+        for &vertex in &moving {
+            let near = around.of(vertex as usize);
+            let share = 1.0 / near.len() as f32;
+            let mut mean = [0.0f32; 4];
+            for &other in near {
+                let row = before[other as usize];
+                for part in 0..4 {
+                    mean[part] += row[part] * share;
+                }
+            }
+            let own = before[vertex as usize];
+            rows[vertex as usize] =
+                std::array::from_fn(|part| own[part] + UMBRELLA_STEP * (mean[part] - own[part]));
+        }
+    }
+    rows
+}
+
+/// A Gaussian over near vertices of any mesh, so that cloth and body move together. Left arm,
+/// right arm and the rest do not mix: a hand on the hip must not carry the hip along.
+pub fn smooth_across(
+    figure: &Figure,
+    weld: &Weld,
+    frozen: &[bool],
+    parts: &mut [PartWeights],
+    threads: usize,
+) {
+    let sigma = SMOOTHING_WIDTH * figure.height();
+    let class_of = |row: &PartWeights| {
+        let sum = |first: Part| row[first as usize..first as usize + 3].iter().sum::<f32>();
+        if sum(Part::LeftUpperArm) > ARM_MAJORITY {
+            0u8
+        } else if sum(Part::RightUpperArm) > ARM_MAJORITY {
+            1
+        } else {
+            2
+        }
+    };
+    let class: Vec<u8> = parts.iter().map(class_of).collect();
+    // Vertices at one place are one sample and get one result.
+    let mut samples: [Vec<usize>; CLASS_COUNT] = Default::default();
+    let mut sample_of = vec![u32::MAX; parts.len()];
+    let mut known = vec![[u32::MAX; CLASS_COUNT]; weld.count];
+    for vertex in (0..parts.len()).filter(|&vertex| !frozen[vertex]) {
+        let of_class = &mut samples[class[vertex] as usize];
+        let sample = &mut known[weld.representative[vertex] as usize][class[vertex] as usize];
+        if *sample == u32::MAX {
+            *sample = of_class.len() as u32;
+            of_class.push(vertex);
+        }
+        sample_of[vertex] = *sample;
+    }
+    let smoothed = samples.each_ref().map(|samples| {
+        let points: Vec<DVec3> = samples.iter().map(|&vertex| figure.positions[vertex]).collect();
+        let rows: Vec<PartWeights> = samples.iter().map(|&vertex| parts[vertex]).collect();
+        layer_steps(&points, rows, sigma, threads)
+    });
+    for (vertex, &sample) in sample_of.iter().enumerate() {
+        if sample != u32::MAX {
+            parts[vertex] = smoothed[class[vertex] as usize][sample as usize];
+        }
+    }
+    for row in parts.iter_mut() {
+        let total: f32 = row.iter().sum();
+        row.iter_mut().for_each(|weight| *weight /= total);
+    }
+}
+
+/// The points that one point is smoothed with, in the order of the tree.
+struct Layer {
+    count: usize,
+    slots: [u32; LAYER_NEIGHBOURS],
+    weights: [f32; LAYER_NEIGHBOURS],
+}
+
+/// `LAYER_PASSES` Gaussian means over the nearest points within three standard deviations, `sigma` each.
+fn layer_steps(points: &[DVec3], rows: Vec<PartWeights>, sigma: f64, threads: usize) -> Vec<PartWeights> {
+    let tree = PointTree::new(points);
+    let reach = 3.0 * sigma;
+    let layers = parallel::collect_with(
+        threads,
+        points.len(),
+        LEAST_SAMPLES,
+        || (Vec::<Near>::new(), None::<DVec3>),
+        |(found, last), slot| {
+            let p = tree.point(slot);
+            // Slots that follow each other are near each other: the neighbours of the last one bound the search.
+            let bound = match (*last, found.get(LAYER_NEIGHBOURS - 1)) {
+                (Some(last), Some(furthest)) => {
+                    reach.min((furthest.distance() + p.distance(last)) * (1.0 + 1e-9))
+                }
+                _ => reach,
+            };
+            tree.nearest(p, LAYER_NEIGHBOURS, bound, found);
+            *last = Some(p);
+            let mut layer =
+                Layer { count: found.len(), slots: [0; LAYER_NEIGHBOURS], weights: [0.0; LAYER_NEIGHBOURS] };
+            let gaussian = |distance: f64| (-(distance * distance) / (2.0 * sigma * sigma)).exp();
+            // The kernel ends at the last point that was found: which of several at that distance it is must not
+            // matter, or the last digits of a model would show.
+            let end = if found.len() == LAYER_NEIGHBOURS {
+                gaussian(found[LAYER_NEIGHBOURS - 1].distance())
+            } else {
+                gaussian(reach)
+            };
+            for (place, near) in found.iter().enumerate() {
+                layer.slots[place] = near.slot();
+                layer.weights[place] = (gaussian(near.distance()) - end).max(0.0) as f32;
+            }
+            layer
+        },
+    );
+    let mut ordered: Vec<PartWeights> = tree.indices().iter().map(|&index| rows[index as usize]).collect();
+    for _ in 0..LAYER_PASSES {
+        ordered = parallel::collect(threads, points.len(), LEAST_SAMPLES, |slot| {
+            let layer = &layers[slot];
+            let mut sum = [0.0; PART_COUNT];
+            let mut total = 0.0;
+            for (&other, &weight) in layer.slots.iter().zip(&layer.weights).take(layer.count) {
+                add(&mut sum, &ordered[other as usize], weight);
+                total += weight;
+            }
+            // Two dozen points at one place have no kernel.
+            if total > 0.0 { sum.map(|weight| weight / total) } else { ordered[slot] }
+        });
+    }
+    let mut smoothed = rows;
+    for (&index, row) in tree.indices().iter().zip(ordered) {
+        smoothed[index as usize] = row;
+    }
+    smoothed
+}
