@@ -3,6 +3,7 @@
 pub mod bones;
 pub mod frame;
 pub mod humanoid;
+pub mod kinds;
 pub mod mesh;
 pub mod naming;
 pub mod roles;
@@ -14,7 +15,8 @@ use crate::error::{Error, ErrorKind, Result};
 pub use frame::Frame;
 use glam::Vec3;
 pub use humanoid::{Humanoid, Role};
-pub use mesh::{Mesh, MeshKind, MorphTarget};
+pub use kinds::MeshKind;
+pub use mesh::{Mesh, MorphTarget};
 pub use skeleton::{Joint, Skeleton};
 pub use weights::Weights;
 

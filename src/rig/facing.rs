@@ -4,7 +4,8 @@
 //! left is at right angles to the plane through up in which the figure mirrors best, the wider the better. Which of the
 //! two ways along that plane is forward, feet and face tell.
 
-use crate::character::{Character, MeshKind};
+use crate::character::kinds::{MeshNames, kinds_from_names};
+use crate::character::{Character, Mesh, MeshKind};
 use crate::error::Warning;
 use glam::{DVec2, DVec3, Vec3, Vec4};
 
@@ -85,7 +86,8 @@ pub fn find_forward(character: &Character) -> (DVec3, Vec<Warning>) {
     };
     // Ground coordinates: x towards the left of a figure that looks the usual way, y the usual way.
     let side = up.cross(usual);
-    let Some(cells) = Cells::new(character, [side, up, usual]) else {
+    let kinds = known_kinds(character);
+    let Some(cells) = Cells::new(character, &kinds, [side, up, usual]) else {
         return (
             usual,
             vec![guessed("nothing tells which way the character looks: it has no extent along up")],
@@ -98,7 +100,7 @@ pub fn find_forward(character: &Character) -> (DVec3, Vec<Warning>) {
     let (mirror, sure_of_sides) = cells.mirror(&axes.collect::<Vec<_>>());
     let left = mirror.normal;
     let forward = DVec2::new(-left.y, left.x);
-    let vote = cells.front_vote(character, mirror, forward);
+    let vote = cells.front_vote(character, &kinds, mirror, forward);
     // Without a vote the usual way, or what is nearer to it.
     let turned = if vote.abs() >= LEAST_VOTE { vote < 0.0 } else { forward.y < -1e-9 };
     let forward = if turned { -forward } else { forward };
@@ -144,30 +146,30 @@ struct Cells {
     low: DVec3,
 }
 
-/// What a mesh depicts, as the host or its name says.
-fn kind_of(character: &Character, mesh: usize) -> Option<MeshKind> {
-    let mesh = &character.meshes[mesh];
-    mesh.kind.or_else(|| MeshKind::guess(&mesh.name))
+/// What each mesh depicts, as the host or its name says.
+fn known_kinds(character: &Character) -> Vec<Option<MeshKind>> {
+    let names: Vec<MeshNames> = character.meshes.iter().map(|mesh| MeshNames::of_path(&mesh.name)).collect();
+    let named = kinds_from_names(character, &names);
+    character.meshes.iter().zip(named).map(|(mesh, named)| mesh.kind.or(named)).collect()
 }
 
-/// Whether a mesh tells anything: hair and accessories do only where there is nothing else.
-fn is_counted(character: &Character) -> impl Fn(usize) -> bool {
-    let is_worn = |mesh: usize| {
-        character.meshes[mesh].triangles.is_empty()
-            || kind_of(character, mesh).is_some_and(MeshKind::is_carried)
+/// Whether each mesh tells anything: hair and accessories do only where there is nothing else.
+fn counted(character: &Character, kinds: &[Option<MeshKind>]) -> Vec<bool> {
+    let tells = |(mesh, kind): (&Mesh, &Option<MeshKind>)| {
+        !mesh.triangles.is_empty() && !kind.is_some_and(MeshKind::is_carried)
     };
-    let all = (0..character.meshes.len()).all(is_worn);
-    move |mesh| all || !is_worn(mesh)
+    let counted: Vec<bool> = character.meshes.iter().zip(kinds).map(tells).collect();
+    if counted.contains(&true) { counted } else { vec![true; counted.len()] }
 }
 
 impl Cells {
     /// `None` where there is no triangle, or none of an extent along up.
-    fn new(character: &Character, frame: [DVec3; 3]) -> Option<Self> {
-        let counted = is_counted(character);
+    fn new(character: &Character, kinds: &[Option<MeshKind>], frame: [DVec3; 3]) -> Option<Self> {
+        let counted = counted(character, kinds);
         let place = |p: Vec3| DVec3::from_array(frame.map(|axis| axis.dot(p.as_dvec3())));
         let triangles = || {
-            let meshes = character.meshes.iter().enumerate().filter(|&(mesh, _)| counted(mesh));
-            meshes.flat_map(|(_, mesh)| {
+            let meshes = character.meshes.iter().zip(&counted).filter(|&(_, &counted)| counted);
+            meshes.flat_map(|(mesh, _)| {
                 mesh.triangles.iter().map(move |corners| corners.map(|v| place(mesh.positions[v as usize])))
             })
         };
@@ -348,7 +350,13 @@ impl Cells {
     }
 
     /// Above 0 for `forward`, below 0 against it: feet, then eyes and the like where meshes of them are, then the chin.
-    fn front_vote(&self, character: &Character, mirror: Mirror, forward: DVec2) -> f64 {
+    fn front_vote(
+        &self,
+        character: &Character,
+        kinds: &[Option<MeshKind>],
+        mirror: Mirror,
+        forward: DVec2,
+    ) -> f64 {
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
         for p in &self.samples {
             low = low.min(p.y.into());
@@ -363,7 +371,7 @@ impl Cells {
         };
         let points: Vec<DVec3> = self.samples.iter().map(|p| place(p.as_dvec3())).collect();
         let face_parts: Vec<DVec3> = (0..character.meshes.len())
-            .filter(|&mesh| kind_of(character, mesh) == Some(MeshKind::FacePart))
+            .filter(|&mesh| kinds[mesh] == Some(MeshKind::FacePart))
             .flat_map(|mesh| character.meshes[mesh].positions.iter())
             .map(|&p| place(self.to_cells(p)))
             .collect();

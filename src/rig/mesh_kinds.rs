@@ -228,14 +228,7 @@ fn warning(layout: &Layout, kinds: &[MeshKind], meshes: &[usize]) -> Vec<Warning
         .map(|&mesh| {
             let name = &layout.names[mesh];
             let name = if name.is_empty() { format!("mesh {mesh}") } else { name.clone() };
-            let kind = match kinds[mesh] {
-                MeshKind::Body => "body",
-                MeshKind::Garment => "garment",
-                MeshKind::Hair => "hair",
-                MeshKind::FacePart => "face part",
-                MeshKind::Accessory => "accessory",
-            };
-            format!("{name} ({kind})")
+            format!("{name} ({})", kinds[mesh])
         })
         .collect();
     vec![Warning::new(

@@ -82,7 +82,10 @@ impl Figure {
         let joint_roles = fold_joints(character);
         let (role_weights, extra_weight, main) = fold_weights(character, &joint_roles);
         for (kind, weights) in kinds.iter_mut().zip(&role_weights) {
-            *kind = believable_kind(*kind, weights);
+            let share = |choose: fn(Role) -> bool| -> f64 {
+                weights.iter().filter(|&&(role, _)| choose(role)).map(|&(_, weight)| weight).sum()
+            };
+            *kind = kind.of_vertex(share(Role::is_head), share(Role::is_limb));
         }
         copy_kinds_of_drawn(&mut kinds, &positions, &triangles);
         Ok(Self {
@@ -156,19 +159,6 @@ fn copy_kinds_of_drawn(kinds: &mut [MeshKind], positions: &[DVec3], triangles: &
         .collect();
     for vertex in (0..positions.len()).filter(|&vertex| !is_drawn[vertex]) {
         kinds[vertex] = drawn.get(&place(vertex)).copied().unwrap_or_default();
-    }
-}
-
-/// A mesh may hold more than its name says: one black material serves for eyes and shoes. What the head does not move is
-/// no part of a face, and what a limb moves is no hair.
-fn believable_kind(kind: MeshKind, weights: &[(Role, f64)]) -> MeshKind {
-    let sum = |choose: fn(Role) -> bool| -> f64 {
-        weights.iter().filter(|&&(role, _)| choose(role)).map(|&(_, weight)| weight).sum()
-    };
-    match kind {
-        MeshKind::FacePart if sum(Role::is_head) <= 0.5 => MeshKind::Body,
-        MeshKind::Hair if sum(Role::is_limb) > 0.5 => MeshKind::Body,
-        kind => kind,
     }
 }
 
