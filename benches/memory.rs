@@ -5,6 +5,7 @@ use std::hint::black_box;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 use superdeform::pipeline::{Deformer, Options};
+use superdeform::progress::Progress;
 use superdeform::rig::WeightBone;
 use superdeform::rig::heat::{HeatOptions, heat_weights};
 use superdeform::shape::measured::Measured;
@@ -89,7 +90,10 @@ fn main() {
         });
         let deformed = peak("apply", || deformer.apply());
         peak("report", || deformer.report(&deformed).expect("the result is whole"));
-        peak("face", || deformer.set_face_squash(0.5));
+        let younger = Options { face_squash: Some(0.5), ..options.clone() };
+        peak("face", || {
+            deformer.set_options(&younger, &mut Progress::none()).expect("the options are in range")
+        });
         if let Some(loaded) = loaded {
             peak("write", || models::write(&loaded, &deformer, &deformed));
         }

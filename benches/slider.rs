@@ -29,13 +29,6 @@ fn slider(criterion: &mut Criterion) {
     group.bench_function("apply, positions and normals", |bencher| {
         bencher.iter(|| black_box(deformer.apply_to(&directions, &mut none)));
     });
-    group.bench_function("face", |bencher| {
-        let mut squash = 0.5;
-        bencher.iter(|| {
-            squash = 1.2 - squash;
-            deformer.set_face_squash(squash);
-        });
-    });
     let mut slide = |name: &str, change: fn(&mut Options, f64)| {
         let mut amount = 0.6;
         group.bench_function(name, |bencher| {
@@ -47,6 +40,7 @@ fn slider(criterion: &mut Criterion) {
             });
         });
     };
+    slide("face", |options, amount| options.face_squash = Some(amount));
     slide("amount", |options, amount| options.amount = amount);
     slide("hair length", |options, amount| options.hair_length = amount);
     slide("head scale", |options, amount| options.head_scale = 1.5 * amount);

@@ -5,6 +5,7 @@ use std::hint::black_box;
 use std::sync::Arc;
 use superdeform::geometry::{SEAM, weld};
 use superdeform::pipeline::{Deformer, Options};
+use superdeform::progress::Progress;
 use superdeform::shape::measured::Measured;
 use superdeform::shape::product::binding::part_bindings;
 use superdeform_benches::{models, tube};
@@ -63,8 +64,9 @@ fn pipeline(criterion: &mut Criterion) {
             });
         }
         group.bench_function("face", |bencher| {
+            let options = Options { face_squash: Some(0.5), ..options.clone() };
             bencher.iter(|| {
-                deformer.set_face_squash(0.5);
+                deformer.set_options(&options, &mut Progress::none()).expect("the options are in range");
                 deformer.apply()
             });
         });

@@ -4,6 +4,7 @@
 //! Shen, Luo, Huang and Chen. SD models: super-deformed character models. Pacific Graphics 2012 (the sphere of Fig. 7f).
 
 use crate::error::Warning;
+use crate::geometry::{Mapped, outer};
 use crate::options::FaceCurve;
 use glam::{DMat3, DVec3};
 
@@ -123,9 +124,8 @@ impl SphereMap {
         let Some(outward) = arm.try_normalize() else {
             return DMat3::IDENTITY;
         };
-        let along = DMat3::from_cols(outward * outward.x, outward * outward.y, outward * outward.z);
         let around = self.amount * self.radius / arm.length();
-        (1.0 - self.amount) * DMat3::IDENTITY + around * (DMat3::IDENTITY - along)
+        (1.0 - self.amount) * DMat3::IDENTITY + around * (DMat3::IDENTITY - outer(outward, outward))
     }
 }
 
@@ -161,14 +161,14 @@ impl FaceShape {
     // Inlined, its arithmetic is done ahead of the choice, for every point and on the bytes of another choice: these are
     // often subnormal numbers, which processors are a hundred times as slow with.
     #[inline(never)]
-    pub fn map(&self, p: DVec3) -> (DVec3, DMat3) {
+    pub fn map(&self, p: DVec3) -> Mapped {
         match self {
-            Self::None => (p, DMat3::IDENTITY),
+            Self::None => Mapped::unmoved(p),
             Self::Curve(map) => {
                 let slope = DVec3::new(1.0, map.slope(p.y), 1.0);
-                (p.with_y(map.map(p.y)), DMat3::from_diagonal(slope))
+                Mapped { position: p.with_y(map.map(p.y)), jacobian: DMat3::from_diagonal(slope) }
             }
-            Self::Sphere(map) => (map.map(p), map.jacobian(p)),
+            Self::Sphere(map) => Mapped { position: map.map(p), jacobian: map.jacobian(p) },
         }
     }
 }

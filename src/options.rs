@@ -14,6 +14,16 @@ pub enum Mode {
     Paper,
 }
 
+impl Mode {
+    /// The name in options and reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Mode::Product => "product",
+            Mode::Paper => "paper",
+        }
+    }
+}
+
 /// The curve that makes a face younger (§VI, Fig. 7).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum FaceCurve {
@@ -43,11 +53,11 @@ pub enum Stage {
 pub struct GroupSettings {
     /// alpha_b: 1 keeps the length of the group's bones.
     pub length_scale: Option<f64>,
-    /// beta_b: 1 keeps the girth.
+    /// beta_b: 1 keeps the thickness.
     pub thickness_scale: Option<f64>,
     /// eta_b: 0 keeps the target's length, 1 takes all of the reference's.
     pub length_transfer: Option<f64>,
-    /// phi_b: 0 keeps the target's girth, 1 takes all of the reference's.
+    /// phi_b: 0 keeps the target's thickness, 1 takes all of the reference's.
     pub thickness_transfer: Option<f64>,
 }
 
@@ -85,7 +95,7 @@ impl Default for Options {
         Self {
             mode: Mode::Product,
             rays: None,
-            head_scale: 1.5,
+            head_scale: HEAD_SCALE,
             face_squash: None,
             face_curve: FaceCurve::F4,
             groups: BTreeMap::new(),
@@ -103,7 +113,7 @@ impl Options {
     /// Rays around each sample of a bone: as set, else the mode's own.
     pub fn ray_count(&self) -> usize {
         self.rays.unwrap_or(match self.mode {
-            Mode::Paper => crate::shape::measure::RAYS,
+            Mode::Paper => PAPER_RAYS,
             Mode::Product => PRODUCT_RAYS,
         })
     }
@@ -147,5 +157,9 @@ impl Options {
     }
 }
 
+/// alpha_head. Paper, V-B1.
+pub const HEAD_SCALE: f64 = 1.5;
+/// Rays around each sample in paper mode. Paper, V-A.
+pub const PAPER_RAYS: usize = 12;
 /// Rays around each sample in product mode: 12 change a radius by up to 16 % with their phase, 48 by 1 %.
 pub const PRODUCT_RAYS: usize = 48;

@@ -15,6 +15,7 @@ use std::collections::{BTreeMap, HashMap};
 use std::sync::{Arc, OnceLock};
 use superdeform::geometry::Surface;
 use superdeform::pipeline::{Deformed, Deformer, Options, Style};
+use superdeform::progress::Progress;
 use superdeform::shape::Measured;
 use superdeform::shape::figure::Figure;
 use superdeform::{MeshKind, Role};
@@ -527,8 +528,8 @@ fn a_face_that_is_squashed_later_is_the_same_as_one_made_so() {
             let mut later = Deformer::new(character.clone(), &style, &plain).unwrap();
             let mut failures = Vec::new();
             for squash in [1.3, 0.0, -0.4, 5.0] {
-                later.set_face_squash(squash);
                 let options = Options { face_squash: Some(squash), ..plain.clone() };
+                later.set_options(&options, &mut Progress::none()).unwrap();
                 let made = Deformer::new(character.clone(), &style, &options).unwrap();
                 if bits(&later.apply()) != bits(&made.apply()) || later.warnings() != made.warnings() {
                     failures.push(format!("{name}: squash {squash}, {mode:?}"));

@@ -34,7 +34,7 @@ impl DeformerState {
     pub fn new(ready: &Ready, style: &Style, options: &Options, progress: &mut Progress) -> Outcome<Self> {
         let deformer = match &ready.rigged {
             Some((rig, rigged)) => {
-                Deformer::of_rigged(rigged.clone(), &ready.own, rig, style, options, progress)
+                Deformer::with_rigged(rigged.clone(), &ready.own, rig, style, options, progress)
             }
             None => Deformer::with_progress(ready.own.clone(), style, options, progress),
         }?;

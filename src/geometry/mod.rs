@@ -3,6 +3,7 @@
 pub mod cells;
 pub mod groups;
 pub mod laplacian;
+pub mod mapped;
 pub mod point_tree;
 pub mod segment;
 pub mod smoothstep;
@@ -12,6 +13,7 @@ pub mod weld;
 
 pub use cells::CellMap;
 pub use groups::{Bounds, Groups, bounds, touching};
+pub use mapped::{Mapped, outer};
 pub use point_tree::PointTree;
 pub use segment::foot;
 pub use smoothstep::smoothstep;

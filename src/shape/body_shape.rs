@@ -37,7 +37,7 @@ pub struct BodyShape {
     /// Heights of landmarks.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub landmarks: Option<Heights>,
-    /// Lengths and widths of the fifteen parts, which product mode transfers.
+    /// Lengths and widths of the parts, which product mode transfers.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub proportions: Option<Proportions>,
 }

@@ -7,12 +7,10 @@ use crate::character::Role;
 use crate::character::bones::{Bone, HEAD_TOP};
 use crate::error::{Error, ErrorKind, Result};
 use crate::geometry::Surface;
+use crate::options::PAPER_RAYS;
 use glam::DVec3;
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
-
-/// Rays around each sample. Paper, V-A.
-pub const RAYS: usize = 12;
 
 /// Where along a bone the samples lie: the paper's "three points at a uniform interval", away from the joints, where
 /// limbs meet.
@@ -46,7 +44,8 @@ pub fn measure(
     rays: usize,
 ) -> Result<BodyShape> {
     if rays < LEAST_HITS {
-        let message = format!("{rays} rays around a bone: at least {LEAST_HITS} are needed; {RAYS} is usual");
+        let message =
+            format!("{rays} rays around a bone: at least {LEAST_HITS} are needed; {PAPER_RAYS} is usual");
         return Err(Error::new(ErrorKind::BadOption, message));
     }
     if surfaces.iter().all(|surface| surface.is_empty()) {

@@ -3,12 +3,10 @@
 use crate::character::Role;
 use crate::character::bones::{Bone, Group, bones};
 use crate::error::{Error, ErrorKind, Result, Warning};
-use crate::options::GroupSettings;
+use crate::options::{GroupSettings, HEAD_SCALE};
 use crate::shape::{BodyShape, Coefficient};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// alpha_head. Paper, V-B1.
-pub const HEAD_SCALE: f64 = 1.5;
 /// eta of shoulder and hip, which are no cylinders: shortening them looks wrong. Paper, V-B3.
 pub const SUPPRESSED_LENGTH_TRANSFER: f64 = 0.2;
 /// phi of shoulder and hip. Paper, V-B3.
@@ -88,79 +86,35 @@ pub fn coefficients(
     }
 
     let common: BTreeSet<Role> = roles.intersection(&reference.roles()).copied().collect();
-    let (tar, refer) = (target.restricted_to(&common), reference.restricted_to(&common));
-    let common_bones = bones(&common, bone_groups);
-
-    // Eq. 9 prints l'_head / l_head; its text says target over reference. Only the text leaves the result unchanged
-    // when one of the two files is in centimetres, so we follow the text.
-    let head_ratio = head_scale * target.head_length / reference.head_length;
-
-    let mut result = Coefficients { head_ratio, ..Coefficients::default() };
+    let bodies = Bodies {
+        target: target.restricted_to(&common),
+        reference: reference.restricted_to(&common),
+        bones: bones(&common, bone_groups),
+        // Eq. 9 prints l'_head / l_head; its text says target over reference. Only the text leaves the result unchanged
+        // when one of the two files is in centimetres, so we follow the text.
+        head_ratio: head_scale * target.head_length / reference.head_length,
+    };
+    let mut result = Coefficients { head_ratio: bodies.head_ratio, ..Coefficients::default() };
     for bone in &target_bones {
         if result.groups.contains_key(&bone.group) {
             continue;
         }
-        let group = &bone.group;
-        let given = settings.get(group).copied().unwrap_or_default();
-        let own = rule(bone.kind, head_scale);
-        let counted: Vec<&Bone> = common_bones.iter().filter(|other| other.group == *group).collect();
-
-        let (own_alpha, own_beta, own_eta, own_phi) = match own {
-            Rule::Fixed(alpha, beta) => (Some(alpha), Some(beta), 1.0, 1.0),
-            Rule::Transfer(eta, phi) => (None, None, eta, phi),
-        };
-        let alpha = given.length_scale.or(own_alpha.filter(|_| given.length_transfer.is_none()));
-        let beta = given.thickness_scale.or(own_beta.filter(|_| given.thickness_transfer.is_none()));
-
-        let needs_reference = alpha.is_none() || beta.is_none();
-        let stand_in =
-            || stand_in(group, &target_bones, &common_bones).and_then(|name| result.groups.get(name));
-        let (length_scale, thickness_scale) = if counted.is_empty() && needs_reference {
-            let other = stand_in().copied();
-            let (message, other) = match other {
-                Some(other) => ("takes its coefficients from the bone that stands for it there", other),
-                None => ("keeps its shape", Coefficient { length_scale: 1.0, thickness_scale: 1.0 }),
-            };
-            let message = format!("the reference has no bone of the group {group}, which {message}");
-            result.warnings.push(Warning::new("group_missing", message));
-            (alpha.unwrap_or(other.length_scale), beta.unwrap_or(other.thickness_scale))
-        } else {
-            let length_scale = alpha.unwrap_or_else(|| {
-                let eta = given.length_transfer.unwrap_or(own_eta);
-                match (total_length(&refer, &counted), total_length(&tar, &counted)) {
-                    // Eq. 10 is per bone but alpha is per group: we use the group's total lengths.
-                    (ref_length, tar_length) if tar_length > 0.0 => {
-                        transfer(eta, head_ratio, ref_length / tar_length)
-                    }
-                    _ => 1.0,
-                }
-            });
-            let thickness_scale = beta.unwrap_or_else(|| {
-                let phi = given.thickness_transfer.unwrap_or(own_phi);
-                match (mean_radius(&refer, &counted), mean_radius(&tar, &counted)) {
-                    // Eq. 11, likewise.
-                    (Some(ref_radius), Some(tar_radius)) => {
-                        transfer(phi, head_ratio, ref_radius / tar_radius)
-                    }
-                    _ if phi == 0.0 => 1.0,
-                    _ => {
-                        let message =
-                            format!("no ray measured the girth of the group {group}, which keeps its own");
-                        result.warnings.push(Warning::new("radius_missing", message));
-                        1.0
-                    }
-                }
-            });
-            (length_scale, thickness_scale)
-        };
-        if length_scale > 1.0 && bone.kind != Group::Head && given.length_scale.is_none() {
-            let message = format!("the group {group} becomes longer: its length scale is {length_scale:.3}");
+        let given = settings.get(&bone.group).copied().unwrap_or_default();
+        let stand_in = stand_in(&bone.group, &target_bones, &bodies.bones)
+            .and_then(|name| result.groups.get(name))
+            .copied();
+        let rule = rule(bone.kind, head_scale);
+        let coefficient = bodies.of_group(&bone.group, rule, &given, stand_in, &mut result.warnings);
+        if coefficient.length_scale > 1.0 && bone.kind != Group::Head && given.length_scale.is_none() {
+            let message = format!(
+                "the group {} becomes longer: its length scale is {:.3}",
+                bone.group, coefficient.length_scale
+            );
             result.warnings.push(Warning::new("coefficient_limited", message));
         }
-        let coefficient = Coefficient { length_scale, thickness_scale };
-        result.groups.insert(group.clone(), coefficient);
+        result.groups.insert(bone.group.clone(), coefficient);
     }
-    // Hands without fingers and feet without toes are no bones, but they have a girth.
+    // Hands without fingers and feet without toes are no bones, but they have a thickness.
     for role in roles {
         let group = Group::beginning_at(role);
         if let (Group::Hand | Group::Foot, Rule::Fixed(alpha, beta)) = (group, rule(group, head_scale))
@@ -175,6 +129,74 @@ pub fn coefficients(
         }
     }
     Ok(result)
+}
+
+/// Both bodies, measured over the roles that they share.
+struct Bodies {
+    target: BodyShape,
+    reference: BodyShape,
+    bones: Vec<Bone>,
+    /// g of Eq. 9.
+    head_ratio: f64,
+}
+
+impl Bodies {
+    /// alpha and beta of the group named `group`: as `given`, else as `rule` says; those of `stand_in` where the
+    /// reference has no bone of the group.
+    fn of_group(
+        &self,
+        group: &str,
+        rule: Rule,
+        given: &GroupSettings,
+        stand_in: Option<Coefficient>,
+        warnings: &mut Vec<Warning>,
+    ) -> Coefficient {
+        let (own_alpha, own_beta, own_eta, own_phi) = match rule {
+            Rule::Fixed(alpha, beta) => (Some(alpha), Some(beta), FULL_TRANSFER, FULL_TRANSFER),
+            Rule::Transfer(eta, phi) => (None, None, eta, phi),
+        };
+        let alpha = given.length_scale.or(own_alpha.filter(|_| given.length_transfer.is_none()));
+        let beta = given.thickness_scale.or(own_beta.filter(|_| given.thickness_transfer.is_none()));
+        let counted: Vec<&Bone> = self.bones.iter().filter(|other| other.group == group).collect();
+        if counted.is_empty() && (alpha.is_none() || beta.is_none()) {
+            let (message, other) = match stand_in {
+                Some(other) => ("takes its coefficients from the bone that stands for it there", other),
+                None => ("keeps its shape", Coefficient { length_scale: 1.0, thickness_scale: 1.0 }),
+            };
+            let message = format!("the reference has no bone of the group {group}, which {message}");
+            warnings.push(Warning::new("group_missing", message));
+            return Coefficient {
+                length_scale: alpha.unwrap_or(other.length_scale),
+                thickness_scale: beta.unwrap_or(other.thickness_scale),
+            };
+        }
+        let eta = given.length_transfer.unwrap_or(own_eta);
+        let phi = given.thickness_transfer.unwrap_or(own_phi);
+        let length_scale = alpha.unwrap_or_else(|| self.length_scale(&counted, eta));
+        let thickness_scale = beta.unwrap_or_else(|| {
+            self.thickness_scale(&counted, phi).unwrap_or_else(|| {
+                if phi != 0.0 {
+                    let message =
+                        format!("no ray measured the girth of the group {group}, which keeps its own");
+                    warnings.push(Warning::new("radius_missing", message));
+                }
+                1.0
+            })
+        });
+        Coefficient { length_scale, thickness_scale }
+    }
+
+    /// Eq. 10 is per bone but alpha is per group: we use the group's total lengths.
+    fn length_scale(&self, bones: &[&Bone], eta: f64) -> f64 {
+        let (target, reference) = (total_length(&self.target, bones), total_length(&self.reference, bones));
+        if target > 0.0 { transfer(eta, self.head_ratio, reference / target) } else { 1.0 }
+    }
+
+    /// Eq. 11, likewise; `None` where one of the bodies has no radius.
+    fn thickness_scale(&self, bones: &[&Bone], phi: f64) -> Option<f64> {
+        let (target, reference) = (mean_radius(&self.target, bones)?, mean_radius(&self.reference, bones)?);
+        Some(transfer(phi, self.head_ratio, reference / target))
+    }
 }
 
 /// Eqs. 10 and 11: `amount` is eta or phi, `ratio` the reference's measure over the target's.
@@ -209,7 +231,7 @@ fn stand_in<'a>(group: &str, target_bones: &[Bone], common_bones: &'a [Bone]) ->
 fn check(head_scale: f64, settings: &BTreeMap<String, GroupSettings>, bones: &[Bone]) -> Result<()> {
     let bad = |message: String| Err(Error::new(ErrorKind::BadOption, message));
     if !(head_scale.is_finite() && head_scale > 0.0) {
-        return bad(format!("head_scale is {head_scale}: it must be above 0; 1.5 is usual"));
+        return bad(format!("head_scale is {head_scale}: it must be above 0; {HEAD_SCALE} is usual"));
     }
     let names: BTreeSet<&str> =
         bones.iter().map(|bone| bone.group.as_str()).chain(Group::ALL.map(Group::name)).collect();

@@ -2,7 +2,8 @@
 
 use crate::character::Role;
 use crate::character::bones::{Bone, Group};
-use crate::geometry::foot;
+use crate::face::FaceShape;
+use crate::geometry::{Mapped, foot, outer};
 use crate::options::Stage;
 use crate::shape::{Coefficient, Shortened};
 use glam::{DMat3, DVec3};
@@ -184,6 +185,51 @@ impl BoneField {
     }
 }
 
+/// How a point is attached to the paper's bones.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct BoneBinding {
+    /// w_ki by bone of the field.
+    pub weights: Vec<(u16, f64)>,
+    /// The weight of the head, by which the face map acts.
+    pub head: f64,
+    /// For hats and glasses: the point of the rest pose whose face map moves the whole piece.
+    pub on_face: Option<DVec3>,
+}
+
+/// The paper's field as far as a stage, and its face.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PaperField {
+    /// Eqs. 5 and 8.
+    pub bones: BoneField,
+    /// How far to go.
+    pub stage: Stage,
+}
+
+impl PaperField {
+    /// Where `p` goes, with the map `face` (Eqs. 12, 13).
+    pub fn place(&self, p: DVec3, binding: &BoneBinding, face: &FaceShape) -> DVec3 {
+        let to = self.bones.displace(p, &binding.weights, self.stage);
+        if binding.head <= 0.0 || *face == FaceShape::None {
+            return to;
+        }
+        let from = match binding.on_face {
+            Some(centre) => self.bones.displace(centre, &binding.weights, self.stage),
+            None => to,
+        };
+        to + binding.head * (face.map(from).position - from)
+    }
+
+    /// Where `p` goes, and the Jacobian there at fixed weights.
+    pub fn map(&self, p: DVec3, binding: &BoneBinding, face: &FaceShape) -> Mapped {
+        let mut jacobian = self.bones.jacobian(p, &binding.weights, self.stage);
+        if binding.head > 0.0 && *face != FaceShape::None && binding.on_face.is_none() {
+            let on_face = self.bones.displace(p, &binding.weights, self.stage);
+            jacobian += (face.map(on_face).jacobian - DMat3::IDENTITY) * binding.head * jacobian;
+        }
+        Mapped { position: self.place(p, binding, face), jacobian }
+    }
+}
+
 /// lambda and mu: how much a vertex at `v` follows the parent and the child joint of a bone (Eqs. 6, 7).
 ///
 /// The foot is on the segment, clamped, so that the two add up to 1 and a vertex beyond a joint follows that joint alone;
@@ -197,8 +243,4 @@ pub fn shares(v: DVec3, parent: DVec3, child: DVec3) -> (f64, f64) {
 fn is_beside(v: DVec3, parent: DVec3, child: DVec3) -> bool {
     let (_, t) = foot(v, parent, child);
     t > 0.0 && t < 1.0
-}
-
-fn outer(column: DVec3, row: DVec3) -> DMat3 {
-    DMat3::from_cols(column * row.x, column * row.y, column * row.z)
 }

@@ -1,4 +1,4 @@
-//! The lengths and widths of a figure's fifteen parts, between its landmarks.
+//! The lengths and widths of a figure's parts, between its landmarks.
 //!
 //! What product mode compares between target and reference, where paper mode compares bones: the neck from shoulder
 //! line to chin, the torso from crotch to shoulder line, the leg from crotch to sole, whole arms; so that it does
@@ -14,7 +14,7 @@ use crate::shape::heights::Heights;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-/// A chin at or below the shoulder line still leaves this much neck, as a part of L.
+/// A chin at or below the shoulder line still leaves this much neck, as a share of L.
 const SHORTEST_NECK: f64 = 0.02;
 
 /// An arm from shoulder to wrist, or a leg from the height of the crotch to the ankle.
@@ -62,9 +62,9 @@ pub struct Proportions {
     /// Heel to toe, mean of both sides.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub foot: Option<f64>,
-    /// Median half width of the trunk.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub trunk_half_width: Option<f64>,
+    /// Median half width of the torso.
+    #[serde(alias = "trunk_half_width", skip_serializing_if = "Option::is_none")]
+    pub torso_half_width: Option<f64>,
     /// Mean distance of the surface to the bone.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub upper_arm_radius: Option<f64>,
@@ -88,7 +88,7 @@ pub struct Anatomy {
     pub limbs: [Limb; 4],
     /// The plane that halves the body: x of the middle between the limbs' roots.
     pub middle_x: f64,
-    /// The trunk's centre line: (height, z), rising, smoothed; at least one point.
+    /// The torso's centre line: (height, z), rising, smoothed; at least one point.
     pub centre_line: Vec<(f64, f64)>,
     /// Middle of the bare head's bounding box.
     pub head_centre: DVec3,
@@ -111,22 +111,22 @@ impl Anatomy {
             leg(figure, heights, false),
         ];
         let middle_x = limbs.iter().map(|limb| limb.root.x).sum::<f64>() / 4.0;
-        // Bags and weapons are no girth of anybody's, unless there is nothing else.
+        // Bags and weapons are no thickness of anybody's, unless there is nothing else.
         let own = |part: usize| {
             let of_part = |vertex: usize| parts[vertex][part] > 0.5;
             let bare = figure.triangles_where(|vertex| of_part(vertex) && !figure.is_carried(vertex));
             if bare.is_empty() { figure.triangles_where(of_part) } else { bare }
         };
-        // What hangs from joints without a role (bags, machine arms, tails) does not make a trunk broad, unless the
-        // trunk's own surface is too little to measure.
-        let trunk = {
+        // What hangs from joints without a role (bags, machine arms, tails) does not make a torso broad, unless the
+        // torso's own surface is too little to measure.
+        let torso = {
             let bare = figure.triangles_where(|vertex| {
-                parts[vertex][Part::Trunk as usize] > 0.5
+                parts[vertex][Part::Torso as usize] > 0.5
                     && figure.extra_weight[vertex] < 0.5
                     && !figure.is_carried(vertex)
             });
             let measurable = slice(figure, &bare, 0.5 * (heights.crotch + heights.shoulder_line), 0.03, 0.97);
-            if measurable.is_some() { bare } else { own(Part::Trunk as usize) }
+            if measurable.is_some() { bare } else { own(Part::Torso as usize) }
         };
         let head_joint = figure.role_position(Role::Head).unwrap_or_default();
         let bare_head = figure.triangles_where(|vertex| {
@@ -143,7 +143,7 @@ impl Anatomy {
         let (bottom, top) = (heights.crotch, heights.shoulder_line);
         let mut widths: Vec<f64> = (1..=5)
             .filter_map(|step| {
-                slice(figure, &trunk, bottom + 0.15 * f64::from(step) * (top - bottom), 0.03, 0.97)
+                slice(figure, &torso, bottom + 0.15 * f64::from(step) * (top - bottom), 0.03, 0.97)
             })
             .map(|slice| slice.half_width)
             .collect();
@@ -184,13 +184,13 @@ impl Anatomy {
                     .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| (low.min(p.z), high.max(p.z)));
                 high - low
             }),
-            trunk_half_width: widths.get(widths.len() / 2).copied(),
+            torso_half_width: widths.get(widths.len() / 2).copied(),
             upper_arm_radius: radius(0, arms),
             lower_arm_radius: radius(1, arms),
             upper_leg_radius: radius(0, legs),
             lower_leg_radius: radius(1, legs),
         };
-        let centre_line = centre_line(figure, &trunk, heights);
+        let centre_line = centre_line(figure, &torso, heights);
         Self { landmarks, limbs, middle_x, centre_line, head_centre, head_joint, proportions }
     }
 
@@ -206,7 +206,7 @@ impl Anatomy {
         by_ratio(arms, "hands").into_iter().chain(by_ratio(legs, "feet")).collect()
     }
 
-    /// z of the trunk's centre line at height `y`, constant beyond its ends, and its slope there.
+    /// z of the torso's centre line at height `y`, constant beyond its ends, and its slope there.
     pub fn centre_z(&self, y: f64) -> (f64, f64) {
         let line = &self.centre_line;
         if y <= line[0].0 {
@@ -372,14 +372,14 @@ fn surface_radius(figure: &Figure, triangles: &[[u32; 3]], a: DVec3, b: DVec3) -
     (area_sum > 0.0).then(|| sum / area_sum).filter(|&radius| radius > 0.0)
 }
 
-/// The trunk's centre line from the crotch to the shoulder line, smoothed.
-fn centre_line(figure: &Figure, trunk: &[[u32; 3]], heights: Heights) -> Vec<(f64, f64)> {
+/// The torso's centre line from the crotch to the shoulder line, smoothed.
+fn centre_line(figure: &Figure, torso: &[[u32; 3]], heights: Heights) -> Vec<(f64, f64)> {
     const SLICES: usize = 13;
     let (bottom, top) = (heights.crotch, heights.shoulder_line);
     let raw: Vec<(f64, f64)> = (0..SLICES)
         .filter_map(|index| {
             let y = bottom + (top - bottom) * index as f64 / (SLICES - 1) as f64;
-            slice(figure, trunk, y, 0.03, 0.97).map(|slice| (y, slice.middle_z))
+            slice(figure, torso, y, 0.03, 0.97).map(|slice| (y, slice.middle_z))
         })
         .collect();
     if raw.len() < 2 {

@@ -5,7 +5,8 @@
 //! body's, and nowhere becomes broader than it is on the head: hair that spreads over the shoulders of an adult would
 //! stand out like a skirt from a child's.
 
-use crate::geometry::{Neighbours, Surface, Weld, double_area, neighbours, smoothstep};
+use super::scales::HeadScale;
+use crate::geometry::{Mapped, Neighbours, Surface, Weld, double_area, neighbours, smoothstep};
 use glam::{DMat3, DVec3};
 
 /// The slope of the height's map at the chin, against the mean slope: 1 would be straight, 2 would come to rest at
@@ -78,8 +79,7 @@ impl HairMap {
     /// Hair of `outline` ends at height `new_bottom`.
     ///
     /// - `axis`: the head's axis at the chin, before and after.
-    /// - `head`: the head's scales: height, width, depth.
-    /// - `body_girth`: the body's thickness scale.
+    /// - `head`: the head's scales. `body_thickness`: the body's.
     /// - `tapering`: hair that ends less than this below the chin narrows less: a tail that just reaches below it keeps its
     ///   place behind the head.
     /// - `taming`: 1 keeps the hair within the reach it has on the head, 0 lets it spread as it did.
@@ -87,25 +87,26 @@ impl HairMap {
         outline: &HairOutline,
         axis: [DVec3; 2],
         new_bottom: f64,
-        head: [f64; 3],
-        body_girth: f64,
+        head: HeadScale,
+        body_thickness: f64,
         tapering: f64,
         taming: f64,
     ) -> Self {
         let depth = outline.depth;
         let mean = (axis[1].y - new_bottom) / depth;
-        let first = head[0].min(FIRST_SLOPE * mean);
-        let tip = body_girth.max(NARROWEST_TIP).min(head[1]);
+        let first = head.height.min(FIRST_SLOPE * mean);
+        let tip = body_thickness.max(NARROWEST_TIP).min(head.width);
+        let across = [head.width, head.depth];
         let mut map = Self { axis, depth, slopes: [first, mean], widths: Vec::new() };
         let scales: Vec<[f64; 2]> = (0..KNOTS)
             .map(|knot| {
                 let d = depth * knot as f64 / (KNOTS - 1) as f64;
                 // Of the mapped depth: of the unmapped one, short hair flares.
                 let fraction = smoothstep(map.drop(d) / (mean * depth).max(tapering));
-                [1, 2].map(|side| {
-                    let scale = head[side] + (tip.min(head[side]) - head[side]) * fraction;
-                    let on_head = head[side] * outline.head_reach[side - 1];
-                    let reach = outline.reach[knot][side - 1];
+                [0, 1].map(|side| {
+                    let scale = across[side] + (tip.min(across[side]) - across[side]) * fraction;
+                    let on_head = across[side] * outline.head_reach[side];
+                    let reach = outline.reach[knot][side];
                     if reach * scale > on_head { scale + taming * (on_head / reach - scale) } else { scale }
                 })
             })
@@ -133,7 +134,7 @@ impl HairMap {
     /// Where the point `p` below the chin goes, and the Jacobian there.
     // Not inlined: see `FaceShape::map`.
     #[inline(never)]
-    pub fn map(&self, p: DVec3) -> (DVec3, DMat3) {
+    pub fn map(&self, p: DVec3) -> Mapped {
         let from = p - self.axis[0];
         let d = -from.y;
         let [first, mean] = self.slopes;
@@ -146,19 +147,19 @@ impl HairMap {
         let knots_per_length = (KNOTS - 1) as f64 / self.depth;
         let by_y = [0, 1]
             .map(|side| if d < self.depth { (upper[side] - lower[side]) * knots_per_length } else { 0.0 });
-        let to = self.axis[1] + DVec3::new(width[0] * from.x, -self.drop(d), width[1] * from.z);
+        let position = self.axis[1] + DVec3::new(width[0] * from.x, -self.drop(d), width[1] * from.z);
         let jacobian = DMat3::from_cols(
             DVec3::new(width[0], 0.0, 0.0),
             DVec3::new(by_y[0] * from.x, slope, by_y[1] * from.z),
             DVec3::new(0.0, 0.0, width[1]),
         );
-        (to, jacobian)
+        Mapped { position, jacobian }
     }
 }
 
 /// Steps that spread a push over the neighbouring hair.
 const SPREAD_PASSES: usize = 8;
-/// Hair keeps at least this part of its old distance from the body, up to `CLEARANCE` of the height.
+/// Hair keeps at least this share of its old distance from the body, up to `CLEARANCE` of the height.
 const KEPT_DISTANCE: f64 = 0.5;
 /// See [`KEPT_DISTANCE`].
 const CLEARANCE: f64 = 0.008;
@@ -234,7 +235,7 @@ impl HairOnBody {
 
     /// The vertices of hair, and what must be added to each so that locks which lay on the body still do.
     ///
-    /// The body's heights and girths change, the head's place too, so a lock that lay on the chest may end inside it.
+    /// The body's heights and thicknesses change, the head's place too, so a lock that lay on the chest may end inside it.
     /// Every vertex that was outside the body and no longer is moves out along the body's normal; its neighbours are
     /// drawn along.
     ///
@@ -246,8 +247,8 @@ impl HairOnBody {
             .iter()
             .zip(self.to_body(after, weld))
             .map(|(&old, (new, normal))| {
-                let wanted = (KEPT_DISTANCE * old).min(CLEARANCE * height);
-                if old > 0.0 && new < wanted { normal * (wanted - new) } else { DVec3::ZERO }
+                let least = (KEPT_DISTANCE * old).min(CLEARANCE * height);
+                if old > 0.0 && new < least { normal * (least - new) } else { DVec3::ZERO }
             })
             .collect();
         if needs.iter().all(|&need| need == DVec3::ZERO) {

@@ -12,27 +12,27 @@ use glam::DVec3;
 
 /// A vertex with this much weight to the head moves with it alone.
 const SURE_WEIGHT: f64 = 0.999;
-/// Triangles this far beside a box of rays are looked at too, as a part of H.
+/// Triangles this far beside a box of rays are looked at too, as a share of H.
 const SLIVER: f64 = 1e-3;
 /// Rows of rays that look for the chin.
 const CHIN_ROWS: usize = 120;
-/// Where those rows start and end, as parts of (crown - shoulder line), from the shoulder line.
+/// Where those rows start and end, as shares of (crown - shoulder line), from the shoulder line.
 const CHIN_RANGE: (f64, f64) = (-0.05, 0.70);
-/// Columns of rays, as parts of the face's width, from its middle.
+/// Columns of rays, as shares of the face's width, from its middle.
 const CHIN_COLUMNS: [f64; 5] = [0.0, -0.04, 0.04, -0.08, 0.08];
-/// The bands above and below a row that are compared, as a part of (crown - shoulder line).
+/// The bands above and below a row that are compared, as a share of (crown - shoulder line).
 const CHIN_BAND: f64 = 0.05;
 /// A smaller step back than this part of (crown - shoulder line) is no chin.
 const CHIN_STEP: f64 = 0.04;
 /// Steps that differ by less are equally steep, and the lowest counts: or the last digits of a model would decide.
 const TIE: f64 = 1e-4;
-/// Where the chin is taken to be where none is seen, as a part of (crown - shoulder line).
+/// Where the chin is taken to be where none is seen, as a share of (crown - shoulder line).
 const CHIN_BY_RATIO: f64 = 0.22;
-/// A crotch is believed from this far below the hip joints to this far above them, as parts of H.
+/// A crotch is believed from this far below the hip joints to this far above them, as shares of H.
 const CROTCH_RANGE: (f64, f64) = (-0.065, 0.03);
-/// Where the crotch is taken to be where it is not seen, below the hip joints, as a part of H.
+/// Where the crotch is taken to be where it is not seen, below the hip joints, as a share of H.
 const CROTCH_BY_RATIO: f64 = 0.03;
-/// How far from the middle the rays pass, as a part of H.
+/// How far from the middle the rays pass, as a share of H.
 const BESIDE_MIDDLE: f64 = 7e-4;
 /// Rows of rays that look for the crotch.
 const CROTCH_ROWS: usize = 200;
@@ -75,10 +75,10 @@ pub fn landmarks(figure: &Figure) -> Landmarks {
     let height = figure.height();
     let sources = HeadSources::of(figure);
     let positions = sources.vertices.iter().map(|&vertex| figure.positions[vertex as usize]).collect();
-    let posed = Posed::of(figure, positions, |joint| figure.joints[joint]);
-    let Upper { crown, chin, chin_seen, crown_with_hair } = upper(&sources, &posed);
-    let sole = sources.sole(&posed);
-    let shoulder_line = posed.shoulder_line;
+    let placed = HeadPlacement::of(figure, positions, |joint| figure.joints[joint]);
+    let HeadHeights { crown, chin, chin_seen, crown_with_hair } = upper(&sources, &placed);
+    let sole = sources.sole(&placed);
+    let shoulder_line = placed.shoulder_line;
     let hip_line =
         mean_height(figure, [Role::LeftUpperLeg, Role::RightUpperLeg], |joint| figure.joints[joint]);
     let (crotch, crotch_seen) = crotch(figure, hip_line);
@@ -97,7 +97,7 @@ pub struct HeadSources {
     /// The head's own triangles: without hair, hats and the like, and with them.
     bare: HeadTriangles,
     with_hair: HeadTriangles,
-    /// Head, neck and trunk, without hair, hats and the like.
+    /// Head, neck and torso, without hair, hats and the like.
     upper: Vec<[u32; 3]>,
     /// Vertices whose lowest is the sole.
     soles: Vec<u32>,
@@ -110,8 +110,8 @@ struct HeadTriangles {
     sure: Vec<[u32; 3]>,
 }
 
-/// Where that is.
-pub struct Posed {
+/// Where what [`HeadSources`] lists is.
+pub struct HeadPlacement {
     /// By [`HeadSources::vertices`].
     positions: Vec<DVec3>,
     head_joint: DVec3,
@@ -160,19 +160,19 @@ impl HeadSources {
         corners.chain(soles).for_each(|vertex| *vertex = numbers[*vertex as usize]);
     }
 
-    fn sole(&self, posed: &Posed) -> f64 {
-        let heights = self.soles.iter().map(|&vertex| posed.positions[vertex as usize].y);
-        heights.min_by(f64::total_cmp).unwrap_or(extent(&posed.positions).0)
+    fn sole(&self, placed: &HeadPlacement) -> f64 {
+        let heights = self.soles.iter().map(|&vertex| placed.positions[vertex as usize].y);
+        heights.min_by(f64::total_cmp).unwrap_or(extent(&placed.positions).0)
     }
 
     /// How many heads tall that is: [`Heights::heads`], without what that does not need.
-    pub fn heads(&self, posed: &Posed) -> f64 {
-        let Upper { crown, chin, .. } = upper(self, posed);
-        (crown - self.sole(posed)) / (crown - chin)
+    pub fn heads(&self, placed: &HeadPlacement) -> f64 {
+        let HeadHeights { crown, chin, .. } = upper(self, placed);
+        (crown - self.sole(placed)) / (crown - chin)
     }
 }
 
-impl Posed {
+impl HeadPlacement {
     /// `figure` with the vertices of its [`HeadSources`] at `positions`, and joints where `place_joint` says.
     pub fn of(figure: &Figure, positions: Vec<DVec3>, place_joint: impl Fn(usize) -> DVec3) -> Self {
         Self {
@@ -183,21 +183,21 @@ impl Posed {
     }
 }
 
-/// What is read above the waist.
-struct Upper {
+/// The heights that are read above the waist.
+struct HeadHeights {
     crown: f64,
     chin: f64,
     chin_seen: bool,
     crown_with_hair: bool,
 }
 
-fn upper(sources: &HeadSources, posed: &Posed) -> Upper {
-    let (low, high) = extent(&posed.positions);
-    let (crown, crown_with_hair) = crown(sources, posed, low, high);
+fn upper(sources: &HeadSources, placed: &HeadPlacement) -> HeadHeights {
+    let (low, high) = extent(&placed.positions);
+    let (crown, crown_with_hair) = crown(sources, placed, low, high);
     // A head whose crown lies below the shoulders is no head; keep a sliver so that nothing divides by 0.
-    let crown = crown.max(posed.shoulder_line + 0.01 * (high - low));
-    let (chin, chin_seen) = chin(sources, posed, crown, high - low);
-    Upper { crown, chin, chin_seen, crown_with_hair }
+    let crown = crown.max(placed.shoulder_line + 0.01 * (high - low));
+    let (chin, chin_seen) = chin(sources, placed, crown, high - low);
+    HeadHeights { crown, chin, chin_seen, crown_with_hair }
 }
 
 fn mean_height(figure: &Figure, roles: [Role; 2], place_joint: impl Fn(usize) -> DVec3) -> f64 {
@@ -255,8 +255,8 @@ fn within(
 ///
 /// The rays stand over the joint, about which paper mode scales the head: so the crown of the result is that of the
 /// target, scaled. A joint that lies outside of its head gets a ring around the head's middle.
-fn crown(sources: &HeadSources, posed: &Posed, low: f64, high: f64) -> (f64, bool) {
-    let (positions, joint) = (&posed.positions, posed.head_joint);
+fn crown(sources: &HeadSources, placed: &HeadPlacement, low: f64, high: f64) -> (f64, bool) {
+    let (positions, joint) = (&placed.positions, placed.head_joint);
     for (bare, over_joint, hits_needed) in
         [(true, true, 5), (true, false, 5), (false, true, 5), (false, false, 1)]
     {
@@ -289,8 +289,8 @@ fn crown(sources: &HeadSources, posed: &Posed, low: f64, high: f64) -> (f64, boo
 }
 
 /// The chin: the deepest step back below the face, seen from the front.
-fn chin(sources: &HeadSources, posed: &Posed, crown: f64, height: f64) -> (f64, bool) {
-    let (positions, triangles, shoulder_line) = (&posed.positions, &sources.upper, posed.shoulder_line);
+fn chin(sources: &HeadSources, placed: &HeadPlacement, crown: f64, height: f64) -> (f64, bool) {
+    let (positions, triangles, shoulder_line) = (&placed.positions, &sources.upper, placed.shoulder_line);
     let span = crown - shoulder_line;
     let by_ratio = (shoulder_line + CHIN_BY_RATIO * span, false);
     let Some((face, half)) = middle(positions, &sources.bare.all).or_else(|| middle(positions, triangles))

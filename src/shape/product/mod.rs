@@ -8,5 +8,6 @@ pub mod hair;
 pub mod landmarks;
 pub mod part;
 pub mod pieces;
+pub mod scales;
 pub mod smoothing;
 pub mod weights;

@@ -7,7 +7,7 @@ use crate::character::Role;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[repr(u8)]
 pub enum Part {
-    Trunk,
+    Torso,
     Neck,
     Head,
     LeftUpperArm,
@@ -34,7 +34,7 @@ impl Part {
     pub fn of(role: Role) -> Part {
         use Role::*;
         match role {
-            Hips | Spine | Chest | UpperChest | LeftShoulder | RightShoulder => Part::Trunk,
+            Hips | Spine | Chest | UpperChest | LeftShoulder | RightShoulder => Part::Torso,
             Neck => Part::Neck,
             Head | LeftEye | RightEye | Jaw => Part::Head,
             LeftUpperArm => Part::LeftUpperArm,

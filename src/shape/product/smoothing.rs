@@ -9,7 +9,7 @@ use glam::DVec3;
 
 /// One step of smoothing along the mesh moves a vertex's weights this far to the mean of its neighbours'.
 const UMBRELLA_STEP: f32 = 0.6;
-/// The width of both kinds of smoothing, as a part of H.
+/// The width of both kinds of smoothing, as a share of H.
 const SMOOTHING_WIDTH: f64 = 0.012;
 /// Bounds of the number of steps along the mesh.
 const UMBRELLA_PASSES: (f64, f64) = (4.0, 60.0);
@@ -92,7 +92,7 @@ pub fn smooth_along(
 
 /// All parts, in groups that are smoothed together.
 const SMOOTHED_TOGETHER: [[Part; 4]; 4] = [
-    [Part::Trunk, Part::Neck, Part::Head, Part::Hair],
+    [Part::Torso, Part::Neck, Part::Head, Part::Hair],
     [Part::LeftUpperArm, Part::LeftLowerArm, Part::LeftHand, Part::LeftFoot],
     [Part::RightUpperArm, Part::RightLowerArm, Part::RightHand, Part::RightFoot],
     [Part::LeftUpperLeg, Part::LeftLowerLeg, Part::RightUpperLeg, Part::RightLowerLeg],

@@ -2,7 +2,7 @@
 //!
 //! The file's weights are made for animation: creases where they bend, borders where an artist put a joint, another
 //! set for each garment. Parts that shrink by different amounts tear such borders open. So the weights are folded
-//! into parts, head and neck are told apart by the geometry, and then all is smoothed along the mesh and across
+//! into parts, head and neck are parted by the geometry, and then all is smoothed along the mesh and across
 //! layers of cloth; the file's own weights stay as they are.
 
 use super::anatomy::Anatomy;
@@ -13,19 +13,19 @@ use crate::geometry::{Weld, bounds, smoothstep};
 use crate::shape::figure::Figure;
 use glam::DVec3;
 
-/// Where hands (feet) without a joint begin, the weights go over from the lower arm (leg) within this part of the
+/// Where hands (feet) without a joint begin, the weights go over from the lower arm (leg) within this share of the
 /// distance on both sides.
 const EXTREMITY_BAND: f64 = 0.1;
-/// The head begins this far under the chin at the face, and this far above it behind the head joint, as parts of L.
+/// The head begins this far under the chin at the face, and this far above it behind the head joint, as shares of L.
 const HEAD_PLANE: (f64, f64) = (-0.02, 0.22);
-/// How far behind the head joint the plane has risen, as a part of L.
+/// How far behind the head joint the plane has risen, as a share of L.
 const HEAD_PLANE_BACK: f64 = 0.35;
-/// The neck's weights go over into the head's within half the neck, but at least and at most these parts of L.
+/// The neck's weights go over into the head's within half the neck, but at least and at most these shares of L.
 const HEAD_BAND: (f64, f64) = (0.06, 0.2);
-/// Below the first of these heights, as parts of the ankle's, leg vertices are the foot's alone; above the second their
+/// Below the first of these heights, as shares of the ankle's, leg vertices are the foot's alone; above the second their
 /// weights stay.
 const SOLE_BAND: (f64, f64) = (0.15, 0.7);
-/// Between these distances from the neck's axis, to the side or behind, what the head moves is hair, as parts of L.
+/// Between these distances from the neck's axis, to the side or behind, what the head moves is hair, as shares of L.
 const HAIR_REACH: (f64, f64) = (0.36, 0.5);
 
 /// Each vertex's weights to the parts, and whether the head alone moves it.

@@ -1,0 +1,117 @@
+//! How the target hangs on a field, and where the field takes its points.
+
+use crate::character::Character;
+use crate::parallel;
+use crate::shape::field::{Binding, Field};
+use crate::shape::figure::Figure;
+use glam::DVec3;
+use std::sync::Arc;
+
+/// Fewer vertices than this are not worth a thread.
+pub const LEAST_VERTICES: usize = 8000;
+
+/// How a target is attached to a mode's field.
+#[derive(Clone, Debug)]
+pub struct Bindings {
+    /// One for each vertex.
+    pub vertices: Arc<Vec<Binding>>,
+    /// One for each joint.
+    pub joints: Arc<Vec<Binding>>,
+    /// Where it stands.
+    pub ground: Arc<GroundContact>,
+}
+
+/// Vertices of which the lowest stays where it is, and its height.
+#[derive(Clone, Debug)]
+pub struct GroundContact {
+    /// The vertices.
+    pub vertices: Vec<u32>,
+    /// The height of the lowest one, canonical frame.
+    pub height: f64,
+}
+
+impl GroundContact {
+    /// By the vertices of `figure` that `stands` accepts.
+    pub fn of(figure: &Figure, stands: impl Fn(usize) -> bool) -> Self {
+        let vertices: Vec<u32> = (0..figure.positions.len())
+            .filter(|&vertex| stands(vertex))
+            .map(|vertex| vertex as u32)
+            .collect();
+        let heights = vertices.iter().map(|&vertex| figure.positions[vertex as usize].y);
+        let height = heights.fold(f64::INFINITY, f64::min);
+        Self { vertices, height }
+    }
+}
+
+/// How each joint is attached: by the role it folds into, as `bind` says; what lies above the hips stays.
+pub fn joint_bindings(
+    character: &Character,
+    figure: &Figure,
+    bind: impl Fn(usize) -> Binding,
+) -> Vec<Binding> {
+    let mut above_humanoid = vec![false; figure.joints.len()];
+    for (_, joint) in figure.humanoid.iter() {
+        for above in character.skeleton.ancestors(joint).skip(1) {
+            above_humanoid[above] = true;
+        }
+    }
+    let mut weighted = vec![false; figure.joints.len()];
+    for mesh in &character.meshes {
+        for &(joint, _) in mesh.weights.rows().flatten() {
+            weighted[joint as usize] = true;
+        }
+    }
+    (0..figure.joints.len())
+        .map(|joint| match figure.joint_roles[joint] {
+            None if above_humanoid[joint] || !weighted[joint] => Binding::Fixed,
+            _ => bind(joint),
+        })
+        .collect()
+}
+
+/// A figure, how it is attached to a field, and that field.
+#[derive(Clone, Copy)]
+pub struct Placement<'a> {
+    /// Where everything is at rest.
+    pub figure: &'a Figure,
+    /// How it is attached.
+    pub bindings: &'a Bindings,
+    /// What moves it.
+    pub field: &'a Field,
+    /// Added to each vertex at the end, as far as the field's amount says; empty where nothing is.
+    pub hair_offsets: &'a [DVec3],
+    /// Threads to use, 0 for all cores.
+    pub threads: usize,
+}
+
+impl Placement<'_> {
+    /// Where `vertex` goes, or a point `p` near it that moves with it; canonical frame.
+    pub fn vertex(&self, vertex: usize, p: DVec3) -> DVec3 {
+        let to = self.field.place(p, &self.bindings.vertices[vertex]);
+        match self.hair_offsets.get(vertex) {
+            Some(&offset) => to + self.field.finish.amount * offset,
+            None => to,
+        }
+    }
+
+    /// Where every vertex goes, canonical frame.
+    pub fn all_vertices(&self) -> Vec<DVec3> {
+        let positions = &self.figure.positions;
+        parallel::collect(self.threads, positions.len(), LEAST_VERTICES, |vertex| {
+            self.vertex(vertex, positions[vertex])
+        })
+    }
+
+    /// As [`Self::all_vertices`], of these.
+    pub fn vertices(&self, vertices: &[u32]) -> Vec<DVec3> {
+        parallel::collect(self.threads, vertices.len(), LEAST_VERTICES, |index| {
+            let vertex = vertices[index] as usize;
+            self.vertex(vertex, self.figure.positions[vertex])
+        })
+    }
+
+    /// Where `joint` goes, canonical frame.
+    pub fn joint(&self, joint: usize) -> DVec3 {
+        self.field.place(self.figure.joints[joint], &self.bindings.joints[joint])
+    }
+}

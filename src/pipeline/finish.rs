@@ -1,0 +1,84 @@
+//! Amount, ground and face: what is done last, in this order, and anew for every change of these alone.
+
+use super::attach::Placement;
+use super::{Deformer, milliseconds, product};
+use crate::character::MeshKind;
+use crate::face::FaceShape;
+use crate::options::{Mode, Stage};
+use crate::shape::field::{BodyField, Finish};
+use crate::shape::measured::is_of_head;
+use glam::DVec3;
+use std::time::Instant;
+
+impl Deformer {
+    /// Makes the field of the amount and the face that the options ask for, and the warnings with it.
+    ///
+    /// `ground`: the shift that puts the feet on the ground, where it is known already.
+    pub(super) fn finish(&mut self, ground: Option<f64>) {
+        let amount = self.options.amount;
+        self.warnings.clone_from(&self.deformation.warnings);
+        if amount == 1.0 {
+            self.warnings.extend(self.deformation.heads_left.clone());
+        }
+        let ground = ground.unwrap_or_else(|| self.ground_shift());
+        self.field.finish = Finish { face: FaceShape::None, amount, ground };
+        self.finish_face();
+    }
+
+    /// Feet stand where they stood: the lowest vertex that touches the ground keeps its height.
+    fn ground_shift(&self) -> f64 {
+        let field = self.field.with(Finish { amount: self.options.amount, ..Finish::default() });
+        let ground = &self.deformation.bindings.ground;
+        let after = Placement { field: &field, ..self.placement() }.vertices(&ground.vertices);
+        let lowest = after.iter().map(|p| p.y).min_by(f64::total_cmp);
+        lowest.map_or(0.0, |lowest| ground.height - lowest)
+    }
+
+    /// Makes the face younger. A squash that would fold it is bounded, with the warning `face_squash_clamped`.
+    fn finish_face(&mut self) {
+        let clock = Instant::now();
+        let squash = self.face_squash();
+        if self.options.stage < Stage::Face || squash == 0.0 {
+            return;
+        }
+        let Some((low, high)) = self.face_box() else {
+            return;
+        };
+        let (face, warning) = FaceShape::in_box(low, high, self.options.face_curve, squash);
+        self.warnings.extend(warning);
+        self.field.finish.face = face;
+        self.timing.face = milliseconds(clock);
+    }
+
+    /// gamma as set, else the mode's own.
+    fn face_squash(&self) -> f64 {
+        let by_mode = match self.options.mode {
+            Mode::Product => product::face_squash(&self.target.measured),
+            Mode::Paper => 0.0,
+        };
+        self.options.face_squash.unwrap_or(by_mode)
+    }
+
+    /// The box of the face map: around what the head moves, in body or face meshes, as the whole field leaves it; the
+    /// mode may know its height.
+    fn face_box(&self) -> Option<(DVec3, DVec3)> {
+        let figure = &self.target.measured.figure;
+        let whole = self.field.with(Finish::default());
+        let placement = Placement { field: &whole, ..self.placement() };
+        let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        for vertex in 0..figure.positions.len() {
+            if matches!(figure.kind(vertex), MeshKind::Body | MeshKind::FacePart)
+                && is_of_head(figure, vertex)
+            {
+                let p = placement.vertex(vertex, figure.positions[vertex]);
+                low = low.min(p);
+                high = high.max(p);
+            }
+        }
+        let around = (low.x <= high.x).then_some((low, high));
+        match &*self.deformation.body {
+            BodyField::Parts(field) => Some(product::face_box(field, around)),
+            BodyField::Bones(_) => around,
+        }
+    }
+}

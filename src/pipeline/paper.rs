@@ -1,0 +1,93 @@
+//! The paper's own way in order: coefficients (Eqs. 9-11), skeleton (Eqs. 1-4), mesh (Eqs. 5-8).
+
+use super::attach::{Bindings, GroundContact, joint_bindings};
+use super::{Deformation, Target};
+use crate::character::bones::Bone;
+use crate::character::{MeshKind, Role};
+use crate::error::{Error, ErrorKind, Result};
+use crate::geometry::{Weld, bounds, components};
+use crate::options::Options;
+use crate::shape::field::{Binding, BodyField};
+use crate::shape::figure::Figure;
+use crate::shape::measured::is_of_head;
+use crate::shape::paper::coefficients::coefficients;
+use crate::shape::paper::field::{BoneBinding, BoneField, PaperField};
+use crate::shape::paper::shorten::shorten;
+use crate::shape::style::Style;
+use glam::DVec3;
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+/// The paper's way to give `target` the style.
+///
+/// # Errors
+/// `BadOption` for a style of N heads; as [`coefficients`].
+pub fn deform(target: &Target, style: &Style, options: &Options) -> Result<Deformation> {
+    let Style::Shape(reference) = style else {
+        return Err(Error::new(
+            ErrorKind::BadOption,
+            "a style for N heads needs product mode: leave --paper out, or give a reference",
+        ));
+    };
+    let measured = &target.measured;
+    let (groups, bone_groups) = (&options.groups, &options.bone_groups);
+    let found = coefficients(&measured.shape, reference, options.head_scale, groups, bone_groups)?;
+    let all: BTreeSet<Role> = measured.joints.keys().copied().collect();
+    let bones: Vec<Bone> = measured.bones(&all, options);
+    let (joints, head_top) = (&measured.joints, measured.head_top);
+    let shortened = shorten(&bones, joints, head_top, &found.groups);
+    let field = BoneField::new(&bones, joints, head_top, &shortened, &found.groups);
+    Ok(Deformation {
+        bindings: bindings(target, &field),
+        body: Arc::new(BodyField::Bones(PaperField { bones: field, stage: options.stage })),
+        hair_offsets: Vec::new(),
+        head_ratio: found.head_ratio,
+        coefficients: found.groups,
+        warnings: found.warnings,
+        heads_left: None,
+        product: None,
+    })
+}
+
+/// Everything by its weights, hats and glasses with the face as a whole; it stands on what is no hair.
+fn bindings(target: &Target, field: &BoneField) -> Bindings {
+    let figure = &target.measured.figure;
+    let bind = |p: DVec3, weights: &[(Role, f64)]| BoneBinding {
+        weights: field.bone_weights(p, weights),
+        head: weights.iter().filter(|&&(role, _)| role.is_head()).map(|&(_, weight)| weight).sum(),
+        on_face: None,
+    };
+    let weights = figure.role_weights.iter();
+    let mut vertices: Vec<BoneBinding> =
+        figure.positions.iter().zip(weights).map(|(&p, weights)| bind(p, weights)).collect();
+    for (members, centre) in head_accessories(figure, &target.weld) {
+        for vertex in members {
+            vertices[vertex].on_face = Some(centre);
+        }
+    }
+    let joints = joint_bindings(&target.character, figure, |joint| {
+        let role = figure.joint_roles[joint].unwrap_or(Role::Hips);
+        Binding::Bones(bind(figure.joints[joint], &[(role, 1.0)]))
+    });
+    Bindings {
+        vertices: Arc::new(vertices.into_iter().map(Binding::Bones).collect()),
+        joints: Arc::new(joints),
+        ground: Arc::new(GroundContact::of(figure, |vertex| figure.kind(vertex) != MeshKind::Hair)),
+    }
+}
+
+/// Hats and glasses: components of accessories that the head moves, with the middle of each.
+fn head_accessories(figure: &Figure, weld: &Weld) -> Vec<(Vec<usize>, DVec3)> {
+    let component = components(&figure.triangles, weld);
+    let mut pieces: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
+    for vertex in 0..figure.positions.len() {
+        if figure.kind(vertex) == MeshKind::Accessory && is_of_head(figure, vertex) {
+            pieces.entry(component[weld.representative[vertex] as usize]).or_default().push(vertex);
+        }
+    }
+    let with_middle = |members: Vec<usize>| {
+        let (low, high) = bounds(members.iter().map(|&vertex| figure.positions[vertex]));
+        (members, (low + high) / 2.0)
+    };
+    pieces.into_values().map(with_middle).collect()
+}

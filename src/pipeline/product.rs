@@ -1,0 +1,285 @@
+//! Product mode in order: parts, coefficients until the number of heads is right, and hair outside of the body.
+
+use super::attach::{Bindings, GroundContact, Placement, joint_bindings};
+use super::{Deformation, Target};
+use crate::character::Role;
+use crate::error::{Error, ErrorKind, Result, Warning};
+use crate::options::Options;
+use crate::progress::Progress;
+use crate::shape::field::{Binding, BodyField, Field};
+use crate::shape::figure::{Figure, extent};
+use crate::shape::heights::Heights;
+use crate::shape::product::anatomy::Proportions;
+use crate::shape::product::binding::{PartBinding, PartBindings, joint_binding, part_bindings};
+use crate::shape::product::coefficients::{Goal, heads_of, part_coefficients};
+use crate::shape::product::field::PartField;
+use crate::shape::product::hair::HairOnBody;
+use crate::shape::product::landmarks::{HeadPlacement, HeadSources};
+use crate::shape::product::part::Part;
+use crate::shape::product::scales::PartCoefficients;
+use crate::shape::style::Style;
+use crate::shape::{BodyShape, Measured};
+use glam::DVec3;
+use std::sync::{Arc, OnceLock};
+
+/// gamma of product mode unless the user says otherwise (found by looking: 0 leaves an adult, 1.4 a pointed forehead).
+pub const FACE_SQUASH: f64 = 0.8;
+/// A head count as near as this to the one asked for needs no correction.
+const HEADS_TOLERANCE: f64 = 5e-3;
+/// Fields that are tried for a head count.
+const HEADS_ATTEMPTS: usize = 5;
+/// One correction changes what is asked for below the head by no more than these factors.
+const HEADS_CORRECTION: (f64, f64) = (0.8, 1.25);
+/// What is left after that is warned of above this.
+const HEADS_WARNED_ABOVE: f64 = 0.01;
+/// Hair that reaches further below the chin than this, in heads, is warned of.
+const HAIR_WARNED_ABOVE: f64 = 0.1;
+
+/// What product mode finds of a measured target once: no style and no option changes it.
+#[derive(Debug)]
+pub struct ProductTarget {
+    bindings: Bindings,
+    /// What the bindings were made with, less the vertices' own.
+    parts: PartBindings,
+    hair: OnceLock<HairOnBody>,
+    head_sources: OnceLock<HeadSources>,
+}
+
+impl ProductTarget {
+    /// Binds vertices and joints to parts.
+    fn of(target: &Target, threads: usize) -> Self {
+        let measured = &target.measured;
+        let figure = &measured.figure;
+        let skeleton = &target.character.skeleton;
+        let mut parts = part_bindings(figure, &measured.anatomy, skeleton, &target.weld, threads);
+        let vertices = std::mem::take(&mut parts.vertices);
+        let of_legs =
+            |vertex: usize| vertices[vertex].weights[Part::LeftUpperLeg as usize..].iter().sum::<f32>();
+        let ground = GroundContact::of(figure, |vertex| of_legs(vertex) > 0.5);
+        let joints = joint_bindings(&target.character, figure, |joint| {
+            Binding::Parts(if is_head_joint_in_neck(measured, joint) {
+                PartBinding::to(Part::Neck)
+            } else {
+                joint_binding(figure, &parts, joint)
+            })
+        });
+        let bindings = Bindings {
+            vertices: Arc::new(vertices.into_iter().map(Binding::Parts).collect()),
+            joints: Arc::new(joints),
+            ground: Arc::new(ground),
+        };
+        Self { bindings, parts, hair: OnceLock::new(), head_sources: OnceLock::new() }
+    }
+
+    /// A vertex's weight to `part`.
+    fn weight(&self, vertex: usize, part: Part) -> f32 {
+        match &self.bindings.vertices[vertex] {
+            Binding::Parts(binding) => binding.weights[part as usize],
+            _ => 0.0,
+        }
+    }
+
+    /// Where `field` takes the target's points.
+    fn placement<'a>(&'a self, figure: &'a Figure, field: &'a Field, threads: usize) -> Placement<'a> {
+        Placement { figure, bindings: &self.bindings, field, hair_offsets: &[], threads }
+    }
+
+    /// How many heads tall `placement` makes the target, measured on the result.
+    fn heads(&self, placement: &Placement) -> f64 {
+        let sources = self.head_sources.get_or_init(|| HeadSources::of(placement.figure));
+        let positions = placement.vertices(&sources.vertices);
+        sources.heads(&HeadPlacement::of(placement.figure, positions, |joint| placement.joint(joint)))
+    }
+
+    /// What is added to each vertex so that locks which lay on the body still do; empty where nothing is.
+    fn hair_offsets(&self, target: &Target, placement: &Placement) -> Vec<DVec3> {
+        let hair = self.hair.get_or_init(|| self.hair_on_body(target));
+        if hair.is_empty() {
+            return Vec::new();
+        }
+        let after = placement.all_vertices();
+        let (low, high) = extent(&after);
+        let offsets = hair.kept_outside(&after, &target.weld, high - low);
+        if offsets.is_empty() {
+            return Vec::new();
+        }
+        let mut all = vec![DVec3::ZERO; after.len()];
+        for (vertex, offset) in offsets {
+            all[vertex] = offset;
+        }
+        all
+    }
+
+    fn hair_on_body(&self, target: &Target) -> HairOnBody {
+        let figure = &target.measured.figure;
+        let chin = target.measured.anatomy.landmarks.heights.chin;
+        let hair: Vec<usize> = (0..figure.positions.len())
+            .filter(|&vertex| figure.positions[vertex].y < chin && self.weight(vertex, Part::Hair) > 0.5)
+            .collect();
+        let of_head = |vertex: usize| self.weight(vertex, Part::Hair) + self.weight(vertex, Part::Head);
+        let body =
+            if hair.is_empty() { Vec::new() } else { figure.triangles_where(|vertex| of_head(vertex) < 0.5) };
+        HairOnBody::of(&figure.positions, &figure.triangles, body, hair, &target.weld)
+    }
+}
+
+/// The product's way to give `target` the style.
+///
+/// `product`: what is known of the target already.
+///
+/// # Errors
+/// `BadStyle` for a style without proportions; as [`part_coefficients`]; `Cancelled`.
+pub fn deform(
+    target: &Target,
+    product: Option<Arc<ProductTarget>>,
+    style: &Style,
+    options: &Options,
+    progress: &mut Progress,
+) -> Result<Deformation> {
+    let product = product.unwrap_or_else(|| Arc::new(ProductTarget::of(target, options.thread_count)));
+    let anatomy = &target.measured.anatomy;
+    let head_length = anatomy.proportions.head_length;
+    let head_ratio = match style {
+        Style::Heads(_) => 1.0,
+        Style::Shape(shape) => options.head_scale * head_length / proportions_of(shape)?.head_length,
+    };
+    let mut warnings = anatomy.warnings();
+    warnings.extend(hair_shortened(&product.parts, head_length));
+    let (attempt, heads_left) = best_attempt(target, &product, style, options, progress)?;
+    warnings.extend(attempt.warnings);
+    progress.at(0.9)?;
+    let placement = product.placement(&target.measured.figure, &attempt.field, options.thread_count);
+    let hair_offsets = product.hair_offsets(target, &placement);
+    Ok(Deformation {
+        body: attempt.field.body,
+        bindings: product.bindings.clone(),
+        hair_offsets,
+        head_ratio,
+        coefficients: attempt.scales.by_group(),
+        warnings,
+        heads_left,
+        product: Some(product),
+    })
+}
+
+/// What the mode transfers of a style's body.
+fn proportions_of(shape: &BodyShape) -> Result<&Proportions> {
+    shape.proportions.as_ref().ok_or_else(|| {
+        let message = format!(
+            "the style {} holds no proportions, which product mode transfers: save it again from its model, or use --paper",
+            shape.name
+        );
+        Error::new(ErrorKind::BadStyle, message)
+    })
+}
+
+fn hair_shortened(parts: &PartBindings, head_length: f64) -> Option<Warning> {
+    let depth = parts.hair.as_ref()?.depth / head_length;
+    (depth > HAIR_WARNED_ABOVE).then(|| {
+        let message = format!(
+            "hair reaches {depth:.2} head lengths below the chin: there it follows the body instead of the head (--hair-length)"
+        );
+        Warning::new("hair_shortened", message)
+    })
+}
+
+/// A field that was tried.
+struct Attempt {
+    field: Field,
+    scales: PartCoefficients,
+    warnings: Vec<Warning>,
+}
+
+/// Fields until the head count measured on the result is right: the best of them, and a warning of what is left.
+fn best_attempt(
+    target: &Target,
+    product: &ProductTarget,
+    style: &Style,
+    options: &Options,
+    progress: &mut Progress,
+) -> Result<(Attempt, Option<Warning>)> {
+    let proportions = &target.measured.anatomy.proportions;
+    let asked = match style {
+        Style::Heads(heads) => *heads,
+        Style::Shape(shape) => proportions_of(shape)?.heads(),
+    };
+    let mut aim = asked;
+    let mut best: Option<(f64, f64, Attempt)> = None;
+    for count in 0..HEADS_ATTEMPTS {
+        progress.at(0.3 + 0.1 * count as f32)?;
+        let attempt = attempt(target, product, style, aim / asked, options)?;
+        let placement = product.placement(&target.measured.figure, &attempt.field, options.thread_count);
+        let measured = product.heads(&placement);
+        let is_limited = attempt.warnings.iter().any(|warning| warning.code == "heads_limited");
+        let reach = if is_limited { heads_of(proportions, &attempt.scales) } else { asked };
+        let error = (measured / reach).ln().abs();
+        if best.as_ref().is_none_or(|(least, ..)| error < *least) {
+            best = Some((error, measured, attempt));
+        }
+        if error <= HEADS_TOLERANCE || is_limited {
+            break;
+        }
+        let (least, most) = HEADS_CORRECTION;
+        aim = (aim - 1.0) * ((asked - 1.0) / (measured - 1.0)).clamp(least, most) + 1.0;
+    }
+    let (error, measured, attempt) = best.expect("there is at least one attempt");
+    let heads_left = (error > HEADS_WARNED_ABOVE).then(|| {
+        let message = format!(
+            "{measured:.2} heads are measured on the result instead of {asked:.2}: its chin or crown reads differently from the target's"
+        );
+        Warning::new("heads_limited", message)
+    });
+    Ok((attempt, heads_left))
+}
+
+/// One field, for a style with everything below the head stretched by what makes the result `correction` times as many
+/// heads tall.
+fn attempt(
+    target: &Target,
+    product: &ProductTarget,
+    style: &Style,
+    correction: f64,
+    options: &Options,
+) -> Result<Attempt> {
+    let anatomy = &target.measured.anatomy;
+    let stretched;
+    let goal = match style {
+        Style::Heads(heads) => Goal::Heads(heads * correction),
+        Style::Shape(shape) if correction == 1.0 => Goal::Reference(proportions_of(shape)?),
+        Style::Shape(shape) => {
+            stretched = shape.with_heads(proportions_of(shape)?.heads() * correction);
+            Goal::Reference(proportions_of(&stretched)?)
+        }
+    };
+    let (scales, warnings) = part_coefficients(&anatomy.proportions, goal, options)?;
+    let field = PartField::new(anatomy, scales, &product.parts, options.hair_length);
+    Ok(Attempt { field: Field::of(Arc::new(BodyField::Parts(Box::new(field)))), scales, warnings })
+}
+
+/// gamma where the user does not say: a head without a chin has no face to make younger.
+pub fn face_squash(measured: &Measured) -> f64 {
+    if measured.anatomy.landmarks.chin_seen { FACE_SQUASH } else { 0.0 }
+}
+
+/// The face map's box: as wide as what is `around` the face, from chin to crown.
+pub fn face_box(field: &PartField, around: Option<(DVec3, DVec3)>) -> (DVec3, DVec3) {
+    let Heights { chin, crown, .. } = *field.after();
+    let reach = 0.5 * (crown - chin);
+    let (low, high) = around.unwrap_or((DVec3::splat(-reach), DVec3::splat(reach)));
+    (low.with_y(chin), high.with_y(crown))
+}
+
+/// Heads often turn about a point in the neck: a head joint below the chin moves as the neck does.
+fn is_head_joint_in_neck(measured: &Measured, joint: usize) -> bool {
+    let figure = &measured.figure;
+    figure.humanoid.joint(Role::Head) == Some(joint)
+        && figure.joints[joint].y < measured.anatomy.landmarks.heights.chin
+}
+
+/// What hangs from a head joint in the neck is on the head all the same, above the chin: the binding of such a point `p`,
+/// canonical frame.
+pub fn on_head(measured: &Measured, joint: usize, p: DVec3) -> Option<Binding> {
+    let is_above_chin = p.y >= measured.anatomy.landmarks.heights.chin;
+    (is_above_chin && is_head_joint_in_neck(measured, joint))
+        .then(|| Binding::Parts(PartBinding::to(Part::Head)))
+}

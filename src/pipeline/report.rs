@@ -1,0 +1,88 @@
+//! The numbers of a run.
+
+use super::{Deformed, Deformer};
+use crate::character::{Humanoid, Role};
+use crate::error::Result;
+use crate::options::{Mode, Options};
+use crate::report::{Counts, FigureReport, Report, RigReport};
+use crate::shape::group::group_shapes;
+use crate::shape::style::Style;
+use crate::shape::{BodyShape, Measured};
+use glam::DVec3;
+use std::collections::{BTreeMap, BTreeSet};
+
+impl Deformer {
+    /// The numbers of the run; `result` is measured anew on `deformed`. The host adds its own times and warnings.
+    ///
+    /// # Errors
+    /// As [`Measured::of`] on the result.
+    pub fn report(&self, deformed: &Deformed) -> Result<Report> {
+        let character = &self.target.character;
+        let measured = Measured::of(&character.with(deformed), &self.options)?;
+        let roles = self.roles();
+        let mut target = self.target.measured.report(&roles, &self.options);
+        let mut result = measured.report(&roles, &self.options);
+        let mut joint_count = character.skeleton.joints.len();
+        if let Some(rig) = &self.rig {
+            let at_rest = |joint: usize| character.skeleton.joints[joint].position();
+            target.file_joints = joints_by_role(&rig.own, at_rest);
+            result.file_joints = joints_by_role(&rig.own, |joint| deformed.joints[joint]);
+            if rig.own_count > 0 {
+                joint_count = rig.own_count;
+            }
+        }
+        Ok(Report {
+            target,
+            reference: match &self.style {
+                Style::Shape(shape) => Some(style_report(shape, &roles, &self.options)),
+                Style::Heads(_) => None,
+            },
+            result,
+            mode: self.options.mode.name(),
+            g: self.deformation.head_ratio,
+            coefficients: self.deformation.coefficients.clone(),
+            rig: self.rig.as_ref().map_or_else(|| self.kept_rig(), |rig| rig.report.clone()),
+            counts: Counts {
+                vertices: character.vertex_count(),
+                triangles: character.triangle_count(),
+                meshes: character.meshes.len(),
+                morph_targets: character.meshes.iter().map(|mesh| mesh.morph_targets.len()).sum(),
+                joints: joint_count,
+            },
+            timing_ms: self.timing,
+            warnings: self.warnings.clone(),
+        })
+    }
+
+    /// The character's own rig, of which every joint is sure.
+    fn kept_rig(&self) -> RigReport {
+        let roles = self.target.measured.joints.keys();
+        RigReport {
+            source: "kept",
+            confidence: roles.map(|role| (role.name().to_string(), 1.0)).collect(),
+            ..RigReport::default()
+        }
+    }
+}
+
+/// Where the joints of `humanoid` are, by role.
+fn joints_by_role(humanoid: &Humanoid, place: impl Fn(usize) -> DVec3) -> BTreeMap<String, [f64; 3]> {
+    humanoid.iter().map(|(role, joint)| (role.name().to_string(), place(joint).to_array())).collect()
+}
+
+/// A style's numbers for the report, where its model is not at hand.
+pub fn style_report(shape: &BodyShape, roles: &BTreeSet<Role>, options: &Options) -> FigureReport {
+    let heights = shape.landmarks.unwrap_or_default();
+    let proportions = shape.proportions.clone().unwrap_or_default();
+    FigureReport {
+        height: heights.crown - heights.sole,
+        head_length: match options.mode {
+            Mode::Paper => shape.head_length,
+            Mode::Product => proportions.head_length,
+        },
+        heads: shape.heads().unwrap_or(f64::NAN),
+        shape: group_shapes(shape, roles, options),
+        landmarks: heights,
+        ..FigureReport::default()
+    }
+}

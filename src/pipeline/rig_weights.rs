@@ -1,0 +1,217 @@
+//! Weights of every mesh in order (§IV-B): of the body, of what it wears, of what the head carries.
+
+use super::milliseconds;
+use crate::character::{Humanoid, MeshKind, Role, Weights};
+use crate::error::Warning;
+use crate::rig::eyes::Eye;
+use crate::rig::heat::HeatSystem;
+use crate::rig::mesh_kinds::body_is_whole;
+use crate::rig::transfer::{Skin, Source, Worn, rigid_weights};
+use crate::rig::voxel::{VoxelOptions, heat_would_be_poor, voxel_weights};
+use crate::rig::{GarmentWeights, Layout, RigOptions, WeightBone, WeightMethod, Weighted};
+use glam::DVec3;
+use std::collections::BTreeMap;
+use std::time::Instant;
+
+/// How fast volume weights fall off with distance.
+const VOXEL_FALLOFF: f64 = 0.2;
+
+/// Meshes that take their weights together, as one list of vertices.
+struct Group {
+    meshes: Vec<usize>,
+    positions: Vec<DVec3>,
+    triangles: Vec<[u32; 3]>,
+}
+
+impl Group {
+    fn new(layout: &Layout, meshes: Vec<usize>) -> Self {
+        let mut positions = Vec::new();
+        let mut triangles = Vec::new();
+        for &mesh in &meshes {
+            let vertices = layout.vertices(mesh);
+            let shift = |vertex: u32| vertex - vertices.start as u32 + positions.len() as u32;
+            triangles.extend(layout.triangles_of(mesh).iter().map(|corners| corners.map(shift)));
+            positions.extend_from_slice(&layout.positions[vertices]);
+        }
+        Self { meshes, positions, triangles }
+    }
+
+    /// Hands the rows of all vertices out to the meshes.
+    fn share(&self, layout: &Layout, all: &Weights, weights: &mut [Weights]) {
+        let mut start = 0;
+        for &mesh in &self.meshes {
+            let end = start + layout.vertices(mesh).len();
+            weights[mesh] = Weights::from_rows((start..end).map(|vertex| all.row(vertex).iter().copied()));
+            start = end;
+        }
+    }
+}
+
+/// What gives the body its weights.
+pub enum BodyRule {
+    Heat(HeatSystem),
+    /// The volume knows no heat: its weights are the same for every one.
+    Volume(Weighted),
+}
+
+/// What decides the weights of every mesh, as far as it does not depend on the heat.
+pub struct Binder<'a> {
+    layout: &'a Layout,
+    head: Option<u32>,
+    eyes: &'a [Eye],
+    eye_joints: Vec<Option<u32>>,
+    options: &'a RigOptions,
+    body: Group,
+    garments: Vec<Group>,
+    accessories: Group,
+    of_head: Vec<usize>,
+    /// The body's skin and each garment on it, made when weights are first asked for; `None` until then, and where
+    /// nothing is worn.
+    worn: Option<(Skin, Vec<Worn>)>,
+    pub rule: BodyRule,
+    pub warnings: Vec<Warning>,
+    pub body_time: f64,
+    pub garment_time: f64,
+}
+
+impl<'a> Binder<'a> {
+    pub fn new(
+        layout: &'a Layout,
+        kinds: &[MeshKind],
+        bones: &[WeightBone],
+        humanoid: &Humanoid,
+        eyes: &'a [Eye],
+        options: &'a RigOptions,
+    ) -> Self {
+        let clock = Instant::now();
+        let of =
+            |kind: MeshKind| -> Vec<usize> { (0..kinds.len()).filter(|&mesh| kinds[mesh] == kind).collect() };
+        let mut body = of(MeshKind::Body);
+        let mut garments = of(MeshKind::Garment);
+        let whole = body_is_whole(layout, kinds);
+        // Clothes in place of a body, or the naive case: both take their weights as one.
+        if !whole || options.garments == GarmentWeights::Heat {
+            body.append(&mut garments);
+            body.sort_unstable();
+        }
+        let mut accessories = of(MeshKind::Accessory);
+        let mut of_head = of(MeshKind::Hair);
+        of_head.extend(of(MeshKind::FacePart));
+        // There must be a body to take weights from.
+        if body.iter().all(|&mesh| layout.triangles_of(mesh).is_empty()) {
+            body.append(&mut accessories);
+            body.append(&mut of_head);
+            body.sort_unstable();
+        }
+        let body = Group::new(layout, body);
+        let mut warnings = Vec::new();
+        let method = match options.method {
+            WeightMethod::Auto => match heat_would_be_poor(&body.positions, &body.triangles, bones) {
+                Some(reason) => {
+                    warnings.push(Warning::new(
+                        "open_body",
+                        format!("weights were found through the volume of the body, not along its surface: {reason}"),
+                    ));
+                    WeightMethod::Volume
+                }
+                None => WeightMethod::Heat,
+            },
+            method => method,
+        };
+        let threads = options.thread_count;
+        let rule = match method {
+            WeightMethod::Volume => {
+                let options = VoxelOptions {
+                    resolution: options.voxel_resolution,
+                    falloff: VOXEL_FALLOFF,
+                    thread_count: threads,
+                };
+                BodyRule::Volume(voxel_weights(&body.positions, &body.triangles, bones, &options))
+            }
+            _ => BodyRule::Heat(HeatSystem::new(&body.positions, &body.triangles, bones, threads)),
+        };
+        let separate = |meshes: Vec<usize>| -> Vec<Group> {
+            meshes.into_iter().map(|mesh| Group::new(layout, vec![mesh])).collect()
+        };
+        let joint = |role: Role| humanoid.joint(role).map(|joint| joint as u32);
+        Self {
+            layout,
+            head: joint(Role::Head),
+            eye_joints: eyes.iter().map(|eye| joint(eye.role)).collect(),
+            eyes,
+            options,
+            body,
+            garments: separate(garments),
+            // Pieces that touch are one thing, whatever meshes they are in.
+            accessories: Group::new(layout, accessories),
+            of_head,
+            worn: None,
+            rule,
+            warnings,
+            body_time: milliseconds(clock),
+            garment_time: 0.0,
+        }
+    }
+
+    /// Weights of every mesh, with how many vertices took theirs by another rule.
+    pub fn weights(&mut self, heat: f64) -> (Vec<Weights>, BTreeMap<String, usize>) {
+        let threads = self.options.thread_count;
+        let clock = Instant::now();
+        let mut fallback = BTreeMap::new();
+        let mut count = |weighted: &Weighted| {
+            for (rule, vertices) in &weighted.fallback {
+                *fallback.entry((*rule).to_string()).or_default() += vertices;
+            }
+        };
+        let body = &self.body;
+        let heated;
+        let of_body = match &self.rule {
+            BodyRule::Volume(weighted) => weighted,
+            BodyRule::Heat(system) => {
+                heated = system.weights(heat);
+                &heated
+            }
+        };
+        count(of_body);
+        let mut weights = vec![Weights::default(); self.layout.mesh_count()];
+        body.share(self.layout, &of_body.weights, &mut weights);
+        self.body_time += milliseconds(clock);
+
+        let clock = Instant::now();
+        if !self.garments.is_empty() || !self.accessories.meshes.is_empty() {
+            let (skin, worn) = self.worn.get_or_insert_with(|| {
+                let skin = Skin::new(&body.positions, &body.triangles);
+                let on_skin = |group: &Group| {
+                    let garment = (&group.positions[..], &group.triangles[..]);
+                    Worn::new(&skin, &body.triangles, garment, self.options.garments, threads)
+                };
+                let worn = self.garments.iter().map(on_skin).collect();
+                (skin, worn)
+            });
+            let source = Source {
+                skin,
+                positions: &body.positions,
+                triangles: &body.triangles,
+                weights: &of_body.weights,
+            };
+            for (group, worn) in self.garments.iter().zip(worn) {
+                let weighted = worn.weights(&source, threads);
+                count(&weighted);
+                group.share(self.layout, &weighted.weights, &mut weights);
+            }
+            let things = &self.accessories;
+            let carried = rigid_weights(&source, &things.positions, &things.triangles);
+            count(&carried);
+            things.share(self.layout, &carried.weights, &mut weights);
+        }
+        let head = self.head.unwrap_or(0);
+        for &mesh in &self.of_head {
+            weights[mesh] = Weights::from_rows(self.layout.vertices(mesh).map(|vertex| {
+                let eye = self.eyes.iter().position(|eye| eye.vertices.binary_search(&vertex).is_ok());
+                [(eye.and_then(|eye| self.eye_joints[eye]).unwrap_or(head), 1.0)]
+            }));
+        }
+        self.garment_time += milliseconds(clock);
+        (weights, fallback)
+    }
+}
