@@ -10,9 +10,7 @@ use std::ffi::{CStr, c_char, c_void};
 use std::mem::offset_of;
 use std::ptr::{null, null_mut};
 use std::sync::OnceLock;
-use superdeform::ffi::exports::{
-    basics::*, character::*, deformer::*, once::*, options::*, rig::*, style::*,
-};
+use superdeform::ffi::{all_at_once::*, basics::*, character::*, deformer::*, options::*, rig::*, style::*};
 use superdeform::{Character, Role};
 
 /// What one run may cost, so that thousands fit into a second.

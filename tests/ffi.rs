@@ -20,9 +20,7 @@ use std::ptr::{null, null_mut};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, OnceLock, PoisonError, RwLock, RwLockReadGuard};
 use superdeform::character::roles::find_roles;
-use superdeform::ffi::exports::{
-    basics::*, character::*, deformer::*, once::*, options::*, rig::*, style::*,
-};
+use superdeform::ffi::{all_at_once::*, basics::*, character::*, deformer::*, options::*, rig::*, style::*};
 use superdeform::pipeline::{Deformer, FaceCurve, GroupSettings, Mode, Options, Rig, Stage, Style};
 use superdeform::rig::RigOptions;
 use superdeform::shape::{BodyShape, Measured};

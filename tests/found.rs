@@ -66,7 +66,7 @@ fn a_style_that_is_taken_can_be_saved_and_loaded() {
 #[test]
 #[allow(unsafe_code)]
 fn a_style_cannot_be_stretched_beyond_all_numbers() {
-    use superdeform::ffi::exports::{basics::*, style::*};
+    use superdeform::ffi::{basics::*, style::*};
     // Lengths that are next to nothing beside the head: stretched to so many heads they were infinite.
     let lengths = Proportions {
         head_length: 1e300,

@@ -1,6 +1,6 @@
 //! Arrays, texts and structs of the caller, in and out. Every size is checked before anything is reserved or read.
 
-use super::exports::basics::*;
+use super::basics::*;
 use super::guard::{Failure, Outcome};
 use core::ffi::{CStr, c_char};
 use glam::{DMat4, DVec3, Vec3, Vec4};
@@ -16,13 +16,6 @@ const LARGEST_STRUCT: usize = 1 << 16;
 pub unsafe trait Plain: Copy {}
 macro_rules! plain { ($($name:ty),*) => { $(unsafe impl Plain for $name {})* } }
 plain!(u8, u16, u32, i32, f32, f64, [f32; 3], [f32; 4], [f64; 3], [f64; 9], [f64; 16], [u32; 3], Vec3, Vec4);
-plain!(super::exports::options::SdefGroupSettings, super::exports::options::SdefBoneGroup);
-plain!(super::exports::options::SdefGivenJoint, super::exports::options::SdefOptions);
-plain!(super::exports::character::SdefMesh, super::exports::character::SdefMorphTarget);
-plain!(super::exports::character::SdefSkeleton, super::exports::character::SdefCharacterInfo);
-plain!(super::exports::style::SdefBone, super::exports::style::SdefStyleNumbers);
-plain!(super::exports::deformer::SdefMeshResult, super::exports::deformer::SdefReport);
-plain!(super::exports::deformer::SdefGroup);
 
 /// An empty array that can hold `count` elements.
 pub fn reserved<T>(count: usize, what: impl Display) -> Outcome<Vec<T>> {
@@ -248,18 +241,18 @@ pub unsafe fn struct_out<T: Plain>(what: &str, to: *mut T, value: &T) -> Outcome
 ///
 /// # Safety
 /// `to` is NULL or can be written.
-pub unsafe fn tell<T: Copy>(to: *mut T, value: T) {
+pub unsafe fn write_out<T: Copy>(to: *mut T, value: T) {
     if !to.is_null() {
         unsafe { to.write_unaligned(value) };
     }
 }
 
-/// A result that the caller must want.
-pub fn wanted<T>(what: &str, to: *mut T) -> Outcome {
-    match to.is_null() {
-        true => Err(Failure::argument(format!("{what} is NULL: give a place for the result"))),
-        false => Ok(()),
+/// Refuses a result that the caller gives no place for.
+pub fn not_null<T>(what: &str, to: *mut T) -> Outcome {
+    if to.is_null() {
+        return Err(Failure::argument(format!("{what} is NULL: give a place for the result")));
     }
+    Ok(())
 }
 
 /// An array of the caller's that results go to, checked; `None` where it is not wanted.
@@ -332,7 +325,7 @@ impl<T: Plain> Output<T> {
 /// `to` is NULL or holds `capacity` bytes; `size` is NULL or can be written.
 pub unsafe fn text_out(text: &str, to: *mut c_char, capacity: usize, size: *mut usize) -> Outcome {
     let need = text.len() + 1;
-    unsafe { tell(size, need) };
+    unsafe { write_out(size, need) };
     if to.is_null() {
         return Ok(());
     }

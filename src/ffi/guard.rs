@@ -1,8 +1,8 @@
 //! What stands around every call: errors become a status and a sentence, panics stop here.
 
-use super::exports::basics::*;
+use super::basics::*;
 use crate::error::{Error, ErrorKind};
-use core::ffi::c_char;
+use core::ffi::{c_char, c_void};
 use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::ptr::{addr_of, addr_of_mut};
@@ -79,6 +79,15 @@ pub fn in_words_of_hosts(message: &str) -> String {
         None => message.to_string(),
     };
     WORDS.iter().fold(message, |text, (command, host)| text.replace(command, host))
+}
+
+/// What reports progress to the host; it gives true to go on.
+pub fn progress_of(callback: SdefProgress, user: *mut c_void) -> impl FnMut(f32) -> bool {
+    move |fraction| match callback {
+        // SAFETY: the host's own function with its own pointer.
+        Some(callback) => unsafe { callback(user, fraction.clamp(0.0, 1.0)) == 0 },
+        None => true,
+    }
 }
 
 /// The bytes of `SdefError` before its message.
@@ -171,7 +180,7 @@ impl Drop for Inside {
     }
 }
 
-/// Keeps panics of our calls, which become a status, from the host's standard error; others are told as before.
+/// Keeps panics of our calls, which become a status, from the host's standard error; others are given as before.
 fn keep_quiet() {
     static ONCE: Once = Once::new();
     ONCE.call_once(|| {
@@ -229,11 +238,11 @@ mod tests {
 
     #[test]
     fn a_panic_becomes_a_status() {
-        let mut told = error(size_of::<SdefError>());
-        let status = unsafe { call(&mut told, || panic!("at the disco")) };
-        assert_eq!((status, told.status), (SDEF_STATUS_INTERNAL, SDEF_STATUS_INTERNAL));
-        assert_eq!((told.mesh, told.element), (SDEF_NONE, SDEF_NONE));
-        assert_eq!(text(&told), "a fault of the library, please report it: at the disco");
+        let mut given = error(size_of::<SdefError>());
+        let status = unsafe { call(&mut given, || panic!("at the disco")) };
+        assert_eq!((status, given.status), (SDEF_STATUS_INTERNAL, SDEF_STATUS_INTERNAL));
+        assert_eq!((given.mesh, given.element), (SDEF_NONE, SDEF_NONE));
+        assert_eq!(text(&given), "a fault of the library, please report it: at the disco");
         let status = unsafe { call(std::ptr::null_mut(), || panic!("{}", 1)) };
         assert_eq!(status, SDEF_STATUS_INTERNAL);
     }
@@ -244,9 +253,9 @@ mod tests {
             crate::parallel::collect(2, 10, 1, |index| assert_ne!(index, 9, "nine"));
             Ok(())
         };
-        let mut told = error(size_of::<SdefError>());
-        assert_eq!(unsafe { call(&mut told, body) }, SDEF_STATUS_INTERNAL);
-        assert!(text(&told).contains("nine"));
+        let mut given = error(size_of::<SdefError>());
+        assert_eq!(unsafe { call(&mut given, body) }, SDEF_STATUS_INTERNAL);
+        assert!(text(&given).contains("nine"));
     }
 
     #[test]
@@ -254,17 +263,17 @@ mod tests {
         for (letter, width) in [("a", 1), ("é", 2), ("髪", 3), ("🦀", 4)] {
             for size in [HEAD + 1, HEAD + 2, HEAD + 100, size_of::<SdefError>(), size_of::<SdefError>() + 64]
             {
-                let mut told = error(size);
+                let mut given = error(size);
                 let long = letter.repeat(600);
                 let status =
-                    unsafe { call(&mut told, || Err(Failure::input(long.as_str()).in_mesh(3).at(7))) };
+                    unsafe { call(&mut given, || Err(Failure::input(long.as_str()).in_mesh(3).at(7))) };
                 assert_eq!(status, SDEF_STATUS_BAD_INPUT);
-                assert_eq!((told.mesh, told.element), (3, 7));
+                assert_eq!((given.mesh, given.element), (3, 7));
                 let room = (size - HEAD).min(512) - 1;
-                assert_eq!(text(&told), letter.repeat(room / width));
+                assert_eq!(text(&given), letter.repeat(room / width));
                 if size < size_of::<SdefError>() {
                     assert_eq!(
-                        told.message[size - HEAD],
+                        given.message[size - HEAD],
                         b'x' as c_char,
                         "written beyond the caller's struct"
                     );
@@ -276,16 +285,16 @@ mod tests {
     #[test]
     fn an_error_struct_without_a_size_is_refused() {
         for size in [0, 4, HEAD] {
-            let mut told = error(size);
-            assert_eq!(unsafe { call(&mut told, || Ok(())) }, SDEF_STATUS_BAD_ARGUMENT);
-            assert_eq!(told.status, 99);
+            let mut given = error(size);
+            assert_eq!(unsafe { call(&mut given, || Ok(())) }, SDEF_STATUS_BAD_ARGUMENT);
+            assert_eq!(given.status, 99);
         }
     }
 
     #[test]
     fn success_clears_the_error() {
-        let mut told = error(size_of::<SdefError>());
-        assert_eq!(unsafe { call(&mut told, || Ok(())) }, SDEF_STATUS_OK);
-        assert_eq!((told.status, text(&told)), (SDEF_STATUS_OK, ""));
+        let mut given = error(size_of::<SdefError>());
+        assert_eq!(unsafe { call(&mut given, || Ok(())) }, SDEF_STATUS_OK);
+        assert_eq!((given.status, text(&given)), (SDEF_STATUS_OK, ""));
     }
 }

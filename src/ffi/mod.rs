@@ -1,18 +1,61 @@
-//! The C ABI: handles, plain arrays, and one status for every call. The only unsafe code.
+//! superdeform: turns a normal 3D character into its super-deformed (SD, chibi) version.
 //!
-//! What is exported stands in [`exports`], one file for each section of the header `include/superdeform.h`, which is
-//! generated from them: each function there is one line into a body in this folder. `tests/headers` generates the
-//! header and the C# imports and compares them with the committed ones.
+//! A character (meshes, joints, weights) and a style go in; new positions, normals, tangents, morph deltas and joints
+//! come out. Vertex order, triangles and weights are never changed. The order of calls is the order of this header:
+//!
+//! ```text
+//!     sdef_character_create, _set_skeleton, _add_mesh ...   the character, as arrays
+//!     sdef_character_rig                                    only where it has no skeleton
+//!     sdef_style_from_heads, _from_text, _measure ...       what it should become
+//!     sdef_deformer_create, _apply, _map_points ...         made once, applied as often as something changes
+//!     sdef_destroy                                          each handle, once
+//! ```
+//!
+//! Conventions, for all functions:
+//!
+//! ```text
+//! Units      Any. Results are in the units of the input; angles do not occur.
+//! Space      One space for everything ("model space"), in rest pose. Right-handed or left-handed, any direction up, any
+//!            winding: a mirrored character gives the mirrored result. Vertices are floats, joints and points doubles.
+//! Matrices   16 doubles, column by column, for column vectors: the translation is numbers 12, 13 and 14, and numbers
+//!            3, 7, 11 and 15 are 0, 0, 0 and 1.
+//! Handles    A handle is a number, not an address. 0 is none. One that is destroyed, made up or of another kind gives
+//!            SDEF_STATUS_BAD_HANDLE and nothing worse. Styles and deformers keep what they need of a character, which
+//!            may be changed or destroyed before them.
+//! Threads    Any thread may call anything at any time. Calls that read may run beside each other on one handle; where a
+//!            call that changes a handle meets another use of it, the later of the two gets SDEF_STATUS_BUSY (so does
+//!            a progress callback that changes what it is called from). No thread outlives a call. Results are the same
+//!            bits for any number of threads and on every run.
+//! Arrays in  A pointer, a count, and for vertices a stride: the bytes from one element to the next, 0 for packed. They
+//!            need no alignment, are read during the call and never kept. NULL is allowed where the count is 0, and for
+//!            arrays that may be left out, which say so.
+//! Arrays out The caller's, with the number of elements that they can hold (capacity). NULL: not wanted. One that is too
+//!            small gives SDEF_STATUS_BUFFER_TOO_SMALL, and what is needed is told. Nothing is written on any error but
+//!            the error, counts and sizes.
+//! Text       UTF-8, NUL-terminated; names may be NULL, for none.
+//! Structs    Those that begin with struct_size = sizeof(the struct) may be older or newer than the library. SdefOptions
+//!            is filled by sdef_options_init; every other struct is zeroed and struct_size set, for results too. Numbers
+//!            that choose (kinds, modes) must be one of the constants; 0 and 1 stand for no and yes.
+//! Errors     Every call that can fail returns a SdefStatus; its last argument, which may be NULL, receives a sentence
+//!            that names the array, the element, the value and the remedy. Other results are then as they were.
+//! Progress   A callback (NULL: none) that is called on the caller's thread alone, with a fraction that rises to 1.
+//!            What it returns, if not 0, ends the call with SDEF_STATUS_CANCELLED and leaves everything as it was.
+//! ```
+
+// The C ABI, and the only unsafe code. Each module is a section of the header `include/superdeform.h`, which is generated
+// from them and from the comment above: its structs, its exported functions and what they do. `tests/headers` generates
+// the header, the C# imports and the layout that hosts check, and compares them with the committed files.
 #![allow(unsafe_code)]
 // The contract of every pointer stands in the header's conventions, once for all functions.
 #![allow(clippy::missing_safety_doc)]
 
+pub mod all_at_once;
 mod arrays;
-mod bodies;
-mod character;
-mod deformer;
-pub mod exports;
+pub mod basics;
+pub mod character;
+pub mod deformer;
 mod guard;
-mod options;
-mod style;
-mod table;
+mod handles;
+pub mod options;
+pub mod rig;
+pub mod style;

@@ -1,16 +1,172 @@
-//! Options, from the caller's struct to the library's.
+//! Options
+//!
+//! One struct for everything that can be set; each function reads what concerns it.
 
-use super::arrays::{self, Input};
-use super::exports::options::*;
-use super::guard::{Failure, Outcome};
+use super::arrays::{self, Input, Plain, not_null};
+use super::basics::{SdefError, SdefStatus};
+use super::guard::{Failure, Outcome, call};
 use crate::character::Role;
 use crate::options::{FaceCurve, GroupSettings, Mode, Options, Stage};
 use crate::rig::{GarmentWeights, RigOptions, WeightMethod};
+use core::ffi::c_char;
 use glam::DVec3;
+use safer_ffi::prelude::*;
 use std::ptr::null;
 
+/// 15 parts that meet at landmarks of the body: what most hosts want.
+pub const SDEF_MODE_PRODUCT: u32 = 0;
+/// The paper's chain of bones (Wang et al., Body-shape Transfer), literally.
+pub const SDEF_MODE_PAPER: u32 = 1;
+
+/// Lengths only.
+pub const SDEF_STAGE_LENGTH: u32 = 0;
+/// Lengths and thickness.
+pub const SDEF_STAGE_THICKNESS: u32 = 1;
+/// Everything.
+pub const SDEF_STAGE_FACE: u32 = 2;
+
+/// The paper's choice (Eq. 13).
+pub const SDEF_FACE_CURVE_F4: u32 = 0;
+/// Eq. 12.
+pub const SDEF_FACE_CURVE_F2: u32 = 1;
+/// The sphere approximation of Shen et al.
+pub const SDEF_FACE_CURVE_SPHERE: u32 = 2;
+
+/// Heat where the body allows it, else the volume.
+pub const SDEF_WEIGHTS_AUTO: u32 = 0;
+/// Heat equilibrium on the surface (Baran and Popovic); for closed bodies.
+pub const SDEF_WEIGHTS_HEAT: u32 = 1;
+/// Distances through voxels (Dionne and de Lasa); for open and patched bodies.
+pub const SDEF_WEIGHTS_VOLUME: u32 = 2;
+
+/// Close points of the body with like normals, the rest filled in smoothly.
+pub const SDEF_GARMENTS_ROBUST: u32 = 0;
+/// The closest point of the body, whatever it is.
+pub const SDEF_GARMENTS_NEAREST: u32 = 1;
+/// Heat on the clothes themselves.
+pub const SDEF_GARMENTS_HEAT: u32 = 2;
+
+/// Settings of one bone group; NAN in any number leaves the measured or the default value.
+#[derive_ReprC]
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct SdefGroupSettings {
+    /// head, neck, torso, shoulder, upper_arm, lower_arm, hand, finger, hip, upper_leg, lower_leg, foot,
+    /// or a name of your own from SdefBoneGroup
+    pub group: *const c_char,
+    /// 1 keeps the length of the group's bones; 0.01 to 100
+    pub length_scale: f64,
+    /// 1 keeps the girth; 0.01 to 100
+    pub thickness_scale: f64,
+    /// 0 keeps the target's length, 1 takes all of the reference's; -10 to 10
+    pub length_transfer: f64,
+    /// 0 keeps the target's girth, 1 takes all of the reference's; -10 to 10
+    pub thickness_transfer: f64,
+}
+unsafe impl Plain for SdefGroupSettings {}
+
+/// A bone in a group of your own.
+#[derive_ReprC]
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct SdefBoneGroup {
+    /// SDEF_ROLE_* at the end of the bone: LEFT_LOWER_LEG is the left thigh
+    pub role: u32,
+    /// the group's name
+    pub group: *const c_char,
+}
+unsafe impl Plain for SdefBoneGroup {}
+
+/// Where a joint is known to be; see sdef_character_rig.
+#[derive_ReprC]
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct SdefGivenJoint {
+    /// SDEF_ROLE_*
+    pub role: u32,
+    /// model space
+    pub x: f64,
+    /// model space
+    pub y: f64,
+    /// model space
+    pub z: f64,
+}
+unsafe impl Plain for SdefGivenJoint {}
+
+/// Everything that can be set. Filled by sdef_options_init; NULL stands for the defaults wherever options are asked for.
+#[derive_ReprC]
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct SdefOptions {
+    /// sizeof(SdefOptions)
+    pub struct_size: u32,
+    /// threads to use; 0 (default): all cores
+    pub thread_count: u32,
+    /// SDEF_MODE_*; default PRODUCT
+    pub mode: u32,
+    /// SDEF_STAGE_*: stop after it; default FACE, which is everything
+    pub stage: u32,
+    /// rays around a sample of a bone, 3 to 4096; 0 (default): the mode's own, 48 or 12
+    pub rays: u32,
+    /// 1 (default) bounds what product mode may do to a body, 0 does not
+    pub limits: u32,
+    /// size of the head against what the style says, 0.1 to 10; default 1.5, the paper's
+    pub head_scale: f64,
+    /// 0 gives the original back, 1 (default) the style
+    pub amount: f64,
+    /// hair below the chin: 1 (default) ends where it ended on the body, 0 at the chin
+    pub hair_length: f64,
+    /// how much younger the face gets, -10 to 10 (bounded where it would fold); 0 leaves it;
+    /// NAN (default): 0.8 in product mode where a face is found, 0 in paper mode
+    pub face_squash: f64,
+    /// SDEF_FACE_CURVE_*; default F4
+    pub face_curve: u32,
+    /// elements of groups
+    pub group_count: u32,
+    /// settings by bone group
+    pub groups: *const SdefGroupSettings,
+    /// bone groups of your own
+    pub bone_groups: *const SdefBoneGroup,
+    /// elements of bone_groups
+    pub bone_group_count: u32,
+    /// rig: SDEF_WEIGHTS_* for the body; default AUTO
+    pub rig_weights: u32,
+    /// rig: SDEF_GARMENTS_* for clothes; default ROBUST
+    pub rig_garments: u32,
+    /// rig: voxels along the longest side of the volume, 16 to 512; default 128
+    pub rig_voxel_resolution: u32,
+    /// rig: 1 (default) looks for fingers, 0 does not
+    pub rig_fingers: u32,
+    /// rig: 1 (default) keeps jaws from sticking to the neck, 0 does not
+    pub rig_chin_segment: u32,
+    /// rig: how sharp weights by heat are, 0.01 to 1000; default 1
+    pub rig_heat: f64,
+    /// rig: joints that are known; the rest is found
+    pub rig_joints: *const SdefGivenJoint,
+    /// elements of rig_joints
+    pub rig_joint_count: u32,
+    /// rig: 1 tells left from right in left-handed axes (Unity's); default 0
+    pub rig_left_handed: u32,
+}
+unsafe impl Plain for SdefOptions {}
+
+/// Fills *options with the defaults.
+///
+/// options:     struct_size bytes are written, struct_size among them
+/// struct_size: sizeof(SdefOptions) as the host was built
+///
+/// Errors: BAD_ARGUMENT.
+#[ffi_export]
+pub unsafe extern "C" fn sdef_options_init(
+    options: *mut SdefOptions,
+    struct_size: u32,
+    error: *mut SdefError,
+) -> SdefStatus {
+    unsafe { call(error, || init(options, struct_size)) }
+}
+
 /// The defaults, as C sees them.
-pub fn defaults() -> SdefOptions {
+fn defaults() -> SdefOptions {
     let (options, rig) = (Options::default(), RigOptions::default());
     SdefOptions {
         struct_size: size_of::<SdefOptions>() as u32,
@@ -44,8 +200,8 @@ pub fn defaults() -> SdefOptions {
 ///
 /// # Safety
 /// `options` is NULL or points to `struct_size` bytes.
-pub unsafe fn init(options: *mut SdefOptions, struct_size: u32) -> Outcome {
-    arrays::wanted("options", options)?;
+unsafe fn init(options: *mut SdefOptions, struct_size: u32) -> Outcome {
+    not_null("options", options)?;
     let all = SdefOptions { struct_size, ..defaults() };
     unsafe {
         arrays::struct_in("SdefOptions", &raw const all, all)?;
@@ -58,19 +214,19 @@ pub unsafe fn init(options: *mut SdefOptions, struct_size: u32) -> Outcome {
 }
 
 /// One of several constants, which stand in the order of their numbers.
-pub fn one_of<T: Copy>(what: &str, number: u32, values: &[T]) -> Outcome<T> {
+pub(super) fn one_of<T: Copy>(what: &str, number: u32, values: &[T]) -> Outcome<T> {
     values.get(number as usize).copied().ok_or_else(|| {
         Failure::argument(format!("{what} is {number}: give one of its constants, 0 to {}", values.len() - 1))
     })
 }
 
 /// The curve of a face.
-pub fn face_curve(number: u32) -> Outcome<FaceCurve> {
+pub(super) fn face_curve(number: u32) -> Outcome<FaceCurve> {
     one_of("face_curve", number, &[FaceCurve::F4, FaceCurve::F2, FaceCurve::Sphere])
 }
 
 /// The role with a number.
-pub fn role(what: &str, number: u32) -> Outcome<Role> {
+pub(super) fn role(what: &str, number: u32) -> Outcome<Role> {
     Role::from_number(number as usize).ok_or_else(|| {
         Failure::argument(format!("{what} has the role {number}: give SDEF_ROLE_*, 0 to {}", Role::COUNT - 1))
     })
@@ -84,7 +240,7 @@ fn unless_nan(number: f64) -> Option<f64> {
 ///
 /// # Safety
 /// The struct and its arrays are as the header says.
-pub unsafe fn read(options: *const SdefOptions) -> Outcome<(Options, RigOptions)> {
+pub(super) unsafe fn read(options: *const SdefOptions) -> Outcome<(Options, RigOptions)> {
     let given = match options.is_null() {
         true => defaults(),
         false => unsafe { arrays::struct_in("SdefOptions", options, defaults()) }?,

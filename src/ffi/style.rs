@@ -1,11 +1,12 @@
-//! Styles: numbers in and out.
+//! Styles: what a character should become
+//!
+//! A style is numbers, not a model: it can be saved, mixed, and used with any character.
 
-use super::arrays::{self, Input, Output, tell, wanted};
-use super::exports::basics::*;
-use super::exports::options::SdefOptions;
-use super::exports::style::*;
+use super::arrays::{self, Input, Output, Plain, not_null, write_out};
+use super::basics::*;
 use super::guard::{Failure, Outcome, call};
-use super::table::{self, Object};
+use super::handles::{self, Object};
+use super::options::{self, SdefOptions};
 use crate::character::Role;
 use crate::character::bones::HEAD_TOP;
 use crate::pipeline::Style;
@@ -13,36 +14,102 @@ use crate::shape::product::anatomy::Proportions;
 use crate::shape::style::BUILT_IN;
 use crate::shape::{BodyShape, BoneShape, Heights, Measured};
 use core::ffi::c_char;
+use safer_ffi::prelude::*;
 use std::sync::Arc;
 
-fn bad(message: impl Into<String>) -> Failure {
-    Failure::new(SDEF_STATUS_BAD_STYLE, message)
-}
+/// SdefBone.end of the bone from the head joint to the top of the head.
+pub const SDEF_BONE_HEAD_TOP: u32 = 55;
 
-/// Gives a style a handle.
-unsafe fn give(style: Style, to: *mut SdefStyle) -> Outcome {
-    let id = table::insert(Object::Style(Arc::new(style)))?;
-    unsafe { tell(to, SdefStyle { id }) };
-    Ok(())
+/// One bone of a measured body.
+#[derive_ReprC]
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SdefBone {
+    /// SDEF_ROLE_* at its end, or SDEF_BONE_HEAD_TOP
+    pub end: u32,
+    /// 0
+    pub reserved: u32,
+    /// 0 or more
+    pub length: f64,
+    /// mean distance of the surface, above 0; NAN: not known
+    pub radius: f64,
 }
+unsafe impl Plain for SdefBone {}
 
-fn shape(shape: BodyShape) -> Style {
-    Style::Shape(Box::new(shape))
+/// A style as plain numbers, in the units of its model; NAN: not known. Product mode transfers what is from
+/// head_half_width on, paper mode the bones.
+#[derive_ReprC]
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct SdefStyleNumbers {
+    /// sizeof(SdefStyleNumbers)
+    pub struct_size: u32,
+    /// 0
+    pub reserved: u32,
+    /// how many heads tall; what is read of a style for N heads, else only given
+    pub heads: f64,
+    /// head joint to head top, above 0
+    pub bone_head_length: f64,
+    /// heights of landmarks along up, model space
+    pub crown: f64,
+    /// height
+    pub chin: f64,
+    /// height
+    pub shoulder_line: f64,
+    /// height
+    pub crotch: f64,
+    /// height
+    pub sole: f64,
+    /// chin to crown
+    pub head_length: f64,
+    /// half the head's width
+    pub head_half_width: f64,
+    /// shoulder line to chin
+    pub neck: f64,
+    /// crotch to shoulder line
+    pub torso: f64,
+    /// shoulder to wrist
+    pub arm: f64,
+    /// sole to crotch
+    pub leg: f64,
+    /// sole to ankle
+    pub ankle_height: f64,
+    /// wrist to finger tips
+    pub hand: f64,
+    /// heel to toe
+    pub foot: f64,
+    /// median half width of the trunk
+    pub trunk_half_width: f64,
+    /// mean distance of the surface to the bone
+    pub upper_arm_radius: f64,
+    /// likewise
+    pub lower_arm_radius: f64,
+    /// likewise
+    pub upper_leg_radius: f64,
+    /// likewise
+    pub lower_leg_radius: f64,
 }
+unsafe impl Plain for SdefStyleNumbers {}
 
-/// The body of `sdef_style_from_heads`.
-pub unsafe fn from_heads(
+/// A style of so many heads.
+///
+/// heads: 1.8 to 6, crown to sole over crown to chin
+/// like:  a style with everything below its head stretched or shortened; the handle 0: everything after the target
+///
+/// Errors: BAD_OPTION; BAD_STYLE where like has no proportions.
+#[ffi_export]
+pub unsafe extern "C" fn sdef_style_from_heads(
     heads: f64,
     like: SdefStyle,
     style: *mut SdefStyle,
     error: *mut SdefError,
 ) -> SdefStatus {
     let body = || unsafe {
-        wanted("style", style)?;
+        not_null("style", style)?;
         let plain = Style::heads(heads)?;
         let made = match like.id {
             0 => plain,
-            _ => match &*table::style(like)? {
+            _ => match &*handles::style(like)? {
                 Style::Heads(_) => plain,
                 Style::Shape(like) if like.proportions.is_none() => {
                     return Err(bad(format!(
@@ -62,15 +129,21 @@ pub unsafe fn from_heads(
     unsafe { call(error, body) }
 }
 
-/// The body of `sdef_style_from_text`.
-pub unsafe fn from_text(
+/// A built-in style, or a saved one.
+///
+/// text: "sd2", "sd2.5", "sd3" or "sd4"; or the JSON that sdef_style_to_json gave
+/// size: bytes of text, without any NUL
+///
+/// Errors: BAD_STYLE.
+#[ffi_export]
+pub unsafe extern "C" fn sdef_style_from_text(
     text: *const c_char,
     size: usize,
     style: *mut SdefStyle,
     error: *mut SdefError,
 ) -> SdefStatus {
     let body = || unsafe {
-        wanted("style", style)?;
+        not_null("style", style)?;
         let bytes = Input::<u8>::new("text", text.cast(), size, 0)?.to_vec("bytes of text")?;
         let text = String::from_utf8(bytes).map_err(|error| {
             let at = error.utf8_error().valid_up_to();
@@ -92,8 +165,14 @@ pub unsafe fn from_text(
     unsafe { call(error, body) }
 }
 
-/// The body of `sdef_style_measure`.
-pub unsafe fn measure(
+/// Measures a super-deformed character, so that others can be made like it. It needs a skeleton or a made rig.
+///
+/// name:    of the style; may be NULL
+/// options: NULL for the defaults; mode, rays, bone_groups and thread_count are read
+///
+/// Errors: BAD_OPTION, NO_HUMANOID, NO_GEOMETRY.
+#[ffi_export]
+pub unsafe extern "C" fn sdef_style_measure(
     character: SdefCharacter,
     name: *const c_char,
     options: *const SdefOptions,
@@ -101,19 +180,90 @@ pub unsafe fn measure(
     error: *mut SdefError,
 ) -> SdefStatus {
     let body = || unsafe {
-        wanted("style", style)?;
-        let state = table::character(character)?;
-        let (options, _) = super::options::read(options)?;
+        not_null("style", style)?;
+        let state = handles::character(character)?;
+        let (options, _) = options::read(options)?;
         options.validate()?;
-        let ready = table::read(&state, "character")?.ready();
+        let ready = handles::read(&state, "character")?.ready();
         let study = Measured::of(ready.character(), &options)?;
         give(shape(BodyShape { name: arrays::text(name), ..study.shape }), style)
     };
     unsafe { call(error, body) }
 }
 
-/// The body of `sdef_style_blend`.
-pub unsafe fn blend(
+/// A style from numbers, as sdef_style_get_numbers gives them.
+///
+/// name: of the style; may be NULL
+///
+/// Errors: BAD_STYLE for numbers out of their range.
+#[ffi_export]
+pub unsafe extern "C" fn sdef_style_from_numbers(
+    name: *const c_char,
+    numbers: *const SdefStyleNumbers,
+    bones: *const SdefBone,
+    bone_count: usize,
+    style: *mut SdefStyle,
+    error: *mut SdefError,
+) -> SdefStatus {
+    let body = || unsafe {
+        not_null("style", style)?;
+        let given = arrays::struct_in("SdefStyleNumbers", numbers, UNKNOWN)?;
+        let bones = Input::new("bones", bones, bone_count, 0)?;
+        if bone_count == 0 && given.bone_head_length.is_nan() && given.head_length.is_nan() {
+            return give(Style::heads(given.heads)?, style);
+        }
+        let known = |number: f64| (!number.is_nan()).then_some(number);
+        let mut made = BodyShape {
+            name: arrays::text(name),
+            head_length: given.bone_head_length,
+            landmarks: known(given.crown).map(|crown| Heights {
+                crown,
+                chin: given.chin,
+                shoulder_line: given.shoulder_line,
+                crotch: given.crotch,
+                sole: given.sole,
+            }),
+            proportions: known(given.head_length).map(|head_length| Proportions {
+                head_length,
+                head_half_width: given.head_half_width,
+                neck: given.neck,
+                torso: given.torso,
+                arm: given.arm,
+                leg: given.leg,
+                ankle_height: given.ankle_height,
+                hand: known(given.hand),
+                foot: known(given.foot),
+                torso_half_width: known(given.trunk_half_width),
+                upper_arm_radius: known(given.upper_arm_radius),
+                lower_arm_radius: known(given.lower_arm_radius),
+                upper_leg_radius: known(given.upper_leg_radius),
+                lower_leg_radius: known(given.lower_leg_radius),
+            }),
+            ..BodyShape::default()
+        };
+        for (index, bone) in bones.iter().enumerate() {
+            let name = match bone.end {
+                SDEF_BONE_HEAD_TOP => HEAD_TOP,
+                end => options::role(&format!("bones {index}"), end).map_err(|error| error.at(index))?.name(),
+            };
+            let measured = BoneShape { length: bone.length, radius: known(bone.radius) };
+            if made.bones.insert(name.to_string(), measured).is_some() {
+                return Err(bad(format!("bones {index} ends at {name} again: give each end once")).at(index));
+            }
+        }
+        made.validate()?;
+        give(shape(made), style)
+    };
+    unsafe { call(error, body) }
+}
+
+/// A style between two, measured in heads.
+///
+/// amount: 0 is first, 1 second; may go beyond
+///
+/// Errors: BAD_STYLE for a style of N heads that is like none, or where the result would be no body; BAD_OPTION.
+#[ffi_export]
+pub unsafe extern "C" fn sdef_style_blend(
     first: SdefStyle,
     second: SdefStyle,
     amount: f64,
@@ -121,8 +271,8 @@ pub unsafe fn blend(
     error: *mut SdefError,
 ) -> SdefStatus {
     let body = || unsafe {
-        wanted("style", style)?;
-        let (first, second) = (table::style(first)?, table::style(second)?);
+        not_null("style", style)?;
+        let (first, second) = (handles::style(first)?, handles::style(second)?);
         if !(-10.0..=10.0).contains(&amount) {
             let message = format!("amount is {amount}: give a number from -10 to 10");
             return Err(Failure::new(SDEF_STATUS_BAD_OPTION, message));
@@ -143,6 +293,76 @@ pub unsafe fn blend(
         give(made, style)
     };
     unsafe { call(error, body) }
+}
+
+/// Gives a style's numbers back.
+///
+/// numbers:    may be NULL
+/// bones:      in the order of their ends, the head's last
+/// capacity:   bones that the array can hold
+/// bone_count: receives how many there are; may be NULL
+#[ffi_export]
+pub unsafe extern "C" fn sdef_style_get_numbers(
+    style: SdefStyle,
+    numbers: *mut SdefStyleNumbers,
+    bones: *mut SdefBone,
+    capacity: usize,
+    bone_count: *mut usize,
+    error: *mut SdefError,
+) -> SdefStatus {
+    let body = || unsafe {
+        let style = handles::style(style)?;
+        arrays::check_struct_out("SdefStyleNumbers", numbers)?;
+        let known = bones_of(&style);
+        write_out(bone_count, known.len());
+        Output::new("bones", bones, known.len(), capacity, 0)?.write(&known);
+        match numbers.is_null() {
+            true => Ok(()),
+            false => arrays::struct_out("SdefStyleNumbers", numbers, &numbers_of(&style)),
+        }
+    };
+    unsafe { call(error, body) }
+}
+
+/// Gives a style as JSON text, to be saved.
+///
+/// text:     receives the text
+/// capacity: bytes that text can hold
+/// size:     receives the bytes needed, the terminating NUL among them; may be NULL
+///
+/// Errors: BAD_STYLE for a style of N heads that is like none: save the number.
+#[ffi_export]
+pub unsafe extern "C" fn sdef_style_to_json(
+    style: SdefStyle,
+    text: *mut c_char,
+    capacity: usize,
+    size: *mut usize,
+    error: *mut SdefError,
+) -> SdefStatus {
+    let body = || unsafe {
+        match &*handles::style(style)? {
+            Style::Heads(heads) => Err(bad(format!(
+                "a style of {heads} heads, like no other, has no body to save: save the number"
+            ))),
+            Style::Shape(shape) => arrays::text_out(&shape.to_json(), text, capacity, size),
+        }
+    };
+    unsafe { call(error, body) }
+}
+
+fn bad(message: impl Into<String>) -> Failure {
+    Failure::new(SDEF_STATUS_BAD_STYLE, message)
+}
+
+/// Gives a style a handle.
+unsafe fn give(style: Style, to: *mut SdefStyle) -> Outcome {
+    let id = handles::insert(Object::Style(Arc::new(style)))?;
+    unsafe { write_out(to, SdefStyle { id }) };
+    Ok(())
+}
+
+fn shape(shape: BodyShape) -> Style {
+    Style::Shape(Box::new(shape))
 }
 
 const UNKNOWN: SdefStyleNumbers = SdefStyleNumbers {
@@ -226,109 +446,4 @@ fn bones_of(style: &Style) -> Vec<SdefBone> {
             radius: bone.radius.unwrap_or(f64::NAN),
         })
         .collect()
-}
-
-/// The body of `sdef_style_from_numbers`.
-pub unsafe fn from_numbers(
-    name: *const c_char,
-    numbers: *const SdefStyleNumbers,
-    bones: *const SdefBone,
-    bone_count: usize,
-    style: *mut SdefStyle,
-    error: *mut SdefError,
-) -> SdefStatus {
-    let body = || unsafe {
-        wanted("style", style)?;
-        let given = arrays::struct_in("SdefStyleNumbers", numbers, UNKNOWN)?;
-        let bones = Input::new("bones", bones, bone_count, 0)?;
-        if bone_count == 0 && given.bone_head_length.is_nan() && given.head_length.is_nan() {
-            return give(Style::heads(given.heads)?, style);
-        }
-        let known = |number: f64| (!number.is_nan()).then_some(number);
-        let mut made = BodyShape {
-            name: arrays::text(name),
-            head_length: given.bone_head_length,
-            landmarks: known(given.crown).map(|crown| Heights {
-                crown,
-                chin: given.chin,
-                shoulder_line: given.shoulder_line,
-                crotch: given.crotch,
-                sole: given.sole,
-            }),
-            proportions: known(given.head_length).map(|head_length| Proportions {
-                head_length,
-                head_half_width: given.head_half_width,
-                neck: given.neck,
-                torso: given.torso,
-                arm: given.arm,
-                leg: given.leg,
-                ankle_height: given.ankle_height,
-                hand: known(given.hand),
-                foot: known(given.foot),
-                torso_half_width: known(given.trunk_half_width),
-                upper_arm_radius: known(given.upper_arm_radius),
-                lower_arm_radius: known(given.lower_arm_radius),
-                upper_leg_radius: known(given.upper_leg_radius),
-                lower_leg_radius: known(given.lower_leg_radius),
-            }),
-            ..BodyShape::default()
-        };
-        for (index, bone) in bones.iter().enumerate() {
-            let name = match bone.end {
-                SDEF_BONE_HEAD_TOP => HEAD_TOP,
-                end => super::options::role(&format!("bones {index}"), end)
-                    .map_err(|error| error.at(index))?
-                    .name(),
-            };
-            let measured = BoneShape { length: bone.length, radius: known(bone.radius) };
-            if made.bones.insert(name.to_string(), measured).is_some() {
-                return Err(bad(format!("bones {index} ends at {name} again: give each end once")).at(index));
-            }
-        }
-        made.validate()?;
-        give(shape(made), style)
-    };
-    unsafe { call(error, body) }
-}
-
-/// The body of `sdef_style_get_numbers`.
-pub unsafe fn get_numbers(
-    style: SdefStyle,
-    numbers: *mut SdefStyleNumbers,
-    bones: *mut SdefBone,
-    capacity: usize,
-    bone_count: *mut usize,
-    error: *mut SdefError,
-) -> SdefStatus {
-    let body = || unsafe {
-        let style = table::style(style)?;
-        arrays::check_struct_out("SdefStyleNumbers", numbers)?;
-        let known = bones_of(&style);
-        tell(bone_count, known.len());
-        Output::new("bones", bones, known.len(), capacity, 0)?.write(&known);
-        match numbers.is_null() {
-            true => Ok(()),
-            false => arrays::struct_out("SdefStyleNumbers", numbers, &numbers_of(&style)),
-        }
-    };
-    unsafe { call(error, body) }
-}
-
-/// The body of `sdef_style_to_json`.
-pub unsafe fn to_json(
-    style: SdefStyle,
-    text: *mut c_char,
-    capacity: usize,
-    size: *mut usize,
-    error: *mut SdefError,
-) -> SdefStatus {
-    let body = || unsafe {
-        match &*table::style(style)? {
-            Style::Heads(heads) => Err(bad(format!(
-                "a style of {heads} heads, like no other, has no body to save: save the number"
-            ))),
-            Style::Shape(shape) => arrays::text_out(&shape.to_json(), text, capacity, size),
-        }
-    };
-    unsafe { call(error, body) }
 }

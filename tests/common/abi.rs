@@ -4,7 +4,7 @@
 use glam::{DVec3, Vec3, Vec4};
 use std::ffi::{CStr, CString, c_void};
 use std::ptr::{null, null_mut};
-use superdeform::ffi::exports::{basics::*, character::*, deformer::*, options::*, style::*};
+use superdeform::ffi::{basics::*, character::*, deformer::*, options::*, style::*};
 use superdeform::pipeline::Deformed;
 use superdeform::{Character, Humanoid, Mesh, MeshKind, MorphTarget, Role};
 
@@ -48,6 +48,17 @@ pub fn options() -> SdefOptions {
     let size = size_of::<SdefOptions>() as u32;
     ask(|error| unsafe { sdef_options_init(options.as_mut_ptr(), size, error) }).unwrap();
     unsafe { options.assume_init() }
+}
+
+/// Settings of a group that change nothing.
+pub fn group_settings(group: &CStr) -> SdefGroupSettings {
+    SdefGroupSettings {
+        group: group.as_ptr(),
+        length_scale: f64::NAN,
+        thickness_scale: f64::NAN,
+        length_transfer: f64::NAN,
+        thickness_transfer: f64::NAN,
+    }
 }
 
 pub fn with_threads(thread_count: u32) -> SdefOptions {

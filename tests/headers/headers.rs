@@ -1,10 +1,10 @@
-//! The committed header and C# imports are those that the sources generate, and both say the same as the library.
+//! The committed header, C# imports and layout are those that the sources generate, and both say the same as the library.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use superdeform_headers::csharp::{constants_of, printed};
-use superdeform_headers::{SECTIONS, c_header, csharp, root, source};
+use superdeform_headers::{SECTIONS, c_header, csharp, layout, root, source};
 
 /// Compares a generated text with the committed file, or writes it where `SUPERDEFORM_BLESS` is set.
 fn check(path: &str, text: &str) {
@@ -17,7 +17,7 @@ fn check(path: &str, text: &str) {
     let line = committed.lines().zip(text.lines()).position(|(old, new)| old != new);
     assert!(
         committed == text,
-        "{path} is not what src/ffi/exports generates (first at line {:?}): set SUPERDEFORM_BLESS=1 and run again",
+        "{path} is not what src/ffi generates (first at line {:?}): set SUPERDEFORM_BLESS=1 and run again",
         line.map(|line| line + 1)
     );
 }
@@ -30,6 +30,12 @@ fn the_committed_header_is_generated() {
 #[test]
 fn the_committed_imports_are_generated() {
     check("unity/Runtime/Native.g.cs", &csharp());
+}
+
+/// C compilers compare it with what they make of the header, in `cpp_tests`.
+#[test]
+fn the_committed_layout_is_generated() {
+    check("cpp_tests/layout.inc", &layout(&c_header()));
 }
 
 #[test]

@@ -1,13 +1,15 @@
-//! Writes the C header and the C# imports from `src/ffi/exports`.
+//! Writes the C header, the C# imports and the layout that hosts check from `src/ffi`.
 
 // Linked for the list of its exports.
 use superdeform as _;
 
 mod c_header;
 pub mod csharp;
+mod layout;
 
 pub use c_header::c_header;
 pub use csharp::csharp;
+pub use layout::layout;
 
 use std::path::{Path, PathBuf};
 
@@ -19,13 +21,31 @@ pub fn root() -> PathBuf {
         .expect("the package stands in the repository")
 }
 
-/// The files of `src/ffi/exports` whose sections make the header, in order.
-pub const SECTIONS: [&str; 7] = ["basics", "options", "character", "rig", "style", "deformer", "once"];
+/// The modules of `src/ffi` that are the header's sections, in order.
+pub const SECTIONS: [&str; 7] = ["basics", "options", "character", "rig", "style", "deformer", "all_at_once"];
 
-/// The source of a section.
+/// The text of a file of `src/ffi`.
+fn read(path: &str) -> Option<String> {
+    std::fs::read_to_string(root().join("src/ffi").join(path)).ok()
+}
+
+/// The source of a section: of a module that is a folder, what hosts see of it.
 pub fn source(section: &str) -> String {
-    let path = root().join(format!("src/ffi/exports/{section}.rs"));
-    std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+    if let Some(source) = read(&format!("{section}.rs")) {
+        return source;
+    }
+    let source =
+        read(&format!("{section}/mod.rs")).unwrap_or_else(|| panic!("there is no src/ffi/{section}"));
+    let Some(constants) = read(&format!("{section}/constants.rs")) else { return source };
+    // Constants stand before the structs that they are for.
+    let (comment, rest) = source.split_once("\n\n").expect("a comment and items");
+    let constants = constants.split_once("\n\n").expect("a comment and items").1;
+    format!("{comment}\n\n{constants}\n{rest}")
+}
+
+/// The header's first comment.
+fn conventions() -> String {
+    module_comment(&read("mod.rs").expect("src/ffi/mod.rs")).join("\n")
 }
 
 /// The module's own comment, without its marks.

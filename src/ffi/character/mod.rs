@@ -2,148 +2,21 @@
 //!
 //! Meshes and joints in rest pose: the pose in which vertices and joints fit together, best with arms out (T or A pose).
 
-use super::basics::{SdefCharacter, SdefError, SdefStatus};
-use crate::ffi::character;
+use super::arrays::{self, Output, Plain, not_null, write_out};
+use super::basics::*;
+use super::guard::{Failure, Outcome, call};
+use super::handles::{self, Object};
+use crate::character::{Character, Mesh, MorphTarget};
 use core::ffi::{c_char, c_void};
 use safer_ffi::prelude::*;
+use std::sync::{Arc, RwLock};
 
-/// Guessed from the name; else body, or what sdef_character_rig sees in it.
-pub const SDEF_MESH_UNKNOWN: u32 = 0;
-/// Skin, or skin fused with clothes.
-pub const SDEF_MESH_BODY: u32 = 1;
-/// Clothes.
-pub const SDEF_MESH_GARMENT: u32 = 2;
-/// Hair of the head.
-pub const SDEF_MESH_HAIR: u32 = 3;
-/// Eyes, brows, lashes, teeth, tongue: what follows the face.
-pub const SDEF_MESH_FACE_PART: u32 = 4;
-/// Hats, glasses, bags, weapons: what keeps its shape.
-pub const SDEF_MESH_ACCESSORY: u32 = 5;
+mod constants;
+pub(super) mod read;
+mod state;
 
-/// uint32_t for indices and joints, float for weights.
-pub const SDEF_TYPE_DEFAULT: u32 = 0;
-/// uint8_t; as a weight 255 stands for 1.
-pub const SDEF_TYPE_U8: u32 = 1;
-/// uint16_t; as a weight 65535 stands for 1.
-pub const SDEF_TYPE_U16: u32 = 2;
-/// uint32_t; indices and joints only.
-pub const SDEF_TYPE_U32: u32 = 3;
-/// float; weights only.
-pub const SDEF_TYPE_F32: u32 = 4;
-
-/// Humanoid roles: the numbers of Unity's HumanBodyBones under the names of VRM 1.0 (Unity calls the thumb's joints
-/// Proximal, Intermediate, Distal).
-pub const SDEF_ROLE_COUNT: u32 = 55;
-#[allow(missing_docs)]
-pub const SDEF_ROLE_HIPS: u32 = 0;
-#[allow(missing_docs)]
-pub const SDEF_ROLE_LEFT_UPPER_LEG: u32 = 1;
-#[allow(missing_docs)]
-pub const SDEF_ROLE_RIGHT_UPPER_LEG: u32 = 2;
-#[allow(missing_docs)]
-pub const SDEF_ROLE_LEFT_LOWER_LEG: u32 = 3;
-#[allow(missing_docs)]
-pub const SDEF_ROLE_RIGHT_LOWER_LEG: u32 = 4;
-#[allow(missing_docs)]
-pub const SDEF_ROLE_LEFT_FOOT: u32 = 5;
-#[allow(missing_docs)]
-pub const SDEF_ROLE_RIGHT_FOOT: u32 = 6;
-#[allow(missing_docs)]
-pub const SDEF_ROLE_SPINE: u32 = 7;
-#[allow(missing_docs)]
-pub const SDEF_ROLE_CHEST: u32 = 8;
-#[allow(missing_docs)]
-pub const SDEF_ROLE_NECK: u32 = 9;
-#[allow(missing_docs)]
-pub const SDEF_ROLE_HEAD: u32 = 10;
-#[allow(missing_docs)]
-pub const SDEF_ROLE_LEFT_SHOULDER: u32 = 11;
-#[allow(missing_docs)]
-pub const SDEF_ROLE_RIGHT_SHOULDER: u32 = 12;
-#[allow(missing_docs)]
-pub const SDEF_ROLE_LEFT_UPPER_ARM: u32 = 13;
-#[allow(missing_docs)]
-pub const SDEF_ROLE_RIGHT_UPPER_ARM: u32 = 14;
-#[allow(missing_docs)]
-pub const SDEF_ROLE_LEFT_LOWER_ARM: u32 = 15;
-#[allow(missing_docs)]
-pub const SDEF_ROLE_RIGHT_LOWER_ARM: u32 = 16;
-#[allow(missing_docs)]
-pub const SDEF_ROLE_LEFT_HAND: u32 = 17;
-#[allow(missing_docs)]
-pub const SDEF_ROLE_RIGHT_HAND: u32 = 18;
-#[allow(missing_docs)]
-pub const SDEF_ROLE_LEFT_TOES: u32 = 19;
-#[allow(missing_docs)]
-pub const SDEF_ROLE_RIGHT_TOES: u32 = 20;
-#[allow(missing_docs)]
-pub const SDEF_ROLE_LEFT_EYE: u32 = 21;
-#[allow(missing_docs)]
-pub const SDEF_ROLE_RIGHT_EYE: u32 = 22;
-#[allow(missing_docs)]
-pub const SDEF_ROLE_JAW: u32 = 23;
-#[allow(missing_docs)]
-pub const SDEF_ROLE_LEFT_THUMB_METACARPAL: u32 = 24;
-#[allow(missing_docs)]
-pub const SDEF_ROLE_LEFT_THUMB_PROXIMAL: u32 = 25;
-#[allow(missing_docs)]
-pub const SDEF_ROLE_LEFT_THUMB_DISTAL: u32 = 26;
-#[allow(missing_docs)]
-pub const SDEF_ROLE_LEFT_INDEX_PROXIMAL: u32 = 27;
-#[allow(missing_docs)]
-pub const SDEF_ROLE_LEFT_INDEX_INTERMEDIATE: u32 = 28;
-#[allow(missing_docs)]
-pub const SDEF_ROLE_LEFT_INDEX_DISTAL: u32 = 29;
-#[allow(missing_docs)]
-pub const SDEF_ROLE_LEFT_MIDDLE_PROXIMAL: u32 = 30;
-#[allow(missing_docs)]
-pub const SDEF_ROLE_LEFT_MIDDLE_INTERMEDIATE: u32 = 31;
-#[allow(missing_docs)]
-pub const SDEF_ROLE_LEFT_MIDDLE_DISTAL: u32 = 32;
-#[allow(missing_docs)]
-pub const SDEF_ROLE_LEFT_RING_PROXIMAL: u32 = 33;
-#[allow(missing_docs)]
-pub const SDEF_ROLE_LEFT_RING_INTERMEDIATE: u32 = 34;
-#[allow(missing_docs)]
-pub const SDEF_ROLE_LEFT_RING_DISTAL: u32 = 35;
-#[allow(missing_docs)]
-pub const SDEF_ROLE_LEFT_LITTLE_PROXIMAL: u32 = 36;
-#[allow(missing_docs)]
-pub const SDEF_ROLE_LEFT_LITTLE_INTERMEDIATE: u32 = 37;
-#[allow(missing_docs)]
-pub const SDEF_ROLE_LEFT_LITTLE_DISTAL: u32 = 38;
-#[allow(missing_docs)]
-pub const SDEF_ROLE_RIGHT_THUMB_METACARPAL: u32 = 39;
-#[allow(missing_docs)]
-pub const SDEF_ROLE_RIGHT_THUMB_PROXIMAL: u32 = 40;
-#[allow(missing_docs)]
-pub const SDEF_ROLE_RIGHT_THUMB_DISTAL: u32 = 41;
-#[allow(missing_docs)]
-pub const SDEF_ROLE_RIGHT_INDEX_PROXIMAL: u32 = 42;
-#[allow(missing_docs)]
-pub const SDEF_ROLE_RIGHT_INDEX_INTERMEDIATE: u32 = 43;
-#[allow(missing_docs)]
-pub const SDEF_ROLE_RIGHT_INDEX_DISTAL: u32 = 44;
-#[allow(missing_docs)]
-pub const SDEF_ROLE_RIGHT_MIDDLE_PROXIMAL: u32 = 45;
-#[allow(missing_docs)]
-pub const SDEF_ROLE_RIGHT_MIDDLE_INTERMEDIATE: u32 = 46;
-#[allow(missing_docs)]
-pub const SDEF_ROLE_RIGHT_MIDDLE_DISTAL: u32 = 47;
-#[allow(missing_docs)]
-pub const SDEF_ROLE_RIGHT_RING_PROXIMAL: u32 = 48;
-#[allow(missing_docs)]
-pub const SDEF_ROLE_RIGHT_RING_INTERMEDIATE: u32 = 49;
-#[allow(missing_docs)]
-pub const SDEF_ROLE_RIGHT_RING_DISTAL: u32 = 50;
-#[allow(missing_docs)]
-pub const SDEF_ROLE_RIGHT_LITTLE_PROXIMAL: u32 = 51;
-#[allow(missing_docs)]
-pub const SDEF_ROLE_RIGHT_LITTLE_INTERMEDIATE: u32 = 52;
-#[allow(missing_docs)]
-pub const SDEF_ROLE_RIGHT_LITTLE_DISTAL: u32 = 53;
-#[allow(missing_docs)]
-pub const SDEF_ROLE_UPPER_CHEST: u32 = 54;
+pub use constants::*;
+pub(super) use state::{CharacterState, Ready};
 
 /// A mesh. Zero it, set struct_size, and fill in what there is.
 ///
@@ -203,6 +76,7 @@ pub struct SdefMesh {
     /// vertex_count + 1 numbers (rows), or NULL (fixed)
     pub row_starts: *const u32,
 }
+unsafe impl Plain for SdefMesh {}
 
 /// A morph target (blend shape): what is added to each vertex of a mesh at weight 1. All arrays are as long as the mesh.
 #[derive_ReprC]
@@ -228,6 +102,7 @@ pub struct SdefMorphTarget {
     /// bytes from vertex to vertex; 0: 12
     pub tangent_stride: usize,
 }
+unsafe impl Plain for SdefMorphTarget {}
 
 /// All joints of a character, those without a humanoid role too.
 #[derive_ReprC]
@@ -252,6 +127,7 @@ pub struct SdefSkeleton {
     /// upper arm is left out, roles are guessed from names and the shape of the skeleton; may be NULL
     pub role_joints: *const i32,
 }
+unsafe impl Plain for SdefSkeleton {}
 
 /// What a character holds.
 #[derive_ReprC]
@@ -275,6 +151,7 @@ pub struct SdefCharacterInfo {
     /// of all meshes
     pub triangle_count: u64,
 }
+unsafe impl Plain for SdefCharacterInfo {}
 
 /// Makes an empty character.
 ///
@@ -291,7 +168,14 @@ pub unsafe extern "C" fn sdef_character_create(
     character: *mut SdefCharacter,
     error: *mut SdefError,
 ) -> SdefStatus {
-    unsafe { character::create(up, forward, character, error) }
+    let body = || unsafe {
+        not_null("character", character)?;
+        let state = CharacterState::new(read::axes(up, forward)?);
+        let id = handles::insert(Object::Character(Arc::new(RwLock::new(state))))?;
+        write_out(character, SdefCharacter { id });
+        Ok(())
+    };
+    unsafe { call(error, body) }
 }
 
 /// Gives a character its joints, in place of any that it had. Comes before meshes with weights, which name joints.
@@ -305,7 +189,12 @@ pub unsafe extern "C" fn sdef_character_set_skeleton(
     skeleton: *const SdefSkeleton,
     error: *mut SdefError,
 ) -> SdefStatus {
-    unsafe { character::set_skeleton(character, skeleton, error) }
+    let body = || unsafe {
+        let state = handles::character(character)?;
+        let (skeleton, roles) = read::skeleton(skeleton)?;
+        handles::write(&state, "character")?.set_skeleton(skeleton, roles)
+    };
+    unsafe { call(error, body) }
 }
 
 /// Adds a mesh; everything is copied. A rig made before goes: it did not know this mesh.
@@ -320,7 +209,16 @@ pub unsafe extern "C" fn sdef_character_add_mesh(
     index: *mut u32,
     error: *mut SdefError,
 ) -> SdefStatus {
-    unsafe { character::add_mesh(character, mesh, index, error) }
+    let body = || unsafe {
+        let state = handles::character(character)?;
+        let given = arrays::zeroed_in("SdefMesh", mesh)?;
+        let index_to_be = handles::read(&state, "character")?.character().meshes.len();
+        let mesh = read::mesh_at(index_to_be, &given)?;
+        let added = handles::write(&state, "character")?.add_mesh(mesh)?;
+        write_out(index, added as u32);
+        Ok(())
+    };
+    unsafe { call(error, body) }
 }
 
 /// Adds a morph target to a mesh, after those that it has.
@@ -333,7 +231,35 @@ pub unsafe extern "C" fn sdef_character_add_morph_target(
     target: *const SdefMorphTarget,
     error: *mut SdefError,
 ) -> SdefStatus {
-    unsafe { character::add_morph_target(character, mesh, target, error) }
+    let body = || unsafe {
+        let state = handles::character(character)?;
+        let given = arrays::zeroed_in("SdefMorphTarget", target)?;
+        let mut state = handles::write(&state, "character")?;
+        let known = state.character();
+        let index = mesh as usize;
+        let mesh = mesh_of(&known, index)?;
+        let count = mesh.positions.len();
+        let deltas = |what, start, stride| arrays::optional(what, start, count, stride);
+        if count > 0 && given.positions.is_null() {
+            return Err(Failure::argument(format!(
+                "positions is NULL, but {count} are to be there: give the array"
+            )));
+        }
+        let target = MorphTarget {
+            name: arrays::text(given.name),
+            positions: deltas("positions", given.positions, given.position_stride)?,
+            normals: deltas("normals", given.normals, given.normal_stride)?,
+            tangents: deltas("tangents", given.tangents, given.tangent_stride)?,
+        };
+        target.validate(mesh.morph_targets.len(), count).map_err(|(vertex, message)| {
+            let failure = Failure::input(format!("{}: {message}", place(index, &mesh.name))).in_mesh(index);
+            vertex.map_or(failure.clone(), |vertex| failure.at(vertex))
+        })?;
+        drop(known);
+        state.change(|character| character.meshes[index].morph_targets.push(target));
+        Ok(())
+    };
+    unsafe { call(error, body) }
 }
 
 /// Counts what a character holds.
@@ -343,7 +269,24 @@ pub unsafe extern "C" fn sdef_character_get_info(
     info: *mut SdefCharacterInfo,
     error: *mut SdefError,
 ) -> SdefStatus {
-    unsafe { character::get_info(character, info, error) }
+    let body = || unsafe {
+        let state = handles::character(character)?;
+        let state = handles::read(&state, "character")?;
+        let own = state.character();
+        let whole = state.rigged().unwrap_or(&own);
+        let value = SdefCharacterInfo {
+            struct_size: 0,
+            mesh_count: own.meshes.len() as u32,
+            joint_count: whole.skeleton.joints.len() as u32,
+            own_joint_count: own.skeleton.joints.len() as u32,
+            morph_target_count: own.meshes.iter().map(|mesh| mesh.morph_targets.len()).sum::<usize>() as u32,
+            rig_made: u32::from(state.rigged().is_some()),
+            vertex_count: own.vertex_count() as u64,
+            triangle_count: own.triangle_count() as u64,
+        };
+        arrays::struct_out("SdefCharacterInfo", info, &value)
+    };
+    unsafe { call(error, body) }
 }
 
 /// Gives the joints back: own ones first, then those of a made rig, parents in any order.
@@ -365,18 +308,35 @@ pub unsafe extern "C" fn sdef_character_get_joints(
     joint_count: *mut usize,
     error: *mut SdefError,
 ) -> SdefStatus {
-    unsafe {
-        character::get_joints(
-            character,
-            parents,
-            roles,
-            rest_matrices,
-            confidence,
-            capacity,
-            joint_count,
-            error,
-        )
-    }
+    let body = || unsafe {
+        let state = handles::character(character)?;
+        let ready = handles::read(&state, "character")?.ready();
+        let whole = ready.character();
+        let joints = &whole.skeleton.joints;
+        let count = joints.len();
+        write_out(joint_count, count);
+        let parents = Output::new("parents", parents, count, capacity, 0)?;
+        let roles = Output::new("roles", roles, count, capacity, 0)?;
+        let rests = Output::<[f64; 16]>::new("rest_matrices", rest_matrices.cast(), count, capacity, 0)?;
+        let confidence = Output::new("confidence", confidence, count, capacity, 0)?;
+        parents.write_each(joints.iter().map(|joint| joint.parent.map_or(-1, |parent| parent as i32)));
+        let mut role_of = vec![SDEF_NONE; count];
+        for (role, joint) in whole.humanoid.iter() {
+            if role_of[joint] == SDEF_NONE {
+                role_of[joint] = role as u32;
+            }
+        }
+        roles.write(&role_of);
+        rests.write_each(joints.iter().map(|joint| joint.rest.to_cols_array()));
+        let mut sure = vec![1.0; count];
+        if let Some((rig, _)) = &ready.rigged {
+            let own = ready.own.skeleton.joints.len();
+            sure[own..].copy_from_slice(&rig.confidence);
+        }
+        confidence.write(&sure);
+        Ok(())
+    };
+    unsafe { call(error, body) }
 }
 
 /// Gives the weights that animate one mesh: those of a made rig, else its own.
@@ -397,5 +357,61 @@ pub unsafe extern "C" fn sdef_character_get_weights(
     capacity: usize,
     error: *mut SdefError,
 ) -> SdefStatus {
-    unsafe { character::get_weights(character, mesh, influence_count, joints, weights, capacity, error) }
+    let body = || unsafe {
+        let state = handles::character(character)?;
+        let ready = handles::read(&state, "character")?.ready();
+        let index = mesh as usize;
+        let mesh = mesh_of(&ready.own, index)?;
+        let most = influence_count as usize;
+        if !(1..=255).contains(&most) {
+            return Err(Failure::argument(format!("influence_count is {most}: give 1 to 255")));
+        }
+        let (all, first) = match &ready.rigged {
+            Some((rig, _)) => (&rig.skin_weights[index], ready.own.skeleton.joints.len() as u32),
+            None => (&mesh.weights, 0),
+        };
+        let count = mesh.positions.len();
+        if all.is_empty() && count > 0 {
+            return Err(Failure::input(format!(
+                "{} has no weights: give it some, or call sdef_character_rig",
+                place(index, &mesh.name)
+            ))
+            .in_mesh(index));
+        }
+        let fits = |what: &str| match capacity < count {
+            true => Err(Failure::new(
+                SDEF_STATUS_BUFFER_TOO_SMALL,
+                format!("{what} can hold {capacity} vertices, but the mesh has {count}: give a larger array"),
+            )
+            .in_mesh(index)),
+            false => Ok(()),
+        };
+        if !joints.is_null() {
+            fits("joints")?;
+        }
+        if !weights.is_null() {
+            fits("weights")?;
+        }
+        let numbers = count.saturating_mul(most);
+        let joints = Output::new("joints", joints, numbers, numbers, 0)?;
+        let weights = Output::new("weights", weights, numbers, numbers, 0)?;
+        let limited = all.limited(most);
+        let entry = |vertex: usize, influence: usize| limited.row(vertex).get(influence).copied();
+        let entries = || (0..count).flat_map(|vertex| (0..most).map(move |influence| (vertex, influence)));
+        joints.write_each(entries().map(|(v, i)| entry(v, i).map_or(0, |(joint, _)| joint + first)));
+        weights.write_each(entries().map(|(v, i)| entry(v, i).map_or(0.0, |(_, weight)| weight)));
+        Ok(())
+    };
+    unsafe { call(error, body) }
+}
+
+fn place(index: usize, name: &str) -> String {
+    if name.is_empty() { format!("mesh {index}") } else { format!("mesh {index} ({name})") }
+}
+
+fn mesh_of(character: &Character, mesh: usize) -> Outcome<&Mesh> {
+    let count = character.meshes.len();
+    character.meshes.get(mesh).ok_or_else(|| {
+        Failure::argument(format!("there is no mesh {mesh}: the character has {count}, counted from 0"))
+    })
 }

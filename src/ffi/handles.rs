@@ -3,9 +3,9 @@
 //! A handle's id holds the index of a slot, the slot's generation, and the kind of what it stands for, so that a handle
 //! that was destroyed, made up or meant for something else is told from every live one.
 
+use super::basics::*;
 use super::character::CharacterState;
 use super::deformer::DeformerState;
-use super::exports::basics::*;
 use super::guard::{Failure, Outcome};
 use crate::pipeline::Style;
 use std::sync::{Arc, PoisonError, RwLock, RwLockReadGuard, RwLockWriteGuard, TryLockError};

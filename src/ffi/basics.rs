@@ -1,6 +1,7 @@
 //! Version, status, errors, handles
 
-use crate::ffi::{bodies, guard, table};
+use super::guard::{self, call};
+use super::handles;
 use core::ffi::{c_char, c_void};
 use safer_ffi::prelude::*;
 
@@ -100,7 +101,7 @@ pub extern "C" fn sdef_status_name(status: SdefStatus) -> *const c_char {
 /// How many handles there are that nobody has destroyed, of all kinds and all threads; 0 where nothing leaks.
 #[ffi_export]
 pub extern "C" fn sdef_live_handles() -> u64 {
-    table::live()
+    handles::live()
 }
 
 /// Destroys what a handle stands for.
@@ -111,5 +112,5 @@ pub extern "C" fn sdef_live_handles() -> u64 {
 /// Errors: BAD_HANDLE.
 #[ffi_export]
 pub unsafe extern "C" fn sdef_destroy(handle: u64, error: *mut SdefError) -> SdefStatus {
-    unsafe { bodies::destroy(handle, error) }
+    unsafe { call(error, || handles::remove(handle)) }
 }

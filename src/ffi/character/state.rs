@@ -1,0 +1,159 @@
+//! What stands behind a handle of a character.
+
+use super::place;
+use crate::character::roles::find_roles;
+use crate::character::{Axes, Character, Humanoid, Mesh, Skeleton};
+use crate::error::Warning;
+use crate::ffi::guard::{Failure, Outcome};
+use crate::pipeline::Rig;
+use crate::progress::Progress;
+use crate::rig::RigOptions;
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// A character behind a handle.
+pub struct CharacterState {
+    resolved: Mutex<Resolved>,
+    /// The roles that the host gave.
+    given: Humanoid,
+    rig: Option<MadeRig>,
+}
+
+/// A character whose roles are found when they are first asked for: until then meshes may still come.
+struct Resolved {
+    character: Arc<Character>,
+    warnings: Vec<Warning>,
+    roles_found: bool,
+}
+
+#[derive(Clone)]
+struct MadeRig {
+    rig: Arc<Rig>,
+    rigged: Arc<Character>,
+}
+
+/// What a study or a deformer needs of a character.
+pub struct Ready {
+    /// With its own rig.
+    pub own: Arc<Character>,
+    /// With a made rig in place.
+    pub rigged: Option<(Arc<Rig>, Arc<Character>)>,
+    /// What is to be known about the roles.
+    pub warnings: Vec<Warning>,
+}
+
+impl Ready {
+    /// The character to work with.
+    pub fn character(&self) -> &Arc<Character> {
+        self.rigged.as_ref().map_or(&self.own, |(_, rigged)| rigged)
+    }
+}
+
+impl CharacterState {
+    /// An empty one.
+    pub fn new(axes: Axes) -> Self {
+        let character = Arc::new(Character { axes, ..Character::default() });
+        let resolved = Resolved { character, warnings: Vec::new(), roles_found: false };
+        Self { resolved: Mutex::new(resolved), given: Humanoid::default(), rig: None }
+    }
+
+    fn resolved(&mut self) -> &mut Resolved {
+        self.resolved.get_mut().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Changes the character; what was found before does not count any more. A deformer keeps it as it was.
+    pub fn change(&mut self, change: impl FnOnce(&mut Character)) {
+        let resolved = self.resolved();
+        change(Arc::make_mut(&mut resolved.character));
+        resolved.roles_found = false;
+        resolved.warnings.clear();
+        self.rig = None;
+    }
+
+    /// The character with its own rig; its roles may not be found yet.
+    pub fn character(&self) -> Arc<Character> {
+        self.resolved.lock().unwrap_or_else(PoisonError::into_inner).character.clone()
+    }
+
+    /// The character with the rig that was made for it.
+    pub fn rigged(&self) -> Option<&Arc<Character>> {
+        self.rig.as_ref().map(|made| &made.rigged)
+    }
+
+    /// The character with its roles.
+    pub fn ready(&self) -> Ready {
+        let mut resolved = self.resolved.lock().unwrap_or_else(PoisonError::into_inner);
+        if !resolved.roles_found {
+            let mut humanoid = self.given.clone();
+            if !humanoid.missing().is_empty() && !resolved.character.skeleton.joints.is_empty() {
+                let character = &resolved.character;
+                let (found, warnings) = find_roles(&character.skeleton, &character.meshes, character.axes.up);
+                for (role, joint) in found.iter() {
+                    if !humanoid.has(role) && humanoid.iter().all(|(_, taken)| taken != joint) {
+                        humanoid.set(role, joint);
+                    }
+                }
+                resolved.warnings = warnings;
+            }
+            if resolved.character.humanoid != humanoid {
+                Arc::make_mut(&mut resolved.character).humanoid = humanoid;
+            }
+            resolved.roles_found = true;
+        }
+        Ready {
+            own: resolved.character.clone(),
+            rigged: self.rig.as_ref().map(|made| (made.rig.clone(), made.rigged.clone())),
+            warnings: resolved.warnings.clone(),
+        }
+    }
+
+    /// Gives it joints; its meshes must fit them.
+    pub fn set_skeleton(&mut self, skeleton: Skeleton, roles: Humanoid) -> Outcome {
+        let count = skeleton.joints.len();
+        for (index, mesh) in self.character().meshes.iter().enumerate() {
+            mesh.weights.validate(mesh.positions.len(), count).map_err(|(vertex, message)| {
+                let failure =
+                    Failure::input(format!("{}: {message}", place(index, &mesh.name))).in_mesh(index);
+                vertex.map_or(failure.clone(), |vertex| failure.at(vertex))
+            })?;
+        }
+        self.given = roles.clone();
+        self.change(|character| {
+            character.skeleton = skeleton;
+            character.humanoid = roles;
+        });
+        Ok(())
+    }
+
+    /// Adds a mesh, and gives its index.
+    pub fn add_mesh(&mut self, mesh: Mesh) -> Outcome<usize> {
+        let character = self.character();
+        let index = character.meshes.len();
+        if !mesh.weights.is_empty() && character.skeleton.joints.is_empty() {
+            let message =
+                "has weights, but the character has no joints: call sdef_character_set_skeleton first";
+            return Err(Failure::input(format!("{} {message}", place(index, &mesh.name))).in_mesh(index));
+        }
+        mesh.validate(index, character.skeleton.joints.len())?;
+        let vertices = character.vertex_count() + mesh.positions.len();
+        if vertices >= u32::MAX as usize {
+            return Err(Failure::input(format!(
+                "{}: with it the character has {vertices} vertices: give at most 4294967294",
+                place(index, &mesh.name)
+            ))
+            .in_mesh(index));
+        }
+        // Released, so that the change need not copy the character.
+        drop(character);
+        self.change(|character| character.meshes.push(mesh));
+        Ok(index)
+    }
+
+    /// Makes a rig.
+    pub fn make_rig(&mut self, options: &RigOptions, progress: &mut Progress) -> Outcome {
+        let own = self.ready().own;
+        let rig = Rig::with_progress(&own, options, progress)?;
+        let rigged = Arc::new(rig.applied_to(&own));
+        self.rig = Some(MadeRig { rig: Arc::new(rig), rigged });
+        Ok(())
+    }
+}

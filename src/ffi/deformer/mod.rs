@@ -1,0 +1,458 @@
+//! The deformer: made once, applied as often as something changes
+
+use super::arrays::{self, Input, Output, Plain, not_null, write_out};
+use super::basics::*;
+use super::guard::{self, Failure, call, progress_of};
+use super::handles::{self, Object};
+use super::options::{self, SdefOptions};
+use crate::options::Options;
+use crate::pipeline::Style;
+use crate::progress::Progress;
+use crate::report::FigureReport;
+use crate::shape::GroupShape;
+use core::ffi::{c_char, c_void};
+use glam::DVec3;
+use safer_ffi::prelude::*;
+use std::collections::BTreeMap;
+use std::sync::{Arc, RwLock};
+
+mod state;
+
+pub(super) use state::DeformerState;
+
+/// Where the results of one mesh go; arrays that are NULL are not wanted. Those that the mesh was given without
+/// (normals, tangents, morph targets) must be NULL.
+#[derive_ReprC]
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct SdefMeshResult {
+    /// sizeof(SdefMeshResult)
+    pub struct_size: u32,
+    /// morph targets that the morph arrays can hold
+    pub morph_target_capacity: u32,
+    /// vertices that each array can hold, for each morph target
+    pub vertex_capacity: usize,
+    /// 3 floats a vertex
+    pub positions: *mut f32,
+    /// bytes from vertex to vertex; 0: 12
+    pub position_stride: usize,
+    /// 3 floats a vertex, unit length
+    pub normals: *mut f32,
+    /// bytes from vertex to vertex; 0: 12
+    pub normal_stride: usize,
+    /// 4 floats a vertex, the handedness kept
+    pub tangents: *mut f32,
+    /// bytes from vertex to vertex; 0: 16
+    pub tangent_stride: usize,
+    /// 3 floats a vertex, packed: what a target adds at weight 1, all vertices of the mesh for one target after the other
+    pub morph_positions: *mut f32,
+    /// likewise; 0 for targets that were given without
+    pub morph_normals: *mut f32,
+    /// likewise
+    pub morph_tangents: *mut f32,
+}
+unsafe impl Plain for SdefMeshResult {}
+
+/// One bone group: what is done to it, and how large it is; NAN where not known.
+#[derive_ReprC]
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct SdefGroup {
+    /// terminated; longer names of your own are cut
+    pub name: [c_char; 64],
+    /// 1 keeps the length of the group's bones
+    pub length_scale: f64,
+    /// 1 keeps the girth
+    pub thickness_scale: f64,
+    /// sum over the character's bones, left and right
+    pub target_length: f64,
+    /// mean distance of the surface
+    pub target_radius: f64,
+    /// the style's, in its own units
+    pub reference_length: f64,
+    /// the style's, in its own units
+    pub reference_radius: f64,
+}
+unsafe impl Plain for SdefGroup {}
+
+/// What was measured on a body; heights are along up.
+#[derive_ReprC]
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct SdefFigure {
+    /// extent of all meshes along up
+    pub height: f64,
+    /// chin to crown (product mode), head joint to head top (paper mode)
+    pub head_length: f64,
+    /// crown to sole over crown to chin
+    pub heads: f64,
+    /// height
+    pub crown: f64,
+    /// height
+    pub chin: f64,
+    /// height
+    pub shoulder_line: f64,
+    /// height
+    pub crotch: f64,
+    /// height
+    pub sole: f64,
+}
+
+/// The numbers of a run.
+#[derive_ReprC]
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct SdefReport {
+    /// sizeof(SdefReport)
+    pub struct_size: u32,
+    /// 1 where the rig was made, 0 where it was the character's own
+    pub rig_made: u32,
+    /// the character before
+    pub target: SdefFigure,
+    /// the style; NAN throughout for a style of N heads
+    pub reference: SdefFigure,
+    /// measured anew on what comes out
+    pub result: SdefFigure,
+    /// head of the target over head of the style, times head_scale (product mode)
+    pub head_ratio: f64,
+    /// vertices that the rig left without weights
+    pub unreached_vertices: u64,
+    /// vertices that were weighted by another rule than the chosen one
+    pub fallback_vertices: u64,
+}
+unsafe impl Plain for SdefReport {}
+
+/// Makes the deformation that gives a character a style. What it needs of the character is read before it begins: that
+/// may be changed meanwhile.
+///
+/// options:        NULL for the defaults; rig_* are not read
+/// progress, user: see Progress above; user is handed on
+/// deformer:       receives the handle
+///
+/// Errors: BAD_OPTION, BAD_STYLE, NO_HUMANOID, NO_GEOMETRY, CANCELLED.
+#[ffi_export]
+pub unsafe extern "C" fn sdef_deformer_create(
+    character: SdefCharacter,
+    style: SdefStyle,
+    options: *const SdefOptions,
+    progress: SdefProgress,
+    user: *mut c_void,
+    deformer: *mut SdefDeformer,
+    error: *mut SdefError,
+) -> SdefStatus {
+    let body = || unsafe {
+        not_null("deformer", deformer)?;
+        let character = handles::character(character)?;
+        let style = handles::style(style)?;
+        let (options, _) = options::read(options)?;
+        let mut callback = progress_of(progress, user);
+        // The character is free again from here on: what is read of it is ours.
+        let ready = handles::read(&character, "character")?.ready();
+        let state = DeformerState::new(&ready, &style, &options, &mut Progress::new(&mut callback))?;
+        let id = handles::insert(Object::Deformer(Arc::new(RwLock::new(state))))?;
+        write_out(deformer, SdefDeformer { id });
+        Ok(())
+    };
+    unsafe { call(error, body) }
+}
+
+/// Changes the options of a deformer, with the same results as a new one and for less: only what hangs on the change is
+/// done again. For sliders. What sdef_deformer_set_face has set goes too.
+///
+/// Errors: as sdef_deformer_create, after which the deformer is as it was; BUSY.
+#[ffi_export]
+pub unsafe extern "C" fn sdef_deformer_set_options(
+    deformer: SdefDeformer,
+    options: *const SdefOptions,
+    progress: SdefProgress,
+    user: *mut c_void,
+    error: *mut SdefError,
+) -> SdefStatus {
+    let body = || unsafe {
+        let state = handles::deformer(deformer)?;
+        let (options, _) = options::read(options)?;
+        let mut callback = progress_of(progress, user);
+        handles::write(&state, "deformer")?.set_options(&options, &mut Progress::new(&mut callback))
+    };
+    unsafe { call(error, body) }
+}
+
+/// Changes the face alone, until options are set again; nothing of the body is done again.
+///
+/// squash: as SdefOptions.face_squash, NAN too
+/// curve:  SDEF_FACE_CURVE_*
+///
+/// Errors: BAD_ARGUMENT, BAD_OPTION, BUSY.
+#[ffi_export]
+pub unsafe extern "C" fn sdef_deformer_set_face(
+    deformer: SdefDeformer,
+    squash: f64,
+    curve: u32,
+    error: *mut SdefError,
+) -> SdefStatus {
+    let body = || {
+        let state = handles::deformer(deformer)?;
+        let curve = options::face_curve(curve)?;
+        let mut state = handles::write(&state, "deformer")?;
+        let options = Options {
+            face_squash: (!squash.is_nan()).then_some(squash),
+            face_curve: curve,
+            ..state.deformer().options().clone()
+        };
+        state.set_options(&options, &mut Progress::none())
+    };
+    unsafe { call(error, body) }
+}
+
+/// Deforms the meshes, into the caller's arrays.
+///
+/// meshes:         mesh_count structs in the order of the character's meshes, all of one struct_size
+/// mesh_count:     as many as the character has
+/// progress, user: see Progress above
+///
+/// Errors: BAD_ARGUMENT, BUFFER_TOO_SMALL with the mesh, OUT_OF_MEMORY, CANCELLED.
+#[ffi_export]
+pub unsafe extern "C" fn sdef_deformer_apply(
+    deformer: SdefDeformer,
+    meshes: *const SdefMeshResult,
+    mesh_count: usize,
+    progress: SdefProgress,
+    user: *mut c_void,
+    error: *mut SdefError,
+) -> SdefStatus {
+    let body = || unsafe {
+        let state = handles::deformer(deformer)?;
+        let state = handles::read(&state, "deformer")?;
+        state.check_count(mesh_count)?;
+        let results = arrays::structs_in("SdefMeshResult", meshes, mesh_count)?;
+        let mut callback = progress_of(progress, user);
+        state.apply(&results, &mut Progress::new(&mut callback))
+    };
+    unsafe { call(error, body) }
+}
+
+/// Gives the joints where they are now, in the order of sdef_character_get_joints. They move, and neither turn nor
+/// scale: the new rest matrix is the old one with this translation.
+///
+/// positions:     3 doubles a joint, model space
+/// inverse_binds: 16 doubles a joint, the inverse of the new rest matrix: model space to joint space
+/// capacity:      joints that each array can hold
+/// joint_count:   receives how many there are; may be NULL
+///
+/// Errors: BAD_INPUT where inverse_binds is wanted and a rest matrix has no inverse.
+#[ffi_export]
+pub unsafe extern "C" fn sdef_deformer_get_joints(
+    deformer: SdefDeformer,
+    positions: *mut f64,
+    inverse_binds: *mut f64,
+    capacity: usize,
+    joint_count: *mut usize,
+    error: *mut SdefError,
+) -> SdefStatus {
+    let body = || unsafe {
+        let state = handles::deformer(deformer)?;
+        let state = handles::read(&state, "deformer")?;
+        let skeleton = &state.deformer().character().skeleton;
+        let count = skeleton.joints.len();
+        write_out(joint_count, count);
+        let places = Output::<[f64; 3]>::new("positions", positions.cast(), count, capacity, 0)?;
+        let binds = Output::<[f64; 16]>::new("inverse_binds", inverse_binds.cast(), count, capacity, 0)?;
+        let joints = state.deformer().deformed_joints();
+        if !inverse_binds.is_null() {
+            let mut inverses = arrays::reserved(count, "inverse binds")?;
+            for (index, (joint, at)) in skeleton.joints.iter().zip(&joints).enumerate() {
+                let mut rest = joint.rest;
+                rest.w_axis = at.extend(1.0);
+                let inverse = rest.inverse();
+                if rest.determinant() == 0.0 || !inverse.is_finite() {
+                    let message = format!(
+                        "joint {index} ({}): its rest matrix has no inverse: give one that flattens nothing",
+                        joint.name
+                    );
+                    return Err(Failure::input(message).at(index));
+                }
+                inverses.push(inverse.to_cols_array());
+            }
+            binds.write(&inverses);
+        }
+        places.write_each(joints.iter().map(|at| arrays::numbers(*at)));
+        Ok(())
+    };
+    unsafe { call(error, body) }
+}
+
+/// Maps points that hang from joints: colliders, eyes, viewpoints, the tails of springs.
+///
+/// joints:    the joint that each point hangs from
+/// points:    3 doubles a point, model space
+/// count:     points; every array holds as many
+/// positions: receives 3 doubles a point, model space
+/// scales:    receives a number a point: by how much small things there grow (the radius of a collider)
+/// jacobians: receives 9 doubles a point, column by column: how directions and lengths there change
+///
+/// Errors: BAD_INPUT with the point as the element.
+#[ffi_export]
+pub unsafe extern "C" fn sdef_deformer_map_points(
+    deformer: SdefDeformer,
+    joints: *const u32,
+    points: *const f64,
+    count: usize,
+    positions: *mut f64,
+    scales: *mut f64,
+    jacobians: *mut f64,
+    error: *mut SdefError,
+) -> SdefStatus {
+    let body = || unsafe {
+        let state = handles::deformer(deformer)?;
+        let state = handles::read(&state, "deformer")?;
+        let joint_count = state.deformer().character().skeleton.joints.len();
+        let joints = Input::new("joints", joints, count, 0)?;
+        let points = Input::<[f64; 3]>::new("points", points.cast(), count, 0)?;
+        let positions = Output::<[f64; 3]>::new("positions", positions.cast(), count, count, 0)?;
+        let scales = Output::new("scales", scales, count, count, 0)?;
+        let jacobians = Output::<[f64; 9]>::new("jacobians", jacobians.cast(), count, count, 0)?;
+        let mut mapped = arrays::reserved(count, "points")?;
+        for (index, (joint, point)) in joints.iter().zip(points.iter()).enumerate() {
+            let point = DVec3::from_array(point);
+            if joint as usize >= joint_count {
+                return Err(Failure::input(format!(
+                    "point {index} hangs from joint {joint}, but there are {joint_count} joints: name one of them"
+                ))
+                .at(index));
+            }
+            if !point.is_finite() {
+                let message = format!("point {index} is at {point}: points must be finite numbers");
+                return Err(Failure::input(message).at(index));
+            }
+            mapped.push(state.deformer().map(joint as usize, point));
+        }
+        positions.write_each(mapped.iter().map(|point| arrays::numbers(point.position)));
+        scales.write_each(mapped.iter().map(|point| point.local_scale()));
+        jacobians.write_each(mapped.iter().map(|point| point.jacobian.to_cols_array()));
+        Ok(())
+    };
+    unsafe { call(error, body) }
+}
+
+/// Gives what is done to each bone group.
+///
+/// capacity:    groups that the array can hold
+/// group_count: receives how many there are; may be NULL
+#[ffi_export]
+pub unsafe extern "C" fn sdef_deformer_get_groups(
+    deformer: SdefDeformer,
+    groups: *mut SdefGroup,
+    capacity: usize,
+    group_count: *mut usize,
+    error: *mut SdefError,
+) -> SdefStatus {
+    let body = || unsafe {
+        let state = handles::deformer(deformer)?;
+        let state = handles::read(&state, "deformer")?;
+        let deformer = state.deformer();
+        let target = deformer.group_shapes(&deformer.target().shape);
+        let reference = match deformer.style() {
+            Style::Shape(shape) => deformer.group_shapes(shape),
+            Style::Heads(_) => BTreeMap::new(),
+        };
+        let mut names: Vec<&String> = deformer.coefficients().keys().chain(target.keys()).collect();
+        names.sort_unstable();
+        names.dedup();
+        write_out(group_count, names.len());
+        let places = Output::new("groups", groups, names.len(), capacity, 0)?;
+        let sizes = |shape: Option<&GroupShape>| {
+            shape.map_or([f64::NAN; 2], |shape| [shape.length, shape.radius.unwrap_or(f64::NAN)])
+        };
+        places.write_each(names.iter().map(|&name| {
+            let [length_scale, thickness_scale] = match deformer.coefficients().get(name) {
+                Some(coefficient) => [coefficient.length_scale, coefficient.thickness_scale],
+                None => [f64::NAN; 2],
+            };
+            let [target_length, target_radius] = sizes(target.get(name));
+            let [reference_length, reference_radius] = sizes(reference.get(name));
+            let mut text = [0; 64];
+            for (to, byte) in text.iter_mut().zip(guard::cut(name, 64).bytes()) {
+                *to = byte as c_char;
+            }
+            SdefGroup {
+                name: text,
+                length_scale,
+                thickness_scale,
+                target_length,
+                target_radius,
+                reference_length,
+                reference_radius,
+            }
+        }));
+        Ok(())
+    };
+    unsafe { call(error, body) }
+}
+
+/// Measures the result and gives the numbers of the run. The first call after a change takes as long as an apply and a
+/// measurement together.
+///
+/// report:   may be NULL
+/// json:     receives everything as JSON text: numbers by group and role, times, warnings
+/// capacity: bytes that json can hold
+/// size:     receives the bytes needed, the terminating NUL among them; may be NULL
+///
+/// Errors: NO_GEOMETRY where the result is too flat to be measured; BUFFER_TOO_SMALL.
+#[ffi_export]
+pub unsafe extern "C" fn sdef_deformer_get_report(
+    deformer: SdefDeformer,
+    report: *mut SdefReport,
+    json: *mut c_char,
+    capacity: usize,
+    size: *mut usize,
+    error: *mut SdefError,
+) -> SdefStatus {
+    const NO_FIGURE: SdefFigure = SdefFigure {
+        height: f64::NAN,
+        head_length: f64::NAN,
+        heads: f64::NAN,
+        crown: f64::NAN,
+        chin: f64::NAN,
+        shoulder_line: f64::NAN,
+        crotch: f64::NAN,
+        sole: f64::NAN,
+    };
+    let body = || unsafe {
+        let state = handles::deformer(deformer)?;
+        arrays::check_struct_out("SdefReport", report)?;
+        let state = handles::read(&state, "deformer")?;
+        let found = state.report()?;
+        let text = serde_json::to_string_pretty(found).map_err(|error| {
+            Failure::new(SDEF_STATUS_INTERNAL, format!("the report cannot be written: {error}"))
+        })?;
+        arrays::text_out(&text, json, capacity, size)?;
+        if report.is_null() {
+            return Ok(());
+        }
+        let value = SdefReport {
+            struct_size: 0,
+            rig_made: u32::from(found.rig.source == "auto"),
+            target: figure(&found.target),
+            reference: found.reference.as_ref().map_or(NO_FIGURE, figure),
+            result: figure(&found.result),
+            head_ratio: found.g,
+            unreached_vertices: found.rig.unreached_vertices as u64,
+            fallback_vertices: found.rig.fallback_vertices.values().sum::<usize>() as u64,
+        };
+        arrays::struct_out("SdefReport", report, &value)
+    };
+    unsafe { call(error, body) }
+}
+
+fn figure(figure: &FigureReport) -> SdefFigure {
+    SdefFigure {
+        height: figure.height,
+        head_length: figure.head_length,
+        heads: figure.heads,
+        crown: figure.landmarks.crown,
+        chin: figure.landmarks.chin,
+        shoulder_line: figure.landmarks.shoulder_line,
+        crotch: figure.landmarks.crotch,
+        sole: figure.landmarks.sole,
+    }
+}

@@ -1,0 +1,83 @@
+//! The rig, for characters without a skeleton
+
+use super::arrays;
+use super::basics::*;
+use super::guard::{Failure, call, in_words_of_hosts, progress_of};
+use super::handles::{self, Object};
+use super::options::{self, SdefOptions};
+use crate::error::Warning;
+use crate::progress::Progress;
+use core::ffi::{c_char, c_void};
+use safer_ffi::prelude::*;
+
+/// Finds joints and weights for a character, in place of any rig that was made before. Joints of its own stay, come
+/// first, and ride along with the body; its own weights are not used.
+///
+/// options: NULL for the defaults; thread_count, rig_weights, rig_garments, rig_voxel_resolution, rig_fingers,
+///          rig_chin_segment, rig_heat, rig_joints and rig_left_handed are read
+///
+/// Read the result with sdef_character_get_joints and sdef_character_get_weights. Errors: BAD_OPTION, NO_GEOMETRY, BUSY,
+/// CANCELLED.
+#[ffi_export]
+pub unsafe extern "C" fn sdef_character_rig(
+    character: SdefCharacter,
+    options: *const SdefOptions,
+    progress: SdefProgress,
+    user: *mut c_void,
+    error: *mut SdefError,
+) -> SdefStatus {
+    let body = || unsafe {
+        let state = handles::character(character)?;
+        let (_, options) = options::read(options)?;
+        let mut callback = progress_of(progress, user);
+        handles::write(&state, "character")?.make_rig(&options, &mut Progress::new(&mut callback))
+    };
+    unsafe { call(error, body) }
+}
+
+/// Gives what a person should know about the rig and roles of a character, or about a deformer and all before it: one
+/// line each, "code: sentence\n", where code is a fixed word such as joint_by_ratio. Empty text where all is well.
+///
+/// handle:   the id of a character or deformer
+/// text:     receives the lines
+/// capacity: bytes that text can hold
+/// size:     receives the bytes needed, the terminating NUL among them; may be NULL
+#[ffi_export]
+pub unsafe extern "C" fn sdef_get_warnings(
+    handle: u64,
+    text: *mut c_char,
+    capacity: usize,
+    size: *mut usize,
+    error: *mut SdefError,
+) -> SdefStatus {
+    let body = || unsafe {
+        let lines = match handles::any(handle, "character or deformer")? {
+            Object::Character(state) => {
+                let ready = handles::read(&state, "character")?.ready();
+                match &ready.rigged {
+                    Some((rig, _)) => lines(rig.warnings.iter()),
+                    None => lines(ready.warnings.iter()),
+                }
+            }
+            Object::Deformer(state) => lines(handles::read(&state, "deformer")?.warnings()),
+            Object::Style(_) => {
+                return Err(Failure::new(
+                    SDEF_STATUS_BAD_HANDLE,
+                    format!(
+                        "the handle {handle:#x} is a style, but a character or deformer is asked for: give one"
+                    ),
+                ));
+            }
+        };
+        arrays::text_out(&lines, text, capacity, size)
+    };
+    unsafe { call(error, body) }
+}
+
+fn lines<'a>(warnings: impl Iterator<Item = &'a Warning>) -> String {
+    warnings
+        .map(|warning| {
+            format!("{}: {}\n", warning.code, in_words_of_hosts(&warning.message).replace('\n', " "))
+        })
+        .collect()
+}
