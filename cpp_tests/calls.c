@@ -200,7 +200,6 @@ static void a_deformer_is_applied(void) {
   CHECK(count >= 6 && count <= 32);
   for (size_t group = 0; group < count; group++) CHECK(strlen(groups[group].name) > 0);
 
-  OK(sdef_deformer_set_face(deformer, 0.5, SDEF_FACE_CURVE_F2, &error));
   SdefOptions options;
   OK(sdef_options_init(&options, sizeof options, &error));
   options.amount = 0;

@@ -94,7 +94,7 @@ static int32_t stop(void *user, float fraction) {
 
 static int32_t meddle(void *user, float fraction) {
   (void)fraction;
-  FAILS(SDEF_STATUS_BUSY, sdef_deformer_set_face(*(SdefDeformer *)user, 0, SDEF_FACE_CURVE_F4, &error));
+  FAILS(SDEF_STATUS_BUSY, sdef_deformer_set_options(*(SdefDeformer *)user, NULL, NULL, NULL, &error));
   return 0;
 }
 

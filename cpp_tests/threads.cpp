@@ -72,7 +72,11 @@ static void one_changes_beside_readers() {
       for (int round = 0; round < 200; round++) {
         attempt(changes, [&] { made.set_skeleton(figure().skeleton); });
         attempt(changes, [&] { deformer.set_options(round % 2 == 0 ? none : superdeform::Options()); });
-        attempt(changes, [&] { deformer.set_face(0.1 * (round % 5)); });
+        attempt(changes, [&] {
+          superdeform::Options face;
+          face.face_squash = 0.1 * (round % 5);
+          deformer.set_options(face);
+        });
       }
       over = true;
       return;
@@ -138,13 +142,13 @@ static void a_callback_that_changes_what_calls_it_is_told_so() {
   CHECK(inside == SDEF_STATUS_OK && made.info().mesh_count > 1);
   Positions positions;
   deformer.apply({&positions.result, 1}, [&](float) {
-    inside = sdef_deformer_set_face(deformer.get(), 0, SDEF_FACE_CURVE_F4, nullptr);
+    inside = sdef_deformer_set_options(deformer.get(), nullptr, nullptr, nullptr, nullptr);
   });
   CHECK(inside == SDEF_STATUS_BUSY);
-  deformer.set_face(0);
+  deformer.set_options(options);
   // Other threads see it too.
   deformer.apply({&positions.result, 1}, [&](float) {
-    std::thread([&] { inside = sdef_deformer_set_face(deformer.get(), 1, SDEF_FACE_CURVE_F4, nullptr); }).join();
+    std::thread([&] { inside = sdef_deformer_set_options(deformer.get(), nullptr, nullptr, nullptr, nullptr); }).join();
   });
   CHECK(inside == SDEF_STATUS_BUSY);
   // Reading is allowed.

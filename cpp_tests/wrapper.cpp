@@ -93,8 +93,10 @@ static void deformers() {
   deformer.map_points(owners, points, {}, scales);
   CHECK(deformer.groups().size() >= 6);
   deformer.warnings();
-  deformer.set_face(1.0, SDEF_FACE_CURVE_SPHERE);
   Options options;
+  options.face_squash = 1;
+  options.face_curve = SDEF_FACE_CURVE_SPHERE;
+  deformer.set_options(options);
   options.amount = 0;
   deformer.set_options(options);
   CHECK(deformed(deformer) != positions);

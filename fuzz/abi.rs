@@ -191,7 +191,7 @@ unsafe extern "C" fn watch(user: *mut c_void, fraction: f32) -> i32 {
                 sdef_character_add_mesh(SdefCharacter { id: handle }, &mesh, null_mut(), null_mut());
             }
             2 => {
-                sdef_deformer_set_face(SdefDeformer { id: handle }, 1.0, 0, null_mut());
+                sdef_deformer_set_options(SdefDeformer { id: handle }, null(), None, null_mut(), null_mut());
             }
             3 => {
                 sdef_deformer_get_report(
@@ -1075,7 +1075,7 @@ impl Host<'_> {
                 }
                 ("deformer_create", status)
             }
-            28 => {
+            28 | 29 => {
                 let id = self.handle(2);
                 if id != 0 && (self.is_lasting(id) || !self.may_work(DEFORM)) {
                     return;
@@ -1087,18 +1087,6 @@ impl Host<'_> {
                     sdef_deformer_set_options(SdefDeformer { id }, options, progress, user, error)
                 });
                 ("set_options", status)
-            }
-            29 => {
-                let id = self.handle(2);
-                if self.is_lasting(id) {
-                    return;
-                }
-                let squash = self.bytes.number();
-                let curve = self.bytes.below(5) as u32;
-                let status = ask(&mut self.bytes, |error| unsafe {
-                    sdef_deformer_set_face(SdefDeformer { id }, squash, curve, error)
-                });
-                ("set_face", status)
             }
             30 | 31 => {
                 let id = self.handle(2);

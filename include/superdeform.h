@@ -521,16 +521,10 @@ SdefStatus sdef_deformer_create(SdefCharacter character, SdefStyle style, const 
     SdefProgress progress, void *user, SdefDeformer *deformer, SdefError *error);
 
 // Changes the options of a deformer, with the same results as a new one and for less: only what hangs on the change is
-// done again. For sliders. What sdef_deformer_set_face has set goes too.
+// done again. For sliders.
 // Errors: as sdef_deformer_create, after which the deformer is as it was; BUSY.
 SdefStatus sdef_deformer_set_options(SdefDeformer deformer, const SdefOptions *options, SdefProgress progress,
     void *user, SdefError *error);
-
-// Changes the face alone, until options are set again; nothing of the body is done again.
-// squash: as SdefOptions.face_squash, NAN too
-// curve:  SDEF_FACE_CURVE_*
-// Errors: BAD_ARGUMENT, BAD_OPTION, BUSY.
-SdefStatus sdef_deformer_set_face(SdefDeformer deformer, double squash, uint32_t curve, SdefError *error);
 
 // Deforms the meshes, into the caller's arrays.
 // meshes:         mesh_count structs in the order of the character's meshes, all of one struct_size

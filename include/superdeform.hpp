@@ -365,10 +365,6 @@ public:
     detail::call_with_progress(std::forward<Progress>(progress), sdef_deformer_set_options, raw_, &options);
   }
 
-  void set_face(double squash, std::uint32_t curve = SDEF_FACE_CURVE_F4) {
-    detail::call(sdef_deformer_set_face, raw_, squash, curve);
-  }
-
   // results: one for each mesh of the character
   template <class Progress = std::nullptr_t>
   void apply(View<const SdefMeshResult> results, Progress &&progress = Progress()) const {

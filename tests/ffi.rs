@@ -229,14 +229,7 @@ fn options_that_are_set_later_give_what_a_new_deformer_gives() {
     let _at_work = at_work();
     let group = CString::new("upper_leg").unwrap();
     let own = CString::new("my thighs").unwrap();
-    let nan = f64::NAN;
-    let settings = [SdefGroupSettings {
-        group: group.as_ptr(),
-        length_scale: 0.8,
-        thickness_scale: nan,
-        length_transfer: nan,
-        thickness_transfer: nan,
-    }];
+    let settings = [SdefGroupSettings { length_scale: 0.8, ..group_settings(&group) }];
     let bones = [
         SdefBoneGroup { role: SDEF_ROLE_LEFT_LOWER_LEG, group: own.as_ptr() },
         SdefBoneGroup { role: SDEF_ROLE_RIGHT_LOWER_LEG, group: own.as_ptr() },
@@ -246,6 +239,11 @@ fn options_that_are_set_later_give_what_a_new_deformer_gives() {
         ("nothing", plain, Options::default()),
         ("amount", SdefOptions { amount: 0.4, ..plain }, Options { amount: 0.4, ..Options::default() }),
         ("none", SdefOptions { amount: 0.0, ..plain }, Options { amount: 0.0, ..Options::default() }),
+        (
+            "sphere",
+            SdefOptions { face_squash: 1.5, face_curve: SDEF_FACE_CURVE_SPHERE, ..plain },
+            Options { face_squash: Some(1.5), face_curve: FaceCurve::Sphere, ..Options::default() },
+        ),
         (
             "face",
             SdefOptions { face_squash: 1.2, face_curve: SDEF_FACE_CURVE_F2, amount: 0.7, ..plain },
@@ -309,15 +307,13 @@ fn options_that_are_set_later_give_what_a_new_deformer_gives() {
             |lines: &str| lines.lines().map(|l| l.split(':').next().unwrap().to_string()).collect::<Vec<_>>();
         assert_eq!(codes(&told), codes(&lines), "{name}");
     }
-    // The face alone, and a change that is refused.
-    ask(|error| unsafe { sdef_deformer_set_face(later, 1.5, SDEF_FACE_CURVE_SPHERE, error) }).unwrap();
-    let face = Options { face_squash: Some(1.5), face_curve: FaceCurve::Sphere, ..Options::default() };
-    let wanted = expected(character, &Style::Shape(Box::new(shape)), &face);
-    assert!(deformed(later, character) == wanted);
+    // A change that is refused changes nothing.
+    ask(|error| unsafe { sdef_deformer_set_options(later, null(), None, null_mut(), error) }).unwrap();
+    let before = deformed(later, character);
     let bad = SdefOptions { amount: 2.0, ..plain };
     let told = ask(|error| unsafe { sdef_deformer_set_options(later, &bad, None, null_mut(), error) });
     assert_eq!(told.unwrap_err().status, SDEF_STATUS_BAD_OPTION);
-    assert!(deformed(later, character) == wanted);
+    assert!(deformed(later, character) == before);
     for id in [handle.id, style.id, later.id] {
         destroy(id);
     }
@@ -790,7 +786,6 @@ fn a_destroyed_stale_made_up_or_other_handle_is_refused() {
         assert!(bad(ask(|error| unsafe {
             sdef_deformer_set_options(handle, null(), None, null_mut(), error)
         })));
-        assert!(bad(ask(|error| unsafe { sdef_deformer_set_face(handle, 1.0, 0, error) })));
         assert!(bad(ask(|error| unsafe {
             sdef_deformer_get_joints(handle, null_mut(), null_mut(), 0, null_mut(), error)
         })));
@@ -1248,8 +1243,8 @@ fn a_callback_that_calls_back_gets_an_answer_and_never_waits() {
     // A change that is called back from cannot be looked at or changed; an apply can be beside another.
     let mut watcher = Watch::new(0);
     watcher.within = Some(Box::new(move || {
-        let face = ask(|error| unsafe { sdef_deformer_set_face(made, 1.0, 0, error) });
-        assert_eq!(face.unwrap_err().status, SDEF_STATUS_BUSY);
+        let change = ask(|error| unsafe { sdef_deformer_set_options(made, null(), None, null_mut(), error) });
+        assert_eq!(change.unwrap_err().status, SDEF_STATUS_BUSY);
         assert_eq!(room(person()).apply(made).unwrap_err().status, SDEF_STATUS_BUSY);
         // Other handles are free.
         destroy(of_heads(3.0).id);
@@ -1260,8 +1255,8 @@ fn a_callback_that_calls_back_gets_an_answer_and_never_waits() {
     ask(|error| unsafe { sdef_deformer_set_options(made, null(), None, null_mut(), error) }).unwrap();
     let mut watcher = Watch::new(0);
     watcher.within = Some(Box::new(move || {
-        let face = ask(|error| unsafe { sdef_deformer_set_face(made, 1.0, 0, error) });
-        assert_eq!(face.unwrap_err().status, SDEF_STATUS_BUSY);
+        let change = ask(|error| unsafe { sdef_deformer_set_options(made, null(), None, null_mut(), error) });
+        assert_eq!(change.unwrap_err().status, SDEF_STATUS_BUSY);
         assert!(room(person()).apply(made).is_ok());
         // Destroyed while it works: the work is done all the same.
         unsafe { sdef_destroy(made.id, null_mut()) };

@@ -221,7 +221,7 @@ pub(super) fn one_of<T: Copy>(what: &str, number: u32, values: &[T]) -> Outcome<
 }
 
 /// The curve of a face.
-pub(super) fn face_curve(number: u32) -> Outcome<FaceCurve> {
+fn face_curve(number: u32) -> Outcome<FaceCurve> {
     one_of("face_curve", number, &[FaceCurve::F4, FaceCurve::F2, FaceCurve::Sphere])
 }
 

@@ -60,17 +60,6 @@ public sealed class Deformer : NativeObject
         }
     }
 
-    /// <summary>Changes the face alone; nothing of the body is done again.</summary>
-    /// <param name="squash">As <see cref="Options.FaceSquash"/>.</param>
-    /// <param name="curve">As <see cref="Options.FaceCurve"/>.</param>
-    public unsafe void SetFace(double squash, FaceCurve curve)
-    {
-        SdefError error = Failure.None();
-        uint status = Native.sdef_deformer_set_face(Raw, squash, (uint)curve, &error);
-        GC.KeepAlive(this);
-        Failure.Check(status, &error);
-    }
-
     /// <summary>
     /// Deforms the meshes into the given arrays, in place and without garbage. Nothing is written where it throws.
     /// </summary>

@@ -359,23 +359,8 @@ internal static unsafe partial class Native
         SdefError* error);
 
     /// <summary>
-    /// Changes the face alone, until options are set again; nothing of the body is done again.
-    ///
-    /// squash: as SdefOptions.face_squash, NAN too
-    /// curve:  SDEF_FACE_CURVE_*
-    ///
-    /// Errors: BAD_ARGUMENT, BAD_OPTION, BUSY.
-    /// </summary>
-    [DllImport(Library, ExactSpelling = true, CallingConvention = CallingConvention.Cdecl)]
-    internal static extern UInt32 sdef_deformer_set_face(
-        SdefDeformer deformer,
-        double squash,
-        UInt32 curve,
-        SdefError* error);
-
-    /// <summary>
     /// Changes the options of a deformer, with the same results as a new one and for less: only what hangs on the change is
-    /// done again. For sliders. What sdef_deformer_set_face has set goes too.
+    /// done again. For sliders.
     ///
     /// Errors: as sdef_deformer_create, after which the deformer is as it was; BUSY.
     /// </summary>

@@ -5,7 +5,6 @@ use super::basics::*;
 use super::guard::{self, Failure, call, progress_of};
 use super::handles::{self, Object};
 use super::options::{self, SdefOptions};
-use crate::options::Options;
 use crate::pipeline::Style;
 use crate::progress::Progress;
 use crate::report::FigureReport;
@@ -157,7 +156,7 @@ pub unsafe extern "C" fn sdef_deformer_create(
 }
 
 /// Changes the options of a deformer, with the same results as a new one and for less: only what hangs on the change is
-/// done again. For sliders. What sdef_deformer_set_face has set goes too.
+/// done again. For sliders.
 ///
 /// Errors: as sdef_deformer_create, after which the deformer is as it was; BUSY.
 #[ffi_export]
@@ -173,33 +172,6 @@ pub unsafe extern "C" fn sdef_deformer_set_options(
         let (options, _) = options::read(options)?;
         let mut callback = progress_of(progress, user);
         handles::write(&state, "deformer")?.set_options(&options, &mut Progress::new(&mut callback))
-    };
-    unsafe { call(error, body) }
-}
-
-/// Changes the face alone, until options are set again; nothing of the body is done again.
-///
-/// squash: as SdefOptions.face_squash, NAN too
-/// curve:  SDEF_FACE_CURVE_*
-///
-/// Errors: BAD_ARGUMENT, BAD_OPTION, BUSY.
-#[ffi_export]
-pub unsafe extern "C" fn sdef_deformer_set_face(
-    deformer: SdefDeformer,
-    squash: f64,
-    curve: u32,
-    error: *mut SdefError,
-) -> SdefStatus {
-    let body = || {
-        let state = handles::deformer(deformer)?;
-        let curve = options::face_curve(curve)?;
-        let mut state = handles::write(&state, "deformer")?;
-        let options = Options {
-            face_squash: (!squash.is_nan()).then_some(squash),
-            face_curve: curve,
-            ..state.deformer().options().clone()
-        };
-        state.set_options(&options, &mut Progress::none())
     };
     unsafe { call(error, body) }
 }

@@ -90,9 +90,7 @@ namespace SuperDeform.Editor
 
         private void Deform(ConversionSettings settings, SettingsChange change, ProgressHandler progress)
         {
-            if (change == SettingsChange.Face)
-                deformer.SetFace(settings.FaceSquash, settings.FaceCurve);
-            else if (change == SettingsChange.Options)
+            if (change == SettingsChange.Options)
                 deformer.SetOptions(settings.MakeOptions(), null);
             else
                 using (Style wanted = style.Make(settings))

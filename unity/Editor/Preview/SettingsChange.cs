@@ -7,8 +7,6 @@ namespace SuperDeform.Editor
     {
         /// <summary>Nothing.</summary>
         None,
-        /// <summary>The face alone.</summary>
-        Face,
         /// <summary>What the library's options say.</summary>
         Options,
         /// <summary>The style, and all that follows from it.</summary>
@@ -27,11 +25,10 @@ namespace SuperDeform.Editor
                 || one.SavedStyle != other.SavedStyle || one.BuiltInStyle != other.BuiltInStyle
                 || one.Heads != other.Heads || one.Blend != other.Blend)
                 return SettingsChange.Style;
-            if (one.Amount != other.Amount || one.HairLength != other.HairLength || one.HeadScale != other.HeadScale
-                || !Same(one.Groups, other.Groups))
-                return SettingsChange.Options;
-            return Same(one.FaceSquash, other.FaceSquash) && one.FaceCurve == other.FaceCurve
-                ? SettingsChange.None : SettingsChange.Face;
+            return one.Amount == other.Amount && one.HairLength == other.HairLength && one.HeadScale == other.HeadScale
+                && Same(one.FaceSquash, other.FaceSquash) && one.FaceCurve == other.FaceCurve
+                && Same(one.Groups, other.Groups)
+                ? SettingsChange.None : SettingsChange.Options;
         }
 
         private static bool Same(List<GroupTuning> one, List<GroupTuning> other)

@@ -89,17 +89,17 @@ public sealed class DeformerTests
     }
 
     [Test]
-    public void The_face_alone_gives_what_options_give()
+    public void A_change_of_the_face_gives_what_a_new_deformer_gives()
     {
         MeshOutput expected = Mannequin.Output(figure.VertexCount), output = Mannequin.Output(figure.VertexCount);
         Options options = new Options { FaceSquash = 0.25, FaceCurve = FaceCurve.F2 };
         using (Deformer other = new Deformer(character, style, options))
             other.Apply(new[] { expected });
-        deformer.SetFace(0.25, FaceCurve.F2);
+        deformer.SetOptions(options);
         deformer.Apply(new[] { output });
         Assert.AreEqual(Bits((Triple[])expected.Positions), Bits((Triple[])output.Positions));
-        Thrown.Invalid(Status.BadArgument, () => deformer.SetFace(0.25, (FaceCurve)9));
-        Thrown.Invalid(Status.BadOption, () => deformer.SetFace(11, FaceCurve.F4));
+        Thrown.Invalid(Status.BadArgument, () => deformer.SetOptions(new Options { FaceCurve = (FaceCurve)9 }));
+        Thrown.Invalid(Status.BadOption, () => deformer.SetOptions(new Options { FaceSquash = 11 }));
     }
 
     [Test]

@@ -106,7 +106,7 @@ public sealed class ProgressTests
             Options options = new Options { HeadScale = 1.2 };
             Thrown.With<BusyException>(Status.Busy, () => deformer.SetOptions(options, fraction =>
             {
-                deformer.SetFace(0, FaceCurve.F4);
+                deformer.SetOptions(null);
                 return true;
             }));
         }

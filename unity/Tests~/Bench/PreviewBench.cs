@@ -139,7 +139,10 @@ namespace SuperDeform.Editor.Bench
                 path.Apply();
                 path.Show();
                 double worst = Slider("face", rounds, path, round =>
-                    path.Deformer.SetFace(0.2 + 0.01 * round, FaceCurve.F4));
+                {
+                    settings.FaceSquash = 0.2f + 0.01f * round;
+                    path.Deformer.SetOptions(Options(settings, threads));
+                });
                 worst = Math.Max(worst, Slider("thickness", rounds, path, round =>
                 {
                     GroupTunings.Set(settings, "upper_leg", true, 0.8f + 0.003f * round);
@@ -168,7 +171,8 @@ namespace SuperDeform.Editor.Bench
                 var measure = new Times();
                 for (int round = 0; round < 5; round++)
                 {
-                    path.Deformer.SetFace(0.1 + 0.1 * round, FaceCurve.F4);
+                    settings.FaceSquash = 0.1f + 0.1f * round;
+                    path.Deformer.SetOptions(Options(settings, threads));
                     measure.Start();
                     path.Deformer.GetReport();
                     measure.Stop();

@@ -63,18 +63,13 @@ namespace SuperDeform.Editor.Tests
         }
 
         [Test]
-        public void the_face_alone_leaves_the_body()
-        {
-            Assert.AreEqual(SettingsChange.Face, After(settings => settings.FaceSquash = 0));
-            Assert.AreEqual(SettingsChange.Face, After(settings => settings.FaceCurve = FaceCurve.Sphere));
-        }
-
-        [Test]
         public void what_the_options_say_leaves_the_style()
         {
             Assert.AreEqual(SettingsChange.Options, After(settings => settings.Amount = 0.5f));
             Assert.AreEqual(SettingsChange.Options, After(settings => settings.HairLength = 0.5f));
             Assert.AreEqual(SettingsChange.Options, After(settings => settings.HeadScale = 1));
+            Assert.AreEqual(SettingsChange.Options, After(settings => settings.FaceSquash = 0));
+            Assert.AreEqual(SettingsChange.Options, After(settings => settings.FaceCurve = FaceCurve.Sphere));
             Assert.AreEqual(SettingsChange.Options, After(settings => GroupTunings.Set(settings, "hip", false, 0.9f)));
         }
 
