@@ -29,6 +29,9 @@ pub struct Error {
     pub mesh: Option<usize>,
     /// Index of the vertex, triangle or joint concerned.
     pub element: Option<usize>,
+    /// The option concerned, as [`TABLE`](crate::options::TABLE) names it. The sentence does not: each host spells it its
+    /// own way.
+    pub option: Option<&'static str>,
     /// One sentence that names the place, the value and the remedy.
     pub message: String,
 }
@@ -39,7 +42,7 @@ pub type Result<T> = std::result::Result<T, Error>;
 impl Error {
     /// An error of `kind` about the whole input.
     pub fn new(kind: ErrorKind, message: impl Into<String>) -> Self {
-        Self { kind, mesh: None, element: None, message: message.into() }
+        Self { kind, mesh: None, element: None, option: None, message: message.into() }
     }
 
     /// The same error, about mesh `mesh`.
@@ -51,6 +54,12 @@ impl Error {
     /// The same error, about element `element` (a vertex, triangle or joint).
     pub fn at(mut self, element: usize) -> Self {
         self.element = Some(element);
+        self
+    }
+
+    /// The same error, about the option `option` of the table.
+    pub fn about(mut self, option: &'static str) -> Self {
+        self.option = Some(option);
         self
     }
 }
@@ -68,6 +77,9 @@ impl std::error::Error for Error {}
 pub struct Warning {
     /// A fixed word that tools can look for, such as `heads_limited`.
     pub code: &'static str,
+    /// The option that changes it, as [`TABLE`](crate::options::TABLE) names it; hosts spell it.
+    #[serde(skip)]
+    pub option: Option<&'static str>,
     /// One sentence for a person.
     pub message: String,
 }
@@ -75,6 +87,12 @@ pub struct Warning {
 impl Warning {
     /// A warning with the fixed word `code`.
     pub fn new(code: &'static str, message: impl Into<String>) -> Self {
-        Self { code, message: message.into() }
+        Self { code, option: None, message: message.into() }
+    }
+
+    /// The same warning, about the option `option` of the table.
+    pub fn about(mut self, option: &'static str) -> Self {
+        self.option = Some(option);
+        self
     }
 }

@@ -44,7 +44,7 @@ pub fn bearable_squash(curve: FaceCurve, squash: f64) -> (f64, Option<Warning>) 
     let bearable = if squash.is_nan() { 0.0 } else { squash.clamp(low, high) };
     let warning = (bearable != squash).then(|| {
         let message = format!("a face squash of {squash} would fold the face: {bearable} is used");
-        Warning::new("face_squash_clamped", message)
+        Warning::new("face_squash_clamped", message).about("face_squash")
     });
     (bearable, warning)
 }

@@ -9,9 +9,10 @@ use std::collections::BTreeMap;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use superdeform::character::bones::Group as BoneGroup;
+use superdeform::options::HEADS;
 use superdeform::pipeline::{FaceCurve, GroupSettings, Mode, Options, Stage};
 use superdeform::rig::{GarmentWeights, RigOptions, WeightMethod};
-use superdeform::shape::style::{BUILT_IN, HEADS};
+use superdeform::shape::style::BUILT_IN;
 use superdeform::{Axes, MeshKind, Role};
 
 /// The folder for results when no output path is given.

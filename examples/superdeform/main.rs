@@ -12,6 +12,7 @@ mod picture;
 mod progress;
 mod report;
 mod run;
+mod words;
 
 use cli::Refusal;
 use std::io::Write;

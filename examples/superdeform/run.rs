@@ -7,6 +7,7 @@ use crate::cli::{self, Command, Reference};
 use crate::materials::Material;
 use crate::picture::{self, PictureMesh, View};
 use crate::progress::Progress;
+use crate::words::{self, sentence};
 use crate::{output, report};
 use glam::{DVec3, Vec3};
 use regex::Regex;
@@ -48,8 +49,8 @@ struct Reading<'a> {
     humanoid_map: Option<Value>,
     kinds: &'a [(MeshKind, Regex)],
     axes: Axes,
-    /// What a sentence about a missing role names as the remedy.
-    map_option: &'static str,
+    /// How the command line says what is wrong with it.
+    sentence: fn(Error) -> String,
     /// Whether a rig will do in which roles are missing.
     incomplete_rig: bool,
 }
@@ -104,6 +105,7 @@ fn stages(command: &Command, progress: &Progress) -> Result<Done, String> {
         );
     }
     report.warnings.splice(0..0, warnings);
+    report.warnings.iter_mut().for_each(words::name_flag);
 
     progress.stage("drawing");
     let draw_start = Instant::now();
@@ -179,13 +181,11 @@ fn rig(target: &mut host::load::Loaded, command: &Command) -> Result<Option<Rig>
         return Ok(None);
     }
     if keep {
-        target.warnings.push(Warning::new(
-            "rig_fallback_auto",
-            format!(
-                "{} shows no joint for the role {}, so a new rig was found for the deformation and the file's own joints ride along: name roles with --humanoid to use the file's rig",
-                target.file.name, missing[0]
-            ),
-        ));
+        let message = format!(
+            "{} shows no joint for the role {}, so a new rig was found for the deformation and the file's own joints ride along: name roles to use the file's rig",
+            target.file.name, missing[0]
+        );
+        target.warnings.push(Warning::new("rig_fallback_auto", message).about("humanoid"));
     }
     let options = RigOptions { given, ..command.rig_options.clone() };
     let rig = Rig::of(&target.character, &options).map_err(sentence)?;
@@ -238,7 +238,7 @@ fn load_target(command: &Command) -> Result<Loaded, String> {
         humanoid_map: read_map(command.humanoid.as_deref())?,
         kinds: &command.kinds,
         axes: command.axes,
-        map_option: "--humanoid",
+        sentence: words::sentence,
         incomplete_rig: command.rig != Some(cli::Rig::Keep),
     };
     load(&command.target, &reading)
@@ -252,7 +252,7 @@ fn load_reference(command: &Command) -> Result<Option<Loaded>, String> {
         humanoid_map: read_map(command.reference_humanoid.as_deref())?,
         kinds: &[],
         axes: Axes::default(),
-        map_option: "--reference-humanoid",
+        sentence: words::sentence_of_reference,
         incomplete_rig: false,
     };
     load(path, &reading).map(Some)
@@ -281,9 +281,8 @@ fn load(path: &Path, reading: &Reading) -> Result<Loaded, String> {
         without_rig: false,
         incomplete_rig: reading.incomplete_rig,
     };
-    let host = GltfFile::read(path)
-        .and_then(|file| host::load::load(file, &options))
-        .map_err(|error| sentence(error).replace("--humanoid", reading.map_option))?;
+    let host =
+        GltfFile::read(path).and_then(|file| host::load::load(file, &options)).map_err(reading.sentence)?;
     Ok(Loaded { host, appearance: Appearance::default() })
 }
 
@@ -303,10 +302,12 @@ fn measure(reference: &Loaded, command: &Command) -> Result<Measured, String> {
         true => None,
         false => Some(Rig::of(&reference.host.character, &command.rig_options)),
     };
-    let rigged = rigged.transpose().map_err(|error| format!("{name}: {error}"))?;
+    let rigged =
+        rigged.transpose().map_err(|error| format!("{name}: {}", words::sentence_of_reference(error)))?;
     let rigged = rigged.map(|rig| rig.applied_to(&reference.host.character));
     let character = rigged.as_ref().unwrap_or(&reference.host.character);
-    let mut study = Measured::of(character, &command.options).map_err(|error| format!("{name}: {error}"))?;
+    let mut study = Measured::of(character, &command.options)
+        .map_err(|error| format!("{name}: {}", words::sentence_of_reference(error)))?;
     study.shape.name = name.rsplit_once('.').map_or(name.as_str(), |(stem, _)| stem).to_string();
     Ok(study)
 }
@@ -333,10 +334,6 @@ fn read_style(path: &Path) -> Result<BodyShape, String> {
     let place = path.display();
     let text = std::fs::read_to_string(path).map_err(|error| format!("{place}: cannot be read ({error})"))?;
     BodyShape::from_json(&text).map_err(|error| format!("{place}: {error}"))
-}
-
-fn sentence(error: Error) -> String {
-    error.to_string()
 }
 
 /// Target, reference and result side by side, with their heads.

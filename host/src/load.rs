@@ -208,13 +208,8 @@ pub fn load(file: GltfFile, options: &LoadOptions) -> Result<Loaded> {
             // Without a skin the nodes may be nothing but places for meshes: a figure that has yet to get a rig.
             rigged = !skins.is_empty() || options.humanoid_map.is_some() || is_vrm(&file);
             if rigged && !options.incomplete_rig {
-                return Err(Error::new(
-                    ErrorKind::NoHumanoid,
-                    format!(
-                        "{} shows no joint for the role {role}: name it with --humanoid ({role}: JOINT NAME)",
-                        file.name
-                    ),
-                ));
+                let message = format!("{} shows no joint for the role {role}: name one", file.name);
+                return Err(Error::new(ErrorKind::NoHumanoid, message).about("humanoid"));
             }
         }
     }
@@ -646,17 +641,12 @@ fn set_kinds(
         if share_of_head.is_none_or(|share| share >= needed) {
             mesh.kind = Some(kind);
             if kind != MeshKind::Body {
-                guessed.push(format!("{} ({kind:?})", mesh.name));
+                guessed.push(format!("{} ({kind})", mesh.name));
             }
         }
     }
     if !guessed.is_empty() {
-        warnings.push(Warning::new(
-            "kind_guessed",
-            format!(
-                "kinds were guessed from names, so check them and correct them with --body, --garment, --hair, --face-part or --accessory: {}",
-                guessed.join(", ")
-            ),
-        ));
+        let message = format!("kinds were guessed from names, so check them: {}", guessed.join(", "));
+        warnings.push(Warning::new("kind_guessed", message).about("kinds"));
     }
 }

@@ -35,10 +35,8 @@ impl Frame {
         };
         let forward = forward.normalize_or_zero();
         if forward == DVec3::ZERO {
-            return Err(Error::new(
-                ErrorKind::NoHumanoid,
-                "the way the character looks cannot be told: its left and right limbs coincide along up; give forward (--forward +Z)",
-            ));
+            let message = "the way the character looks cannot be told from its joints, as left and right limbs coincide along up: give it";
+            return Err(Error::new(ErrorKind::NoHumanoid, message).about("forward"));
         }
         Ok(Self::new(up, forward))
     }

@@ -56,29 +56,21 @@ impl From<Error> for Failure {
             ErrorKind::BadOption => SDEF_STATUS_BAD_OPTION,
             ErrorKind::Cancelled => SDEF_STATUS_CANCELLED,
         };
-        let message = in_words_of_hosts(&error.message);
+        let message = with_field(&error.message, error.option);
         Self { status, mesh: error.mesh, element: error.element, message }
     }
 }
 
-/// The library's sentences name what a person at the command line would turn; a host has fields instead.
-pub fn in_words_of_hosts(message: &str) -> String {
-    const WORDS: [(&str, &str); 8] = [
-        ("give forward (--forward +Z)", "give forward"),
-        ("give the way it looks (--forward +Z)", "give forward"),
-        ("name them with --body, --garment, --hair, --face-part or --accessory REGEX", "give their kind"),
-        ("save one with --save-style", "save one with sdef_style_to_json"),
-        ("(--hair-length)", "(hair_length)"),
-        ("or use --paper", "or use SDEF_MODE_PAPER"),
-        ("leave --paper out", "set SDEF_MODE_PRODUCT"),
-        ("--rig auto", "sdef_character_rig"),
-    ];
-    let message = match message.split_once("name it with --humanoid (") {
+/// A sentence of the library, with the field that it is about.
+pub fn with_field(message: &str, option: Option<&str>) -> String {
+    let field = match option {
         // A host names joints by their numbers.
-        Some((before, _)) => format!("{before}name it in role_joints, or make a rig with sdef_character_rig"),
-        None => message.to_string(),
+        Some("humanoid") => "role_joints, or sdef_character_rig",
+        Some("kinds") => "kind",
+        Some(option) => option,
+        None => return message.to_string(),
     };
-    WORDS.iter().fold(message, |text, (command, host)| text.replace(command, host))
+    format!("{message} ({field})")
 }
 
 /// What reports progress to the host; it gives true to go on.

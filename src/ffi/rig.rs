@@ -2,7 +2,7 @@
 
 use super::arrays;
 use super::basics::*;
-use super::guard::{Failure, call, in_words_of_hosts, progress_of};
+use super::guard::{Failure, call, progress_of, with_field};
 use super::handles::{self, Object};
 use super::options::{self, SdefOptions};
 use crate::error::Warning;
@@ -77,7 +77,8 @@ pub unsafe extern "C" fn sdef_get_warnings(
 fn lines<'a>(warnings: impl Iterator<Item = &'a Warning>) -> String {
     warnings
         .map(|warning| {
-            format!("{}: {}\n", warning.code, in_words_of_hosts(&warning.message).replace('\n', " "))
+            let message = with_field(&warning.message, warning.option);
+            format!("{}: {}\n", warning.code, message.replace('\n', " "))
         })
         .collect()
 }

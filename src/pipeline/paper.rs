@@ -24,10 +24,8 @@ use std::sync::Arc;
 /// `BadOption` for a style of N heads; as [`coefficients`].
 pub fn deform(target: &Target, style: &Style, options: &Options) -> Result<Deformation> {
     let Style::Shape(reference) = style else {
-        return Err(Error::new(
-            ErrorKind::BadOption,
-            "a style for N heads needs product mode: leave --paper out, or give a reference",
-        ));
+        let message = "a style for N heads needs product mode: choose it, or give a reference";
+        return Err(Error::new(ErrorKind::BadOption, message).about("mode"));
     };
     let measured = &target.measured;
     let (groups, bone_groups) = (&options.groups, &options.bone_groups);

@@ -5,6 +5,7 @@ use super::{Deformation, Target};
 use crate::character::Role;
 use crate::error::{Error, ErrorKind, Result, Warning};
 use crate::options::Options;
+use crate::options::table::PRODUCT_FACE_SQUASH;
 use crate::progress::Progress;
 use crate::shape::field::{Binding, BodyField, Field};
 use crate::shape::figure::{Figure, extent};
@@ -22,8 +23,6 @@ use crate::shape::{BodyShape, Measured};
 use glam::DVec3;
 use std::sync::{Arc, OnceLock};
 
-/// gamma of product mode unless the user says otherwise (found by looking: 0 leaves an adult, 1.4 a pointed forehead).
-pub const FACE_SQUASH: f64 = 0.8;
 /// A head count as near as this to the one asked for needs no correction.
 const HEADS_TOLERANCE: f64 = 5e-3;
 /// Fields that are tried for a head count.
@@ -166,10 +165,10 @@ pub fn deform(
 fn proportions_of(shape: &BodyShape) -> Result<&Proportions> {
     shape.proportions.as_ref().ok_or_else(|| {
         let message = format!(
-            "the style {} holds no proportions, which product mode transfers: save it again from its model, or use --paper",
+            "the style {} holds no proportions, which product mode transfers: save it again from its model, or choose the paper's mode",
             shape.name
         );
-        Error::new(ErrorKind::BadStyle, message)
+        Error::new(ErrorKind::BadStyle, message).about("mode")
     })
 }
 
@@ -177,9 +176,9 @@ fn hair_shortened(parts: &PartBindings, head_length: f64) -> Option<Warning> {
     let depth = parts.hair.as_ref()?.depth / head_length;
     (depth > HAIR_WARNED_ABOVE).then(|| {
         let message = format!(
-            "hair reaches {depth:.2} head lengths below the chin: there it follows the body instead of the head (--hair-length)"
+            "hair reaches {depth:.2} head lengths below the chin: there it follows the body instead of the head"
         );
-        Warning::new("hair_shortened", message)
+        Warning::new("hair_shortened", message).about("hair_length")
     })
 }
 
@@ -258,7 +257,7 @@ fn attempt(
 
 /// gamma where the user does not say: a head without a chin has no face to make younger.
 pub fn face_squash(measured: &Measured) -> f64 {
-    if measured.anatomy.landmarks.chin_seen { FACE_SQUASH } else { 0.0 }
+    if measured.anatomy.landmarks.chin_seen { PRODUCT_FACE_SQUASH } else { 0.0 }
 }
 
 /// The face map's box: as wide as what is `around` the face, from chin to crown.

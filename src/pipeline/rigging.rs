@@ -3,7 +3,7 @@
 use super::milliseconds;
 use super::rig_weights::{Binder, BodyRule};
 use crate::character::{Character, Humanoid, MeshKind, Role, Skeleton, Weights};
-use crate::error::{Error, ErrorKind, Result, Warning};
+use crate::error::{Result, Warning};
 use crate::progress::Progress;
 use crate::report::RigReport;
 use crate::rig::eyes::find_eyes;
@@ -67,7 +67,7 @@ impl Rig {
         progress: &mut Progress,
     ) -> Result<Self> {
         character.validate()?;
-        validate(options)?;
+        options.validate()?;
         progress.at(0.0)?;
         let clock = Instant::now();
         let (forward, mut warnings) = find_forward(character);
@@ -199,21 +199,4 @@ impl Rig {
             fallback_vertices: self.fallback.clone(),
         }
     }
-}
-
-fn validate(options: &RigOptions) -> Result<()> {
-    let bad = |message: String| Err(Error::new(ErrorKind::BadOption, message));
-    if !(options.heat.is_finite() && (0.01..=1000.0).contains(&options.heat)) {
-        return bad(format!("heat is {}: give a number from 0.01 to 1000", options.heat));
-    }
-    if !(16..=512).contains(&options.voxel_resolution) {
-        return bad(format!(
-            "voxel_resolution is {}: give a number from 16 to 512",
-            options.voxel_resolution
-        ));
-    }
-    if let Some((role, at)) = options.given.iter().find(|(_, at)| !at.is_finite()) {
-        return bad(format!("the given joint {role} is at {at}: positions must be finite numbers"));
-    }
-    Ok(())
 }

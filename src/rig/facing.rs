@@ -77,12 +77,8 @@ pub fn find_forward(character: &Character) -> (DVec3, Vec<Warning>) {
     let usual = [DVec3::Z, DVec3::NEG_Y].into_iter().find(|v| v.reject_from_normalized(up).length() > 0.5);
     let usual = usual.and_then(across).unwrap_or_else(|| up.any_orthonormal_vector());
     let guessed = |what: &str| {
-        Warning::new(
-            "facing_guessed",
-            format!(
-                "{what}: look whether the result is turned, and if so give the way it looks (--forward +Z)"
-            ),
-        )
+        let message = format!("{what}: look whether the result is turned, and if so give the way it looks");
+        Warning::new("facing_guessed", message).about("forward")
     };
     // Ground coordinates: x towards the left of a figure that looks the usual way, y the usual way.
     let side = up.cross(usual);

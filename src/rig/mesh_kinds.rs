@@ -231,13 +231,9 @@ fn warning(layout: &Layout, kinds: &[MeshKind], meshes: &[usize]) -> Vec<Warning
             format!("{name} ({})", kinds[mesh])
         })
         .collect();
-    vec![Warning::new(
-        "kind_guessed",
-        format!(
-            "guessed from where they lie: {}; if that is wrong, name them with --body, --garment, --hair, --face-part or --accessory REGEX",
-            named.join(", ")
-        ),
-    )]
+    let message =
+        format!("guessed from where they lie: {}; if that is wrong, say what they are", named.join(", "));
+    vec![Warning::new("kind_guessed", message).about("kinds")]
 }
 
 /// A point on a mesh, and what is around it.

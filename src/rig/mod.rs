@@ -22,73 +22,11 @@ pub mod volume;
 pub mod voxel;
 pub mod wholeness;
 
-use crate::character::{Role, Weights};
+use crate::character::Weights;
+pub use crate::options::{GarmentWeights, RigOptions, WeightMethod};
 use glam::DVec3;
 use std::collections::BTreeMap;
 pub use unit_figure::Layout;
-
-/// Which rule gives the body its weights.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum WeightMethod {
-    /// Heat where the body allows it, else the volume.
-    #[default]
-    Auto,
-    /// Heat equilibrium on the surface (Baran and Popović, reference 11).
-    Heat,
-    /// Geodesic distances through a voxel volume (Dionne and de Lasa, reference 14).
-    Volume,
-}
-
-/// Which rule gives clothes their weights (Fig. 4).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum GarmentWeights {
-    /// Close surface points with like normals, the rest filled in smoothly.
-    #[default]
-    Robust,
-    /// The closest surface point, whatever it is: the paper's rule (Fig. 4e).
-    Nearest,
-    /// Heat on the clothes themselves: the naive case (Fig. 4c).
-    Heat,
-}
-
-/// What the auto-rig can be told.
-#[derive(Clone, Debug, PartialEq)]
-pub struct RigOptions {
-    /// Which rule gives the body its weights.
-    pub method: WeightMethod,
-    /// Which rule gives clothes their weights.
-    pub garments: GarmentWeights,
-    /// c of the heat equation, above 0: 1 spreads weights over about a limb's radius; larger is sharper.
-    pub heat: f64,
-    /// Gives the head bone a second segment towards the chin, without which jaws stick to the neck.
-    pub chin_segment: bool,
-    /// Voxels along the longest side of the volume, 16 to 512.
-    pub voxel_resolution: usize,
-    /// Joints that are known, model space; the rest is found.
-    pub given: BTreeMap<Role, DVec3>,
-    /// Looks for fingers.
-    pub fingers: bool,
-    /// The axes of model space are left-handed, as Unity's: which of two sides is the left one depends on it.
-    pub left_handed: bool,
-    /// Threads to use; 0 means all cores.
-    pub thread_count: usize,
-}
-
-impl Default for RigOptions {
-    fn default() -> Self {
-        Self {
-            method: WeightMethod::Auto,
-            garments: GarmentWeights::Robust,
-            heat: 1.0,
-            chin_segment: true,
-            voxel_resolution: 128,
-            given: BTreeMap::new(),
-            fingers: true,
-            left_handed: false,
-            thread_count: 0,
-        }
-    }
-}
 
 /// A joint that was found, given or placed by ratio.
 #[derive(Clone, Copy, Debug, PartialEq)]

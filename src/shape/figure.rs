@@ -53,10 +53,8 @@ impl Figure {
         character.validate()?;
         let humanoid = character.humanoid.clone();
         if let Some(role) = humanoid.missing().first() {
-            return Err(Error::new(
-                ErrorKind::NoHumanoid,
-                format!("no joint has the role {role}: name it with --humanoid ({role}: JOINT NAME)"),
-            ));
+            let message = format!("no joint has the role {role}: name one, or make a rig");
+            return Err(Error::new(ErrorKind::NoHumanoid, message).about("humanoid"));
         }
         let frame = Frame::of(character)?;
         let mut positions = Vec::with_capacity(character.vertex_count());

@@ -7,7 +7,7 @@ use crate::character::Role;
 use crate::character::bones::{Bone, HEAD_TOP};
 use crate::error::{Error, ErrorKind, Result};
 use crate::geometry::Surface;
-use crate::options::PAPER_RAYS;
+use crate::options::table::{FEWEST_RAYS, PAPER_RAYS};
 use glam::DVec3;
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
@@ -17,7 +17,7 @@ use std::f64::consts::TAU;
 pub const SAMPLES: [f64; 3] = [0.25, 0.5, 0.75];
 
 /// A sample with fewer hits than this has no centroid worth the name.
-const LEAST_HITS: usize = 3;
+const LEAST_HITS: usize = FEWEST_RAYS as usize;
 
 /// A set of meshes surrounds a bone where this share of each sample's rays meets it.
 const ENOUGH_HITS: f64 = 0.75;
@@ -46,7 +46,7 @@ pub fn measure(
     if rays < LEAST_HITS {
         let message =
             format!("{rays} rays around a bone: at least {LEAST_HITS} are needed; {PAPER_RAYS} is usual");
-        return Err(Error::new(ErrorKind::BadOption, message));
+        return Err(Error::new(ErrorKind::BadOption, message).about("rays"));
     }
     if surfaces.iter().all(|surface| surface.is_empty()) {
         let message = "there are no triangles to measure: give at least one mesh";

@@ -6,9 +6,7 @@
 use super::body_shape::{BodyShape, BoneShape, VERSION};
 use super::product::anatomy::Proportions;
 use crate::error::{Error, ErrorKind, Result};
-
-/// Fewest and most heads that a style may ask for.
-pub const HEADS: (f64, f64) = (1.8, 6.0);
+use crate::options::HEADS;
 
 /// What a character should become.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,10 +24,8 @@ impl Style {
     /// `ErrorKind::BadOption` outside of 1.8 to 6.
     pub fn heads(heads: f64) -> Result<Self> {
         if !(HEADS.0..=HEADS.1).contains(&heads) {
-            return Err(Error::new(
-                ErrorKind::BadOption,
-                format!("{heads} heads: give a number from {} to {}", HEADS.0, HEADS.1),
-            ));
+            let message = format!("{heads} heads: give a number from {} to {}", HEADS.0, HEADS.1);
+            return Err(Error::new(ErrorKind::BadOption, message).about("heads"));
         }
         Ok(Self::Heads(heads))
     }
@@ -69,8 +65,9 @@ impl BodyShape {
     /// `ErrorKind::BadStyle` where the text is no style, is of a newer version, or holds a number out of range.
     pub fn from_json(text: &str) -> Result<Self> {
         let bad = |message: String| Error::new(ErrorKind::BadStyle, message);
-        let shape: Self = serde_json::from_str(text)
-            .map_err(|error| bad(format!("this is no saved style ({error}): save one with --save-style")))?;
+        let shape: Self = serde_json::from_str(text).map_err(|error| {
+            bad(format!("this is no saved style ({error}): save one from a measured model"))
+        })?;
         if shape.version == 0 || shape.version > VERSION {
             return Err(bad(format!(
                 "the style has version {}, and this library reads version {VERSION}: save it again, or update",

@@ -59,7 +59,7 @@ impl DeformerState {
             let mut report = self.deformer.report(&self.deformer.apply())?;
             report.warnings.splice(0..0, self.notes.iter().cloned());
             for warning in &mut report.warnings {
-                warning.message = guard::in_words_of_hosts(&warning.message);
+                warning.message = guard::with_field(&warning.message, warning.option.take());
             }
             return Ok(self.report.get_or_init(|| report));
         }

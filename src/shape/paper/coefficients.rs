@@ -3,7 +3,8 @@
 use crate::character::Role;
 use crate::character::bones::{Bone, Group, bones};
 use crate::error::{Error, ErrorKind, Result, Warning};
-use crate::options::{GroupSettings, HEAD_SCALE};
+use crate::options::GroupSettings;
+use crate::options::table::option;
 use crate::shape::{BodyShape, Coefficient};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -177,7 +178,7 @@ impl Bodies {
             self.thickness_scale(&counted, phi).unwrap_or_else(|| {
                 if phi != 0.0 {
                     let message =
-                        format!("no ray measured the girth of the group {group}, which keeps its own");
+                        format!("no ray measured the thickness of the group {group}, which keeps its own");
                     warnings.push(Warning::new("radius_missing", message));
                 }
                 1.0
@@ -229,31 +230,18 @@ fn stand_in<'a>(group: &str, target_bones: &[Bone], common_bones: &'a [Bone]) ->
 }
 
 fn check(head_scale: f64, settings: &BTreeMap<String, GroupSettings>, bones: &[Bone]) -> Result<()> {
-    let bad = |message: String| Err(Error::new(ErrorKind::BadOption, message));
-    if !(head_scale.is_finite() && head_scale > 0.0) {
-        return bad(format!("head_scale is {head_scale}: it must be above 0; {HEAD_SCALE} is usual"));
-    }
+    option("head_scale").check(head_scale)?;
     let names: BTreeSet<&str> =
         bones.iter().map(|bone| bone.group.as_str()).chain(Group::ALL.map(Group::name)).collect();
     for (group, given) in settings {
         if !names.contains(group.as_str()) {
             let known = names.into_iter().collect::<Vec<_>>().join(", ");
-            return bad(format!("there is no bone group {group}: give one of {known}"));
+            let message = format!("there is no bone group {group}: give one of {known}");
+            return Err(Error::new(ErrorKind::BadOption, message).about("groups"));
         }
-        for (what, scale) in
-            [("length_scale", given.length_scale), ("thickness_scale", given.thickness_scale)]
-        {
-            if let Some(scale) = scale.filter(|scale| !(scale.is_finite() && *scale > 0.0)) {
-                return bad(format!(
-                    "{what} of the group {group} is {scale}: it must be above 0; 1 keeps the shape"
-                ));
-            }
-        }
-        for (what, amount) in
-            [("length_transfer", given.length_transfer), ("thickness_transfer", given.thickness_transfer)]
-        {
-            if let Some(amount) = amount.filter(|amount| !(0.0..=1.0).contains(amount)) {
-                return bad(format!("{what} of the group {group} is {amount}: it must be from 0 to 1"));
+        for (name, value) in given.numbers() {
+            if let Some(value) = value {
+                option(name).check_in_group(group, value)?;
             }
         }
     }

@@ -7,7 +7,8 @@
 use super::anatomy::Proportions;
 use super::scales::{HeadScale, PartCoefficients, Scale};
 use crate::error::{Result, Warning};
-use crate::options::{HEAD_SCALE, Options, Stage};
+use crate::options::table::HEAD_SCALE;
+use crate::options::{Options, Stage};
 
 /// The head grows this much more in width and depth than in height.
 pub const HEAD_WIDTH: f64 = 1.12;

@@ -122,7 +122,7 @@ impl PartCoefficients {
             let Some(group) = Group::from_name(name) else {
                 let known = Group::ALL.map(Group::name).join(", ");
                 let message = format!("there is no bone group {name}: name one of {known}");
-                return Err(Error::new(ErrorKind::BadOption, message));
+                return Err(Error::new(ErrorKind::BadOption, message).about("groups"));
             };
             self.apply_to(group, settings);
         }

@@ -1,0 +1,360 @@
+//! One truth about options: what each is called, what it may be, what it is unless set, and which mode honours it.
+//!
+//! [`Options::validate`](super::Options::validate) checks by this table, errors and warnings name an option as it does, and
+//! hosts make or check their help, ranges and defaults by it; each spells the name its own way.
+
+use super::{FaceCurve, GarmentWeights, Mode, Stage, WeightMethod};
+use crate::error::{Error, ErrorKind, Result};
+use std::fmt;
+
+/// alpha_head. Paper, V-B1.
+pub const HEAD_SCALE: f64 = 1.5;
+/// Rays around each sample in paper mode. Paper, V-A.
+pub const PAPER_RAYS: u32 = 12;
+/// Rays around each sample in product mode: 12 change a radius by up to 16 % with their phase, 48 by 1 %.
+pub const PRODUCT_RAYS: u32 = 48;
+/// Fewest rays that have a centroid.
+pub const FEWEST_RAYS: u32 = 3;
+/// gamma of product mode (found by looking: 0 leaves an adult, 1.4 a pointed forehead).
+pub const PRODUCT_FACE_SQUASH: f64 = 0.8;
+/// More threads than this are of no use, and tens of thousands are more than a system can start.
+pub const MOST_THREADS: u32 = 1024;
+/// Fewest and most heads that a style may ask for.
+pub const HEADS: (f64, f64) = (1.8, 6.0);
+/// c of the heat equation: spreads weights over about a limb's radius.
+pub const RIG_HEAT: f64 = 1.0;
+/// Voxels along the longest side of the volume.
+pub const RIG_VOXEL_RESOLUTION: u32 = 128;
+
+/// Where an option is set.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scope {
+    /// Once: [`Options`](super::Options).
+    Plain,
+    /// For one bone group: [`GroupSettings`](super::GroupSettings).
+    Group,
+    /// For the auto-rig: [`RigOptions`](super::RigOptions).
+    Rig,
+    /// With the style.
+    Style,
+    /// With the character.
+    Character,
+}
+
+/// What an option may be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Values {
+    /// A number in this range, its ends included.
+    Number {
+        /// The least.
+        low: f64,
+        /// The greatest.
+        high: f64,
+    },
+    /// A whole number in this range, its ends included.
+    Count {
+        /// The least.
+        low: u32,
+        /// The greatest.
+        high: u32,
+    },
+    /// Yes or no.
+    Switch,
+    /// One of these words.
+    Choice(&'static [&'static str]),
+    /// Something of its own kind: a direction, names by role.
+    Other,
+}
+
+/// What an option is unless it is set.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Default {
+    /// A number.
+    Number(f64),
+    /// A number for each mode.
+    ByMode {
+        /// In product mode.
+        product: f64,
+        /// In paper mode.
+        paper: f64,
+    },
+    /// Yes or no.
+    Switch(bool),
+    /// A word.
+    Choice(&'static str),
+    /// What is measured or found.
+    Found,
+}
+
+/// One option.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OptionInfo {
+    /// Its name: lower case, words joined by `_`.
+    pub name: &'static str,
+    /// Where it is set.
+    pub scope: Scope,
+    /// What it may be.
+    pub values: Values,
+    /// What a number counts or measures; empty for plain factors.
+    pub unit: &'static str,
+    /// What it is unless set.
+    pub default: Default,
+    /// The modes that honour it.
+    pub modes: &'static [Mode],
+    /// What it does, in one line.
+    pub text: &'static str,
+}
+
+impl OptionInfo {
+    /// The name in words, for sentences: `head scale`.
+    pub fn label(&self) -> String {
+        self.name.trim_start_matches("rig_").replace('_', " ")
+    }
+
+    /// Checks a number against the range.
+    ///
+    /// # Errors
+    /// `ErrorKind::BadOption` names the option, the number and the range.
+    pub fn check(&self, value: f64) -> Result<()> {
+        self.check_of(&self.label(), value)
+    }
+
+    /// As [`OptionInfo::check`], for the bone group `group`.
+    ///
+    /// # Errors
+    /// As [`OptionInfo::check`].
+    pub fn check_in_group(&self, group: &str, value: f64) -> Result<()> {
+        self.check_of(&format!("{} of the group {group}", self.label()), value)
+    }
+
+    fn check_of(&self, what: &str, value: f64) -> Result<()> {
+        let (low, high) = match self.values {
+            Values::Number { low, high } => (low, high),
+            Values::Count { low, high } => (low.into(), high.into()),
+            _ => return Ok(()),
+        };
+        if (low..=high).contains(&value) {
+            return Ok(());
+        }
+        let message = format!("{what} is {value}: give a number from {low} to {high}");
+        Err(Error::new(ErrorKind::BadOption, message).about(self.name))
+    }
+}
+
+impl fmt::Display for Values {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Values::Number { low, high } => write!(f, "{low} to {high}"),
+            Values::Count { low, high } => write!(f, "{low} to {high}"),
+            Values::Switch => f.write_str("on or off"),
+            Values::Choice(names) => f.write_str(&names.join(", ")),
+            Values::Other => Ok(()),
+        }
+    }
+}
+
+impl fmt::Display for Default {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Default::Number(number) => write!(f, "{number}"),
+            Default::ByMode { product, paper } => write!(f, "{product}, in paper mode {paper}"),
+            Default::Switch(on) => f.write_str(if *on { "on" } else { "off" }),
+            Default::Choice(name) => f.write_str(name),
+            Default::Found => Ok(()),
+        }
+    }
+}
+
+const BOTH: &[Mode] = &[Mode::Product, Mode::Paper];
+const PRODUCT: &[Mode] = &[Mode::Product];
+
+/// Bones of a hundredth of their length are a matter of rounding, and no figure has one of ten times its length.
+const SCALES: Values = Values::Number { low: 0.01, high: 10.0 };
+/// eta and phi of the paper, which knows no other range. Beyond 1 the transfer is a straight line that soon runs through
+/// 0 and turns a limb inside out (a leg of .4 ends at -.2 with 2); who wants more than the reference sets the scale.
+const TRANSFERS: Values = Values::Number { low: 0.0, high: 1.0 };
+const SHARES: Values = Values::Number { low: 0.0, high: 1.0 };
+
+const fn plain(name: &'static str, values: Values, default: Default, text: &'static str) -> OptionInfo {
+    OptionInfo { name, scope: Scope::Plain, values, unit: "", default, modes: BOTH, text }
+}
+
+const fn group(name: &'static str, values: Values, text: &'static str) -> OptionInfo {
+    OptionInfo { scope: Scope::Group, ..plain(name, values, Default::Found, text) }
+}
+
+const fn rig(name: &'static str, values: Values, default: Default, text: &'static str) -> OptionInfo {
+    OptionInfo { scope: Scope::Rig, ..plain(name, values, default, text) }
+}
+
+const fn of_character(name: &'static str, text: &'static str) -> OptionInfo {
+    OptionInfo { scope: Scope::Character, ..plain(name, Values::Other, Default::Found, text) }
+}
+
+/// All options.
+pub const TABLE: &[OptionInfo] = &[
+    plain(
+        "mode",
+        Values::Choice(Mode::NAMES),
+        Default::Choice(Mode::Product.name()),
+        "what deforms: parts that meet at landmarks (product), or the paper's chain of bones (paper)",
+    ),
+    plain(
+        "stage",
+        Values::Choice(Stage::NAMES),
+        Default::Choice(Stage::Face.name()),
+        "the last stage: lengths alone, lengths and thickness, or everything up to the face",
+    ),
+    OptionInfo {
+        unit: "rays",
+        ..plain(
+            "rays",
+            Values::Count { low: FEWEST_RAYS, high: 4096 },
+            Default::ByMode { product: PRODUCT_RAYS as f64, paper: PAPER_RAYS as f64 },
+            "rays around each sample of a bone",
+        )
+    },
+    OptionInfo {
+        modes: PRODUCT,
+        ..plain(
+            "limits",
+            Values::Switch,
+            Default::Switch(true),
+            "bounds what may be done to a body, where measured scales would fold it",
+        )
+    },
+    plain(
+        "head_scale",
+        Values::Number { low: 0.1, high: 10.0 },
+        Default::Number(HEAD_SCALE),
+        "size of the head: 1 keeps it, 1.5 is the paper's",
+    ),
+    plain("amount", SHARES, Default::Number(1.0), "from the original (0) to the style (1)"),
+    OptionInfo {
+        modes: PRODUCT,
+        ..plain(
+            "hair_length",
+            SHARES,
+            Default::Number(1.0),
+            "hair below the chin: 1 ends it where it ended on the body, 0 at the chin",
+        )
+    },
+    plain(
+        "face_squash",
+        // The curves fold long before the ends and are bounded there, with a warning; below 0 a face gets older.
+        Values::Number { low: -10.0, high: 10.0 },
+        Default::ByMode { product: PRODUCT_FACE_SQUASH, paper: 0.0 },
+        "how much younger the face gets; 0 leaves it",
+    ),
+    plain(
+        "face_curve",
+        Values::Choice(FaceCurve::NAMES),
+        Default::Choice(FaceCurve::F4.name()),
+        "the curve that makes the face younger: the paper's f4 or f2, or a sphere",
+    ),
+    OptionInfo {
+        unit: "threads",
+        ..plain(
+            "thread_count",
+            Values::Count { low: 0, high: MOST_THREADS },
+            Default::Number(0.0),
+            "threads to use; 0 means all cores",
+        )
+    },
+    plain("groups", Values::Other, Default::Found, "settings by bone group"),
+    plain(
+        "bone_groups",
+        Values::Other,
+        Default::Found,
+        "bone groups of your own: a bone's end to a group's name",
+    ),
+    group("length_scale", SCALES, "1 keeps the length of the group's bones, 0.5 halves it"),
+    group("thickness_scale", SCALES, "1 keeps the thickness of the group, 0.5 halves it"),
+    group("length_transfer", TRANSFERS, "0 keeps the target's length, 1 takes all of the reference's"),
+    group("thickness_transfer", TRANSFERS, "0 keeps the target's thickness, 1 takes all of the reference's"),
+    rig(
+        "rig_weights",
+        Values::Choice(WeightMethod::NAMES),
+        Default::Choice(WeightMethod::Auto.name()),
+        "how the body gets weights: along its surface (heat), through its volume, or whichever suits it (auto)",
+    ),
+    rig(
+        "rig_garments",
+        Values::Choice(GarmentWeights::NAMES),
+        Default::Choice(GarmentWeights::Robust.name()),
+        "how clothes get weights: from close surface points alike (robust), from the nearest, or like a body (heat)",
+    ),
+    OptionInfo {
+        unit: "voxels",
+        ..rig(
+            "rig_voxel_resolution",
+            Values::Count { low: 16, high: 512 },
+            Default::Number(RIG_VOXEL_RESOLUTION as f64),
+            "voxels along the longest side of the body's volume",
+        )
+    },
+    rig("rig_fingers", Values::Switch, Default::Switch(true), "looks for fingers"),
+    rig("rig_chin_segment", Values::Switch, Default::Switch(true), "keeps jaws from sticking to the neck"),
+    rig(
+        "rig_heat",
+        Values::Number { low: 0.01, high: 1000.0 },
+        Default::Number(RIG_HEAT),
+        "how sharp weights by heat are: 1 spreads them over about a limb's radius, more is sharper",
+    ),
+    rig(
+        "rig_joints",
+        Values::Other,
+        Default::Found,
+        "joints that are known: a role to its place; the rest is found",
+    ),
+    rig(
+        "rig_left_handed",
+        Values::Switch,
+        Default::Switch(false),
+        "the axes are left-handed: which of two sides is the left one depends on it",
+    ),
+    OptionInfo {
+        unit: "heads",
+        scope: Scope::Style,
+        ..plain(
+            "heads",
+            Values::Number { low: HEADS.0, high: HEADS.1 },
+            Default::Found,
+            "a style for this many heads instead of a reference",
+        )
+    },
+    OptionInfo {
+        scope: Scope::Style,
+        ..plain("blend", SHARES, Default::Number(0.0), "how much of a second style there is")
+    },
+    of_character("up", "from the feet to the head"),
+    of_character("forward", "the way the character looks"),
+    of_character("humanoid", "which joint plays which humanoid role"),
+    of_character("kinds", "what each mesh depicts: body, garment, hair, part of the face, accessory"),
+];
+
+/// The option named `name`.
+pub const fn find(name: &str) -> Option<&'static OptionInfo> {
+    let mut index = 0;
+    while index < TABLE.len() {
+        if is_same(TABLE[index].name, name) {
+            return Some(&TABLE[index]);
+        }
+        index += 1;
+    }
+    None
+}
+
+/// The option named `name`, which stands in the table.
+pub(crate) const fn option(name: &str) -> &'static OptionInfo {
+    find(name).expect("every option of the library stands in the table")
+}
+
+const fn is_same(one: &str, other: &str) -> bool {
+    let (one, other) = (one.as_bytes(), other.as_bytes());
+    let mut index = 0;
+    while index < one.len() && index < other.len() && one[index] == other[index] {
+        index += 1;
+    }
+    one.len() == other.len() && index == one.len()
+}
