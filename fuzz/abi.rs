@@ -312,7 +312,7 @@ impl Host<'_> {
                 3 => options.rig_weights = bytes.below(4) as u32,
                 4 => options.rig_garments = bytes.below(4) as u32,
                 5 => options.limits = bytes.below(3) as u32,
-                6 => options.rig_chin_segment = bytes.below(3) as u32,
+                6 => options.rig_left_handed = bytes.below(3) as u32,
                 7 => options.rig_fingers = bytes.below(3) as u32,
                 8 => options.head_scale = bytes.number(),
                 9 => options.amount = bytes.number(),

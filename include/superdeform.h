@@ -179,11 +179,11 @@ typedef struct SdefOptions {
   uint32_t rig_garments;            // rig: SDEF_GARMENTS_* for clothes; default ROBUST
   uint32_t rig_voxel_resolution;    // rig: voxels along the longest side of the volume, 16 to 512; default 128
   uint32_t rig_fingers;             // rig: 1 (default) looks for fingers, 0 does not
-  uint32_t rig_chin_segment;        // rig: 1 (default) keeps jaws from sticking to the neck, 0 does not
+  uint32_t rig_left_handed;         // rig: 1 tells left from right in left-handed axes (Unity's); default 0
   double rig_heat;                  // rig: how sharp weights by heat are, 0.01 to 1000; default 1
   const SdefGivenJoint *rig_joints; // rig: joints that are known; the rest is found
   uint32_t rig_joint_count;         // elements of rig_joints
-  uint32_t rig_left_handed;         // rig: 1 tells left from right in left-handed axes (Unity's); default 0
+  uint32_t reserved;                // 0
 } SdefOptions;
 
 // Fills *options with the defaults.
@@ -355,7 +355,7 @@ SdefStatus sdef_character_get_weights(SdefCharacter character, uint32_t mesh, ui
 // Finds joints and weights for a character, in place of any rig that was made before. Joints of its own stay, come
 // first, and ride along with the body; its own weights are not used.
 // options: NULL for the defaults; thread_count, rig_weights, rig_garments, rig_voxel_resolution, rig_fingers,
-//          rig_chin_segment, rig_heat, rig_joints and rig_left_handed are read
+//          rig_left_handed, rig_heat and rig_joints are read
 // Read the result with sdef_character_get_joints and sdef_character_get_weights. Errors: BAD_OPTION, NO_GEOMETRY, BUSY,
 // CANCELLED.
 SdefStatus sdef_character_rig(SdefCharacter character, const SdefOptions *options, SdefProgress progress, void *user,

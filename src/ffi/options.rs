@@ -137,16 +137,16 @@ pub struct SdefOptions {
     pub rig_voxel_resolution: u32,
     /// rig: 1 (default) looks for fingers, 0 does not
     pub rig_fingers: u32,
-    /// rig: 1 (default) keeps jaws from sticking to the neck, 0 does not
-    pub rig_chin_segment: u32,
+    /// rig: 1 tells left from right in left-handed axes (Unity's); default 0
+    pub rig_left_handed: u32,
     /// rig: how sharp weights by heat are, 0.01 to 1000; default 1
     pub rig_heat: f64,
     /// rig: joints that are known; the rest is found
     pub rig_joints: *const SdefGivenJoint,
     /// elements of rig_joints
     pub rig_joint_count: u32,
-    /// rig: 1 tells left from right in left-handed axes (Unity's); default 0
-    pub rig_left_handed: u32,
+    /// 0
+    pub reserved: u32,
 }
 unsafe impl Plain for SdefOptions {}
 
@@ -188,11 +188,11 @@ fn defaults() -> SdefOptions {
         rig_garments: SDEF_GARMENTS_ROBUST,
         rig_voxel_resolution: rig.voxel_resolution as u32,
         rig_fingers: u32::from(rig.fingers),
-        rig_chin_segment: u32::from(rig.chin_segment),
+        rig_left_handed: u32::from(rig.left_handed),
         rig_heat: rig.heat,
         rig_joints: null(),
         rig_joint_count: 0,
-        rig_left_handed: 0,
+        reserved: 0,
     }
 }
 
@@ -290,7 +290,6 @@ pub(super) unsafe fn read(options: *const SdefOptions) -> Outcome<(Options, RigO
             &[GarmentWeights::Robust, GarmentWeights::Nearest, GarmentWeights::Heat],
         )?,
         heat: given.rig_heat,
-        chin_segment: one_of("rig_chin_segment", given.rig_chin_segment, &[false, true])?,
         voxel_resolution: given.rig_voxel_resolution as usize,
         fingers: one_of("rig_fingers", given.rig_fingers, &[false, true])?,
         left_handed: one_of("rig_left_handed", given.rig_left_handed, &[false, true])?,

@@ -14,7 +14,7 @@ use safer_ffi::prelude::*;
 /// first, and ride along with the body; its own weights are not used.
 ///
 /// options: NULL for the defaults; thread_count, rig_weights, rig_garments, rig_voxel_resolution, rig_fingers,
-///          rig_chin_segment, rig_heat, rig_joints and rig_left_handed are read
+///          rig_left_handed, rig_heat and rig_joints are read
 ///
 /// Read the result with sdef_character_get_joints and sdef_character_get_weights. Errors: BAD_OPTION, NO_GEOMETRY, BUSY,
 /// CANCELLED.

@@ -45,10 +45,10 @@ public sealed class Character : NativeObject
     public unsafe void SetSkeleton(SkeletonArrays skeleton)
     {
         if (skeleton == null) throw new ArgumentNullException("skeleton");
-        using (Loan loan = new Loan())
+        using (MarshalScope scope = new MarshalScope())
         {
             SdefSkeleton native = new SdefSkeleton();
-            loan.Fill(&native, skeleton);
+            scope.Fill(&native, skeleton);
             SdefError error = Failure.None();
             uint status = Native.sdef_character_set_skeleton(Raw, &native, &error);
             GC.KeepAlive(this);
@@ -62,10 +62,10 @@ public sealed class Character : NativeObject
     public unsafe int AddMesh(MeshArrays mesh)
     {
         if (mesh == null) throw new ArgumentNullException("mesh");
-        using (Loan loan = new Loan())
+        using (MarshalScope scope = new MarshalScope())
         {
             SdefMesh native = new SdefMesh();
-            loan.Fill(&native, mesh, vertexCounts.Count);
+            scope.Fill(&native, mesh, vertexCounts.Count);
             uint index = Native.SDEF_NONE;
             SdefError error = Failure.None();
             // Held during the call, so that counts stay in the order of meshes.
@@ -92,10 +92,10 @@ public sealed class Character : NativeObject
                 throw Failure.Argument("there is no mesh " + mesh + ": the character has " + vertexCounts.Count);
             count = vertexCounts[mesh];
         }
-        using (Loan loan = new Loan())
+        using (MarshalScope scope = new MarshalScope())
         {
             SdefMorphTarget native = new SdefMorphTarget();
-            loan.Fill(&native, target, mesh, count);
+            scope.Fill(&native, target, mesh, count);
             SdefError error = Failure.None();
             uint status = Native.sdef_character_add_morph_target(Raw, (uint)mesh, &native, &error);
             GC.KeepAlive(this);
@@ -172,11 +172,11 @@ public sealed class Character : NativeObject
     /// <param name="progress">May be null.</param>
     public unsafe void Rig(Options options = null, ProgressHandler progress = null)
     {
-        using (Loan loan = new Loan())
+        using (MarshalScope scope = new MarshalScope())
         using (ProgressCall call = ProgressCall.Of(progress))
         {
             SdefError error = Failure.None();
-            uint status = Native.sdef_character_rig(Raw, loan.Options(options), call.Callback, call.User, &error);
+            uint status = Native.sdef_character_rig(Raw, scope.Options(options), call.Callback, call.User, &error);
             GC.KeepAlive(this);
             call.Check(status, &error);
         }

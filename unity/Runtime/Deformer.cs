@@ -11,7 +11,7 @@ namespace SuperDeform
 public sealed class Deformer : NativeObject
 {
     // Kept from one Apply to the next, so that a slider leaves no garbage.
-    private Loan spare;
+    private MarshalScope spare;
 
     /// <summary>Makes the deformation.</summary>
     /// <param name="character">With a skeleton or a made rig.</param>
@@ -24,12 +24,12 @@ public sealed class Deformer : NativeObject
     {
         if (character == null) throw new ArgumentNullException("character");
         if (style == null) throw new ArgumentNullException("style");
-        using (Loan loan = new Loan())
+        using (MarshalScope scope = new MarshalScope())
         using (ProgressCall call = ProgressCall.Of(progress))
         {
             SdefDeformer made = new SdefDeformer();
             SdefError error = Failure.None();
-            uint status = Native.sdef_deformer_create(character.Raw, style.Raw, loan.Options(options), call.Callback,
+            uint status = Native.sdef_deformer_create(character.Raw, style.Raw, scope.Options(options), call.Callback,
                 call.User, &made, &error);
             GC.KeepAlive(character);
             GC.KeepAlive(style);
@@ -49,11 +49,11 @@ public sealed class Deformer : NativeObject
     /// </summary>
     public unsafe void SetOptions(Options options, ProgressHandler progress = null)
     {
-        using (Loan loan = new Loan())
+        using (MarshalScope scope = new MarshalScope())
         using (ProgressCall call = ProgressCall.Of(progress))
         {
             SdefError error = Failure.None();
-            uint status = Native.sdef_deformer_set_options(Raw, loan.Options(options), call.Callback, call.User,
+            uint status = Native.sdef_deformer_set_options(Raw, scope.Options(options), call.Callback, call.User,
                 &error);
             GC.KeepAlive(this);
             call.Check(status, &error);
@@ -68,11 +68,11 @@ public sealed class Deformer : NativeObject
     public unsafe void Apply(IList<MeshOutput> outputs, ProgressHandler progress = null)
     {
         if (outputs == null) throw new ArgumentNullException("outputs");
-        Loan loan = Interlocked.Exchange(ref spare, null) ?? new Loan();
+        MarshalScope scope = Interlocked.Exchange(ref spare, null) ?? new MarshalScope();
         try
         {
             int count = outputs.Count;
-            SdefMeshResult* results = loan.Results(outputs);
+            SdefMeshResult* results = scope.Results(outputs);
             using (ProgressCall call = ProgressCall.Of(progress))
             {
                 SdefError error = Failure.None();
@@ -84,8 +84,8 @@ public sealed class Deformer : NativeObject
         }
         finally
         {
-            loan.Dispose();
-            spare = loan;
+            scope.Dispose();
+            spare = scope;
         }
     }
 

@@ -217,7 +217,7 @@ internal static unsafe partial class Native
     /// first, and ride along with the body; its own weights are not used.
     ///
     /// options: NULL for the defaults; thread_count, rig_weights, rig_garments, rig_voxel_resolution, rig_fingers,
-    /// rig_chin_segment, rig_heat, rig_joints and rig_left_handed are read
+    /// rig_left_handed, rig_heat and rig_joints are read
     ///
     /// Read the result with sdef_character_get_joints and sdef_character_get_weights. Errors: BAD_OPTION, NO_GEOMETRY, BUSY,
     /// CANCELLED.
@@ -1007,9 +1007,9 @@ internal unsafe struct SdefOptions {
     public UInt32 rig_fingers;
 
     /// <summary>
-    /// rig: 1 (default) keeps jaws from sticking to the neck, 0 does not
+    /// rig: 1 tells left from right in left-handed axes (Unity's); default 0
     /// </summary>
-    public UInt32 rig_chin_segment;
+    public UInt32 rig_left_handed;
 
     /// <summary>
     /// rig: how sharp weights by heat are, 0.01 to 1000; default 1
@@ -1027,9 +1027,9 @@ internal unsafe struct SdefOptions {
     public UInt32 rig_joint_count;
 
     /// <summary>
-    /// rig: 1 tells left from right in left-handed axes (Unity's); default 0
+    /// 0
     /// </summary>
-    public UInt32 rig_left_handed;
+    public UInt32 reserved;
 }
 
 [UnmanagedFunctionPointer(CallingConvention.Cdecl)]

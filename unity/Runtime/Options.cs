@@ -1,8 +1,10 @@
+using System;
 using System.Collections.Generic;
 
 namespace SuperDeform
 {
 /// <summary>Everything that can be set; each call reads what concerns it. Null stands for the defaults.</summary>
+[Serializable]
 public sealed class Options
 {
     /// <summary>Threads to use; 0 (default): all cores.</summary>
@@ -18,16 +20,16 @@ public sealed class Options
     public uint Rays;
 
     /// <summary>Bounds what product mode may do to a body (default).</summary>
-    public bool Limits = true;
+    public bool Limits = OptionDefaults.Limits;
 
     /// <summary>Size of the head against what the style says, 0.1 to 10; default 1.5, the paper's.</summary>
-    public double HeadScale = 1.5;
+    public double HeadScale = OptionDefaults.HeadScale;
 
     /// <summary>0 gives the original back, 1 (default) the style.</summary>
-    public double Amount = 1;
+    public double Amount = OptionDefaults.Amount;
 
     /// <summary>Hair below the chin: 1 (default) ends where it ended on the body, 0 at the chin.</summary>
-    public double HairLength = 1;
+    public double HairLength = OptionDefaults.HairLength;
 
     /// <summary>
     /// How much younger the face gets, -10 to 10 (bounded where it would fold); 0 leaves it; NaN (default): 0.8 in
@@ -51,25 +53,54 @@ public sealed class Options
     public GarmentWeights RigGarments = GarmentWeights.Robust;
 
     /// <summary>Rig: voxels along the longest side of the volume, 16 to 512; default 128.</summary>
-    public uint RigVoxelResolution = 128;
+    public uint RigVoxelResolution = OptionDefaults.RigVoxelResolution;
 
     /// <summary>Rig: looks for fingers (default).</summary>
-    public bool RigFingers = true;
-
-    /// <summary>Rig: keeps jaws from sticking to the neck (default).</summary>
-    public bool RigChinSegment = true;
+    public bool RigFingers = OptionDefaults.RigFingers;
 
     /// <summary>Rig: how sharp weights by heat are, 0.01 to 1000; default 1.</summary>
-    public double RigHeat = 1;
+    public double RigHeat = OptionDefaults.RigHeat;
 
     /// <summary>Rig: tells left from right in left-handed axes, Unity's; default false.</summary>
-    public bool RigLeftHanded = false;
+    public bool RigLeftHanded = OptionDefaults.RigLeftHanded;
 
     /// <summary>Rig: joints that are known; the rest is found. May be null.</summary>
     public List<GivenJoint> RigJoints = new List<GivenJoint>();
+
+    /// <summary>A copy that shares nothing with this one.</summary>
+    public Options Clone()
+    {
+        Options copy = (Options)MemberwiseClone();
+        if (Groups != null) copy.Groups = Groups.ConvertAll(group => group == null ? null : group.Clone());
+        if (BoneGroups != null) copy.BoneGroups = BoneGroups.ConvertAll(bone => bone == null ? null : bone.Clone());
+        if (RigJoints != null) copy.RigJoints = new List<GivenJoint>(RigJoints);
+        return copy;
+    }
+
+    /// <summary>Fills the library's struct in, but for the lists.</summary>
+    internal unsafe void Write(SdefOptions* native)
+    {
+        native->thread_count = ThreadCount;
+        native->mode = (uint)Mode;
+        native->stage = (uint)Stage;
+        native->rays = Rays;
+        native->limits = Limits ? 1u : 0u;
+        native->head_scale = HeadScale;
+        native->amount = Amount;
+        native->hair_length = HairLength;
+        native->face_squash = FaceSquash;
+        native->face_curve = (uint)FaceCurve;
+        native->rig_weights = (uint)RigWeights;
+        native->rig_garments = (uint)RigGarments;
+        native->rig_voxel_resolution = RigVoxelResolution;
+        native->rig_fingers = RigFingers ? 1u : 0u;
+        native->rig_heat = RigHeat;
+        native->rig_left_handed = RigLeftHanded ? 1u : 0u;
+    }
 }
 
 /// <summary>Settings of one bone group; NaN in any number (default) leaves the measured or the default value.</summary>
+[Serializable]
 public sealed class GroupSettings
 {
     /// <summary>
@@ -89,9 +120,35 @@ public sealed class GroupSettings
 
     /// <summary>0 keeps the target's girth, 1 takes all of the reference's; -10 to 10.</summary>
     public double ThicknessTransfer = double.NaN;
+
+    /// <summary>Whether it sets nothing.</summary>
+    public bool IsEmpty
+    {
+        get
+        {
+            return double.IsNaN(LengthScale) && double.IsNaN(ThicknessScale) && double.IsNaN(LengthTransfer)
+                && double.IsNaN(ThicknessTransfer);
+        }
+    }
+
+    /// <summary>A copy.</summary>
+    public GroupSettings Clone()
+    {
+        return (GroupSettings)MemberwiseClone();
+    }
+
+    /// <summary>Fills the library's struct in, but for the name.</summary>
+    internal unsafe void Write(SdefGroupSettings* native)
+    {
+        native->length_scale = LengthScale;
+        native->thickness_scale = ThicknessScale;
+        native->length_transfer = LengthTransfer;
+        native->thickness_transfer = ThicknessTransfer;
+    }
 }
 
 /// <summary>A bone in a group of your own.</summary>
+[Serializable]
 public sealed class BoneGroup
 {
     /// <summary>The role at the end of the bone: LeftLowerLeg is the left thigh.</summary>
@@ -99,9 +156,16 @@ public sealed class BoneGroup
 
     /// <summary>The group's name.</summary>
     public string Group;
+
+    /// <summary>A copy.</summary>
+    public BoneGroup Clone()
+    {
+        return (BoneGroup)MemberwiseClone();
+    }
 }
 
 /// <summary>Where a joint is known to be, for making a rig.</summary>
+[Serializable]
 public struct GivenJoint
 {
     public GivenJoint(HumanoidRole role, double x, double y, double z)

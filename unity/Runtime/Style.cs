@@ -58,9 +58,9 @@ public sealed class Style : NativeObject
         Style style = new Style();
         SdefStyle made = new SdefStyle();
         SdefError error = Failure.None();
-        using (Loan loan = new Loan())
+        using (MarshalScope scope = new MarshalScope())
         {
-            uint status = Native.sdef_style_measure(character.Raw, loan.Text(name), loan.Options(options), &made,
+            uint status = Native.sdef_style_measure(character.Raw, scope.Text(name), scope.Options(options), &made,
                 &error);
             GC.KeepAlive(character);
             return style.Take(status, &error, made);
@@ -78,9 +78,9 @@ public sealed class Style : NativeObject
         SdefStyle made = new SdefStyle();
         SdefError error = Failure.None();
         int count = bones == null ? 0 : bones.Length;
-        using (Loan loan = new Loan())
+        using (MarshalScope scope = new MarshalScope())
         {
-            SdefBone* native = (SdefBone*)loan.Room(checked(count * sizeof(SdefBone)));
+            SdefBone* native = (SdefBone*)scope.Alloc(checked(count * sizeof(SdefBone)));
             for (int i = 0; i < count; i++)
             {
                 native[i].end = unchecked((uint)bones[i].End);
@@ -88,7 +88,7 @@ public sealed class Style : NativeObject
                 native[i].radius = bones[i].Radius;
             }
             SdefStyleNumbers values = numbers.ToNative();
-            uint status = Native.sdef_style_from_numbers(loan.Text(name), &values, native, (UIntPtr)(uint)count, &made,
+            uint status = Native.sdef_style_from_numbers(scope.Text(name), &values, native, (UIntPtr)(uint)count, &made,
                 &error);
             return style.Take(status, &error, made);
         }

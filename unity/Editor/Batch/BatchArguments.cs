@@ -1,6 +1,9 @@
 using System;
 using System.Collections.Generic;
 using System.Globalization;
+using System.Linq;
+using System.Reflection;
+using System.Text.RegularExpressions;
 using UnityEditor;
 using UnityEngine;
 
@@ -21,11 +24,17 @@ namespace SuperDeform.Editor
             new Dictionary<string, string>(StringComparer.OrdinalIgnoreCase);
         private readonly List<string> groups = new List<string>();
 
-        private static readonly string[] known =
+        private static readonly string[] own =
         {
-            "Avatars", "Heads", "Reference", "Style", "Blend", "Amount", "HeadScale", "HairLength", "FaceSquash",
-            "FaceCurve", "Group", "Rig", "Output", "Report", "Language"
+            "Avatars", "Heads", "Reference", "Style", "Blend", "Group", "Rig", "Output", "Report", "Language"
         };
+
+        // The library's options go by the names of their fields. Lists have an option of their own or none, and an avatar
+        // is read in Unity's axes whatever is said.
+        private static readonly FieldInfo[] options = Array.FindAll(typeof(Options).GetFields(), field =>
+            (field.FieldType.IsPrimitive || field.FieldType.IsEnum) && field.Name != "RigLeftHanded");
+
+        private static readonly string[] known = own.Concat(options.Select(field => field.Name)).ToArray();
 
         /// <summary>Reads a command line: options that do not begin with -superdeform are somebody else's.</summary>
         /// <exception cref="ArgumentException">An option is unknown, lacks its value or has a wrong one; in one sentence.
@@ -69,12 +78,9 @@ namespace SuperDeform.Editor
                 throw Wrong("batch.no_avatars");
             Number("Heads", 1.8f, 6, ref Settings.Heads);
             Number("Blend", 0, 1, ref Settings.Blend);
-            Number("Amount", 0, 1, ref Settings.Amount);
-            Number("HeadScale", 0.1f, 10, ref Settings.HeadScale);
-            Number("HairLength", 0, 1, ref Settings.HairLength);
-            Number("FaceSquash", -10, 10, ref Settings.FaceSquash);
-            if (given.ContainsKey("FaceCurve"))
-                Settings.FaceCurve = (FaceCurve)Array.IndexOf(curves, Word("FaceCurve", curves));
+            foreach (FieldInfo option in options)
+                if (given.ContainsKey(option.Name))
+                    option.SetValue(Settings.Options, Value(option.Name, option.FieldType));
             if (given.ContainsKey("Rig"))
                 Settings.RigAuto = Word("Rig", "keep", "auto") == "auto";
             string folder;
@@ -85,9 +91,6 @@ namespace SuperDeform.Editor
                 TakeGroup(group);
             TakeStyle();
         }
-
-        // In the order of FaceCurve.
-        private static readonly string[] curves = { "f4", "f2", "sphere" };
 
         // superdeform.h, sdef_style_from_text.
         private static readonly string[] builtIn = { "sd2", "sd2.5", "sd3", "sd4" };
@@ -131,30 +134,51 @@ namespace SuperDeform.Editor
             foreach (string part in text.Substring(colon + 1).Split(','))
             {
                 string[] sides = part.Split('=');
-                bool thickness = Same(sides[0].Trim(), "thickness");
-                float value;
-                if (sides.Length != 2 || !(thickness || Same(sides[0].Trim(), "length"))
-                    || !TryNumber(sides[1], 0.01f, 100, out value))
+                FieldInfo field = Array.Find(numbers, number => Same(WordOf(number), sides[0].Trim()));
+                double value;
+                if (sides.Length != 2 || field == null || !TryNumber(sides[1], OptionRange.Of(field.Name), out value))
                     throw Wrong("batch.bad_group", text);
-                GroupTunings.Set(Settings, group.Name, thickness, value);
+                GroupTunings.Change(Settings, group.Name, tuned => field.SetValue(tuned, value));
             }
+        }
+
+        private static readonly FieldInfo[] numbers =
+            Array.FindAll(typeof(GroupSettings).GetFields(), field => field.FieldType == typeof(double));
+
+        // As the command line of the library has it: LengthScale is length, LengthTransfer is length_transfer.
+        private static string WordOf(FieldInfo number)
+        {
+            return Regex.Replace(number.Name, "Scale$", "").Aggregate("", (word, letter) =>
+                word + (char.IsUpper(letter) && word.Length > 0 ? "_" : "") + char.ToLowerInvariant(letter));
         }
 
         private void Number(string name, float low, float high, ref float value)
         {
-            string text;
-            float number;
-            if (!given.TryGetValue(name, out text))
+            double number;
+            if (!given.ContainsKey(name))
                 return;
-            if (!TryNumber(text, low, high, out number))
-                throw Wrong("batch.bad_number", text, Prefix + name, low, high);
-            value = number;
+            if (!TryNumber(given[name], new OptionRange(low, high), out number))
+                throw Wrong("batch.bad_number", given[name], Prefix + name, low, high);
+            value = (float)number;
         }
 
-        private static bool TryNumber(string text, float low, float high, out float number)
+        private object Value(string name, Type type)
         {
-            return float.TryParse(text.Trim(), NumberStyles.Float, CultureInfo.InvariantCulture, out number)
-                && number >= low && number <= high;
+            if (type == typeof(bool))
+                return Word(name, "yes", "no") == "yes";
+            if (type.IsEnum)
+                return Enum.Parse(type, Word(name, Array.ConvertAll(Enum.GetNames(type), word => word.ToLowerInvariant())), true);
+            OptionRange range = OptionRange.Of(name);
+            double number;
+            if (!TryNumber(given[name], range, out number) || type == typeof(uint) && number != Math.Floor(number))
+                throw Wrong("batch.bad_number", given[name], Prefix + name, range.Low, range.High);
+            return Convert.ChangeType(number, type, CultureInfo.InvariantCulture);
+        }
+
+        private static bool TryNumber(string text, OptionRange range, out double number)
+        {
+            return double.TryParse(text.Trim(), NumberStyles.Float, CultureInfo.InvariantCulture, out number)
+                && range.Contains(number);
         }
 
         private string Word(string name, params string[] words)

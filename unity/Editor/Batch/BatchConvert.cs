@@ -15,8 +15,8 @@ namespace SuperDeform.Editor
     ///   -superdeformReference Assets/Chibi.prefab        a rigged SD character; or
     ///   -superdeformStyle sd2.5                          sd2, sd2.5, sd3, sd4, or a saved style: Assets/chibi.json
     ///   -superdeformBlend 0.5                            0 the reference or saved style, 1 the heads
-    ///   -superdeformAmount 1                             0 the avatar as it is, 1 the style
-    ///   -superdeformHeadScale 1.5  -superdeformHairLength 1  -superdeformFaceSquash 0.8  -superdeformFaceCurve f4|f2|sphere
+    ///   -superdeformAmount 1  -superdeformHeadScale 1.5  -superdeformFaceCurve f4  -superdeformRigFingers no  ...
+    ///                                                    every number, word, yes or no of the class Options, by its name
     ///   -superdeformGroup upper_leg:length=0.4,thickness=0.8     may stand several times
     ///   -superdeformRig keep|auto
     ///   -superdeformOutput Assets/Chibis  -superdeformReport report.json  -superdeformLanguage en|ja

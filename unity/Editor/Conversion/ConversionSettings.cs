@@ -1,5 +1,4 @@
 using System;
-using System.Collections.Generic;
 using UnityEngine;
 
 namespace SuperDeform.Editor
@@ -18,28 +17,6 @@ namespace SuperDeform.Editor
 
         /// <summary>A built-in style, by name.</summary>
         BuiltIn
-    }
-
-    /// <summary>Fine tuning of one bone group, left and right together. NaN leaves the measured value.</summary>
-    [Serializable]
-    public sealed class GroupTuning
-    {
-        /// <summary>
-        /// head, neck, torso, shoulder, upper_arm, lower_arm, hand, finger, hip, upper_leg, lower_leg or foot.
-        /// </summary>
-        public string Group;
-
-        /// <summary>1 keeps the length, 0.5 halves it; 0.01 to 100.</summary>
-        public float LengthScale = float.NaN;
-
-        /// <summary>1 keeps the girth; 0.01 to 100.</summary>
-        public float ThicknessScale = float.NaN;
-
-        /// <summary>0 keeps the avatar's length, 1 takes all of the style's; -10 to 10.</summary>
-        public float LengthTransfer = float.NaN;
-
-        /// <summary>0 keeps the avatar's girth, 1 takes all of the style's; -10 to 10.</summary>
-        public float ThicknessTransfer = float.NaN;
     }
 
     /// <summary>Everything that can be set for a conversion; the window, batches and the preview share it.</summary>
@@ -65,22 +42,8 @@ namespace SuperDeform.Editor
         /// </summary>
         public float Blend;
 
-        /// <summary>Fine tuning; groups that are missing keep what was measured.</summary>
-        public List<GroupTuning> Groups = new List<GroupTuning>();
-
-        /// <summary>How much younger the face gets, -10 to 10; 0 leaves it, NaN is the library's choice.</summary>
-        public float FaceSquash = float.NaN;
-
-        public FaceCurve FaceCurve = FaceCurve.F4;
-
-        /// <summary>0 gives the avatar back as it is, 1 the style.</summary>
-        public float Amount = 1f;
-
-        /// <summary>Hair below the chin: 1 ends where it ended on the body, 0 at the chin.</summary>
-        public float HairLength = 1f;
-
-        /// <summary>Size of the head against what the style says, 0.1 to 10.</summary>
-        public float HeadScale = 1.5f;
+        /// <summary>What the library is asked for: head, hair and face, bone groups, and how a rig is made.</summary>
+        public Options Options = new Options();
 
         /// <summary>Makes a rig even where the avatar has one, and takes avatars that are no humanoids.</summary>
         public bool RigAuto;
@@ -127,7 +90,7 @@ namespace SuperDeform.Editor
                     if (ReferenceAvatar == null) throw Missing("no_reference");
                     using (AvatarData reference = CharacterReader.Read(ReferenceAvatar, new ReadOptions()))
                     {
-                        return Style.Measure(reference.Character, ReferenceAvatar.name, MakeOptions());
+                        return Style.Measure(reference.Character, ReferenceAvatar.name, Options);
                     }
                 case StyleSource.SavedStyle:
                     if (SavedStyle == null) throw Missing("no_saved_style");
@@ -144,47 +107,11 @@ namespace SuperDeform.Editor
             return new ConversionException(new Finding(key, Severity.Error, null));
         }
 
-        /// <summary>The library's options that these settings describe.</summary>
-        public Options MakeOptions()
-        {
-            Options options = new Options
-            {
-                HeadScale = HeadScale,
-                Amount = Amount,
-                HairLength = HairLength,
-                FaceSquash = FaceSquash,
-                FaceCurve = FaceCurve
-            };
-            foreach (GroupTuning tuning in Groups)
-            {
-                options.Groups.Add(new GroupSettings
-                {
-                    Group = tuning.Group,
-                    LengthScale = tuning.LengthScale,
-                    ThicknessScale = tuning.ThicknessScale,
-                    LengthTransfer = tuning.LengthTransfer,
-                    ThicknessTransfer = tuning.ThicknessTransfer
-                });
-            }
-            return options;
-        }
-
         /// <summary>A copy that shares nothing with this one but the assets that both name.</summary>
         public ConversionSettings Clone()
         {
             ConversionSettings copy = (ConversionSettings)MemberwiseClone();
-            copy.Groups = new List<GroupTuning>();
-            foreach (GroupTuning tuning in Groups)
-            {
-                copy.Groups.Add(new GroupTuning
-                {
-                    Group = tuning.Group,
-                    LengthScale = tuning.LengthScale,
-                    ThicknessScale = tuning.ThicknessScale,
-                    LengthTransfer = tuning.LengthTransfer,
-                    ThicknessTransfer = tuning.ThicknessTransfer
-                });
-            }
+            copy.Options = Options.Clone();
             return copy;
         }
     }

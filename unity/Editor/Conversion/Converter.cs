@@ -25,19 +25,18 @@ namespace SuperDeform.Editor
                 stages.Begin(ConversionStage.Reading);
                 List<Finding> findings = AvatarChecks.Of(avatar, settings.RigAuto);
                 if (findings.Count > 0 && findings[0].Severity == Severity.Error) throw new ConversionException(findings[0]);
-                Options options = settings.MakeOptions();
                 ReadOptions reading = new ReadOptions
                 {
                     WithMorphs = true,
                     RigAuto = settings.RigAuto,
-                    RigOptions = options,
+                    RigOptions = settings.Options,
                     RigProgress = stages.Within(ConversionStage.Rigging)
                 };
                 using (AvatarData source = CharacterReader.Read(avatar, reading))
                 {
                     stages.Begin(ConversionStage.Measuring);
                     using (Style style = settings.MakeStyle())
-                    using (Deformer deformer = new Deformer(source.Character, style, options, stages.Part(ConversionStage.Deforming, 0f, 0.5f)))
+                    using (Deformer deformer = new Deformer(source.Character, style, settings.Options, stages.Part(ConversionStage.Deforming, 0f, 0.5f)))
                     {
                         return Finish(source, deformer, settings, findings, stages);
                     }

@@ -35,7 +35,7 @@ namespace SuperDeform.Editor
             {
                 this.avatar = CharacterReader.Read(avatar, new ReadOptions
                 {
-                    WithMorphs = false, RigAuto = settings.RigAuto, RigOptions = settings.MakeOptions(),
+                    WithMorphs = false, RigAuto = settings.RigAuto, RigOptions = settings.Options,
                     RigProgress = Part(progress, ConversionStage.Rigging, 0, 0.7f)
                 });
                 jointOf = JointsByRole(this.avatar);
@@ -91,11 +91,11 @@ namespace SuperDeform.Editor
         private void Deform(ConversionSettings settings, SettingsChange change, ProgressHandler progress)
         {
             if (change == SettingsChange.Options)
-                deformer.SetOptions(settings.MakeOptions(), null);
+                deformer.SetOptions(settings.Options, null);
             else
                 using (Style wanted = style.Make(settings))
                 {
-                    var made = new Deformer(avatar.Character, wanted, settings.MakeOptions(), progress);
+                    var made = new Deformer(avatar.Character, wanted, settings.Options, progress);
                     if (deformer != null)
                         deformer.Dispose();
                     deformer = made;

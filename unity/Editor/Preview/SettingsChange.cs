@@ -1,4 +1,6 @@
-using System.Collections.Generic;
+using System;
+using System.Collections;
+using System.Reflection;
 
 namespace SuperDeform.Editor
 {
@@ -19,35 +21,38 @@ namespace SuperDeform.Editor
     {
         internal static SettingsChange Between(ConversionSettings one, ConversionSettings other)
         {
-            if (one.RigAuto != other.RigAuto)
+            if (one.RigAuto != other.RigAuto || !Same(one.Options, other.Options, field => field.Name.StartsWith("Rig")))
                 return SettingsChange.Rig;
             if (one.Source != other.Source || one.ReferenceAvatar != other.ReferenceAvatar
                 || one.SavedStyle != other.SavedStyle || one.BuiltInStyle != other.BuiltInStyle
                 || one.Heads != other.Heads || one.Blend != other.Blend)
                 return SettingsChange.Style;
-            return one.Amount == other.Amount && one.HairLength == other.HairLength && one.HeadScale == other.HeadScale
-                && Same(one.FaceSquash, other.FaceSquash) && one.FaceCurve == other.FaceCurve
-                && Same(one.Groups, other.Groups)
-                ? SettingsChange.None : SettingsChange.Options;
+            return Same(one.Options, other.Options, field => true) ? SettingsChange.None : SettingsChange.Options;
         }
 
-        private static bool Same(List<GroupTuning> one, List<GroupTuning> other)
+        /// <summary>Whether two objects have the same in those of their fields that are asked for.</summary>
+        private static bool Same(object one, object other, Predicate<FieldInfo> asked)
         {
-            if (one.Count != other.Count)
-                return false;
-            for (int i = 0; i < one.Count; i++)
-                if (one[i].Group != other[i].Group || !Same(one[i].LengthScale, other[i].LengthScale)
-                    || !Same(one[i].ThicknessScale, other[i].ThicknessScale)
-                    || !Same(one[i].LengthTransfer, other[i].LengthTransfer)
-                    || !Same(one[i].ThicknessTransfer, other[i].ThicknessTransfer))
+            foreach (FieldInfo field in one.GetType().GetFields(BindingFlags.Instance | BindingFlags.Public))
+                if (asked(field) && !Same(field.GetValue(one), field.GetValue(other)))
                     return false;
             return true;
         }
 
-        // NaN, which stands for "as found", equals itself.
-        private static bool Same(float one, float other)
+        private static bool Same(object one, object other)
         {
-            return one.Equals(other);
+            if (one == null || other == null)
+                return one == other;
+            IList some = one as IList, others = other as IList;
+            if (some != null)
+            {
+                bool same = some.Count == others.Count;
+                for (int i = 0; same && i < some.Count; i++)
+                    same = Same(some[i], others[i]);
+                return same;
+            }
+            // NaN, which stands for "as found", equals itself.
+            return one is string || one.GetType().IsValueType ? one.Equals(other) : Same(one, other, field => true);
         }
     }
 }

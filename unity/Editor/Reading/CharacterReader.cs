@@ -161,7 +161,7 @@ namespace SuperDeform.Editor
             AddMeshes(data);
             AddMorphTargets(data);
             if (!data.RigMade) return;
-            Options rig = options.RigOptions ?? new Options();
+            Options rig = options.RigOptions == null ? new Options() : options.RigOptions.Clone();
             rig.RigLeftHanded = true;
             data.Character.Rig(rig, options.RigProgress);
         }

@@ -23,6 +23,8 @@ namespace SuperDeform.Editor
         public PreviewPose Pose = PreviewPose.AsItStands;
         /// <summary>Whether each section is unfolded, in their order.</summary>
         public bool[] Open = { true, true, false, true, true };
+        /// <summary>Whether the settings of a new rig are unfolded.</summary>
+        public bool RigOpen;
 
         [NonSerialized] private List<Section> sections;
         [NonSerialized] private List<Finding> findings;

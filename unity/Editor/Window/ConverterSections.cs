@@ -43,7 +43,36 @@ namespace SuperDeform.Editor
                         model.Change("undo.rig", () => model.Settings.RigAuto = value);
                         model.Recheck();
                     }));
+            if (model.Avatar != null)
+                AddRig(model, section);
             return section;
+        }
+
+        // How a rig is made, where one is; folded, since the usual is right for most.
+        private static void AddRig(ConverterModel model, Section section)
+        {
+            Options options = model.Settings.Options;
+            section.Rows.Add(new FoldoutRow
+            {
+                Label = Strings.Get("rig.more"), Tooltip = Strings.Get("rig.more.tooltip"), Get = () => model.RigOpen,
+                Set = value =>
+                {
+                    model.RigOpen = value;
+                    model.Touch();
+                }
+            });
+            if (!model.RigOpen)
+                return;
+            section.Rows.Add(Popup("rig_weights", typeof(BodyWeights), () => (int)options.RigWeights,
+                value => model.Change("undo.rig", () => options.RigWeights = (BodyWeights)value)));
+            section.Rows.Add(Slider("option.rig_heat", 0.1f, 10, () => (float)options.RigHeat,
+                value => model.Change("undo.rig", () => options.RigHeat = value)));
+            section.Rows.Add(Slider("option.rig_voxel_resolution", 16, 512, () => options.RigVoxelResolution,
+                value => model.Change("undo.rig", () => options.RigVoxelResolution = (uint)Mathf.RoundToInt(value))));
+            section.Rows.Add(Popup("rig_garments", typeof(GarmentWeights), () => (int)options.RigGarments,
+                value => model.Change("undo.rig", () => options.RigGarments = (GarmentWeights)value)));
+            section.Rows.Add(Toggle("option.rig_fingers", true, () => options.RigFingers,
+                value => model.Change("undo.rig", () => options.RigFingers = value)));
         }
 
         internal static CheckRow Check(ConverterModel model, Finding finding)
@@ -138,32 +167,28 @@ namespace SuperDeform.Editor
         private static Section FineTuning(ConverterModel model)
         {
             ConversionSettings settings = model.Settings;
+            Options options = settings.Options;
             Section section = New(model, SectionId.FineTuning);
             int own = GroupTunings.Count(settings);
             section.Summary = own == 0 ? "" : Strings.Get("tune.summary", own);
-            section.Rows.Add(Slider("tune.amount", 0, 1, () => settings.Amount,
-                value => model.Change("undo.tune", () => settings.Amount = value)));
-            section.Rows.Add(Slider("tune.head", 0.5f, 2.5f, () => settings.HeadScale,
-                value => model.Change("undo.tune", () => settings.HeadScale = value)));
-            section.Rows.Add(Slider("tune.hair", 0, 1, () => settings.HairLength,
-                value => model.Change("undo.tune", () => settings.HairLength = value)));
-            SliderRow face = Slider("tune.face", 0, 1.5f,
-                () => float.IsNaN(settings.FaceSquash) ? FaceFound : settings.FaceSquash,
-                value => model.Change("undo.face", () => settings.FaceSquash = value));
-            face.IsOwn = () => !float.IsNaN(settings.FaceSquash);
-            face.Reset = () => model.Change("undo.face", () => settings.FaceSquash = float.NaN);
+            section.Rows.Add(Slider("option.amount", 0, 1, () => (float)options.Amount,
+                value => model.Change("undo.tune", () => options.Amount = value)));
+            section.Rows.Add(Slider("option.head_scale", 0.5f, 2.5f, () => (float)options.HeadScale,
+                value => model.Change("undo.tune", () => options.HeadScale = value)));
+            section.Rows.Add(Slider("option.hair_length", 0, 1, () => (float)options.HairLength,
+                value => model.Change("undo.tune", () => options.HairLength = value)));
+            SliderRow face = Slider("option.face_squash", 0, 1.5f,
+                () => double.IsNaN(options.FaceSquash) ? (float)OptionDefaults.FaceSquash : (float)options.FaceSquash,
+                value => model.Change("undo.face", () => options.FaceSquash = value));
+            face.IsOwn = () => !double.IsNaN(options.FaceSquash);
+            face.Reset = () => model.Change("undo.face", () => options.FaceSquash = double.NaN);
             section.Rows.Add(face);
-            section.Rows.Add(new PopupRow
-            {
-                Label = Strings.Get("tune.curve"), Tooltip = Strings.Get("tune.curve.tooltip"),
-                Choices = Words("tune.curve.f4", "tune.curve.f2", "tune.curve.sphere"),
-                Get = () => (int)settings.FaceCurve,
-                Set = value => model.Change("undo.face", () => settings.FaceCurve = (FaceCurve)value)
-            });
+            section.Rows.Add(Popup("face_curve", typeof(FaceCurve), () => (int)options.FaceCurve,
+                value => model.Change("undo.face", () => options.FaceCurve = (FaceCurve)value)));
             section.Rows.Add(new TextRow { Label = Strings.Get("tune.groups"), Strong = true });
             section.Rows.Add(new ColumnsRow
             {
-                Label = Strings.Get("report.group"), Columns = Words("tune.length", "tune.thickness")
+                Label = Strings.Get("report.group"), Columns = Words("option.length_scale", "option.thickness_scale")
             });
             foreach (TunableGroup group in GroupTunings.Groups)
                 section.Rows.Add(GroupOf(model, group));
@@ -175,17 +200,14 @@ namespace SuperDeform.Editor
             return section;
         }
 
-        // SdefOptions.face_squash: what NAN stands for in product mode where a face is found.
-        private const float FaceFound = 0.8f;
-
         private static GroupRow GroupOf(ConverterModel model, TunableGroup group)
         {
             return new GroupRow
             {
                 Label = NameOf(group),
                 Length = GroupSlider(model, group.Name, false,
-                    group.IsSize ? "tune.size" : group.IsSpread ? "tune.spread" : "tune.length"),
-                Thickness = group.IsSize || group.IsSpread ? null : GroupSlider(model, group.Name, true, "tune.thickness")
+                    group.IsSize ? "tune.size" : group.IsSpread ? "tune.spread" : "option.length_scale"),
+                Thickness = group.IsSize || group.IsSpread ? null : GroupSlider(model, group.Name, true, "option.thickness_scale")
             };
         }
 
@@ -197,16 +219,23 @@ namespace SuperDeform.Editor
 
         private static SliderRow GroupSlider(ConverterModel model, string group, bool thickness, string key)
         {
-            SliderRow row = Slider(key, 0.1f, 2,
-                () =>
+            Func<double> own = () =>
+            {
+                GroupSettings tuned = GroupTunings.Of(model.Settings, group);
+                return thickness ? tuned.ThicknessScale : tuned.LengthScale;
+            };
+            Action<double> set = value => model.Change("undo.tune", () =>
+                GroupTunings.Change(model.Settings, group, tuned =>
                 {
-                    double own = GroupTunings.Get(model.Settings, group, thickness);
-                    return (float)(double.IsNaN(own) ? model.ScaleFound(group, thickness) : own);
-                },
-                value => model.Change("undo.tune", () => GroupTunings.Set(model.Settings, group, thickness, value)));
-            row.IsOwn = () => !double.IsNaN(GroupTunings.Get(model.Settings, group, thickness));
-            row.Reset = () => model.Change("undo.tune",
-                () => GroupTunings.Set(model.Settings, group, thickness, float.NaN));
+                    if (thickness)
+                        tuned.ThicknessScale = value;
+                    else
+                        tuned.LengthScale = value;
+                }));
+            SliderRow row = Slider(key, 0.1f, 2,
+                () => double.IsNaN(own()) ? model.ScaleFound(group, thickness) : (float)own(), value => set(value));
+            row.IsOwn = () => !double.IsNaN(own());
+            row.Reset = () => set(double.NaN);
             return row;
         }
 
@@ -255,7 +284,7 @@ namespace SuperDeform.Editor
                 });
                 section.Rows.Add(Groups(numbers));
                 foreach (Warning warning in numbers.Warnings)
-                    section.Rows.Add(Told(warning));
+                    section.Rows.Add(Warned(warning));
             }
             else
                 section.Rows.Add(new TextRow { Label = Strings.Get("report.none") });
@@ -329,7 +358,7 @@ namespace SuperDeform.Editor
         private static readonly string[] harmless = { "coefficient_limited", "crown_with_hair", "hair_shortened", "kind_guessed" };
 
         /// <summary>What the library warns of, in words for people; its own sentence where there are none.</summary>
-        private static CheckRow Told(Warning warning)
+        private static CheckRow Warned(Warning warning)
         {
             string key = "warning." + warning.Code;
             return new CheckRow
@@ -364,6 +393,17 @@ namespace SuperDeform.Editor
         private static string Percent(double value)
         {
             return double.IsNaN(value) ? "" : (100 * value).ToString("0", CultureInfo.InvariantCulture) + " %";
+        }
+
+        // An option of the library that is one of some words.
+        private static PopupRow Popup(string option, Type words, Func<int> get, Action<int> set)
+        {
+            string key = "option." + option;
+            return new PopupRow
+            {
+                Label = Strings.Get(key), Tooltip = Strings.Get(key + ".tooltip"), Get = get, Set = set,
+                Choices = Array.ConvertAll(Enum.GetNames(words), word => Strings.Get(key + "." + word.ToLowerInvariant()))
+            };
         }
 
         private static SliderRow Slider(string key, float low, float high, Func<float> get, Action<float> set)

@@ -1,9 +1,11 @@
+using System;
+
 namespace SuperDeform.Editor
 {
     /// <summary>A bone group that product mode can tune.</summary>
     public sealed class TunableGroup
     {
-        /// <summary>As in GroupTuning.Group.</summary>
+        /// <summary>As in GroupSettings.Group.</summary>
         public string Name;
         /// <summary>It has one size: its length and its thickness are the same.</summary>
         public bool IsSize;
@@ -30,50 +32,40 @@ namespace SuperDeform.Editor
             new TunableGroup { Name = "foot", IsSize = true }
         };
 
-        /// <summary>A person's own scale of a group; NaN where there is none.</summary>
-        public static float Get(ConversionSettings settings, string group, bool thickness)
+        /// <summary>A person's own settings of a group, to be read; all NaN where there are none.</summary>
+        public static GroupSettings Of(ConversionSettings settings, string group)
         {
-            GroupTuning tuning = Find(settings, group);
-            return tuning == null ? float.NaN : thickness ? tuning.ThicknessScale : tuning.LengthScale;
+            return Find(settings, group) ?? new GroupSettings { Group = group };
         }
 
-        /// <summary>Sets a person's own scale of a group; NaN takes it away.</summary>
-        public static void Set(ConversionSettings settings, string group, bool thickness, float scale)
+        /// <summary>Changes a person's own settings of a group; those that set nothing go.</summary>
+        public static void Change(ConversionSettings settings, string group, Action<GroupSettings> change)
         {
-            GroupTuning tuning = Find(settings, group);
-            if (tuning == null)
+            GroupSettings own = Find(settings, group);
+            if (own == null)
             {
-                tuning = new GroupTuning { Group = group };
-                settings.Groups.Add(tuning);
+                own = new GroupSettings { Group = group };
+                settings.Options.Groups.Add(own);
             }
-            if (thickness)
-                tuning.ThicknessScale = scale;
-            else
-                tuning.LengthScale = scale;
-            settings.Groups.RemoveAll(IsEmpty);
+            change(own);
+            settings.Options.Groups.RemoveAll(tuned => tuned.IsEmpty);
         }
 
         /// <summary>Takes all tuning away.</summary>
         public static void Clear(ConversionSettings settings)
         {
-            settings.Groups.Clear();
+            settings.Options.Groups.Clear();
         }
 
         /// <summary>How many groups are tuned.</summary>
         public static int Count(ConversionSettings settings)
         {
-            return settings.Groups.FindAll(tuning => !IsEmpty(tuning)).Count;
+            return settings.Options.Groups.FindAll(tuned => !tuned.IsEmpty).Count;
         }
 
-        private static GroupTuning Find(ConversionSettings settings, string group)
+        private static GroupSettings Find(ConversionSettings settings, string group)
         {
-            return settings.Groups.Find(tuning => tuning.Group == group);
-        }
-
-        private static bool IsEmpty(GroupTuning tuning)
-        {
-            return float.IsNaN(tuning.LengthScale) && float.IsNaN(tuning.ThicknessScale)
-                && float.IsNaN(tuning.LengthTransfer) && float.IsNaN(tuning.ThicknessTransfer);
+            return settings.Options.Groups.Find(tuned => tuned.Group == group);
         }
     }
 }

@@ -33,6 +33,8 @@ namespace SuperDeform.Editor
                 Group((GroupRow)row, label);
             else if (row is ToggleRow)
                 Toggle((ToggleRow)row, label);
+            else if (row is FoldoutRow)
+                Foldout((FoldoutRow)row, label);
             else if (row is TableRow)
                 Table((TableRow)row);
             else if (row is FieldRow)
@@ -146,6 +148,13 @@ namespace SuperDeform.Editor
             bool value = EditorGUILayout.Toggle(label, row.Get());
             if (EditorGUI.EndChangeCheck())
                 row.Set(value);
+        }
+
+        private static void Foldout(FoldoutRow row, GUIContent label)
+        {
+            bool open = EditorGUILayout.Foldout(row.Get(), label, true);
+            if (open != row.Get())
+                row.Set(open);
         }
 
         private static void Table(TableRow row)

@@ -100,6 +100,13 @@ namespace SuperDeform.Editor
         public Action<bool> Set;
     }
 
+    /// <summary>A title that shows or hides the rows after it.</summary>
+    public sealed class FoldoutRow : Row
+    {
+        public Func<bool> Get;
+        public Action<bool> Set;
+    }
+
     /// <summary>Numbers in columns; the first column is words.</summary>
     public sealed class TableRow : Row
     {

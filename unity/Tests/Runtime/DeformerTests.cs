@@ -34,7 +34,7 @@ public sealed class DeformerTests
     {
         MeshOutput expected = Mannequin.Output(figure.VertexCount), output = Mannequin.Output(figure.VertexCount);
         deformer.Apply(new[] { expected });
-        OneCall.SuperDeform(null, null, figure.Skeleton, new[] { figure.Mesh() }, style, null, new[] { output });
+        AllAtOnce.SuperDeform(null, null, figure.Skeleton, new[] { figure.Mesh() }, style, null, new[] { output });
         Assert.AreEqual(Bits((Triple[])expected.Positions), Bits((Triple[])output.Positions));
         Assert.AreEqual(Bits((Triple[])expected.Normals), Bits((Triple[])output.Normals));
         Assert.AreEqual(expected.Tangents, output.Tangents);
@@ -49,7 +49,7 @@ public sealed class DeformerTests
         Mannequin own = new Mannequin();
         MeshOutput output = new MeshOutput { Positions = own.Positions, VertexCount = own.VertexCount };
         float last = 0;
-        OneCall.SuperDeform(new float[] { 0, 1, 0 }, new float[] { 0, 0, 1 }, own.Skeleton, new[] { own.Mesh() }, style,
+        AllAtOnce.SuperDeform(new float[] { 0, 1, 0 }, new float[] { 0, 0, 1 }, own.Skeleton, new[] { own.Mesh() }, style,
             new Options { ThreadCount = 1 }, new[] { output }, fraction =>
             {
                 last = fraction;
@@ -57,7 +57,7 @@ public sealed class DeformerTests
             });
         Assert.AreEqual(Bits((Triple[])expected.Positions), Bits(own.Positions));
         Assert.AreEqual(1f, last);
-        Thrown.Invalid(Status.BadArgument, () => OneCall.SuperDeform(null, null, own.Skeleton, new[] { own.Mesh() },
+        Thrown.Invalid(Status.BadArgument, () => AllAtOnce.SuperDeform(null, null, own.Skeleton, new[] { own.Mesh() },
             style, null, new MeshOutput[0]));
     }
 

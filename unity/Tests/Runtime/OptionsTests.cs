@@ -1,3 +1,6 @@
+using System;
+using System.Collections.Generic;
+using System.Reflection;
 using NUnit.Framework;
 
 namespace SuperDeform.Tests
@@ -10,9 +13,9 @@ public sealed class OptionsTests
     {
         SdefOptions expected = new SdefOptions();
         Assert.AreEqual(0u, Native.sdef_options_init(&expected, (uint)sizeof(SdefOptions), null));
-        using (Loan loan = new Loan())
+        using (MarshalScope scope = new MarshalScope())
         {
-            SdefOptions* given = loan.Options(new Options());
+            SdefOptions* given = scope.Options(new Options());
             // No number is one of many: any will do.
             Assert.IsTrue(double.IsNaN(expected.face_squash) && double.IsNaN(given->face_squash));
             expected.face_squash = given->face_squash = 0;
@@ -24,57 +27,70 @@ public sealed class OptionsTests
         }
     }
 
+    // Numbers of a struct of the library's: not its size, pointers and how much they point to.
+    private static IEnumerable<FieldInfo> Numbers(Type type)
+    {
+        foreach (FieldInfo field in type.GetFields(BindingFlags.Instance | BindingFlags.Public | BindingFlags.NonPublic))
+        {
+            FieldInfo list = type.GetField(field.Name.Replace("_count", "s"));
+            bool counts = list != null && list.FieldType.IsPointer;
+            if (!field.FieldType.IsPointer && !counts && field.Name != "struct_size" && field.Name != "reserved")
+                yield return field;
+        }
+    }
+
+    // The field that C# has for one of the library's: HeadScale for head_scale.
+    private static FieldInfo Field(Type type, string name)
+    {
+        string own = "";
+        foreach (string word in name.Split('_')) own += char.ToUpperInvariant(word[0]) + word.Substring(1);
+        FieldInfo field = type.GetField(own);
+        Assert.IsNotNull(field, type.Name + " has no field " + own);
+        return field;
+    }
+
+    // Another value than the default for each field; gives what the library is to see.
+    private static Dictionary<FieldInfo, object> Change(object options, Type native)
+    {
+        Dictionary<FieldInfo, object> expected = new Dictionary<FieldInfo, object>();
+        foreach (FieldInfo number in Numbers(native))
+        {
+            FieldInfo field = Field(options.GetType(), number.Name);
+            object value = 3u + expected.Count;
+            if (field.FieldType == typeof(bool)) value = !(bool)field.GetValue(options);
+            else if (field.FieldType == typeof(double)) value = 0.25 + expected.Count;
+            else if (field.FieldType.IsEnum)
+            {
+                Array values = Enum.GetValues(field.FieldType);
+                int usual = Array.IndexOf(values, field.GetValue(options));
+                value = values.GetValue((usual + 1) % values.Length);
+            }
+            field.SetValue(options, Convert.ChangeType(value, field.FieldType));
+            expected.Add(number, value is double ? value : Convert.ToUInt32(value));
+        }
+        return expected;
+    }
+
     [Test]
     public unsafe void Every_field_arrives()
     {
         Options options = new Options();
-        options.ThreadCount = 3;
-        options.Mode = Mode.Paper;
-        options.Stage = Stage.Thickness;
-        options.Rays = 24;
-        options.Limits = false;
-        options.HeadScale = 1.25;
-        options.Amount = 0.5;
-        options.HairLength = 0.75;
-        options.FaceSquash = -1;
-        options.FaceCurve = FaceCurve.Sphere;
-        options.RigWeights = BodyWeights.Volume;
-        options.RigGarments = GarmentWeights.Nearest;
-        options.RigVoxelResolution = 64;
-        options.RigFingers = false;
-        options.RigChinSegment = false;
-        options.RigHeat = 2.5;
-        options.RigLeftHanded = true;
-        options.Groups.Add(new GroupSettings { Group = "head", LengthScale = 2, ThicknessScale = 3, LengthTransfer = 4,
-            ThicknessTransfer = 5 });
+        GroupSettings head = new GroupSettings { Group = "head" };
+        options.Groups.Add(head);
         options.BoneGroups.Add(new BoneGroup { Role = HumanoidRole.LeftHand, Group = "手" });
         options.RigJoints.Add(new GivenJoint(HumanoidRole.Head, 1, 2, 3));
-        using (Loan loan = new Loan())
+        Dictionary<FieldInfo, object> expected = Change(options, typeof(SdefOptions));
+        Dictionary<FieldInfo, object> expectedOfHead = Change(head, typeof(SdefGroupSettings));
+        Assert.IsTrue(expected.Count >= 15 && expectedOfHead.Count >= 4);
+        using (MarshalScope scope = new MarshalScope())
         {
-            SdefOptions* given = loan.Options(options);
-            Assert.AreEqual(3u, given->thread_count);
-            Assert.AreEqual(Native.SDEF_MODE_PAPER, given->mode);
-            Assert.AreEqual(Native.SDEF_STAGE_THICKNESS, given->stage);
-            Assert.AreEqual(24u, given->rays);
-            Assert.AreEqual(0u, given->limits);
-            Assert.AreEqual(1.25, given->head_scale);
-            Assert.AreEqual(0.5, given->amount);
-            Assert.AreEqual(0.75, given->hair_length);
-            Assert.AreEqual(-1.0, given->face_squash);
-            Assert.AreEqual(Native.SDEF_FACE_CURVE_SPHERE, given->face_curve);
-            Assert.AreEqual(Native.SDEF_WEIGHTS_VOLUME, given->rig_weights);
-            Assert.AreEqual(Native.SDEF_GARMENTS_NEAREST, given->rig_garments);
-            Assert.AreEqual(64u, given->rig_voxel_resolution);
-            Assert.AreEqual(0u, given->rig_fingers);
-            Assert.AreEqual(0u, given->rig_chin_segment);
-            Assert.AreEqual(2.5, given->rig_heat);
-            Assert.AreEqual(1u, given->rig_left_handed);
+            SdefOptions* given = scope.Options(options);
+            foreach (KeyValuePair<FieldInfo, object> number in expected)
+                Assert.AreEqual(number.Value, number.Key.GetValue(*given), number.Key.Name);
             Assert.AreEqual(1u, given->group_count);
             Assert.AreEqual("head", Text.Of(given->groups->group));
-            Assert.AreEqual(2.0, given->groups->length_scale);
-            Assert.AreEqual(3.0, given->groups->thickness_scale);
-            Assert.AreEqual(4.0, given->groups->length_transfer);
-            Assert.AreEqual(5.0, given->groups->thickness_transfer);
+            foreach (KeyValuePair<FieldInfo, object> number in expectedOfHead)
+                Assert.AreEqual(number.Value, number.Key.GetValue(*given->groups), number.Key.Name);
             Assert.AreEqual(1u, given->bone_group_count);
             Assert.AreEqual(Native.SDEF_ROLE_LEFT_HAND, given->bone_groups->role);
             Assert.AreEqual("手", Text.Of(given->bone_groups->group));
@@ -84,6 +100,24 @@ public sealed class OptionsTests
             Assert.AreEqual(2.0, given->rig_joints->y);
             Assert.AreEqual(3.0, given->rig_joints->z);
         }
+    }
+
+    [Test]
+    public void A_copy_shares_nothing()
+    {
+        Options options = new Options { HeadScale = 1.25 };
+        options.Groups.Add(new GroupSettings { Group = "head", LengthScale = 2 });
+        options.BoneGroups.Add(new BoneGroup { Role = HumanoidRole.LeftHand, Group = "own" });
+        options.RigJoints.Add(new GivenJoint(HumanoidRole.Head, 1, 2, 3));
+        Options copy = options.Clone();
+        Assert.AreEqual(1.25, copy.HeadScale);
+        copy.Groups[0].LengthScale = 3;
+        copy.BoneGroups[0].Group = "other";
+        copy.RigJoints.Clear();
+        Assert.AreEqual(2.0, options.Groups[0].LengthScale);
+        Assert.AreEqual("own", options.BoneGroups[0].Group);
+        Assert.AreEqual(1, options.RigJoints.Count);
+        Assert.IsNull(new Options { Groups = null }.Clone().Groups);
     }
 
     [Test]

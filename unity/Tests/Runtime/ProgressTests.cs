@@ -94,7 +94,7 @@ public sealed class ProgressTests
             deformer.Apply(new[] { Mannequin.Output(figure.VertexCount) }, fraction => true);
         }
         using (Character bare = Bare()) AssertThrows(own, () => bare.Rig(null, throws));
-        AssertThrows(own, () => OneCall.SuperDeform(null, null, figure.Skeleton, new[] { figure.Mesh() }, style, null,
+        AssertThrows(own, () => AllAtOnce.SuperDeform(null, null, figure.Skeleton, new[] { figure.Mesh() }, style, null,
             new[] { Mannequin.Output(figure.VertexCount) }, throws));
     }
 

@@ -118,7 +118,7 @@ namespace SuperDeform.Editor.Bench
 
         private static Options Options(ConversionSettings settings, uint threads)
         {
-            Options options = settings.MakeOptions();
+            Options options = settings.Options.Clone();
             options.ThreadCount = threads;
             return options;
         }
@@ -140,22 +140,22 @@ namespace SuperDeform.Editor.Bench
                 path.Show();
                 double worst = Slider("face", rounds, path, round =>
                 {
-                    settings.FaceSquash = 0.2f + 0.01f * round;
+                    settings.Options.FaceSquash = 0.2f + 0.01f * round;
                     path.Deformer.SetOptions(Options(settings, threads));
                 });
                 worst = Math.Max(worst, Slider("thickness", rounds, path, round =>
                 {
-                    GroupTunings.Set(settings, "upper_leg", true, 0.8f + 0.003f * round);
+                    GroupTunings.Change(settings, "upper_leg", leg => leg.ThicknessScale = 0.8 + 0.003 * round);
                     path.Deformer.SetOptions(Options(settings, threads));
                 }));
                 worst = Math.Max(worst, Slider("length", rounds, path, round =>
                 {
-                    GroupTunings.Set(settings, "upper_leg", false, 0.5f + 0.003f * round);
+                    GroupTunings.Change(settings, "upper_leg", leg => leg.LengthScale = 0.5 + 0.003 * round);
                     path.Deformer.SetOptions(Options(settings, threads));
                 }));
                 worst = Math.Max(worst, Slider("amount", rounds, path, round =>
                 {
-                    settings.Amount = 0.3f + 0.01f * round;
+                    settings.Options.Amount = 0.3f + 0.01f * round;
                     path.Deformer.SetOptions(Options(settings, threads));
                 }));
                 var anew = new Times();
@@ -171,7 +171,7 @@ namespace SuperDeform.Editor.Bench
                 var measure = new Times();
                 for (int round = 0; round < 5; round++)
                 {
-                    settings.FaceSquash = 0.1f + 0.1f * round;
+                    settings.Options.FaceSquash = 0.1f + 0.1f * round;
                     path.Deformer.SetOptions(Options(settings, threads));
                     measure.Start();
                     path.Deformer.GetReport();

@@ -42,13 +42,30 @@ namespace SuperDeform.Editor.Tests
                 "-superdeformFaceSquash", "-0.5", "-superdeformFaceCurve", "SPHERE", "-superdeformRig", "auto",
                 "-superdeformOutput", "Assets/Chibis").Settings;
             Assert.AreEqual(0.25f, settings.Blend);
-            Assert.AreEqual(0.5f, settings.Amount);
-            Assert.AreEqual(2f, settings.HeadScale);
-            Assert.AreEqual(0f, settings.HairLength);
-            Assert.AreEqual(-0.5f, settings.FaceSquash);
-            Assert.AreEqual(FaceCurve.Sphere, settings.FaceCurve);
+            Assert.AreEqual(0.5f, settings.Options.Amount);
+            Assert.AreEqual(2f, settings.Options.HeadScale);
+            Assert.AreEqual(0f, settings.Options.HairLength);
+            Assert.AreEqual(-0.5f, settings.Options.FaceSquash);
+            Assert.AreEqual(FaceCurve.Sphere, settings.Options.FaceCurve);
             Assert.IsTrue(settings.RigAuto);
             Assert.AreEqual("Assets/Chibis", settings.OutputFolder);
+        }
+
+        [Test]
+        public void every_option_of_the_library_has_a_name_here()
+        {
+            Options options = Read("-superdeformAvatars", "A.prefab", "-superdeformMode", "paper", "-superdeformLimits", "no",
+                "-superdeformRays", "24", "-superdeformRigWeights", "volume", "-superdeformRigVoxelResolution", "64",
+                "-superdeformRigFingers", "no", "-superdeformRigHeat", "0.5").Settings.Options;
+            Assert.AreEqual(Mode.Paper, options.Mode);
+            Assert.IsFalse(options.Limits);
+            Assert.AreEqual(24u, options.Rays);
+            Assert.AreEqual(BodyWeights.Volume, options.RigWeights);
+            Assert.AreEqual(64u, options.RigVoxelResolution);
+            Assert.IsFalse(options.RigFingers);
+            Assert.AreEqual(0.5, options.RigHeat);
+            Refused("24.5 is no number from 3 to 4096", "-superdeformAvatars", "A", "-superdeformRays", "24.5");
+            Refused("yes, no", "-superdeformAvatars", "A", "-superdeformLimits", "perhaps");
         }
 
         [Test]
@@ -63,11 +80,12 @@ namespace SuperDeform.Editor.Tests
         public void groups_are_tuned_one_option_a_group()
         {
             ConversionSettings settings = Read("-superdeformAvatars", "A.prefab", "-superdeformGroup",
-                "upper_leg:length=0.4,thickness=0.8", "-superdeformGroup", "HEAD: thickness = 1.2").Settings;
-            Assert.AreEqual(0.4f, GroupTunings.Get(settings, "upper_leg", false));
-            Assert.AreEqual(0.8f, GroupTunings.Get(settings, "upper_leg", true));
-            Assert.AreEqual(1.2f, GroupTunings.Get(settings, "head", true));
-            Assert.That(GroupTunings.Get(settings, "head", false), Is.NaN);
+                "upper_leg:length=0.4,thickness=0.8", "-superdeformGroup", "HEAD: thickness = 1.2,length_transfer=0.5").Settings;
+            Assert.AreEqual(0.4, GroupTunings.Of(settings, "upper_leg").LengthScale);
+            Assert.AreEqual(0.8, GroupTunings.Of(settings, "upper_leg").ThicknessScale);
+            Assert.AreEqual(1.2, GroupTunings.Of(settings, "head").ThicknessScale);
+            Assert.AreEqual(0.5, GroupTunings.Of(settings, "head").LengthTransfer);
+            Assert.That(GroupTunings.Of(settings, "head").LengthScale, Is.NaN);
         }
 
         [Test]

@@ -88,7 +88,7 @@ namespace SuperDeform.Editor.Tests
         {
             ConversionFigure figure = new ConversionFigure { Turned = true, WithShapes = true }.Make();
             ConversionSettings settings = Settings();
-            settings.Amount = 0;
+            settings.Options.Amount = 0;
             GameObject prefab = Converter.Convert(figure.Root, settings, null).Prefab;
             Mesh old = figure.Body.sharedMesh, made = Find(prefab, "Body").GetComponent<SkinnedMeshRenderer>().sharedMesh;
             Assert.AreNotSame(old, made);
@@ -123,13 +123,13 @@ namespace SuperDeform.Editor.Tests
             // Deforming the figure with the shape baked into its vertices must give what the shape gives on the result.
             ConversionFigure figure = new ConversionFigure { Turned = true, WithShapes = true }.Make();
             ConversionSettings settings = Settings();
-            settings.FaceSquash = 0.5f;
+            settings.Options.FaceSquash = 0.5f;
             GameObject prefab = Converter.Convert(figure.Root, settings, null).Prefab;
             var body = Find(prefab, "Body").GetComponent<SkinnedMeshRenderer>();
             Vector3[] rest = Drawn(prefab, "Body");
             using (AvatarData data = CharacterReader.Read(figure.Root, new ReadOptions { WithMorphs = true }))
             using (Style style = settings.MakeStyle())
-            using (var deformer = new Deformer(data.Character, style, settings.MakeOptions(), null))
+            using (var deformer = new Deformer(data.Character, style, settings.Options, null))
             {
                 RendererData renderer = data.Renderers.Find(r => r.Renderer == figure.Body);
                 Assert.AreEqual(3, renderer.Frames.Count);
@@ -520,7 +520,7 @@ namespace SuperDeform.Editor.Tests
             ConversionResult result = Converter.Convert(avatar, settings, null);
             using (AvatarData data = CharacterReader.Read(avatar, new ReadOptions { RigAuto = settings.RigAuto }))
             using (Style style = settings.MakeStyle())
-            using (var deformer = new Deformer(data.Character, style, settings.MakeOptions(), null))
+            using (var deformer = new Deformer(data.Character, style, settings.Options, null))
             {
                 var expected = new AvatarResult(data, true);
                 expected.Apply(deformer, null);

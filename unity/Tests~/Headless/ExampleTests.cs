@@ -170,13 +170,13 @@ namespace SuperDeform.Editor.Tests
             Compare("quaternius_female_dress.glb", "--heads 3 --head-scale 1.3 --face-squash 0.4 --face-curve f2 --amount 0.8 --hair-length 0.5 --group upper_leg:length=0.6,thickness=0.9 --group hand:thickness=1.4", delegate (ConversionSettings settings)
             {
                 settings.Heads = 3f;
-                settings.HeadScale = 1.3f;
-                settings.FaceSquash = 0.4f;
-                settings.FaceCurve = FaceCurve.F2;
-                settings.Amount = 0.8f;
-                settings.HairLength = 0.5f;
-                settings.Groups.Add(new GroupTuning { Group = "upper_leg", LengthScale = 0.6f, ThicknessScale = 0.9f });
-                settings.Groups.Add(new GroupTuning { Group = "hand", ThicknessScale = 1.4f });
+                settings.Options.HeadScale = 1.3f;
+                settings.Options.FaceSquash = 0.4f;
+                settings.Options.FaceCurve = FaceCurve.F2;
+                settings.Options.Amount = 0.8f;
+                settings.Options.HairLength = 0.5f;
+                settings.Options.Groups.Add(new GroupSettings { Group = "upper_leg", LengthScale = 0.6f, ThicknessScale = 0.9f });
+                settings.Options.Groups.Add(new GroupSettings { Group = "hand", ThicknessScale = 1.4f });
             });
         }
     }

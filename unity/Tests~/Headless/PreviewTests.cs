@@ -117,13 +117,13 @@ namespace SuperDeform.Editor.Tests
         {
             var changes = new List<Action>
             {
-                () => settings.FaceSquash = 0.3f,
-                () => settings.FaceCurve = FaceCurve.Sphere,
-                () => GroupTunings.Set(settings, "upper_leg", false, 0.7f),
-                () => GroupTunings.Set(settings, "torso", true, 1.1f),
-                () => settings.FaceSquash = float.NaN,
-                () => settings.Amount = 0.5f,
-                () => settings.HeadScale = 1.2f,
+                () => settings.Options.FaceSquash = 0.3f,
+                () => settings.Options.FaceCurve = FaceCurve.Sphere,
+                () => GroupTunings.Change(settings, "upper_leg", leg => leg.LengthScale = 0.7),
+                () => GroupTunings.Change(settings, "torso", torso => torso.ThicknessScale = 1.1),
+                () => settings.Options.FaceSquash = float.NaN,
+                () => settings.Options.Amount = 0.5f,
+                () => settings.Options.HeadScale = 1.2f,
                 () => settings.BuiltInStyle = "sd3",
                 () => { settings.Source = StyleSource.Heads; settings.Heads = 3; },
                 () => GroupTunings.Clear(settings)
@@ -150,8 +150,8 @@ namespace SuperDeform.Editor.Tests
         public void an_amount_of_0_is_the_avatar_as_it_stands()
         {
             figure["LeftUpperArm"].localRotation = Quaternion.Euler(0, 0, 60);
-            settings.Amount = 0;
-            settings.FaceSquash = 0;
+            settings.Options.Amount = 0;
+            settings.Options.FaceSquash = 0;
             using (var session = new PreviewSession(figure.Root, settings))
             {
                 Assert.That(Distance(World(figure.Body), World(Proxy(session, "body"))), Is.LessThan(Tolerance));
@@ -321,10 +321,10 @@ namespace SuperDeform.Editor.Tests
             using (var session = new PreviewSession(figure.Root, settings))
             {
                 Vector3[] before = Proxy(session, "body").sharedMesh.vertices;
-                settings.HeadScale = 1000;
+                settings.Options.HeadScale = 1000;
                 Assert.Throws<ConversionException>(() => session.Update(settings));
                 Assert.AreEqual(before, Proxy(session, "body").sharedMesh.vertices);
-                settings.HeadScale = 1.5f;
+                settings.Options.HeadScale = 1.5f;
                 session.Update(settings);
                 Assert.AreEqual(before, Proxy(session, "body").sharedMesh.vertices);
             }
@@ -369,14 +369,14 @@ namespace SuperDeform.Editor.Tests
             var large = new WindowFigure("Large", 20000, 3);
             using (var session = new PreviewSession(large.Root, settings))
             {
-                settings.FaceSquash = 0.1f;
+                settings.Options.FaceSquash = 0.1f;
                 session.Update(settings);
                 GC.Collect();
                 int collections = GC.CollectionCount(0);
                 long before = GC.GetTotalMemory(true);
                 for (int frame = 0; frame < 20; frame++)
                 {
-                    settings.FaceSquash = 0.2f + 0.01f * frame;
+                    settings.Options.FaceSquash = 0.2f + 0.01f * frame;
                     session.Update(settings);
                 }
                 long grown = GC.GetTotalMemory(false) - before;

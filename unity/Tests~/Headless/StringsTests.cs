@@ -101,8 +101,8 @@ namespace SuperDeform.Editor.Tests
             string code = "";
             foreach (string file in Directory.GetFiles(Folder(), "*.cs", SearchOption.AllDirectories))
                 code += File.ReadAllText(file);
-            // Keys that code puts together: section.Avatar, group.head, warning.open_body, tune.face.tooltip.
-            var made = new Regex(@"^(section|group|warning)\.|\.tooltip$");
+            // Keys that code puts together: section.Avatar, group.head, warning.open_body, option.face_curve.f4, style.heads.tooltip.
+            var made = new Regex(@"^(section|group|warning|option)\.|\.tooltip$");
             foreach (string key in Texts("en").Keys)
                 if (!made.IsMatch(key))
                     Assert.That(code.Contains("\"" + key + "\""), "nothing uses the text " + key);

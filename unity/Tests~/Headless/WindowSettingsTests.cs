@@ -9,10 +9,10 @@ namespace SuperDeform.Editor.Tests
         public void a_group_has_no_tuning_until_it_is_set()
         {
             var settings = new ConversionSettings();
-            Assert.That(GroupTunings.Get(settings, "head", false), Is.NaN);
-            GroupTunings.Set(settings, "head", true, 0.75f);
-            Assert.That(GroupTunings.Get(settings, "head", false), Is.NaN);
-            Assert.AreEqual(0.75f, GroupTunings.Get(settings, "head", true));
+            Assert.That(GroupTunings.Of(settings, "head").LengthScale, Is.NaN);
+            GroupTunings.Change(settings, "head", head => head.ThicknessScale = 0.75);
+            Assert.That(GroupTunings.Of(settings, "head").LengthScale, Is.NaN);
+            Assert.AreEqual(0.75, GroupTunings.Of(settings, "head").ThicknessScale);
             Assert.AreEqual(1, GroupTunings.Count(settings));
         }
 
@@ -20,22 +20,22 @@ namespace SuperDeform.Editor.Tests
         public void a_tuning_taken_away_leaves_nothing()
         {
             var settings = new ConversionSettings();
-            GroupTunings.Set(settings, "foot", false, 2);
-            GroupTunings.Set(settings, "hand", false, 2);
-            GroupTunings.Set(settings, "foot", false, float.NaN);
-            Assert.AreEqual(1, settings.Groups.Count);
+            GroupTunings.Change(settings, "foot", foot => foot.LengthScale = 2);
+            GroupTunings.Change(settings, "hand", hand => hand.LengthScale = 2);
+            GroupTunings.Change(settings, "foot", foot => foot.LengthScale = double.NaN);
+            Assert.AreEqual(1, settings.Options.Groups.Count);
             GroupTunings.Clear(settings);
-            Assert.AreEqual(0, settings.Groups.Count);
+            Assert.AreEqual(0, settings.Options.Groups.Count);
         }
 
         [Test]
         public void a_tuning_keeps_transfers_that_were_set_elsewhere()
         {
             var settings = new ConversionSettings();
-            settings.Groups.Add(new GroupTuning { Group = "neck", LengthTransfer = 0.5f });
-            GroupTunings.Set(settings, "neck", false, 1);
-            GroupTunings.Set(settings, "neck", false, float.NaN);
-            Assert.AreEqual(0.5f, settings.Groups[0].LengthTransfer);
+            settings.Options.Groups.Add(new GroupSettings { Group = "neck", LengthTransfer = 0.5f });
+            GroupTunings.Change(settings, "neck", neck => neck.LengthScale = 1);
+            GroupTunings.Change(settings, "neck", neck => neck.LengthScale = double.NaN);
+            Assert.AreEqual(0.5f, settings.Options.Groups[0].LengthTransfer);
         }
 
         [Test]
@@ -65,12 +65,12 @@ namespace SuperDeform.Editor.Tests
         [Test]
         public void what_the_options_say_leaves_the_style()
         {
-            Assert.AreEqual(SettingsChange.Options, After(settings => settings.Amount = 0.5f));
-            Assert.AreEqual(SettingsChange.Options, After(settings => settings.HairLength = 0.5f));
-            Assert.AreEqual(SettingsChange.Options, After(settings => settings.HeadScale = 1));
-            Assert.AreEqual(SettingsChange.Options, After(settings => settings.FaceSquash = 0));
-            Assert.AreEqual(SettingsChange.Options, After(settings => settings.FaceCurve = FaceCurve.Sphere));
-            Assert.AreEqual(SettingsChange.Options, After(settings => GroupTunings.Set(settings, "hip", false, 0.9f)));
+            Assert.AreEqual(SettingsChange.Options, After(settings => settings.Options.Amount = 0.5f));
+            Assert.AreEqual(SettingsChange.Options, After(settings => settings.Options.HairLength = 0.5f));
+            Assert.AreEqual(SettingsChange.Options, After(settings => settings.Options.HeadScale = 1));
+            Assert.AreEqual(SettingsChange.Options, After(settings => settings.Options.FaceSquash = 0));
+            Assert.AreEqual(SettingsChange.Options, After(settings => settings.Options.FaceCurve = FaceCurve.Sphere));
+            Assert.AreEqual(SettingsChange.Options, After(settings => GroupTunings.Change(settings, "hip", hip => hip.LengthScale = 0.9)));
         }
 
         [Test]
@@ -79,8 +79,10 @@ namespace SuperDeform.Editor.Tests
             Assert.AreEqual(SettingsChange.Style, After(settings => settings.Source = StyleSource.BuiltIn));
             Assert.AreEqual(SettingsChange.Style, After(settings => settings.BuiltInStyle = "sd4"));
             Assert.AreEqual(SettingsChange.Style, After(settings => settings.Heads = 3));
-            Assert.AreEqual(SettingsChange.Style, After(settings => { settings.Blend = 1; settings.FaceSquash = 0; }));
+            Assert.AreEqual(SettingsChange.Style, After(settings => { settings.Blend = 1; settings.Options.FaceSquash = 0; }));
             Assert.AreEqual(SettingsChange.Rig, After(settings => { settings.RigAuto = true; settings.Heads = 3; }));
+            Assert.AreEqual(SettingsChange.Rig, After(settings => settings.Options.RigFingers = false));
+            Assert.AreEqual(SettingsChange.Rig, After(settings => settings.Options.RigJoints.Add(new GivenJoint())));
         }
     }
 }

@@ -178,8 +178,12 @@ namespace SuperDeform.Editor.Tests
         [Test]
         public void every_slider_changes_what_it_says_within_its_bounds()
         {
-            var model = new ConverterModel();
-            foreach (Row row in model.Sections[2].Rows)
+            var model = new ConverterModel { RigOpen = true };
+            model.SetAvatar(figure.Root);
+            var rows = new List<Row>(model.Sections[0].Rows);
+            rows.AddRange(model.Sections[2].Rows);
+            int seen = 0;
+            foreach (Row row in rows)
             {
                 var sliders = new List<SliderRow>();
                 if (row is SliderRow)
@@ -195,19 +199,43 @@ namespace SuperDeform.Editor.Tests
                     {
                         slider.Set(value);
                         Assert.AreEqual(value, slider.Get(), row.Label);
+                        seen++;
                     }
             }
+            Assert.That(seen, Is.GreaterThan(40));
             // The library takes the bounds of all of them.
-            model.SetAvatar(figure.Root);
             using (var session = new PreviewSession(figure.Root, model.Settings))
                 Assert.IsTrue(session.IsAlive);
+        }
+
+        [Test]
+        public void how_a_new_rig_is_made_unfolds_and_is_set()
+        {
+            var model = new ConverterModel();
+            model.SetAvatar(figure.Root);
+            CollectionAssert.DoesNotContain(Labels(model, SectionId.Avatar), Strings.Get("option.rig_heat"));
+            Find<FoldoutRow>(model, SectionId.Avatar, "rig.more").Set(true);
+            Assert.IsTrue(Find<FoldoutRow>(model, SectionId.Avatar, "rig.more").Get());
+            Find<PopupRow>(model, SectionId.Avatar, "option.rig_weights").Set(2);
+            Find<PopupRow>(model, SectionId.Avatar, "option.rig_garments").Set(1);
+            Find<SliderRow>(model, SectionId.Avatar, "option.rig_heat").Set(2);
+            Find<SliderRow>(model, SectionId.Avatar, "option.rig_voxel_resolution").Set(64.2f);
+            Find<ToggleRow>(model, SectionId.Avatar, "option.rig_fingers").Set(false);
+            Options options = model.Settings.Options;
+            Assert.AreEqual(BodyWeights.Volume, options.RigWeights);
+            Assert.AreEqual(GarmentWeights.Nearest, options.RigGarments);
+            Assert.AreEqual(2.0, options.RigHeat);
+            Assert.AreEqual(64u, options.RigVoxelResolution);
+            Assert.IsFalse(options.RigFingers);
+            foreach (PopupRow row in model.Sections[0].Rows.FindAll(found => found is PopupRow))
+                Assert.AreEqual(3, row.Choices.Length, row.Label);
         }
 
         [Test]
         public void resetting_takes_all_fine_tuning_of_parts_away()
         {
             var model = new ConverterModel();
-            GroupTunings.Set(model.Settings, "head", false, 1.2f);
+            GroupTunings.Change(model.Settings, "head", head => head.LengthScale = 1.2);
             model.Touch();
             ActionRow reset = Find<ActionRow>(model, SectionId.FineTuning, "tune.reset");
             Assert.IsTrue(reset.Enabled);

@@ -22,8 +22,8 @@ namespace SuperDeform.Editor.WindowPicture
                 for (int section = 0; section < model.Open.Length; section++)
                     model.Open[section] = true;
                 model.SetAvatar(character.Root);
-                GroupTunings.Set(model.Settings, "upper_arm", true, 0.8f);
-                GroupTunings.Set(model.Settings, "hand", false, 0.9f);
+                GroupTunings.Change(model.Settings, "upper_arm", arm => arm.ThicknessScale = 0.8);
+                GroupTunings.Change(model.Settings, "hand", hand => hand.LengthScale = 0.9);
                 using (var controller = new ConverterController(model))
                 {
                     controller.Tick(0);

@@ -52,7 +52,7 @@ namespace SuperDeform.Editor.WindowPicture
                 canvas.Rectangle(left + 1, y, Width - 2, 22, Canvas.Header);
                 canvas.Rectangle(left + 1, y, Width - 2, 1, Canvas.Line);
                 double x = From, middle = y + 11;
-                canvas.Path(section.Open ? Path(x, middle - 3, 8, 0, -4, 6) : Path(x + 2, middle - 4, 0, 8, 6, -4), Canvas.Words);
+                Arrow(section.Open, x, middle);
                 canvas.Text(From + 16, y + 15, section.Title, Canvas.Words, "start", true);
                 if (!section.Open)
                     canvas.Text(To, y + 15, section.Summary, Canvas.Faint, "end");
@@ -65,6 +65,18 @@ namespace SuperDeform.Editor.WindowPicture
                 y += 8;
             }
             y += 4;
+        }
+
+        private void Foldout(FoldoutRow row)
+        {
+            Arrow(row.Get(), From, y + 10);
+            canvas.Text(From + 14, y + 15, row.Label, Canvas.Words);
+            y += RowHeight;
+        }
+
+        private void Arrow(bool open, double x, double middle)
+        {
+            canvas.Path(open ? Path(x, middle - 3, 8, 0, -4, 6) : Path(x + 2, middle - 4, 0, 8, 6, -4), Canvas.Words);
         }
 
         // A triangle: a point, and the way from it to the second and from there to the third.
@@ -87,6 +99,8 @@ namespace SuperDeform.Editor.WindowPicture
                 Group((GroupRow)row);
             else if (row is TableRow)
                 Table((TableRow)row);
+            else if (row is FoldoutRow)
+                Foldout((FoldoutRow)row);
             else if (row is ActionRow)
                 Action((ActionRow)row);
             else

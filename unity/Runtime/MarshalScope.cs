@@ -6,13 +6,13 @@ using System.Text;
 namespace SuperDeform
 {
 /// <summary>
-/// What the library gets for one call: arrays that stay where they are, and texts and structs in memory of our own. All
-/// of it goes back with <see cref="Dispose"/>, after which the loan may be used again.
+/// What the library gets for one call: pinned arrays, and texts and structs in unmanaged memory. <see cref="Dispose"/>
+/// unpins and frees all of it, after which the scope may be used again.
 /// </summary>
-internal sealed unsafe class Loan : IDisposable
+internal sealed unsafe class MarshalScope : IDisposable
 {
     private readonly List<GCHandle> pins = new List<GCHandle>();
-    private readonly List<IntPtr> rooms = new List<IntPtr>();
+    private readonly List<IntPtr> blocks = new List<IntPtr>();
 
     /// <summary>The address of an array's first element; null for null and for an empty array.</summary>
     internal byte* Pin(Array array, string name)
@@ -33,11 +33,11 @@ internal sealed unsafe class Loan : IDisposable
     }
 
     /// <summary>Zeroed memory.</summary>
-    internal void* Room(int bytes)
+    internal void* Alloc(int bytes)
     {
-        IntPtr room = Marshal.AllocHGlobal(Math.Max(bytes, 1));
-        rooms.Add(room);
-        byte* start = (byte*)room;
+        IntPtr block = Marshal.AllocHGlobal(Math.Max(bytes, 1));
+        blocks.Add(block);
+        byte* start = (byte*)block;
         for (int i = 0; i < bytes; i++) start[i] = 0;
         return start;
     }
@@ -47,17 +47,17 @@ internal sealed unsafe class Loan : IDisposable
     {
         if (text == null) return null;
         byte[] bytes = Encoding.UTF8.GetBytes(text);
-        sbyte* room = (sbyte*)Room(bytes.Length + 1);
-        Marshal.Copy(bytes, 0, (IntPtr)room, bytes.Length);
-        return room;
+        sbyte* copy = (sbyte*)Alloc(bytes.Length + 1);
+        Marshal.Copy(bytes, 0, (IntPtr)copy, bytes.Length);
+        return copy;
     }
 
     public void Dispose()
     {
         foreach (GCHandle pin in pins) pin.Free();
-        foreach (IntPtr room in rooms) Marshal.FreeHGlobal(room);
+        foreach (IntPtr block in blocks) Marshal.FreeHGlobal(block);
         pins.Clear();
-        rooms.Clear();
+        blocks.Clear();
     }
 }
 }

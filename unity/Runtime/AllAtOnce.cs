@@ -4,7 +4,7 @@ using System.Collections.Generic;
 namespace SuperDeform
 {
 /// <summary>Everything at once, for hosts that keep nothing.</summary>
-public static class OneCall
+public static class AllAtOnce
 {
     /// <summary>Deforms meshes in one call. Morph targets go through <see cref="Deformer"/> alone.</summary>
     /// <param name="up">As for a <see cref="Character"/>.</param>
@@ -27,17 +27,17 @@ public static class OneCall
         int count = meshes.Count;
         if (outputs.Count != count)
             throw Failure.Argument("there are " + outputs.Count + " outputs for " + count + " meshes: give one each");
-        using (Loan loan = new Loan())
+        using (MarshalScope scope = new MarshalScope())
         using (ProgressCall call = ProgressCall.Of(progress))
         {
             SdefSkeleton joints = new SdefSkeleton();
-            if (skeleton != null) loan.Fill(&joints, skeleton);
-            SdefMesh* inputs = (SdefMesh*)loan.Room(checked(count * sizeof(SdefMesh)));
-            for (int mesh = 0; mesh < count; mesh++) loan.Fill(inputs + mesh, meshes[mesh], mesh);
-            SdefMeshResult* results = loan.Results(outputs);
+            if (skeleton != null) scope.Fill(&joints, skeleton);
+            SdefMesh* inputs = (SdefMesh*)scope.Alloc(checked(count * sizeof(SdefMesh)));
+            for (int mesh = 0; mesh < count; mesh++) scope.Fill(inputs + mesh, meshes[mesh], mesh);
+            SdefMeshResult* results = scope.Results(outputs);
             SdefError error = Failure.None();
-            uint status = Native.sdef_super_deform((float*)loan.Pin(up, "up"), (float*)loan.Pin(forward, "forward"),
-                skeleton == null ? null : &joints, inputs, (UIntPtr)(uint)count, style.Raw, loan.Options(options),
+            uint status = Native.sdef_super_deform((float*)scope.Pin(up, "up"), (float*)scope.Pin(forward, "forward"),
+                skeleton == null ? null : &joints, inputs, (UIntPtr)(uint)count, style.Raw, scope.Options(options),
                 results, call.Callback, call.User, &error);
             GC.KeepAlive(style);
             call.Check(status, &error);

@@ -8,9 +8,9 @@ namespace SuperDeform
 /// The arrays of meshes and skeletons as the library's structs. How long an array is only this side knows, so it is
 /// checked here; what is in it the library checks.
 /// </summary>
-internal static unsafe class LoanOfMeshes
+internal static unsafe class MarshalMeshes
 {
-    internal static void Fill(this Loan loan, SdefMesh* mesh, MeshArrays arrays, int index)
+    internal static void Fill(this MarshalScope scope, SdefMesh* mesh, MeshArrays arrays, int index)
     {
         Owner owner = new Owner("mesh", index, arrays == null ? null : arrays.Name);
         if (arrays == null) throw owner.Wrong("it is null: give its arrays");
@@ -18,27 +18,27 @@ internal static unsafe class LoanOfMeshes
         if (arrays.FirstVertex < 0) throw owner.Wrong("FirstVertex is " + arrays.FirstVertex + ": give 0 or more");
         mesh->struct_size = (uint)sizeof(SdefMesh);
         mesh->kind = (uint)arrays.Kind;
-        mesh->name = loan.Text(arrays.Name);
+        mesh->name = scope.Text(arrays.Name);
         mesh->vertex_count = (UIntPtr)(uint)count;
-        mesh->positions = Vectors(loan, arrays.Positions, owner, "Positions", 3, arrays.FirstVertex, count);
-        mesh->normals = Vectors(loan, arrays.Normals, owner, "Normals", 3, arrays.FirstVertex, count);
-        mesh->tangents = Vectors(loan, arrays.Tangents, owner, "Tangents", 4, arrays.FirstVertex, count);
-        FillIndices(loan, mesh, arrays, owner);
-        if (arrays.RowStarts != null) FillRows(loan, mesh, arrays, owner, count);
-        else if (arrays.Joints != null || arrays.Weights != null) FillFixed(loan, mesh, arrays, owner, count);
+        mesh->positions = Vectors(scope, arrays.Positions, owner, "Positions", 3, arrays.FirstVertex, count);
+        mesh->normals = Vectors(scope, arrays.Normals, owner, "Normals", 3, arrays.FirstVertex, count);
+        mesh->tangents = Vectors(scope, arrays.Tangents, owner, "Tangents", 4, arrays.FirstVertex, count);
+        FillIndices(scope, mesh, arrays, owner);
+        if (arrays.RowStarts != null) FillRows(scope, mesh, arrays, owner, count);
+        else if (arrays.Joints != null || arrays.Weights != null) FillFixed(scope, mesh, arrays, owner, count);
     }
 
-    internal static void Fill(this Loan loan, SdefMorphTarget* target, MorphArrays arrays, int mesh, int count)
+    internal static void Fill(this MarshalScope scope, SdefMorphTarget* target, MorphArrays arrays, int mesh, int count)
     {
         Owner owner = new Owner("morph target of mesh", mesh, arrays.Name);
         target->struct_size = (uint)sizeof(SdefMorphTarget);
-        target->name = loan.Text(arrays.Name);
-        target->positions = Vectors(loan, arrays.Positions, owner, "Positions", 3, arrays.FirstVertex, count);
-        target->normals = Vectors(loan, arrays.Normals, owner, "Normals", 3, arrays.FirstVertex, count);
-        target->tangents = Vectors(loan, arrays.Tangents, owner, "Tangents", 3, arrays.FirstVertex, count);
+        target->name = scope.Text(arrays.Name);
+        target->positions = Vectors(scope, arrays.Positions, owner, "Positions", 3, arrays.FirstVertex, count);
+        target->normals = Vectors(scope, arrays.Normals, owner, "Normals", 3, arrays.FirstVertex, count);
+        target->tangents = Vectors(scope, arrays.Tangents, owner, "Tangents", 3, arrays.FirstVertex, count);
     }
 
-    internal static void Fill(this Loan loan, SdefSkeleton* skeleton, SkeletonArrays arrays)
+    internal static void Fill(this MarshalScope scope, SdefSkeleton* skeleton, SkeletonArrays arrays)
     {
         Owner owner = new Owner("skeleton");
         if (arrays.Parents == null) throw owner.Wrong("Parents is null: give one a joint");
@@ -48,24 +48,24 @@ internal static unsafe class LoanOfMeshes
         CheckLength(arrays.RestMatrices, owner, "RestMatrices", 16L * count);
         skeleton->struct_size = (uint)sizeof(SdefSkeleton);
         skeleton->joint_count = (UIntPtr)(uint)count;
-        skeleton->parents = (int*)loan.Pin(arrays.Parents, "Parents");
-        skeleton->rest_matrices = (double*)loan.Pin(arrays.RestMatrices, "RestMatrices");
-        skeleton->role_joints = (int*)loan.Pin(arrays.RoleJoints, "RoleJoints");
+        skeleton->parents = (int*)scope.Pin(arrays.Parents, "Parents");
+        skeleton->rest_matrices = (double*)scope.Pin(arrays.RestMatrices, "RestMatrices");
+        skeleton->role_joints = (int*)scope.Pin(arrays.RoleJoints, "RoleJoints");
         skeleton->role_count = arrays.RoleJoints == null ? 0 : (uint)arrays.RoleJoints.Length;
         if (arrays.Names == null) return;
-        skeleton->names = (sbyte**)loan.Room(count * sizeof(sbyte*));
-        for (int joint = 0; joint < count; joint++) skeleton->names[joint] = loan.Text(arrays.Names[joint]);
+        skeleton->names = (sbyte**)scope.Alloc(count * sizeof(sbyte*));
+        for (int joint = 0; joint < count; joint++) skeleton->names[joint] = scope.Text(arrays.Names[joint]);
     }
 
-    internal static SdefMeshResult* Results(this Loan loan, IList<MeshOutput> outputs)
+    internal static SdefMeshResult* Results(this MarshalScope scope, IList<MeshOutput> outputs)
     {
         int count = outputs.Count;
-        SdefMeshResult* results = (SdefMeshResult*)loan.Room(checked(count * sizeof(SdefMeshResult)));
-        for (int mesh = 0; mesh < count; mesh++) Fill(loan, results + mesh, outputs[mesh], mesh);
+        SdefMeshResult* results = (SdefMeshResult*)scope.Alloc(checked(count * sizeof(SdefMeshResult)));
+        for (int mesh = 0; mesh < count; mesh++) Fill(scope, results + mesh, outputs[mesh], mesh);
         return results;
     }
 
-    private static void Fill(Loan loan, SdefMeshResult* result, MeshOutput output, int mesh)
+    private static void Fill(MarshalScope scope, SdefMeshResult* result, MeshOutput output, int mesh)
     {
         Owner owner = new Owner("output", mesh);
         if (output == null) throw owner.Wrong("it is null: give one with null arrays for what is not wanted");
@@ -76,13 +76,13 @@ internal static unsafe class LoanOfMeshes
         result->struct_size = (uint)sizeof(SdefMeshResult);
         result->vertex_capacity = (UIntPtr)(uint)count;
         result->morph_target_capacity = (uint)targets;
-        result->positions = Vectors(loan, output.Positions, owner, "Positions", 3, output.FirstVertex, count);
-        result->normals = Vectors(loan, output.Normals, owner, "Normals", 3, output.FirstVertex, count);
-        result->tangents = Vectors(loan, output.Tangents, owner, "Tangents", 4, output.FirstVertex, count);
+        result->positions = Vectors(scope, output.Positions, owner, "Positions", 3, output.FirstVertex, count);
+        result->normals = Vectors(scope, output.Normals, owner, "Normals", 3, output.FirstVertex, count);
+        result->tangents = Vectors(scope, output.Tangents, owner, "Tangents", 4, output.FirstVertex, count);
         long floats = 3L * count * targets;
-        result->morph_positions = Packed(loan, output.MorphPositions, owner, "MorphPositions", floats);
-        result->morph_normals = Packed(loan, output.MorphNormals, owner, "MorphNormals", floats);
-        result->morph_tangents = Packed(loan, output.MorphTangents, owner, "MorphTangents", floats);
+        result->morph_positions = Packed(scope, output.MorphPositions, owner, "MorphPositions", floats);
+        result->morph_normals = Packed(scope, output.MorphNormals, owner, "MorphNormals", floats);
+        result->morph_tangents = Packed(scope, output.MorphTangents, owner, "MorphTangents", floats);
     }
 
     /// <summary>How many vertices a mesh has.</summary>
@@ -94,7 +94,8 @@ internal static unsafe class LoanOfMeshes
     }
 
     /// <summary>The address of one vertex of an array, from which on `count` vertices are wanted.</summary>
-    private static float* Vectors(Loan loan, Array array, Owner owner, string name, int floats, int first, int count)
+    private static float* Vectors(MarshalScope scope, Array array, Owner owner, string name, int floats, int first,
+        int count)
     {
         if (array == null) return null;
         long bytes = Bytes(array, owner, name, floats), stride = 4 * floats;
@@ -102,7 +103,7 @@ internal static unsafe class LoanOfMeshes
             throw owner.Wrong(name + " holds " + bytes / stride + " vertices, but vertices " + first
                 + " to " + (first + (long)count - 1)
                 + " are wanted: give all of them, or other FirstVertex and VertexCount");
-        byte* start = loan.Pin(array, name);
+        byte* start = scope.Pin(array, name);
         return start == null ? null : (float*)(start + first * stride);
     }
 
@@ -121,7 +122,7 @@ internal static unsafe class LoanOfMeshes
             + " floats");
     }
 
-    private static void FillIndices(Loan loan, SdefMesh* mesh, MeshArrays arrays, Owner owner)
+    private static void FillIndices(MarshalScope scope, SdefMesh* mesh, MeshArrays arrays, Owner owner)
     {
         if (arrays.Indices == null)
         {
@@ -140,14 +141,14 @@ internal static unsafe class LoanOfMeshes
         if (first < 0 || count < 0 || first + (long)count > length)
             throw owner.Wrong("Indices holds " + length + " numbers, but FirstIndex is " + first
                 + " and IndexCount " + count + ": name a part of them");
-        byte* start = loan.Pin(arrays.Indices, "Indices");
+        byte* start = scope.Pin(arrays.Indices, "Indices");
         mesh->indices = start == null ? null : start + (long)first * size;
         mesh->index_count = (UIntPtr)(uint)count;
         mesh->index_type = size == 4 ? Native.SDEF_TYPE_U32
             : size == 2 ? Native.SDEF_TYPE_U16 : Native.SDEF_TYPE_U8;
     }
 
-    private static void FillFixed(Loan loan, SdefMesh* mesh, MeshArrays arrays, Owner owner, int count)
+    private static void FillFixed(MarshalScope scope, SdefMesh* mesh, MeshArrays arrays, Owner owner, int count)
     {
         int each = arrays.InfluenceCount;
         if (each < 1) throw owner.Wrong("InfluenceCount is " + each
@@ -155,10 +156,10 @@ internal static unsafe class LoanOfMeshes
         long first = (long)arrays.FirstVertex * each, end = first + (long)count * each;
         CheckWeights(arrays, owner, end);
         mesh->influence_count = (UIntPtr)(uint)each;
-        Weights(loan, mesh, arrays, first);
+        Weights(scope, mesh, arrays, first);
     }
 
-    private static void FillRows(Loan loan, SdefMesh* mesh, MeshArrays arrays, Owner owner, int count)
+    private static void FillRows(MarshalScope scope, SdefMesh* mesh, MeshArrays arrays, Owner owner, int count)
     {
         uint[] rows = arrays.RowStarts;
         int first = arrays.FirstVertex;
@@ -170,14 +171,14 @@ internal static unsafe class LoanOfMeshes
             throw owner.Wrong("RowStarts falls from " + start + " to " + end + ": it must rise");
         CheckWeights(arrays, owner, end);
         mesh->influence_count = (UIntPtr)(end - start);
-        Weights(loan, mesh, arrays, start);
+        Weights(scope, mesh, arrays, start);
         if (first == 0 && start == 0)
         {
-            mesh->row_starts = (uint*)loan.Pin(rows, "RowStarts");
+            mesh->row_starts = (uint*)scope.Pin(rows, "RowStarts");
             return;
         }
         // The library's rows rise from 0: those of a slice are counted anew.
-        uint* own = (uint*)loan.Room(checked((count + 1) * sizeof(uint)));
+        uint* own = (uint*)scope.Alloc(checked((count + 1) * sizeof(uint)));
         for (int vertex = 0; vertex <= count; vertex++) own[vertex] = unchecked(rows[first + vertex] - start);
         mesh->row_starts = own;
     }
@@ -191,19 +192,19 @@ internal static unsafe class LoanOfMeshes
         CheckLength(arrays.Weights, owner, "Weights", needed);
     }
 
-    private static void Weights(Loan loan, SdefMesh* mesh, MeshArrays arrays, long first)
+    private static void Weights(MarshalScope scope, SdefMesh* mesh, MeshArrays arrays, long first)
     {
-        uint* joints = (uint*)loan.Pin(arrays.Joints, "Joints");
-        float* weights = (float*)loan.Pin(arrays.Weights, "Weights");
+        uint* joints = (uint*)scope.Pin(arrays.Joints, "Joints");
+        float* weights = (float*)scope.Pin(arrays.Weights, "Weights");
         if (joints == null) return;
         mesh->joints = joints + first;
         mesh->weights = weights + first;
     }
 
-    private static float* Packed(Loan loan, float[] array, Owner owner, string name, long needed)
+    private static float* Packed(MarshalScope scope, float[] array, Owner owner, string name, long needed)
     {
         CheckLength(array, owner, name, needed);
-        return (float*)loan.Pin(array, name);
+        return (float*)scope.Pin(array, name);
     }
 
     private static void CheckLength(Array array, Owner owner, string name, long needed)
