@@ -5,7 +5,7 @@ use glam::DVec3;
 use std::collections::BTreeMap;
 use superdeform::Role;
 use superdeform::character::Frame;
-use superdeform::rig::Layout;
+use superdeform::rig::UnitFigure;
 use superdeform::rig::skeleton::weight_bones;
 use superdeform::rig::voxel::{VoxelOptions, heat_would_be_poor, voxel_weights};
 use superdeform_benches::models;
@@ -14,8 +14,8 @@ fn volume(criterion: &mut Criterion) {
     for model in models::models() {
         let character = model.character;
         let forward = Frame::of(&character).expect("the model is whole").to_model(DVec3::Z);
-        let layout = Layout::of(&character, forward).expect("the model is whole");
-        let joint = |joint: usize| layout.to_layout(character.skeleton.joints[joint].position());
+        let figure = UnitFigure::of(&character, forward).expect("the model is whole");
+        let joint = |joint: usize| figure.to_unit(character.skeleton.joints[joint].position());
         let joints: BTreeMap<Role, DVec3> =
             character.humanoid.iter().map(|(role, index)| (role, joint(index))).collect();
         let bones = weight_bones(&joints, &BTreeMap::new(), None);
@@ -23,11 +23,11 @@ fn volume(criterion: &mut Criterion) {
         group.sample_size(10);
         group.bench_function("voxel_weights", |bencher| {
             bencher.iter(|| {
-                voxel_weights(&layout.positions, &layout.triangles, &bones, &VoxelOptions::default())
+                voxel_weights(&figure.positions, &figure.triangles, &bones, &VoxelOptions::default())
             });
         });
         group.bench_function("heat_would_be_poor", |bencher| {
-            bencher.iter(|| heat_would_be_poor(&layout.positions, &layout.triangles, &bones));
+            bencher.iter(|| heat_would_be_poor(&figure.positions, &figure.triangles, &bones));
         });
         group.finish();
     }

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use superdeform::geometry::{Weld, weld};
 use superdeform::rig::heat::{HeatOptions, HeatSystem, heat_weights};
 use superdeform::rig::skeleton::weight_bones;
-use superdeform::rig::{Layout, WeightBone, Weighted};
+use superdeform::rig::{UnitFigure, WeightBone, WeightSet};
 
 #[path = "common/models.rs"]
 mod models;
@@ -14,7 +14,7 @@ mod truth;
 
 type Mesh = (Vec<DVec3>, Vec<[u32; 3]>);
 
-fn heat(mesh: &Mesh, bones: &[WeightBone], heat: f64) -> Weighted {
+fn heat(mesh: &Mesh, bones: &[WeightBone], heat: f64) -> WeightSet {
     heat_weights(&mesh.0, &mesh.1, bones, &HeatOptions { heat, thread_count: 2 })
 }
 
@@ -23,14 +23,14 @@ fn bone(joint: u32, a: DVec3, b: DVec3) -> WeightBone {
 }
 
 /// The weight of `joint` in each row.
-fn column(weighted: &Weighted, joint: u32) -> Vec<f64> {
+fn column(weighted: &WeightSet, joint: u32) -> Vec<f64> {
     let weight =
         |row: &[(u32, f32)]| row.iter().find(|entry| entry.0 == joint).map_or(0.0, |entry| entry.1.into());
     weighted.weights.rows().map(weight).collect()
 }
 
 /// Every vertex has weights between 0 and 1 that sum to 1, each joint once, and counts are of vertices.
-fn check(weighted: &Weighted, vertex_count: usize) {
+fn check(weighted: &WeightSet, vertex_count: usize) {
     assert_eq!(weighted.weights.row_count(), vertex_count);
     for row in weighted.weights.rows() {
         let sum: f64 = row.iter().map(|&(_, weight)| f64::from(weight)).sum();
@@ -42,7 +42,7 @@ fn check(weighted: &Weighted, vertex_count: usize) {
 }
 
 /// The largest difference of any weight.
-fn difference(one: &Weighted, other: &Weighted) -> f64 {
+fn difference(one: &WeightSet, other: &WeightSet) -> f64 {
     assert_eq!(one.weights.row_count(), other.weights.row_count());
     let mut most = 0.0_f64;
     for (one, other) in one.weights.rows().zip(other.weights.rows()) {
@@ -194,7 +194,8 @@ fn a_system_gives_what_single_calls_give() {
         assert!(weighted.weights == heat(&mesh, &bones, c).weights);
     }
     let (soft, sharp) = (system.weights(1.0), system.weights(3.0));
-    let blended = |weighted: &Weighted| column(weighted, 1).iter().filter(|&&w| w > 0.05 && w < 0.95).count();
+    let blended =
+        |weighted: &WeightSet| column(weighted, 1).iter().filter(|&&w| w > 0.05 && w < 0.95).count();
     assert!(blended(&sharp) < blended(&soft));
 }
 
@@ -247,11 +248,11 @@ fn order_and_winding_do_not_matter() {
         }
     }
     let shuffled = heat(&(order.iter().map(|&old| mesh.0[old]).collect(), triangles), &bones, 1.0);
-    let back = Weighted {
+    let back = WeightSet {
         weights: superdeform::Weights::from_rows(
             place.iter().map(|&new| shuffled.weights.row(new as usize).iter().copied()),
         ),
-        ..Weighted::default()
+        ..WeightSet::default()
     };
     assert!(difference(&one, &back) < 1e-6);
     let flipped = mesh.1.iter().map(|&[a, b, c]| [a, c, b]).collect();
@@ -521,11 +522,11 @@ fn patchwork_and_bad_edges_are_weighted() {
     check(&weighted, finned.0.len());
     assert!(weighted.fallback.is_empty());
     // Fins leave the rest nearly as it was.
-    let body = Weighted {
+    let body = WeightSet {
         weights: superdeform::Weights::from_rows(
             (0..mesh.0.len()).map(|vertex| weighted.weights.row(vertex).iter().copied()),
         ),
-        ..Weighted::default()
+        ..WeightSet::default()
     };
     assert!(difference(&one, &body) < 0.1, "{}", difference(&one, &body));
 }
@@ -541,11 +542,11 @@ fn seams_do_not_matter() {
     );
     let weighted = heat(&torn, &bones, 1.0);
     assert!(weighted.fallback.is_empty());
-    let expected = Weighted {
+    let expected = WeightSet {
         weights: superdeform::Weights::from_rows(
             mesh.1.iter().flatten().map(|&vertex| one.weights.row(vertex as usize).iter().copied()),
         ),
-        ..Weighted::default()
+        ..WeightSet::default()
     };
     assert!(difference(&weighted, &expected) < 1e-6);
 }
@@ -566,13 +567,13 @@ fn a_million_triangles_are_weighted() {
 #[test]
 fn real_characters_are_weighted_whole() {
     for case in truth::cases() {
-        let layout = Layout::of(&case.character, case.forward).unwrap();
+        let figure = UnitFigure::of(&case.character, case.forward).unwrap();
         let joints: BTreeMap<_, _> =
-            case.joints.iter().map(|(&role, &at)| (role, layout.to_layout(at))).collect();
+            case.joints.iter().map(|(&role, &at)| (role, figure.to_unit(at))).collect();
         let bones = weight_bones(&joints, &BTreeMap::new(), None);
-        let weighted = heat(&(layout.positions.clone(), layout.triangles.clone()), &bones, 1.0);
-        check(&weighted, layout.positions.len());
-        println!("{:45} {:6} vertices {:?}", case.name, layout.positions.len(), weighted.fallback);
+        let weighted = heat(&(figure.positions.clone(), figure.triangles.clone()), &bones, 1.0);
+        check(&weighted, figure.positions.len());
+        println!("{:45} {:6} vertices {:?}", case.name, figure.positions.len(), weighted.fallback);
         assert!(!weighted.fallback.contains_key("system_raised"), "{}", case.name);
         assert!(!weighted.fallback.contains_key("vertex_without_heat"), "{}", case.name);
     }

@@ -12,7 +12,7 @@ use models::{check_all, in_parallel};
 use people::Person;
 use std::collections::BTreeMap;
 use superdeform::geometry::Surface;
-use superdeform::rig::Layout;
+use superdeform::rig::UnitFigure;
 use superdeform::rig::hand::{Hand, find_fingers};
 use superdeform::{MeshKind, Role};
 
@@ -63,26 +63,26 @@ struct Laid {
     positions: Vec<DVec3>,
     triangles: Vec<[u32; 3]>,
     surface: Surface,
-    /// The artist's, in the layout.
+    /// The artist's, in the unit figure.
     joints: BTreeMap<Role, DVec3>,
 }
 
 impl Laid {
-    fn new(name: &str, layout: &Layout, joints: &BTreeMap<Role, DVec3>) -> Self {
-        let triangles = layout.triangles_where(|mesh| layout.kinds[mesh] != Some(MeshKind::Hair));
+    fn new(name: &str, figure: &UnitFigure, joints: &BTreeMap<Role, DVec3>) -> Self {
+        let triangles = figure.triangles_where(|mesh| figure.kinds[mesh] != Some(MeshKind::Hair));
         Self {
             name: name.to_string(),
-            positions: layout.positions.clone(),
-            surface: Surface::new(&layout.positions, &triangles),
+            positions: figure.positions.clone(),
+            surface: Surface::new(&figure.positions, &triangles),
             triangles,
-            joints: joints.iter().map(|(&role, &at)| (role, layout.to_layout(at))).collect(),
+            joints: joints.iter().map(|(&role, &at)| (role, figure.to_unit(at))).collect(),
         }
     }
 
     fn person(name: &str, person: &Person) -> Self {
         let forward = glam::DMat3::from_rotation_y(person.facing.to_radians()) * DVec3::Z;
-        let layout = Layout::of(&person.build(), forward).unwrap();
-        Self::new(name, &layout, &person.joints())
+        let figure = UnitFigure::of(&person.build(), forward).unwrap();
+        Self::new(name, &figure, &person.joints())
     }
 
     /// The hand on one side, found with elbow and wrist moved.
@@ -111,7 +111,7 @@ impl Laid {
 fn laid_cases() -> Vec<Laid> {
     let cases = truth::cases();
     in_parallel(&cases, |case| {
-        Laid::new(&case.name, &Layout::of(&case.character, case.forward).unwrap(), &case.joints)
+        Laid::new(&case.name, &UnitFigure::of(&case.character, case.forward).unwrap(), &case.joints)
     })
 }
 

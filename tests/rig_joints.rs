@@ -11,7 +11,7 @@ use glam::DVec3;
 use people::Person;
 use std::collections::BTreeMap;
 use superdeform::Role;
-use superdeform::rig::Layout;
+use superdeform::rig::UnitFigure;
 use superdeform::rig::joints::{FoundJoints, find_joints};
 use superdeform::rig::silhouette::{GridFrame, RayGrid};
 use superdeform::{Character, Mesh};
@@ -37,20 +37,20 @@ const LEFT_OUT: [(&str, &str); 2] = [
 
 struct Outcome {
     name: String,
-    layout: Layout,
+    figure: UnitFigure,
     truth: BTreeMap<Role, DVec3>,
     found: FoundJoints,
 }
 
 fn outcome(case: &Case) -> Outcome {
-    let layout = Layout::of(&case.character, case.forward).unwrap();
-    let truth = case.joints.iter().map(|(&role, &at)| (role, layout.to_layout(at))).collect();
+    let figure = UnitFigure::of(&case.character, case.forward).unwrap();
+    let truth = case.joints.iter().map(|(&role, &at)| (role, figure.to_unit(at))).collect();
     let start = std::time::Instant::now();
-    let found = find_joints(&layout, &layout.kinds, &BTreeMap::new(), false, 2);
+    let found = find_joints(&figure, &figure.kinds, &BTreeMap::new(), false, 2);
     if std::env::var_os("PICTURES").is_some() {
-        println!("{}: {} triangles, {:?}", case.name, layout.triangles.len(), start.elapsed());
+        println!("{}: {} triangles, {:?}", case.name, figure.triangles.len(), start.elapsed());
     }
-    Outcome { name: case.name.clone(), layout, truth, found }
+    Outcome { name: case.name.clone(), figure, truth, found }
 }
 
 /// True where the artist's joint says nothing about where it should be.
@@ -80,7 +80,7 @@ fn picture(outcome: &Outcome) {
             columns,
             rows: 500,
         };
-        let grid = RayGrid::new(&outcome.layout.positions, &outcome.layout.triangles, frame, 1);
+        let grid = RayGrid::new(&outcome.figure.positions, &outcome.figure.triangles, frame, 1);
         for row in 0..500 {
             for column in 0..columns {
                 let count = grid.hits(column, row).len() as i32;
@@ -236,10 +236,10 @@ fn report(unnamed: bool) {
     }
 }
 
-fn found_of(character: &Character, forward: DVec3) -> (Layout, FoundJoints) {
-    let layout = Layout::of(character, forward).unwrap();
-    let found = find_joints(&layout, &layout.kinds, &BTreeMap::new(), false, 1);
-    (layout, found)
+fn found_of(character: &Character, forward: DVec3) -> (UnitFigure, FoundJoints) {
+    let figure = UnitFigure::of(character, forward).unwrap();
+    let found = find_joints(&figure, &figure.kinds, &BTreeMap::new(), false, 1);
+    (figure, found)
 }
 
 #[test]
@@ -271,11 +271,11 @@ fn joints_of_analytic_people_are_found() {
                 character.meshes.iter_mut().for_each(|mesh| mesh.kind = None);
             }
             let turn = glam::DMat3::from_rotation_y(person.facing.to_radians());
-            let (layout, found) = found_of(&character, turn * DVec3::Z);
+            let (figure, found) = found_of(&character, turn * DVec3::Z);
             let truth: BTreeMap<Role, DVec3> = person
                 .joints()
                 .into_iter()
-                .map(|(role, at)| (role, layout.to_layout(turn * at * person.unit)))
+                .map(|(role, at)| (role, figure.to_unit(turn * at * person.unit)))
                 .collect();
             print!("{name:10} {unnamed:5}");
             for (label, pair) in LIMBS {
@@ -293,7 +293,7 @@ fn joints_of_analytic_people_are_found() {
             }
             println!(
                 " chin {:+.3} {:?}",
-                found.chin.y - layout.to_layout(DVec3::Y * person.chin() * person.unit).y,
+                found.chin.y - figure.to_unit(DVec3::Y * person.chin() * person.unit).y,
                 found.warnings.iter().map(|w| &w.message[..30]).collect::<Vec<_>>()
             );
             failures.extend(disorder(&found).map(|what| format!("{name}: {what}")));
@@ -383,8 +383,8 @@ fn what_is_no_figure_is_doubted() {
         ("two spheres", two),
         ("upside down", upside_down),
     ] {
-        let Ok(layout) = Layout::of(&character, DVec3::Z) else { continue };
-        let found = find_joints(&layout, &layout.kinds, &BTreeMap::new(), false, 1);
+        let Ok(figure) = UnitFigure::of(&character, DVec3::Z) else { continue };
+        let found = find_joints(&figure, &figure.kinds, &BTreeMap::new(), false, 1);
         for (role, joint) in &found.joints {
             assert!(joint.position.is_finite(), "{name}: {role}");
             if joint.confidence >= 0.5 {
@@ -454,17 +454,15 @@ fn things_worn_are_survived() {
     for (name, character) in variants {
         let outcome = Outcome {
             name: format!("worn {name}"),
-            layout: Layout::of(&character, DVec3::Z).unwrap(),
+            figure: UnitFigure::of(&character, DVec3::Z).unwrap(),
             truth: BTreeMap::new(),
             found: FoundJoints::default(),
         };
-        let found = find_joints(&outcome.layout, &outcome.layout.kinds, &BTreeMap::new(), false, 2);
+        let found = find_joints(&outcome.figure, &outcome.figure.kinds, &BTreeMap::new(), false, 2);
         let truth: BTreeMap<Role, DVec3> = character
             .humanoid
             .iter()
-            .map(|(role, joint)| {
-                (role, outcome.layout.to_layout(character.skeleton.joints[joint].position()))
-            })
+            .map(|(role, joint)| (role, outcome.figure.to_unit(character.skeleton.joints[joint].position())))
             .collect();
         print!("{name:15}");
         for (label, pair) in LIMBS {
@@ -498,8 +496,8 @@ fn things_worn_are_survived() {
     assert!(failures.is_empty(), "{}", failures.join("\n"));
 }
 
-fn joints_of(layout: &Layout, given: &BTreeMap<Role, DVec3>, threads: usize) -> FoundJoints {
-    find_joints(layout, &layout.kinds, given, false, threads)
+fn joints_of(figure: &UnitFigure, given: &BTreeMap<Role, DVec3>, threads: usize) -> FoundJoints {
+    find_joints(figure, &figure.kinds, given, false, threads)
 }
 
 #[test]
@@ -522,35 +520,35 @@ fn symmetric_people_have_symmetric_joints() {
 
 #[test]
 fn given_joints_stay_and_the_rest_keeps_its_order() {
-    let layout = Layout::of(&Person { arm_angle: 45.0, ..Person::adult() }.build(), DVec3::Z).unwrap();
-    let free = joints_of(&layout, &BTreeMap::new(), 1);
+    let figure = UnitFigure::of(&Person { arm_angle: 45.0, ..Person::adult() }.build(), DVec3::Z).unwrap();
+    let free = joints_of(&figure, &BTreeMap::new(), 1);
     for (&role, joint) in &free.joints {
         let at = joint.position + DVec3::new(0.004, 0.006, -0.003);
-        let found = joints_of(&layout, &BTreeMap::from([(role, at)]), 1);
+        let found = joints_of(&figure, &BTreeMap::from([(role, at)]), 1);
         assert_eq!(found.joints[&role].position, at, "{role}");
         assert_eq!(found.joints[&role].confidence, 1.0, "{role}");
         assert_eq!(disorder(&found), None, "{role}");
     }
     // A wrist that is given draws the elbow along, by the same part of the way.
     let wrist = free.joints[&LeftHand].position + DVec3::new(0.0, 0.0, 0.06);
-    let found = joints_of(&layout, &BTreeMap::from([(LeftHand, wrist)]), 1);
+    let found = joints_of(&figure, &BTreeMap::from([(LeftHand, wrist)]), 1);
     let drawn = found.joints[&LeftLowerArm].position.z - free.joints[&LeftLowerArm].position.z;
     assert!(drawn > 0.02 && drawn < 0.04, "{drawn}");
     let broken = BTreeMap::from([(Hips, DVec3::NAN)]);
-    assert!(joints_of(&layout, &broken, 1).joints[&Hips].position.is_finite());
+    assert!(joints_of(&figure, &broken, 1).joints[&Hips].position.is_finite());
 }
 
 #[test]
 fn neither_threads_nor_the_order_of_triangles_change_the_joints() {
     let character = Person { arm_angle: 30.0, skirt: true, fingers: true, ..Person::adult() }.build();
-    let layout = Layout::of(&character, DVec3::Z).unwrap();
-    let alone = joints_of(&layout, &BTreeMap::new(), 1);
+    let figure = UnitFigure::of(&character, DVec3::Z).unwrap();
+    let alone = joints_of(&figure, &BTreeMap::new(), 1);
     for threads in [2, 3, 8] {
-        assert_eq!(joints_of(&layout, &BTreeMap::new(), threads).joints, alone.joints);
+        assert_eq!(joints_of(&figure, &BTreeMap::new(), threads).joints, alone.joints);
     }
-    let mut turned = layout.clone();
-    for mesh in 0..layout.mesh_count() {
-        turned.triangles[layout.triangle_starts[mesh]..layout.triangle_starts[mesh + 1]].reverse();
+    let mut turned = figure.clone();
+    for mesh in 0..figure.mesh_count() {
+        turned.triangles[figure.triangle_starts[mesh]..figure.triangle_starts[mesh + 1]].reverse();
     }
     for (role, joint) in joints_of(&turned, &BTreeMap::new(), 1).joints {
         assert!(joint.position.distance(alone.joints[&role].position) <= 1e-9, "{role}");
@@ -586,10 +584,10 @@ fn a_robe_without_legs_says_so() {
             true,
         );
         character.meshes.extend(of_points(&robe.positions, robe.triangles).meshes);
-        let (layout, found) = found_of(&character, DVec3::Z);
+        let (figure, found) = found_of(&character, DVec3::Z);
         assert_eq!(disorder(&found), None);
         for (role, joint) in &found.joints {
-            let off = joint.position.distance(layout.to_layout(joints[role]));
+            let off = joint.position.distance(figure.to_unit(joints[role]));
             let is_leg = matches!(
                 role,
                 LeftUpperLeg

@@ -11,7 +11,7 @@ use glam::{DVec3, Vec3};
 use people::Person;
 use std::collections::BTreeMap;
 use superdeform::rig::mesh_kinds::{body_is_whole, guess_kinds, refine_kinds};
-use superdeform::rig::{FoundJoint, Layout};
+use superdeform::rig::{FoundJoint, UnitFigure};
 use superdeform::{Character, Mesh, MeshKind, Role};
 
 use superdeform::MeshKind::{Accessory, Body, FacePart, Garment, Hair};
@@ -27,14 +27,14 @@ fn guessed(
     character: &Character,
     forward: DVec3,
     joints: &BTreeMap<Role, DVec3>,
-) -> (Layout, Vec<MeshKind>, usize) {
-    let layout = Layout::of(&without_names(character), forward).unwrap();
-    let (mut kinds, warnings) = guess_kinds(&layout);
-    let found = |&at: &DVec3| FoundJoint { position: layout.to_layout(at), confidence: 1.0 };
+) -> (UnitFigure, Vec<MeshKind>, usize) {
+    let figure = UnitFigure::of(&without_names(character), forward).unwrap();
+    let (mut kinds, warnings) = guess_kinds(&figure);
+    let found = |&at: &DVec3| FoundJoint { position: figure.to_unit(at), confidence: 1.0 };
     let joints = joints.iter().map(|(&role, at)| (role, found(at))).collect();
-    let more = refine_kinds(&layout, &mut kinds, &joints);
-    assert_eq!(kinds.len(), layout.mesh_count());
-    (layout, kinds, warnings.len() + more.len())
+    let more = refine_kinds(&figure, &mut kinds, &joints);
+    assert_eq!(kinds.len(), figure.mesh_count());
+    (figure, kinds, warnings.len() + more.len())
 }
 
 /// A file, and for some of its meshes the kinds that are right.
@@ -164,10 +164,10 @@ fn unnamed_meshes_are_what_they_look_like() {
             println!("left out: {file} is not there");
             continue;
         };
-        let (layout, kinds, warning_count) = guessed(&case.character, case.forward, &case.joints);
+        let (figure, kinds, warning_count) = guessed(&case.character, case.forward, &case.joints);
         for (name, expected) in *meshes {
-            let Some(mesh) = layout.names.iter().position(|other| other == name) else {
-                panic!("{file} has no mesh {name}, but {:?}", layout.names);
+            let Some(mesh) = figure.names.iter().position(|other| other == name) else {
+                panic!("{file} has no mesh {name}, but {:?}", figure.names);
             };
             count += 1;
             if !expected.contains(&kinds[mesh]) {
@@ -193,9 +193,9 @@ fn skirts_and_eyes_of_made_people_are_told_from_the_body() {
         let character = person.build();
         let named: Vec<MeshKind> = character.meshes.iter().map(|mesh| mesh.kind.unwrap()).collect();
         let joints = person.joints().into_iter().map(|(role, at)| (role, at * person.unit)).collect();
-        let (layout, kinds, _) = guessed(&character, DVec3::Z, &joints);
-        assert_eq!(kinds, named, "{:?} {person:?}", layout.names);
-        assert!(body_is_whole(&layout, &kinds));
+        let (figure, kinds, _) = guessed(&character, DVec3::Z, &joints);
+        assert_eq!(kinds, named, "{:?} {person:?}", figure.names);
+        assert!(body_is_whole(&figure, &kinds));
     }
 }
 
@@ -207,10 +207,10 @@ fn given_kinds_stay() {
         for mesh in [0, character.meshes.len() - 1] {
             character.meshes[mesh].kind = Some(kind);
         }
-        let layout = Layout::of(&character, DVec3::Z).unwrap();
-        let (mut kinds, _) = guess_kinds(&layout);
+        let figure = UnitFigure::of(&character, DVec3::Z).unwrap();
+        let (mut kinds, _) = guess_kinds(&figure);
         let head = FoundJoint { position: DVec3::Y * 0.85, confidence: 1.0 };
-        refine_kinds(&layout, &mut kinds, &BTreeMap::from([(Role::Head, head)]));
+        refine_kinds(&figure, &mut kinds, &BTreeMap::from([(Role::Head, head)]));
         assert_eq!([kinds[0], kinds[character.meshes.len() - 1]], [kind; 2]);
     }
 }
@@ -219,8 +219,8 @@ fn given_kinds_stay() {
 fn a_body_without_a_trunk_is_not_whole() {
     let person = Person { blended: true, columns: 24, ..Person::adult() };
     let mut character = person.build();
-    let layout = Layout::of(&character, DVec3::Z).unwrap();
-    assert!(body_is_whole(&layout, &guess_kinds(&layout).0));
+    let figure = UnitFigure::of(&character, DVec3::Z).unwrap();
+    assert!(body_is_whole(&figure, &guess_kinds(&figure).0));
     // The trunk becomes a shirt.
     let body = &mut character.meshes[0];
     let mut shirt = Mesh { name: "shirt".into(), kind: Some(Garment), ..body.clone() };
@@ -232,13 +232,13 @@ fn a_body_without_a_trunk_is_not_whole() {
     let rest = body.triangles.iter().copied().filter(|corners| !of_trunk(corners)).collect();
     body.triangles = rest;
     character.meshes.push(shirt);
-    let layout = Layout::of(&character, DVec3::Z).unwrap();
-    assert!(!body_is_whole(&layout, &guess_kinds(&layout).0));
+    let figure = UnitFigure::of(&character, DVec3::Z).unwrap();
+    assert!(!body_is_whole(&figure, &guess_kinds(&figure).0));
     // Where nobody says that it is a shirt, it is what carries the arms and the head.
-    let layout = Layout::of(&without_names(&character), DVec3::Z).unwrap();
-    let kinds = guess_kinds(&layout).0;
+    let figure = UnitFigure::of(&without_names(&character), DVec3::Z).unwrap();
+    let kinds = guess_kinds(&figure).0;
     assert_eq!(kinds.last(), Some(&Body));
-    assert!(body_is_whole(&layout, &kinds));
+    assert!(body_is_whole(&figure, &kinds));
 }
 
 #[test]
@@ -247,8 +247,8 @@ fn models_whose_clothes_carry_the_trunk_are_not_whole() {
         let hollow = case.name.starts_with("quaternius") && !case.name.contains("man_2017");
         let dressed = case.name.starts_with("makehuman") || case.name.starts_with("seedsan");
         if hollow || dressed {
-            let layout = Layout::of(&case.character, case.forward).unwrap();
-            assert_eq!(body_is_whole(&layout, &guess_kinds(&layout).0), dressed, "{}", case.name);
+            let figure = UnitFigure::of(&case.character, case.forward).unwrap();
+            assert_eq!(body_is_whole(&figure, &guess_kinds(&figure).0), dressed, "{}", case.name);
         }
     }
 }
@@ -265,8 +265,8 @@ fn a_warning_names_what_was_guessed() {
         triangles: vec![[0, 1, 2]],
         ..Mesh::default()
     });
-    let layout = Layout::of(&character, DVec3::Z).unwrap();
-    let (kinds, warnings) = guess_kinds(&layout);
+    let figure = UnitFigure::of(&character, DVec3::Z).unwrap();
+    let (kinds, warnings) = guess_kinds(&figure);
     assert_eq!(kinds.last(), Some(&Accessory));
     assert_eq!(warnings[0].code, "kind_guessed");
     assert!(warnings[0].message.contains("kite (accessory)"), "{}", warnings[0].message);
@@ -300,15 +300,15 @@ fn hostile_layouts_get_kinds_too() {
         for kind in [None, Some(Garment), Some(Body)] {
             let mut character = Character { meshes: meshes.clone(), ..Character::default() };
             character.meshes[0].kind = kind;
-            let Ok(layout) = Layout::of(&character, DVec3::Z) else { continue };
-            let (mut kinds, _) = guess_kinds(&layout);
+            let Ok(figure) = UnitFigure::of(&character, DVec3::Z) else { continue };
+            let (mut kinds, _) = guess_kinds(&figure);
             assert_eq!(kinds.len(), meshes.len());
             for at in [DVec3::ZERO, DVec3::Y * 5.0, DVec3::splat(f64::NAN), DVec3::splat(-1e300)] {
                 let head = FoundJoint { position: at, confidence: 0.1 };
-                refine_kinds(&layout, &mut kinds, &BTreeMap::from([(Role::Head, head)]));
-                body_is_whole(&layout, &kinds);
+                refine_kinds(&figure, &mut kinds, &BTreeMap::from([(Role::Head, head)]));
+                body_is_whole(&figure, &kinds);
             }
-            body_is_whole(&layout, &[]);
+            body_is_whole(&figure, &[]);
         }
     }
 }

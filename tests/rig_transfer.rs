@@ -12,13 +12,13 @@ use std::collections::HashMap;
 use std::sync::Arc;
 use superdeform::geometry::Surface;
 use superdeform::pipeline::{Deformer, Options};
-use superdeform::rig::transfer::{Skin, Source, Worn, rigid_weights};
-use superdeform::rig::{GarmentWeights, Layout, Weighted};
+use superdeform::rig::transfer::{GarmentOnSkin, Skin, Source, rigid_weights};
+use superdeform::rig::{GarmentWeights, UnitFigure, WeightSet};
 use superdeform::{Character, MeshKind, Role, Weights};
 
 /// A character laid out, with the body's skin and weights.
 struct Dressed {
-    layout: Layout,
+    figure: UnitFigure,
     skin: Skin,
     triangles: Vec<[u32; 3]>,
     weights: Weights,
@@ -31,26 +31,27 @@ fn transfer_weights(
     triangles: &[[u32; 3]],
     manner: GarmentWeights,
     threads: usize,
-) -> Weighted {
-    Worn::new(source.skin, source.triangles, (positions, triangles), manner, threads).weights(source, threads)
+) -> WeightSet {
+    GarmentOnSkin::new(source.skin, source.triangles, (positions, triangles), manner, threads)
+        .weights(source, threads)
 }
 
 impl Dressed {
     /// `character` looks along z.
     fn new(character: &Character) -> Self {
-        let layout = Layout::of(character, DVec3::Z).unwrap();
-        let triangles = layout.triangles_where(|mesh| layout.kinds[mesh] == Some(MeshKind::Body));
-        let skin = Skin::new(&layout.positions, &triangles);
+        let figure = UnitFigure::of(character, DVec3::Z).unwrap();
+        let triangles = figure.triangles_where(|mesh| figure.kinds[mesh] == Some(MeshKind::Body));
+        let skin = Skin::new(&figure.positions, &triangles);
         let weights = Weights::from_rows(
             character.meshes.iter().flat_map(|mesh| mesh.weights.rows().map(|row| row.iter().copied())),
         );
-        Self { layout, skin, triangles, weights }
+        Self { figure, skin, triangles, weights }
     }
 
     fn source(&self) -> Source<'_> {
         Source {
             skin: &self.skin,
-            positions: &self.layout.positions,
+            positions: &self.figure.positions,
             triangles: &self.triangles,
             weights: &self.weights,
         }
@@ -58,22 +59,22 @@ impl Dressed {
 
     /// Positions and triangles of one mesh.
     fn mesh(&self, mesh: usize) -> Shape {
-        let vertices = self.layout.vertices(mesh);
+        let vertices = self.figure.vertices(mesh);
         let start = vertices.start as u32;
-        let triangles = self.layout.triangles_of(mesh);
+        let triangles = self.figure.triangles_of(mesh);
         (
-            self.layout.positions[vertices].to_vec(),
+            self.figure.positions[vertices].to_vec(),
             triangles.iter().map(|corners| corners.map(|v| v - start)).collect(),
         )
     }
 
-    fn transfer(&self, mesh: usize, manner: GarmentWeights, threads: usize) -> Weighted {
+    fn transfer(&self, mesh: usize, manner: GarmentWeights, threads: usize) -> WeightSet {
         let (positions, triangles) = self.mesh(mesh);
         transfer_weights(&self.source(), &positions, &triangles, manner, threads)
     }
 
     fn garments(&self) -> Vec<usize> {
-        (0..self.layout.mesh_count()).filter(|&m| self.layout.kinds[m] == Some(MeshKind::Garment)).collect()
+        (0..self.figure.mesh_count()).filter(|&m| self.figure.kinds[m] == Some(MeshKind::Garment)).collect()
     }
 }
 
@@ -173,7 +174,7 @@ fn joined(one: Shape, other: Shape) -> Shape {
     (positions, triangles)
 }
 
-fn weight(made: &Weighted, vertex: usize, joint: u32) -> f64 {
+fn weight(made: &WeightSet, vertex: usize, joint: u32) -> f64 {
     made.weights.row(vertex).iter().filter(|entry| entry.0 == joint).map(|entry| f64::from(entry.1)).sum()
 }
 
@@ -183,7 +184,7 @@ fn from_two_joints(
     weight: impl Fn(DVec3) -> f64,
     garment: &Shape,
     manner: GarmentWeights,
-) -> Weighted {
+) -> WeightSet {
     let skin = Skin::new(&body.0, &body.1);
     let rows = body.0.iter().map(|&p| [(0, 1.0 - weight(p) as f32), (1, weight(p) as f32)]);
     let weights = Weights::from_rows(rows);
@@ -277,7 +278,7 @@ fn a_piece_that_nothing_matches_follows_the_cloth_it_hangs_from() {
     }
 }
 
-fn same(one: &Weighted, other: &Weighted) -> bool {
+fn same(one: &WeightSet, other: &WeightSet) -> bool {
     one.weights == other.weights && one.fallback == other.fallback
 }
 
@@ -385,7 +386,7 @@ fn a_sword_does_not_bend() {
     let character = person.build();
     let dressed = Dressed::new(&character);
     let hand = character.humanoid.joint(Role::LeftHand).unwrap();
-    let at = dressed.layout.to_layout(character.skeleton.joints[hand].position());
+    let at = dressed.figure.to_unit(character.skeleton.joints[hand].position());
     // Blade, guard and grip, which touch; and an ear ring on either side of the head.
     let tube = |a: DVec3, b: DVec3, radius: f64| {
         let shape = people::Shape::capsule(a, b, radius);
@@ -397,8 +398,8 @@ fn a_sword_does_not_bend() {
         tube(grip + DVec3::Z * 0.06, grip + DVec3::Z * 0.6, 0.01),
     );
     let head = dressed
-        .layout
-        .to_layout(character.skeleton.joints[character.humanoid.joint(Role::Head).unwrap()].position());
+        .figure
+        .to_unit(character.skeleton.joints[character.humanoid.joint(Role::Head).unwrap()].position());
     let ring = |side: f64| {
         let ear = head + DVec3::new(0.06 * side, 0.03, 0.0);
         tube(ear, ear - DVec3::Y * 0.02, 0.003)

@@ -7,9 +7,9 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use superdeform::Role::{self, *};
 use superdeform::character::naming::parse_role_map;
-use superdeform::character::roles::find_roles;
+use superdeform::character::roles::{complete, find_roles};
 use superdeform::character::tree_roles::roles_from_tree;
-use superdeform::{Humanoid, Skeleton};
+use superdeform::{Humanoid, Mesh, Skeleton};
 
 /// The roles that decide how a character is deformed.
 const CORE: [Role; 19] = [
@@ -33,6 +33,13 @@ const CORE: [Role; 19] = [
     LeftFoot,
     RightFoot,
 ];
+
+/// Roles from the tree alone, completed.
+fn by_tree(skeleton: &Skeleton, meshes: &[Mesh]) -> Humanoid {
+    let mut found = roles_from_tree(skeleton, meshes, glam::Vec3::Y);
+    complete(&mut found, skeleton);
+    found
+}
 
 fn models() -> PathBuf {
     let set = std::env::var_os("SUPERDEFORM_MODELS").map(PathBuf::from);
@@ -198,7 +205,7 @@ fn the_tree_tells_the_roles_of_real_characters_without_names() {
         real_characters(false).into_iter().chain(real_characters(true)).filter(|real| !real.truth.is_empty())
     {
         let skeleton = nameless(&real.file.skeleton);
-        let found = roles_from_tree(&skeleton, &real.file.meshes, glam::Vec3::Y);
+        let found = by_tree(&skeleton, &real.file.meshes);
         let limbs = compare(&real, &found, &limbs, NEAR);
         let core = compare(&real, &found, &CORE, NEAR);
         let all: Vec<Role> = Role::all().collect();
@@ -748,7 +755,7 @@ a @ 0 0.95 0
         for joint in &mut turned.joints {
             joint.rest = glam::DMat4::from_rotation_y(turn) * joint.rest;
         }
-        let found = roles_from_tree(&turned, &[], glam::Vec3::Y);
+        let found = by_tree(&turned, &[]);
         let name = |role: Role| found.joint(role).map(|joint| skeleton.joints[joint].name.as_str());
         let roles = [
             (Hips, "a"),
@@ -854,7 +861,7 @@ fn any_tree_is_survived() {
             });
         }
         let up = [glam::Vec3::Y, glam::Vec3::Z, glam::Vec3::ZERO][random(3)];
-        let mesh = superdeform::Mesh {
+        let mesh = Mesh {
             positions: vec![glam::Vec3::ONE; 4],
             weights: superdeform::Weights::from_rows((0..4).map(|_| [(random(30) as u32, 1.0)])),
             ..Default::default()

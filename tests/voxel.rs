@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 use superdeform::rig::skeleton::weight_bones;
 use superdeform::rig::voxel::{NEAREST_BONE, VOLUME_APART, VoxelOptions, heat_would_be_poor, voxel_weights};
-use superdeform::rig::{Layout, WeightBone, Weighted};
+use superdeform::rig::{UnitFigure, WeightBone, WeightSet};
 use superdeform::{Role, Weights};
 use truth::Case;
 
@@ -102,7 +102,7 @@ fn difference(one: &Weights, other: &Weights) -> f64 {
     most
 }
 
-fn check_rows(name: &str, weighted: &Weighted, vertex_count: usize, bones: &[WeightBone]) -> Vec<String> {
+fn check_rows(name: &str, weighted: &WeightSet, vertex_count: usize, bones: &[WeightBone]) -> Vec<String> {
     let weights = &weighted.weights;
     let mut faults = Vec::new();
     if weights.row_count() != vertex_count {
@@ -323,19 +323,19 @@ fn heat_is_poor_for_pieces_and_patches_alone() {
 
 /// A real character laid out, with bones from its artist's joints; head top and chin from its landmarks.
 struct Real {
-    layout: Layout,
+    figure: UnitFigure,
     joints: BTreeMap<Role, DVec3>,
     bones: Vec<WeightBone>,
-    made: Weighted,
+    made: WeightSet,
 }
 
 fn real(case: &Case, options: &VoxelOptions) -> Real {
-    let layout = Layout::of(&case.character, case.forward).unwrap();
+    let figure = UnitFigure::of(&case.character, case.forward).unwrap();
     let joints: BTreeMap<Role, DVec3> =
-        case.joints.iter().map(|(&role, &at)| (role, layout.to_layout(at))).collect();
+        case.joints.iter().map(|(&role, &at)| (role, figure.to_unit(at))).collect();
     let bones = weight_bones(&joints, &BTreeMap::new(), None);
-    let made = voxel_weights(&layout.positions, &layout.triangles, &bones, options);
-    Real { layout, joints, bones, made }
+    let made = voxel_weights(&figure.positions, &figure.triangles, &bones, options);
+    Real { figure, joints, bones, made }
 }
 
 #[test]
@@ -347,7 +347,7 @@ fn every_vertex_of_every_model_has_weights() {
     }
     models::check_all(&cases, |case| {
         let real = real(case, &options(1));
-        check_rows(&case.name, &real.made, real.layout.positions.len(), &real.bones)
+        check_rows(&case.name, &real.made, real.figure.positions.len(), &real.bones)
     });
 }
 
@@ -452,17 +452,17 @@ fn a_symmetric_person_has_symmetric_weights() {
     for arm_angle in [0.0, 50.0] {
         let person = people::Person { arm_angle, ..people::Person::default() };
         let character = person.build();
-        let layout = Layout::of(&character, DVec3::Z).unwrap();
+        let figure = UnitFigure::of(&character, DVec3::Z).unwrap();
         let joints: BTreeMap<Role, DVec3> =
-            person.joints().into_iter().map(|(role, at)| (role, layout.to_layout(at))).collect();
+            person.joints().into_iter().map(|(role, at)| (role, figure.to_unit(at))).collect();
         let bones = weight_bones(&joints, &BTreeMap::new(), None);
-        let made = voxel_weights(&layout.positions, &layout.triangles, &bones, &options(0)).weights;
+        let made = voxel_weights(&figure.positions, &figure.triangles, &bones, &options(0)).weights;
         let roles: Vec<Role> = joints.keys().copied().collect();
         let key = |p: DVec3| [p.x, p.y, p.z].map(|x| (x * 1e6).round() as i64);
         let at: BTreeMap<[i64; 3], usize> =
-            layout.positions.iter().enumerate().map(|(vertex, &p)| (key(p), vertex)).collect();
+            figure.positions.iter().enumerate().map(|(vertex, &p)| (key(p), vertex)).collect();
         let mut pairs = 0;
-        for (vertex, &p) in layout.positions.iter().enumerate() {
+        for (vertex, &p) in figure.positions.iter().enumerate() {
             let Some(&twin) = at.get(&key(DVec3::new(-p.x, p.y, p.z))) else { continue };
             pairs += 1;
             for (joint, role) in roles.iter().enumerate() {
@@ -471,6 +471,6 @@ fn a_symmetric_person_has_symmetric_weights() {
                 assert!((one - other).abs() < 1e-4, "{arm_angle}: {p} {role}: {one} {other}");
             }
         }
-        assert!(2 * pairs > layout.positions.len(), "{pairs} of {}", layout.positions.len());
+        assert!(2 * pairs > figure.positions.len(), "{pairs} of {}", figure.positions.len());
     }
 }

@@ -131,6 +131,15 @@ const ROLES: [(Role, &str, Option<Role>); Role::COUNT] = [
 /// The roles without which nothing can be deformed.
 pub const REQUIRED_ROLES: [Role; 6] = [Hips, Head, LeftUpperLeg, RightUpperLeg, LeftUpperArm, RightUpperArm];
 
+/// The roles of each finger of the left hand from its root to its tip, thumb first.
+pub const LEFT_FINGERS: [[Role; 3]; 5] = [
+    [LeftThumbMetacarpal, LeftThumbProximal, LeftThumbDistal],
+    [LeftIndexProximal, LeftIndexIntermediate, LeftIndexDistal],
+    [LeftMiddleProximal, LeftMiddleIntermediate, LeftMiddleDistal],
+    [LeftRingProximal, LeftRingIntermediate, LeftRingDistal],
+    [LeftLittleProximal, LeftLittleIntermediate, LeftLittleDistal],
+];
+
 impl Role {
     /// How many roles there are.
     pub const COUNT: usize = 55;
@@ -186,6 +195,11 @@ impl Role {
         let is_trunk =
             matches!(self, Hips | Spine | Chest | UpperChest | LeftShoulder | RightShoulder | Neck);
         !(is_trunk || self.is_head())
+    }
+
+    /// This role where `left`, else the one on the other side; for roles of the left side.
+    pub(crate) fn on_side(self, left: bool) -> Role {
+        if left { self } else { self.mirrored() }
     }
 }
 

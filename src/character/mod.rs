@@ -5,6 +5,7 @@ pub mod frame;
 pub mod humanoid;
 pub mod kinds;
 pub mod mesh;
+pub(crate) mod mesh_list;
 pub mod naming;
 pub mod roles;
 pub mod skeleton;

@@ -4,7 +4,7 @@
 //! the rig are set aside, and what remains must be exactly the name of a part of the body. So `hand` is a hand,
 //! while `handIK`, `hand_twist`, `handslot` and `robo_hand` are none.
 
-use super::roles::{complete, is_below, lowest_common_ancestor};
+use super::humanoid::LEFT_FINGERS;
 use super::{Humanoid, Role, Skeleton};
 use std::collections::BTreeMap;
 
@@ -73,10 +73,7 @@ enum Side {
 impl Side {
     /// The role on this side, from its left twin.
     fn of(self, left: Role) -> Role {
-        match self {
-            Side::Left => left,
-            Side::Right => left.mirrored(),
-        }
+        left.on_side(self == Side::Left)
     }
 }
 
@@ -90,19 +87,6 @@ enum Finger {
 }
 
 const FINGERS: [Finger; 5] = [Finger::Thumb, Finger::Index, Finger::Middle, Finger::Ring, Finger::Little];
-
-impl Finger {
-    fn left_roles(self) -> [Role; 3] {
-        use Role::*;
-        match self {
-            Finger::Thumb => [LeftThumbMetacarpal, LeftThumbProximal, LeftThumbDistal],
-            Finger::Index => [LeftIndexProximal, LeftIndexIntermediate, LeftIndexDistal],
-            Finger::Middle => [LeftMiddleProximal, LeftMiddleIntermediate, LeftMiddleDistal],
-            Finger::Ring => [LeftRingProximal, LeftRingIntermediate, LeftRingDistal],
-            Finger::Little => [LeftLittleProximal, LeftLittleIntermediate, LeftLittleDistal],
-        }
-    }
-}
 
 /// A part of the body as names know it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -377,13 +361,13 @@ fn read_all(skeleton: &Skeleton) -> Vec<Reading> {
         .collect()
 }
 
-struct Named<'a> {
+struct NamedSkeleton<'a> {
     skeleton: &'a Skeleton,
     readings: Vec<Reading>,
     depths: Vec<usize>,
 }
 
-impl Named<'_> {
+impl NamedSkeleton<'_> {
     /// Joints whose names say `part` and `side`, best first: by word, then by number, then from the root.
     fn all(&self, part: Part, side: Option<Side>) -> Vec<usize> {
         let rank = |joint: usize| self.readings[joint].part.map_or(u8::MAX, |(_, rank)| rank);
@@ -398,7 +382,7 @@ impl Named<'_> {
     }
 
     fn below(&self, joint: usize, above: usize) -> bool {
-        is_below(self.skeleton, joint, above)
+        self.skeleton.is_below(joint, above)
     }
 
     /// The best of `joints` below `above`.
@@ -514,7 +498,7 @@ impl Named<'_> {
                     line.push(joint);
                 }
             }
-            let [first, second, third] = finger.left_roles();
+            let [first, second, third] = LEFT_FINGERS[finger as usize];
             let roles: &[Role] = match (finger, line.len()) {
                 (Finger::Thumb, 2) => &[first, third],
                 _ => &[first, second, third],
@@ -536,7 +520,7 @@ impl Named<'_> {
             })
             .collect();
         let biped = below.iter().any(|&joint| self.readings[joint].numbers == ["0"]);
-        let place = FINGERS.iter().position(|&known| known == finger).unwrap_or(0);
+        let place = finger as usize;
         let told = |&joint: &usize| match self.readings[joint].numbers.as_slice() {
             [number, _] => number.parse() == Ok(place + 1),
             [number] => {
@@ -574,7 +558,7 @@ impl Named<'_> {
         let chain = self.chain(&spines);
         let arms = [Role::LeftUpperArm, Role::RightUpperArm].map(|role| humanoid.joint(role));
         let [Some(left), Some(right)] = arms else { return };
-        let Some(shoulders_at) = lowest_common_ancestor(self.skeleton, left, right) else {
+        let Some(shoulders_at) = self.skeleton.lowest_common_ancestor(left, right) else {
             return;
         };
         let Some(place) = chain.iter().position(|&joint| joint == shoulders_at) else {
@@ -596,13 +580,13 @@ impl Named<'_> {
 /// Knows the names of Mixamo, Unreal, Unity-chan, Rigify, VRoid, KayKit, Quaternius, Biped, Character Creator,
 /// ValveBiped, Daz, MakeHuman and MikuMikuDance, and most that are made like them. Where one joint's name fits but
 /// it does not hang where it should (a lower arm beside its upper arm), it gets no role. Names that tell nothing
-/// give an empty map.
+/// give an empty map. What names leave open between those roles, [`complete`](super::roles::complete) fills in.
 pub fn roles_from_names(skeleton: &Skeleton) -> Humanoid {
     let mut depths = vec![0; skeleton.joints.len()];
     for joint in skeleton.parents_first() {
         depths[joint] = skeleton.joints[joint].parent.map_or(0, |parent| depths[parent] + 1);
     }
-    let named = Named { skeleton, readings: read_all(skeleton), depths };
+    let named = NamedSkeleton { skeleton, readings: read_all(skeleton), depths };
     let mut humanoid = Humanoid::default();
     for side in [Side::Left, Side::Right] {
         named.leg(&mut humanoid, side);
@@ -630,6 +614,5 @@ pub fn roles_from_names(skeleton: &Skeleton) -> Humanoid {
         .max_by_key(|&hips| named.depths[hips])
         .or(all.first().copied());
     humanoid.set(Role::Hips, hips);
-    complete(&mut humanoid, skeleton);
     humanoid
 }

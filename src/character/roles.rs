@@ -47,12 +47,14 @@ pub fn find_roles(skeleton: &Skeleton, meshes: &[Mesh], up: Vec3) -> (Humanoid, 
         return (Humanoid::default(), Vec::new());
     }
     let mut humanoid = roles_from_names(skeleton);
+    complete(&mut humanoid, skeleton);
     drop_misplaced(&mut humanoid, skeleton, up.as_dvec3());
     let open = |humanoid: &Humanoid| FILLED.iter().any(|&role| !humanoid.has(role));
     if !open(&humanoid) {
         return (humanoid, Vec::new());
     }
     let mut found = roles_from_tree(skeleton, meshes, up);
+    complete(&mut found, skeleton);
     drop_misplaced(&mut found, skeleton, up.as_dvec3());
     let mut by_geometry = Vec::new();
     let mut filled = humanoid.clone();
@@ -112,17 +114,6 @@ pub fn complete(humanoid: &mut Humanoid, skeleton: &Skeleton) {
     drop_repeated(humanoid, skeleton.joints.len());
 }
 
-/// True where `joint` lies somewhere below `above`.
-pub(crate) fn is_below(skeleton: &Skeleton, joint: usize, above: usize) -> bool {
-    let mut ancestors = skeleton.ancestors(joint).skip(1).take(skeleton.joints.len());
-    ancestors.any(|ancestor| ancestor == above)
-}
-
-/// The lowest joint that both hang from; one of the two where it is above the other.
-pub(crate) fn lowest_common_ancestor(skeleton: &Skeleton, a: usize, b: usize) -> Option<usize> {
-    skeleton.ancestors(a).find(|&ancestor| ancestor == b || is_below(skeleton, b, ancestor))
-}
-
 fn drop_repeated(humanoid: &mut Humanoid, joint_count: usize) {
     let mut taken = vec![false; joint_count];
     let required = super::humanoid::REQUIRED_ROLES.into_iter();
@@ -145,12 +136,13 @@ fn complete_hips(humanoid: &mut Humanoid, skeleton: &Skeleton) {
         return;
     };
     let named = humanoid.joint(Hips);
-    let carries = |hips: usize| [left, right, top].iter().all(|&joint| is_below(skeleton, joint, hips));
+    let carries = |hips: usize| [left, right, top].iter().all(|&joint| skeleton.is_below(joint, hips));
     if named.is_some_and(carries) {
         return;
     }
-    let ancestor = lowest_common_ancestor(skeleton, left, right)
-        .and_then(|legs| lowest_common_ancestor(skeleton, legs, top))
+    let ancestor = skeleton
+        .lowest_common_ancestor(left, right)
+        .and_then(|legs| skeleton.lowest_common_ancestor(legs, top))
         .filter(|&joint| ![left, right, top].contains(&joint));
     let between = (position(left) + position(right)) / 2.0;
     let up = (position(top) - between).normalize_or_zero();
@@ -195,10 +187,10 @@ fn complete_column(humanoid: &mut Humanoid, skeleton: &Skeleton) {
     };
     let arms = [humanoid.joint(LeftUpperArm), humanoid.joint(RightUpperArm)];
     let arms_at = match arms {
-        [Some(left), Some(right)] => lowest_common_ancestor(skeleton, left, right),
+        [Some(left), Some(right)] => skeleton.lowest_common_ancestor(left, right),
         _ => None,
     };
-    let foot_of_column = lowest_common_ancestor(skeleton, hips, head);
+    let foot_of_column = skeleton.lowest_common_ancestor(hips, head);
     let mut path: Vec<usize> = skeleton
         .ancestors(head)
         .skip(1)
@@ -295,12 +287,12 @@ fn fits(humanoid: &Humanoid, skeleton: &Skeleton, role: Role, joint: usize) -> b
     }
     let hangs_free = |role: Role| matches!(role, LeftFoot | RightFoot | LeftHand | RightHand);
     let above = humanoid.parent_of(role).and_then(|above| humanoid.joint(above));
-    let below_its_parent = above.is_none_or(|above| hangs_free(role) || is_below(skeleton, joint, above));
+    let below_its_parent = above.is_none_or(|above| hangs_free(role) || skeleton.is_below(joint, above));
     let above_its_children = humanoid
         .iter()
         .filter(|&(below, _)| {
             below.chain().skip(1).any(|above| above == role) && !below.chain().any(hangs_free)
         })
-        .all(|(_, below)| is_below(skeleton, below, joint));
+        .all(|(_, below)| skeleton.is_below(below, joint));
     below_its_parent && above_its_children
 }

@@ -129,4 +129,15 @@ impl Skeleton {
     pub fn ancestors(&self, joint: usize) -> impl Iterator<Item = usize> + '_ {
         std::iter::successors(Some(joint), |&joint| self.joints[joint].parent)
     }
+
+    /// True where `joint` lies somewhere below `above`.
+    pub(crate) fn is_below(&self, joint: usize, above: usize) -> bool {
+        let mut ancestors = self.ancestors(joint).skip(1).take(self.joints.len());
+        ancestors.any(|ancestor| ancestor == above)
+    }
+
+    /// The lowest joint that both hang from; one of the two where it is above the other.
+    pub(crate) fn lowest_common_ancestor(&self, a: usize, b: usize) -> Option<usize> {
+        self.ancestors(a).find(|&ancestor| ancestor == b || self.is_below(b, ancestor))
+    }
 }

@@ -4,7 +4,7 @@
 //! them, the head ends the branch between the arms. Branches that move no vertex (end joints, helpers) are left
 //! out where the meshes have weights.
 
-use super::roles::{complete, is_below};
+use super::humanoid::LEFT_FINGERS;
 use super::{Humanoid, Mesh, Role, Skeleton};
 use glam::{DVec3, Vec3};
 
@@ -133,7 +133,7 @@ impl<'a> Tree<'a> {
     }
 
     fn within(&self, joint: usize, above: usize) -> bool {
-        joint == above || is_below(self.skeleton, joint, above)
+        joint == above || self.skeleton.is_below(joint, above)
     }
 
     /// The two children of one joint that look most like a pair of legs.
@@ -506,8 +506,8 @@ impl<'a> Tree<'a> {
 /// - `meshes`: their weights tell which joints move something, and how far limbs reach beyond their last joint.
 ///   Without weights every joint counts.
 /// - `up`: from the feet to the head, any length; a direction of length 0 gives no roles.
-/// - Returns hips, column, neck, head and limbs, fingers where five of them are clearly in order; or an empty
-///   map where no legs or no arms are found.
+/// - Returns neck, head and limbs, fingers where five of them are clearly in order; or an empty map where no legs or no
+///   arms are found. Hips and column are left to [`complete`](super::roles::complete).
 ///
 /// Left and right follow from the feet, which point forward; where they do not tell, from +Z as forward.
 ///
@@ -550,22 +550,15 @@ fn find(skeleton: &Skeleton, meshes: &[Mesh], up: DVec3) -> Option<Humanoid> {
     }
     let mut humanoid = Humanoid::default();
     for (side, (leg, arm)) in legs.into_iter().zip(arms).enumerate() {
-        let role = |left: Role| if side == 0 { left } else { left.mirrored() };
+        let role = |left: Role| left.on_side(side == 0);
         for (left, joint) in [LeftUpperLeg, LeftLowerLeg, LeftFoot, LeftToes].into_iter().zip(leg) {
             humanoid.set(role(left), joint);
         }
         for (left, joint) in [LeftShoulder, LeftUpperArm, LeftLowerArm, LeftHand].into_iter().zip(arm) {
             humanoid.set(role(left), joint);
         }
-        let fingers = [
-            [LeftThumbMetacarpal, LeftThumbProximal, LeftThumbDistal],
-            [LeftIndexProximal, LeftIndexIntermediate, LeftIndexDistal],
-            [LeftMiddleProximal, LeftMiddleIntermediate, LeftMiddleDistal],
-            [LeftRingProximal, LeftRingIntermediate, LeftRingDistal],
-            [LeftLittleProximal, LeftLittleIntermediate, LeftLittleDistal],
-        ];
         let lines = arm[3].map(|hand| tree.fingers(hand)).unwrap_or_default();
-        for (roles, line) in fingers.into_iter().zip(lines) {
+        for (roles, line) in LEFT_FINGERS.into_iter().zip(lines) {
             for (left, joint) in roles.into_iter().zip(line) {
                 humanoid.set(role(left), joint);
             }
@@ -575,6 +568,5 @@ fn find(skeleton: &Skeleton, meshes: &[Mesh], up: DVec3) -> Option<Humanoid> {
         humanoid.set(Neck, neck);
         humanoid.set(Head, head);
     }
-    complete(&mut humanoid, skeleton);
     Some(humanoid)
 }

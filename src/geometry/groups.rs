@@ -1,6 +1,4 @@
-//! Things that belong together because each belongs to the next: a union-find, and which boxes touch.
-
-use glam::DVec3;
+//! Things that belong together because each belongs to the next: a union-find.
 
 /// Things in groups that grow together, each known by its least member.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -31,32 +29,6 @@ impl Groups {
     }
 }
 
-/// A box along the axes: its lowest and its highest corner.
-pub type Bounds = (DVec3, DVec3);
-
-/// The least box around `points`; from infinity to minus infinity where there are none.
-pub fn bounds(points: impl Iterator<Item = DVec3>) -> Bounds {
-    points.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)))
-}
-
-/// Every two of `boxes` that share a point.
-///
-/// O(boxes · boxes that begin along x before one ends).
-pub fn touching(boxes: &[Bounds]) -> Vec<(usize, usize)> {
-    // In order of where they begin, boxes meet only those that begin before they end.
-    let mut order: Vec<usize> = (0..boxes.len()).collect();
-    order.sort_by(|&a, &b| boxes[a].0.x.total_cmp(&boxes[b].0.x).then(a.cmp(&b)));
-    let mut pairs = Vec::new();
-    for (at, &one) in order.iter().enumerate() {
-        for &other in order[at + 1..].iter().take_while(|&&other| boxes[other].0.x <= boxes[one].1.x) {
-            if boxes[one].0.cmple(boxes[other].1).all() && boxes[other].0.cmple(boxes[one].1).all() {
-                pairs.push((one, other));
-            }
-        }
-    }
-    pairs
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -69,16 +41,5 @@ mod tests {
         }
         let least: Vec<usize> = (0..6).map(|one| groups.least(one)).collect();
         assert_eq!(least, [0, 1, 2, 1, 2, 2]);
-    }
-
-    #[test]
-    fn boxes_touch_at_a_corner_and_not_across_a_gap() {
-        let cube = |low: [f64; 3]| (DVec3::from_array(low), DVec3::from_array(low) + 1.0);
-        let boxes =
-            [cube([1.0, 1.0, 1.0]), cube([0.0, 0.0, 0.0]), cube([0.0, 1.5, 0.0]), cube([-1.1, 0.0, 0.0])];
-        let mut pairs = touching(&boxes);
-        pairs.iter_mut().for_each(|pair| *pair = (pair.0.min(pair.1), pair.0.max(pair.1)));
-        pairs.sort_unstable();
-        assert_eq!(pairs, [(0, 1), (0, 2)]);
     }
 }

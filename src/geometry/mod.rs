@@ -1,20 +1,24 @@
-//! What the paper's sections stand on: segments, triangles, surfaces, near and shared positions, groups.
+//! What the paper's sections stand on: segments, triangles, surfaces, boxes, near and shared positions, groups.
 
+pub mod bounds;
 pub mod cells;
 pub mod groups;
 pub mod laplacian;
 pub mod mapped;
 pub mod point_tree;
+pub mod profile;
 pub mod segment;
 pub mod smoothstep;
 pub mod surface;
 pub mod triangle;
 pub mod weld;
 
+pub use bounds::{Bounds, bounds, bounds_by_group, clusters, grown_clusters, range};
 pub use cells::CellMap;
-pub use groups::{Bounds, Groups, bounds, touching};
+pub use groups::Groups;
 pub use mapped::{Mapped, outer};
 pub use point_tree::PointTree;
+pub use profile::{StepSearch, deepest_step};
 pub use segment::foot;
 pub use smoothstep::smoothstep;
 pub use surface::{Closest, Hit, Surface};

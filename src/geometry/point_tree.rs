@@ -3,6 +3,7 @@
 //! Friedman, Bentley and Finkel. An algorithm for finding best matches in logarithmic expected time. ACM TOMS 3(3),
 //! 1977. Buckets follow the density of the points, so that a dense face costs no more than a coarse skirt.
 
+use super::bounds;
 use glam::DVec3;
 
 /// Points of a bucket, at most.
@@ -136,10 +137,7 @@ impl PointTree {
 
 /// Adds the node of `indices`, which begin at slot `start`, and what is below it; the longest side is halved.
 fn divide(points: &[DVec3], indices: &mut [u32], start: u32, nodes: &mut Vec<Node>) {
-    let (low, high) = indices
-        .iter()
-        .map(|&index| points[index as usize])
-        .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)));
+    let (low, high) = bounds(indices.iter().map(|&index| points[index as usize]));
     let node = nodes.len();
     nodes.push(Node { low, high, slots: (start, start + indices.len() as u32), upper: 0 });
     if indices.len() <= BUCKET {

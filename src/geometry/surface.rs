@@ -7,6 +7,7 @@
 //! edges and through vertices. Such rays must not slip between triangles: the triangle test is watertight, and
 //! the boxes are padded, because the tree keeps them in single precision.
 
+use super::bounds;
 use glam::{DVec3, Vec3A};
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::builder::build_bvh2;
@@ -84,15 +85,7 @@ impl Surface {
     pub fn new(positions: &[DVec3], triangles: &[[u32; 3]]) -> Self {
         let corners_of = |triangle: &[u32; 3]| triangle.map(|vertex| positions[vertex as usize]);
         let is_finite = |[a, b, c]: &[DVec3; 3]| a.is_finite() && b.is_finite() && c.is_finite();
-        let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-        for triangle in triangles {
-            let corners = corners_of(triangle);
-            if is_finite(&corners) {
-                let [a, b, c] = corners;
-                low = low.min(a).min(b).min(c);
-                high = high.max(a).max(b).max(c);
-            }
-        }
+        let (low, high) = bounds(triangles.iter().map(corners_of).filter(is_finite).flatten());
         let extent = (high - low).max_element();
         if !(extent.is_finite() && extent > 0.0) {
             return Self::default();
@@ -194,7 +187,7 @@ impl Surface {
         let p = (p - self.centre) * self.scale;
         let mut best = (f64::INFINITY, u32::MAX, DVec3::ZERO, [0.0; 3]);
         let distance_to_box = |node: &Bvh2Node| {
-            let (low, high) = bounds(node);
+            let (low, high) = node_box(node);
             p.distance_squared(p.clamp(low, high))
         };
         let mut stack = Stack::new();
@@ -245,7 +238,7 @@ impl Surface {
         stack.push((0, 0.0));
         while let Some((index, _)) = stack.pop() {
             let node = &self.nodes[index as usize];
-            let (low, high) = bounds(node);
+            let (low, high) = node_box(node);
             if p.distance_squared(p.clamp(low, high)) > limit * limit {
                 continue;
             }
@@ -365,7 +358,7 @@ impl Ray {
 
     /// Where the ray enters the node's box, at least 0; `None` where it passes by.
     fn enters(&self, node: &Bvh2Node) -> Option<f64> {
-        let (low, high) = bounds(node);
+        let (low, high) = node_box(node);
         let (mut enter, mut leave) = (0.0_f64, f64::INFINITY);
         for axis in 0..3 {
             let one = (low[axis] - self.origin[axis]) * self.inverse[axis];
@@ -420,7 +413,7 @@ impl Ray {
     }
 }
 
-fn bounds(node: &Bvh2Node) -> (DVec3, DVec3) {
+fn node_box(node: &Bvh2Node) -> (DVec3, DVec3) {
     let Aabb { min, max } = *node.aabb();
     (
         DVec3::new(min.x.into(), min.y.into(), min.z.into()),

@@ -6,9 +6,9 @@ use crate::error::Warning;
 use crate::rig::eyes::Eye;
 use crate::rig::heat::HeatSystem;
 use crate::rig::mesh_kinds::body_is_whole;
-use crate::rig::transfer::{Skin, Source, Worn, rigid_weights};
+use crate::rig::transfer::{GarmentOnSkin, Skin, Source, rigid_weights};
 use crate::rig::voxel::{VoxelOptions, heat_would_be_poor, voxel_weights};
-use crate::rig::{GarmentWeights, Layout, RigOptions, WeightBone, WeightMethod, Weighted};
+use crate::rig::{GarmentWeights, RigOptions, UnitFigure, WeightBone, WeightMethod, WeightSet};
 use glam::DVec3;
 use std::collections::BTreeMap;
 use std::time::Instant;
@@ -24,23 +24,23 @@ struct Group {
 }
 
 impl Group {
-    fn new(layout: &Layout, meshes: Vec<usize>) -> Self {
+    fn new(figure: &UnitFigure, meshes: Vec<usize>) -> Self {
         let mut positions = Vec::new();
         let mut triangles = Vec::new();
         for &mesh in &meshes {
-            let vertices = layout.vertices(mesh);
+            let vertices = figure.vertices(mesh);
             let shift = |vertex: u32| vertex - vertices.start as u32 + positions.len() as u32;
-            triangles.extend(layout.triangles_of(mesh).iter().map(|corners| corners.map(shift)));
-            positions.extend_from_slice(&layout.positions[vertices]);
+            triangles.extend(figure.triangles_of(mesh).iter().map(|corners| corners.map(shift)));
+            positions.extend_from_slice(&figure.positions[vertices]);
         }
         Self { meshes, positions, triangles }
     }
 
     /// Hands the rows of all vertices out to the meshes.
-    fn share(&self, layout: &Layout, all: &Weights, weights: &mut [Weights]) {
+    fn share(&self, figure: &UnitFigure, all: &Weights, weights: &mut [Weights]) {
         let mut start = 0;
         for &mesh in &self.meshes {
-            let end = start + layout.vertices(mesh).len();
+            let end = start + figure.vertices(mesh).len();
             weights[mesh] = Weights::from_rows((start..end).map(|vertex| all.row(vertex).iter().copied()));
             start = end;
         }
@@ -51,12 +51,12 @@ impl Group {
 pub enum BodyRule {
     Heat(HeatSystem),
     /// The volume knows no heat: its weights are the same for every one.
-    Volume(Weighted),
+    Volume(WeightSet),
 }
 
 /// What decides the weights of every mesh, as far as it does not depend on the heat.
 pub struct Binder<'a> {
-    layout: &'a Layout,
+    figure: &'a UnitFigure,
     head: Option<u32>,
     eyes: &'a [Eye],
     eye_joints: Vec<Option<u32>>,
@@ -67,7 +67,7 @@ pub struct Binder<'a> {
     of_head: Vec<usize>,
     /// The body's skin and each garment on it, made when weights are first asked for; `None` until then, and where
     /// nothing is worn.
-    worn: Option<(Skin, Vec<Worn>)>,
+    worn: Option<(Skin, Vec<GarmentOnSkin>)>,
     pub rule: BodyRule,
     pub warnings: Vec<Warning>,
     pub body_time: f64,
@@ -76,7 +76,7 @@ pub struct Binder<'a> {
 
 impl<'a> Binder<'a> {
     pub fn new(
-        layout: &'a Layout,
+        figure: &'a UnitFigure,
         kinds: &[MeshKind],
         bones: &[WeightBone],
         humanoid: &Humanoid,
@@ -88,7 +88,7 @@ impl<'a> Binder<'a> {
             |kind: MeshKind| -> Vec<usize> { (0..kinds.len()).filter(|&mesh| kinds[mesh] == kind).collect() };
         let mut body = of(MeshKind::Body);
         let mut garments = of(MeshKind::Garment);
-        let whole = body_is_whole(layout, kinds);
+        let whole = body_is_whole(figure, kinds);
         // Clothes in place of a body, or the naive case: both take their weights as one.
         if !whole || options.garments == GarmentWeights::Heat {
             body.append(&mut garments);
@@ -98,12 +98,12 @@ impl<'a> Binder<'a> {
         let mut of_head = of(MeshKind::Hair);
         of_head.extend(of(MeshKind::FacePart));
         // There must be a body to take weights from.
-        if body.iter().all(|&mesh| layout.triangles_of(mesh).is_empty()) {
+        if body.iter().all(|&mesh| figure.triangles_of(mesh).is_empty()) {
             body.append(&mut accessories);
             body.append(&mut of_head);
             body.sort_unstable();
         }
-        let body = Group::new(layout, body);
+        let body = Group::new(figure, body);
         let mut warnings = Vec::new();
         let method = match options.method {
             WeightMethod::Auto => match heat_would_be_poor(&body.positions, &body.triangles, bones) {
@@ -131,11 +131,11 @@ impl<'a> Binder<'a> {
             _ => BodyRule::Heat(HeatSystem::new(&body.positions, &body.triangles, bones, threads)),
         };
         let separate = |meshes: Vec<usize>| -> Vec<Group> {
-            meshes.into_iter().map(|mesh| Group::new(layout, vec![mesh])).collect()
+            meshes.into_iter().map(|mesh| Group::new(figure, vec![mesh])).collect()
         };
         let joint = |role: Role| humanoid.joint(role).map(|joint| joint as u32);
         Self {
-            layout,
+            figure,
             head: joint(Role::Head),
             eye_joints: eyes.iter().map(|eye| joint(eye.role)).collect(),
             eyes,
@@ -143,7 +143,7 @@ impl<'a> Binder<'a> {
             body,
             garments: separate(garments),
             // Pieces that touch are one thing, whatever meshes they are in.
-            accessories: Group::new(layout, accessories),
+            accessories: Group::new(figure, accessories),
             of_head,
             worn: None,
             rule,
@@ -158,7 +158,7 @@ impl<'a> Binder<'a> {
         let threads = self.options.thread_count;
         let clock = Instant::now();
         let mut fallback = BTreeMap::new();
-        let mut count = |weighted: &Weighted| {
+        let mut count = |weighted: &WeightSet| {
             for (rule, vertices) in &weighted.fallback {
                 *fallback.entry((*rule).to_string()).or_default() += vertices;
             }
@@ -173,8 +173,8 @@ impl<'a> Binder<'a> {
             }
         };
         count(of_body);
-        let mut weights = vec![Weights::default(); self.layout.mesh_count()];
-        body.share(self.layout, &of_body.weights, &mut weights);
+        let mut weights = vec![Weights::default(); self.figure.mesh_count()];
+        body.share(self.figure, &of_body.weights, &mut weights);
         self.body_time += milliseconds(clock);
 
         let clock = Instant::now();
@@ -183,7 +183,7 @@ impl<'a> Binder<'a> {
                 let skin = Skin::new(&body.positions, &body.triangles);
                 let on_skin = |group: &Group| {
                     let garment = (&group.positions[..], &group.triangles[..]);
-                    Worn::new(&skin, &body.triangles, garment, self.options.garments, threads)
+                    GarmentOnSkin::new(&skin, &body.triangles, garment, self.options.garments, threads)
                 };
                 let worn = self.garments.iter().map(on_skin).collect();
                 (skin, worn)
@@ -197,16 +197,16 @@ impl<'a> Binder<'a> {
             for (group, worn) in self.garments.iter().zip(worn) {
                 let weighted = worn.weights(&source, threads);
                 count(&weighted);
-                group.share(self.layout, &weighted.weights, &mut weights);
+                group.share(self.figure, &weighted.weights, &mut weights);
             }
             let things = &self.accessories;
             let carried = rigid_weights(&source, &things.positions, &things.triangles);
             count(&carried);
-            things.share(self.layout, &carried.weights, &mut weights);
+            things.share(self.figure, &carried.weights, &mut weights);
         }
         let head = self.head.unwrap_or(0);
         for &mesh in &self.of_head {
-            weights[mesh] = Weights::from_rows(self.layout.vertices(mesh).map(|vertex| {
+            weights[mesh] = Weights::from_rows(self.figure.vertices(mesh).map(|vertex| {
                 let eye = self.eyes.iter().position(|eye| eye.vertices.binary_search(&vertex).is_ok());
                 [(eye.and_then(|eye| self.eye_joints[eye]).unwrap_or(head), 1.0)]
             }));

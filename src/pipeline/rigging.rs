@@ -11,7 +11,7 @@ use crate::rig::facing::find_forward;
 use crate::rig::joints::find_joints;
 use crate::rig::mesh_kinds::{guess_kinds, refine_kinds};
 use crate::rig::skeleton::{skeleton_of, weight_bones};
-use crate::rig::{FoundJoint, Layout, RigOptions, WeightMethod};
+use crate::rig::{FoundJoint, RigOptions, UnitFigure, WeightMethod};
 use glam::DVec3;
 use std::collections::BTreeMap;
 use std::time::Instant;
@@ -71,15 +71,15 @@ impl Rig {
         progress.at(0.0)?;
         let clock = Instant::now();
         let (forward, mut warnings) = find_forward(character);
-        let layout = Layout::in_axes(character, forward, options.left_handed)?;
-        let (mut kinds, kind_warnings) = guess_kinds(&layout);
+        let figure = UnitFigure::in_axes(character, forward, options.left_handed)?;
+        let (mut kinds, kind_warnings) = guess_kinds(&figure);
         warnings.extend(kind_warnings);
-        let given = options.given.iter().map(|(&role, &at)| (role, layout.to_layout(at))).collect();
+        let given = options.given.iter().map(|(&role, &at)| (role, figure.to_unit(at))).collect();
         let guessed: Vec<Option<MeshKind>> = kinds.iter().copied().map(Some).collect();
-        let mut found = find_joints(&layout, &guessed, &given, options.fingers, options.thread_count);
+        let mut found = find_joints(&figure, &guessed, &given, options.fingers, options.thread_count);
         warnings.append(&mut found.warnings);
-        warnings.extend(refine_kinds(&layout, &mut kinds, &found.joints));
-        let eyes = find_eyes(&layout, &kinds, &found);
+        warnings.extend(refine_kinds(&figure, &mut kinds, &found.joints));
+        let eyes = find_eyes(&figure, &kinds, &found);
         for eye in &eyes {
             let joint = FoundJoint { position: eye.centre, confidence: eye.confidence };
             found.joints.entry(eye.role).or_insert(joint);
@@ -92,7 +92,7 @@ impl Rig {
         let chin = options.chin_segment.then_some(found.chin);
         let bones = weight_bones(&at, &found.tips, chin);
         let (_, humanoid) = skeleton_of(&at);
-        let mut binder = Binder::new(&layout, &kinds, &bones, &humanoid, &eyes, options);
+        let mut binder = Binder::new(&figure, &kinds, &bones, &humanoid, &eyes, options);
         warnings.append(&mut binder.warnings);
         progress.at(0.4)?;
         let (weights, fallback) = binder.weights(options.heat);
@@ -103,7 +103,7 @@ impl Rig {
         };
         progress.at(1.0)?;
 
-        let in_model = at.iter().map(|(&role, &p)| (role, layout.to_model(p))).collect();
+        let in_model = at.iter().map(|(&role, &p)| (role, figure.to_model(p))).collect();
         let (skeleton, humanoid) = skeleton_of(&in_model);
         Ok(Self {
             skeleton,

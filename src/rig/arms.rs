@@ -1,37 +1,77 @@
 //! Arms: followed from the fingertips inwards to the armpit.
 
-use super::front_view::{Stance, median};
+use super::front_view::{FrontView, median};
 use super::silhouette::{GridFrame, RayGrid, lowest};
 use glam::{DVec2, DVec3};
 
 /// An arm's column of cells that reaches lower than the arm by so many of its thicknesses belongs to the trunk.
 const PIT_DROP: f64 = 0.8;
-/// Where the trunk begins, its side reaches down from the arm by this part of the way to the crotch, ...
+/// Where the trunk begins, its side reaches down from the arm by this share of the way to the crotch, ...
 const TRUNK_DROP: f64 = 0.3;
 /// ... within this distance: a cuff or a thick sleeve does not.
 const TRUNK_WITHIN: f64 = 0.04;
-/// The part of an arm, from the tip, to which its line is fitted.
+/// The share of an arm, from the tip, to which its line is fitted.
 const LINE_RANGE: (f64, f64) = (0.25, 0.9);
 /// Sections along an arm.
 const STATIONS: usize = 120;
-/// The wrist is looked for between these parts of the way from shoulder to tip.
+/// The wrist is looked for between these shares of the way from shoulder to tip.
 const WRIST_RANGE: (f64, f64) = (0.55, 0.88);
 /// The wrist where none is seen.
 const WRIST_BY_RATIO: f64 = 0.74;
-/// The elbow lies at this part of the way from shoulder to wrist.
-const ELBOW_PART: f64 = 0.53;
-/// The elbow of an arm that is bent by more than this part of its length lies where the bend is.
+/// The elbow lies at this share of the way from shoulder to wrist.
+const ELBOW_SHARE: f64 = 0.53;
+/// The elbow of an arm that is bent by more than this share of its length lies where the bend is.
 const BENT: f64 = 0.05;
 /// The shoulder joint lies straight over a point this many arm radii outside of the armpit, ...
 const SHOULDER_OUT: f64 = 0.4;
 /// ... and so many over the middle of the arm, which hangs from it.
 const SHOULDER_OVER: f64 = 0.2;
-/// Following starts at this part of the arm, where it is clear of the trunk.
+/// Following starts at this share of the arm, where it is clear of the trunk.
 const CLEAR: f64 = 0.25;
 /// A section this much wider than the arm has trunk in it.
 const TRUNK_WIDENS: f64 = 1.7;
 /// A section this much deeper than the arm has something else in it.
 const THING_DEEPENS: f64 = 4.0;
+
+/// An arm is followed so many columns before its lower side is looked at for a drop, ...
+const LEAST_FOLLOWED: usize = 12;
+/// ... and has at least so many, ...
+const LEAST_COLUMNS: usize = 8;
+/// ... of which so many at least are fitted.
+const LEAST_FITTED: usize = 4;
+/// Where no armpit is seen the arm begins at this distance from the axis.
+const PIT_BY_RATIO: f64 = 0.1;
+/// The line of an arm that hangs straight down is taken to run outwards by at least this.
+const STEEPEST_LINE: f64 = 0.2;
+/// The same where the shoulder is looked for along it.
+const STEEPEST_SHOULDER: f64 = 0.3;
+/// Rays go on beyond the tip, or the last ones would miss it.
+const BEYOND_TIP: f64 = 1.02;
+/// A shorter arm has no sections.
+const LEAST_LENGTH: f64 = 1e-3;
+/// Rays begin inside of the armpit by this share of the arm's length, ...
+const INSIDE_OF_PIT: f64 = 0.25;
+/// ... and reach this share of it to either side.
+const SPAN: f64 = 0.35;
+/// A section further from the one before than this share of the arm's length is something else.
+const STATION_OFF: f64 = 0.12;
+/// Fewer sections show no joints.
+const LEAST_STATIONS: usize = 12;
+/// Middles are means over so many sections to either side.
+const SMOOTHED: usize = 3;
+/// Which sections tell the way the arm begins: the first one and the one after this fraction of all.
+const ARM_BEGINNING: usize = 6;
+/// The sections of the radius near the shoulder: from one in so many to one in so many.
+const RADIUS_RANGE: (usize, usize) = (10, 3);
+/// The sections of the arm's upper piece, likewise.
+const UPPER_RANGE: (usize, usize) = (20, 4);
+/// A wrist is slimmer than the hand and than the arm by these factors, ...
+const HAND_WIDENS: f64 = 1.12;
+const ARM_WIDENS: f64 = 1.05;
+/// ... and not at the end of its range, where the slimmest section only shows that the arm grows thinner still.
+const WRIST_MARGIN: f64 = 0.01;
+/// A bend is looked for between these shares of the way from shoulder to wrist.
+const BEND_RANGE: (f64, f64) = (0.35, 0.7);
 
 /// One arm.
 pub struct Arm {
@@ -54,32 +94,21 @@ pub struct Arm {
 }
 
 /// Finds one arm above `floor` (height); `most` is how far from the axis it can reach. `None` where nothing sticks out.
-pub fn find_arm(stance: &Stance, left: bool, crotch: f64, floor: f64, most: f64) -> Option<Arm> {
-    let half = stance.half_columns();
-    let cell = stance.cell();
-    // The runs of each column, upwards.
-    let column_runs = |steps: usize| -> Vec<(usize, usize)> {
-        let column = stance.column(left, steps);
-        let mut runs: Vec<(usize, usize)> = Vec::new();
-        for row in (0..stance.grid.frame.rows).filter(|&row| stance.grid.is_filled(column, row)) {
-            match runs.last_mut() {
-                Some(run) if row <= run.1 + 1 => run.1 = row + 1,
-                _ => runs.push((row, row + 1)),
-            }
-        }
-        runs
-    };
-    let floor_row = stance.grid.row(floor);
+pub fn find_arm(view: &FrontView, left: bool, crotch: f64, floor: f64, most: f64) -> Option<Arm> {
+    let half = view.half_columns();
+    let cell = view.cell();
+    let runs = |steps: usize| column_runs(&view.grid, view.column(left, steps));
+    let floor_row = view.grid.row(floor);
     let outermost = (0..half.min(((most / cell).ceil() as usize).saturating_add(1)))
         .rev()
-        .find(|&steps| column_runs(steps).iter().any(|run| run.1 > floor_row))?;
-    let mut run = *column_runs(outermost).iter().rev().find(|run| run.1 > floor_row)?;
+        .find(|&steps| runs(steps).iter().any(|run| run.1 > floor_row))?;
+    let mut run = *runs(outermost).iter().rev().find(|run| run.1 > floor_row)?;
     // Inwards, column by column.
     let mut path: Vec<(usize, (usize, usize))> = vec![(outermost, run)];
     let mut pit = None;
     let inwards = |steps: usize, run: (usize, usize)| {
         let middle = 0.5 * (run.0 + run.1) as f64;
-        column_runs(steps).into_iter().min_by(|a, b| {
+        runs(steps).into_iter().min_by(|a, b| {
             let off = |run: &(usize, usize)| {
                 let (low, high) = (run.0 as f64, run.1 as f64);
                 (low - middle).max(middle - high).max(0.0)
@@ -98,7 +127,7 @@ pub fn find_arm(stance: &Stance, left: bool, crotch: f64, floor: f64, most: f64)
     for steps in (0..outermost).rev() {
         let next = inwards(steps, run)?;
         // A drop of the lower side below where the arm has run so far.
-        if path.len() >= 12 {
+        if path.len() >= LEAST_FOLLOWED {
             let (low, thickness) = lower_side(&path, steps);
             if (next.0 as f64) < low - PIT_DROP * thickness && reaches_down(steps, low, next) {
                 pit = Some(steps + 1);
@@ -109,22 +138,23 @@ pub fn find_arm(stance: &Stance, left: bool, crotch: f64, floor: f64, most: f64)
         run = next;
     }
     let pit_seen = pit.is_some();
-    let pit_steps = pit.unwrap_or(((0.1 / cell) as usize).min(outermost.saturating_sub(1)));
+    let pit_steps = pit.unwrap_or(((PIT_BY_RATIO / cell) as usize).min(outermost.saturating_sub(1)));
     path.retain(|&(steps, _)| steps >= pit_steps);
     let length = path.len();
-    if length < 8 {
+    if length < LEAST_COLUMNS {
         return None;
     }
-    let fitted: Vec<DVec2> = path
-        [(LINE_RANGE.0 * length as f64) as usize..((LINE_RANGE.1 * length as f64) as usize).max(4)]
+    let fitted: Vec<DVec2> = path[(LINE_RANGE.0 * length as f64) as usize
+        ..((LINE_RANGE.1 * length as f64) as usize).max(LEAST_FITTED)]
         .iter()
-        .map(|&(steps, run)| DVec2::new(stance.distance(steps), 0.5 * (run.0 + run.1) as f64 * cell))
+        .map(|&(steps, run)| DVec2::new(view.distance(steps), 0.5 * (run.0 + run.1) as f64 * cell))
         .collect();
     let (through, slope) = fit(&fitted);
     let along = DVec2::new(1.0, slope).normalize();
     let pit_row = path.last().map_or(0, |&(_, run)| run.0);
     let pit = DVec2::new(pit_steps as f64 * cell, pit_row as f64 * cell);
-    sections(stance, left, through, along, pit, stance.distance(outermost), pit_seen)
+    let line = ArmLine { through, along, pit, reach: view.distance(outermost) };
+    joints(view, left, &line, pit_seen)
 }
 
 /// Where the lower side of the arm would be at `steps`, in rows, and how thick the arm is there.
@@ -150,8 +180,8 @@ fn fit(points: &[DVec2]) -> (DVec2, f64) {
     (mean, if xx > 0.0 { xy / xx } else { 0.0 })
 }
 
-/// The filled rows of a column that are nearest to `middle`, single empty ones bridged.
-fn nearest_run(grid: &RayGrid, column: usize, middle: usize) -> Option<(usize, usize)> {
+/// The filled rows of a column, upwards, single empty ones bridged.
+fn column_runs(grid: &RayGrid, column: usize) -> Vec<(usize, usize)> {
     let mut runs: Vec<(usize, usize)> = Vec::new();
     for row in (0..grid.frame.rows).filter(|&row| grid.is_filled(column, row)) {
         match runs.last_mut() {
@@ -159,7 +189,12 @@ fn nearest_run(grid: &RayGrid, column: usize, middle: usize) -> Option<(usize, u
             _ => runs.push((row, row + 1)),
         }
     }
-    runs.into_iter().min_by_key(|run| run.0.saturating_sub(middle).max((middle + 1).saturating_sub(run.1)))
+    runs
+}
+
+/// How many rows a run begins above or ends below row `middle`.
+fn rows_off((begin, end): (usize, usize), middle: usize) -> usize {
+    begin.saturating_sub(middle).max((middle + 1).saturating_sub(end))
 }
 
 /// A section at right angles to the arm.
@@ -170,158 +205,244 @@ struct Station {
     depth: f64,
 }
 
-/// Rays at right angles to the arm's line, and the joints that they show.
-fn sections(
-    stance: &Stance,
-    left: bool,
-    through: DVec2,
-    along: DVec2,
-    pit: DVec2,
-    reach: f64,
-    pit_seen: bool,
-) -> Option<Arm> {
-    let sign = if left { 1.0 } else { -1.0 };
-    let place = |p: DVec2| DVec3::new(stance.axis + sign * p.x, p.y, 0.0);
-    // The foot of the pit on the line, and of the tip.
-    let start = through + along * (pit - through).dot(along);
-    let length = ((reach - start.x) / along.x.max(0.2)) * 1.02;
-    if length.is_nan() || length <= 1e-3 {
-        return None;
+impl Station {
+    /// About twice its diameter.
+    fn girth(&self) -> f64 {
+        self.width + self.depth
     }
-    // Some way inside of the pit as well.
-    let inside = 0.25 * length;
-    let cell = (length + inside) / STATIONS as f64;
-    let span = 0.35 * length;
-    let rows = 2 * (span / cell).ceil() as usize;
-    let right = DVec3::new(sign * along.x, along.y, 0.0);
-    // Rows count upwards on both sides.
-    let up = DVec3::new(-sign * along.y, along.x, 0.0);
-    let origin = place(start - along * inside) - up * (0.5 * rows as f64 * cell);
-    let frame = GridFrame { origin, right, up, cell, columns: STATIONS, rows };
-    let grid = RayGrid::new(stance.positions, &stance.triangles, frame, stance.threads);
-    let depth_sign = right.cross(up).z.signum();
-    let first = (inside / cell).round() as usize;
-    let mut stations: Vec<Option<Station>> = vec![None; STATIONS];
-    let clear = first + (CLEAR * (STATIONS - first) as f64) as usize;
-    let follow = |column: usize, middle: usize| -> Option<(usize, Station)> {
-        let (begin, end) = nearest_run(&grid, column, middle)?;
-        let off = begin.saturating_sub(middle).max((middle + 1).saturating_sub(end));
-        if off as f64 * cell > 0.12 * length {
+}
+
+/// The line of an arm as seen from the front: distances from the axis, and heights.
+struct ArmLine {
+    /// A point of it.
+    through: DVec2,
+    /// Its way outwards, of length 1.
+    along: DVec2,
+    /// The armpit.
+    pit: DVec2,
+    /// How far from the axis the arm reaches.
+    reach: f64,
+}
+
+/// Rays at right angles to an arm's line, and what they meet.
+struct ArmRays {
+    grid: RayGrid,
+    /// From the armpit to the tip.
+    length: f64,
+    /// The column over the armpit.
+    first: usize,
+    /// 1 or -1: depths of the grid along z.
+    depth_sign: f64,
+}
+
+impl ArmRays {
+    /// `None` where the arm has no length.
+    fn cast(view: &FrontView, left: bool, line: &ArmLine) -> Option<Self> {
+        let sign = if left { 1.0 } else { -1.0 };
+        let place = |p: DVec2| DVec3::new(view.axis + sign * p.x, p.y, 0.0);
+        // The foot of the pit on the line, and of the tip.
+        let start = line.through + line.along * (line.pit - line.through).dot(line.along);
+        let length = ((line.reach - start.x) / line.along.x.max(STEEPEST_LINE)) * BEYOND_TIP;
+        if length.is_nan() || length <= LEAST_LENGTH {
             return None;
         }
-        let (back, front) = grid.limb((begin..end).map(|row| (column, row)))?;
+        let inside = INSIDE_OF_PIT * length;
+        let cell = (length + inside) / STATIONS as f64;
+        let rows = 2 * (SPAN * length / cell).ceil() as usize;
+        let right = DVec3::new(sign * line.along.x, line.along.y, 0.0);
+        // Rows count upwards on both sides.
+        let up = DVec3::new(-sign * line.along.y, line.along.x, 0.0);
+        let origin = place(start - line.along * inside) - up * (0.5 * rows as f64 * cell);
+        let frame = GridFrame { origin, right, up, cell, columns: STATIONS, rows };
+        Some(Self {
+            grid: RayGrid::new(view.positions, &view.triangles, frame, view.threads),
+            length,
+            first: (inside / cell).round() as usize,
+            depth_sign: right.cross(up).z.signum(),
+        })
+    }
+
+    /// The section of a column that is nearest to row `middle`, and its own middle row.
+    fn station(&self, column: usize, middle: usize) -> Option<(usize, Station)> {
+        let GridFrame { origin, right, up, cell, .. } = self.grid.frame;
+        let nearest = column_runs(&self.grid, column).into_iter().min_by_key(|&run| rows_off(run, middle))?;
+        if rows_off(nearest, middle) as f64 * cell > STATION_OFF * self.length {
+            return None;
+        }
+        let (begin, end) = nearest;
+        let (back, front) = self.grid.limb((begin..end).map(|row| (column, row)))?;
         let at = origin + right * ((column as f64 + 0.5) * cell) + up * (0.5 * (begin + end) as f64 * cell);
         let station = Station {
-            centre: at.with_z(depth_sign * 0.5 * (back + front)),
+            centre: at.with_z(self.depth_sign * 0.5 * (back + front)),
             width: (end - begin) as f64 * cell,
             depth: front - back,
         };
         Some(((begin + end) / 2, station))
-    };
-    let mut middle = rows / 2;
-    for (column, slot) in stations.iter_mut().enumerate().skip(clear) {
-        if let Some((next, station)) = follow(column, middle) {
-            middle = next;
-            *slot = Some(station);
-        }
     }
-    let usual = median(&mut stations.iter().flatten().map(|s| s.width).collect::<Vec<_>>());
-    let mut middle = rows / 2;
-    for column in (first..clear).rev() {
-        match follow(column, middle) {
-            Some((next, station)) if station.width <= TRUNK_WIDENS * usual => {
+
+    /// The arm's sections from the shoulder to the tip, followed both ways from where it is clear of the trunk.
+    fn stations(&self) -> Vec<Station> {
+        let first = self.first;
+        let mut stations: Vec<Option<Station>> = vec![None; STATIONS];
+        let clear = first + (CLEAR * (STATIONS - first) as f64) as usize;
+        let mut middle = self.grid.frame.rows / 2;
+        for (column, slot) in stations.iter_mut().enumerate().skip(clear) {
+            if let Some((next, station)) = self.station(column, middle) {
                 middle = next;
-                stations[column] = Some(station);
+                *slot = Some(station);
             }
-            _ => break,
         }
+        let usual = median(&mut stations.iter().flatten().map(|s| s.width).collect::<Vec<_>>());
+        let mut middle = self.grid.frame.rows / 2;
+        for column in (first..clear).rev() {
+            match self.station(column, middle) {
+                Some((next, station)) if station.width <= TRUNK_WIDENS * usual => {
+                    middle = next;
+                    stations[column] = Some(station);
+                }
+                _ => break,
+            }
+        }
+        // A thing in the hand that points forward is no arm.
+        let depths = || stations.iter().flatten().map(|s| s.depth).collect::<Vec<_>>();
+        let deepest = THING_DEEPENS * median(&mut depths());
+        stations.drain(first..).flatten().filter(|station| station.depth <= deepest).collect()
     }
-    // A thing in the hand that points forward is no arm.
-    let deepest = THING_DEEPENS * median(&mut stations.iter().flatten().map(|s| s.depth).collect::<Vec<_>>());
-    for station in &mut stations {
-        *station = station.filter(|station| station.depth <= deepest);
+}
+
+/// The middles of an arm's sections: arms may bend towards the front.
+struct ArmCurve {
+    stations: Vec<Station>,
+    /// Smoothed middles.
+    middles: Vec<DVec3>,
+    /// How far along the curve each of them is.
+    arc: Vec<f64>,
+}
+
+impl ArmCurve {
+    /// `stations`: at least two.
+    fn new(stations: Vec<Station>) -> Self {
+        let middles: Vec<DVec3> = (0..stations.len())
+            .map(|index| {
+                let (from, to) = (index.saturating_sub(SMOOTHED), (index + SMOOTHED + 1).min(stations.len()));
+                stations[from..to].iter().map(|s| s.centre).sum::<DVec3>() / (to - from) as f64
+            })
+            .collect();
+        let mut arc = vec![0.0];
+        for pair in middles.windows(2) {
+            arc.push(arc[arc.len() - 1] + pair[0].distance(pair[1]));
+        }
+        Self { stations, middles, arc }
     }
-    let first = (first..STATIONS).find(|&column| stations[column].is_some())?;
-    let last = (first..STATIONS).rev().find(|&column| stations[column].is_some())?;
-    let known: Vec<Station> = (first..=last).filter_map(|column| stations[column]).collect();
-    if known.len() < 12 {
-        return None;
+
+    fn len(&self) -> usize {
+        self.stations.len()
     }
-    // How far along the curve of the centres each section is: arms may bend towards the front.
-    let smooth: Vec<DVec3> = (0..known.len())
-        .map(|index| {
-            let (from, to) = (index.saturating_sub(3), (index + 4).min(known.len()));
-            known[from..to].iter().map(|s| s.centre).sum::<DVec3>() / (to - from) as f64
-        })
-        .collect();
-    let mut arc = vec![0.0];
-    for pair in smooth.windows(2) {
-        arc.push(arc[arc.len() - 1] + pair[0].distance(pair[1]));
+
+    fn tip(&self) -> DVec3 {
+        self.middles[self.len() - 1]
     }
-    let whole = arc[arc.len() - 1];
-    let at_arc = |wanted: f64| -> DVec3 {
+
+    /// The point `wanted` along the curve.
+    fn at(&self, wanted: f64) -> DVec3 {
+        let Self { middles, arc, .. } = self;
         if wanted <= 0.0 {
             // Inside of the pit the arm goes on as it begins.
-            let next = (known.len() / 6).max(1);
-            let way = (smooth[0] - smooth[next]).normalize_or_zero();
-            return smooth[0] + way * -wanted;
+            let next = (self.len() / ARM_BEGINNING).max(1);
+            let way = (middles[0] - middles[next]).normalize_or_zero();
+            return middles[0] + way * -wanted;
         }
         let index = arc.partition_point(|&a| a < wanted).clamp(1, arc.len() - 1);
-        let part = (wanted - arc[index - 1]) / (arc[index] - arc[index - 1]).max(1e-12);
-        smooth[index - 1].lerp(smooth[index], part.clamp(0.0, 1.0))
-    };
-    let near: Vec<&Station> = known[known.len() / 10..known.len() / 3].iter().collect();
-    let radius = 0.25 * median(&mut near.iter().map(|s| s.width + s.depth).collect::<Vec<_>>());
-    // The arm's line through its upper part, to over the armpit.
-    let upper = &smooth[known.len() / 20..(known.len() / 4).max(1)];
-    let upper = upper.iter().sum::<DVec3>() / upper.len().max(1) as f64;
-    let out = pit.x + SHOULDER_OUT * radius;
-    let inwards = ((upper.x - stance.axis).abs() - out) / along.x.max(0.3);
-    let shoulder = upper - right * inwards + DVec3::Y * SHOULDER_OVER * radius;
-    let shoulder_arc = -smooth[0].distance(shoulder) * (shoulder - smooth[0]).dot(-right).signum();
-    let way = |part: f64| shoulder_arc + part * (whole - shoulder_arc);
-    // The wrist: the slimmest section before the hand.
-    let girth: Vec<f64> = (0..known.len())
-        .map(|index| {
-            let (from, to) = (index.saturating_sub(1), (index + 2).min(known.len()));
-            known[from..to].iter().map(|s| s.width + s.depth).sum::<f64>() / (to - from) as f64
-        })
-        .collect();
-    let range: Vec<usize> = (0..known.len())
-        .filter(|&index| arc[index] >= way(WRIST_RANGE.0) && arc[index] <= way(WRIST_RANGE.1))
-        .collect();
-    let girths: Vec<(f64, f64)> = range.iter().map(|&index| (arc[index], girth[index])).collect();
-    let slim = lowest(&girths).map(|at| {
-        let index = arc.partition_point(|&a| a < at).min(known.len() - 1);
-        (at, index)
-    });
-    let mut wrist_arc = way(WRIST_BY_RATIO);
-    let mut wrist_seen = false;
-    if let Some((at, slim)) = slim {
+        let share = (wanted - arc[index - 1]) / (arc[index] - arc[index - 1]).max(1e-12);
+        middles[index - 1].lerp(middles[index], share.clamp(0.0, 1.0))
+    }
+
+    /// The arm's radius near the shoulder.
+    fn radius(&self) -> f64 {
+        let near = &self.stations[self.len() / RADIUS_RANGE.0..self.len() / RADIUS_RANGE.1];
+        0.25 * median(&mut near.iter().map(Station::girth).collect::<Vec<_>>())
+    }
+
+    /// The middle of its upper piece, whose line leads over the armpit.
+    fn upper(&self) -> DVec3 {
+        let upper = &self.middles[self.len() / UPPER_RANGE.0..(self.len() / UPPER_RANGE.1).max(1)];
+        upper.iter().sum::<DVec3>() / upper.len().max(1) as f64
+    }
+
+    /// How far along the curve the wrist is, where it shows: the slimmest section before the hand. `way` gives how far a
+    /// share of the way from shoulder to tip is.
+    fn wrist(&self, way: impl Fn(f64) -> f64) -> Option<f64> {
+        let girth: Vec<f64> = (0..self.len())
+            .map(|index| {
+                let (from, to) = (index.saturating_sub(1), (index + 2).min(self.len()));
+                self.stations[from..to].iter().map(Station::girth).sum::<f64>() / (to - from) as f64
+            })
+            .collect();
+        let range = way(WRIST_RANGE.0)..=way(WRIST_RANGE.1);
+        let girths: Vec<(f64, f64)> = self
+            .arc
+            .iter()
+            .copied()
+            .zip(girth.iter().copied())
+            .filter(|(at, _)| range.contains(at))
+            .collect();
+        let at = lowest(&girths)?;
+        let slim = self.arc.partition_point(|&a| a < at).min(self.len() - 1);
         let hand = girth[slim..].iter().copied().fold(0.0, f64::max);
         let arm = girth[..slim].iter().copied().fold(0.0, f64::max);
-        if hand > 1.12 * girth[slim] && arm > 1.05 * girth[slim] && at < way(WRIST_RANGE.1) - 0.01 {
-            wrist_arc = at;
-            wrist_seen = true;
-        }
+        let is_slim = hand > HAND_WIDENS * girth[slim] && arm > ARM_WIDENS * girth[slim];
+        (is_slim && at < way(WRIST_RANGE.1) - WRIST_MARGIN).then_some(at)
     }
-    let wrist = at_arc(wrist_arc);
-    let mut elbow = at_arc(shoulder_arc + ELBOW_PART * (wrist_arc - shoulder_arc));
-    // The bend of a bent arm.
-    let chord = wrist - shoulder;
-    let off = |p: DVec3| (p - shoulder).reject_from(chord).length();
-    let bend = (0..known.len())
-        .filter(|&index| {
-            let part = (arc[index] - shoulder_arc) / (wrist_arc - shoulder_arc);
-            (0.35..=0.7).contains(&part)
-        })
-        .max_by(|&a, &b| off(smooth[a]).total_cmp(&off(smooth[b])).then(b.cmp(&a)));
-    if let Some(bend) = bend
-        && chord.length() > 0.0
-        && off(smooth[bend]) > BENT * chord.length()
-    {
-        elbow = smooth[bend];
+
+    /// The middle that is furthest from the line between two points, of those whose way along the curve `near` accepts,
+    /// and how far it is.
+    fn bend(&self, from: DVec3, to: DVec3, near: impl Fn(f64) -> bool) -> Option<(DVec3, f64)> {
+        let off = |p: DVec3| (p - from).reject_from(to - from).length();
+        let bend = (0..self.len())
+            .filter(|&index| near(self.arc[index]))
+            .max_by(|&a, &b| off(self.middles[a]).total_cmp(&off(self.middles[b])).then(b.cmp(&a)))?;
+        Some((self.middles[bend], off(self.middles[bend])))
     }
-    let tip = smooth[smooth.len() - 1];
-    Some(Arm { shoulder, elbow, wrist, tip, pit, radius, pit_seen, wrist_seen })
+}
+
+/// The joints that rays at right angles to the arm's line show.
+fn joints(view: &FrontView, left: bool, line: &ArmLine, pit_seen: bool) -> Option<Arm> {
+    let rays = ArmRays::cast(view, left, line)?;
+    let stations = rays.stations();
+    if stations.len() < LEAST_STATIONS {
+        return None;
+    }
+    let curve = ArmCurve::new(stations);
+    let whole = curve.arc[curve.len() - 1];
+    let radius = curve.radius();
+    let upper = curve.upper();
+    let right = rays.grid.frame.right;
+    let out = line.pit.x + SHOULDER_OUT * radius;
+    let inwards = ((upper.x - view.axis).abs() - out) / line.along.x.max(STEEPEST_SHOULDER);
+    let shoulder = upper - right * inwards + DVec3::Y * SHOULDER_OVER * radius;
+    let begin = curve.middles[0];
+    let shoulder_arc = -begin.distance(shoulder) * (shoulder - begin).dot(-right).signum();
+    let way = |share: f64| shoulder_arc + share * (whole - shoulder_arc);
+    let wrist_seen = curve.wrist(way);
+    let wrist_arc = wrist_seen.unwrap_or(way(WRIST_BY_RATIO));
+    let wrist = curve.at(wrist_arc);
+    let near_elbow = |arc: f64| {
+        let share = (arc - shoulder_arc) / (wrist_arc - shoulder_arc);
+        (BEND_RANGE.0..=BEND_RANGE.1).contains(&share)
+    };
+    let length = (wrist - shoulder).length();
+    let elbow = curve
+        .bend(shoulder, wrist, near_elbow)
+        .filter(|&(_, off)| length > 0.0 && off > BENT * length)
+        .map_or_else(|| curve.at(shoulder_arc + ELBOW_SHARE * (wrist_arc - shoulder_arc)), |(bend, _)| bend);
+    Some(Arm {
+        shoulder,
+        elbow,
+        wrist,
+        tip: curve.tip(),
+        pit: line.pit,
+        radius,
+        pit_seen,
+        wrist_seen: wrist_seen.is_some(),
+    })
 }

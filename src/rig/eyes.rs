@@ -1,15 +1,15 @@
 //! Eyeballs: two like pieces of the face, one on each side.
 
-use super::Layout;
+use super::UnitFigure;
 use super::joints::FoundJoints;
 use crate::character::{MeshKind, Role};
 use crate::geometry::{SEAM, components, weld};
 use glam::DVec3;
 use std::collections::BTreeMap;
 
-/// An eyeball is no thinner than this part of its width: what is flatter is a brow, a lash or a painted eye.
+/// An eyeball is no thinner than this share of its width: what is flatter is a brow, a lash or a painted eye.
 const ROUNDNESS: f64 = 0.6;
-/// Two eyes mirror each other to within this part of the head's length.
+/// Two eyes mirror each other to within this share of the head's length.
 const LIKENESS: f64 = 0.05;
 
 /// An eyeball.
@@ -17,9 +17,9 @@ const LIKENESS: f64 = 0.05;
 pub struct Eye {
     /// `LeftEye` or `RightEye`.
     pub role: Role,
-    /// Its middle, in the layout.
+    /// Its middle, in the unit figure.
     pub centre: DVec3,
-    /// The vertices that turn with it, by index into the layout, in order.
+    /// The vertices that turn with it, by index into the unit figure, in order.
     pub vertices: Vec<usize>,
     /// 0..1.
     pub confidence: f64,
@@ -29,17 +29,17 @@ pub struct Eye {
 ///
 /// An eyeball is a round piece of a mesh of kind `FacePart` with a like one mirrored on the other side of the head;
 /// pieces inside of it (iris, pupil) turn with it.
-pub fn find_eyes(layout: &Layout, kinds: &[MeshKind], found: &FoundJoints) -> Vec<Eye> {
+pub fn find_eyes(figure: &UnitFigure, kinds: &[MeshKind], found: &FoundJoints) -> Vec<Eye> {
     let (Some(head), Some(crown)) = (found.joints.get(&Role::Head), found.tips.get(&Role::Head)) else {
         return Vec::new();
     };
     let length = (crown.y - found.chin.y).abs();
-    let welded = weld(&layout.positions, SEAM);
-    let component = components(&layout.triangles, &welded);
+    let welded = weld(&figure.positions, SEAM);
+    let component = components(&figure.triangles, &welded);
     let mut pieces: BTreeMap<u32, (DVec3, DVec3, Vec<usize>)> = BTreeMap::new();
-    for mesh in (0..layout.mesh_count()).filter(|&mesh| kinds[mesh] == MeshKind::FacePart) {
-        for vertex in layout.vertices(mesh) {
-            let p = layout.positions[vertex];
+    for mesh in (0..figure.mesh_count()).filter(|&mesh| kinds[mesh] == MeshKind::FacePart) {
+        for vertex in figure.vertices(mesh) {
+            let p = figure.positions[vertex];
             let (low, high, vertices) =
                 pieces.entry(component[welded.representative[vertex] as usize]).or_insert((p, p, Vec::new()));
             *low = low.min(p);

@@ -7,6 +7,7 @@
 use crate::character::kinds::{MeshNames, kinds_from_names};
 use crate::character::{Character, Mesh, MeshKind};
 use crate::error::Warning;
+use crate::geometry::{bounds, range};
 use glam::{DVec2, DVec3, Vec3, Vec4};
 
 /// Cells along the longest side of the box in which the figure is compared with its mirror image.
@@ -126,7 +127,7 @@ impl Mirror {
 /// The surface of a figure as occupied cells of a grid, 1 wide each: x and z on the ground, y up.
 struct Cells {
     size: [usize; 3],
-    /// Occupancy, blurred, so that parts which do not quite lie on each other still count.
+    /// Occupancy, blurred, so that halves which do not quite lie on each other still count.
     blurred: Vec<f32>,
     /// Where the surface passes through each occupied cell.
     points: Vec<DVec3>,
@@ -169,11 +170,7 @@ impl Cells {
                 mesh.triangles.iter().map(move |corners| corners.map(|v| place(mesh.positions[v as usize])))
             })
         };
-        let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-        for corner in triangles().flatten() {
-            low = low.min(corner);
-            high = high.max(corner);
-        }
+        let (low, high) = bounds(triangles().flatten());
         let extent = (high - low).max_element();
         if !extent.is_finite() || high.y - low.y <= 1e-9 * extent {
             return None;
@@ -353,11 +350,7 @@ impl Cells {
         mirror: Mirror,
         forward: DVec2,
     ) -> f64 {
-        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-        for p in &self.samples {
-            low = low.min(p.y.into());
-            high = high.max(p.y.into());
-        }
+        let (low, high) = range(self.samples.iter().map(|p| p.y.into()));
         let height = (high - low).max(1e-9);
         // Sideways, up and ahead in heights of the figure.
         let place = |p: DVec3| {
@@ -379,14 +372,14 @@ impl Cells {
 fn feet_vote(points: &[DVec3]) -> f64 {
     let mut vote = 0.0;
     for sign in [-1.0, 1.0] {
-        let range = |from: f64, to: f64| {
+        let reach = |from: f64, to: f64| {
             let near = points
                 .iter()
                 .filter(|p| (from..=to).contains(&p.y) && p.x * sign >= 0.0 && p.x.abs() < FEET_REACH);
-            near.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], p| [least.min(p.z), most.max(p.z)])
+            range(near.map(|p| p.z))
         };
-        let [heel, tip] = range(0.0, 0.04);
-        let [back, shin] = range(0.06, 0.12);
+        let (heel, tip) = reach(0.0, 0.04);
+        let (back, shin) = reach(0.06, 0.12);
         let more = (tip + heel - back - shin) / (tip - heel);
         if more.is_finite() {
             vote += 0.5 * more.clamp(-1.0, 1.0);
@@ -397,18 +390,10 @@ fn feet_vote(points: &[DVec3]) -> f64 {
 
 /// Eyes, brows and teeth lie on the front of the head, -1..1.
 fn face_vote(points: &[DVec3], face_parts: &[DVec3]) -> f64 {
-    let (mut low, mut high, mut sum) = (DVec3::INFINITY, DVec3::NEG_INFINITY, 0.0);
-    for &p in face_parts {
-        low = low.min(p);
-        high = high.max(p);
-        sum += p.z;
-    }
-    let [mut back, mut front] = [f64::INFINITY, f64::NEG_INFINITY];
+    let (low, high) = bounds(face_parts.iter().copied());
+    let sum: f64 = face_parts.iter().map(|p| p.z).sum();
     let beside = |p: &&DVec3| (low.y..=high.y).contains(&p.y) && (low.x..=high.x).contains(&p.x);
-    for p in points.iter().filter(beside) {
-        back = back.min(p.z);
-        front = front.max(p.z);
-    }
+    let (back, front) = range(points.iter().filter(beside).map(|p| p.z));
     let vote = (2.0 * sum / face_parts.len() as f64 - back - front) / (front - back);
     if vote.is_finite() { vote.clamp(-1.0, 1.0) } else { 0.0 }
 }

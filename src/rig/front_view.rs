@@ -1,6 +1,6 @@
 //! The figure as rays from the front see it: which meshes to look at, where its plane of symmetry is, and its silhouette.
 
-use super::Layout;
+use super::UnitFigure;
 use super::silhouette::{GridFrame, RayGrid};
 use crate::character::MeshKind;
 use crate::geometry::cells::CellMap;
@@ -39,8 +39,8 @@ const SYMMETRIC_SHARE: f64 = 0.999;
 const SYMMETRIC_WITHIN: f64 = 2e-5;
 
 /// A figure seen from the front.
-pub struct Stance<'a> {
-    /// Vertices of the layout.
+pub struct FrontView<'a> {
+    /// Vertices of the unit figure.
     pub positions: &'a [DVec3],
     /// The triangles that are looked at.
     pub triangles: Vec<[u32; 3]>,
@@ -62,9 +62,9 @@ pub struct Stance<'a> {
     pub runs: Vec<Vec<(usize, usize)>>,
 }
 
-impl<'a> Stance<'a> {
-    /// Looks at `layout`, whose meshes are of these `kinds`, as far as known.
-    pub fn of(layout: &'a Layout, kinds: &[Option<MeshKind>], threads: usize) -> Self {
+impl<'a> FrontView<'a> {
+    /// Looks at `figure`, whose meshes are of these `kinds`, as far as known.
+    pub fn of(figure: &'a UnitFigure, kinds: &[Option<MeshKind>], threads: usize) -> Self {
         let is = |mesh: usize, wanted: &[Option<MeshKind>]| wanted.contains(&kinds[mesh]);
         use MeshKind::*;
         let sets: [&[Option<MeshKind>]; 5] = [
@@ -74,10 +74,10 @@ impl<'a> Stance<'a> {
             &[Some(Body), Some(FacePart), None, Some(Garment), Some(Accessory)],
             &[Some(Body), Some(FacePart), None, Some(Garment), Some(Accessory), Some(Hair)],
         ];
-        let triangles_of = |set: &[Option<MeshKind>]| layout.triangles_where(|mesh| is(mesh, set));
+        let triangles_of = |set: &[Option<MeshKind>]| figure.triangles_where(|mesh| is(mesh, set));
         let clothed = triangles_of(sets[2]);
-        let reference = if clothed.is_empty() { layout.triangles.clone() } else { clothed };
-        let reference_grid = front(&layout.positions, &reference, 0.0, threads);
+        let reference = if clothed.is_empty() { figure.triangles.clone() } else { clothed };
+        let reference_grid = front(&figure.positions, &reference, 0.0, threads);
         let whole = Extent::of(&reference_grid);
         let mut chosen = None;
         for set in &sets[..2] {
@@ -88,14 +88,14 @@ impl<'a> Stance<'a> {
             if triangles.is_empty() {
                 continue;
             }
-            let grid = front(&layout.positions, &triangles, 0.0, threads);
+            let grid = front(&figure.positions, &triangles, 0.0, threads);
             if is_whole(&grid, &whole) && shows_the_front(&grid, &reference_grid) {
                 chosen = Some((triangles, grid));
                 break;
             }
         }
         let (triangles, grid) = chosen.unwrap_or((reference, reference_grid));
-        Self::seen(&layout.positions, triangles, grid, threads)
+        Self::seen(&figure.positions, triangles, grid, threads)
     }
 
     fn seen(positions: &'a [DVec3], triangles: Vec<[u32; 3]>, grid: RayGrid, threads: usize) -> Self {
@@ -181,7 +181,7 @@ impl<'a> Stance<'a> {
         Some((median(&mut back), median(&mut front)))
     }
 
-    /// A point of the layout from a distance to the axis on one side.
+    /// A point of the unit figure from a distance to the axis on one side.
     pub fn point(&self, left: bool, distance: f64, y: f64, z: f64) -> DVec3 {
         DVec3::new(if left { self.axis + distance } else { self.axis - distance }, y, z)
     }

@@ -87,9 +87,12 @@ pub fn place_bones(volume: &Volume, bones: &[Vec<[DVec3; 2]>]) -> Vec<Bone> {
     // A joint given in another unit than the mesh is far away all the same.
     let middle = (volume.size / 2).as_dvec3();
     let reach = DVec3::splat(FARTHEST * f64::from(volume.size.max_element()));
-    let in_grid = |p: DVec3| match p.is_finite() {
-        true => volume.to_grid_free(p).clamp(middle - reach, middle + reach),
-        false => volume.to_grid(p),
+    let in_grid = |p: DVec3| {
+        if p.is_finite() {
+            volume.to_grid_free(p).clamp(middle - reach, middle + reach)
+        } else {
+            volume.to_grid(p)
+        }
     };
     let mut all: Vec<Vec<[DVec3; 2]>> = bones
         .iter()

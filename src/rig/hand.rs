@@ -2,6 +2,7 @@
 
 use super::FoundJoint;
 use crate::character::Role;
+use crate::character::humanoid::LEFT_FINGERS;
 use crate::geometry::{SEAM, Surface, components, neighbours, weld};
 use glam::DVec3;
 use std::cmp::Reverse;
@@ -20,21 +21,12 @@ pub struct Hand {
     pub finger_count: usize,
 }
 
-/// The roles of each finger of the left hand, thumb first.
-const FINGERS: [[Role; 3]; 5] = [
-    [Role::LeftThumbMetacarpal, Role::LeftThumbProximal, Role::LeftThumbDistal],
-    [Role::LeftIndexProximal, Role::LeftIndexIntermediate, Role::LeftIndexDistal],
-    [Role::LeftMiddleProximal, Role::LeftMiddleIntermediate, Role::LeftMiddleDistal],
-    [Role::LeftRingProximal, Role::LeftRingIntermediate, Role::LeftRingDistal],
-    [Role::LeftLittleProximal, Role::LeftLittleIntermediate, Role::LeftLittleDistal],
-];
-
 /// Finds the fingers of the hand at `wrist`.
 ///
 /// - `surface`: the same triangles, for rays.
-/// - `positions`, `triangles`: what may belong to the hand, layout space: body and gloves, better without hair and
+/// - `positions`, `triangles`: what may belong to the hand, in the unit figure: body and gloves, better without hair and
 ///   things held.
-/// - `elbow`, `wrist`: joints of the arm, layout space; either may be off by a wrist's width.
+/// - `elbow`, `wrist`: joints of the arm, in the unit figure; either may be off by a wrist's width.
 /// - `left`: which side's roles to give.
 ///
 /// The hand is what the plane across the forearm at the wrist cuts off. Fingers are the parts of it that hang on the
@@ -424,7 +416,7 @@ impl Region {
             let seen = ((finger.tip_distance - finger.web_distance)
                 / (2.0 * LEAST_PERSISTENCE * self.length))
                 .clamp(0.5, 1.0);
-            for (number, (role, position)) in FINGERS[role].into_iter().zip(joints).enumerate() {
+            for (number, (role, position)) in LEFT_FINGERS[role].into_iter().zip(joints).enumerate() {
                 let sure = match number {
                     _ if is_mitten => 0.5,
                     0 if kept => 0.7,
@@ -434,7 +426,7 @@ impl Region {
                 let within = enclosed(surface, position, ways[number], 3.0 * self.wrist_radius);
                 hand.joints.insert(role, FoundJoint { position, confidence: sure * seen * within });
             }
-            hand.tips.insert(FINGERS[role][2], path[path.len() - 1]);
+            hand.tips.insert(LEFT_FINGERS[role][2], path[path.len() - 1]);
         }
         hand
     }

@@ -1,18 +1,21 @@
 //! The middle line: neck, chin and head above the shoulders, spine below them.
 
-use super::front_view::{Stance, median};
+use super::front_view::{FrontView, median};
+use crate::geometry::{StepSearch, deepest_step};
 
-/// Above its narrowest row the head is wider by this share, and by this part of the height.
+/// Above its narrowest row the head is wider by this share, and by this share of the height.
 const HEAD_WIDENS: (f64, f64) = (1.15, 0.006);
-/// The chin's rays start and end at these parts of the way from shoulders to crown.
+/// The chin's rays start and end at these shares of the way from shoulders to crown.
 const CHIN_RANGE: (f64, f64) = (-0.05, 0.55);
-/// Bands above and below a row that are compared, as a part of the same.
+/// Bands above and below a row that are compared, as a share of the same.
 const CHIN_BAND: f64 = 0.05;
-/// The middle's depth is a median over this part of half the width, but no further from the axis than this: a tail is
+/// The middle's depth is a median over this share of half the width, but no further from the axis than this: a tail is
 /// narrower, arms are outside.
 const MIDDLE_REACH: (f64, f64) = (0.6, 0.08);
-/// A smaller step back than this part of the same is no chin.
+/// A smaller step back than this share of the same is no chin.
 const CHIN_STEP: f64 = 0.04;
+/// Steps that differ by less than this share of themselves and of the figure's height are equally deep.
+const TIE: f64 = 1e-6;
 /// The chin where none is seen.
 const CHIN_BY_RATIO: f64 = 0.22;
 
@@ -34,13 +37,13 @@ pub struct HeadLine {
 }
 
 /// Looks for neck, chin and crown above `shoulder_line`, where the arms' radius is `radius`.
-pub fn head_line(stance: &Stance, shoulder_line: f64, radius: f64) -> HeadLine {
-    let crown = stance.high.max(shoulder_line + 0.02);
+pub fn head_line(view: &FrontView, shoulder_line: f64, radius: f64) -> HeadLine {
+    let crown = view.high.max(shoulder_line + 0.02);
     let span = crown - shoulder_line;
-    let (first, last) = (stance.grid.row(shoulder_line), stance.grid.row(crown));
-    let width = |row: usize| stance.half_width(row);
+    let (first, last) = (view.grid.row(shoulder_line), view.grid.row(crown));
+    let width = |row: usize| view.half_width(row);
     // Upwards from the widest row at the shoulders: the narrowest row before the head.
-    let from = (stance.grid.row(shoulder_line - radius)..=stance.grid.row(shoulder_line + radius))
+    let from = (view.grid.row(shoulder_line - radius)..=view.grid.row(shoulder_line + radius))
         .max_by(|&a, &b| width(a).total_cmp(&width(b)).then(a.cmp(&b)))
         .unwrap_or(first)
         .max(first);
@@ -64,15 +67,15 @@ pub fn head_line(stance: &Stance, shoulder_line: f64, radius: f64) -> HeadLine {
             let w = width(row);
             w > 0.0
                 && w <= 1.05 * narrow.0 + 1e-9
-                && row.abs_diff(narrow.1) <= (0.15 * span / stance.cell()) as usize
+                && row.abs_diff(narrow.1) <= (0.15 * span / view.cell()) as usize
         })
         .collect();
     let narrow_y = match (alike.first(), alike.last()) {
-        (Some(&low), Some(&high)) => 0.5 * (stance.grid.y(low) + stance.grid.y(high)),
+        (Some(&low), Some(&high)) => 0.5 * (view.grid.y(low) + view.grid.y(high)),
         _ => shoulder_line,
     };
     let neck_seen = widened && narrow_y < shoulder_line + 0.5 * span;
-    let chin = chin(stance, shoulder_line, crown);
+    let chin = chin(view, shoulder_line, crown);
     let by_ratio = shoulder_line + CHIN_BY_RATIO * span;
     let neck = if neck_seen { narrow_y } else { shoulder_line + 0.5 * CHIN_BY_RATIO * span };
     let (mut chin_y, mut chin_seen) = chin.map_or((by_ratio, false), |y| (y, true));
@@ -80,51 +83,33 @@ pub fn head_line(stance: &Stance, shoulder_line: f64, radius: f64) -> HeadLine {
         // A face does not end below the neck: a collar or a bust does.
         (chin_y, chin_seen) = (neck + 0.25 * (by_ratio - shoulder_line), false);
     }
-    let row = stance.grid.row(chin_y + 0.03 * span);
-    let chin_z = stance.depth(row, 0.02).map_or(0.0, |(_, front)| front);
+    let row = view.grid.row(chin_y + 0.03 * span);
+    let chin_z = view.depth(row, 0.02).map_or(0.0, |(_, front)| front);
     HeadLine { neck, chin: chin_y.min(crown - 0.2 * span), chin_z, crown, neck_seen, chin_seen }
 }
 
 /// The deepest step back of the front profile, downwards.
-fn chin(stance: &Stance, shoulder_line: f64, crown: f64) -> Option<f64> {
+fn chin(view: &FrontView, shoulder_line: f64, crown: f64) -> Option<f64> {
     let span = crown - shoulder_line;
-    let low = stance.grid.row(shoulder_line + CHIN_RANGE.0 * span);
-    let high = stance.grid.row(shoulder_line + CHIN_RANGE.1 * span);
-    let face = (low..=high).map(|row| stance.half_width(row)).fold(0.0, f64::max);
+    let low = view.grid.row(shoulder_line + CHIN_RANGE.0 * span);
+    let high = view.grid.row(shoulder_line + CHIN_RANGE.1 * span);
+    let face = (low..=high).map(|row| view.half_width(row)).fold(0.0, f64::max);
     let depths: Vec<Option<f64>> = (low..=high)
-        .map(|row| stance.depth(row, (0.08 * 2.0 * face).min(0.03)).map(|(_, front)| front))
+        .map(|row| view.depth(row, (0.08 * 2.0 * face).min(0.03)).map(|(_, front)| front))
         .collect();
-    let band = ((CHIN_BAND * span / stance.cell()).round() as usize).max(2);
-    let mean = |range: std::ops::Range<usize>| {
-        let seen: Vec<f64> = depths[range].iter().flatten().copied().collect();
-        (!seen.is_empty()).then(|| seen.iter().sum::<f64>() / seen.len() as f64)
-    };
-    let mut best: Option<(f64, usize)> = None;
-    for edge in band..depths.len().saturating_sub(band) {
-        if let (Some(above), Some(below)) = (mean(edge..edge + band), mean(edge - band..edge))
-            && best.is_none_or(|(step, _)| above - below > step + 1e-6)
-        {
-            best = Some((above - below, edge));
-        }
-    }
-    let (step, edge) = best?;
-    if step < CHIN_STEP * span {
-        return None;
-    }
-    let steepest = (edge.saturating_sub(band).max(1)..(edge + band).min(depths.len()))
-        .filter_map(|row| Some((depths[row]? - depths[row - 1]?, row)))
-        .max_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(&a.1)))?;
-    Some(stance.grid.y(low + steepest.1) - 0.5 * stance.cell())
+    let band = ((CHIN_BAND * span / view.cell()).round() as usize).max(2);
+    let row = deepest_step(&depths, &StepSearch { band, least: CHIN_STEP * span, tie: TIE, span: 1.0 })?;
+    Some(view.grid.y(low + row) - 0.5 * view.cell())
 }
 
 /// Depth of the middle of the trunk and half of its depth, smoothed over some rows.
-pub fn middle(stance: &Stance, y: f64) -> (f64, f64) {
-    let row = stance.grid.row(y) as i64;
+pub fn middle(view: &FrontView, y: f64) -> (f64, f64) {
+    let row = view.grid.row(y) as i64;
     let (mut middles, mut halves): (Vec<f64>, Vec<f64>) = (row - 4..=row + 4)
         .filter_map(|row| {
-            let row = row.clamp(0, stance.grid.frame.rows as i64 - 1) as usize;
-            let reach = (MIDDLE_REACH.0 * stance.half_width(row)).clamp(0.005, MIDDLE_REACH.1);
-            stance.depth(row, reach).map(|(back, front)| (0.5 * (back + front), 0.5 * (front - back)))
+            let row = row.clamp(0, view.grid.frame.rows as i64 - 1) as usize;
+            let reach = (MIDDLE_REACH.0 * view.half_width(row)).clamp(0.005, MIDDLE_REACH.1);
+            view.depth(row, reach).map(|(back, front)| (0.5 * (back + front), 0.5 * (front - back)))
         })
         .unzip();
     (median(&mut middles), median(&mut halves))

@@ -7,10 +7,10 @@
 //! many they are, d how far away. On a tube of radius r whose axis is two bones, the weight of the one is
 //! 1 - exp(-√c s / r) / 2 at a distance s from their joint, on its own side.
 
-use super::{WeightBone, Weighted};
+use super::{WeightBone, WeightSet};
 use crate::character::Weights;
 use crate::geometry::laplacian::{Cholesky, Symbolic, cotangent_laplacian, has_area};
-use crate::geometry::{SEAM, Surface, Weld, components, foot, weld};
+use crate::geometry::{SEAM, Surface, Weld, bounds, components, foot, weld};
 use crate::parallel;
 use glam::DVec3;
 use std::collections::BTreeMap;
@@ -71,7 +71,7 @@ pub fn heat_weights(
     triangles: &[[u32; 3]],
     bones: &[WeightBone],
     options: &HeatOptions,
-) -> Weighted {
+) -> WeightSet {
     HeatSystem::new(positions, triangles, bones, options.thread_count).weights(options.heat)
 }
 
@@ -93,7 +93,7 @@ pub struct HeatSystem {
     weld: Weld,
     /// The joint of each bone.
     joints: Vec<u32>,
-    nearest: Nearest,
+    nearest: NearestBones,
     /// The component of each welded vertex, or `LOOSE`.
     components: Vec<u32>,
     /// How each component gets its weights.
@@ -106,7 +106,7 @@ pub struct HeatSystem {
 }
 
 /// (vertex, bone, weight) of some bones, by vertices.
-type Solved = Vec<(u32, u32, f64)>;
+type Solution = Vec<(u32, u32, f64)>;
 
 /// How a component gets its weights.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -142,7 +142,7 @@ impl HeatSystem {
         let mut weld = weld(&points, SEAM);
         points = weld.first_vertices().iter().map(|&vertex| points[vertex as usize]).collect();
         arrange(&mut weld, &mut points);
-        let pieces = Pieces::of(&points, triangles().map(|&corners| weld.triangle(corners)));
+        let pieces = Components::of(&points, triangles().map(|&corners| weld.triangle(corners)));
         let segments = Segments::of(bones, &frame);
         let ((laplacian, symbolic), nearest) = parallel::both(
             thread_count,
@@ -152,7 +152,7 @@ impl HeatSystem {
                 laplacian.off_diagonal = Vec::new();
                 (laplacian, symbolic)
             },
-            || Nearest::of(&points, &pieces, &segments, thread_count),
+            || NearestBones::of(&points, &pieces, &segments, thread_count),
         );
         let mut system = Self {
             thread_count,
@@ -206,7 +206,7 @@ impl HeatSystem {
     /// The weights for one c (1 spreads weights over about a limb's radius; larger is sharper), taken into 1e-4..1e6.
     ///
     /// A row has every joint whose weight is at least 1e-6, in ascending order.
-    pub fn weights(&self, heat: f64) -> Weighted {
+    pub fn weights(&self, heat: f64) -> WeightSet {
         let mut fallback = BTreeMap::new();
         let mut count = |rule: Option<&'static str>| {
             if let Some(rule) = rule {
@@ -217,13 +217,13 @@ impl HeatSystem {
             let joint = self.joints.first().copied().unwrap_or(0);
             let vertex_count = self.weld.representative.len();
             (0..vertex_count).for_each(|_| count(Some("no_bone")));
-            return Weighted { weights: Weights::rigid(joint, vertex_count), fallback };
+            return WeightSet { weights: Weights::rigid(joint, vertex_count), fallback };
         }
         // Also where it is not a number.
         let heat = if heat > HEAT_RANGE[0] { heat.min(HEAT_RANGE[1]) } else { HEAT_RANGE[0] };
-        let (parts, is_raised) = self.solve(heat);
+        let (blocks, is_raised) = self.solve(heat);
         let means = self.means();
-        let mut ends = vec![0; parts.len()];
+        let mut ends = vec![0; blocks.len()];
         let mut starts = Vec::with_capacity(self.weld.count + 1);
         let mut entries: Vec<(u32, f32)> = Vec::new();
         let mut rules = Vec::with_capacity(self.weld.count);
@@ -231,8 +231,9 @@ impl HeatSystem {
         starts.push(0);
         for vertex in 0..self.weld.count {
             row.clear();
-            for (part, end) in parts.iter().zip(&mut ends) {
-                while let Some(&(_, bone, weight)) = part.get(*end).filter(|entry| entry.0 as usize == vertex)
+            for (block, end) in blocks.iter().zip(&mut ends) {
+                while let Some(&(_, bone, weight)) =
+                    block.get(*end).filter(|entry| entry.0 as usize == vertex)
                 {
                     row.push((bone, weight));
                     *end += 1;
@@ -269,7 +270,7 @@ impl HeatSystem {
             let welded = welded as usize;
             entries[starts[welded]..starts[welded + 1]].iter().copied()
         }));
-        Weighted { weights, fallback }
+        WeightSet { weights, fallback }
     }
 
     /// From bones to joints: one entry a joint, ascending, sum 1.
@@ -290,7 +291,7 @@ impl HeatSystem {
     }
 
     /// The solution by blocks of bones, and whether the diagonal was raised.
-    fn solve(&self, heat: f64) -> (Vec<Solved>, bool) {
+    fn solve(&self, heat: f64) -> (Vec<Solution>, bool) {
         let Some(symbolic) = &self.symbolic else {
             return (Vec::new(), false);
         };
@@ -316,7 +317,7 @@ impl HeatSystem {
         let bones: Vec<usize> = (0..sources.len()).filter(|&bone| !sources[bone].is_empty()).collect();
         let blocks: Vec<&[usize]> = bones.chunks(BLOCK).collect();
         let size = self.weld.count;
-        let parts = parallel::collect(self.thread_count, blocks.len(), 1, |block| {
+        let solutions = parallel::collect(self.thread_count, blocks.len(), 1, |block| {
             let bones = blocks[block];
             let mut columns = vec![0.0; bones.len() * size];
             for (column, &bone) in columns.chunks_mut(size).zip(bones) {
@@ -325,17 +326,17 @@ impl HeatSystem {
                 }
             }
             cholesky.solve(&mut columns, bones.len());
-            let mut part = Vec::new();
+            let mut solution = Vec::new();
             for vertex in 0..size {
                 for (&bone, column) in bones.iter().zip(columns.chunks(size)) {
                     if column[vertex] >= LEAST_WEIGHT {
-                        part.push((vertex as u32, bone as u32, column[vertex]));
+                        solution.push((vertex as u32, bone as u32, column[vertex]));
                     }
                 }
             }
-            part
+            solution
         });
-        (parts, shift > 0.0)
+        (solutions, shift > 0.0)
     }
 
     /// The bones of components that have one temperature.
@@ -408,9 +409,7 @@ impl Frame {
     }
 
     fn around(points: impl Iterator<Item = DVec3>) -> Option<Self> {
-        let (low, high) = points
-            .filter(|p| p.is_finite())
-            .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)));
+        let (low, high) = bounds(points.filter(|p| p.is_finite()));
         let (centre, scale) = (0.5 * low + 0.5 * high, (high - low).max_element().recip());
         (centre.is_finite() && scale.is_finite() && scale > 0.0).then_some(Self { centre, scale })
     }
@@ -424,7 +423,7 @@ impl Frame {
 
 /// The triangles with an area, component by component.
 #[derive(Debug)]
-struct Pieces {
+struct Components {
     triangles: Vec<[u32; 3]>,
     /// Where each component's triangles start; one more than there are components.
     starts: Vec<usize>,
@@ -432,7 +431,7 @@ struct Pieces {
     components: Vec<u32>,
 }
 
-impl Pieces {
+impl Components {
     fn of(points: &[DVec3], triangles: impl Iterator<Item = [u32; 3]>) -> Self {
         let triangles: Vec<[u32; 3]> =
             triangles.filter(|corners| has_area(corners.map(|vertex| points[vertex as usize]))).collect();
@@ -526,7 +525,7 @@ impl Segments {
 
 /// The bones that are nearest to each vertex.
 #[derive(Debug, Default)]
-struct Nearest {
+struct NearestBones {
     /// Where each vertex's bones start in `shares`; one more than there are vertices.
     starts: Vec<u32>,
     /// Bones and their shares; those of a vertex sum to 1. Only those that are seen, where any is.
@@ -537,9 +536,9 @@ struct Nearest {
     seen: Vec<bool>,
 }
 
-impl Nearest {
+impl NearestBones {
     /// One ray a vertex and bone that is as near as the nearest.
-    fn of(points: &[DVec3], pieces: &Pieces, segments: &Segments, thread_count: usize) -> Self {
+    fn of(points: &[DVec3], pieces: &Components, segments: &Segments, thread_count: usize) -> Self {
         let component_count = pieces.starts.len() - 1;
         let surfaces = parallel::collect(thread_count, component_count, 1, |component| {
             Surface::new(points, pieces.triangles_of(component))
@@ -571,10 +570,10 @@ impl Nearest {
     }
 
     /// Adds a vertex; `near` are the bones near to it. Here `starts` are ends.
-    fn push(&mut self, p: DVec3, surface: Option<&Surface>, segments: &Segments, near: &mut Vec<Near>) {
+    fn push(&mut self, p: DVec3, surface: Option<&Surface>, segments: &Segments, near: &mut Vec<NearBone>) {
         let least = near.iter().fold(f64::INFINITY, |least, bone| least.min(bone.distance));
         let mut last = None;
-        let is_seen = |bone: &Near| {
+        let is_seen = |bone: &NearBone| {
             let way = segments.foot(bone.segment as usize, p) - p;
             // Bones that share a joint share the ray to it.
             match last {
@@ -608,7 +607,7 @@ impl Nearest {
 
 /// A bone about as near to a vertex as the nearest one.
 #[derive(Clone, Copy, Debug)]
-struct Near {
+struct NearBone {
     bone: u32,
     /// Its nearest segment.
     segment: u32,
@@ -619,7 +618,7 @@ struct Near {
 
 impl Segments {
     /// Fills `near` with the bones about as near to `p` as the nearest one.
-    fn near(&self, p: DVec3, squared: &mut [f64], near: &mut Vec<Near>) {
+    fn near(&self, p: DVec3, squared: &mut [f64], near: &mut Vec<NearBone>) {
         near.clear();
         self.distances(p, squared);
         let least = squared.iter().fold(f64::INFINITY, |least, &distance| least.min(distance));
@@ -636,10 +635,10 @@ impl Segments {
                 // Segments of a bone follow each other.
                 Some(last) if last.bone == bone => {
                     if distance < last.distance {
-                        *last = Near { bone, segment, distance, share };
+                        *last = NearBone { bone, segment, distance, share };
                     }
                 }
-                _ => near.push(Near { bone, segment, distance, share }),
+                _ => near.push(NearBone { bone, segment, distance, share }),
             }
         }
         near.retain(|bone| bone.share > 0.0);

@@ -5,18 +5,18 @@
 //! centred by the depths of the rays around it. What is not seen is placed by ratio, and said so.
 
 use super::arms::{Arm, find_arm};
-use super::front_view::Stance;
+use super::front_view::FrontView;
 use super::hand::{Hand, find_fingers};
 use super::head_line::{HeadLine, head_line, middle};
-use super::legs::{Leg, Legs, Seen, find_legs, leg};
-use super::{FoundJoint, Layout};
+use super::legs::{Leg, LegGap, Legs, find_legs, leg};
+use super::{FoundJoint, UnitFigure};
 use crate::character::{MeshKind, Role};
 use crate::error::Warning;
 use crate::geometry::{PointTree, Surface};
 use glam::DVec3;
 use std::collections::BTreeMap;
 
-/// Hands are looked for above this part of the crotch's height.
+/// Hands are looked for above this share of the crotch's height.
 const HANDS_ABOVE: f64 = 0.75;
 /// An arm that reaches this much further than the other one is something else.
 const LONGER_ARM: f64 = 1.15;
@@ -24,24 +24,24 @@ const LONGER_ARM: f64 = 1.15;
 const STOUT: f64 = 0.33;
 /// An arm is longer than so many of its radii, ...
 const SLENDER: f64 = 4.0;
-/// ... and its shoulder lies between these parts of the way from crotch to crown.
+/// ... and its shoulder lies between these shares of the way from crotch to crown.
 const SHOULDER_RANGE: (f64, f64) = (0.2, 0.95);
-/// Spine and chest lie behind the trunk's middle by this part of half its depth.
+/// Spine and chest lie behind the trunk's middle by this share of half its depth.
 const SPINE_BACK: f64 = 0.12;
-/// The hips lie above the hip joints by this part of the way to the neck, ...
+/// The hips lie above the hip joints by this share of the way to the neck, ...
 const HIPS_UP: f64 = 0.06;
-/// ... the chest at this part of the way from hips to neck, and the spine at this part of the way from hips to chest.
-const CHEST_PART: f64 = 0.48;
+/// ... the chest at this share of the way from hips to neck, and the spine at this share of the way from hips to chest.
+const CHEST_SHARE: f64 = 0.48;
 const SPINE_OF_CHEST: f64 = 0.46;
 /// Joints of the middle line are at least so far apart.
 const APART: f64 = 2e-3;
-/// The neck joint lies at this part of the way from shoulder line to narrowest row.
-const NECK_PART: f64 = 0.8;
-/// The head joint lies over the chin by this part of the head's height.
+/// The neck joint lies at this share of the way from shoulder line to narrowest row.
+const NECK_SHARE: f64 = 0.8;
+/// The head joint lies over the chin by this share of the head's height.
 const HEAD_OVER_CHIN: f64 = 0.06;
-/// The clavicle begins at this part of the way from the middle to the shoulder joint.
-const CLAVICLE_PART: f64 = 0.3;
-/// Shoulder joints by ratio: height over the crotch as a part of what is above it, and distance from the axis.
+/// The clavicle begins at this share of the way from the middle to the shoulder joint.
+const CLAVICLE_SHARE: f64 = 0.3;
+/// Shoulder joints by ratio: height over the crotch as a share of what is above it, and distance from the axis.
 const SHOULDER_BY_RATIO: (f64, f64) = (0.62, 0.10);
 /// Joints whose sides agree to within this, after mirroring, are made each other's image.
 const AGREE: f64 = 0.012;
@@ -77,12 +77,12 @@ pub struct FoundJoints {
     pub warnings: Vec<Warning>,
 }
 
-/// Finds the joints of the figure in `layout`. Never fails: what is not seen is placed by ratio.
+/// Finds the joints of `figure`. Never fails: what is not seen is placed by ratio.
 ///
-/// `kinds` are those of the layout's meshes, `None` where nobody knows. `given` joints (layout space) stay where they are,
+/// `kinds` are those of the unit figure's meshes, `None` where nobody knows. `given` joints (its space) stay where they are,
 /// with confidence 1, and the rest is found around them.
 pub fn find_joints(
-    layout: &Layout,
+    figure: &UnitFigure,
     kinds: &[Option<MeshKind>],
     given: &BTreeMap<Role, DVec3>,
     fingers: bool,
@@ -90,49 +90,44 @@ pub fn find_joints(
 ) -> FoundJoints {
     let given: BTreeMap<Role, DVec3> =
         given.iter().filter(|(_, at)| at.is_finite()).map(|(&role, &at)| (role, at)).collect();
-    let stance = Stance::of(layout, kinds, thread_count);
-    let mut found = Search { stance: &stance, given: &given, found: FoundJoints::default() }.run();
+    let view = FrontView::of(figure, kinds, thread_count);
+    let mut found = Search { view: &view, given: &given, found: FoundJoints::default() }.run();
     if fingers {
-        add_fingers(layout, &stance, &mut found);
+        add_fingers(figure, &view, &mut found);
     }
     found
 }
 
 struct Search<'a> {
-    stance: &'a Stance<'a>,
+    view: &'a FrontView<'a>,
     given: &'a BTreeMap<Role, DVec3>,
     found: FoundJoints,
 }
 
-/// The same role on the side asked for; `role` is a left one.
-fn on(left: bool, role: Role) -> Role {
-    if left { role } else { role.mirrored() }
-}
-
 impl Search<'_> {
     fn run(mut self) -> FoundJoints {
-        let stance = self.stance;
-        let mut legs = find_legs(stance, 0.8 * stance.high);
+        let view = self.view;
+        let mut legs = find_legs(view, 0.8 * view.high);
         let floor = HANDS_ABOVE * legs.crotch;
-        let reach = [true, false].map(|left| reach(stance, left, floor));
+        let reach = [true, false].map(|left| reach(view, left, floor));
         let most = LONGER_ARM * reach[0].min(reach[1]);
-        let arms = [true, false].map(|left| find_arm(stance, left, legs.crotch, floor, most));
+        let arms = [true, false].map(|left| find_arm(view, left, legs.crotch, floor, most));
         let arms = arms.map(|arm| {
             arm.filter(|arm| {
-                let part = (arm.shoulder.y - legs.crotch) / (stance.high - legs.crotch).max(1e-6);
+                let share = (arm.shoulder.y - legs.crotch) / (view.high - legs.crotch).max(1e-6);
                 let length = arm.shoulder.distance(arm.elbow) + arm.elbow.distance(arm.tip);
-                (SHOULDER_RANGE.0..=SHOULDER_RANGE.1).contains(&part) && length > SLENDER * arm.radius
+                (SHOULDER_RANGE.0..=SHOULDER_RANGE.1).contains(&share) && length > SLENDER * arm.radius
             })
         });
-        if legs.seen == Seen::No
+        if legs.seen == LegGap::Unseen
             && let [Some(one), Some(other)] = &arms
         {
-            legs = Legs::below_shoulders(stance, 0.5 * (one.shoulder.y + other.shoulder.y));
+            legs = Legs::below_shoulders(view, 0.5 * (one.shoulder.y + other.shoulder.y));
         }
         let pair = [true, false].map(|left| {
-            let given = |role| self.given.get(&on(left, role)).copied();
+            let given = |role: Role| self.given.get(&role.on_side(left)).copied();
             leg(
-                stance,
+                view,
                 &legs,
                 left,
                 given(Role::LeftUpperLeg),
@@ -147,11 +142,12 @@ impl Search<'_> {
         self.put_arms(&legs, arms);
         self.settle_sides();
         let shoulder_line = 0.5 * (self.at(Role::LeftUpperArm).y + self.at(Role::RightUpperArm).y);
-        let line = head_line(stance, shoulder_line, radius);
+        let line = head_line(view, shoulder_line, radius);
         self.put_middle(&legs, &line, shoulder_line);
         self.settle_sides();
         // Two of legs, armpits and a neck make a figure.
-        if [legs.seen != Seen::No, armpits, line.neck_seen].into_iter().filter(|&seen| seen).count() < 2 {
+        if [legs.seen != LegGap::Unseen, armpits, line.neck_seen].into_iter().filter(|&seen| seen).count() < 2
+        {
             for joint in self.found.joints.values_mut() {
                 joint.confidence = joint.confidence.min(DOUBTFUL);
             }
@@ -179,11 +175,11 @@ impl Search<'_> {
 
     fn put_legs(&mut self, legs: &Legs, pair: [Leg; 2]) {
         let confidence = match legs.seen {
-            Seen::Apart => SEEN,
-            Seen::Inside => 0.6,
-            Seen::No => RATIO,
+            LegGap::Open => SEEN,
+            LegGap::Inside => 0.6,
+            LegGap::Unseen => RATIO,
         };
-        if legs.seen == Seen::No {
+        if legs.seen == LegGap::Unseen {
             self.warn("the legs were not seen apart: hip joints and knees placed by ratio");
         }
         if pair.iter().any(|leg| !leg.ankle_seen) {
@@ -191,16 +187,16 @@ impl Search<'_> {
         }
         for (left, leg) in [true, false].into_iter().zip(pair) {
             let ankle = if leg.ankle_seen { confidence } else { confidence.min(0.55) };
-            self.put(on(left, Role::LeftUpperLeg), leg.hip, confidence);
-            self.put(on(left, Role::LeftLowerLeg), leg.knee, confidence);
-            self.put(on(left, Role::LeftFoot), leg.ankle, ankle);
-            self.put(on(left, Role::LeftToes), leg.toes, ankle);
-            self.found.tips.insert(on(left, Role::LeftToes), leg.tip);
+            self.put(Role::LeftUpperLeg.on_side(left), leg.hip, confidence);
+            self.put(Role::LeftLowerLeg.on_side(left), leg.knee, confidence);
+            self.put(Role::LeftFoot.on_side(left), leg.ankle, ankle);
+            self.put(Role::LeftToes.on_side(left), leg.toes, ankle);
+            self.found.tips.insert(Role::LeftToes.on_side(left), leg.tip);
         }
     }
 
     fn put_arms(&mut self, legs: &Legs, arms: [Option<Arm>; 2]) {
-        let stance = self.stance;
+        let view = self.view;
         if arms.iter().any(|arm| arm.as_ref().is_none_or(|arm| !arm.pit_seen)) {
             self.warn("an arm was not seen to end at an armpit: shoulder joints and elbows placed by ratio");
         } else if arms.iter().flatten().any(|arm| !arm.wrist_seen) {
@@ -211,7 +207,7 @@ impl Search<'_> {
                 Some(arm) => {
                     let base = if arm.pit_seen { SEEN } else { RATIO };
                     let wrist = if arm.wrist_seen { base } else { base.min(DOUBTFUL) };
-                    let stout = arm.pit.x > STOUT * (arm.tip.x - stance.axis).abs();
+                    let stout = arm.pit.x > STOUT * (arm.tip.x - view.axis).abs();
                     let base = if stout { base.min(DOUBTFUL) } else { base };
                     (
                         [arm.shoulder, arm.elbow, arm.wrist, arm.tip],
@@ -219,9 +215,9 @@ impl Search<'_> {
                     )
                 }
                 None => {
-                    let above = stance.high - legs.crotch;
+                    let above = view.high - legs.crotch;
                     let y = legs.crotch + SHOULDER_BY_RATIO.0 * above;
-                    let joint = |distance: f64| stance.point(left, distance, y, middle(stance, y).0);
+                    let joint = |distance: f64| view.point(left, distance, y, middle(view, y).0);
                     let out = SHOULDER_BY_RATIO.1;
                     ([joint(out), joint(out + 0.15), joint(out + 0.29), joint(out + 0.38)], [RATIO; 3])
                 }
@@ -230,15 +226,15 @@ impl Search<'_> {
             for (index, role) in
                 [Role::LeftUpperArm, Role::LeftLowerArm, Role::LeftHand].into_iter().enumerate()
             {
-                self.put(on(left, role), joints[index], confidences[index]);
+                self.put(role.on_side(left), joints[index], confidences[index]);
             }
-            self.found.tips.insert(on(left, Role::LeftHand), joints[3]);
+            self.found.tips.insert(Role::LeftHand.on_side(left), joints[3]);
         }
     }
 
     /// Shoulder, elbow, wrist and tip of an arm some of whose joints are given.
     fn around_given(&self, left: bool, found: [DVec3; 4]) -> [DVec3; 4] {
-        let given = |role: Role| self.given.get(&on(left, role)).copied();
+        let given = |role: Role| self.given.get(&role.on_side(left)).copied();
         let [shoulder, elbow, wrist] = [Role::LeftUpperArm, Role::LeftLowerArm, Role::LeftHand].map(given);
         let mut arm = found;
         arm[0] = shoulder.unwrap_or(found[0]);
@@ -246,9 +242,9 @@ impl Search<'_> {
         if (shoulder.is_some() || wrist.is_some()) && elbow.is_none() {
             // As far along and beside the line from shoulder to wrist as it was.
             let (before, after) = (found[2] - found[0], arm[2] - arm[0]);
-            let part = (found[1] - found[0]).dot(before) / before.length_squared().max(1e-12);
-            let beside = found[1] - found[0] - part * before;
-            arm[1] = arm[0] + part * after + beside;
+            let share = (found[1] - found[0]).dot(before) / before.length_squared().max(1e-12);
+            let beside = found[1] - found[0] - share * before;
+            arm[1] = arm[0] + share * after + beside;
         }
         arm[1] = elbow.unwrap_or(arm[1]);
         arm[3] += arm[2] - found[2];
@@ -256,30 +252,30 @@ impl Search<'_> {
     }
 
     fn put_middle(&mut self, legs: &Legs, line: &HeadLine, shoulder_line: f64) {
-        let stance = self.stance;
+        let view = self.view;
         let given = |role: Role| self.given.get(&role).map(|at| at.y);
         let hip_line = 0.5 * (self.at(Role::LeftUpperLeg).y + self.at(Role::RightUpperLeg).y);
         // Each above the one before, whatever was read.
         let crown = line.crown.max(shoulder_line + 4.0 * APART);
         let chin = line.chin.clamp(shoulder_line + 2.0 * APART, crown - 2.0 * APART);
-        let neck = shoulder_line + NECK_PART * (line.neck - shoulder_line);
+        let neck = shoulder_line + NECK_SHARE * (line.neck - shoulder_line);
         let neck = given(Role::Neck).unwrap_or(neck.clamp(shoulder_line + APART, chin));
         let chin = chin.max(neck);
         let head = (chin + HEAD_OVER_CHIN * (crown - chin)).max(neck + APART);
         let head = given(Role::Head).unwrap_or(head);
         let hips = (hip_line + HIPS_UP * (neck - hip_line)).max(legs.crotch + APART);
         let hips = given(Role::Hips).unwrap_or(hips);
-        let chest = hips + CHEST_PART * (neck - hips);
+        let chest = hips + CHEST_SHARE * (neck - hips);
         let chest = given(Role::Chest).unwrap_or(chest.min(shoulder_line - APART).max(hips + 2.0 * APART));
         let spine = given(Role::Spine).unwrap_or(hips + SPINE_OF_CHEST * (chest - hips));
         let confidence = if line.neck_seen { 0.7 } else { DOUBTFUL };
-        let trunk = if legs.seen == Seen::No { DOUBTFUL } else { 0.7 };
+        let trunk = if legs.seen == LegGap::Unseen { DOUBTFUL } else { 0.7 };
         if !line.neck_seen {
             self.warn("no neck was seen between shoulders and head: neck and head placed by ratio");
         }
         let on_axis = |y: f64, back: f64| {
-            let (z, half_depth) = middle(stance, y);
-            DVec3::new(stance.axis, y, z - back * half_depth)
+            let (z, half_depth) = middle(view, y);
+            DVec3::new(view.axis, y, z - back * half_depth)
         };
         for (role, y, back, confidence) in [
             (Role::Hips, hips, 0.0, trunk),
@@ -291,22 +287,22 @@ impl Search<'_> {
             self.put(role, on_axis(y, back), confidence);
         }
         for left in [true, false] {
-            let arm = self.at(on(left, Role::LeftUpperArm));
+            let arm = self.at(Role::LeftUpperArm.on_side(left));
             let middle = on_axis(shoulder_line, SPINE_BACK);
-            let at = middle.lerp(arm, CLAVICLE_PART).with_y(arm.y + 0.3 * (neck - shoulder_line).max(0.0));
-            let confidence = self.found.joints[&on(left, Role::LeftUpperArm)].confidence;
-            self.put(on(left, Role::LeftShoulder), at, confidence);
+            let at = middle.lerp(arm, CLAVICLE_SHARE).with_y(arm.y + 0.3 * (neck - shoulder_line).max(0.0));
+            let confidence = self.found.joints[&Role::LeftUpperArm.on_side(left)].confidence;
+            self.put(Role::LeftShoulder.on_side(left), at, confidence);
         }
-        self.found.chin = DVec3::new(stance.axis, chin, line.chin_z);
-        let top = DVec3::new(stance.axis, crown, middle(stance, crown - 0.02).0);
+        self.found.chin = DVec3::new(view.axis, chin, line.chin_z);
+        let top = DVec3::new(view.axis, crown, middle(view, crown - 0.02).0);
         self.found.tips.insert(Role::Head, top);
     }
 
     /// Sides that agree become each other's image; sides that do not are doubtful.
     fn settle_sides(&mut self) {
-        let stance = self.stance;
-        let image = |p: DVec3| DVec3::new(2.0 * stance.axis - p.x, p.y, p.z);
-        let lefts: Vec<Role> = self.found.joints.keys().copied().filter(|role| is_left(*role)).collect();
+        let view = self.view;
+        let image = |p: DVec3| DVec3::new(2.0 * view.axis - p.x, p.y, p.z);
+        let lefts: Vec<Role> = self.found.joints.keys().copied().filter(|role| role.is_left()).collect();
         for role in lefts {
             let other = role.mirrored();
             if limb(role)
@@ -317,7 +313,7 @@ impl Search<'_> {
             }
             let (one, two) = (self.found.joints[&role], self.found.joints[&other]);
             let apart = one.position.distance(image(two.position));
-            if stance.is_symmetric || apart <= AGREE {
+            if view.is_symmetric || apart <= AGREE {
                 let middle = if apart <= AGREE {
                     0.5 * (one.position + image(two.position))
                 } else if two.confidence > one.confidence {
@@ -333,21 +329,17 @@ impl Search<'_> {
                 self.put(other, two.position, two.confidence.min(DOUBTFUL));
             }
         }
-        let lefts: Vec<Role> = self.found.tips.keys().copied().filter(|role| is_left(*role)).collect();
+        let lefts: Vec<Role> = self.found.tips.keys().copied().filter(|role| role.is_left()).collect();
         for role in lefts {
             let (one, two) = (self.found.tips[&role], self.found.tips[&role.mirrored()]);
             let apart = one.distance(image(two));
-            if stance.is_symmetric || apart <= AGREE {
+            if view.is_symmetric || apart <= AGREE {
                 let middle = if apart <= AGREE { 0.5 * (one + image(two)) } else { one };
                 self.found.tips.insert(role, middle);
                 self.found.tips.insert(role.mirrored(), image(middle));
             }
         }
     }
-}
-
-fn is_left(role: Role) -> bool {
-    role.mirrored() != role && role.name().starts_with("left")
 }
 
 /// The left roles of the arm or the leg that a left role belongs to.
@@ -359,23 +351,23 @@ fn limb(role: Role) -> &'static [Role] {
 }
 
 /// How far from the axis something reaches above `floor`.
-fn reach(stance: &Stance, left: bool, floor: f64) -> f64 {
-    (stance.grid.row(floor)..stance.grid.frame.rows)
-        .filter_map(|row| stance.side_runs(left, row).last().map(|run| run.1))
+fn reach(view: &FrontView, left: bool, floor: f64) -> f64 {
+    (view.grid.row(floor)..view.grid.frame.rows)
+        .filter_map(|row| view.side_runs(left, row).last().map(|run| run.1))
         .max()
         .unwrap_or(0) as f64
-        * stance.cell()
+        * view.cell()
 }
 
-fn add_fingers(layout: &Layout, stance: &Stance, found: &mut FoundJoints) {
-    let surface = Surface::new(stance.positions, &stance.triangles);
-    let place = |role: Role, left: bool| found.joints[&on(left, role)].position;
+fn add_fingers(figure: &UnitFigure, view: &FrontView, found: &mut FoundJoints) {
+    let surface = Surface::new(view.positions, &view.triangles);
+    let place = |role: Role, left: bool| found.joints[&role.on_side(left)].position;
     let mut hands = [true, false].map(|left| {
         let (elbow, wrist) = (place(Role::LeftLowerArm, left), place(Role::LeftHand, left));
-        find_fingers(&surface, &layout.positions, &stance.triangles, elbow, wrist, left)
+        find_fingers(&surface, &figure.positions, &view.triangles, elbow, wrist, left)
     });
     let wrists = [true, false].map(|left| place(Role::LeftHand, left));
-    if let Some(middle) = mirror_of_hands(stance, wrists) {
+    if let Some(middle) = mirror_of_hands(view, wrists) {
         // Two hands that are mirror images may still be cut into triangles differently: what one of them shows is true
         // of both.
         let seen = |hand: &Hand| hand.joints.values().map(|joint| joint.confidence).sum::<f64>();
@@ -384,7 +376,7 @@ fn add_fingers(layout: &Layout, stance: &Stance, found: &mut FoundJoints) {
         hands[1 - better] = mirrored(&hands[better], middle);
     }
     for (left, hand) in [true, false].into_iter().zip(hands) {
-        let wrist = on(left, Role::LeftHand);
+        let wrist = Role::LeftHand.on_side(left);
         let doubt = found.joints[&wrist].confidence;
         for (role, joint) in hand.joints {
             let confidence = joint.confidence.min(doubt);
@@ -398,19 +390,19 @@ fn add_fingers(layout: &Layout, stance: &Stance, found: &mut FoundJoints) {
 }
 
 /// The x of the plane in which the hands at both wrists mirror each other, vertex by vertex; `None` where they do not.
-fn mirror_of_hands(stance: &Stance, wrists: [DVec3; 2]) -> Option<f64> {
+fn mirror_of_hands(view: &FrontView, wrists: [DVec3; 2]) -> Option<f64> {
     let middle = 0.5 * (wrists[0].x + wrists[1].x);
     let mirror = |p: DVec3| DVec3::new(2.0 * middle - p.x, p.y, p.z);
     if mirror(wrists[0]).distance(wrists[1]) > MIRRORED_WRISTS {
         return None;
     }
-    let mut corners: Vec<u32> = stance.triangles.iter().flatten().copied().collect();
+    let mut corners: Vec<u32> = view.triangles.iter().flatten().copied().collect();
     corners.sort_unstable();
     corners.dedup();
     let around = |wrist: DVec3| -> Vec<DVec3> {
         corners
             .iter()
-            .map(|&vertex| stance.positions[vertex as usize])
+            .map(|&vertex| view.positions[vertex as usize])
             .filter(|p| p.distance(wrist) < HAND_REACH)
             .collect()
     };

@@ -1,6 +1,6 @@
-//! Legs: where they part, and where hip, knee, ankle and toes are in them.
+//! Legs: where they divide, and where hip, knee, ankle and toes are in them.
 
-use super::front_view::Stance;
+use super::front_view::FrontView;
 use super::silhouette::lowest;
 use glam::DVec3;
 
@@ -18,21 +18,21 @@ const TOUCH_OFF_AXIS: f64 = 0.01;
 const SLIT: usize = 2;
 /// A crotch lower or higher than this is none.
 const CROTCH_RANGE: (f64, f64) = (0.10, 0.62);
-/// The crotch where none is seen, as a part of the figure's height, ...
+/// The crotch where none is seen, as a share of the figure's height, ...
 const CROTCH_BY_RATIO: f64 = 0.47;
 /// ... and of the shoulders' height, where those are seen.
 const CROTCH_OF_SHOULDERS: f64 = 0.56;
 /// Legs stand within this distance of the axis.
 const LEG_REACH: f64 = 0.25;
-/// The hip joint lies above the crotch by this part of the crotch's height.
+/// The hip joint lies above the crotch by this share of the crotch's height.
 const HIP_OVER_CROTCH: f64 = 0.057;
-/// The knee lies this part of the way from ankle to hip joint.
-const KNEE_PART: f64 = 0.515;
-/// The slimmest section above the foot is looked for between these parts of the crotch's height.
+/// The knee lies this share of the way from ankle to hip joint.
+const KNEE_SHARE: f64 = 0.515;
+/// The slimmest section above the foot is looked for between these shares of the crotch's height.
 const SLIM_RANGE: (f64, f64) = (0.08, 0.35);
-/// The ankle joint lies at this part of the slimmest section's height: the section lies above the ankle bones.
+/// The ankle joint lies at this share of the slimmest section's height: the section lies above the ankle bones.
 const ANKLE_OF_SLIM: f64 = 0.62;
-/// The ankle where none is seen, as a part of the crotch's height, ...
+/// The ankle where none is seen, as a share of the crotch's height, ...
 const ANKLE_BY_RATIO: f64 = 0.10;
 /// ... and the range in which it is believed.
 const ANKLE_RANGE: (f64, f64) = (0.06, 0.22);
@@ -64,15 +64,15 @@ impl Section {
     }
 }
 
-/// How the crotch was found.
+/// What shows between the legs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Seen {
+pub enum LegGap {
     /// Air between the legs.
-    Apart,
+    Open,
     /// Two legs inside of something.
     Inside,
-    /// Not at all.
-    No,
+    /// Neither.
+    Unseen,
 }
 
 /// Both legs.
@@ -80,7 +80,7 @@ pub struct Legs {
     /// Height of the crotch.
     pub crotch: f64,
     /// How it was found.
-    pub seen: Seen,
+    pub seen: LegGap,
     /// Sections of the left and of the right leg, upwards.
     pub sections: [Vec<Section>; 2],
 }
@@ -108,28 +108,28 @@ struct Limb {
 }
 
 /// Looks for the legs below `top`.
-pub fn find_legs(stance: &Stance, top: f64) -> Legs {
+pub fn find_legs(view: &FrontView, top: f64) -> Legs {
     let mut pairs: Vec<Option<[Limb; 2]>> = Vec::new();
-    let (mut crotch, mut seen) = (None, Seen::No);
-    let first = stance.grid.row(stance.low);
-    let last = stance.grid.row((CROTCH_RANGE.1).min(top));
-    let bridge = (BRIDGE / stance.cell()) as usize;
+    let (mut crotch, mut seen) = (None, LegGap::Unseen);
+    let first = view.grid.row(view.low);
+    let last = view.grid.row((CROTCH_RANGE.1).min(top));
+    let bridge = (BRIDGE / view.cell()) as usize;
     let mut missed = 0;
     let (mut outside_rows, mut inside_rows) = (0usize, 0usize);
     for row in first..=last {
-        let apart = apart(stance, row);
-        let inner = if apart.is_none() { inside(stance, row) } else { None };
-        let pair = apart.or(inner).or_else(|| touching(stance, row));
+        let apart = apart(view, row);
+        let inner = if apart.is_none() { inside(view, row) } else { None };
+        let pair = apart.or(inner).or_else(|| touching(view, row));
         pairs.push(pair);
         if pair.is_none() {
             missed += 1;
-            let patience = if crotch.is_none() { GAP_STARTS_BELOW / stance.cell() } else { bridge as f64 };
+            let patience = if crotch.is_none() { GAP_STARTS_BELOW / view.cell() } else { bridge as f64 };
             if missed as f64 > patience {
                 break;
             }
         } else {
             missed = 0;
-            crotch = Some(stance.grid.y(row) + 0.5 * stance.cell());
+            crotch = Some(view.grid.y(row) + 0.5 * view.cell());
             if inner.is_some() {
                 inside_rows += 1;
             } else {
@@ -139,55 +139,55 @@ pub fn find_legs(stance: &Stance, top: f64) -> Legs {
     }
     if let Some(y) = crotch {
         seen = if y < CROTCH_RANGE.0 {
-            Seen::No
+            LegGap::Unseen
         } else if inside_rows * 4 > outside_rows {
-            Seen::Inside
+            LegGap::Inside
         } else {
-            Seen::Apart
+            LegGap::Open
         };
     }
     let crotch = match (seen, crotch) {
-        (Seen::No, _) | (_, None) => (CROTCH_BY_RATIO * (stance.high - stance.low)).min(0.6 * top),
+        (LegGap::Unseen, _) | (_, None) => (CROTCH_BY_RATIO * (view.high - view.low)).min(0.6 * top),
         (_, Some(y)) => y,
     };
-    let sections = sections(stance, crotch, first, &pairs);
+    let sections = sections(view, crotch, first, &pairs);
     Legs { crotch, seen, sections }
 }
 
 impl Legs {
     /// Legs that nobody saw, under shoulders at height `shoulder_line`.
-    pub fn below_shoulders(stance: &Stance, shoulder_line: f64) -> Self {
-        let first = stance.grid.row(stance.low);
-        let crotch = stance.low + CROTCH_OF_SHOULDERS * (shoulder_line - stance.low).max(0.0);
-        Self { crotch, seen: Seen::No, sections: sections(stance, crotch, first, &[]) }
+    pub fn below_shoulders(view: &FrontView, shoulder_line: f64) -> Self {
+        let first = view.grid.row(view.low);
+        let crotch = view.low + CROTCH_OF_SHOULDERS * (shoulder_line - view.low).max(0.0);
+        Self { crotch, seen: LegGap::Unseen, sections: sections(view, crotch, first, &[]) }
     }
 }
 
-fn sections(stance: &Stance, crotch: f64, first: usize, pairs: &[Option<[Limb; 2]>]) -> [Vec<Section>; 2] {
+fn sections(view: &FrontView, crotch: f64, first: usize, pairs: &[Option<[Limb; 2]>]) -> [Vec<Section>; 2] {
     [true, false].map(|left| {
         let side = usize::from(!left);
-        (first..=stance.grid.row(crotch))
+        (first..=view.grid.row(crotch))
             .filter_map(|row| {
                 let limb = pairs.get(row - first).copied().flatten().map(|pair| pair[side]);
                 let limb = limb.or_else(|| {
                     // One run on the axis: half of it is this leg.
-                    let run = *stance.side_runs(left, row).first()?;
-                    let reach = (LEG_REACH / stance.cell()) as usize;
+                    let run = *view.side_runs(left, row).first()?;
+                    let reach = (LEG_REACH / view.cell()) as usize;
                     (run.0 < reach).then_some(Limb { steps: (run.0, run.1.min(reach)) })
                 })?;
-                section(stance, left, row, limb)
+                section(view, left, row, limb)
             })
             .collect()
     })
 }
 
 /// Two legs with air between them.
-fn apart(stance: &Stance, row: usize) -> Option<[Limb; 2]> {
-    let reach = (LEG_REACH / stance.cell()) as usize;
-    let half = stance.half_columns();
+fn apart(view: &FrontView, row: usize) -> Option<[Limb; 2]> {
+    let reach = (LEG_REACH / view.cell()) as usize;
+    let half = view.half_columns();
     // The gap's middle may lie beside the axis.
-    let off = (GAP_OFF_AXIS / stance.cell()) as usize;
-    let runs = &stance.runs[row];
+    let off = (GAP_OFF_AXIS / view.cell()) as usize;
+    let runs = &view.runs[row];
     let (before, after) = runs
         .windows(2)
         .map(|pair| (pair[0], pair[1]))
@@ -203,7 +203,7 @@ fn apart(stance: &Stance, row: usize) -> Option<[Limb; 2]> {
         return None;
     }
     // A sliver is no leg.
-    let least = (0.006 / stance.cell()) as usize;
+    let least = (0.006 / view.cell()) as usize;
     if left.1 - left.0 < least || right.1 - right.0 < least {
         return None;
     }
@@ -211,21 +211,21 @@ fn apart(stance: &Stance, row: usize) -> Option<[Limb; 2]> {
 }
 
 /// Two legs that touch: between them, the figure is thinner than on either side.
-fn touching(stance: &Stance, row: usize) -> Option<[Limb; 2]> {
-    let runs = [true, false].map(|left| stance.side_runs(left, row).first().copied());
+fn touching(view: &FrontView, row: usize) -> Option<[Limb; 2]> {
+    let runs = [true, false].map(|left| view.side_runs(left, row).first().copied());
     let [Some(left), Some(right)] = runs else { return None };
-    let reach = (LEG_REACH / stance.cell()) as usize;
+    let reach = (LEG_REACH / view.cell()) as usize;
     if left.0 > SLIT || right.0 > SLIT || left.1 > reach || right.1 > reach {
         return None;
     }
     let thickness = |left: bool, steps: usize| {
-        stance.grid.thickest(stance.column(left, steps), row).map_or(0.0, |(back, front)| front - back)
+        view.grid.thickest(view.column(left, steps), row).map_or(0.0, |(back, front)| front - back)
     };
     let most = |left: bool, run: (usize, usize)| {
         (run.0..run.1).map(|steps| thickness(left, steps)).fold(0.0, f64::max)
     };
     let leg = most(true, left).min(most(false, right));
-    let off = (TOUCH_OFF_AXIS / stance.cell()) as usize;
+    let off = (TOUCH_OFF_AXIS / view.cell()) as usize;
     let between = [true, false]
         .into_iter()
         .flat_map(|left| (0..=off).map(move |steps| thickness(left, steps)))
@@ -234,10 +234,10 @@ fn touching(stance: &Stance, row: usize) -> Option<[Limb; 2]> {
 }
 
 /// Two legs inside of a skirt: on either side of the axis there are columns whose rays meet more than those between.
-fn inside(stance: &Stance, row: usize) -> Option<[Limb; 2]> {
-    let half = stance.half_columns();
-    let off = (0.5 * GAP_OFF_AXIS / stance.cell()) as usize;
-    let count = |column: usize| stance.grid.hits(column, row).len();
+fn inside(view: &FrontView, row: usize) -> Option<[Limb; 2]> {
+    let half = view.half_columns();
+    let off = (0.5 * GAP_OFF_AXIS / view.cell()) as usize;
+    let count = |column: usize| view.grid.hits(column, row).len();
     let window = half.saturating_sub(off)..(half + off).min(2 * half);
     let between = window.clone().map(count).min()?;
     if between < 2 {
@@ -246,8 +246,8 @@ fn inside(stance: &Stance, row: usize) -> Option<[Limb; 2]> {
     let limbs = [true, false].map(|left| {
         let mut start = None;
         let mut end = 0;
-        for steps in 0..half.min((LEG_REACH / stance.cell()) as usize) {
-            let more = count(stance.column(left, steps)) >= between + 2;
+        for steps in 0..half.min((LEG_REACH / view.cell()) as usize) {
+            let more = count(view.column(left, steps)) >= between + 2;
             match (more, start) {
                 (true, None) => {
                     start = Some(steps);
@@ -261,24 +261,18 @@ fn inside(stance: &Stance, row: usize) -> Option<[Limb; 2]> {
         start.map(|start| Limb { steps: (start, end) })
     });
     let [Some(left), Some(right)] = limbs else { return None };
-    let least = (0.02 / stance.cell()) as usize;
+    let least = (0.02 / view.cell()) as usize;
     let gap = left.steps.0 + right.steps.0;
     let near = left.steps.0.abs_diff(right.steps.0) <= 2 * off;
     (gap >= 2 && near && left.steps.1 - left.steps.0 >= least && right.steps.1 - right.steps.0 >= least)
         .then_some([left, right])
 }
 
-fn section(stance: &Stance, left: bool, row: usize, limb: Limb) -> Option<Section> {
+fn section(view: &FrontView, left: bool, row: usize, limb: Limb) -> Option<Section> {
     let (back, front) =
-        stance.grid.limb((limb.steps.0..limb.steps.1).map(|steps| (stance.column(left, steps), row)))?;
-    let (near, far) = (limb.steps.0 as f64 * stance.cell(), limb.steps.1 as f64 * stance.cell());
-    Some(Section {
-        y: stance.grid.y(row),
-        x: 0.5 * (near + far),
-        half_width: 0.5 * (far - near),
-        front,
-        back,
-    })
+        view.grid.limb((limb.steps.0..limb.steps.1).map(|steps| (view.column(left, steps), row)))?;
+    let (near, far) = (limb.steps.0 as f64 * view.cell(), limb.steps.1 as f64 * view.cell());
+    Some(Section { y: view.grid.y(row), x: 0.5 * (near + far), half_width: 0.5 * (far - near), front, back })
 }
 
 /// The mean of the sections between two heights, the nearest one where there are none there.
@@ -302,7 +296,7 @@ pub fn mean_section(sections: &[Section], low: f64, high: f64) -> Option<Section
 
 /// One leg's joints; what is `given` stays.
 pub fn leg(
-    stance: &Stance,
+    view: &FrontView,
     legs: &Legs,
     left: bool,
     given_hip: Option<DVec3>,
@@ -310,46 +304,46 @@ pub fn leg(
     given_ankle: Option<DVec3>,
 ) -> Leg {
     let sections = &legs.sections[usize::from(!left)];
-    let length = (legs.crotch - stance.low).max(1e-3);
-    let at = |part: f64| stance.low + part * length;
+    let length = (legs.crotch - view.low).max(1e-3);
+    let at = |share: f64| view.low + share * length;
     let height_of = |y: f64| {
         mean_section(sections, y - 0.01, y + 0.01).unwrap_or(Section {
             y,
-            x: 0.06 * (stance.high - stance.low),
+            x: 0.06 * (view.high - view.low),
             half_width: 0.03,
             front: 0.0,
             back: 0.0,
         })
     };
     let foot: Vec<&Section> = sections.iter().filter(|s| s.y < at(ANKLE_RANGE.1)).collect();
-    let Ankle { y: ankle_y, slim, seen: ankle_seen } = ankle_height(sections, stance.low, length);
+    let Ankle { y: ankle_y, slim, seen: ankle_seen } = ankle_height(sections, view.low, length);
     let shin = height_of(at(0.3));
     let above_ankle = height_of(slim);
-    let ankle = given_ankle.unwrap_or_else(|| stance.point(left, above_ankle.x, ankle_y, above_ankle.z()));
+    let ankle = given_ankle.unwrap_or_else(|| view.point(left, above_ankle.x, ankle_y, above_ankle.z()));
     let hip = given_hip.unwrap_or_else(|| {
         let y = legs.crotch + HIP_OVER_CROTCH * length;
         let top = mean_section(sections, at(0.90), at(0.99)).unwrap_or(shin);
-        let steps = (top.x / stance.cell()) as usize;
-        let z = stance.grid.thickest(stance.column(left, steps), stance.grid.row(y));
-        stance.point(left, top.x, y, z.map_or(top.z(), |(back, front)| 0.5 * (back + front)))
+        let steps = (top.x / view.cell()) as usize;
+        let z = view.grid.thickest(view.column(left, steps), view.grid.row(y));
+        view.point(left, top.x, y, z.map_or(top.z(), |(back, front)| 0.5 * (back + front)))
     });
     let knee = given_knee.unwrap_or_else(|| {
-        let y = ankle.y + KNEE_PART * (hip.y - ankle.y);
+        let y = ankle.y + KNEE_SHARE * (hip.y - ankle.y);
         let section = height_of(y);
-        stance.point(left, section.x, y, section.z())
+        view.point(left, section.x, y, section.z())
     });
     let front = foot.iter().map(|s| s.front).fold(ankle.z, f64::max);
-    let low = height_of(stance.low + 0.02);
-    let side = |p: DVec3| (p.x - stance.axis).abs();
-    let toe_y = stance.low + 0.3 * (ankle.y - stance.low);
+    let low = height_of(view.low + 0.02);
+    let side = |p: DVec3| (p.x - view.axis).abs();
+    let toe_y = view.low + 0.3 * (ankle.y - view.low);
     let toe_z = ankle.z + 0.65 * (front - ankle.z);
     let toe_x = 0.5 * (side(ankle) + low.x);
     Leg {
         hip,
         knee,
         ankle,
-        toes: stance.point(left, toe_x, toe_y, toe_z),
-        tip: stance.point(left, toe_x, toe_y, front),
+        toes: view.point(left, toe_x, toe_y, toe_z),
+        tip: view.point(left, toe_x, toe_y, front),
         ankle_seen,
     }
 }

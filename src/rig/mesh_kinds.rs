@@ -3,10 +3,10 @@
 //! The guess looks at layers. From points all over a mesh one ray goes inwards and one outwards: cloth meets another
 //! mesh's outside right below it, a limb its own far side, an eye is met with from within by the head.
 
-use super::{FoundJoint, Layout};
+use super::{FoundJoint, UnitFigure};
 use crate::character::{MeshKind, Role};
 use crate::error::Warning;
-use crate::geometry::{Hit, Surface, double_area, weld};
+use crate::geometry::{Hit, Surface, bounds, double_area, range, weld};
 use glam::DVec3;
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
@@ -77,24 +77,24 @@ const TRUNK_HALF_WIDTH: f64 = 0.12;
 /// The share of slices in which a whole body shows.
 const WHOLE_SHARE: f64 = 0.9;
 
-/// A kind for every mesh of `layout`, and a warning (`kind_guessed`) that names those that were guessed without being
+/// A kind for every mesh of `figure`, and a warning (`kind_guessed`) that names those that were guessed without being
 /// sure.
 ///
-/// Kinds that the layout has stay. Of the rest the innermost volumes are body, what lies over them is clothes, or hair
+/// Kinds that it has stay. Of the rest the innermost volumes are body, what lies over them is clothes, or hair
 /// above the chin; what sits in or on the front of the head is part of the face; what hangs aside is an accessory. In
 /// doubt a mesh is body where it makes the body whole, else clothes. A single mesh is body.
 ///
 /// Runs before joints are known; [`refine_kinds`] looks again once they are.
-pub fn guess_kinds(layout: &Layout) -> (Vec<MeshKind>, Vec<Warning>) {
-    let unknown = layout.kinds.iter().filter(|kind| kind.is_none()).count();
-    if unknown == 0 || layout.mesh_count() == 1 {
-        return (layout.kinds.iter().map(|kind| kind.unwrap_or_default()).collect(), Vec::new());
+pub fn guess_kinds(figure: &UnitFigure) -> (Vec<MeshKind>, Vec<Warning>) {
+    let unknown = figure.kinds.iter().filter(|kind| kind.is_none()).count();
+    if unknown == 0 || figure.mesh_count() == 1 {
+        return (figure.kinds.iter().map(|kind| kind.unwrap_or_default()).collect(), Vec::new());
     }
-    let scene = Scene::new(layout);
+    let scene = Scene::new(figure);
     let guesses = scene.guess(None);
     let doubtful: Vec<usize> = (0..guesses.len()).filter(|&mesh| !guesses[mesh].sure).collect();
     let kinds: Vec<MeshKind> = guesses.iter().map(|guess| guess.kind).collect();
-    let warnings = warning(layout, &kinds, &doubtful);
+    let warnings = warning(figure, &kinds, &doubtful);
     (kinds, warnings)
 }
 
@@ -102,18 +102,18 @@ pub fn guess_kinds(layout: &Layout) -> (Vec<MeshKind>, Vec<Warning>) {
 ///
 /// What is body stays body; the rest is told apart anew. The warning names the meshes whose kind is another one now.
 pub fn refine_kinds(
-    layout: &Layout,
+    figure: &UnitFigure,
     kinds: &mut [MeshKind],
     joints: &BTreeMap<Role, FoundJoint>,
 ) -> Vec<Warning> {
     let open = |mesh: usize, kinds: &[MeshKind]| {
-        layout.kinds[mesh].is_none() && kinds.get(mesh).is_some_and(|&kind| kind != MeshKind::Body)
+        figure.kinds[mesh].is_none() && kinds.get(mesh).is_some_and(|&kind| kind != MeshKind::Body)
     };
     let head = joints.get(&Role::Head).map(|joint| joint.position).filter(|p| p.is_finite());
-    let Some(head) = head.filter(|_| (0..layout.mesh_count()).any(|mesh| open(mesh, kinds))) else {
+    let Some(head) = head.filter(|_| (0..figure.mesh_count()).any(|mesh| open(mesh, kinds))) else {
         return Vec::new();
     };
-    let guesses = Scene::new(layout).guess(Some(head));
+    let guesses = Scene::new(figure).guess(Some(head));
     let mut changed = Vec::new();
     for (mesh, guess) in guesses.iter().enumerate() {
         if open(mesh, kinds) && guess.kind != kinds[mesh] {
@@ -121,32 +121,32 @@ pub fn refine_kinds(
             changed.push(mesh);
         }
     }
-    warning(layout, kinds, &changed)
+    warning(figure, kinds, &changed)
 }
 
 /// True where the body meshes alone reach over the figure: trunk, legs and arms show wherever body and clothes do.
 ///
 /// False where there is no body, or where parts hidden below clothes were left out; clothes cannot follow such a body.
-pub fn body_is_whole(layout: &Layout, kinds: &[MeshKind]) -> bool {
+pub fn body_is_whole(figure: &UnitFigure, kinds: &[MeshKind]) -> bool {
     let is_body = |mesh: usize| kinds.get(mesh) == Some(&MeshKind::Body);
     let is_figure = |mesh: usize| is_body(mesh) || kinds.get(mesh) == Some(&MeshKind::Garment);
-    reaches_over(layout, middle_plane(layout, &is_figure), &is_body, &is_figure)
+    reaches_over(figure, middle_plane(figure, &is_figure), &is_body, &is_figure)
 }
 
-/// True where those meshes that `part` accepts show in nearly all slices in which those that `whole` accepts do.
+/// True where those meshes that `some` accepts show in nearly all slices in which those that `whole` accepts do.
 fn reaches_over(
-    layout: &Layout,
+    figure: &UnitFigure,
     middle: f64,
-    part: &dyn Fn(usize) -> bool,
+    some: &dyn Fn(usize) -> bool,
     whole: &dyn Fn(usize) -> bool,
 ) -> bool {
-    let (part, whole) = (slices(layout, middle, part), slices(layout, middle, whole));
+    let (some, whole) = (slices(figure, middle, some), slices(figure, middle, whole));
     // Each side's half of the trunk and leg, and each arm for itself.
-    let shows = part.iter().flatten().any(|&shown| shown);
+    let shows = some.iter().flatten().any(|&shown| shown);
     shows
-        && part.iter().zip(&whole).all(|(part, whole)| {
+        && some.iter().zip(&whole).all(|(some, whole)| {
             let shown = whole.iter().filter(|&&shown| shown).count();
-            let both = part.iter().zip(whole).filter(|&(&part, &whole)| part && whole).count();
+            let both = some.iter().zip(whole).filter(|&(&some, &whole)| some && whole).count();
             both as f64 >= WHOLE_SHARE * shown as f64
         })
 }
@@ -154,15 +154,14 @@ fn reaches_over(
 /// Where triangles are: slices along the height near the middle, and along x beyond; right, then left.
 type Slices = [[bool; SLICES]; 4];
 
-fn slices(layout: &Layout, middle: f64, choose: &dyn Fn(usize) -> bool) -> Slices {
-    let widest = layout.positions.iter().map(|p| (p.x - middle).abs()).fold(0.0, f64::max);
+fn slices(figure: &UnitFigure, middle: f64, choose: &dyn Fn(usize) -> bool) -> Slices {
+    let widest = figure.positions.iter().map(|p| (p.x - middle).abs()).fold(0.0, f64::max);
     let arm = widest - TRUNK_HALF_WIDTH;
     let mut shown = [[false; SLICES]; 4];
     let slice = |share: f64| ((share * SLICES as f64).max(0.0) as usize).min(SLICES - 1);
-    for corners in layout.triangles_where(choose) {
-        let corners = corners.map(|vertex| layout.positions[vertex as usize]);
-        let low = corners.into_iter().fold(DVec3::INFINITY, DVec3::min);
-        let high = corners.into_iter().fold(DVec3::NEG_INFINITY, DVec3::max);
+    for corners in figure.triangles_where(choose) {
+        let corners = corners.map(|vertex| figure.positions[vertex as usize]);
+        let (low, high) = bounds(corners);
         let (left, right) = (low.x - middle, high.x - middle);
         for (side, (from, to)) in [(-right, -left), (left, right)].into_iter().enumerate() {
             if to >= 0.0 && from <= TRUNK_HALF_WIDTH {
@@ -179,13 +178,13 @@ fn slices(layout: &Layout, middle: f64, choose: &dyn Fn(usize) -> bool) -> Slice
 }
 
 /// The x of the plane in which those meshes that `choose` accepts mirror best: a thing on one side moves the middle of
-/// the layout, but not the body's.
-fn middle_plane(layout: &Layout, choose: &dyn Fn(usize) -> bool) -> f64 {
-    let meshes: Vec<usize> = (0..layout.mesh_count()).filter(|&mesh| choose(mesh)).collect();
-    let surface = Surface::new(&layout.positions, &layout.triangles_where(choose));
+/// the unit figure, but not the body's.
+fn middle_plane(figure: &UnitFigure, choose: &dyn Fn(usize) -> bool) -> f64 {
+    let meshes: Vec<usize> = (0..figure.mesh_count()).filter(|&mesh| choose(mesh)).collect();
+    let surface = Surface::new(&figure.positions, &figure.triangles_where(choose));
     let points: Vec<Vec<(DVec3, DVec3)>> =
-        meshes.iter().map(|&mesh| points_on(layout, mesh, PLANE_SAMPLES)).collect();
-    let areas: Vec<f64> = meshes.iter().map(|&mesh| mesh_area(layout, mesh)).collect();
+        meshes.iter().map(|&mesh| points_on(figure, mesh, PLANE_SAMPLES)).collect();
+    let areas: Vec<f64> = meshes.iter().map(|&mesh| mesh_area(figure, mesh)).collect();
     let mut order: Vec<usize> = (0..meshes.len()).collect();
     order.sort_by(|&a, &b| areas[b].total_cmp(&areas[a]).then(a.cmp(&b)));
     let score = |middle: f64| -> f64 {
@@ -198,13 +197,11 @@ fn middle_plane(layout: &Layout, choose: &dyn Fn(usize) -> bool) -> f64 {
         });
         shares.sum()
     };
-    // The middle of the layout, unless another one is clearly better.
+    // The middle of the unit figure, unless another one is clearly better.
     let mut best = (1.05 * score(0.0), 0.0);
     for &largest in order.iter().take(PLANE_CANDIDATES) {
-        let corners = layout.triangles_of(meshes[largest]).iter().flatten();
-        let places = corners.map(|&vertex| layout.positions[vertex as usize].x);
-        let (low, high) =
-            places.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
+        let corners = figure.triangles_of(meshes[largest]).iter().flatten();
+        let (low, high) = range(corners.map(|&vertex| figure.positions[vertex as usize].x));
         let middle = (low + high) / 2.0;
         let score = score(middle);
         if middle.is_finite() && score > best.0 {
@@ -219,14 +216,14 @@ fn shown_count(slices: &Slices) -> usize {
     slices.iter().flatten().filter(|&&shown| shown).count()
 }
 
-fn warning(layout: &Layout, kinds: &[MeshKind], meshes: &[usize]) -> Vec<Warning> {
+fn warning(figure: &UnitFigure, kinds: &[MeshKind], meshes: &[usize]) -> Vec<Warning> {
     if meshes.is_empty() {
         return Vec::new();
     }
     let named: Vec<String> = meshes
         .iter()
         .map(|&mesh| {
-            let name = &layout.names[mesh];
+            let name = &figure.names[mesh];
             let name = if name.is_empty() { format!("mesh {mesh}") } else { name.clone() };
             format!("{name} ({})", kinds[mesh])
         })
@@ -276,20 +273,20 @@ impl Facts {
 }
 
 struct Scene<'a> {
-    layout: &'a Layout,
+    figure: &'a UnitFigure,
     facts: Vec<Facts>,
 }
 
 impl<'a> Scene<'a> {
-    fn new(layout: &'a Layout) -> Self {
-        let surface = Surface::new(&layout.positions, &layout.triangles);
-        let mesh_of = |hit: &Hit| layout.triangle_starts.partition_point(|&start| start <= hit.triangle) - 1;
+    fn new(figure: &'a UnitFigure) -> Self {
+        let surface = Surface::new(&figure.positions, &figure.triangles);
+        let mesh_of = |hit: &Hit| figure.triangle_starts.partition_point(|&start| start <= hit.triangle) - 1;
         let (all, least, most) = SAMPLES;
-        let count = (all / layout.mesh_count().max(1)).clamp(least, most);
+        let count = (all / figure.mesh_count().max(1)).clamp(least, most);
         // Points with both rays first: which side is out is known once a mesh's own hits are counted.
-        let shots: Vec<_> = (0..layout.mesh_count())
+        let shots: Vec<_> = (0..figure.mesh_count())
             .map(|mesh| {
-                let points = points_on(layout, mesh, count);
+                let points = points_on(figure, mesh, count);
                 let shots = points.into_iter().map(|(point, normal)| {
                     let along = |direction: DVec3| {
                         let mut hits = surface.all_hits(point, direction);
@@ -329,17 +326,12 @@ impl<'a> Scene<'a> {
                 });
                 Sample { point: *point, over: over.map(mesh_of), within, volume: far_side.is_some() }
             });
-            let corners =
-                || layout.triangles_of(mesh).iter().flatten().map(|&v| layout.positions[v as usize]);
-            Facts {
-                samples: samples.collect(),
-                area: mesh_area(layout, mesh),
-                low: corners().fold(DVec3::INFINITY, DVec3::min),
-                high: corners().fold(DVec3::NEG_INFINITY, DVec3::max),
-            }
+            let corners = figure.triangles_of(mesh).iter().flatten();
+            let (low, high) = bounds(corners.map(|&vertex| figure.positions[vertex as usize]));
+            Facts { samples: samples.collect(), area: mesh_area(figure, mesh), low, high }
         });
         let facts = facts.collect();
-        Self { layout, facts }
+        Self { figure, facts }
     }
 
     /// The share of a mesh that lies over others that are no crumbs beside it.
@@ -362,10 +354,10 @@ impl<'a> Scene<'a> {
 
     /// Kinds of all meshes, where the head's joint is known or not.
     fn guess(&self, head: Option<DVec3>) -> Vec<Guess> {
-        let layout = self.layout;
-        let count = layout.mesh_count();
+        let figure = self.figure;
+        let count = figure.mesh_count();
         let mut guesses: Vec<Option<Guess>> =
-            layout.kinds.iter().map(|kind| kind.map(|kind| Guess { kind, sure: true })).collect();
+            figure.kinds.iter().map(|kind| kind.map(|kind| Guess { kind, sure: true })).collect();
         let is_open = |guesses: &[Option<Guess>], mesh: usize| guesses[mesh].is_none();
         for mesh in 0..count {
             // Nothing to see: it counts as what is not asked for elsewhere.
@@ -381,19 +373,19 @@ impl<'a> Scene<'a> {
             .filter(|&mesh| self.enclosed_share(mesh) < ENCLOSED_SHARE)
             .collect();
         volumes.sort_by(|&a, &b| self.facts[b].area.total_cmp(&self.facts[a].area).then(a.cmp(&b)));
-        let mut is_body: Vec<bool> = layout
+        let mut is_body: Vec<bool> = figure
             .kinds
             .iter()
             .zip(&self.facts)
             .map(|(kind, facts)| *kind == Some(MeshKind::Body) && !facts.samples.is_empty())
             .collect();
-        let is_volume = |mesh: usize| volumes.contains(&mesh) || layout.kinds[mesh] == Some(MeshKind::Body);
-        let middle = middle_plane(layout, &is_volume);
+        let is_volume = |mesh: usize| volumes.contains(&mesh) || figure.kinds[mesh] == Some(MeshKind::Body);
+        let middle = middle_plane(figure, &is_volume);
         if !is_body.contains(&true) {
             // Where everything lies over something, the one that reaches furthest carries the rest.
             let open: Vec<usize> = (0..count).filter(|&mesh| guesses[mesh].is_none()).collect();
             let choice = if volumes.is_empty() { &open } else { &volumes };
-            let reach = |mesh: usize| shown_count(&slices(layout, middle, &|other| other == mesh));
+            let reach = |mesh: usize| shown_count(&slices(figure, middle, &|other| other == mesh));
             let reaches: Vec<(usize, usize)> = choice.iter().map(|&mesh| (reach(mesh), mesh)).collect();
             let furthest = reaches.iter().max_by(|a, b| {
                 let area = |mesh: usize| self.facts[mesh].area;
@@ -426,14 +418,14 @@ impl<'a> Scene<'a> {
             .collect()
     }
 
-    /// For each mesh those whose border a good part of its own border is.
+    /// For each mesh those whose border a good share of its own border is.
     fn seams(&self) -> Vec<Vec<usize>> {
-        let layout = self.layout;
-        let welded = weld(&layout.positions, SEAM);
+        let figure = self.figure;
+        let welded = weld(&figure.positions, SEAM);
         // Edges that one triangle of a mesh has.
-        let borders: Vec<BTreeSet<u32>> = (0..layout.mesh_count())
+        let borders: Vec<BTreeSet<u32>> = (0..figure.mesh_count())
             .map(|mesh| {
-                let triangles = layout.triangles_of(mesh).iter().map(|&corners| welded.triangle(corners));
+                let triangles = figure.triangles_of(mesh).iter().map(|&corners| welded.triangle(corners));
                 let mut edges: Vec<(u32, u32)> = triangles
                     .flat_map(|[a, b, c]| [(a, b), (b, c), (c, a)])
                     .map(|(one, two)| (one.min(two), one.max(two)))
@@ -474,7 +466,7 @@ impl<'a> Scene<'a> {
             changed = false;
             for mesh in 0..is_body.len() {
                 let joins = seams[mesh].iter().any(|&other| is_body[other]);
-                if !is_body[mesh] && joins && self.layout.kinds[mesh].is_none() {
+                if !is_body[mesh] && joins && self.figure.kinds[mesh].is_none() {
                     is_body[mesh] = true;
                     changed = true;
                 }
@@ -485,14 +477,14 @@ impl<'a> Scene<'a> {
     /// Adds volumes to the body as long as it is not whole: what touches it, has its like on the other side, is no
     /// thing in front of or behind the trunk, and shows where the body does not; what adds most comes first.
     fn grow_body(&self, is_body: &mut [bool], volumes: &[usize], region: &HeadRegion, seams: &[Vec<usize>]) {
-        let layout = self.layout;
+        let figure = self.figure;
         let of_figure = |mesh: usize| {
             volumes.contains(&mesh)
-                || matches!(layout.kinds[mesh], Some(MeshKind::Body | MeshKind::Garment))
-                || (layout.kinds[mesh].is_none() && self.layer_share(mesh) >= LAYER_SHARE)
+                || matches!(figure.kinds[mesh], Some(MeshKind::Body | MeshKind::Garment))
+                || (figure.kinds[mesh].is_none() && self.layer_share(mesh) >= LAYER_SHARE)
         };
-        let like = |mesh: usize| volumes.contains(&mesh) || layout.kinds[mesh] == Some(MeshKind::Body);
-        let all = Surface::new(&layout.positions, &layout.triangles_where(like));
+        let like = |mesh: usize| volumes.contains(&mesh) || figure.kinds[mesh] == Some(MeshKind::Body);
+        let all = Surface::new(&figure.positions, &figure.triangles_where(like));
         let middle = region.plane;
         let axis = self.trunk_axis(is_body, middle);
         let mut candidates: Vec<(usize, Slices)> = volumes
@@ -511,20 +503,20 @@ impl<'a> Scene<'a> {
                 facts.extent() >= LIMB && mirrored >= 0.6 && on_axis && has_volume
             })
             .filter(|&mesh| !region.is_on_face(&self.facts[mesh]))
-            .map(|mesh| (mesh, slices(layout, middle, &|other| other == mesh)))
+            .map(|mesh| (mesh, slices(figure, middle, &|other| other == mesh)))
             .collect();
-        while !reaches_over(layout, middle, &|mesh| is_body[mesh], &of_figure) {
-            let body = Surface::new(&layout.positions, &layout.triangles_where(|mesh| is_body[mesh]));
-            let shown = slices(layout, middle, &|mesh| is_body[mesh]);
+        while !reaches_over(figure, middle, &|mesh| is_body[mesh], &of_figure) {
+            let body = Surface::new(&figure.positions, &figure.triangles_where(|mesh| is_body[mesh]));
+            let shown = slices(figure, middle, &|mesh| is_body[mesh]);
             let gain = |of: &Slices| {
                 of.iter().flatten().zip(shown.iter().flatten()).filter(|&(&new, &old)| new && !old).count()
             };
             candidates.retain(|(mesh, of)| !is_body[*mesh] && gain(of) >= LEAST_GAIN);
             candidates.sort_by_key(|(mesh, of)| (Reverse(gain(of)), *mesh));
             let touches = |mesh: usize| {
-                let vertices = layout.triangles_of(mesh).iter().flatten();
+                let vertices = figure.triangles_of(mesh).iter().flatten();
                 let mut near =
-                    vertices.filter_map(|&vertex| body.closest_point(layout.positions[vertex as usize]));
+                    vertices.filter_map(|&vertex| body.closest_point(figure.positions[vertex as usize]));
                 near.any(|near| near.distance <= PART_GAP)
             };
             let Some(&(mesh, _)) = candidates.iter().find(|(mesh, _)| touches(*mesh)) else {
@@ -552,9 +544,9 @@ impl<'a> Scene<'a> {
         let mut widths = [0.0f64; 2 * SLICES];
         let count = widths.len();
         let slice = |y: f64| ((y * count as f64).max(0.0) as usize).min(count - 1);
-        let layout = self.layout;
-        for corners in layout.triangles_where(|mesh| is_body[mesh] || volumes.contains(&mesh)) {
-            let corners = corners.map(|vertex| layout.positions[vertex as usize]);
+        let figure = self.figure;
+        for corners in figure.triangles_where(|mesh| is_body[mesh] || volumes.contains(&mesh)) {
+            let corners = corners.map(|vertex| figure.positions[vertex as usize]);
             let heights = corners.map(|p| slice(p.y));
             let low = heights.into_iter().fold(usize::MAX, usize::min);
             let high = heights.into_iter().fold(0, usize::max);
@@ -579,11 +571,9 @@ impl<'a> Scene<'a> {
     }
 
     fn head_region(&self, chin: f64, head: Option<DVec3>, is_body: &[bool], plane: f64) -> HeadRegion {
-        let skin = self.layout.triangles_where(|mesh| is_body[mesh]);
-        let points = skin.iter().flatten().map(|&vertex| self.layout.positions[vertex as usize]);
-        let (low, high) = points
-            .filter(|p| p.y > chin)
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| (low.min(p.z), high.max(p.z)));
+        let skin = self.figure.triangles_where(|mesh| is_body[mesh]);
+        let points = skin.iter().flatten().map(|&vertex| self.figure.positions[vertex as usize]);
+        let (low, high) = range(points.filter(|p| p.y > chin).map(|p| p.z));
         let middle = if low <= high { (low + high) / 2.0 } else { 0.0 };
         HeadRegion { plane, chin, middle: head.map_or(middle, |head| head.z), length: (1.0 - chin).max(0.05) }
     }
@@ -623,7 +613,7 @@ impl<'a> Scene<'a> {
         }
         // How far it sticks out from what is below, and where it begins.
         let around = |other: usize| other != mesh && (is_body[other] || self.facts[other].area > facts.area);
-        let rest = Surface::new(&self.layout.positions, &self.layout.triangles_where(around));
+        let rest = Surface::new(&self.figure.positions, &self.figure.triangles_where(around));
         let distances: Vec<(f64, f64)> = facts
             .samples
             .iter()
@@ -670,18 +660,18 @@ impl HeadRegion {
 }
 
 /// The normal of a triangle, as long as its area.
-fn area_of(layout: &Layout, corners: [u32; 3]) -> DVec3 {
-    0.5 * double_area(&layout.positions, corners)
+fn area_of(figure: &UnitFigure, corners: [u32; 3]) -> DVec3 {
+    0.5 * double_area(&figure.positions, corners)
 }
 
-fn mesh_area(layout: &Layout, mesh: usize) -> f64 {
-    layout.triangles_of(mesh).iter().map(|&corners| area_of(layout, corners).length()).sum()
+fn mesh_area(figure: &UnitFigure, mesh: usize) -> f64 {
+    figure.triangles_of(mesh).iter().map(|&corners| area_of(figure, corners).length()).sum()
 }
 
 /// Points evenly over the area of a mesh, with the unit normals of their triangles.
-fn points_on(layout: &Layout, mesh: usize, count: usize) -> Vec<(DVec3, DVec3)> {
-    let triangles = layout.triangles_of(mesh);
-    let normals: Vec<DVec3> = triangles.iter().map(|&corners| area_of(layout, corners)).collect();
+fn points_on(figure: &UnitFigure, mesh: usize, count: usize) -> Vec<(DVec3, DVec3)> {
+    let triangles = figure.triangles_of(mesh);
+    let normals: Vec<DVec3> = triangles.iter().map(|&corners| area_of(figure, corners)).collect();
     let area: f64 = normals.iter().map(|normal| normal.length()).sum();
     let step = area / count as f64;
     if !(step.is_finite() && step > 0.0) {
@@ -696,7 +686,7 @@ fn points_on(layout: &Layout, mesh: usize, count: usize) -> Vec<(DVec3, DVec3)> 
             let turn = points.len() as f64 + 0.5;
             let (u, v) = ((turn * 0.754_877_666_246_692_7).fract(), (turn * 0.569_840_290_998_053_3).fract());
             let (u, v) = if u + v > 1.0 { (1.0 - u, 1.0 - v) } else { (u, v) };
-            let [a, b, c] = corners.map(|vertex| layout.positions[vertex as usize]);
+            let [a, b, c] = corners.map(|vertex| figure.positions[vertex as usize]);
             points.push((a + u * (b - a) + v * (c - a), normal.normalize_or_zero()));
             next += step;
         }

@@ -1,6 +1,6 @@
 //! From a mesh to a rig (§IV-B): a skeleton by ray casting, weights by heat or through a volume, clothes by transfer.
 //!
-//! Every stage works on a [`Layout`]: x towards the character's left, y up, z forward, soles at 0, the whole figure 1
+//! Every stage works on a [`UnitFigure`]: x towards the character's left, y up, z forward, soles at 0, the whole figure 1
 //! high, so that no threshold depends on the unit of a file.
 
 pub mod arms;
@@ -26,12 +26,12 @@ use crate::character::Weights;
 pub use crate::options::{GarmentWeights, RigOptions, WeightMethod};
 use glam::DVec3;
 use std::collections::BTreeMap;
-pub use unit_figure::Layout;
+pub use unit_figure::UnitFigure;
 
 /// A joint that was found, given or placed by ratio.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FoundJoint {
-    /// Where it is, in the layout.
+    /// Where it is, in the unit figure.
     pub position: DVec3,
     /// 0..1: 1 for given joints; below 0.5 where a rule failed and a ratio stands in, or where the reading is doubtful.
     pub confidence: f64,
@@ -42,13 +42,13 @@ pub struct FoundJoint {
 pub struct WeightBone {
     /// Index of the joint that moves it, as it goes into the weights.
     pub joint: u32,
-    /// Both ends of each segment, in the layout; the ends may coincide.
+    /// Both ends of each segment, in the unit figure; the ends may coincide.
     pub segments: Vec<[DVec3; 2]>,
 }
 
 /// Weights of a list of vertices, with what was not weighted by the rule itself.
 #[derive(Clone, Debug, Default)]
-pub struct Weighted {
+pub struct WeightSet {
     /// One row a vertex: sum 1, none negative, never empty.
     pub weights: Weights,
     /// How many vertices took their weights by another rule, by the rule's name.

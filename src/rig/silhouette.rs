@@ -5,7 +5,7 @@ use glam::DVec3;
 
 /// More hits than this are no figure's.
 const MOST_HITS: f64 = 6e6;
-/// Things that lie further apart than this part of a limb's thickness are not the same limb.
+/// Things that lie further apart than this share of a limb's thickness are not the same limb.
 const LIMB_GAP: f64 = 0.35;
 /// Fewer triangles than this are not worth a thread of their own.
 const LEAST_SHARE: usize = 4096;
@@ -213,7 +213,7 @@ impl RayGrid {
     }
 
     /// Back and front of the limb that some cells show: of the thickest thing that rays enter and leave with nothing
-    /// between, and of all that lies beside it within a part of its thickness (fingers).
+    /// between, and of all that lies beside it within a share of its thickness (fingers).
     pub fn limb(&self, cells: impl Iterator<Item = (usize, usize)>) -> Option<(f64, f64)> {
         let mut found: Vec<(f64, f64)> = Vec::new();
         for (column, row) in cells {

@@ -5,12 +5,12 @@
 //! (weights down to -0.09 on a skirt, which clamping turns into creases) and a harmonic one cannot; the thresholds are
 //! ramps, so that a vertex near one does not jump.
 
-use super::{GarmentWeights, Weighted};
+use super::{GarmentWeights, WeightSet};
 use crate::character::Weights;
 use crate::geometry::laplacian::{Cholesky, cotangent_laplacian};
 use crate::geometry::{
-    Closest, Groups, Neighbours, PointTree, SEAM, Surface, Weld, bounds, components, double_area, neighbours,
-    touching, weld,
+    Bounds, Closest, Neighbours, PointTree, SEAM, Surface, Weld, bounds, bounds_by_group, components,
+    double_area, grown_clusters, neighbours, weld,
 };
 use crate::parallel;
 use glam::DVec3;
@@ -137,12 +137,12 @@ pub struct Source<'a> {
 type Row = Vec<(u32, f64)>;
 
 /// A garment on a skin: where its vertices touch it, which no weights change.
-pub struct Worn {
+pub struct GarmentOnSkin {
     welded: Weld,
     points: Vec<DVec3>,
     corners: Vec<[u32; 3]>,
     touches: Vec<Touch>,
-    manner: GarmentWeights,
+    method: GarmentWeights,
 }
 
 /// The places of a skin that are closest to a vertex.
@@ -153,23 +153,23 @@ struct Touch {
     fits: Vec<f64>,
 }
 
-impl Worn {
+impl GarmentOnSkin {
     /// Looks where a garment's `positions` touch the skin of `positions` and `triangles`.
     ///
-    /// All in one space in which the figure is about 1 high. `manner` is `Robust` (which `Heat` falls to) or `Nearest`.
+    /// All in one space in which the figure is about 1 high. `method` is `Robust` (which `Heat` falls to) or `Nearest`.
     ///
     /// O(vertices · log triangles).
     pub fn new(
         skin: &Skin,
         skin_triangles: &[[u32; 3]],
         (positions, triangles): (&[DVec3], &[[u32; 3]]),
-        manner: GarmentWeights,
+        method: GarmentWeights,
         thread_count: usize,
     ) -> Self {
         let welded = weld(positions, SEAM);
         let points = places(&welded, positions);
         let corners: Vec<[u32; 3]> = triangles.iter().map(|&corners| welded.triangle(corners)).collect();
-        let touches = if manner == GarmentWeights::Nearest {
+        let touches = if method == GarmentWeights::Nearest {
             parallel::collect(thread_count, welded.count, 256, |vertex| Touch {
                 places: skin.places(points[vertex]),
                 fits: Vec::new(),
@@ -189,7 +189,7 @@ impl Worn {
                 Touch { fits: places.iter().map(fit).collect(), places }
             })
         };
-        Self { welded, points, corners, touches, manner }
+        Self { welded, points, corners, touches, method }
     }
 
     /// Weights of the garment after those of the skin under it, which is the one that it was made with.
@@ -205,14 +205,14 @@ impl Worn {
     /// joint 0 (`no_source`); `unsolved` counts what a failed solve left to the closest point.
     ///
     /// One sparse factorisation of the vertices without a match.
-    pub fn weights(&self, source: &Source, thread_count: usize) -> Weighted {
+    pub fn weights(&self, source: &Source, thread_count: usize) -> WeightSet {
         let body = Body::new(source);
         let count = self.welded.count;
         let mut rules: Vec<Option<&'static str>> = vec![None; count];
         let rows = if body.is_empty() {
             rules.fill(Some("no_source"));
             vec![body.anything(); count]
-        } else if self.manner == GarmentWeights::Nearest {
+        } else if self.method == GarmentWeights::Nearest {
             parallel::collect(thread_count, count, 256, |vertex| {
                 body.mixed(self.points[vertex], &self.touches[vertex].places)
             })
@@ -227,7 +227,7 @@ impl Worn {
 /// from the body where the piece is nearest to it and sharpened to two joints at most, so that no sword bends.
 ///
 /// All in one space in which the figure is about 1 high. Every vertex counts as `rigid_piece`, or as `no_source`.
-pub fn rigid_weights(source: &Source, positions: &[DVec3], triangles: &[[u32; 3]]) -> Weighted {
+pub fn rigid_weights(source: &Source, positions: &[DVec3], triangles: &[[u32; 3]]) -> WeightSet {
     let body = Body::new(source);
     let welded = weld(positions, SEAM);
     if body.is_empty() {
@@ -235,7 +235,7 @@ pub fn rigid_weights(source: &Source, positions: &[DVec3], triangles: &[[u32; 3]
     }
     let points = places(&welded, positions);
     let mut rows = vec![Row::new(); welded.count];
-    for piece in clusters(&points, &welded, triangles) {
+    for piece in things(&points, &welded, triangles) {
         let near: Vec<Option<Closest>> =
             piece.iter().map(|&vertex| source.skin.surface.closest_point(points[vertex as usize])).collect();
         let least = near.iter().flatten().map(|near| near.distance).fold(f64::INFINITY, f64::min);
@@ -256,38 +256,22 @@ pub fn rigid_weights(source: &Source, positions: &[DVec3], triangles: &[[u32; 3]
 }
 
 /// Welded vertices by cluster: components that touch, or whose boxes do.
-fn clusters(points: &[DVec3], welded: &Weld, triangles: &[[u32; 3]]) -> Vec<Vec<u32>> {
+fn things(points: &[DVec3], welded: &Weld, triangles: &[[u32; 3]]) -> Vec<Vec<u32>> {
     let corners: Vec<[u32; 3]> = triangles.iter().map(|&corners| welded.triangle(corners)).collect();
     let near = weld(points, TOUCH);
     let component = components(&corners, &near);
     let component = |vertex: usize| component[near.representative[vertex] as usize] as usize;
     let count = (0..points.len()).map(|vertex| component(vertex) + 1).max().unwrap_or(0);
-    let mut boxes = vec![(DVec3::INFINITY, DVec3::NEG_INFINITY); count];
-    for (vertex, &p) in points.iter().enumerate() {
-        let (low, high) = &mut boxes[component(vertex)];
-        *low = low.min(p - TOUCH / 2.0);
-        *high = high.max(p + TOUCH / 2.0);
-    }
-    // Boxes that touch become one, until none does; crumbs by the thousand are left as they are.
-    let mut groups = Groups::new(count);
-    let mut open: Vec<usize> = if count <= MOST_PIECES { (0..count).collect() } else { Vec::new() };
-    loop {
-        let pairs = touching(&open.iter().map(|&group| boxes[group]).collect::<Vec<_>>());
-        if pairs.is_empty() {
-            break;
-        }
-        for (one, other) in pairs {
-            groups.join(open[one], open[other]);
-        }
-        for &group in &open {
-            let least = groups.least(group);
-            boxes[least] = (boxes[least].0.min(boxes[group].0), boxes[least].1.max(boxes[group].1));
-        }
-        open.retain(|&group| groups.least(group) == group);
-    }
+    let boxes: Vec<Bounds> =
+        bounds_by_group(count, points.iter().enumerate().map(|(v, &p)| (component(v), p)))
+            .into_iter()
+            .map(|(low, high)| (low - TOUCH / 2.0, high + TOUCH / 2.0))
+            .collect();
+    // Crumbs by the thousand are left as they are.
+    let clusters = if count <= MOST_PIECES { grown_clusters(&boxes) } else { (0..count).collect() };
     let mut members: BTreeMap<usize, Vec<u32>> = BTreeMap::new();
     for vertex in 0..points.len() {
-        members.entry(groups.least(component(vertex))).or_default().push(vertex as u32);
+        members.entry(clusters[component(vertex)]).or_default().push(vertex as u32);
     }
     members.into_values().collect()
 }
@@ -322,7 +306,7 @@ fn normalised(mut row: Row) -> Row {
 }
 
 /// Rows of the vertices from those of the welded ones, and how many each rule gave.
-fn finish(welded: &Weld, rows: Vec<Row>, rules: &[Option<&'static str>]) -> Weighted {
+fn finish(welded: &Weld, rows: Vec<Row>, rules: &[Option<&'static str>]) -> WeightSet {
     let rows: Vec<Vec<(u32, f32)>> = rows
         .into_iter()
         .map(|row| {
@@ -337,7 +321,7 @@ fn finish(welded: &Weld, rows: Vec<Row>, rules: &[Option<&'static str>]) -> Weig
         *fallback.entry(rule).or_default() += 1;
     }
     let rows = welded.representative.iter().map(|&vertex| rows[vertex as usize].iter().copied());
-    Weighted { weights: Weights::from_rows(rows), fallback }
+    WeightSet { weights: Weights::from_rows(rows), fallback }
 }
 
 /// A source made ready.
@@ -493,12 +477,7 @@ impl<'a> Cloth<'a> {
         let single = Weld { representative: (0..points.len() as u32).collect(), count: points.len() };
         let component = components(triangles, &single);
         let count = component.iter().max().map_or(0, |&last| last as usize + 1);
-        let mut boxes = vec![(DVec3::INFINITY, DVec3::NEG_INFINITY); count];
-        for (&p, &component) in points.iter().zip(&component) {
-            let (low, high) = &mut boxes[component as usize];
-            *low = low.min(p);
-            *high = high.max(p);
-        }
+        let boxes = bounds_by_group(count, component.iter().map(|&c| c as usize).zip(points.iter().copied()));
         Self {
             points,
             triangles,

@@ -1,14 +1,16 @@
 //! The meshes to rig, laid out in one space: x towards the character's left, y up, z forward, the lowest vertex at y = 0,
 //! the highest at y = 1, the middle of the bounding box at x = z = 0.
 
+use crate::character::mesh_list::MeshList;
 use crate::character::{Character, Frame, MeshKind};
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::Result;
+use crate::geometry::bounds;
 use glam::DVec3;
 use std::ops::Range;
 
 /// All meshes of a character in one space, 1 high.
 #[derive(Clone, Debug)]
-pub struct Layout {
+pub struct UnitFigure {
     /// Vertices of all meshes, one mesh after the other.
     pub positions: Vec<DVec3>,
     /// Triangles of all meshes, as indices into `positions`.
@@ -22,13 +24,13 @@ pub struct Layout {
     /// The names of the meshes.
     pub names: Vec<String>,
     frame: Frame,
-    /// Where the layout's origin is in the canonical frame, model units.
+    /// Where its origin is in the canonical frame, model units.
     origin: DVec3,
     /// The figure's height in model units.
     height: f64,
 }
 
-impl Layout {
+impl UnitFigure {
     /// Lays `character` out, looking along `forward` (model space, at any angle to up but 0).
     ///
     /// # Errors
@@ -37,72 +39,42 @@ impl Layout {
         Self::in_axes(character, forward, false)
     }
 
-    /// As [`Layout::of`], of a character in left-handed axes where `left_handed`: mirrored, so that x is its left here too.
+    /// As [`UnitFigure::of`], of a character in left-handed axes where `left_handed`: mirrored, so that x is its left here too.
     ///
     /// # Errors
-    /// As [`Layout::of`].
+    /// As [`UnitFigure::of`].
     pub fn in_axes(character: &Character, forward: DVec3, left_handed: bool) -> Result<Self> {
         let frame = Frame::new(character.axes.up.as_dvec3(), forward);
         let frame = if left_handed { frame.mirrored() } else { frame };
-        let mut layout = Self {
-            positions: Vec::with_capacity(character.vertex_count()),
-            triangles: Vec::with_capacity(character.triangle_count()),
-            mesh_starts: vec![0],
-            triangle_starts: vec![0],
-            kinds: character.meshes.iter().map(|mesh| mesh.kind).collect(),
-            names: character.meshes.iter().map(|mesh| mesh.name.clone()).collect(),
-            frame,
-            origin: DVec3::ZERO,
-            height: 1.0,
-        };
-        for mesh in &character.meshes {
-            let start = layout.positions.len() as u32;
-            layout.positions.extend(mesh.positions.iter().map(|p| frame.to_canonical(p.as_dvec3())));
-            layout
-                .triangles
-                .extend(mesh.triangles.iter().map(|corners| corners.map(|vertex| vertex + start)));
-            if left_handed {
-                // What looked outwards does so still.
-                layout.triangles[layout.triangle_starts[layout.triangle_starts.len() - 1]..]
-                    .iter_mut()
-                    .for_each(|corners| corners.swap(1, 2));
-            }
-            layout.mesh_starts.push(layout.positions.len());
-            layout.triangle_starts.push(layout.triangles.len());
+        let MeshList { mut positions, mut triangles, mesh_starts, triangle_starts } =
+            MeshList::of(character, |p| frame.to_canonical(p));
+        if left_handed {
+            // What looked outwards does so still.
+            triangles.iter_mut().for_each(|corners| corners.swap(1, 2));
         }
-        // Loose points say nothing about how tall a figure is, unless there is nothing else.
-        let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-        for &vertex in layout.triangles.iter().flatten() {
-            low = low.min(layout.positions[vertex as usize]);
-            high = high.max(layout.positions[vertex as usize]);
+        // Loose points say nothing about how tall a figure is.
+        let (low, high) = bounds(triangles.iter().flatten().map(|&vertex| positions[vertex as usize]));
+        if triangles.is_empty() || high.y <= low.y {
+            return Err(MeshList::no_extent());
         }
-        if layout.triangles.is_empty() || high.y <= low.y {
-            return Err(Error::new(
-                ErrorKind::NoGeometry,
-                "the character has no triangles with an extent along up: give at least one mesh of its body",
-            ));
+        let origin = ((low + high) / 2.0).with_y(low.y);
+        let height = high.y - low.y;
+        for p in &mut positions {
+            *p = (*p - origin) / height;
         }
-        layout.origin = ((low + high) / 2.0).with_y(low.y);
-        layout.height = high.y - low.y;
-        for p in &mut layout.positions {
-            *p = (*p - layout.origin) / layout.height;
-        }
-        Ok(layout)
+        let kinds = character.meshes.iter().map(|mesh| mesh.kind).collect();
+        let names = character.meshes.iter().map(|mesh| mesh.name.clone()).collect();
+        Ok(Self { positions, triangles, mesh_starts, triangle_starts, kinds, names, frame, origin, height })
     }
 
-    /// The layout to model space.
+    /// The unit figure to model space.
     pub fn to_model(&self, p: DVec3) -> DVec3 {
         self.frame.to_model(p * self.height + self.origin)
     }
 
-    /// Model space to the layout.
-    pub fn to_layout(&self, p: DVec3) -> DVec3 {
+    /// Model space to the unit figure.
+    pub fn to_unit(&self, p: DVec3) -> DVec3 {
         (self.frame.to_canonical(p) - self.origin) / self.height
-    }
-
-    /// A direction of the layout in model space.
-    pub fn direction_to_model(&self, direction: DVec3) -> DVec3 {
-        self.frame.to_model(direction)
     }
 
     /// How many meshes there are.

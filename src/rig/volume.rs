@@ -4,7 +4,7 @@
 //! (votes of parity). Schwarz and Seidel. Fast parallel surface and solid voxelization on GPUs. SIGGRAPH Asia 2010
 //! (the overlap of a triangle and a box).
 
-use crate::geometry::{components, weld};
+use crate::geometry::{bounds, components, weld};
 use glam::{DVec3, IVec3};
 
 /// The slot of a cell that is outside.
@@ -76,14 +76,11 @@ impl Volume {
     /// The grid alone, without a voxel in it.
     pub fn grid(positions: &[DVec3], triangles: &[[u32; 3]], resolution: usize) -> Self {
         let finite = |triangle: &&[u32; 3]| triangle.iter().all(|&v| positions[v as usize].is_finite());
-        let bounds = |points: &mut dyn Iterator<Item = DVec3>| {
-            points.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)))
-        };
         // Loose points say nothing about how large a figure is, unless there is nothing else.
         let corners = triangles.iter().filter(finite).flatten();
-        let (mut low, mut high) = bounds(&mut corners.map(|&vertex| positions[vertex as usize]));
+        let (mut low, mut high) = bounds(corners.map(|&vertex| positions[vertex as usize]));
         if !low.is_finite() {
-            (low, high) = bounds(&mut positions.iter().copied().filter(|p| p.is_finite()));
+            (low, high) = bounds(positions.iter().copied().filter(|p| p.is_finite()));
         }
         if !low.is_finite() {
             (low, high) = (DVec3::ZERO, DVec3::ZERO);
@@ -195,11 +192,8 @@ impl Volume {
 
     /// The first and the last cell along each axis that the triangles of `piece` can touch.
     fn box_of(&self, points: &[DVec3], triangles: &[[u32; 3]], piece: &[u32]) -> (IVec3, IVec3) {
-        let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-        for &vertex in piece.iter().flat_map(|&triangle| &triangles[triangle as usize]) {
-            low = low.min(points[vertex as usize]);
-            high = high.max(points[vertex as usize]);
-        }
+        let corners = piece.iter().flat_map(|&triangle| triangles[triangle as usize]);
+        let (low, high) = bounds(corners.map(|vertex| points[vertex as usize]));
         (nearest(low), nearest(high))
     }
 

@@ -4,8 +4,8 @@
 
 use super::geodesic::{Bone, Distances, Paths, place_bones};
 use super::volume::{OUTSIDE, Volume, nearest};
-use super::wholeness::Pieces;
-use super::{WeightBone, Weighted};
+use super::wholeness::Wholeness;
+use super::{WeightBone, WeightSet};
 use crate::character::Weights;
 use crate::parallel;
 use glam::{DVec3, IVec3};
@@ -62,12 +62,12 @@ pub fn voxel_weights(
     triangles: &[[u32; 3]],
     bones: &[WeightBone],
     options: &VoxelOptions,
-) -> Weighted {
+) -> WeightSet {
     let joints: Vec<u32> =
         bones.iter().filter(|bone| !bone.segments.is_empty()).map(|bone| bone.joint).collect();
     if joints.is_empty() || positions.is_empty() {
         let joint = bones.first().map_or(0, |bone| bone.joint);
-        return Weighted { weights: Weights::rigid(joint, positions.len()), fallback: BTreeMap::new() };
+        return WeightSet { weights: Weights::rigid(joint, positions.len()), fallback: BTreeMap::new() };
     }
     let resolution = options.resolution.clamp(16, 512);
     let volume = Volume::new(positions, triangles, resolution);
@@ -116,7 +116,7 @@ pub fn voxel_weights(
             fallback.insert(rule, count);
         }
     }
-    Weighted { weights, fallback }
+    WeightSet { weights, fallback }
 }
 
 /// The bone that is closest to `p`, whatever lies between.
@@ -352,5 +352,5 @@ pub fn heat_would_be_poor(
     triangles: &[[u32; 3]],
     bones: &[WeightBone],
 ) -> Option<String> {
-    Pieces::of(positions, triangles, bones).trouble()
+    Wholeness::of(positions, triangles, bones).trouble()
 }

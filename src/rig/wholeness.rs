@@ -24,7 +24,7 @@ const MOST_OPEN: f64 = 3.0;
 
 /// What there is to say about a surface and the bones in it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Pieces {
+pub struct Wholeness {
     /// Connected components that bend with at least one bone.
     pub carrying: usize,
     /// Joints between bones with a surface of their own.
@@ -37,7 +37,7 @@ pub struct Pieces {
     pub open: f64,
 }
 
-impl Pieces {
+impl Wholeness {
     /// Measures a surface; all in one space.
     pub fn of(positions: &[DVec3], triangles: &[[u32; 3]], bones: &[WeightBone]) -> Self {
         let volume = Volume::grid(positions, triangles, RESOLUTION);
@@ -63,21 +63,21 @@ impl Pieces {
         let mut areas = vec![0.0; bones.len().max(1)];
         for triangle in triangles {
             let [a, b, c] = triangle.map(|vertex| points[vertex as usize]);
-            let part = (b - a).cross(c - a).length() / 2.0;
+            let share = (b - a).cross(c - a).length() / 2.0;
             let bone = nearest_bone((a + b + c) / 3.0);
-            *shares.entry((bone, component_of(triangle[0]))).or_default() += part;
-            areas[bone] += part;
+            *shares.entry((bone, component_of(triangle[0]))).or_default() += share;
+            areas[bone] += share;
         }
         let carried: Vec<BTreeSet<u32>> = (0..bones.len())
             .map(|bone| {
                 let of_bone = shares.range((bone, 0)..=(bone, u32::MAX));
-                of_bone.filter(|&(_, &part)| part >= CARRYING * areas[bone]).map(|(&(_, c), _)| c).collect()
+                of_bone.filter(|&(_, &share)| share >= CARRYING * areas[bone]).map(|(&(_, c), _)| c).collect()
             })
             .collect();
         // Hair cards, lashes and badges say nothing about the body.
         let body: BTreeSet<u32> = carried.iter().flatten().copied().collect();
         let carrying = body.len();
-        let area: f64 = shares.iter().filter(|((_, c), _)| body.contains(c)).map(|(_, part)| part).sum();
+        let area: f64 = shares.iter().filter(|((_, c), _)| body.contains(c)).map(|(_, share)| share).sum();
 
         let length = |bone: &Vec<[DVec3; 2]>| bone.iter().map(|[a, b]| a.distance(*b)).fold(0.0, f64::max);
         let meet = |one: &Vec<[DVec3; 2]>, other: &Vec<[DVec3; 2]>| {
@@ -121,7 +121,7 @@ impl Pieces {
             all += 1;
             shared += usize::from(voxel.len() > 1);
         }
-        let ratio = |part: f64, whole: f64| if whole > 0.0 { part / whole } else { 0.0 };
+        let ratio = |share: f64, whole: f64| if whole > 0.0 { share / whole } else { 0.0 };
         Self {
             carrying,
             joints,

@@ -4,8 +4,10 @@
 //! units of the model. Extra joints (hair, skirts, twist helpers) fold into their nearest humanoid ancestor;
 //! that is for the deformation only, the animation weights of the character are not touched.
 
+use crate::character::mesh_list::MeshList;
 use crate::character::{Character, Frame, Humanoid, MeshKind, Role};
 use crate::error::{Error, ErrorKind, Result};
+use crate::geometry::range;
 use glam::DVec3;
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -57,23 +59,15 @@ impl Figure {
             return Err(Error::new(ErrorKind::NoHumanoid, message).about("humanoid"));
         }
         let frame = Frame::of(character)?;
-        let mut positions = Vec::with_capacity(character.vertex_count());
-        let mut triangles = Vec::with_capacity(character.triangle_count());
-        let mut mesh_starts = vec![0];
-        let mut kinds = Vec::with_capacity(character.vertex_count());
-        for mesh in &character.meshes {
-            let start = positions.len() as u32;
-            positions.extend(mesh.positions.iter().map(|p| frame.to_canonical(p.as_dvec3())));
-            triangles.extend(mesh.triangles.iter().map(|corners| corners.map(|vertex| vertex + start)));
-            kinds.resize(positions.len(), mesh.kind.unwrap_or_default());
-            mesh_starts.push(positions.len());
-        }
+        let MeshList { positions, triangles, mesh_starts, .. } =
+            MeshList::of(character, |p| frame.to_canonical(p));
         let extent = extent(&positions);
         if triangles.is_empty() || extent.1 <= extent.0 {
-            return Err(Error::new(
-                ErrorKind::NoGeometry,
-                "the character has no triangles with an extent along up: give at least one mesh of its body",
-            ));
+            return Err(MeshList::no_extent());
+        }
+        let mut kinds = Vec::with_capacity(positions.len());
+        for (mesh, &end) in character.meshes.iter().zip(&mesh_starts[1..]) {
+            kinds.resize(end, mesh.kind.unwrap_or_default());
         }
         let joints: Vec<DVec3> =
             character.skeleton.joints.iter().map(|joint| frame.to_canonical(joint.position())).collect();
@@ -162,7 +156,7 @@ fn copy_kinds_of_drawn(kinds: &mut [MeshKind], positions: &[DVec3], triangles: &
 
 /// Lowest and highest point of `positions` along up; (infinity, -infinity) for none.
 pub fn extent(positions: &[DVec3]) -> (f64, f64) {
-    positions.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| (low.min(p.y), high.max(p.y)))
+    range(positions.iter().map(|p| p.y))
 }
 
 /// For every joint the role it folds into.

@@ -18,6 +18,7 @@ use glam::{DMat3, DMat4, DVec3};
 use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_PI_2, TAU};
 use superdeform::character::bones::Group;
+use superdeform::character::humanoid::LEFT_FINGERS;
 use superdeform::{Character, Humanoid, Joint, Mesh, MeshKind, Role, Skeleton, Weights};
 
 /// Columns of every tube unless told otherwise.
@@ -246,7 +247,7 @@ impl Person {
             (LeftHand, wrist),
         ]);
         if self.fingers {
-            for (finger, roles) in FINGERS.iter().enumerate() {
+            for (finger, roles) in LEFT_FINGERS.iter().enumerate() {
                 let (root, along) = self.finger(wrist, finger);
                 for (joint, &role) in roles.iter().enumerate() {
                     left.push((role, root + along * FINGER_JOINTS[joint] * p.hand));
@@ -384,7 +385,7 @@ impl Person {
             body.chain(self, &[(side(LeftToes), FOOT_RADIUS)], &[level(at(LeftToes).z), level(tip)]);
             if self.fingers {
                 let wrist = mirror(at(LeftHand));
-                for (finger, roles) in FINGERS.iter().enumerate() {
+                for (finger, roles) in LEFT_FINGERS.iter().enumerate() {
                     let (root, along) = self.finger(wrist, finger);
                     let bones: Vec<_> = roles.iter().map(|&role| (side(role), 0.08 * p.hand)).collect();
                     let points =
@@ -395,15 +396,6 @@ impl Person {
         }
     }
 }
-
-/// The fingers of the left hand, thumb first.
-const FINGERS: [[Role; 3]; 5] = [
-    [Role::LeftThumbMetacarpal, Role::LeftThumbProximal, Role::LeftThumbDistal],
-    [Role::LeftIndexProximal, Role::LeftIndexIntermediate, Role::LeftIndexDistal],
-    [Role::LeftMiddleProximal, Role::LeftMiddleIntermediate, Role::LeftMiddleDistal],
-    [Role::LeftRingProximal, Role::LeftRingIntermediate, Role::LeftRingDistal],
-    [Role::LeftLittleProximal, Role::LeftLittleIntermediate, Role::LeftLittleDistal],
-];
 
 /// Where a finger's joints and its tip lie, in lengths of the hand.
 const FINGER_JOINTS: [f64; 4] = [0.0, 0.4, 0.65, 0.85];

@@ -6,6 +6,7 @@
 use crate::character::Role;
 use crate::error::Warning;
 use crate::geometry::surface::Surface;
+use crate::geometry::{StepSearch, deepest_step};
 use crate::shape::figure::{Figure, extent};
 use crate::shape::heights::Heights;
 use glam::DVec3;
@@ -24,7 +25,7 @@ const CHIN_COLUMNS: [f64; 5] = [0.0, -0.04, 0.04, -0.08, 0.08];
 const CHIN_BAND: f64 = 0.05;
 /// A smaller step back than this part of (crown - shoulder line) is no chin.
 const CHIN_STEP: f64 = 0.04;
-/// Steps that differ by less are equally steep, and the lowest counts: or the last digits of a model would decide.
+/// Steps that differ by less than this share of themselves and of (crown - shoulder line) are equally deep.
 const TIE: f64 = 1e-4;
 /// Where the chin is taken to be where none is seen, as a share of (crown - shoulder line).
 const CHIN_BY_RATIO: f64 = 0.22;
@@ -320,32 +321,8 @@ fn chin(sources: &HeadSources, placed: &HeadPlacement, crown: f64, height: f64) 
         })
         .collect();
     let band = ((CHIN_BAND * span / row_height).round() as usize).max(1);
-    let mean = |rows: std::ops::Range<usize>| {
-        let seen: Vec<f64> = depths[rows].iter().flatten().copied().collect();
-        (!seen.is_empty()).then(|| seen.iter().sum::<f64>() / seen.len() as f64)
-    };
-    // `edge` is the boundary below row `edge`.
-    let mut best: Option<(f64, usize)> = None;
-    for edge in band..CHIN_ROWS - band {
-        if let (Some(above), Some(below)) = (mean(edge..edge + band), mean(edge - band..edge))
-            && best.is_none_or(|(step, _)| above - below > step * (1.0 + TIE) + TIE * span)
-        {
-            best = Some((above - below, edge));
-        }
-    }
-    let Some((step, edge)) = best else { return by_ratio };
-    if step < CHIN_STEP * span {
-        return by_ratio;
-    }
-    let mut steepest = (f64::MIN, edge);
-    for candidate in edge.saturating_sub(band).max(1)..(edge + band).min(CHIN_ROWS) {
-        if let (Some(above), Some(below)) = (depths[candidate], depths[candidate - 1])
-            && above - below > steepest.0 * (1.0 + TIE)
-        {
-            steepest = (above - below, candidate);
-        }
-    }
-    (row_y(steepest.1) - row_height / 2.0, true)
+    let search = StepSearch { band, least: CHIN_STEP * span, tie: TIE, span };
+    deepest_step(&depths, &search).map_or(by_ratio, |row| (row_y(row) - row_height / 2.0, true))
 }
 
 /// The crotch: the lowest thing between the legs in the middle column, from the knees up.

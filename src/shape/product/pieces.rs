@@ -2,7 +2,7 @@
 
 use super::part::{PART_COUNT, Part, PartWeights, add};
 use crate::character::{MeshKind, Role, Skeleton};
-use crate::geometry::{Bounds, Groups, PointTree, bounds, touching};
+use crate::geometry::{Bounds, PointTree, bounds, clusters};
 use crate::shape::figure::Figure;
 use glam::DVec3;
 use std::collections::BTreeMap;
@@ -217,15 +217,10 @@ impl Pieces {
             .map(|members| bounds(members.iter().map(|&vertex| figure.positions[vertex as usize])))
             .map(|(low, high)| (low - margin, high + margin))
             .collect();
-        let mut groups = Groups::new(components.len());
-        for (one, other) in touching(&boxes) {
-            if row(components[one][0]) == row(components[other][0]) {
-                groups.join(one, other);
-            }
-        }
+        let is_alike = |one: usize, other: usize| row(components[one][0]) == row(components[other][0]);
         let mut things: BTreeMap<usize, Vec<u32>> = BTreeMap::new();
-        for (component, members) in components.iter().enumerate() {
-            things.entry(groups.least(component)).or_default().extend(*members);
+        for (members, least) in components.iter().zip(clusters(&boxes, is_alike)) {
+            things.entry(least).or_default().extend(*members);
         }
         things.into_values().collect()
     }

@@ -1,0 +1,81 @@
+//! A profile read from rays, row by row upwards.
+
+use std::ops::Range;
+
+/// How a step of a profile is looked for.
+#[derive(Clone, Copy, Debug)]
+pub struct StepSearch {
+    /// Rows above and below an edge whose means are compared, at least 1.
+    pub band: usize,
+    /// A step back that is not deeper is none.
+    pub least: f64,
+    /// Steps that differ by less than this share of themselves and of `span` are equally deep, and the lowest counts: or
+    /// the last digits of a model would decide.
+    pub tie: f64,
+    /// What `tie` is a share of: the size of what is searched.
+    pub span: f64,
+}
+
+/// Where `depths` (of rows, upwards; `None` where there is nothing) step back most, downwards: between this row and the
+/// one below it. The chin is where a face does.
+///
+/// The band of rows above an edge is compared with the band below it; around the edge with the deepest step the two
+/// rows count between which it is steepest. `None` where no step is deep enough.
+pub fn deepest_step(depths: &[Option<f64>], search: &StepSearch) -> Option<usize> {
+    let StepSearch { band, least, tie, span } = *search;
+    let mean = |rows: Range<usize>| {
+        let seen: Vec<f64> = depths[rows].iter().flatten().copied().collect();
+        (!seen.is_empty()).then(|| seen.iter().sum::<f64>() / seen.len() as f64)
+    };
+    let mut deepest: Option<(f64, usize)> = None;
+    for edge in band..depths.len().saturating_sub(band) {
+        if let (Some(above), Some(below)) = (mean(edge..edge + band), mean(edge - band..edge))
+            && deepest.is_none_or(|(step, _)| above - below > step * (1.0 + tie) + tie * span)
+        {
+            deepest = Some((above - below, edge));
+        }
+    }
+    let (_, edge) = deepest.filter(|&(step, _)| step >= least)?;
+    let mut steepest = (f64::MIN, edge);
+    for row in edge.saturating_sub(band).max(1)..(edge + band).min(depths.len()) {
+        if let (Some(above), Some(below)) = (depths[row], depths[row - 1])
+            && above - below > steepest.0 * (1.0 + tie)
+        {
+            steepest = (above - below, row);
+        }
+    }
+    Some(steepest.1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SEARCH: StepSearch = StepSearch { band: 3, least: 0.5, tie: 1e-6, span: 2.0 };
+
+    fn rows(depths: &[f64]) -> Vec<Option<f64>> {
+        depths.iter().map(|&depth| depth.is_finite().then_some(depth)).collect()
+    }
+
+    #[test]
+    fn the_chin_is_where_the_face_steps_back() {
+        // Neck at 0, a slope of one row, face at 1; a nose above.
+        let profile = rows(&[0.0, 0.0, 0.0, 0.0, 0.1, 1.0, 1.0, 1.0, 1.0, 1.3, 1.2, 1.1, 1.0]);
+        assert_eq!(deepest_step(&profile, &SEARCH), Some(5));
+    }
+
+    #[test]
+    fn gaps_are_no_steps_and_a_flat_front_has_none() {
+        let gaps = rows(&[0.0, f64::NAN, 0.0, 0.0, 1.0, 1.0, f64::NAN, 1.0, f64::NAN]);
+        assert_eq!(deepest_step(&gaps, &SEARCH), Some(4));
+        assert_eq!(deepest_step(&rows(&[0.0; 12]), &SEARCH), None);
+        assert_eq!(deepest_step(&rows(&[0.0, 1.0]), &SEARCH), None);
+        assert_eq!(deepest_step(&[None; 12], &SEARCH), None);
+    }
+
+    #[test]
+    fn of_equal_steps_the_lowest_counts() {
+        let twice = rows(&[0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0, 2.0 + 1e-9, 2.0, 2.0, 2.0]);
+        assert_eq!(deepest_step(&twice, &SEARCH), Some(4));
+    }
+}
