@@ -669,16 +669,18 @@ fn options_out_of_their_range_are_refused() {
         ]);
     }
     for value in [f64::NAN, f64::NEG_INFINITY, -11.0, 11.0] {
+        cases.push(("face_squash", Options { face_squash: Some(value), ..plain() }));
+    }
+    for value in [f64::NAN, f64::NEG_INFINITY, -0.1, 1.1] {
         cases.extend([
-            ("face_squash", Options { face_squash: Some(value), ..plain() }),
             ("length_transfer", group(GroupSettings { length_transfer: Some(value), ..none() })),
             ("thickness_transfer", group(GroupSettings { thickness_transfer: Some(value), ..none() })),
         ]);
     }
-    for value in [f64::NAN, 0.0, -1.0, 1000.0] {
+    for value in [f64::NAN, 0.0, -1.0, 10.1] {
         cases.extend([
-            ("length", group(GroupSettings { length_scale: Some(value), ..none() })),
-            ("thickness", group(GroupSettings { thickness_scale: Some(value), ..none() })),
+            ("length_scale", group(GroupSettings { length_scale: Some(value), ..none() })),
+            ("thickness_scale", group(GroupSettings { thickness_scale: Some(value), ..none() })),
         ]);
     }
     let style = style_of(&chibi(), &plain());
@@ -689,7 +691,7 @@ fn options_out_of_their_range_are_refused() {
             let options = Options { mode, ..options.clone() };
             match Run::try_new(character.clone(), &style, &options) {
                 Ok(_) => failures.push(format!("{name}: {options:?} was taken")),
-                Err(error) if error.kind != ErrorKind::BadOption || !error.message.contains(name) => {
+                Err(error) if (error.kind, error.option) != (ErrorKind::BadOption, Some(name)) => {
                     failures.push(format!("{name}: {error:?}"));
                 }
                 Err(error) => assert!(is_one_sentence(&error.message), "{error}"),
@@ -725,6 +727,44 @@ fn the_users_own_groups_take_the_reference_as_one() {
 }
 
 #[test]
+fn product_mode_gives_the_users_own_groups_to_the_parts_of_their_bones() {
+    use Role::*;
+    let shorter = GroupSettings { length_scale: Some(0.4), ..GroupSettings::default() };
+    let set = |names: &[&str]| names.iter().map(|name| (name.to_string(), shorter)).collect();
+    let names = [LeftLowerLeg, RightLowerLeg, LeftFoot, RightFoot].map(|role| (role, "legs".to_string()));
+    let own = Options { bone_groups: names.into(), groups: set(&["legs"]), ..options(Mode::Product) };
+    let run = Run::like_chibi(&adult(), &own);
+    let report = run.report();
+    assert_eq!(report.coefficients["legs"].length_scale, 0.4);
+    assert!(!report.coefficients.contains_key("upper_leg") && !report.coefficients.contains_key("lower_leg"));
+    assert!(!run.has_warning("group_split"));
+    for (upper, lower, was) in
+        [(LeftUpperLeg, LeftLowerLeg, ADULT.upper_leg), (RightLowerLeg, RightFoot, ADULT.lower_leg)]
+    {
+        let length = run.joint(upper).distance(run.joint(lower));
+        assert!((length - 0.4 * was).abs() < 1e-6, "{upper}: {length}");
+    }
+    // The same as both built-in groups set so.
+    let built_in = Options { groups: set(&["upper_leg", "lower_leg"]), ..options(Mode::Product) };
+    assert_eq!(run.after(), Run::like_chibi(&adult(), &built_in).after());
+}
+
+#[test]
+fn a_part_whose_bones_are_in_several_groups_is_warned_of() {
+    let bone_groups = BTreeMap::from([(Role::LeftLowerLeg, "left".to_string())]);
+    let run = Run::like_chibi(&adult(), &Options { bone_groups, ..options(Mode::Product) });
+    let split: Vec<_> =
+        run.report().warnings.into_iter().filter(|warning| warning.code == "group_split").collect();
+    let [split] = &split[..] else { panic!("{split:?}") };
+    assert_eq!(split.option, Some("bone_groups"));
+    assert!(
+        is_one_sentence(&split.message) && split.message.contains("left and upper_leg"),
+        "{}",
+        split.message
+    );
+}
+
+#[test]
 fn a_number_of_heads_out_of_range_is_refused() {
     for heads in [1.8, 2.0, 6.0] {
         assert_eq!(Style::heads(heads).unwrap(), Style::Heads(heads));
@@ -739,8 +779,8 @@ fn a_number_of_heads_out_of_range_is_refused() {
 #[test]
 fn the_paper_needs_a_reference() {
     let error = Run::try_new(adult().build(), &Style::Heads(3.0), &options(Mode::Paper)).err().unwrap();
-    assert_eq!(error.kind, ErrorKind::BadOption);
-    assert!(error.message.contains("--paper"), "{error}");
+    assert_eq!((error.kind, error.option), (ErrorKind::BadOption, Some("mode")));
+    assert!(error.message.contains("a reference"), "{error}");
 }
 
 #[test]
@@ -750,8 +790,8 @@ fn a_style_without_proportions_serves_the_paper_alone() {
     let adult = || adult().build();
     assert!(Run::try_new(adult(), &style, &options(Mode::Paper)).is_ok());
     let error = Run::try_new(adult(), &style, &options(Mode::Product)).err().unwrap();
-    assert_eq!(error.kind, ErrorKind::BadStyle);
-    assert!(error.message.contains("--paper"), "{error}");
+    assert_eq!((error.kind, error.option), (ErrorKind::BadStyle, Some("mode")));
+    assert!(error.message.contains("from its model"), "{error}");
 }
 
 #[test]
@@ -762,8 +802,8 @@ fn a_person_without_a_needed_role_is_refused_with_the_way_to_name_it() {
             let mut character = adult().build();
             character.humanoid.set(role, None);
             let error = Run::try_new(character, &style, &options(mode)).err().unwrap();
-            assert_eq!(error.kind, ErrorKind::NoHumanoid);
-            assert!(error.message.contains("--humanoid") && error.message.contains(role.name()), "{error}");
+            assert_eq!((error.kind, error.option), (ErrorKind::NoHumanoid, Some("humanoid")));
+            assert!(error.message.contains(role.name()), "{error}");
         }
     }
 }

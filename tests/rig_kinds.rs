@@ -270,7 +270,7 @@ fn a_warning_names_what_was_guessed() {
     assert_eq!(kinds.last(), Some(&Accessory));
     assert_eq!(warnings[0].code, "kind_guessed");
     assert!(warnings[0].message.contains("kite (accessory)"), "{}", warnings[0].message);
-    assert!(warnings[0].message.contains("--accessory"));
+    assert_eq!(warnings[0].option, Some("kinds"));
 }
 
 #[test]

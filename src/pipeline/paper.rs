@@ -24,7 +24,7 @@ use std::sync::Arc;
 /// `BadOption` for a style of N heads; as [`coefficients`].
 pub fn deform(target: &Target, style: &Style, options: &Options) -> Result<Deformation> {
     let Style::Shape(reference) = style else {
-        let message = "a style for N heads needs product mode: choose it, or give a reference";
+        let message = "the paper's mode needs a reference, and a style for N heads has none: give one, or choose product mode";
         return Err(Error::new(ErrorKind::BadOption, message).about("mode"));
     };
     let measured = &target.measured;

@@ -14,6 +14,7 @@ use crate::shape::product::anatomy::Proportions;
 use crate::shape::product::binding::{PartBinding, PartBindings, joint_binding, part_bindings};
 use crate::shape::product::coefficients::{Goal, heads_of, part_coefficients};
 use crate::shape::product::field::PartField;
+use crate::shape::product::groups::PartGroups;
 use crate::shape::product::hair::HairOnBody;
 use crate::shape::product::landmarks::{HeadPlacement, HeadSources};
 use crate::shape::product::part::Part;
@@ -142,9 +143,12 @@ pub fn deform(
         Style::Heads(_) => 1.0,
         Style::Shape(shape) => options.head_scale * head_length / proportions_of(shape)?.head_length,
     };
+    let roles = target.measured.joints.keys().copied().collect();
+    let (groups, split) = PartGroups::of(&roles, &options.bone_groups);
     let mut warnings = anatomy.warnings();
+    warnings.extend(split);
     warnings.extend(hair_shortened(&product.parts, head_length));
-    let (attempt, heads_left) = best_attempt(target, &product, style, options, progress)?;
+    let (attempt, heads_left) = best_attempt(target, &product, style, options, &groups, progress)?;
     warnings.extend(attempt.warnings);
     progress.at(0.9)?;
     let placement = product.placement(&target.measured.figure, &attempt.field, options.thread_count);
@@ -154,7 +158,7 @@ pub fn deform(
         bindings: product.bindings.clone(),
         hair_offsets,
         head_ratio,
-        coefficients: attempt.scales.by_group(),
+        coefficients: attempt.scales.by_group(&groups),
         warnings,
         heads_left,
         product: Some(product),
@@ -195,6 +199,7 @@ fn best_attempt(
     product: &ProductTarget,
     style: &Style,
     options: &Options,
+    groups: &PartGroups,
     progress: &mut Progress,
 ) -> Result<(Attempt, Option<Warning>)> {
     let proportions = &target.measured.anatomy.proportions;
@@ -206,7 +211,7 @@ fn best_attempt(
     let mut best: Option<(f64, f64, Attempt)> = None;
     for count in 0..HEADS_ATTEMPTS {
         progress.at(0.3 + 0.1 * count as f32)?;
-        let attempt = attempt(target, product, style, aim / asked, options)?;
+        let attempt = attempt(target, product, style, aim / asked, options, groups)?;
         let placement = product.placement(&target.measured.figure, &attempt.field, options.thread_count);
         let measured = product.heads(&placement);
         let is_limited = attempt.warnings.iter().any(|warning| warning.code == "heads_limited");
@@ -239,6 +244,7 @@ fn attempt(
     style: &Style,
     correction: f64,
     options: &Options,
+    groups: &PartGroups,
 ) -> Result<Attempt> {
     let anatomy = &target.measured.anatomy;
     let stretched;
@@ -250,7 +256,7 @@ fn attempt(
             Goal::Reference(proportions_of(&stretched)?)
         }
     };
-    let (scales, warnings) = part_coefficients(&anatomy.proportions, goal, options)?;
+    let (scales, warnings) = part_coefficients(&anatomy.proportions, goal, options, groups)?;
     let field = PartField::new(anatomy, scales, &product.parts, options.hair_length);
     Ok(Attempt { field: Field::of(Arc::new(BodyField::Parts(Box::new(field)))), scales, warnings })
 }

@@ -5,6 +5,7 @@
 //! linear maps cannot carry (shins that fold into rings, hands larger than the face); every bound that acts is warned of.
 
 use super::anatomy::Proportions;
+use super::groups::PartGroups;
 use super::scales::{HeadScale, PartCoefficients, Scale};
 use crate::error::{Result, Warning};
 use crate::options::table::HEAD_SCALE;
@@ -191,12 +192,15 @@ impl Asked {
 
 /// The scales that make `target` like `goal`, and warnings that name every bound that acted.
 ///
+/// `groups`: which group's settings each part follows.
+///
 /// # Errors
 /// `ErrorKind::BadOption` for an unknown group; `NoGeometry` for a group of no extent.
 pub fn part_coefficients(
     target: &Proportions,
     goal: Goal,
     options: &Options,
+    groups: &PartGroups,
 ) -> Result<(PartCoefficients, Vec<Warning>)> {
     let mut solver = Solver::new(target, goal, options);
     let asked = solver.asked();
@@ -208,7 +212,7 @@ pub fn part_coefficients(
     solver.solve_feet(asked.foot);
     solver.solve_legs(leg);
     let Solver { mut scales, bounds, .. } = solver;
-    scales.apply_settings(&options.groups)?;
+    scales.apply_settings(&options.groups, groups)?;
     if options.stage == Stage::Length {
         scales = scales.lengths_only();
     }

@@ -4,6 +4,7 @@ pub mod anatomy;
 pub mod binding;
 pub mod coefficients;
 pub mod field;
+pub mod groups;
 pub mod hair;
 pub mod landmarks;
 pub mod part;

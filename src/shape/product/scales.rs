@@ -1,5 +1,6 @@
 //! The scales of all parts (product mode), and what a user sets of them.
 
+use super::groups::PartGroups;
 use crate::character::bones::Group;
 use crate::error::{Error, ErrorKind, Result};
 use crate::options::GroupSettings;
@@ -75,26 +76,38 @@ impl PartCoefficients {
         foot: 1.0,
     };
 
-    /// By bone group, for the report.
-    pub fn by_group(&self) -> BTreeMap<String, Coefficient> {
-        let group = |group: Group, length_scale: f64, thickness_scale: f64| {
-            (group.name().to_string(), Coefficient { length_scale, thickness_scale })
+    /// By bone group, for the report: of a group with several kinds of parts, their mean.
+    pub fn by_group(&self, groups: &PartGroups) -> BTreeMap<String, Coefficient> {
+        let mut all: BTreeMap<String, Vec<Scale>> = BTreeMap::new();
+        for kind in Group::ALL {
+            all.entry(groups.name(kind).to_string()).or_default().push(self.of(kind));
+        }
+        let mean = |scales: &[Scale], of: fn(&Scale) -> f64| {
+            scales.iter().map(of).sum::<f64>() / scales.len() as f64
         };
-        let scaled = |kind: Group, scale: Scale| group(kind, scale.length, scale.thickness);
-        BTreeMap::from([
-            group(Group::Head, self.head.height, self.head.width),
-            scaled(Group::Neck, self.neck),
-            scaled(Group::Torso, self.torso),
-            group(Group::Shoulder, self.shoulder_spread, self.torso.thickness),
-            scaled(Group::UpperArm, self.upper_arm),
-            scaled(Group::LowerArm, self.lower_arm),
-            group(Group::Hand, self.hand, self.hand),
-            group(Group::Finger, self.hand, self.hand),
-            group(Group::Hip, self.hip_spread, self.torso.thickness),
-            scaled(Group::UpperLeg, self.upper_leg),
-            scaled(Group::LowerLeg, self.lower_leg),
-            group(Group::Foot, self.foot, self.foot),
-        ])
+        let coefficient = |scales: &[Scale]| Coefficient {
+            length_scale: mean(scales, |scale| scale.length),
+            thickness_scale: mean(scales, |scale| scale.thickness),
+        };
+        all.iter().map(|(name, scales)| (name.clone(), coefficient(scales))).collect()
+    }
+
+    /// The scale of the parts of one kind.
+    fn of(&self, kind: Group) -> Scale {
+        let scale = |length: f64, thickness: f64| Scale { length, thickness };
+        match kind {
+            Group::Head => scale(self.head.height, self.head.width),
+            Group::Neck => self.neck,
+            Group::Torso => self.torso,
+            Group::Shoulder => scale(self.shoulder_spread, self.torso.thickness),
+            Group::UpperArm => self.upper_arm,
+            Group::LowerArm => self.lower_arm,
+            Group::Hand | Group::Finger => scale(self.hand, self.hand),
+            Group::Hip => scale(self.hip_spread, self.torso.thickness),
+            Group::UpperLeg => self.upper_leg,
+            Group::LowerLeg => self.lower_leg,
+            Group::Foot => scale(self.foot, self.foot),
+        }
     }
 
     /// The same lengths; every thickness as it was (Fig. 6b).
@@ -116,15 +129,19 @@ impl PartCoefficients {
     /// Puts a user's settings in place of what was found.
     ///
     /// # Errors
-    /// `ErrorKind::BadOption` for an unknown group.
-    pub fn apply_settings(&mut self, groups: &BTreeMap<String, GroupSettings>) -> Result<()> {
-        for (name, settings) in groups {
-            let Some(group) = Group::from_name(name) else {
-                let known = Group::ALL.map(Group::name).join(", ");
-                let message = format!("there is no bone group {name}: name one of {known}");
-                return Err(Error::new(ErrorKind::BadOption, message).about("groups"));
-            };
-            self.apply_to(group, settings);
+    /// As [`PartGroups::check`].
+    pub fn apply_settings(
+        &mut self,
+        settings: &BTreeMap<String, GroupSettings>,
+        groups: &PartGroups,
+    ) -> Result<()> {
+        groups.check(settings)?;
+        for kind in Group::ALL.into_iter().rev() {
+            // Fingers and hands are one part, and one group's settings count once.
+            let is_done = kind == Group::Hand && groups.name(Group::Finger) == groups.name(kind);
+            if let Some(given) = settings.get(groups.name(kind)).filter(|_| !is_done) {
+                self.apply_to(kind, given);
+            }
         }
         Ok(())
     }
@@ -167,10 +184,11 @@ impl PartCoefficients {
     /// # Errors
     /// `ErrorKind::NoGeometry` names the first group without.
     pub fn validate(&self) -> Result<()> {
-        for (name, Coefficient { length_scale, thickness_scale }) in self.by_group() {
-            if !(length_scale.is_finite() && thickness_scale.is_finite()) {
+        for kind in Group::ALL {
+            let Scale { length, thickness } = self.of(kind);
+            if !(length.is_finite() && thickness.is_finite()) {
                 let message = format!(
-                    "no scale can be found for the group {name} ({length_scale} and {thickness_scale} came out): check \
+                    "no scale can be found for the group {kind} ({length} and {thickness} came out): check \
                      that the joints of both characters lie inside their meshes and not on one another"
                 );
                 return Err(Error::new(ErrorKind::NoGeometry, message));
