@@ -3,31 +3,21 @@
 //! The guess looks at layers. From points all over a mesh one ray goes inwards and one outwards: cloth meets another
 //! mesh's outside right below it, a limb its own far side, an eye is met with from within by the head.
 
+mod facts;
+mod reach;
+
 use super::{FoundJoint, UnitFigure};
 use crate::character::{MeshKind, Role};
 use crate::error::Warning;
-use crate::geometry::{Hit, Surface, bounds, double_area, range, weld};
+use crate::geometry::{Surface, range, weld};
+use facts::{Facts, Scene};
 use glam::DVec3;
+use reach::{SLICES, Slices, TRUNK_HALF_WIDTH, middle_plane, reaches_over, shown_count, slices};
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Points on all meshes together, and least and most on one.
-const SAMPLES: (usize, usize, usize) = (12_000, 24, 400);
-
-/// What is as near as this, in heights, lies on the same spot.
-const SAME_SPOT: f64 = 1e-4;
-
 /// Borders this near are one, in heights.
 const SEAM: f64 = 1e-5;
-
-/// Cloth lies over what its inward ray meets within this distance, in heights: a wide skirt, but not an arm over a leg.
-const LAYER_REACH: f64 = 0.12;
-
-/// A layer may be thick itself, like a lump of hair; then what it covers begins right behind it. In heights.
-const LAYER_THICKNESS: f64 = 0.04;
-
-/// How far what lies below a thick layer may be behind it, and from where on a layer is thick, in heights.
-const LAYER_GAP: f64 = 0.02;
 
 /// A mesh of which this share lies over others is a layer.
 const LAYER_SHARE: f64 = 0.5;
@@ -35,20 +25,11 @@ const LAYER_SHARE: f64 = 0.5;
 /// A mesh of which this share lies within others is something in their inside.
 const ENCLOSED_SHARE: f64 = 0.4;
 
-/// A mesh of which this share lies over another one covers it.
-const COVER_SHARE: f64 = 0.15;
-
 /// A mesh of whose border this share is another mesh's border too goes on where that one ends.
 const SEAM_SHARE: f64 = 0.5;
 
 /// A mesh that makes a body whole adds at least as many slices.
 const LEAST_GAIN: usize = 3;
-
-/// Points on each mesh by which planes of symmetry are compared.
-const PLANE_SAMPLES: usize = 100;
-
-/// So many of the largest meshes are tried as what the plane of symmetry is the middle of.
-const PLANE_CANDIDATES: usize = 6;
 
 /// What is no further from skin and clothes than this, in heights, is worn; what sticks out further is a thing.
 const WORN: f64 = 0.03;
@@ -67,15 +48,6 @@ const DOUBT: f64 = 0.12;
 
 /// The height of the chin where no neck is seen: 1 - 1 / 7 of a person of seven heads, and a little below.
 const CHIN: f64 = 0.84;
-
-/// Slices for the reach of the body, along the height and to each side.
-const SLICES: usize = 40;
-
-/// Half the width in which legs and trunk are looked for, in heights; arms begin beyond.
-const TRUNK_HALF_WIDTH: f64 = 0.12;
-
-/// The share of slices in which a whole body shows.
-const WHOLE_SHARE: f64 = 0.9;
 
 /// A kind for every mesh of `figure`, and a warning (`kind_guessed`) that names those that were guessed without being
 /// sure.
@@ -133,89 +105,6 @@ pub fn body_is_whole(figure: &UnitFigure, kinds: &[MeshKind]) -> bool {
     reaches_over(figure, middle_plane(figure, &is_figure), &is_body, &is_figure)
 }
 
-/// True where those meshes that `some` accepts show in nearly all slices in which those that `whole` accepts do.
-fn reaches_over(
-    figure: &UnitFigure,
-    middle: f64,
-    some: &dyn Fn(usize) -> bool,
-    whole: &dyn Fn(usize) -> bool,
-) -> bool {
-    let (some, whole) = (slices(figure, middle, some), slices(figure, middle, whole));
-    // Each side's half of the trunk and leg, and each arm for itself.
-    let shows = some.iter().flatten().any(|&shown| shown);
-    shows
-        && some.iter().zip(&whole).all(|(some, whole)| {
-            let shown = whole.iter().filter(|&&shown| shown).count();
-            let both = some.iter().zip(whole).filter(|&(&some, &whole)| some && whole).count();
-            both as f64 >= WHOLE_SHARE * shown as f64
-        })
-}
-
-/// Where triangles are: slices along the height near the middle, and along x beyond; right, then left.
-type Slices = [[bool; SLICES]; 4];
-
-fn slices(figure: &UnitFigure, middle: f64, choose: &dyn Fn(usize) -> bool) -> Slices {
-    let widest = figure.positions.iter().map(|p| (p.x - middle).abs()).fold(0.0, f64::max);
-    let arm = widest - TRUNK_HALF_WIDTH;
-    let mut shown = [[false; SLICES]; 4];
-    let slice = |share: f64| ((share * SLICES as f64).max(0.0) as usize).min(SLICES - 1);
-    for corners in figure.triangles_where(choose) {
-        let corners = corners.map(|vertex| figure.positions[vertex as usize]);
-        let (low, high) = bounds(corners);
-        let (left, right) = (low.x - middle, high.x - middle);
-        for (side, (from, to)) in [(-right, -left), (left, right)].into_iter().enumerate() {
-            if to >= 0.0 && from <= TRUNK_HALF_WIDTH {
-                shown[side][slice(low.y)..=slice(high.y).max(slice(low.y))].fill(true);
-            }
-            // A trunk that is wider than usual is no arm.
-            if to > TRUNK_HALF_WIDTH && arm > 0.05 {
-                let from = slice((from - TRUNK_HALF_WIDTH) / arm);
-                shown[side + 2][from..=slice((to - TRUNK_HALF_WIDTH) / arm).max(from)].fill(true);
-            }
-        }
-    }
-    shown
-}
-
-/// The x of the plane in which those meshes that `choose` accepts mirror best: a thing on one side moves the middle of
-/// the unit figure, but not the body's.
-fn middle_plane(figure: &UnitFigure, choose: &dyn Fn(usize) -> bool) -> f64 {
-    let meshes: Vec<usize> = (0..figure.mesh_count()).filter(|&mesh| choose(mesh)).collect();
-    let surface = Surface::new(&figure.positions, &figure.triangles_where(choose));
-    let points: Vec<Vec<(DVec3, DVec3)>> =
-        meshes.iter().map(|&mesh| points_on(figure, mesh, PLANE_SAMPLES)).collect();
-    let areas: Vec<f64> = meshes.iter().map(|&mesh| mesh_area(figure, mesh)).collect();
-    let mut order: Vec<usize> = (0..meshes.len()).collect();
-    order.sort_by(|&a, &b| areas[b].total_cmp(&areas[a]).then(a.cmp(&b)));
-    let score = |middle: f64| -> f64 {
-        let shares = points.iter().zip(&areas).map(|(points, area)| {
-            let mirrored = points.iter().filter(|(p, _)| {
-                let mirrored = DVec3::new(2.0 * middle - p.x, p.y, p.z);
-                surface.closest_point(mirrored).is_some_and(|near| near.distance <= PART_GAP / 2.0)
-            });
-            area * mirrored.count() as f64 / points.len().max(1) as f64
-        });
-        shares.sum()
-    };
-    // The middle of the unit figure, unless another one is clearly better.
-    let mut best = (1.05 * score(0.0), 0.0);
-    for &largest in order.iter().take(PLANE_CANDIDATES) {
-        let corners = figure.triangles_of(meshes[largest]).iter().flatten();
-        let (low, high) = range(corners.map(|&vertex| figure.positions[vertex as usize].x));
-        let middle = (low + high) / 2.0;
-        let score = score(middle);
-        if middle.is_finite() && score > best.0 {
-            best = (score, middle);
-        }
-    }
-    best.1
-}
-
-/// In how many slices there is something.
-fn shown_count(slices: &Slices) -> usize {
-    slices.iter().flatten().filter(|&&shown| shown).count()
-}
-
 fn warning(figure: &UnitFigure, kinds: &[MeshKind], meshes: &[usize]) -> Vec<Warning> {
     if meshes.is_empty() {
         return Vec::new();
@@ -233,125 +122,12 @@ fn warning(figure: &UnitFigure, kinds: &[MeshKind], meshes: &[usize]) -> Vec<War
     vec![Warning::new("kind_guessed", message).about("kinds")]
 }
 
-/// A point on a mesh, and what is around it.
-struct Sample {
-    point: DVec3,
-    /// The mesh right below.
-    over: Option<usize>,
-    /// The mesh that the point lies within.
-    within: Option<usize>,
-    /// Below is the far side of the mesh itself.
-    volume: bool,
-}
-
 struct Guess {
     kind: MeshKind,
     sure: bool,
 }
 
-/// What is known of a mesh.
-struct Facts {
-    samples: Vec<Sample>,
-    area: f64,
-    low: DVec3,
-    high: DVec3,
-}
-
-impl Facts {
-    fn share(&self, count: impl Fn(&Sample) -> bool) -> f64 {
-        let counted = self.samples.iter().filter(|sample| count(sample)).count();
-        counted as f64 / self.samples.len().max(1) as f64
-    }
-
-    fn middle(&self) -> DVec3 {
-        self.samples.iter().map(|sample| sample.point).sum::<DVec3>() / self.samples.len().max(1) as f64
-    }
-
-    fn extent(&self) -> f64 {
-        (self.high - self.low).max_element()
-    }
-}
-
-struct Scene<'a> {
-    figure: &'a UnitFigure,
-    facts: Vec<Facts>,
-}
-
-impl<'a> Scene<'a> {
-    fn new(figure: &'a UnitFigure) -> Self {
-        let surface = Surface::new(&figure.positions, &figure.triangles);
-        let mesh_of = |hit: &Hit| figure.triangle_starts.partition_point(|&start| start <= hit.triangle) - 1;
-        let (all, least, most) = SAMPLES;
-        let count = (all / figure.mesh_count().max(1)).clamp(least, most);
-        // Points with both rays first: which side is out is known once a mesh's own hits are counted.
-        let shots: Vec<_> = (0..figure.mesh_count())
-            .map(|mesh| {
-                let points = points_on(figure, mesh, count);
-                let shots = points.into_iter().map(|(point, normal)| {
-                    let along = |direction: DVec3| {
-                        let mut hits = surface.all_hits(point, direction);
-                        hits.retain(|hit| hit.t > SAME_SPOT);
-                        hits
-                    };
-                    (point, along(normal), along(-normal))
-                });
-                shots.collect::<Vec<_>>()
-            })
-            .collect();
-        let turned: Vec<bool> = shots
-            .iter()
-            .enumerate()
-            .map(|(mesh, shots)| {
-                let own = |hits: &[Hit]| hits.iter().filter(|hit| mesh_of(hit) == mesh).count();
-                let out: usize = shots.iter().map(|(_, out, _)| own(out)).sum();
-                let inwards: usize = shots.iter().map(|(_, _, inwards)| own(inwards)).sum();
-                out > inwards
-            })
-            .collect();
-        let enters = |hit: &Hit| hit.front != turned[mesh_of(hit)];
-        let facts = shots.iter().enumerate().map(|(mesh, shots)| {
-            let samples = shots.iter().map(|(point, out, inwards)| {
-                let (out, inwards) = if turned[mesh] { (inwards, out) } else { (out, inwards) };
-                let first_other = out.iter().find(|hit| mesh_of(hit) != mesh);
-                let within = first_other.filter(|hit| !enters(hit)).map(mesh_of);
-                let far_side = inwards.iter().find(|hit| mesh_of(hit) == mesh && !enters(hit));
-                let below = inwards.iter().find(|hit| mesh_of(hit) != mesh && enters(hit));
-                let over = below.filter(|below| {
-                    let thickness = far_side.map_or(f64::INFINITY, |hit| hit.t);
-                    if below.t <= thickness || thickness <= LAYER_GAP / 2.0 {
-                        below.t <= LAYER_REACH
-                    } else {
-                        thickness <= LAYER_THICKNESS && below.t - thickness <= LAYER_GAP
-                    }
-                });
-                Sample { point: *point, over: over.map(mesh_of), within, volume: far_side.is_some() }
-            });
-            let corners = figure.triangles_of(mesh).iter().flatten();
-            let (low, high) = bounds(corners.map(|&vertex| figure.positions[vertex as usize]));
-            Facts { samples: samples.collect(), area: mesh_area(figure, mesh), low, high }
-        });
-        let facts = facts.collect();
-        Self { figure, facts }
-    }
-
-    /// The share of a mesh that lies over others that are no crumbs beside it.
-    fn layer_share(&self, mesh: usize) -> f64 {
-        let facts = &self.facts[mesh];
-        facts.share(|sample| sample.over.is_some_and(|below| self.facts[below].area > 0.1 * facts.area))
-    }
-
-    /// The share of a mesh that lies within others larger than itself.
-    fn enclosed_share(&self, mesh: usize) -> f64 {
-        let facts = &self.facts[mesh];
-        // What lies over this mesh does not enclose it: skin is below clothes, not inside them.
-        let lies_over =
-            |around: usize| self.facts[around].share(|sample| sample.over == Some(mesh)) >= COVER_SHARE;
-        let encloses: Vec<bool> = (0..self.facts.len())
-            .map(|around| self.facts[around].area > facts.area && !lies_over(around))
-            .collect();
-        facts.share(|sample| sample.within.is_some_and(|around| encloses[around]))
-    }
-
+impl Scene<'_> {
     /// Kinds of all meshes, where the head's joint is known or not.
     fn guess(&self, head: Option<DVec3>) -> Vec<Guess> {
         let figure = self.figure;
@@ -657,40 +433,4 @@ impl HeadRegion {
             && size.max_element() <= 0.8 * self.length
             && middle.y < self.chin + 0.85 * self.length
     }
-}
-
-/// The normal of a triangle, as long as its area.
-fn area_of(figure: &UnitFigure, corners: [u32; 3]) -> DVec3 {
-    0.5 * double_area(&figure.positions, corners)
-}
-
-fn mesh_area(figure: &UnitFigure, mesh: usize) -> f64 {
-    figure.triangles_of(mesh).iter().map(|&corners| area_of(figure, corners).length()).sum()
-}
-
-/// Points evenly over the area of a mesh, with the unit normals of their triangles.
-fn points_on(figure: &UnitFigure, mesh: usize, count: usize) -> Vec<(DVec3, DVec3)> {
-    let triangles = figure.triangles_of(mesh);
-    let normals: Vec<DVec3> = triangles.iter().map(|&corners| area_of(figure, corners)).collect();
-    let area: f64 = normals.iter().map(|normal| normal.length()).sum();
-    let step = area / count as f64;
-    if !(step.is_finite() && step > 0.0) {
-        return Vec::new();
-    }
-    let mut points = Vec::with_capacity(count);
-    let (mut passed, mut next) = (0.0, 0.5 * step);
-    for (corners, normal) in triangles.iter().zip(&normals) {
-        passed += normal.length();
-        while next < passed && points.len() < count {
-            // The golden ratios of the plane spread points evenly, whatever triangles they fall on.
-            let turn = points.len() as f64 + 0.5;
-            let (u, v) = ((turn * 0.754_877_666_246_692_7).fract(), (turn * 0.569_840_290_998_053_3).fract());
-            let (u, v) = if u + v > 1.0 { (1.0 - u, 1.0 - v) } else { (u, v) };
-            let [a, b, c] = corners.map(|vertex| figure.positions[vertex as usize]);
-            points.push((a + u * (b - a) + v * (c - a), normal.normalize_or_zero()));
-            next += step;
-        }
-    }
-    points.retain(|&(_, normal)| normal != DVec3::ZERO);
-    points
 }

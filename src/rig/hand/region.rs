@@ -1,0 +1,315 @@
+//! The mesh beyond the wrist, and the fingers that stand out of it: the merge tree of distances from the wrist.
+
+use super::section::Section;
+use crate::geometry::{PointTree, SEAM, components, neighbours, weld};
+use glam::DVec3;
+use std::cmp::Reverse;
+use std::collections::{BTreeMap, BinaryHeap};
+
+/// The mesh beyond the wrist.
+pub(super) struct Region {
+    /// Welded vertices.
+    pub(super) points: Vec<DVec3>,
+    pub(super) triangles: Vec<[u32; 3]>,
+    /// Edges, and the shortest bridges between pieces.
+    pub(super) graph: Vec<Vec<u32>>,
+    /// Whether an edge from here crosses the wrist.
+    pub(super) is_start: Vec<bool>,
+    /// Distance from the wrist along the graph; infinite where it does not lead.
+    pub(super) distances: Vec<f64>,
+    /// The greatest of them.
+    pub(super) length: f64,
+    pub(super) wrist: DVec3,
+    /// The way the forearm points.
+    pub(super) along: DVec3,
+    pub(super) wrist_radius: f64,
+}
+
+/// A finger: the part of the hand around a tip that hangs on the rest by its root alone.
+#[derive(Clone, Debug)]
+pub(super) struct Finger {
+    pub(super) tip: u32,
+    pub(super) tip_distance: f64,
+    /// Where it meets its neighbour, as a distance from the wrist.
+    pub(super) web_distance: f64,
+}
+
+/// A tip stands out by this share of the hand's length, at least ...
+pub(super) const LEAST_PERSISTENCE: f64 = 0.1;
+
+/// ... and is this far from the wrist: cuffs are nearer.
+const LEAST_REACH: f64 = 0.35;
+
+/// Fingers part further from the wrist than this share of the hand's length: what parts nearer is worn on the wrist.
+const LEAST_WEB: f64 = 0.12;
+
+/// Where the knuckles are between wrist and tips.
+pub(super) const MITTEN_KNUCKLES: f64 = 0.5;
+
+/// What reaches as far along the forearm as the furthest point, to within this share, is the end of a mitten.
+const BLUNT: f64 = 0.05;
+
+/// Sections of a finger.
+pub(super) const SECTION_COUNT: usize = 8;
+
+impl Region {
+    pub(super) fn new(
+        positions: &[DVec3],
+        triangles: &[[u32; 3]],
+        elbow: DVec3,
+        wrist: DVec3,
+    ) -> Option<Self> {
+        let along = (wrist - elbow).try_normalize()?;
+        let forearm = wrist.distance(elbow);
+        let reach = (1.5 * forearm).clamp(0.12, 0.3);
+        let section = Section::new(positions, triangles, wrist, along, reach)?;
+        let is_near = |p: DVec3| {
+            // The section's middle lies in the plane through the wrist, which parts what is cut from what is not.
+            (p - wrist).dot(along) > 0.0 && p.distance_squared(section.centre) <= reach * reach
+        };
+        let mut index = vec![u32::MAX; positions.len()];
+        let mut points = Vec::new();
+        for (vertex, &p) in positions.iter().enumerate() {
+            if is_near(p) {
+                index[vertex] = points.len() as u32;
+                points.push(p);
+            }
+        }
+        let near: Vec<[u32; 3]> = triangles
+            .iter()
+            .map(|corners| corners.map(|vertex| index[vertex as usize]))
+            .filter(|corners| !corners.contains(&u32::MAX))
+            .collect();
+        let weld = weld(&points, SEAM);
+        let pieces = components(&near, &weld);
+        let around = neighbours(&near, &weld);
+        let firsts = weld.first_vertices();
+        let points: Vec<DVec3> = firsts.iter().map(|&vertex| points[vertex as usize]).collect();
+        let triangles: Vec<[u32; 3]> = near
+            .iter()
+            .map(|&corners| weld.triangle(corners))
+            .filter(|[a, b, c]| a != b && b != c && c != a)
+            .collect();
+        let graph: Vec<Vec<u32>> = (0..points.len()).map(|vertex| around.of(vertex).to_vec()).collect();
+        let mut is_start = vec![false; points.len()];
+        for vertex in section.ahead {
+            if let Some(&near) = index.get(vertex as usize)
+                && near != u32::MAX
+            {
+                is_start[weld.representative[near as usize] as usize] = true;
+            }
+        }
+        let mut region = Self {
+            points,
+            triangles,
+            graph,
+            is_start,
+            distances: Vec::new(),
+            length: 0.0,
+            wrist: section.centre,
+            along,
+            wrist_radius: section.radius,
+        };
+        region.bridge(&pieces, reach);
+        region.measure();
+        (region.length > 0.5 * region.wrist_radius).then_some(region)
+    }
+
+    /// Joins pieces that do not begin at the wrist to what does, each where it is nearest.
+    fn bridge(&mut self, pieces: &[u32], reach: f64) {
+        let count = pieces.iter().max().map_or(0, |&last| last as usize + 1);
+        let mut members: Vec<Vec<u32>> = vec![Vec::new(); count];
+        for (vertex, &piece) in pieces.iter().enumerate() {
+            members[piece as usize].push(vertex as u32);
+        }
+        // Pieces that go on outside are something else: a leg, the ground.
+        let mut waiting = Vec::new();
+        let mut joined: Vec<u32> = Vec::new();
+        for (piece, vertices) in members.iter().enumerate() {
+            if vertices.iter().any(|&vertex| self.is_start[vertex as usize]) {
+                joined.extend(vertices);
+            } else if vertices.len() > 3
+                && vertices.iter().all(|&v| self.points[v as usize].distance(self.wrist) < 0.95 * reach)
+            {
+                waiting.push(piece);
+            }
+        }
+        while !waiting.is_empty() && !joined.is_empty() {
+            let tree_points: Vec<DVec3> = joined.iter().map(|&vertex| self.points[vertex as usize]).collect();
+            let tree = PointTree::new(&tree_points);
+            let mut best: Option<(f64, usize, u32, u32)> = None;
+            let mut found = Vec::new();
+            for (slot, &piece) in waiting.iter().enumerate() {
+                for &vertex in &members[piece] {
+                    let limit = best.map_or(self.wrist_radius, |best| best.0);
+                    tree.nearest(self.points[vertex as usize], 1, limit, &mut found);
+                    if let Some(near) = found.first()
+                        && best.is_none_or(|best| near.distance() < best.0)
+                    {
+                        best = Some((near.distance(), slot, vertex, joined[near.index() as usize]));
+                    }
+                }
+            }
+            let Some((_, slot, one, other)) = best else { break };
+            self.graph[one as usize].push(other);
+            self.graph[other as usize].push(one);
+            joined.extend(&members[waiting.remove(slot)]);
+        }
+    }
+
+    /// Distances from the wrist along edges.
+    fn measure(&mut self) {
+        self.distances = vec![f64::INFINITY; self.points.len()];
+        let mut queue = BinaryHeap::new();
+        for vertex in 0..self.points.len() as u32 {
+            if self.is_start[vertex as usize] {
+                let ahead = (self.points[vertex as usize] - self.wrist).dot(self.along).max(0.0);
+                self.distances[vertex as usize] = ahead;
+                queue.push(Reverse((ahead.to_bits(), vertex)));
+            }
+        }
+        while let Some(Reverse((bits, vertex))) = queue.pop() {
+            let distance = f64::from_bits(bits);
+            if distance > self.distances[vertex as usize] {
+                continue;
+            }
+            for &next in &self.graph[vertex as usize] {
+                let further = distance + self.points[vertex as usize].distance(self.points[next as usize]);
+                if further < self.distances[next as usize] {
+                    self.distances[next as usize] = further;
+                    queue.push(Reverse((further.to_bits(), next)));
+                }
+            }
+        }
+        self.length = self.distances.iter().copied().filter(|d| d.is_finite()).fold(0.0, f64::max);
+    }
+
+    /// Tips that stand out, furthest first: the merge tree of the distances, swept from the far end.
+    pub(super) fn fingers(&self) -> Vec<Finger> {
+        let mut order: Vec<u32> =
+            (0..self.points.len() as u32).filter(|&v| self.distances[v as usize].is_finite()).collect();
+        order.sort_by(|&a, &b| {
+            self.distances[b as usize].total_cmp(&self.distances[a as usize]).then(a.cmp(&b))
+        });
+        let mut parents = vec![u32::MAX; self.points.len()];
+        fn root(parents: &mut [u32], mut vertex: u32) -> u32 {
+            while parents[vertex as usize] != vertex {
+                parents[vertex as usize] = parents[parents[vertex as usize] as usize];
+                vertex = parents[vertex as usize];
+            }
+            vertex
+        }
+        // Every tree's root is its tip.
+        let mut webs: BTreeMap<u32, f64> = BTreeMap::new();
+        let mut fingers = Vec::new();
+        let least = LEAST_PERSISTENCE * self.length;
+        for &vertex in &order {
+            let distance = self.distances[vertex as usize];
+            parents[vertex as usize] = vertex;
+            for &next in &self.graph[vertex as usize] {
+                if parents[next as usize] == u32::MAX {
+                    continue;
+                }
+                let (one, other) = (root(&mut parents, vertex), root(&mut parents, next));
+                if one == other {
+                    continue;
+                }
+                let is_further = self.distances[one as usize] > self.distances[other as usize]
+                    || self.distances[one as usize] == self.distances[other as usize] && one < other;
+                let (tip, lesser) = if is_further { (one, other) } else { (other, one) };
+                let stands_out = self.distances[lesser as usize] - distance >= least
+                    && self.distances[lesser as usize] >= LEAST_REACH * self.length
+                    && distance >= LEAST_WEB * self.length;
+                if stands_out {
+                    webs.entry(lesser).or_insert(distance);
+                    webs.entry(tip).or_insert(distance);
+                    fingers.push(lesser);
+                }
+                parents[lesser as usize] = tip;
+            }
+        }
+        if let Some(&furthest) = order.first() {
+            fingers.push(furthest);
+        }
+        let mut fingers: Vec<Finger> = fingers
+            .into_iter()
+            .map(|tip| {
+                let web_distance = webs.get(&tip).copied().unwrap_or(0.0);
+                Finger { tip, tip_distance: self.distances[tip as usize], web_distance }
+            })
+            .collect();
+        fingers.sort_by(|a, b| b.tip_distance.total_cmp(&a.tip_distance).then(a.tip.cmp(&b.tip)));
+        fingers
+    }
+
+    /// The middle of a finger's sections, from its web to its tip.
+    pub(super) fn path(&self, finger: &Finger) -> Vec<DVec3> {
+        // The vertices of the finger alone.
+        let mut is_own = vec![false; self.points.len()];
+        is_own[finger.tip as usize] = true;
+        let mut stack = vec![finger.tip];
+        while let Some(vertex) = stack.pop() {
+            for &next in &self.graph[vertex as usize] {
+                if !is_own[next as usize] && self.distances[next as usize] > finger.web_distance {
+                    is_own[next as usize] = true;
+                    stack.push(next);
+                }
+            }
+        }
+        let own: Vec<[u32; 3]> = self
+            .triangles
+            .iter()
+            .filter(|corners| corners.iter().any(|&v| is_own[v as usize]))
+            .copied()
+            .collect();
+        let mut path = Vec::new();
+        let free = finger.tip_distance - finger.web_distance;
+        for step in 0..SECTION_COUNT {
+            let level = finger.web_distance + free * (step as f64 + 0.5) / SECTION_COUNT as f64;
+            let (mut sum, mut weight) = (DVec3::ZERO, 0.0);
+            for corners in &own {
+                let mut ends = [DVec3::ZERO; 2];
+                let mut count = 0;
+                for edge in 0..3 {
+                    let [a, b] = [corners[edge], corners[(edge + 1) % 3]].map(|v| v as usize);
+                    let (low, high) = (self.distances[a], self.distances[b]);
+                    if (low > level) == (high > level) || !low.is_finite() || !high.is_finite() {
+                        continue;
+                    }
+                    // What is above the level must be the finger's.
+                    if !is_own[if low > level { a } else { b }] {
+                        continue;
+                    }
+                    ends[count.min(1)] = self.points[a].lerp(self.points[b], (level - low) / (high - low));
+                    count += 1;
+                }
+                if count >= 2 {
+                    let length = ends[0].distance(ends[1]);
+                    sum += length * (ends[0] + ends[1]) / 2.0;
+                    weight += length;
+                }
+            }
+            if weight > 0.0 {
+                path.push(sum / weight);
+            }
+        }
+        path.push(self.points[finger.tip as usize]);
+        path
+    }
+
+    /// The outer part of the line from the wrist to the end of the hand. A blunt end has many tips, of which rounding
+    /// would choose one: its middle is the end.
+    pub(super) fn mitten(&self) -> Vec<DVec3> {
+        let out = |p: &DVec3| (*p - self.wrist).dot(self.along);
+        let furthest = self.points.iter().map(out).fold(0.0, f64::max);
+        let ends: Vec<DVec3> =
+            self.points.iter().filter(|p| out(p) >= (1.0 - BLUNT) * furthest).copied().collect();
+        let end = ends.iter().sum::<DVec3>() / ends.len().max(1) as f64;
+        (0..=SECTION_COUNT)
+            .map(|step| {
+                let part = (step as f64 + 0.5).min(SECTION_COUNT as f64) / SECTION_COUNT as f64;
+                self.wrist.lerp(end, MITTEN_KNUCKLES + (1.0 - MITTEN_KNUCKLES) * part)
+            })
+            .collect()
+    }
+}

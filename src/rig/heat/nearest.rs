@@ -1,0 +1,203 @@
+//! The bones that are nearest to each vertex, and whether it sees them.
+
+use super::{Components, Frame};
+use crate::geometry::{Surface, foot};
+use crate::parallel;
+use crate::rig::WeightBone;
+use glam::DVec3;
+
+/// A bone shares a vertex fully up to this ratio of its distance to the least one, ...
+const EQUAL: f64 = 1.0 + 1e-4;
+/// ... and not at all from this one on. Between them the share falls off, so that a vertex in the plane of symmetry
+/// keeps both legs alike however it is rounded.
+const UNEQUAL: f64 = 1.0 + 1e-3;
+
+/// Distances to bones are at least this, in units of the figure: what is nearer lies on the bone, and H stays finite.
+const LEAST_DISTANCE: f64 = 1e-6;
+
+/// A ray to a bone leaves out this share of the way at either end: it starts on the surface, and a bone may end there.
+const RAY_MARGIN: f64 = 1e-3;
+
+/// Vertices that are looked at together.
+const CHUNK: usize = 512;
+
+/// All segments of all bones, by coordinates, so that the distances to them are found side by side.
+#[derive(Debug, Default)]
+pub(super) struct Segments {
+    bones: Vec<u32>,
+    starts: [Vec<f64>; 3],
+    ways: [Vec<f64>; 3],
+    /// 1 / length², 0 for a point.
+    inverse: Vec<f64>,
+}
+
+impl Segments {
+    pub(super) fn of(bones: &[WeightBone], frame: &Frame) -> Self {
+        let mut all = Self::default();
+        for (bone, &[a, b]) in
+            (0u32..).zip(bones).flat_map(|(index, bone)| bone.segments.iter().map(move |ends| (index, ends)))
+        {
+            if !(a.is_finite() && b.is_finite()) {
+                continue;
+            }
+            let (a, b) = (frame.place(a), frame.place(b));
+            let inverse = (b - a).length_squared().recip();
+            all.bones.push(bone);
+            all.inverse.push(if inverse.is_finite() { inverse } else { 0.0 });
+            for axis in 0..3 {
+                all.starts[axis].push(a[axis]);
+                all.ways[axis].push(b[axis] - a[axis]);
+            }
+        }
+        all
+    }
+
+    /// Fills `squared` with the squared distances of all segments to `p`.
+    fn distances(&self, p: DVec3, squared: &mut [f64]) {
+        let count = squared.len();
+        let [x, y, z] = &self.starts;
+        let [u, v, w] = &self.ways;
+        let (x, y, z) = (&x[..count], &y[..count], &z[..count]);
+        let (u, v, w, inverse) = (&u[..count], &v[..count], &w[..count], &self.inverse[..count]);
+        for i in 0..count {
+            let (dx, dy, dz) = (p.x - x[i], p.y - y[i], p.z - z[i]);
+            let t = ((dx * u[i] + dy * v[i] + dz * w[i]) * inverse[i]).clamp(0.0, 1.0);
+            let (dx, dy, dz) = (dx - t * u[i], dy - t * v[i], dz - t * w[i]);
+            squared[i] = dx * dx + dy * dy + dz * dz;
+        }
+    }
+
+    /// The point of a segment that is closest to `p`.
+    fn foot(&self, segment: usize, p: DVec3) -> DVec3 {
+        let at = |of: &[Vec<f64>; 3]| DVec3::new(of[0][segment], of[1][segment], of[2][segment]);
+        let start = at(&self.starts);
+        foot(p, start, start + at(&self.ways)).0
+    }
+}
+
+/// The bones that are nearest to each vertex.
+#[derive(Debug, Default)]
+pub(super) struct NearestBones {
+    /// Where each vertex's bones start in `shares`; one more than there are vertices.
+    pub(super) starts: Vec<u32>,
+    /// Bones and their shares; those of a vertex sum to 1. Only those that are seen, where any is.
+    pub(super) shares: Vec<(u32, f64)>,
+    /// k / d² of those.
+    pub(super) heat: Vec<f64>,
+    /// Whether any is seen.
+    pub(super) seen: Vec<bool>,
+}
+
+impl NearestBones {
+    /// One ray a vertex and bone that is as near as the nearest.
+    pub(super) fn of(
+        points: &[DVec3],
+        pieces: &Components,
+        segments: &Segments,
+        thread_count: usize,
+    ) -> Self {
+        let component_count = pieces.starts.len() - 1;
+        let surfaces = parallel::collect(thread_count, component_count, 1, |component| {
+            Surface::new(points, pieces.triangles_of(component))
+        });
+        let chunks: Vec<&[DVec3]> = points.chunks(CHUNK).collect();
+        let found = parallel::collect_with(
+            thread_count,
+            chunks.len(),
+            1,
+            || (vec![0.0; segments.bones.len()], Vec::new()),
+            |(squared, near), chunk| {
+                let mut found = Self::default();
+                for (&p, &component) in chunks[chunk].iter().zip(&pieces.components[chunk * CHUNK..]) {
+                    segments.near(p, squared, near);
+                    found.push(p, surfaces.get(component as usize), segments, near);
+                }
+                found
+            },
+        );
+        let mut all = Self { starts: vec![0], ..Self::default() };
+        for chunk in found {
+            let start = all.shares.len() as u32;
+            all.starts.extend(chunk.starts.iter().map(|end| start + end));
+            all.shares.extend(chunk.shares);
+            all.heat.extend(chunk.heat);
+            all.seen.extend(chunk.seen);
+        }
+        all
+    }
+
+    /// Adds a vertex; `near` are the bones near to it. Here `starts` are ends.
+    fn push(&mut self, p: DVec3, surface: Option<&Surface>, segments: &Segments, near: &mut Vec<NearBone>) {
+        let least = near.iter().fold(f64::INFINITY, |least, bone| least.min(bone.distance));
+        let mut last = None;
+        let is_seen = |bone: &NearBone| {
+            let way = segments.foot(bone.segment as usize, p) - p;
+            // Bones that share a joint share the ray to it.
+            match last {
+                Some((known, is_seen)) if known == way => is_seen,
+                _ => {
+                    let is_hidden = surface.is_some_and(|surface| {
+                        surface.is_hit(p + RAY_MARGIN * way, way, 1.0 - 2.0 * RAY_MARGIN)
+                    });
+                    last = Some((way, !is_hidden));
+                    !is_hidden
+                }
+            }
+        };
+        let seen: Vec<bool> = near.iter().map(is_seen).collect();
+        let any_seen = seen.contains(&true);
+        if any_seen {
+            let mut seen = seen.into_iter();
+            near.retain(|_| seen.next() == Some(true));
+        }
+        let k: f64 = near.iter().map(|bone| bone.share).sum();
+        self.shares.extend(near.iter().map(|bone| (bone.bone, bone.share / k)));
+        self.starts.push(self.shares.len() as u32);
+        self.heat.push(if near.is_empty() { 0.0 } else { k / (least * least) });
+        self.seen.push(any_seen);
+    }
+
+    pub(super) fn shares_of(&self, vertex: usize) -> &[(u32, f64)] {
+        &self.shares[self.starts[vertex] as usize..self.starts[vertex + 1] as usize]
+    }
+}
+
+/// A bone about as near to a vertex as the nearest one.
+#[derive(Clone, Copy, Debug)]
+struct NearBone {
+    bone: u32,
+    /// Its nearest segment.
+    segment: u32,
+    distance: f64,
+    /// 1 as near as the nearest, towards 0 further away.
+    share: f64,
+}
+
+impl Segments {
+    /// Fills `near` with the bones about as near to `p` as the nearest one.
+    fn near(&self, p: DVec3, squared: &mut [f64], near: &mut Vec<NearBone>) {
+        near.clear();
+        self.distances(p, squared);
+        let least = squared.iter().fold(f64::INFINITY, |least, &distance| least.min(distance));
+        let least = least.sqrt().max(LEAST_DISTANCE);
+        let reach = (UNEQUAL * least).powi(2);
+        for (segment, &squared) in (0u32..).zip(&*squared) {
+            if squared > reach {
+                continue;
+            }
+            let distance = squared.sqrt().max(LEAST_DISTANCE);
+            let share = ((UNEQUAL - distance / least) / (UNEQUAL - EQUAL)).clamp(0.0, 1.0);
+            let bone = self.bones[segment as usize];
+            match near.last_mut() {
+                // Segments of a bone follow each other.
+                Some(last) if last.bone == bone => {
+                    if distance < last.distance {
+                        *last = NearBone { bone, segment, distance, share };
+                    }
+                }
+                _ => near.push(NearBone { bone, segment, distance, share }),
+            }
+        }
+        near.retain(|bone| bone.share > 0.0);
+    }
+}

@@ -1,0 +1,174 @@
+//! What surrounds the meshes: samples with a ray inwards and one outwards.
+
+use crate::geometry::{Hit, Surface, bounds, double_area};
+use crate::rig::UnitFigure;
+use glam::DVec3;
+
+/// Points on all meshes together, and least and most on one.
+const SAMPLES: (usize, usize, usize) = (12_000, 24, 400);
+
+/// What is as near as this, in heights, lies on the same spot.
+const SAME_SPOT: f64 = 1e-4;
+
+/// Cloth lies over what its inward ray meets within this distance, in heights: a wide skirt, but not an arm over a leg.
+const LAYER_REACH: f64 = 0.12;
+
+/// A layer may be thick itself, like a lump of hair; then what it covers begins right behind it. In heights.
+const LAYER_THICKNESS: f64 = 0.04;
+
+/// How far what lies below a thick layer may be behind it, and from where on a layer is thick, in heights.
+const LAYER_GAP: f64 = 0.02;
+
+/// A mesh of which this share lies over another one covers it.
+const COVER_SHARE: f64 = 0.15;
+
+/// A point on a mesh, and what is around it.
+pub(super) struct Sample {
+    pub(super) point: DVec3,
+    /// The mesh right below.
+    pub(super) over: Option<usize>,
+    /// The mesh that the point lies within.
+    pub(super) within: Option<usize>,
+    /// Below is the far side of the mesh itself.
+    pub(super) volume: bool,
+}
+
+/// What is known of a mesh.
+pub(super) struct Facts {
+    pub(super) samples: Vec<Sample>,
+    pub(super) area: f64,
+    pub(super) low: DVec3,
+    pub(super) high: DVec3,
+}
+
+impl Facts {
+    pub(super) fn share(&self, count: impl Fn(&Sample) -> bool) -> f64 {
+        let counted = self.samples.iter().filter(|sample| count(sample)).count();
+        counted as f64 / self.samples.len().max(1) as f64
+    }
+
+    pub(super) fn middle(&self) -> DVec3 {
+        self.samples.iter().map(|sample| sample.point).sum::<DVec3>() / self.samples.len().max(1) as f64
+    }
+
+    pub(super) fn extent(&self) -> f64 {
+        (self.high - self.low).max_element()
+    }
+}
+
+pub(super) struct Scene<'a> {
+    pub(super) figure: &'a UnitFigure,
+    pub(super) facts: Vec<Facts>,
+}
+
+impl<'a> Scene<'a> {
+    pub(super) fn new(figure: &'a UnitFigure) -> Self {
+        let surface = Surface::new(&figure.positions, &figure.triangles);
+        let mesh_of = |hit: &Hit| figure.triangle_starts.partition_point(|&start| start <= hit.triangle) - 1;
+        let (all, least, most) = SAMPLES;
+        let count = (all / figure.mesh_count().max(1)).clamp(least, most);
+        // Points with both rays first: which side is out is known once a mesh's own hits are counted.
+        let shots: Vec<_> = (0..figure.mesh_count())
+            .map(|mesh| {
+                let points = points_on(figure, mesh, count);
+                let shots = points.into_iter().map(|(point, normal)| {
+                    let along = |direction: DVec3| {
+                        let mut hits = surface.all_hits(point, direction);
+                        hits.retain(|hit| hit.t > SAME_SPOT);
+                        hits
+                    };
+                    (point, along(normal), along(-normal))
+                });
+                shots.collect::<Vec<_>>()
+            })
+            .collect();
+        let turned: Vec<bool> = shots
+            .iter()
+            .enumerate()
+            .map(|(mesh, shots)| {
+                let own = |hits: &[Hit]| hits.iter().filter(|hit| mesh_of(hit) == mesh).count();
+                let out: usize = shots.iter().map(|(_, out, _)| own(out)).sum();
+                let inwards: usize = shots.iter().map(|(_, _, inwards)| own(inwards)).sum();
+                out > inwards
+            })
+            .collect();
+        let enters = |hit: &Hit| hit.front != turned[mesh_of(hit)];
+        let facts = shots.iter().enumerate().map(|(mesh, shots)| {
+            let samples = shots.iter().map(|(point, out, inwards)| {
+                let (out, inwards) = if turned[mesh] { (inwards, out) } else { (out, inwards) };
+                let first_other = out.iter().find(|hit| mesh_of(hit) != mesh);
+                let within = first_other.filter(|hit| !enters(hit)).map(mesh_of);
+                let far_side = inwards.iter().find(|hit| mesh_of(hit) == mesh && !enters(hit));
+                let below = inwards.iter().find(|hit| mesh_of(hit) != mesh && enters(hit));
+                let over = below.filter(|below| {
+                    let thickness = far_side.map_or(f64::INFINITY, |hit| hit.t);
+                    if below.t <= thickness || thickness <= LAYER_GAP / 2.0 {
+                        below.t <= LAYER_REACH
+                    } else {
+                        thickness <= LAYER_THICKNESS && below.t - thickness <= LAYER_GAP
+                    }
+                });
+                Sample { point: *point, over: over.map(mesh_of), within, volume: far_side.is_some() }
+            });
+            let corners = figure.triangles_of(mesh).iter().flatten();
+            let (low, high) = bounds(corners.map(|&vertex| figure.positions[vertex as usize]));
+            Facts { samples: samples.collect(), area: mesh_area(figure, mesh), low, high }
+        });
+        let facts = facts.collect();
+        Self { figure, facts }
+    }
+
+    /// The share of a mesh that lies over others that are no crumbs beside it.
+    pub(super) fn layer_share(&self, mesh: usize) -> f64 {
+        let facts = &self.facts[mesh];
+        facts.share(|sample| sample.over.is_some_and(|below| self.facts[below].area > 0.1 * facts.area))
+    }
+
+    /// The share of a mesh that lies within others larger than itself.
+    pub(super) fn enclosed_share(&self, mesh: usize) -> f64 {
+        let facts = &self.facts[mesh];
+        // What lies over this mesh does not enclose it: skin is below clothes, not inside them.
+        let lies_over =
+            |around: usize| self.facts[around].share(|sample| sample.over == Some(mesh)) >= COVER_SHARE;
+        let encloses: Vec<bool> = (0..self.facts.len())
+            .map(|around| self.facts[around].area > facts.area && !lies_over(around))
+            .collect();
+        facts.share(|sample| sample.within.is_some_and(|around| encloses[around]))
+    }
+}
+
+/// The normal of a triangle, as long as its area.
+fn area_of(figure: &UnitFigure, corners: [u32; 3]) -> DVec3 {
+    0.5 * double_area(&figure.positions, corners)
+}
+
+pub(super) fn mesh_area(figure: &UnitFigure, mesh: usize) -> f64 {
+    figure.triangles_of(mesh).iter().map(|&corners| area_of(figure, corners).length()).sum()
+}
+
+/// Points evenly over the area of a mesh, with the unit normals of their triangles.
+pub(super) fn points_on(figure: &UnitFigure, mesh: usize, count: usize) -> Vec<(DVec3, DVec3)> {
+    let triangles = figure.triangles_of(mesh);
+    let normals: Vec<DVec3> = triangles.iter().map(|&corners| area_of(figure, corners)).collect();
+    let area: f64 = normals.iter().map(|normal| normal.length()).sum();
+    let step = area / count as f64;
+    if !(step.is_finite() && step > 0.0) {
+        return Vec::new();
+    }
+    let mut points = Vec::with_capacity(count);
+    let (mut passed, mut next) = (0.0, 0.5 * step);
+    for (corners, normal) in triangles.iter().zip(&normals) {
+        passed += normal.length();
+        while next < passed && points.len() < count {
+            // The golden ratios of the plane spread points evenly, whatever triangles they fall on.
+            let turn = points.len() as f64 + 0.5;
+            let (u, v) = ((turn * 0.754_877_666_246_692_7).fract(), (turn * 0.569_840_290_998_053_3).fract());
+            let (u, v) = if u + v > 1.0 { (1.0 - u, 1.0 - v) } else { (u, v) };
+            let [a, b, c] = corners.map(|vertex| figure.positions[vertex as usize]);
+            points.push((a + u * (b - a) + v * (c - a), normal.normalize_or_zero()));
+            next += step;
+        }
+    }
+    points.retain(|&(_, normal)| normal != DVec3::ZERO);
+    points
+}

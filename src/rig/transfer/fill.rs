@@ -1,0 +1,225 @@
+//! Rows of a cloth's vertices filled in smoothly between those that are kept.
+
+use super::{LEAST_WEIGHT, Match, Row, normalised};
+use crate::geometry::Neighbours;
+use crate::geometry::laplacian::{Cholesky, cotangent_laplacian};
+use crate::parallel;
+use glam::DVec3;
+use std::collections::BTreeMap;
+
+/// Least weight of an edge with two triangles and greatest weight of any, beside the cotangents': no edge is cut, none
+/// swallows the rest.
+const EDGE_RANGE: [f64; 2] = [1e-2, 1e4];
+
+/// Smoothing around the filled region (Abdrashitov et al.): steps, ...
+const SMOOTHING_STEPS: usize = 10;
+/// ... the share of the neighbours in each, ...
+const SMOOTHING_SHARE: f64 = 0.2;
+/// ... and rings of vertices beyond the region.
+const SMOOTHING_RINGS: usize = 2;
+
+/// A pull of 1 would leave nothing to solve for.
+const MOST_PULL: f64 = 1.0 - 1e-6;
+
+/// Columns solved together: fixed, so that results do not depend on the threads.
+const BATCH: usize = 4;
+
+/// How much the two ends of each edge pull at each other, above 0.
+pub(super) struct EdgeWeights {
+    /// In the order of the neighbours.
+    edges: Vec<f64>,
+    /// By vertex.
+    sums: Vec<f64>,
+    /// A third of the area of each vertex's triangles.
+    pub(super) areas: Vec<f64>,
+}
+
+impl EdgeWeights {
+    /// Cotangents, kept above 0 (obtuse triangles) and away from infinity (slivers), so that the fill stays between the
+    /// values around it and edges of triangles without area still join their ends.
+    pub(super) fn new(points: &[DVec3], triangles: &[[u32; 3]], around: &Neighbours) -> Self {
+        let laplacian = cotangent_laplacian(points, triangles);
+        let [least, most] = EDGE_RANGE;
+        let place = |vertex: u32, other: u32| {
+            let found = around.of(vertex as usize).binary_search(&other).ok();
+            found.map(|place| around.starts[vertex as usize] as usize + place)
+        };
+        let mut edges = vec![0.0f64; around.vertices.len()];
+        for &[a, b, c] in triangles {
+            for (one, two) in [(a, b), (b, c), (c, a)] {
+                for place in [place(one, two), place(two, one)].into_iter().flatten() {
+                    edges[place] += least / 2.0;
+                }
+            }
+        }
+        for &(one, two, value) in &laplacian.off_diagonal {
+            for place in [place(one, two), place(two, one)].into_iter().flatten() {
+                // max passes over what is no number.
+                edges[place] = edges[place].max((-value).min(most));
+            }
+        }
+        let range = |vertex: usize| around.starts[vertex] as usize..around.starts[vertex + 1] as usize;
+        let sums = (0..points.len()).map(|vertex| edges[range(vertex)].iter().sum()).collect();
+        let mut areas = laplacian.areas;
+        areas.resize(points.len(), 0.0);
+        areas.iter_mut().filter(|area| !area.is_finite()).for_each(|area| *area = 0.0);
+        Self { edges, sums, areas }
+    }
+
+    /// The neighbours of a vertex with the weights of the edges to them.
+    fn of<'b>(&'b self, around: &'b Neighbours, vertex: usize) -> impl Iterator<Item = (u32, f64)> + 'b {
+        let start = around.starts[vertex] as usize;
+        around.of(vertex).iter().enumerate().map(move |(place, &other)| (other, self.edges[start + place]))
+    }
+
+    /// The sum of the weights of a vertex's edges.
+    pub(super) fn sum(&self, vertex: usize) -> f64 {
+        self.sums[vertex]
+    }
+}
+
+/// The system of the vertices that are filled in.
+pub(super) struct Fill<'a> {
+    around: &'a Neighbours,
+    weights: &'a EdgeWeights,
+    /// How much each vertex is held to the row of its match, 0 to 1; `None` where it is not asked about.
+    pulls: &'a [Option<f64>],
+    /// The vertices that are solved for, ...
+    free: Vec<u32>,
+    /// ... and for each vertex its place among them, or `u32::MAX`.
+    slots: Vec<u32>,
+    factor: Cholesky,
+}
+
+impl<'a> Fill<'a> {
+    /// `None` where there is nothing to do or the system cannot be solved.
+    pub(super) fn new(
+        around: &'a Neighbours,
+        weights: &'a EdgeWeights,
+        pulls: &'a [Option<f64>],
+    ) -> Option<Self> {
+        let free: Vec<u32> =
+            (0..pulls.len()).filter(|&vertex| is_free(pulls[vertex])).map(|vertex| vertex as u32).collect();
+        if free.is_empty() {
+            return None;
+        }
+        let mut slots = vec![u32::MAX; pulls.len()];
+        for (slot, &vertex) in free.iter().enumerate() {
+            slots[vertex as usize] = slot as u32;
+        }
+        let mut diagonal = Vec::with_capacity(free.len());
+        let mut lower = Vec::new();
+        for (slot, &vertex) in free.iter().enumerate() {
+            let vertex = vertex as usize;
+            diagonal.push(weights.sum(vertex) + pull_weight(pulls, weights, vertex));
+            for (other, weight) in weights.of(around, vertex) {
+                let other = slots[other as usize];
+                if other < slot as u32 {
+                    lower.push((slot as u32, other, -weight));
+                }
+            }
+        }
+        let factor = Cholesky::new(&diagonal, &lower)?;
+        Some(Self { around, weights, pulls, free, slots, factor })
+    }
+
+    /// Rows of all vertices that have a pull and of a few around them, in order of the vertices.
+    ///
+    /// A vertex of pull 1 keeps the row of its match, one of pull 0 is the mean of its neighbours, one in between a blend
+    /// of both; then all is smoothed a little.
+    pub(super) fn rows(&self, matches: &[Match], threads: usize) -> Vec<(u32, Row)> {
+        // The matches' weights by joint.
+        let mut columns: BTreeMap<u32, Vec<(u32, f64)>> = BTreeMap::new();
+        for (vertex, found) in matches.iter().enumerate().filter(|&(vertex, _)| self.pulls[vertex].is_some())
+        {
+            for &(joint, weight) in &found.row {
+                columns.entry(joint).or_default().push((vertex as u32, weight));
+            }
+        }
+        let columns: Vec<(u32, Vec<(u32, f64)>)> = columns.into_iter().collect();
+        let region = self.region();
+        let batches: Vec<_> = columns.chunks(BATCH).collect();
+        let solved =
+            parallel::collect(threads, batches.len(), 1, |batch| self.solve(batches[batch], &region));
+        let solved: Vec<Vec<f64>> = solved.into_iter().flatten().collect();
+        let rows = region.iter().enumerate().filter_map(|(slot, &vertex)| {
+            let entries = columns.iter().zip(&solved).map(|((joint, _), values)| (*joint, values[slot]));
+            let row = normalised(entries.filter(|&(_, weight)| weight >= LEAST_WEIGHT).collect());
+            (!row.is_empty()).then_some((vertex, row))
+        });
+        rows.collect()
+    }
+
+    /// What is smoothed: the free vertices and a few rings.
+    fn region(&self) -> Vec<u32> {
+        let mut smoothed: Vec<bool> = self.pulls.iter().map(|&pull| is_free(pull)).collect();
+        for _ in 0..SMOOTHING_RINGS {
+            let is_near = |&vertex: &u32| smoothed[vertex as usize];
+            let wider = |vertex: usize| smoothed[vertex] || self.around.of(vertex).iter().any(is_near);
+            smoothed = (0..smoothed.len()).map(wider).collect();
+        }
+        (0..smoothed.len()).filter(|&vertex| smoothed[vertex]).map(|vertex| vertex as u32).collect()
+    }
+
+    /// For each joint of a batch the weights of the vertices of `region`, from those of the matches.
+    fn solve(&self, batch: &[(u32, Vec<(u32, f64)>)], region: &[u32]) -> Vec<Vec<f64>> {
+        let size = self.free.len();
+        let mut sides = vec![0.0; size * batch.len()];
+        for ((_, column), side) in batch.iter().zip(sides.chunks_mut(size)) {
+            self.add_known(column, side);
+        }
+        self.factor.solve(&mut sides, batch.len());
+        let mut values = vec![0.0; self.pulls.len()];
+        let mut next = vec![0.0; region.len()];
+        let mut solved = Vec::with_capacity(batch.len());
+        for ((_, column), side) in batch.iter().zip(sides.chunks(size)) {
+            values.fill(0.0);
+            for &(vertex, weight) in column {
+                values[vertex as usize] = weight;
+            }
+            for (&vertex, &value) in self.free.iter().zip(side) {
+                values[vertex as usize] = value;
+            }
+            for _ in 0..SMOOTHING_STEPS {
+                for (&vertex, next) in region.iter().zip(&mut next) {
+                    let around = self.around.of(vertex as usize);
+                    let sum: f64 = around.iter().map(|&other| values[other as usize]).sum();
+                    let mean = sum / around.len().max(1) as f64;
+                    *next = (1.0 - SMOOTHING_SHARE) * values[vertex as usize] + SMOOTHING_SHARE * mean;
+                }
+                for (&vertex, &next) in region.iter().zip(&next) {
+                    values[vertex as usize] = next;
+                }
+            }
+            solved.push(region.iter().map(|&vertex| values[vertex as usize]).collect());
+        }
+        solved
+    }
+
+    /// Adds what the known weights of one joint say to the right-hand side.
+    fn add_known(&self, column: &[(u32, f64)], side: &mut [f64]) {
+        for &(vertex, weight) in column {
+            let vertex = vertex as usize;
+            if self.slots[vertex] != u32::MAX {
+                side[self.slots[vertex] as usize] += pull_weight(self.pulls, self.weights, vertex) * weight;
+                continue;
+            }
+            for (other, edge) in self.weights.of(self.around, vertex) {
+                let slot = self.slots[other as usize];
+                if slot != u32::MAX {
+                    side[slot as usize] += edge * weight;
+                }
+            }
+        }
+    }
+}
+
+fn is_free(pull: Option<f64>) -> bool {
+    pull.is_some_and(|pull| pull < 1.0)
+}
+
+/// The weight of a vertex's match beside its edges: a share p of the match's beside the neighbours' 1 - p.
+fn pull_weight(pulls: &[Option<f64>], weights: &EdgeWeights, vertex: usize) -> f64 {
+    let pull = pulls[vertex].unwrap_or(0.0).min(MOST_PULL);
+    pull / (1.0 - pull) * weights.sum(vertex)
+}

@@ -1,0 +1,387 @@
+//! Cloth weights from the nearest body surface (§IV-B, Fig. 4e).
+//!
+//! Abdrashitov, Raichstat, Monsen and Hill. Robust skin weights transfer via weight inpainting. SIGGRAPH Asia 2023
+//! Technical Communications. Departures: the fill is harmonic, not biharmonic, because a biharmonic one overshoots
+//! (weights down to -0.09 on a skirt, which clamping turns into creases) and a harmonic one cannot; the thresholds are
+//! ramps, so that a vertex near one does not jump.
+
+mod fill;
+mod rigid;
+mod skin;
+
+use super::{GarmentWeights, WeightSet};
+use crate::character::Weights;
+use crate::geometry::{
+    Closest, Neighbours, SEAM, Surface, Weld, bounds, bounds_by_group, components, neighbours, weld,
+};
+use crate::parallel;
+use fill::{EdgeWeights, Fill};
+use glam::DVec3;
+pub use rigid::rigid_weights;
+use skin::{Body, normals};
+pub use skin::{Skin, Source};
+use std::collections::BTreeMap;
+
+/// A match may be this far away, in diagonals of the garment's box (Abdrashitov et al.), ...
+const MATCH_DISTANCE: f64 = 0.05;
+
+/// ... but at least and at most this far, in heights: thick soles are still shoes, and what hangs a hand's width away
+/// hangs freely.
+const MATCH_DISTANCE_RANGE: [f64; 2] = [0.015, 0.05];
+
+/// Matches fade out up to this multiple of the greatest distance.
+const DISTANCE_RAMP: f64 = 1.25;
+
+/// Cosines of the angles between normals at which a match counts fully (30 degrees) and no longer (40 degrees).
+const MATCH_COSINE: [f64; 2] = [0.866_025_403_784_438_6, 0.766_044_443_118_978];
+
+/// Pieces of less extent than this keep their shape, in heights.
+const RIGID_EXTENT: f64 = 0.02;
+
+/// How far a piece that nothing matches is smoothed, in heights: about a thigh's radius.
+const LOOSE_SMOOTHING: f64 = 0.05;
+
+/// Smaller weights are dropped.
+const LEAST_WEIGHT: f64 = 1e-5;
+
+/// Weights by joint, ascending; they sum to 1.
+type Row = Vec<(u32, f64)>;
+
+/// A garment on a skin: where its vertices touch it, which no weights change.
+pub struct GarmentOnSkin {
+    welded: Weld,
+    points: Vec<DVec3>,
+    corners: Vec<[u32; 3]>,
+    touches: Vec<Touch>,
+    method: GarmentWeights,
+}
+
+/// The places of a skin that are closest to a vertex.
+struct Touch {
+    /// With their shares.
+    places: Vec<(Closest, f64)>,
+    /// How well each matches the vertex, 0 to its share; for `Robust` alone.
+    fits: Vec<f64>,
+}
+
+impl GarmentOnSkin {
+    /// Looks where a garment's `positions` touch the skin of `positions` and `triangles`.
+    ///
+    /// All in one space in which the figure is about 1 high. `method` is `Robust` (which `Heat` falls to) or `Nearest`.
+    ///
+    /// O(vertices · log triangles).
+    pub fn new(
+        skin: &Skin,
+        skin_triangles: &[[u32; 3]],
+        (positions, triangles): (&[DVec3], &[[u32; 3]]),
+        method: GarmentWeights,
+        thread_count: usize,
+    ) -> Self {
+        let welded = weld(positions, SEAM);
+        let points = places(&welded, positions);
+        let corners: Vec<[u32; 3]> = triangles.iter().map(|&corners| welded.triangle(corners)).collect();
+        let touches = if method == GarmentWeights::Nearest {
+            parallel::collect(thread_count, welded.count, 256, |vertex| Touch {
+                places: skin.places(points[vertex]),
+                fits: Vec::new(),
+            })
+        } else {
+            let normals = normals(&points, &corners);
+            let reach = reach(&points);
+            parallel::collect(thread_count, welded.count, 256, |vertex| {
+                let places = skin.places(points[vertex]);
+                let fit = |(at, share): &(Closest, f64)| {
+                    let near = (DISTANCE_RAMP - at.distance / reach) / (DISTANCE_RAMP - 1.0);
+                    // Either side of double-sided cloth.
+                    let cosine = skin.normal(skin_triangles, at).dot(normals[vertex]).abs();
+                    let alike = (cosine - MATCH_COSINE[1]) / (MATCH_COSINE[0] - MATCH_COSINE[1]);
+                    share * near.clamp(0.0, 1.0) * alike.clamp(0.0, 1.0)
+                };
+                Touch { fits: places.iter().map(fit).collect(), places }
+            })
+        };
+        Self { welded, points, corners, touches, method }
+    }
+
+    /// Weights of the garment after those of the skin under it, which is the one that it was made with.
+    ///
+    /// - `Nearest`: the barycentric blend at the closest surface point; where several places are equally far, to 1 %, all
+    ///   of them. Nothing counts as fallback but `loose_vertex` and `no_source`.
+    /// - `Robust`: the same where the closest point is near and the normals are alike, facing either way. The rest of
+    ///   each connected piece is filled in smoothly (`inpainted`). A piece without a match follows the nearest surface,
+    ///   be it the body or a piece that has its weights (`component_without_match`), and pieces below 2 % of the height
+    ///   move as one (`rigid_piece`).
+    ///
+    /// A vertex in no triangle takes the closest point's weights (`loose_vertex`); without any source everything goes to
+    /// joint 0 (`no_source`); `unsolved` counts what a failed solve left to the closest point.
+    ///
+    /// One sparse factorisation of the vertices without a match.
+    pub fn weights(&self, source: &Source, thread_count: usize) -> WeightSet {
+        let body = Body::new(source);
+        let count = self.welded.count;
+        let mut rules: Vec<Option<&'static str>> = vec![None; count];
+        let rows = if body.is_empty() {
+            rules.fill(Some("no_source"));
+            vec![body.anything(); count]
+        } else if self.method == GarmentWeights::Nearest {
+            parallel::collect(thread_count, count, 256, |vertex| {
+                body.mixed(self.points[vertex], &self.touches[vertex].places)
+            })
+        } else {
+            Cloth::new(&self.points, &self.corners).robust(&body, &self.touches, &mut rules, thread_count)
+        };
+        finish(&self.welded, rows, &rules)
+    }
+}
+
+/// What the body says about a vertex of the garment.
+struct Match {
+    row: Row,
+    /// 0: not to be trusted; 1: to be kept.
+    fit: f64,
+    distance: f64,
+}
+
+impl Match {
+    /// What `body` says about a vertex at `p`: the row of those places of `touch` that match the vertex at `p`, how well they do (0 to 1), and how far they are.
+    /// Where none matches the row is that of the closest place all the same.
+    fn of(body: &Body, p: DVec3, touch: &Touch) -> Self {
+        let Touch { places, fits } = touch;
+        let distance = places.first().map_or(f64::INFINITY, |(at, _)| at.distance);
+        let fit: f64 = fits.iter().sum();
+        if fit > 0.0 {
+            let all: f64 = places.iter().map(|(_, share)| share).sum();
+            let fitting: Vec<_> = places.iter().zip(fits).map(|(&(at, _), &share)| (at, share)).collect();
+            return Match { row: body.mixed(p, &fitting), fit: fit / all, distance };
+        }
+        Match { row: body.mixed(p, places), fit: 0.0, distance }
+    }
+}
+
+/// How far a match may be, for a garment of `points`.
+fn reach(points: &[DVec3]) -> f64 {
+    let (low, high) = bounds(points.iter().copied().filter(|p| p.is_finite()));
+    let [least, most] = MATCH_DISTANCE_RANGE;
+    (MATCH_DISTANCE * (high - low).length()).clamp(least, most)
+}
+
+/// A garment between welded vertices.
+struct Cloth<'a> {
+    points: &'a [DVec3],
+    triangles: &'a [[u32; 3]],
+    around: Neighbours,
+    /// The component of each vertex, and the greatest extent of each component.
+    component: Vec<u32>,
+    extents: Vec<f64>,
+}
+
+impl<'a> Cloth<'a> {
+    fn new(points: &'a [DVec3], triangles: &'a [[u32; 3]]) -> Self {
+        let single = Weld { representative: (0..points.len() as u32).collect(), count: points.len() };
+        let component = components(triangles, &single);
+        let count = component.iter().max().map_or(0, |&last| last as usize + 1);
+        let boxes = bounds_by_group(count, component.iter().map(|&c| c as usize).zip(points.iter().copied()));
+        Self {
+            points,
+            triangles,
+            around: neighbours(triangles, &single),
+            component,
+            extents: boxes.iter().map(|(low, high)| (*high - *low).max_element()).collect(),
+        }
+    }
+
+    fn robust(
+        &self,
+        body: &Body,
+        touches: &[Touch],
+        rules: &mut [Option<&'static str>],
+        threads: usize,
+    ) -> Vec<Row> {
+        let mut matches = parallel::collect(threads, self.points.len(), 256, |vertex| {
+            Match::of(body, self.points[vertex], &touches[vertex])
+        });
+        let is_loose = |vertex: usize| self.around.of(vertex).is_empty();
+        let is_small = |vertex: usize| self.extents[self.component[vertex] as usize] < RIGID_EXTENT;
+        let mut best = vec![0.0f64; self.extents.len()];
+        for (found, &component) in matches.iter().zip(&self.component) {
+            let best = &mut best[component as usize];
+            *best = best.max(found.fit);
+        }
+        let is_matched = |vertex: usize| best[self.component[vertex] as usize] >= 0.5;
+
+        // Pieces with a match first: what hangs from them can follow them then.
+        let weights = EdgeWeights::new(self.points, self.triangles, &self.around);
+        let large: Vec<bool> =
+            (0..matches.len()).map(|vertex| !is_loose(vertex) && !is_small(vertex)).collect();
+        let pull = |vertex: usize| matches[vertex].fit;
+        let pulls: Vec<Option<f64>> = (0..matches.len())
+            .map(|vertex| (large[vertex] && is_matched(vertex)).then(|| pull(vertex)))
+            .collect();
+        let filled = Fill::new(&self.around, &weights, &pulls).map(|fill| fill.rows(&matches, threads));
+        for (vertex, pull) in pulls.iter().enumerate() {
+            if pull.is_some_and(|pull| pull < 1.0) {
+                rules[vertex] = Some(if filled.is_some() { "inpainted" } else { "unsolved" });
+            }
+        }
+        let mut done: Vec<bool> = pulls.iter().map(Option::is_some).collect();
+        for (vertex, row) in filled.into_iter().flatten() {
+            matches[vertex as usize].row = row;
+        }
+
+        // Pieces without a match: after the body or after the cloth that has its weights, whichever is nearer.
+        if (0..matches.len()).any(|vertex| large[vertex] && !is_matched(vertex)) {
+            self.follow_cloth(&mut matches, &done, |vertex| large[vertex] && !is_matched(vertex), threads);
+            let pulls: Vec<Option<f64>> = (0..matches.len())
+                .map(|vertex| {
+                    let loose = weights.areas[vertex] / LOOSE_SMOOTHING.powi(2);
+                    let around = weights.sum(vertex);
+                    // As a share of what the neighbours say, which is what a fit is.
+                    (large[vertex] && !is_matched(vertex)).then_some(loose / (loose + around))
+                })
+                .collect();
+            let filled = Fill::new(&self.around, &weights, &pulls).map(|fill| fill.rows(&matches, threads));
+            for (vertex, row) in filled.into_iter().flatten() {
+                matches[vertex as usize].row = row;
+            }
+            for (vertex, pull) in pulls.iter().enumerate() {
+                if pull.is_some() {
+                    rules[vertex] = Some("component_without_match");
+                    done[vertex] = true;
+                }
+            }
+        }
+
+        self.rigid_pieces(body, &mut matches, rules, &done, &is_small);
+        for (vertex, rule) in rules.iter_mut().enumerate() {
+            if is_loose(vertex) {
+                *rule = Some("loose_vertex");
+            }
+        }
+        matches.into_iter().map(|found| found.row).collect()
+    }
+
+    /// The triangles between vertices that are `done`, and their surface.
+    fn made_of(&self, done: &[bool]) -> (Vec<[u32; 3]>, Surface) {
+        let is_done = |corners: &&[u32; 3]| corners.iter().all(|&vertex| done[vertex as usize]);
+        let triangles: Vec<[u32; 3]> = self.triangles.iter().filter(is_done).copied().collect();
+        let surface = Surface::new(self.points, &triangles);
+        (triangles, surface)
+    }
+
+    /// Gives the vertices that `choose` accepts the row of the closest cloth that is `done`, where that is nearer than
+    /// the body.
+    fn follow_cloth(
+        &self,
+        matches: &mut [Match],
+        done: &[bool],
+        choose: impl Fn(usize) -> bool + Sync,
+        threads: usize,
+    ) {
+        let (triangles, surface) = self.made_of(done);
+        if surface.is_empty() {
+            return;
+        }
+        let known: &[Match] = matches;
+        let rows = parallel::collect(threads, known.len(), 256, |vertex| {
+            let near = choose(vertex).then(|| surface.closest_point(self.points[vertex])).flatten()?;
+            (near.distance < known[vertex].distance).then(|| blend_rows(known, &triangles, &near))
+        });
+        for (found, row) in matches.iter_mut().zip(rows) {
+            if let Some(row) = row.filter(|row| !row.is_empty()) {
+                found.row = row;
+            }
+        }
+    }
+
+    /// One row for each small piece: the mean of what matches, else what is nearest to its middle, be it cloth that is
+    /// `done` or the body.
+    fn rigid_pieces(
+        &self,
+        body: &Body,
+        matches: &mut [Match],
+        rules: &mut [Option<&'static str>],
+        done: &[bool],
+        is_small: &dyn Fn(usize) -> bool,
+    ) {
+        let mut pieces: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
+        for vertex in 0..matches.len() {
+            if is_small(vertex) && !self.around.of(vertex).is_empty() {
+                pieces.entry(self.component[vertex]).or_default().push(vertex);
+            }
+        }
+        if pieces.is_empty() {
+            return;
+        }
+        let (triangles, surface) = self.made_of(done);
+        for piece in pieces.into_values() {
+            let middle = piece.iter().map(|&vertex| self.points[vertex]).sum::<DVec3>() / piece.len() as f64;
+            let to_body = piece.iter().map(|&vertex| matches[vertex].distance).fold(f64::INFINITY, f64::min);
+            let cloth = surface.closest_point(middle).filter(|near| near.distance < to_body);
+            let row = cloth.map(|near| blend_rows(matches, &triangles, &near)).unwrap_or_else(|| {
+                let fitting = piece.iter().flat_map(|&vertex| {
+                    let Match { row, fit, .. } = &matches[vertex];
+                    row.iter().map(move |&(joint, weight)| (joint, fit * weight))
+                });
+                normalised(fitting.collect())
+            });
+            let row = if row.is_empty() { body.closest(middle) } else { row };
+            for vertex in piece {
+                matches[vertex].row = row.clone();
+                rules[vertex] = Some("rigid_piece");
+            }
+        }
+    }
+}
+
+/// The barycentric blend of rows of the cloth itself.
+fn blend_rows(matches: &[Match], triangles: &[[u32; 3]], at: &Closest) -> Row {
+    let corners = triangles[at.triangle].into_iter().zip(at.barycentric);
+    normalised(
+        corners
+            .flat_map(|(vertex, share)| {
+                matches[vertex as usize].row.iter().map(move |&(joint, weight)| (joint, share * weight))
+            })
+            .collect(),
+    )
+}
+
+/// Where the welded vertices are; the origin where that is no number.
+fn places(welded: &Weld, positions: &[DVec3]) -> Vec<DVec3> {
+    let at = |vertex: u32| Some(positions[vertex as usize]).filter(|p| p.is_finite()).unwrap_or_default();
+    welded.first_vertices().into_iter().map(at).collect()
+}
+
+/// Sorted by joint, repeats summed, sum 1; empty where there is nothing to sum.
+fn normalised(mut row: Row) -> Row {
+    row.retain(|&(_, weight)| weight > 0.0 && weight.is_finite());
+    row.sort_by_key(|&(joint, _)| joint);
+    row.dedup_by(|next, kept| {
+        let same = next.0 == kept.0;
+        if same {
+            kept.1 += next.1;
+        }
+        same
+    });
+    let sum: f64 = row.iter().map(|&(_, weight)| weight).sum();
+    row.iter_mut().for_each(|(_, weight)| *weight /= sum);
+    row
+}
+
+/// Rows of the vertices from those of the welded ones, and how many each rule gave.
+fn finish(welded: &Weld, rows: Vec<Row>, rules: &[Option<&'static str>]) -> WeightSet {
+    let rows: Vec<Vec<(u32, f32)>> = rows
+        .into_iter()
+        .map(|row| {
+            let most = row.iter().map(|&(_, weight)| weight).fold(0.0, f64::max);
+            let least = LEAST_WEIGHT.min(most);
+            let row = normalised(row.into_iter().filter(|&(_, weight)| weight >= least).collect());
+            row.into_iter().map(|(joint, weight)| (joint, weight as f32)).collect()
+        })
+        .collect();
+    let mut fallback = BTreeMap::new();
+    for rule in welded.representative.iter().filter_map(|&vertex| rules[vertex as usize]) {
+        *fallback.entry(rule).or_default() += 1;
+    }
+    let rows = welded.representative.iter().map(|&vertex| rows[vertex as usize].iter().copied());
+    WeightSet { weights: Weights::from_rows(rows), fallback }
+}
