@@ -3,78 +3,71 @@
 //! The method is that of Wang, Kanamori, Endo and Mitani, *Body-shape Transfer for Super Deformation of 3D Character
 //! Models*: the proportions of an SD reference are measured and given to a target.
 //!
+//! ```
+//! use glam::{DMat4, DVec3, Vec3};
+//! use superdeform::{Character, Deformer, Joint, Mesh, Options, Role, Style, Weights};
+//!
+//! // A figure of six boxes (middle, half size), one for each joint that is needed.
+//! let mut character = Character::default();
+//! for (index, (role, joint, middle, half)) in [
+//!     (Role::Hips, [0.0, 1.0, 0.0], [0.0, 1.2, 0.0], [0.15, 0.3, 0.1]),
+//!     (Role::Head, [0.0, 1.55, 0.0], [0.0, 1.67, 0.0], [0.1, 0.12, 0.1]),
+//!     (Role::LeftUpperArm, [0.2, 1.4, 0.0], [0.4, 1.4, 0.0], [0.25, 0.05, 0.05]),
+//!     (Role::RightUpperArm, [-0.2, 1.4, 0.0], [-0.4, 1.4, 0.0], [0.25, 0.05, 0.05]),
+//!     (Role::LeftUpperLeg, [0.1, 0.8, 0.0], [0.1, 0.4, 0.0], [0.06, 0.4, 0.06]),
+//!     (Role::RightUpperLeg, [-0.1, 0.8, 0.0], [-0.1, 0.4, 0.0], [0.06, 0.4, 0.06]),
+//! ]
+//! .into_iter()
+//! .enumerate()
+//! {
+//!     let rest = DMat4::from_translation(DVec3::from_array(joint));
+//!     let parent = (index > 0).then_some(0);
+//!     character.skeleton.joints.push(Joint { name: role.to_string(), parent, rest });
+//!     character.humanoid.set(role, index);
+//!     let corner = |bits: usize| Vec3::from_array([0, 1, 2].map(|axis| (bits >> axis & 1) as f32 * 2.0 - 1.0));
+//!     let positions = (0..8).map(|bits| Vec3::from_array(middle) + corner(bits) * Vec3::from_array(half)).collect();
+//!     let quads = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+//!     let triangles = quads.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
+//!     let weights = Weights::rigid(index as u32, 8);
+//!     character.meshes.push(Mesh { name: role.to_string(), positions, triangles, weights, ..Mesh::default() });
+//! }
+//!
+//! let deformer = Deformer::new(character.into(), &Style::heads(3.0)?, &Options::default())?;
+//! let report = deformer.report(&deformer.apply())?;
+//! assert!(report.result.heads < report.target.heads);
+//! # Ok::<(), superdeform::Error>(())
+//! ```
+//!
+//! # From files to a result
+//!
+//! The library knows arrays, not files. Hosts read a file into a [`Character`], measure a reference ([`Style::of`]) or ask
+//! for a number of heads ([`Style::heads`]), make a [`Rig`] where there is none, make a [`Deformer`] and apply it;
+//! `examples/minimal.rs` does so in forty lines, `examples/superdeform` is the command line for GLB and VRM files. Hosts in
+//! C, C++ and C# do the same through `include/superdeform.h`.
+//!
 //! # The paper on one page
 //!
 //! | Section | What | Where |
 //! | --- | --- | --- |
-//! | III, IV-A | meshes, joints, weights, humanoid roles | [`character`] |
-//! | IV-B, Fig. 4 | a rig for what has none: joints, weights, clothes | [`rig`], [`pipeline::Rig`] |
-//! | V-A, Fig. 5 | bone lengths and surrounding-mesh radii | [`shape::measure()`] |
-//! | V-B3, Eqs. 9-11 | how much each bone group shrinks | [`shape::coefficients()`] |
-//! | V-B1, Eqs. 1-4 | the shortened skeleton | [`shape::shorten()`] |
-//! | V-B2, Eqs. 5-8 | the mesh follows, then its thickness is adjusted | [`shape::BoneField`] |
-//! | VI, Eqs. 12-13 | a younger face | [`face`] |
-//! | VII | shorter hair, which the paper does by hand | [`hair`] |
+//! | III, IV-A | meshes, joints, weights, humanoid roles | `src/character` |
+//! | IV-B, Fig. 4 | a rig for what has none: joints, weights, clothes | `src/rig` |
+//! | V-A, Fig. 5 | bone lengths and surrounding-mesh radii | `src/shape/measure.rs` |
+//! | V-B3, Eqs. 9-11 | how much each bone group shrinks | `src/shape/paper/coefficients.rs` |
+//! | V-B1, Eqs. 1-4 | the shortened skeleton | `src/shape/paper/shorten.rs` |
+//! | V-B2, Eqs. 5-8 | the mesh follows, then its thickness is adjusted | `src/shape/paper/field.rs` |
+//! | VI, Eqs. 12-13 | a younger face | `src/face.rs` |
+//! | VII | shorter hair, which the paper does by hand | `src/shape/product/hair.rs` |
 //!
 //! # Two modes
 //!
-//! [`Mode::Paper`](pipeline::Mode::Paper) is the paper's chain of bones, literally. Real characters put the neck and the
-//! head joint where each artist likes, and the chain adds these habits up: heads end in chests, arms above eyes. So
-//! [`Mode::Product`](pipeline::Mode::Product), the default, keeps the idea (measure, transfer, blend by weights) and
-//! reads five landmarks from the geometry instead ([`shape::product::landmarks`]); fifteen parts move by one map each and agree
-//! where they meet ([`shape::product::field`]).
+//! [`Mode::Paper`] is the paper's chain of bones, literally. Real characters put the neck and the head joint where each
+//! artist likes, and the chain adds these habits up: heads end in chests, arms above eyes. So [`Mode::Product`], the
+//! default, keeps the idea (measure, transfer, blend by weights) and reads five landmarks from the geometry instead
+//! (`src/shape/product/landmarks.rs`); fifteen parts of the body and its hair move by one map each and agree where they
+//! meet (`src/shape/product/field.rs`). `src/pipeline` puts the stages of both in order.
 //!
-//! Either way the deformation is a field, from a point and its weights to a place and a Jacobian ([`shape::field`]), and
+//! Either way the deformation is a field, from a point and its weights to a place and a Jacobian (`src/shape/field.rs`), and
 //! everything goes through it: vertices, morph targets, joints, and any point that hangs from a joint.
-//!
-//! # From files to a result
-//!
-//! The library knows arrays, not files. Hosts read a file into a [`Character`], measure a reference
-//! ([`Measured`](shape::Measured)), make a [`Deformer`](pipeline::Deformer) and apply it; `examples/superdeform.rs` does so
-//! with GLB and VRM files. Hosts in C, C++ and C# do the same through [`ffi`] and `include/superdeform.h`.
-//!
-//! ```
-//! use superdeform::pipeline::{Deformer, Options, Style};
-//! use superdeform::{Character, Joint, Mesh, Role, Weights};
-//! use glam::{DMat4, DVec3, Vec3};
-//! use std::sync::Arc;
-//!
-//! // A figure of eight boxes, one for each joint.
-//! let mut character = Character::default();
-//! let boxes = [
-//!     (Role::Hips, [0.0, 1.0, 0.0], [0.15, 0.25, 0.1]),
-//!     (Role::Head, [0.0, 1.55, 0.0], [0.1, 0.12, 0.1]),
-//!     (Role::LeftUpperArm, [0.2, 1.4, 0.0], [0.25, 0.05, 0.05]),
-//!     (Role::RightUpperArm, [-0.2, 1.4, 0.0], [0.25, 0.05, 0.05]),
-//!     (Role::LeftUpperLeg, [0.1, 0.8, 0.0], [0.06, 0.4, 0.06]),
-//!     (Role::RightUpperLeg, [-0.1, 0.8, 0.0], [0.06, 0.4, 0.06]),
-//! ];
-//! for (index, (role, joint, half)) in boxes.into_iter().enumerate() {
-//!     let at = DVec3::from_array(joint);
-//!     let parent = (index > 0).then_some(0);
-//!     character.skeleton.joints.push(Joint { name: role.to_string(), parent, rest: DMat4::from_translation(at) });
-//!     character.humanoid.set(role, index);
-//!     let out = if joint[0] == 0.0 { Vec3::Y } else if joint[1] > 1.0 { Vec3::X * joint[0].signum() as f32 } else { Vec3::NEG_Y };
-//!     let half = Vec3::from_array(half);
-//!     let centre = at.as_vec3() + out * half;
-//!     let positions: Vec<Vec3> = (0..8)
-//!         .map(|corner| {
-//!             let sign = |bit: i32| if corner & bit == 0 { -1.0 } else { 1.0 };
-//!             centre + half * Vec3::new(sign(1), sign(2), sign(4))
-//!         })
-//!         .collect();
-//!     let quads = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
-//!     let triangles = quads.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
-//!     let weights = Weights::rigid(index as u32, positions.len());
-//!     character.meshes.push(Mesh { name: role.to_string(), positions, triangles, weights, ..Mesh::default() });
-//! }
-//!
-//! let deformer = Deformer::new(Arc::new(character), &Style::heads(3.0)?, &Options::default())?;
-//! let result = deformer.apply();
-//! let report = deformer.report(&result)?;
-//! assert!(report.result.heads < report.target.heads);
-//! # Ok::<(), superdeform::Error>(())
-//! ```
 //!
 //! # Units, axes, determinism
 //!
@@ -82,19 +75,57 @@
 //! never changed. Joints move; they neither turn nor scale. Results are the same bits for any number of threads and on
 //! every run.
 
-pub mod character;
-pub mod error;
-pub mod face;
-pub mod ffi;
-pub mod geometry;
-
+mod character;
+mod error;
+mod face;
+mod ffi;
+mod geometry;
 pub mod options;
-pub mod parallel;
-pub mod pipeline;
-pub mod progress;
+mod parallel;
+mod pipeline;
+mod progress;
 pub mod report;
-pub mod rig;
-pub mod shape;
+mod rig;
+mod shape;
 
 pub use character::{Axes, Character, Humanoid, Joint, Mesh, MeshKind, MorphTarget, Role, Skeleton, Weights};
 pub use error::{Error, ErrorKind, Result, Warning};
+pub use geometry::Mapped;
+pub use options::{
+    FaceCurve, GarmentWeights, GroupSettings, Mode, Options, RigOptions, Stage, WeightMethod,
+};
+pub use pipeline::{Deformed, DeformedMesh, Deformer, MeshOutputs, Rig};
+pub use progress::Progress;
+pub use report::Report;
+pub use shape::product::anatomy::Proportions;
+pub use shape::{BodyShape, BoneShape, Coefficient, GroupShape, Heights, Style};
+
+/// What the project's own tests, benchmarks and hosts look into; it may change with any version.
+#[doc(hidden)]
+#[allow(missing_docs)]
+pub mod internals {
+    pub mod character {
+        pub use crate::character::*;
+    }
+    pub mod face {
+        pub use crate::face::*;
+    }
+    pub mod ffi {
+        pub use crate::ffi::*;
+    }
+    pub mod geometry {
+        pub use crate::geometry::*;
+    }
+    pub mod parallel {
+        pub use crate::parallel::*;
+    }
+    pub mod pipeline {
+        pub use crate::pipeline::*;
+    }
+    pub mod rig {
+        pub use crate::rig::*;
+    }
+    pub mod shape {
+        pub use crate::shape::*;
+    }
+}

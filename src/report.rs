@@ -1,10 +1,12 @@
 //! The numbers of a run, under the names that tools rely on.
 
+use crate::character::Role;
 use crate::error::Warning;
-use crate::shape::group::{Coefficient, GroupShape};
-use crate::shape::heights::Heights;
+use crate::options::{Mode, Options};
+use crate::shape::group::{Coefficient, GroupShape, group_shapes};
+use crate::shape::{BodyShape, Heights, Measured};
 use serde::Serialize;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// What was measured on one character.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -23,6 +25,45 @@ pub struct FigureReport {
     pub file_joints: BTreeMap<String, [f64; 3]>,
     /// Read from the geometry.
     pub landmarks: Heights,
+}
+
+impl FigureReport {
+    /// What was measured, with the groups measured over `roles` alone.
+    pub fn of(measured: &Measured, roles: &BTreeSet<Role>, options: &Options) -> Self {
+        let heights = measured.anatomy.landmarks.heights;
+        let frame = &measured.figure.frame;
+        let in_model = |(role, &p): (&Role, _)| (role.name().to_string(), frame.to_model(p).to_array());
+        let joints: BTreeMap<String, [f64; 3]> = measured.joints.iter().map(in_model).collect();
+        Self {
+            height: measured.figure.height(),
+            head_length: match options.mode {
+                Mode::Paper => measured.shape.head_length,
+                Mode::Product => heights.head_length(),
+            },
+            heads: heights.heads(),
+            shape: group_shapes(&measured.shape, roles, options),
+            file_joints: joints.clone(),
+            joints,
+            landmarks: heights,
+        }
+    }
+
+    /// A style's numbers, where its model is not at hand.
+    pub fn of_style(shape: &BodyShape, roles: &BTreeSet<Role>, options: &Options) -> Self {
+        let heights = shape.landmarks.unwrap_or_default();
+        let proportions = shape.proportions.clone().unwrap_or_default();
+        Self {
+            height: heights.crown - heights.sole,
+            head_length: match options.mode {
+                Mode::Paper => shape.head_length,
+                Mode::Product => proportions.head_length,
+            },
+            heads: shape.heads().unwrap_or(f64::NAN),
+            shape: group_shapes(shape, roles, options),
+            landmarks: heights,
+            ..Self::default()
+        }
+    }
 }
 
 /// Where the rig came from and how sure it is.

@@ -18,7 +18,7 @@ use std::sync::{Arc, LazyLock};
 use std::time::{Duration, Instant};
 use superdeform::character::roles::find_roles;
 use superdeform::pipeline::{Deformed, Deformer, Rig, Style};
-use superdeform::report::Report;
+use superdeform::report::{FigureReport, Report};
 use superdeform::rig::RigOptions;
 use superdeform::shape::BodyShape;
 use superdeform::shape::measured::Measured;
@@ -92,7 +92,7 @@ fn stages(command: &Command, progress: &Progress) -> Result<Done, String> {
         // Measured over the roles of both, so that the two figures can be compared group by group.
         let of_target = &deformer.target().joints;
         let roles = study.joints.keys().copied().filter(|role| of_target.contains_key(role)).collect();
-        report.reference = Some(study.report(&roles, &command.options));
+        report.reference = Some(FigureReport::of(study, &roles, &command.options));
     }
     let mut warnings = target.host.warnings.clone();
     if let Some(reference) = &reference {

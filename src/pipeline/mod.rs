@@ -14,7 +14,6 @@ mod result;
 mod rig_weights;
 pub mod rigging;
 
-pub use report::style_report;
 pub use result::{Deformed, DeformedMesh, MeshOutputs};
 pub use rigging::Rig;
 

@@ -1,15 +1,13 @@
 //! The numbers of a run.
 
 use super::{Deformed, Deformer};
-use crate::character::{Humanoid, Role};
+use crate::character::Humanoid;
 use crate::error::Result;
-use crate::options::{Mode, Options};
 use crate::report::{Counts, FigureReport, Report, RigReport};
-use crate::shape::group::group_shapes;
+use crate::shape::Measured;
 use crate::shape::style::Style;
-use crate::shape::{BodyShape, Measured};
 use glam::DVec3;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 impl Deformer {
     /// The numbers of the run; `result` is measured anew on `deformed`. The host adds its own times and warnings.
@@ -20,8 +18,8 @@ impl Deformer {
         let character = &self.target.character;
         let measured = Measured::of(&character.with(deformed), &self.options)?;
         let roles = self.roles();
-        let mut target = self.target.measured.report(&roles, &self.options);
-        let mut result = measured.report(&roles, &self.options);
+        let mut target = FigureReport::of(&self.target.measured, &roles, &self.options);
+        let mut result = FigureReport::of(&measured, &roles, &self.options);
         let mut joint_count = character.skeleton.joints.len();
         if let Some(rig) = &self.rig {
             let at_rest = |joint: usize| character.skeleton.joints[joint].position();
@@ -34,7 +32,7 @@ impl Deformer {
         Ok(Report {
             target,
             reference: match &self.style {
-                Style::Shape(shape) => Some(style_report(shape, &roles, &self.options)),
+                Style::Shape(shape) => Some(FigureReport::of_style(shape, &roles, &self.options)),
                 Style::Heads(_) => None,
             },
             result,
@@ -68,21 +66,4 @@ impl Deformer {
 /// Where the joints of `humanoid` are, by role.
 fn joints_by_role(humanoid: &Humanoid, place: impl Fn(usize) -> DVec3) -> BTreeMap<String, [f64; 3]> {
     humanoid.iter().map(|(role, joint)| (role.name().to_string(), place(joint).to_array())).collect()
-}
-
-/// A style's numbers for the report, where its model is not at hand.
-pub fn style_report(shape: &BodyShape, roles: &BTreeSet<Role>, options: &Options) -> FigureReport {
-    let heights = shape.landmarks.unwrap_or_default();
-    let proportions = shape.proportions.clone().unwrap_or_default();
-    FigureReport {
-        height: heights.crown - heights.sole,
-        head_length: match options.mode {
-            Mode::Paper => shape.head_length,
-            Mode::Product => proportions.head_length,
-        },
-        heads: shape.heads().unwrap_or(f64::NAN),
-        shape: group_shapes(shape, roles, options),
-        landmarks: heights,
-        ..FigureReport::default()
-    }
 }

@@ -2,16 +2,14 @@
 
 use super::body_shape::BodyShape;
 use super::figure::Figure;
-use super::group::group_shapes;
 use super::measure::measure;
 use super::product::anatomy::Anatomy;
 use crate::character::bones::{Bone, bones};
 use crate::character::{Character, MeshKind, Role};
 use crate::error::Result;
 use crate::geometry::Surface;
-use crate::options::{Mode, Options};
+use crate::options::Options;
 use crate::parallel;
-use crate::report::FigureReport;
 use glam::DVec3;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -68,28 +66,6 @@ impl Measured {
     pub fn bones(&self, roles: &BTreeSet<Role>, options: &Options) -> Vec<Bone> {
         let common = self.joints.keys().copied().filter(|role| roles.contains(role)).collect();
         bones(&common, &options.bone_groups)
-    }
-
-    /// The numbers for the report, with the groups measured over `roles` alone.
-    pub fn report(&self, roles: &BTreeSet<Role>, options: &Options) -> FigureReport {
-        let heights = self.anatomy.landmarks.heights;
-        let joints: BTreeMap<String, [f64; 3]> = self
-            .joints
-            .iter()
-            .map(|(role, &p)| (role.name().to_string(), self.figure.frame.to_model(p).to_array()))
-            .collect();
-        FigureReport {
-            height: self.figure.height(),
-            head_length: match options.mode {
-                Mode::Paper => self.shape.head_length,
-                Mode::Product => heights.head_length(),
-            },
-            heads: heights.heads(),
-            shape: group_shapes(&self.shape, roles, options),
-            file_joints: joints.clone(),
-            joints,
-            landmarks: heights,
-        }
     }
 }
 
