@@ -1,7 +1,7 @@
 //! Heat weights by the number of vertices: `cargo bench --bench heat`.
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use superdeform::rig::heat::{HeatOptions, HeatSystem, heat_weights};
+use superdeform::internals::rig::heat::{HeatOptions, HeatSystem, heat_weights};
 use superdeform_benches::models;
 
 fn heat(criterion: &mut Criterion) {

@@ -57,7 +57,9 @@ pub fn body_of_capsules(capsules: &[([DVec3; 2], f64)], cells: f64) -> (Vec<DVec
     let size = ((high - low) * cells).ceil().as_i64vec3() + 2;
     let is_inside = |x: i64, y: i64, z: i64| {
         let p = low + DVec3::new(x as f64 + 0.5, y as f64 + 0.5, z as f64 + 0.5) / cells;
-        capsules.iter().any(|&([a, b], radius)| superdeform::geometry::foot(p, a, b).0.distance(p) < radius)
+        capsules
+            .iter()
+            .any(|&([a, b], radius)| superdeform::internals::geometry::foot(p, a, b).0.distance(p) < radius)
     };
     let slot = |[x, y, z]: [i64; 3]| ((z * size.y + y) * size.x + x) as usize;
     let mut inside = vec![false; (size.x * size.y * size.z) as usize];

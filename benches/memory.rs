@@ -4,11 +4,10 @@ use std::alloc::{GlobalAlloc, Layout, System};
 use std::hint::black_box;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
-use superdeform::pipeline::{Deformer, Options};
-use superdeform::progress::Progress;
-use superdeform::rig::WeightBone;
-use superdeform::rig::heat::{HeatOptions, heat_weights};
-use superdeform::shape::measured::Measured;
+use superdeform::internals::rig::WeightBone;
+use superdeform::internals::rig::heat::{HeatOptions, heat_weights};
+use superdeform::internals::shape::measured::Measured;
+use superdeform::{Deformer, Options, Progress};
 use superdeform_benches::models;
 
 /// The system's allocator, counted.

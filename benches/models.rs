@@ -5,12 +5,10 @@
 use glam::DVec3;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use superdeform::character::bones::Group;
-use superdeform::character::roles::find_roles;
-use superdeform::pipeline::{Deformed, Deformer, Style};
-use superdeform::rig::WeightBone;
-use superdeform::rig::skeleton::weight_bones;
-use superdeform::{Axes, Character, Role};
+use superdeform::internals::character::bones::Group;
+use superdeform::internals::rig::WeightBone;
+use superdeform::internals::rig::skeleton::weight_bones;
+use superdeform::{Axes, Character, Deformed, Deformer, Role, Style, find_roles};
 use superdeform_host::file::GltfFile;
 use superdeform_host::load::{LoadOptions, Loaded};
 
@@ -93,7 +91,7 @@ pub fn bodies() -> Vec<Body> {
             rigged.humanoid.iter().map(|(role, joint)| (role, rigged.skeleton.joints[joint].position()));
         let mesh = character.meshes.iter().find(|mesh| mesh.name == "body").expect("the file has a body");
         let positions: Vec<DVec3> = mesh.positions.iter().map(|p| p.as_dvec3()).collect();
-        let weld = superdeform::geometry::weld(&positions, 1e-6);
+        let weld = superdeform::internals::geometry::weld(&positions, 1e-6);
         bodies.push(Body {
             name: "makehuman",
             positions: weld.first_vertices().iter().map(|&vertex| positions[vertex as usize]).collect(),

@@ -4,8 +4,7 @@
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
 use std::sync::Arc;
-use superdeform::pipeline::{Deformer, MeshOutputs, Options};
-use superdeform::progress::Progress;
+use superdeform::{Deformer, MeshOutputs, Options, Progress};
 use superdeform_benches::models;
 
 /// Columns of a person's tubes that make 50,000 vertices of it.

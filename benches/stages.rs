@@ -3,11 +3,10 @@
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use std::hint::black_box;
 use std::sync::Arc;
-use superdeform::geometry::{SEAM, weld};
-use superdeform::pipeline::{Deformer, Options};
-use superdeform::progress::Progress;
-use superdeform::shape::measured::Measured;
-use superdeform::shape::product::binding::part_bindings;
+use superdeform::internals::geometry::{SEAM, weld};
+use superdeform::internals::shape::measured::Measured;
+use superdeform::internals::shape::product::binding::part_bindings;
+use superdeform::{Deformer, Options, Progress};
 use superdeform_benches::{models, tube};
 
 fn validate(criterion: &mut Criterion) {

@@ -4,10 +4,10 @@ use criterion::{Criterion, criterion_group, criterion_main};
 use glam::DVec3;
 use std::collections::BTreeMap;
 use superdeform::Role;
-use superdeform::character::Frame;
-use superdeform::rig::UnitFigure;
-use superdeform::rig::skeleton::weight_bones;
-use superdeform::rig::voxel::{VoxelOptions, heat_would_be_poor, voxel_weights};
+use superdeform::internals::character::Frame;
+use superdeform::internals::rig::UnitFigure;
+use superdeform::internals::rig::skeleton::weight_bones;
+use superdeform::internals::rig::voxel::{VoxelOptions, heat_would_be_poor, voxel_weights};
 use superdeform_benches::models;
 
 fn volume(criterion: &mut Criterion) {

@@ -10,7 +10,13 @@ use std::ffi::{CStr, c_char, c_void};
 use std::mem::offset_of;
 use std::ptr::{null, null_mut};
 use std::sync::OnceLock;
-use superdeform::ffi::{all_at_once::*, basics::*, character::*, deformer::*, options::*, rig::*, style::*};
+use superdeform::internals::ffi::all_at_once::*;
+use superdeform::internals::ffi::basics::*;
+use superdeform::internals::ffi::character::*;
+use superdeform::internals::ffi::deformer::*;
+use superdeform::internals::ffi::options::*;
+use superdeform::internals::ffi::rig::*;
+use superdeform::internals::ffi::style::*;
 use superdeform::{Character, Role};
 
 /// What one run may cost, so that thousands fit into a second.
@@ -1250,7 +1256,7 @@ impl Host<'_> {
 
 thread_local! {
     /// A saved style, to be damaged.
-    static STYLE: Vec<u8> = superdeform::shape::BodyShape::built_in("sd3").unwrap().to_json().into_bytes();
+    static STYLE: Vec<u8> = superdeform::BodyShape::built_in("sd3").unwrap().to_json().into_bytes();
     /// Options that cost little.
     static DEFAULTS: SdefOptions = {
         let mut options: SdefOptions = zeroed();

@@ -3,10 +3,9 @@
 use glam::DVec3;
 use serde_json::{Map, Value, json};
 use std::sync::Arc;
-use superdeform::character::roles::find_roles;
-use superdeform::options::Options;
-use superdeform::pipeline::{Deformed, DeformedMesh, Deformer, Rig, Style};
-use superdeform::rig::{RigOptions, WeightMethod};
+use superdeform::{
+    Deformed, DeformedMesh, Deformer, Options, Rig, RigOptions, Style, WeightMethod, find_roles,
+};
 use superdeform_host::file::GltfFile;
 use superdeform_host::load::LoadOptions;
 
@@ -37,10 +36,8 @@ pub fn run(data: &[u8]) {
             .collect(),
         joints: character.skeleton.joints.iter().map(|joint| joint.position()).collect(),
     };
-    let stays = |_: usize, point: DVec3| superdeform::pipeline::Mapped {
-        position: point,
-        jacobian: glam::DMat3::IDENTITY,
-    };
+    let stays =
+        |_: usize, point: DVec3| superdeform::Mapped { position: point, jacobian: glam::DMat3::IDENTITY };
     if let Ok(written) = superdeform_host::write::write(&loaded, &same, &stays) {
         let again = GltfFile::parse("fuzz.glb", &written).expect("what was written can be read");
         let _ = superdeform_host::load::load(again, &options);

@@ -2,11 +2,11 @@
 
 use super::{Bytes, figure, rest, shape, weights};
 use std::sync::Arc;
-use superdeform::options::{FaceCurve, Mode, Options, Stage};
-use superdeform::pipeline::{Deformer, Rig, Style};
-use superdeform::rig::{GarmentWeights, RigOptions, WeightMethod};
-use superdeform::shape::{BodyShape, Measured};
-use superdeform::{Character, Joint, MeshKind, MorphTarget, Role};
+use superdeform::internals::shape::Measured;
+use superdeform::{
+    BodyShape, Character, Deformer, FaceCurve, GarmentWeights, Joint, MeshKind, Mode, MorphTarget, Options,
+    Rig, RigOptions, Role, Stage, Style, WeightMethod,
+};
 
 fn character(bytes: &mut Bytes) -> Character {
     let mut character = match bytes.byte() {

@@ -78,6 +78,8 @@
 mod character;
 mod error;
 mod face;
+// Its comments are the header's too, where brackets are indices of arrays.
+#[allow(rustdoc::broken_intra_doc_links)]
 mod ffi;
 mod geometry;
 pub mod options;
@@ -88,12 +90,11 @@ pub mod report;
 mod rig;
 mod shape;
 
+pub use character::roles::find_roles;
 pub use character::{Axes, Character, Humanoid, Joint, Mesh, MeshKind, MorphTarget, Role, Skeleton, Weights};
 pub use error::{Error, ErrorKind, Result, Warning};
 pub use geometry::Mapped;
-pub use options::{
-    FaceCurve, GarmentWeights, GroupSettings, Mode, Options, RigOptions, Stage, WeightMethod,
-};
+pub use options::{FaceCurve, GarmentWeights, GroupSettings, Mode, Options, RigOptions, Stage, WeightMethod};
 pub use pipeline::{Deformed, DeformedMesh, Deformer, MeshOutputs, Rig};
 pub use progress::Progress;
 pub use report::Report;

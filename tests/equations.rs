@@ -6,15 +6,15 @@ mod people;
 use glam::{DMat3, DVec3};
 use people::{COLUMNS, Person, Shape};
 use std::collections::{BTreeMap, BTreeSet};
-use superdeform::character::bones::{Bone, Group, HEAD_TOP, bones};
-use superdeform::face::{FaceMap, SphereMap, bearable_squash, f2, f2_slope, f4, f4_slope};
-use superdeform::geometry::Surface;
-use superdeform::pipeline::{FaceCurve, GroupSettings, Stage};
-use superdeform::shape::Coefficient;
-use superdeform::shape::measure::radius;
-use superdeform::shape::paper::field::{FieldBone, shares};
-use superdeform::shape::{BodyShape, BoneField, BoneShape, coefficients, head_top, measure, shorten};
-use superdeform::{Error, ErrorKind, MeshKind, Role};
+use superdeform::internals::character::bones::{Bone, Group, HEAD_TOP, bones};
+use superdeform::internals::face::{FaceMap, SphereMap, bearable_squash, f2, f2_slope, f4, f4_slope};
+use superdeform::internals::geometry::Surface;
+use superdeform::internals::shape::measure::radius;
+use superdeform::internals::shape::paper::field::{FieldBone, shares};
+use superdeform::internals::shape::{BoneField, coefficients, head_top, measure, shorten};
+use superdeform::{
+    BodyShape, BoneShape, Coefficient, Error, ErrorKind, FaceCurve, GroupSettings, MeshKind, Role, Stage,
+};
 
 fn close(a: f64, b: f64) -> bool {
     (a - b).abs() < 1e-12 * a.abs().max(b.abs()).max(1.0)
@@ -43,7 +43,7 @@ fn body(bones: &[(&str, f64, Option<f64>)]) -> BodyShape {
     BodyShape { head_length: bones[HEAD_TOP].length, bones, ..BodyShape::default() }
 }
 
-fn settle(target: &BodyShape, reference: &BodyShape) -> superdeform::shape::Coefficients {
+fn settle(target: &BodyShape, reference: &BodyShape) -> superdeform::internals::shape::Coefficients {
     coefficients(target, reference, 1.5, &BTreeMap::new(), &BTreeMap::new()).unwrap()
 }
 

@@ -19,12 +19,18 @@ use std::ffi::{CStr, CString, c_void};
 use std::ptr::{null, null_mut};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, OnceLock, PoisonError, RwLock, RwLockReadGuard};
-use superdeform::character::roles::find_roles;
-use superdeform::ffi::{all_at_once::*, basics::*, character::*, deformer::*, options::*, rig::*, style::*};
-use superdeform::pipeline::{Deformer, FaceCurve, GroupSettings, Mode, Options, Rig, Stage, Style};
-use superdeform::rig::RigOptions;
-use superdeform::shape::{BodyShape, Measured};
-use superdeform::{Character, Humanoid, MorphTarget, Role};
+use superdeform::internals::ffi::all_at_once::*;
+use superdeform::internals::ffi::basics::*;
+use superdeform::internals::ffi::character::*;
+use superdeform::internals::ffi::deformer::*;
+use superdeform::internals::ffi::options::*;
+use superdeform::internals::ffi::rig::*;
+use superdeform::internals::ffi::style::*;
+use superdeform::internals::shape::Measured;
+use superdeform::{
+    BodyShape, Character, Deformer, FaceCurve, GroupSettings, Humanoid, Mode, MorphTarget, Options, Rig,
+    RigOptions, Role, Stage, Style, find_roles,
+};
 
 /// Held by every test, so that one can wait until no other is at work and count the handles that are left.
 static AT_WORK: RwLock<()> = RwLock::new(());

@@ -78,7 +78,9 @@ fn any_roles(
 ) -> (superdeform::Humanoid, Vec<superdeform::Warning>) {
     let mut humanoid = superdeform::Humanoid::default();
     if skeleton.joints.len() >= 6 {
-        for (joint, role) in superdeform::character::humanoid::REQUIRED_ROLES.into_iter().enumerate() {
+        for (joint, role) in
+            superdeform::internals::character::humanoid::REQUIRED_ROLES.into_iter().enumerate()
+        {
             humanoid.set(role, joint);
         }
     }

@@ -1,14 +1,10 @@
 //! Inputs that fuzzing found, each with what went wrong.
 
 use glam::{DVec3, Vec3};
-use superdeform::parallel;
-use superdeform::pipeline::Rig;
-use superdeform::rig::voxel::{VoxelOptions, voxel_weights};
-use superdeform::rig::{RigOptions, WeightBone};
-use superdeform::shape::BodyShape;
-use superdeform::shape::Heights;
-use superdeform::shape::product::anatomy::Proportions;
-use superdeform::{Character, Mesh};
+use superdeform::internals::parallel;
+use superdeform::internals::rig::WeightBone;
+use superdeform::internals::rig::voxel::{VoxelOptions, voxel_weights};
+use superdeform::{BodyShape, Character, Heights, Mesh, Proportions, Rig, RigOptions};
 
 #[test]
 fn more_threads_than_a_system_has_are_no_fault() {
@@ -66,7 +62,8 @@ fn a_style_that_is_taken_can_be_saved_and_loaded() {
 #[test]
 #[allow(unsafe_code)]
 fn a_style_cannot_be_stretched_beyond_all_numbers() {
-    use superdeform::ffi::{basics::*, style::*};
+    use superdeform::internals::ffi::basics::*;
+    use superdeform::internals::ffi::style::*;
     // Lengths that are next to nothing beside the head: stretched to so many heads they were infinite.
     let lengths = Proportions {
         head_length: 1e300,

@@ -2,10 +2,10 @@
 
 use glam::{DMat3, DVec3};
 use std::collections::BTreeMap;
-use superdeform::geometry::{Weld, weld};
-use superdeform::rig::heat::{HeatOptions, HeatSystem, heat_weights};
-use superdeform::rig::skeleton::weight_bones;
-use superdeform::rig::{UnitFigure, WeightBone, WeightSet};
+use superdeform::internals::geometry::{Weld, weld};
+use superdeform::internals::rig::heat::{HeatOptions, HeatSystem, heat_weights};
+use superdeform::internals::rig::skeleton::weight_bones;
+use superdeform::internals::rig::{UnitFigure, WeightBone, WeightSet};
 
 #[path = "common/models.rs"]
 mod models;

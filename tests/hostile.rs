@@ -6,9 +6,8 @@ mod people;
 use glam::{DMat4, DVec3, Vec3};
 use people::Person;
 use std::sync::Arc;
-use superdeform::pipeline::{Deformer, Mode, Options, Style};
-use superdeform::shape::Measured;
-use superdeform::{Character, MorphTarget, Role, Weights};
+use superdeform::internals::shape::Measured;
+use superdeform::{Character, Deformer, Mode, MorphTarget, Options, Role, Style, Weights};
 
 /// A generator of numbers that are the same in every run.
 struct Numbers(u64);

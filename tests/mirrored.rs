@@ -9,10 +9,8 @@ mod truth;
 use glam::{DMat4, DVec3, Vec3};
 use models::{check_all, furthest, positions, present, style, style_of};
 use std::sync::Arc;
-use superdeform::Character;
-use superdeform::character::Frame;
-use superdeform::pipeline::{Deformed, Deformer, Options, Rig, Style};
-use superdeform::rig::RigOptions;
+use superdeform::internals::character::Frame;
+use superdeform::{Character, Deformed, Deformer, Options, Rig, RigOptions, Style};
 
 /// Characters with long hair, armour, one mesh or many, that look along +Z or another way.
 const TARGETS: [&str; 8] = [

@@ -12,12 +12,11 @@ use models::{
 };
 use people::Person;
 use std::sync::{Arc, OnceLock};
-use superdeform::character::bones::Group;
-use superdeform::geometry::foot;
-use superdeform::pipeline::{Deformed, Deformer, Mode, Options, Stage, Style};
-use superdeform::shape::Measured;
-use superdeform::shape::figure::Figure;
-use superdeform::{Character, Role};
+use superdeform::internals::character::bones::Group;
+use superdeform::internals::geometry::foot;
+use superdeform::internals::shape::Measured;
+use superdeform::internals::shape::figure::Figure;
+use superdeform::{Character, Deformed, Deformer, Mode, Options, Role, Stage, Style};
 
 fn paper() -> Options {
     Options { mode: Mode::Paper, ..Options::default() }

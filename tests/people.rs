@@ -7,13 +7,14 @@ use glam::{DMat3, DVec3};
 use people::{ADULT, Person, Proportions};
 use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;
-use superdeform::character::humanoid::REQUIRED_ROLES;
-use superdeform::pipeline::{Deformed, Deformer, FaceCurve, GroupSettings, Mode, Options, Style};
-use superdeform::report::Report;
-use superdeform::shape::product::landmarks::landmarks;
-use superdeform::shape::style::BUILT_IN;
-use superdeform::shape::{BodyShape, Measured};
-use superdeform::{Character, Error, ErrorKind, Mesh, MeshKind, Role, Weights};
+use superdeform::internals::character::humanoid::REQUIRED_ROLES;
+use superdeform::internals::shape::Measured;
+use superdeform::internals::shape::product::landmarks::landmarks;
+use superdeform::internals::shape::style::BUILT_IN;
+use superdeform::{
+    BodyShape, Character, Deformed, Deformer, Error, ErrorKind, FaceCurve, GroupSettings, Mesh, MeshKind,
+    Mode, Options, Report, Role, Style, Weights,
+};
 
 const MODES: [Mode; 2] = [Mode::Product, Mode::Paper];
 

@@ -13,12 +13,10 @@ use models::{
 use people::Person;
 use std::collections::{BTreeMap, HashMap};
 use std::sync::{Arc, OnceLock};
-use superdeform::geometry::Surface;
-use superdeform::pipeline::{Deformed, Deformer, Options, Style};
-use superdeform::progress::Progress;
-use superdeform::shape::Measured;
-use superdeform::shape::figure::Figure;
-use superdeform::{MeshKind, Role};
+use superdeform::internals::geometry::Surface;
+use superdeform::internals::shape::Measured;
+use superdeform::internals::shape::figure::Figure;
+use superdeform::{Deformed, Deformer, MeshKind, Options, Progress, Role, Style};
 
 /// People of the usual build, in casual and formal clothes, one without a face, one in a dance pose.
 const PEOPLE: [&str; 8] = [
@@ -520,7 +518,7 @@ fn a_face_that_is_squashed_later_is_the_same_as_one_made_so() {
     let names =
         present(&["godette.vrm", "kaykit_rogue.glb", "quaternius_female_dress.glb", "seedsan_vrm1.vrm"]);
     let reference = present(&models::REFERENCES)[0];
-    for mode in [superdeform::pipeline::Mode::Product, superdeform::pipeline::Mode::Paper] {
+    for mode in [superdeform::Mode::Product, superdeform::Mode::Paper] {
         let plain = Options { mode, ..Options::default() };
         let style = style_of(reference, &plain);
         check_all(&names, |name| {

@@ -11,11 +11,10 @@ use glam::DVec3;
 use models::{check_all, furthest, in_parallel, loaded, model, positions, rest_positions, style_of};
 use std::collections::BTreeMap;
 use std::sync::{Arc, OnceLock};
-use superdeform::character::roles::find_roles;
-use superdeform::pipeline::{Deformer, Options, Rig};
-use superdeform::rig::RigOptions;
-use superdeform::shape::figure::Figure;
-use superdeform::{Character, Humanoid, MeshKind, Role, Weights};
+use superdeform::internals::shape::figure::Figure;
+use superdeform::{
+    Character, Deformer, Humanoid, MeshKind, Options, Rig, RigOptions, Role, Weights, find_roles,
+};
 use superdeform_host::file::GltfFile;
 use superdeform_host::load::{LoadOptions, Loaded, load};
 use superdeform_host::rig::{INFLUENCES, add_rig, rerigged};
@@ -143,7 +142,7 @@ fn pairs() -> &'static [Pair] {
 fn same_vertices(one: &Character, other: &Character) -> Vec<usize> {
     let tolerance = 1e-4 * height(one);
     let (one, other) = (rest_positions(one), rest_positions(other));
-    let tree = superdeform::geometry::PointTree::new(&other);
+    let tree = superdeform::internals::geometry::PointTree::new(&other);
     let mut found = Vec::new();
     one.iter()
         .enumerate()
@@ -213,7 +212,7 @@ fn depths(character: &Character, kinds: &[MeshKind], positions: &[DVec3]) -> Vec
         }
         start += mesh.positions.len() as u32;
     }
-    let surface = superdeform::geometry::Surface::new(positions, &body);
+    let surface = superdeform::internals::geometry::Surface::new(positions, &body);
     garment
         .into_iter()
         .map(|vertex| {
@@ -255,7 +254,7 @@ fn clothes_stay_outside() {
 fn apart(one: &[DVec3], other: &[DVec3]) -> f64 {
     assert_eq!(one.len(), other.len());
     let furthest = |from: &[DVec3], to: &[DVec3]| {
-        let tree = superdeform::geometry::PointTree::new(to);
+        let tree = superdeform::internals::geometry::PointTree::new(to);
         let mut found = Vec::new();
         let distances = from.iter().map(|&p| {
             tree.nearest(p, 1, f64::INFINITY, &mut found);

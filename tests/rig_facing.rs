@@ -10,7 +10,7 @@ mod truth;
 use glam::{DMat3, DVec3, Vec3};
 use models::check_all;
 use people::Person;
-use superdeform::rig::facing::find_forward;
+use superdeform::internals::rig::facing::find_forward;
 use superdeform::{Axes, Character, Mesh};
 
 /// Figures whose front and back their shape does not tell, having it painted on: a robot with a screen for a face and a

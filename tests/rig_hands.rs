@@ -11,9 +11,9 @@ use glam::DVec3;
 use models::{check_all, in_parallel};
 use people::Person;
 use std::collections::BTreeMap;
-use superdeform::geometry::Surface;
-use superdeform::rig::UnitFigure;
-use superdeform::rig::hand::{Hand, find_fingers};
+use superdeform::internals::geometry::Surface;
+use superdeform::internals::rig::UnitFigure;
+use superdeform::internals::rig::hand::{Hand, find_fingers};
 use superdeform::{MeshKind, Role};
 
 /// Fingers of each hand, the thumb among them, counted by eye on close pictures.

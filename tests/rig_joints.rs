@@ -10,11 +10,10 @@ mod truth;
 use glam::DVec3;
 use people::Person;
 use std::collections::BTreeMap;
-use superdeform::Role;
-use superdeform::rig::UnitFigure;
-use superdeform::rig::joints::{FoundJoints, find_joints};
-use superdeform::rig::silhouette::{GridFrame, RayGrid};
-use superdeform::{Character, Mesh};
+use superdeform::internals::rig::UnitFigure;
+use superdeform::internals::rig::joints::{FoundJoints, find_joints};
+use superdeform::internals::rig::silhouette::{GridFrame, RayGrid};
+use superdeform::{Character, Mesh, Role};
 use truth::{Case, cases};
 
 use Role::*;

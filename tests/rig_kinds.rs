@@ -10,8 +10,8 @@ mod truth;
 use glam::{DVec3, Vec3};
 use people::Person;
 use std::collections::BTreeMap;
-use superdeform::rig::mesh_kinds::{body_is_whole, guess_kinds, refine_kinds};
-use superdeform::rig::{FoundJoint, UnitFigure};
+use superdeform::internals::rig::mesh_kinds::{body_is_whole, guess_kinds, refine_kinds};
+use superdeform::internals::rig::{FoundJoint, UnitFigure};
 use superdeform::{Character, Mesh, MeshKind, Role};
 
 use superdeform::MeshKind::{Accessory, Body, FacePart, Garment, Hair};

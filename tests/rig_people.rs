@@ -6,9 +6,10 @@ mod people;
 use glam::{DMat3, DVec3, Vec3};
 use people::Person;
 use std::sync::Arc;
-use superdeform::pipeline::{Deformer, Options, Rig, Style};
-use superdeform::rig::{GarmentWeights, RigOptions, WeightMethod};
-use superdeform::{Axes, Character, ErrorKind, Humanoid, Mesh, MeshKind, Role, Skeleton, Weights};
+use superdeform::{
+    Axes, Character, Deformer, ErrorKind, GarmentWeights, Humanoid, Mesh, MeshKind, Options, Rig, RigOptions,
+    Role, Skeleton, Style, WeightMethod, Weights,
+};
 
 /// `character` as a modelling program without a rig would give it.
 fn bare(mut character: Character) -> Character {

@@ -10,11 +10,10 @@ use models::{model, style_of};
 use people::Person;
 use std::collections::HashMap;
 use std::sync::Arc;
-use superdeform::geometry::Surface;
-use superdeform::pipeline::{Deformer, Options};
-use superdeform::rig::transfer::{GarmentOnSkin, Skin, Source, rigid_weights};
-use superdeform::rig::{GarmentWeights, UnitFigure, WeightSet};
-use superdeform::{Character, MeshKind, Role, Weights};
+use superdeform::internals::geometry::Surface;
+use superdeform::internals::rig::transfer::{GarmentOnSkin, Skin, Source, rigid_weights};
+use superdeform::internals::rig::{UnitFigure, WeightSet};
+use superdeform::{Character, Deformer, GarmentWeights, MeshKind, Options, Role, Weights};
 
 /// A character laid out, with the body's skin and weights.
 struct Dressed {

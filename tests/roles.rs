@@ -6,10 +6,10 @@ mod glb_joints;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use superdeform::Role::{self, *};
-use superdeform::character::naming::parse_role_map;
-use superdeform::character::roles::{complete, find_roles};
-use superdeform::character::tree_roles::roles_from_tree;
-use superdeform::{Humanoid, Mesh, Skeleton};
+use superdeform::internals::character::naming::parse_role_map;
+use superdeform::internals::character::roles::complete;
+use superdeform::internals::character::tree_roles::roles_from_tree;
+use superdeform::{Humanoid, Mesh, Skeleton, find_roles};
 
 /// The roles that decide how a character is deformed.
 const CORE: [Role; 19] = [
@@ -890,7 +890,7 @@ fn roles_are_read_in_every_spelling() {
 
 #[test]
 fn thumbs_are_read_as_the_whole_map_means_them() {
-    use superdeform::character::naming::ThumbNames;
+    use superdeform::internals::character::naming::ThumbNames;
     let (thumbs, roles) =
         parse_role_map(["leftThumbMetacarpal", "leftThumbProximal", "leftThumbDistal"].into_iter());
     assert_eq!(thumbs, ThumbNames::Vrm1);

@@ -1,7 +1,7 @@
 //! Threads save time and change nothing.
 
 use std::sync::Arc;
-use superdeform::pipeline::{Deformer, Options, Style};
+use superdeform::{Deformer, Options, Style};
 
 #[path = "common/people.rs"]
 mod people;

@@ -5,8 +5,8 @@
 
 use serde_json::{Map, Value, json};
 use std::time::Instant;
-use superdeform::rig::WeightBone;
-use superdeform::rig::heat::HeatSystem;
+use superdeform::internals::rig::WeightBone;
+use superdeform::internals::rig::heat::HeatSystem;
 use superdeform_benches::models;
 
 fn main() {

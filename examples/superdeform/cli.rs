@@ -8,12 +8,13 @@ use regex::Regex;
 use std::collections::BTreeMap;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
-use superdeform::character::bones::Group as BoneGroup;
+use superdeform::internals::character::bones::Group as BoneGroup;
+use superdeform::internals::shape::style::BUILT_IN;
 use superdeform::options::HEADS;
-use superdeform::pipeline::{FaceCurve, GroupSettings, Mode, Options, Stage};
-use superdeform::rig::{GarmentWeights, RigOptions, WeightMethod};
-use superdeform::shape::style::BUILT_IN;
-use superdeform::{Axes, MeshKind, Role};
+use superdeform::{
+    Axes, FaceCurve, GarmentWeights, GroupSettings, MeshKind, Mode, Options, RigOptions, Role, Stage,
+    WeightMethod,
+};
 
 /// The folder for results when no output path is given.
 const OUTPUT_FOLDER: &str = "superdeform-out";

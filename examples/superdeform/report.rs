@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
-use superdeform::report::Report;
+use superdeform::Report;
 
 /// Writes `report` as indented JSON.
 ///

@@ -16,14 +16,13 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, LazyLock};
 use std::time::{Duration, Instant};
-use superdeform::character::roles::find_roles;
-use superdeform::pipeline::{Deformed, Deformer, Rig, Style};
-use superdeform::report::{FigureReport, Report};
-use superdeform::rig::RigOptions;
-use superdeform::shape::BodyShape;
-use superdeform::shape::measured::Measured;
-use superdeform::shape::style::BUILT_IN;
-use superdeform::{Axes, Character, Error, MeshKind, Role, Warning, Weights};
+use superdeform::internals::shape::measured::Measured;
+use superdeform::internals::shape::style::BUILT_IN;
+use superdeform::report::FigureReport;
+use superdeform::{
+    Axes, BodyShape, Character, Deformed, Deformer, Error, MeshKind, Report, Rig, RigOptions, Role, Style,
+    Warning, Weights, find_roles,
+};
 use superdeform_host::{self as host, accessor::Reader, file::GltfFile, load::LoadOptions, rig::INFLUENCES};
 
 /// Stages that the progress bar counts.

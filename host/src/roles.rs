@@ -4,7 +4,7 @@ use super::bind::{NodeTree, node_label};
 use super::file::GltfFile;
 use super::{array_at, bad_input, text_at};
 use serde_json::Value;
-use superdeform::character::naming::{ThumbNames, parse_role_map};
+use superdeform::internals::character::naming::{ThumbNames, parse_role_map};
 use superdeform::{Humanoid, Result, Role};
 
 /// The roles that a VRM file gives to nodes; empty for other files.

@@ -7,8 +7,7 @@ use super::load::{Loaded, read_primitive, read_skins};
 use super::write::{extent, new_rest};
 use super::{array_at, index_at};
 use glam::{DMat4, DVec3};
-use superdeform::Result;
-use superdeform::pipeline::Deformed;
+use superdeform::{Deformed, Result};
 
 /// How far vertices are from where they should be, as a share of the figure's height before.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -10,8 +10,7 @@ use super::{array_at, bad_input, index_at, text_at, vrm};
 use glam::{DMat4, DVec3, Vec3};
 use serde_json::{Value, json};
 use std::collections::{BTreeMap, BTreeSet};
-use superdeform::pipeline::{Deformed, Mapped};
-use superdeform::{Result, Role};
+use superdeform::{Deformed, Mapped, Result, Role};
 
 /// Where the field takes a point (model space) that is attached to a joint.
 pub type MapPoint<'a> = dyn Fn(usize, DVec3) -> Mapped + 'a;

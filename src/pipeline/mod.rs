@@ -297,6 +297,7 @@ impl Deformer {
     }
 
     /// The target as it was measured.
+    #[doc(hidden)]
     pub fn target(&self) -> &Measured {
         &self.target.measured
     }

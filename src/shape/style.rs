@@ -4,9 +4,11 @@
 //! its model, blended with another, or stretched to a number of heads.
 
 use super::body_shape::{BodyShape, BoneShape, VERSION};
+use super::measured::Measured;
 use super::product::anatomy::Proportions;
+use crate::character::Character;
 use crate::error::{Error, ErrorKind, Result};
-use crate::options::HEADS;
+use crate::options::{HEADS, Options};
 
 /// What a character should become.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,6 +20,14 @@ pub enum Style {
 }
 
 impl Style {
+    /// Like `character`, which is measured.
+    ///
+    /// # Errors
+    /// As [`Measured::of`].
+    pub fn of(character: &Character, options: &Options) -> Result<Self> {
+        Ok(Self::Shape(Box::new(Measured::of(character, options)?.shape)))
+    }
+
     /// A style for `heads` heads.
     ///
     /// # Errors

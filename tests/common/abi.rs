@@ -4,9 +4,12 @@
 use glam::{DVec3, Vec3, Vec4};
 use std::ffi::{CStr, CString, c_void};
 use std::ptr::{null, null_mut};
-use superdeform::ffi::{basics::*, character::*, deformer::*, options::*, style::*};
-use superdeform::pipeline::Deformed;
-use superdeform::{Character, Humanoid, Mesh, MeshKind, MorphTarget, Role};
+use superdeform::internals::ffi::basics::*;
+use superdeform::internals::ffi::character::*;
+use superdeform::internals::ffi::deformer::*;
+use superdeform::internals::ffi::options::*;
+use superdeform::internals::ffi::style::*;
+use superdeform::{Character, Deformed, Humanoid, Mesh, MeshKind, MorphTarget, Role};
 
 /// A status with its sentence.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -3,7 +3,8 @@
 use glam::{DMat4, Mat4, Vec3};
 use std::collections::HashMap;
 use std::path::Path;
-use superdeform::{Joint, Mesh, Role, Skeleton, Weights, character::naming::parse_role_map};
+use superdeform::internals::character::naming::parse_role_map;
+use superdeform::{Joint, Mesh, Role, Skeleton, Weights};
 
 /// What the tests read from a file.
 pub struct File {

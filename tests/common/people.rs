@@ -17,8 +17,8 @@
 use glam::{DMat3, DMat4, DVec3};
 use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_PI_2, TAU};
-use superdeform::character::bones::Group;
-use superdeform::character::humanoid::LEFT_FINGERS;
+use superdeform::internals::character::bones::Group;
+use superdeform::internals::character::humanoid::LEFT_FINGERS;
 use superdeform::{Character, Humanoid, Joint, Mesh, MeshKind, Role, Skeleton, Weights};
 
 /// Columns of every tube unless told otherwise.

@@ -5,7 +5,7 @@ use super::models::models;
 use glam::DVec3;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use superdeform::character::Frame;
+use superdeform::internals::character::Frame;
 use superdeform::{Character, Role};
 use superdeform_host::file::GltfFile;
 use superdeform_host::load::{LoadOptions, load};

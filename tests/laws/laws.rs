@@ -5,11 +5,10 @@ use people::{ADULT, CHIBI, Person, Proportions};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use std::sync::Arc;
-use superdeform::character::bones::Group;
-use superdeform::pipeline::{Deformer, GroupSettings, Mode, Options, Style};
-use superdeform::shape::Measured;
-use superdeform::shape::figure::Figure;
-use superdeform::{Axes, Character, Humanoid, Role, Weights};
+use superdeform::internals::character::bones::Group;
+use superdeform::internals::shape::Measured;
+use superdeform::internals::shape::figure::Figure;
+use superdeform::{Axes, Character, Deformer, GroupSettings, Humanoid, Mode, Options, Role, Style, Weights};
 use superdeform_laws::{skeletons, weight_rows, weights};
 
 #[path = "../common/people.rs"]

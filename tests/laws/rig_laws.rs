@@ -5,9 +5,7 @@ use people::{ADULT, Person, Proportions};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use std::collections::BTreeMap;
-use superdeform::pipeline::Rig;
-use superdeform::rig::RigOptions;
-use superdeform::{Axes, Character, Humanoid, MeshKind, Role, Skeleton, Weights};
+use superdeform::{Axes, Character, Humanoid, MeshKind, Rig, RigOptions, Role, Skeleton, Weights};
 
 #[path = "../common/people.rs"]
 mod people;

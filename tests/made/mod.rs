@@ -2,8 +2,7 @@
 
 use glam::{DMat3, DVec3, Vec3};
 use serde_json::{Value, json};
-use superdeform::pipeline::{Deformed, DeformedMesh, Mapped};
-use superdeform::{Character, MorphTarget};
+use superdeform::{Character, Deformed, DeformedMesh, Mapped, MorphTarget};
 
 /// A GLB in the making.
 #[derive(Clone)]
