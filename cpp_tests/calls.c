@@ -51,8 +51,8 @@ static void options(void) {
   CHECK(isnan(options.face_squash) && options.face_curve == SDEF_FACE_CURVE_F4 && options.group_count == 0);
   CHECK(options.groups == NULL && options.bone_groups == NULL && options.bone_group_count == 0);
   CHECK(options.rig_weights == SDEF_WEIGHTS_AUTO && options.rig_garments == SDEF_GARMENTS_ROBUST);
-  CHECK(options.rig_voxel_resolution == 128 && options.rig_fingers == 1 && options.rig_chin_segment == 1);
-  CHECK(options.rig_heat == 1 && options.rig_joints == NULL && options.rig_joint_count == 0 && options.rig_left_handed == 0);
+  CHECK(options.rig_voxel_resolution == 128 && options.rig_fingers == 1 && options.rig_left_handed == 0);
+  CHECK(options.rig_heat == 1 && options.rig_joints == NULL && options.rig_joint_count == 0);
 }
 
 static void a_character_gives_back_what_it_got(void) {

@@ -103,7 +103,7 @@ pub fn run(data: &[u8]) {
         method: bytes.of(&[WeightMethod::Auto, WeightMethod::Heat, WeightMethod::Volume]),
         garments: bytes.of(&[GarmentWeights::Robust, GarmentWeights::Nearest, GarmentWeights::Heat]),
         heat: bytes.of(&[1.0, 0.01, 1000.0, 3.0]),
-        chin_segment: bytes.chance(128),
+        left_handed: bytes.chance(128),
         voxel_resolution: bytes.of(&[16, 17, 32]),
         fingers: bytes.chance(128),
         thread_count: 1,

@@ -137,10 +137,10 @@ SdefStatus sdef_destroy(uint64_t handle, SdefError *error);
 typedef struct SdefGroupSettings {
   const char *group;         // head, neck, torso, shoulder, upper_arm, lower_arm, hand, finger, hip, upper_leg,
                              // lower_leg, foot, or a name of your own from SdefBoneGroup
-  double length_scale;       // 1 keeps the length of the group's bones; 0.01 to 100
-  double thickness_scale;    // 1 keeps the girth; 0.01 to 100
-  double length_transfer;    // 0 keeps the target's length, 1 takes all of the reference's; -10 to 10
-  double thickness_transfer; // 0 keeps the target's girth, 1 takes all of the reference's; -10 to 10
+  double length_scale;       // 1 keeps the length of the group's bones; 0.01 to 10
+  double thickness_scale;    // 1 keeps the thickness; 0.01 to 10
+  double length_transfer;    // 0 keeps the target's length, 1 takes all of the reference's
+  double thickness_transfer; // 0 keeps the target's thickness, 1 takes all of the reference's
 } SdefGroupSettings;
 
 // A bone in a group of your own.
@@ -160,7 +160,7 @@ typedef struct SdefGivenJoint {
 // Everything that can be set. Filled by sdef_options_init; NULL stands for the defaults wherever options are asked for.
 typedef struct SdefOptions {
   uint32_t struct_size;             // sizeof(SdefOptions)
-  uint32_t thread_count;            // threads to use; 0 (default): all cores
+  uint32_t thread_count;            // threads to use, up to 1024; 0 (default): all cores
   uint32_t mode;                    // SDEF_MODE_*; default PRODUCT
   uint32_t stage;                   // SDEF_STAGE_*: stop after it; default FACE, which is everything
   uint32_t rays;                    // rays around a sample of a bone, 3 to 4096; 0 (default): the mode's own, 48 or 12
@@ -404,7 +404,7 @@ typedef struct SdefStyleNumbers {
   double ankle_height;     // sole to ankle
   double hand;             // wrist to finger tips
   double foot;             // heel to toe
-  double trunk_half_width; // median half width of the trunk
+  double torso_half_width; // median half width of the torso
   double upper_arm_radius; // mean distance of the surface to the bone
   double lower_arm_radius; // likewise
   double upper_leg_radius; // likewise
@@ -437,7 +437,7 @@ SdefStatus sdef_style_from_numbers(const char *name, const SdefStyleNumbers *num
     size_t bone_count, SdefStyle *style, SdefError *error);
 
 // A style between two, measured in heads.
-// amount: 0 is first, 1 second; may go beyond
+// amount: 0 is first, 1 second
 // Errors: BAD_STYLE for a style of N heads that is like none, or where the result would be no body; BAD_OPTION.
 SdefStatus sdef_style_blend(SdefStyle first, SdefStyle second, double amount, SdefStyle *style, SdefError *error);
 
@@ -480,7 +480,7 @@ typedef struct SdefMeshResult {
 typedef struct SdefGroup {
   char name[64];           // terminated; longer names of your own are cut
   double length_scale;     // 1 keeps the length of the group's bones
-  double thickness_scale;  // 1 keeps the girth
+  double thickness_scale;  // 1 keeps the thickness
   double target_length;    // sum over the character's bones, left and right
   double target_radius;    // mean distance of the surface
   double reference_length; // the style's, in its own units

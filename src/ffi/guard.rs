@@ -67,6 +67,7 @@ pub fn with_field(message: &str, option: Option<&str>) -> String {
         // A host names joints by their numbers.
         Some("humanoid") => "role_joints, or sdef_character_rig",
         Some("kinds") => "kind",
+        Some("blend") => "amount",
         Some(option) => option,
         None => return message.to_string(),
     };

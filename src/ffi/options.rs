@@ -6,8 +6,9 @@ use super::arrays::{self, Input, Plain, not_null};
 use super::basics::{SdefError, SdefStatus};
 use super::guard::{Failure, Outcome, call};
 use crate::character::Role;
-use crate::options::{FaceCurve, GroupSettings, Mode, Options, Stage};
-use crate::rig::{GarmentWeights, RigOptions, WeightMethod};
+use crate::options::{
+    FaceCurve, GarmentWeights, GroupSettings, Mode, Options, RigOptions, Stage, WeightMethod,
+};
 use core::ffi::c_char;
 use glam::DVec3;
 use safer_ffi::prelude::*;
@@ -54,13 +55,13 @@ pub struct SdefGroupSettings {
     /// head, neck, torso, shoulder, upper_arm, lower_arm, hand, finger, hip, upper_leg, lower_leg, foot,
     /// or a name of your own from SdefBoneGroup
     pub group: *const c_char,
-    /// 1 keeps the length of the group's bones; 0.01 to 100
+    /// 1 keeps the length of the group's bones; 0.01 to 10
     pub length_scale: f64,
-    /// 1 keeps the girth; 0.01 to 100
+    /// 1 keeps the thickness; 0.01 to 10
     pub thickness_scale: f64,
-    /// 0 keeps the target's length, 1 takes all of the reference's; -10 to 10
+    /// 0 keeps the target's length, 1 takes all of the reference's
     pub length_transfer: f64,
-    /// 0 keeps the target's girth, 1 takes all of the reference's; -10 to 10
+    /// 0 keeps the target's thickness, 1 takes all of the reference's
     pub thickness_transfer: f64,
 }
 unsafe impl Plain for SdefGroupSettings {}
@@ -100,7 +101,7 @@ unsafe impl Plain for SdefGivenJoint {}
 pub struct SdefOptions {
     /// sizeof(SdefOptions)
     pub struct_size: u32,
-    /// threads to use; 0 (default): all cores
+    /// threads to use, up to 1024; 0 (default): all cores
     pub thread_count: u32,
     /// SDEF_MODE_*; default PRODUCT
     pub mode: u32,
@@ -171,21 +172,21 @@ fn defaults() -> SdefOptions {
     SdefOptions {
         struct_size: size_of::<SdefOptions>() as u32,
         thread_count: 0,
-        mode: SDEF_MODE_PRODUCT,
-        stage: SDEF_STAGE_FACE,
+        mode: options.mode as u32,
+        stage: options.stage as u32,
         rays: 0,
         limits: u32::from(options.limits),
         head_scale: options.head_scale,
         amount: options.amount,
         hair_length: options.hair_length,
         face_squash: f64::NAN,
-        face_curve: SDEF_FACE_CURVE_F4,
+        face_curve: options.face_curve as u32,
         group_count: 0,
         groups: null(),
         bone_groups: null(),
         bone_group_count: 0,
-        rig_weights: SDEF_WEIGHTS_AUTO,
-        rig_garments: SDEF_GARMENTS_ROBUST,
+        rig_weights: rig.method as u32,
+        rig_garments: rig.garments as u32,
         rig_voxel_resolution: rig.voxel_resolution as u32,
         rig_fingers: u32::from(rig.fingers),
         rig_left_handed: u32::from(rig.left_handed),
@@ -220,11 +221,6 @@ pub(super) fn one_of<T: Copy>(what: &str, number: u32, values: &[T]) -> Outcome<
     })
 }
 
-/// The curve of a face.
-fn face_curve(number: u32) -> Outcome<FaceCurve> {
-    one_of("face_curve", number, &[FaceCurve::F4, FaceCurve::F2, FaceCurve::Sphere])
-}
-
 /// The role with a number.
 pub(super) fn role(what: &str, number: u32) -> Outcome<Role> {
     Role::from_number(number as usize).ok_or_else(|| {
@@ -241,20 +237,21 @@ fn unless_nan(number: f64) -> Option<f64> {
 /// # Safety
 /// The struct and its arrays are as the header says.
 pub(super) unsafe fn read(options: *const SdefOptions) -> Outcome<(Options, RigOptions)> {
-    let given = match options.is_null() {
-        true => defaults(),
-        false => unsafe { arrays::struct_in("SdefOptions", options, defaults()) }?,
+    let given = if options.is_null() {
+        defaults()
+    } else {
+        unsafe { arrays::struct_in("SdefOptions", options, defaults()) }?
     };
     let mut options = Options {
-        mode: one_of("mode", given.mode, &[Mode::Product, Mode::Paper])?,
+        mode: one_of("mode", given.mode, Mode::ALL)?,
         rays: (given.rays != 0).then_some(given.rays as usize),
         head_scale: given.head_scale,
         face_squash: unless_nan(given.face_squash),
-        face_curve: face_curve(given.face_curve)?,
+        face_curve: one_of("face_curve", given.face_curve, FaceCurve::ALL)?,
         amount: given.amount,
         limits: one_of("limits", given.limits, &[false, true])?,
         hair_length: given.hair_length,
-        stage: one_of("stage", given.stage, &[Stage::Length, Stage::Thickness, Stage::Face])?,
+        stage: one_of("stage", given.stage, Stage::ALL)?,
         thread_count: given.thread_count as usize,
         ..Options::default()
     };
@@ -279,16 +276,8 @@ pub(super) unsafe fn read(options: *const SdefOptions) -> Outcome<(Options, RigO
         options.bone_groups.insert(role, unsafe { arrays::text(bone.group) });
     }
     let mut rig = RigOptions {
-        method: one_of(
-            "rig_weights",
-            given.rig_weights,
-            &[WeightMethod::Auto, WeightMethod::Heat, WeightMethod::Volume],
-        )?,
-        garments: one_of(
-            "rig_garments",
-            given.rig_garments,
-            &[GarmentWeights::Robust, GarmentWeights::Nearest, GarmentWeights::Heat],
-        )?,
+        method: one_of("rig_weights", given.rig_weights, WeightMethod::ALL)?,
+        garments: one_of("rig_garments", given.rig_garments, GarmentWeights::ALL)?,
         heat: given.rig_heat,
         voxel_resolution: given.rig_voxel_resolution as usize,
         fingers: one_of("rig_fingers", given.rig_fingers, &[false, true])?,
@@ -302,4 +291,33 @@ pub(super) unsafe fn read(options: *const SdefOptions) -> Outcome<(Options, RigO
         rig.given.insert(role, DVec3::new(joint.x, joint.y, joint.z));
     }
     Ok((options, rig))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_constants_are_the_numbers_of_the_choices() {
+        assert_eq!(
+            [SDEF_MODE_PRODUCT, SDEF_MODE_PAPER],
+            [Mode::Product, Mode::Paper].map(|mode| mode as u32)
+        );
+        let stages = [Stage::Length, Stage::Thickness, Stage::Face].map(|stage| stage as u32);
+        assert_eq!([SDEF_STAGE_LENGTH, SDEF_STAGE_THICKNESS, SDEF_STAGE_FACE], stages);
+        let curves = [FaceCurve::F4, FaceCurve::F2, FaceCurve::Sphere].map(|curve| curve as u32);
+        assert_eq!([SDEF_FACE_CURVE_F4, SDEF_FACE_CURVE_F2, SDEF_FACE_CURVE_SPHERE], curves);
+        let methods =
+            [WeightMethod::Auto, WeightMethod::Heat, WeightMethod::Volume].map(|method| method as u32);
+        assert_eq!([SDEF_WEIGHTS_AUTO, SDEF_WEIGHTS_HEAT, SDEF_WEIGHTS_VOLUME], methods);
+        let rules =
+            [GarmentWeights::Robust, GarmentWeights::Nearest, GarmentWeights::Heat].map(|rule| rule as u32);
+        assert_eq!([SDEF_GARMENTS_ROBUST, SDEF_GARMENTS_NEAREST, SDEF_GARMENTS_HEAT], rules);
+        // What is read back: the n-th of all is the number n.
+        assert!(Mode::ALL.iter().enumerate().all(|(number, &mode)| mode as usize == number));
+        assert!(Stage::ALL.iter().enumerate().all(|(number, &stage)| stage as usize == number));
+        assert!(FaceCurve::ALL.iter().enumerate().all(|(number, &curve)| curve as usize == number));
+        assert!(WeightMethod::ALL.iter().enumerate().all(|(number, &method)| method as usize == number));
+        assert!(GarmentWeights::ALL.iter().enumerate().all(|(number, &rule)| rule as usize == number));
+    }
 }

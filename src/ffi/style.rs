@@ -9,6 +9,7 @@ use super::handles::{self, Object};
 use super::options::{self, SdefOptions};
 use crate::character::Role;
 use crate::character::bones::HEAD_TOP;
+use crate::options::table;
 use crate::pipeline::Style;
 use crate::shape::product::anatomy::Proportions;
 use crate::shape::style::BUILT_IN;
@@ -78,8 +79,8 @@ pub struct SdefStyleNumbers {
     pub hand: f64,
     /// heel to toe
     pub foot: f64,
-    /// median half width of the trunk
-    pub trunk_half_width: f64,
+    /// median half width of the torso
+    pub torso_half_width: f64,
     /// mean distance of the surface to the bone
     pub upper_arm_radius: f64,
     /// likewise
@@ -233,7 +234,7 @@ pub unsafe extern "C" fn sdef_style_from_numbers(
                 ankle_height: given.ankle_height,
                 hand: known(given.hand),
                 foot: known(given.foot),
-                torso_half_width: known(given.trunk_half_width),
+                torso_half_width: known(given.torso_half_width),
                 upper_arm_radius: known(given.upper_arm_radius),
                 lower_arm_radius: known(given.lower_arm_radius),
                 upper_leg_radius: known(given.upper_leg_radius),
@@ -259,7 +260,7 @@ pub unsafe extern "C" fn sdef_style_from_numbers(
 
 /// A style between two, measured in heads.
 ///
-/// amount: 0 is first, 1 second; may go beyond
+/// amount: 0 is first, 1 second
 ///
 /// Errors: BAD_STYLE for a style of N heads that is like none, or where the result would be no body; BAD_OPTION.
 #[ffi_export]
@@ -273,10 +274,7 @@ pub unsafe extern "C" fn sdef_style_blend(
     let body = || unsafe {
         not_null("style", style)?;
         let (first, second) = (handles::style(first)?, handles::style(second)?);
-        if !(-10.0..=10.0).contains(&amount) {
-            let message = format!("amount is {amount}: give a number from -10 to 10");
-            return Err(Failure::new(SDEF_STATUS_BAD_OPTION, message));
-        }
+        table::option("blend").check(amount)?;
         let made = match (&*first, &*second) {
             (Style::Heads(first), Style::Heads(second)) => Style::heads(first + amount * (second - first))?,
             (Style::Shape(first), Style::Shape(second)) => {
@@ -384,7 +382,7 @@ const UNKNOWN: SdefStyleNumbers = SdefStyleNumbers {
     ankle_height: f64::NAN,
     hand: f64::NAN,
     foot: f64::NAN,
-    trunk_half_width: f64::NAN,
+    torso_half_width: f64::NAN,
     upper_arm_radius: f64::NAN,
     lower_arm_radius: f64::NAN,
     upper_leg_radius: f64::NAN,
@@ -423,7 +421,7 @@ fn numbers_of(style: &Style) -> SdefStyleNumbers {
             ankle_height: p.ankle_height,
             hand: or_nan(p.hand),
             foot: or_nan(p.foot),
-            trunk_half_width: or_nan(p.torso_half_width),
+            torso_half_width: or_nan(p.torso_half_width),
             upper_arm_radius: or_nan(p.upper_arm_radius),
             lower_arm_radius: or_nan(p.lower_arm_radius),
             upper_leg_radius: or_nan(p.upper_leg_radius),

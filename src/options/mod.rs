@@ -234,8 +234,6 @@ pub struct RigOptions {
     pub garments: GarmentWeights,
     /// c of the heat equation: 1 spreads weights over about a limb's radius; larger is sharper.
     pub heat: f64,
-    /// Gives the head bone a second segment towards the chin, without which jaws stick to the neck.
-    pub chin_segment: bool,
     /// Voxels along the longest side of the volume.
     pub voxel_resolution: usize,
     /// Joints that are known, model space; the rest is found.
@@ -254,7 +252,6 @@ impl Default for RigOptions {
             method: WeightMethod::Auto,
             garments: GarmentWeights::Robust,
             heat: table::RIG_HEAT,
-            chin_segment: true,
             voxel_resolution: table::RIG_VOXEL_RESOLUTION as usize,
             given: BTreeMap::new(),
             fingers: true,
@@ -341,12 +338,8 @@ mod tests {
         for (name, word) in words {
             assert_eq!(find(name).unwrap().default, Unset::Choice(word));
         }
-        let switches = [
-            ("limits", options.limits),
-            ("rig_fingers", rig.fingers),
-            ("rig_chin_segment", rig.chin_segment),
-            ("rig_left_handed", rig.left_handed),
-        ];
+        let switches =
+            [("limits", options.limits), ("rig_fingers", rig.fingers), ("rig_left_handed", rig.left_handed)];
         for (name, on) in switches {
             assert_eq!(find(name).unwrap().default, Unset::Switch(on));
         }

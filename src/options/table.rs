@@ -294,7 +294,6 @@ pub const TABLE: &[OptionInfo] = &[
         )
     },
     rig("rig_fingers", Values::Switch, Default::Switch(true), "looks for fingers"),
-    rig("rig_chin_segment", Values::Switch, Default::Switch(true), "keeps jaws from sticking to the neck"),
     rig(
         "rig_heat",
         Values::Number { low: 0.01, high: 1000.0 },

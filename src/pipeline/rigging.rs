@@ -89,8 +89,7 @@ impl Rig {
 
         let at: BTreeMap<Role, DVec3> =
             found.joints.iter().map(|(&role, joint)| (role, joint.position)).collect();
-        let chin = options.chin_segment.then_some(found.chin);
-        let bones = weight_bones(&at, &found.tips, chin);
+        let bones = weight_bones(&at, &found.tips, Some(found.chin));
         let (_, humanoid) = skeleton_of(&at);
         let mut binder = Binder::new(&figure, &kinds, &bones, &humanoid, &eyes, options);
         warnings.append(&mut binder.warnings);

@@ -408,7 +408,7 @@ const CASES: &[(&str, u32, &str, Call)] = &[
     ("a bone to 56", ARGUMENT, "role 56", Bones([(56, 1.0); 2])),
     ("a bone twice", STYLE, "bones 1", Bones([(55, 1.0); 2])),
     ("a bone of length -1", STYLE, "-1", Bones([(55, 1.0), (5, -1.0)])),
-    ("a blend of 11", OPTION, "amount is 11", Other(|host, error| blended(host.measured, 11.0, error))),
+    ("a blend of 11", OPTION, "11", Other(|host, error| blended(host.measured, 11.0, error))),
     ("a blend with N heads", STYLE, "N heads", Other(|host, error| blended(host.of_heads, 0.5, error))),
     (
         "N heads as JSON",

@@ -3,7 +3,9 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use superdeform_headers::csharp::{constants_of, printed};
+use superdeform::options::table::Default;
+use superdeform::options::{OptionInfo, Scope, TABLE, Values, find};
+use superdeform_headers::csharp::{constants_of, pascal, printed};
 use superdeform_headers::{SECTIONS, c_header, csharp, layout, root, source};
 
 /// Compares a generated text with the committed file, or writes it where `SUPERDEFORM_BLESS` is set.
@@ -145,6 +147,86 @@ fn both_files_have_every_constant() {
     }
 }
 
+/// The comment of each field in a source of Rust or C#.
+fn comments(source: &str) -> BTreeMap<String, String> {
+    let mut found = BTreeMap::new();
+    let mut comment = String::new();
+    for line in source.lines().map(str::trim) {
+        if let Some(text) = line.strip_prefix("///") {
+            comment = comment + " " + text.trim();
+        } else if let Some(declared) = line.strip_prefix("pub ").or(line.strip_prefix("public ")) {
+            let declared = declared.split([':', '=', ';', '(']).next().unwrap_or_default();
+            let name = declared.split_whitespace().last().unwrap_or_default().to_string();
+            found.insert(name, std::mem::take(&mut comment));
+        } else if !line.starts_with("#[") && !line.starts_with('[') {
+            comment.clear();
+        }
+    }
+    found
+}
+
+/// Whether `comment` names `number`, standing alone.
+fn names(comment: &str, number: f64) -> bool {
+    comment
+        .split(|c: char| !c.is_ascii_digit() && c != '.' && c != '-')
+        .any(|word| word.trim_end_matches('.').parse() == Ok(number))
+}
+
+/// What is missing in the comment of an option: an end of its range, or its default.
+fn missing(info: &OptionInfo, comment: &str) -> Vec<String> {
+    let mut numbers = Vec::new();
+    match info.values {
+        Values::Number { low, high } => numbers.extend([low, high]),
+        Values::Count { low, high } => numbers.extend([low, high].map(f64::from)),
+        _ => {}
+    }
+    match info.default {
+        Default::Number(usual) => numbers.push(usual),
+        Default::ByMode { product, paper } => numbers.extend([product, paper]),
+        _ => {}
+    }
+    let mut missing: Vec<String> =
+        numbers.into_iter().filter(|&number| !names(comment, number)).map(|n| n.to_string()).collect();
+    let comment = comment.to_lowercase();
+    if info.default != Default::Found && !comment.contains("default") {
+        missing.push("the default".to_string());
+    }
+    if let Default::Choice(usual) = info.default
+        && !comment.contains(usual)
+    {
+        missing.push(usual.to_string());
+    }
+    missing
+}
+
+#[test]
+fn comments_say_the_ranges_and_defaults_of_the_table() {
+    let c = comments(&source("options"));
+    let cs = comments(&std::fs::read_to_string(root().join("unity/Runtime/Options.cs")).unwrap());
+    let mut wrong = Vec::new();
+    let mut seen = 0;
+    for info in TABLE.iter().filter(|info| matches!(info.scope, Scope::Plain | Scope::Group | Scope::Rig)) {
+        for (file, name, all) in
+            [("src/ffi/options.rs", info.name.to_string(), &c), ("Options.cs", pascal(info.name), &cs)]
+        {
+            match all.get(&name) {
+                Some(comment) => {
+                    let missing = missing(info, comment).join(", ");
+                    if !missing.is_empty() {
+                        wrong.push(format!("{file} says of {name}:{comment}: it lacks {missing}"));
+                    }
+                    seen += 1;
+                }
+                None => wrong.push(format!("{file} has no field {name}")),
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    assert!(seen >= 40);
+    let heads = find("heads").unwrap().values.to_string();
+    assert!(source("style").contains(&format!("heads: {heads}")), "{heads}");
+}
+
 /// The shared library that cargo built beside this test, or else builds now.
 fn library() -> Option<PathBuf> {
     let name = format!("{}superdeform{}", std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX);
@@ -237,7 +319,7 @@ fn the_imports_compile() {
     let result = Command::new("mcs")
         .args(["-unsafe", "-langversion:7.2", "-target:library", "-warnaserror"])
         .arg(format!("-out:{}", to.display()))
-        .arg(root().join("unity/Runtime/Native.g.cs"))
+        .args(["Native.g.cs", "OptionRange.cs"].map(|file| root().join("unity/Runtime").join(file)))
         .output()
         .unwrap();
     let _ = std::fs::remove_file(&to);

@@ -1,8 +1,5 @@
 //! Writes the C header, the C# imports and the layout that hosts check from `src/ffi`.
 
-// Linked for the list of its exports.
-use superdeform as _;
-
 mod c_header;
 pub mod csharp;
 mod layout;

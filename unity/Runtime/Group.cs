@@ -20,7 +20,7 @@ public sealed class Group
     /// <summary>1 keeps the length of the group's bones.</summary>
     public double LengthScale { get; private set; }
 
-    /// <summary>1 keeps the girth.</summary>
+    /// <summary>1 keeps the thickness.</summary>
     public double ThicknessScale { get; private set; }
 
     /// <summary>Sum over the character's bones, left and right.</summary>

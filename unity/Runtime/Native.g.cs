@@ -432,7 +432,7 @@ internal static unsafe partial class Native
     /// <summary>
     /// A style between two, measured in heads.
     ///
-    /// amount: 0 is first, 1 second; may go beyond
+    /// amount: 0 is first, 1 second
     ///
     /// Errors: BAD_STYLE for a style of N heads that is like none, or where the result would be no body; BAD_OPTION.
     /// </summary>
@@ -843,22 +843,22 @@ internal unsafe struct SdefGroupSettings {
     public sbyte* group;
 
     /// <summary>
-    /// 1 keeps the length of the group's bones; 0.01 to 100
+    /// 1 keeps the length of the group's bones; 0.01 to 10
     /// </summary>
     public double length_scale;
 
     /// <summary>
-    /// 1 keeps the girth; 0.01 to 100
+    /// 1 keeps the thickness; 0.01 to 10
     /// </summary>
     public double thickness_scale;
 
     /// <summary>
-    /// 0 keeps the target's length, 1 takes all of the reference's; -10 to 10
+    /// 0 keeps the target's length, 1 takes all of the reference's
     /// </summary>
     public double length_transfer;
 
     /// <summary>
-    /// 0 keeps the target's girth, 1 takes all of the reference's; -10 to 10
+    /// 0 keeps the target's thickness, 1 takes all of the reference's
     /// </summary>
     public double thickness_transfer;
 }
@@ -916,7 +916,7 @@ internal unsafe struct SdefOptions {
     public UInt32 struct_size;
 
     /// <summary>
-    /// threads to use; 0 (default): all cores
+    /// threads to use, up to 1024; 0 (default): all cores
     /// </summary>
     public UInt32 thread_count;
 
@@ -1187,7 +1187,7 @@ internal unsafe struct SdefGroup {
     public double length_scale;
 
     /// <summary>
-    /// 1 keeps the girth
+    /// 1 keeps the thickness
     /// </summary>
     public double thickness_scale;
 
@@ -1401,9 +1401,9 @@ internal unsafe struct SdefStyleNumbers {
     public double foot;
 
     /// <summary>
-    /// median half width of the trunk
+    /// median half width of the torso
     /// </summary>
-    public double trunk_half_width;
+    public double torso_half_width;
 
     /// <summary>
     /// mean distance of the surface to the bone
@@ -1450,5 +1450,91 @@ internal unsafe struct SdefBone {
     /// mean distance of the surface, above 0; NAN: not known
     /// </summary>
     public double radius;
+}
+
+/// <summary>The least and the greatest value of each option that is a number.</summary>
+public partial struct OptionRange
+{
+    /// <summary>Rays around each sample of a bone.</summary>
+    public static readonly OptionRange Rays = new OptionRange(3, 4096);
+
+    /// <summary>Size of the head: 1 keeps it, 1.5 is the paper's.</summary>
+    public static readonly OptionRange HeadScale = new OptionRange(0.1, 10);
+
+    /// <summary>From the original (0) to the style (1).</summary>
+    public static readonly OptionRange Amount = new OptionRange(0, 1);
+
+    /// <summary>Hair below the chin: 1 ends it where it ended on the body, 0 at the chin.</summary>
+    public static readonly OptionRange HairLength = new OptionRange(0, 1);
+
+    /// <summary>How much younger the face gets; 0 leaves it.</summary>
+    public static readonly OptionRange FaceSquash = new OptionRange(-10, 10);
+
+    /// <summary>Threads to use; 0 means all cores.</summary>
+    public static readonly OptionRange ThreadCount = new OptionRange(0, 1024);
+
+    /// <summary>1 keeps the length of the group's bones, 0.5 halves it.</summary>
+    public static readonly OptionRange LengthScale = new OptionRange(0.01, 10);
+
+    /// <summary>1 keeps the thickness of the group, 0.5 halves it.</summary>
+    public static readonly OptionRange ThicknessScale = new OptionRange(0.01, 10);
+
+    /// <summary>0 keeps the target's length, 1 takes all of the reference's.</summary>
+    public static readonly OptionRange LengthTransfer = new OptionRange(0, 1);
+
+    /// <summary>0 keeps the target's thickness, 1 takes all of the reference's.</summary>
+    public static readonly OptionRange ThicknessTransfer = new OptionRange(0, 1);
+
+    /// <summary>Voxels along the longest side of the body's volume.</summary>
+    public static readonly OptionRange RigVoxelResolution = new OptionRange(16, 512);
+
+    /// <summary>How sharp weights by heat are: 1 spreads them over about a limb's radius, more is sharper.</summary>
+    public static readonly OptionRange RigHeat = new OptionRange(0.01, 1000);
+
+    /// <summary>A style for this many heads instead of a reference.</summary>
+    public static readonly OptionRange Heads = new OptionRange(1.8, 6);
+
+    /// <summary>How much of a second style there is.</summary>
+    public static readonly OptionRange Blend = new OptionRange(0, 1);
+}
+
+/// <summary>What an option is unless it is set; where each mode has its own, product mode's.</summary>
+public static class OptionDefaults
+{
+    /// <summary>Rays around each sample of a bone.</summary>
+    public const uint Rays = 48;
+
+    /// <summary>Bounds what may be done to a body, where measured scales would fold it.</summary>
+    public const bool Limits = true;
+
+    /// <summary>Size of the head: 1 keeps it, 1.5 is the paper's.</summary>
+    public const double HeadScale = 1.5;
+
+    /// <summary>From the original (0) to the style (1).</summary>
+    public const double Amount = 1;
+
+    /// <summary>Hair below the chin: 1 ends it where it ended on the body, 0 at the chin.</summary>
+    public const double HairLength = 1;
+
+    /// <summary>How much younger the face gets; 0 leaves it.</summary>
+    public const double FaceSquash = 0.8;
+
+    /// <summary>Threads to use; 0 means all cores.</summary>
+    public const uint ThreadCount = 0;
+
+    /// <summary>Voxels along the longest side of the body's volume.</summary>
+    public const uint RigVoxelResolution = 128;
+
+    /// <summary>Looks for fingers.</summary>
+    public const bool RigFingers = true;
+
+    /// <summary>How sharp weights by heat are: 1 spreads them over about a limb's radius, more is sharper.</summary>
+    public const double RigHeat = 1;
+
+    /// <summary>The axes are left-handed: which of two sides is the left one depends on it.</summary>
+    public const bool RigLeftHanded = false;
+
+    /// <summary>How much of a second style there is.</summary>
+    public const double Blend = 0;
 }
 }

@@ -7,7 +7,7 @@ namespace SuperDeform
 [Serializable]
 public sealed class Options
 {
-    /// <summary>Threads to use; 0 (default): all cores.</summary>
+    /// <summary>Threads to use, up to 1024; 0 (default): all cores.</summary>
     public uint ThreadCount;
 
     /// <summary>Default <see cref="SuperDeform.Mode.Product"/>.</summary>
@@ -109,16 +109,16 @@ public sealed class GroupSettings
     /// </summary>
     public string Group;
 
-    /// <summary>1 keeps the length of the group's bones; 0.01 to 100.</summary>
+    /// <summary>1 keeps the length of the group's bones; 0.01 to 10.</summary>
     public double LengthScale = double.NaN;
 
-    /// <summary>1 keeps the girth; 0.01 to 100.</summary>
+    /// <summary>1 keeps the thickness; 0.01 to 10.</summary>
     public double ThicknessScale = double.NaN;
 
-    /// <summary>0 keeps the target's length, 1 takes all of the reference's; -10 to 10.</summary>
+    /// <summary>0 keeps the target's length, 1 takes all of the reference's.</summary>
     public double LengthTransfer = double.NaN;
 
-    /// <summary>0 keeps the target's girth, 1 takes all of the reference's; -10 to 10.</summary>
+    /// <summary>0 keeps the target's thickness, 1 takes all of the reference's.</summary>
     public double ThicknessTransfer = double.NaN;
 
     /// <summary>Whether it sets nothing.</summary>

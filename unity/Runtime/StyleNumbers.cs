@@ -54,8 +54,8 @@ public sealed class StyleNumbers
     /// <summary>Heel to toe.</summary>
     public double Foot = double.NaN;
 
-    /// <summary>Median half width of the trunk.</summary>
-    public double TrunkHalfWidth = double.NaN;
+    /// <summary>Median half width of the torso.</summary>
+    public double TorsoHalfWidth = double.NaN;
 
     /// <summary>Mean distance of the surface to the bone.</summary>
     public double UpperArmRadius = double.NaN;
@@ -89,7 +89,7 @@ public sealed class StyleNumbers
         AnkleHeight = native.ankle_height;
         Hand = native.hand;
         Foot = native.foot;
-        TrunkHalfWidth = native.trunk_half_width;
+        TorsoHalfWidth = native.torso_half_width;
         UpperArmRadius = native.upper_arm_radius;
         LowerArmRadius = native.lower_arm_radius;
         UpperLegRadius = native.upper_leg_radius;
@@ -116,7 +116,7 @@ public sealed class StyleNumbers
         native.ankle_height = AnkleHeight;
         native.hand = Hand;
         native.foot = Foot;
-        native.trunk_half_width = TrunkHalfWidth;
+        native.torso_half_width = TorsoHalfWidth;
         native.upper_arm_radius = UpperArmRadius;
         native.lower_arm_radius = LowerArmRadius;
         native.upper_leg_radius = UpperLegRadius;

@@ -61,7 +61,7 @@ pub struct SdefGroup {
     pub name: [c_char; 64],
     /// 1 keeps the length of the group's bones
     pub length_scale: f64,
-    /// 1 keeps the girth
+    /// 1 keeps the thickness
     pub thickness_scale: f64,
     /// sum over the character's bones, left and right
     pub target_length: f64,

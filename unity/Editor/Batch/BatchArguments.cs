@@ -76,8 +76,8 @@ namespace SuperDeform.Editor
                         Avatars.Add(path.Trim().Replace('\\', '/'));
             if (Avatars.Count == 0)
                 throw Wrong("batch.no_avatars");
-            Number("Heads", 1.8f, 6, ref Settings.Heads);
-            Number("Blend", 0, 1, ref Settings.Blend);
+            Number("Heads", ref Settings.Heads);
+            Number("Blend", ref Settings.Blend);
             foreach (FieldInfo option in options)
                 if (given.ContainsKey(option.Name))
                     option.SetValue(Settings.Options, Value(option.Name, option.FieldType));
@@ -152,14 +152,10 @@ namespace SuperDeform.Editor
                 word + (char.IsUpper(letter) && word.Length > 0 ? "_" : "") + char.ToLowerInvariant(letter));
         }
 
-        private void Number(string name, float low, float high, ref float value)
+        private void Number(string name, ref float value)
         {
-            double number;
-            if (!given.ContainsKey(name))
-                return;
-            if (!TryNumber(given[name], new OptionRange(low, high), out number))
-                throw Wrong("batch.bad_number", given[name], Prefix + name, low, high);
-            value = (float)number;
+            if (given.ContainsKey(name))
+                value = (float)Value(name, typeof(float));
         }
 
         private object Value(string name, Type type)

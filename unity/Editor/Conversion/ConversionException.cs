@@ -39,7 +39,7 @@ namespace SuperDeform.Editor
             else if (cause is SuperDeformException) key = "library_says";
             // A fault of this package, perhaps: where it happened helps to mend it.
             else UnityEngine.Debug.LogException(cause, where);
-            return new ConversionException(new Finding(key, Severity.Error, where, cause.Message), cause);
+            return new ConversionException(new Finding(key, Severity.Error, where, Strings.OfLibrary(cause.Message)), cause);
         }
     }
 }

@@ -61,7 +61,7 @@ namespace SuperDeform.Editor
             };
             foreach (Warning warning in deformer.Warnings)
             {
-                done.Findings.Add(new Finding("library_notes", Severity.Warning, source.Root, warning.Text));
+                done.Findings.Add(new Finding("library_notes", Severity.Warning, source.Root, Strings.OfLibrary(warning.Text)));
             }
             stages.Begin(ConversionStage.Writing);
             using (ResultFolder folder = new ResultFolder(ParentFolder(source.Root, settings), source.Root.name))

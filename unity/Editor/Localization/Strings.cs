@@ -3,6 +3,7 @@ using System.Collections.Generic;
 using System.Globalization;
 using System.IO;
 using System.Runtime.CompilerServices;
+using System.Text.RegularExpressions;
 using UnityEditor;
 using UnityEngine;
 
@@ -64,6 +65,21 @@ namespace SuperDeform.Editor
             {
                 return text;
             }
+        }
+
+        /// <summary>A sentence of the library with the name that the window has for what it is about.</summary>
+        /// <remarks>
+        /// It ends with a field of the library's: "head scale is 20: give a number from 0.1 to 10 (head_scale)". What has no
+        /// name in the window is left out.
+        /// </remarks>
+        public static string OfLibrary(string sentence)
+        {
+            Match field = Regex.Match(sentence, @" \(([a-z_]+)(, or [a-z_]+)?\)$");
+            if (!field.Success)
+                return sentence;
+            string key = "option." + field.Groups[1].Value;
+            string label = Has(key) ? " (" + Get(key) + ")" : key.Contains("_") ? "" : field.Value;
+            return sentence.Substring(0, field.Index) + label;
         }
 
         /// <summary>Whether English has a text for a key.</summary>

@@ -67,7 +67,7 @@ namespace SuperDeform.Editor
                 value => model.Change("undo.rig", () => options.RigWeights = (BodyWeights)value)));
             section.Rows.Add(Slider("option.rig_heat", 0.1f, 10, () => (float)options.RigHeat,
                 value => model.Change("undo.rig", () => options.RigHeat = value)));
-            section.Rows.Add(Slider("option.rig_voxel_resolution", 16, 512, () => options.RigVoxelResolution,
+            section.Rows.Add(Slider("option.rig_voxel_resolution", OptionRange.RigVoxelResolution, () => options.RigVoxelResolution,
                 value => model.Change("undo.rig", () => options.RigVoxelResolution = (uint)Mathf.RoundToInt(value))));
             section.Rows.Add(Popup("rig_garments", typeof(GarmentWeights), () => (int)options.RigGarments,
                 value => model.Change("undo.rig", () => options.RigGarments = (GarmentWeights)value)));
@@ -139,10 +139,10 @@ namespace SuperDeform.Editor
                 });
             bool fromModel = settings.Source == StyleSource.ReferenceAvatar || settings.Source == StyleSource.SavedStyle;
             if (fromModel)
-                section.Rows.Add(Slider("style.blend", 0, 1, () => settings.Blend,
+                section.Rows.Add(Slider("style.blend", OptionRange.Blend, () => settings.Blend,
                     value => model.Change("undo.blend", () => settings.Blend = value)));
             if (settings.Source == StyleSource.Heads || fromModel && settings.Blend > 0)
-                section.Rows.Add(Slider("style.heads", 1.8f, 6, () => settings.Heads,
+                section.Rows.Add(Slider("style.heads", OptionRange.Heads, () => settings.Heads,
                     value => model.Change("undo.heads", () => settings.Heads = value)));
             if (fromModel)
                 section.Rows.Add(new ActionRow
@@ -171,11 +171,11 @@ namespace SuperDeform.Editor
             Section section = New(model, SectionId.FineTuning);
             int own = GroupTunings.Count(settings);
             section.Summary = own == 0 ? "" : Strings.Get("tune.summary", own);
-            section.Rows.Add(Slider("option.amount", 0, 1, () => (float)options.Amount,
+            section.Rows.Add(Slider("option.amount", OptionRange.Amount, () => (float)options.Amount,
                 value => model.Change("undo.tune", () => options.Amount = value)));
             section.Rows.Add(Slider("option.head_scale", 0.5f, 2.5f, () => (float)options.HeadScale,
                 value => model.Change("undo.tune", () => options.HeadScale = value)));
-            section.Rows.Add(Slider("option.hair_length", 0, 1, () => (float)options.HairLength,
+            section.Rows.Add(Slider("option.hair_length", OptionRange.HairLength, () => (float)options.HairLength,
                 value => model.Change("undo.tune", () => options.HairLength = value)));
             SliderRow face = Slider("option.face_squash", 0, 1.5f,
                 () => double.IsNaN(options.FaceSquash) ? (float)OptionDefaults.FaceSquash : (float)options.FaceSquash,
@@ -360,10 +360,10 @@ namespace SuperDeform.Editor
         /// <summary>What the library warns of, in words for people; its own sentence where there are none.</summary>
         private static CheckRow Warned(Warning warning)
         {
-            string key = "warning." + warning.Code;
+            string key = "warning." + warning.Code, sentence = Strings.OfLibrary(warning.Text);
             return new CheckRow
             {
-                Label = Strings.Has(key) ? Strings.Get(key, warning.Text) : warning.Text,
+                Label = Strings.Has(key) ? Strings.Get(key, sentence) : sentence,
                 Severity = Array.IndexOf(harmless, warning.Code) >= 0 ? Severity.Info : Severity.Warning
             };
         }
@@ -404,6 +404,11 @@ namespace SuperDeform.Editor
                 Label = Strings.Get(key), Tooltip = Strings.Get(key + ".tooltip"), Get = get, Set = set,
                 Choices = Array.ConvertAll(Enum.GetNames(words), word => Strings.Get(key + "." + word.ToLowerInvariant()))
             };
+        }
+
+        private static SliderRow Slider(string key, OptionRange range, Func<float> get, Action<float> set)
+        {
+            return Slider(key, (float)range.Low, (float)range.High, get, set);
         }
 
         private static SliderRow Slider(string key, float low, float high, Func<float> get, Action<float> set)

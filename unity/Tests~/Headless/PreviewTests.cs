@@ -322,9 +322,10 @@ namespace SuperDeform.Editor.Tests
             {
                 Vector3[] before = Proxy(session, "body").sharedMesh.vertices;
                 settings.Options.HeadScale = 1000;
-                Assert.Throws<ConversionException>(() => session.Update(settings));
+                ConversionException refused = Assert.Throws<ConversionException>(() => session.Update(settings));
+                StringAssert.Contains("(Head size)", refused.Message);
                 Assert.AreEqual(before, Proxy(session, "body").sharedMesh.vertices);
-                settings.Options.HeadScale = 1.5f;
+                settings.Options.HeadScale = OptionDefaults.HeadScale;
                 session.Update(settings);
                 Assert.AreEqual(before, Proxy(session, "body").sharedMesh.vertices);
             }

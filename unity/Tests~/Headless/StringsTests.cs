@@ -119,6 +119,19 @@ namespace SuperDeform.Editor.Tests
         }
 
         [Test]
+        public void the_library_names_an_option_by_its_field_and_the_window_by_its_label()
+        {
+            Strings.Language = "en";
+            Assert.AreEqual("head scale is 20: give less (Head size)", Strings.OfLibrary("head scale is 20: give less (head_scale)"));
+            Assert.AreEqual("no joint", Strings.OfLibrary("no joint (role_joints, or sdef_character_rig)"));
+            Assert.AreEqual("hair (of 3 meshes)", Strings.OfLibrary("hair (of 3 meshes)"));
+            Assert.AreEqual("product mode alone (mode)", Strings.OfLibrary("product mode alone (mode)"));
+            Strings.Language = "ja";
+            Assert.AreEqual("x (頭の大きさ)", Strings.OfLibrary("x (head_scale)"));
+            Strings.Language = "en";
+        }
+
+        [Test]
         public void numbers_have_a_point_in_every_culture()
         {
             System.Globalization.CultureInfo before = System.Threading.Thread.CurrentThread.CurrentCulture;
