@@ -11,14 +11,16 @@ struct Literal {
     before: String,
 }
 
-/// Every source file below `folder`.
+/// Every source file below `folder`, without files of unit tests.
 fn sources(folder: &Path) -> Vec<PathBuf> {
     let mut found = Vec::new();
     for entry in std::fs::read_dir(folder).expect("the sources are there") {
         let path = entry.expect("the sources can be read").path();
         if path.is_dir() {
             found.extend(sources(&path));
-        } else if path.extension().is_some_and(|extension| extension == "rs") {
+        } else if path.extension().is_some_and(|extension| extension == "rs")
+            && path.file_name().is_some_and(|name| name != "tests.rs")
+        {
             found.push(path);
         }
     }
