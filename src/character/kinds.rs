@@ -1,6 +1,7 @@
 //! What a mesh depicts: as its names say, where the place of the mesh bears them out.
 
 use super::{Character, Mesh, Role};
+use crate::geometry::range;
 use glam::Vec3;
 use std::collections::BTreeMap;
 use std::fmt;
@@ -179,7 +180,7 @@ enum Place {
     /// For each joint whether it is the head's or hangs from it.
     Rigged(Vec<bool>),
     /// Nobody knows which joints: the figure's extent along up.
-    Extent { up: Vec3, low: f32, high: f32 },
+    Extent { up: Vec3, low: f64, high: f64 },
 }
 
 impl Place {
@@ -195,9 +196,8 @@ impl Place {
             return Self::Rigged(of_head);
         }
         let up = character.axes.up;
-        let heights = character.meshes.iter().flat_map(|mesh| mesh.positions.iter()).map(|p| p.dot(up));
-        let (low, high) =
-            heights.fold((f32::INFINITY, f32::NEG_INFINITY), |(low, high), y| (low.min(y), high.max(y)));
+        let heights = character.meshes.iter().flat_map(|mesh| &mesh.positions).map(|p| f64::from(p.dot(up)));
+        let (low, high) = range(heights);
         Self::Extent { up, low, high }
     }
 
@@ -219,8 +219,8 @@ impl Place {
                 share >= if kind == MeshKind::Hair { HAIR_OF_HEAD } else { FACE_OF_HEAD }
             }
             Self::Extent { up, low, high } => {
-                let chin = low + LOWEST_CHIN as f32 * (high - low);
-                let mut heights = mesh.positions.iter().map(|p| p.dot(*up));
+                let chin = low + LOWEST_CHIN * (high - low);
+                let mut heights = mesh.positions.iter().map(|p| f64::from(p.dot(*up)));
                 if kind == MeshKind::Hair { heights.any(|y| y >= chin) } else { heights.all(|y| y >= chin) }
             }
         }

@@ -4,6 +4,7 @@ use super::attach::Placement;
 use super::{Deformer, milliseconds, product};
 use crate::character::MeshKind;
 use crate::face::FaceShape;
+use crate::geometry::bounds;
 use crate::options::{Mode, Stage};
 use crate::shape::field::{BodyField, Finish};
 use crate::shape::measured::is_of_head;
@@ -65,16 +66,11 @@ impl Deformer {
         let figure = &self.target.measured.figure;
         let whole = self.field.with(Finish::default());
         let placement = Placement { field: &whole, ..self.placement() };
-        let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-        for vertex in 0..figure.positions.len() {
-            if matches!(figure.kind(vertex), MeshKind::Body | MeshKind::FacePart)
-                && is_of_head(figure, vertex)
-            {
-                let p = placement.vertex(vertex, figure.positions[vertex]);
-                low = low.min(p);
-                high = high.max(p);
-            }
-        }
+        let is_of_face = |&vertex: &usize| {
+            matches!(figure.kind(vertex), MeshKind::Body | MeshKind::FacePart) && is_of_head(figure, vertex)
+        };
+        let vertices = (0..figure.positions.len()).filter(is_of_face);
+        let (low, high) = bounds(vertices.map(|vertex| placement.vertex(vertex, figure.positions[vertex])));
         let around = (low.x <= high.x).then_some((low, high));
         match &*self.deformation.body {
             BodyField::Parts(field) => Some(product::face_box(field, around)),

@@ -7,14 +7,11 @@ use crate::rig::eyes::Eye;
 use crate::rig::heat::HeatSystem;
 use crate::rig::mesh_kinds::body_is_whole;
 use crate::rig::transfer::{GarmentOnSkin, Skin, Source, rigid_weights};
-use crate::rig::voxel::{VoxelOptions, heat_would_be_poor, voxel_weights};
+use crate::rig::voxel::{FALLOFF, VoxelOptions, heat_would_be_poor, voxel_weights};
 use crate::rig::{GarmentWeights, RigOptions, UnitFigure, WeightBone, WeightMethod, WeightSet};
 use glam::DVec3;
 use std::collections::BTreeMap;
 use std::time::Instant;
-
-/// How fast volume weights fall off with distance.
-const VOXEL_FALLOFF: f64 = 0.2;
 
 /// Meshes that take their weights together, as one list of vertices.
 struct Group {
@@ -123,7 +120,7 @@ impl<'a> Binder<'a> {
             WeightMethod::Volume => {
                 let options = VoxelOptions {
                     resolution: options.voxel_resolution,
-                    falloff: VOXEL_FALLOFF,
+                    falloff: FALLOFF,
                     thread_count: threads,
                 };
                 BodyRule::Volume(voxel_weights(&body.positions, &body.triangles, bones, &options))

@@ -12,6 +12,13 @@ const ROUNDNESS: f64 = 0.6;
 /// Two eyes mirror each other to within this share of the head's length.
 const LIKENESS: f64 = 0.05;
 
+/// Of two eyes neither is larger than this times the other.
+const LARGER: f64 = 1.25;
+/// What lies within this many radii of an eyeball's middle turns with it: an iris lies on it, a lid beside it.
+const TURNS_WITH: f64 = 1.25;
+/// How sure a pair of like round pieces is: the artist may have put the joint elsewhere.
+const SURE: f64 = 0.9;
+
 /// An eyeball.
 #[derive(Clone, Debug)]
 pub struct Eye {
@@ -67,7 +74,7 @@ pub fn find_eyes(figure: &UnitFigure, kinds: &[MeshKind], found: &FoundJoints) -
             .filter(|(centre, _)| centre.x < middle && centre.distance(mirrored) < LIKENESS * length)
             .min_by(|a, b| a.0.distance(mirrored).total_cmp(&b.0.distance(mirrored)));
         if let Some(&other) = other
-            && (0.8..=1.25).contains(&(radius / other.1))
+            && (1.0 / LARGER..=LARGER).contains(&(radius / other.1))
             && best.is_none_or(|[(_, largest), _]| radius > largest)
         {
             best = Some([(left, radius), other]);
@@ -81,12 +88,13 @@ pub fn find_eyes(figure: &UnitFigure, kinds: &[MeshKind], found: &FoundJoints) -
         .zip(pair)
         .map(|(role, (centre, radius))| {
             let within = |&(low, high, _): &&(DVec3, DVec3, Vec<usize>)| {
-                ((*low + *high) / 2.0).distance(centre) + (*high - *low).max_element() / 2.0 <= 1.25 * radius
+                ((*low + *high) / 2.0).distance(centre) + (*high - *low).max_element() / 2.0
+                    <= TURNS_WITH * radius
             };
             let mut vertices: Vec<usize> =
                 pieces.iter().filter(within).flat_map(|(_, _, vertices)| vertices).copied().collect();
             vertices.sort_unstable();
-            Eye { role, centre, vertices, confidence: 0.9 }
+            Eye { role, centre, vertices, confidence: SURE }
         })
         .collect()
 }

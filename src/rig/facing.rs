@@ -22,6 +22,13 @@ const FINE_CELL_COUNT: usize = 2500;
 /// Degrees between the planes of the first sweep.
 const SWEEP_STEP: usize = 3;
 
+/// Planes of one angle in the first sweep: how many cells they lie from the middle, which what is on one side alone pulls
+/// off the plane.
+const SWEEP_OFFSETS: [f64; 9] = [0.0, -2.0, 2.0, -4.0, 4.0, -6.0, 6.0, -8.0, 8.0];
+
+/// The best plane is turned by ever smaller angles, down to this many degrees.
+const LEAST_TURN: f64 = 0.05;
+
 /// How much the share of a figure's width counts beside its likeness (0..1) to its mirror image.
 const WIDTH_WEIGHT: f64 = 0.5;
 
@@ -34,7 +41,10 @@ const SNAP_LOSS: f64 = 0.01;
 /// A figure less like its mirror image than this has no left and right to be sure of.
 const LEAST_LIKENESS: f64 = 0.45;
 
-/// A plane at more than 30 degrees from the best one that scores this near to it could as well be the right one.
+/// A plane at more than this many degrees from the best one ...
+const APART_ANGLE: f64 = 30.0;
+
+/// ... that scores this near to it could as well be the right one.
 const LEAST_MARGIN: f64 = 0.03;
 
 /// Votes that add up to less than this leave a doubt which way is front ...
@@ -52,8 +62,32 @@ const CHIN_VOTE: f64 = 0.2;
 /// Feet stand within this distance of the middle, in heights; hands and swords may be further out.
 const FEET_REACH: f64 = 0.3;
 
-/// Rows of the profile in which the chin is looked for.
+/// Heel and tip of a foot are looked for up to this height, ...
+const SOLE_UP_TO: f64 = 0.04;
+
+/// ... and back and front of the shin between these.
+const SHIN_RANGE: (f64, f64) = (0.06, 0.12);
+
+/// Rows of the profile in which the chin is looked for, ...
 const PROFILE_ROWS: usize = 60;
+
+/// ... between these, which hold head and neck, be the head large or small, ...
+const HEAD_ROWS: (usize, usize) = (PROFILE_ROWS * 11 / 20, PROFILE_ROWS * 19 / 20);
+
+/// ... as means over so many, ...
+const STEP_ROWS: usize = 3;
+
+/// ... within this distance of the middle, in heights.
+const PROFILE_REACH: f64 = 0.03;
+
+/// A step of the profile below this, in heights, is no chin.
+const LEAST_CHIN: f64 = 0.02;
+
+/// Points of the surface are no further apart than this share of a cell, ...
+const SAMPLE_STEP: f64 = 0.75;
+
+/// ... but no more than so many along a triangle's side.
+const MOST_STEPS: f64 = 200.0;
 
 /// Points of the surface, about, at most: triangles are not taken apart further where there are many large ones.
 const SAMPLE_COUNT: f64 = 2e6;
@@ -181,7 +215,7 @@ impl Cells {
         let mut sums = vec![Vec4::ZERO; count];
         let mut samples = Vec::new();
         let triangle_count = triangles().count();
-        let most_steps = (2.0 * SAMPLE_COUNT / triangle_count as f64).sqrt().clamp(1.0, 200.0);
+        let most_steps = (2.0 * SAMPLE_COUNT / triangle_count as f64).sqrt().clamp(1.0, MOST_STEPS);
         let mut add = |p: DVec3| {
             samples.push(p.as_vec3());
             let [x, y, z] = p.to_array().map(|c| c as usize);
@@ -189,9 +223,8 @@ impl Cells {
         };
         for corners in triangles() {
             let [a, b, c] = corners.map(|corner| (corner - low) * scale + MARGIN);
-            // Points no further apart than 3/4 of a cell.
             let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
-            let steps = (longest / 0.75).ceil().clamp(1.0, most_steps) as usize;
+            let steps = (longest / SAMPLE_STEP).ceil().clamp(1.0, most_steps) as usize;
             if steps == 1 {
                 add((a + b + c) / 3.0);
                 continue;
@@ -284,8 +317,7 @@ impl Cells {
             .map(|degrees| {
                 let degrees = degrees as f64;
                 let middle = Mirror::at(degrees, 0.0).normal.dot(self.middle);
-                // What is on one side alone pulls the middle off the plane.
-                let scores = [0.0, -2.0, 2.0, -4.0, 4.0, -6.0, 6.0, -8.0, 8.0].map(|by| {
+                let scores = SWEEP_OFFSETS.map(|by| {
                     let mirror = Mirror::at(degrees, middle + by);
                     (self.score(mirror, step), degrees, mirror)
                 });
@@ -297,14 +329,15 @@ impl Cells {
             let between = (angle - degrees).abs();
             between.min(180.0 - between)
         };
-        let second = sweep.iter().filter(|(_, angle, _)| away(*angle) > 30.0).map(|(score, ..)| *score);
+        let second =
+            sweep.iter().filter(|(_, angle, _)| away(*angle) > APART_ANGLE).map(|(score, ..)| *score);
         let margin = rough - second.fold(0.0, f64::max);
 
         let (mut degrees, mut mirror) = (degrees, mirror);
         let step = self.points.len().div_ceil(FINE_CELL_COUNT).max(1);
         let mut best = self.score(mirror, step);
         let (mut turn, mut shift) = (SWEEP_STEP as f64 / 2.0, 1.0);
-        while turn > 0.05 {
+        while turn > LEAST_TURN {
             let offset = |degrees: f64| {
                 // The plane turns about the middle.
                 let ahead = mirror.offset - mirror.normal.dot(self.middle);
@@ -378,8 +411,8 @@ fn feet_vote(points: &[DVec3]) -> f64 {
                 .filter(|p| (from..=to).contains(&p.y) && p.x * sign >= 0.0 && p.x.abs() < FEET_REACH);
             range(near.map(|p| p.z))
         };
-        let (heel, tip) = reach(0.0, 0.04);
-        let (back, shin) = reach(0.06, 0.12);
+        let (heel, tip) = reach(0.0, SOLE_UP_TO);
+        let (back, shin) = reach(SHIN_RANGE.0, SHIN_RANGE.1);
         let more = (tip + heel - back - shin) / (tip - heel);
         if more.is_finite() {
             vote += 0.5 * more.clamp(-1.0, 1.0);
@@ -402,7 +435,7 @@ fn face_vote(points: &[DVec3], face_parts: &[DVec3]) -> f64 {
 fn chin_vote(points: &[DVec3]) -> f64 {
     let overhang = |sign: f64| {
         let mut profile = [f64::NAN; PROFILE_ROWS];
-        for p in points.iter().filter(|p| p.x.abs() < 0.03) {
+        for p in points.iter().filter(|p| p.x.abs() < PROFILE_REACH) {
             let row = ((p.y.max(0.0) * PROFILE_ROWS as f64) as usize).min(PROFILE_ROWS - 1);
             profile[row] = profile[row].max(sign * p.z);
         }
@@ -410,14 +443,12 @@ fn chin_vote(points: &[DVec3]) -> f64 {
             let seen = rows.iter().filter(|z| z.is_finite());
             seen.clone().sum::<f64>() / seen.count() as f64
         };
-        // The head and the neck, be the head large or small.
-        (PROFILE_ROWS * 11 / 20..PROFILE_ROWS * 19 / 20)
-            .map(|row| mean(&profile[row..row + 3]) - mean(&profile[row - 3..row]))
+        (HEAD_ROWS.0..HEAD_ROWS.1)
+            .map(|row| mean(&profile[row..row + STEP_ROWS]) - mean(&profile[row - STEP_ROWS..row]))
             .fold(0.0, f64::max)
     };
     let (front, back) = (overhang(1.0), overhang(-1.0));
-    // A step below 2 % of the height is no chin.
-    (front - back) / (front + back).max(0.02)
+    (front - back) / (front + back).max(LEAST_CHIN)
 }
 
 /// The first of those with the highest score.

@@ -9,15 +9,35 @@ const HEAD_WIDENS: (f64, f64) = (1.15, 0.006);
 const CHIN_RANGE: (f64, f64) = (-0.05, 0.55);
 /// Bands above and below a row that are compared, as a share of the same.
 const CHIN_BAND: f64 = 0.05;
-/// The middle's depth is a median over this share of half the width, but no further from the axis than this: a tail is
-/// narrower, arms are outside.
-const MIDDLE_REACH: (f64, f64) = (0.6, 0.08);
+/// The middle's depth is a median over this share of half the width, ...
+const MIDDLE_REACH: f64 = 0.6;
+/// ... but no less and no more from the axis than this, in heights: a tail is narrower, arms are outside.
+const MIDDLE_RANGE: (f64, f64) = (0.005, 0.08);
 /// A smaller step back than this share of the same is no chin.
 const CHIN_STEP: f64 = 0.04;
 /// Steps that differ by less than this share of themselves and of the figure's height are equally deep.
 const TIE: f64 = 1e-6;
 /// The chin where none is seen.
 const CHIN_BY_RATIO: f64 = 0.22;
+
+/// A crown lies at least this far over the shoulders, in heights: nothing divides by less.
+const LEAST_HEAD: f64 = 0.02;
+/// Rows no wider than this times the narrowest are as narrow, ...
+const AS_NARROW: f64 = 1.05;
+/// ... within this share of the same; the neck is in their middle.
+const NECK_REACH: f64 = 0.15;
+/// A face does not end below the neck: the chin then lies over it by this share of what a ratio gives.
+const CHIN_OVER_NECK: f64 = 0.25;
+/// How far forward the chin is, is read this far over it, as a share of the same, ...
+const CHIN_READ_OVER: f64 = 0.03;
+/// ... within this distance of the axis, in heights.
+const CHIN_READ_WITHIN: f64 = 0.02;
+/// A head takes at least this share of the same.
+const LEAST_FACE: f64 = 0.2;
+/// The chin's rays run within this share of the face's width, but no further from the axis than that, in heights.
+const CHIN_WITHIN: (f64, f64) = (0.08, 0.03);
+/// The middle's depth is a median over this many rows to either side.
+const MIDDLE_ROWS: i64 = 4;
 
 /// Heights of the middle line above the shoulders.
 #[derive(Clone, Copy, Debug)]
@@ -38,7 +58,7 @@ pub struct HeadLine {
 
 /// Looks for neck, chin and crown above `shoulder_line`, where the arms' radius is `radius`.
 pub fn head_line(view: &FrontView, shoulder_line: f64, radius: f64) -> HeadLine {
-    let crown = view.high.max(shoulder_line + 0.02);
+    let crown = view.high.max(shoulder_line + LEAST_HEAD);
     let span = crown - shoulder_line;
     let (first, last) = (view.grid.row(shoulder_line), view.grid.row(crown));
     let width = |row: usize| view.half_width(row);
@@ -66,8 +86,8 @@ pub fn head_line(view: &FrontView, shoulder_line: f64, radius: f64) -> HeadLine 
         .filter(|&row| {
             let w = width(row);
             w > 0.0
-                && w <= 1.05 * narrow.0 + 1e-9
-                && row.abs_diff(narrow.1) <= (0.15 * span / view.cell()) as usize
+                && w <= AS_NARROW * narrow.0 + 1e-9
+                && row.abs_diff(narrow.1) <= (NECK_REACH * span / view.cell()) as usize
         })
         .collect();
     let narrow_y = match (alike.first(), alike.last()) {
@@ -81,11 +101,11 @@ pub fn head_line(view: &FrontView, shoulder_line: f64, radius: f64) -> HeadLine 
     let (mut chin_y, mut chin_seen) = chin.map_or((by_ratio, false), |y| (y, true));
     if neck_seen && chin_y < neck {
         // A face does not end below the neck: a collar or a bust does.
-        (chin_y, chin_seen) = (neck + 0.25 * (by_ratio - shoulder_line), false);
+        (chin_y, chin_seen) = (neck + CHIN_OVER_NECK * (by_ratio - shoulder_line), false);
     }
-    let row = view.grid.row(chin_y + 0.03 * span);
-    let chin_z = view.depth(row, 0.02).map_or(0.0, |(_, front)| front);
-    HeadLine { neck, chin: chin_y.min(crown - 0.2 * span), chin_z, crown, neck_seen, chin_seen }
+    let row = view.grid.row(chin_y + CHIN_READ_OVER * span);
+    let chin_z = view.depth(row, CHIN_READ_WITHIN).map_or(0.0, |(_, front)| front);
+    HeadLine { neck, chin: chin_y.min(crown - LEAST_FACE * span), chin_z, crown, neck_seen, chin_seen }
 }
 
 /// The deepest step back of the front profile, downwards.
@@ -95,7 +115,7 @@ fn chin(view: &FrontView, shoulder_line: f64, crown: f64) -> Option<f64> {
     let high = view.grid.row(shoulder_line + CHIN_RANGE.1 * span);
     let face = (low..=high).map(|row| view.half_width(row)).fold(0.0, f64::max);
     let depths: Vec<Option<f64>> = (low..=high)
-        .map(|row| view.depth(row, (0.08 * 2.0 * face).min(0.03)).map(|(_, front)| front))
+        .map(|row| view.depth(row, (CHIN_WITHIN.0 * 2.0 * face).min(CHIN_WITHIN.1)).map(|(_, front)| front))
         .collect();
     let band = ((CHIN_BAND * span / view.cell()).round() as usize).max(2);
     let row = deepest_step(&depths, &StepSearch { band, least: CHIN_STEP * span, tie: TIE, span: 1.0 })?;
@@ -105,10 +125,10 @@ fn chin(view: &FrontView, shoulder_line: f64, crown: f64) -> Option<f64> {
 /// Depth of the middle of the trunk and half of its depth, smoothed over some rows.
 pub fn middle(view: &FrontView, y: f64) -> (f64, f64) {
     let row = view.grid.row(y) as i64;
-    let (mut middles, mut halves): (Vec<f64>, Vec<f64>) = (row - 4..=row + 4)
+    let (mut middles, mut halves): (Vec<f64>, Vec<f64>) = (row - MIDDLE_ROWS..=row + MIDDLE_ROWS)
         .filter_map(|row| {
             let row = row.clamp(0, view.grid.frame.rows as i64 - 1) as usize;
-            let reach = (MIDDLE_REACH.0 * view.half_width(row)).clamp(0.005, MIDDLE_REACH.1);
+            let reach = (MIDDLE_REACH * view.half_width(row)).clamp(MIDDLE_RANGE.0, MIDDLE_RANGE.1);
             view.depth(row, reach).map(|(back, front)| (0.5 * (back + front), 0.5 * (front - back)))
         })
         .unzip();

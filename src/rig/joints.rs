@@ -33,6 +33,10 @@ const HIPS_UP: f64 = 0.06;
 /// ... the chest at this share of the way from hips to neck, and the spine at this share of the way from hips to chest.
 const CHEST_SHARE: f64 = 0.48;
 const SPINE_OF_CHEST: f64 = 0.46;
+/// The legs are looked for below this share of the height.
+const LEGS_BELOW: f64 = 0.8;
+/// The arms' radius is taken to be no more than this, in heights, and this where no arm is seen.
+const MOST_RADIUS: f64 = 0.02;
 /// Joints of the middle line are at least so far apart.
 const APART: f64 = 2e-3;
 /// The neck joint lies at this share of the way from shoulder line to narrowest row.
@@ -41,8 +45,14 @@ const NECK_SHARE: f64 = 0.8;
 const HEAD_OVER_CHIN: f64 = 0.06;
 /// The clavicle begins at this share of the way from the middle to the shoulder joint.
 const CLAVICLE_SHARE: f64 = 0.3;
-/// Shoulder joints by ratio: height over the crotch as a share of what is above it, and distance from the axis.
-const SHOULDER_BY_RATIO: (f64, f64) = (0.62, 0.10);
+/// The clavicle lies over the shoulder joint by this share of the way from shoulder line to neck.
+const CLAVICLE_OVER: f64 = 0.3;
+/// Where no arm is seen: the shoulder line's height over the crotch, as a share of what is above that, ...
+const SHOULDER_BY_RATIO: f64 = 0.62;
+/// ... and distances from the axis of shoulder, elbow, wrist and tip of an arm held out.
+const ARM_BY_RATIO: [f64; 4] = [0.10, 0.25, 0.39, 0.48];
+/// The top of the head is as far forward as its middle this far below the crown, in heights.
+const BELOW_CROWN: f64 = 0.02;
 /// Joints whose sides agree to within this, after mirroring, are made each other's image.
 const AGREE: f64 = 0.012;
 /// Sides that differ by more than this are doubtful.
@@ -54,9 +64,17 @@ const MIRRORED: f64 = 2e-5;
 /// ... about a plane that mirrors the wrists to within this.
 const MIRRORED_WRISTS: f64 = 1e-3;
 
-/// Confidence of what a rule saw, of what rests on a doubtful reading, and of what a ratio gave.
+/// Confidence of what a rule saw, ...
 const SEEN: f64 = 0.8;
+/// ... of what follows from that by the way bodies are made, ...
+const DERIVED: f64 = 0.7;
+/// ... of legs that show inside of a skirt alone, ...
+const SEEN_INSIDE: f64 = 0.6;
+/// ... of an ankle on a leg without a slim place, ...
+const ANKLE_BY_LEG: f64 = 0.55;
+/// ... of what rests on a doubtful reading, ...
 const DOUBTFUL: f64 = 0.4;
+/// ... and of what a ratio gave.
 const RATIO: f64 = 0.2;
 
 /// An elbow is found from shoulder and wrist: it is hardly surer than the wrist.
@@ -107,7 +125,7 @@ struct Search<'a> {
 impl Search<'_> {
     fn run(mut self) -> FoundJoints {
         let view = self.view;
-        let mut legs = find_legs(view, 0.8 * view.high);
+        let mut legs = find_legs(view, LEGS_BELOW * view.high);
         let floor = HANDS_ABOVE * legs.crotch;
         let reach = [true, false].map(|left| reach(view, left, floor));
         let most = LONGER_ARM * reach[0].min(reach[1]);
@@ -137,7 +155,7 @@ impl Search<'_> {
         });
         self.put_legs(&legs, pair);
 
-        let radius = arms.iter().flatten().map(|arm| arm.radius).fold(0.02, f64::min);
+        let radius = arms.iter().flatten().map(|arm| arm.radius).fold(MOST_RADIUS, f64::min);
         let armpits = arms.iter().all(|arm| arm.as_ref().is_some_and(|arm| arm.pit_seen));
         self.put_arms(&legs, arms);
         self.settle_sides();
@@ -176,7 +194,7 @@ impl Search<'_> {
     fn put_legs(&mut self, legs: &Legs, pair: [Leg; 2]) {
         let confidence = match legs.seen {
             LegGap::Open => SEEN,
-            LegGap::Inside => 0.6,
+            LegGap::Inside => SEEN_INSIDE,
             LegGap::Unseen => RATIO,
         };
         if legs.seen == LegGap::Unseen {
@@ -186,7 +204,7 @@ impl Search<'_> {
             self.warn("no slim place was seen above the feet: ankles placed by ratio");
         }
         for (left, leg) in [true, false].into_iter().zip(pair) {
-            let ankle = if leg.ankle_seen { confidence } else { confidence.min(0.55) };
+            let ankle = if leg.ankle_seen { confidence } else { confidence.min(ANKLE_BY_LEG) };
             self.put(Role::LeftUpperLeg.on_side(left), leg.hip, confidence);
             self.put(Role::LeftLowerLeg.on_side(left), leg.knee, confidence);
             self.put(Role::LeftFoot.on_side(left), leg.ankle, ankle);
@@ -216,10 +234,9 @@ impl Search<'_> {
                 }
                 None => {
                     let above = view.high - legs.crotch;
-                    let y = legs.crotch + SHOULDER_BY_RATIO.0 * above;
+                    let y = legs.crotch + SHOULDER_BY_RATIO * above;
                     let joint = |distance: f64| view.point(left, distance, y, middle(view, y).0);
-                    let out = SHOULDER_BY_RATIO.1;
-                    ([joint(out), joint(out + 0.15), joint(out + 0.29), joint(out + 0.38)], [RATIO; 3])
+                    (ARM_BY_RATIO.map(joint), [RATIO; 3])
                 }
             };
             let joints = self.around_given(left, joints);
@@ -268,8 +285,8 @@ impl Search<'_> {
         let chest = hips + CHEST_SHARE * (neck - hips);
         let chest = given(Role::Chest).unwrap_or(chest.min(shoulder_line - APART).max(hips + 2.0 * APART));
         let spine = given(Role::Spine).unwrap_or(hips + SPINE_OF_CHEST * (chest - hips));
-        let confidence = if line.neck_seen { 0.7 } else { DOUBTFUL };
-        let trunk = if legs.seen == LegGap::Unseen { DOUBTFUL } else { 0.7 };
+        let confidence = if line.neck_seen { DERIVED } else { DOUBTFUL };
+        let trunk = if legs.seen == LegGap::Unseen { DOUBTFUL } else { DERIVED };
         if !line.neck_seen {
             self.warn("no neck was seen between shoulders and head: neck and head placed by ratio");
         }
@@ -289,12 +306,14 @@ impl Search<'_> {
         for left in [true, false] {
             let arm = self.at(Role::LeftUpperArm.on_side(left));
             let middle = on_axis(shoulder_line, SPINE_BACK);
-            let at = middle.lerp(arm, CLAVICLE_SHARE).with_y(arm.y + 0.3 * (neck - shoulder_line).max(0.0));
+            let at = middle
+                .lerp(arm, CLAVICLE_SHARE)
+                .with_y(arm.y + CLAVICLE_OVER * (neck - shoulder_line).max(0.0));
             let confidence = self.found.joints[&Role::LeftUpperArm.on_side(left)].confidence;
             self.put(Role::LeftShoulder.on_side(left), at, confidence);
         }
         self.found.chin = DVec3::new(view.axis, chin, line.chin_z);
-        let top = DVec3::new(view.axis, crown, middle(view, crown - 0.02).0);
+        let top = DVec3::new(view.axis, crown, middle(view, crown - BELOW_CROWN).0);
         self.found.tips.insert(Role::Head, top);
     }
 

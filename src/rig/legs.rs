@@ -20,8 +20,14 @@ const SLIT: usize = 2;
 const CROTCH_RANGE: (f64, f64) = (0.10, 0.62);
 /// The crotch where none is seen, as a share of the figure's height, ...
 const CROTCH_BY_RATIO: f64 = 0.47;
-/// ... and of the shoulders' height, where those are seen.
+/// ... of the shoulders' height, where those are seen, ...
 const CROTCH_OF_SHOULDERS: f64 = 0.56;
+/// ... but no higher than this share of what may be legs.
+const CROTCH_BELOW: f64 = 0.6;
+/// A run narrower than this is a sliver, no leg, ...
+const LEAST_LEG: f64 = 0.006;
+/// ... and inside of a skirt one narrower than this.
+const LEAST_LEG_INSIDE: f64 = 0.02;
 /// Legs stand within this distance of the axis.
 const LEG_REACH: f64 = 0.25;
 /// The hip joint lies above the crotch by this share of the crotch's height.
@@ -36,6 +42,29 @@ const ANKLE_OF_SLIM: f64 = 0.62;
 const ANKLE_BY_RATIO: f64 = 0.10;
 /// ... and the range in which it is believed.
 const ANKLE_RANGE: (f64, f64) = (0.06, 0.22);
+
+/// A joint lies in the middle of the sections within this distance of its height.
+const SECTION_WITHIN: f64 = 0.01;
+/// A leg without a section stands this far from the axis, as a share of the height, ...
+const LEG_BY_RATIO: f64 = 0.06;
+/// ... and is this wide from its middle, in heights.
+const LEG_HALF_WIDTH: f64 = 0.03;
+/// A shin is looked at at this share of the crotch's height, ...
+const SHIN_AT: f64 = 0.3;
+/// ... and the top of the thigh between these.
+const THIGH_RANGE: (f64, f64) = (0.90, 0.99);
+/// The foot stands where its section at this height is.
+const SOLE_AT: f64 = 0.02;
+/// The ball of the foot lies at this share of the ankle's height, ...
+const BALL_HEIGHT: f64 = 0.3;
+/// ... and of the way from the ankle to the foot's tip.
+const BALL_AHEAD: f64 = 0.65;
+/// A foot is this much thicker than the slimmest section above it, ...
+const FOOT_WIDENS: f64 = 1.15;
+/// ... and that section is not at the lower end of its range, to within this factor.
+const SLIM_MARGIN: f64 = 1.05;
+/// Where the ankle is not seen, its depth is read at this share of the crotch's height.
+const ANKLE_READ_AT: f64 = 0.35;
 
 /// A horizontal section of one leg.
 #[derive(Clone, Copy, Debug)]
@@ -147,7 +176,7 @@ pub fn find_legs(view: &FrontView, top: f64) -> Legs {
         };
     }
     let crotch = match (seen, crotch) {
-        (LegGap::Unseen, _) | (_, None) => (CROTCH_BY_RATIO * (view.high - view.low)).min(0.6 * top),
+        (LegGap::Unseen, _) | (_, None) => (CROTCH_BY_RATIO * (view.high - view.low)).min(CROTCH_BELOW * top),
         (_, Some(y)) => y,
     };
     let sections = sections(view, crotch, first, &pairs);
@@ -203,7 +232,7 @@ fn apart(view: &FrontView, row: usize) -> Option<[Limb; 2]> {
         return None;
     }
     // A sliver is no leg.
-    let least = (0.006 / view.cell()) as usize;
+    let least = (LEAST_LEG / view.cell()) as usize;
     if left.1 - left.0 < least || right.1 - right.0 < least {
         return None;
     }
@@ -261,7 +290,7 @@ fn inside(view: &FrontView, row: usize) -> Option<[Limb; 2]> {
         start.map(|start| Limb { steps: (start, end) })
     });
     let [Some(left), Some(right)] = limbs else { return None };
-    let least = (0.02 / view.cell()) as usize;
+    let least = (LEAST_LEG_INSIDE / view.cell()) as usize;
     let gap = left.steps.0 + right.steps.0;
     let near = left.steps.0.abs_diff(right.steps.0) <= 2 * off;
     (gap >= 2 && near && left.steps.1 - left.steps.0 >= least && right.steps.1 - right.steps.0 >= least)
@@ -307,22 +336,22 @@ pub fn leg(
     let length = (legs.crotch - view.low).max(1e-3);
     let at = |share: f64| view.low + share * length;
     let height_of = |y: f64| {
-        mean_section(sections, y - 0.01, y + 0.01).unwrap_or(Section {
+        mean_section(sections, y - SECTION_WITHIN, y + SECTION_WITHIN).unwrap_or(Section {
             y,
-            x: 0.06 * (view.high - view.low),
-            half_width: 0.03,
+            x: LEG_BY_RATIO * (view.high - view.low),
+            half_width: LEG_HALF_WIDTH,
             front: 0.0,
             back: 0.0,
         })
     };
     let foot: Vec<&Section> = sections.iter().filter(|s| s.y < at(ANKLE_RANGE.1)).collect();
     let Ankle { y: ankle_y, slim, seen: ankle_seen } = ankle_height(sections, view.low, length);
-    let shin = height_of(at(0.3));
+    let shin = height_of(at(SHIN_AT));
     let above_ankle = height_of(slim);
     let ankle = given_ankle.unwrap_or_else(|| view.point(left, above_ankle.x, ankle_y, above_ankle.z()));
     let hip = given_hip.unwrap_or_else(|| {
         let y = legs.crotch + HIP_OVER_CROTCH * length;
-        let top = mean_section(sections, at(0.90), at(0.99)).unwrap_or(shin);
+        let top = mean_section(sections, at(THIGH_RANGE.0), at(THIGH_RANGE.1)).unwrap_or(shin);
         let steps = (top.x / view.cell()) as usize;
         let z = view.grid.thickest(view.column(left, steps), view.grid.row(y));
         view.point(left, top.x, y, z.map_or(top.z(), |(back, front)| 0.5 * (back + front)))
@@ -333,10 +362,10 @@ pub fn leg(
         view.point(left, section.x, y, section.z())
     });
     let front = foot.iter().map(|s| s.front).fold(ankle.z, f64::max);
-    let low = height_of(view.low + 0.02);
+    let low = height_of(view.low + SOLE_AT);
     let side = |p: DVec3| (p.x - view.axis).abs();
-    let toe_y = view.low + 0.3 * (ankle.y - view.low);
-    let toe_z = ankle.z + 0.65 * (front - ankle.z);
+    let toe_y = view.low + BALL_HEIGHT * (ankle.y - view.low);
+    let toe_z = ankle.z + BALL_AHEAD * (front - ankle.z);
     let toe_x = 0.5 * (side(ankle) + low.x);
     Leg {
         hip,
@@ -367,10 +396,10 @@ fn ankle_height(sections: &[Section], low: f64, length: f64) -> Ankle {
     if let Some(slim) = lowest(&calf) {
         let least = calf.iter().map(|&(_, girth)| girth).fold(f64::INFINITY, f64::min);
         let below = sections.iter().filter(|s| s.y < slim).map(girth).fold(0.0, f64::max);
-        if below > 1.15 * least && slim > low + 1.05 * SLIM_RANGE.0 * length {
+        if below > FOOT_WIDENS * least && slim > low + SLIM_MARGIN * SLIM_RANGE.0 * length {
             return Ankle { y: believed(low + ANKLE_OF_SLIM * (slim - low)), slim, seen: true };
         }
     }
     let y = low + ANKLE_BY_RATIO * length;
-    Ankle { y, slim: low + 0.35 * length, seen: false }
+    Ankle { y, slim: low + ANKLE_READ_AT * length, seen: false }
 }

@@ -1,7 +1,26 @@
 //! From a mesh to a rig (§IV-B): a skeleton by ray casting, weights by heat or through a volume, clothes by transfer.
 //!
-//! Every stage works on a [`UnitFigure`]: x towards the character's left, y up, z forward, soles at 0, the whole figure 1
-//! high, so that no threshold depends on the unit of a file.
+//! Every stage but the first works on a [`UnitFigure`]: x towards the character's left, y up, z forward, soles at 0, the
+//! whole figure 1 high, so that no threshold depends on the unit of a file. The files in the order of the work:
+//!
+//! | File | What it gives |
+//! | --- | --- |
+//! | `facing` | the way the figure looks |
+//! | `unit_figure` | all meshes in one space, 1 high |
+//! | `mesh_kinds` | what each mesh depicts, from where it lies: `facts` about samples on it, `reach` over the figure |
+//! | `silhouette` | a grid of parallel rays and all that they meet |
+//! | `front_view` | the figure seen from the front: which meshes, its axis, its runs |
+//! | `legs` | crotch, hip joints, knees, ankles, toes |
+//! | `arms` | armpits, shoulder joints, elbows, wrists |
+//! | `head_line` | neck, chin, crown |
+//! | `hand` | fingers: the `section` at the wrist, the `region` beyond it |
+//! | `joints` | all of these put together, sides made alike, what is not seen by ratio |
+//! | `eyes` | eyeballs |
+//! | `skeleton` | joints as a tree, and the bones that weights start from |
+//! | `wholeness` | whether the surface is whole enough for heat |
+//! | `heat` | weights of a whole body; `nearest` bones and whether they are seen |
+//! | `volume`, `geodesic`, `voxel` | voxels of an open body, distances through them, weights by those |
+//! | `transfer` | weights of clothes from the `skin` below, a `fill` where it says nothing, `rigid` things |
 
 pub mod arms;
 pub mod eyes;

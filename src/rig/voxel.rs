@@ -25,9 +25,12 @@ pub struct VoxelOptions {
 impl Default for VoxelOptions {
     /// 128 voxels, a falloff of 0.2 (as the paper), all cores.
     fn default() -> Self {
-        Self { resolution: 128, falloff: 0.2, thread_count: 0 }
+        Self { resolution: 128, falloff: FALLOFF, thread_count: 0 }
     }
 }
+
+/// How fast weights fall off where nobody says.
+pub const FALLOFF: f64 = 0.2;
 
 /// A vertex in a part of the volume that no bone is in: it follows the nearest part that one is in.
 pub const VOLUME_APART: &str = "volume_apart";
@@ -75,7 +78,7 @@ pub fn voxel_weights(
         bones.iter().map(|bone| bone.segments.clone()).filter(|segments| !segments.is_empty()).collect();
     let bones = place_bones(&volume, &segments);
     let paths = Paths::new(&volume, &bones);
-    let falloff = if options.falloff.is_finite() { options.falloff.clamp(0.0, 1.0) } else { 0.2 };
+    let falloff = if options.falloff.is_finite() { options.falloff.clamp(0.0, 1.0) } else { FALLOFF };
     let profile = Profile::new(falloff);
 
     let points: Vec<DVec3> = positions.iter().map(|&p| volume.to_grid(p)).collect();

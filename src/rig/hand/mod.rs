@@ -81,7 +81,7 @@ impl Region {
         let tip = self.points[finger.tip as usize];
         let Some(way) = path.iter().rev().find_map(|&p| (tip - p).try_normalize()) else { return false };
         let beyond = tip + BEYOND_TIP * self.length * way;
-        let reach = 3.0 * self.wrist_radius;
+        let reach = RAY_REACH * self.wrist_radius;
         surface.first_hit(beyond, way, self.length).is_some() && enclosed(surface, beyond, way, reach) >= 1.0
     }
 
@@ -126,12 +126,12 @@ impl Region {
                 .clamp(0.5, 1.0);
             for (number, (role, position)) in LEFT_FINGERS[role].into_iter().zip(joints).enumerate() {
                 let sure = match number {
-                    _ if is_mitten => 0.5,
-                    0 if kept => 0.7,
-                    0 => 0.5,
-                    _ => 0.9,
+                    _ if is_mitten => UNSURE,
+                    0 if kept => SURE_KNUCKLE,
+                    0 => UNSURE,
+                    _ => SURE,
                 };
-                let within = enclosed(surface, position, ways[number], 3.0 * self.wrist_radius);
+                let within = enclosed(surface, position, ways[number], RAY_REACH * self.wrist_radius);
                 hand.joints.insert(role, FoundJoint { position, confidence: sure * seen * within });
             }
             hand.tips.insert(LEFT_FINGERS[role][2], path[path.len() - 1]);
@@ -217,8 +217,7 @@ impl Region {
             }
             path[0] - left * way
         };
-        // The knuckle lies where knuckles do, even if the fingers are cut too deep or not deep enough.
-        let [least, most] = if thumb { [0.15, 0.5] } else { [0.4, 0.66] };
+        let [least, most] = if thumb { THUMB_RANGE } else { KNUCKLE_RANGE };
         let reach = tip - self.wrist;
         let place = |scale: f64| {
             (at(shares[0] * scale * free) - self.wrist).dot(reach) / reach.length_squared().max(1e-18)
@@ -247,6 +246,25 @@ const THUMB_JOINTS: [f64; 3] = [2.2, 1.55, 0.75];
 
 /// Joints of a mitten from its tip.
 const MITTEN_JOINTS: [f64; 3] = [1.0, 0.55, 0.28];
+
+/// The knuckle lies between these shares of the way from wrist to tip, even if fingers are cut too deep or not deep enough:
+/// a finger's, ...
+const KNUCKLE_RANGE: [f64; 2] = [0.4, 0.66];
+
+/// ... and a thumb's.
+const THUMB_RANGE: [f64; 2] = [0.15, 0.5];
+
+/// Confidence of a joint within a finger that stands out clearly, ...
+const SURE: f64 = 0.9;
+
+/// ... of its knuckle, ...
+const SURE_KNUCKLE: f64 = 0.7;
+
+/// ... of a knuckle out of place, and of mittens.
+const UNSURE: f64 = 0.5;
+
+/// Rays around a joint reach this many radii of the wrist.
+const RAY_REACH: f64 = 3.0;
 
 /// How much the way to the wrist counts beside the finger's own for what lies inside the palm.
 const WRIST_BEND: f64 = 0.5;

@@ -40,6 +40,15 @@ pub(super) const LEAST_PERSISTENCE: f64 = 0.1;
 /// ... and is this far from the wrist: cuffs are nearer.
 const LEAST_REACH: f64 = 0.35;
 
+/// A hand is looked for within this many lengths of the forearm, ...
+const REACH: f64 = 1.5;
+
+/// ... but no less and no more than this, in heights: sleeves hide elbows.
+const REACH_RANGE: (f64, f64) = (0.12, 0.3);
+
+/// What ends within this share of that reach does not go on outside: it belongs to the hand.
+const ENDS_WITHIN: f64 = 0.95;
+
 /// Fingers part further from the wrist than this share of the hand's length: what parts nearer is worn on the wrist.
 const LEAST_WEB: f64 = 0.12;
 
@@ -61,7 +70,7 @@ impl Region {
     ) -> Option<Self> {
         let along = (wrist - elbow).try_normalize()?;
         let forearm = wrist.distance(elbow);
-        let reach = (1.5 * forearm).clamp(0.12, 0.3);
+        let reach = (REACH * forearm).clamp(REACH_RANGE.0, REACH_RANGE.1);
         let section = Section::new(positions, triangles, wrist, along, reach)?;
         let is_near = |p: DVec3| {
             // The section's middle lies in the plane through the wrist, which parts what is cut from what is not.
@@ -129,7 +138,9 @@ impl Region {
             if vertices.iter().any(|&vertex| self.is_start[vertex as usize]) {
                 joined.extend(vertices);
             } else if vertices.len() > 3
-                && vertices.iter().all(|&v| self.points[v as usize].distance(self.wrist) < 0.95 * reach)
+                && vertices
+                    .iter()
+                    .all(|&v| self.points[v as usize].distance(self.wrist) < ENDS_WITHIN * reach)
             {
                 waiting.push(piece);
             }

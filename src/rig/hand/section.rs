@@ -8,6 +8,10 @@ use std::f64::consts::TAU;
 /// Outlines below this share of the radius of one around the wrist are no arms.
 const SLIVER: f64 = 0.3;
 
+/// Outlines whose middles are nearer than this share of the greater radius lie in each other: an arm in its sleeve, a ball
+/// in its socket.
+const IN_EACH_OTHER: f64 = 0.7;
+
 /// What a plane through the wrist cuts.
 pub(super) struct Section {
     pub(super) centre: DVec3,
@@ -94,7 +98,7 @@ impl Section {
             .reduce(|one, other| if other.distance < one.distance { other } else { one })?;
         outlines.retain(|_, outline| {
             let apart = outline.centre().distance(nearest.centre());
-            apart < 0.7 * outline.radius().max(nearest.radius())
+            apart < IN_EACH_OTHER * outline.radius().max(nearest.radius())
         });
         let radius = outlines.values().map(Outline::radius).fold(0.0, f64::max);
         let length: f64 = outlines.values().map(|outline| outline.length).sum();

@@ -22,6 +22,13 @@ const LAYER_GAP: f64 = 0.02;
 /// A mesh of which this share lies over another one covers it.
 const COVER_SHARE: f64 = 0.15;
 
+/// What has less than this share of a mesh's area is a crumb beside it, which it does not lie over.
+const CRUMB: f64 = 0.1;
+
+/// How far points of a sequence step along both sides of a triangle: the golden ratio of the plane spreads them evenly,
+/// whatever triangles they fall on (Roberts, The unreasonable effectiveness of quasirandom sequences, 2018).
+const GOLDEN: (f64, f64) = (0.754_877_666_246_692_7, 0.569_840_290_998_053_3);
+
 /// A point on a mesh, and what is around it.
 pub(super) struct Sample {
     pub(super) point: DVec3,
@@ -121,7 +128,7 @@ impl<'a> Scene<'a> {
     /// The share of a mesh that lies over others that are no crumbs beside it.
     pub(super) fn layer_share(&self, mesh: usize) -> f64 {
         let facts = &self.facts[mesh];
-        facts.share(|sample| sample.over.is_some_and(|below| self.facts[below].area > 0.1 * facts.area))
+        facts.share(|sample| sample.over.is_some_and(|below| self.facts[below].area > CRUMB * facts.area))
     }
 
     /// The share of a mesh that lies within others larger than itself.
@@ -160,9 +167,8 @@ pub(super) fn points_on(figure: &UnitFigure, mesh: usize, count: usize) -> Vec<(
     for (corners, normal) in triangles.iter().zip(&normals) {
         passed += normal.length();
         while next < passed && points.len() < count {
-            // The golden ratios of the plane spread points evenly, whatever triangles they fall on.
             let turn = points.len() as f64 + 0.5;
-            let (u, v) = ((turn * 0.754_877_666_246_692_7).fract(), (turn * 0.569_840_290_998_053_3).fract());
+            let (u, v) = ((turn * GOLDEN.0).fract(), (turn * GOLDEN.1).fract());
             let (u, v) = if u + v > 1.0 { (1.0 - u, 1.0 - v) } else { (u, v) };
             let [a, b, c] = corners.map(|vertex| figure.positions[vertex as usize]);
             points.push((a + u * (b - a) + v * (c - a), normal.normalize_or_zero()));

@@ -46,6 +46,61 @@ const HAIR_SHARE: f64 = 0.35;
 /// Shares this near to a threshold are doubtful.
 const DOUBT: f64 = 0.12;
 
+/// A head's joint lies no further over the chin than this share of what is above it: in the middle of the head.
+const JOINT_OVER_CHIN: f64 = 0.35;
+
+/// A volume that carries a limb has a far side of its own on this share, ...
+const VOLUME_SHARE: f64 = 0.4;
+
+/// ... and its like on the other side on this share.
+const MIRRORED_SHARE: f64 = 0.6;
+
+/// The trunk lies above this height: between legs there is nothing of it.
+const TRUNK_ABOVE: f64 = 0.3;
+
+/// A neck is looked for below so many slices from the top, ...
+const LEAST_HEAD_SLICES: usize = 6;
+
+/// ... where a slice is wider than this times the widest one of the head.
+const SHOULDERS_WIDEN: f64 = 1.35;
+
+/// A head is at least this high.
+const LEAST_HEAD: f64 = 0.05;
+
+/// What lies within the head begins no further below its chin than this, in lengths of the head: teeth reach below the
+/// chin's height where that is the head joint's, ...
+const TEETH_BELOW: f64 = 0.25;
+
+/// ... and is no larger than this.
+const MOST_FACE_PART: f64 = 0.8;
+
+/// What lies on the face begins no further below the chin than this, in lengths of the head, ...
+const FACE_BELOW: f64 = 0.1;
+
+/// ... is no higher than this, ...
+const MOST_FACE_HEIGHT: f64 = 0.55;
+
+/// ... and has its middle below this.
+const FACE_UP_TO: f64 = 0.85;
+
+/// A head that is a mesh of its own lies above the chin on this share, ...
+const HEAD_ABOVE: f64 = 0.8;
+
+/// ... over other meshes on less than this, ...
+const HEAD_OVER: f64 = 0.3;
+
+/// ... and has a far side of its own on this.
+const HEAD_VOLUME: f64 = 0.6;
+
+/// Such a head, or hair, is or reaches this high, in lengths of the head.
+const HALF_A_HEAD: f64 = 0.5;
+
+/// Wide cloth, such as a cape, lies over the body on this share, ...
+const CLOTH_OVER: f64 = 0.2;
+
+/// ... and has a far side of its own on no more than this: it is an open sheet, and a thing is closed.
+const CLOTH_VOLUME: f64 = 0.5;
+
 /// The height of the chin where no neck is seen: 1 - 1 / 7 of a person of seven heads, and a little below.
 const CHIN: f64 = 0.84;
 
@@ -174,9 +229,9 @@ impl Scene<'_> {
         let first = is_body.clone();
         let seams = self.seams();
         self.join_seams(&mut is_body, &seams);
-        // The head's joint lies between the chin and the middle of the head.
         let chin = self.chin(&is_body, &volumes, middle);
-        let chin = head.map_or(chin, |head| chin.min(head.y).max(head.y - 0.35 * (1.0 - head.y).max(0.0)));
+        let chin = head
+            .map_or(chin, |head| chin.min(head.y).max(head.y - JOINT_OVER_CHIN * (1.0 - head.y).max(0.0)));
         let region = self.head_region(chin, head, &is_body, middle);
         self.grow_body(&mut is_body, &volumes, &region, &seams);
         for mesh in (0..count).filter(|&mesh| is_body[mesh]) {
@@ -275,8 +330,8 @@ impl Scene<'_> {
                 let on_axis = facts.low.x > middle
                     || facts.high.x < middle
                     || (facts.low.z <= axis && facts.high.z >= axis);
-                let has_volume = facts.share(|sample| sample.volume) >= 0.4;
-                facts.extent() >= LIMB && mirrored >= 0.6 && on_axis && has_volume
+                let has_volume = facts.share(|sample| sample.volume) >= VOLUME_SHARE;
+                facts.extent() >= LIMB && mirrored >= MIRRORED_SHARE && on_axis && has_volume
             })
             .filter(|&mesh| !region.is_on_face(&self.facts[mesh]))
             .map(|mesh| (mesh, slices(figure, middle, &|other| other == mesh)))
@@ -308,7 +363,9 @@ impl Scene<'_> {
         let mut depths: Vec<f64> = (0..is_body.len())
             .filter(|&mesh| is_body[mesh])
             .flat_map(|mesh| &self.facts[mesh].samples)
-            .filter(|sample| (sample.point.x - middle).abs() <= TRUNK_HALF_WIDTH && sample.point.y >= 0.3)
+            .filter(|sample| {
+                (sample.point.x - middle).abs() <= TRUNK_HALF_WIDTH && sample.point.y >= TRUNK_ABOVE
+            })
             .map(|sample| sample.point.z)
             .collect();
         depths.sort_by(f64::total_cmp);
@@ -333,7 +390,7 @@ impl Scene<'_> {
             (0..widths.len()).rev().map(|slice| (slice, widths[slice])).collect();
         let mut widest = (0usize, 0.0f64);
         for (place, &(_, width)) in top_down.iter().enumerate() {
-            if place >= 6 && width > 1.35 * widest.1 {
+            if place >= LEAST_HEAD_SLICES && width > SHOULDERS_WIDEN * widest.1 {
                 // Between the head's widest slice and here.
                 let neck = top_down[widest.0..place].iter().filter(|(_, width)| *width > 0.0);
                 let neck = neck.min_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)));
@@ -351,7 +408,12 @@ impl Scene<'_> {
         let points = skin.iter().flatten().map(|&vertex| self.figure.positions[vertex as usize]);
         let (low, high) = range(points.filter(|p| p.y > chin).map(|p| p.z));
         let middle = if low <= high { (low + high) / 2.0 } else { 0.0 };
-        HeadRegion { plane, chin, middle: head.map_or(middle, |head| head.z), length: (1.0 - chin).max(0.05) }
+        HeadRegion {
+            plane,
+            chin,
+            middle: head.map_or(middle, |head| head.z),
+            length: (1.0 - chin).max(LEAST_HEAD),
+        }
     }
 
     /// What a mesh is that is not body.
@@ -361,9 +423,9 @@ impl Scene<'_> {
         let above = facts.share(|sample| sample.point.y > region.chin);
         let doubtful = |share: f64, limit: f64| (share - limit).abs() < DOUBT;
         let inside = self.enclosed_share(mesh) >= ENCLOSED_SHARE;
-        // Teeth reach below the chin's height where that is the head joint's.
-        let at_head = facts.middle().y > region.chin - 0.25 * region.length;
-        if region.is_on_face(facts) || (inside && at_head && facts.extent() <= 0.8 * region.length) {
+        let at_head = facts.middle().y > region.chin - TEETH_BELOW * region.length;
+        if region.is_on_face(facts) || (inside && at_head && facts.extent() <= MOST_FACE_PART * region.length)
+        {
             return Guess {
                 kind: MeshKind::FacePart,
                 sure: self.enclosed_share(mesh) >= ENCLOSED_SHARE - DOUBT,
@@ -375,10 +437,15 @@ impl Scene<'_> {
             && facts.low.z < region.middle
             && facts.high.z > region.middle;
         let volume = facts.share(|sample| sample.volume);
-        if above >= 0.8 && layer < 0.3 && volume >= 0.6 && on_axis && facts.extent() >= 0.5 * region.length {
+        if above >= HEAD_ABOVE
+            && layer < HEAD_OVER
+            && volume >= HEAD_VOLUME
+            && on_axis
+            && facts.extent() >= HALF_A_HEAD * region.length
+        {
             return Guess { kind: MeshKind::Body, sure: false };
         }
-        if above >= HAIR_SHARE && facts.high.y > region.chin + 0.5 * region.length {
+        if above >= HAIR_SHARE && facts.high.y > region.chin + HALF_A_HEAD * region.length {
             return Guess {
                 kind: MeshKind::Hair,
                 sure: layer >= LAYER_SHARE && !doubtful(above, HAIR_SHARE),
@@ -399,10 +466,9 @@ impl Scene<'_> {
         let nearest = distances.iter().min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
         let from_head = nearest.is_some_and(|&(_, height)| height > region.chin);
         let over_body = facts.share(|sample| sample.over.is_some_and(|below| is_body[below]));
-        let kind = if from_head && facts.extent() >= 0.5 * region.length {
+        let kind = if from_head && facts.extent() >= HALF_A_HEAD * region.length {
             MeshKind::Hair
-        } else if furthest <= WORN || (over_body >= 0.2 && volume <= 0.5) {
-            // Wide cloth, such as a cape, is an open sheet; a thing is closed.
+        } else if furthest <= WORN || (over_body >= CLOTH_OVER && volume <= CLOTH_VOLUME) {
             MeshKind::Garment
         } else {
             MeshKind::Accessory
@@ -427,10 +493,10 @@ impl HeadRegion {
         let middle = facts.middle();
         let size = facts.high - facts.low;
         middle.y > self.chin
-            && facts.low.y > self.chin - 0.1 * self.length
+            && facts.low.y > self.chin - FACE_BELOW * self.length
             && middle.z > self.middle
-            && size.y <= 0.55 * self.length
-            && size.max_element() <= 0.8 * self.length
-            && middle.y < self.chin + 0.85 * self.length
+            && size.y <= MOST_FACE_HEIGHT * self.length
+            && size.max_element() <= MOST_FACE_PART * self.length
+            && middle.y < self.chin + FACE_UP_TO * self.length
     }
 }

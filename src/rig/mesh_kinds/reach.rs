@@ -18,6 +18,12 @@ pub(super) const SLICES: usize = 40;
 /// Half the width in which legs and trunk are looked for, in heights; arms begin beyond.
 pub(super) const TRUNK_HALF_WIDTH: f64 = 0.12;
 
+/// An arm reaches at least this far beyond the trunk, in heights: a trunk that is wider than usual is no arm.
+const LEAST_ARM: f64 = 0.05;
+
+/// The middle of the figure is the plane of symmetry unless another plane scores more than this times as much.
+const CLEARLY_BETTER: f64 = 1.05;
+
 /// The share of slices in which a whole body shows.
 const WHOLE_SHARE: f64 = 0.9;
 
@@ -55,8 +61,7 @@ pub(super) fn slices(figure: &UnitFigure, middle: f64, choose: &dyn Fn(usize) ->
             if to >= 0.0 && from <= TRUNK_HALF_WIDTH {
                 shown[side][slice(low.y)..=slice(high.y).max(slice(low.y))].fill(true);
             }
-            // A trunk that is wider than usual is no arm.
-            if to > TRUNK_HALF_WIDTH && arm > 0.05 {
+            if to > TRUNK_HALF_WIDTH && arm > LEAST_ARM {
                 let from = slice((from - TRUNK_HALF_WIDTH) / arm);
                 shown[side + 2][from..=slice((to - TRUNK_HALF_WIDTH) / arm).max(from)].fill(true);
             }
@@ -85,8 +90,7 @@ pub(super) fn middle_plane(figure: &UnitFigure, choose: &dyn Fn(usize) -> bool) 
         });
         shares.sum()
     };
-    // The middle of the unit figure, unless another one is clearly better.
-    let mut best = (1.05 * score(0.0), 0.0);
+    let mut best = (CLEARLY_BETTER * score(0.0), 0.0);
     for &largest in order.iter().take(PLANE_CANDIDATES) {
         let corners = figure.triangles_of(meshes[largest]).iter().flatten();
         let (low, high) = range(corners.map(|&vertex| figure.positions[vertex as usize].x));

@@ -12,6 +12,9 @@ const TIE: f64 = 0.01;
 /// Closest points nearer to each other than this share of their distance lie in one place, of which one counts.
 const SAME_PLACE: f64 = 0.5;
 
+/// Where the normals around a vertex leave less than this share of their sum, they are those of two sides of one cloth.
+const CANCELLED: f64 = 0.2;
+
 /// A surface that weights are taken from, as far as it does not depend on them: made once for any number of weights.
 pub struct Skin {
     pub(super) surface: Surface,
@@ -170,7 +173,7 @@ pub(super) fn normals(points: &[DVec3], triangles: &[[u32; 3]]) -> Vec<DVec3> {
             }
         }
     }
-    let cancels = |&(sum, total, _): &(DVec3, f64, DVec3)| sum.length() < 0.2 * total;
+    let cancels = |&(sum, total, _): &(DVec3, f64, DVec3)| sum.length() < CANCELLED * total;
     let mut one_sided = vec![DVec3::ZERO; points.len()];
     if sums.iter().any(cancels) {
         for corners in triangles {

@@ -8,14 +8,62 @@ use super::landmarks::{Landmarks, landmarks};
 use super::part::{Part, PartWeights, fold_to_parts};
 use crate::character::Role;
 use crate::error::Warning;
-use crate::geometry::segment::foot;
+use crate::geometry::{bounds, foot, range};
 use crate::shape::figure::Figure;
 use crate::shape::heights::Heights;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-/// A chin at or below the shoulder line still leaves this much neck, as a share of L.
+/// A chin at or below the shoulder line still leaves this much neck, as a share of L. Seen: 30 % either way moves no vertex of 14 models.
 const SHORTEST_NECK: f64 = 0.02;
+/// The head's half width is taken this far above the chin, as a share of L (D27). Seen: 0.25 meets jaws and moves
+/// vertices by up to 0.05 H, 0.46 meets the widest skulls and limits more heads.
+const HEAD_WIDTH_AT: f64 = 0.35;
+/// A head is at least this wide to either side, as a share of L: less is a hole in it. Seen: 30 % either way moves no vertex of 14 models.
+const LEAST_HEAD_WIDTH: f64 = 0.05;
+/// Its half width where none is measured, as a share of L. Seen: 30 % either way moves no vertex of 14 models.
+const HEAD_WIDTH_BY_RATIO: f64 = 0.4;
+/// The torso's width is the median of so many slices, ...
+const TORSO_SLICES: u32 = 5;
+/// ... so far apart, as a share of the way from crotch to shoulder line (D27). Seen: 30 % closer, and hips count for more:
+/// vertices move by up to 0.03 H.
+const TORSO_SLICE_STEP: f64 = 0.15;
+/// Outlines count between these quantiles, so that a strap or a pouch is no width (D27). Seen: at 0.68 above, vertices
+/// move by up to 0.03 H; a third more or less below, by 0.003 H.
+const WIDTH_QUANTILES: (f64, f64) = (0.03, 0.97);
+/// The same from back to front, for the centre line. Seen: to 0.63 only, 60 triangles more of 14 models turn over.
+const DEPTH_QUANTILES: (f64, f64) = (0.1, 0.9);
+/// An edge of an outline counts as so many points. Seen: with 3 or 5, vertices move by up to 0.009 H.
+const EDGE_POINTS: u32 = 4;
+/// A hand or a foot is at least this long, as a share of L, or it is none. Seen: 30 % either way moves no vertex of 14 models.
+const LEAST_EXTREMITY: f64 = 0.02;
+/// Lengths are at least this share of H, so that nothing is divided by 0. Seen: 30 % either way moves no vertex of 14 models.
+const LEAST_LENGTH: f64 = 0.005;
+/// Joints nearer to each other than this share of H lie on one another. Seen: 30 % either way moves no vertex of 14 models.
+const APART: f64 = 1e-3;
+/// The elbow where no joint tells, as a share of the way from shoulder to finger tips. Seen: 30 % either way moves no vertex of 14 models.
+const ELBOW_BY_RATIO: f64 = 0.45;
+/// The wrist where no joint tells, as a share of the way from elbow to finger tips (D26). Seen: 30 % either way moves no vertex of 14 models.
+const WRIST_BY_RATIO: f64 = 0.62;
+/// The knee where no joint tells, as a share of the leg below the crotch. Seen: 30 % either way moves no vertex of 14 models.
+const KNEE_BY_RATIO: f64 = 0.48;
+/// The ankle where no joint tells, as a share of the leg above the sole (D26). Seen: a third more or less moves one model
+/// of 14, by 0.006 H.
+const ANKLE_BY_RATIO: f64 = 0.1;
+/// Knees lie at least this share of the leg below the crotch, and ankles below knees. Seen: 30 % either way moves no vertex of 14 models.
+const LEAST_SEGMENT: f64 = 0.1;
+/// A foot joint nearer to the sole than this share of the leg is not an ankle. Seen: Quaternius' feet lie on the sole; at
+/// 0.014 one of them counts, at 0.026 one ankle more is a ratio.
+const LEAST_ANKLE: f64 = 0.02;
+/// A foot joint further aside from the knee than this share of the leg is the root of an IK chain. Seen: 30 % either way moves no vertex of 14 models.
+const FOOT_ASIDE: f64 = 0.35;
+/// A limb's radius is measured between these shares of its bone: joints bulge (D27). Seen: from 0 on, or to 0.56 only,
+/// vertices move by up to 0.04 H.
+const RADIUS_RANGE: (f64, f64) = (0.2, 0.8);
+/// Slices of the torso's centre line. Seen: 9 or 17 move vertices by up to 0.01 H.
+const CENTRE_SLICES: usize = 13;
+/// Each point of the centre line is a mean over so many to either side (D28: the smoothed centre line).
+const CENTRE_SMOOTHED: usize = 2;
 
 /// An arm from shoulder to wrist, or a leg from the height of the crotch to the ankle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -125,7 +173,7 @@ impl Anatomy {
                     && figure.extra_weight[vertex] < 0.5
                     && !figure.is_carried(vertex)
             });
-            let measurable = slice(figure, &bare, 0.5 * (heights.crotch + heights.shoulder_line), 0.03, 0.97);
+            let measurable = slice(figure, &bare, 0.5 * (heights.crotch + heights.shoulder_line));
             if measurable.is_some() { bare } else { own(Part::Torso as usize) }
         };
         let head_joint = figure.role_position(Role::Head).unwrap_or_default();
@@ -136,14 +184,14 @@ impl Anatomy {
         let head_centre = centre(figure, &head).unwrap_or(DVec3::new(middle_x, heights.crown, head_joint.z));
 
         let length = heights.head_length();
-        let head_half_width = slice(figure, &head, heights.chin + 0.35 * length, 0.03, 0.97)
+        let head_half_width = slice(figure, &head, heights.chin + HEAD_WIDTH_AT * length)
             .map(|slice| slice.half_width)
-            .filter(|&half| half > 0.05 * length)
-            .unwrap_or(0.4 * length);
+            .filter(|&half| half > LEAST_HEAD_WIDTH * length)
+            .unwrap_or(HEAD_WIDTH_BY_RATIO * length);
         let (bottom, top) = (heights.crotch, heights.shoulder_line);
-        let mut widths: Vec<f64> = (1..=5)
+        let mut widths: Vec<f64> = (1..=TORSO_SLICES)
             .filter_map(|step| {
-                slice(figure, &torso, bottom + 0.15 * f64::from(step) * (top - bottom), 0.03, 0.97)
+                slice(figure, &torso, bottom + TORSO_SLICE_STEP * f64::from(step) * (top - bottom))
             })
             .map(|slice| slice.half_width)
             .collect();
@@ -160,12 +208,14 @@ impl Anatomy {
                     .filter(|&vertex| parts[vertex][limb.parts[2]] > 0.5 && !figure.is_carried(vertex))
                     .map(|vertex| figure.positions[vertex])
                     .collect();
-                (points.len() > 2).then(|| reach(limb, &points)).filter(|&reach| reach > 0.02 * length)
+                (points.len() > 2)
+                    .then(|| reach(limb, &points))
+                    .filter(|&reach| reach > LEAST_EXTREMITY * length)
             }))
         };
         let (arms, legs) = limbs.split_at(2);
         // Joints that lie on one another leave a sliver, so that nothing is divided by 0.
-        let least = 0.005 * figure.height();
+        let least = LEAST_LENGTH * figure.height();
         let proportions = Proportions {
             head_length: length,
             head_half_width,
@@ -179,9 +229,7 @@ impl Anatomy {
                 points.iter().map(|p| (*p - limb.end).dot(along)).fold(0.0, f64::max)
             }),
             foot: extremity(legs, &|_, points| {
-                let (low, high) = points
-                    .iter()
-                    .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| (low.min(p.z), high.max(p.z)));
+                let (low, high) = range(points.iter().map(|p| p.z));
                 high - low
             }),
             torso_half_width: widths.get(widths.len() / 2).copied(),
@@ -229,12 +277,7 @@ fn mean(values: impl Iterator<Item = f64>) -> Option<f64> {
 }
 
 fn centre(figure: &Figure, triangles: &[[u32; 3]]) -> Option<DVec3> {
-    let mut low = DVec3::INFINITY;
-    let mut high = DVec3::NEG_INFINITY;
-    for &vertex in triangles.iter().flatten() {
-        low = low.min(figure.positions[vertex as usize]);
-        high = high.max(figure.positions[vertex as usize]);
-    }
+    let (low, high) = bounds(triangles.iter().flatten().map(|&vertex| figure.positions[vertex as usize]));
     (low.x <= high.x).then(|| (low + high) / 2.0)
 }
 
@@ -252,14 +295,13 @@ fn arm(figure: &Figure, parts: &[PartWeights], left: bool) -> Limb {
         .map(|vertex| figure.positions[vertex])
         .max_by(|a, b| a.distance_squared(root).total_cmp(&b.distance_squared(root)))
         .unwrap_or(root);
-    let apart = |a: DVec3, b: DVec3| a.distance(b) > 1e-3 * figure.height();
+    let apart = |a: DVec3, b: DVec3| a.distance(b) > APART * figure.height();
     let middle = elbow.filter(|&elbow| apart(elbow, root)).unwrap_or_else(|| match wrist {
         Some(wrist) => root.lerp(wrist, 0.5),
-        None => root.lerp(tip, 0.45),
+        None => root.lerp(tip, ELBOW_BY_RATIO),
     });
     let end = wrist.filter(|&wrist| apart(wrist, middle));
-    // No hand joint, wrist at 62 % from the elbow to the tip.
-    let end_or_ratio = end.unwrap_or_else(|| middle.lerp(tip, 0.62));
+    let end_or_ratio = end.unwrap_or_else(|| middle.lerp(tip, WRIST_BY_RATIO));
     Limb { parts: indices, root, middle, end: end_or_ratio, end_is_joint: end.is_some() }
 }
 
@@ -270,20 +312,22 @@ fn leg(figure: &Figure, heights: Heights, left: bool) -> Limb {
     let hip = figure.role_position(side(LeftUpperLeg)).unwrap_or_default();
     let root = DVec3::new(hip.x, heights.crotch, hip.z);
     let length = heights.crotch - heights.sole;
-    let between = |y: f64| y > heights.sole + 0.02 * length && y < heights.crotch - 0.1 * length;
+    let between =
+        |y: f64| y > heights.sole + LEAST_ANKLE * length && y < heights.crotch - LEAST_SEGMENT * length;
     let foot_joint = figure.role_position(side(LeftFoot));
     let knee = figure.role_position(side(LeftLowerLeg)).filter(|knee| between(knee.y)).unwrap_or_else(|| {
         match foot_joint.filter(|foot| between(foot.y)) {
             Some(foot) => root.lerp(foot, 0.5),
-            None => root - DVec3::Y * (0.48 * length),
+            None => root - DVec3::Y * (KNEE_BY_RATIO * length),
         }
     });
     // A foot joint may be missing, lie on the sole, or be the far root of an IK chain.
-    let near = |foot: &DVec3| (*foot - knee).with_y(0.0).length() < 0.35 * length;
-    let end = foot_joint
-        .filter(|foot| near(foot) && foot.y < knee.y - 0.1 * length && foot.y > heights.sole + 0.02 * length);
+    let near = |foot: &DVec3| (*foot - knee).with_y(0.0).length() < FOOT_ASIDE * length;
+    let end = foot_joint.filter(|foot| {
+        near(foot) && foot.y < knee.y - LEAST_SEGMENT * length && foot.y > heights.sole + LEAST_ANKLE * length
+    });
     let ankle = end.unwrap_or_else(|| {
-        let y = heights.sole + 0.1 * length;
+        let y = heights.sole + ANKLE_BY_RATIO * length;
         let x = match foot_joint.filter(near) {
             Some(foot) if foot.y < y => knee.x + (foot.x - knee.x) * (knee.y - y) / (knee.y - foot.y),
             _ => knee.x,
@@ -300,9 +344,8 @@ struct Slice {
     middle_z: f64,
 }
 
-/// Cuts `triangles` at height `y`; extents are the `low` and `high` quantiles of the outline by its length, so that a
-/// strap or a pouch does not count.
-fn slice(figure: &Figure, triangles: &[[u32; 3]], y: f64, low: f64, high: f64) -> Option<Slice> {
+/// Cuts `triangles` at height `y`; extents are quantiles of the outline by its length.
+fn slice(figure: &Figure, triangles: &[[u32; 3]], y: f64) -> Option<Slice> {
     let mut outline: Vec<(DVec3, f64)> = Vec::new();
     for corners in triangles {
         let p = corners.map(|vertex| figure.positions[vertex as usize]);
@@ -317,8 +360,9 @@ fn slice(figure: &Figure, triangles: &[[u32; 3]], y: f64, low: f64, high: f64) -
         if count == 2 {
             // A long edge counts along its whole length, not at its middle alone.
             let length = cut[0].distance(cut[1]);
-            for step in 0..4 {
-                outline.push((cut[0].lerp(cut[1], (f64::from(step) + 0.5) / 4.0), length / 4.0));
+            let count = f64::from(EDGE_POINTS);
+            for step in 0..EDGE_POINTS {
+                outline.push((cut[0].lerp(cut[1], (f64::from(step) + 0.5) / count), length / count));
             }
         }
     }
@@ -328,7 +372,7 @@ fn slice(figure: &Figure, triangles: &[[u32; 3]], y: f64, low: f64, high: f64) -
     }
     // Interpolated between the outline's points: else the order of the triangles, which changes the last digits of the
     // sums, could move a quantile to the next point.
-    let mut quantiles = |axis: fn(&DVec3) -> f64, low: f64, high: f64| {
+    let mut quantiles = |axis: fn(&DVec3) -> f64, (low, high): (f64, f64)| {
         outline.sort_by(|a, b| axis(&a.0).total_cmp(&axis(&b.0)));
         let at = |share: f64| {
             let wanted = share * total;
@@ -351,19 +395,19 @@ fn slice(figure: &Figure, triangles: &[[u32; 3]], y: f64, low: f64, high: f64) -
         };
         (at(low), at(high))
     };
-    let (left, right) = quantiles(|p| p.x, low, high);
-    let (back, front) = quantiles(|p| p.z, 0.1, 0.9);
+    let (left, right) = quantiles(|p| p.x, WIDTH_QUANTILES);
+    let (back, front) = quantiles(|p| p.z, DEPTH_QUANTILES);
     Some(Slice { half_width: (right - left) / 2.0, middle_z: (back + front) / 2.0 })
 }
 
-/// Area-weighted mean distance of `triangles` to the line a-b, over 20 % to 80 % of it.
+/// Area-weighted mean distance of `triangles` to the line a-b, over the middle of it.
 fn surface_radius(figure: &Figure, triangles: &[[u32; 3]], a: DVec3, b: DVec3) -> Option<f64> {
     let (mut sum, mut area_sum) = (0.0, 0.0);
     for corners in triangles {
         let p = corners.map(|vertex| figure.positions[vertex as usize]);
         let centroid = (p[0] + p[1] + p[2]) / 3.0;
         let (on_bone, t) = foot(centroid, a, b);
-        if (0.2..=0.8).contains(&t) {
+        if (RADIUS_RANGE.0..=RADIUS_RANGE.1).contains(&t) {
             let area = (p[1] - p[0]).cross(p[2] - p[0]).length();
             sum += area * centroid.distance(on_bone);
             area_sum += area;
@@ -374,12 +418,11 @@ fn surface_radius(figure: &Figure, triangles: &[[u32; 3]], a: DVec3, b: DVec3) -
 
 /// The torso's centre line from the crotch to the shoulder line, smoothed.
 fn centre_line(figure: &Figure, torso: &[[u32; 3]], heights: Heights) -> Vec<(f64, f64)> {
-    const SLICES: usize = 13;
     let (bottom, top) = (heights.crotch, heights.shoulder_line);
-    let raw: Vec<(f64, f64)> = (0..SLICES)
+    let raw: Vec<(f64, f64)> = (0..CENTRE_SLICES)
         .filter_map(|index| {
-            let y = bottom + (top - bottom) * index as f64 / (SLICES - 1) as f64;
-            slice(figure, torso, y, 0.03, 0.97).map(|slice| (y, slice.middle_z))
+            let y = bottom + (top - bottom) * index as f64 / (CENTRE_SLICES - 1) as f64;
+            slice(figure, torso, y).map(|slice| (y, slice.middle_z))
         })
         .collect();
     if raw.len() < 2 {
@@ -388,7 +431,8 @@ fn centre_line(figure: &Figure, torso: &[[u32; 3]], heights: Heights) -> Vec<(f6
     }
     (0..raw.len())
         .map(|index| {
-            let near = &raw[index.saturating_sub(2)..(index + 3).min(raw.len())];
+            let near =
+                &raw[index.saturating_sub(CENTRE_SMOOTHED)..(index + CENTRE_SMOOTHED + 1).min(raw.len())];
             (raw[index].0, near.iter().map(|point| point.1).sum::<f64>() / near.len() as f64)
         })
         .collect()

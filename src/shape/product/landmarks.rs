@@ -6,7 +6,7 @@
 use crate::character::Role;
 use crate::error::Warning;
 use crate::geometry::surface::Surface;
-use crate::geometry::{StepSearch, deepest_step};
+use crate::geometry::{StepSearch, bounds, deepest_step};
 use crate::shape::figure::{Figure, extent};
 use crate::shape::heights::Heights;
 use glam::DVec3;
@@ -226,12 +226,7 @@ fn soles(figure: &Figure) -> Vec<u32> {
 
 /// Middle and half extent in x and z of the vertices that `triangles` use.
 fn middle(positions: &[DVec3], triangles: &[[u32; 3]]) -> Option<(DVec3, DVec3)> {
-    let mut low = DVec3::INFINITY;
-    let mut high = DVec3::NEG_INFINITY;
-    for &vertex in triangles.iter().flatten() {
-        low = low.min(positions[vertex as usize]);
-        high = high.max(positions[vertex as usize]);
-    }
+    let (low, high) = bounds(triangles.iter().flatten().map(|&vertex| positions[vertex as usize]));
     (low.x <= high.x).then(|| ((low + high) / 2.0, (high - low) / 2.0))
 }
 

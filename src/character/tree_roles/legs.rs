@@ -1,0 +1,155 @@
+//! Legs in a tree of joints: a pair of like branches that reach the ground.
+
+use super::tree::{POINTS_OF_HALVES, POINTS_OF_STUMP, STUMP, TINY, Tree};
+use glam::DVec3;
+
+/// A leg begins above this height, ...
+const LEG_BEGINS_ABOVE: f64 = 0.08;
+/// ... reaches below this one, ...
+const LEG_ENDS_BELOW: f64 = 0.3;
+/// ... and its lower end is at least this far from the other's; all in heights of the figure.
+const LEGS_APART: f64 = 0.02;
+
+/// Points of a pair of legs: the share of weights that it carries, up to this; ...
+const LEGS_CARRY: f64 = 0.4;
+/// ... for each leg with a joint below the first; ...
+const POINTS_OF_KNEE: f64 = 0.1;
+/// ... against it, times how far both end over the ground, how unlike their beginnings and how unlike their ends are; ...
+const POINTS_OF_GROUND: f64 = 2.0;
+/// ... and times how far the first begins above half of the figure: capes and long hair reach the ground from above.
+const POINTS_OF_HEIGHT: f64 = 0.5;
+
+/// A first joint of a leg that is nearer to the middle than this share of the next one's distance, ...
+const PELVIS_ASIDE: f64 = 0.4;
+/// ... and to that one than this, in heights, is a joint of the pelvis.
+const PELVIS_REACH: f64 = 0.12;
+/// Points against a leg for each joint between hip joint, knee and ankle that is left out.
+const POINTS_OF_LEG_GAP: f64 = 0.25;
+
+/// An ankle lies at this share of the hip joint's height, give or take ...
+const ANKLE_LEVEL: f64 = 0.15;
+/// ... this much; ...
+const ANKLE_SLACK: f64 = 0.1;
+/// ... points against it, times how far it lies beyond.
+const POINTS_OF_ANKLE: f64 = 2.0;
+
+/// Points against a hip joint that is a joint of the pelvis, or is not beside one.
+const POINTS_OF_PELVIS: f64 = 0.4;
+
+/// A foot that hangs elsewhere is no further from a leg's end than this share of the leg.
+const LOOSE_FOOT_REACH: f64 = 0.35;
+
+impl Tree<'_> {
+    /// The two children of one joint that look most like a pair of legs.
+    pub(super) fn legs(&self) -> Option<(usize, usize)> {
+        let lowest = |joint: usize| (self.low[joint] - self.ground) / self.height;
+        let mut best: Option<(f64, usize, usize)> = None;
+        for children in (0..self.position.len()).map(|joint| self.live(joint)) {
+            for (place, &a) in children.iter().enumerate() {
+                for &b in &children[place + 1..] {
+                    let high_enough = self.level(a) >= LEG_BEGINS_ABOVE && self.level(b) >= LEG_BEGINS_ABOVE;
+                    let grounded = lowest(a) < LEG_ENDS_BELOW && lowest(b) < LEG_ENDS_BELOW;
+                    let apart = self.lower_ends_distance(a, b) > LEGS_APART * self.height;
+                    if !(high_enough && grounded && apart) {
+                        continue;
+                    }
+                    let start = self.level(a) - self.level(b);
+                    let segments = |joint| f64::from(u8::from(!self.live(joint).is_empty()));
+                    let score = (self.carried[a] + self.carried[b]).min(LEGS_CARRY)
+                        - POINTS_OF_GROUND * (lowest(a) + lowest(b))
+                        - POINTS_OF_GROUND * start.abs()
+                        - POINTS_OF_GROUND * (lowest(a) - lowest(b)).abs()
+                        - (self.reach[a] - self.reach[b]).abs() / self.height
+                        + POINTS_OF_KNEE * (segments(a) + segments(b))
+                        - POINTS_OF_HEIGHT * (self.level(a) - 0.5).max(0.0);
+                    if best.is_none_or(|(known, _, _)| score > known) {
+                        best = Some((score, a, b));
+                    }
+                }
+            }
+        }
+        best.map(|(_, a, b)| (a, b))
+    }
+
+    /// How far apart the lower ends of two branches are across up.
+    pub(super) fn lower_ends_distance(&self, a: usize, b: usize) -> f64 {
+        let end = |top: usize| {
+            let path = self.downward(top);
+            let last = path.last().copied().unwrap_or(top);
+            self.center[last].unwrap_or(self.position[last])
+        };
+        (end(a) - end(b)).reject_from(self.up).length()
+    }
+
+    /// From the top of a leg, always to the child that reaches lowest and moves most.
+    pub(super) fn downward(&self, top: usize) -> Vec<usize> {
+        self.follow(top, |tree, child| {
+            tree.carried[child] / tree.carried[top].max(TINY) - (tree.low[child] - tree.ground) / tree.height
+        })
+    }
+
+    /// Upper leg, lower leg, foot and toes along the way down from `top`; `other` is the other leg's top.
+    pub(super) fn split_leg(&self, top: usize, other: usize) -> [Option<usize>; 4] {
+        let chain = self.downward(top);
+        match chain[..] {
+            [upper] => return [Some(upper), None, None, None],
+            [upper, lower] => return [Some(upper), Some(lower), self.loose_foot(upper, lower), None],
+            _ => {}
+        }
+        let point = |place: usize| self.position[chain[place]];
+        let along = |place: usize| point(place).dot(self.up) - self.ground;
+        // A joint of the pelvis lies nearer to the middle than the hip joint does.
+        let middle = (self.position[top] + self.position[other]) / 2.0;
+        let aside = |place: usize| (point(place) - middle).reject_from(self.up).length();
+        let pelvis_first =
+            aside(0) < PELVIS_ASIDE * aside(1) && point(0).distance(point(1)) < PELVIS_REACH * self.height;
+        let mut best = (f64::INFINITY, [0, 1, 2]);
+        for hip in 0..2.min(chain.len() - 2) {
+            for knee in hip + 1..chain.len() - 1 {
+                for ankle in knee + 1..chain.len() {
+                    let upper = point(hip).distance(point(knee));
+                    let lower = point(knee).distance(point(ankle));
+                    let whole = (upper + lower).max(TINY);
+                    let stump = upper.min(lower) < STUMP * whole;
+                    let ankle_level = along(ankle) / along(hip).max(TINY);
+                    let score = POINTS_OF_HALVES * (upper / whole - 0.5).abs()
+                        + POINTS_OF_ANKLE * ((ankle_level - ANKLE_LEVEL).abs() - ANKLE_SLACK).max(0.0)
+                        + (1.0 - (along(hip) - along(ankle)) / whole)
+                        + if (hip > 0) == pelvis_first { 0.0 } else { POINTS_OF_PELVIS }
+                        + if stump { POINTS_OF_STUMP } else { 0.0 }
+                        + POINTS_OF_LEG_GAP * (ankle - hip - 2) as f64;
+                    if score < best.0 {
+                        best = (score, [hip, knee, ankle]);
+                    }
+                }
+            }
+        }
+        let [hip, knee, ankle] = best.1;
+        let toes = chain.get(ankle + 1).copied();
+        [Some(chain[hip]), Some(chain[knee]), Some(chain[ankle]), toes]
+    }
+
+    /// A foot that hangs elsewhere, near the end of a leg that has none (rigs with IK).
+    pub(super) fn loose_foot(&self, upper: usize, lower: usize) -> Option<usize> {
+        let shin = self.position[lower] - self.position[upper];
+        let end = self.children[lower]
+            .iter()
+            .map(|&child| self.position[child])
+            .max_by(|a, b| {
+                let along = |p: &DVec3| (*p - self.position[lower]).dot(shin);
+                along(a).total_cmp(&along(b))
+            })
+            .unwrap_or(self.position[lower] + shin);
+        let parent = self.skeleton.joints[upper].parent;
+        let leg = 2.0 * shin.length();
+        (0..self.position.len())
+            .filter(|&joint| {
+                self.moves(joint)
+                    && parent.is_none_or(|parent| !self.within(joint, parent))
+                    && !self.within(lower, joint)
+                    && self.position[joint].distance(end) < LOOSE_FOOT_REACH * leg
+                    && self.position[joint].dot(self.up) < self.position[lower].dot(self.up)
+            })
+            .min_by(|&a, &b| self.position[a].distance(end).total_cmp(&self.position[b].distance(end)))
+    }
+}

@@ -1,0 +1,160 @@
+//! A tree of joints with what hangs from each.
+
+use crate::character::{Mesh, Skeleton};
+use glam::DVec3;
+
+/// A joint moves something where what hangs from it has more than this share of all weights.
+const LEAST_CARRIED: f64 = 1e-7;
+
+/// Of a thigh and a shin, or an upper arm and a forearm, neither is shorter than this share of both.
+pub(super) const STUMP: f64 = 0.15;
+
+/// Points against a limb with such a stump, ...
+pub(super) const POINTS_OF_STUMP: f64 = 1.0;
+/// ... and against one whose halves differ, times how much.
+pub(super) const POINTS_OF_HALVES: f64 = 1.5;
+
+/// Nothing is divided by less than this.
+pub(super) const TINY: f64 = 1e-9;
+
+/// What the search knows of each joint.
+pub(super) struct Tree<'a> {
+    pub(super) skeleton: &'a Skeleton,
+    pub(super) children: Vec<Vec<usize>>,
+    pub(super) position: Vec<DVec3>,
+    pub(super) up: DVec3,
+    pub(super) ground: f64,
+    /// From the ground to the highest point.
+    pub(super) height: f64,
+    /// Sum of the weights to the joint itself, over the sum of all.
+    pub(super) own: Vec<f64>,
+    /// The same, with everything below it.
+    pub(super) carried: Vec<f64>,
+    /// Lowest and highest point of what hangs from the joint, itself included, along up.
+    pub(super) low: Vec<f64>,
+    pub(super) high: Vec<f64>,
+    /// The distance from the joint to the farthest point of what hangs from it.
+    pub(super) reach: Vec<f64>,
+    /// Mean of the vertices that follow the joint itself most, where there are any.
+    pub(super) center: Vec<Option<DVec3>>,
+    pub(super) weighted: bool,
+}
+
+impl<'a> Tree<'a> {
+    pub(super) fn new(skeleton: &'a Skeleton, meshes: &[Mesh], up: DVec3) -> Option<Self> {
+        let count = skeleton.joints.len();
+        let position: Vec<DVec3> = skeleton.joints.iter().map(|joint| joint.position()).collect();
+        let mut own = vec![0.0; count];
+        let mut low: Vec<f64> = position.iter().map(|p| p.dot(up)).collect();
+        let mut high = low.clone();
+        let mut reach = vec![0.0_f64; count];
+        let mut sums = vec![(DVec3::ZERO, 0.0); count];
+        let (mut ground, mut top) = (f64::INFINITY, f64::NEG_INFINITY);
+        let order = skeleton.parents_first();
+        for mesh in meshes {
+            for (point, row) in mesh.positions.iter().zip(mesh.weights.rows()) {
+                let point = point.as_dvec3();
+                if !point.is_finite() {
+                    continue;
+                }
+                let row = || row.iter().filter(|&&(joint, _)| (joint as usize) < count);
+                for &(joint, weight) in row() {
+                    own[joint as usize] += f64::from(weight).max(0.0);
+                }
+                let Some(&(joint, _)) = row().max_by(|a, b| a.1.total_cmp(&b.1)) else {
+                    continue;
+                };
+                let joint = joint as usize;
+                let along = point.dot(up);
+                ground = ground.min(along);
+                top = top.max(along);
+                low[joint] = low[joint].min(along);
+                high[joint] = high[joint].max(along);
+                sums[joint].0 += point;
+                sums[joint].1 += 1.0;
+                for above in skeleton.ancestors(joint) {
+                    reach[above] = reach[above].max(point.distance(position[above]));
+                }
+            }
+        }
+        let total: f64 = own.iter().sum();
+        let weighted = total > 0.0;
+        if !weighted {
+            own = vec![1.0 / count as f64; count];
+        } else {
+            own.iter_mut().for_each(|weight| *weight /= total);
+        }
+        let mut carried = own.clone();
+        for &joint in order.iter().rev() {
+            if let Some(parent) = skeleton.joints[joint].parent {
+                carried[parent] += carried[joint];
+            }
+        }
+        if !weighted {
+            ground = low.iter().copied().fold(f64::INFINITY, f64::min);
+            top = high.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        }
+        for &joint in order.iter().rev() {
+            if let Some(parent) = skeleton.joints[joint].parent {
+                // Joints that carry nothing may be handles far away from the body; near ends still tell a limb's
+                // length.
+                if carried[joint] > 0.0 {
+                    low[parent] = low[parent].min(low[joint]);
+                    high[parent] = high[parent].max(high[joint]);
+                }
+            }
+            if carried[joint] > 0.0 {
+                for above in skeleton.ancestors(joint) {
+                    reach[above] = reach[above].max(position[joint].distance(position[above]));
+                }
+            }
+        }
+        let height = top - ground;
+        (height.is_finite() && height > 0.0).then(|| Self {
+            skeleton,
+            children: skeleton.children(),
+            position,
+            up,
+            ground,
+            height,
+            own,
+            carried,
+            low,
+            high,
+            reach,
+            center: sums.into_iter().map(|(sum, number)| (number > 0.0).then(|| sum / number)).collect(),
+            weighted,
+        })
+    }
+
+    /// Height over the ground, over the height of the whole.
+    pub(super) fn level(&self, joint: usize) -> f64 {
+        (self.position[joint].dot(self.up) - self.ground) / self.height
+    }
+
+    pub(super) fn moves(&self, joint: usize) -> bool {
+        self.carried[joint] > LEAST_CARRIED
+    }
+
+    /// Children that move something, or all where there are no weights.
+    pub(super) fn live(&self, joint: usize) -> Vec<usize> {
+        self.children[joint].iter().copied().filter(|&child| self.moves(child)).collect()
+    }
+
+    pub(super) fn within(&self, joint: usize, above: usize) -> bool {
+        joint == above || self.skeleton.is_below(joint, above)
+    }
+
+    /// From `start` on to the best of the live children, down to the last one.
+    pub(super) fn follow(&self, start: usize, worth: impl Fn(&Self, usize) -> f64) -> Vec<usize> {
+        let mut path = vec![start];
+        let mut joint = start;
+        while let Some(next) =
+            self.live(joint).into_iter().max_by(|&a, &b| worth(self, a).total_cmp(&worth(self, b)))
+        {
+            path.push(next);
+            joint = next;
+        }
+        path
+    }
+}
