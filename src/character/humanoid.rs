@@ -141,7 +141,7 @@ pub const LEFT_FINGERS: [[Role; 3]; 5] = [
 ];
 
 impl Role {
-    /// How many roles there are.
+    /// How many roles there are. VRM 1.0 and Unity's `HumanBodyBones`.
     pub const COUNT: usize = 55;
 
     /// All roles in Unity's order.

@@ -46,18 +46,19 @@ const GARMENT_WORDS: &str = "apron armor armour belt blouse boot boots bottoms b
     uniform vest";
 
 /// A mesh called hair is hair where the head moves at least this share of it: hair to the waist may hang from the spine
-/// below the neck, fur on boots does not.
+/// below the neck, fur on boots does not. Seen: 0.61 for MakeHuman's hair to the waist, 0.98 and more for all other
+/// hair.
 const HAIR_OF_HEAD: f64 = 0.5;
 
 /// A mesh called by a word of the face is part of it where the head moves at least this share of it: one black material
-/// may serve for eyes and shoes.
+/// may serve for eyes and shoes. Seen: 1 for eyes and teeth, 0.69 where eyes and shoes are one mesh.
 const FACE_OF_HEAD: f64 = 0.9;
 
-/// The same of one vertex, and the share by which limbs move no hair: the greater one decides.
+/// The same of one vertex, and the share by which limbs move no hair: the greater one decides. A majority.
 const MOST_OF_A_VERTEX: f64 = 0.5;
 
 /// Without a head joint: what is part of a face or hair reaches above this height of the figure, and the face nowhere
-/// below it. A figure of 1.7 heads, smaller than the smallest style, has its chin there.
+/// below it. A figure of 1.7 heads, smaller than the smallest style, has its chin there. 1 - 1 / 1.7.
 const LOWEST_CHIN: f64 = 0.41;
 
 impl MeshKind {

@@ -30,7 +30,8 @@ const FILLED: [Role; 17] = [
     RightToes,
 ];
 
-/// Of the hips' distance from the upper legs, over the length of a leg: farther joints are roots, not hips.
+/// Of the hips' distance from the upper legs, over the length of a leg: farther joints are roots, not hips. Seen: at
+/// -30 %, 24 fewer roles.
 const HIPS_REACH: f64 = 0.4;
 
 /// Finds the humanoid roles of a skeleton.

@@ -15,14 +15,15 @@ use std::sync::Arc;
 
 /// The largest cotangent of a triangle. A sharper needle counts as a whole so much less that its largest cotangent is
 /// this one: its corners are one point as far as heat can tell, and beside larger numbers those of its neighbours would
-/// drown in rounding. Scaled as a whole, because clamped one by one the cotangents would not stay positive semi-definite.
+/// drown in rounding. Scaled as a whole, because clamped one by one the cotangents would not stay positive
+/// semi-definite. Seen: ±30 % moves no vertex.
 const LARGEST_COTANGENT: f64 = 1e5;
 
 /// Triangles whose area is below this share of their longest side's square have none: nothing but rounding is left of
-/// their angles.
+/// their angles. Seen: ±30 % moves no vertex.
 const LEAST_AREA: f64 = 1e-12;
 
-/// Right-hand sides that are solved for together: a fixed number, so that threads and memory change no bit.
+/// Right-hand sides that are solved for together: a fixed number, so that threads and memory change no bit. Time alone.
 const BLOCK: usize = 8;
 
 /// A symmetric matrix in the making: entries may come in any order and add up.

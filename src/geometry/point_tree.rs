@@ -6,7 +6,7 @@
 use super::bounds;
 use glam::DVec3;
 
-/// Points of a bucket, at most.
+/// Points of a bucket, at most. Time alone: what is found is the same.
 const BUCKET: usize = 16;
 
 /// Points ready to be searched.

@@ -15,10 +15,12 @@ use obvhs::bvh2::node::Bvh2Node;
 use obvhs::{Boundable, BvhBuildParams};
 use std::time::Duration;
 
-/// Padding of the boxes, in units of the scene's largest extent: above the rounding of single precision.
+/// Padding of the boxes, in units of the scene's largest extent: above the rounding of single precision. Seen: ±30 %
+/// moves no vertex.
 const BOX_PADDING: f32 = 1e-6;
 
-/// Triangles whose height is below this, in units of the scene's largest extent, are degenerate.
+/// Triangles whose height is below this, in units of the scene's largest extent, are degenerate. Seen: ±30 % moves no
+/// vertex.
 const LEAST_HEIGHT: f64 = 1e-15;
 
 /// Where a ray meets a triangle.

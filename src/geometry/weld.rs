@@ -5,7 +5,7 @@ use super::groups::Groups;
 use glam::DVec3;
 
 /// Vertices this near are one, as a part of the figure's height: exporters split vertices along seams, and rounding to
-/// floats far from the origin moves the copies apart by less.
+/// floats far from the origin moves the copies apart by less. Seen: ±30 % moves no vertex.
 pub const SEAM: f64 = 1e-6;
 
 /// Which vertices share a position.

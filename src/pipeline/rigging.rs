@@ -16,7 +16,7 @@ use glam::DVec3;
 use std::collections::BTreeMap;
 use std::time::Instant;
 
-/// c of the heat equation for the weights that animate: sharper than those that deform.
+/// c of the heat equation for the weights that animate: sharper than those that deform (D23).
 const SKIN_HEAT: f64 = 3.0;
 
 /// A rig that was made for a character.

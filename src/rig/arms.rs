@@ -4,73 +4,89 @@ use super::front_view::{FrontView, median};
 use super::silhouette::{GridFrame, RayGrid, lowest};
 use glam::{DVec2, DVec3};
 
-/// An arm's column of cells that reaches lower than the arm by so many of its thicknesses belongs to the trunk.
+/// An arm's column of cells that reaches lower than the arm by so many of its thicknesses belongs to the trunk. Seen:
+/// at +30 %, joints lie 0.0005 H further off.
 const PIT_DROP: f64 = 0.8;
-/// Where the trunk begins, its side reaches down from the arm by this share of the way to the crotch, ...
+/// Where the trunk begins, its side reaches down from the arm by this share of the way to the crotch (seen: ±30 %
+/// changes no joint), ...
 const TRUNK_DROP: f64 = 0.3;
-/// ... within this distance: a cuff or a thick sleeve does not.
+/// ... within this distance: a cuff or a thick sleeve does not. Seen: ±30 % changes no joint.
 const TRUNK_WITHIN: f64 = 0.04;
-/// The share of an arm, from the tip, to which its line is fitted.
+/// The share of an arm, from the tip, to which its line is fitted. Seen: ±30 % moves joints by under 0.0005 H.
 const LINE_RANGE: (f64, f64) = (0.25, 0.9);
-/// Sections along an arm.
+/// Sections along an arm. One is 0.8 % of an arm, some 0.003 H: a tenth of what joints are off in the mean.
 const STATIONS: usize = 120;
-/// The wrist is looked for between these shares of the way from shoulder to tip.
+/// The wrist is looked for between these shares of the way from shoulder to tip. Seen: at -30 %, joints lie 0.001 H
+/// further off, three more by over 0.06 H, 70 more good joints doubted; at +30 %, joints lie 0.0007 H further off, 74
+/// more good joints doubted.
 const WRIST_RANGE: (f64, f64) = (0.55, 0.88);
-/// The wrist where none is seen.
+/// The wrist where none is seen. Seen: at -30 %, four more good joints doubted; at +30 %, joints lie 0.0006 H further
+/// off, four more by over 0.06 H.
 const WRIST_BY_RATIO: f64 = 0.74;
-/// The elbow lies at this share of the way from shoulder to wrist.
+/// The elbow lies at this share of the way from shoulder to wrist. Seen: at -30 %, joints lie 0.002 H further off, five
+/// fewer by over 0.06 H; at +30 %, joints lie 0.003 H further off, seven more by over 0.06 H.
 const ELBOW_SHARE: f64 = 0.53;
-/// The elbow of an arm that is bent by more than this share of its length lies where the bend is.
+/// The elbow of an arm that is bent by more than this share of its length lies where the bend is. Seen: ±30 % moves
+/// joints by under 0.0005 H.
 const BENT: f64 = 0.05;
-/// The shoulder joint lies straight over a point this many arm radii outside of the armpit, ...
+/// The shoulder joint lies straight over a point this many arm radii outside of the armpit (seen: at -30 %, four fewer
+/// joints off by over 0.06 H), ...
 const SHOULDER_OUT: f64 = 0.4;
-/// ... and so many over the middle of the arm, which hangs from it.
+/// ... and so many over the middle of the arm, which hangs from it. Seen: ±30 % moves joints by under 0.0005 H.
 const SHOULDER_OVER: f64 = 0.2;
-/// Following starts at this share of the arm, where it is clear of the trunk.
+/// Following starts at this share of the arm, where it is clear of the trunk. Seen: ±30 % moves joints by under
+/// 0.0005 H.
 const CLEAR: f64 = 0.25;
-/// A section this much wider than the arm has trunk in it.
+/// A section this much wider than the arm has trunk in it. Seen: ±30 % moves joints by under 0.0005 H.
 const TRUNK_WIDENS: f64 = 1.7;
-/// A section this much deeper than the arm has something else in it.
+/// A section this much deeper than the arm has something else in it. Seen: ±30 % changes no joint.
 const THING_DEEPENS: f64 = 4.0;
 
-/// An arm is followed so many columns before its lower side is looked at for a drop, ...
+/// An arm is followed so many columns before its lower side is looked at for a drop (seen: ±30 % changes no joint), ...
 const LEAST_FOLLOWED: usize = 12;
-/// ... and has at least so many, ...
+/// ... and has at least so many (seen: ±30 % changes no joint), ...
 const LEAST_COLUMNS: usize = 8;
-/// ... of which so many at least are fitted.
+/// ... of which so many at least are fitted. Seen: ±30 % changes no joint.
 const LEAST_FITTED: usize = 4;
-/// Where no armpit is seen the arm begins at this distance from the axis.
+/// Where no armpit is seen the arm begins at this distance from the axis. Seen: ±30 % changes no joint.
 const PIT_BY_RATIO: f64 = 0.1;
-/// The line of an arm that hangs straight down is taken to run outwards by at least this.
+/// The line of an arm that hangs straight down is taken to run outwards by at least this. Seen: ±30 % changes no joint.
 const STEEPEST_LINE: f64 = 0.2;
-/// The same where the shoulder is looked for along it.
+/// The same where the shoulder is looked for along it. Seen: ±30 % changes no joint.
 const STEEPEST_SHOULDER: f64 = 0.3;
-/// Rays go on beyond the tip, or the last ones would miss it.
+/// Rays go on beyond the tip, or the last ones would miss it. Seen: at -30 %, joints lie 0.030 H further off, 58 more
+/// by over 0.06 H, 37 more good joints doubted.
 const BEYOND_TIP: f64 = 1.02;
-/// A shorter arm has no sections.
+/// A shorter arm has no sections. Seen: ±30 % changes no joint.
 const LEAST_LENGTH: f64 = 1e-3;
-/// Rays begin inside of the armpit by this share of the arm's length, ...
+/// Rays begin inside of the armpit by this share of the arm's length (seen: ±30 % moves joints by under 0.0005 H), ...
 const INSIDE_OF_PIT: f64 = 0.25;
-/// ... and reach this share of it to either side.
+/// ... and reach this share of it to either side. Seen: ±30 % moves joints by under 0.0005 H.
 const SPAN: f64 = 0.35;
-/// A section further from the one before than this share of the arm's length is something else.
+/// A section further from the one before than this share of the arm's length is something else. Seen: ±30 % changes no
+/// joint.
 const STATION_OFF: f64 = 0.12;
-/// Fewer sections show no joints.
+/// Fewer sections show no joints. Seen: ±30 % changes no joint.
 const LEAST_STATIONS: usize = 12;
-/// Middles are means over so many sections to either side.
+/// Middles are means over so many sections to either side. Seen: ±30 % moves joints by under 0.0005 H.
 const SMOOTHED: usize = 3;
-/// Which sections tell the way the arm begins: the first one and the one after this fraction of all.
+/// Which sections tell the way the arm begins: the first one and the one after this fraction of all. Seen: ±30 %
+/// changes no joint.
 const ARM_BEGINNING: usize = 6;
-/// The sections of the radius near the shoulder: from one in so many to one in so many.
+/// The sections of the radius near the shoulder: from one in so many to one in so many. Seen: ±30 % moves joints by
+/// under 0.0005 H.
 const RADIUS_RANGE: (usize, usize) = (10, 3);
-/// The sections of the arm's upper piece, likewise.
+/// The sections of the arm's upper piece, likewise. Seen: at -30 %, three fewer joints off by over 0.06 H.
 const UPPER_RANGE: (usize, usize) = (20, 4);
-/// A wrist is slimmer than the hand and than the arm by these factors, ...
+/// A wrist is slimmer than the hand and than the arm by these factors (seen: at -30 %, three fewer good joints doubted;
+/// at +30 %, twelve more good joints doubted; of the second, ±30 % moves joints by under 0.0005 H), ...
 const HAND_WIDENS: f64 = 1.12;
 const ARM_WIDENS: f64 = 1.05;
-/// ... and not at the end of its range, where the slimmest section only shows that the arm grows thinner still.
+/// ... and not at the end of its range, where the slimmest section only shows that the arm grows thinner still. Seen:
+/// ±30 % changes no joint.
 const WRIST_MARGIN: f64 = 0.01;
-/// A bend is looked for between these shares of the way from shoulder to wrist.
+/// A bend is looked for between these shares of the way from shoulder to wrist. Seen: at -30 %, joints lie 0.0005 H
+/// nearer, three fewer by over 0.06 H, four more good joints doubted.
 const BEND_RANGE: (f64, f64) = (0.35, 0.7);
 
 /// One arm.

@@ -7,16 +7,19 @@ use crate::geometry::{SEAM, components, weld};
 use glam::DVec3;
 use std::collections::BTreeMap;
 
-/// An eyeball is no thinner than this share of its width: what is flatter is a brow, a lash or a painted eye.
+/// An eyeball is no thinner than this share of its width: what is flatter is a brow, a lash or a painted eye. Seen: at
+/// -30 %, six more eyes.
 const ROUNDNESS: f64 = 0.6;
-/// Two eyes mirror each other to within this share of the head's length.
+/// Two eyes mirror each other to within this share of the head's length. Seen: ±30 % changes no eye.
 const LIKENESS: f64 = 0.05;
 
-/// Of two eyes neither is larger than this times the other.
+/// Of two eyes neither is larger than this times the other. Seen: at -30 %, 20 fewer eyes.
 const LARGER: f64 = 1.25;
-/// What lies within this many radii of an eyeball's middle turns with it: an iris lies on it, a lid beside it.
+/// What lies within this many radii of an eyeball's middle turns with it: an iris lies on it, a lid beside it. Seen:
+/// ±30 % changes no eye.
 const TURNS_WITH: f64 = 1.25;
-/// How sure a pair of like round pieces is: the artist may have put the joint elsewhere.
+/// How sure a pair of like round pieces is: the artist may have put the joint elsewhere. No joint depends on it, nor a
+/// warning.
 const SURE: f64 = 0.9;
 
 /// An eyeball.

@@ -10,89 +10,99 @@ use crate::error::Warning;
 use crate::geometry::{bounds, range};
 use glam::{DVec2, DVec3, Vec3, Vec4};
 
-/// Cells along the longest side of the box in which the figure is compared with its mirror image.
+/// Cells along the longest side of the box in which the figure is compared with its mirror image. Seen: at -30 %, five
+/// fewer of 115 poses warned of.
 const CELL_COUNT: usize = 64;
 
-/// Cells that are compared in the first sweep, about ...
+/// Cells that are compared in the first sweep, about (seen: ±30 % changes no direction) ...
 const SWEEP_CELL_COUNT: usize = 400;
 
-/// ... and around the best plane of that.
+/// ... and around the best plane of that. Seen: ±30 % turns directions by under half a degree.
 const FINE_CELL_COUNT: usize = 2500;
 
-/// Degrees between the planes of the first sweep.
+/// Degrees between the planes of the first sweep. Seen: ±30 % turns directions by under half a degree.
 const SWEEP_STEP: usize = 3;
 
-/// Planes of one angle in the first sweep: how many cells they lie from the middle, which what is on one side alone pulls
-/// off the plane.
+/// Planes of one angle in the first sweep: how many cells they lie from the middle, which what is on one side alone
+/// pulls off the plane. Seen: ±30 % changes no direction.
 const SWEEP_OFFSETS: [f64; 9] = [0.0, -2.0, 2.0, -4.0, 4.0, -6.0, 6.0, -8.0, 8.0];
 
-/// The best plane is turned by ever smaller angles, down to this many degrees.
+/// The best plane is turned by ever smaller angles, down to this many degrees. Seen: ±30 % turns directions by under
+/// half a degree.
 const LEAST_TURN: f64 = 0.05;
 
-/// How much the share of a figure's width counts beside its likeness (0..1) to its mirror image.
+/// How much the share of a figure's width counts beside its likeness (0..1) to its mirror image. Seen: ±30 % turns
+/// directions by under half a degree.
 const WIDTH_WEIGHT: f64 = 0.5;
 
-/// Files stand along the axes: within this many degrees of one ...
+/// Files stand along the axes: within this many degrees of one (seen: ±30 % changes no direction) ...
 const SNAP_ANGLE: f64 = 3.0;
 
-/// ... the axis is taken, if the likeness there is this near the best.
+/// ... the axis is taken, if the likeness there is this near the best. Seen: ±30 % changes no direction.
 const SNAP_LOSS: f64 = 0.01;
 
-/// A figure less like its mirror image than this has no left and right to be sure of.
+/// A figure less like its mirror image than this has no left and right to be sure of. Seen: ±30 % changes no direction.
 const LEAST_LIKENESS: f64 = 0.45;
 
-/// A plane at more than this many degrees from the best one ...
+/// A plane at more than this many degrees from the best one (seen: ±30 % changes no direction) ...
 const APART_ANGLE: f64 = 30.0;
 
-/// ... that scores this near to it could as well be the right one.
+/// ... that scores this near to it could as well be the right one. Seen: ±30 % changes no direction.
 const LEAST_MARGIN: f64 = 0.03;
 
-/// Votes that add up to less than this leave a doubt which way is front ...
+/// Votes that add up to less than this leave a doubt which way is front (seen: at -30 %, five fewer of 115 poses warned
+/// of) ...
 const SURE_VOTE: f64 = 0.25;
 
-/// ... and to less than this say nothing.
+/// ... and to less than this say nothing. Seen: at -30 %, three fewer of 115 poses wrong by over 5 degrees.
 const LEAST_VOTE: f64 = 0.1;
 
-/// How much eyes, brows and teeth count beside the feet, where meshes of them are.
+/// How much eyes, brows and teeth count beside the feet, where meshes of them are. Seen: ±30 % changes no direction.
 const FACE_VOTE: f64 = 0.5;
 
-/// How much the chin counts beside the feet: hair and hoods hide it, and hang over the neck behind.
+/// How much the chin counts beside the feet: hair and hoods hide it, and hang over the neck behind. Seen: ±30 % changes
+/// no direction.
 const CHIN_VOTE: f64 = 0.2;
 
-/// Feet stand within this distance of the middle, in heights; hands and swords may be further out.
+/// Feet stand within this distance of the middle, in heights; hands and swords may be further out. Seen: ±30 % changes
+/// no direction.
 const FEET_REACH: f64 = 0.3;
 
-/// Heel and tip of a foot are looked for up to this height, ...
+/// Heel and tip of a foot are looked for up to this height (seen: at -30 %, five fewer of 115 poses warned of; at
+/// +30 %, 20 more of 115 poses warned of), ...
 const SOLE_UP_TO: f64 = 0.04;
 
-/// ... and back and front of the shin between these.
+/// ... and back and front of the shin between these. Seen: at -30 %, three fewer of 115 poses wrong by over 5 degrees;
+/// at +30 %, two more of 115 poses wrong by over 5 degrees.
 const SHIN_RANGE: (f64, f64) = (0.06, 0.12);
 
-/// Rows of the profile in which the chin is looked for, ...
+/// Rows of the profile in which the chin is looked for (a row is 0.017 H, less than the least chin), ...
 const PROFILE_ROWS: usize = 60;
 
-/// ... between these, which hold head and neck, be the head large or small, ...
+/// ... between these, which hold head and neck, be the head large or small (chins of 2.2 to 20 heads lie within), ...
 const HEAD_ROWS: (usize, usize) = (PROFILE_ROWS * 11 / 20, PROFILE_ROWS * 19 / 20);
 
-/// ... as means over so many, ...
+/// ... as means over so many (seen: at -30 %, five fewer of 115 poses warned of), ...
 const STEP_ROWS: usize = 3;
 
-/// ... within this distance of the middle, in heights.
+/// ... within this distance of the middle, in heights. Seen: ±30 % changes no direction.
 const PROFILE_REACH: f64 = 0.03;
 
-/// A step of the profile below this, in heights, is no chin.
+/// A step of the profile below this, in heights, is no chin. Seen: ±30 % changes no direction.
 const LEAST_CHIN: f64 = 0.02;
 
-/// Points of the surface are no further apart than this share of a cell, ...
+/// Points of the surface are no further apart than this share of a cell (seen: ±30 % turns directions by under half a
+/// degree), ...
 const SAMPLE_STEP: f64 = 0.75;
 
-/// ... but no more than so many along a triangle's side.
+/// ... but no more than so many along a triangle's side. Seen: ±30 % changes no direction.
 const MOST_STEPS: f64 = 200.0;
 
-/// Points of the surface, about, at most: triangles are not taken apart further where there are many large ones.
+/// Points of the surface, about, at most: triangles are not taken apart further where there are many large ones. Seen:
+/// ±30 % turns directions by under half a degree.
 const SAMPLE_COUNT: f64 = 2e6;
 
-/// Cells of nothing around the figure.
+/// Cells of nothing around the figure. Seen: ±30 % turns directions by under half a degree.
 const MARGIN: f64 = 4.0;
 
 /// The way `character` looks, model space, at right angles to up, of length 1, and what a person should know.

@@ -6,36 +6,40 @@ use crate::character::MeshKind;
 use crate::geometry::cells::CellMap;
 use glam::DVec3;
 
-/// Rows of rays over the height of a figure.
+/// Rows of rays over the height of a figure. Seen: at +30 %, joints lie 0.0005 H further off.
 pub const ROWS: usize = 400;
-/// A silhouette with fewer columns on either side is widened to this.
+/// A silhouette with fewer columns on either side is widened to this. Seen: ±30 % changes no joint.
 const LEAST_HALF_COLUMNS: usize = 8;
-/// More columns on either side than this (4 heights) show nothing of a figure.
+/// More columns on either side than this (4 heights) show nothing of a figure. A bound for memory.
 const MOST_HALF_COLUMNS: usize = 4 * ROWS;
-/// A set of meshes is whole where its feet and its head reach to within this of those of all meshes, ...
+/// A set of meshes is whole where its feet and its head reach to within this of those of all meshes (seen: ±30 %
+/// changes no joint), ...
 const LOW_REACH: f64 = 0.04;
 const HIGH_REACH: f64 = 0.12;
-/// ... its arms to within this share of them, ...
+/// ... its arms to within this share of them (seen: at +30 %, joints lie 0.001 H further off, three more good joints
+/// doubted), ...
 const WIDE_SHARE: f64 = 0.6;
-/// ... nearly all rows between show something, ...
+/// ... nearly all rows between show something (seen: at +30 %, joints lie 0.003 H further off, eight more by over
+/// 0.06 H), ...
 const FILLED_ROWS: f64 = 0.97;
-/// ... and nearly all of it hangs together.
+/// ... and nearly all of it hangs together. Seen: at +30 %, joints lie 0.003 H further off, eight more by over 0.06 H.
 const CONNECTED_SHARE: f64 = 0.9;
-/// The front near the axis, within this distance of it, ...
+/// The front near the axis, within this distance of it (seen: ±30 % changes no joint), ...
 const FRONT_REACH: f64 = 0.05;
-/// ... lies no further than this behind that of all meshes, ...
+/// ... lies no further than this behind that of all meshes (seen: ±30 % changes no joint), ...
 const FRONT_WITHIN: f64 = 0.05;
-/// ... but for this share of the rows.
+/// ... but for this share of the rows. Seen: ±30 % changes no joint.
 const FRONT_MISSING: f64 = 0.12;
-/// Gaps of so many cells within a row are slits between patches, not air.
+/// Gaps of so many cells within a row are slits between patches, not air. Seen: ±30 % moves joints by under 0.0005 H.
 const SLIT: usize = 2;
-/// Every so many rows are compared with their mirror image.
+/// Every so many rows are compared with their mirror image. Seen: ±30 % moves joints by under 0.0005 H.
 const AXIS_ROWS: usize = 3;
-/// An axis is kept where another one makes no more than this share of the silhouette's mirror image fit better.
+/// An axis is kept where another one makes no more than this share of the silhouette's mirror image fit better. Seen:
+/// ±30 % changes no joint.
 const AXIS_GAIN: f64 = 0.004;
-/// A mesh is symmetric where nearly all of its vertices ...
+/// A mesh is symmetric where nearly all of its vertices (seen: ±30 % moves joints by under 0.0005 H) ...
 const SYMMETRIC_SHARE: f64 = 0.999;
-/// ... have a mirror image within this.
+/// ... have a mirror image within this. Seen: ±30 % changes no joint.
 const SYMMETRIC_WITHIN: f64 = 2e-5;
 
 /// A figure seen from the front.

@@ -8,17 +8,20 @@ use super::volume::{OUTSIDE, Volume, nearest};
 use crate::geometry::foot;
 use glam::{DVec3, IVec3};
 
-/// Buckets a voxel: a voxel is always settled in a later bucket than the one on its way to the bone.
+/// Buckets a voxel: a voxel is always settled in a later bucket than the one on its way to the bone. Seen: ±30 % moves
+/// no vertex.
 const BUCKETS: f32 = 4.0;
-/// A bone is sampled this often a voxel.
+/// A bone is sampled this often a voxel. Seen: at ±30 %, vertices move up to 0.001 H.
 const SAMPLES: f64 = 4.0;
 /// Voxels this much further away than the nearest are as near: a bone in a plane of symmetry starts on both sides.
+/// Seen: ±30 % moves no vertex.
 const TIE: f64 = 1e-6;
-/// How much deeper than its first contact an island is tied to the volume beside it, in voxels.
+/// How much deeper than its first contact an island is tied to the volume beside it, in voxels. Seen: ±30 % moves no
+/// vertex.
 const CONTACT: f32 = 2.0;
-/// No bone is further from the middle of the volume than this, in sizes of the volume.
+/// No bone is further from the middle of the volume than this, in sizes of the volume. Seen: ±30 % moves no vertex.
 const FARTHEST: f64 = 4.0;
-/// Ends of bones that are this close, in voxels, are one.
+/// Ends of bones that are this close, in voxels, are one. Seen: ±30 % moves no vertex.
 const SAME: f64 = 1e-6;
 
 /// A bone in voxels.

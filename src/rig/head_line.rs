@@ -3,38 +3,47 @@
 use super::front_view::{FrontView, median};
 use crate::geometry::{StepSearch, deepest_step};
 
-/// Above its narrowest row the head is wider by this share, and by this share of the height.
+/// Above its narrowest row the head is wider by this share, and by this share of the height. Seen: at -30 %, seven
+/// fewer good joints doubted; at +30 %, eight more good joints doubted.
 const HEAD_WIDENS: (f64, f64) = (1.15, 0.006);
-/// The chin's rays start and end at these shares of the way from shoulders to crown.
+/// The chin's rays start and end at these shares of the way from shoulders to crown (D25). Seen: ±30 % moves joints by
+/// under 0.0005 H.
 const CHIN_RANGE: (f64, f64) = (-0.05, 0.55);
-/// Bands above and below a row that are compared, as a share of the same.
+/// Bands above and below a row that are compared, as a share of the same (D25). Seen: ±30 % moves joints by under
+/// 0.0005 H.
 const CHIN_BAND: f64 = 0.05;
-/// The middle's depth is a median over this share of half the width, ...
+/// The middle's depth is a median over this share of half the width (seen: ±30 % moves joints by under 0.0005 H), ...
 const MIDDLE_REACH: f64 = 0.6;
-/// ... but no less and no more from the axis than this, in heights: a tail is narrower, arms are outside.
+/// ... but no less and no more from the axis than this, in heights: a tail is narrower, arms are outside. Seen: ±30 %
+/// moves joints by under 0.0005 H.
 const MIDDLE_RANGE: (f64, f64) = (0.005, 0.08);
-/// A smaller step back than this share of the same is no chin.
+/// A smaller step back than this share of the same is no chin (D25). Seen: ±30 % changes no joint.
 const CHIN_STEP: f64 = 0.04;
-/// Steps that differ by less than this share of themselves and of the figure's height are equally deep.
+/// Steps that differ by less than this share of themselves and of the figure's height are equally deep. Seen: ±30 %
+/// changes no joint.
 const TIE: f64 = 1e-6;
-/// The chin where none is seen.
+/// The chin where none is seen (D25). Seen: ±30 % moves joints by under 0.0005 H.
 const CHIN_BY_RATIO: f64 = 0.22;
 
-/// A crown lies at least this far over the shoulders, in heights: nothing divides by less.
+/// A crown lies at least this far over the shoulders, in heights: nothing divides by less. Seen: ±30 % changes no
+/// joint.
 const LEAST_HEAD: f64 = 0.02;
-/// Rows no wider than this times the narrowest are as narrow, ...
+/// Rows no wider than this times the narrowest are as narrow (seen: at -30 %, joints lie 0.0006 H further off, three
+/// fewer by over 0.06 H; at +30 %, five more joints off by over 0.06 H), ...
 const AS_NARROW: f64 = 1.05;
-/// ... within this share of the same; the neck is in their middle.
+/// ... within this share of the same; the neck is in their middle. Seen: ±30 % moves joints by under 0.0005 H.
 const NECK_REACH: f64 = 0.15;
-/// A face does not end below the neck: the chin then lies over it by this share of what a ratio gives.
+/// A face does not end below the neck: the chin then lies over it by this share of what a ratio gives. Seen: ±30 %
+/// moves joints by under 0.0005 H.
 const CHIN_OVER_NECK: f64 = 0.25;
-/// How far forward the chin is, is read this far over it, as a share of the same, ...
+/// How far forward the chin is, is read this far over it, as a share of the same (seen: ±30 % changes no joint), ...
 const CHIN_READ_OVER: f64 = 0.03;
-/// ... within this distance of the axis, in heights.
+/// ... within this distance of the axis, in heights. Seen: ±30 % changes no joint.
 const CHIN_READ_WITHIN: f64 = 0.02;
-/// A head takes at least this share of the same.
+/// A head takes at least this share of the same. Seen: ±30 % changes no joint.
 const LEAST_FACE: f64 = 0.2;
-/// The chin's rays run within this share of the face's width, but no further from the axis than that, in heights.
+/// The chin's rays run within this share of the face's width, but no further from the axis than that, in heights (D25).
+/// Seen: ±30 % moves joints by under 0.0005 H.
 const CHIN_WITHIN: (f64, f64) = (0.08, 0.03);
 /// The middle's depth is a median over this many rows to either side.
 const MIDDLE_ROWS: i64 = 4;

@@ -16,68 +16,84 @@ use crate::geometry::{PointTree, Surface};
 use glam::DVec3;
 use std::collections::BTreeMap;
 
-/// Hands are looked for above this share of the crotch's height.
+/// Hands are looked for above this share of the crotch's height. Seen: ±30 % changes no joint.
 const HANDS_ABOVE: f64 = 0.75;
-/// An arm that reaches this much further than the other one is something else.
+/// An arm that reaches this much further than the other one is something else. Seen: at -30 %, joints lie 0.029 H
+/// further off, 55 more by over 0.06 H, 42 more good joints doubted.
 const LONGER_ARM: f64 = 1.15;
-/// A trunk that takes more than this share of an arm's reach is wider than its shoulders are.
+/// A trunk that takes more than this share of an arm's reach is wider than its shoulders are. Seen: at -30 %, 18 more
+/// good joints doubted; at +30 %, 15 more bad joints trusted.
 const STOUT: f64 = 0.33;
-/// An arm is longer than so many of its radii, ...
+/// An arm is longer than so many of its radii (seen: at +30 %, joints lie 0.020 H further off, 21 more by over 0.06 H,
+/// 21 more good joints doubted), ...
 const SLENDER: f64 = 4.0;
-/// ... and its shoulder lies between these shares of the way from crotch to crown.
+/// ... and its shoulder lies between these shares of the way from crotch to crown. Seen: at -30 %, four more good
+/// joints doubted; at +30 %, joints lie 0.007 H further off, seven more by over 0.06 H, seven more good joints doubted.
 const SHOULDER_RANGE: (f64, f64) = (0.2, 0.95);
-/// Spine and chest lie behind the trunk's middle by this share of half its depth.
+/// Spine and chest lie behind the trunk's middle by this share of half its depth. Seen: ±30 % moves joints by under
+/// 0.0005 H.
 const SPINE_BACK: f64 = 0.12;
-/// The hips lie above the hip joints by this share of the way to the neck, ...
+/// The hips lie above the hip joints by this share of the way to the neck (seen: at +30 %, four more joints off by over
+/// 0.06 H), ...
 const HIPS_UP: f64 = 0.06;
 /// ... the chest at this share of the way from hips to neck, and the spine at this share of the way from hips to chest.
+/// Seen: at +30 %, joints lie 0.002 H further off, eight more by over 0.06 H; of the second, at +30 %, eight more
+/// joints off by over 0.06 H.
 const CHEST_SHARE: f64 = 0.48;
 const SPINE_OF_CHEST: f64 = 0.46;
-/// The legs are looked for below this share of the height.
+/// The legs are looked for below this share of the height. Seen: at -30 %, three more joints off by over 0.06 H.
 const LEGS_BELOW: f64 = 0.8;
-/// The arms' radius is taken to be no more than this, in heights, and this where no arm is seen.
+/// The arms' radius is taken to be no more than this, in heights, and this where no arm is seen. Seen: ±30 % changes no
+/// joint.
 const MOST_RADIUS: f64 = 0.02;
-/// Joints of the middle line are at least so far apart.
+/// Joints of the middle line are at least so far apart. Seen: ±30 % changes no joint.
 const APART: f64 = 2e-3;
-/// The neck joint lies at this share of the way from shoulder line to narrowest row.
+/// The neck joint lies at this share of the way from shoulder line to narrowest row. Seen: at +30 %, joints lie
+/// 0.0009 H further off.
 const NECK_SHARE: f64 = 0.8;
-/// The head joint lies over the chin by this share of the head's height.
+/// The head joint lies over the chin by this share of the head's height. Seen: ±30 % moves joints by under 0.0005 H.
 const HEAD_OVER_CHIN: f64 = 0.06;
-/// The clavicle begins at this share of the way from the middle to the shoulder joint.
+/// The clavicle begins at this share of the way from the middle to the shoulder joint. Seen: ±30 % moves clavicles by
+/// up to 0.016 H.
 const CLAVICLE_SHARE: f64 = 0.3;
-/// The clavicle lies over the shoulder joint by this share of the way from shoulder line to neck.
+/// The clavicle lies over the shoulder joint by this share of the way from shoulder line to neck. Seen: ±30 % moves
+/// clavicles by up to 0.007 H.
 const CLAVICLE_OVER: f64 = 0.3;
 /// Where no arm is seen: the shoulder line's height over the crotch, as a share of what is above that, ...
 const SHOULDER_BY_RATIO: f64 = 0.62;
-/// ... and distances from the axis of shoulder, elbow, wrist and tip of an arm held out.
+/// ... and distances from the axis of shoulder, elbow, wrist and tip of an arm held out. Seen: ±30 % moves joints by
+/// under 0.0005 H.
 const ARM_BY_RATIO: [f64; 4] = [0.10, 0.25, 0.39, 0.48];
-/// The top of the head is as far forward as its middle this far below the crown, in heights.
+/// The top of the head is as far forward as its middle this far below the crown, in heights. Seen: ±30 % moves no
+/// joint, and vertices by up to 0.001 H.
 const BELOW_CROWN: f64 = 0.02;
-/// Joints whose sides agree to within this, after mirroring, are made each other's image.
+/// Joints whose sides agree to within this, after mirroring, are made each other's image. Seen: ±30 % moves joints by
+/// under 0.0005 H.
 const AGREE: f64 = 0.012;
-/// Sides that differ by more than this are doubtful.
+/// Sides that differ by more than this are doubtful. Seen: ±30 % moves joints by under 0.0005 H.
 const DIFFER: f64 = 0.04;
 
-/// Two hands are alike where every vertex nearer to a wrist than the first has a mirror image within the second, ...
+/// Two hands are alike where every vertex nearer to a wrist than the first has a mirror image within the second (seen:
+/// ±30 % changes no joint), ...
 const HAND_REACH: f64 = 0.2;
 const MIRRORED: f64 = 2e-5;
-/// ... about a plane that mirrors the wrists to within this.
+/// ... about a plane that mirrors the wrists to within this. Seen: ±30 % changes no joint.
 const MIRRORED_WRISTS: f64 = 1e-3;
 
-/// Confidence of what a rule saw, ...
+/// Confidence of what a rule saw (below 0.5 a joint is warned of; this one is not, 30 % either way), ...
 const SEEN: f64 = 0.8;
-/// ... of what follows from that by the way bodies are made, ...
+/// ... of what follows from that by the way bodies are made (seen: at -30 %, 51 more good joints doubted), ...
 const DERIVED: f64 = 0.7;
-/// ... of legs that show inside of a skirt alone, ...
+/// ... of legs that show inside of a skirt alone (seen: at -30 %, 36 more good joints doubted), ...
 const SEEN_INSIDE: f64 = 0.6;
-/// ... of an ankle on a leg without a slim place, ...
+/// ... of an ankle on a leg without a slim place (seen: at -30 %, four more good joints doubted), ...
 const ANKLE_BY_LEG: f64 = 0.55;
-/// ... of what rests on a doubtful reading, ...
+/// ... of what rests on a doubtful reading (seen: at +30 %, eleven fewer good joints doubted), ...
 const DOUBTFUL: f64 = 0.4;
-/// ... and of what a ratio gave.
+/// ... and of what a ratio gave. Seen: ±30 % changes no joint.
 const RATIO: f64 = 0.2;
 
-/// An elbow is found from shoulder and wrist: it is hardly surer than the wrist.
+/// An elbow is found from shoulder and wrist: it is hardly surer than the wrist. Seen: ±30 % changes no joint.
 const UNSURE_ELBOW: f64 = 0.05;
 
 /// What the rays found.

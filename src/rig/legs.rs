@@ -4,66 +4,74 @@ use super::front_view::FrontView;
 use super::silhouette::lowest;
 use glam::DVec3;
 
-/// Filled rows between two legs of up to this height do not end the gap between them: shoes, knees, a ribbon.
+/// Filled rows between two legs of up to this height do not end the gap between them: shoes, knees, a ribbon. Seen:
+/// ±30 % changes no joint.
 const BRIDGE: f64 = 0.03;
-/// The gap begins below this height, or nothing tells it from other holes.
+/// The gap begins below this height, or nothing tells it from other holes. Seen: ±30 % changes no joint.
 const GAP_STARTS_BELOW: f64 = 0.25;
-/// The gap between the legs lies within this distance of the axis.
+/// The gap between the legs lies within this distance of the axis. Seen: ±30 % changes no joint.
 const GAP_OFF_AXIS: f64 = 0.04;
-/// Where legs touch, the figure is thinner than this share of a leg, ...
+/// Where legs touch, the figure is thinner than this share of a leg (seen: ±30 % moves joints by under 0.0005 H), ...
 const TOUCHING_THIN: f64 = 0.6;
-/// ... within this distance of the axis.
+/// ... within this distance of the axis. Seen: ±30 % changes no joint.
 const TOUCH_OFF_AXIS: f64 = 0.01;
-/// Empty cells across the axis that are no gap.
+/// Empty cells across the axis that are no gap. Seen: ±30 % changes no joint.
 const SLIT: usize = 2;
-/// A crotch lower or higher than this is none.
+/// A crotch lower or higher than this is none. Seen: at -30 %, joints lie 0.004 H further off, ten more by over 0.06 H.
 const CROTCH_RANGE: (f64, f64) = (0.10, 0.62);
-/// The crotch where none is seen, as a share of the figure's height, ...
+/// The crotch where none is seen, as a share of the figure's height (seen: ±30 % changes no joint), ...
 const CROTCH_BY_RATIO: f64 = 0.47;
-/// ... of the shoulders' height, where those are seen, ...
+/// ... of the shoulders' height, where those are seen (seen: ±30 % changes no joint), ...
 const CROTCH_OF_SHOULDERS: f64 = 0.56;
-/// ... but no higher than this share of what may be legs.
+/// ... but no higher than this share of what may be legs. Seen: ±30 % changes no joint.
 const CROTCH_BELOW: f64 = 0.6;
-/// A run narrower than this is a sliver, no leg, ...
+/// A run narrower than this is a sliver, no leg (seen: ±30 % moves joints by under 0.0005 H), ...
 const LEAST_LEG: f64 = 0.006;
-/// ... and inside of a skirt one narrower than this.
+/// ... and inside of a skirt one narrower than this. Seen: ±30 % moves joints by under 0.0005 H.
 const LEAST_LEG_INSIDE: f64 = 0.02;
-/// Legs stand within this distance of the axis.
+/// Legs stand within this distance of the axis. Seen: at -30 %, joints lie 0.026 H further off, 31 more by over 0.06 H.
 const LEG_REACH: f64 = 0.25;
-/// The hip joint lies above the crotch by this share of the crotch's height.
+/// The hip joint lies above the crotch by this share of the crotch's height. Seen: at +30 %, four more joints off by
+/// over 0.06 H.
 const HIP_OVER_CROTCH: f64 = 0.057;
-/// The knee lies this share of the way from ankle to hip joint.
+/// The knee lies this share of the way from ankle to hip joint. Seen: at -30 %, joints lie 0.005 H further off, 25 more
+/// by over 0.06 H; at +30 %, joints lie 0.006 H further off, 24 more by over 0.06 H.
 const KNEE_SHARE: f64 = 0.515;
-/// The slimmest section above the foot is looked for between these shares of the crotch's height.
+/// The slimmest section above the foot is looked for between these shares of the crotch's height. Seen: ±30 % moves
+/// joints by under 0.0005 H.
 const SLIM_RANGE: (f64, f64) = (0.08, 0.35);
-/// The ankle joint lies at this share of the slimmest section's height: the section lies above the ankle bones.
+/// The ankle joint lies at this share of the slimmest section's height: the section lies above the ankle bones. Seen:
+/// ±30 % moves joints by under 0.0005 H.
 const ANKLE_OF_SLIM: f64 = 0.62;
-/// The ankle where none is seen, as a share of the crotch's height, ...
+/// The ankle where none is seen, as a share of the crotch's height (seen: ±30 % moves joints by under 0.0005 H), ...
 const ANKLE_BY_RATIO: f64 = 0.10;
-/// ... and the range in which it is believed.
+/// ... and the range in which it is believed. Seen: ±30 % moves joints by under 0.0005 H.
 const ANKLE_RANGE: (f64, f64) = (0.06, 0.22);
 
-/// A joint lies in the middle of the sections within this distance of its height.
+/// A joint lies in the middle of the sections within this distance of its height. Seen: ±30 % moves joints by under
+/// 0.0005 H.
 const SECTION_WITHIN: f64 = 0.01;
-/// A leg without a section stands this far from the axis, as a share of the height, ...
+/// A leg without a section stands this far from the axis, as a share of the height (seen: ±30 % changes no joint), ...
 const LEG_BY_RATIO: f64 = 0.06;
-/// ... and is this wide from its middle, in heights.
+/// ... and is this wide from its middle, in heights. Seen: ±30 % changes no joint.
 const LEG_HALF_WIDTH: f64 = 0.03;
-/// A shin is looked at at this share of the crotch's height, ...
+/// A shin is looked at at this share of the crotch's height (seen: ±30 % changes no joint), ...
 const SHIN_AT: f64 = 0.3;
-/// ... and the top of the thigh between these.
+/// ... and the top of the thigh between these. Seen: ±30 % moves joints by under 0.0005 H.
 const THIGH_RANGE: (f64, f64) = (0.90, 0.99);
-/// The foot stands where its section at this height is.
+/// The foot stands where its section at this height is. Seen: ±30 % moves toes by up to 0.001 H.
 const SOLE_AT: f64 = 0.02;
-/// The ball of the foot lies at this share of the ankle's height, ...
+/// The ball of the foot lies at this share of the ankle's height (seen: ±30 % moves toes by up to 0.014 H), ...
 const BALL_HEIGHT: f64 = 0.3;
-/// ... and of the way from the ankle to the foot's tip.
+/// ... and of the way from the ankle to the foot's tip. Seen: ±30 % moves toes by up to 0.026 H.
 const BALL_AHEAD: f64 = 0.65;
-/// A foot is this much thicker than the slimmest section above it, ...
+/// A foot is this much thicker than the slimmest section above it (seen: ±30 % moves joints by under 0.0005 H), ...
 const FOOT_WIDENS: f64 = 1.15;
-/// ... and that section is not at the lower end of its range, to within this factor.
+/// ... and that section is not at the lower end of its range, to within this factor. Seen: ±30 % moves joints by under
+/// 0.0005 H.
 const SLIM_MARGIN: f64 = 1.05;
-/// Where the ankle is not seen, its depth is read at this share of the crotch's height.
+/// Where the ankle is not seen, its depth is read at this share of the crotch's height. Seen: ±30 % moves joints by
+/// under 0.0005 H.
 const ANKLE_READ_AT: f64 = 0.35;
 
 /// A horizontal section of one leg.

@@ -5,7 +5,8 @@ use crate::character::{Humanoid, Joint, Role, Skeleton};
 use glam::{DMat4, DVec3};
 use std::collections::BTreeMap;
 
-/// How far towards the chin the head's second segment goes.
+/// How far towards the chin the head's second segment goes (D13). Seen: at -30 %, vertices move up to 0.008 H; at
+/// +30 %, vertices move up to 0.006 H.
 const CHIN_SHARE: f64 = 0.8;
 
 /// A skeleton whose joints are `joints`, in the order of their roles, each called by its role and hanging from the

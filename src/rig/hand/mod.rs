@@ -237,42 +237,47 @@ impl Region {
     }
 }
 
-/// Joints of a finger from its tip, in lengths of its free part: the knuckle lies a quarter of that inside the palm, the
-/// others at 45 % and 72 % of the way from there.
+/// Joints of a finger from its tip, in lengths of its free part: the knuckle lies a quarter of that inside the palm,
+/// the others at 45 % and 72 % of the way from there. Seen: at -30 %, finger joints lie 0.0021 H further off; at +30 %,
+/// finger joints lie 0.0023 H further off.
 const FINGER_JOINTS: [f64; 3] = [1.25, 0.55 * 1.25, 0.28 * 1.25];
 
 /// Joints of a thumb from its tip, in lengths of its free part: a thumb's web reaches up to its last bone but one.
+/// Seen: ±30 % moves finger joints by under 0.0005 H.
 const THUMB_JOINTS: [f64; 3] = [2.2, 1.55, 0.75];
 
-/// Joints of a mitten from its tip.
+/// Joints of a mitten from its tip. Seen: at -30 %, joints move up to 0.026 H (middle proximal); at +30 %, joints move
+/// up to 0.017 H (middle proximal).
 const MITTEN_JOINTS: [f64; 3] = [1.0, 0.55, 0.28];
 
-/// The knuckle lies between these shares of the way from wrist to tip, even if fingers are cut too deep or not deep enough:
-/// a finger's, ...
+/// The knuckle lies between these shares of the way from wrist to tip, even if fingers are cut too deep or not deep
+/// enough: a finger's (seen: at -30 %, finger joints lie 0.0009 H further off; at +30 %, finger joints lie 0.0005 H
+/// further off), ...
 const KNUCKLE_RANGE: [f64; 2] = [0.4, 0.66];
 
-/// ... and a thumb's.
+/// ... and a thumb's. Seen: ±30 % moves finger joints by under 0.0005 H.
 const THUMB_RANGE: [f64; 2] = [0.15, 0.5];
 
-/// Confidence of a joint within a finger that stands out clearly, ...
+/// Confidence of a joint within a finger that stands out clearly (no joint depends on it, nor a warning), ...
 const SURE: f64 = 0.9;
 
-/// ... of its knuckle, ...
+/// ... of its knuckle (the same), ...
 const SURE_KNUCKLE: f64 = 0.7;
 
-/// ... of a knuckle out of place, and of mittens.
+/// ... of a knuckle out of place, and of mittens. The same.
 const UNSURE: f64 = 0.5;
 
-/// Rays around a joint reach this many radii of the wrist.
+/// Rays around a joint reach this many radii of the wrist. Seen: ±30 % changes no finger.
 const RAY_REACH: f64 = 3.0;
 
-/// How much the way to the wrist counts beside the finger's own for what lies inside the palm.
+/// How much the way to the wrist counts beside the finger's own for what lies inside the palm. Seen: ±30 % moves finger
+/// joints by under 0.0005 H.
 const WRIST_BEND: f64 = 0.5;
 
-/// Just beyond a tip, as a share of the hand's length.
+/// Just beyond a tip, as a share of the hand's length. Seen: ±30 % changes no finger.
 const BEYOND_TIP: f64 = 0.02;
 
-/// A finger less unlike the others than this is no thumb.
+/// A finger less unlike the others than this is no thumb. Seen: ±30 % changes no finger.
 const LEAST_THUMB: f64 = 0.12;
 
 /// The share of the rays across `way` that meet the surface within `reach`: 1 inside a finger.
@@ -289,5 +294,5 @@ fn enclosed(surface: &Surface, at: DVec3, way: DVec3, reach: f64) -> f64 {
     met.count() as f64 / RAY_COUNT as f64
 }
 
-/// Rays around a joint.
+/// Rays around a joint (as §V-A). Seen: ±30 % changes no finger.
 const RAY_COUNT: usize = 12;

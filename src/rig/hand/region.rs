@@ -34,31 +34,36 @@ pub(super) struct Finger {
     pub(super) web_distance: f64,
 }
 
-/// A tip stands out by this share of the hand's length, at least ...
+/// A tip stands out by this share of the hand's length, at least (seen: at ±30 %, two fewer of 46 hands with all
+/// fingers) ...
 pub(super) const LEAST_PERSISTENCE: f64 = 0.1;
 
-/// ... and is this far from the wrist: cuffs are nearer.
+/// ... and is this far from the wrist: cuffs are nearer. Seen: ±30 % changes no finger.
 const LEAST_REACH: f64 = 0.35;
 
-/// A hand is looked for within this many lengths of the forearm, ...
+/// A hand is looked for within this many lengths of the forearm (seen: ±30 % changes no finger), ...
 const REACH: f64 = 1.5;
 
-/// ... but no less and no more than this, in heights: sleeves hide elbows.
+/// ... but no less and no more than this, in heights: sleeves hide elbows. Seen: ±30 % changes no finger.
 const REACH_RANGE: (f64, f64) = (0.12, 0.3);
 
-/// What ends within this share of that reach does not go on outside: it belongs to the hand.
+/// What ends within this share of that reach does not go on outside: it belongs to the hand. Seen: at -30 %, two fewer
+/// of 46 hands with all fingers.
 const ENDS_WITHIN: f64 = 0.95;
 
 /// Fingers part further from the wrist than this share of the hand's length: what parts nearer is worn on the wrist.
+/// Seen: at -30 %, one fewer of 46 hands with all fingers.
 const LEAST_WEB: f64 = 0.12;
 
-/// Where the knuckles are between wrist and tips.
+/// Where the knuckles are between wrist and tips. Seen: at -30 %, joints move up to 0.017 H (middle proximal); at
+/// +30 %, joints move up to 0.026 H (middle proximal).
 pub(super) const MITTEN_KNUCKLES: f64 = 0.5;
 
-/// What reaches as far along the forearm as the furthest point, to within this share, is the end of a mitten.
+/// What reaches as far along the forearm as the furthest point, to within this share, is the end of a mitten. Seen: at
+/// -30 %, joints move up to 0.008 H (middle distal); at +30 %, joints move up to 0.011 H (middle distal).
 const BLUNT: f64 = 0.05;
 
-/// Sections of a finger.
+/// Sections of a finger. Seen: ±30 % moves finger joints by under 0.0005 H.
 pub(super) const SECTION_COUNT: usize = 8;
 
 impl Region {

@@ -19,23 +19,24 @@ use nearest::{NearestBones, Segments};
 use std::collections::BTreeMap;
 
 /// What lies further than this from the mesh's middle, in units of the figure, counts as this far, so that squares of
-/// distances stay finite.
+/// distances stay finite. Seen: ±30 % moves no vertex.
 const FARTHEST: f64 = 1e6;
 
 /// A component whose bones warm it this much less than it conducts has one temperature up to that share; the rounding
-/// of the solve would be as large.
+/// of the solve would be as large. Seen: ±30 % moves no vertex.
 const LEAST_EXCHANGE: f64 = 1e-9;
 
-/// Weights below this are none.
+/// Weights below this are none. Seen: ±30 % moves no vertex.
 const LEAST_WEIGHT: f64 = 1e-6;
 
-/// c is taken into this range, outside of which nothing but rounding changes.
+/// c is taken into this range, outside of which nothing but rounding changes. Seen: ±30 % moves no vertex.
 const HEAT_RANGE: [f64; 2] = [1e-4, 1e6];
 
-/// What the diagonal is raised by, relative to itself, where the system is not positive definite for rounding.
+/// What the diagonal is raised by, relative to itself, where the system is not positive definite for rounding. Tried
+/// one after the other, 0 first, so that what needs none is exact.
 const SHIFTS: [f64; 4] = [0.0, 1e-10, 1e-7, 1e-4];
 
-/// Bones that are solved for together.
+/// Bones that are solved for together. Time alone.
 const BLOCK: usize = 4;
 
 /// No component: the vertex is in no triangle with an area.

@@ -6,19 +6,22 @@ use crate::parallel;
 use crate::rig::WeightBone;
 use glam::DVec3;
 
-/// A bone shares a vertex fully up to this ratio of its distance to the least one, ...
+/// A bone shares a vertex fully up to this ratio of its distance to the least one (baran and Popović, §4: the nearest
+/// bones share a vertex; seen: at 1.3 vertices move up to 0.58 H), ...
 const EQUAL: f64 = 1.0 + 1e-4;
 /// ... and not at all from this one on. Between them the share falls off, so that a vertex in the plane of symmetry
-/// keeps both legs alike however it is rounded.
+/// keeps both legs alike however it is rounded. Seen: at 1.3, vertices move up to 0.044 H.
 const UNEQUAL: f64 = 1.0 + 1e-3;
 
 /// Distances to bones are at least this, in units of the figure: what is nearer lies on the bone, and H stays finite.
+/// Seen: ±30 % moves no vertex.
 const LEAST_DISTANCE: f64 = 1e-6;
 
 /// A ray to a bone leaves out this share of the way at either end: it starts on the surface, and a bone may end there.
+/// Seen: ±30 % moves vertices by under 0.0005 H.
 const RAY_MARGIN: f64 = 1e-3;
 
-/// Vertices that are looked at together.
+/// Vertices that are looked at together. Time alone.
 const CHUNK: usize = 512;
 
 /// All segments of all bones, by coordinates, so that the distances to them are found side by side.

@@ -4,29 +4,34 @@ use crate::geometry::{Hit, Surface, bounds, double_area};
 use crate::rig::UnitFigure;
 use glam::DVec3;
 
-/// Points on all meshes together, and least and most on one.
+/// Points on all meshes together, and least and most on one. Seen: ±30 % changes no mesh.
 const SAMPLES: (usize, usize, usize) = (12_000, 24, 400);
 
-/// What is as near as this, in heights, lies on the same spot.
+/// What is as near as this, in heights, lies on the same spot. Seen: ±30 % changes no mesh.
 const SAME_SPOT: f64 = 1e-4;
 
 /// Cloth lies over what its inward ray meets within this distance, in heights: a wide skirt, but not an arm over a leg.
+/// Seen: ±30 % changes no mesh.
 const LAYER_REACH: f64 = 0.12;
 
-/// A layer may be thick itself, like a lump of hair; then what it covers begins right behind it. In heights.
+/// A layer may be thick itself, like a lump of hair; then what it covers begins right behind it. In heights. Seen:
+/// ±30 % changes no mesh.
 const LAYER_THICKNESS: f64 = 0.04;
 
-/// How far what lies below a thick layer may be behind it, and from where on a layer is thick, in heights.
+/// How far what lies below a thick layer may be behind it, and from where on a layer is thick, in heights. Seen: ±30 %
+/// changes no mesh.
 const LAYER_GAP: f64 = 0.02;
 
-/// A mesh of which this share lies over another one covers it.
+/// A mesh of which this share lies over another one covers it. Seen: ±30 % changes no mesh.
 const COVER_SHARE: f64 = 0.15;
 
-/// What has less than this share of a mesh's area is a crumb beside it, which it does not lie over.
+/// What has less than this share of a mesh's area is a crumb beside it, which it does not lie over. Seen: at +30 %, one
+/// more mesh misjudged.
 const CRUMB: f64 = 0.1;
 
 /// How far points of a sequence step along both sides of a triangle: the golden ratio of the plane spreads them evenly,
-/// whatever triangles they fall on (Roberts, The unreasonable effectiveness of quasirandom sequences, 2018).
+/// whatever triangles they fall on (Roberts, The unreasonable effectiveness of quasirandom sequences, 2018). Seen:
+/// ±30 % changes no mesh.
 const GOLDEN: (f64, f64) = (0.754_877_666_246_692_7, 0.569_840_290_998_053_3);
 
 /// A point on a mesh, and what is around it.

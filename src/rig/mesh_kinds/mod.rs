@@ -16,89 +16,99 @@ use reach::{SLICES, Slices, TRUNK_HALF_WIDTH, middle_plane, reaches_over, shown_
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Borders this near are one, in heights.
+/// Borders this near are one, in heights. Seen: ±30 % changes no mesh.
 const SEAM: f64 = 1e-5;
 
-/// A mesh of which this share lies over others is a layer.
+/// A mesh of which this share lies over others is a layer. Seen: at -30 %, two more meshes misjudged.
 const LAYER_SHARE: f64 = 0.5;
 
-/// A mesh of which this share lies within others is something in their inside.
+/// A mesh of which this share lies within others is something in their inside. Seen: at -30 %, one fewer warning; at
+/// +30 %, three more warnings.
 const ENCLOSED_SHARE: f64 = 0.4;
 
-/// A mesh of whose border this share is another mesh's border too goes on where that one ends.
+/// A mesh of whose border this share is another mesh's border too goes on where that one ends. Seen: at +30 %, one more
+/// mesh misjudged.
 const SEAM_SHARE: f64 = 0.5;
 
-/// A mesh that makes a body whole adds at least as many slices.
+/// A mesh that makes a body whole adds at least as many slices. Seen: ±30 % changes no mesh.
 const LEAST_GAIN: usize = 3;
 
-/// What is no further from skin and clothes than this, in heights, is worn; what sticks out further is a thing.
+/// What is no further from skin and clothes than this, in heights, is worn; what sticks out further is a thing. Seen:
+/// ±30 % changes no mesh.
 const WORN: f64 = 0.03;
 
-/// A mesh that carries a limb is at least this long, in heights.
+/// A mesh that carries a limb is at least this long, in heights. Seen: ±30 % changes no mesh.
 const LIMB: f64 = 0.08;
 
-/// Parts of one body touch within this distance, and limbs are that alike, left and right, in heights.
+/// Parts of one body touch within this distance, and limbs are that alike, left and right, in heights. Seen: ±30 %
+/// changes no mesh.
 const PART_GAP: f64 = 0.04;
 
-/// Hair has at least this share above the chin.
+/// Hair has at least this share above the chin. Seen: at -30 %, one more mesh misjudged; at +30 %, one more mesh
+/// misjudged before joints are known.
 const HAIR_SHARE: f64 = 0.35;
 
-/// Shares this near to a threshold are doubtful.
+/// Shares this near to a threshold are doubtful. Seen: at +30 %, two more warnings.
 const DOUBT: f64 = 0.12;
 
-/// A head's joint lies no further over the chin than this share of what is above it: in the middle of the head.
+/// A head's joint lies no further over the chin than this share of what is above it: in the middle of the head. Seen:
+/// ±30 % changes no mesh.
 const JOINT_OVER_CHIN: f64 = 0.35;
 
-/// A volume that carries a limb has a far side of its own on this share, ...
+/// A volume that carries a limb has a far side of its own on this share (seen: ±30 % changes no mesh), ...
 const VOLUME_SHARE: f64 = 0.4;
 
-/// ... and its like on the other side on this share.
+/// ... and its like on the other side on this share. Seen: ±30 % changes no mesh.
 const MIRRORED_SHARE: f64 = 0.6;
 
-/// The trunk lies above this height: between legs there is nothing of it.
+/// The trunk lies above this height: between legs there is nothing of it. Seen: ±30 % changes no mesh.
 const TRUNK_ABOVE: f64 = 0.3;
 
-/// A neck is looked for below so many slices from the top, ...
+/// A neck is looked for below so many slices from the top (seen: at -30 %, one more mesh misjudged before joints are
+/// known), ...
 const LEAST_HEAD_SLICES: usize = 6;
 
-/// ... where a slice is wider than this times the widest one of the head.
+/// ... where a slice is wider than this times the widest one of the head. Seen: at -30 %, four more meshes misjudged;
+/// at +30 %, one more mesh misjudged before joints are known.
 const SHOULDERS_WIDEN: f64 = 1.35;
 
-/// A head is at least this high.
+/// A head is at least this high. Seen: ±30 % changes no mesh.
 const LEAST_HEAD: f64 = 0.05;
 
 /// What lies within the head begins no further below its chin than this, in lengths of the head: teeth reach below the
-/// chin's height where that is the head joint's, ...
+/// chin's height where that is the head joint's (seen: ±30 % changes no mesh), ...
 const TEETH_BELOW: f64 = 0.25;
 
-/// ... and is no larger than this.
+/// ... and is no larger than this. Seen: at -30 %, two more meshes misjudged.
 const MOST_FACE_PART: f64 = 0.8;
 
-/// What lies on the face begins no further below the chin than this, in lengths of the head, ...
+/// What lies on the face begins no further below the chin than this, in lengths of the head (seen: ±30 % changes no
+/// mesh), ...
 const FACE_BELOW: f64 = 0.1;
 
-/// ... is no higher than this, ...
+/// ... is no higher than this (seen: at -30 %, one more mesh misjudged), ...
 const MOST_FACE_HEIGHT: f64 = 0.55;
 
-/// ... and has its middle below this.
+/// ... and has its middle below this. Seen: ±30 % changes no mesh.
 const FACE_UP_TO: f64 = 0.85;
 
-/// A head that is a mesh of its own lies above the chin on this share, ...
+/// A head that is a mesh of its own lies above the chin on this share (seen: at +30 %, one more mesh misjudged), ...
 const HEAD_ABOVE: f64 = 0.8;
 
-/// ... over other meshes on less than this, ...
+/// ... over other meshes on less than this (seen: ±30 % changes no mesh), ...
 const HEAD_OVER: f64 = 0.3;
 
-/// ... and has a far side of its own on this.
+/// ... and has a far side of its own on this. Seen: ±30 % changes no mesh.
 const HEAD_VOLUME: f64 = 0.6;
 
-/// Such a head, or hair, is or reaches this high, in lengths of the head.
+/// Such a head, or hair, is or reaches this high, in lengths of the head. Seen: ±30 % changes no mesh.
 const HALF_A_HEAD: f64 = 0.5;
 
-/// Wide cloth, such as a cape, lies over the body on this share, ...
+/// Wide cloth, such as a cape, lies over the body on this share (seen: ±30 % changes no mesh), ...
 const CLOTH_OVER: f64 = 0.2;
 
-/// ... and has a far side of its own on no more than this: it is an open sheet, and a thing is closed.
+/// ... and has a far side of its own on no more than this: it is an open sheet, and a thing is closed. Seen: ±30 %
+/// changes no mesh.
 const CLOTH_VOLUME: f64 = 0.5;
 
 /// The height of the chin where no neck is seen: 1 - 1 / 7 of a person of seven heads, and a little below.

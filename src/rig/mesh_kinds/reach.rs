@@ -6,25 +6,29 @@ use crate::geometry::{Surface, bounds, range};
 use crate::rig::UnitFigure;
 use glam::DVec3;
 
-/// Points on each mesh by which planes of symmetry are compared.
+/// Points on each mesh by which planes of symmetry are compared. Seen: ±30 % changes no mesh.
 const PLANE_SAMPLES: usize = 100;
 
-/// So many of the largest meshes are tried as what the plane of symmetry is the middle of.
+/// So many of the largest meshes are tried as what the plane of symmetry is the middle of. Seen: ±30 % changes no mesh.
 const PLANE_CANDIDATES: usize = 6;
 
-/// Slices for the reach of the body, along the height and to each side.
+/// Slices for the reach of the body, along the height and to each side. One is 0.025 H; `WHOLE_SHARE` says how many may
+/// be missing.
 pub(super) const SLICES: usize = 40;
 
-/// Half the width in which legs and trunk are looked for, in heights; arms begin beyond.
+/// Half the width in which legs and trunk are looked for, in heights; arms begin beyond. Seen: ±30 % changes no mesh.
 pub(super) const TRUNK_HALF_WIDTH: f64 = 0.12;
 
-/// An arm reaches at least this far beyond the trunk, in heights: a trunk that is wider than usual is no arm.
+/// An arm reaches at least this far beyond the trunk, in heights: a trunk that is wider than usual is no arm. Seen:
+/// ±30 % changes no mesh.
 const LEAST_ARM: f64 = 0.05;
 
-/// The middle of the figure is the plane of symmetry unless another plane scores more than this times as much.
+/// The middle of the figure is the plane of symmetry unless another plane scores more than this times as much. Seen:
+/// ±30 % changes no mesh.
 const CLEARLY_BETTER: f64 = 1.05;
 
-/// The share of slices in which a whole body shows.
+/// The share of slices in which a whole body shows. Seen: at -30 %, six more meshes misjudged; at +30 %, one fewer mesh
+/// misjudged before joints are known.
 const WHOLE_SHARE: f64 = 0.9;
 
 /// True where those meshes that `some` accepts show in nearly all slices in which those that `whole` accepts do.

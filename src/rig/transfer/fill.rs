@@ -8,20 +8,20 @@ use glam::DVec3;
 use std::collections::BTreeMap;
 
 /// Least weight of an edge with two triangles and greatest weight of any, beside the cotangents': no edge is cut, none
-/// swallows the rest.
+/// swallows the rest. Seen: ±30 % moves no vertex.
 const EDGE_RANGE: [f64; 2] = [1e-2, 1e4];
 
-/// Smoothing around the filled region (Abdrashitov et al.): steps, ...
+/// Smoothing around the filled region (Abdrashitov et al.): steps (seen: ±30 % moves vertices by under 0.0005 H), ...
 const SMOOTHING_STEPS: usize = 10;
-/// ... the share of the neighbours in each, ...
+/// ... the share of the neighbours in each (Abdrashitov et al.; seen: ±30 % moves vertices by under 0.0005 H), ...
 const SMOOTHING_SHARE: f64 = 0.2;
-/// ... and rings of vertices beyond the region.
+/// ... and rings of vertices beyond the region. Seen: at -30 %, vertices move up to 0.006 H.
 const SMOOTHING_RINGS: usize = 2;
 
-/// A pull of 1 would leave nothing to solve for.
+/// A pull of 1 would leave nothing to solve for. Seen: ±30 % moves no vertex.
 const MOST_PULL: f64 = 1.0 - 1e-6;
 
-/// Columns solved together: fixed, so that results do not depend on the threads.
+/// Columns solved together: fixed, so that results do not depend on the threads. Time alone.
 const BATCH: usize = 4;
 
 /// How much the two ends of each edge pull at each other, above 0.

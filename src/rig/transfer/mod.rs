@@ -22,26 +22,31 @@ use skin::{Body, normals};
 pub use skin::{Skin, Source};
 use std::collections::BTreeMap;
 
-/// A match may be this far away, in diagonals of the garment's box (Abdrashitov et al.), ...
+/// A match may be this far away, in diagonals of the garment's box (Abdrashitov et al.) (seen: at -30 %, vertices move
+/// up to 0.003 H; at +30 %, vertices move up to 0.002 H), ...
 const MATCH_DISTANCE: f64 = 0.05;
 
 /// ... but at least and at most this far, in heights: thick soles are still shoes, and what hangs a hand's width away
-/// hangs freely.
+/// hangs freely (D20). Seen: ±30 % moves vertices by under 0.0005 H.
 const MATCH_DISTANCE_RANGE: [f64; 2] = [0.015, 0.05];
 
-/// Matches fade out up to this multiple of the greatest distance.
+/// Matches fade out up to this multiple of the greatest distance. Seen: at -30 %, vertices move up to 0.055 H, nine
+/// more triangles turned over; at +30 %, vertices move up to 0.002 H.
 const DISTANCE_RAMP: f64 = 1.25;
 
-/// Cosines of the angles between normals at which a match counts fully (30 degrees) and no longer (40 degrees).
+/// Cosines of the angles between normals at which a match counts fully (30 degrees) and no longer (40 degrees) (the
+/// first as Abdrashitov et al.). Seen: at -30 %, vertices move up to 0.135 H, six more triangles turned over; at +30 %,
+/// vertices move up to 0.012 H, twelve fewer triangles turned over.
 const MATCH_COSINE: [f64; 2] = [0.866_025_403_784_438_6, 0.766_044_443_118_978];
 
-/// Pieces of less extent than this keep their shape, in heights.
+/// Pieces of less extent than this keep their shape, in heights (D20). Seen: ±30 % moves vertices by under 0.0005 H.
 const RIGID_EXTENT: f64 = 0.02;
 
-/// How far a piece that nothing matches is smoothed, in heights: about a thigh's radius.
+/// How far a piece that nothing matches is smoothed, in heights: about a thigh's radius. Seen: ±30 % moves vertices by
+/// under 0.0005 H.
 const LOOSE_SMOOTHING: f64 = 0.05;
 
-/// Smaller weights are dropped.
+/// Smaller weights are dropped. Seen: ±30 % moves no vertex.
 const LEAST_WEIGHT: f64 = 1e-5;
 
 /// Weights by joint, ascending; they sum to 1.

@@ -6,13 +6,15 @@ use crate::geometry::{Closest, PointTree, SEAM, Surface, double_area, weld};
 use glam::DVec3;
 
 /// Closest points this much further than the closest one, relatively, still have a share, which falls to 0 there: where
-/// two legs are equally far, neither is the closest by chance.
+/// two legs are equally far, neither is the closest by chance (D20). Seen: ±30 % moves no vertex.
 const TIE: f64 = 0.01;
 
-/// Closest points nearer to each other than this share of their distance lie in one place, of which one counts.
+/// Closest points nearer to each other than this share of their distance lie in one place, of which one counts. Seen:
+/// ±30 % moves no vertex.
 const SAME_PLACE: f64 = 0.5;
 
 /// Where the normals around a vertex leave less than this share of their sum, they are those of two sides of one cloth.
+/// Seen: ±30 % moves no vertex.
 const CANCELLED: f64 = 0.2;
 
 /// A surface that weights are taken from, as far as it does not depend on them: made once for any number of weights.
