@@ -362,7 +362,7 @@ class Bench:
 
     def change(self, site, value, pool):
         """What one changed number does, over all pairs."""
-        probe = f"{site}={value!r}"
+        probe = f"{site}={value}"
 
         def one(pair):
             target, reference = pair
@@ -431,7 +431,7 @@ def main():
     parser.add_argument("--references", nargs="+", default=["kaykit_rogue.glb", "godette.vrm", "2.5"])
     parser.add_argument("--options", default="")
     parser.add_argument("--factors", nargs="+", type=float, default=[0.7, 1.3])
-    parser.add_argument("--set", nargs="+", metavar="SITE=VALUE", help="these values instead of --only and --factors")
+    parser.add_argument("--set", nargs="+", metavar="SITE=VALUE", help="these values instead of --only and --factors; SITE=VALUE;SITE=VALUE sets two at once")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     options = parser.parse_args()
 
@@ -448,10 +448,10 @@ def main():
         values = [(site, site["value"] * factor) for site in chosen for factor in options.factors]
         if options.set:
             by_name = {site["site"]: site for site in bench.sites}
-            values = [(by_name[name], float(value)) for name, value in (text.rsplit("=", 1) for text in options.set)]
+            values = [(by_name[text.split("=")[0]], text.partition("=")[2]) for text in options.set]
         for site, value in values:
-            if site["whole"]:
-                value = float(round(value))
+            if not isinstance(value, str):
+                value = round(value) if site["whole"] else value
             if value != site["value"] and (site["site"], value) not in known:
                 row = bench.change(site["site"], value, pool)
                 row["was"], row["line"] = site["value"], site["line"]
