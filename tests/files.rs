@@ -503,6 +503,34 @@ fn the_hips_track_is_scaled_with_their_height_and_others_move_with_their_rest() 
     assert!((f64::from(back[4]) - written.json["nodes"][2]["translation"][1].as_f64().unwrap()).abs() < 1e-6);
 }
 
+#[test]
+fn an_animation_channel_without_a_node_moves_nothing_and_is_kept() {
+    let mut made = figure();
+    let times = made.floats("SCALAR", 1, &[0.0, 1.0]);
+    let places = made.floats("VEC3", 3, &[0.0, 0.9, 0.0, 0.0, 0.5, 1.0]);
+    let others = made.floats("VEC3", 3, &[0.0, 1.0, 0.0, 0.0, 2.0, 1.0]);
+    // The second is glTF's own way to leave a channel to an extension; the third names no node either.
+    made.json["animations"] = json!([{
+        "samplers": [{"input": times, "output": places}, {"input": times, "output": others}],
+        "channels": [
+            {"sampler": 0, "target": {"node": 1, "path": "translation"}},
+            {"sampler": 1, "target": {"path": "pointer", "extensions":
+                {"KHR_animation_pointer": {"pointer": "/materials/0/emissiveFactor"}}}},
+            {"sampler": 1, "target": {"path": "translation"}},
+        ],
+    }]);
+    let loaded = loaded(&made);
+    let written = squashed(&loaded);
+    let (before, after) = (&made.json["animations"][0], &written.json["animations"][0]);
+    for channel in [1, 2] {
+        assert_eq!(after["channels"][channel], before["channels"][channel]);
+    }
+    assert_eq!(after["samplers"][1], before["samplers"][1]);
+    assert_eq!(Reader::new(&written).floats(others, 3, None).unwrap(), [0.0, 1.0, 0.0, 0.0, 2.0, 1.0]);
+    let moved = Reader::new(&written).floats(places, 3, None).unwrap();
+    assert!((f64::from(moved[1]) - squash(DVec3::new(0.0, 0.9, 0.0)).y).abs() < 1e-6);
+}
+
 fn vec3(value: &Value) -> DVec3 {
     DVec3::from_array(std::array::from_fn(|axis| value[axis].as_f64().unwrap()))
 }

@@ -3,15 +3,14 @@
 //!     cargo run --release --example superdeform
 //!     cargo run --release --example superdeform -- TARGET REFERENCE -o OUT.glb
 
-mod appearance;
 mod cli;
-mod lettering;
-mod materials;
+mod input;
 mod output;
 mod picture;
 mod progress;
 mod report;
 mod run;
+mod sheet;
 mod words;
 
 use cli::Refusal;

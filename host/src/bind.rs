@@ -3,6 +3,7 @@
 //! A vertex v of a skinned mesh stands at sum_j w_j J_j B_j v. At rest the product J_j B_j is the same matrix M for
 //! all joints of a skin, "mesh to model", and J_j = M B_j^-1.
 
+use super::accessor::Reader;
 use super::file::GltfFile;
 use super::{array_at, bad_input, index_at, text_at};
 use glam::{DMat4, DQuat, DVec3};
@@ -156,6 +157,60 @@ pub struct Skin {
     pub bounds: Option<(DVec3, DVec3)>,
     /// World matrix of the first node that uses the skin.
     pub mesh_world: Option<DMat4>,
+}
+
+/// Reads all skins.
+///
+/// # Errors
+/// Joints or inverse bind matrices that are not there or not finite.
+pub(super) fn read_skins(reader: &Reader) -> Result<Vec<Skin>> {
+    let file = reader.file;
+    let node_count = file.list("nodes").len();
+    let mut skins = Vec::new();
+    for (index, json) in file.list("skins").iter().enumerate() {
+        let joints: Vec<usize> = array_at(json, "joints")
+            .iter()
+            .filter_map(|joint| joint.as_u64().map(|joint| joint as usize))
+            .collect();
+        if joints.is_empty() {
+            return Err(bad_input(format!(
+                "{}: skin {index} has no joints: export the file anew",
+                file.name
+            )));
+        }
+        if let Some(joint) = joints.iter().find(|&&joint| joint >= node_count) {
+            return Err(bad_input(format!(
+                "{}: skin {index} names node {joint} as a joint, but there are {node_count} nodes: export the file anew",
+                file.name
+            )));
+        }
+        let inverse_binds = match index_at(json, "inverseBindMatrices") {
+            // Without matrices the specification says identity.
+            None => vec![DMat4::IDENTITY; joints.len()],
+            Some(accessor) => {
+                let layout = reader.layout(accessor)?;
+                if layout.count < joints.len() {
+                    return Err(bad_input(format!(
+                        "{}: skin {index} has {} joints, but {} inverse bind matrices: export the file anew",
+                        file.name,
+                        joints.len(),
+                        layout.count
+                    )));
+                }
+                let numbers = reader.floats(accessor, 16, None)?;
+                let matrices = numbers.chunks_exact(16).take(joints.len());
+                matrices.map(|m| DMat4::from_cols_array(&std::array::from_fn(|i| f64::from(m[i])))).collect()
+            }
+        };
+        if let Some(slot) = inverse_binds.iter().position(|matrix| !matrix.is_finite()) {
+            return Err(bad_input(format!(
+                "{}: skin {index}: the inverse bind matrix of joint {slot} holds a number that is not finite: export the file anew",
+                file.name
+            )));
+        }
+        skins.push(Skin { joints, inverse_binds, ..Skin::default() });
+    }
+    Ok(skins)
 }
 
 /// What takes the vertices of a skin to model space.

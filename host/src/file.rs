@@ -98,7 +98,7 @@ impl GltfFile {
             )));
         }
         check_extensions(name, &json)?;
-        check_types_and_indices(name, text, &json)?;
+        check_types_and_indices(name, &json)?;
         let mut file = Self { name: name.to_string(), json, binary: Vec::new() };
         file.binary = file.embed_buffers(binary)?;
         Ok(file)
@@ -318,7 +318,7 @@ fn check_extensions(name: &str, json: &Value) -> Result<()> {
 }
 
 /// Reads the JSON by the glTF schema, and checks that every index leads somewhere.
-fn check_types_and_indices(name: &str, text: &[u8], json: &Value) -> Result<()> {
+fn check_types_and_indices(name: &str, json: &Value) -> Result<()> {
     // The reader takes this one index on trust.
     let accessor_count = array_at(json, "accessors").len();
     for (mesh, mesh_json) in array_at(json, "meshes").iter().enumerate() {
@@ -331,24 +331,8 @@ fn check_types_and_indices(name: &str, text: &[u8], json: &Value) -> Result<()> 
             }
         }
     }
-    // What the specification lets be absent and the reader does not: the source of a texture whose picture is named
-    // by an extension, and the nodes of an empty scene.
-    let lacks = |list: &str, key: &str| array_at(json, list).iter().any(|entry| entry.get(key).is_none());
-    let root = if lacks("textures", "source") || lacks("scenes", "nodes") {
-        let mut filled = json.clone();
-        for (list, key, value) in [("textures", "source", json!(0)), ("scenes", "nodes", json!([]))] {
-            for entry in filled.get_mut(list).and_then(Value::as_array_mut).into_iter().flatten() {
-                if let Some(entry) = entry.as_object_mut() {
-                    entry.entry(key).or_insert_with(|| value.clone());
-                }
-            }
-        }
-        serde_json::from_value::<gltf::json::Root>(filled)
-    } else {
-        gltf::json::Root::from_slice(text)
-    };
-    let root =
-        root.map_err(|error| bad_input(format!("{name} departs from glTF 2.0, {error}: export it anew")))?;
+    let root: gltf::json::Root = serde_json::from_value(filled(json))
+        .map_err(|error| bad_input(format!("{name} departs from glTF 2.0, {error}: export it anew")))?;
     let mut astray = None;
     // Other findings (a missing minimum, an unknown word) do not keep the geometry from being read.
     root.validate(&root, gltf::json::Path::new, &mut |path: &dyn Fn() -> gltf::json::Path, error| {
@@ -362,6 +346,35 @@ fn check_types_and_indices(name: &str, text: &[u8], json: &Value) -> Result<()> 
         ))),
         None => Ok(()),
     }
+}
+
+/// The JSON with what the specification lets be absent and the reader does not, for the check alone: the source of a
+/// texture whose picture is named by an extension, the nodes of an empty scene, and the node of an animation channel,
+/// which without one moves nothing or is an extension's.
+fn filled(json: &Value) -> Value {
+    let mut filled = json.clone();
+    let fill = |holder: Option<&mut Value>, key: &str, value: Value| {
+        if let Some(holder) = holder.and_then(Value::as_object_mut) {
+            holder.entry(key).or_insert(value);
+        }
+    };
+    for texture in array_at_mut(&mut filled, "textures") {
+        fill(Some(texture), "source", json!(0));
+    }
+    for scene in array_at_mut(&mut filled, "scenes") {
+        fill(Some(scene), "nodes", json!([]));
+    }
+    for animation in array_at_mut(&mut filled, "animations") {
+        for channel in array_at_mut(animation, "channels") {
+            fill(channel.get_mut("target"), "node", json!(0));
+        }
+    }
+    filled
+}
+
+/// The entries of the array at `key`; none where there is none.
+fn array_at_mut<'a>(value: &'a mut Value, key: &str) -> impl Iterator<Item = &'a mut Value> + use<'a> {
+    value.get_mut(key).and_then(Value::as_array_mut).into_iter().flatten()
 }
 
 /// The bytes of a `data:` address in base64; `None` where it is not that.

@@ -6,7 +6,10 @@
 pub mod accessor;
 pub mod bind;
 pub mod file;
+mod frame;
+mod kinds;
 pub mod load;
+mod primitive;
 pub mod rig;
 pub mod roles;
 pub mod verify;

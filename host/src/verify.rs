@@ -1,9 +1,10 @@
 //! Does a written file put its vertices where they should be? Skinned anew, in 64 bits.
 
 use super::accessor::Reader;
-use super::bind::NodeTree;
+use super::bind::{NodeTree, read_skins};
 use super::file::GltfFile;
-use super::load::{Loaded, read_primitive, read_skins};
+use super::load::Loaded;
+use super::primitive::read_primitive;
 use super::write::{extent, new_rest};
 use super::{array_at, index_at};
 use glam::{DMat4, DVec3};

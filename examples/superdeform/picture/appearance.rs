@@ -1,6 +1,6 @@
 //! What meshes look like: materials, texture coordinates and vertex colours, for the picture alone.
 
-use crate::materials::{Material, materials};
+use super::materials::{Material, materials};
 use serde_json::Value;
 
 /// What a picture needs of a file beside the shape of its character.

@@ -1,20 +1,22 @@
 //! The command line: every option with its range and its help, read into one plain [`Command`].
 
-use clap::builder::ValueParser;
+mod arguments;
+mod values;
+
+use crate::input;
+use arguments::{Arguments, BodyWay, Curve, GarmentWay, LastStage};
 use clap::error::ErrorKind;
 use clap::{Parser, ValueEnum};
-use glam::Vec3;
 use regex::Regex;
 use std::collections::BTreeMap;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use superdeform::internals::character::bones::Group as BoneGroup;
 use superdeform::internals::shape::style::BUILT_IN;
-use superdeform::options::HEADS;
 use superdeform::{
-    Axes, FaceCurve, GarmentWeights, GroupSettings, MeshKind, Mode, Options, RigOptions, Role, Stage,
-    WeightMethod,
+    Axes, FaceCurve, GarmentWeights, GroupSettings, MeshKind, Mode, Options, RigOptions, Stage, WeightMethod,
 };
+use values::Group;
 
 /// The folder for results when no output path is given.
 const OUTPUT_FOLDER: &str = "superdeform-out";
@@ -89,201 +91,6 @@ pub enum Rig {
     Keep,
     Auto,
 }
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Curve {
-    F4,
-    F2,
-    Sphere,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum LastStage {
-    Length,
-    Thickness,
-    Face,
-    All,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum GarmentWay {
-    Robust,
-    Nearest,
-    Heat,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum BodyWay {
-    Auto,
-    Heat,
-    Volume,
-}
-
-#[derive(Clone, Debug)]
-struct Group {
-    name: String,
-    settings: GroupSettings,
-}
-
-/// Turns a 3D character into its super-deformed (SD, chibi) version.
-#[derive(Debug, Parser)]
-#[command(name = "superdeform", version, max_term_width = 100, after_help = EXAMPLES)]
-struct Arguments {
-    /// The character to change: GLB, or VRM 0.x or 1.0 [default: a sample]
-    target: Option<PathBuf>,
-
-    /// Where the proportions come from: a rigged GLB or VRM, a saved style (.json), or a built-in one (sd2, sd2.5, sd3, sd4) [default: a sample]
-    #[arg(conflicts_with = "heads")]
-    reference: Option<PathBuf>,
-
-    /// Where the result goes, in the target's format [default: superdeform-out/NAME_sd.glb or .vrm, with
-    /// picture and report beside it]
-    #[arg(short, long, value_name = "FILE")]
-    output: Option<PathBuf>,
-
-    /// Draw target, reference and result, front and side
-    #[arg(long, value_name = "FILE.png")]
-    picture: Option<PathBuf>,
-
-    /// Write the numbers of the run
-    #[arg(long, value_name = "FILE.json")]
-    report: Option<PathBuf>,
-
-    /// Save the reference's proportions; the file can stand for REFERENCE later
-    #[arg(long, value_name = "FILE.json")]
-    save_style: Option<PathBuf>,
-
-    /// A style for this many heads (1.8 to 6) instead of REFERENCE
-    #[arg(long, value_name = "N", value_parser = number(HEADS.0, HEADS.1), help_heading = STYLE)]
-    heads: Option<f64>,
-
-    /// From the original (0) to the style (1)
-    #[arg(long, value_name = "0..1", default_value = "1", value_parser = number(0.0, 1.0), help_heading = STYLE)]
-    amount: f64,
-
-    /// Mix in a second saved style, 0 to 1 of it
-    #[arg(long, value_name = "STYLE.json:0.5", value_parser = ValueParser::new(blend), help_heading = STYLE)]
-    blend: Option<(PathBuf, f64)>,
-
-    /// Size of the head (alpha_head)
-    #[arg(long, value_name = "X", default_value = "1.5", value_parser = number(0.1, 10.0), help_heading = STYLE)]
-    head_scale: f64,
-
-    /// How much younger the face gets; 0 leaves it (gamma) [default: 0.8, with --paper 0]
-    #[arg(long, value_name = "X", value_parser = number(0.0, 10.0), help_heading = STYLE)]
-    face_squash: Option<f64>,
-
-    /// The curve for --face-squash
-    #[arg(long, value_name = "CURVE", value_enum, default_value = "f4", help_heading = STYLE)]
-    face_curve: Curve,
-
-    /// Length of hair below the chin: 1 keeps where it ends on the body, 0 ends it at the chin
-    #[arg(long, value_name = "0..1", default_value = "1", value_parser = number(0.0, 1.0), help_heading = STYLE)]
-    hair_length: f64,
-
-    /// Set a bone group, e.g. upper_leg:length=0.4,thickness=0.8: scales (length, thickness), or how much of
-    /// the reference is taken, 0 to 1 (length_transfer, thickness_transfer); repeatable
-    #[arg(long, value_name = "NAME:KEY=X,...", value_parser = ValueParser::new(group), help_heading = STYLE)]
-    group: Vec<Group>,
-
-    /// Your own bone groups: a JSON object, bone to group name; a bone is named by the role at its end
-    #[arg(long, value_name = "FILE.json", help_heading = STYLE)]
-    groups: Option<PathBuf>,
-
-    /// The paper's equations and constants to the letter
-    #[arg(long, help_heading = METHOD)]
-    paper: bool,
-
-    /// Take coefficients as measured, however small or large
-    #[arg(long, help_heading = METHOD)]
-    no_limits: bool,
-
-    /// Rays around each sample of a bone, at least 3 [default: 48, with --paper 12]
-    #[arg(long, value_name = "N", value_parser = count(3, 4096), help_heading = METHOD)]
-    rays: Option<usize>,
-
-    /// Stop after a stage
-    #[arg(long, value_name = "STAGE", value_enum, default_value = "all", help_heading = METHOD)]
-    stage: LastStage,
-
-    /// Keep the target's rig, or make one [default: keep, where there is one with the roles that it takes]
-    #[arg(long, value_name = "RIG", value_enum, help_heading = METHOD)]
-    rig: Option<Rig>,
-
-    /// Write the target with its rig, not deformed
-    #[arg(long, value_name = "FILE.glb", help_heading = METHOD)]
-    save_rigged: Option<PathBuf>,
-
-    /// How the body gets weights with a new rig: along its surface, through its volume, or whichever suits it
-    #[arg(long, value_name = "WAY", value_enum, default_value = "auto", help_heading = METHOD)]
-    body_weights: BodyWay,
-
-    /// How clothes get weights with a new rig: from close surface points alike, from the nearest, or like a body
-    #[arg(long, value_name = "WAY", value_enum, default_value = "robust", help_heading = METHOD)]
-    garment_weights: GarmentWay,
-
-    /// Joints that a new rig is to have: a JSON object, role to [x, y, z] as in a report's target.joints
-    #[arg(long, value_name = "FILE.json", help_heading = METHOD)]
-    joints: Option<PathBuf>,
-
-    /// Threads; 0 for all cores
-    #[arg(long, value_name = "N", default_value = "0", value_parser = count(0, 1024), help_heading = METHOD)]
-    threads: usize,
-
-    /// Roles of the target's joints where they are not found: a JSON object, role to node name
-    #[arg(long, value_name = "MAP.json", help_heading = READING)]
-    humanoid: Option<PathBuf>,
-
-    /// The same for the reference
-    #[arg(long, value_name = "MAP.json", help_heading = READING)]
-    reference_humanoid: Option<PathBuf>,
-
-    /// Meshes that are skin; matched, like the four below, against node|mesh|material
-    #[arg(long, value_name = "REGEX", value_parser = ValueParser::new(pattern), help_heading = READING)]
-    body: Vec<Regex>,
-
-    /// Meshes that are clothes
-    #[arg(long, value_name = "REGEX", value_parser = ValueParser::new(pattern), help_heading = READING)]
-    garment: Vec<Regex>,
-
-    /// Meshes that are hair
-    #[arg(long, value_name = "REGEX", value_parser = ValueParser::new(pattern), help_heading = READING)]
-    hair: Vec<Regex>,
-
-    /// Meshes that follow the face: eyes, brows, lashes, teeth
-    #[arg(long, value_name = "REGEX", value_parser = ValueParser::new(pattern), help_heading = READING)]
-    face_part: Vec<Regex>,
-
-    /// Meshes that keep their shape: hats, glasses, bags
-    #[arg(long, value_name = "REGEX", value_parser = ValueParser::new(pattern), help_heading = READING)]
-    accessory: Vec<Regex>,
-
-    /// The target's up axis [default: +Y]
-    #[arg(long, value_name = "AXIS", allow_hyphen_values = true, value_parser = ValueParser::new(axis), help_heading = READING)]
-    up: Option<Vec3>,
-
-    /// The way the target looks [default: found from its joints]
-    #[arg(long, value_name = "AXIS", allow_hyphen_values = true, value_parser = ValueParser::new(axis), help_heading = READING)]
-    forward: Option<Vec3>,
-
-    /// Print nothing but errors
-    #[arg(short, long)]
-    quiet: bool,
-}
-
-const STYLE: &str = "Style";
-const METHOD: &str = "Method";
-const READING: &str = "Reading the files";
-
-const EXAMPLES: &str = "\
-Examples:
-  superdeform                                           the sample pair
-  superdeform hero.vrm chibi.glb -o hero_sd.vrm
-  superdeform hero.vrm --heads 2.5 -o hero_sd.vrm --picture hero.png
-  superdeform hero.vrm chibi.glb --group upper_leg:length=0.4 --amount 0.8
-
-Bone groups: head neck torso shoulder upper_arm lower_arm hand finger hip upper_leg lower_leg foot.
-Exit codes: 0 done, 1 bad input (one sentence on standard error), 2 wrong usage.";
 
 /// Reads the command line, the program's name first.
 ///
@@ -405,7 +212,7 @@ fn command(arguments: Arguments) -> Result<Command, Refusal> {
 /// The library's options; names of bone groups are checked here, because the library takes any.
 fn options(arguments: &Arguments) -> Result<Options, Refusal> {
     let bone_groups = match &arguments.groups {
-        Some(path) => read_bone_groups(path).map_err(Refusal::Input)?,
+        Some(path) => input::bone_groups(path).map_err(Refusal::Input)?,
         None => BTreeMap::new(),
     };
     let mut groups: BTreeMap<String, GroupSettings> = BTreeMap::new();
@@ -455,10 +262,12 @@ fn check_paths(command: &Command) -> Result<(), Refusal> {
     inputs.extend(command.blend.as_ref().map(|(path, _)| path));
     inputs.extend(&command.humanoid);
     inputs.extend(&command.reference_humanoid);
+    inputs.extend(&command.joints);
     let mut outputs = vec![&command.output];
     outputs.extend(&command.picture);
     outputs.extend(&command.report);
     outputs.extend(&command.save_style);
+    outputs.extend(&command.save_rigged);
     for (index, output) in outputs.iter().enumerate() {
         if inputs.iter().any(|input| same_file(input, output)) {
             return Err(Refusal::Usage(format!(
@@ -500,108 +309,10 @@ fn has_extension(path: &Path, wanted: &str) -> bool {
     path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case(wanted))
 }
 
-/// A number from `low` to `high`, both included.
-fn number(low: f64, high: f64) -> impl Fn(&str) -> Result<f64, String> + Clone {
-    move |text| number_in(text, low, high)
-}
-
-fn number_in(text: &str, low: f64, high: f64) -> Result<f64, String> {
-    match text.trim().parse::<f64>() {
-        Ok(value) if value >= low && value <= high => Ok(value),
-        Ok(value) => Err(format!("{value} is out of range: give a number from {low} to {high}")),
-        Err(_) => Err(format!("`{text}` is not a number: give one from {low} to {high}")),
-    }
-}
-
-/// A whole number from `low` to `high`, both included.
-fn count(low: usize, high: usize) -> impl Fn(&str) -> Result<usize, String> + Clone {
-    move |text| match text.trim().parse::<usize>() {
-        Ok(value) if (low..=high).contains(&value) => Ok(value),
-        _ => Err(format!("{text} is out of range: give a whole number from {low} to {high}")),
-    }
-}
-
-/// An axis such as `+Y`, `-z` or `x`.
-fn axis(text: &str) -> Result<Vec3, String> {
-    let (sign, letter) = match text.strip_prefix('-') {
-        Some(rest) => (-1.0, rest),
-        None => (1.0, text.strip_prefix('+').unwrap_or(text)),
-    };
-    let axis = match letter {
-        "x" | "X" => Vec3::X,
-        "y" | "Y" => Vec3::Y,
-        "z" | "Z" => Vec3::Z,
-        _ => return Err("give one of +X, -X, +Y, -Y, +Z, -Z".to_string()),
-    };
-    Ok(sign * axis)
-}
-
-/// A regular expression; the sentence is the last line of a longer drawing.
-fn pattern(text: &str) -> Result<Regex, String> {
-    Regex::new(text).map_err(|error| {
-        let text = error.to_string();
-        let line = text.lines().last().unwrap_or_default();
-        line.trim_start_matches("error: ").to_string()
-    })
-}
-
-/// `STYLE.json:0.5`; the last colon counts, because a path may hold others.
-fn blend(text: &str) -> Result<(PathBuf, f64), String> {
-    match text.rsplit_once(':') {
-        Some((path, share)) if !path.is_empty() => Ok((PathBuf::from(path), number_in(share, 0.0, 1.0)?)),
-        _ => Err("give a saved style and its share, as in STYLE.json:0.5".to_string()),
-    }
-}
-
-/// `upper_leg:length=0.4,thickness=0.8`.
-fn group(text: &str) -> Result<Group, String> {
-    let Some((name, settings_text)) = text.split_once(':') else {
-        return Err("give a group and its settings, as in upper_leg:length=0.4,thickness=0.8".to_string());
-    };
-    let mut settings = GroupSettings::default();
-    for setting in settings_text.split(',') {
-        let Some((key, value)) = setting.split_once('=') else {
-            return Err(format!("`{setting}` has no value: write it as length=0.4"));
-        };
-        let (place, high, low) = match key.trim() {
-            "length" => (&mut settings.length_scale, 10.0, 0.01),
-            "thickness" => (&mut settings.thickness_scale, 10.0, 0.01),
-            "length_transfer" => (&mut settings.length_transfer, 1.0, 0.0),
-            "thickness_transfer" => (&mut settings.thickness_transfer, 1.0, 0.0),
-            other => {
-                return Err(format!(
-                    "`{other}` is no setting: use length, thickness, length_transfer or thickness_transfer"
-                ));
-            }
-        };
-        *place = Some(number_in(value, low, high).map_err(|why| format!("{}: {why}", key.trim()))?);
-    }
-    Ok(Group { name: name.trim().to_string(), settings })
-}
-
-/// Reads `--groups`: an object from bones, named by the role at their end, to group names.
-fn read_bone_groups(path: &Path) -> Result<BTreeMap<Role, String>, String> {
-    let place = path.display();
-    let text = std::fs::read_to_string(path).map_err(|error| format!("{place}: cannot be read ({error})"))?;
-    let named: BTreeMap<String, String> = serde_json::from_str(&text).map_err(|error| {
-        format!("{place}: must be a JSON object such as {{\"leftUpperLeg\": \"legs\"}} ({error})")
-    })?;
-    let mut groups = BTreeMap::new();
-    for (bone, group) in named {
-        let role = Role::all()
-            .find(|role| role.name().eq_ignore_ascii_case(&bone))
-            .ok_or_else(|| format!("{place}: `{bone}` is no role: use VRM 1.0 names such as leftUpperLeg"))?;
-        if group.trim().is_empty() {
-            return Err(format!("{place}: `{bone}` has an empty group name: give it one"));
-        }
-        groups.insert(role, group);
-    }
-    Ok(groups)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use glam::Vec3;
 
     fn parsed(arguments: &[&str]) -> Command {
         parse(std::iter::once(&"superdeform").chain(arguments)).expect("a command")
@@ -680,6 +391,8 @@ mod tests {
             (&["--forward", "-Y"], &["--up", "--forward"]),
             (&["a.glb", "b.glb", "-o", "a.glb"], &["a.glb"]),
             (&["a.glb", "-o", "c.glb", "--report", "r", "--picture", "r"], &["two results"]),
+            (&["a.glb", "-o", "c.glb", "--save-rigged", "c.glb"], &["two results"]),
+            (&["a.glb", "-o", "c.glb", "--joints", "j", "--report", "j"], &["written over"]),
         ] {
             let (code, text) = refused(arguments);
             assert_eq!(code, 2, "{arguments:?}: {text}");

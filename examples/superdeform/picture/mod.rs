@@ -1,0 +1,401 @@
+//! A picture of characters side by side, front and side view, drawn without a graphics card.
+//!
+//! Orthographic, depth buffer, 2 by 2 samples a pixel. All figures stand on one line at one scale, but for those that
+//! are drawn as tall as another; beside each stands a ruler of heads.
+
+mod appearance;
+mod camera;
+mod canvas;
+mod lettering;
+mod light;
+mod materials;
+mod surface;
+
+pub use appearance::{Appearance, read as read_appearance};
+pub use materials::Material;
+pub use surface::PictureMesh;
+
+use camera::Camera;
+use canvas::{Canvas, Pass, SAMPLES};
+use glam::Vec3;
+use image::{Rgb, RgbImage};
+use light::Light;
+use materials::Alpha;
+use std::io::Cursor;
+use surface::Surface;
+
+/// The tallest figure's height in pixels.
+const FIGURE_HEIGHT: f32 = 560.0;
+/// A sheet is not made wider than this; figures get smaller instead.
+const LARGEST_WIDTH: f32 = 2600.0;
+/// Pixels between the two views of a figure, where the ruler of heads stands.
+const VIEW_GAP: f32 = 56.0;
+/// Pixels between two figures, and around the sheet.
+const FIGURE_GAP: f32 = 56.0;
+const TOP: f32 = 40.0;
+const BOTTOM: f32 = 108.0;
+
+/// Pixels from the ruler to the side view that it measures.
+const RULER_GAP: f32 = 12.0;
+/// Half a tick's length in pixels.
+const TICK: f32 = 5.0;
+
+const BACKGROUND_TOP: [f32; 3] = [246.0, 247.0, 250.0];
+const BACKGROUND_BOTTOM: [f32; 3] = [226.0, 230.0, 237.0];
+const TITLE_COLOUR: [u8; 3] = [58, 64, 78];
+const NOTE_COLOUR: [u8; 3] = [124, 132, 148];
+const RULER_COLOUR: [u8; 3] = [150, 158, 174];
+const GROUND_COLOUR: [u8; 3] = [196, 202, 214];
+
+/// One figure of the sheet.
+#[derive(Clone, Debug)]
+pub struct View<'a> {
+    /// The caption.
+    pub title: String,
+    /// A second, paler line; may be empty.
+    pub note: String,
+    /// What is drawn.
+    pub meshes: Vec<PictureMesh<'a>>,
+    /// From feet to head.
+    pub up: Vec3,
+    /// The way the face looks.
+    pub forward: Vec3,
+    /// Heights along `up` for the ruler, model units; no ruler without them.
+    pub heads: Option<Heads>,
+    /// The view whose height this one is drawn at, by index; its own height where there is none.
+    pub as_tall_as: Option<usize>,
+}
+
+/// What a ruler of heads is made from: heights along up, model units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Heads {
+    /// The top of the head.
+    pub crown: f32,
+    /// One head below it.
+    pub chin: f32,
+    /// Where the ruler ends.
+    pub sole: f32,
+}
+
+/// Most ticks that a ruler has; a figure with more heads gets none.
+const MOST_HEADS: f32 = 20.0;
+
+impl Heads {
+    /// Heights of the ticks: the crown, each head below it, and the sole.
+    fn ticks(&self) -> Vec<f32> {
+        let head = self.crown - self.chin;
+        let count = (self.crown - self.sole) / head;
+        if !(head > 0.0 && count > 0.0 && count <= MOST_HEADS) {
+            return Vec::new();
+        }
+        // A head that ends at the sole but for rounding ends there.
+        let whole = (count - 0.02).floor() as usize;
+        (0..=whole).map(|index| self.crown - index as f32 * head).chain([self.sole]).collect()
+    }
+}
+
+/// Draws `views` from left to right, each from the front and from its left side, on one ground line.
+pub fn draw(views: &[View]) -> RgbImage {
+    let mut figures: Vec<Figure> = views.iter().map(Figure::new).collect();
+    for (index, view) in views.iter().enumerate() {
+        if let Some(other) = view.as_tall_as {
+            figures[index].scale = figures[other].height() / figures[index].height();
+        }
+    }
+    let scale = scale(&figures);
+    let tallest = figures.iter().map(|figure| figure.height() * figure.scale).fold(0.0, f32::max);
+    let ground = TOP + tallest * scale;
+    let width = figures.iter().map(|figure| figure.width(scale) + FIGURE_GAP).sum::<f32>() + FIGURE_GAP;
+    let mut sheet = background(width.ceil() as u32, (ground + BOTTOM).ceil() as u32, ground);
+    let mut left = FIGURE_GAP;
+    for (view, figure) in views.iter().zip(&figures) {
+        let centre = left + figure.width(scale) / 2.0;
+        let pixels = scale * figure.scale;
+        for camera in &figure.cameras {
+            let origin = [left - camera.low.x * pixels, ground + camera.low.y * pixels];
+            shadow(
+                &mut sheet,
+                origin[0] + camera.foot_middle() * pixels,
+                ground,
+                camera.foot_width() * pixels,
+            );
+            draw_figure(&mut sheet, view, figure, camera, pixels, origin);
+            left += camera.width() * pixels + VIEW_GAP;
+        }
+        if let Some(heads) = &view.heads {
+            let [front, side] = &figure.cameras;
+            let at = left - VIEW_GAP - side.width() * pixels - RULER_GAP;
+            let rows: Vec<f32> =
+                heads.ticks().iter().map(|height| ground - (height - front.low.y) * pixels).collect();
+            ruler(&mut sheet, at, &rows);
+        }
+        lettering::draw(&mut sheet, &view.title, centre, ground + 52.0, 2.6, TITLE_COLOUR);
+        lettering::draw(&mut sheet, &view.note, centre, ground + 82.0, 1.8, NOTE_COLOUR);
+        left += FIGURE_GAP - VIEW_GAP;
+    }
+    sheet
+}
+
+/// A sheet as PNG.
+///
+/// # Errors
+/// One sentence with the encoder's reason.
+pub fn png(sheet: &RgbImage) -> Result<Vec<u8>, String> {
+    let mut bytes = Cursor::new(Vec::new());
+    sheet
+        .write_to(&mut bytes, image::ImageFormat::Png)
+        .map_err(|error| format!("the picture cannot be encoded: {error}"))?;
+    Ok(bytes.into_inner())
+}
+
+struct Figure {
+    /// Front and left side.
+    cameras: [Camera; 2],
+    /// What its lengths are multiplied by to be drawn at the sheet's scale.
+    scale: f32,
+    surfaces: Vec<Surface>,
+}
+
+impl Figure {
+    fn new(view: &View) -> Self {
+        let up = view.up.normalize_or(Vec3::Y);
+        let front = view.forward.reject_from_normalized(up).normalize_or(up.any_orthonormal_vector());
+        let side = up.cross(front);
+        Self {
+            cameras: [Camera::new(view, up, front), Camera::new(view, up, side)],
+            scale: 1.0,
+            surfaces: view.meshes.iter().map(Surface::new).collect(),
+        }
+    }
+
+    /// Above 0 even for a figure without extent.
+    fn height(&self) -> f32 {
+        let camera = &self.cameras[0];
+        let height = (camera.high.y - camera.low.y).max(1e-3 * camera.width());
+        if height > 0.0 { height } else { 1.0 }
+    }
+
+    fn width(&self, scale: f32) -> f32 {
+        self.cameras.iter().map(|camera| camera.width() * scale * self.scale).sum::<f32>() + VIEW_GAP
+    }
+}
+
+/// Pixels for the first figure's unit of length.
+fn scale(figures: &[Figure]) -> f32 {
+    let tallest =
+        figures.iter().map(|figure| figure.height() * figure.scale).fold(f32::MIN_POSITIVE, f32::max);
+    let by_height = FIGURE_HEIGHT / tallest;
+    let drawn: f32 = figures.iter().map(|figure| figure.width(by_height) - VIEW_GAP).sum();
+    let gaps = FIGURE_GAP + figures.len() as f32 * (FIGURE_GAP + VIEW_GAP);
+    by_height * ((LARGEST_WIDTH - gaps) / drawn.max(1.0)).clamp(0.0, 1.0)
+}
+
+fn background(width: u32, height: u32, ground: f32) -> RgbImage {
+    let mut sheet = RgbImage::from_fn(width, height, |_, y| {
+        let share = y as f32 / height as f32;
+        Rgb([0, 1, 2].map(|channel| {
+            let (from, to) = (BACKGROUND_TOP[channel], BACKGROUND_BOTTOM[channel]);
+            (from + (to - from) * share).round() as u8
+        }))
+    });
+    let margin = FIGURE_GAP / 2.0;
+    fill(&mut sheet, [margin, width as f32 - margin], [ground, ground + 2.0], GROUND_COLOUR);
+    sheet
+}
+
+/// Fills a rectangle, from and to along each side in pixels; what is outside the sheet is left out.
+fn fill(sheet: &mut RgbImage, columns: [f32; 2], rows: [f32; 2], colour: [u8; 3]) {
+    let range = |[from, to]: [f32; 2], size: u32| {
+        (from.round().max(0.0) as u32)..(to.round().max(0.0) as u32).min(size)
+    };
+    for y in range(rows, sheet.height()) {
+        for x in range(columns, sheet.width()) {
+            sheet.put_pixel(x, y, Rgb(colour));
+        }
+    }
+}
+
+/// A line down from the first of `rows` to the last with a tick at each, and the number of every whole head.
+fn ruler(sheet: &mut RgbImage, column: f32, rows: &[f32]) {
+    let [first, .., last] = rows else { return };
+    fill(sheet, [column, column + 1.0], [*first, *last], RULER_COLOUR);
+    for (index, &row) in rows.iter().enumerate() {
+        fill(sheet, [column - TICK, column + TICK + 1.0], [row, row + 1.0], RULER_COLOUR);
+        if (1..rows.len() - 1).contains(&index) {
+            let number = index.to_string();
+            lettering::draw(sheet, &number, column - TICK - 12.0, row + 5.0, 1.6, NOTE_COLOUR);
+        }
+    }
+}
+
+/// A soft patch under the feet.
+fn shadow(sheet: &mut RgbImage, centre: f32, ground: f32, foot_width: f32) {
+    let (half_width, half_height) = (0.62 * foot_width + 14.0, 9.0);
+    for y in (ground - half_height).max(0.0) as u32..((ground + half_height) as u32).min(sheet.height()) {
+        let last = ((centre + half_width).max(0.0) as u32).min(sheet.width());
+        for x in (centre - half_width).max(0.0) as u32..last {
+            let across = (x as f32 - centre) / half_width;
+            let down = (y as f32 - ground) / half_height;
+            let depth = (1.0 - across * across - down * down).max(0.0);
+            let keep = 1.0 - 0.32 * depth * depth;
+            let Rgb(under) = sheet.get_pixel_mut(x, y);
+            *under = under.map(|channel| (f32::from(channel) * keep) as u8);
+        }
+    }
+}
+
+fn draw_figure(
+    sheet: &mut RgbImage,
+    view: &View,
+    figure: &Figure,
+    camera: &Camera,
+    pixels: f32,
+    origin: [f32; 2],
+) {
+    let margin = 3.0;
+    let corner = [
+        (origin[0] + camera.low.x * pixels - margin).floor().max(0.0),
+        (origin[1] - camera.high.y * pixels - margin).floor().max(0.0),
+    ];
+    let width = (camera.width() * pixels + 2.0 * margin).ceil() as usize * SAMPLES;
+    let height = ((camera.high.y - camera.low.y) * pixels + 2.0 * margin).ceil() as usize * SAMPLES;
+    let mut canvas = Canvas::new(width, height);
+    let samples = SAMPLES as f32;
+    let place = |point: Vec3| {
+        Vec3::new(
+            (origin[0] - corner[0] + point.dot(camera.right) * pixels) * samples,
+            (origin[1] - corner[1] - point.dot(camera.up) * pixels) * samples,
+            point.dot(camera.toward) * pixels * samples,
+        )
+    };
+    let light = Light::new(camera);
+    for pass in [Pass::Solid, Pass::Clear] {
+        for (mesh, surface) in view.meshes.iter().zip(&figure.surfaces) {
+            if pass == Pass::Solid || mesh.material.alpha == Alpha::Blend {
+                canvas.draw_mesh(mesh, surface, &place, &light, pass);
+            }
+        }
+        if pass == Pass::Solid {
+            let reach = 0.022 * figure.height() * pixels * samples;
+            canvas.darken_corners(reach);
+        }
+    }
+    canvas.lay_on(sheet, corner[0] as u32, corner[1] as u32);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const FRONT: [[u32; 3]; 2] = [[0, 1, 2], [0, 2, 3]];
+
+    /// A square of side 2 that faces +Z.
+    fn square(z: f32) -> [Vec3; 4] {
+        [[-1.0, 0.0], [1.0, 0.0], [1.0, 2.0], [-1.0, 2.0]].map(|[x, y]| Vec3::new(x, y, z))
+    }
+
+    fn coloured(base_colour: [f32; 4]) -> Material {
+        Material { base_colour, ..Material::default() }
+    }
+
+    type Part<'a> = (&'a [Vec3], &'a [[u32; 3]], &'a Material);
+
+    fn view<'a>(meshes: &[Part<'a>]) -> View<'a> {
+        View {
+            title: "target".to_string(),
+            note: String::new(),
+            meshes: meshes
+                .iter()
+                .map(|&(positions, triangles, material)| PictureMesh {
+                    positions,
+                    normals: &[],
+                    triangles,
+                    uvs: &[],
+                    colours: &[],
+                    material,
+                })
+                .collect(),
+            up: Vec3::Y,
+            forward: Vec3::Z,
+            heads: None,
+            as_tall_as: None,
+        }
+    }
+
+    fn drawn(meshes: &[Part]) -> RgbImage {
+        draw(&[view(meshes)])
+    }
+
+    /// The middle of the front view.
+    fn middle(sheet: &RgbImage) -> [u8; 3] {
+        let half = FIGURE_HEIGHT / 2.0;
+        sheet.get_pixel((FIGURE_GAP + half) as u32, (TOP + half) as u32).0
+    }
+
+    #[test]
+    fn the_nearer_mesh_hides_the_farther_one_in_any_order() {
+        let (red, green) = (coloured([1.0, 0.0, 0.0, 1.0]), coloured([0.0, 1.0, 0.0, 1.0]));
+        let (near, far) = (square(0.5), square(-0.5));
+        let meshes: [Part; 2] = [(&near, &FRONT, &red), (&far, &FRONT, &green)];
+        for sheet in [drawn(&meshes), drawn(&[meshes[1], meshes[0]])] {
+            let [red, green, _] = middle(&sheet);
+            assert!(red > 180 && green < 80, "{red} {green}");
+        }
+    }
+
+    #[test]
+    fn backs_are_left_out_unless_a_material_has_two_sides() {
+        let positions = square(0.0);
+        let back = FRONT.map(|[a, b, c]| [a, c, b]);
+        let mut blue = coloured([0.0, 0.0, 1.0, 1.0]);
+        assert!(middle(&drawn(&[(&positions, &back, &blue)]))[0] > 200);
+        blue.double_sided = true;
+        assert!(middle(&drawn(&[(&positions, &back, &blue)]))[0] < 80);
+    }
+
+    #[test]
+    fn what_is_half_clear_shows_what_is_behind() {
+        let mut glass = coloured([0.0, 0.0, 1.0, 0.3]);
+        glass.alpha = Alpha::Blend;
+        let red = coloured([1.0, 0.0, 0.0, 1.0]);
+        let (near, far) = (square(0.5), square(-0.5));
+        let [red, _, blue] = middle(&drawn(&[(&near, &FRONT, &glass), (&far, &FRONT, &red)]));
+        assert!(red > 100 && blue > 100, "{red} {blue}");
+    }
+
+    #[test]
+    fn figures_without_extent_or_with_too_much_still_make_a_sheet() {
+        let white = Material::default();
+        assert!(drawn(&[]).width() > 0);
+        let point = [Vec3::ONE; 4];
+        assert!(drawn(&[(&point, &FRONT, &white)]).width() > 0);
+        let far = [Vec3::ZERO, 1e6 * Vec3::X, Vec3::Y, Vec3::NAN];
+        let sheet = drawn(&[(&far, &FRONT, &white)]);
+        assert!(sheet.width() <= LARGEST_WIDTH as u32 + 1, "{}", sheet.width());
+    }
+
+    #[test]
+    fn a_figure_can_be_drawn_as_tall_as_another() {
+        let white = Material::default();
+        let (small, large) = (square(0.0), square(0.0).map(|point| 10.0 * point));
+        let figure = |positions, as_tall_as| View { as_tall_as, ..view(&[(positions, &FRONT, &white)]) };
+        // 560 pixels are the height of the tallest: 2 as it is, and 2 after it has been made a tenth of its size.
+        let alone = draw(&[figure(&small, None)]);
+        let both = draw(&[figure(&small, None), figure(&large, Some(0))]);
+        assert_eq!(both.height(), alone.height());
+        assert_eq!(both.width(), 2 * alone.width() - FIGURE_GAP as u32);
+    }
+
+    #[test]
+    fn a_ruler_has_a_tick_for_each_head_and_one_for_the_sole() {
+        let heads = |crown, chin, sole| Heads { crown, chin, sole }.ticks();
+        assert_eq!(heads(5.0, 4.0, 2.5), [5.0, 4.0, 3.0, 2.5]);
+        // Three heads and a hundredth: a tick more would lie on the one before.
+        assert_eq!(heads(3.0, 2.0, -0.01), [3.0, 2.0, 1.0, -0.01]);
+        for strange in
+            [[1.0, 1.0, 0.0], [1.0, 2.0, 0.0], [1.0, 0.99, 0.0], [f32::NAN, 0.5, 0.0], [1.0, 0.5, 2.0]]
+        {
+            assert!(heads(strange[0], strange[1], strange[2]).is_empty(), "{strange:?}");
+        }
+    }
+}

@@ -1,0 +1,123 @@
+//! The surface of a mesh: normals, and its colour at any point before light.
+
+use super::light::TO_LINEAR;
+use super::materials::{Material, Texture, Wrap};
+use glam::{Vec2, Vec3, Vec4};
+use image::RgbaImage;
+
+/// One mesh: vertices in model space and what they look like. Lists that are empty are not there.
+#[derive(Clone, Debug)]
+pub struct PictureMesh<'a> {
+    /// Positions.
+    pub positions: &'a [Vec3],
+    /// Normals, one a vertex; made from the triangles where empty.
+    pub normals: &'a [Vec3],
+    /// Corners as indices into `positions`.
+    pub triangles: &'a [[u32; 3]],
+    /// Texture coordinates, one a vertex.
+    pub uvs: &'a [[f32; 2]],
+    /// Linear vertex colours, one a vertex.
+    pub colours: &'a [[f32; 4]],
+    /// The material.
+    pub material: &'a Material,
+}
+
+/// What is found out once about a mesh and used from every side.
+pub struct Surface {
+    /// One a vertex.
+    pub normals: Vec<Vec3>,
+    /// True where triangles run the other way round than their normals say (mirrored nodes).
+    pub mirrored: bool,
+}
+
+impl Surface {
+    pub fn new(mesh: &PictureMesh) -> Self {
+        let face_normal = |corners: &[u32; 3]| {
+            let [a, b, c] = corners.map(|corner| mesh.positions[corner as usize]);
+            (b - a).cross(c - a)
+        };
+        if mesh.normals.len() != mesh.positions.len() {
+            let mut normals = vec![Vec3::ZERO; mesh.positions.len()];
+            for corners in mesh.triangles {
+                for &corner in corners {
+                    normals[corner as usize] += face_normal(corners);
+                }
+            }
+            return Self { normals, mirrored: false };
+        }
+        let agreeing = mesh
+            .triangles
+            .iter()
+            .filter(|corners| {
+                let normal: Vec3 = corners.iter().map(|&corner| mesh.normals[corner as usize]).sum();
+                normal.dot(face_normal(corners)) > 0.0
+            })
+            .count();
+        Self { normals: mesh.normals.to_vec(), mirrored: 2 * agreeing < mesh.triangles.len() }
+    }
+}
+
+impl PictureMesh<'_> {
+    /// Linear colour and alpha at a point of a triangle, before light.
+    pub fn paint(&self, corners: &[u32; 3], share: Vec3) -> Vec4 {
+        let mut paint = Vec4::from(self.material.base_colour);
+        let shares = || corners.iter().map(|&corner| corner as usize).zip(share.to_array());
+        if self.colours.len() == self.positions.len() {
+            paint *= shares().map(|(corner, share)| share * Vec4::from(self.colours[corner])).sum::<Vec4>();
+        }
+        if let Some(texture) = &self.material.texture
+            && self.uvs.len() == self.positions.len()
+        {
+            let uv = shares().map(|(corner, share)| share * Vec2::from(self.uvs[corner])).sum::<Vec2>();
+            paint *= look_up(texture, uv);
+        }
+        paint
+    }
+}
+
+/// The texture's linear colour and alpha at `uv`, mixed from the four texels around it.
+fn look_up(texture: &Texture, uv: Vec2) -> Vec4 {
+    let image: &RgbaImage = &texture.image;
+    let [u, v] = texture.transform.map(|[by_u, by_v, offset]| by_u * uv.x + by_v * uv.y + offset);
+    if image.is_empty() || !u.is_finite() || !v.is_finite() {
+        return Vec4::ONE;
+    }
+    let (x, y) = (u * image.width() as f32 - 0.5, v * image.height() as f32 - 0.5);
+    let (left, top) = (x.floor(), y.floor());
+    let mut mixed = Vec4::ZERO;
+    for (right, down) in [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)] {
+        let column = texel(left + right, image.width(), texture.wrap[0]);
+        let row = texel(top + down, image.height(), texture.wrap[1]);
+        let share = (1.0 - (left + right - x).abs()) * (1.0 - (top + down - y).abs());
+        let [red, green, blue, alpha] = image.get_pixel(column, row).0;
+        let linear = [red, green, blue].map(|channel| TO_LINEAR[channel as usize]);
+        mixed += share * Vec3::from(linear).extend(f32::from(alpha) / 255.0);
+    }
+    mixed
+}
+
+fn texel(position: f32, size: u32, wrap: Wrap) -> u32 {
+    let count = size as f32;
+    let inside = match wrap {
+        Wrap::Clamp => position,
+        Wrap::Repeat => position.rem_euclid(count),
+        Wrap::Mirror => {
+            let there = position.rem_euclid(2.0 * count);
+            if there < count { there } else { 2.0 * count - 1.0 - there }
+        }
+    };
+    (inside.max(0.0) as u32).min(size - 1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_texel_outside_the_image_follows_the_wrapping() {
+        let wrapped = |wrap| [-1.0, 0.0, 3.0, 4.0, 5.0].map(|position| texel(position, 4, wrap));
+        assert_eq!(wrapped(Wrap::Repeat), [3, 0, 3, 0, 1]);
+        assert_eq!(wrapped(Wrap::Clamp), [0, 0, 3, 3, 3]);
+        assert_eq!(wrapped(Wrap::Mirror), [0, 0, 3, 3, 2]);
+    }
+}

@@ -1,0 +1,124 @@
+//! The picture of a run: target, reference and result side by side, each with its heads.
+
+use crate::picture::{self, Appearance, Heads, Material, PictureMesh, View};
+use glam::{DVec3, Vec3};
+use std::sync::LazyLock;
+use superdeform::report::FigureReport;
+use superdeform::{Character, Deformed, Report};
+use superdeform_host::accessor::Reader;
+use superdeform_host::load::Loaded;
+
+/// Draws the picture, as PNG. The reference, which may be in another unit, is drawn as tall as the result.
+///
+/// # Errors
+/// One sentence where it cannot be encoded.
+pub fn png(
+    target: &Loaded,
+    reference: Option<&Loaded>,
+    deformed: &Deformed,
+    report: &Report,
+) -> Result<Vec<u8>, String> {
+    let of_target = appearance(target);
+    let of_reference = reference.map(appearance);
+    let mut views = vec![view("target", &report.target, target, &of_target, None)];
+    if let (Some(reference), Some(appearance), Some(figure)) = (reference, &of_reference, &report.reference) {
+        // The result comes after it.
+        let as_tall_as = Some(views.len() + 1);
+        views.push(View { as_tall_as, ..view("reference", figure, reference, appearance, None) });
+    }
+    views.push(view("result", &report.result, target, &of_target, Some(deformed)));
+    picture::png(&picture::draw(&views))
+}
+
+/// What the picture needs beside the shape.
+fn appearance(loaded: &Loaded) -> Appearance {
+    let primitives = loaded.bindings.iter().map(|binding| (binding.mesh, binding.primitive));
+    let reader = Reader::new(&loaded.file);
+    picture::read_appearance(&loaded.file.json, &loaded.file.binary, primitives, |accessor, components| {
+        reader.floats(accessor, components, None).ok()
+    })
+}
+
+/// A figure for the picture; where `deformed` is given, with its shape in place of the file's.
+fn view<'a>(
+    title: &str,
+    figure: &FigureReport,
+    loaded: &'a Loaded,
+    appearance: &'a Appearance,
+    deformed: Option<&'a Deformed>,
+) -> View<'a> {
+    static PLAIN: LazyLock<Material> = LazyLock::new(Material::default);
+    let character = &loaded.character;
+    let meshes = character.meshes.iter().zip(&appearance.surfaces).enumerate();
+    let heights = &figure.landmarks;
+    View {
+        title: title.to_string(),
+        note: format!("{:.1} heads", figure.heads),
+        meshes: meshes
+            .map(|(index, (mesh, surface))| {
+                let shape = deformed.map(|deformed| &deformed.meshes[index]);
+                PictureMesh {
+                    positions: shape.map_or(&mesh.positions, |shape| &shape.positions),
+                    normals: shape.map_or(&mesh.normals, |shape| &shape.normals),
+                    triangles: &mesh.triangles,
+                    uvs: &surface.uvs,
+                    colours: &surface.colours,
+                    material: surface
+                        .material
+                        .and_then(|material| appearance.materials.get(material))
+                        .unwrap_or(&PLAIN),
+                }
+            })
+            .collect(),
+        up: character.axes.up,
+        forward: facing(character),
+        heads: Some(Heads {
+            crown: heights.crown as f32,
+            chin: heights.chin as f32,
+            sole: heights.sole as f32,
+        }),
+        as_tall_as: None,
+    }
+}
+
+/// The way a character looks: as its axes say, else at right angles to up and to the line from its right limbs to
+/// its left ones.
+fn facing(character: &Character) -> Vec3 {
+    if let Some(forward) = character.axes.forward {
+        return forward;
+    }
+    let place = |joint: usize| character.skeleton.joints[joint].position();
+    let leftward: DVec3 = character
+        .humanoid
+        .iter()
+        .filter(|(role, _)| role.is_left())
+        .filter_map(|(role, joint)| Some(place(joint) - place(character.humanoid.joint(role.mirrored())?)))
+        .sum();
+    leftward.as_vec3().cross(character.axes.up).normalize_or(Vec3::Z)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::DMat4;
+    use superdeform::{Joint, Role};
+
+    #[test]
+    fn a_character_looks_where_its_limbs_say() {
+        let mut character = Character::default();
+        for (index, (role, x)) in
+            [(Role::LeftUpperArm, -1.0), (Role::RightUpperArm, 1.0)].into_iter().enumerate()
+        {
+            character.humanoid.set(role, index);
+            character.skeleton.joints.push(Joint {
+                name: role.to_string(),
+                parent: None,
+                rest: DMat4::from_translation(DVec3::new(x, 1.0, 0.0)),
+            });
+        }
+        assert_eq!(facing(&character), -Vec3::Z);
+        character.axes.forward = Some(Vec3::X);
+        assert_eq!(facing(&character), Vec3::X);
+        assert_eq!(facing(&Character::default()), Vec3::Z);
+    }
+}
