@@ -709,6 +709,42 @@ fn kinds_come_from_patterns_first_and_hair_hangs_from_the_head() {
 }
 
 #[test]
+fn a_material_called_body_that_all_meshes_share_says_nothing_of_teeth_and_hair_bands() {
+    let mut made = figure();
+    let count = boxes().1.len();
+    made.json["materials"] = json!([{"name": "Avatar_Body"}]);
+    made.json["meshes"][0]["primitives"][0]["material"] = json!(0);
+    // Node and mesh, the joint that holds it (3 is the head), and what it is.
+    let things = [
+        ("teeth", "teeth", 3, MeshKind::FacePart),
+        ("Cube.001", "hair_band", 3, MeshKind::Accessory),
+        ("ponytail", "Plane", 3, MeshKind::Hair),
+        // Shoes of a material for eyes, say: no part of a face, whatever their name is.
+        ("eyes", "eyes", 0, MeshKind::Body),
+    ];
+    for (node, mesh, joint, _) in things {
+        let joints = made.accessor(&[joint; 4].repeat(count), 5121, "VEC4", count);
+        let mut copy = made.json["meshes"][0].clone();
+        copy["name"] = json!(mesh);
+        copy["primitives"][0]["attributes"]["JOINTS_0"] = json!(joints);
+        let mesh = made.push("meshes", copy);
+        let node = made.push("nodes", json!({"name": node, "mesh": mesh, "skin": 0}));
+        made.json["scenes"][0]["nodes"].as_array_mut().unwrap().push(json!(node));
+    }
+    let loaded = loaded(&made);
+    let kinds: Vec<Option<MeshKind>> = loaded.character.meshes.iter().map(|mesh| mesh.kind).collect();
+    let wanted = things.map(|(.., kind)| Some(kind));
+    assert_eq!(kinds[0], Some(MeshKind::Body));
+    assert_eq!(kinds[1..], wanted);
+    let told = loaded.warnings.iter().find(|warning| warning.code == "kind_guessed").unwrap();
+    assert!(
+        told.message.ends_with("teeth (face part), hair_band (accessory), Plane (hair)"),
+        "{}",
+        told.message
+    );
+}
+
+#[test]
 fn gltf_with_embedded_buffers_becomes_one_buffer() {
     let made = figure();
     let mut json = made.json.clone();

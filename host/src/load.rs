@@ -116,10 +116,10 @@ pub fn load(file: GltfFile, options: &LoadOptions) -> Result<Loaded> {
         ));
     }
     let mut meshes = Vec::new();
-    let mut labels = Vec::new();
+    let mut names = Vec::new();
     for (index, (raw, binding)) in raw_meshes.into_iter().zip(&mut bindings).enumerate() {
         check_finite(&file.name, index, &raw)?;
-        labels.push(raw.label.clone());
+        names.push(raw.names.clone());
         meshes.push(place(raw, binding, &skins, &pose, &joint_of_node));
     }
     let joints = tree.order.iter().map(|&node| Joint {
@@ -131,8 +131,8 @@ pub fn load(file: GltfFile, options: &LoadOptions) -> Result<Loaded> {
     let humanoid = find_humanoid(&file, options, &tree, &joint_of_node, &skeleton, &meshes, &mut warnings)?;
     let rigged = humanoid.is_some();
     let humanoid = humanoid.unwrap_or_default();
-    set_kinds(&mut meshes, &labels, options.kinds, &skeleton, &humanoid, &mut warnings);
     let mut character = Character { meshes, skeleton, humanoid, axes: options.axes };
+    set_kinds(&mut character, &names, options.kinds, &mut warnings);
     let mut node_of_joint = tree.order.clone();
     if !rigged {
         character.skeleton = Skeleton::default();

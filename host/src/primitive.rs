@@ -5,14 +5,15 @@ use super::file::GltfFile;
 use super::{array_at, bad_input, index_at, text_at};
 use glam::{Vec3, Vec4};
 use serde_json::Value;
+use superdeform::internals::character::kinds::MeshNames;
 use superdeform::{MorphTarget, Result};
 
 /// One primitive as the file has it.
 pub(super) struct RawMesh {
-    /// The mesh's name, else its node's; with the material's behind it where the mesh has several primitives.
+    /// What messages call it.
     pub(super) name: String,
-    /// `node|mesh|material`.
-    pub(super) label: String,
+    /// What says what it is.
+    pub(super) names: MeshNames,
     pub(super) positions: Vec<Vec3>,
     pub(super) normals: Vec<Vec3>,
     pub(super) tangents: Vec<Vec4>,
@@ -39,7 +40,8 @@ pub(super) fn read_primitive(
     let Some(accessor) = index_at(attributes, "POSITION") else {
         return Ok(None);
     };
-    let (name, label) = names(file, node, mesh_json, json);
+    let names = names(file, node, mesh_json, json);
+    let name = name(&names, array_at(mesh_json, "primitives").len());
     let place = || match name.as_str() {
         "" => format!("{}: mesh {mesh}", file.name),
         name => format!("{}: mesh {mesh} ({name})", file.name),
@@ -54,10 +56,10 @@ pub(super) fn read_primitive(
     };
     // What has no normals itself can have no changes of them.
     let keys = [("NORMAL", !normals.is_empty()), ("TANGENT", !tangents.is_empty())];
-    let names = array_at(&mesh_json["extras"], "targetNames");
+    let target_names = array_at(&mesh_json["extras"], "targetNames");
     let mut morph_targets = Vec::new();
     for (index, target) in array_at(json, "targets").iter().enumerate() {
-        let name = names.get(index).and_then(Value::as_str).unwrap_or("");
+        let name = target_names.get(index).and_then(Value::as_str).unwrap_or("");
         morph_targets.push(read_target(reader, target, name, positions.len(), keys)?);
     }
     let triangles = read_triangles(reader, json, positions.len(), &place)?;
@@ -67,20 +69,22 @@ pub(super) fn read_primitive(
         }
         _ => Vec::new(),
     };
-    Ok(Some(RawMesh { name, label, positions, normals, tangents, morph_targets, triangles, rows }))
+    Ok(Some(RawMesh { name, names, positions, normals, tangents, morph_targets, triangles, rows }))
 }
 
-/// A primitive's name, and its label `node|mesh|material`.
-fn names(file: &GltfFile, node: usize, mesh: &Value, primitive: &Value) -> (String, String) {
-    let node_name = text_at(&file.list("nodes")[node], "name");
-    let mesh_name = text_at(mesh, "name");
+fn names(file: &GltfFile, node: usize, mesh: &Value, primitive: &Value) -> MeshNames {
     let material = index_at(primitive, "material").and_then(|material| file.list("materials").get(material));
-    let material_name = material.map_or("", |material| text_at(material, "name"));
-    let mut name = if mesh_name.is_empty() { node_name } else { mesh_name }.to_string();
-    if array_at(mesh, "primitives").len() > 1 && !material_name.is_empty() {
-        name = format!("{name}/{material_name}");
+    MeshNames {
+        node: text_at(&file.list("nodes")[node], "name").to_string(),
+        mesh: text_at(mesh, "name").to_string(),
+        material: material.map_or("", |material| text_at(material, "name")).to_string(),
     }
-    (name, format!("{node_name}|{mesh_name}|{material_name}"))
+}
+
+/// The mesh's name, else its node's; with the material's behind it where the mesh has several primitives.
+fn name(MeshNames { node, mesh, material }: &MeshNames, primitive_count: usize) -> String {
+    let name = if mesh.is_empty() { node } else { mesh };
+    if primitive_count > 1 && !material.is_empty() { format!("{name}/{material}") } else { name.clone() }
 }
 
 fn vec3s(reader: &Reader, accessor: usize, count: Option<usize>) -> Result<Vec<Vec3>> {
