@@ -1,6 +1,6 @@
 //! What is measured on: a person of capsules, and two files where they are at hand.
 //!
-//! `SUPERDEFORM_MODELS` names the folder of the files, `../shared/models` beside the repository where it is not set.
+//! `superdeform_host::samples` says where files lie.
 
 use glam::DVec3;
 use std::collections::BTreeMap;
@@ -11,6 +11,7 @@ use superdeform::internals::rig::skeleton::weight_bones;
 use superdeform::{Axes, Character, Deformed, Deformer, Role, Style, find_roles};
 use superdeform_host::file::GltfFile;
 use superdeform_host::load::{LoadOptions, Loaded};
+use superdeform_host::samples;
 
 #[path = "../tests/common/people.rs"]
 mod people;
@@ -35,7 +36,7 @@ pub fn models() -> Vec<Model> {
     let capsules = people::Person::default().build();
     let mut models = vec![Model { name: "capsules".to_string(), path: None, character: capsules }];
     for name in FILES {
-        let path = folder().join(name);
+        let path = samples::folder().join(name);
         if path.is_file() {
             let character = load(&path).character;
             models.push(Model { name: name.to_string(), path: Some(path), character });
@@ -47,11 +48,6 @@ pub fn models() -> Vec<Model> {
 /// A person of capsules whose tubes have so many columns.
 pub fn capsules(columns: usize) -> Character {
     people::Person { columns, ..people::Person::default() }.build()
-}
-
-fn folder() -> PathBuf {
-    std::env::var_os("SUPERDEFORM_MODELS")
-        .map_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/models"), PathBuf::from)
 }
 
 /// A body without clothes and its bones without fingers.
@@ -82,8 +78,8 @@ pub fn bodies() -> Vec<Body> {
         .collect();
     let (positions, triangles) = crate::body_of_capsules(&capsules, 75.0);
     let mut bodies = vec![Body { name: "capsules", positions, triangles, bones }];
-    let [target, rigged] =
-        ["makehuman_female_target.glb", "makehuman_female_rigged.glb"].map(|name| folder().join(name));
+    let [target, rigged] = ["makehuman_female_target.glb", "makehuman_female_rigged.glb"]
+        .map(|name| samples::folder().join(name));
     if target.is_file() && rigged.is_file() {
         let character = load(&target).character;
         let rigged = load(&rigged).character;

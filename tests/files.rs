@@ -14,6 +14,7 @@ use superdeform::MeshKind;
 use superdeform_host::accessor::Reader;
 use superdeform_host::file::{GltfFile, write_atomically};
 use superdeform_host::load::{LoadOptions, Loaded, load};
+use superdeform_host::samples;
 use superdeform_host::verify::closure;
 use superdeform_host::write::rewrite;
 
@@ -42,17 +43,12 @@ fn unchanged(loaded: &Loaded) -> GltfFile {
 
 /// The files to test with, and the roles of those that do not say.
 fn models() -> Vec<(PathBuf, Option<Value>)> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let mut folders = vec![root.join("tests/data")];
-    let shared =
-        std::env::var_os("SUPERDEFORM_MODELS").map_or_else(|| root.join("../shared/models"), PathBuf::from);
+    let mut folders = vec![samples::data()];
+    let shared = samples::folder();
     if shared.is_dir() {
         folders.push(shared.clone());
     } else {
-        println!(
-            "no models at {} (SUPERDEFORM_MODELS names another folder): only tests/data is read",
-            shared.display()
-        );
+        samples::skipped("models");
     }
     let roles: Value = std::fs::read(shared.join("roles.json"))
         .ok()

@@ -18,9 +18,10 @@ use superdeform::{
 use superdeform_host::file::GltfFile;
 use superdeform_host::load::{LoadOptions, Loaded, load};
 use superdeform_host::rig::{INFLUENCES, add_rig, rerigged};
+use superdeform_host::samples;
 use superdeform_host::verify::skinned;
 use superdeform_host::write::rewrite;
-use truth::{Case, cases, path_of};
+use truth::{Case, cases};
 
 /// Cases with their rigs, made once.
 fn rigs() -> &'static [(Case, Rig)] {
@@ -37,7 +38,7 @@ fn rigs() -> &'static [(Case, Rig)] {
 
 /// A file read without looking for a rig in it.
 fn unrigged(name: &str) -> Option<Loaded> {
-    let file = GltfFile::read(&path_of(name)?).unwrap();
+    let file = GltfFile::read(&samples::path(name)?).unwrap();
     let options = LoadOptions { without_rig: true, ..LoadOptions::default() };
     Some(load(file, &options).unwrap())
 }

@@ -4,12 +4,12 @@
 mod glb_joints;
 
 use std::collections::HashMap;
-use std::path::{Path, PathBuf};
 use superdeform::Role::{self, *};
 use superdeform::internals::character::naming::parse_role_map;
 use superdeform::internals::character::roles::complete;
 use superdeform::internals::character::tree_roles::roles_from_tree;
 use superdeform::{Humanoid, Mesh, Skeleton, find_roles};
+use superdeform_host::samples;
 
 /// The roles that decide how a character is deformed.
 const CORE: [Role; 19] = [
@@ -41,11 +41,6 @@ fn by_tree(skeleton: &Skeleton, meshes: &[Mesh]) -> Humanoid {
     found
 }
 
-fn models() -> PathBuf {
-    let set = std::env::var_os("SUPERDEFORM_MODELS").map(PathBuf::from);
-    set.unwrap_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/models"))
-}
-
 struct Real {
     name: String,
     file: glb_joints::File,
@@ -58,9 +53,9 @@ fn bare(name: &str) -> String {
 
 /// Every rigged model with its true roles; empty where the models are not there.
 fn real_characters(every_node: bool) -> Vec<Real> {
-    let folder = models();
+    let folder = samples::folder();
     let Ok(entries) = std::fs::read_dir(&folder) else {
-        println!("no models in {}: real characters are not compared", folder.display());
+        samples::skipped("models");
         return Vec::new();
     };
     let list = std::fs::read_to_string(folder.join("roles.json")).unwrap_or_else(|_| "{}".to_string());

@@ -24,12 +24,7 @@ pub(super) fn set_kinds(
         }
     }
     if !guessed.is_empty() {
-        warnings.push(Warning::new(
-            "kind_guessed",
-            format!(
-                "kinds were guessed from names, so check them and correct them with --body, --garment, --hair, --face-part or --accessory: {}",
-                guessed.join(", ")
-            ),
-        ));
+        let message = format!("kinds were guessed from names, so check them: {}", guessed.join(", "));
+        warnings.push(Warning::new("kind_guessed", message).about("kinds"));
     }
 }

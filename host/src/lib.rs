@@ -12,6 +12,7 @@ pub mod load;
 mod primitive;
 pub mod rig;
 pub mod roles;
+pub mod samples;
 pub mod verify;
 pub mod vrm;
 pub mod write;

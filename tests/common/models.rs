@@ -1,12 +1,10 @@
 //! The real models to test with, and what comes out of them.
 //!
-//! Two stand in tests/data; the rest are read from `SUPERDEFORM_MODELS`, or from `shared/models` beside the project, and
-//! left out with a line that says so where there is no such folder.
+//! `superdeform_host::samples` says where they lie; what a test lacks of them is reported as skipped.
 #![allow(dead_code)]
 
 use glam::DVec3;
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, OnceLock};
 use superdeform::internals::shape::Measured;
@@ -14,30 +12,24 @@ use superdeform::internals::shape::figure::Figure;
 use superdeform::{Character, Deformed, Deformer, Options, Style, find_roles};
 use superdeform_host::file::GltfFile;
 use superdeform_host::load::{LoadOptions, Loaded, load};
+use superdeform_host::samples;
 use superdeform_host::verify::{Closure, closure};
 use superdeform_host::write::{rewrite, write};
 
 /// Models that the others are made like: 2.3, 3.4 and 4.6 heads.
 pub const REFERENCES: [&str; 3] = ["kaykit_rogue.glb", "godette.vrm", "makehuman_baby_reference.glb"];
 
-/// All models that come with a rig, by file name.
+/// All models that come with a rig, by file name. The sample pair is always among them; a test that finds no others is
+/// reported as skipped.
 pub fn models() -> &'static BTreeMap<String, Loaded> {
     static MODELS: OnceLock<BTreeMap<String, Loaded>> = OnceLock::new();
+    let more = samples::folder();
+    if !more.is_dir() {
+        samples::skipped("models");
+    }
     MODELS.get_or_init(|| {
-        let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-        let mut folders = vec![root.join("tests/data")];
-        let shared = std::env::var_os("SUPERDEFORM_MODELS")
-            .map_or_else(|| root.join("../shared/models"), PathBuf::from);
-        if shared.is_dir() {
-            folders.push(shared);
-        } else {
-            println!(
-                "no models at {} (SUPERDEFORM_MODELS names another folder): only tests/data is read",
-                shared.display()
-            );
-        }
         let mut models = BTreeMap::new();
-        for folder in folders {
+        for folder in [samples::data(), more].into_iter().filter(|folder| folder.is_dir()) {
             for path in std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()) {
                 if !path.extension().is_some_and(|end| end == "glb" || end == "vrm") {
                     continue;
@@ -53,12 +45,16 @@ pub fn models() -> &'static BTreeMap<String, Loaded> {
     })
 }
 
-/// The model called `name`, where it is there.
+/// The model called `name`; where it is not there, `None`, and the calling test is reported as skipped.
 pub fn model(name: &str) -> Option<&'static Loaded> {
-    models().get(name)
+    let model = models().get(name);
+    if model.is_none() {
+        samples::skipped(name);
+    }
+    model
 }
 
-/// Those of `names` that are there.
+/// Those of `names` that are there; the others are reported as skipped.
 pub fn present<'a>(names: &[&'a str]) -> Vec<&'a str> {
     names.iter().copied().filter(|&name| model(name).is_some()).collect()
 }

@@ -1,14 +1,14 @@
 //! Real characters without their rigs, and where their artists put the joints.
 #![allow(dead_code)]
 
-use super::models::models;
+use super::models::{model, models};
 use glam::DVec3;
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
 use superdeform::internals::character::Frame;
 use superdeform::{Character, Role};
 use superdeform_host::file::GltfFile;
 use superdeform_host::load::{LoadOptions, load};
+use superdeform_host::samples;
 
 /// A character without a rig.
 pub struct Case {
@@ -34,20 +34,12 @@ pub fn cases() -> Vec<Case> {
         ("seedsan_unrigged.glb", "seedsan_vrm1.vrm"),
         ("quaternius_female_dress_unrigged.glb", "quaternius_female_dress.glb"),
     ] {
-        let Some((path, twin)) = path_of(name).zip(models().get(twin)) else {
+        let Some((path, twin)) = samples::path(name).zip(model(twin)) else {
             continue;
         };
         cases.push(case(name, GltfFile::read(&path).unwrap(), &twin.character));
     }
     cases
-}
-
-/// A file of tests/data or of the models, where it is there.
-pub fn path_of(name: &str) -> Option<PathBuf> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let shared =
-        std::env::var_os("SUPERDEFORM_MODELS").map_or_else(|| root.join("../shared/models"), PathBuf::from);
-    [root.join("tests/data"), shared].into_iter().map(|folder| folder.join(name)).find(|path| path.is_file())
 }
 
 fn case(name: &str, file: GltfFile, rigged: &Character) -> Case {
