@@ -3,7 +3,7 @@
 use superdeform::{Error, Warning};
 
 /// How the command line spells an option of the library.
-fn flag(option: &str) -> String {
+pub fn flag(option: &str) -> String {
     match option {
         "mode" => "--paper".to_string(),
         "limits" => "--no-limits".to_string(),
@@ -16,6 +16,7 @@ fn flag(option: &str) -> String {
         "rig_weights" => "--body-weights".to_string(),
         "rig_garments" => "--garment-weights".to_string(),
         "rig_joints" => "--joints".to_string(),
+        "rig_fingers" => "--no-rig-fingers".to_string(),
         "kinds" => "--body, --garment, --hair, --face-part, --accessory".to_string(),
         option => format!("--{}", option.replace('_', "-")),
     }

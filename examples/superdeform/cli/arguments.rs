@@ -1,41 +1,14 @@
-//! Every argument with its range and its help, for clap.
+//! Every argument with its help, for clap. What is a number or a word to the library has its help, its range and its default
+//! from the library's table of options; help written here says how files and switches are spelt, which the table cannot.
 
 use super::{Rig, values};
+use clap::Parser;
 use clap::builder::ValueParser;
-use clap::{Parser, ValueEnum};
 use glam::Vec3;
 use regex::Regex;
 use std::path::PathBuf;
-use superdeform::options::HEADS;
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Curve {
-    F4,
-    F2,
-    Sphere,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum LastStage {
-    Length,
-    Thickness,
-    Face,
-    All,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum GarmentWay {
-    Robust,
-    Nearest,
-    Heat,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum BodyWay {
-    Auto,
-    Heat,
-    Volume,
-}
+use superdeform::{FaceCurve, GarmentWeights, Stage, WeightMethod};
+use values::{choice, count, help, number};
 
 /// Turns a 3D character into its super-deformed (SD, chibi) version.
 #[derive(Debug, Parser)]
@@ -65,33 +38,29 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE.json")]
     pub save_style: Option<PathBuf>,
 
-    /// A style for this many heads (1.8 to 6) instead of REFERENCE
-    #[arg(long, value_name = "N", value_parser = values::number(HEADS.0, HEADS.1), help_heading = STYLE)]
+    #[arg(long, value_name = "N", value_parser = number("heads"), help = help("heads"), help_heading = STYLE)]
     pub heads: Option<f64>,
 
-    /// From the original (0) to the style (1)
-    #[arg(long, value_name = "0..1", default_value = "1", value_parser = values::number(0.0, 1.0), help_heading = STYLE)]
-    pub amount: f64,
+    #[arg(long, value_name = "X", value_parser = number("amount"), help = help("amount"), help_heading = STYLE)]
+    pub amount: Option<f64>,
 
     /// Mix in a second saved style, 0 to 1 of it
     #[arg(long, value_name = "STYLE.json:0.5", value_parser = ValueParser::new(values::blend), help_heading = STYLE)]
     pub blend: Option<(PathBuf, f64)>,
 
-    /// Size of the head (alpha_head)
-    #[arg(long, value_name = "X", default_value = "1.5", value_parser = values::number(0.1, 10.0), help_heading = STYLE)]
-    pub head_scale: f64,
+    #[arg(long, value_name = "X", value_parser = number("head_scale"), help = help("head_scale"), help_heading = STYLE)]
+    pub head_scale: Option<f64>,
 
-    /// How much younger the face gets; 0 leaves it (gamma) [default: 0.8, with --paper 0]
-    #[arg(long, value_name = "X", value_parser = values::number(0.0, 10.0), help_heading = STYLE)]
+    #[arg(long, value_name = "X", allow_negative_numbers = true, value_parser = number("face_squash"),
+        help = help("face_squash"), help_heading = STYLE)]
     pub face_squash: Option<f64>,
 
-    /// The curve for --face-squash
-    #[arg(long, value_name = "CURVE", value_enum, default_value = "f4", help_heading = STYLE)]
-    pub face_curve: Curve,
+    #[arg(long, value_name = "CURVE", value_parser = choice::<FaceCurve>("face_curve"),
+        help = help("face_curve"), help_heading = STYLE)]
+    pub face_curve: Option<FaceCurve>,
 
-    /// Length of hair below the chin: 1 keeps where it ends on the body, 0 ends it at the chin
-    #[arg(long, value_name = "0..1", default_value = "1", value_parser = values::number(0.0, 1.0), help_heading = STYLE)]
-    pub hair_length: f64,
+    #[arg(long, value_name = "X", value_parser = number("hair_length"), help = help("hair_length"), help_heading = STYLE)]
+    pub hair_length: Option<f64>,
 
     /// Set a bone group, e.g. upper_leg:length=0.4,thickness=0.8: scales (length, thickness), or how much of
     /// the reference is taken, 0 to 1 (length_transfer, thickness_transfer); repeatable
@@ -110,37 +79,45 @@ pub struct Arguments {
     #[arg(long, help_heading = METHOD)]
     pub no_limits: bool,
 
-    /// Rays around each sample of a bone, at least 3 [default: 48, with --paper 12]
-    #[arg(long, value_name = "N", value_parser = values::count(3, 4096), help_heading = METHOD)]
+    #[arg(long, value_name = "N", value_parser = count("rays"), help = help("rays"), help_heading = METHOD)]
     pub rays: Option<usize>,
 
-    /// Stop after a stage
-    #[arg(long, value_name = "STAGE", value_enum, default_value = "all", help_heading = METHOD)]
-    pub stage: LastStage,
+    #[arg(long, value_name = "STAGE", value_parser = choice::<Stage>("stage"), help = help("stage"), help_heading = METHOD)]
+    pub stage: Option<Stage>,
 
     /// Keep the target's rig, or make one [default: keep, where there is one with the roles that it takes]
-    #[arg(long, value_name = "RIG", value_enum, help_heading = METHOD)]
+    #[arg(long, value_name = "RIG", value_enum, help_heading = NEW_RIG)]
     pub rig: Option<Rig>,
 
     /// Write the target with its rig, not deformed
-    #[arg(long, value_name = "FILE.glb", help_heading = METHOD)]
+    #[arg(long, value_name = "FILE.glb", help_heading = NEW_RIG)]
     pub save_rigged: Option<PathBuf>,
 
-    /// How the body gets weights with a new rig: along its surface, through its volume, or whichever suits it
-    #[arg(long, value_name = "WAY", value_enum, default_value = "auto", help_heading = METHOD)]
-    pub body_weights: BodyWay,
+    #[arg(long, value_name = "N", value_parser = count("thread_count"), help = help("thread_count"), help_heading = METHOD)]
+    pub threads: Option<usize>,
 
-    /// How clothes get weights with a new rig: from close surface points alike, from the nearest, or like a body
-    #[arg(long, value_name = "WAY", value_enum, default_value = "robust", help_heading = METHOD)]
-    pub garment_weights: GarmentWay,
+    #[arg(long, value_name = "WAY", value_parser = choice::<WeightMethod>("rig_weights"),
+        help = help("rig_weights"), help_heading = NEW_RIG)]
+    pub body_weights: Option<WeightMethod>,
 
-    /// Joints that a new rig is to have: a JSON object, role to [x, y, z] as in a report's target.joints
-    #[arg(long, value_name = "FILE.json", help_heading = METHOD)]
+    #[arg(long, value_name = "WAY", value_parser = choice::<GarmentWeights>("rig_garments"),
+        help = help("rig_garments"), help_heading = NEW_RIG)]
+    pub garment_weights: Option<GarmentWeights>,
+
+    #[arg(long, value_name = "N", value_parser = count("rig_voxel_resolution"),
+        help = help("rig_voxel_resolution"), help_heading = NEW_RIG)]
+    pub rig_voxel_resolution: Option<usize>,
+
+    #[arg(long, value_name = "X", value_parser = number("rig_heat"), help = help("rig_heat"), help_heading = NEW_RIG)]
+    pub rig_heat: Option<f64>,
+
+    /// Give hands no finger joints
+    #[arg(long, help_heading = NEW_RIG)]
+    pub no_rig_fingers: bool,
+
+    /// Joints that are known: a JSON object, role to [x, y, z] as in a report's target.joints
+    #[arg(long, value_name = "FILE.json", help_heading = NEW_RIG)]
     pub joints: Option<PathBuf>,
-
-    /// Threads; 0 for all cores
-    #[arg(long, value_name = "N", default_value = "0", value_parser = values::count(0, 1024), help_heading = METHOD)]
-    pub threads: usize,
 
     /// Roles of the target's joints where they are not found: a JSON object, role to node name
     #[arg(long, value_name = "MAP.json", help_heading = READING)]
@@ -185,6 +162,7 @@ pub struct Arguments {
 
 const STYLE: &str = "Style";
 const METHOD: &str = "Method";
+const NEW_RIG: &str = "Rig";
 const READING: &str = "Reading the files";
 
 const EXAMPLES: &str = "\

@@ -4,7 +4,7 @@ mod arguments;
 mod values;
 
 use crate::input;
-use arguments::{Arguments, BodyWay, Curve, GarmentWay, LastStage};
+use arguments::Arguments;
 use clap::error::ErrorKind;
 use clap::{Parser, ValueEnum};
 use regex::Regex;
@@ -13,9 +13,7 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use superdeform::internals::character::bones::Group as BoneGroup;
 use superdeform::internals::shape::style::BUILT_IN;
-use superdeform::{
-    Axes, FaceCurve, GarmentWeights, GroupSettings, MeshKind, Mode, Options, RigOptions, Stage, WeightMethod,
-};
+use superdeform::{Axes, GroupSettings, MeshKind, Mode, Options, RigOptions};
 use values::Group;
 
 /// The folder for results when no output path is given.
@@ -122,19 +120,15 @@ fn command(arguments: Arguments) -> Result<Command, Refusal> {
         ));
     }
     let options = options(&arguments)?;
+    let unset = RigOptions::default();
     let rig_options = RigOptions {
-        method: match arguments.body_weights {
-            BodyWay::Auto => WeightMethod::Auto,
-            BodyWay::Heat => WeightMethod::Heat,
-            BodyWay::Volume => WeightMethod::Volume,
-        },
-        garments: match arguments.garment_weights {
-            GarmentWay::Robust => GarmentWeights::Robust,
-            GarmentWay::Nearest => GarmentWeights::Nearest,
-            GarmentWay::Heat => GarmentWeights::Heat,
-        },
+        method: arguments.body_weights.unwrap_or(unset.method),
+        garments: arguments.garment_weights.unwrap_or(unset.garments),
+        heat: arguments.rig_heat.unwrap_or(unset.heat),
+        voxel_resolution: arguments.rig_voxel_resolution.unwrap_or(unset.voxel_resolution),
+        fingers: !arguments.no_rig_fingers,
         thread_count: options.thread_count,
-        ..RigOptions::default()
+        ..unset
     };
     if arguments.joints.is_some() && arguments.rig == Some(Rig::Keep) {
         return Err(Refusal::Usage(
@@ -229,27 +223,20 @@ fn options(arguments: &Arguments) -> Result<Options, Refusal> {
         entry.length_transfer = settings.length_transfer.or(entry.length_transfer);
         entry.thickness_transfer = settings.thickness_transfer.or(entry.thickness_transfer);
     }
+    let unset = Options::default();
     Ok(Options {
         mode: if arguments.paper { Mode::Paper } else { Mode::Product },
         rays: arguments.rays,
-        head_scale: arguments.head_scale,
+        head_scale: arguments.head_scale.unwrap_or(unset.head_scale),
         face_squash: arguments.face_squash,
-        face_curve: match arguments.face_curve {
-            Curve::F4 => FaceCurve::F4,
-            Curve::F2 => FaceCurve::F2,
-            Curve::Sphere => FaceCurve::Sphere,
-        },
+        face_curve: arguments.face_curve.unwrap_or(unset.face_curve),
         groups,
         bone_groups,
-        amount: arguments.amount,
+        amount: arguments.amount.unwrap_or(unset.amount),
         limits: !arguments.no_limits && !arguments.paper,
-        hair_length: arguments.hair_length,
-        stage: match arguments.stage {
-            LastStage::Length => Stage::Length,
-            LastStage::Thickness => Stage::Thickness,
-            LastStage::Face | LastStage::All => Stage::Face,
-        },
-        thread_count: arguments.threads,
+        hair_length: arguments.hair_length.unwrap_or(unset.hair_length),
+        stage: arguments.stage.unwrap_or(unset.stage),
+        thread_count: arguments.threads.unwrap_or(unset.thread_count),
     })
 }
 
@@ -312,7 +299,11 @@ fn has_extension(path: &Path, wanted: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::words;
+    use clap::CommandFactory;
     use glam::Vec3;
+    use superdeform::options::TABLE;
+    use superdeform::{FaceCurve, GarmentWeights, Stage, WeightMethod};
 
     fn parsed(arguments: &[&str]) -> Command {
         parse(std::iter::once(&"superdeform").chain(arguments)).expect("a command")
@@ -381,8 +372,11 @@ mod tests {
             (&["--heads", "7"][..], &["7", "1.8", "6"][..]),
             (&["--heads", "NaN"], &["NaN", "1.8"]),
             (&["--amount", "1.5"], &["1.5", "0 to 1"]),
+            (&["--face-squash", "-11"], &["-11", "-10 to 10"]),
+            (&["--rig-voxel-resolution", "8"], &["8", "16 to 512"]),
             (&["--rays", "2"], &["2", "3"]),
             (&["--group", "upper_leg:length=0"], &["length", "0.01"]),
+            (&["--group", "upper_leg:length_transfer=2"], &["length_transfer", "0 to 1"]),
             (&["--group", "tail:length=1"], &["tail", "upper_leg"]),
             (&["--group", "foot:girth=1"], &["girth", "thickness"]),
             (&["--blend", "x.json:2"], &["2", "0 to 1"]),
@@ -432,6 +426,54 @@ mod tests {
         assert_eq!(refused(&["--rig", "keep", "--joints", "joints.json"]).0, 2);
         assert!(refused(&["--save-rigged", "x.vrm"]).1.contains("x.vrm"));
         assert_eq!(refused(&["--body-weights", "wool"]).0, 2);
+    }
+
+    #[test]
+    fn what_the_library_can_be_told_can_be_given() {
+        let command = parsed(&[
+            "--face-squash=-0.5",
+            "--face-curve",
+            "sphere",
+            "--stage",
+            "length",
+            "--rays",
+            "24",
+            "--no-limits",
+            "--rig-voxel-resolution",
+            "64",
+            "--rig-heat",
+            "2",
+            "--no-rig-fingers",
+        ]);
+        let options = command.options;
+        assert_eq!((options.face_squash, options.face_curve), (Some(-0.5), FaceCurve::Sphere));
+        assert_eq!((options.stage, options.rays, options.limits), (Stage::Length, Some(24), false));
+        let rig = command.rig_options;
+        assert_eq!((rig.voxel_resolution, rig.heat, rig.fingers), (64, 2.0, false));
+    }
+
+    #[test]
+    fn every_option_of_the_library_has_its_flag() {
+        let arguments = Arguments::command();
+        // glTF's axes are right-handed.
+        for info in TABLE.iter().filter(|info| info.name != "rig_left_handed") {
+            for flag in words::flag(info.name).split(", ") {
+                let name = flag.trim_start_matches("--").split(' ').next();
+                assert!(arguments.get_arguments().any(|argument| argument.get_long() == name), "{flag}");
+            }
+        }
+    }
+
+    #[test]
+    fn help_gives_ranges_defaults_and_choices() {
+        let text = refused(&["--help"]).1.split_whitespace().collect::<Vec<_>>().join(" ");
+        for words in [
+            "Size of the head: 1 keeps it, 1.5 is the paper's [0.1 to 10; default: 1.5]",
+            "[default: f4] [possible values: f4, f2, sphere]",
+            "[1.8 to 6]",
+        ] {
+            assert!(text.contains(words), "{words}: {text}");
+        }
     }
 
     #[test]

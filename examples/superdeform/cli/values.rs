@@ -1,9 +1,12 @@
 //! The values of arguments, each from its text; what is refused is refused in one sentence that names the value.
 
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use glam::Vec3;
 use regex::Regex;
 use std::path::PathBuf;
+use std::str::FromStr;
 use superdeform::GroupSettings;
+use superdeform::options::{OptionInfo, TABLE, Values, find};
 
 /// Settings of one bone group.
 #[derive(Clone, Debug)]
@@ -12,25 +15,75 @@ pub struct Group {
     pub settings: GroupSettings,
 }
 
-/// A number from `low` to `high`, both included.
-pub fn number(low: f64, high: f64) -> impl Fn(&str) -> Result<f64, String> + Clone {
-    move |text| number_in(text, low, high)
+/// The option of the library that is called `name`.
+fn info(name: &str) -> &'static OptionInfo {
+    find(name).unwrap_or_else(|| {
+        let names: Vec<&str> = TABLE.iter().map(|info| info.name).collect();
+        panic!("the library has no option {name}, only {}", names.join(", "))
+    })
 }
 
-fn number_in(text: &str, low: f64, high: f64) -> Result<f64, String> {
-    match text.trim().parse::<f64>() {
-        Ok(value) if value >= low && value <= high => Ok(value),
-        Ok(value) => Err(format!("{value} is out of range: give a number from {low} to {high}")),
-        Err(_) => Err(format!("`{text}` is not a number: give one from {low} to {high}")),
+/// The help of the option `name`: what it does, its range, its default.
+pub fn help(name: &str) -> String {
+    let info = info(name);
+    let mut letters = info.text.chars();
+    let mut help: String = letters.next().into_iter().flat_map(char::to_uppercase).chain(letters).collect();
+    // The choices are listed by clap.
+    let range = match info.values {
+        Values::Number { .. } | Values::Count { .. } => info.values.to_string(),
+        Values::Switch | Values::Choice(_) | Values::Other => String::new(),
+    };
+    let default = info.default.to_string();
+    let notes = match (range.is_empty(), default.is_empty()) {
+        (true, true) => return help,
+        (true, false) => format!(" [default: {default}]"),
+        (false, true) => format!(" [{range}]"),
+        (false, false) => format!(" [{range}; default: {default}]"),
+    };
+    help.push_str(&notes);
+    help
+}
+
+/// A number in the range of the option `name`.
+pub fn number(name: &'static str) -> impl Fn(&str) -> Result<f64, String> + Clone {
+    move |text| number_of(name, text)
+}
+
+fn number_of(name: &str, text: &str) -> Result<f64, String> {
+    let range = info(name).values;
+    let value: f64 =
+        text.trim().parse().map_err(|_| format!("`{text}` is not a number: give one from {range}"))?;
+    match range {
+        Values::Number { low, high } if !(low..=high).contains(&value) => {
+            Err(format!("{value} is out of range: give a number from {range}"))
+        }
+        _ => Ok(value),
     }
 }
 
-/// A whole number from `low` to `high`, both included.
-pub fn count(low: usize, high: usize) -> impl Fn(&str) -> Result<usize, String> + Clone {
-    move |text| match text.trim().parse::<usize>() {
-        Ok(value) if (low..=high).contains(&value) => Ok(value),
-        _ => Err(format!("{text} is out of range: give a whole number from {low} to {high}")),
+/// A whole number in the range of the option `name`.
+pub fn count(name: &'static str) -> impl Fn(&str) -> Result<usize, String> + Clone {
+    move |text| {
+        let range = info(name).values;
+        let refused = || format!("{text} is out of range: give a whole number from {range}");
+        let value: u32 = text.trim().parse().map_err(|_| refused())?;
+        match range {
+            Values::Count { low, high } if !(low..=high).contains(&value) => Err(refused()),
+            _ => usize::try_from(value).map_err(|_| refused()),
+        }
     }
+}
+
+/// One of the words of the option `name`.
+pub fn choice<T>(name: &str) -> impl TypedValueParser<Value = T>
+where
+    T: FromStr<Err = superdeform::Error> + Clone + Send + Sync + 'static,
+{
+    let words: &'static [&'static str] = match info(name).values {
+        Values::Choice(words) => words,
+        _ => &[],
+    };
+    PossibleValuesParser::new(words).try_map(|word| word.parse::<T>())
 }
 
 /// An axis such as `+Y`, `-z` or `x`.
@@ -60,7 +113,7 @@ pub fn pattern(text: &str) -> Result<Regex, String> {
 /// `STYLE.json:0.5`; the last colon counts, because a path may hold others.
 pub fn blend(text: &str) -> Result<(PathBuf, f64), String> {
     match text.rsplit_once(':') {
-        Some((path, share)) if !path.is_empty() => Ok((PathBuf::from(path), number_in(share, 0.0, 1.0)?)),
+        Some((path, share)) if !path.is_empty() => Ok((PathBuf::from(path), number_of("blend", share)?)),
         _ => Err("give a saved style and its share, as in STYLE.json:0.5".to_string()),
     }
 }
@@ -75,18 +128,19 @@ pub fn group(text: &str) -> Result<Group, String> {
         let Some((key, value)) = setting.split_once('=') else {
             return Err(format!("`{setting}` has no value: write it as length=0.4"));
         };
-        let (place, high, low) = match key.trim() {
-            "length" => (&mut settings.length_scale, 10.0, 0.01),
-            "thickness" => (&mut settings.thickness_scale, 10.0, 0.01),
-            "length_transfer" => (&mut settings.length_transfer, 1.0, 0.0),
-            "thickness_transfer" => (&mut settings.thickness_transfer, 1.0, 0.0),
+        let key = key.trim();
+        let (place, name) = match key {
+            "length" => (&mut settings.length_scale, "length_scale"),
+            "thickness" => (&mut settings.thickness_scale, "thickness_scale"),
+            "length_transfer" => (&mut settings.length_transfer, key),
+            "thickness_transfer" => (&mut settings.thickness_transfer, key),
             other => {
                 return Err(format!(
                     "`{other}` is no setting: use length, thickness, length_transfer or thickness_transfer"
                 ));
             }
         };
-        *place = Some(number_in(value, low, high).map_err(|why| format!("{}: {why}", key.trim()))?);
+        *place = Some(number_of(name, value).map_err(|why| format!("{key}: {why}"))?);
     }
     Ok(Group { name: name.trim().to_string(), settings })
 }
