@@ -27,9 +27,9 @@
 // Arrays in  A pointer, a count, and for vertices a stride: the bytes from one element to the next, 0 for packed. They
 //            need no alignment, are read during the call and never kept. NULL is allowed where the count is 0, and for
 //            arrays that may be left out, which say so.
-// Arrays out The caller's, with the number of elements that they can hold (capacity). NULL: not wanted. One that is too
-//            small gives SDEF_STATUS_BUFFER_TOO_SMALL, and what is needed is told. Nothing is written on any error but
-//            the error, counts and sizes.
+// Arrays out The caller's, with the number of elements that they can hold (capacity). NULL: left out. One that is too
+//            small gives SDEF_STATUS_BUFFER_TOO_SMALL, and what is needed is written. On an error nothing else is
+//            written but the error, counts and sizes.
 // Text       UTF-8, NUL-terminated; names may be NULL, for none.
 // Structs    Those that begin with struct_size = sizeof(the struct) may be older or newer than the library. SdefOptions
 //            is filled by sdef_options_init; every other struct is zeroed and struct_size set, for results too. Numbers
@@ -59,14 +59,14 @@ extern "C" {
 typedef uint32_t SdefStatus;
 
 #define SDEF_STATUS_OK 0                // Done.
-#define SDEF_STATUS_BAD_ARGUMENT 1      // A NULL, size, stride or constant that cannot be: a slip in the host's code.
+#define SDEF_STATUS_BAD_ARGUMENT 1      // A NULL, size, stride or constant that cannot be: an error in the host's code.
 #define SDEF_STATUS_BAD_HANDLE 2        // The handle is none, was destroyed, was never given, or is of another kind.
 #define SDEF_STATUS_BAD_INPUT 3         // A number in an array is wrong: an index, a position that is not finite.
 #define SDEF_STATUS_BAD_OPTION 4        // An option is out of its range.
 #define SDEF_STATUS_BAD_STYLE 5         // A style cannot be read, or lacks what the mode transfers.
 #define SDEF_STATUS_NO_HUMANOID 6       // No joints for hips, head, upper legs, upper arms: name them, or make a rig.
 #define SDEF_STATUS_NO_GEOMETRY 7       // There are no triangles, or they have no extent along up.
-#define SDEF_STATUS_BUFFER_TOO_SMALL 8  // An array of the caller's is too small; how much is needed is told.
+#define SDEF_STATUS_BUFFER_TOO_SMALL 8  // An array of the caller's is too small; how much is needed is written.
 #define SDEF_STATUS_BUSY 9              // The handle is in use, by another thread or by the call around this one.
 #define SDEF_STATUS_CANCELLED 10        // The progress callback asked to stop.
 #define SDEF_STATUS_OUT_OF_MEMORY 11    // Memory for the caller's arrays could not be had.
@@ -284,7 +284,7 @@ typedef struct SdefSkeleton {
   uint32_t role_count;         // elements of role_joints, up to SDEF_ROLE_COUNT
   const char *const *names;    // joint_count texts, for messages and for guessing roles; may be NULL, and so may each
   size_t joint_count;          // joints
-  const int32_t *parents;      // the joint that each hangs from, or -1; in any order
+  const int32_t *parents;      // the parent of each joint, or -1; in any order
   const double *rest_matrices; // a matrix a joint, joint space to model space, at rest
   size_t rest_stride;          // bytes from matrix to matrix; 0: 128
   const int32_t *role_joints;  // by SDEF_ROLE_*: the joint that plays the role, or -1; a joint plays one role; where
@@ -332,7 +332,7 @@ SdefStatus sdef_character_add_morph_target(SdefCharacter character, uint32_t mes
 SdefStatus sdef_character_get_info(SdefCharacter character, SdefCharacterInfo *info, SdefError *error);
 
 // Gives the joints back: own ones first, then those of a made rig, parents in any order.
-// parents:       the joint that each hangs from, or -1
+// parents:       the parent of each joint, or -1
 // roles:         SDEF_ROLE_* as given, guessed or made, or SDEF_NONE
 // rest_matrices: 16 doubles a joint
 // confidence:    0 to 1; below 0.5 a made joint was placed by ratio or is doubtful; 1 for given and own joints
@@ -353,7 +353,7 @@ SdefStatus sdef_character_get_weights(SdefCharacter character, uint32_t mesh, ui
 // ---- The rig, for characters without a skeleton ---------------------------------------------------------------------
 
 // Finds joints and weights for a character, in place of any rig that was made before. Joints of its own stay, come
-// first, and ride along with the body; its own weights are not used.
+// first, and move with the body; its own weights are not used.
 // options: NULL for the defaults; thread_count, rig_weights, rig_garments, rig_voxel_resolution, rig_fingers,
 //          rig_left_handed, rig_heat and rig_joints are read
 // Read the result with sdef_character_get_joints and sdef_character_get_weights. Errors: BAD_OPTION, NO_GEOMETRY, BUSY,
@@ -361,8 +361,8 @@ SdefStatus sdef_character_get_weights(SdefCharacter character, uint32_t mesh, ui
 SdefStatus sdef_character_rig(SdefCharacter character, const SdefOptions *options, SdefProgress progress, void *user,
     SdefError *error);
 
-// Gives what a person should know about the rig and roles of a character, or about a deformer and all before it: one
-// line each, "code: sentence\n", where code is a fixed word such as joint_by_ratio. Empty text where all is well.
+// Writes the warnings about the rig and roles of a character, or about a deformer and all before it: a line each,
+// "code: sentence\n", where code is a fixed word such as joint_by_ratio. Empty text where there are none.
 // handle:   the id of a character or deformer
 // text:     receives the lines
 // capacity: bytes that text can hold
@@ -458,7 +458,7 @@ SdefStatus sdef_style_to_json(SdefStyle style, char *text, size_t capacity, size
 
 // ---- The deformer: made once, applied as often as something changes -------------------------------------------------
 
-// Where the results of one mesh go; arrays that are NULL are not wanted. Those that the mesh was given without
+// Where the results of one mesh go; arrays that are NULL are left out. Those that the mesh was given without
 // (normals, tangents, morph targets) must be NULL.
 typedef struct SdefMeshResult {
   uint32_t struct_size;           // sizeof(SdefMeshResult)
@@ -520,8 +520,8 @@ typedef struct SdefReport {
 SdefStatus sdef_deformer_create(SdefCharacter character, SdefStyle style, const SdefOptions *options,
     SdefProgress progress, void *user, SdefDeformer *deformer, SdefError *error);
 
-// Changes the options of a deformer, with the same results as a new one and for less: only what hangs on the change is
-// done again. For sliders.
+// Changes the options of a deformer, with the same results as a new one and for less: only what depends on the change
+// is done again. For sliders.
 // Errors: as sdef_deformer_create, after which the deformer is as it was; BUSY.
 SdefStatus sdef_deformer_set_options(SdefDeformer deformer, const SdefOptions *options, SdefProgress progress,
     void *user, SdefError *error);
@@ -540,12 +540,12 @@ SdefStatus sdef_deformer_apply(SdefDeformer deformer, const SdefMeshResult *mesh
 // inverse_binds: 16 doubles a joint, the inverse of the new rest matrix: model space to joint space
 // capacity:      joints that each array can hold
 // joint_count:   receives how many there are; may be NULL
-// Errors: BAD_INPUT where inverse_binds is wanted and a rest matrix has no inverse.
+// Errors: BAD_INPUT where inverse_binds is asked for and a rest matrix has no inverse.
 SdefStatus sdef_deformer_get_joints(SdefDeformer deformer, double *positions, double *inverse_binds, size_t capacity,
     size_t *joint_count, SdefError *error);
 
-// Maps points that hang from joints: colliders, eyes, viewpoints, the tails of springs.
-// joints:    the joint that each point hangs from
+// Maps points that move with joints: colliders, eyes, viewpoints, the tails of springs.
+// joints:    the joint that each point moves with
 // points:    3 doubles a point, model space
 // count:     points; every array holds as many
 // positions: receives 3 doubles a point, model space

@@ -202,7 +202,7 @@ inline const char *status_name(SdefStatus status) {
   return sdef_status_name(status);
 }
 
-// What a person should know about the rig and the roles of a character, or about a deformer and all before it.
+// The warnings about the rig and the roles of a character, or about a deformer and all before it.
 template <class Raw> std::string warnings(const detail::Handle<Raw> &handle) {
   return detail::text([&](char *text, std::size_t capacity, std::size_t *size, SdefError *error) {
     return sdef_get_warnings(handle.id(), text, capacity, size, error);
@@ -381,7 +381,7 @@ public:
     return joints;
   }
 
-  // joints: one a point; points, positions: 3 numbers a point; scales: one; jacobians: 9. What is empty is not wanted.
+  // joints: one a point; points, positions: 3 numbers a point; scales: one; jacobians: 9. What is empty is left out.
   void map_points(View<const std::uint32_t> joints, View<const double> points, View<double> positions,
                   View<double> scales = {}, View<double> jacobians = {}) const {
     const std::size_t count = joints.size();

@@ -308,17 +308,17 @@ fn options_that_are_set_later_give_what_a_new_deformer_gives() {
             .iter()
             .map(|warning| format!("{}: {}\n", warning.code, warning.message))
             .collect();
-        let told = text(|t, c, s, e| unsafe { sdef_get_warnings(later.id, t.cast(), c, s, e) }).unwrap();
+        let warned = text(|t, c, s, e| unsafe { sdef_get_warnings(later.id, t.cast(), c, s, e) }).unwrap();
         let codes =
             |lines: &str| lines.lines().map(|l| l.split(':').next().unwrap().to_string()).collect::<Vec<_>>();
-        assert_eq!(codes(&told), codes(&lines), "{name}");
+        assert_eq!(codes(&warned), codes(&lines), "{name}");
     }
     // A change that is refused changes nothing.
     ask(|error| unsafe { sdef_deformer_set_options(later, null(), None, null_mut(), error) }).unwrap();
     let before = deformed(later, character);
     let bad = SdefOptions { amount: 2.0, ..plain };
-    let told = ask(|error| unsafe { sdef_deformer_set_options(later, &bad, None, null_mut(), error) });
-    assert_eq!(told.unwrap_err().status, SDEF_STATUS_BAD_OPTION);
+    let refused = ask(|error| unsafe { sdef_deformer_set_options(later, &bad, None, null_mut(), error) });
+    assert_eq!(refused.unwrap_err().status, SDEF_STATUS_BAD_OPTION);
     assert!(deformed(later, character) == before);
     for id in [handle.id, style.id, later.id] {
         destroy(id);
@@ -545,7 +545,7 @@ fn a_character_comes_back_as_it_was_given() {
     let count = character.skeleton.joints.len();
     let (mut parents, mut roles, mut rests, mut sure) =
         (vec![9; count], vec![9; count], vec![[0.0; 16]; count], vec![9.0; count]);
-    let mut told = 0;
+    let mut found = 0;
     ask(|error| unsafe {
         sdef_character_get_joints(
             handle,
@@ -554,12 +554,12 @@ fn a_character_comes_back_as_it_was_given() {
             rests.as_mut_ptr().cast(),
             sure.as_mut_ptr(),
             count,
-            &mut told,
+            &mut found,
             error,
         )
     })
     .unwrap();
-    assert_eq!(told, count);
+    assert_eq!(found, count);
     for (index, joint) in character.skeleton.joints.iter().enumerate() {
         assert_eq!(parents[index], joint.parent.map_or(-1, |parent| parent as i32));
         assert_eq!(rests[index], joint.rest.to_cols_array());
@@ -736,7 +736,7 @@ fn a_destroyed_stale_made_up_or_other_handle_is_refused() {
     let made = deformer(character, style, &options());
     let stale = create().id;
     destroy(stale);
-    let bad = |told: Result<(), Told>| told.unwrap_err().status == SDEF_STATUS_BAD_HANDLE;
+    let bad = |result: Result<(), Failed>| result.unwrap_err().status == SDEF_STATUS_BAD_HANDLE;
     let (info, meshes) = (SdefCharacterInfo { struct_size: 48, ..zeroed() }, room(person()));
     for id in
         [0, 1, stale, u64::MAX, 1 << 56, made.id, style.id, 0x0100_0001_0000_FFFF, character.id ^ 1 << 40]
@@ -853,7 +853,7 @@ fn statue() -> Character {
     statue
 }
 
-fn rig(character: SdefCharacter, options: &SdefOptions) -> Result<(), Told> {
+fn rig(character: SdefCharacter, options: &SdefOptions) -> Result<(), Failed> {
     ask(|error| unsafe { sdef_character_rig(character, options, None, null_mut(), error) })
 }
 
@@ -1130,7 +1130,7 @@ fn many_threads_read_one_handle_and_a_change_beside_them_is_busy_or_done() {
                             assert!(bits == full || bits == half, "a result between two settings");
                             read.fetch_add(1, Ordering::Relaxed);
                         }
-                        Err(told) => assert_eq!(told.status, SDEF_STATUS_BUSY),
+                        Err(failed) => assert_eq!(failed.status, SDEF_STATUS_BUSY),
                     }
                     let mut info = SdefCharacterInfo { struct_size: 40, ..zeroed() };
                     ask(|error| unsafe { sdef_character_get_info(character, &mut info, error) }).unwrap();
@@ -1142,8 +1142,8 @@ fn many_threads_read_one_handle_and_a_change_beside_them_is_busy_or_done() {
             let options = SdefOptions { amount, ..with_threads(1) };
             match ask(|error| unsafe { sdef_deformer_set_options(made, &options, None, null_mut(), error) }) {
                 Ok(()) => done.fetch_add(1, Ordering::Relaxed),
-                Err(told) => {
-                    assert_eq!(told.status, SDEF_STATUS_BUSY);
+                Err(failed) => {
+                    assert_eq!(failed.status, SDEF_STATUS_BUSY);
                     busy.fetch_add(1, Ordering::Relaxed)
                 }
             };
@@ -1163,7 +1163,7 @@ fn many_threads_read_one_handle_and_a_change_beside_them_is_busy_or_done() {
 /// What a progress callback of a test sees and does.
 struct Watch {
     thread: std::thread::ThreadId,
-    told: Vec<f32>,
+    fractions: Vec<f32>,
     /// The call at which to stop.
     stop_at: usize,
     /// What to do from within.
@@ -1172,35 +1172,35 @@ struct Watch {
 
 impl Watch {
     fn new(stop_at: usize) -> Self {
-        Self { thread: std::thread::current().id(), told: Vec::new(), stop_at, within: None }
+        Self { thread: std::thread::current().id(), fractions: Vec::new(), stop_at, within: None }
     }
 }
 
 unsafe extern "C" fn watch(user: *mut c_void, fraction: f32) -> i32 {
     let watch = unsafe { &mut *user.cast::<Watch>() };
     assert_eq!(std::thread::current().id(), watch.thread);
-    watch.told.push(fraction);
+    watch.fractions.push(fraction);
     if let Some(within) = &mut watch.within {
         within();
     }
-    i32::from(watch.told.len() == watch.stop_at)
+    i32::from(watch.fractions.len() == watch.stop_at)
 }
 
 /// Stops `call` at each of its callbacks, and lets it end at last; gives how often it called back.
-fn stopped_everywhere(call: impl Fn(SdefProgress, *mut c_void) -> Result<(), Told>) -> usize {
+fn stopped_everywhere(call: impl Fn(SdefProgress, *mut c_void) -> Result<(), Failed>) -> usize {
     for stop_at in 1..100 {
         let mut watcher = Watch::new(stop_at);
         let result = call(Some(watch), (&raw mut watcher).cast());
-        assert!(watcher.told.is_sorted(), "{:?}", watcher.told);
-        assert!(watcher.told.iter().all(|fraction| (0.0..=1.0).contains(fraction)));
+        assert!(watcher.fractions.is_sorted(), "{:?}", watcher.fractions);
+        assert!(watcher.fractions.iter().all(|fraction| (0.0..=1.0).contains(fraction)));
         match result {
-            Err(told) => {
-                assert_eq!(told.status, SDEF_STATUS_CANCELLED);
-                assert_eq!(watcher.told.len(), stop_at, "nothing is told after the stop");
+            Err(failed) => {
+                assert_eq!(failed.status, SDEF_STATUS_CANCELLED);
+                assert_eq!(watcher.fractions.len(), stop_at, "no call back after the stop");
             }
             Ok(()) => {
-                assert_eq!(watcher.told.last(), Some(&1.0));
-                return watcher.told.len();
+                assert_eq!(watcher.fractions.last(), Some(&1.0));
+                return watcher.fractions.len();
             }
         }
     }
@@ -1327,9 +1327,10 @@ fn with_little_memory() {
         ..zeroed()
     };
     let handle = create();
-    let told = ask(|error| unsafe { sdef_character_add_mesh(handle, &mesh, null_mut(), error) }).unwrap_err();
-    assert_eq!(told.status, SDEF_STATUS_OUT_OF_MEMORY);
-    println!("{}", told.message);
+    let failed =
+        ask(|error| unsafe { sdef_character_add_mesh(handle, &mesh, null_mut(), error) }).unwrap_err();
+    assert_eq!(failed.status, SDEF_STATUS_OUT_OF_MEMORY);
+    println!("{}", failed.message);
     let small = c_mesh(&person().meshes[0]);
     let few = SdefMesh { influence_count: 0, row_starts: null(), ..small.mesh };
     ask(|error| unsafe { sdef_character_add_mesh(handle, &few, null_mut(), error) }).unwrap();

@@ -1,5 +1,6 @@
 //! The library's sentences in the words of the command line.
 
+use superdeform::options::{Scope, find};
 use superdeform::{Error, Warning};
 
 /// How the command line spells an option of the library.
@@ -12,12 +13,14 @@ pub fn flag(option: &str) -> String {
         "bone_groups" => "--groups".to_string(),
         "length_scale" => "--group NAME:length=X".to_string(),
         "thickness_scale" => "--group NAME:thickness=X".to_string(),
-        "length_transfer" | "thickness_transfer" => format!("--group NAME:{option}=X"),
         "rig_weights" => "--body-weights".to_string(),
         "rig_garments" => "--garment-weights".to_string(),
         "rig_joints" => "--joints".to_string(),
         "rig_fingers" => "--no-rig-fingers".to_string(),
         "kinds" => "--body, --garment, --hair, --face-part, --accessory".to_string(),
+        option if find(option).is_some_and(|info| info.scope == Scope::Group) => {
+            format!("--group NAME:{option}=X")
+        }
         option => format!("--{}", option.replace('_', "-")),
     }
 }

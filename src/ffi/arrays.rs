@@ -6,7 +6,7 @@ use core::ffi::{CStr, c_char};
 use glam::{DMat4, DVec3, Vec3, Vec4};
 use std::fmt::Display;
 
-/// Structs larger than this are no structs of ours, but uninitialised memory.
+/// Structs larger than this are none of the library's, but uninitialised memory.
 const LARGEST_STRUCT: usize = 1 << 16;
 
 /// Types that any bytes make: numbers and what consists of them without gaps that matter.
@@ -38,9 +38,7 @@ pub fn stride_of(
     size: usize,
 ) -> Outcome<usize> {
     if count > 0 && is_null {
-        return Err(Failure::argument(format!(
-            "{what} is NULL, but {count} are to be there: give the array"
-        )));
+        return Err(Failure::argument(format!("{what} is NULL, but {count} are needed: give the array")));
     }
     let stride = if stride == 0 { size } else { stride };
     if stride < size {
@@ -188,7 +186,7 @@ pub unsafe fn structs_in<T: Plain>(what: &str, from: *const T, count: usize) -> 
     }
     if from.is_null() {
         return Err(Failure::argument(format!(
-            "the array of {what} is NULL, but {count} are to be there: give the array"
+            "the array of {what} is NULL, but {count} are needed: give the array"
         )));
     }
     unsafe {
@@ -255,7 +253,7 @@ pub fn not_null<T>(what: &str, to: *mut T) -> Outcome {
     Ok(())
 }
 
-/// An array of the caller's that results go to, checked; `None` where it is not wanted.
+/// An array of the caller's that results go to, checked; `None` where the caller gave none.
 #[derive(Clone, Copy)]
 pub struct Output<T> {
     start: *mut u8,
@@ -265,7 +263,7 @@ pub struct Output<T> {
 }
 
 impl<T: Plain> Output<T> {
-    /// An array that is not wanted.
+    /// No array.
     pub fn none() -> Self {
         Self { start: std::ptr::null_mut(), count: 0, stride: 1, element: std::marker::PhantomData }
     }
@@ -295,7 +293,7 @@ impl<T: Plain> Output<T> {
     }
 
     /// Whether there is an array to write to.
-    pub fn is_wanted(&self) -> bool {
+    pub fn is_given(&self) -> bool {
         !self.start.is_null()
     }
 
@@ -310,7 +308,7 @@ impl<T: Plain> Output<T> {
         }
     }
 
-    /// Writes `values`, of which there are as many as were checked; those of an array that is not wanted are not made.
+    /// Writes `values`, of which there are as many as were checked; those of no array are not made.
     pub fn write_each(&self, values: impl IntoIterator<Item = T>) {
         for (index, value) in values.into_iter().take(self.count).enumerate() {
             // SAFETY: the caller's array holds as many.

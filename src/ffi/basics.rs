@@ -15,7 +15,7 @@ pub const SDEF_NONE: u32 = 0xFFFF_FFFF;
 pub type SdefStatus = u32;
 /// Done.
 pub const SDEF_STATUS_OK: u32 = 0;
-/// A NULL, size, stride or constant that cannot be: a slip in the host's code.
+/// A NULL, size, stride or constant that cannot be: an error in the host's code.
 pub const SDEF_STATUS_BAD_ARGUMENT: u32 = 1;
 /// The handle is none, was destroyed, was never given, or is of another kind.
 pub const SDEF_STATUS_BAD_HANDLE: u32 = 2;
@@ -29,7 +29,7 @@ pub const SDEF_STATUS_BAD_STYLE: u32 = 5;
 pub const SDEF_STATUS_NO_HUMANOID: u32 = 6;
 /// There are no triangles, or they have no extent along up.
 pub const SDEF_STATUS_NO_GEOMETRY: u32 = 7;
-/// An array of the caller's is too small; how much is needed is told.
+/// An array of the caller's is too small; how much is needed is written.
 pub const SDEF_STATUS_BUFFER_TOO_SMALL: u32 = 8;
 /// The handle is in use, by another thread or by the call around this one.
 pub const SDEF_STATUS_BUSY: u32 = 9;

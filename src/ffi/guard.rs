@@ -86,15 +86,16 @@ pub fn progress_of(callback: SdefProgress, user: *mut c_void) -> impl FnMut(f32)
 /// The bytes of `SdefError` before its message.
 const HEAD: usize = core::mem::offset_of!(SdefError, message);
 
-/// Runs `body` and tells how it ended.
+/// Runs `body` and writes how it ended.
 ///
 /// # Safety
 /// `error` is NULL or points to as many bytes as its `struct_size` says.
 pub unsafe fn call(error: *mut SdefError, body: impl FnOnce() -> Outcome) -> SdefStatus {
-    let size = match error.is_null() {
-        true => 0,
+    let size = if error.is_null() {
+        0
+    } else {
         // SAFETY: the caller's struct begins with its size.
-        false => unsafe { addr_of!((*error).struct_size).read_unaligned() as usize },
+        unsafe { addr_of!((*error).struct_size).read_unaligned() as usize }
     };
     if !error.is_null() && size <= HEAD {
         return SDEF_STATUS_BAD_ARGUMENT;
@@ -173,7 +174,7 @@ impl Drop for Inside {
     }
 }
 
-/// Keeps panics of our calls, which become a status, from the host's standard error; others are given as before.
+/// Keeps panics of our calls, which become a status, from the host's standard error; others are reported as before.
 fn keep_quiet() {
     static ONCE: Once = Once::new();
     ONCE.call_once(|| {

@@ -1,7 +1,7 @@
 //! The table of handles: the library's only global.
 //!
 //! A handle's id holds the index of a slot, the slot's generation, and the kind of what it stands for, so that a handle
-//! that was destroyed, made up or meant for something else is told from every live one.
+//! that was destroyed, made up or meant for something else is known from every live one.
 
 use super::basics::*;
 use super::character::CharacterState;
@@ -28,6 +28,14 @@ impl Object {
             Object::Character(_) => CHARACTER,
             Object::Style(_) => STYLE,
             Object::Deformer(_) => DEFORMER,
+        }
+    }
+
+    fn name(&self) -> &'static str {
+        match self {
+            Object::Character(_) => "character",
+            Object::Style(_) => "style",
+            Object::Deformer(_) => "deformer",
         }
     }
 }
@@ -89,7 +97,7 @@ pub fn insert(object: Object) -> Outcome<u64> {
 }
 
 /// What `id` stands for, if anything.
-fn find(id: u64) -> Option<Object> {
+pub fn find(id: u64) -> Option<Object> {
     let (kind, generation, slot) = parts_of(id);
     let table = TABLE.read().unwrap_or_else(PoisonError::into_inner);
     let entry = table.slots.get(slot).filter(|entry| entry.generation == generation)?;
@@ -132,29 +140,16 @@ pub fn live() -> u64 {
     TABLE.read().unwrap_or_else(PoisonError::into_inner).live
 }
 
-fn bad_handle(id: u64, wanted: &str) -> Failure {
-    let message = if id == 0 {
-        format!("the {wanted} is none (id 0): make one first")
-    } else {
-        match find(id) {
-            Some(Object::Character(_)) => {
-                format!("the handle {id:#x} is a character, but a {wanted} is asked for: give one")
-            }
-            Some(Object::Style(_)) => {
-                format!("the handle {id:#x} is a style, but a {wanted} is asked for: give one")
-            }
-            Some(Object::Deformer(_)) => {
-                format!("the handle {id:#x} is a deformer, but a {wanted} is asked for: give one")
-            }
-            None => format!("the {wanted} {id:#x} was destroyed, or never was: use one that is alive"),
+/// Why `id` does not stand for a `needed` one.
+pub fn bad_handle(id: u64, needed: &str) -> Failure {
+    let message = match find(id) {
+        _ if id == 0 => format!("the {needed} is none (id 0): make one first"),
+        Some(other) => {
+            format!("the handle {id:#x} is a {}, but a {needed} is asked for: give one", other.name())
         }
+        None => format!("the {needed} {id:#x} was destroyed, or never was: use one that is alive"),
     };
     Failure::new(SDEF_STATUS_BAD_HANDLE, message)
-}
-
-/// What `id` stands for, whatever it is.
-pub fn any(id: u64, wanted: &str) -> Outcome<Object> {
-    find(id).ok_or_else(|| bad_handle(id, wanted))
 }
 
 /// The character of a handle.

@@ -29,9 +29,9 @@
 //! Arrays in  A pointer, a count, and for vertices a stride: the bytes from one element to the next, 0 for packed. They
 //!            need no alignment, are read during the call and never kept. NULL is allowed where the count is 0, and for
 //!            arrays that may be left out, which say so.
-//! Arrays out The caller's, with the number of elements that they can hold (capacity). NULL: not wanted. One that is too
-//!            small gives SDEF_STATUS_BUFFER_TOO_SMALL, and what is needed is told. Nothing is written on any error but
-//!            the error, counts and sizes.
+//! Arrays out The caller's, with the number of elements that they can hold (capacity). NULL: left out. One that is too
+//!            small gives SDEF_STATUS_BUFFER_TOO_SMALL, and what is needed is written. On an error nothing else is
+//!            written but the error, counts and sizes.
 //! Text       UTF-8, NUL-terminated; names may be NULL, for none.
 //! Structs    Those that begin with struct_size = sizeof(the struct) may be older or newer than the library. SdefOptions
 //!            is filled by sdef_options_init; every other struct is zeroed and struct_size set, for results too. Numbers

@@ -66,6 +66,19 @@ pub struct SdefGroupSettings {
 }
 unsafe impl Plain for SdefGroupSettings {}
 
+/// Nothing is set.
+impl Default for SdefGroupSettings {
+    fn default() -> Self {
+        Self {
+            group: null(),
+            length_scale: f64::NAN,
+            thickness_scale: f64::NAN,
+            length_transfer: f64::NAN,
+            thickness_transfer: f64::NAN,
+        }
+    }
+}
+
 /// A bone in a group of your own.
 #[derive_ReprC]
 #[repr(C)]

@@ -2,7 +2,7 @@
 
 use super::arrays;
 use super::basics::*;
-use super::guard::{Failure, call, progress_of, with_field};
+use super::guard::{call, progress_of, with_field};
 use super::handles::{self, Object};
 use super::options::{self, SdefOptions};
 use crate::error::Warning;
@@ -11,7 +11,7 @@ use core::ffi::{c_char, c_void};
 use safer_ffi::prelude::*;
 
 /// Finds joints and weights for a character, in place of any rig that was made before. Joints of its own stay, come
-/// first, and ride along with the body; its own weights are not used.
+/// first, and move with the body; its own weights are not used.
 ///
 /// options: NULL for the defaults; thread_count, rig_weights, rig_garments, rig_voxel_resolution, rig_fingers,
 ///          rig_left_handed, rig_heat and rig_joints are read
@@ -35,8 +35,8 @@ pub unsafe extern "C" fn sdef_character_rig(
     unsafe { call(error, body) }
 }
 
-/// Gives what a person should know about the rig and roles of a character, or about a deformer and all before it: one
-/// line each, "code: sentence\n", where code is a fixed word such as joint_by_ratio. Empty text where all is well.
+/// Writes the warnings about the rig and roles of a character, or about a deformer and all before it: a line each,
+/// "code: sentence\n", where code is a fixed word such as joint_by_ratio. Empty text where there are none.
 ///
 /// handle:   the id of a character or deformer
 /// text:     receives the lines
@@ -51,23 +51,16 @@ pub unsafe extern "C" fn sdef_get_warnings(
     error: *mut SdefError,
 ) -> SdefStatus {
     let body = || unsafe {
-        let lines = match handles::any(handle, "character or deformer")? {
-            Object::Character(state) => {
+        let lines = match handles::find(handle) {
+            Some(Object::Character(state)) => {
                 let ready = handles::read(&state, "character")?.ready();
                 match &ready.rigged {
                     Some((rig, _)) => lines(rig.warnings.iter()),
                     None => lines(ready.warnings.iter()),
                 }
             }
-            Object::Deformer(state) => lines(handles::read(&state, "deformer")?.warnings()),
-            Object::Style(_) => {
-                return Err(Failure::new(
-                    SDEF_STATUS_BAD_HANDLE,
-                    format!(
-                        "the handle {handle:#x} is a style, but a character or deformer is asked for: give one"
-                    ),
-                ));
-            }
+            Some(Object::Deformer(state)) => lines(handles::read(&state, "deformer")?.warnings()),
+            _ => return Err(handles::bad_handle(handle, "character or deformer")),
         };
         arrays::text_out(&lines, text, capacity, size)
     };

@@ -314,10 +314,10 @@ pub unsafe extern "C" fn sdef_style_get_numbers(
         let known = bones_of(&style);
         write_out(bone_count, known.len());
         Output::new("bones", bones, known.len(), capacity, 0)?.write(&known);
-        match numbers.is_null() {
-            true => Ok(()),
-            false => arrays::struct_out("SdefStyleNumbers", numbers, &numbers_of(&style)),
+        if numbers.is_null() {
+            return Ok(());
         }
+        arrays::struct_out("SdefStyleNumbers", numbers, &numbers_of(&style))
     };
     unsafe { call(error, body) }
 }

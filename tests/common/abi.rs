@@ -13,7 +13,7 @@ use superdeform::{Character, Deformed, Humanoid, Mesh, MeshKind, MorphTarget, Ro
 
 /// A status with its sentence.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Told {
+pub struct Failed {
     pub status: u32,
     pub mesh: Option<u32>,
     pub element: Option<u32>,
@@ -31,19 +31,19 @@ pub fn error() -> SdefError {
 }
 
 /// Calls with a struct for the error; the status must be the struct's.
-pub fn ask(call: impl FnOnce(*mut SdefError) -> SdefStatus) -> Result<(), Told> {
+pub fn ask(call: impl FnOnce(*mut SdefError) -> SdefStatus) -> Result<(), Failed> {
     let mut error = error();
     let status = call(&mut error);
     assert_eq!(status, error.status, "the status returned is the one in the struct");
     let index = |number: u32| (number != SDEF_NONE).then_some(number);
     let message = unsafe { CStr::from_ptr(error.message.as_ptr()) }.to_str().unwrap().to_string();
-    let told = Told { status, mesh: index(error.mesh), element: index(error.element), message };
+    let failed = Failed { status, mesh: index(error.mesh), element: index(error.element), message };
     if status == SDEF_STATUS_OK {
-        assert_eq!((told.mesh, told.element, told.message.as_str()), (None, None, ""));
+        assert_eq!((failed.mesh, failed.element, failed.message.as_str()), (None, None, ""));
         return Ok(());
     }
-    assert!(!told.message.is_empty());
-    Err(told)
+    assert!(!failed.message.is_empty());
+    Err(failed)
 }
 
 pub fn options() -> SdefOptions {
@@ -55,13 +55,7 @@ pub fn options() -> SdefOptions {
 
 /// Settings of a group that change nothing.
 pub fn group_settings(group: &CStr) -> SdefGroupSettings {
-    SdefGroupSettings {
-        group: group.as_ptr(),
-        length_scale: f64::NAN,
-        thickness_scale: f64::NAN,
-        length_transfer: f64::NAN,
-        thickness_transfer: f64::NAN,
-    }
+    SdefGroupSettings { group: group.as_ptr(), ..SdefGroupSettings::default() }
 }
 
 pub fn with_threads(thread_count: u32) -> SdefOptions {
@@ -89,14 +83,16 @@ pub fn of_heads(heads: f64) -> SdefStyle {
     style
 }
 
-pub fn from_text(text: &str) -> Result<SdefStyle, Told> {
+pub fn from_text(text: &str) -> Result<SdefStyle, Failed> {
     let mut style = SdefStyle::default();
     ask(|error| unsafe { sdef_style_from_text(text.as_ptr().cast(), text.len(), &mut style, error) })?;
     Ok(style)
 }
 
 /// Gives a text of any size.
-pub fn text(call: impl Fn(*mut i8, usize, *mut usize, *mut SdefError) -> SdefStatus) -> Result<String, Told> {
+pub fn text(
+    call: impl Fn(*mut i8, usize, *mut usize, *mut SdefError) -> SdefStatus,
+) -> Result<String, Failed> {
     let mut size = 0;
     ask(|error| call(null_mut(), 0, &mut size, error))?;
     let mut bytes = vec![b'?'; size];
@@ -219,13 +215,13 @@ pub fn given(character: &Character) -> SdefCharacter {
     let skeleton = c_skeleton(character);
     ask(|error| unsafe { sdef_character_set_skeleton(handle, &skeleton.skeleton, error) }).unwrap();
     for (index, mesh) in character.meshes.iter().enumerate() {
-        let mut told = 99;
+        let mut added = 99;
         let made = c_mesh(mesh);
-        ask(|error| unsafe { sdef_character_add_mesh(handle, &made.mesh, &mut told, error) }).unwrap();
-        assert_eq!(told as usize, index);
+        ask(|error| unsafe { sdef_character_add_mesh(handle, &made.mesh, &mut added, error) }).unwrap();
+        assert_eq!(added as usize, index);
         for target in &mesh.morph_targets {
             let target = c_morph(target);
-            ask(|error| unsafe { sdef_character_add_morph_target(handle, told, &target, error) }).unwrap();
+            ask(|error| unsafe { sdef_character_add_morph_target(handle, added, &target, error) }).unwrap();
         }
     }
     handle
@@ -237,7 +233,7 @@ pub fn deformer_with(
     options: *const SdefOptions,
     progress: SdefProgress,
     user: *mut c_void,
-) -> Result<SdefDeformer, Told> {
+) -> Result<SdefDeformer, Failed> {
     let mut handle = SdefDeformer::default();
     ask(|error| unsafe {
         sdef_deformer_create(character, style, options, progress, user, &mut handle, error)
@@ -304,7 +300,7 @@ pub fn room(character: &Character) -> Room {
 }
 
 impl Room {
-    pub fn apply(&mut self, deformer: SdefDeformer) -> Result<(), Told> {
+    pub fn apply(&mut self, deformer: SdefDeformer) -> Result<(), Failed> {
         let (start, count) = (self.meshes.as_ptr(), self.meshes.len());
         ask(|error| unsafe { sdef_deformer_apply(deformer, start, count, None, null_mut(), error) })
     }

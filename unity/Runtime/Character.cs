@@ -182,7 +182,7 @@ public sealed class Character : NativeObject
         }
     }
 
-    /// <summary>What a person should know about the rig and the roles; empty where all is well.</summary>
+    /// <summary>Warnings about the rig and the roles; empty where there are none.</summary>
     public IList<Warning> Warnings
     {
         get

@@ -44,7 +44,7 @@ public sealed class Deformer : NativeObject
     }
 
     /// <summary>
-    /// Changes the options, with the same results as a new deformer and for less: only what hangs on the change is done
+    /// Changes the options, with the same results as a new deformer and for less: only what depends on the change is done
     /// again. After an exception everything is as it was.
     /// </summary>
     public unsafe void SetOptions(Options options, ProgressHandler progress = null)
@@ -125,8 +125,8 @@ public sealed class Deformer : NativeObject
         Failure.Check(status, &error);
     }
 
-    /// <summary>Maps points that hang from joints: colliders, eyes, viewpoints, the tails of springs.</summary>
-    /// <param name="joints">The joint that each point hangs from.</param>
+    /// <summary>Maps points that move with joints: colliders, eyes, viewpoints, the tails of springs.</summary>
+    /// <param name="joints">The joint that each point moves with.</param>
     /// <param name="points">3 a point, model space.</param>
     /// <param name="positions">Receives 3 a point, model space; may be null.</param>
     /// <param name="scales">Receives one a point: by how much small things there grow; may be null.</param>
@@ -199,7 +199,7 @@ public sealed class Deformer : NativeObject
         return json;
     }
 
-    /// <summary>What a person should know about the deformation and all before it; empty where all is well.</summary>
+    /// <summary>Warnings about the deformation and all before it; empty where there are none.</summary>
     public IList<Warning> Warnings
     {
         get

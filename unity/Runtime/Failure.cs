@@ -19,7 +19,7 @@ internal static unsafe class Failure
         throw Of((Status)status, Text.Of(error->message), unchecked((int)error->mesh), unchecked((int)error->element));
     }
 
-    /// <summary>The library's word for a slip that only this side of it can see.</summary>
+    /// <summary>An error in the calling code that only this side of the library can see.</summary>
     internal static InvalidInputException Argument(string sentence)
     {
         return new InvalidInputException(Status.BadArgument, sentence);

@@ -16,7 +16,7 @@ public sealed class Joints
         get { return Parents.Length; }
     }
 
-    /// <summary>By joint: the joint that it hangs from, or -1.</summary>
+    /// <summary>By joint: its parent, or -1.</summary>
     public int[] Parents { get; private set; }
 
     /// <summary>By joint: as given, guessed or made, or None.</summary>

@@ -68,7 +68,7 @@ internal static unsafe class MarshalMeshes
     private static void Fill(MarshalScope scope, SdefMeshResult* result, MeshOutput output, int mesh)
     {
         Owner owner = new Owner("output", mesh);
-        if (output == null) throw owner.Wrong("it is null: give one with null arrays for what is not wanted");
+        if (output == null) throw owner.Wrong("it is null: give one with null arrays for what is left out");
         int count = output.VertexCount, targets = output.MorphTargetCount;
         if (count < 0 || targets < 0)
             throw owner.Wrong("VertexCount " + count + " and MorphTargetCount " + targets
@@ -102,7 +102,7 @@ internal static unsafe class MarshalMeshes
         if (first < 0 || (first + (long)count) * stride > bytes)
             throw owner.Wrong(name + " holds " + bytes / stride + " vertices, but vertices " + first
                 + " to " + (first + (long)count - 1)
-                + " are wanted: give all of them, or other FirstVertex and VertexCount");
+                + " are asked for: give all of them, or other FirstVertex and VertexCount");
         byte* start = scope.Pin(array, name);
         return start == null ? null : (float*)(start + first * stride);
     }

@@ -3,7 +3,7 @@ using System;
 namespace SuperDeform
 {
 /// <summary>
-/// Where the results of one mesh go. Arrays that are null are not wanted; those that the mesh was given without
+/// Where the results of one mesh go. Arrays that are null are left out; those that the mesh was given without
 /// (normals, tangents, morph targets) must be null. The same arrays may be used again for the next call, and several
 /// meshes may write into slices of the same arrays.
 /// </summary>

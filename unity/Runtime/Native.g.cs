@@ -174,7 +174,7 @@ internal static unsafe partial class Native
     /// <summary>
     /// Gives the joints back: own ones first, then those of a made rig, parents in any order.
     ///
-    /// parents:       the joint that each hangs from, or -1
+    /// parents:       the parent of each joint, or -1
     /// roles:         SDEF_ROLE_* as given, guessed or made, or SDEF_NONE
     /// rest_matrices: 16 doubles a joint
     /// confidence:    0 to 1; below 0.5 a made joint was placed by ratio or is doubtful; 1 for given and own joints
@@ -214,7 +214,7 @@ internal static unsafe partial class Native
 
     /// <summary>
     /// Finds joints and weights for a character, in place of any rig that was made before. Joints of its own stay, come
-    /// first, and ride along with the body; its own weights are not used.
+    /// first, and move with the body; its own weights are not used.
     ///
     /// options: NULL for the defaults; thread_count, rig_weights, rig_garments, rig_voxel_resolution, rig_fingers,
     /// rig_left_handed, rig_heat and rig_joints are read
@@ -304,7 +304,7 @@ internal static unsafe partial class Native
     /// capacity:      joints that each array can hold
     /// joint_count:   receives how many there are; may be NULL
     ///
-    /// Errors: BAD_INPUT where inverse_binds is wanted and a rest matrix has no inverse.
+    /// Errors: BAD_INPUT where inverse_binds is asked for and a rest matrix has no inverse.
     /// </summary>
     [DllImport(Library, ExactSpelling = true, CallingConvention = CallingConvention.Cdecl)]
     internal static extern UInt32 sdef_deformer_get_joints(
@@ -336,9 +336,9 @@ internal static unsafe partial class Native
         SdefError* error);
 
     /// <summary>
-    /// Maps points that hang from joints: colliders, eyes, viewpoints, the tails of springs.
+    /// Maps points that move with joints: colliders, eyes, viewpoints, the tails of springs.
     ///
-    /// joints:    the joint that each point hangs from
+    /// joints:    the joint that each point moves with
     /// points:    3 doubles a point, model space
     /// count:     points; every array holds as many
     /// positions: receives 3 doubles a point, model space
@@ -359,8 +359,8 @@ internal static unsafe partial class Native
         SdefError* error);
 
     /// <summary>
-    /// Changes the options of a deformer, with the same results as a new one and for less: only what hangs on the change is
-    /// done again. For sliders.
+    /// Changes the options of a deformer, with the same results as a new one and for less: only what depends on the change
+    /// is done again. For sliders.
     ///
     /// Errors: as sdef_deformer_create, after which the deformer is as it was; BUSY.
     /// </summary>
@@ -386,8 +386,8 @@ internal static unsafe partial class Native
         SdefError* error);
 
     /// <summary>
-    /// Gives what a person should know about the rig and roles of a character, or about a deformer and all before it: one
-    /// line each, "code: sentence\n", where code is a fixed word such as joint_by_ratio. Empty text where all is well.
+    /// Writes the warnings about the rig and roles of a character, or about a deformer and all before it: a line each,
+    /// "code: sentence\n", where code is a fixed word such as joint_by_ratio. Empty text where there are none.
     ///
     /// handle:   the id of a character or deformer
     /// text:     receives the lines
@@ -1061,7 +1061,7 @@ internal unsafe struct SdefSkeleton {
     public UIntPtr joint_count;
 
     /// <summary>
-    /// the joint that each hangs from, or -1; in any order
+    /// the parent of each joint, or -1; in any order
     /// </summary>
     public Int32* parents;
 
@@ -1094,7 +1094,7 @@ internal unsafe struct SdefDeformer {
 }
 
 /// <summary>
-/// Where the results of one mesh go; arrays that are NULL are not wanted. Those that the mesh was given without
+/// Where the results of one mesh go; arrays that are NULL are left out. Those that the mesh was given without
 /// (normals, tangents, morph targets) must be NULL.
 /// </summary>
 [StructLayout(LayoutKind.Sequential)]

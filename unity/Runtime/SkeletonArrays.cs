@@ -6,7 +6,7 @@ public sealed class SkeletonArrays
     /// <summary>By joint, for messages and for guessing roles. May be null, and so may each.</summary>
     public string[] Names;
 
-    /// <summary>By joint: the joint that it hangs from, or -1; in any order.</summary>
+    /// <summary>By joint: its parent, or -1; in any order.</summary>
     public int[] Parents;
 
     /// <summary>16 a joint, column by column: joint space to model space, at rest.</summary>

@@ -5,7 +5,7 @@ public enum Status : uint
 {
     /// <summary>Done.</summary>
     Ok = 0,
-    /// <summary>A null, size or constant that cannot be: a slip in the calling code.</summary>
+    /// <summary>A null, size or constant that cannot be: an error in the calling code.</summary>
     BadArgument = 1,
     /// <summary>The object is none, was disposed of, or is of another kind.</summary>
     BadHandle = 2,

@@ -3,7 +3,7 @@ using System.Collections.ObjectModel;
 
 namespace SuperDeform
 {
-/// <summary>What a person should know about a rig, roles or a result.</summary>
+/// <summary>A warning about a rig, roles or a result.</summary>
 public sealed class Warning
 {
     private Warning(string code, string text)

@@ -117,7 +117,7 @@ pub struct SdefSkeleton {
     pub names: *const *const c_char,
     /// joints
     pub joint_count: usize,
-    /// the joint that each hangs from, or -1; in any order
+    /// the parent of each joint, or -1; in any order
     pub parents: *const i32,
     /// a matrix a joint, joint space to model space, at rest
     pub rest_matrices: *const f64,
@@ -242,7 +242,7 @@ pub unsafe extern "C" fn sdef_character_add_morph_target(
         let deltas = |what, start, stride| arrays::optional(what, start, count, stride);
         if count > 0 && given.positions.is_null() {
             return Err(Failure::argument(format!(
-                "positions is NULL, but {count} are to be there: give the array"
+                "positions is NULL, but {count} are needed: give the array"
             )));
         }
         let target = MorphTarget {
@@ -291,7 +291,7 @@ pub unsafe extern "C" fn sdef_character_get_info(
 
 /// Gives the joints back: own ones first, then those of a made rig, parents in any order.
 ///
-/// parents:       the joint that each hangs from, or -1
+/// parents:       the parent of each joint, or -1
 /// roles:         SDEF_ROLE_* as given, guessed or made, or SDEF_NONE
 /// rest_matrices: 16 doubles a joint
 /// confidence:    0 to 1; below 0.5 a made joint was placed by ratio or is doubtful; 1 for given and own joints
@@ -378,19 +378,13 @@ pub unsafe extern "C" fn sdef_character_get_weights(
             ))
             .in_mesh(index));
         }
-        let fits = |what: &str| match capacity < count {
-            true => Err(Failure::new(
-                SDEF_STATUS_BUFFER_TOO_SMALL,
-                format!("{what} can hold {capacity} vertices, but the mesh has {count}: give a larger array"),
-            )
-            .in_mesh(index)),
-            false => Ok(()),
-        };
-        if !joints.is_null() {
-            fits("joints")?;
-        }
-        if !weights.is_null() {
-            fits("weights")?;
+        for (what, is_asked) in [("joints", !joints.is_null()), ("weights", !weights.is_null())] {
+            if is_asked && capacity < count {
+                let message = format!(
+                    "{what} can hold {capacity} vertices, but the mesh has {count}: give a larger array"
+                );
+                return Err(Failure::new(SDEF_STATUS_BUFFER_TOO_SMALL, message).in_mesh(index));
+            }
         }
         let numbers = count.saturating_mul(most);
         let joints = Output::new("joints", joints, numbers, numbers, 0)?;

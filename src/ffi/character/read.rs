@@ -45,9 +45,10 @@ pub unsafe fn skeleton(skeleton: *const SdefSkeleton) -> Outcome<(Skeleton, Huma
     }?;
     let mut joints = reserved(count, "joints")?;
     for index in 0..count {
-        let name = match given.names.is_null() {
-            true => String::new(),
-            false => unsafe { arrays::text(given.names.add(index).read_unaligned()) },
+        let name = if given.names.is_null() {
+            String::new()
+        } else {
+            unsafe { arrays::text(given.names.add(index).read_unaligned()) }
         };
         let parent = match parents.get(index) {
             -1 => None,
@@ -264,9 +265,10 @@ impl Rows {
             return Err(bad_type("weight_type", given.weight_type, "SDEF_TYPE_F32, _U8 or _U16"));
         }
         unsafe {
-            let starts = match given.row_starts.is_null() {
-                true => None,
-                false => Some(Input::new("row_starts", given.row_starts, vertices + 1, 0)?),
+            let starts = if given.row_starts.is_null() {
+                None
+            } else {
+                Some(Input::new("row_starts", given.row_starts, vertices + 1, 0)?)
             };
             let shape = match starts {
                 // One row that holds everything.

@@ -37,7 +37,7 @@ pub struct Ready {
     pub own: Arc<Character>,
     /// With a made rig in place.
     pub rigged: Option<(Arc<Rig>, Arc<Character>)>,
-    /// What is to be known about the roles.
+    /// Warnings about the roles.
     pub warnings: Vec<Warning>,
 }
 

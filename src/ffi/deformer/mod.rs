@@ -19,7 +19,7 @@ mod state;
 
 pub(super) use state::DeformerState;
 
-/// Where the results of one mesh go; arrays that are NULL are not wanted. Those that the mesh was given without
+/// Where the results of one mesh go; arrays that are NULL are left out. Those that the mesh was given without
 /// (normals, tangents, morph targets) must be NULL.
 #[derive_ReprC]
 #[repr(C)]
@@ -155,8 +155,8 @@ pub unsafe extern "C" fn sdef_deformer_create(
     unsafe { call(error, body) }
 }
 
-/// Changes the options of a deformer, with the same results as a new one and for less: only what hangs on the change is
-/// done again. For sliders.
+/// Changes the options of a deformer, with the same results as a new one and for less: only what depends on the change
+/// is done again. For sliders.
 ///
 /// Errors: as sdef_deformer_create, after which the deformer is as it was; BUSY.
 #[ffi_export]
@@ -211,7 +211,7 @@ pub unsafe extern "C" fn sdef_deformer_apply(
 /// capacity:      joints that each array can hold
 /// joint_count:   receives how many there are; may be NULL
 ///
-/// Errors: BAD_INPUT where inverse_binds is wanted and a rest matrix has no inverse.
+/// Errors: BAD_INPUT where inverse_binds is asked for and a rest matrix has no inverse.
 #[ffi_export]
 pub unsafe extern "C" fn sdef_deformer_get_joints(
     deformer: SdefDeformer,
@@ -253,9 +253,9 @@ pub unsafe extern "C" fn sdef_deformer_get_joints(
     unsafe { call(error, body) }
 }
 
-/// Maps points that hang from joints: colliders, eyes, viewpoints, the tails of springs.
+/// Maps points that move with joints: colliders, eyes, viewpoints, the tails of springs.
 ///
-/// joints:    the joint that each point hangs from
+/// joints:    the joint that each point moves with
 /// points:    3 doubles a point, model space
 /// count:     points; every array holds as many
 /// positions: receives 3 doubles a point, model space
@@ -288,7 +288,7 @@ pub unsafe extern "C" fn sdef_deformer_map_points(
             let point = DVec3::from_array(point);
             if joint as usize >= joint_count {
                 return Err(Failure::input(format!(
-                    "point {index} hangs from joint {joint}, but there are {joint_count} joints: name one of them"
+                    "point {index} moves with joint {joint}, but there are {joint_count} joints: name one of them"
                 ))
                 .at(index));
             }

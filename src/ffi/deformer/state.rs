@@ -17,7 +17,7 @@ use std::sync::OnceLock;
 /// A deformer behind a handle.
 pub struct DeformerState {
     deformer: Deformer,
-    /// What is to be known about the character's roles.
+    /// Warnings about the character's roles.
     notes: Vec<Warning>,
     /// Made when it is first asked for, gone with every change.
     report: OnceLock<Report>,
@@ -48,7 +48,7 @@ impl DeformerState {
         Ok(())
     }
 
-    /// Everything to be known so far.
+    /// All warnings so far.
     pub fn warnings(&self) -> impl Iterator<Item = &Warning> {
         self.notes.iter().chain(self.deformer.warnings())
     }
@@ -112,12 +112,14 @@ impl Places {
     unsafe fn new(character: &Character, index: usize, result: &SdefMeshResult) -> Outcome<Self> {
         let mesh = &character.meshes[index];
         let (count, capacity) = (mesh.positions.len(), result.vertex_capacity);
-        let lacks = |what: &str, wanted: bool, has: bool| match wanted && !has && count > 0 {
-            true => Err(Failure::argument(format!(
-                "mesh {index} ({}): {what} are wanted, but it was given none: leave the array NULL",
-                mesh.name
-            ))),
-            false => Ok(()),
+        let lacks = |what: &str, asked: bool, has: bool| {
+            if asked && !has && count > 0 {
+                return Err(Failure::argument(format!(
+                    "mesh {index} ({}): {what} are asked for, but it was given none: leave the array NULL",
+                    mesh.name
+                )));
+            }
+            Ok(())
         };
         lacks("normals", !result.normals.is_null(), !mesh.normals.is_empty())?;
         lacks("tangents", !result.tangents.is_null(), !mesh.tangents.is_empty())?;
@@ -175,9 +177,9 @@ impl Places {
 
     fn outputs(&self) -> MeshOutputs {
         MeshOutputs {
-            normals: self.normals.is_wanted(),
-            tangents: self.tangents.is_wanted(),
-            morph_targets: self.morphs.iter().flatten().any(Output::is_wanted),
+            normals: self.normals.is_given(),
+            tangents: self.tangents.is_given(),
+            morph_targets: self.morphs.iter().flatten().any(Output::is_given),
         }
     }
 
@@ -189,9 +191,10 @@ impl Places {
         self.tangents.write(&mesh.tangents);
         for (target, places) in mesh.morph_targets.iter().zip(&self.morphs) {
             for (place, deltas) in places.iter().zip([&target.positions, &target.normals, &target.tangents]) {
-                match deltas.is_empty() {
-                    true => place.write_each(std::iter::repeat_n(Vec3::ZERO, count)),
-                    false => place.write(deltas),
+                if deltas.is_empty() {
+                    place.write_each(std::iter::repeat_n(Vec3::ZERO, count));
+                } else {
+                    place.write(deltas);
                 }
             }
         }

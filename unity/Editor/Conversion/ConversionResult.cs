@@ -25,7 +25,7 @@ namespace SuperDeform.Editor
         /// <summary>The same and more, as JSON text.</summary>
         public string ReportJson;
 
-        /// <summary>What a person should know about it.</summary>
+        /// <summary>Warnings and notes about it.</summary>
         public List<Finding> Findings = new List<Finding>();
     }
 }

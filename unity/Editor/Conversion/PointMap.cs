@@ -5,9 +5,9 @@ using UnityEngine;
 namespace SuperDeform.Editor
 {
     /// <summary>
-    /// Where points that hang from transforms go: colliders, eyes, viewpoints, the tails of springs.
+    /// Where points that move with transforms go: colliders, eyes, viewpoints, the tails of springs.
     ///
-    /// Transforms of the source and of the new avatar mean the same. What hangs from the root itself, or from an avatar that
+    /// Transforms of the source and of the new avatar mean the same. What moves with the root itself, or in an avatar that
     /// came without bones, keeps its place on the ground and grows with the avatar's height.
     /// </summary>
     public sealed class PointMap

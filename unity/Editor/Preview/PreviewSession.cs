@@ -68,7 +68,7 @@ namespace SuperDeform.Editor
             return IsAlive && candidate == avatar.Root && settings.RigAuto == shown.RigAuto;
         }
 
-        /// <summary>Brings the proxy up to the settings; only what hangs on the change is done again.</summary>
+        /// <summary>Brings the proxy up to the settings; only what depends on the change is done again.</summary>
         /// <exception cref="ConversionException">They cannot be; the proxy stays as it was.</exception>
         public void Update(ConversionSettings settings)
         {

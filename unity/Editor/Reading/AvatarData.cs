@@ -18,7 +18,7 @@ namespace SuperDeform.Editor
         /// </summary>
         public Transform[] Joints;
 
-        /// <summary>By joint: the joint that it hangs from; -1 for those that hang from the root.</summary>
+        /// <summary>By joint: its parent; -1 for children of the root.</summary>
         public int[] Parents;
 
         /// <summary>By joint: its transform to its parent's space, as it stands.</summary>
@@ -49,7 +49,7 @@ namespace SuperDeform.Editor
         /// <summary>True where the library has made a rig.</summary>
         public bool RigMade;
 
-        /// <summary>What a person should know about the avatar.</summary>
+        /// <summary>Warnings and notes about the avatar.</summary>
         public readonly List<Finding> Findings = new List<Finding>();
 
         internal readonly Dictionary<Transform, int> JointOf = new Dictionary<Transform, int>();

@@ -202,12 +202,18 @@ namespace SuperDeform.Editor
 
         private static GroupRow GroupOf(ConverterModel model, TunableGroup group)
         {
+            string length = group.IsSize ? "tune.size" : group.IsSpread ? "tune.spread" : "option.length_scale";
             return new GroupRow
             {
                 Label = NameOf(group),
-                Length = GroupSlider(model, group.Name, false,
-                    group.IsSize ? "tune.size" : group.IsSpread ? "tune.spread" : "option.length_scale"),
-                Thickness = group.IsSize || group.IsSpread ? null : GroupSlider(model, group.Name, true, "option.thickness_scale")
+                Sliders = new[]
+                {
+                    GroupSlider(model, group.Name, length, () => model.ScaleFound(group.Name, false),
+                        tuned => tuned.LengthScale, (tuned, value) => tuned.LengthScale = value),
+                    group.IsSize || group.IsSpread ? null
+                        : GroupSlider(model, group.Name, "option.thickness_scale", () => model.ScaleFound(group.Name, true),
+                            tuned => tuned.ThicknessScale, (tuned, value) => tuned.ThicknessScale = value)
+                }
             };
         }
 
@@ -217,23 +223,14 @@ namespace SuperDeform.Editor
             return group.IsSize ? Strings.Get("group.size", name) : group.IsSpread ? Strings.Get("group.spread", name) : name;
         }
 
-        private static SliderRow GroupSlider(ConverterModel model, string group, bool thickness, string key)
+        // found: what it is until a person sets it.
+        private static SliderRow GroupSlider(ConverterModel model, string group, string key, Func<float> found,
+            Func<GroupSettings, double> get, Action<GroupSettings, double> change)
         {
-            Func<double> own = () =>
-            {
-                GroupSettings tuned = GroupTunings.Of(model.Settings, group);
-                return thickness ? tuned.ThicknessScale : tuned.LengthScale;
-            };
-            Action<double> set = value => model.Change("undo.tune", () =>
-                GroupTunings.Change(model.Settings, group, tuned =>
-                {
-                    if (thickness)
-                        tuned.ThicknessScale = value;
-                    else
-                        tuned.LengthScale = value;
-                }));
-            SliderRow row = Slider(key, 0.1f, 2,
-                () => double.IsNaN(own()) ? model.ScaleFound(group, thickness) : (float)own(), value => set(value));
+            Func<double> own = () => get(GroupTunings.Of(model.Settings, group));
+            Action<double> set = value => model.Change("undo.tune",
+                () => GroupTunings.Change(model.Settings, group, tuned => change(tuned, value)));
+            SliderRow row = Slider(key, 0.1f, 2, () => double.IsNaN(own()) ? found() : (float)own(), value => set(value));
             row.IsOwn = () => !double.IsNaN(own());
             row.Reset = () => set(double.NaN);
             return row;

@@ -109,20 +109,14 @@ namespace SuperDeform.Editor
 
         private static void Group(GroupRow row, GUIContent label)
         {
-            bool own = row.Length.IsOwn() || row.Thickness != null && row.Thickness.IsOwn();
             EditorGUILayout.BeginHorizontal();
-            EditorGUILayout.LabelField(label, own ? EditorStyles.boldLabel : EditorStyles.label, GUILayout.Width(GroupLabel));
-            BareSlider(row.Length);
-            if (row.Thickness != null)
-                BareSlider(row.Thickness);
-            else
-                EditorGUILayout.LabelField("", GUILayout.MinWidth(40));
-            Reset(own, () =>
-            {
-                row.Length.Reset();
-                if (row.Thickness != null)
-                    row.Thickness.Reset();
-            });
+            EditorGUILayout.LabelField(label, row.IsOwn ? EditorStyles.boldLabel : EditorStyles.label, GUILayout.Width(GroupLabel));
+            foreach (SliderRow slider in row.Sliders)
+                if (slider != null)
+                    BareSlider(slider);
+                else
+                    EditorGUILayout.LabelField("", GUILayout.MinWidth(40));
+            Reset(row.IsOwn, row.Reset);
             EditorGUILayout.EndHorizontal();
         }
 

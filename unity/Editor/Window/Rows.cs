@@ -86,11 +86,24 @@ namespace SuperDeform.Editor
         public string[] Columns;
     }
 
-    /// <summary>The sliders of one bone group, left and right together; either may be null.</summary>
+    /// <summary>The sliders of one bone group, left and right together, as many as there are columns; null leaves one empty.</summary>
     public sealed class GroupRow : Row
     {
-        public SliderRow Length;
-        public SliderRow Thickness;
+        public SliderRow[] Sliders;
+
+        /// <summary>Whether a person has set any of them.</summary>
+        public bool IsOwn
+        {
+            get { return Array.Exists(Sliders, slider => slider != null && slider.IsOwn()); }
+        }
+
+        /// <summary>Takes back what a person has set.</summary>
+        public void Reset()
+        {
+            foreach (SliderRow slider in Sliders)
+                if (slider != null)
+                    slider.Reset();
+        }
     }
 
     /// <summary>Yes or no.</summary>

@@ -22,7 +22,7 @@ namespace SuperDeform.Editor
         /// <summary>Makes a copy of the source what the result says.</summary>
         /// <param name="copy">An instance of the source.</param>
         /// <param name="map">Receives as assets the new meshes, the Avatar, and what adapters make.</param>
-        /// <param name="findings">Receives what a person should know.</param>
+        /// <param name="findings">Receives warnings and notes.</param>
         internal static void Write(GameObject copy, PointMap map, AvatarData source, AvatarResult result, List<Finding> findings)
         {
             RemoveMissingScripts(copy, source, findings);

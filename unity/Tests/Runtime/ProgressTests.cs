@@ -170,7 +170,7 @@ public sealed class ProgressTests
 
     private static void AssertRises(List<float> fractions)
     {
-        Assert.IsTrue(fractions.Count > 0, "no progress was told");
+        Assert.IsTrue(fractions.Count > 0, "no progress was reported");
         for (int i = 1; i < fractions.Count; i++) Assert.IsTrue(fractions[i] >= fractions[i - 1]);
         Assert.IsTrue(fractions[0] >= 0);
         Assert.AreEqual(1f, fractions[fractions.Count - 1]);

@@ -163,15 +163,15 @@ namespace SuperDeform.Editor.Tests
             ConverterModel model = window.Model;
             Group found = Array.Find(model.Numbers.Groups, group => group.Name == "upper_leg");
             GroupRow row = (GroupRow)model.Sections[2].Rows.Find(candidate => candidate.Label == Strings.Get("group.upper_leg"));
-            Assert.AreEqual((float)found.LengthScale, row.Length.Get());
-            Assert.AreEqual((float)found.ThicknessScale, row.Thickness.Get());
-            Assert.IsFalse(row.Length.IsOwn());
-            row.Length.Set(0.5f);
-            Assert.AreEqual(0.5f, row.Length.Get());
-            Assert.IsTrue(row.Length.IsOwn());
+            Assert.AreEqual((float)found.LengthScale, row.Sliders[0].Get());
+            Assert.AreEqual((float)found.ThicknessScale, row.Sliders[1].Get());
+            Assert.IsFalse(row.IsOwn);
+            row.Sliders[0].Set(0.5f);
+            Assert.AreEqual(0.5f, row.Sliders[0].Get());
+            Assert.IsTrue(row.IsOwn);
             Assert.AreEqual("1 changed", model.Sections[2].Summary);
-            row.Length.Reset();
-            Assert.AreEqual((float)found.LengthScale, row.Length.Get());
+            row.Reset();
+            Assert.AreEqual((float)found.LengthScale, row.Sliders[0].Get());
             Assert.AreEqual("", model.Sections[2].Summary);
         }
 
@@ -189,11 +189,7 @@ namespace SuperDeform.Editor.Tests
                 if (row is SliderRow)
                     sliders.Add((SliderRow)row);
                 if (row is GroupRow)
-                {
-                    sliders.Add(((GroupRow)row).Length);
-                    if (((GroupRow)row).Thickness != null)
-                        sliders.Add(((GroupRow)row).Thickness);
-                }
+                    sliders.AddRange(Array.FindAll(((GroupRow)row).Sliders, slider => slider != null));
                 foreach (SliderRow slider in sliders)
                     foreach (float value in new[] { slider.Low, slider.High })
                     {

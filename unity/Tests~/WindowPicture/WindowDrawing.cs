@@ -234,12 +234,11 @@ namespace SuperDeform.Editor.WindowPicture
 
         private void Group(GroupRow row)
         {
-            bool own = row.Length.IsOwn() || row.Thickness != null && row.Thickness.IsOwn();
-            canvas.Text(From, y + 15, Canvas.Cut(row.Label, GroupLabel - 4), Canvas.Words, "start", own);
-            Slider(row.Length, From + GroupLabel, GroupColumn - 6, Canvas.Words);
-            if (row.Thickness != null)
-                Slider(row.Thickness, From + GroupLabel + GroupColumn, GroupColumn - 6, Canvas.Words);
-            ResetButton(own);
+            canvas.Text(From, y + 15, Canvas.Cut(row.Label, GroupLabel - 4), Canvas.Words, "start", row.IsOwn);
+            for (int i = 0; i < row.Sliders.Length; i++)
+                if (row.Sliders[i] != null)
+                    Slider(row.Sliders[i], From + GroupLabel + i * GroupColumn, GroupColumn - 6, Canvas.Words);
+            ResetButton(row.IsOwn);
             y += RowHeight;
         }
 
