@@ -594,7 +594,8 @@ fn a_person_measures_as_built() {
         let surface = person_surface(&person);
         let joints = person.joints();
         let bones = found(joints.keys().copied());
-        let top = head_top(&surface, joints[&Role::Head], person.proportions.head_half_width);
+        let top =
+            head_top(&surface, joints[&Role::Head], person.proportions.head_half_width, 2.0 * person.crown());
         assert_eq!(top.hit_count, 7);
         let top = top.point.unwrap();
         assert!((top.y - person.head_top()).abs() < 0.005, "{top} {}", person.head_top());

@@ -4,12 +4,12 @@
 mod people;
 
 use glam::{DMat3, DVec3};
-use people::{ADULT, Person, Proportions};
+use people::{ADULT, Person, Proportions, Shape};
 use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;
 use superdeform::internals::character::humanoid::REQUIRED_ROLES;
 use superdeform::internals::shape::Measured;
-use superdeform::internals::shape::product::landmarks::landmarks;
+use superdeform::internals::shape::product::landmarks::{CrownSource, landmarks};
 use superdeform::internals::shape::style::BUILT_IN;
 use superdeform::{
     BodyShape, Character, Deformed, Deformer, Error, ErrorKind, FaceCurve, GroupSettings, Mesh, MeshKind,
@@ -160,11 +160,100 @@ fn landmarks_are_read_where_people_were_built() {
                 ));
             }
         }
-        if !marks.chin_seen || marks.crown_with_hair || marks.crotch_seen == person.skirt {
+        if !marks.chin_seen || marks.crown_source != CrownSource::Skull || marks.crotch_seen == person.skirt {
             failures.push(format!("{name}: {marks:?}"));
         }
     }
     tell(failures);
+}
+
+/// A mesh of its own, weighted to `role`, in a person who is built without a unit and a turn.
+fn with_mesh(person: &Person, kind: MeshKind, role: Role, shape: &Shape) -> Character {
+    let mut character = person.build();
+    let joint = character.humanoid.joint(role).unwrap() as u32;
+    character.meshes.push(Mesh {
+        name: kind.to_string(),
+        kind: Some(kind),
+        weights: Weights::from_rows(shape.positions.iter().map(|_| [(joint, 1.0)])),
+        normals: shape.normals().into_iter().map(|n| n.as_vec3()).collect(),
+        positions: shape.positions.iter().map(|p| p.as_vec3()).collect(),
+        triangles: shape.triangles.clone(),
+        ..Mesh::default()
+    });
+    character
+}
+
+#[test]
+fn the_papers_head_ends_at_the_top_of_the_hair() {
+    let person = Person::adult();
+    let p = &person.proportions;
+    let joint = person.joints()[&Role::Head];
+    // A tall wig, wider than the skull, whose top is known: seven rays of which six stand on a ring a quarter of the
+    // head's half width wide, as if the wig were not there.
+    let centre = DVec3::Y * (person.chin() + 0.6 * p.head);
+    let half = DVec3::new(0.2, 0.25, 0.2);
+    let ring = 0.25 * p.head_half_width / half.x;
+    let top = centre.y + half.y * (1.0 - ring * ring).sqrt();
+    for kind in [MeshKind::Hair, MeshKind::Accessory] {
+        let mut wig = Shape::default();
+        wig.ellipsoid(centre, half, Role::Head);
+        let character = with_mesh(&person, kind, Role::Head, &wig);
+        let measured = Measured::of(&character, &options(Mode::Paper)).unwrap();
+        let head_length = measured.shape.head_length;
+        assert!((head_length - (top - joint.y)).abs() < 2e-3, "{kind}: {head_length}");
+        // The crown, of which heads are counted, is still the skull's.
+        let heights = &measured.anatomy.landmarks.heights;
+        assert!((heights.crown - person.head_top()).abs() < 2e-3, "{kind}: {}", heights.crown);
+        assert_eq!(measured.anatomy.landmarks.crown_source, CrownSource::Skull);
+    }
+}
+
+#[test]
+fn parts_of_the_face_are_no_surrounding_mesh() {
+    let person = Person::adult();
+    let p = &person.proportions;
+    let [neck, head] = [Role::Neck, Role::Head].map(|role| person.joints()[&role]);
+    let tube = |radius: f64| Shape::capsule(neck - DVec3::Y * 0.02, head + DVec3::Y * 0.02, radius);
+    // No skin around the neck, as under a polo neck: its girth is that of the clothes, whatever of the face is within.
+    let mut character = with_mesh(&person, MeshKind::Garment, Role::Neck, &tube(1.5 * p.neck_radius));
+    let neck_joint = character.humanoid.joint(Role::Neck).unwrap() as u32;
+    let body = &mut character.meshes[0];
+    let is_of_neck =
+        |vertex: &u32| body.weights.row(*vertex as usize).iter().any(|&(joint, _)| joint == neck_joint);
+    let kept = body.triangles.iter().filter(|corners| !corners.iter().any(is_of_neck)).copied().collect();
+    body.triangles = kept;
+    let throat = with_mesh(&person, MeshKind::FacePart, Role::Head, &tube(1.2 * p.neck_radius));
+    character.meshes.extend(throat.meshes.last().cloned());
+    let shape = Measured::of(&character, &options(Mode::Paper)).unwrap().shape;
+    let found = shape.bones[Role::Head.name()].radius.unwrap();
+    assert!((found / (1.5 * p.neck_radius) - 1.0).abs() < 2e-3, "{found}");
+}
+
+#[test]
+fn a_head_joint_that_moves_nothing_is_told_of_by_its_own_code() {
+    let person = Person { eyes: false, ..adult() };
+    let mut character = person.build();
+    let [head, neck, jaw] =
+        [Role::Head, Role::Neck, Role::Jaw].map(|role| character.humanoid.joint(role).unwrap() as u32);
+    for mesh in &mut character.meshes {
+        let rows: Vec<_> = mesh.weights.rows().map(|row| row.to_vec()).collect();
+        mesh.weights = Weights::from_rows(rows.into_iter().map(|row| {
+            row.into_iter()
+                .map(|(joint, weight)| (if [head, jaw].contains(&joint) { neck } else { joint }, weight))
+        }));
+    }
+    for mode in MODES {
+        let run =
+            Run::try_new(character.clone(), &style_of(&chibi(), &options(mode)), &options(mode)).unwrap();
+        let warnings = run.deformer.warnings();
+        let warning = warnings.iter().find(|warning| warning.code == "crown_not_found").unwrap();
+        assert!(is_one_sentence(&warning.message) && warning.message.contains("head joint"), "{warning:?}");
+        assert_eq!(warning.option, Some("humanoid"));
+        assert!(!run.has_warning("crown_with_hair"), "{mode:?}");
+        // The highest point of all is the crown.
+        let crown = run.deformer.target().anatomy.landmarks.heights.crown;
+        assert!((crown - person.crown()).abs() < 1e-5, "{crown}");
+    }
 }
 
 #[test]

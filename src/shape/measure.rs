@@ -10,7 +10,7 @@ use crate::geometry::Surface;
 use crate::options::table::{FEWEST_RAYS, PAPER_RAYS};
 use glam::DVec3;
 use std::collections::BTreeMap;
-use std::f64::consts::TAU;
+use std::f64::consts::{FRAC_PI_3, TAU};
 
 /// Where along a bone the samples lie: the paper's "three points at a uniform interval", away from the joints, where
 /// limbs meet.
@@ -137,28 +137,29 @@ pub struct HeadTop {
     pub hit_count: usize,
 }
 
-/// The head top: straight above the head joint, at the median height of the last hits of 7 rays that go up from the
-/// joint's level: one at the joint and a ring of 6 at a quarter of the head's half width.
+/// The head top: straight above the head joint, at the median height of what 7 rays from above meet first: one over the
+/// joint and a ring of 6 at a quarter of the head's half width.
 ///
-/// No rig standard has this joint, which l_head of Eq. 4 needs. The last hits see through a face mesh to the skull or the
-/// hair; the median passes over a horn or a parting.
+/// No rig standard has this joint, which l_head of Eq. 4 needs. Rays from above see the skull or the hair, not the face mesh
+/// inside; the median passes over a horn or a parting.
 ///
 /// - `surface`: the meshes of the head. Few hits tell that the skull is in another mesh, such as the hair: try again
 ///   with it.
-/// - `head`: the head joint, y up. `half_width`: half the width of the head, in the same units.
-pub fn head_top(surface: &Surface, head: DVec3, half_width: f64) -> HeadTop {
-    let ring = (0..6).map(|ray| (TAU / 6.0 * f64::from(ray)).sin_cos());
-    let offsets = ring.map(|(sin, cos)| DVec3::new(cos, 0.0, sin) * 0.25 * half_width);
-    let mut heights: Vec<f64> = std::iter::once(DVec3::ZERO)
-        .chain(offsets)
-        .filter_map(|offset| surface.last_hit(head + offset, DVec3::Y))
-        .map(|hit| hit.t)
+/// - `head`: the head joint, y up; hits below it do not count. `half_width`: half the width of the head, in the same units.
+/// - `above`: a height above all of the head.
+pub fn head_top(surface: &Surface, head: DVec3, half_width: f64, above: f64) -> HeadTop {
+    let mut heights: Vec<f64> = (0..7)
+        .filter_map(|ray| {
+            let reach = if ray == 0 { 0.0 } else { half_width / 4.0 };
+            let (sin, cos) = (FRAC_PI_3 * f64::from(ray)).sin_cos();
+            let origin = DVec3::new(head.x + reach * cos, above, head.z + reach * sin);
+            surface.first_hit(origin, DVec3::NEG_Y, f64::INFINITY).map(|hit| above - hit.t)
+        })
+        .filter(|&y| y > head.y)
         .collect();
     heights.sort_by(f64::total_cmp);
     let hit_count = heights.len();
-    let point = (hit_count > 0).then(|| {
-        let median = 0.5 * (heights[(hit_count - 1) / 2] + heights[hit_count / 2]);
-        head + DVec3::Y * median
-    });
+    let median = |heights: &[f64]| 0.5 * (heights[(hit_count - 1) / 2] + heights[hit_count / 2]);
+    let point = (hit_count > 0).then(|| head.with_y(median(&heights)));
     HeadTop { point, hit_count }
 }

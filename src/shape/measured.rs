@@ -25,7 +25,7 @@ pub struct Measured {
     pub anatomy: Anatomy,
     /// Where the joints of the roles are, canonical frame.
     pub joints: BTreeMap<Role, DVec3>,
-    /// The end of the head bone: straight above the head joint, at the crown.
+    /// The end of the head bone: straight above the head joint, hair and hats included.
     pub head_top: DVec3,
     /// Lengths and radii, and the proportions: all that a style keeps.
     pub shape: BodyShape,
@@ -49,15 +49,14 @@ impl Measured {
         let (surfaces, anatomy) = parallel::both(threads, || surfaces(&figure), || Anatomy::of(&figure));
         let joints: BTreeMap<Role, DVec3> =
             figure.humanoid.iter().map(|(role, joint)| (role, figure.joints[joint])).collect();
-        let heights = anatomy.landmarks.heights;
-        // A head joint above the crown would make a head of no length; a sliver is left.
+        // A head joint above the head's top would make a head of no length; a sliver is left.
         let least = anatomy.head_joint.y + 0.01 * figure.height();
-        let head_top = anatomy.head_joint.with_y(heights.crown.max(least));
+        let head_top = anatomy.head_joint.with_y(anatomy.landmarks.head_top.max(least));
         let roles: BTreeSet<Role> = joints.keys().copied().collect();
         let bones = bones(&roles, &options.bone_groups);
         let surfaces: Vec<&Surface> = surfaces.iter().collect();
         let mut shape = measure(&bones, &joints, head_top, &surfaces, options.ray_count())?;
-        shape.landmarks = Some(heights);
+        shape.landmarks = Some(anatomy.landmarks.heights);
         shape.proportions = Some(anatomy.proportions.clone());
         Ok(Self { figure, anatomy, joints, head_top, shape })
     }
@@ -73,7 +72,7 @@ impl Measured {
 /// where there is neither.
 fn surfaces(figure: &Figure) -> Vec<Surface> {
     let body = mesh_set(figure, |kind| kind == MeshKind::Body);
-    let dressed = mesh_set(figure, |kind| !kind.is_carried());
+    let dressed = mesh_set(figure, |kind| matches!(kind, MeshKind::Body | MeshKind::Garment));
     let mut surfaces = vec![Surface::new(&figure.positions, &body)];
     // Both keep the figure's order, so as many triangles are the same triangles.
     if dressed.len() > body.len() {
@@ -86,7 +85,7 @@ fn surfaces(figure: &Figure) -> Vec<Surface> {
     surfaces
 }
 
-/// Triangles of the meshes whose kind `choose` accepts, without what the head carries on top of it.
+/// Triangles of the meshes whose kind `choose` accepts.
 fn mesh_set(figure: &Figure, choose: impl Fn(MeshKind) -> bool) -> Vec<[u32; 3]> {
     figure.triangles.iter().filter(|corners| choose(figure.kind(corners[0] as usize))).copied().collect()
 }

@@ -9,12 +9,15 @@ use crate::geometry::surface::Surface;
 use crate::geometry::{StepSearch, bounds, deepest_step};
 use crate::shape::figure::{Figure, extent};
 use crate::shape::heights::Heights;
+use crate::shape::measure::{HeadTop, head_top};
 use glam::DVec3;
 
 /// A vertex with this much weight to the head moves with it alone.
 const SURE_WEIGHT: f64 = 0.999;
 /// Triangles this far beside a box of rays are looked at too, as a share of H.
 const SLIVER: f64 = 1e-3;
+/// So many of the seven rays over a head must meet it.
+const MOST_RAYS: usize = 5;
 /// Rows of rays that look for the chin.
 const CHIN_ROWS: usize = 120;
 /// Where those rows start and end, as shares of (crown - shoulder line), from the shoulder line.
@@ -47,8 +50,21 @@ pub struct Landmarks {
     pub chin_seen: bool,
     /// False where a skirt or a robe hides the crotch and a ratio stands in for it.
     pub crotch_seen: bool,
-    /// True where the head has no skull below its hair.
-    pub crown_with_hair: bool,
+    /// What the crown is the top of.
+    pub crown_source: CrownSource,
+    /// The top of the head, hair and hats included: where the head bone ends.
+    pub head_top: f64,
+}
+
+/// What a crown is the top of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CrownSource {
+    /// A skull.
+    Skull,
+    /// Hair, as the head has no skull below it.
+    Hair,
+    /// All of the figure, as nothing above the head joint moves with it.
+    Figure,
 }
 
 impl Landmarks {
@@ -61,11 +77,18 @@ impl Landmarks {
                 format!("the {whose} shows no chin from the front: placed at {CHIN_BY_RATIO} of the way from the shoulder line to the crown"),
             ));
         }
-        if self.crown_with_hair {
-            warnings.push(Warning::new(
+        match self.crown_source {
+            CrownSource::Skull => {}
+            CrownSource::Hair => warnings.push(Warning::new(
                 "crown_with_hair",
                 format!("the {whose} has no skull under its hair: its crown is the top of the hair"),
-            ));
+            )),
+            CrownSource::Figure => {
+                let message = format!(
+                    "nothing above the {whose}'s head joint moves with it: the highest point of all is taken to be the crown, so check which joint has the role head"
+                );
+                warnings.push(Warning::new("crown_not_found", message).about("humanoid"));
+            }
         }
         warnings
     }
@@ -77,7 +100,7 @@ pub fn landmarks(figure: &Figure) -> Landmarks {
     let sources = HeadSources::of(figure);
     let positions = sources.vertices.iter().map(|&vertex| figure.positions[vertex as usize]).collect();
     let placed = HeadPlacement::of(figure, positions, |joint| figure.joints[joint]);
-    let HeadHeights { crown, chin, chin_seen, crown_with_hair } = upper(&sources, &placed);
+    let HeadHeights { crown, chin, chin_seen, crown_source } = upper(&sources, &placed);
     let sole = sources.sole(&placed);
     let shoulder_line = placed.shoulder_line;
     let hip_line =
@@ -86,7 +109,8 @@ pub fn landmarks(figure: &Figure) -> Landmarks {
     let crotch =
         crotch.clamp(sole + 0.01 * height, (shoulder_line - 0.01 * height).max(sole + 0.01 * height));
     let heights = Heights { crown, chin, shoulder_line, crotch, sole };
-    Landmarks { heights, chin_seen, crotch_seen, crown_with_hair }
+    let head_top = top_with_hair(&sources, &placed).unwrap_or(crown);
+    Landmarks { heights, chin_seen, crotch_seen, crown_source, head_top }
 }
 
 /// What crown, chin and soles of a figure are read from: its weights and kinds say so, not where it is, so it is found once
@@ -189,16 +213,16 @@ struct HeadHeights {
     crown: f64,
     chin: f64,
     chin_seen: bool,
-    crown_with_hair: bool,
+    crown_source: CrownSource,
 }
 
 fn upper(sources: &HeadSources, placed: &HeadPlacement) -> HeadHeights {
     let (low, high) = extent(&placed.positions);
-    let (crown, crown_with_hair) = crown(sources, placed, low, high);
+    let (crown, crown_source) = crown(sources, placed, low, high);
     // A head whose crown lies below the shoulders is no head; keep a sliver so that nothing divides by 0.
     let crown = crown.max(placed.shoulder_line + 0.01 * (high - low));
     let (chin, chin_seen) = chin(sources, placed, crown, high - low);
-    HeadHeights { crown, chin, chin_seen, crown_with_hair }
+    HeadHeights { crown, chin, chin_seen, crown_source }
 }
 
 fn mean_height(figure: &Figure, roles: [Role; 2], place_joint: impl Fn(usize) -> DVec3) -> f64 {
@@ -246,42 +270,63 @@ fn within(
     triangles.iter().filter(is_near).copied().collect()
 }
 
-/// The crown: the median height of seven vertical rays, one over the head joint and six around it at a quarter of
-/// the head's half width; without hair where at least five of them meet a skull.
+/// The crown: the head's top without hair where at least five of the seven rays meet a skull, else with it.
 ///
 /// The rays stand over the joint, about which paper mode scales the head: so the crown of the result is that of the
 /// target, scaled. A joint that lies outside of its head gets a ring around the head's middle.
-fn crown(sources: &HeadSources, placed: &HeadPlacement, low: f64, high: f64) -> (f64, bool) {
-    let (positions, joint) = (&placed.positions, placed.head_joint);
-    for (bare, over_joint, hits_needed) in
-        [(true, true, 5), (true, false, 5), (false, true, 5), (false, false, 1)]
-    {
-        let HeadTriangles { all, sure } = if bare { &sources.bare } else { &sources.with_hair };
-        let Some((centre, half)) = middle(positions, all) else { continue };
-        // Where some of the head is the head's alone, its width: vertices that the neck moves too change it.
-        let half = middle(positions, sure).map_or(half, |(_, half)| half);
-        let centre = if over_joint { joint } else { centre };
-        let reach = DVec3::splat(half.x / 4.0);
-        // No ray meets anything else, and a tree of few triangles is made soon.
-        let near = within(positions, all, [centre - reach, centre + reach], &[0, 2], SLIVER * (high - low));
-        let surface = Surface::new(positions, &near);
-        let above = high + 0.01 * (high - low);
-        let mut hits: Vec<f64> = (0..7)
-            .filter_map(|ray| {
-                let reach = if ray == 0 { 0.0 } else { half.x / 4.0 };
-                let (sin, cos) = (std::f64::consts::FRAC_PI_3 * f64::from(ray)).sin_cos();
-                let origin = DVec3::new(centre.x + reach * cos, above, centre.z + reach * sin);
-                surface.first_hit(origin, DVec3::NEG_Y, f64::INFINITY).map(|hit| above - hit.t)
-            })
-            .filter(|&y| y > joint.y)
-            .collect();
-        if hits.len() >= hits_needed {
-            hits.sort_by(f64::total_cmp);
-            return (0.5 * (hits[(hits.len() - 1) / 2] + hits[hits.len() / 2]), !bare);
+fn crown(sources: &HeadSources, placed: &HeadPlacement, low: f64, high: f64) -> (f64, CrownSource) {
+    let (bare, with_hair) = (&sources.bare, &sources.with_hair);
+    for (triangles, over_joint, hits_needed, source) in [
+        (bare, true, MOST_RAYS, CrownSource::Skull),
+        (bare, false, MOST_RAYS, CrownSource::Skull),
+        (with_hair, true, MOST_RAYS, CrownSource::Hair),
+        (with_hair, false, 1, CrownSource::Hair),
+    ] {
+        let top = top(triangles, triangles, placed, over_joint, low, high);
+        if let Some(point) = top.point.filter(|_| top.hit_count >= hits_needed) {
+            return (point.y, source);
         }
     }
     // No head geometry over the head joint: the highest point of the whole figure.
-    (high, true)
+    (high, CrownSource::Figure)
+}
+
+/// The top of all that the head moves, hair and hats included, straight above its joint: where the head bone ends, about
+/// which the paper says nothing. A joint that lies outside of its head gets a ring around the head's middle.
+fn top_with_hair(sources: &HeadSources, placed: &HeadPlacement) -> Option<f64> {
+    let (low, high) = extent(&placed.positions);
+    let all = &sources.with_hair;
+    // Hair may be wide, and a ring as wide would lie beside the head.
+    let width = if sources.bare.all.is_empty() { all } else { &sources.bare };
+    let over_joint = top(all, width, placed, true, low, high);
+    let point = over_joint.point.filter(|_| over_joint.hit_count >= MOST_RAYS);
+    point.or_else(|| top(all, width, placed, false, low, high).point).map(|point| point.y)
+}
+
+/// The top of `triangles` over the head joint or over their middle, by a ring after the width of `width`.
+fn top(
+    triangles: &HeadTriangles,
+    width: &HeadTriangles,
+    placed: &HeadPlacement,
+    over_joint: bool,
+    low: f64,
+    high: f64,
+) -> HeadTop {
+    let (positions, joint) = (&placed.positions, placed.head_joint);
+    let (Some((centre, _)), Some((_, half))) =
+        (middle(positions, &triangles.all), middle(positions, &width.all))
+    else {
+        return HeadTop { point: None, hit_count: 0 };
+    };
+    // Where some of the head is the head's alone, its width: vertices that the neck moves too change it.
+    let half = middle(positions, &width.sure).map_or(half, |(_, half)| half);
+    let centre = if over_joint { joint } else { centre };
+    let reach = DVec3::splat(half.x / 4.0);
+    // No ray meets anything else, and a tree of few triangles is made soon.
+    let around = [centre - reach, centre + reach];
+    let near = within(positions, &triangles.all, around, &[0, 2], SLIVER * (high - low));
+    let above = high + 0.01 * (high - low);
+    head_top(&Surface::new(positions, &near), centre.with_y(joint.y), half.x, above)
 }
 
 /// The chin: the deepest step back below the face, seen from the front.
