@@ -8,9 +8,9 @@ use crate::geometry::{Mapped, outer};
 use crate::options::FaceCurve;
 use glam::{DMat3, DVec3};
 
-/// Beyond 2, f4 folds the chin: its slope at the ends is 1 -+ gamma / 2.
+/// Beyond 2, f4 folds the chin: its slope at the ends is 1 -+ gamma / 2. D18.
 pub const F4_LIMIT: f64 = 1.9;
-/// Beyond 1, f2 folds the chin: its slope at the ends is 1 -+ gamma.
+/// Beyond 1, f2 folds the chin: its slope at the ends is 1 -+ gamma. D18.
 pub const F2_LIMIT: f64 = 0.95;
 
 /// Eq. 12: `y` from -0.5 (bottom) to 0.5 (top), `squash` is gamma.

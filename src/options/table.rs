@@ -9,21 +9,22 @@ use std::fmt;
 
 /// alpha_head. Paper, V-B1.
 pub const HEAD_SCALE: f64 = 1.5;
-/// Rays around each sample in paper mode. Paper, V-A.
+/// Rays around each sample in paper mode. Paper, V-A; a radius changes by up to 16 % with their phase (D5).
 pub const PAPER_RAYS: u32 = 12;
-/// Rays around each sample in product mode: 12 change a radius by up to 16 % with their phase, 48 by 1 %.
+/// Rays around each sample in product mode: 12 change a radius by up to 16 % with their phase, 48 by 1.1 % (D5).
 pub const PRODUCT_RAYS: u32 = 48;
 /// Fewest rays that have a centroid.
 pub const FEWEST_RAYS: u32 = 3;
-/// gamma of product mode (found by looking: 0 leaves an adult, 1.4 a pointed forehead).
+/// gamma of product mode. D18, found by looking: 0 leaves an adult, 1.4 a pointed forehead.
 pub const PRODUCT_FACE_SQUASH: f64 = 0.8;
 /// More threads than this are of no use, and tens of thousands are more than a system can start.
 pub const MOST_THREADS: u32 = 1024;
-/// Fewest and most heads that a style may ask for.
+/// Fewest and most heads that a style may ask for: below, a head and a neck leave no room for a body; above, nothing is
+/// super-deformed.
 pub const HEADS: (f64, f64) = (1.8, 6.0);
-/// c of the heat equation: spreads weights over about a limb's radius.
+/// c of the heat equation: spreads weights over about a limb's radius (D23).
 pub const RIG_HEAT: f64 = 1.0;
-/// Voxels along the longest side of the volume.
+/// Voxels along the longest side of the volume: time and memory against thin fingers (D23).
 pub const RIG_VOXEL_RESOLUTION: u32 = 128;
 
 /// Where an option is set.

@@ -24,13 +24,15 @@ use crate::shape::{BodyShape, Measured};
 use glam::DVec3;
 use std::sync::{Arc, OnceLock};
 
-/// A head count as near as this to the one asked for needs no correction.
+/// A head count as near as this to the one asked for needs no correction. D27. Seen: ±30 % moves vertices by up to .004
+/// H.
 const HEADS_TOLERANCE: f64 = 5e-3;
-/// Fields that are tried for a head count.
+/// Fields that are tried for a head count. D27. Seen: none of 28 pairs needs more than four.
 const HEADS_ATTEMPTS: usize = 5;
-/// One correction changes what is asked for below the head by no more than these factors.
+/// One correction changes what is asked for below the head by no more than these factors. D27. Seen: tighter ones reach
+/// fewer head counts.
 const HEADS_CORRECTION: (f64, f64) = (0.8, 1.25);
-/// What is left after that is warned of above this.
+/// What is left after that is warned of above this: a hundredth of a head count is not seen.
 const HEADS_WARNED_ABOVE: f64 = 0.01;
 /// Hair that reaches further below the chin than this, in heads, is warned of.
 const HAIR_WARNED_ABOVE: f64 = 0.1;

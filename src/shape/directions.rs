@@ -8,6 +8,9 @@ use crate::geometry::weld::Weld;
 use crate::parallel;
 use glam::{DVec3, Mat3A, Vec3, Vec3A, Vec4};
 
+/// Triangles of less than this share of their longest edge's square have no direction: rounding to 32 bits alone would
+/// turn them.
+const LEAST_AREA: f64 = 1e-10;
 /// Fewer triangles than this are not worth a thread.
 const LEAST_TRIANGLES: usize = 4000;
 
@@ -41,7 +44,7 @@ impl RestTriangles {
         let has_area = |&corners: &[u32; 3]| {
             let (a, b) = edges(positions, corners);
             let longest = a.length_squared().max(b.length_squared()).max((b - a).length_squared());
-            a.cross(b).length() > 1e-10 * longest
+            a.cross(b).length() > LEAST_AREA * longest
         };
         let triangles: Vec<[u32; 3]> = triangles.iter().copied().filter(has_area).collect();
         let total: f64 = triangles.iter().map(|&corners| edges(positions, corners).0.length()).sum();

@@ -175,8 +175,8 @@ fn fold_joints(character: &Character) -> Vec<Option<Role>> {
     folded
 }
 
-/// Weights up to this part of a vertex's sum are what the rounding of weights to bytes leaves behind: a head that should
-/// move as one would stick to the neck by them.
+/// Weights up to this part of a vertex's sum are what the rounding of weights to bytes leaves behind: a head that
+/// should move as one would stick to the neck by them. D11.
 const WEIGHT_DUST: f64 = 1.5 / 255.0;
 
 type FoldedWeights = (Vec<Vec<(Role, f64)>>, Vec<f64>, Vec<Option<(u32, f64)>>);

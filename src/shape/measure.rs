@@ -12,14 +12,16 @@ use glam::DVec3;
 use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_PI_3, TAU};
 
-/// Where along a bone the samples lie: the paper's "three points at a uniform interval", away from the joints, where
-/// limbs meet.
+/// Axes that tie but for rounding must tie, or the left and the right arm's rays would begin differently.
+const TIE: f64 = 1e-9;
+/// Where along a bone the samples lie: the paper's "three points at a uniform interval" (V-A), away from the joints,
+/// where limbs meet. D4.
 pub const SAMPLES: [f64; 3] = [0.25, 0.5, 0.75];
 
 /// A sample with fewer hits than this has no centroid worth the name.
 const LEAST_HITS: usize = FEWEST_RAYS as usize;
 
-/// A set of meshes surrounds a bone where this share of each sample's rays meets it.
+/// A set of meshes surrounds a bone where this share of each sample's rays meets it. D5: 9 of the paper's 12.
 const ENOUGH_HITS: f64 = 0.75;
 
 /// Measures a body: the length of every bone and the radius of the mesh around it.
@@ -98,10 +100,7 @@ pub fn radius(parent: DVec3, child: DVec3, surfaces: &[&Surface], rays: usize) -
 fn ring(along: DVec3, rays: usize) -> Option<Vec<DVec3>> {
     let along = along.try_normalize()?;
     let least = along.abs().min_element();
-    let axis = DVec3::AXES
-        .into_iter()
-        // Axes that tie but for rounding must tie, or the left and the right arm would begin differently.
-        .find(|axis| axis.dot(along).abs() <= least + 1e-9)?;
+    let axis = DVec3::AXES.into_iter().find(|axis| axis.dot(along).abs() <= least + TIE)?;
     let start = axis.cross(along).normalize();
     let side = along.cross(start);
     let turn = TAU / rays as f64;

@@ -13,6 +13,8 @@ use crate::parallel;
 use glam::DVec3;
 use std::collections::{BTreeMap, BTreeSet};
 
+/// A head joint above the head's top would make a head of no length: this share of H is left.
+const LEAST_HEAD: f64 = 0.01;
 /// Fewer triangles than this are not worth a second thread.
 const LEAST_TRIANGLES: usize = 10_000;
 
@@ -49,8 +51,7 @@ impl Measured {
         let (surfaces, anatomy) = parallel::both(threads, || surfaces(&figure), || Anatomy::of(&figure));
         let joints: BTreeMap<Role, DVec3> =
             figure.humanoid.iter().map(|(role, joint)| (role, figure.joints[joint])).collect();
-        // A head joint above the head's top would make a head of no length; a sliver is left.
-        let least = anatomy.head_joint.y + 0.01 * figure.height();
+        let least = anatomy.head_joint.y + LEAST_HEAD * figure.height();
         let head_top = anatomy.head_joint.with_y(anatomy.landmarks.head_top.max(least));
         let roles: BTreeSet<Role> = joints.keys().copied().collect();
         let bones = bones(&roles, &options.bone_groups);

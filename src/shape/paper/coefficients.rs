@@ -14,9 +14,9 @@ pub const SUPPRESSED_LENGTH_TRANSFER: f64 = 0.2;
 pub const SUPPRESSED_THICKNESS_TRANSFER: f64 = 0.0;
 /// eta and phi of all other groups. Paper, V-B3.
 pub const FULL_TRANSFER: f64 = 1.0;
-/// alpha of hand, finger and foot, whatever the reference. Paper, V-B3 ("fingers and toes").
+/// alpha of hand, finger and foot, whatever the reference. Paper, V-B3 ("fingers and toes"); D16.
 pub const FINGER_LENGTH_SCALE: f64 = 0.5;
-/// beta of hand, finger and foot. Paper, V-B3.
+/// beta of hand, finger and foot. Paper, V-B3; D16.
 pub const FINGER_THICKNESS_SCALE: f64 = 1.0;
 
 /// What the paper does with a group unless the user says otherwise.

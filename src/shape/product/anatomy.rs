@@ -5,7 +5,7 @@
 //! not matter where an artist put the joints in between.
 
 use super::landmarks::{Landmarks, landmarks};
-use super::part::{Part, PartWeights, fold_to_parts};
+use super::part::{Part, PartWeights, TINY, fold_to_parts};
 use crate::character::Role;
 use crate::error::Warning;
 use crate::geometry::{bounds, foot, range};
@@ -14,19 +14,21 @@ use crate::shape::heights::Heights;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-/// A chin at or below the shoulder line still leaves this much neck, as a share of L. Seen: 30 % either way moves no vertex of 14 models.
+/// A chin at or below the shoulder line still leaves this much neck, as a share of L. Seen: 30 % either way moves no
+/// vertex of 14 models.
 const SHORTEST_NECK: f64 = 0.02;
 /// The head's half width is taken this far above the chin, as a share of L (D27). Seen: 0.25 meets jaws and moves
 /// vertices by up to 0.05 H, 0.46 meets the widest skulls and limits more heads.
 const HEAD_WIDTH_AT: f64 = 0.35;
-/// A head is at least this wide to either side, as a share of L: less is a hole in it. Seen: 30 % either way moves no vertex of 14 models.
+/// A head is at least this wide to either side, as a share of L: less is a hole in it. Seen: 30 % either way moves no
+/// vertex of 14 models.
 const LEAST_HEAD_WIDTH: f64 = 0.05;
 /// Its half width where none is measured, as a share of L. Seen: 30 % either way moves no vertex of 14 models.
 const HEAD_WIDTH_BY_RATIO: f64 = 0.4;
 /// The torso's width is the median of so many slices, ...
 const TORSO_SLICES: u32 = 5;
-/// ... so far apart, as a share of the way from crotch to shoulder line (D27). Seen: 30 % closer, and hips count for more:
-/// vertices move by up to 0.03 H.
+/// ... so far apart, as a share of the way from crotch to shoulder line (D27). Seen: 30 % closer, and hips count for
+/// more: vertices move by up to 0.03 H.
 const TORSO_SLICE_STEP: f64 = 0.15;
 /// Outlines count between these quantiles, so that a strap or a pouch is no width (D27). Seen: at 0.68 above, vertices
 /// move by up to 0.03 H; a third more or less below, by 0.003 H.
@@ -35,27 +37,35 @@ const WIDTH_QUANTILES: (f64, f64) = (0.03, 0.97);
 const DEPTH_QUANTILES: (f64, f64) = (0.1, 0.9);
 /// An edge of an outline counts as so many points. Seen: with 3 or 5, vertices move by up to 0.009 H.
 const EDGE_POINTS: u32 = 4;
-/// A hand or a foot is at least this long, as a share of L, or it is none. Seen: 30 % either way moves no vertex of 14 models.
+/// A hand or a foot is at least this long, as a share of L, or it is none. Seen: 30 % either way moves no vertex of 14
+/// models.
 const LEAST_EXTREMITY: f64 = 0.02;
-/// Lengths are at least this share of H, so that nothing is divided by 0. Seen: 30 % either way moves no vertex of 14 models.
+/// Lengths are at least this share of H, so that nothing is divided by 0. Seen: 30 % either way moves no vertex of 14
+/// models.
 const LEAST_LENGTH: f64 = 0.005;
-/// Joints nearer to each other than this share of H lie on one another. Seen: 30 % either way moves no vertex of 14 models.
+/// Joints nearer to each other than this share of H lie on one another. Seen: 30 % either way moves no vertex of 14
+/// models.
 const APART: f64 = 1e-3;
-/// The elbow where no joint tells, as a share of the way from shoulder to finger tips. Seen: 30 % either way moves no vertex of 14 models.
+/// The elbow where no joint tells, as a share of the way from shoulder to finger tips. Seen: 30 % either way moves no
+/// vertex of 14 models.
 const ELBOW_BY_RATIO: f64 = 0.45;
-/// The wrist where no joint tells, as a share of the way from elbow to finger tips (D26). Seen: 30 % either way moves no vertex of 14 models.
+/// The wrist where no joint tells, as a share of the way from elbow to finger tips (D26). Seen: 30 % either way moves
+/// no vertex of 14 models.
 const WRIST_BY_RATIO: f64 = 0.62;
-/// The knee where no joint tells, as a share of the leg below the crotch. Seen: 30 % either way moves no vertex of 14 models.
+/// The knee where no joint tells, as a share of the leg below the crotch. Seen: 30 % either way moves no vertex of 14
+/// models.
 const KNEE_BY_RATIO: f64 = 0.48;
 /// The ankle where no joint tells, as a share of the leg above the sole (D26). Seen: a third more or less moves one model
 /// of 14, by 0.006 H.
 const ANKLE_BY_RATIO: f64 = 0.1;
-/// Knees lie at least this share of the leg below the crotch, and ankles below knees. Seen: 30 % either way moves no vertex of 14 models.
+/// Knees lie at least this share of the leg below the crotch, and ankles below knees. Seen: 30 % either way moves no
+/// vertex of 14 models.
 const LEAST_SEGMENT: f64 = 0.1;
 /// A foot joint nearer to the sole than this share of the leg is not an ankle. Seen: Quaternius' feet lie on the sole; at
 /// 0.014 one of them counts, at 0.026 one ankle more is a ratio.
 const LEAST_ANKLE: f64 = 0.02;
-/// A foot joint further aside from the knee than this share of the leg is the root of an IK chain. Seen: 30 % either way moves no vertex of 14 models.
+/// A foot joint further aside from the knee than this share of the leg is the root of an IK chain. Seen: 30 % either
+/// way moves no vertex of 14 models.
 const FOOT_ASIDE: f64 = 0.35;
 /// A limb's radius is measured between these shares of its bone: joints bulge (D27). Seen: from 0 on, or to 0.56 only,
 /// vertices move by up to 0.04 H.
@@ -384,7 +394,7 @@ fn slice(figure: &Figure, triangles: &[[u32; 3]], y: f64) -> Option<Slice> {
                 if middle >= wanted {
                     return match last {
                         Some((before, from)) => {
-                            from + (x - from) * (wanted - before) / (middle - before).max(1e-300)
+                            from + (x - from) * (wanted - before) / (middle - before).max(TINY)
                         }
                         None => x,
                     };

@@ -8,7 +8,7 @@
 use super::anatomy::Anatomy;
 use super::binding::{PartBinding, PartBindings};
 use super::hair::{HairMap, HairOutline};
-use super::part::{PART_COUNT, Part, PartWeights};
+use super::part::{PART_COUNT, Part, PartWeights, TINY};
 use super::pieces::{Attachment, Piece};
 use super::scales::{HeadScale, PartCoefficients, Scale};
 use crate::face::FaceShape;
@@ -16,18 +16,25 @@ use crate::geometry::{Mapped, outer};
 use crate::shape::heights::Heights;
 use glam::{DMat3, DVec3};
 
-/// The head moves back by this share of its distance before the chest, at most so many new heads.
+/// The head moves back by this share of its distance before the chest. D28. Seen: without, heads hang up to .032 H
+/// forward.
 const HEAD_SEAT: f64 = 0.5;
+/// The head moves back by at most so many new heads. D28. Seen: acts on none of 14; 30 % less on two.
 const HEAD_SEAT_MOST: f64 = 0.08;
-/// How far below the chin hair is as narrow as it gets, in new heads.
+/// How far below the chin hair is as narrow as it gets, in new heads. D28. Seen: nearer, short tails lose their place
+/// behind the head.
 const HAIR_TAPERING: f64 = 0.5;
 /// Hair keeps at least this share of its depth below the chin, times the head's scale: of no length it would be a disc.
+/// D28.
 const HAIR_SHORTEST: f64 = 0.05;
-/// The height at which the chest's middle is taken, from crotch (0) to shoulder line (1).
+/// The height at which the chest's middle is taken, from crotch (0) to shoulder line (1). D28. Seen: ±30 % moves heads
+/// by up to .004 H.
 const CHEST_HEIGHT: f64 = 0.85;
-/// Above the shoulder line the torso's heights change at most this many times as much as the neck's.
+/// Above the shoulder line the torso's heights change at most this many times as much as the neck's. D28. Seen: less
+/// sinks collars by up to .013 H.
 const YOKE_PER_NECK: f64 = 1.5;
-/// A piece that is kept from reaching below the ground keeps at least this share of its size.
+/// A piece that is kept from reaching below the ground keeps at least this share of its size: for things as long as the
+/// figure is tall, of which none was seen.
 const SMALLEST_PIECE: f64 = 0.05;
 
 const TORSO: usize = Part::Torso as usize;
@@ -311,7 +318,7 @@ impl PartField {
         for pair in knots.windows(2) {
             let ((y0, to0), (y1, to1)) = (pair[0], pair[1]);
             if y < y1 || y1 == b.chin {
-                return to0 + (to1 - to0) * (y - y0) / (y1 - y0).max(1e-30);
+                return to0 + (to1 - to0) * (y - y0) / (y1 - y0).max(TINY);
             }
         }
         a.chin

@@ -9,14 +9,16 @@ use super::scales::HeadScale;
 use crate::geometry::{Mapped, Neighbours, Surface, Weld, double_area, neighbours, smoothstep};
 use glam::{DMat3, DVec3};
 
-/// The slope of the height's map at the chin, against the mean slope: 1 would be straight, 2 would come to rest at
-/// the tips.
+/// The slope of the height's map at the chin, against the mean slope: 1 would be straight, 2 would come to rest at the
+/// tips. D28. Seen: 1 turns 27 more triangles over, 2 makes tips discs.
 const FIRST_SLOPE: f64 = 1.5;
-/// Tips are at least this wide, as a scale of the original.
+/// Tips are at least this wide, as a scale of the original. D28. Seen: below, tails become flat.
 const NARROWEST_TIP: f64 = 0.6;
-/// Heights at which outline and widths are kept, from the chin to the tips.
+/// Heights at which outline and widths are kept, from the chin to the tips. D28. Seen: ±30 % moves hair by up to .012
+/// H.
 const KNOTS: usize = 17;
-/// The share of the hair's vertices at a height that its outline holds.
+/// The share of the hair's vertices at a height that its outline holds. D28. Seen: less lets it jump from lock to lock
+/// (352 triangles turn over); all of it would follow stray locks.
 const OUTLINE_QUANTILE: f64 = 0.95;
 
 /// How far hair reaches from the head's axis, below the chin.
@@ -157,11 +159,12 @@ impl HairMap {
     }
 }
 
-/// Steps that spread a push over the neighbouring hair.
+/// Steps that spread a push over the neighbouring hair. D15. Seen: ±30 % moves nothing by a thousandth of H.
 const SPREAD_PASSES: usize = 8;
-/// Hair keeps at least this share of its old distance from the body, up to `CLEARANCE` of the height.
+/// Hair keeps at least this share of its old distance from the body, up to `CLEARANCE` of the height. D15. Seen:
+/// without, locks lie up to .007 H inside of three bodies.
 const KEPT_DISTANCE: f64 = 0.5;
-/// See [`KEPT_DISTANCE`].
+/// See [`KEPT_DISTANCE`]; a share of H. D15.
 const CLEARANCE: f64 = 0.008;
 
 /// Hair below the chin and the body that it lies on, before anything moves.

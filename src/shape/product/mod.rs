@@ -1,4 +1,7 @@
 //! The product's way: parts that meet at landmarks read from the geometry, one map each, blended by smoothed weights.
+//!
+//! D-numbers are decisions in `docs/method.md`; "Seen" is what a change of that constant alone did to the targets of
+//! `docs/constants.md`: ±30 % where no other is named.
 
 pub mod anatomy;
 pub mod binding;

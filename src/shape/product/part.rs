@@ -26,6 +26,9 @@ pub enum Part {
     Hair,
 }
 
+/// Divides in place of a length that may be 0.
+pub const TINY: f64 = 1e-30;
+
 /// How many parts there are, hair included.
 pub const PART_COUNT: usize = 16;
 

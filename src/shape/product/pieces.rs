@@ -7,11 +7,13 @@ use crate::shape::figure::Figure;
 use glam::DVec3;
 use std::collections::BTreeMap;
 
-/// Loose pieces smaller than this share of H keep their shape: buttons, buckles, badges.
+/// Loose pieces smaller than this share of H keep their shape: buttons, buckles, badges. D26. Seen: without, 33 more
+/// triangles turn over, in a mannequin's plates.
 const SMALL_PIECE: f64 = 0.04;
-/// Boxes closer than this share of H touch.
+/// Boxes closer than this share of H touch. D26. Seen: ±30 % moves a machine arm by .005 H.
 const TOUCHING: f64 = 0.005;
-/// A vertex with this much weight to one joint counts as rigid.
+/// A vertex with this much weight to one joint counts as rigid. D26. Seen: without the rule a machine arm is squashed,
+/// moved by up to .30 H.
 const RIGID_WEIGHT: f64 = 0.99;
 
 /// How a point takes part in the deformation, besides its weights.

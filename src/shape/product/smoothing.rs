@@ -7,21 +7,32 @@ use crate::parallel;
 use crate::shape::figure::Figure;
 use glam::DVec3;
 
-/// One step of smoothing along the mesh moves a vertex's weights this far to the mean of its neighbours'.
+/// One step of smoothing along the mesh moves a vertex's weights this far to the mean of its neighbours'. D26; above 1
+/// it would swing.
 const UMBRELLA_STEP: f32 = 0.6;
-/// The width of both kinds of smoothing, as a share of H.
+/// The width of both kinds of smoothing, as a share of H. D26. Seen: wider turns fewer triangles over, and creases go.
 const SMOOTHING_WIDTH: f64 = 0.012;
-/// Bounds of the number of steps along the mesh.
+/// Steps along the mesh for the square of that width in edges: what they spread grows with their root. D26.
+const PASSES_PER_SQUARE: f64 = 10.0;
+/// Edges are taken to be at least this share of H long: points may coincide.
+const SHORTEST_EDGE: f64 = 1e-12;
+/// A Gaussian beyond so many standard deviations is nothing.
+const LAYER_REACH: f64 = 3.0;
+/// A sum of distances may be this much too short.
+const ROUNDING: f64 = 1e-9;
+/// Bounds of the number of steps along the mesh. D26; the upper one is for time. Seen: it costs fine uniforms some
+/// turned triangles.
 const UMBRELLA_PASSES: (f64, f64) = (4.0, 60.0);
-/// Steps across layers, and vertices that each takes into account.
+/// Steps across layers. D26. Seen: without, skin shows through tights.
 const LAYER_PASSES: usize = 3;
+/// Vertices that each step across layers takes into account. D26: the nearest two dozen reach across cloth and body.
 const LAYER_NEIGHBOURS: usize = 24;
-/// Left arm, right arm, the rest.
+/// Left arm, right arm, the rest. D26: arms beside a body do not mix with it.
 const CLASS_COUNT: usize = 3;
-/// Fewer samples than this are not worth a thread.
+/// Fewer samples than this are not worth a thread: time alone.
 const LEAST_SAMPLES: usize = 4000;
-/// A vertex with more than this weight to an arm is the arm's. Not a half: where two pieces meet half and half is common,
-/// and the last digits would decide.
+/// A vertex with more than this weight to an arm is the arm's. D26. Not a half: where two pieces meet half and half is
+/// common, and the last digits would decide.
 const ARM_MAJORITY: f32 = 0.503;
 
 /// Umbrella steps on the welded mesh; `frozen` vertices stay.
@@ -50,8 +61,9 @@ pub fn smooth_along(
     }
     let middle = edges.len() / 2;
     let median = *edges.select_nth_unstable_by(middle, f64::total_cmp).1;
-    let width = SMOOTHING_WIDTH * figure.height() / median.max(1e-12 * figure.height());
-    let passes = (10.0 * width * width).clamp(UMBRELLA_PASSES.0, UMBRELLA_PASSES.1).round() as usize;
+    let width = SMOOTHING_WIDTH * figure.height() / median.max(SHORTEST_EDGE * figure.height());
+    let passes =
+        (PASSES_PER_SQUARE * width * width).clamp(UMBRELLA_PASSES.0, UMBRELLA_PASSES.1).round() as usize;
 
     // Vertices at one place share one row from here on: their mean, so that seams stay closed.
     let mut rows = vec![[0.0f32; PART_COUNT]; weld.count];
@@ -201,10 +213,10 @@ struct Layer {
     weights: [f32; LAYER_NEIGHBOURS],
 }
 
-/// `LAYER_PASSES` Gaussian means over the nearest points within three standard deviations, `sigma` each.
+/// `LAYER_PASSES` Gaussian means over the nearest points within [`LAYER_REACH`] standard deviations, `sigma` each.
 fn layer_steps(points: &[DVec3], rows: Vec<PartWeights>, sigma: f64, threads: usize) -> Vec<PartWeights> {
     let tree = PointTree::new(points);
-    let reach = 3.0 * sigma;
+    let reach = LAYER_REACH * sigma;
     let layers = parallel::collect_with(
         threads,
         points.len(),
@@ -215,7 +227,7 @@ fn layer_steps(points: &[DVec3], rows: Vec<PartWeights>, sigma: f64, threads: us
             // Slots that follow each other are near each other: the neighbours of the last one bound the search.
             let bound = match (*last, found.get(LAYER_NEIGHBOURS - 1)) {
                 (Some(last), Some(furthest)) => {
-                    reach.min((furthest.distance() + p.distance(last)) * (1.0 + 1e-9))
+                    reach.min((furthest.distance() + p.distance(last)) * (1.0 + ROUNDING))
                 }
                 _ => reach,
             };

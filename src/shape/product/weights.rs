@@ -6,26 +6,33 @@
 //! layers of cloth; the file's own weights stay as they are.
 
 use super::anatomy::Anatomy;
-use super::part::{Part, PartWeights, fold_to_parts};
+use super::part::{Part, PartWeights, TINY, fold_to_parts};
 use super::smoothing::{smooth_across, smooth_along};
 use crate::character::{MeshKind, Role};
 use crate::geometry::{Weld, bounds, smoothstep};
 use crate::shape::figure::Figure;
 use glam::DVec3;
 
+/// A component whose mean head weight is above this moves with the head alone, ... D26.
+const HEAD_ONLY: f32 = 0.6;
+/// ... unless a vertex of it has this much weight of torso or limbs: what rounding leaves is less.
+const BODY_DUST: f32 = 0.01;
 /// Where hands (feet) without a joint begin, the weights go over from the lower arm (leg) within this share of the
-/// distance on both sides.
+/// distance on both sides. D26.
 const EXTREMITY_BAND: f64 = 0.1;
 /// The head begins this far under the chin at the face, and this far above it behind the head joint, as shares of L.
+/// D26. Seen: less behind pulls napes down (54 triangles turn over), more leaves them to the neck.
 const HEAD_PLANE: (f64, f64) = (-0.02, 0.22);
-/// How far behind the head joint the plane has risen, as a share of L.
+/// How far behind the head joint the plane has risen, as a share of L. D26. Seen: ±30 % moves napes by up to .007 H.
 const HEAD_PLANE_BACK: f64 = 0.35;
-/// The neck's weights go over into the head's within half the neck, but at least and at most these shares of L.
+/// The neck's weights go over into the head's within half the neck, but at least and at most these shares of L. D26.
+/// Seen: the lower one acts on none.
 const HEAD_BAND: (f64, f64) = (0.06, 0.2);
-/// Below the first of these heights, as shares of the ankle's, leg vertices are the foot's alone; above the second their
-/// weights stay.
+/// Below the first of these heights, as shares of the ankle's, leg vertices are the foot's alone; above the second
+/// their weights stay. D26. Seen: without the band soles bend by up to .008 H.
 const SOLE_BAND: (f64, f64) = (0.15, 0.7);
 /// Between these distances from the neck's axis, to the side or behind, what the head moves is hair, as shares of L.
+/// D26, for hair that is one mesh with the body. Seen: nearer, necks count as hair.
 const HAIR_REACH: (f64, f64) = (0.36, 0.5);
 
 /// Each vertex's weights to the parts, and whether the head alone moves it.
@@ -67,7 +74,7 @@ pub fn part_weights(
 }
 
 /// Vertices that move with the head alone: components without torso or limb weight whose mean head weight is above
-/// 0.6, and what is known to be hair or part of the face.
+/// [`HEAD_ONLY`], and what is known to be hair or part of the face.
 fn head_only(figure: &Figure, parts: &[PartWeights], members: &[Vec<u32>]) -> Vec<bool> {
     let of_head = |vertex: u32| parts[vertex as usize][Part::Head as usize];
     let of_body = |vertex: u32| 1.0 - of_head(vertex) - parts[vertex as usize][Part::Neck as usize];
@@ -75,7 +82,7 @@ fn head_only(figure: &Figure, parts: &[PartWeights], members: &[Vec<u32>]) -> Ve
         figure.kinds.iter().map(|kind| matches!(kind, MeshKind::Hair | MeshKind::FacePart)).collect();
     for members in members {
         let mean = members.iter().map(|&vertex| of_head(vertex)).sum::<f32>() / members.len().max(1) as f32;
-        if mean > 0.6 && members.iter().all(|&vertex| of_body(vertex) < 0.01) {
+        if mean > HEAD_ONLY && members.iter().all(|&vertex| of_body(vertex) < BODY_DUST) {
             members.iter().for_each(|&vertex| head_only[vertex as usize] = true);
         }
     }
@@ -149,7 +156,7 @@ fn split_limbs(parts: &mut PartWeights, p: DVec3, figure: &Figure, anatomy: &Ana
                 continue;
             }
             let along = to - from;
-            let past = (p - to).dot(along) / along.length_squared().max(1e-30);
+            let past = (p - to).dot(along) / along.length_squared().max(TINY);
             let share = smoothstep(past / (2.0 * EXTREMITY_BAND) + 0.5) as f32;
             parts[limb.parts[index]] = weight * (1.0 - share);
             parts[limb.parts[index + 1]] += weight * share;
@@ -161,7 +168,7 @@ fn split_limbs(parts: &mut PartWeights, p: DVec3, figure: &Figure, anatomy: &Ana
 fn settle_soles(parts: &mut PartWeights, p: DVec3, anatomy: &Anatomy) {
     for leg in &anatomy.limbs[2..] {
         let ankle = leg.end.y - anatomy.landmarks.heights.sole;
-        let low = (p.y - anatomy.landmarks.heights.sole) / ankle.max(1e-30);
+        let low = (p.y - anatomy.landmarks.heights.sole) / ankle.max(TINY);
         let share = smoothstep((SOLE_BAND.1 - low) / (SOLE_BAND.1 - SOLE_BAND.0)) as f32;
         if share > 0.0 {
             let [upper, lower, foot] = leg.parts;
