@@ -169,169 +169,104 @@ impl fmt::Display for Default {
 const BOTH: &[Mode] = &[Mode::Product, Mode::Paper];
 const PRODUCT: &[Mode] = &[Mode::Product];
 
+const fn number(low: f64, high: f64) -> Values {
+    Values::Number { low, high }
+}
+
+const fn count(low: u32, high: u32) -> Values {
+    Values::Count { low, high }
+}
+
+const fn by_mode(product: f64, paper: f64) -> Default {
+    Default::ByMode { product, paper }
+}
+
 /// Bones of a hundredth of their length are a matter of rounding, and no figure has one of ten times its length.
-const SCALES: Values = Values::Number { low: 0.01, high: 10.0 };
+const SCALES: Values = number(0.01, 10.0);
 /// eta and phi of the paper, which knows no other range. Beyond 1 the transfer is a straight line that soon runs through
 /// 0 and turns a limb inside out (a leg of .4 ends at -.2 with 2); who wants more than the reference sets the scale.
-const TRANSFERS: Values = Values::Number { low: 0.0, high: 1.0 };
-const SHARES: Values = Values::Number { low: 0.0, high: 1.0 };
+const TRANSFERS: Values = number(0.0, 1.0);
+/// From nothing to all.
+const SHARES: Values = number(0.0, 1.0);
+/// The curves fold long before the ends and are bounded there, with a warning; below 0 a face gets older.
+const SQUASHES: Values = number(-10.0, 10.0);
 
-const fn plain(name: &'static str, values: Values, default: Default, text: &'static str) -> OptionInfo {
-    OptionInfo { name, scope: Scope::Plain, values, unit: "", default, modes: BOTH, text }
-}
-
-const fn group(name: &'static str, values: Values, text: &'static str) -> OptionInfo {
-    OptionInfo { scope: Scope::Group, ..plain(name, values, Default::Found, text) }
-}
-
-const fn rig(name: &'static str, values: Values, default: Default, text: &'static str) -> OptionInfo {
-    OptionInfo { scope: Scope::Rig, ..plain(name, values, default, text) }
-}
-
-const fn of_character(name: &'static str, text: &'static str) -> OptionInfo {
-    OptionInfo { scope: Scope::Character, ..plain(name, Values::Other, Default::Found, text) }
+macro_rules! rows {
+    ($($name:literal, $scope:ident, $values:expr, $unit:literal, $default:expr, $modes:ident, $text:literal;)+) => {
+        &[$(OptionInfo {
+            name: $name,
+            scope: Scope::$scope,
+            values: $values,
+            unit: $unit,
+            default: $default,
+            modes: $modes,
+            text: $text,
+        }),+]
+    };
 }
 
 /// All options.
-pub const TABLE: &[OptionInfo] = &[
-    plain(
-        "mode",
-        Values::Choice(Mode::NAMES),
-        Default::Choice(Mode::Product.name()),
-        "what deforms: parts that meet at landmarks (product), or the paper's chain of bones (paper)",
-    ),
-    plain(
-        "stage",
-        Values::Choice(Stage::NAMES),
-        Default::Choice(Stage::Face.name()),
-        "the last stage: lengths alone, lengths and thickness, or everything up to the face",
-    ),
-    OptionInfo {
-        unit: "rays",
-        ..plain(
-            "rays",
-            Values::Count { low: FEWEST_RAYS, high: 4096 },
-            Default::ByMode { product: PRODUCT_RAYS as f64, paper: PAPER_RAYS as f64 },
-            "rays around each sample of a bone",
-        )
-    },
-    OptionInfo {
-        modes: PRODUCT,
-        ..plain(
-            "limits",
-            Values::Switch,
-            Default::Switch(true),
-            "bounds what may be done to a body, where measured scales would fold it",
-        )
-    },
-    plain(
-        "head_scale",
-        Values::Number { low: 0.1, high: 10.0 },
-        Default::Number(HEAD_SCALE),
-        "size of the head: 1 keeps it, 1.5 is the paper's",
-    ),
-    plain("amount", SHARES, Default::Number(1.0), "from the original (0) to the style (1)"),
-    OptionInfo {
-        modes: PRODUCT,
-        ..plain(
-            "hair_length",
-            SHARES,
-            Default::Number(1.0),
-            "hair below the chin: 1 ends it where it ended on the body, 0 at the chin",
-        )
-    },
-    plain(
-        "face_squash",
-        // The curves fold long before the ends and are bounded there, with a warning; below 0 a face gets older.
-        Values::Number { low: -10.0, high: 10.0 },
-        Default::ByMode { product: PRODUCT_FACE_SQUASH, paper: 0.0 },
-        "how much younger the face gets; 0 leaves it",
-    ),
-    plain(
-        "face_curve",
-        Values::Choice(FaceCurve::NAMES),
-        Default::Choice(FaceCurve::F4.name()),
-        "the curve that makes the face younger: the paper's f4 or f2, or a sphere",
-    ),
-    OptionInfo {
-        unit: "threads",
-        ..plain(
-            "thread_count",
-            Values::Count { low: 0, high: MOST_THREADS },
-            Default::Number(0.0),
-            "threads to use; 0 means all cores",
-        )
-    },
-    plain("groups", Values::Other, Default::Found, "settings by bone group"),
-    plain(
-        "bone_groups",
-        Values::Other,
-        Default::Found,
-        "bone groups of your own: a bone's end to a group's name",
-    ),
-    group("length_scale", SCALES, "1 keeps the length of the group's bones, 0.5 halves it"),
-    group("thickness_scale", SCALES, "1 keeps the thickness of the group, 0.5 halves it"),
-    group("length_transfer", TRANSFERS, "0 keeps the target's length, 1 takes all of the reference's"),
-    group("thickness_transfer", TRANSFERS, "0 keeps the target's thickness, 1 takes all of the reference's"),
-    rig(
-        "rig_weights",
-        Values::Choice(WeightMethod::NAMES),
-        Default::Choice(WeightMethod::Auto.name()),
-        "how the body gets weights: along its surface (heat), through its volume, or whichever suits it (auto)",
-    ),
-    rig(
-        "rig_garments",
-        Values::Choice(GarmentWeights::NAMES),
-        Default::Choice(GarmentWeights::Robust.name()),
-        "how clothes get weights: from close surface points alike (robust), from the nearest, or like a body (heat)",
-    ),
-    OptionInfo {
-        unit: "voxels",
-        ..rig(
-            "rig_voxel_resolution",
-            Values::Count { low: 16, high: 512 },
-            Default::Number(RIG_VOXEL_RESOLUTION as f64),
-            "voxels along the longest side of the body's volume",
-        )
-    },
-    rig("rig_fingers", Values::Switch, Default::Switch(true), "looks for fingers"),
-    rig(
-        "rig_heat",
-        Values::Number { low: 0.01, high: 1000.0 },
-        Default::Number(RIG_HEAT),
-        "how sharp weights by heat are: 1 spreads them over about a limb's radius, more is sharper",
-    ),
-    rig(
-        "rig_joints",
-        Values::Other,
-        Default::Found,
-        "joints that are known: a role to its place; the rest is found",
-    ),
-    rig(
-        "rig_left_handed",
-        Values::Switch,
-        Default::Switch(false),
-        "the axes are left-handed: which of two sides is the left one depends on it",
-    ),
-    OptionInfo {
-        unit: "heads",
-        scope: Scope::Style,
-        ..plain(
-            "heads",
-            Values::Number { low: HEADS.0, high: HEADS.1 },
-            Default::Found,
-            "a style for this many heads instead of a reference",
-        )
-    },
-    OptionInfo {
-        scope: Scope::Style,
-        ..plain("blend", SHARES, Default::Number(0.0), "how much of a second style there is")
-    },
-    of_character("up", "from the feet to the head"),
-    of_character("forward", "the way the character looks"),
-    of_character("humanoid", "which joint plays which humanoid role"),
-    of_character("kinds", "what each mesh depicts: body, garment, hair, part of the face, accessory"),
-];
+#[rustfmt::skip]
+pub const TABLE: &[OptionInfo] = rows! {
+    "mode", Plain, Values::Choice(Mode::NAMES), "", Default::Choice(Mode::Product.name()), BOTH,
+        "what deforms: parts that meet at landmarks (product), or the paper's chain of bones (paper)";
+    "stage", Plain, Values::Choice(Stage::NAMES), "", Default::Choice(Stage::Face.name()), BOTH,
+        "the last stage: lengths alone, lengths and thickness, or everything up to the face";
+    "rays", Plain, count(FEWEST_RAYS, 4096), "rays", by_mode(PRODUCT_RAYS as f64, PAPER_RAYS as f64), BOTH,
+        "rays around each sample of a bone";
+    "limits", Plain, Values::Switch, "", Default::Switch(true), PRODUCT,
+        "bounds what may be done to a body, where measured scales would fold it";
+    "head_scale", Plain, number(0.1, 10.0), "", Default::Number(HEAD_SCALE), BOTH,
+        "size of the head: 1 keeps it, 1.5 is the paper's";
+    "amount", Plain, SHARES, "", Default::Number(1.0), BOTH,
+        "from the original (0) to the style (1)";
+    "hair_length", Plain, SHARES, "", Default::Number(1.0), PRODUCT,
+        "hair below the chin: 1 ends it where it ended on the body, 0 at the chin";
+    "face_squash", Plain, SQUASHES, "", by_mode(PRODUCT_FACE_SQUASH, 0.0), BOTH,
+        "how much younger the face gets; 0 leaves it";
+    "face_curve", Plain, Values::Choice(FaceCurve::NAMES), "", Default::Choice(FaceCurve::F4.name()), BOTH,
+        "the curve that makes the face younger: the paper's f4 or f2, or a sphere";
+    "thread_count", Plain, count(0, MOST_THREADS), "threads", Default::Number(0.0), BOTH,
+        "threads to use; 0 means all cores";
+    "groups", Plain, Values::Other, "", Default::Found, BOTH,
+        "settings by bone group";
+    "bone_groups", Plain, Values::Other, "", Default::Found, BOTH,
+        "bone groups of your own: a bone's end to a group's name";
+    "length_scale", Group, SCALES, "", Default::Found, BOTH,
+        "1 keeps the length of the group's bones, 0.5 halves it";
+    "thickness_scale", Group, SCALES, "", Default::Found, BOTH,
+        "1 keeps the thickness of the group, 0.5 halves it";
+    "length_transfer", Group, TRANSFERS, "", Default::Found, BOTH,
+        "0 keeps the target's length, 1 takes all of the reference's";
+    "thickness_transfer", Group, TRANSFERS, "", Default::Found, BOTH,
+        "0 keeps the target's thickness, 1 takes all of the reference's";
+    "rig_weights", Rig, Values::Choice(WeightMethod::NAMES), "", Default::Choice(WeightMethod::Auto.name()), BOTH,
+        "how the body gets weights: along its surface (heat), through its volume, or whichever suits it (auto)";
+    "rig_garments", Rig, Values::Choice(GarmentWeights::NAMES), "", Default::Choice(GarmentWeights::Robust.name()), BOTH,
+        "how clothes get weights: from close surface points alike (robust), from the nearest, or like a body (heat)";
+    "rig_voxel_resolution", Rig, count(16, 512), "voxels", Default::Number(RIG_VOXEL_RESOLUTION as f64), BOTH,
+        "voxels along the longest side of the body's volume";
+    "rig_fingers", Rig, Values::Switch, "", Default::Switch(true), BOTH,
+        "looks for fingers";
+    "rig_heat", Rig, number(0.01, 1000.0), "", Default::Number(RIG_HEAT), BOTH,
+        "how sharp weights by heat are: 1 spreads them over about a limb's radius, more is sharper";
+    "rig_joints", Rig, Values::Other, "", Default::Found, BOTH,
+        "joints that are known: a role to its place; the rest is found";
+    "rig_left_handed", Rig, Values::Switch, "", Default::Switch(false), BOTH,
+        "the axes are left-handed: which of two sides is the left one depends on it";
+    "heads", Style, number(HEADS.0, HEADS.1), "heads", Default::Found, BOTH,
+        "a style for this many heads instead of a reference";
+    "blend", Style, SHARES, "", Default::Number(0.0), BOTH,
+        "how much of a second style there is";
+    "up", Character, Values::Other, "", Default::Found, BOTH,
+        "from the feet to the head";
+    "forward", Character, Values::Other, "", Default::Found, BOTH,
+        "the way the character looks";
+    "humanoid", Character, Values::Other, "", Default::Found, BOTH,
+        "which joint plays which humanoid role";
+    "kinds", Character, Values::Other, "", Default::Found, BOTH,
+        "what each mesh depicts: body, garment, hair, part of the face, accessory";
+};
 
 /// The option named `name`.
 pub const fn find(name: &str) -> Option<&'static OptionInfo> {
