@@ -135,7 +135,7 @@ impl Surface {
     /// length. `t_max` may be infinite.
     pub fn first_hit(&self, origin: DVec3, direction: DVec3, t_max: f64) -> Option<Hit> {
         let mut best: Option<Hit> = None;
-        self.for_each_hit(origin, direction, t_max, Order::Nearest, |hit| {
+        self.for_each_hit(origin, direction, t_max, false, |hit| {
             if best.is_none_or(|other| (hit.t, hit.triangle) < (other.t, other.triangle)) {
                 best = Some(hit);
             }
@@ -147,23 +147,11 @@ impl Surface {
     /// Whether anything is met with `0 <= t <= t_max`: as [`Surface::first_hit`], but any hit will do.
     pub fn is_hit(&self, origin: DVec3, direction: DVec3, t_max: f64) -> bool {
         let mut is_hit = false;
-        self.for_each_hit(origin, direction, t_max, Order::Nearest, |_| {
+        self.for_each_hit(origin, direction, t_max, false, |_| {
             is_hit = true;
             f64::NEG_INFINITY
         });
         is_hit
-    }
-
-    /// The furthest hit of either side with `t >= 0`.
-    pub fn last_hit(&self, origin: DVec3, direction: DVec3) -> Option<Hit> {
-        let mut best: Option<Hit> = None;
-        self.for_each_hit(origin, direction, f64::INFINITY, Order::Furthest, |hit| {
-            if best.is_none_or(|other| (-hit.t, hit.triangle) < (-other.t, other.triangle)) {
-                best = Some(hit);
-            }
-            f64::INFINITY
-        });
-        best
     }
 
     /// All hits of either side with `t >= 0`, nearest first.
@@ -172,7 +160,7 @@ impl Surface {
     /// where it touches an outline it has no hit or two. So in a closed mesh hits enter as often as they leave.
     pub fn all_hits(&self, origin: DVec3, direction: DVec3) -> Vec<Hit> {
         let mut hits = Vec::new();
-        self.for_each_hit(origin, direction, f64::INFINITY, Order::Each, |hit| {
+        self.for_each_hit(origin, direction, f64::INFINITY, true, |hit| {
             hits.push(hit);
             f64::INFINITY
         });
@@ -266,14 +254,15 @@ impl Surface {
         found.sort_unstable_by(|a, b| a.distance.total_cmp(&b.distance).then(a.triangle.cmp(&b.triangle)));
     }
 
-    /// Calls `visit` for every hit with `0 <= t <= t_max`, where `visit` returns the new `t_max`; nearer boxes first, or
-    /// further ones first, as `order` says.
+    /// Calls `visit` for every hit with `0 <= t <= t_max`, where `visit` returns the new `t_max`; nearer boxes first.
+    ///
+    /// `every_crossing`: a crossing is one hit, as [`Surface::all_hits`] says.
     fn for_each_hit(
         &self,
         origin: DVec3,
         direction: DVec3,
         mut t_max: f64,
-        order: Order,
+        every_crossing: bool,
         mut visit: impl FnMut(Hit) -> f64,
     ) {
         if self.is_empty() {
@@ -297,7 +286,7 @@ impl Surface {
                     let hit = ray.meets(
                         &self.corners[slot as usize],
                         self.triangles[slot as usize],
-                        order == Order::Each,
+                        every_crossing,
                     );
                     if let Some(hit) = hit.filter(|hit| hit.t <= t_max) {
                         t_max = visit(hit);
@@ -310,7 +299,7 @@ impl Surface {
                 });
                 match (one, two) {
                     (Some(one), Some(two)) => {
-                        let one_goes_last = (one.1 <= two.1) != (order != Order::Furthest);
+                        let one_goes_last = one.1 > two.1;
                         let (first, second) = if one_goes_last { (two, one) } else { (one, two) };
                         stack.push(second);
                         stack.push(first);
@@ -321,17 +310,6 @@ impl Surface {
             }
         }
     }
-}
-
-/// What a walk along a ray is for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Order {
-    /// The first hit: near boxes first.
-    Nearest,
-    /// The last hit: far boxes first.
-    Furthest,
-    /// Every crossing, once.
-    Each,
 }
 
 /// A ray made ready: the axes permuted so that z is the direction's largest one, sheared to look along z.

@@ -119,7 +119,6 @@ fn count_lost_rays(
                 _ => {}
             }
             surface.first_hit(origin, direction, f64::INFINITY).is_none()
-                || surface.last_hit(origin, direction).is_none()
         })
         .count()
 }
@@ -212,7 +211,6 @@ fn hits_agree_with_a_test_of_every_triangle() {
             }
             let first = surface.first_hit(origin, direction, f64::INFINITY);
             assert_eq!(first.map(|hit| hit.t), hits.first().copied());
-            assert_eq!(surface.last_hit(origin, direction).map(|hit| hit.t), hits.last().copied());
             if let Some(hit) = first {
                 let [a, b, c] = triangles[hit.triangle].map(|vertex| positions[vertex as usize]);
                 let point = a * (1.0 - hit.u - hit.v) + b * hit.u + c * hit.v;
@@ -291,7 +289,6 @@ fn an_empty_or_degenerate_surface_meets_nothing() {
         let surface = Surface::new(&p, &triangles);
         assert!(surface.is_empty());
         assert_eq!(surface.first_hit(DVec3::ZERO, DVec3::X, 10.0), None);
-        assert_eq!(surface.last_hit(DVec3::ZERO, DVec3::X), None);
         assert!(surface.all_hits(DVec3::ZERO, DVec3::X).is_empty());
         assert_eq!(surface.closest_point(DVec3::ZERO), None);
     }
