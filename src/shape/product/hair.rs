@@ -102,6 +102,10 @@ impl HairMap {
         let mut map = Self { axis, depth, slopes: [first, mean], widths: Vec::new() };
         let scales: Vec<[f64; 2]> = (0..KNOTS)
             .map(|knot| {
+                // At the chin hair is as wide as the head: nothing above it is tamed.
+                if knot == 0 {
+                    return across;
+                }
                 let d = depth * knot as f64 / (KNOTS - 1) as f64;
                 // Of the mapped depth: of the unmapped one, short hair flares.
                 let fraction = smoothstep(map.drop(d) / (mean * depth).max(tapering));
@@ -113,7 +117,7 @@ impl HairMap {
                 })
             })
             .collect();
-        // Smoothed, with both ends kept: the first joins the head.
+        // Smoothed, with both ends kept.
         map.widths = (0..KNOTS)
             .map(|knot| {
                 if knot == 0 || knot == KNOTS - 1 {
