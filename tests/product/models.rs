@@ -1,16 +1,11 @@
 //! Product mode on real models: what an artist would look for, as numbers.
 
-#[path = "common/models.rs"]
-mod models;
-#[path = "common/people.rs"]
-mod people;
-
-use glam::DVec3;
-use models::{
-    Run, check_all, furthest, in_parallel, model, models as all_models, pairs, positions, present,
-    rest_positions, runs, style, style_of,
+use crate::common_models::{
+    REFERENCES, Run, check_all, furthest, in_parallel, model, models as all_models, pairs, positions,
+    present, rest_positions, runs, style, style_of,
 };
-use people::Person;
+use crate::people::Person;
+use glam::DVec3;
 use std::collections::{BTreeMap, HashMap};
 use std::sync::{Arc, OnceLock};
 use superdeform::internals::geometry::Surface;
@@ -517,7 +512,7 @@ fn bits(deformed: &Deformed) -> Vec<u64> {
 fn a_face_that_is_squashed_later_is_the_same_as_one_made_so() {
     let names =
         present(&["godette.vrm", "kaykit_rogue.glb", "quaternius_female_dress.glb", "seedsan_vrm1.vrm"]);
-    let reference = present(&models::REFERENCES)[0];
+    let reference = present(&REFERENCES)[0];
     for mode in [superdeform::Mode::Product, superdeform::Mode::Paper] {
         let plain = Options { mode, ..Options::default() };
         let style = style_of(reference, &plain);

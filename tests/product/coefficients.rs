@@ -1,0 +1,298 @@
+//! `coefficients.rs`: scales against numbers worked by hand.
+
+use std::collections::BTreeMap;
+use superdeform::internals::shape::product::anatomy::{Anatomy, Proportions};
+use superdeform::internals::shape::product::coefficients::{Goal, heads_of, part_coefficients};
+use superdeform::internals::shape::product::groups::PartGroups;
+use superdeform::internals::shape::product::scales::{PartCoefficients, Scale};
+use superdeform::{GroupSettings, Options, Stage, Warning};
+
+use crate::people::Person;
+use superdeform::internals::shape::figure::Figure;
+
+/// 7.8 heads.
+fn tall() -> Proportions {
+    Proportions {
+        head_length: 0.2,
+        head_half_width: 0.08,
+        neck: 0.06,
+        torso: 0.5,
+        arm: 0.5,
+        leg: 0.8,
+        ankle_height: 0.08,
+        hand: Some(0.18),
+        foot: Some(0.24),
+        torso_half_width: Some(0.15),
+        upper_arm_radius: Some(0.05),
+        lower_arm_radius: Some(0.04),
+        upper_leg_radius: Some(0.08),
+        lower_leg_radius: Some(0.05),
+    }
+}
+
+/// 2.6 heads.
+fn small() -> Proportions {
+    Proportions {
+        head_length: 0.4,
+        head_half_width: 0.2,
+        neck: 0.04,
+        torso: 0.3,
+        arm: 0.28,
+        leg: 0.3,
+        ankle_height: 0.05,
+        hand: Some(0.1),
+        foot: Some(0.15),
+        torso_half_width: Some(0.14),
+        upper_arm_radius: Some(0.05),
+        lower_arm_radius: Some(0.048),
+        upper_leg_radius: Some(0.07),
+        lower_leg_radius: Some(0.06),
+    }
+}
+
+fn solved(target: &Proportions, goal: Goal, options: &Options) -> (PartCoefficients, Vec<Warning>) {
+    part_coefficients(target, goal, options, &PartGroups::default()).unwrap()
+}
+
+/// Within the sixth digit, as the numbers below are written.
+fn assert_near(what: &str, found: f64, expected: f64) {
+    assert!(
+        (found - expected).abs() <= 2e-6 * expected.abs().max(1.0),
+        "{what}: {found} instead of {expected}"
+    );
+}
+
+fn assert_scale(what: &str, found: Scale, length: f64, thickness: f64) {
+    assert_near(&format!("length of {what}"), found.length, length);
+    assert_near(&format!("thickness of {what}"), found.thickness, thickness);
+}
+
+fn codes(warnings: &[Warning]) -> Vec<&str> {
+    warnings.iter().map(|warning| warning.code).collect()
+}
+
+#[test]
+fn a_figure_made_like_itself_with_its_own_head_keeps_every_scale() {
+    let options = Options { head_scale: 1.0, ..Options::default() };
+    for target in [tall(), small()] {
+        let (scales, warnings) = solved(&target, Goal::Reference(&target), &options);
+        assert_eq!(warnings, []);
+        assert_scale("neck", scales.neck, 1.0, 1.0);
+        assert_scale("torso", scales.torso, 1.0, 1.0);
+        for (what, scale) in [
+            ("upper arm", scales.upper_arm),
+            ("lower arm", scales.lower_arm),
+            ("upper leg", scales.upper_leg),
+            ("lower leg", scales.lower_leg),
+        ] {
+            assert_scale(what, scale, 1.0, 1.0);
+        }
+        let head = scales.head;
+        assert_eq!((head.height, head.width, head.depth, scales.head_seat), (1.0, 1.0, 1.0, 0.0));
+        assert_near("hand", scales.hand, 1.0);
+        assert_near("foot", scales.foot, 1.0);
+    }
+}
+
+#[test]
+fn without_limits_all_lengths_in_heads_are_the_references() {
+    let options = Options { limits: false, ..Options::default() };
+    let (scales, warnings) = solved(&tall(), Goal::Reference(&small()), &options);
+    assert_eq!(warnings, []);
+    // The new head is 1.5 * 0.2 = 0.3 long, so the reference's lengths count 0.3 / 0.4 = 0.75 of theirs. Its width grows
+    // 1.12 times as much: (1.12 * 0.08 / 0.2) / (0.2 / 0.4) = 0.896 of the reference's, and thicknesses with it.
+    assert_near("head's height", scales.head.height, 1.5);
+    assert_near("head's width", scales.head.width, 1.68);
+    assert_near("head's depth", scales.head.depth, 1.575);
+    assert_near("head's seat", scales.head_seat, 1.0);
+    // 0.75 * 0.04 / 0.06; 1.1 times as thick as the torso.
+    assert_scale("neck", scales.neck, 0.5, 0.68992);
+    // 0.75 * 0.3 / 0.5; 0.75 * 0.896 * 0.14 / 0.15.
+    assert_scale("torso", scales.torso, 0.45, 0.6272);
+    assert_near("shoulders", scales.shoulder_spread, 0.6272);
+    assert_near("hips", scales.hip_spread, 0.6272);
+    assert_scale("upper arm", scales.upper_arm, 0.42, 0.672);
+    assert_scale("lower arm", scales.lower_arm, 0.42, 0.8064);
+    assert_near("hand", scales.hand, 0.075 / 0.18);
+    assert_near("foot", scales.foot, 0.46875);
+    // (0.225 - 0.08 * 0.46875) / 0.72: what the foot takes is not the leg's.
+    assert_scale("upper leg", scales.upper_leg, 0.1875 / 0.72, 0.588);
+    assert_scale("lower leg", scales.lower_leg, 0.1875 / 0.72, 0.8064);
+    assert_near("heads", heads_of(&tall(), &scales), 2.6);
+}
+
+#[test]
+fn the_limits_keep_a_body_sound_and_say_so() {
+    let (scales, warnings) = solved(&tall(), Goal::Reference(&small()), &Options::default());
+    // Limbs at most 1.2 times the torso's 0.6272.
+    assert_near("upper arm", scales.upper_arm.thickness, 0.672);
+    assert_near("lower arm", scales.lower_arm.thickness, 0.75264);
+    assert_near("upper leg", scales.upper_leg.thickness, 0.588);
+    assert_near("lower leg", scales.lower_leg.thickness, 0.75264);
+    assert_near("arm", scales.upper_arm.length, 0.42);
+    // Hands at least 0.9 of 0.75264, but 0.34 of the new head: 0.34 * 0.3 / 0.18. Feet 0.6 * 0.3 / 0.24.
+    assert_near("hand", scales.hand, 0.102 / 0.18);
+    assert_near("foot", scales.foot, 0.75);
+    // Legs at most 2.6 times stubbier: 0.75264 / 2.6; the torso gives (0.289477 * 0.72 + 0.06 - 0.225) / 0.5.
+    let leg = 0.75264 / 2.6;
+    assert_near("leg", scales.upper_leg.length, leg);
+    assert_near("lower leg", scales.lower_leg.length, leg);
+    assert_scale("torso", scales.torso, 0.45 - (leg * 0.72 + 0.06 - 0.225) / 0.5, 0.6272);
+    assert_near("heads", heads_of(&tall(), &scales), 2.6);
+    assert_eq!(codes(&warnings), ["coefficient_limited"]);
+    for words in ["lower_arm thickness 0.806 to 0.753", "hand 0.417 to 0.567", "foot 0.469 to 0.750"] {
+        assert!(warnings[0].message.contains(words), "{}", warnings[0].message);
+    }
+}
+
+#[test]
+fn each_limit_acts_where_it_should() {
+    type Change = fn(&mut Proportions, &mut Proportions);
+    type Read = fn(&PartCoefficients) -> f64;
+    let cases: &[(&str, Change, Read, f64)] = &[
+        // 0.75 * 0.2 / 0.3 is half a head; 0.19 of the head's 0.3, over 0.06.
+        ("a neck's longest", |_, r| r.neck = 0.2, |s| s.neck.length, 0.19 * 0.3 / 0.06),
+        // What the neck leaves, (0.6 - 0.057) / 0.45 of what was asked, torso and legs share.
+        ("what the neck leaves", |_, r| r.neck = 0.2, |s| s.shoulder_spread, 0.6272),
+        ("a neck's shortest", |_, r| r.neck = 0.004, |s| s.neck.length, 0.03 * 0.3 / 0.06),
+        // 1.5 times what the target has in heads: 0.075.
+        ("a neck's growth", |t, _| t.neck = 0.01, |s| s.neck.length, 0.075 * 0.3 / 0.01),
+        ("the torso's slimmest", |_, r| r.torso_half_width = Some(0.02), |s| s.torso.thickness, 0.9 * 0.45),
+        ("the torso's thickest", |_, r| r.torso_half_width = Some(0.5), |s| s.torso.thickness, 1.0),
+        ("a torso without a width", |_, r| r.torso_half_width = None, |s| s.torso.thickness, 0.45_f64.sqrt()),
+        ("the torso's stubbiest", |_, r| r.torso = 0.05, |s| s.torso.length, 0.6272 / 2.6),
+        // It grows no more than the head.
+        ("the torso's longest", |_, r| (r.torso, r.leg) = (1.5, 1.2), |s| s.torso.length, 1.5),
+        ("an arm's stubbiest", |_, r| r.arm = 0.05, |s| s.upper_arm.length, 0.75264 / 2.6),
+        // Bones of less than 0.18 of their length would be rings, however thin: 0.405 / 1.2 / 2.6 is less.
+        ("a thin arm's shortest", thin_arms, |s| s.upper_arm.length, 0.18),
+        // Thicknesses follow the heads' widths from 0.6 to 1.25 of the lengths' 0.75 * 0.14 / 0.15.
+        ("a narrow head's body", |_, r| r.head_half_width = 0.05, |s| s.torso.thickness, 0.7 * 1.25),
+        ("a broad head's body", |_, r| r.head_half_width = 0.4, |s| s.torso.thickness, 0.7 * 0.6),
+        ("an arm's longest", |_, r| r.arm = 3.0, |s| s.lower_arm.length, 1.5),
+        // A thin arm is stubby at 0.545391 / 2.6 = 0.2098 only; both bounded by 1.2 of the torso's, then 1.15 of their mean.
+        ("an upper arm's spread", spread_arms, |s| s.upper_arm.thickness, 0.6272 * 1.15),
+        ("a lower arm's spread", spread_arms, |s| s.lower_arm.thickness, 0.6272 / 1.15),
+        // A torso of 0.9 has limbs of at most 0.95.
+        ("a slim torso's limbs", slim_torso, |s| s.upper_arm.thickness, 0.95),
+        ("a thin leg", |_, r| r.upper_leg_radius = Some(0.02), |s| s.upper_leg.thickness, thin_leg()),
+        // 1.1 times the lower arm's thickness where the style knows none, 1.2 times the leg's.
+        ("hands without a style", |_, r| r.hand = None, |s| s.hand, 0.102 / 0.18),
+        (
+            "small hands without a style",
+            |t, r| (t.hand, r.hand) = (Some(0.1), None),
+            |s| s.hand,
+            1.1 * 0.75264,
+        ),
+        ("unknown hands", |t, _| t.hand = None, |s| s.hand, 1.1 * 0.75264),
+        ("unknown feet", |t, _| t.foot = None, |s| s.foot, 1.2 * 0.75264),
+        ("large hands", |t, r| (t.hand, r.hand) = (Some(0.05), Some(0.4)), |s| s.hand, 1.35 * 0.75264),
+        ("large feet", |t, r| (t.foot, r.foot) = (Some(0.05), Some(0.4)), |s| s.foot, 1.4 * 0.75264),
+        // 0.225 less 0.18 of the shank's 0.5, over 0.3.
+        ("high ankles", |t, _| t.ankle_height = 0.3, |s| s.foot, 0.45),
+        // 0.35 of the new leg's 0.075, over 0.08.
+        ("feet of short legs", |_, r| r.leg = 0.1, |s| s.foot, 0.02625 / 0.08),
+        ("a torso under short legs", |_, r| r.leg = 0.1, |s| s.torso.length, 0.8 * 0.45),
+    ];
+    for (what, change, read, expected) in cases {
+        let (mut target, mut reference) = (tall(), small());
+        change(&mut target, &mut reference);
+        let (scales, _) = solved(&target, Goal::Reference(&reference), &Options::default());
+        assert_near(what, read(&scales), *expected);
+    }
+}
+
+fn spread_arms(_: &mut Proportions, reference: &mut Proportions) {
+    (reference.upper_arm_radius, reference.lower_arm_radius) = (Some(0.2), Some(0.01));
+}
+
+fn thin_arms(_: &mut Proportions, reference: &mut Proportions) {
+    (reference.torso_half_width, reference.arm) = (Some(0.02), 0.05);
+    (reference.upper_arm_radius, reference.lower_arm_radius) = (Some(0.02), Some(0.02));
+}
+
+fn slim_torso(_: &mut Proportions, reference: &mut Proportions) {
+    reference.torso_half_width = Some(0.9 * 0.15 / 0.672);
+    reference.upper_arm_radius = Some(0.2);
+}
+
+/// 0.6272 / 1.38 beside a lower leg of 0.75264: at least their mean over 1.15.
+fn thin_leg() -> f64 {
+    (0.6272 / 1.38 * 0.75264_f64).sqrt() / 1.15
+}
+
+#[test]
+fn heads_that_grow_half_as_much_are_limited_half_as_much() {
+    let options = Options { head_scale: 1.25, ..Options::default() };
+    let reference = Proportions { neck: 0.2, ..small() };
+    let (scales, _) = solved(&tall(), Goal::Reference(&reference), &options);
+    assert_near("width", scales.head.width, 1.06 * 1.25);
+    assert_near("depth", scales.head.depth, 1.025 * 1.25);
+    assert_near("seat", scales.head_seat, 0.5);
+    // Asked for half a head, bounded to 0.19: half-way between, of the new head's 0.25.
+    assert_near("neck", scales.neck.length, 0.345 * 0.25 / 0.06);
+}
+
+#[test]
+fn a_number_of_heads_is_reached_after_the_targets_own_build() {
+    let (scales, warnings) = solved(&tall(), Goal::Heads(3.0), &Options::default());
+    // Two heads of 0.2 below the chin where there were 1.36.
+    let shrink: f64 = 0.4 / 1.36;
+    let thickness = 0.78 * shrink.sqrt() * 1.5;
+    assert_scale("neck", scales.neck, shrink * 1.5, 1.1 * thickness);
+    assert_scale("torso", scales.torso, 1.1 * shrink * 1.5, thickness);
+    assert_scale("upper arm", scales.upper_arm, 1.05 * shrink * 1.5, thickness);
+    assert_scale("lower arm", scales.lower_arm, 1.05 * shrink * 1.5, thickness);
+    let leg = 0.6 - shrink * 1.5 * (0.06 + 1.1 * 0.5);
+    // 0.6 of the new head over 0.24 is less than 1.2 times the leg's thickness; so with hands.
+    assert_near("foot", scales.foot, 0.75);
+    assert_near("hand", scales.hand, 0.102 / 0.18);
+    assert_scale("upper leg", scales.upper_leg, (leg - 0.06) / 0.72, thickness);
+    assert_scale("lower leg", scales.lower_leg, (leg - 0.06) / 0.72, thickness);
+    assert_near("heads", heads_of(&tall(), &scales), 3.0);
+    assert_eq!(codes(&warnings), ["coefficient_limited"]);
+}
+
+#[test]
+fn a_style_for_heads_has_a_neck_of_its_own_bounds() {
+    // In new heads: at most 0.14, at least 0.05, at most 0.3 of what lies below the head.
+    for (neck, heads, expected) in [(0.3, 3.0, 0.14), (0.001, 3.0, 0.05), (0.6, 1.4, 0.12)] {
+        let target = Proportions { neck, ..tall() };
+        let options = Options { limits: false, ..Options::default() };
+        let (scales, _) = solved(&target, Goal::Heads(heads), &options);
+        assert_near("neck", scales.neck.length * neck / 0.3, expected);
+    }
+}
+
+#[test]
+fn the_number_of_heads_is_reached_or_warned_of() {
+    for person in [Person::adult(), Person::chibi()] {
+        let target = Anatomy::of(&Figure::of(&person.build()).unwrap()).proportions;
+        for heads in [1.8, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0] {
+            let (scales, warnings) = solved(&target, Goal::Heads(heads), &Options::default());
+            let off = (heads_of(&target, &scales) / heads - 1.0).abs();
+            assert_eq!(off > 0.005, codes(&warnings).contains(&"heads_limited"), "{heads}: off by {off}");
+            // Legs give way last: whoever has more than three heads gets them.
+            assert!(heads < 3.0 || person != Person::adult() || off < 1e-9, "{heads}: off by {off}");
+        }
+    }
+}
+
+#[test]
+fn the_first_stage_leaves_every_thickness() {
+    let options = Options { stage: Stage::Length, ..Options::default() };
+    let (all, _) = solved(&tall(), Goal::Reference(&small()), &Options::default());
+    let (scales, _) = solved(&tall(), Goal::Reference(&small()), &options);
+    assert_eq!(scales, all.lengths_only());
+    assert_eq!([scales.torso, scales.upper_arm].map(|scale| scale.thickness), [1.0, 1.0]);
+}
+
+#[test]
+fn what_a_user_sets_stands_beside_the_limits() {
+    let settings = GroupSettings { length_scale: Some(0.05), ..GroupSettings::default() };
+    let options =
+        Options { groups: BTreeMap::from([("upper_leg".to_string(), settings)]), ..Options::default() };
+    let (scales, _) = solved(&tall(), Goal::Reference(&small()), &options);
+    assert_eq!(scales.upper_leg.length, 0.05);
+    assert_near("lower leg", scales.lower_leg.length, 0.75264 / 2.6);
+}

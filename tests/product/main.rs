@@ -1,0 +1,20 @@
+//! Product mode, file by file as in `src/shape/product`, on people made of tubes: expected values come from how they are
+//! built. `models` looks at real models.
+
+#[path = "../common/models.rs"]
+mod common_models;
+#[path = "../common/people.rs"]
+mod people;
+
+mod anatomy;
+mod coefficients;
+mod field;
+mod hair;
+mod landmarks;
+mod models;
+mod part;
+mod pieces;
+mod scales;
+mod smoothing;
+mod tubes;
+mod weights;

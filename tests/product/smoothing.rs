@@ -1,0 +1,183 @@
+//! `smoothing.rs`: weights along a mesh and across layers, on grids whose smoothing can be worked out.
+
+use crate::tubes::blended;
+use glam::DVec3;
+use std::sync::Arc;
+use superdeform::internals::geometry::weld::{Weld, weld};
+use superdeform::internals::shape::figure::Figure;
+use superdeform::internals::shape::product::part::{PART_COUNT, Part, PartWeights};
+use superdeform::internals::shape::product::smoothing::{smooth_across, smooth_along};
+
+/// Vertices along each side of a grid.
+const SIDE: usize = 41;
+/// The width of the smoothing on a figure of height 1, and the grid's spacing.
+const WIDTH: f64 = 0.012;
+
+/// A figure of height 1 with these points and triangles, and nothing else of the person that it was.
+fn figure(positions: Vec<DVec3>, triangles: Vec<[u32; 3]>) -> (Figure, Weld) {
+    let weld = weld(&positions, 1e-6);
+    let figure =
+        Figure { positions, triangles: Arc::new(triangles), extent: (0.0, 1.0), ..blended().figure.clone() };
+    (figure, weld)
+}
+
+/// `SIDE` by `SIDE` points in the plane z = `z`, `WIDTH` apart, every square with a diagonal from its lower left.
+fn grid(z: f64, first: usize) -> (Vec<DVec3>, Vec<[u32; 3]>) {
+    let at = |x: usize, y: usize| (first + y * SIDE + x) as u32;
+    let positions = (0..SIDE * SIDE)
+        .map(|index| WIDTH * DVec3::new((index % SIDE) as f64, (index / SIDE) as f64, 0.0) + z * DVec3::Z)
+        .collect();
+    let squares = (0..SIDE - 1).flat_map(|y| (0..SIDE - 1).map(move |x| (x, y)));
+    let triangles = squares
+        .flat_map(|(x, y)| {
+            [[at(x, y), at(x + 1, y), at(x + 1, y + 1)], [at(x, y), at(x + 1, y + 1), at(x, y + 1)]]
+        })
+        .collect();
+    (positions, triangles)
+}
+
+fn mixed(first: Part, share: f32, second: Part) -> PartWeights {
+    let mut row = [0.0; PART_COUNT];
+    row[first as usize] = share;
+    row[second as usize] += 1.0 - share;
+    row
+}
+
+#[test]
+fn a_point_spreads_over_the_mesh_as_far_as_ten_steps_go() {
+    let (positions, triangles) = grid(0.0, 0);
+    let (figure, weld) = figure(positions, triangles);
+    let middle = SIDE / 2 * SIDE + SIDE / 2;
+    let mut rows = vec![Part::Torso.alone(); SIDE * SIDE];
+    rows[middle] = Part::Neck.alone();
+    smooth_along(&figure, &weld, &vec![false; rows.len()], &mut rows, 1);
+    let neck = |vertex: usize| f64::from(rows[vertex][Part::Neck as usize]);
+    let total: f64 = (0..rows.len()).map(neck).sum();
+    assert!((total - 1.0).abs() < 1e-4, "{total}");
+    // The median edge is as long as the smoothing is wide: ten steps, each 0.6 of the way to the mean of six neighbours, of
+    // which four lie one to the side. The variance of such a walk is 10 * 0.6 * 4 / 6.
+    for axis in [0, 1] {
+        let from_middle = |vertex: usize| (figure.positions[vertex] - figure.positions[middle])[axis] / WIDTH;
+        let variance: f64 = (0..rows.len()).map(|vertex| neck(vertex) * from_middle(vertex).powi(2)).sum();
+        assert!((variance - 4.0).abs() < 1e-3, "{variance}");
+        // It reaches no further than ten steps.
+        assert!((0..rows.len()).all(|vertex| from_middle(vertex).abs() < 10.5 || neck(vertex) == 0.0));
+    }
+    for row in &rows {
+        assert!((row.iter().sum::<f32>() - 1.0).abs() < 1e-5);
+    }
+}
+
+#[test]
+fn what_is_frozen_stays_and_draws_its_neighbours() {
+    let (positions, triangles) = grid(0.0, 0);
+    let (figure, weld) = figure(positions, triangles);
+    let mut rows = vec![Part::Torso.alone(); SIDE * SIDE];
+    let is_left = |vertex: usize| vertex % SIDE < 10;
+    (0..rows.len()).filter(|&vertex| is_left(vertex)).for_each(|vertex| rows[vertex] = Part::Head.alone());
+    let frozen: Vec<bool> = (0..rows.len()).map(is_left).collect();
+    smooth_along(&figure, &weld, &frozen, &mut rows, 1);
+    let head = |x: usize| rows[20 * SIDE + x][Part::Head as usize];
+    assert!((0..10).all(|x| head(x) == 1.0));
+    assert!(
+        (10..20).all(|x| head(x) > 0.0 && head(x) < head(x - 1)),
+        "{:?}",
+        (0..25).map(head).collect::<Vec<_>>()
+    );
+    assert!((20..SIDE).all(|x| head(x) == 0.0));
+}
+
+#[test]
+fn copies_along_a_seam_share_one_row_and_loose_meshes_none() {
+    // Two grids in one plane that share the line x = 40 as copies, and one far away.
+    let (mut positions, mut triangles) = grid(0.0, 0);
+    let (right, of_right) = grid(0.0, SIDE * SIDE);
+    positions.extend(right.iter().map(|&p| p + (SIDE - 1) as f64 * WIDTH * DVec3::X));
+    triangles.extend(of_right);
+    let (far, of_far) = grid(5.0, 2 * SIDE * SIDE);
+    positions.extend(far);
+    triangles.extend(of_far);
+    let (figure, weld) = figure(positions, triangles);
+    let mut rows = vec![Part::Torso.alone(); SIDE * SIDE];
+    rows.resize(2 * SIDE * SIDE, Part::Neck.alone());
+    rows.resize(3 * SIDE * SIDE, Part::LeftFoot.alone());
+    smooth_along(&figure, &weld, &vec![false; rows.len()], &mut rows, 1);
+    for y in 0..SIDE {
+        let (copy, other) = (y * SIDE + SIDE - 1, SIDE * SIDE + y * SIDE);
+        assert_eq!(rows[copy], rows[other]);
+    }
+    // They begin as the mean of both, and both sides draw alike.
+    let middle = rows[20 * SIDE + SIDE - 1];
+    assert!((middle[Part::Torso as usize] - 0.5).abs() < 0.02, "{middle:?}");
+    assert!(rows[2 * SIDE * SIDE..].iter().all(|row| *row == Part::LeftFoot.alone()));
+}
+
+#[test]
+fn layers_of_cloth_come_to_move_alike() {
+    // Two sheets a tenth of the width apart, not joined.
+    let (mut positions, mut triangles) = grid(0.0, 0);
+    let (above, of_above) = grid(0.1 * WIDTH, SIDE * SIDE);
+    positions.extend(above);
+    triangles.extend(of_above);
+    let (figure, weld) = figure(positions, triangles);
+    let (skin, cloth) =
+        (mixed(Part::Torso, 0.8, Part::LeftUpperLeg), mixed(Part::Torso, 0.2, Part::LeftUpperLeg));
+    let mut rows = vec![skin; SIDE * SIDE];
+    rows.resize(2 * SIDE * SIDE, cloth);
+    let none = vec![false; rows.len()];
+    smooth_across(&figure, &weld, &none, &mut rows, 1);
+    for vertex in 0..SIDE * SIDE {
+        let (below, above) = (rows[vertex][0], rows[SIDE * SIDE + vertex][0]);
+        // Half and half but for the kernel's difference between 0 and a tenth of its width, three times.
+        assert!((below - above).abs() < 0.01 && (below - 0.5).abs() < 0.01, "{below} {above}");
+    }
+    // Frozen cloth neither moves nor draws.
+    let mut rows = vec![skin; SIDE * SIDE];
+    rows.resize(2 * SIDE * SIDE, cloth);
+    let frozen: Vec<bool> = (0..rows.len()).map(|vertex| vertex >= SIDE * SIDE).collect();
+    smooth_across(&figure, &weld, &frozen, &mut rows, 1);
+    assert!(rows[..SIDE * SIDE].iter().all(|row| (row[0] - 0.8).abs() < 1e-5));
+    assert!(rows[SIDE * SIDE..].iter().all(|row| (row[0] - 0.2).abs() < 1e-6));
+}
+
+#[test]
+fn arms_do_not_draw_what_they_lie_on() {
+    let (mut positions, mut triangles) = grid(0.0, 0);
+    let (above, of_above) = grid(0.1 * WIDTH, SIDE * SIDE);
+    positions.extend(above);
+    triangles.extend(of_above);
+    let (figure, weld) = figure(positions, triangles);
+    for (arm, other) in [
+        (Part::LeftHand, Part::Torso),
+        (Part::RightLowerArm, Part::Torso),
+        (Part::LeftUpperArm, Part::RightUpperArm),
+        (Part::LeftHand, Part::LeftUpperLeg),
+    ] {
+        let mut rows = vec![arm.alone(); SIDE * SIDE];
+        rows.resize(2 * SIDE * SIDE, other.alone());
+        let none = vec![false; rows.len()];
+        smooth_across(&figure, &weld, &none, &mut rows, 1);
+        assert!(rows[..SIDE * SIDE].iter().all(|row| (row[arm as usize] - 1.0).abs() < 1e-6), "{arm:?}");
+        assert!(rows[SIDE * SIDE..].iter().all(|row| (row[other as usize] - 1.0).abs() < 1e-6), "{other:?}");
+    }
+}
+
+#[test]
+fn threads_do_not_change_what_comes_out() {
+    let tubes = blended();
+    let weld = weld(&tubes.figure.positions, 1e-6);
+    let frozen = vec![false; tubes.figure.positions.len()];
+    let rows: Vec<PartWeights> = tubes
+        .figure
+        .role_weights
+        .iter()
+        .map(|row| superdeform::internals::shape::product::part::fold_to_parts(row))
+        .collect();
+    let smoothed = |threads: usize| {
+        let mut rows = rows.clone();
+        smooth_along(&tubes.figure, &weld, &frozen, &mut rows, threads);
+        smooth_across(&tubes.figure, &weld, &frozen, &mut rows, threads);
+        rows
+    };
+    assert!(smoothed(1) == smoothed(3));
+}
