@@ -34,6 +34,7 @@ static SdefCharacter make_character(int with_joints) {
 
 static void version_status_errors_handles(void) {
   CHECK(sdef_abi_version() == SDEF_ABI_VERSION);
+  CHECK(sdef_version()[0] == (char)('0' + SDEF_VERSION_MAJOR) && sdef_version()[1] == '.');
   CHECK(strcmp(sdef_status_name(SDEF_STATUS_BUSY), "SDEF_STATUS_BUSY") == 0);
   CHECK(strcmp(sdef_status_name(12345), "unknown status") == 0);
   CHECK(sdef_live_handles() == 0);
@@ -88,7 +89,7 @@ static void a_rig_is_made(void) {
   SdefCharacter character = make_character(0);
   SdefOptions options;
   OK(sdef_options_init(&options, sizeof options, &error));
-  SdefGivenJoint known = {SDEF_ROLE_LEFT_LOWER_LEG, 0.1, 0.46, 0.0};
+  SdefGivenJoint known = {sizeof known, SDEF_ROLE_LEFT_LOWER_LEG, 0.1, 0.46, 0.0};
   options.rig_joints = &known;
   options.rig_joint_count = 1;
   options.rig_weights = SDEF_WEIGHTS_VOLUME;
@@ -120,6 +121,7 @@ static void styles(void) {
   SdefStyleNumbers numbers = {0};
   numbers.struct_size = sizeof numbers;
   SdefBone bones[64];
+  bones[0].struct_size = sizeof *bones;
   size_t bone_count = 0;
   OK(sdef_style_get_numbers(measured, &numbers, bones, 64, &bone_count, &error));
   CHECK(bone_count > 8 && bones[bone_count - 1].end == SDEF_BONE_HEAD_TOP);
@@ -174,7 +176,11 @@ static void a_deformer_is_applied(void) {
   report.struct_size = sizeof report;
   size_t size = 0;
   OK(sdef_deformer_get_report(deformer, &report, NULL, 0, &size, &error));
-  CHECK(size > 100 && fabs(report.result.heads - 2.5) < 0.3 && report.target.heads > 5 && report.rig_made == 0);
+  SdefFigure before = {0}, after = {0};
+  before.struct_size = after.struct_size = sizeof before;
+  OK(sdef_deformer_get_figure(deformer, SDEF_FIGURE_TARGET, &before, &error));
+  OK(sdef_deformer_get_figure(deformer, SDEF_FIGURE_RESULT, &after, &error));
+  CHECK(size > 100 && fabs(after.heads - 2.5) < 0.3 && before.heads > 5 && report.rig_made == 0);
   char *json = (char *)malloc(size + 4096);
   OK(sdef_deformer_get_report(deformer, NULL, json, size + 4096, &size, &error));
   CHECK(json[0] == '{' && strlen(json) + 1 == size);
@@ -185,7 +191,7 @@ static void a_deformer_is_applied(void) {
   OK(sdef_deformer_get_joints(deformer, joints[0], binds[0], FIGURE_PARTS, &count, &error));
   CHECK(count == FIGURE_PARTS && joints[3][1] < 1.5 && fabs(binds[3][13] + joints[3][1]) < 1e-12);
 
-  // A joint is a point that hangs from itself.
+  // A joint is a point that moves with itself.
   uint32_t owners[FIGURE_PARTS];
   double points[FIGURE_PARTS][3], mapped[FIGURE_PARTS][3], scales[FIGURE_PARTS], jacobians[FIGURE_PARTS][9];
   for (uint32_t joint = 0; joint < FIGURE_PARTS; joint++) {
@@ -196,6 +202,7 @@ static void a_deformer_is_applied(void) {
   for (int joint = 0; joint < FIGURE_PARTS; joint++) CHECK(scales[joint] > 0.05 && scales[joint] < 20);
 
   SdefGroup groups[32];
+  groups[0].struct_size = sizeof *groups;
   OK(sdef_deformer_get_groups(deformer, groups, 32, &count, &error));
   CHECK(count >= 6 && count <= 32);
   for (size_t group = 0; group < count; group++) CHECK(strlen(groups[group].name) > 0);

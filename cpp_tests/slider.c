@@ -98,7 +98,11 @@ static void slide(int make_rig) {
   SdefReport report = {0};
   report.struct_size = sizeof report;
   OK(sdef_deformer_get_report(deformer, &report, NULL, 0, NULL, &error));
-  CHECK(report.target.heads > 5 && fabs(report.result.heads - 2.5) < 0.1 && report.rig_made == (uint32_t)make_rig);
+  SdefFigure before = {0}, after = {0};
+  before.struct_size = after.struct_size = sizeof before;
+  OK(sdef_deformer_get_figure(deformer, SDEF_FIGURE_TARGET, &before, &error));
+  OK(sdef_deformer_get_figure(deformer, SDEF_FIGURE_RESULT, &after, &error));
+  CHECK(before.heads > 5 && fabs(after.heads - 2.5) < 0.1 && report.rig_made == (uint32_t)make_rig);
   OK(sdef_destroy(deformer.id, &error));
   OK(sdef_destroy(style.id, &error));
   OK(sdef_destroy(character.id, &error));

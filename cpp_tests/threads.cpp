@@ -41,7 +41,7 @@ static void one_character_is_read_by_many() {
     for (int round = 0; round < 5; round++) {
       const bool as_it_is = made.info().vertex_count == FIGURE_VERTICES && made.joints().parents.size() == FIGURE_PARTS;
       const superdeform::Deformer own(made, style);
-      if (as_it_is && deformed(own) == same && deformed(deformer) == same && deformer.report().target.heads > 5)
+      if (as_it_is && deformed(own) == same && deformed(deformer) == same && deformer.figure(SDEF_FIGURE_TARGET).heads > 5)
         right++;
     }
   });
@@ -153,7 +153,7 @@ static void a_callback_that_changes_what_calls_it_is_told_so() {
   CHECK(inside == SDEF_STATUS_BUSY);
   // Reading is allowed.
   double heads = 0;
-  deformer.apply({&positions.result, 1}, [&](float) { heads = deformer.report().result.heads; });
+  deformer.apply({&positions.result, 1}, [&](float) { heads = deformer.figure(SDEF_FIGURE_RESULT).heads; });
   CHECK(heads > 1);
 }
 

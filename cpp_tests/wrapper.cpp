@@ -54,6 +54,7 @@ static void characters() {
   CHECK(of_vertex.back() == FIGURE_PARTS - 1 && weights.back() == 1);
   CHECK(made.warnings().find('\0') == std::string::npos);
   CHECK(std::string(superdeform::status_name(SDEF_STATUS_BUSY)) == "SDEF_STATUS_BUSY");
+  CHECK(superdeform::version()[0] == char('0' + SDEF_VERSION_MAJOR));
   Options options;
   options.rig_voxel_resolution = 48;
   options.rig_weights = SDEF_WEIGHTS_VOLUME;
@@ -81,7 +82,7 @@ static void deformers() {
     return Deformer(made, Style::from_heads(2.5));
   }();
   const std::vector<float> positions = deformed(deformer);
-  CHECK(std::fabs(deformer.report().result.heads - 2.5) < 0.3);
+  CHECK(std::fabs(deformer.figure(SDEF_FIGURE_RESULT).heads - 2.5) < 0.3);
   CHECK(deformer.report_json().front() == '{' && deformer.report_json().back() != '\0');
   const Deformer::Joints joints = deformer.joints();
   CHECK(joints.positions.size() == 3 * FIGURE_PARTS && joints.inverse_binds.size() == 16 * FIGURE_PARTS);

@@ -119,6 +119,18 @@ impl Memory {
         start.cast()
     }
 
+    /// An array of structs that results go to; the first says their size, which is mostly right.
+    fn struct_outputs<T>(&mut self, bytes: &mut Bytes, count: usize) -> *mut T {
+        let start: *mut T = self.output(bytes, count, 0);
+        if !start.is_null() && count > 0 {
+            let size = sizes(bytes, size_of::<T>());
+            unsafe { start.cast::<u32>().write_unaligned(size) };
+            let (index, before) = self.outputs.last_mut().unwrap();
+            before.clone_from(&self.blocks[*index]);
+        }
+        start
+    }
+
     fn text(&mut self, bytes: &mut Bytes) -> *const c_char {
         if bytes.chance(60) {
             return null();
@@ -135,6 +147,11 @@ impl Memory {
     }
 }
 
+/// The size that a struct of an array says: mostly its own; never more, for that much is not there.
+fn sizes(bytes: &mut Bytes, own: usize) -> u32 {
+    if bytes.chance(12) { bytes.below(own) as u32 } else { own as u32 }
+}
+
 /// Calls with a struct for the error, or without one.
 fn ask(bytes: &mut Bytes, call: impl FnOnce(*mut SdefError) -> SdefStatus) -> SdefStatus {
     let own = size_of::<SdefError>();
@@ -144,16 +161,18 @@ fn ask(bytes: &mut Bytes, call: impl FnOnce(*mut SdefError) -> SdefStatus) -> Sd
         40..50 => own + 64,
         _ => own,
     };
-    let mut memory = vec![0xcd_u8; size.max(4)].into_boxed_slice();
+    // 0 stands for the whole struct.
+    let held = if size == 0 { own } else { size.max(4) };
+    let mut memory = vec![0xcd_u8; held].into_boxed_slice();
     let error: *mut SdefError = memory.as_mut_ptr().cast();
     unsafe { error.cast::<u32>().write_unaligned(size as u32) };
     let status = call(error);
-    if size > 16 {
-        let told = u32::from_le_bytes(memory[4..8].try_into().unwrap());
-        assert_eq!(status, told, "the status returned is the one told");
-        let text = CStr::from_bytes_until_nul(&memory[16..]).expect("messages end");
-        let text = text.to_str().expect("messages are UTF-8");
-        assert_eq!(text.is_empty(), status == SDEF_STATUS_OK || size == 17, "status {status}: {text}");
+    if held >= own {
+        let written = u32::from_le_bytes(memory[4..8].try_into().unwrap());
+        assert_eq!(status, written, "the status returned is the one written");
+        let text = CStr::from_bytes_until_nul(&memory[std::mem::offset_of!(SdefError, message)..]);
+        let text = text.expect("messages end").to_str().expect("messages are UTF-8");
+        assert_eq!(text.is_empty(), status == SDEF_STATUS_OK, "status {status}: {text}");
         assert_ne!(status, SDEF_STATUS_INTERNAL, "{text}");
     }
     assert_ne!(status, SDEF_STATUS_INTERNAL);
@@ -333,6 +352,8 @@ impl Host<'_> {
                     let count = bytes.below(4);
                     let groups: Vec<_> = (0..count)
                         .map(|_| SdefGroupSettings {
+                            struct_size: sizes(bytes, size_of::<SdefGroupSettings>()),
+                            reserved: 0,
                             group: memory.text(bytes),
                             length_scale: bytes.number(),
                             thickness_scale: bytes.number(),
@@ -347,6 +368,7 @@ impl Host<'_> {
                     let count = bytes.below(5);
                     let bones: Vec<_> = (0..count)
                         .map(|_| SdefBoneGroup {
+                            struct_size: sizes(bytes, size_of::<SdefBoneGroup>()),
                             role: u32::from(bytes.byte() % 60),
                             group: memory.text(bytes),
                         })
@@ -358,6 +380,7 @@ impl Host<'_> {
                     let count = bytes.below(5);
                     let joints: Vec<_> = (0..count)
                         .map(|_| SdefGivenJoint {
+                            struct_size: sizes(bytes, size_of::<SdefGivenJoint>()),
                             role: u32::from(bytes.byte() % 60),
                             x: bytes.number(),
                             y: bytes.number(),
@@ -987,8 +1010,8 @@ impl Host<'_> {
                 let count = bytes.below(6);
                 let bones: Vec<SdefBone> = (0..count)
                     .map(|_| SdefBone {
+                        struct_size: sizes(bytes, size_of::<SdefBone>()),
                         end: u32::from(bytes.byte() % 58),
-                        reserved: 0,
                         length: bytes.number(),
                         radius: bytes.number(),
                     })
@@ -1029,7 +1052,7 @@ impl Host<'_> {
                 let capacity = if bytes.chance(60) { bytes.below(12) } else { 56 };
                 let numbers: SdefStyleNumbers = zeroed();
                 let numbers = memory.sized(bytes, &numbers, false);
-                let bones = memory.output(bytes, capacity, 0);
+                let bones = memory.struct_outputs(bytes, capacity);
                 let mut count = 0;
                 let status = ask(bytes, |error| unsafe {
                     sdef_style_get_numbers(SdefStyle { id }, numbers, bones, capacity, &mut count, error)
@@ -1161,7 +1184,7 @@ impl Host<'_> {
                 let id = self.handle(2);
                 let bytes = &mut self.bytes;
                 let capacity = if bytes.chance(60) { bytes.below(12) } else { 30 };
-                let groups = memory.output(bytes, capacity, 0);
+                let groups = memory.struct_outputs(bytes, capacity);
                 let mut count = 0;
                 let status = ask(bytes, |error| unsafe {
                     sdef_deformer_get_groups(SdefDeformer { id }, groups, capacity, &mut count, error)
@@ -1193,6 +1216,20 @@ impl Host<'_> {
                 }
                 let status = ask(&mut self.bytes, |error| unsafe { sdef_destroy(id, error) });
                 ("destroy", status)
+            }
+            38 => {
+                let id = self.handle(2);
+                if id != 0 && !self.is_lasting(id) && !self.may_work(MEASURE) {
+                    return;
+                }
+                let bytes = &mut self.bytes;
+                let which = bytes.below(4) as u32;
+                let figure: SdefFigure = zeroed();
+                let figure = memory.sized(bytes, &figure, false);
+                let status = ask(bytes, |error| unsafe {
+                    sdef_deformer_get_figure(SdefDeformer { id }, which, figure, error)
+                });
+                ("get_figure", status)
             }
             37 => {
                 let bytes = &mut self.bytes;

@@ -17,31 +17,43 @@
 //            winding: a mirrored character gives the mirrored result. Vertices are floats, joints and points doubles.
 // Matrices   16 doubles, column by column, for column vectors: the translation is numbers 12, 13 and 14, and numbers
 //            3, 7, 11 and 15 are 0, 0, 0 and 1.
+// Results    The feet stay on the ground. The height does not stay: a figure of fewer heads is shorter. sdef_deformer_
+//            get_figure says how tall it was and is; scale what belongs to it (capsules, cameras, steps) by that.
 // Handles    A handle is a number, not an address. 0 is none. One that is destroyed, made up or of another kind gives
 //            SDEF_STATUS_BAD_HANDLE and nothing worse. Styles and deformers keep what they need of a character, which
 //            may be changed or destroyed before them.
 // Threads    Any thread may call anything at any time. Calls that read may run beside each other on one handle; where a
 //            call that changes a handle meets another use of it, the later of the two gets SDEF_STATUS_BUSY (so does
-//            a progress callback that changes what it is called from). No thread outlives a call. Results are the same
-//            bits for any number of threads and on every run.
+//            a progress callback that changes what it is called from). No thread outlives a call. Where the system
+//            starts no more threads, a call uses fewer. Results are the same bits for any number of threads and on
+//            every run.
 // Arrays in  A pointer, a count, and for vertices a stride: the bytes from one element to the next, 0 for packed. They
 //            need no alignment, are read during the call and never kept. NULL is allowed where the count is 0, and for
 //            arrays that may be left out, which say so.
 // Arrays out The caller's, with the number of elements that they can hold (capacity). NULL: left out. One that is too
 //            small gives SDEF_STATUS_BUFFER_TOO_SMALL, and what is needed is written. On an error nothing else is
 //            written but the error, counts and sizes.
-// Text       UTF-8, NUL-terminated; names may be NULL, for none.
-// Structs    Those that begin with struct_size = sizeof(the struct) may be older or newer than the library. SdefOptions
-//            is filled by sdef_options_init; every other struct is zeroed and struct_size set, for results too. Numbers
-//            that choose (kinds, modes) must be one of the constants; 0 and 1 stand for no and yes.
+// Text       UTF-8, NUL-terminated; names may be NULL, for none, but where they are asked for. Sentences show 64 bytes
+//            of a name, control characters escaped.
+// Structs    Zero a struct, set struct_size = sizeof(it), fill in what there is; SdefOptions is filled by
+//            sdef_options_init, SdefGroupSettings begins as SDEF_GROUP_SETTINGS_INIT. Structs may be newer or older than
+//            the library: what an older one lacks has its default. One smaller than it ever was is refused. In arrays
+//            all have the size of the first. Numbers that choose (kinds, modes) must be one of the constants; 0 and 1
+//            stand for no and yes.
 // Errors     Every call that can fail returns a SdefStatus; its last argument, which may be NULL, receives a sentence
 //            that names the array, the element, the value and the remedy. Other results are then as they were.
 // Progress   A callback (NULL: none) that is called on the caller's thread alone, with a fraction that rises to 1.
-//            What it returns, if not 0, ends the call with SDEF_STATUS_CANCELLED and leaves everything as it was.
+//            What it returns, if not 0, ends the call with SDEF_STATUS_CANCELLED and leaves everything as it was. It
+//            may call the library, and must return: neither a C++ exception nor longjmp may leave it.
+// Cost       Cheap, microseconds: create, destroy, get_info, get_joints, map_points, styles but _measure. A pass over
+//            the vertices, some 0.1 microseconds each: add_mesh, apply, and set_options where only amount, face_squash,
+//            face_curve or thread_count change. Ten times that: set_options otherwise. Slow, seconds at 100,000
+//            vertices: rig, deformer_create, style_measure, get_report and get_figure after a change.
 
 #ifndef SUPERDEFORM_H
 #define SUPERDEFORM_H
 
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -52,6 +64,9 @@ extern "C" {
 // ---- Version, status, errors, handles -------------------------------------------------------------------------------
 
 #define SDEF_ABI_VERSION 1              // Compared with sdef_abi_version() before anything else.
+#define SDEF_VERSION_MAJOR 0            // Of the release that this header belongs to.
+#define SDEF_VERSION_MINOR 2            // Likewise.
+#define SDEF_VERSION_PATCH 0            // Likewise.
 
 #define SDEF_NONE UINT32_MAX            // No mesh, no element, no role.
 
@@ -69,19 +84,30 @@ typedef uint32_t SdefStatus;
 #define SDEF_STATUS_BUFFER_TOO_SMALL 8  // An array of the caller's is too small; how much is needed is written.
 #define SDEF_STATUS_BUSY 9              // The handle is in use, by another thread or by the call around this one.
 #define SDEF_STATUS_CANCELLED 10        // The progress callback asked to stop.
-#define SDEF_STATUS_OUT_OF_MEMORY 11    // Memory for the caller's arrays could not be had.
+#define SDEF_STATUS_OUT_OF_MEMORY 11    // There is not enough memory for the call; see Memory above.
 #define SDEF_STATUS_INTERNAL 12         // A fault of this library; the host goes on. Please report it with the message.
 
-// What went wrong. The caller's; struct_size is set before a call (SDEF_ERROR_INIT does so), everything else by it.
+#define SDEF_ELEMENT_NONE 0             // No element is concerned.
+#define SDEF_ELEMENT_VERTEX 1           // A vertex of the mesh.
+#define SDEF_ELEMENT_TRIANGLE 2         // A triangle of the mesh.
+#define SDEF_ELEMENT_JOINT 3            // A joint of the skeleton.
+#define SDEF_ELEMENT_POINT 4            // An element of the array points or joints of sdef_deformer_map_points.
+#define SDEF_ELEMENT_GROUP 5            // An element of SdefOptions.groups.
+#define SDEF_ELEMENT_BONE_GROUP 6       // An element of SdefOptions.bone_groups.
+#define SDEF_ELEMENT_GIVEN_JOINT 7      // An element of SdefOptions.rig_joints.
+#define SDEF_ELEMENT_BONE 8             // An element of the array bones of sdef_style_from_numbers.
+
+// What went wrong. The caller's: SDEF_ERROR_INIT or {0} before the first call; every call fills it anew.
 typedef struct SdefError {
-  uint32_t struct_size; // sizeof(SdefError); 0 or else too small to hold a sentence gives BAD_ARGUMENT and none
-  SdefStatus status;    // as returned
-  uint32_t mesh;        // index of the mesh concerned, or SDEF_NONE
-  uint32_t element;     // index of the vertex, triangle or joint concerned, or SDEF_NONE
-  char message[512];    // one sentence, UTF-8, always terminated, cut between characters; empty after SDEF_STATUS_OK
+  uint32_t struct_size;  // sizeof(SdefError), or 0 for the size that it had in version 1 of the ABI
+  SdefStatus status;     // as returned
+  uint32_t mesh;         // index of the mesh concerned, or SDEF_NONE
+  uint32_t element;      // index of the element concerned, or SDEF_NONE
+  uint32_t element_kind; // what element counts: SDEF_ELEMENT_*
+  char message[512];     // one sentence, UTF-8, always terminated, cut between characters; empty after SDEF_STATUS_OK
 } SdefError;
 
-#define SDEF_ERROR_INIT {(uint32_t)sizeof(SdefError), 0, 0, 0, {0}}
+#define SDEF_ERROR_INIT {(uint32_t)sizeof(SdefError), 0, 0, 0, 0, {0}}
 
 // Called now and then with what part of the work is done, 0 to 1; anything but 0 cancels.
 typedef int32_t (*SdefProgress)(void *user, float fraction);
@@ -95,8 +121,13 @@ typedef struct SdefStyle { uint64_t id; } SdefStyle; // 0: none
 // A character together with the deformation that gives it a style.
 typedef struct SdefDeformer { uint64_t id; } SdefDeformer; // 0: none
 
-// The library's version, to compare with SDEF_ABI_VERSION: another number is another ABI.
+// The version of the library's ABI, to compare with SDEF_ABI_VERSION before anything else: another number is another
+// ABI, with which nothing else may be called. It rises when a function, field or constant goes or changes its meaning.
+// What is only added (functions, fields at the end of structs with struct_size, constants) raises SDEF_VERSION_MINOR.
 uint32_t sdef_abi_version(void);
+
+// The library's release, such as "0.2.0". Static text.
+const char *sdef_version(void);
 
 // The name of a status, such as "SDEF_STATUS_BUSY"; "unknown status" for other numbers. Static text.
 const char *sdef_status_name(SdefStatus status);
@@ -104,9 +135,13 @@ const char *sdef_status_name(SdefStatus status);
 // How many handles there are that nobody has destroyed, of all kinds and all threads; 0 where nothing leaks.
 uint64_t sdef_live_handles(void);
 
-// Destroys what a handle stands for.
-// handle: the id of a character, style or deformer; 0 is allowed and does nothing.
-// Never BUSY: calls that use the handle on other threads end first, and their memory goes with the last of them.
+// Destroys what a handle stands for. One call for all kinds, so that an owner of handles needs no more than the id.
+//
+// handle: the id of a character, style or deformer; 0 is allowed and does nothing
+//
+// Returns at once and is never BUSY: a call that uses the handle on another thread goes on to its end and still writes
+// its arrays, so wait for it before they go. The memory goes with the last such call.
+//
 // Errors: BAD_HANDLE.
 SdefStatus sdef_destroy(uint64_t handle, SdefError *error);
 
@@ -133,8 +168,11 @@ SdefStatus sdef_destroy(uint64_t handle, SdefError *error);
 #define SDEF_GARMENTS_NEAREST 1         // The closest point of the body, whatever it is.
 #define SDEF_GARMENTS_HEAT 2            // Heat on the clothes themselves.
 
-// Settings of one bone group; NAN in any number leaves the measured or the default value.
+// Settings of one bone group: SDEF_GROUP_SETTINGS_INIT, then what is to be set. NAN in any number leaves the measured
+// or the default value.
 typedef struct SdefGroupSettings {
+  uint32_t struct_size;      // sizeof(SdefGroupSettings)
+  uint32_t reserved;         // 0
   const char *group;         // head, neck, torso, shoulder, upper_arm, lower_arm, hand, finger, hip, upper_leg,
                              // lower_leg, foot, or a name of your own from SdefBoneGroup
   double length_scale;       // 1 keeps the length of the group's bones; 0.01 to 10
@@ -143,18 +181,22 @@ typedef struct SdefGroupSettings {
   double thickness_transfer; // 0 keeps the target's thickness, 1 takes all of the reference's
 } SdefGroupSettings;
 
+#define SDEF_GROUP_SETTINGS_INIT {(uint32_t)sizeof(SdefGroupSettings), 0, NULL, NAN, NAN, NAN, NAN}
+
 // A bone in a group of your own.
 typedef struct SdefBoneGroup {
-  uint32_t role;     // SDEF_ROLE_* at the end of the bone: LEFT_LOWER_LEG is the left thigh
-  const char *group; // the group's name
+  uint32_t struct_size; // sizeof(SdefBoneGroup)
+  uint32_t role;        // SDEF_ROLE_* at the end of the bone: LEFT_LOWER_LEG is the left thigh
+  const char *group;    // the group's name
 } SdefBoneGroup;
 
 // Where a joint is known to be; see sdef_character_rig.
 typedef struct SdefGivenJoint {
-  uint32_t role; // SDEF_ROLE_*
-  double x;      // model space
-  double y;      // model space
-  double z;      // model space
+  uint32_t struct_size; // sizeof(SdefGivenJoint)
+  uint32_t role;        // SDEF_ROLE_*
+  double x;             // model space
+  double y;             // model space
+  double z;             // model space
 } SdefGivenJoint;
 
 // Everything that can be set. Filled by sdef_options_init; NULL stands for the defaults wherever options are asked for.
@@ -187,8 +229,10 @@ typedef struct SdefOptions {
 } SdefOptions;
 
 // Fills *options with the defaults.
+//
 // options:     struct_size bytes are written, struct_size among them
 // struct_size: sizeof(SdefOptions) as the host was built
+//
 // Errors: BAD_ARGUMENT.
 SdefStatus sdef_options_init(SdefOptions *options, uint32_t struct_size, SdefError *error);
 
@@ -233,6 +277,7 @@ enum {
 };
 
 // A mesh. Zero it, set struct_size, and fill in what there is.
+//
 // Weights come in one of two shapes, or not at all (all zero: the mesh has no rig, or waits for one):
 // fixed: influence_count joints and weights a vertex, vertex after vertex; row_starts is NULL.
 // rows:  vertex v has the joints and weights row_starts[v] to row_starts[v + 1] - 1; influence_count is how many there
@@ -305,25 +350,31 @@ typedef struct SdefCharacterInfo {
 } SdefCharacterInfo;
 
 // Makes an empty character.
+//
 // up:        3 floats, from the feet to the head, any length but 0; NULL: (0, 1, 0)
 // forward:   3 floats, the way the face looks, at any angle to up but 0; NULL: found from left and right limbs, as in
 //            right-handed axes, so a left-handed host gives it; without joints from feet and face
 // character: receives the handle
+//
 // Errors: BAD_ARGUMENT, BAD_INPUT.
 SdefStatus sdef_character_create(const float *up, const float *forward, SdefCharacter *character, SdefError *error);
 
 // Gives a character its joints, in place of any that it had. Comes before meshes with weights, which name joints.
+//
 // Errors: BAD_ARGUMENT; BAD_INPUT with the joint as the element: a parent that is none, a circle of parents, a number
 // that is not finite, a matrix row by row, a role for a joint that is none or has one; or weights of a mesh for a joint
 // that is no more.
 SdefStatus sdef_character_set_skeleton(SdefCharacter character, const SdefSkeleton *skeleton, SdefError *error);
 
 // Adds a mesh; everything is copied. A rig made before goes: it did not know this mesh.
+//
 // index: receives the mesh's index, counted from 0; may be NULL
+//
 // Errors: BAD_ARGUMENT; BAD_INPUT with the vertex or triangle as the element; OUT_OF_MEMORY.
 SdefStatus sdef_character_add_mesh(SdefCharacter character, const SdefMesh *mesh, uint32_t *index, SdefError *error);
 
 // Adds a morph target to a mesh, after those that it has.
+//
 // Errors: BAD_ARGUMENT also for a mesh that is none; BAD_INPUT with the vertex as the element; OUT_OF_MEMORY.
 SdefStatus sdef_character_add_morph_target(SdefCharacter character, uint32_t mesh, const SdefMorphTarget *target,
     SdefError *error);
@@ -332,6 +383,7 @@ SdefStatus sdef_character_add_morph_target(SdefCharacter character, uint32_t mes
 SdefStatus sdef_character_get_info(SdefCharacter character, SdefCharacterInfo *info, SdefError *error);
 
 // Gives the joints back: own ones first, then those of a made rig, parents in any order.
+//
 // parents:       the parent of each joint, or -1
 // roles:         SDEF_ROLE_* as given, guessed or made, or SDEF_NONE
 // rest_matrices: 16 doubles a joint
@@ -342,10 +394,12 @@ SdefStatus sdef_character_get_joints(SdefCharacter character, int32_t *parents, 
     double *confidence, size_t capacity, size_t *joint_count, SdefError *error);
 
 // Gives the weights that animate one mesh: those of a made rig, else its own.
+//
 // influence_count: joints a vertex, 1 to 255: the largest weights, largest first, scaled to sum 1; what a vertex has no
 //                  use for is joint 0 with weight 0
 // joints, weights: influence_count numbers a vertex
 // capacity:        vertices that each array can hold
+//
 // Errors: BAD_ARGUMENT also for a mesh that is none; BAD_INPUT for a mesh without weights.
 SdefStatus sdef_character_get_weights(SdefCharacter character, uint32_t mesh, uint32_t influence_count,
     uint32_t *joints, float *weights, size_t capacity, SdefError *error);
@@ -354,8 +408,10 @@ SdefStatus sdef_character_get_weights(SdefCharacter character, uint32_t mesh, ui
 
 // Finds joints and weights for a character, in place of any rig that was made before. Joints of its own stay, come
 // first, and move with the body; its own weights are not used.
+//
 // options: NULL for the defaults; thread_count, rig_weights, rig_garments, rig_voxel_resolution, rig_fingers,
 //          rig_left_handed, rig_heat and rig_joints are read
+//
 // Read the result with sdef_character_get_joints and sdef_character_get_weights. Errors: BAD_OPTION, NO_GEOMETRY, BUSY,
 // CANCELLED.
 SdefStatus sdef_character_rig(SdefCharacter character, const SdefOptions *options, SdefProgress progress, void *user,
@@ -363,6 +419,7 @@ SdefStatus sdef_character_rig(SdefCharacter character, const SdefOptions *option
 
 // Writes the warnings about the rig and roles of a character, or about a deformer and all before it: a line each,
 // "code: sentence\n", where code is a fixed word such as joint_by_ratio. Empty text where there are none.
+//
 // handle:   the id of a character or deformer
 // text:     receives the lines
 // capacity: bytes that text can hold
@@ -377,10 +434,10 @@ SdefStatus sdef_get_warnings(uint64_t handle, char *text, size_t capacity, size_
 
 // One bone of a measured body.
 typedef struct SdefBone {
-  uint32_t end;      // SDEF_ROLE_* at its end, or SDEF_BONE_HEAD_TOP
-  uint32_t reserved; // 0
-  double length;     // 0 or more
-  double radius;     // mean distance of the surface, above 0; NAN: not known
+  uint32_t struct_size; // sizeof(SdefBone)
+  uint32_t end;         // SDEF_ROLE_* at its end, or SDEF_BONE_HEAD_TOP
+  double length;        // 0 or more
+  double radius;        // mean distance of the surface, above 0; NAN: not known
 } SdefBone;
 
 // A style as plain numbers, in the units of its model; NAN: not known. Product mode transfers what is from
@@ -412,47 +469,60 @@ typedef struct SdefStyleNumbers {
 } SdefStyleNumbers;
 
 // A style of so many heads.
+//
 // heads: 1.8 to 6, crown to sole over crown to chin
 // like:  a style with everything below its head stretched or shortened; the handle 0: everything after the target
+//
 // Errors: BAD_OPTION; BAD_STYLE where like has no proportions.
 SdefStatus sdef_style_from_heads(double heads, SdefStyle like, SdefStyle *style, SdefError *error);
 
 // A built-in style, or a saved one.
+//
 // text: "sd2", "sd2.5", "sd3" or "sd4"; or the JSON that sdef_style_to_json gave
-// size: bytes of text, without any NUL
+// size: bytes of text, without a NUL at its end: strlen(text)
+//
 // Errors: BAD_STYLE.
 SdefStatus sdef_style_from_text(const char *text, size_t size, SdefStyle *style, SdefError *error);
 
 // Measures a super-deformed character, so that others can be made like it. It needs a skeleton or a made rig.
+//
 // name:    of the style; may be NULL
 // options: NULL for the defaults; mode, rays, bone_groups and thread_count are read
+//
 // Errors: BAD_OPTION, NO_HUMANOID, NO_GEOMETRY.
 SdefStatus sdef_style_measure(SdefCharacter character, const char *name, const SdefOptions *options, SdefStyle *style,
     SdefError *error);
 
 // A style from numbers, as sdef_style_get_numbers gives them.
+//
 // name: of the style; may be NULL
+//
 // Errors: BAD_STYLE for numbers out of their range.
 SdefStatus sdef_style_from_numbers(const char *name, const SdefStyleNumbers *numbers, const SdefBone *bones,
     size_t bone_count, SdefStyle *style, SdefError *error);
 
 // A style between two, measured in heads.
-// amount: 0 is first, 1 second
+//
+// amount: 0 is first, 1 second; 0 to 1
+//
 // Errors: BAD_STYLE for a style of N heads that is like none, or where the result would be no body; BAD_OPTION.
 SdefStatus sdef_style_blend(SdefStyle first, SdefStyle second, double amount, SdefStyle *style, SdefError *error);
 
 // Gives a style's numbers back.
+//
 // numbers:    may be NULL
-// bones:      in the order of their ends, the head's last
+// bones:      in the order of their ends, the head's last; struct_size of the first is set before; may be NULL
 // capacity:   bones that the array can hold
 // bone_count: receives how many there are; may be NULL
 SdefStatus sdef_style_get_numbers(SdefStyle style, SdefStyleNumbers *numbers, SdefBone *bones, size_t capacity,
     size_t *bone_count, SdefError *error);
 
 // Gives a style as JSON text, to be saved.
+//
 // text:     receives the text
 // capacity: bytes that text can hold
 // size:     receives the bytes needed, the terminating NUL among them; may be NULL
+//
 // Errors: BAD_STYLE for a style of N heads that is like none: save the number.
 SdefStatus sdef_style_to_json(SdefStyle style, char *text, size_t capacity, size_t *size, SdefError *error);
 
@@ -478,6 +548,8 @@ typedef struct SdefMeshResult {
 
 // One bone group: what is done to it, and how large it is; NAN where not known.
 typedef struct SdefGroup {
+  uint32_t struct_size;    // sizeof(SdefGroup)
+  uint32_t reserved;       // 0
   char name[64];           // terminated; longer names of your own are cut
   double length_scale;     // 1 keeps the length of the group's bones
   double thickness_scale;  // 1 keeps the thickness
@@ -487,8 +559,14 @@ typedef struct SdefGroup {
   double reference_radius; // the style's, in its own units
 } SdefGroup;
 
-// What was measured on a body; heights are along up.
+#define SDEF_FIGURE_TARGET 0            // The character before.
+#define SDEF_FIGURE_REFERENCE 1         // The style; NAN throughout for a style of N heads.
+#define SDEF_FIGURE_RESULT 2            // Measured anew on what comes out.
+
+// What was measured on a body; heights are along up. NAN: not known.
 typedef struct SdefFigure {
+  uint32_t struct_size; // sizeof(SdefFigure)
+  uint32_t reserved;    // 0
   double height;        // extent of all meshes along up
   double head_length;   // chin to crown (product mode), head joint to head top (paper mode)
   double heads;         // crown to sole over crown to chin
@@ -503,9 +581,6 @@ typedef struct SdefFigure {
 typedef struct SdefReport {
   uint32_t struct_size;        // sizeof(SdefReport)
   uint32_t rig_made;           // 1 where the rig was made, 0 where it was the character's own
-  SdefFigure target;           // the character before
-  SdefFigure reference;        // the style; NAN throughout for a style of N heads
-  SdefFigure result;           // measured anew on what comes out
   double head_ratio;           // head of the target over head of the style, times head_scale (product mode)
   uint64_t unreached_vertices; // vertices that the rig left without weights
   uint64_t fallback_vertices;  // vertices that were weighted by another rule than the chosen one
@@ -513,60 +588,83 @@ typedef struct SdefReport {
 
 // Makes the deformation that gives a character a style. What it needs of the character is read before it begins: that
 // may be changed meanwhile.
+//
 // options:        NULL for the defaults; rig_* are not read
 // progress, user: see Progress above; user is handed on
 // deformer:       receives the handle
+//
 // Errors: BAD_OPTION, BAD_STYLE, NO_HUMANOID, NO_GEOMETRY, CANCELLED.
 SdefStatus sdef_deformer_create(SdefCharacter character, SdefStyle style, const SdefOptions *options,
     SdefProgress progress, void *user, SdefDeformer *deformer, SdefError *error);
 
 // Changes the options of a deformer, with the same results as a new one and for less: only what depends on the change
 // is done again. For sliders.
+//
 // Errors: as sdef_deformer_create, after which the deformer is as it was; BUSY.
 SdefStatus sdef_deformer_set_options(SdefDeformer deformer, const SdefOptions *options, SdefProgress progress,
     void *user, SdefError *error);
 
 // Deforms the meshes, into the caller's arrays.
-// meshes:         mesh_count structs in the order of the character's meshes, all of one struct_size
+//
+// results:        mesh_count structs in the order of the character's meshes, all of one struct_size
 // mesh_count:     as many as the character has
 // progress, user: see Progress above
+//
 // Errors: BAD_ARGUMENT, BUFFER_TOO_SMALL with the mesh, OUT_OF_MEMORY, CANCELLED.
-SdefStatus sdef_deformer_apply(SdefDeformer deformer, const SdefMeshResult *meshes, size_t mesh_count,
+SdefStatus sdef_deformer_apply(SdefDeformer deformer, const SdefMeshResult *results, size_t mesh_count,
     SdefProgress progress, void *user, SdefError *error);
 
 // Gives the joints where they are now, in the order of sdef_character_get_joints. They move, and neither turn nor
 // scale: the new rest matrix is the old one with this translation.
+//
 // positions:     3 doubles a joint, model space
 // inverse_binds: 16 doubles a joint, the inverse of the new rest matrix: model space to joint space
 // capacity:      joints that each array can hold
 // joint_count:   receives how many there are; may be NULL
+//
 // Errors: BAD_INPUT where inverse_binds is asked for and a rest matrix has no inverse.
 SdefStatus sdef_deformer_get_joints(SdefDeformer deformer, double *positions, double *inverse_binds, size_t capacity,
     size_t *joint_count, SdefError *error);
 
 // Maps points that move with joints: colliders, eyes, viewpoints, the tails of springs.
+//
 // joints:    the joint that each point moves with
 // points:    3 doubles a point, model space
 // count:     points; every array holds as many
 // positions: receives 3 doubles a point, model space
 // scales:    receives a number a point: by how much small things there grow (the radius of a collider)
 // jacobians: receives 9 doubles a point, column by column: how directions and lengths there change
+//
 // Errors: BAD_INPUT with the point as the element.
 SdefStatus sdef_deformer_map_points(SdefDeformer deformer, const uint32_t *joints, const double *points, size_t count,
     double *positions, double *scales, double *jacobians, SdefError *error);
 
 // Gives what is done to each bone group.
+//
+// groups:      struct_size of the first is set before; may be NULL
 // capacity:    groups that the array can hold
 // group_count: receives how many there are; may be NULL
 SdefStatus sdef_deformer_get_groups(SdefDeformer deformer, SdefGroup *groups, size_t capacity, size_t *group_count,
     SdefError *error);
 
+// Gives what was measured on a figure.
+//
+// which:  SDEF_FIGURE_*
+// figure: struct_size is set before
+//
+// The first call after a change measures the result, as sdef_deformer_get_report does.
+//
+// Errors: BAD_ARGUMENT; NO_GEOMETRY where the result is too flat to be measured.
+SdefStatus sdef_deformer_get_figure(SdefDeformer deformer, uint32_t which, SdefFigure *figure, SdefError *error);
+
 // Measures the result and gives the numbers of the run. The first call after a change takes as long as an apply and a
-// measurement together.
+// measurement together; later ones are for free.
+//
 // report:   may be NULL
 // json:     receives everything as JSON text: numbers by group and role, times, warnings
 // capacity: bytes that json can hold
 // size:     receives the bytes needed, the terminating NUL among them; may be NULL
+//
 // Errors: NO_GEOMETRY where the result is too flat to be measured; BUFFER_TOO_SMALL.
 SdefStatus sdef_deformer_get_report(SdefDeformer deformer, SdefReport *report, char *json, size_t capacity,
     size_t *size, SdefError *error);
@@ -574,6 +672,7 @@ SdefStatus sdef_deformer_get_report(SdefDeformer deformer, SdefReport *report, c
 // ---- All at once ----------------------------------------------------------------------------------------------------
 
 // Deforms meshes in one call, for hosts that keep nothing.
+//
 // up, forward:    as in sdef_character_create
 // skeleton:       NULL: a rig is made
 // meshes:         mesh_count structs, all of one struct_size; read before anything is written
@@ -581,6 +680,7 @@ SdefStatus sdef_deformer_get_report(SdefDeformer deformer, SdefReport *report, c
 // options:        NULL for the defaults
 // results:        mesh_count structs, all of one struct_size
 // progress, user: see Progress above
+//
 // Errors: those of sdef_character_create to sdef_deformer_apply.
 SdefStatus sdef_super_deform(const float *up, const float *forward, const SdefSkeleton *skeleton,
     const SdefMesh *meshes, size_t mesh_count, SdefStyle style, const SdefOptions *options,

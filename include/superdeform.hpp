@@ -31,16 +31,17 @@ namespace superdeform {
 class Error : public std::runtime_error {
 public:
   Error(SdefStatus status, const std::string &message, std::uint32_t mesh = SDEF_NONE,
-        std::uint32_t element = SDEF_NONE)
-      : std::runtime_error(message), status_(status), mesh_(mesh), element_(element) {}
+        std::uint32_t element = SDEF_NONE, std::uint32_t element_kind = SDEF_ELEMENT_NONE)
+      : std::runtime_error(message), status_(status), mesh_(mesh), element_(element), element_kind_(element_kind) {}
 
   SdefStatus status() const noexcept { return status_; }      // SDEF_STATUS_*
   std::uint32_t mesh() const noexcept { return mesh_; }       // the mesh concerned, or SDEF_NONE
-  std::uint32_t element() const noexcept { return element_; } // its vertex, triangle or joint, or SDEF_NONE
+  std::uint32_t element() const noexcept { return element_; } // its vertex, triangle or another element, or SDEF_NONE
+  std::uint32_t element_kind() const noexcept { return element_kind_; } // SDEF_ELEMENT_*
 
 private:
   SdefStatus status_;
-  std::uint32_t mesh_, element_;
+  std::uint32_t mesh_, element_, element_kind_;
 };
 
 // Elements of somebody else's: std::span as far as it is needed here. Made from a pointer and a count, from an array,
@@ -69,7 +70,7 @@ private:
 namespace detail {
 
 inline void check(SdefStatus status, const SdefError &error) {
-  if (status != SDEF_STATUS_OK) throw Error(status, error.message, error.mesh, error.element);
+  if (status != SDEF_STATUS_OK) throw Error(status, error.message, error.mesh, error.element, error.element_kind);
 }
 
 // Refuses a library of another ABI; asked once.
@@ -189,6 +190,17 @@ struct Options : SdefOptions {
     detail::call(sdef_options_init, static_cast<SdefOptions *>(this), static_cast<std::uint32_t>(sizeof(SdefOptions)));
   }
 };
+
+// Settings of a bone group of which none is set yet.
+struct GroupSettings : SdefGroupSettings {
+  explicit GroupSettings(const char *name) : SdefGroupSettings(SDEF_GROUP_SETTINGS_INIT) { group = name; }
+};
+
+// The library's release, such as "0.2.0".
+inline const char *version() {
+  detail::check_version();
+  return sdef_version();
+}
 
 // How many handles there are that nobody has destroyed.
 inline std::uint64_t live_handles() {
@@ -317,7 +329,7 @@ public:
     std::size_t count = 0;
     detail::call(sdef_style_get_numbers, raw_, static_cast<SdefStyleNumbers *>(nullptr),
                  static_cast<SdefBone *>(nullptr), std::size_t(0), &count);
-    std::vector<SdefBone> bones(count);
+    std::vector<SdefBone> bones(count, make<SdefBone>());
     detail::call(sdef_style_get_numbers, raw_, static_cast<SdefStyleNumbers *>(nullptr), bones.data(), bones.size(),
                  &count);
     return bones;
@@ -396,9 +408,16 @@ public:
   std::vector<SdefGroup> groups() const {
     std::size_t count = 0;
     detail::call(sdef_deformer_get_groups, raw_, static_cast<SdefGroup *>(nullptr), std::size_t(0), &count);
-    std::vector<SdefGroup> groups(count);
+    std::vector<SdefGroup> groups(count, make<SdefGroup>());
     detail::call(sdef_deformer_get_groups, raw_, groups.data(), groups.size(), &count);
     return groups;
+  }
+
+  // which: SDEF_FIGURE_*
+  SdefFigure figure(std::uint32_t which) const {
+    SdefFigure figure = make<SdefFigure>();
+    detail::call(sdef_deformer_get_figure, raw_, which, &figure);
+    return figure;
   }
 
   SdefReport report() const {

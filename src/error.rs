@@ -20,6 +20,17 @@ pub enum ErrorKind {
     Cancelled,
 }
 
+/// What an error is about within a mesh or a skeleton.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Element {
+    /// A vertex, by its index.
+    Vertex(usize),
+    /// A triangle, by its index.
+    Triangle(usize),
+    /// A joint, by its index.
+    Joint(usize),
+}
+
 /// An error: its kind, the mesh and element it concerns where there are such, and one sentence for a person.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Error {
@@ -27,8 +38,8 @@ pub struct Error {
     pub kind: ErrorKind,
     /// Index of the mesh concerned.
     pub mesh: Option<usize>,
-    /// Index of the vertex, triangle or joint concerned.
-    pub element: Option<usize>,
+    /// The vertex, triangle or joint concerned.
+    pub element: Option<Element>,
     /// The option concerned, as [`TABLE`](crate::options::TABLE) names it. The sentence does not: each host spells it its
     /// own way.
     pub option: Option<&'static str>,
@@ -51,8 +62,8 @@ impl Error {
         self
     }
 
-    /// The same error, about element `element` (a vertex, triangle or joint).
-    pub fn at(mut self, element: usize) -> Self {
+    /// The same error, about `element`.
+    pub fn at(mut self, element: Element) -> Self {
         self.element = Some(element);
         self
     }
@@ -61,6 +72,34 @@ impl Error {
     pub fn about(mut self, option: &'static str) -> Self {
         self.option = Some(option);
         self
+    }
+}
+
+/// A name from a file, as sentences show it: control characters are escaped, so that it can neither begin a line nor
+/// move a terminal's cursor, and it is cut, so that value and remedy still fit behind it.
+pub(crate) struct Named<'a>(pub &'a str);
+
+impl Named<'_> {
+    /// Bytes of a name that are shown.
+    const MOST: usize = 64;
+}
+
+impl fmt::Display for Named<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut left = Self::MOST;
+        for letter in self.0.chars() {
+            let escaped = letter.is_control().then(|| letter.escape_debug());
+            let size = escaped.as_ref().map_or(letter.len_utf8(), |escaped| escaped.clone().count());
+            if size > left {
+                return f.write_str("...");
+            }
+            left -= size;
+            match escaped {
+                Some(escaped) => write!(f, "{escaped}")?,
+                None => write!(f, "{letter}")?,
+            }
+        }
+        Ok(())
     }
 }
 
@@ -94,5 +133,19 @@ impl Warning {
     pub fn about(mut self, option: &'static str) -> Self {
         self.option = Some(option);
         self
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_name_is_shown_in_one_line_and_cut_between_letters() {
+        assert_eq!(Named("Body (1)").to_string(), "Body (1)");
+        assert_eq!(Named("a\nb\u{1b}[2Jc").to_string(), "a\\nb\\u{1b}[2Jc");
+        assert_eq!(Named(&"髪".repeat(40)).to_string(), "髪".repeat(21) + "...");
+        assert_eq!(Named(&"x".repeat(64)).to_string(), "x".repeat(64));
+        assert_eq!(Named(&"x".repeat(65)).to_string(), "x".repeat(64) + "...");
     }
 }

@@ -95,7 +95,7 @@ mod shape;
 
 pub use character::roles::find_roles;
 pub use character::{Axes, Character, Humanoid, Joint, Mesh, MeshKind, MorphTarget, Role, Skeleton, Weights};
-pub use error::{Error, ErrorKind, Result, Warning};
+pub use error::{Element, Error, ErrorKind, Result, Warning};
 pub use geometry::Mapped;
 pub use options::{FaceCurve, GarmentWeights, GroupSettings, Mode, Options, RigOptions, Stage, WeightMethod};
 pub use pipeline::{Deformed, DeformedMesh, Deformer, MeshOutputs, Rig};

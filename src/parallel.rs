@@ -57,42 +57,59 @@ pub fn collect_with<S, T: Send>(
     }
     std::thread::scope(|scope| {
         let run = &run;
-        let others: Vec<_> = (share..count)
-            .step_by(share)
-            .map(|first| {
-                let indices = first..(first + share).min(count);
-                spawn(scope, move || {
-                    let mut all = Vec::with_capacity(indices.len());
-                    run(indices, &mut all);
-                    all
-                })
-            })
-            .collect();
+        let work = move |first: usize| {
+            let indices = first..(first + share).min(count);
+            let mut all = Vec::with_capacity(indices.len());
+            run(indices, &mut all);
+            all
+        };
+        let others: Vec<_> =
+            (share..count).step_by(share).map(|first| beside(scope, move || work(first))).collect();
         run(0..share.min(count), &mut all);
         for other in others {
-            all.extend(other.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)));
+            all.extend(other.join());
         }
     });
     all
 }
 
-fn spawn<'scope, T: Send + 'scope>(
+/// Work that another thread does, or that is left for when it is asked for.
+enum Beside<'scope, W, T> {
+    Thread(std::thread::ScopedJoinHandle<'scope, T>),
+    Left(W),
+}
+
+impl<W: FnOnce() -> T, T> Beside<'_, W, T> {
+    /// What the work gives; a panic of it goes on here.
+    fn join(self) -> T {
+        match self {
+            Self::Thread(thread) => thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)),
+            Self::Left(work) => work(),
+        }
+    }
+}
+
+/// Has `work` done by a thread of its own, if the system starts one: sandboxes and limits may forbid it.
+fn beside<'scope, T: Send + 'scope, W: Clone + FnOnce() -> T + Send + 'scope>(
     scope: &'scope std::thread::Scope<'scope, '_>,
-    work: impl FnOnce() -> T + Send + 'scope,
-) -> std::thread::ScopedJoinHandle<'scope, T> {
+    work: W,
+) -> Beside<'scope, W, T> {
     let thread = std::thread::Builder::new().name(WORKER.to_string());
-    thread.spawn_scoped(scope, work).expect("the system has a thread left")
+    match thread.spawn_scoped(scope, work.clone()) {
+        Ok(thread) => Beside::Thread(thread),
+        Err(_) => Beside::Left(work),
+    }
 }
 
 /// Both results, made side by side where there are two threads to use.
-pub fn both<A: Send, B>(threads: usize, one: impl FnOnce() -> A + Send, other: impl FnOnce() -> B) -> (A, B) {
+pub fn both<A: Send, B>(threads: usize, one: impl Fn() -> A + Sync, other: impl FnOnce() -> B) -> (A, B) {
     if thread_count(threads) == 1 {
         return (one(), other());
     }
     std::thread::scope(|scope| {
-        let one = spawn(scope, one);
+        let one = beside(scope, &one);
         let other = other();
-        (one.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)), other)
+        (one.join(), other)
     })
 }
 

@@ -40,8 +40,8 @@ void run(const char *target_path, const char *reference, const char *out) {
   print_lines(deformer.warnings());
   deform(target, deformer);
   write_gltf(out, target.model);
-  const SdefReport report = deformer.report();
-  std::printf("%s: %.2f heads, was %.2f\n", out, report.result.heads, report.target.heads);
+  const double after = deformer.figure(SDEF_FIGURE_RESULT).heads, before = deformer.figure(SDEF_FIGURE_TARGET).heads;
+  std::printf("%s: %.2f heads, was %.2f\n", out, after, before);
 }
 
 } // namespace

@@ -11,7 +11,8 @@ use glam::{DMat4, Vec3};
 use regex::Regex;
 use serde_json::Value;
 use superdeform::{
-    Axes, Character, Error, ErrorKind, Humanoid, Joint, Mesh, MeshKind, Result, Skeleton, Warning, Weights,
+    Axes, Character, Element, Error, ErrorKind, Humanoid, Joint, Mesh, MeshKind, Result, Skeleton, Warning,
+    Weights,
 };
 
 /// Finds roles from names and geometry: skeleton, meshes in rest pose, up.
@@ -272,7 +273,7 @@ fn check_finite(file: &str, index: usize, raw: &RawMesh) -> Result<()> {
             raw.name, raw.positions[vertex]
         ))
         .in_mesh(index)
-        .at(vertex)),
+        .at(Element::Vertex(vertex))),
         None => Ok(()),
     }
 }

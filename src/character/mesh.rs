@@ -1,7 +1,7 @@
 //! Meshes of a character: vertices, triangles, normals, tangents, morph targets, and what the mesh depicts.
 
 use super::{MeshKind, Weights};
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Element, Error, ErrorKind, Named, Result};
 use glam::{Vec3, Vec4};
 
 /// A morph target (blend shape): what is added to each vertex at weight 1.
@@ -34,7 +34,7 @@ impl MorphTarget {
                     None,
                     format!(
                         "morph target {target} ({}) has {} {what} deltas for {vertex_count} vertices: give one a vertex",
-                        self.name,
+                        Named(&self.name),
                         deltas.len()
                     ),
                 ));
@@ -44,13 +44,19 @@ impl MorphTarget {
                     Some(vertex),
                     format!(
                         "morph target {target} ({}) moves the {what} of vertex {vertex} by {}: deltas must be finite",
-                        self.name, deltas[vertex]
+                        Named(&self.name),
+                        deltas[vertex]
                     ),
                 ));
             }
         }
         Ok(())
     }
+}
+
+/// A mesh in sentences: its index, and its name where it has one.
+pub(crate) fn place(index: usize, name: &str) -> String {
+    if name.is_empty() { format!("mesh {index}") } else { format!("mesh {index} ({})", Named(name)) }
 }
 
 /// One mesh in rest pose, in model space.
@@ -82,12 +88,8 @@ impl Mesh {
     /// # Errors
     /// `ErrorKind::BadInput` with the mesh, the element, the value and the remedy.
     pub fn validate(&self, index: usize, joint_count: usize) -> Result<()> {
-        let place = if self.name.is_empty() {
-            format!("mesh {index}")
-        } else {
-            format!("mesh {index} ({})", self.name)
-        };
-        let bad = |element: Option<usize>, message: String| {
+        let place = place(index, &self.name);
+        let bad = |element: Option<Element>, message: String| {
             let error = Error::new(ErrorKind::BadInput, format!("{place}: {message}")).in_mesh(index);
             Err(match element {
                 Some(element) => error.at(element),
@@ -98,7 +100,7 @@ impl Mesh {
         for (vertex, p) in self.positions.iter().enumerate() {
             if !p.is_finite() {
                 return bad(
-                    Some(vertex),
+                    Some(Element::Vertex(vertex)),
                     format!("vertex {vertex} is at {p}: positions must be finite numbers"),
                 );
             }
@@ -106,7 +108,7 @@ impl Mesh {
         for (triangle, corners) in self.triangles.iter().enumerate() {
             if let Some(vertex) = corners.iter().find(|&&vertex| vertex as usize >= count) {
                 return bad(
-                    Some(triangle),
+                    Some(Element::Triangle(triangle)),
                     format!(
                         "triangle {triangle} uses vertex {vertex}, but the mesh has {count} vertices: give indices from 0 to that less 1"
                     ),
@@ -124,13 +126,13 @@ impl Mesh {
         }
         if let Some(vertex) = self.normals.iter().position(|n| !n.is_finite()) {
             return bad(
-                Some(vertex),
+                Some(Element::Vertex(vertex)),
                 format!("the normal of vertex {vertex} is {}: normals must be finite", self.normals[vertex]),
             );
         }
         if let Some(vertex) = self.tangents.iter().position(|t| !t.is_finite()) {
             return bad(
-                Some(vertex),
+                Some(Element::Vertex(vertex)),
                 format!(
                     "the tangent of vertex {vertex} is {}: tangents must be finite",
                     self.tangents[vertex]
@@ -138,8 +140,12 @@ impl Mesh {
             );
         }
         for (target, morph) in self.morph_targets.iter().enumerate() {
-            morph.validate(target, count).or_else(|(element, message)| bad(element, message))?;
+            morph
+                .validate(target, count)
+                .or_else(|(vertex, message)| bad(vertex.map(Element::Vertex), message))?;
         }
-        self.weights.validate(count, joint_count).or_else(|(element, message)| bad(element, message))
+        self.weights
+            .validate(count, joint_count)
+            .or_else(|(vertex, message)| bad(vertex.map(Element::Vertex), message))
     }
 }

@@ -12,7 +12,7 @@ pub mod skeleton;
 pub mod tree_roles;
 pub mod weights;
 
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Element, Error, ErrorKind, Result};
 pub use frame::Frame;
 use glam::Vec3;
 pub use humanoid::{Humanoid, Role};
@@ -85,7 +85,7 @@ impl Character {
                         self.skeleton.joints.len()
                     ),
                 )
-                .at(joint));
+                .at(Element::Joint(joint)));
             }
         }
         for (index, mesh) in self.meshes.iter().enumerate() {

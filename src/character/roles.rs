@@ -4,7 +4,7 @@
 use super::naming::{is_helper, roles_from_names};
 use super::tree_roles::roles_from_tree;
 use super::{Humanoid, Mesh, Role, Skeleton};
-use crate::error::Warning;
+use crate::error::{Named, Warning};
 use Role::*;
 use glam::{DVec3, Vec3};
 
@@ -81,7 +81,7 @@ pub fn find_roles(skeleton: &Skeleton, meshes: &[Mesh], up: Vec3) -> (Humanoid, 
             .iter()
             .filter_map(|&role| {
                 let joint = filled.joint(role)?;
-                Some(format!("{role} ({})", skeleton.joints[joint].name))
+                Some(format!("{role} ({})", Named(&skeleton.joints[joint].name)))
             })
             .collect();
         warnings.push(Warning::new(

@@ -1,6 +1,6 @@
 //! Joints as a tree, each with its full transform in rest pose (§IV-A).
 
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Element, Error, ErrorKind, Named, Result};
 use glam::{DMat4, DVec3};
 
 /// What a matrix's last row may be off 0 and 1, against its largest number: rounding. Seen: ±30 % changes no role.
@@ -41,9 +41,9 @@ impl Skeleton {
         let bad = |joint: usize, message: String| {
             Err(Error::new(
                 ErrorKind::BadInput,
-                format!("joint {joint} ({}): {message}", self.joints[joint].name),
+                format!("joint {joint} ({}): {message}", Named(&self.joints[joint].name)),
             )
-            .at(joint))
+            .at(Element::Joint(joint)))
         };
         for (index, joint) in self.joints.iter().enumerate() {
             if let Some(parent) = joint.parent

@@ -39,13 +39,13 @@ pub unsafe extern "C" fn sdef_super_deform(
         let style = handles::style(style)?;
         let (options, rig_options) = options::read(options)?;
         options.validate()?;
-        let results = arrays::structs_in("SdefMeshResult", results, mesh_count)?;
+        let results = arrays::structs_in("results", results, mesh_count)?;
         let mut state = CharacterState::new(read::axes(up, forward)?);
         if !skeleton.is_null() {
             let (skeleton, roles) = read::skeleton(skeleton)?;
             state.set_skeleton(skeleton, roles)?;
         }
-        for (index, mesh) in arrays::structs_in("SdefMesh", meshes, mesh_count)?.iter().enumerate() {
+        for (index, mesh) in arrays::structs_in("meshes", meshes, mesh_count)?.iter().enumerate() {
             let read = read::mesh_at(index, mesh)?;
             state.add_mesh(read)?;
         }

@@ -140,69 +140,105 @@ pub unsafe fn text(text: *const c_char) -> String {
     unsafe { CStr::from_ptr(text) }.to_string_lossy().into_owned()
 }
 
-fn size_in_struct(what: &str, size: u32, own: usize) -> Outcome<usize> {
-    let size = size as usize;
-    if !(8..=LARGEST_STRUCT).contains(&size) || !size.is_multiple_of(4) {
-        return Err(Failure::argument(format!(
-            "struct_size of {what} is {size}: set it to sizeof({what}), which is {own} here"
-        )));
+/// A text that must be there.
+///
+/// # Safety
+/// As [`text`].
+pub unsafe fn needed_text(what: impl Display, from: *const c_char) -> Outcome<String> {
+    let text = unsafe { text(from) };
+    if text.is_empty() {
+        let is = if from.is_null() { "NULL" } else { "empty" };
+        return Err(Failure::argument(format!("{what} is {is}: give a name")));
     }
-    Ok(size)
+    Ok(text)
 }
 
-/// A copy of the caller's struct, which may be older (shorter) or newer (longer) than ours, over `defaults`.
+/// A struct of the caller's that begins with its size, `struct_size`.
+///
+/// # Safety
+/// As [`Plain`]; the first field is `struct_size: u32`.
+pub unsafe trait HostStruct: Plain {
+    /// Its name in C.
+    const NAME: &'static str;
+    /// Its size in version 1 of the ABI, which no host falls below. Until that version is frozen, the size of the day;
+    /// then `offset_of!` of the first field that came later.
+    const FIRST_SIZE: usize = size_of::<Self>();
+
+    /// What the fields are that a host's older struct does not have.
+    fn defaults() -> Self {
+        // SAFETY: any bytes are a value.
+        unsafe { core::mem::zeroed() }
+    }
+}
+
+/// Structs of the caller that are all zero by default.
+macro_rules! host_structs { ($($name:ident),*) => { $(
+    // SAFETY: `#[repr(C)]`, numbers and pointers alone, `struct_size` first.
+    unsafe impl $crate::ffi::arrays::Plain for $name {}
+    unsafe impl $crate::ffi::arrays::HostStruct for $name {
+        const NAME: &'static str = stringify!($name);
+    }
+)* } }
+pub(super) use host_structs;
+
+/// Checks the size that a caller's struct says.
+pub fn check_size<T: HostStruct>(size: u32) -> Outcome<usize> {
+    let bytes = size as usize;
+    if !(T::FIRST_SIZE..=LARGEST_STRUCT).contains(&bytes) || !bytes.is_multiple_of(4) {
+        let (name, first, own) = (T::NAME, T::FIRST_SIZE, size_of::<T>());
+        return Err(Failure::argument(format!(
+            "struct_size of {name} is {size}: set it to sizeof({name}), which is {own} here and was {first} at first"
+        )));
+    }
+    Ok(bytes)
+}
+
+/// A copy of the caller's struct, which may be older (shorter) or newer (longer) than ours, over the defaults.
 ///
 /// # Safety
 /// `from` is NULL or points to as many bytes as its first number says.
-pub unsafe fn struct_in<T: Plain>(what: &str, from: *const T, defaults: T) -> Outcome<T> {
+pub unsafe fn struct_in<T: HostStruct>(from: *const T) -> Outcome<T> {
     if from.is_null() {
-        return Err(Failure::argument(format!("{what} is NULL: give one")));
+        return Err(Failure::argument(format!("{} is NULL: give one", T::NAME)));
     }
     unsafe {
-        let size = size_in_struct(what, from.cast::<u32>().read_unaligned(), size_of::<T>())?;
-        let mut copy = defaults;
+        let size = check_size::<T>(from.cast::<u32>().read_unaligned())?;
+        let mut copy = T::defaults();
         (&raw mut copy).cast::<u8>().copy_from_nonoverlapping(from.cast(), size.min(size_of::<T>()));
         Ok(copy)
     }
 }
 
-/// As [`struct_in`], over zeros.
-///
-/// # Safety
-/// As [`struct_in`].
-pub unsafe fn zeroed_in<T: Plain>(what: &str, from: *const T) -> Outcome<T> {
-    // SAFETY: any bytes are a value.
-    unsafe { struct_in(what, from, core::mem::zeroed()) }
+/// The size of every struct of an array, which the first one says.
+unsafe fn size_of_all<T: HostStruct>(what: &str, from: *const T, count: usize) -> Outcome<usize> {
+    if from.is_null() {
+        return Err(Failure::argument(format!("{what} is NULL, but {count} are needed: give the array")));
+    }
+    let size = check_size::<T>(unsafe { from.cast::<u32>().read_unaligned() })?;
+    stride_of(&what, false, count, size, size)
 }
 
 /// Structs of an array, all of the size that the first one says.
 ///
 /// # Safety
 /// `from` is NULL or holds `count` structs.
-pub unsafe fn structs_in<T: Plain>(what: &str, from: *const T, count: usize) -> Outcome<Vec<T>> {
+pub unsafe fn structs_in<T: HostStruct>(what: &str, from: *const T, count: usize) -> Outcome<Vec<T>> {
     let mut all = Vec::new();
     if count == 0 {
         return Ok(all);
     }
-    if from.is_null() {
-        return Err(Failure::argument(format!(
-            "the array of {what} is NULL, but {count} are needed: give the array"
-        )));
-    }
     unsafe {
-        let size = from.cast::<u32>().read_unaligned();
-        let stride = size_in_struct(what, size, size_of::<T>())?;
-        stride_of(&what, false, count, stride, 8)?;
+        let size = size_of_all(what, from, count)?;
         all = reserved(count, what)?;
         for index in 0..count {
-            let from = from.cast::<u8>().add(index * stride).cast::<T>();
-            if from.cast::<u32>().read_unaligned() != size {
+            let from = from.cast::<u8>().add(index * size).cast::<T>();
+            let own = from.cast::<u32>().read_unaligned();
+            if own as usize != size {
                 return Err(Failure::argument(format!(
-                    "struct_size of {what} {index} is {}, but of the first it is {size}: give all the same",
-                    from.cast::<u32>().read_unaligned()
+                    "struct_size of {what} {index} is {own}, but of the first it is {size}: give all the same"
                 )));
             }
-            all.push(zeroed_in(what, from)?);
+            all.push(struct_in(from)?);
         }
     }
     Ok(all)
@@ -212,9 +248,9 @@ pub unsafe fn structs_in<T: Plain>(what: &str, from: *const T, count: usize) -> 
 ///
 /// # Safety
 /// As [`struct_out`].
-pub unsafe fn check_struct_out<T: Plain>(what: &str, to: *mut T) -> Outcome {
+pub unsafe fn check_struct_out<T: HostStruct>(to: *mut T) -> Outcome {
     if !to.is_null() {
-        size_in_struct(what, unsafe { to.cast::<u32>().read_unaligned() }, size_of::<T>())?;
+        check_size::<T>(unsafe { to.cast::<u32>().read_unaligned() })?;
     }
     Ok(())
 }
@@ -223,16 +259,50 @@ pub unsafe fn check_struct_out<T: Plain>(what: &str, to: *mut T) -> Outcome {
 ///
 /// # Safety
 /// `to` points to as many bytes as its first number says.
-pub unsafe fn struct_out<T: Plain>(what: &str, to: *mut T, value: &T) -> Outcome {
+pub unsafe fn struct_out<T: HostStruct>(to: *mut T, value: &T) -> Outcome {
     if to.is_null() {
-        return Err(Failure::argument(format!("{what} is NULL: give one")));
+        return Err(Failure::argument(format!("{} is NULL: give one", T::NAME)));
     }
     unsafe {
-        let size = size_in_struct(what, to.cast::<u32>().read_unaligned(), size_of::<T>())?;
-        let rest = size.min(size_of::<T>()) - 4;
-        to.cast::<u8>().add(4).copy_from_nonoverlapping((&raw const *value).cast::<u8>().add(4), rest);
+        let size = check_size::<T>(to.cast::<u32>().read_unaligned())?;
+        write_struct(to, size, value);
     }
     Ok(())
+}
+
+/// Writes `value` into a struct of `size` bytes; what a newer host's struct has beyond ours stays.
+unsafe fn write_struct<T: HostStruct>(to: *mut T, size: usize, value: &T) {
+    let rest = size.min(size_of::<T>()) - 4;
+    // SAFETY: both structs have as many bytes.
+    unsafe { to.cast::<u8>().add(4).copy_from_nonoverlapping((&raw const *value).cast::<u8>().add(4), rest) };
+}
+
+/// Writes `values` into the caller's array, whose first struct says how large each is; all get that size.
+///
+/// # Safety
+/// `to` is NULL or holds `capacity` structs.
+pub unsafe fn structs_out<T: HostStruct>(what: &str, to: *mut T, capacity: usize, values: &[T]) -> Outcome {
+    let count = values.len();
+    if to.is_null() || (capacity == 0 && count == 0) {
+        return Ok(());
+    }
+    if capacity < count {
+        return Err(too_small(what, capacity, count));
+    }
+    unsafe {
+        let size = size_of_all(what, to, count)?;
+        for (index, value) in values.iter().enumerate() {
+            let to = to.cast::<u8>().add(index * size).cast::<T>();
+            to.cast::<u32>().write_unaligned(size as u32);
+            write_struct(to, size, value);
+        }
+    }
+    Ok(())
+}
+
+fn too_small(what: impl Display, capacity: usize, count: usize) -> Failure {
+    let message = format!("{what} can hold {capacity}, but {count} are needed: give a larger array");
+    Failure::new(SDEF_STATUS_BUFFER_TOO_SMALL, message)
 }
 
 /// Writes a result where the caller wants it.
@@ -283,10 +353,7 @@ impl<T: Plain> Output<T> {
             return Ok(Self::none());
         }
         if capacity < count {
-            return Err(Failure::new(
-                SDEF_STATUS_BUFFER_TOO_SMALL,
-                format!("{what} can hold {capacity}, but {count} are needed: give a larger array"),
-            ));
+            return Err(too_small(what, capacity, count));
         }
         let stride = stride_of(&what, false, count, stride, size_of::<T>())?;
         Ok(Self { start: start.cast(), count, stride, element: std::marker::PhantomData })
@@ -317,7 +384,7 @@ impl<T: Plain> Output<T> {
     }
 }
 
-/// Gives a text into the caller's bytes, and tells how many it takes.
+/// Writes a text into the caller's bytes, and how many it takes.
 ///
 /// # Safety
 /// `to` is NULL or holds `capacity` bytes; `size` is NULL or can be written.
@@ -343,4 +410,69 @@ pub unsafe fn text_out(text: &str, to: *mut c_char, capacity: usize, size: *mut 
 /// A place as numbers.
 pub fn numbers(p: DVec3) -> [f64; 3] {
     p.to_array()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A struct that has grown by its last field.
+    #[repr(C)]
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    struct Grown {
+        struct_size: u32,
+        first: u32,
+        later: f64,
+    }
+    unsafe impl Plain for Grown {}
+    unsafe impl HostStruct for Grown {
+        const NAME: &'static str = "Grown";
+        const FIRST_SIZE: usize = core::mem::offset_of!(Grown, later);
+
+        fn defaults() -> Self {
+            Self { struct_size: 0, first: 0, later: 7.0 }
+        }
+    }
+
+    fn grown(struct_size: u32) -> Grown {
+        Grown { struct_size, first: 3, later: 4.0 }
+    }
+
+    #[test]
+    fn what_an_older_struct_lacks_has_its_default() {
+        let read = |size| unsafe { struct_in(&grown(size)) };
+        assert_eq!(read(16).unwrap().later, 4.0);
+        assert_eq!(read(8).unwrap(), Grown { struct_size: 8, first: 3, later: 7.0 });
+    }
+
+    #[test]
+    fn a_struct_smaller_than_it_ever_was_is_refused_with_both_sizes() {
+        for size in [0, 4, 7, 12 + 1, 1 << 17] {
+            let failure = check_size::<Grown>(size).unwrap_err();
+            assert_eq!(failure.status, SDEF_STATUS_BAD_ARGUMENT);
+            let said = format!(
+                "struct_size of Grown is {size}: set it to sizeof(Grown), which is 16 here and was 8 at first"
+            );
+            assert_eq!(failure.message, said);
+        }
+    }
+
+    #[test]
+    fn an_older_struct_is_written_as_far_as_it_goes() {
+        let mut to = grown(8);
+        unsafe { struct_out(&mut to, &Grown { struct_size: 16, first: 5, later: 6.0 }) }.unwrap();
+        assert_eq!(to, Grown { struct_size: 8, first: 5, later: 4.0 });
+    }
+
+    #[test]
+    fn structs_of_an_array_have_one_size() {
+        let mixed = [grown(16), grown(8)];
+        let failure = unsafe { structs_in("them", mixed.as_ptr(), 2) }.unwrap_err();
+        assert!(failure.message.starts_with("struct_size of them 1 is 8, but of the first it is 16"));
+        let mut to = [grown(16), Grown { struct_size: 0, ..grown(0) }];
+        unsafe { structs_out("them", to.as_mut_ptr(), 2, &[grown(0), grown(0)]) }.unwrap();
+        assert_eq!(to, [grown(16); 2]);
+        let failure = unsafe { structs_out("them", to.as_mut_ptr(), 1, &to.clone()) }.unwrap_err();
+        assert_eq!(failure.status, SDEF_STATUS_BUFFER_TOO_SMALL);
+    }
 }

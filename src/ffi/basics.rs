@@ -7,6 +7,12 @@ use safer_ffi::prelude::*;
 
 /// Compared with sdef_abi_version() before anything else.
 pub const SDEF_ABI_VERSION: u32 = 1;
+/// Of the release that this header belongs to.
+pub const SDEF_VERSION_MAJOR: u32 = 0;
+/// Likewise.
+pub const SDEF_VERSION_MINOR: u32 = 2;
+/// Likewise.
+pub const SDEF_VERSION_PATCH: u32 = 0;
 
 /// No mesh, no element, no role.
 pub const SDEF_NONE: u32 = 0xFFFF_FFFF;
@@ -35,23 +41,44 @@ pub const SDEF_STATUS_BUFFER_TOO_SMALL: u32 = 8;
 pub const SDEF_STATUS_BUSY: u32 = 9;
 /// The progress callback asked to stop.
 pub const SDEF_STATUS_CANCELLED: u32 = 10;
-/// Memory for the caller's arrays could not be had.
+/// Memory could not be had; see Memory above.
 pub const SDEF_STATUS_OUT_OF_MEMORY: u32 = 11;
 /// A fault of this library; the host goes on. Please report it with the message.
 pub const SDEF_STATUS_INTERNAL: u32 = 12;
 
-/// What went wrong. The caller's; struct_size is set before a call (SDEF_ERROR_INIT does so), everything else by it.
+/// No element is concerned.
+pub const SDEF_ELEMENT_NONE: u32 = 0;
+/// A vertex of the mesh.
+pub const SDEF_ELEMENT_VERTEX: u32 = 1;
+/// A triangle of the mesh.
+pub const SDEF_ELEMENT_TRIANGLE: u32 = 2;
+/// A joint of the skeleton.
+pub const SDEF_ELEMENT_JOINT: u32 = 3;
+/// An element of the array points or joints of sdef_deformer_map_points.
+pub const SDEF_ELEMENT_POINT: u32 = 4;
+/// An element of SdefOptions.groups.
+pub const SDEF_ELEMENT_GROUP: u32 = 5;
+/// An element of SdefOptions.bone_groups.
+pub const SDEF_ELEMENT_BONE_GROUP: u32 = 6;
+/// An element of SdefOptions.rig_joints.
+pub const SDEF_ELEMENT_GIVEN_JOINT: u32 = 7;
+/// An element of the array bones of sdef_style_from_numbers.
+pub const SDEF_ELEMENT_BONE: u32 = 8;
+
+/// What went wrong. The caller's: SDEF_ERROR_INIT or {0} before the first call; every call fills it anew.
 #[derive_ReprC]
 #[repr(C)]
 pub struct SdefError {
-    /// sizeof(SdefError); 0 or else too small to hold a sentence gives BAD_ARGUMENT and none
+    /// sizeof(SdefError), or 0 for the size that it had in version 1 of the ABI
     pub struct_size: u32,
     /// as returned
     pub status: SdefStatus,
     /// index of the mesh concerned, or SDEF_NONE
     pub mesh: u32,
-    /// index of the vertex, triangle or joint concerned, or SDEF_NONE
+    /// index of the element concerned, or SDEF_NONE
     pub element: u32,
+    /// what element counts: SDEF_ELEMENT_*
+    pub element_kind: u32,
     /// one sentence, UTF-8, always terminated, cut between characters; empty after SDEF_STATUS_OK
     pub message: [c_char; 512],
 }
@@ -86,10 +113,19 @@ pub struct SdefDeformer {
     pub id: u64,
 }
 
-/// The library's version, to compare with SDEF_ABI_VERSION: another number is another ABI.
+/// The version of the library's ABI, to compare with SDEF_ABI_VERSION before anything else: another number is another
+/// ABI, with which nothing else may be called. It rises when a function, field or constant goes or changes its meaning.
+/// What is only added (functions, fields at the end of structs with struct_size, constants) raises SDEF_VERSION_MINOR.
 #[ffi_export]
 pub extern "C" fn sdef_abi_version() -> u32 {
     SDEF_ABI_VERSION
+}
+
+/// The library's release, such as "0.2.0". Static text.
+#[ffi_export]
+pub extern "C" fn sdef_version() -> *const c_char {
+    const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), "\0");
+    VERSION.as_ptr().cast()
 }
 
 /// The name of a status, such as "SDEF_STATUS_BUSY"; "unknown status" for other numbers. Static text.
@@ -104,11 +140,13 @@ pub extern "C" fn sdef_live_handles() -> u64 {
     handles::live()
 }
 
-/// Destroys what a handle stands for.
+/// Destroys what a handle stands for. One call for all kinds, so that an owner of handles needs no more than the id.
 ///
-/// handle: the id of a character, style or deformer; 0 is allowed and does nothing.
+/// handle: the id of a character, style or deformer; 0 is allowed and does nothing
 ///
-/// Never BUSY: calls that use the handle on other threads end first, and their memory goes with the last of them.
+/// Returns at once and is never BUSY: a call that uses the handle on another thread goes on to its end and still writes
+/// its arrays, so wait for it before they go. The memory goes with the last such call.
+///
 /// Errors: BAD_HANDLE.
 #[ffi_export]
 pub unsafe extern "C" fn sdef_destroy(handle: u64, error: *mut SdefError) -> SdefStatus {

@@ -1,19 +1,20 @@
 //! What stands around every call: errors become a status and a sentence, panics stop here.
 
 use super::basics::*;
-use crate::error::{Error, ErrorKind};
+use crate::error::{Element, Error, ErrorKind, Warning};
 use core::ffi::{c_char, c_void};
 use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::ptr::{addr_of, addr_of_mut};
-use std::sync::Once;
+use std::sync::{Mutex, Once, PoisonError};
 
 /// Why a call failed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Failure {
     pub status: SdefStatus,
     pub mesh: Option<usize>,
-    pub element: Option<usize>,
+    /// Of which kind, `SDEF_ELEMENT_*`, and which.
+    pub element: Option<(u32, usize)>,
     pub message: String,
 }
 
@@ -40,8 +41,9 @@ impl Failure {
         self
     }
 
-    pub fn at(mut self, element: usize) -> Self {
-        self.element = Some(element);
+    /// About an element of the kind `SDEF_ELEMENT_*`.
+    pub fn at(mut self, kind: u32, element: usize) -> Self {
+        self.element = Some((kind, element));
         self
     }
 }
@@ -57,7 +59,12 @@ impl From<Error> for Failure {
             ErrorKind::Cancelled => SDEF_STATUS_CANCELLED,
         };
         let message = with_field(&error.message, error.option);
-        Self { status, mesh: error.mesh, element: error.element, message }
+        let element = error.element.map(|element| match element {
+            Element::Vertex(index) => (SDEF_ELEMENT_VERTEX, index),
+            Element::Triangle(index) => (SDEF_ELEMENT_TRIANGLE, index),
+            Element::Joint(index) => (SDEF_ELEMENT_JOINT, index),
+        });
+        Self { status, mesh: error.mesh, element, message }
     }
 }
 
@@ -74,6 +81,16 @@ pub fn with_field(message: &str, option: Option<&str>) -> String {
     format!("{message} ({field})")
 }
 
+/// Warnings as a host reads them: a line each, its code first.
+pub fn lines<'a>(warnings: impl Iterator<Item = &'a Warning>) -> String {
+    warnings
+        .map(|warning| {
+            let message = with_field(&warning.message, warning.option);
+            format!("{}: {}\n", warning.code, message.replace('\n', " "))
+        })
+        .collect()
+}
+
 /// What reports progress to the host; it gives true to go on.
 pub fn progress_of(callback: SdefProgress, user: *mut c_void) -> impl FnMut(f32) -> bool {
     move |fraction| match callback {
@@ -85,6 +102,10 @@ pub fn progress_of(callback: SdefProgress, user: *mut c_void) -> impl FnMut(f32)
 
 /// The bytes of `SdefError` before its message.
 const HEAD: usize = core::mem::offset_of!(SdefError, message);
+/// The size of `SdefError` in version 1 of the ABI, for which its size 0 stands.
+const FIRST_ERROR_SIZE: usize = HEAD + MESSAGE;
+/// The bytes of a message.
+const MESSAGE: usize = 512;
 
 /// Runs `body` and writes how it ended.
 ///
@@ -95,46 +116,56 @@ pub unsafe fn call(error: *mut SdefError, body: impl FnOnce() -> Outcome) -> Sde
         0
     } else {
         // SAFETY: the caller's struct begins with its size.
-        unsafe { addr_of!((*error).struct_size).read_unaligned() as usize }
+        match unsafe { addr_of!((*error).struct_size).read_unaligned() as usize } {
+            0 => FIRST_ERROR_SIZE,
+            size => size,
+        }
     };
-    if !error.is_null() && size <= HEAD {
+    if !error.is_null() && size < FIRST_ERROR_SIZE {
         return SDEF_STATUS_BAD_ARGUMENT;
     }
     keep_quiet();
     let outcome = {
         let _inside = Inside::enter();
-        catch_unwind(AssertUnwindSafe(body)).unwrap_or_else(|panic| {
-            let text = panic
-                .downcast_ref::<&str>()
-                .map(|text| (*text).to_string())
-                .or_else(|| panic.downcast_ref::<String>().cloned())
-                .unwrap_or_default();
-            Err(Failure::new(
-                SDEF_STATUS_INTERNAL,
-                format!("a fault of the library, please report it: {text}"),
-            ))
-        })
+        catch_unwind(AssertUnwindSafe(body)).unwrap_or_else(|panic| Err(fault(panic.as_ref())))
     };
     let (status, mesh, element, message) = match &outcome {
         Ok(()) => (SDEF_STATUS_OK, None, None, ""),
         Err(failure) => (failure.status, failure.mesh, failure.element, failure.message.as_str()),
     };
     if !error.is_null() {
-        let index =
+        let number =
             |index: Option<usize>| index.map_or(SDEF_NONE, |index| index.min(SDEF_NONE as usize) as u32);
-        let room = size.min(size_of::<SdefError>()) - HEAD;
-        let text = &message.as_bytes()[..message.floor_char_boundary_at(room - 1)];
+        let text = cut(message, MESSAGE).as_bytes();
         // SAFETY: everything written lies within the size that the caller gave.
         unsafe {
             addr_of_mut!((*error).status).write_unaligned(status);
-            addr_of_mut!((*error).mesh).write_unaligned(index(mesh));
-            addr_of_mut!((*error).element).write_unaligned(index(element));
+            addr_of_mut!((*error).mesh).write_unaligned(number(mesh));
+            addr_of_mut!((*error).element).write_unaligned(number(element.map(|(_, index)| index)));
+            addr_of_mut!((*error).element_kind)
+                .write_unaligned(element.map_or(SDEF_ELEMENT_NONE, |(kind, _)| kind));
             let to = addr_of_mut!((*error).message).cast::<u8>();
             to.copy_from_nonoverlapping(text.as_ptr(), text.len());
             to.add(text.len()).write(0);
         }
     }
     status
+}
+
+/// File and line of the last panic in a call, on whichever of its threads.
+static PLACE: Mutex<Option<(String, u32)>> = Mutex::new(None);
+
+/// What a host learns of a panic.
+fn fault(panic: &(dyn std::any::Any + Send)) -> Failure {
+    let text = panic
+        .downcast_ref::<&str>()
+        .copied()
+        .or_else(|| panic.downcast_ref::<String>().map(String::as_str))
+        .unwrap_or_default();
+    let place = PLACE.lock().unwrap_or_else(PoisonError::into_inner).take();
+    let place = place.map_or(String::new(), |(file, line)| format!("{file}:{line}: "));
+    let message = format!("a fault of the library, please report it: {place}{text}");
+    Failure::new(SDEF_STATUS_INTERNAL, message)
 }
 
 trait CharBoundary {
@@ -183,7 +214,10 @@ fn keep_quiet() {
             let in_call = DEPTH.try_with(|depth| depth.get() > 0).unwrap_or(false);
             let worker = std::thread::current().name() == Some(crate::parallel::WORKER);
             if !in_call && !worker {
-                before(info);
+                return before(info);
+            }
+            if let (Some(at), Ok(mut place)) = (info.location(), PLACE.try_lock()) {
+                *place = Some((at.file().to_string(), at.line()));
             }
         }));
     });
@@ -221,7 +255,8 @@ mod tests {
             status: 99,
             mesh: 99,
             element: 99,
-            message: [b'x' as c_char; 512],
+            element_kind: 99,
+            message: [b'x' as c_char; MESSAGE],
         }
     }
 
@@ -235,8 +270,13 @@ mod tests {
         let mut given = error(size_of::<SdefError>());
         let status = unsafe { call(&mut given, || panic!("at the disco")) };
         assert_eq!((status, given.status), (SDEF_STATUS_INTERNAL, SDEF_STATUS_INTERNAL));
-        assert_eq!((given.mesh, given.element), (SDEF_NONE, SDEF_NONE));
-        assert_eq!(text(&given), "a fault of the library, please report it: at the disco");
+        assert_eq!(
+            (given.mesh, given.element, given.element_kind),
+            (SDEF_NONE, SDEF_NONE, SDEF_ELEMENT_NONE)
+        );
+        // Another test may panic at the same time, so the line may be its own.
+        assert!(text(&given).starts_with("a fault of the library, please report it: src/ffi/guard.rs:"));
+        assert!(text(&given).ends_with(": at the disco"), "{}", text(&given));
         let status = unsafe { call(std::ptr::null_mut(), || panic!("{}", 1)) };
         assert_eq!(status, SDEF_STATUS_INTERNAL);
     }
@@ -255,30 +295,20 @@ mod tests {
     #[test]
     fn a_message_is_cut_between_characters() {
         for (letter, width) in [("a", 1), ("é", 2), ("髪", 3), ("🦀", 4)] {
-            for size in [HEAD + 1, HEAD + 2, HEAD + 100, size_of::<SdefError>(), size_of::<SdefError>() + 64]
-            {
+            for size in [0, size_of::<SdefError>(), size_of::<SdefError>() + 64] {
                 let mut given = error(size);
                 let long = letter.repeat(600);
-                let status =
-                    unsafe { call(&mut given, || Err(Failure::input(long.as_str()).in_mesh(3).at(7))) };
-                assert_eq!(status, SDEF_STATUS_BAD_INPUT);
-                assert_eq!((given.mesh, given.element), (3, 7));
-                let room = (size - HEAD).min(512) - 1;
-                assert_eq!(text(&given), letter.repeat(room / width));
-                if size < size_of::<SdefError>() {
-                    assert_eq!(
-                        given.message[size - HEAD],
-                        b'x' as c_char,
-                        "written beyond the caller's struct"
-                    );
-                }
+                let failure = Failure::input(long.as_str()).in_mesh(3).at(SDEF_ELEMENT_VERTEX, 7);
+                assert_eq!(unsafe { call(&mut given, || Err(failure)) }, SDEF_STATUS_BAD_INPUT);
+                assert_eq!((given.mesh, given.element, given.element_kind), (3, 7, SDEF_ELEMENT_VERTEX));
+                assert_eq!(text(&given), letter.repeat((MESSAGE - 1) / width));
             }
         }
     }
 
     #[test]
-    fn an_error_struct_without_a_size_is_refused() {
-        for size in [0, 4, HEAD] {
+    fn an_error_struct_without_room_is_refused() {
+        for size in [4, HEAD, FIRST_ERROR_SIZE - 4] {
             let mut given = error(size);
             assert_eq!(unsafe { call(&mut given, || Ok(())) }, SDEF_STATUS_BAD_ARGUMENT);
             assert_eq!(given.status, 99);

@@ -19,27 +19,40 @@
 //!            winding: a mirrored character gives the mirrored result. Vertices are floats, joints and points doubles.
 //! Matrices   16 doubles, column by column, for column vectors: the translation is numbers 12, 13 and 14, and numbers
 //!            3, 7, 11 and 15 are 0, 0, 0 and 1.
+//! Results    The feet stay on the ground. The height does not stay: a figure of fewer heads is shorter. sdef_deformer_
+//!            get_figure says how tall it was and is; scale what belongs to it (capsules, cameras, steps) by that.
 //! Handles    A handle is a number, not an address. 0 is none. One that is destroyed, made up or of another kind gives
 //!            SDEF_STATUS_BAD_HANDLE and nothing worse. Styles and deformers keep what they need of a character, which
 //!            may be changed or destroyed before them.
 //! Threads    Any thread may call anything at any time. Calls that read may run beside each other on one handle; where a
 //!            call that changes a handle meets another use of it, the later of the two gets SDEF_STATUS_BUSY (so does
-//!            a progress callback that changes what it is called from). No thread outlives a call. Results are the same
-//!            bits for any number of threads and on every run.
+//!            a progress callback that changes what it is called from). No thread outlives a call. Where the system
+//!            starts no more threads, a call uses fewer. Results are the same bits for any number of threads and on
+//!            every run.
 //! Arrays in  A pointer, a count, and for vertices a stride: the bytes from one element to the next, 0 for packed. They
 //!            need no alignment, are read during the call and never kept. NULL is allowed where the count is 0, and for
 //!            arrays that may be left out, which say so.
 //! Arrays out The caller's, with the number of elements that they can hold (capacity). NULL: left out. One that is too
 //!            small gives SDEF_STATUS_BUFFER_TOO_SMALL, and what is needed is written. On an error nothing else is
 //!            written but the error, counts and sizes.
-//! Text       UTF-8, NUL-terminated; names may be NULL, for none.
-//! Structs    Those that begin with struct_size = sizeof(the struct) may be older or newer than the library. SdefOptions
-//!            is filled by sdef_options_init; every other struct is zeroed and struct_size set, for results too. Numbers
-//!            that choose (kinds, modes) must be one of the constants; 0 and 1 stand for no and yes.
+//! Text       UTF-8, NUL-terminated; names may be NULL, for none, but where they are asked for. Sentences show 64 bytes
+//!            of a name, control characters escaped.
+//! Structs    Zero a struct, set struct_size = sizeof(it), fill in what there is. SdefOptions is filled by
+//!            sdef_options_init, SdefGroupSettings begins as SDEF_GROUP_SETTINGS_INIT. A struct may be newer or older
+//!            than the library: what an older one lacks has its default. One smaller than it ever was is refused. In
+//!            arrays all have the size of the first. Numbers that choose (kinds, modes) must be one of the constants; 0
+//!            and 1 stand for no and yes.
 //! Errors     Every call that can fail returns a SdefStatus; its last argument, which may be NULL, receives a sentence
 //!            that names the array, the element, the value and the remedy. Other results are then as they were.
 //! Progress   A callback (NULL: none) that is called on the caller's thread alone, with a fraction that rises to 1.
-//!            What it returns, if not 0, ends the call with SDEF_STATUS_CANCELLED and leaves everything as it was.
+//!            What it returns, if not 0, ends the call with SDEF_STATUS_CANCELLED and leaves everything as it was. It
+//!            may call the library, and must return: neither a C++ exception nor longjmp may leave it.
+//! Memory     What the caller's arrays need is asked for and may give SDEF_STATUS_OUT_OF_MEMORY. Where rig, create, measure
+//!            or get_report find none for work of their own, the process ends, as Rust programs do.
+//! Cost       Cheap, microseconds: create, destroy, get_info, get_joints, map_points, styles but _measure. A pass over
+//!            the vertices, some 0.1 microseconds each: add_mesh, apply, and set_options where only amount, face_squash,
+//!            face_curve or thread_count change. Ten times that: set_options otherwise. Slow, seconds at 100,000
+//!            vertices: rig, deformer_create, style_measure, get_report and get_figure after a change.
 //! ```
 
 // The C ABI, and the only unsafe code. Each module is a section of the header `include/superdeform.h`, which is generated

@@ -2,10 +2,11 @@
 //!
 //! One struct for everything that can be set; each function reads what concerns it.
 
-use super::arrays::{self, Input, Plain, not_null};
-use super::basics::{SdefError, SdefStatus};
+use super::arrays::{self, HostStruct, Plain, host_structs, not_null};
+use super::basics::*;
 use super::guard::{Failure, Outcome, call};
 use crate::character::Role;
+use crate::error::Named;
 use crate::options::{
     FaceCurve, GarmentWeights, GroupSettings, Mode, Options, RigOptions, Stage, WeightMethod,
 };
@@ -47,11 +48,16 @@ pub const SDEF_GARMENTS_NEAREST: u32 = 1;
 /// Heat on the clothes themselves.
 pub const SDEF_GARMENTS_HEAT: u32 = 2;
 
-/// Settings of one bone group; NAN in any number leaves the measured or the default value.
+/// Settings of one bone group: SDEF_GROUP_SETTINGS_INIT, then what is to be set. NAN in any number leaves the measured
+/// or the default value.
 #[derive_ReprC]
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct SdefGroupSettings {
+    /// sizeof(SdefGroupSettings)
+    pub struct_size: u32,
+    /// 0
+    pub reserved: u32,
     /// head, neck, torso, shoulder, upper_arm, lower_arm, hand, finger, hip, upper_leg, lower_leg, foot,
     /// or a name of your own from SdefBoneGroup
     pub group: *const c_char,
@@ -65,11 +71,20 @@ pub struct SdefGroupSettings {
     pub thickness_transfer: f64,
 }
 unsafe impl Plain for SdefGroupSettings {}
+unsafe impl HostStruct for SdefGroupSettings {
+    const NAME: &'static str = "SdefGroupSettings";
+
+    fn defaults() -> Self {
+        Self::default()
+    }
+}
 
 /// Nothing is set.
 impl Default for SdefGroupSettings {
     fn default() -> Self {
         Self {
+            struct_size: size_of::<Self>() as u32,
+            reserved: 0,
             group: null(),
             length_scale: f64::NAN,
             thickness_scale: f64::NAN,
@@ -84,18 +99,21 @@ impl Default for SdefGroupSettings {
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct SdefBoneGroup {
+    /// sizeof(SdefBoneGroup)
+    pub struct_size: u32,
     /// SDEF_ROLE_* at the end of the bone: LEFT_LOWER_LEG is the left thigh
     pub role: u32,
     /// the group's name
     pub group: *const c_char,
 }
-unsafe impl Plain for SdefBoneGroup {}
 
 /// Where a joint is known to be; see sdef_character_rig.
 #[derive_ReprC]
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct SdefGivenJoint {
+    /// sizeof(SdefGivenJoint)
+    pub struct_size: u32,
     /// SDEF_ROLE_*
     pub role: u32,
     /// model space
@@ -105,7 +123,7 @@ pub struct SdefGivenJoint {
     /// model space
     pub z: f64,
 }
-unsafe impl Plain for SdefGivenJoint {}
+host_structs!(SdefBoneGroup, SdefGivenJoint);
 
 /// Everything that can be set. Filled by sdef_options_init; NULL stands for the defaults wherever options are asked for.
 #[derive_ReprC]
@@ -163,6 +181,13 @@ pub struct SdefOptions {
     pub reserved: u32,
 }
 unsafe impl Plain for SdefOptions {}
+unsafe impl HostStruct for SdefOptions {
+    const NAME: &'static str = "SdefOptions";
+
+    fn defaults() -> Self {
+        defaults()
+    }
+}
 
 /// Fills *options with the defaults.
 ///
@@ -217,9 +242,8 @@ fn defaults() -> SdefOptions {
 unsafe fn init(options: *mut SdefOptions, struct_size: u32) -> Outcome {
     not_null("options", options)?;
     let all = SdefOptions { struct_size, ..defaults() };
+    let size = arrays::check_size::<SdefOptions>(struct_size)?.min(size_of::<SdefOptions>());
     unsafe {
-        arrays::struct_in("SdefOptions", &raw const all, all)?;
-        let size = (struct_size as usize).min(size_of::<SdefOptions>());
         options.cast::<u8>().copy_from_nonoverlapping((&raw const all).cast(), size);
         // What a newer host has beyond our struct is 0.
         options.cast::<u8>().add(size).write_bytes(0, struct_size as usize - size);
@@ -250,11 +274,7 @@ fn unless_nan(number: f64) -> Option<f64> {
 /// # Safety
 /// The struct and its arrays are as the header says.
 pub(super) unsafe fn read(options: *const SdefOptions) -> Outcome<(Options, RigOptions)> {
-    let given = if options.is_null() {
-        defaults()
-    } else {
-        unsafe { arrays::struct_in("SdefOptions", options, defaults()) }?
-    };
+    let given = if options.is_null() { defaults() } else { unsafe { arrays::struct_in(options) }? };
     let mut options = Options {
         mode: one_of("mode", given.mode, Mode::ALL)?,
         rays: (given.rays != 0).then_some(given.rays as usize),
@@ -268,9 +288,11 @@ pub(super) unsafe fn read(options: *const SdefOptions) -> Outcome<(Options, RigO
         thread_count: given.thread_count as usize,
         ..Options::default()
     };
-    let groups = unsafe { Input::new("groups", given.groups, given.group_count as usize, 0) }?;
+    let groups = unsafe { arrays::structs_in("groups", given.groups, given.group_count as usize) }?;
     for (index, settings) in groups.iter().enumerate() {
-        let name = unsafe { arrays::text(settings.group) };
+        let at = |failure: Failure| failure.at(SDEF_ELEMENT_GROUP, index);
+        let name = unsafe { arrays::needed_text(format!("group of groups {index}"), settings.group) };
+        let name = name.map_err(at)?;
         let settings = GroupSettings {
             length_scale: unless_nan(settings.length_scale),
             thickness_scale: unless_nan(settings.thickness_scale),
@@ -278,15 +300,17 @@ pub(super) unsafe fn read(options: *const SdefOptions) -> Outcome<(Options, RigO
             thickness_transfer: unless_nan(settings.thickness_transfer),
         };
         if options.groups.insert(name.clone(), settings).is_some() {
-            return Err(
-                Failure::argument(format!("groups {index} is {name} again: set each group once")).at(index)
-            );
+            let message = format!("groups {index} is {} again: set each group once", Named(&name));
+            return Err(at(Failure::argument(message)));
         }
     }
-    let bones = unsafe { Input::new("bone_groups", given.bone_groups, given.bone_group_count as usize, 0) }?;
+    let bones =
+        unsafe { arrays::structs_in("bone_groups", given.bone_groups, given.bone_group_count as usize) }?;
     for (index, bone) in bones.iter().enumerate() {
-        let role = role(&format!("bone_groups {index}"), bone.role).map_err(|error| error.at(index))?;
-        options.bone_groups.insert(role, unsafe { arrays::text(bone.group) });
+        let at = |failure: Failure| failure.at(SDEF_ELEMENT_BONE_GROUP, index);
+        let role = role(&format!("bone_groups {index}"), bone.role).map_err(at)?;
+        let name = unsafe { arrays::needed_text(format!("group of bone_groups {index}"), bone.group) };
+        options.bone_groups.insert(role, name.map_err(at)?);
     }
     let mut rig = RigOptions {
         method: one_of("rig_weights", given.rig_weights, WeightMethod::ALL)?,
@@ -298,9 +322,11 @@ pub(super) unsafe fn read(options: *const SdefOptions) -> Outcome<(Options, RigO
         thread_count: given.thread_count as usize,
         ..RigOptions::default()
     };
-    let joints = unsafe { Input::new("rig_joints", given.rig_joints, given.rig_joint_count as usize, 0) }?;
+    let joints =
+        unsafe { arrays::structs_in("rig_joints", given.rig_joints, given.rig_joint_count as usize) }?;
     for (index, joint) in joints.iter().enumerate() {
-        let role = role(&format!("rig_joints {index}"), joint.role).map_err(|error| error.at(index))?;
+        let role = role(&format!("rig_joints {index}"), joint.role)
+            .map_err(|failure| failure.at(SDEF_ELEMENT_GIVEN_JOINT, index))?;
         rig.given.insert(role, DVec3::new(joint.x, joint.y, joint.z));
     }
     Ok((options, rig))

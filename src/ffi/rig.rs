@@ -2,10 +2,9 @@
 
 use super::arrays;
 use super::basics::*;
-use super::guard::{call, progress_of, with_field};
+use super::guard::{call, lines, progress_of};
 use super::handles::{self, Object};
 use super::options::{self, SdefOptions};
-use crate::error::Warning;
 use crate::progress::Progress;
 use core::ffi::{c_char, c_void};
 use safer_ffi::prelude::*;
@@ -65,13 +64,4 @@ pub unsafe extern "C" fn sdef_get_warnings(
         arrays::text_out(&lines, text, capacity, size)
     };
     unsafe { call(error, body) }
-}
-
-fn lines<'a>(warnings: impl Iterator<Item = &'a Warning>) -> String {
-    warnings
-        .map(|warning| {
-            let message = with_field(&warning.message, warning.option);
-            format!("{}: {}\n", warning.code, message.replace('\n', " "))
-        })
-        .collect()
 }

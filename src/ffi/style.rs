@@ -2,13 +2,14 @@
 //!
 //! A style is numbers, not a model: it can be saved, mixed, and used with any character.
 
-use super::arrays::{self, Input, Output, Plain, not_null, write_out};
+use super::arrays::{self, HostStruct, Input, Plain, host_structs, not_null, write_out};
 use super::basics::*;
 use super::guard::{Failure, Outcome, call};
 use super::handles::{self, Object};
 use super::options::{self, SdefOptions};
 use crate::character::Role;
 use crate::character::bones::HEAD_TOP;
+use crate::error::Named;
 use crate::options::table;
 use crate::pipeline::Style;
 use crate::shape::product::anatomy::Proportions;
@@ -26,16 +27,16 @@ pub const SDEF_BONE_HEAD_TOP: u32 = 55;
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SdefBone {
+    /// sizeof(SdefBone)
+    pub struct_size: u32,
     /// SDEF_ROLE_* at its end, or SDEF_BONE_HEAD_TOP
     pub end: u32,
-    /// 0
-    pub reserved: u32,
     /// 0 or more
     pub length: f64,
     /// mean distance of the surface, above 0; NAN: not known
     pub radius: f64,
 }
-unsafe impl Plain for SdefBone {}
+host_structs!(SdefBone);
 
 /// A style as plain numbers, in the units of its model; NAN: not known. Product mode transfers what is from
 /// head_half_width on, paper mode the bones.
@@ -91,6 +92,13 @@ pub struct SdefStyleNumbers {
     pub lower_leg_radius: f64,
 }
 unsafe impl Plain for SdefStyleNumbers {}
+unsafe impl HostStruct for SdefStyleNumbers {
+    const NAME: &'static str = "SdefStyleNumbers";
+
+    fn defaults() -> Self {
+        UNKNOWN
+    }
+}
 
 /// A style of so many heads.
 ///
@@ -115,7 +123,7 @@ pub unsafe extern "C" fn sdef_style_from_heads(
                 Style::Shape(like) if like.proportions.is_none() => {
                     return Err(bad(format!(
                         "the style {} holds no proportions to stretch: measure its model again",
-                        like.name
+                        Named(&like.name)
                     )));
                 }
                 Style::Shape(like) => {
@@ -133,7 +141,7 @@ pub unsafe extern "C" fn sdef_style_from_heads(
 /// A built-in style, or a saved one.
 ///
 /// text: "sd2", "sd2.5", "sd3" or "sd4"; or the JSON that sdef_style_to_json gave
-/// size: bytes of text, without any NUL
+/// size: bytes of text, without a NUL at its end: strlen(text)
 ///
 /// Errors: BAD_STYLE.
 #[ffi_export]
@@ -150,12 +158,16 @@ pub unsafe extern "C" fn sdef_style_from_text(
             let at = error.utf8_error().valid_up_to();
             bad(format!("the style's text is no UTF-8 at byte {at}: give what sdef_style_to_json gave"))
         })?;
+        if let Some(at) = text.find('\0') {
+            let message = format!("the style's text holds a NUL at byte {at}: give strlen(text) as its size");
+            return Err(Failure::argument(message));
+        }
         let made = match BodyShape::built_in(text.trim()) {
             Some(shape) => shape,
             None if !text.trim_start().starts_with('{') => {
-                let start: String = text.chars().take(40).collect();
                 return Err(bad(format!(
-                    "\"{start}\" is neither a saved style nor one of {}: give one of them",
+                    "\"{}\" is neither a saved style nor one of {}: give one of them",
+                    Named(&text),
                     BUILT_IN.join(", ")
                 )));
             }
@@ -208,8 +220,8 @@ pub unsafe extern "C" fn sdef_style_from_numbers(
 ) -> SdefStatus {
     let body = || unsafe {
         not_null("style", style)?;
-        let given = arrays::struct_in("SdefStyleNumbers", numbers, UNKNOWN)?;
-        let bones = Input::new("bones", bones, bone_count, 0)?;
+        let given = arrays::struct_in(numbers)?;
+        let bones = arrays::structs_in("bones", bones, bone_count)?;
         if bone_count == 0 && given.bone_head_length.is_nan() && given.head_length.is_nan() {
             return give(Style::heads(given.heads)?, style);
         }
@@ -243,13 +255,14 @@ pub unsafe extern "C" fn sdef_style_from_numbers(
             ..BodyShape::default()
         };
         for (index, bone) in bones.iter().enumerate() {
+            let at = |failure: Failure| failure.at(SDEF_ELEMENT_BONE, index);
             let name = match bone.end {
                 SDEF_BONE_HEAD_TOP => HEAD_TOP,
-                end => options::role(&format!("bones {index}"), end).map_err(|error| error.at(index))?.name(),
+                end => options::role(&format!("bones {index}"), end).map_err(at)?.name(),
             };
             let measured = BoneShape { length: bone.length, radius: known(bone.radius) };
             if made.bones.insert(name.to_string(), measured).is_some() {
-                return Err(bad(format!("bones {index} ends at {name} again: give each end once")).at(index));
+                return Err(at(bad(format!("bones {index} ends at {name} again: give each end once"))));
             }
         }
         made.validate()?;
@@ -260,7 +273,7 @@ pub unsafe extern "C" fn sdef_style_from_numbers(
 
 /// A style between two, measured in heads.
 ///
-/// amount: 0 is first, 1 second
+/// amount: 0 is first, 1 second; 0 to 1
 ///
 /// Errors: BAD_STYLE for a style of N heads that is like none, or where the result would be no body; BAD_OPTION.
 #[ffi_export]
@@ -296,7 +309,7 @@ pub unsafe extern "C" fn sdef_style_blend(
 /// Gives a style's numbers back.
 ///
 /// numbers:    may be NULL
-/// bones:      in the order of their ends, the head's last
+/// bones:      in the order of their ends, the head's last; struct_size of the first is set before; may be NULL
 /// capacity:   bones that the array can hold
 /// bone_count: receives how many there are; may be NULL
 #[ffi_export]
@@ -310,14 +323,14 @@ pub unsafe extern "C" fn sdef_style_get_numbers(
 ) -> SdefStatus {
     let body = || unsafe {
         let style = handles::style(style)?;
-        arrays::check_struct_out("SdefStyleNumbers", numbers)?;
+        arrays::check_struct_out(numbers)?;
         let known = bones_of(&style);
         write_out(bone_count, known.len());
-        Output::new("bones", bones, known.len(), capacity, 0)?.write(&known);
+        arrays::structs_out("bones", bones, capacity, &known)?;
         if numbers.is_null() {
             return Ok(());
         }
-        arrays::struct_out("SdefStyleNumbers", numbers, &numbers_of(&style))
+        arrays::struct_out(numbers, &numbers_of(&style))
     };
     unsafe { call(error, body) }
 }
@@ -438,8 +451,8 @@ fn bones_of(style: &Style) -> Vec<SdefBone> {
     ends.chain([(SDEF_BONE_HEAD_TOP, HEAD_TOP)])
         .filter_map(|(end, name)| shape.bones.get(name).map(|bone| (end, bone)))
         .map(|(end, bone)| SdefBone {
+            struct_size: 0,
             end,
-            reserved: 0,
             length: bone.length,
             radius: bone.radius.unwrap_or(f64::NAN),
         })

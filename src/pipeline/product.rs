@@ -3,7 +3,7 @@
 use super::attach::{Bindings, GroundContact, Placement, joint_bindings};
 use super::{Deformation, Target};
 use crate::character::Role;
-use crate::error::{Error, ErrorKind, Result, Warning};
+use crate::error::{Error, ErrorKind, Named, Result, Warning};
 use crate::options::Options;
 use crate::options::table::PRODUCT_FACE_SQUASH;
 use crate::progress::Progress;
@@ -172,7 +172,7 @@ fn proportions_of(shape: &BodyShape) -> Result<&Proportions> {
     shape.proportions.as_ref().ok_or_else(|| {
         let message = format!(
             "the style {} holds no proportions, which product mode transfers: save it again from its model, or choose the paper's mode",
-            shape.name
+            Named(&shape.name)
         );
         Error::new(ErrorKind::BadStyle, message).about("mode")
     })

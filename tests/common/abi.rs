@@ -26,6 +26,7 @@ pub fn error() -> SdefError {
         status: 0,
         mesh: 0,
         element: 0,
+        element_kind: 0,
         message: [0; 512],
     }
 }
@@ -56,6 +57,27 @@ pub fn options() -> SdefOptions {
 /// Settings of a group that change nothing.
 pub fn group_settings(group: &CStr) -> SdefGroupSettings {
     SdefGroupSettings { group: group.as_ptr(), ..SdefGroupSettings::default() }
+}
+
+pub fn bone_group(role: u32, group: &CStr) -> SdefBoneGroup {
+    SdefBoneGroup { struct_size: size_of::<SdefBoneGroup>() as u32, role, group: group.as_ptr() }
+}
+
+/// What was measured, `SDEF_FIGURE_*`.
+pub fn figure(deformer: SdefDeformer, which: u32) -> SdefFigure {
+    let mut figure = SdefFigure { struct_size: size_of::<SdefFigure>() as u32, ..zeroed() };
+    ask(|error| unsafe { sdef_deformer_get_figure(deformer, which, &mut figure, error) }).unwrap();
+    figure
+}
+
+/// Hips at the origin.
+pub fn given_joint() -> SdefGivenJoint {
+    SdefGivenJoint { struct_size: size_of::<SdefGivenJoint>() as u32, role: 0, x: 0.0, y: 0.0, z: 0.0 }
+}
+
+/// A bone without length.
+pub fn bone() -> SdefBone {
+    SdefBone { struct_size: size_of::<SdefBone>() as u32, ..SdefBone::default() }
 }
 
 pub fn with_threads(thread_count: u32) -> SdefOptions {

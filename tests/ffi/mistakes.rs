@@ -32,6 +32,8 @@ struct Host {
     twice: [SdefGroupSettings; 2],
     too_long: SdefGroupSettings,
     knees: SdefGroupSettings,
+    nameless: SdefGroupSettings,
+    mixed: [SdefGroupSettings; 2],
     bone: SdefBoneGroup,
     joint_of_no_role: SdefGivenJoint,
     joint_nowhere: SdefGivenJoint,
@@ -63,10 +65,19 @@ impl Host {
             matrices_by_rows: joints.iter().map(|joint| joint.rest.transpose().to_cols_array()).collect(),
             twice: [group_settings(c"upper_leg"); 2],
             too_long: SdefGroupSettings { length_scale: 1000.0, ..group_settings(c"upper_leg") },
+            nameless: SdefGroupSettings::default(),
+            mixed: [
+                group_settings(c"foot"),
+                SdefGroupSettings { struct_size: 16, ..group_settings(c"hand") },
+            ],
             knees: SdefGroupSettings { length_scale: 0.5, ..group_settings(c"knees") },
-            bone: SdefBoneGroup { role: 77, group: c"x".as_ptr() },
-            joint_of_no_role: SdefGivenJoint { role: 60, x: 0.0, y: 0.0, z: 0.0 },
-            joint_nowhere: SdefGivenJoint { role: 0, x: f64::NAN, y: 0.0, z: 0.0 },
+            bone: SdefBoneGroup {
+                struct_size: size_of::<SdefBoneGroup>() as u32,
+                role: 77,
+                group: c"x".as_ptr(),
+            },
+            joint_of_no_role: SdefGivenJoint { role: 60, ..given_joint() },
+            joint_nowhere: SdefGivenJoint { x: f64::NAN, ..given_joint() },
         }
     }
 
@@ -121,7 +132,7 @@ impl Host {
                     sdef_style_from_numbers(null(), &numbers, null(), 0, &mut style, error)
                 }
                 Bones(bones) => {
-                    let bones = bones.map(|(end, length)| SdefBone { end, reserved: 0, length, radius: 1.0 });
+                    let bones = bones.map(|(end, length)| SdefBone { end, length, radius: 1.0, ..bone() });
                     sdef_style_from_numbers(null(), &known(), bones.as_ptr(), 2, &mut style, error)
                 }
                 Other(call) => call(self, error),
@@ -169,6 +180,7 @@ const CASES: &[(&str, u32, &str, Call)] = &[
         Other(|host, error| unsafe { sdef_character_add_mesh(host.full, null(), null_mut(), error) }),
     ),
     ("a mesh of size 0", ARGUMENT, "SdefMesh is 0", Mesh(|_, mesh| mesh.struct_size = 0)),
+    ("a mesh of a pointer's size", ARGUMENT, "SdefMesh is 8", Mesh(|_, mesh| mesh.struct_size = 8)),
     ("a mesh of size 7", ARGUMENT, "SdefMesh is 7", Mesh(|_, mesh| mesh.struct_size = 7)),
     ("a mesh of wild size", ARGUMENT, "3735928556", Mesh(|_, mesh| mesh.struct_size = 0xDEAD_BEEC)),
     ("an unknown kind", ARGUMENT, "kind is 6", Mesh(|_, mesh| mesh.kind = 6)),
@@ -326,6 +338,25 @@ const CASES: &[(&str, u32, &str, Call)] = &[
     ("2 rays", OPTION, "rays", Deform(FULL, |_, options| options.rays = 2)),
     ("a head of NAN", OPTION, "NaN", Deform(FULL, |_, options| options.head_scale = f64::NAN)),
     ("an amount of 2", OPTION, "amount", Deform(FULL, |_, options| options.amount = 2.0)),
+    (
+        "a height of -1",
+        OPTION,
+        "height is -1: give style, keep, or a number above 0",
+        Deform(FULL, |_, options| options.height = -1.0),
+    ),
+    (
+        "a group without a name",
+        ARGUMENT,
+        "group of groups 0 is NULL",
+        Deform(FULL, |host, options| (options.groups, options.group_count) = (&host.nameless, 1)),
+    ),
+    (
+        "groups of mixed sizes",
+        ARGUMENT,
+        "struct_size of groups 1",
+        Deform(FULL, |host, options| (options.groups, options.group_count) = (host.mixed.as_ptr(), 2)),
+    ),
+    ("text with its NUL", ARGUMENT, "NUL at byte 5", Text("sd2.5\0")),
     ("hair of -1", OPTION, "hair", Deform(FULL, |_, options| options.hair_length = -1.0)),
     ("a squash of 11", OPTION, "squash", Deform(FULL, |_, options| options.face_squash = 11.0)),
     ("a squash of -11", OPTION, "squash", Deform(FULL, |_, options| options.face_squash = -11.0)),
@@ -430,7 +461,7 @@ const CASES: &[(&str, u32, &str, Call)] = &[
     ("room for 1 morph target", SMALL, "1 morph targets", Results(|r| r.morph_target_capacity = 1)),
     ("a result stride of 8", ARGUMENT, "normals is 8", Results(|result| result.normal_stride = 8)),
     ("results for no mesh", ARGUMENT, "mesh_count is 0", Other(|host, error| no_results(host, 0, error))),
-    ("results of NULL", ARGUMENT, "SdefMeshResult is NULL", Other(|host, e| no_results(host, MESHES, e))),
+    ("results of NULL", ARGUMENT, "results is NULL", Other(|host, e| no_results(host, MESHES, e))),
     (
         "a point of joint 4000000000",
         INPUT,

@@ -17,7 +17,7 @@ pub fn c_header() -> String {
     );
     comment(&mut header, &conventions().lines().collect::<Vec<_>>());
     header.push_str(
-        "\n#ifndef SUPERDEFORM_H\n#define SUPERDEFORM_H\n\n#include <stddef.h>\n#include <stdint.h>\n\n\
+        "\n#ifndef SUPERDEFORM_H\n#define SUPERDEFORM_H\n\n#include <math.h>\n#include <stddef.h>\n#include <stdint.h>\n\n\
          #ifdef __cplusplus\nextern \"C\" {\n#endif\n",
     );
     for section in SECTIONS {
@@ -48,8 +48,8 @@ pub fn c_header() -> String {
             header.push_str(&laid_out(block));
             header.push('\n');
             before_constant = constant;
-            if name == "SdefError" {
-                header.push_str("\n#define SDEF_ERROR_INIT {(uint32_t)sizeof(SdefError), 0, 0, 0, {0}}\n");
+            if INITIALISED.contains(&name.as_str()) {
+                header.push_str(&initialiser(name, block));
             }
         }
         let names: Vec<String> = own.iter().map(|(_, (name, _))| name.clone()).collect();
@@ -58,6 +58,25 @@ pub fn c_header() -> String {
     assert!(blocks.is_empty(), "items of no section: {blocks:?}");
     header.push_str("\n#ifdef __cplusplus\n} // extern \"C\"\n#endif\n\n#endif // SUPERDEFORM_H\n");
     header
+}
+
+/// Structs that begin with a macro `SDEF_.._INIT`.
+const INITIALISED: [&str; 2] = ["SdefError", "SdefGroupSettings"];
+
+/// The macro that a struct begins with: its size, no pointer, NAN for numbers that may be left out.
+fn initialiser(name: &str, block: &str) -> String {
+    let fields = block.lines().map(str::trim).filter(|line| line.ends_with(';') && !line.starts_with('}'));
+    let values = fields.map(|field| match field {
+        "uint32_t struct_size;" => format!("(uint32_t)sizeof({name})"),
+        _ if field.contains('*') => "NULL".to_string(),
+        _ if field.contains('[') => "{0}".to_string(),
+        _ if field.starts_with("double ") => "NAN".to_string(),
+        _ => "0".to_string(),
+    });
+    let values: Vec<String> = values.collect();
+    let upper = name.chars().flat_map(|c| c.is_ascii_uppercase().then_some('_').into_iter().chain([c]));
+    let upper = upper.collect::<String>().to_uppercase();
+    format!("\n#define {}_INIT {{{}}}\n", upper.trim_start_matches('_'), values.join(", "))
 }
 
 /// What cbindgen prints for all sources in one. It does not see `#[ffi_export]`, whose shim stands inside the function,
@@ -92,7 +111,8 @@ fn printed() -> String {
     bindings.write(&mut bytes);
     let _ = std::fs::remove_dir_all(&folder);
     let text = String::from_utf8(bytes).expect("a header is text");
-    let functions = text.matches("SdefStatus sdef_").count() + 3;
+    // Those that cannot fail: abi_version, version, status_name, live_handles.
+    let functions = text.matches("SdefStatus sdef_").count() + 4;
     assert_eq!(functions, exports, "cbindgen has seen as many functions as there are exports");
     text
 }
@@ -164,8 +184,7 @@ fn laid_out(block: &str) -> String {
     let lines: Vec<&str> = block.lines().map(str::trim_end).collect();
     let code = lines.iter().position(|line| !line.starts_with("//")).unwrap_or(lines.len());
     let (docs, code) = lines.split_at(code);
-    // Blank lines of comments are for rustdoc.
-    let docs: Vec<&str> = docs.iter().copied().filter(|doc| *doc != "//").collect();
+    let docs = docs.to_vec();
     let documented = |body: String| {
         [docs.join("\n"), body].into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join("\n")
     };

@@ -166,6 +166,7 @@ public sealed class Deformer : NativeObject
         Group[] groups = new Group[native.Length];
         fixed (SdefGroup* start = native)
         {
+            if (native.Length > 0) start->struct_size = (uint)sizeof(SdefGroup);
             status = Native.sdef_deformer_get_groups(Raw, start, count, &count, &error);
             GC.KeepAlive(this);
             Failure.Check(status, &error);
@@ -186,7 +187,19 @@ public sealed class Deformer : NativeObject
         uint status = Native.sdef_deformer_get_report(Raw, &report, null, UIntPtr.Zero, null, &error);
         GC.KeepAlive(this);
         Failure.Check(status, &error);
-        return new Report(report);
+        return new Report(report, GetFigure(Native.SDEF_FIGURE_TARGET), GetFigure(Native.SDEF_FIGURE_REFERENCE),
+            GetFigure(Native.SDEF_FIGURE_RESULT));
+    }
+
+    private unsafe Figure GetFigure(uint which)
+    {
+        SdefFigure figure = new SdefFigure();
+        figure.struct_size = (uint)sizeof(SdefFigure);
+        SdefError error = Failure.None();
+        uint status = Native.sdef_deformer_get_figure(Raw, which, &figure, &error);
+        GC.KeepAlive(this);
+        Failure.Check(status, &error);
+        return new Figure(figure);
     }
 
     /// <summary>The report as JSON text: numbers by group and role, times, warnings.</summary>

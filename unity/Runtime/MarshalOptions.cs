@@ -26,6 +26,7 @@ internal static unsafe class MarshalOptions
         {
             GroupSettings group = options.Groups[i];
             if (group == null) throw Failure.Argument("Groups[" + i + "] is null: leave it out");
+            groups[i].struct_size = (uint)sizeof(SdefGroupSettings);
             groups[i].group = scope.Text(group.Group);
             group.Write(groups + i);
         }
@@ -41,6 +42,7 @@ internal static unsafe class MarshalOptions
         {
             BoneGroup group = options.BoneGroups[i];
             if (group == null) throw Failure.Argument("BoneGroups[" + i + "] is null: leave it out");
+            groups[i].struct_size = (uint)sizeof(SdefBoneGroup);
             groups[i].role = unchecked((uint)group.Role);
             groups[i].group = scope.Text(group.Group);
         }
@@ -55,6 +57,7 @@ internal static unsafe class MarshalOptions
         for (int i = 0; i < count; i++)
         {
             GivenJoint joint = options.RigJoints[i];
+            joints[i].struct_size = (uint)sizeof(SdefGivenJoint);
             joints[i].role = unchecked((uint)joint.Role);
             joints[i].x = joint.X;
             joints[i].y = joint.Y;

@@ -16,6 +16,9 @@ internal static unsafe partial class Native
     private const string Library = "superdeform";
 #endif
     internal const UInt32 SDEF_ABI_VERSION = 1;
+    internal const UInt32 SDEF_VERSION_MAJOR = 0;
+    internal const UInt32 SDEF_VERSION_MINOR = 2;
+    internal const UInt32 SDEF_VERSION_PATCH = 0;
     internal const UInt32 SDEF_NONE = 0xFFFFFFFF;
     internal const UInt32 SDEF_STATUS_OK = 0;
     internal const UInt32 SDEF_STATUS_BAD_ARGUMENT = 1;
@@ -30,6 +33,15 @@ internal static unsafe partial class Native
     internal const UInt32 SDEF_STATUS_CANCELLED = 10;
     internal const UInt32 SDEF_STATUS_OUT_OF_MEMORY = 11;
     internal const UInt32 SDEF_STATUS_INTERNAL = 12;
+    internal const UInt32 SDEF_ELEMENT_NONE = 0;
+    internal const UInt32 SDEF_ELEMENT_VERTEX = 1;
+    internal const UInt32 SDEF_ELEMENT_TRIANGLE = 2;
+    internal const UInt32 SDEF_ELEMENT_JOINT = 3;
+    internal const UInt32 SDEF_ELEMENT_POINT = 4;
+    internal const UInt32 SDEF_ELEMENT_GROUP = 5;
+    internal const UInt32 SDEF_ELEMENT_BONE_GROUP = 6;
+    internal const UInt32 SDEF_ELEMENT_GIVEN_JOINT = 7;
+    internal const UInt32 SDEF_ELEMENT_BONE = 8;
     internal const UInt32 SDEF_MODE_PRODUCT = 0;
     internal const UInt32 SDEF_MODE_PAPER = 1;
     internal const UInt32 SDEF_STAGE_LENGTH = 0;
@@ -112,9 +124,14 @@ internal static unsafe partial class Native
     internal const UInt32 SDEF_ROLE_RIGHT_LITTLE_DISTAL = 53;
     internal const UInt32 SDEF_ROLE_UPPER_CHEST = 54;
     internal const UInt32 SDEF_BONE_HEAD_TOP = 55;
+    internal const UInt32 SDEF_FIGURE_TARGET = 0;
+    internal const UInt32 SDEF_FIGURE_REFERENCE = 1;
+    internal const UInt32 SDEF_FIGURE_RESULT = 2;
 
     /// <summary>
-    /// The library's version, to compare with SDEF_ABI_VERSION: another number is another ABI.
+    /// The version of the library's ABI, to compare with SDEF_ABI_VERSION before anything else: another number is another
+    /// ABI, with which nothing else may be called. It rises when a function, field or constant goes or changes its meaning.
+    /// What is only added (functions, fields at the end of structs with struct_size, constants) raises SDEF_VERSION_MINOR.
     /// </summary>
     [DllImport(Library, ExactSpelling = true, CallingConvention = CallingConvention.Cdecl)]
     internal static extern UInt32 sdef_abi_version ();
@@ -246,7 +263,7 @@ internal static unsafe partial class Native
     /// <summary>
     /// Deforms the meshes, into the caller's arrays.
     ///
-    /// meshes:         mesh_count structs in the order of the character's meshes, all of one struct_size
+    /// results:        mesh_count structs in the order of the character's meshes, all of one struct_size
     /// mesh_count:     as many as the character has
     /// progress, user: see Progress above
     ///
@@ -255,7 +272,7 @@ internal static unsafe partial class Native
     [DllImport(Library, ExactSpelling = true, CallingConvention = CallingConvention.Cdecl)]
     internal static extern UInt32 sdef_deformer_apply(
         SdefDeformer deformer,
-        SdefMeshResult* meshes,
+        SdefMeshResult* results,
         UIntPtr mesh_count,
         SdefProgress progress,
         void* user,
@@ -282,8 +299,26 @@ internal static unsafe partial class Native
         SdefError* error);
 
     /// <summary>
+    /// Gives what was measured on a figure.
+    ///
+    /// which:  SDEF_FIGURE_*
+    /// figure: struct_size is set before
+    ///
+    /// The first call after a change measures the result, as sdef_deformer_get_report does.
+    ///
+    /// Errors: BAD_ARGUMENT; NO_GEOMETRY where the result is too flat to be measured.
+    /// </summary>
+    [DllImport(Library, ExactSpelling = true, CallingConvention = CallingConvention.Cdecl)]
+    internal static extern UInt32 sdef_deformer_get_figure(
+        SdefDeformer deformer,
+        UInt32 which,
+        SdefFigure* figure,
+        SdefError* error);
+
+    /// <summary>
     /// Gives what is done to each bone group.
     ///
+    /// groups:      struct_size of the first is set before; may be NULL
     /// capacity:    groups that the array can hold
     /// group_count: receives how many there are; may be NULL
     /// </summary>
@@ -317,7 +352,7 @@ internal static unsafe partial class Native
 
     /// <summary>
     /// Measures the result and gives the numbers of the run. The first call after a change takes as long as an apply and a
-    /// measurement together.
+    /// measurement together; later ones are for free.
     ///
     /// report:   may be NULL
     /// json:     receives everything as JSON text: numbers by group and role, times, warnings
@@ -373,11 +408,13 @@ internal static unsafe partial class Native
         SdefError* error);
 
     /// <summary>
-    /// Destroys what a handle stands for.
+    /// Destroys what a handle stands for. One call for all kinds, so that an owner of handles needs no more than the id.
     ///
-    /// handle: the id of a character, style or deformer; 0 is allowed and does nothing.
+    /// handle: the id of a character, style or deformer; 0 is allowed and does nothing
     ///
-    /// Never BUSY: calls that use the handle on other threads end first, and their memory goes with the last of them.
+    /// Returns at once and is never BUSY: a call that uses the handle on another thread goes on to its end and still writes
+    /// its arrays, so wait for it before they go. The memory goes with the last such call.
+    ///
     /// Errors: BAD_HANDLE.
     /// </summary>
     [DllImport(Library, ExactSpelling = true, CallingConvention = CallingConvention.Cdecl)]
@@ -432,7 +469,7 @@ internal static unsafe partial class Native
     /// <summary>
     /// A style between two, measured in heads.
     ///
-    /// amount: 0 is first, 1 second
+    /// amount: 0 is first, 1 second; 0 to 1
     ///
     /// Errors: BAD_STYLE for a style of N heads that is like none, or where the result would be no body; BAD_OPTION.
     /// </summary>
@@ -479,7 +516,7 @@ internal static unsafe partial class Native
     /// A built-in style, or a saved one.
     ///
     /// text: "sd2", "sd2.5", "sd3" or "sd4"; or the JSON that sdef_style_to_json gave
-    /// size: bytes of text, without any NUL
+    /// size: bytes of text, without a NUL at its end: strlen(text)
     ///
     /// Errors: BAD_STYLE.
     /// </summary>
@@ -494,7 +531,7 @@ internal static unsafe partial class Native
     /// Gives a style's numbers back.
     ///
     /// numbers:    may be NULL
-    /// bones:      in the order of their ends, the head's last
+    /// bones:      in the order of their ends, the head's last; struct_size of the first is set before; may be NULL
     /// capacity:   bones that the array can hold
     /// bone_count: receives how many there are; may be NULL
     /// </summary>
@@ -566,6 +603,12 @@ internal static unsafe partial class Native
         SdefProgress progress,
         void* user,
         SdefError* error);
+
+    /// <summary>
+    /// The library's release, such as "0.2.0". Static text.
+    /// </summary>
+    [DllImport(Library, ExactSpelling = true, CallingConvention = CallingConvention.Cdecl)]
+    internal static extern sbyte* sdef_version ();
 }
 
 /// <summary>
@@ -704,12 +747,12 @@ internal unsafe struct SdefMesh {
 }
 
 /// <summary>
-/// What went wrong. The caller's; struct_size is set before a call (SDEF_ERROR_INIT does so), everything else by it.
+/// What went wrong. The caller's: SDEF_ERROR_INIT or {0} before the first call; every call fills it anew.
 /// </summary>
 [StructLayout(LayoutKind.Sequential)]
 internal unsafe struct SdefError {
     /// <summary>
-    /// sizeof(SdefError); 0 or else too small to hold a sentence gives BAD_ARGUMENT and none
+    /// sizeof(SdefError), or 0 for the size that it had in version 1 of the ABI
     /// </summary>
     public UInt32 struct_size;
 
@@ -724,9 +767,14 @@ internal unsafe struct SdefError {
     public UInt32 mesh;
 
     /// <summary>
-    /// index of the vertex, triangle or joint concerned, or SDEF_NONE
+    /// index of the element concerned, or SDEF_NONE
     /// </summary>
     public UInt32 element;
+
+    /// <summary>
+    /// what element counts: SDEF_ELEMENT_*
+    /// </summary>
+    public UInt32 element_kind;
 
     /// <summary>
     /// one sentence, UTF-8, always terminated, cut between characters; empty after SDEF_STATUS_OK
@@ -832,10 +880,21 @@ internal unsafe struct SdefCharacterInfo {
 }
 
 /// <summary>
-/// Settings of one bone group; NAN in any number leaves the measured or the default value.
+/// Settings of one bone group: SDEF_GROUP_SETTINGS_INIT, then what is to be set. NAN in any number leaves the measured
+/// or the default value.
 /// </summary>
 [StructLayout(LayoutKind.Sequential)]
 internal unsafe struct SdefGroupSettings {
+    /// <summary>
+    /// sizeof(SdefGroupSettings)
+    /// </summary>
+    public UInt32 struct_size;
+
+    /// <summary>
+    /// 0
+    /// </summary>
+    public UInt32 reserved;
+
     /// <summary>
     /// head, neck, torso, shoulder, upper_arm, lower_arm, hand, finger, hip, upper_leg, lower_leg, foot,
     /// or a name of your own from SdefBoneGroup
@@ -869,6 +928,11 @@ internal unsafe struct SdefGroupSettings {
 [StructLayout(LayoutKind.Sequential)]
 internal unsafe struct SdefBoneGroup {
     /// <summary>
+    /// sizeof(SdefBoneGroup)
+    /// </summary>
+    public UInt32 struct_size;
+
+    /// <summary>
     /// SDEF_ROLE_* at the end of the bone: LEFT_LOWER_LEG is the left thigh
     /// </summary>
     public UInt32 role;
@@ -884,6 +948,11 @@ internal unsafe struct SdefBoneGroup {
 /// </summary>
 [StructLayout(LayoutKind.Sequential)]
 internal unsafe struct SdefGivenJoint {
+    /// <summary>
+    /// sizeof(SdefGivenJoint)
+    /// </summary>
+    public UInt32 struct_size;
+
     /// <summary>
     /// SDEF_ROLE_*
     /// </summary>
@@ -1172,51 +1241,20 @@ internal unsafe struct SdefStyle {
 }
 
 /// <summary>
-/// One bone group: what is done to it, and how large it is; NAN where not known.
-/// </summary>
-[StructLayout(LayoutKind.Sequential)]
-internal unsafe struct SdefGroup {
-    /// <summary>
-    /// terminated; longer names of your own are cut
-    /// </summary>
-    public fixed sbyte name[64];
-
-    /// <summary>
-    /// 1 keeps the length of the group's bones
-    /// </summary>
-    public double length_scale;
-
-    /// <summary>
-    /// 1 keeps the thickness
-    /// </summary>
-    public double thickness_scale;
-
-    /// <summary>
-    /// sum over the character's bones, left and right
-    /// </summary>
-    public double target_length;
-
-    /// <summary>
-    /// mean distance of the surface
-    /// </summary>
-    public double target_radius;
-
-    /// <summary>
-    /// the style's, in its own units
-    /// </summary>
-    public double reference_length;
-
-    /// <summary>
-    /// the style's, in its own units
-    /// </summary>
-    public double reference_radius;
-}
-
-/// <summary>
-/// What was measured on a body; heights are along up.
+/// What was measured on a body; heights are along up. NAN: not known.
 /// </summary>
 [StructLayout(LayoutKind.Sequential)]
 internal unsafe struct SdefFigure {
+    /// <summary>
+    /// sizeof(SdefFigure)
+    /// </summary>
+    public UInt32 struct_size;
+
+    /// <summary>
+    /// 0
+    /// </summary>
+    public UInt32 reserved;
+
     /// <summary>
     /// extent of all meshes along up
     /// </summary>
@@ -1259,6 +1297,57 @@ internal unsafe struct SdefFigure {
 }
 
 /// <summary>
+/// One bone group: what is done to it, and how large it is; NAN where not known.
+/// </summary>
+[StructLayout(LayoutKind.Sequential)]
+internal unsafe struct SdefGroup {
+    /// <summary>
+    /// sizeof(SdefGroup)
+    /// </summary>
+    public UInt32 struct_size;
+
+    /// <summary>
+    /// 0
+    /// </summary>
+    public UInt32 reserved;
+
+    /// <summary>
+    /// terminated; longer names of your own are cut
+    /// </summary>
+    public fixed sbyte name[64];
+
+    /// <summary>
+    /// 1 keeps the length of the group's bones
+    /// </summary>
+    public double length_scale;
+
+    /// <summary>
+    /// 1 keeps the thickness
+    /// </summary>
+    public double thickness_scale;
+
+    /// <summary>
+    /// sum over the character's bones, left and right
+    /// </summary>
+    public double target_length;
+
+    /// <summary>
+    /// mean distance of the surface
+    /// </summary>
+    public double target_radius;
+
+    /// <summary>
+    /// the style's, in its own units
+    /// </summary>
+    public double reference_length;
+
+    /// <summary>
+    /// the style's, in its own units
+    /// </summary>
+    public double reference_radius;
+}
+
+/// <summary>
 /// The numbers of a run.
 /// </summary>
 [StructLayout(LayoutKind.Sequential)]
@@ -1272,21 +1361,6 @@ internal unsafe struct SdefReport {
     /// 1 where the rig was made, 0 where it was the character's own
     /// </summary>
     public UInt32 rig_made;
-
-    /// <summary>
-    /// the character before
-    /// </summary>
-    public SdefFigure target;
-
-    /// <summary>
-    /// the style; NAN throughout for a style of N heads
-    /// </summary>
-    public SdefFigure reference;
-
-    /// <summary>
-    /// measured anew on what comes out
-    /// </summary>
-    public SdefFigure result;
 
     /// <summary>
     /// head of the target over head of the style, times head_scale (product mode)
@@ -1432,14 +1506,14 @@ internal unsafe struct SdefStyleNumbers {
 [StructLayout(LayoutKind.Sequential)]
 internal unsafe struct SdefBone {
     /// <summary>
+    /// sizeof(SdefBone)
+    /// </summary>
+    public UInt32 struct_size;
+
+    /// <summary>
     /// SDEF_ROLE_* at its end, or SDEF_BONE_HEAD_TOP
     /// </summary>
     public UInt32 end;
-
-    /// <summary>
-    /// 0
-    /// </summary>
-    public UInt32 reserved;
 
     /// <summary>
     /// 0 or more

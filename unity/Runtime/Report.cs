@@ -43,12 +43,12 @@ public struct Figure
 /// <summary>The numbers of a run.</summary>
 public sealed class Report
 {
-    internal Report(SdefReport native)
+    internal Report(SdefReport native, Figure target, Figure reference, Figure result)
     {
         RigMade = native.rig_made != 0;
-        Target = new Figure(native.target);
-        Reference = new Figure(native.reference);
-        Result = new Figure(native.result);
+        Target = target;
+        Reference = reference;
+        Result = result;
         HeadRatio = native.head_ratio;
         UnreachedVertices = (long)native.unreached_vertices;
         FallbackVertices = (long)native.fallback_vertices;

@@ -83,6 +83,7 @@ public sealed class Style : NativeObject
             SdefBone* native = (SdefBone*)scope.Alloc(checked(count * sizeof(SdefBone)));
             for (int i = 0; i < count; i++)
             {
+                native[i].struct_size = (uint)sizeof(SdefBone);
                 native[i].end = unchecked((uint)bones[i].End);
                 native[i].length = bones[i].Length;
                 native[i].radius = bones[i].Radius;
@@ -97,7 +98,7 @@ public sealed class Style : NativeObject
     /// <summary>A style between two, measured in heads.</summary>
     /// <param name="first">Amount 0.</param>
     /// <param name="second">Amount 1.</param>
-    /// <param name="amount">0 is first, 1 second; may go beyond.</param>
+    /// <param name="amount">0 is first, 1 second; 0 to 1.</param>
     public static unsafe Style Blend(Style first, Style second, double amount)
     {
         if (first == null) throw new ArgumentNullException("first");
@@ -149,6 +150,7 @@ public sealed class Style : NativeObject
             SdefBone[] native = new SdefBone[(int)count];
             fixed (SdefBone* start = native)
             {
+                if (native.Length > 0) start->struct_size = (uint)sizeof(SdefBone);
                 status = Native.sdef_style_get_numbers(Raw, null, start, count, &count, &error);
             }
             GC.KeepAlive(this);

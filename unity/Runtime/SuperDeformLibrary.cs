@@ -6,7 +6,7 @@ namespace SuperDeform
 public static class SuperDeformLibrary
 {
     /// <summary>The version of this package, which is the version of the native library that belongs to it.</summary>
-    public const string Version = "0.1.0";
+    public const string Version = "0.2.0";
 
     /// <summary>The command that builds the native library into the package, in a checkout of the repository.</summary>
     public const string BuildCommand = "bash .ci/unity_package --plugins";

@@ -2,10 +2,11 @@
 //!
 //! Meshes and joints in rest pose: the pose in which vertices and joints fit together, best with arms out (T or A pose).
 
-use super::arrays::{self, Output, Plain, not_null, write_out};
+use super::arrays::{self, Output, host_structs, not_null, write_out};
 use super::basics::*;
 use super::guard::{Failure, Outcome, call};
 use super::handles::{self, Object};
+use crate::character::mesh::place;
 use crate::character::{Character, Mesh, MorphTarget};
 use core::ffi::{c_char, c_void};
 use safer_ffi::prelude::*;
@@ -25,7 +26,8 @@ pub(super) use state::{CharacterState, Ready};
 /// rows:  vertex v has the joints and weights row_starts[v] to row_starts[v + 1] - 1; influence_count is how many there
 ///        are in all, row_starts holds vertex_count + 1 numbers that rise from 0, both strides are 0.
 /// Weights are 0 or more; each vertex's are scaled to sum 1 where it matters. Weight 0 may name any joint. A vertex
-/// whose weights are all 0 moves with the hips.
+/// whose weights are all 0 moves with the hips, and so does a mesh without weights beside a skeleton: what is fixed to a
+/// joint (a sword, a cape) has weight 1 to it throughout.
 #[derive_ReprC]
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
@@ -34,8 +36,8 @@ pub struct SdefMesh {
     pub struct_size: u32,
     /// SDEF_MESH_*
     pub kind: u32,
-    /// for messages, and for guessing the kind, as in "node/mesh/material", of which the last
-    /// that says one counts; may be NULL
+    /// for messages, and for guessing the kind by English words in it (hair, eyelash, skirt, hat): "node/mesh/material",
+    /// of which the one that the fewest meshes share counts first, where the mesh lies as it says; may be NULL
     pub name: *const c_char,
     /// up to 4294967294
     pub vertex_count: usize,
@@ -76,7 +78,6 @@ pub struct SdefMesh {
     /// vertex_count + 1 numbers (rows), or NULL (fixed)
     pub row_starts: *const u32,
 }
-unsafe impl Plain for SdefMesh {}
 
 /// A morph target (blend shape): what is added to each vertex of a mesh at weight 1. All arrays are as long as the mesh.
 #[derive_ReprC]
@@ -102,7 +103,6 @@ pub struct SdefMorphTarget {
     /// bytes from vertex to vertex; 0: 12
     pub tangent_stride: usize,
 }
-unsafe impl Plain for SdefMorphTarget {}
 
 /// All joints of a character, those without a humanoid role too.
 #[derive_ReprC]
@@ -113,7 +113,8 @@ pub struct SdefSkeleton {
     pub struct_size: u32,
     /// elements of role_joints, up to SDEF_ROLE_COUNT
     pub role_count: u32,
-    /// joint_count texts, for messages and for guessing roles; may be NULL, and so may each
+    /// joint_count texts, for messages and for guessing roles, as Unity, VRM, Mixamo, Rigify, MMD and other tools name
+    /// joints; may be NULL, and so may each
     pub names: *const *const c_char,
     /// joints
     pub joint_count: usize,
@@ -127,7 +128,6 @@ pub struct SdefSkeleton {
     /// upper arm is left out, roles are guessed from names and the shape of the skeleton; may be NULL
     pub role_joints: *const i32,
 }
-unsafe impl Plain for SdefSkeleton {}
 
 /// What a character holds.
 #[derive_ReprC]
@@ -151,7 +151,8 @@ pub struct SdefCharacterInfo {
     /// of all meshes
     pub triangle_count: u64,
 }
-unsafe impl Plain for SdefCharacterInfo {}
+
+host_structs!(SdefMesh, SdefMorphTarget, SdefSkeleton, SdefCharacterInfo);
 
 /// Makes an empty character.
 ///
@@ -211,7 +212,7 @@ pub unsafe extern "C" fn sdef_character_add_mesh(
 ) -> SdefStatus {
     let body = || unsafe {
         let state = handles::character(character)?;
-        let given = arrays::zeroed_in("SdefMesh", mesh)?;
+        let given = arrays::struct_in(mesh)?;
         let index_to_be = handles::read(&state, "character")?.character().meshes.len();
         let mesh = read::mesh_at(index_to_be, &given)?;
         let added = handles::write(&state, "character")?.add_mesh(mesh)?;
@@ -233,7 +234,7 @@ pub unsafe extern "C" fn sdef_character_add_morph_target(
 ) -> SdefStatus {
     let body = || unsafe {
         let state = handles::character(character)?;
-        let given = arrays::zeroed_in("SdefMorphTarget", target)?;
+        let given = arrays::struct_in(target)?;
         let mut state = handles::write(&state, "character")?;
         let known = state.character();
         let index = mesh as usize;
@@ -253,7 +254,7 @@ pub unsafe extern "C" fn sdef_character_add_morph_target(
         };
         target.validate(mesh.morph_targets.len(), count).map_err(|(vertex, message)| {
             let failure = Failure::input(format!("{}: {message}", place(index, &mesh.name))).in_mesh(index);
-            vertex.map_or(failure.clone(), |vertex| failure.at(vertex))
+            vertex.map_or(failure.clone(), |vertex| failure.at(SDEF_ELEMENT_VERTEX, vertex))
         })?;
         drop(known);
         state.change(|character| character.meshes[index].morph_targets.push(target));
@@ -284,7 +285,7 @@ pub unsafe extern "C" fn sdef_character_get_info(
             vertex_count: own.vertex_count() as u64,
             triangle_count: own.triangle_count() as u64,
         };
-        arrays::struct_out("SdefCharacterInfo", info, &value)
+        arrays::struct_out(info, &value)
     };
     unsafe { call(error, body) }
 }
@@ -397,10 +398,6 @@ pub unsafe extern "C" fn sdef_character_get_weights(
         Ok(())
     };
     unsafe { call(error, body) }
-}
-
-fn place(index: usize, name: &str) -> String {
-    if name.is_empty() { format!("mesh {index}") } else { format!("mesh {index} ({name})") }
 }
 
 fn mesh_of(character: &Character, mesh: usize) -> Outcome<&Mesh> {

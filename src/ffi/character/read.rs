@@ -2,10 +2,12 @@
 
 use super::{
     SDEF_TYPE_DEFAULT, SDEF_TYPE_F32, SDEF_TYPE_U8, SDEF_TYPE_U16, SDEF_TYPE_U32, SdefMesh, SdefSkeleton,
-    place,
 };
+use crate::character::mesh::place;
 use crate::character::{Axes, Character, Humanoid, Joint, Mesh, MeshKind, Role, Skeleton, Weights};
+use crate::error::Named;
 use crate::ffi::arrays::{self, Input, reserved};
+use crate::ffi::basics::{SDEF_ELEMENT_JOINT, SDEF_ELEMENT_VERTEX};
 use crate::ffi::guard::{Failure, Outcome};
 use crate::ffi::options::one_of;
 use core::ffi::c_void;
@@ -34,7 +36,7 @@ pub unsafe fn axes(up: *const f32, forward: *const f32) -> Outcome<Axes> {
 /// # Safety
 /// The struct and its arrays are as the header says.
 pub unsafe fn skeleton(skeleton: *const SdefSkeleton) -> Outcome<(Skeleton, Humanoid)> {
-    let given = unsafe { arrays::zeroed_in("SdefSkeleton", skeleton) }?;
+    let given = unsafe { arrays::struct_in(skeleton) }?;
     let count = given.joint_count;
     if i32::try_from(count).is_err() {
         return Err(Failure::argument(format!("joint_count is {count}: give at most 2147483647")));
@@ -53,9 +55,11 @@ pub unsafe fn skeleton(skeleton: *const SdefSkeleton) -> Outcome<(Skeleton, Huma
         let parent = match parents.get(index) {
             -1 => None,
             parent => Some(usize::try_from(parent).map_err(|_| {
-                let message =
-                    format!("joint {index} ({name}): its parent is {parent}: give a joint, or -1 for none");
-                Failure::input(message).at(index)
+                let message = format!(
+                    "joint {index} ({}): its parent is {parent}: give a joint, or -1 for none",
+                    Named(&name)
+                );
+                Failure::input(message).at(SDEF_ELEMENT_JOINT, index)
             })?),
         };
         joints.push(Joint { name, parent, rest: arrays::matrix(rests.get(index)) });
@@ -81,7 +85,7 @@ pub unsafe fn skeleton(skeleton: *const SdefSkeleton) -> Outcome<(Skeleton, Huma
                     return Err(Failure::input(format!(
                         "role_joints gives {other} and {role} the joint {joint}: a joint plays one role, and -1 stands for none"
                     ))
-                    .at(joint));
+                    .at(SDEF_ELEMENT_JOINT, joint));
                 }
                 humanoid.set(role, joint);
             }
@@ -113,8 +117,7 @@ pub unsafe fn mesh_at(index: usize, given: &SdefMesh) -> Outcome<Mesh> {
 unsafe fn mesh(given: &SdefMesh) -> Outcome<Mesh> {
     let name = unsafe { arrays::text(given.name) };
     let kinds = [
-        // What stands last says most about it: a material more than the node that shows it.
-        name.rsplit('/').find_map(MeshKind::guess),
+        None,
         Some(MeshKind::Body),
         Some(MeshKind::Garment),
         Some(MeshKind::Hair),
@@ -301,7 +304,7 @@ impl Rows {
                 return Err(Failure::input(format!(
                     "row_starts {vertex} is {start}, after {before}: the numbers rise from 0"
                 ))
-                .at(vertex));
+                .at(SDEF_ELEMENT_VERTEX, vertex));
             }
             before = start;
         }

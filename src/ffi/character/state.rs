@@ -1,9 +1,11 @@
 //! What stands behind a handle of a character.
 
-use super::place;
+use crate::character::kinds::{MeshNames, kinds_from_names};
+use crate::character::mesh::place;
 use crate::character::roles::find_roles;
 use crate::character::{Axes, Character, Humanoid, Mesh, Skeleton};
 use crate::error::Warning;
+use crate::ffi::basics::SDEF_ELEMENT_VERTEX;
 use crate::ffi::guard::{Failure, Outcome};
 use crate::pipeline::Rig;
 use crate::progress::Progress;
@@ -15,10 +17,13 @@ pub struct CharacterState {
     resolved: Mutex<Resolved>,
     /// The roles that the host gave.
     given: Humanoid,
+    /// By mesh: whether the host left open what it is.
+    kind_is_open: Vec<bool>,
     rig: Option<MadeRig>,
 }
 
-/// A character whose roles are found when they are first asked for: until then meshes may still come.
+/// A character whose roles, and kinds of meshes, are found when they are first asked for: until then meshes may still
+/// come.
 struct Resolved {
     character: Arc<Character>,
     warnings: Vec<Warning>,
@@ -53,7 +58,7 @@ impl CharacterState {
     pub fn new(axes: Axes) -> Self {
         let character = Arc::new(Character { axes, ..Character::default() });
         let resolved = Resolved { character, warnings: Vec::new(), roles_found: false };
-        Self { resolved: Mutex::new(resolved), given: Humanoid::default(), rig: None }
+        Self { resolved: Mutex::new(resolved), given: Humanoid::default(), kind_is_open: Vec::new(), rig: None }
     }
 
     fn resolved(&mut self) -> &mut Resolved {
@@ -97,12 +102,24 @@ impl CharacterState {
             if resolved.character.humanoid != humanoid {
                 Arc::make_mut(&mut resolved.character).humanoid = humanoid;
             }
+            self.guess_kinds(&mut resolved.character);
             resolved.roles_found = true;
         }
         Ready {
             own: resolved.character.clone(),
             rigged: self.rig.as_ref().map(|made| (made.rig.clone(), made.rigged.clone())),
             warnings: resolved.warnings.clone(),
+        }
+    }
+
+    /// Reads from their names what the meshes are that the host left open.
+    fn guess_kinds(&self, character: &mut Arc<Character>) {
+        let names: Vec<MeshNames> =
+            character.meshes.iter().map(|mesh| MeshNames::of_path(&mesh.name)).collect();
+        for (index, kind) in kinds_from_names(character, &names).into_iter().enumerate() {
+            if self.kind_is_open[index] && character.meshes[index].kind != kind {
+                Arc::make_mut(character).meshes[index].kind = kind;
+            }
         }
     }
 
@@ -113,7 +130,7 @@ impl CharacterState {
             mesh.weights.validate(mesh.positions.len(), count).map_err(|(vertex, message)| {
                 let failure =
                     Failure::input(format!("{}: {message}", place(index, &mesh.name))).in_mesh(index);
-                vertex.map_or(failure.clone(), |vertex| failure.at(vertex))
+                vertex.map_or(failure.clone(), |vertex| failure.at(SDEF_ELEMENT_VERTEX, vertex))
             })?;
         }
         self.given = roles.clone();
@@ -144,6 +161,7 @@ impl CharacterState {
         }
         // Released, so that the change need not copy the character.
         drop(character);
+        self.kind_is_open.push(mesh.kind.is_none());
         self.change(|character| character.meshes.push(mesh));
         Ok(index)
     }

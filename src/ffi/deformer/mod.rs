@@ -1,10 +1,11 @@
 //! The deformer: made once, applied as often as something changes
 
-use super::arrays::{self, Input, Output, Plain, not_null, write_out};
+use super::arrays::{self, Input, Output, host_structs, not_null, write_out};
 use super::basics::*;
 use super::guard::{self, Failure, call, progress_of};
 use super::handles::{self, Object};
 use super::options::{self, SdefOptions};
+use crate::error::Named;
 use crate::pipeline::Style;
 use crate::progress::Progress;
 use crate::report::FigureReport;
@@ -50,13 +51,16 @@ pub struct SdefMeshResult {
     /// likewise
     pub morph_tangents: *mut f32,
 }
-unsafe impl Plain for SdefMeshResult {}
 
 /// One bone group: what is done to it, and how large it is; NAN where not known.
 #[derive_ReprC]
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct SdefGroup {
+    /// sizeof(SdefGroup)
+    pub struct_size: u32,
+    /// 0
+    pub reserved: u32,
     /// terminated; longer names of your own are cut
     pub name: [c_char; 64],
     /// 1 keeps the length of the group's bones
@@ -72,13 +76,23 @@ pub struct SdefGroup {
     /// the style's, in its own units
     pub reference_radius: f64,
 }
-unsafe impl Plain for SdefGroup {}
 
-/// What was measured on a body; heights are along up.
+/// The character before.
+pub const SDEF_FIGURE_TARGET: u32 = 0;
+/// The style; NAN throughout for a style of N heads.
+pub const SDEF_FIGURE_REFERENCE: u32 = 1;
+/// Measured anew on what comes out.
+pub const SDEF_FIGURE_RESULT: u32 = 2;
+
+/// What was measured on a body; heights are along up. NAN: not known.
 #[derive_ReprC]
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct SdefFigure {
+    /// sizeof(SdefFigure)
+    pub struct_size: u32,
+    /// 0
+    pub reserved: u32,
     /// extent of all meshes along up
     pub height: f64,
     /// chin to crown (product mode), head joint to head top (paper mode)
@@ -106,12 +120,6 @@ pub struct SdefReport {
     pub struct_size: u32,
     /// 1 where the rig was made, 0 where it was the character's own
     pub rig_made: u32,
-    /// the character before
-    pub target: SdefFigure,
-    /// the style; NAN throughout for a style of N heads
-    pub reference: SdefFigure,
-    /// measured anew on what comes out
-    pub result: SdefFigure,
     /// head of the target over head of the style, times head_scale (product mode)
     pub head_ratio: f64,
     /// vertices that the rig left without weights
@@ -119,7 +127,7 @@ pub struct SdefReport {
     /// vertices that were weighted by another rule than the chosen one
     pub fallback_vertices: u64,
 }
-unsafe impl Plain for SdefReport {}
+host_structs!(SdefMeshResult, SdefGroup, SdefFigure, SdefReport);
 
 /// Makes the deformation that gives a character a style. What it needs of the character is read before it begins: that
 /// may be changed meanwhile.
@@ -178,7 +186,7 @@ pub unsafe extern "C" fn sdef_deformer_set_options(
 
 /// Deforms the meshes, into the caller's arrays.
 ///
-/// meshes:         mesh_count structs in the order of the character's meshes, all of one struct_size
+/// results:        mesh_count structs in the order of the character's meshes, all of one struct_size
 /// mesh_count:     as many as the character has
 /// progress, user: see Progress above
 ///
@@ -186,7 +194,7 @@ pub unsafe extern "C" fn sdef_deformer_set_options(
 #[ffi_export]
 pub unsafe extern "C" fn sdef_deformer_apply(
     deformer: SdefDeformer,
-    meshes: *const SdefMeshResult,
+    results: *const SdefMeshResult,
     mesh_count: usize,
     progress: SdefProgress,
     user: *mut c_void,
@@ -196,7 +204,7 @@ pub unsafe extern "C" fn sdef_deformer_apply(
         let state = handles::deformer(deformer)?;
         let state = handles::read(&state, "deformer")?;
         state.check_count(mesh_count)?;
-        let results = arrays::structs_in("SdefMeshResult", meshes, mesh_count)?;
+        let results = arrays::structs_in("results", results, mesh_count)?;
         let mut callback = progress_of(progress, user);
         state.apply(&results, &mut Progress::new(&mut callback))
     };
@@ -239,9 +247,9 @@ pub unsafe extern "C" fn sdef_deformer_get_joints(
                 if rest.determinant() == 0.0 || !inverse.is_finite() {
                     let message = format!(
                         "joint {index} ({}): its rest matrix has no inverse: give one that flattens nothing",
-                        joint.name
+                        Named(&joint.name)
                     );
-                    return Err(Failure::input(message).at(index));
+                    return Err(Failure::input(message).at(SDEF_ELEMENT_JOINT, index));
                 }
                 inverses.push(inverse.to_cols_array());
             }
@@ -290,11 +298,11 @@ pub unsafe extern "C" fn sdef_deformer_map_points(
                 return Err(Failure::input(format!(
                     "point {index} moves with joint {joint}, but there are {joint_count} joints: name one of them"
                 ))
-                .at(index));
+                .at(SDEF_ELEMENT_POINT, index));
             }
             if !point.is_finite() {
                 let message = format!("point {index} is at {point}: points must be finite numbers");
-                return Err(Failure::input(message).at(index));
+                return Err(Failure::input(message).at(SDEF_ELEMENT_POINT, index));
             }
             mapped.push(state.deformer().map(joint as usize, point));
         }
@@ -308,6 +316,7 @@ pub unsafe extern "C" fn sdef_deformer_map_points(
 
 /// Gives what is done to each bone group.
 ///
+/// groups:      struct_size of the first is set before; may be NULL
 /// capacity:    groups that the array can hold
 /// group_count: receives how many there are; may be NULL
 #[ffi_export]
@@ -331,11 +340,10 @@ pub unsafe extern "C" fn sdef_deformer_get_groups(
         names.sort_unstable();
         names.dedup();
         write_out(group_count, names.len());
-        let places = Output::new("groups", groups, names.len(), capacity, 0)?;
         let sizes = |shape: Option<&GroupShape>| {
             shape.map_or([f64::NAN; 2], |shape| [shape.length, shape.radius.unwrap_or(f64::NAN)])
         };
-        places.write_each(names.iter().map(|&name| {
+        let found = names.iter().map(|&name| {
             let [length_scale, thickness_scale] = match deformer.coefficients().get(name) {
                 Some(coefficient) => [coefficient.length_scale, coefficient.thickness_scale],
                 None => [f64::NAN; 2],
@@ -347,6 +355,8 @@ pub unsafe extern "C" fn sdef_deformer_get_groups(
                 *to = byte as c_char;
             }
             SdefGroup {
+                struct_size: 0,
+                reserved: 0,
                 name: text,
                 length_scale,
                 thickness_scale,
@@ -355,14 +365,45 @@ pub unsafe extern "C" fn sdef_deformer_get_groups(
                 reference_length,
                 reference_radius,
             }
-        }));
-        Ok(())
+        });
+        arrays::structs_out("groups", groups, capacity, &found.collect::<Vec<_>>())
+    };
+    unsafe { call(error, body) }
+}
+
+/// Gives what was measured on a figure.
+///
+/// which:  SDEF_FIGURE_*
+/// figure: struct_size is set before
+///
+/// The first call after a change measures the result, as sdef_deformer_get_report does.
+///
+/// Errors: BAD_ARGUMENT; NO_GEOMETRY where the result is too flat to be measured.
+#[ffi_export]
+pub unsafe extern "C" fn sdef_deformer_get_figure(
+    deformer: SdefDeformer,
+    which: u32,
+    figure: *mut SdefFigure,
+    error: *mut SdefError,
+) -> SdefStatus {
+    let body = || unsafe {
+        let state = handles::deformer(deformer)?;
+        arrays::check_struct_out(figure)?;
+        let which = options::one_of("which", which, &[0, 1, 2])?;
+        let state = handles::read(&state, "deformer")?;
+        let report = state.report()?;
+        let value = match which {
+            SDEF_FIGURE_TARGET => figure_of(&report.target),
+            SDEF_FIGURE_REFERENCE => report.reference.as_ref().map_or(NO_FIGURE, figure_of),
+            _ => figure_of(&report.result),
+        };
+        arrays::struct_out(figure, &value)
     };
     unsafe { call(error, body) }
 }
 
 /// Measures the result and gives the numbers of the run. The first call after a change takes as long as an apply and a
-/// measurement together.
+/// measurement together; later ones are for free.
 ///
 /// report:   may be NULL
 /// json:     receives everything as JSON text: numbers by group and role, times, warnings
@@ -379,19 +420,9 @@ pub unsafe extern "C" fn sdef_deformer_get_report(
     size: *mut usize,
     error: *mut SdefError,
 ) -> SdefStatus {
-    const NO_FIGURE: SdefFigure = SdefFigure {
-        height: f64::NAN,
-        head_length: f64::NAN,
-        heads: f64::NAN,
-        crown: f64::NAN,
-        chin: f64::NAN,
-        shoulder_line: f64::NAN,
-        crotch: f64::NAN,
-        sole: f64::NAN,
-    };
     let body = || unsafe {
         let state = handles::deformer(deformer)?;
-        arrays::check_struct_out("SdefReport", report)?;
+        arrays::check_struct_out(report)?;
         let state = handles::read(&state, "deformer")?;
         let found = state.report()?;
         let text = serde_json::to_string_pretty(found).map_err(|error| {
@@ -404,20 +435,32 @@ pub unsafe extern "C" fn sdef_deformer_get_report(
         let value = SdefReport {
             struct_size: 0,
             rig_made: u32::from(found.rig.source == "auto"),
-            target: figure(&found.target),
-            reference: found.reference.as_ref().map_or(NO_FIGURE, figure),
-            result: figure(&found.result),
             head_ratio: found.g,
             unreached_vertices: found.rig.unreached_vertices as u64,
             fallback_vertices: found.rig.fallback_vertices.values().sum::<usize>() as u64,
         };
-        arrays::struct_out("SdefReport", report, &value)
+        arrays::struct_out(report, &value)
     };
     unsafe { call(error, body) }
 }
 
-fn figure(figure: &FigureReport) -> SdefFigure {
+const NO_FIGURE: SdefFigure = SdefFigure {
+    struct_size: 0,
+    reserved: 0,
+    height: f64::NAN,
+    head_length: f64::NAN,
+    heads: f64::NAN,
+    crown: f64::NAN,
+    chin: f64::NAN,
+    shoulder_line: f64::NAN,
+    crotch: f64::NAN,
+    sole: f64::NAN,
+};
+
+fn figure_of(figure: &FigureReport) -> SdefFigure {
     SdefFigure {
+        struct_size: 0,
+        reserved: 0,
         height: figure.height,
         head_length: figure.head_length,
         heads: figure.heads,

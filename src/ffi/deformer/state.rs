@@ -2,6 +2,7 @@
 
 use super::SdefMeshResult;
 use crate::character::Character;
+use crate::character::mesh::place;
 use crate::error::Warning;
 use crate::ffi::arrays::{self, Output};
 use crate::ffi::basics::SDEF_STATUS_BUFFER_TOO_SMALL;
@@ -115,15 +116,15 @@ impl Places {
         let lacks = |what: &str, asked: bool, has: bool| {
             if asked && !has && count > 0 {
                 return Err(Failure::argument(format!(
-                    "mesh {index} ({}): {what} are asked for, but it was given none: leave the array NULL",
-                    mesh.name
+                    "{}: {what} are asked for, but it was given none: leave the array NULL",
+                    place(index, &mesh.name)
                 )));
             }
             Ok(())
         };
         lacks("normals", !result.normals.is_null(), !mesh.normals.is_empty())?;
         lacks("tangents", !result.tangents.is_null(), !mesh.tangents.is_empty())?;
-        let name = |what: &str| format!("mesh {index} ({}): {what}", mesh.name);
+        let name = |what: &str| format!("{}: {what}", place(index, &mesh.name));
         unsafe {
             let positions = Output::new(
                 name("positions"),

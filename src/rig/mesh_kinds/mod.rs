@@ -8,7 +8,7 @@ mod reach;
 
 use super::{FoundJoint, UnitFigure};
 use crate::character::{MeshKind, Role};
-use crate::error::Warning;
+use crate::error::{Named, Warning};
 use crate::geometry::{Surface, range, weld};
 use facts::{Facts, Scene};
 use glam::DVec3;
@@ -178,7 +178,7 @@ fn warning(figure: &UnitFigure, kinds: &[MeshKind], meshes: &[usize]) -> Vec<War
         .iter()
         .map(|&mesh| {
             let name = &figure.names[mesh];
-            let name = if name.is_empty() { format!("mesh {mesh}") } else { name.clone() };
+            let name = if name.is_empty() { format!("mesh {mesh}") } else { Named(name).to_string() };
             format!("{name} ({})", kinds[mesh])
         })
         .collect();

@@ -28,10 +28,9 @@ public sealed class MappingTests
     public void Reports()
     {
         SdefReport native = (SdefReport)Filled(typeof(SdefReport));
-        native.target.height = 101;
-        native.reference.height = 102;
-        native.result.height = 103;
-        Report report = new Report(native);
+        Figure[] figures = { new Figure(), new Figure(), new Figure() };
+        for (int i = 0; i < 3; i++) figures[i].Height = 101 + i;
+        Report report = new Report(native, figures[0], figures[1], figures[2]);
         Assert.AreEqual(4, AssertNames(native, report));
         Assert.AreEqual(101.0, report.Target.Height);
         Assert.AreEqual(102.0, report.Reference.Height);
