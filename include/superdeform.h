@@ -35,16 +35,18 @@
 //            written but the error, counts and sizes.
 // Text       UTF-8, NUL-terminated; names may be NULL, for none, but where they are asked for. Sentences show 64 bytes
 //            of a name, control characters escaped.
-// Structs    Zero a struct, set struct_size = sizeof(it), fill in what there is; SdefOptions is filled by
-//            sdef_options_init, SdefGroupSettings begins as SDEF_GROUP_SETTINGS_INIT. Structs may be newer or older than
-//            the library: what an older one lacks has its default. One smaller than it ever was is refused. In arrays
-//            all have the size of the first. Numbers that choose (kinds, modes) must be one of the constants; 0 and 1
-//            stand for no and yes.
+// Structs    Zero a struct, set struct_size = sizeof(it), fill in what there is. SdefOptions is filled by
+//            sdef_options_init, SdefGroupSettings begins as SDEF_GROUP_SETTINGS_INIT. A struct may be newer or older
+//            than the library: what an older one lacks has its default. One smaller than it ever was is refused. In
+//            arrays all have the size of the first. Numbers that choose (kinds, modes) must be one of the constants; 0
+//            and 1 stand for no and yes.
 // Errors     Every call that can fail returns a SdefStatus; its last argument, which may be NULL, receives a sentence
 //            that names the array, the element, the value and the remedy. Other results are then as they were.
 // Progress   A callback (NULL: none) that is called on the caller's thread alone, with a fraction that rises to 1.
 //            What it returns, if not 0, ends the call with SDEF_STATUS_CANCELLED and leaves everything as it was. It
 //            may call the library, and must return: neither a C++ exception nor longjmp may leave it.
+// Memory     What the caller's arrays need is asked for and may give SDEF_STATUS_OUT_OF_MEMORY. Where rig, create, measure
+//            or get_report find none for work of their own, the process ends, as Rust programs do.
 // Cost       Cheap, microseconds: create, destroy, get_info, get_joints, map_points, styles but _measure. A pass over
 //            the vertices, some 0.1 microseconds each: add_mesh, apply, and set_options where only amount, face_squash,
 //            face_curve or thread_count change. Ten times that: set_options otherwise. Slow, seconds at 100,000
@@ -84,7 +86,7 @@ typedef uint32_t SdefStatus;
 #define SDEF_STATUS_BUFFER_TOO_SMALL 8  // An array of the caller's is too small; how much is needed is written.
 #define SDEF_STATUS_BUSY 9              // The handle is in use, by another thread or by the call around this one.
 #define SDEF_STATUS_CANCELLED 10        // The progress callback asked to stop.
-#define SDEF_STATUS_OUT_OF_MEMORY 11    // There is not enough memory for the call; see Memory above.
+#define SDEF_STATUS_OUT_OF_MEMORY 11    // Memory could not be had; see Memory above.
 #define SDEF_STATUS_INTERNAL 12         // A fault of this library; the host goes on. Please report it with the message.
 
 #define SDEF_ELEMENT_NONE 0             // No element is concerned.
@@ -283,12 +285,14 @@ enum {
 // rows:  vertex v has the joints and weights row_starts[v] to row_starts[v + 1] - 1; influence_count is how many there
 //        are in all, row_starts holds vertex_count + 1 numbers that rise from 0, both strides are 0.
 // Weights are 0 or more; each vertex's are scaled to sum 1 where it matters. Weight 0 may name any joint. A vertex
-// whose weights are all 0 moves with the hips.
+// whose weights are all 0 moves with the hips, and so does a mesh without weights beside a skeleton: what is fixed to a
+// joint (a sword, a cape) has weight 1 to it throughout.
 typedef struct SdefMesh {
   uint32_t struct_size;       // sizeof(SdefMesh)
   uint32_t kind;              // SDEF_MESH_*
-  const char *name;           // for messages, and for guessing the kind, as in "node/mesh/material", of which the last
-                              // that says one counts; may be NULL
+  const char *name;           // for messages, and for guessing the kind by English words in it (hair, eyelash, skirt,
+                              // hat): "node/mesh/material", of which the one that the fewest meshes share counts first,
+                              // where the mesh lies as it says; may be NULL
   size_t vertex_count;        // up to 4294967294
   const float *positions;     // 3 floats a vertex, model units
   size_t position_stride;     // bytes from vertex to vertex; 0: 12
@@ -327,7 +331,8 @@ typedef struct SdefMorphTarget {
 typedef struct SdefSkeleton {
   uint32_t struct_size;        // sizeof(SdefSkeleton)
   uint32_t role_count;         // elements of role_joints, up to SDEF_ROLE_COUNT
-  const char *const *names;    // joint_count texts, for messages and for guessing roles; may be NULL, and so may each
+  const char *const *names;    // joint_count texts, for messages and for guessing roles, as Unity, VRM, Mixamo, Rigify,
+                               // MMD and other tools name joints; may be NULL, and so may each
   size_t joint_count;          // joints
   const int32_t *parents;      // the parent of each joint, or -1; in any order
   const double *rest_matrices; // a matrix a joint, joint space to model space, at rest

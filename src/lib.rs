@@ -97,7 +97,9 @@ pub use character::roles::find_roles;
 pub use character::{Axes, Character, Humanoid, Joint, Mesh, MeshKind, MorphTarget, Role, Skeleton, Weights};
 pub use error::{Element, Error, ErrorKind, Result, Warning};
 pub use geometry::Mapped;
-pub use options::{FaceCurve, GarmentWeights, GroupSettings, Mode, Options, RigOptions, Stage, WeightMethod};
+pub use options::{
+    FaceCurve, GarmentWeights, GroupSettings, Height, Mode, Options, RigOptions, Stage, WeightMethod,
+};
 pub use pipeline::{Deformed, DeformedMesh, Deformer, MeshOutputs, Rig};
 pub use progress::Progress;
 pub use report::Report;

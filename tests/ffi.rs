@@ -28,8 +28,8 @@ use superdeform::internals::ffi::rig::*;
 use superdeform::internals::ffi::style::*;
 use superdeform::internals::shape::Measured;
 use superdeform::{
-    BodyShape, Character, Deformer, FaceCurve, GroupSettings, Humanoid, Mode, MorphTarget, Options, Rig,
-    RigOptions, Role, Stage, Style, find_roles,
+    BodyShape, Character, Deformer, FaceCurve, GroupSettings, Height, Humanoid, Mode, MorphTarget, Options,
+    Rig, RigOptions, Role, Stage, Style, find_roles,
 };
 
 /// Held by every test, so that one can wait until no other is at work and count the handles that are left.
@@ -287,6 +287,16 @@ fn options_that_are_set_later_give_what_a_new_deformer_gives() {
             "stage",
             SdefOptions { stage: SDEF_STAGE_LENGTH, hair_length: 0.3, ..plain },
             Options { stage: Stage::Length, hair_length: 0.3, ..Options::default() },
+        ),
+        (
+            "kept height",
+            SdefOptions { height: 0.0, amount: 0.7, ..plain },
+            Options { height: Height::Keep, amount: 0.7, ..Options::default() },
+        ),
+        (
+            "height",
+            SdefOptions { height: 0.25, ..plain },
+            Options { height: Height::Units(0.25), ..Options::default() },
         ),
         (
             "groups",

@@ -12,8 +12,8 @@ use superdeform::internals::shape::Measured;
 use superdeform::internals::shape::product::landmarks::{CrownSource, landmarks};
 use superdeform::internals::shape::style::BUILT_IN;
 use superdeform::{
-    BodyShape, Character, Deformed, Deformer, Error, ErrorKind, FaceCurve, GroupSettings, Mesh, MeshKind,
-    Mode, Options, Report, Role, Style, Weights,
+    BodyShape, Character, Deformed, Deformer, Error, ErrorKind, FaceCurve, GroupSettings, Height, Mesh,
+    MeshKind, Mode, Options, Report, Role, Style, Weights,
 };
 
 const MODES: [Mode; 2] = [Mode::Product, Mode::Paper];
@@ -303,6 +303,51 @@ fn feet_stay_on_the_ground() {
         }
     }
     tell(failures);
+}
+
+#[test]
+fn the_height_is_the_style_s_the_character_s_or_a_number() {
+    let person = Person { skirt: true, ..adult() };
+    let character = Arc::new(person.build());
+    let extent = |deformed: &Deformed| {
+        let heights = deformed.meshes.iter().flat_map(|mesh| &mesh.positions).map(|p| f64::from(p.y));
+        heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), y| (low.min(y), high.max(y)))
+    };
+    let before = character.meshes.iter().flat_map(|mesh| &mesh.positions).map(|p| f64::from(p.y));
+    let before = before.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), y| (low.min(y), high.max(y)));
+    for mode in MODES {
+        let style = style_of(&chibi(), &options(mode));
+        for amount in [1.0, 0.5, 0.0] {
+            let plain = Options { amount, ..options(mode) };
+            let of_style = Deformer::new(character.clone(), &style, &plain).unwrap();
+            let (low, high) = extent(&of_style.apply());
+            for (height, asked) in
+                [(Height::Keep, before.1 - before.0), (Height::Units(2.5), 2.5), (Height::Units(0.1), 0.1)]
+            {
+                let what = format!("{mode}, {height:?}, amount {amount}");
+                let options = Options { height, ..plain.clone() };
+                let mut deformer = Deformer::new(character.clone(), &style, &options).unwrap();
+                let result = deformer.apply();
+                let (new_low, new_high) = extent(&result);
+                assert!((new_high - new_low - asked).abs() < 1e-5 * asked, "{what}: {new_low} to {new_high}");
+                // Feet stay, and everything grows alike: vertices, joints, and what a host maps.
+                assert!((new_low - low).abs() < 1e-5, "{what}: {low} to {new_low}");
+                let size = asked / (high - low);
+                let style_s = of_style.apply();
+                for (one, other) in result.joints.iter().zip(&style_s.joints) {
+                    assert!((one.y - low - size * (other.y - low)).abs() < 1e-5, "{what}");
+                }
+                let head = character.humanoid.joint(Role::Head).unwrap();
+                let mapped = deformer.map(head, character.skeleton.joints[head].position());
+                assert!((mapped.position - result.joints[head]).length() < 1e-9, "{what}");
+                let plain_map = of_style.map(head, character.skeleton.joints[head].position());
+                assert!((mapped.local_scale() - size * plain_map.local_scale()).abs() < 1e-6, "{what}");
+                // A change of the height alone gives what a new deformer gives.
+                deformer.set_options(&plain, &mut superdeform::Progress::none()).unwrap();
+                assert_eq!(deformer.apply().joints, style_s.joints, "{what}");
+            }
+        }
+    }
 }
 
 #[test]

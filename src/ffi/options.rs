@@ -8,7 +8,7 @@ use super::guard::{Failure, Outcome, call};
 use crate::character::Role;
 use crate::error::Named;
 use crate::options::{
-    FaceCurve, GarmentWeights, GroupSettings, Mode, Options, RigOptions, Stage, WeightMethod,
+    FaceCurve, GarmentWeights, GroupSettings, Height, Mode, Options, RigOptions, Stage, WeightMethod,
 };
 use core::ffi::c_char;
 use glam::DVec3;
@@ -179,6 +179,9 @@ pub struct SdefOptions {
     pub rig_joint_count: u32,
     /// 0
     pub reserved: u32,
+    /// how tall the result is, in the character's units, grown or shrunk as a whole about the ground; 0: as tall as the
+    /// character was; NAN (default): as the style makes it
+    pub height: f64,
 }
 unsafe impl Plain for SdefOptions {}
 unsafe impl HostStruct for SdefOptions {
@@ -232,6 +235,7 @@ fn defaults() -> SdefOptions {
         rig_joints: null(),
         rig_joint_count: 0,
         reserved: 0,
+        height: f64::NAN,
     }
 }
 
@@ -284,6 +288,11 @@ pub(super) unsafe fn read(options: *const SdefOptions) -> Outcome<(Options, RigO
         amount: given.amount,
         limits: one_of("limits", given.limits, &[false, true])?,
         hair_length: given.hair_length,
+        height: match unless_nan(given.height) {
+            None => Height::Style,
+            Some(0.0) => Height::Keep,
+            Some(units) => Height::Units(units),
+        },
         stage: one_of("stage", given.stage, Stage::ALL)?,
         thread_count: given.thread_count as usize,
         ..Options::default()

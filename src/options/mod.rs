@@ -114,6 +114,47 @@ pub enum GarmentWeights {
 
 names!(GarmentWeights { Robust: "robust", Nearest: "nearest", Heat: "heat" });
 
+/// How tall the result is. It grows or shrinks as a whole, about the ground below the hips.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Height {
+    /// As the style makes it: a figure of fewer heads is shorter.
+    #[default]
+    Style,
+    /// As tall as the character was.
+    Keep,
+    /// This tall, in the character's units: above 0.
+    Units(f64),
+}
+
+impl std::str::FromStr for Height {
+    type Err = Error;
+
+    fn from_str(text: &str) -> Result<Self> {
+        let height = match (text, text.parse()) {
+            ("style", _) => Self::Style,
+            ("keep", _) => Self::Keep,
+            (_, Ok(units)) => Self::Units(units),
+            _ => return Err(Self::refused(text)),
+        };
+        height.check().map(|()| height)
+    }
+}
+
+impl Height {
+    fn check(self) -> Result<()> {
+        match self {
+            Self::Units(units) if !(units > 0.0 && units.is_finite()) => Err(Self::refused(units)),
+            _ => Ok(()),
+        }
+    }
+
+    fn refused(given: impl std::fmt::Display) -> Error {
+        let message =
+            format!("height is {given}: give style, keep, or a number above 0 in the character's units");
+        Error::new(ErrorKind::BadOption, message).about("height")
+    }
+}
+
 /// What a user sets for one bone group; `None` leaves the measured or the default value.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct GroupSettings {
@@ -162,6 +203,8 @@ pub struct Options {
     pub limits: bool,
     /// Length of hair below the chin: 1 ends it at the part of the body where it ended, 0 at the chin.
     pub hair_length: f64,
+    /// How tall the result is.
+    pub height: Height,
     /// Stop after this stage.
     pub stage: Stage,
     /// Threads to use; 0 means all cores.
@@ -181,6 +224,7 @@ impl Default for Options {
             amount: 1.0,
             limits: true,
             hair_length: 1.0,
+            height: Height::Style,
             stage: Stage::Face,
             thread_count: 0,
         }
@@ -214,6 +258,7 @@ impl Options {
     /// `ErrorKind::BadOption` names the option, its value and its range.
     pub fn validate(&self) -> Result<()> {
         check_all(&self.numbers())?;
+        self.height.check()?;
         for (group, settings) in &self.groups {
             for (name, value) in settings.numbers() {
                 if let Some(value) = value {
@@ -359,6 +404,19 @@ mod tests {
         assert_eq!(error.message, "length transfer of the group legs is 1.5: give a number from 0 to 1");
         let error = RigOptions { voxel_resolution: 8, ..RigOptions::default() }.validate().unwrap_err();
         assert_eq!(error.message, "voxel resolution is 8: give a number from 16 to 512");
+    }
+
+    #[test]
+    fn a_height_is_a_word_or_a_number_above_0() {
+        assert_eq!("style".parse(), Ok(Height::Style));
+        assert_eq!("keep".parse(), Ok(Height::Keep));
+        assert_eq!("1.25".parse(), Ok(Height::Units(1.25)));
+        for bad in ["0", "-1", "NaN", "inf", "tall", ""] {
+            let error = bad.parse::<Height>().unwrap_err();
+            assert_eq!((error.kind, error.option), (ErrorKind::BadOption, Some("height")), "{bad}");
+        }
+        let options = Options { height: Height::Units(0.0), ..Options::default() };
+        assert!(options.validate().unwrap_err().message.starts_with("height is 0: give"));
     }
 
     #[test]

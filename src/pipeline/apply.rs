@@ -36,7 +36,7 @@ impl Deformer {
         let meshes = &self.target.character.meshes;
         assert_eq!(outputs.len(), meshes.len(), "one for each mesh");
         progress.at(0.0)?;
-        if self.options.amount == 0.0 {
+        if self.field.finish.is_nothing() {
             // The way to the canonical frame and back costs a last digit.
             let meshes = meshes.iter().zip(outputs).map(|(mesh, &asked)| unchanged(mesh, asked)).collect();
             progress.at(1.0)?;
@@ -73,7 +73,7 @@ impl Deformer {
     /// Where each joint is now, as in [`Deformed::joints`].
     pub fn deformed_joints(&self) -> Vec<DVec3> {
         let joints = &self.target.character.skeleton.joints;
-        if self.options.amount == 0.0 {
+        if self.field.finish.is_nothing() {
             return joints.iter().map(|joint| joint.position()).collect();
         }
         let placement = self.placement();

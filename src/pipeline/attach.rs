@@ -89,7 +89,7 @@ impl Placement<'_> {
     pub fn vertex(&self, vertex: usize, p: DVec3) -> DVec3 {
         let to = self.field.place(p, &self.bindings.vertices[vertex]);
         match self.hair_offsets.get(vertex) {
-            Some(&offset) => to + self.field.finish.amount * offset,
+            Some(&offset) => to + self.field.finish.share_of_offsets() * offset,
             None => to,
         }
     }

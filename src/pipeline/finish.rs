@@ -1,11 +1,12 @@
-//! Amount, ground and face: what is done last, in this order, and anew for every change of these alone.
+//! Amount, ground, face and height: what is done last, in this order, and anew for every change of these alone.
 
 use super::attach::Placement;
 use super::{Deformer, milliseconds, product};
-use crate::character::MeshKind;
+use crate::character::{MeshKind, Role};
 use crate::face::FaceShape;
 use crate::geometry::bounds;
-use crate::options::{Mode, Stage};
+use crate::geometry::range;
+use crate::options::{Height, Mode, Stage};
 use crate::shape::field::{BodyField, Finish};
 use crate::shape::measured::is_of_head;
 use glam::DVec3;
@@ -22,8 +23,9 @@ impl Deformer {
             self.warnings.extend(self.deformation.heads_left.clone());
         }
         let ground = ground.unwrap_or_else(|| self.ground_shift());
-        self.field.finish = Finish { face: FaceShape::None, amount, ground };
+        self.field.finish = Finish { amount, ground, ..Finish::default() };
         self.finish_face();
+        self.finish_height();
     }
 
     /// Feet stand where they stood: the lowest vertex that touches the ground keeps its height.
@@ -49,6 +51,22 @@ impl Deformer {
         self.warnings.extend(warning);
         self.field.finish.face = face;
         self.timing.face = milliseconds(clock);
+    }
+
+    /// Makes everything as tall as the options say, about the ground below the hips.
+    fn finish_height(&mut self) {
+        let figure = &self.target.measured.figure;
+        let height = match self.options.height {
+            Height::Style => return,
+            Height::Keep => figure.height(),
+            Height::Units(units) => units,
+        };
+        let (low, high) = range(self.placement().all_vertices().iter().map(|p| p.y));
+        if low < high {
+            let hips = figure.role_position(Role::Hips).unwrap_or_default();
+            self.field.finish.about = hips.with_y(self.deformation.bindings.ground.height);
+            self.field.finish.size = height / (high - low);
+        }
     }
 
     /// gamma as set, else the mode's own.

@@ -177,11 +177,12 @@ impl Deformer {
     pub fn set_options(&mut self, options: &Options, progress: &mut Progress) -> Result<()> {
         options.validate()?;
         progress.at(0.0)?;
-        // The field of another amount, face or number of threads, as it is now.
+        // The field of another amount, face, height or number of threads, as it is now.
         let same_shape = Options {
             amount: self.options.amount,
             face_squash: self.options.face_squash,
             face_curve: self.options.face_curve,
+            height: self.options.height,
             thread_count: self.options.thread_count,
             ..options.clone()
         };

@@ -41,12 +41,16 @@ pub struct Finish {
     pub amount: f64,
     /// Added to all heights in the end.
     pub ground: f64,
+    /// Then everything grows by this.
+    pub size: f64,
+    /// What stays where it is when everything grows.
+    pub about: DVec3,
 }
 
 impl Default for Finish {
     /// All the way, without a younger face, from where the field puts the ground.
     fn default() -> Self {
-        Self { face: FaceShape::None, amount: 1.0, ground: 0.0 }
+        Self { face: FaceShape::None, amount: 1.0, ground: 0.0, size: 1.0, about: DVec3::ZERO }
     }
 }
 
@@ -54,11 +58,28 @@ impl Finish {
     /// Part of the way from `p` to where the body's field takes it.
     #[inline(always)]
     fn apply(&self, p: DVec3, Mapped { position, jacobian }: Mapped) -> Mapped {
-        Mapped {
-            // Written so that amount 0 gives p itself, bit for bit.
+        // Written so that amount 0 gives p itself, bit for bit.
+        let to = Mapped {
             position: p + self.amount * (position - p) + DVec3::Y * self.ground,
             jacobian: DMat3::IDENTITY + (jacobian - DMat3::IDENTITY) * self.amount,
+        };
+        if self.size == 1.0 {
+            return to;
         }
+        Mapped {
+            position: self.about + self.size * (to.position - self.about),
+            jacobian: to.jacobian * self.size,
+        }
+    }
+
+    /// How much of an offset is left that is added to where the body's field takes a point.
+    pub fn share_of_offsets(&self) -> f64 {
+        self.size * self.amount
+    }
+
+    /// True where everything stays.
+    pub fn is_nothing(&self) -> bool {
+        self.amount == 0.0 && self.size == 1.0
     }
 }
 

@@ -630,7 +630,8 @@ internal unsafe struct SdefCharacter {
 /// rows:  vertex v has the joints and weights row_starts[v] to row_starts[v + 1] - 1; influence_count is how many there
 /// are in all, row_starts holds vertex_count + 1 numbers that rise from 0, both strides are 0.
 /// Weights are 0 or more; each vertex's are scaled to sum 1 where it matters. Weight 0 may name any joint. A vertex
-/// whose weights are all 0 moves with the hips.
+/// whose weights are all 0 moves with the hips, and so does a mesh without weights beside a skeleton: what is fixed to a
+/// joint (a sword, a cape) has weight 1 to it throughout.
 /// </summary>
 [StructLayout(LayoutKind.Sequential)]
 internal unsafe struct SdefMesh {
@@ -645,8 +646,8 @@ internal unsafe struct SdefMesh {
     public UInt32 kind;
 
     /// <summary>
-    /// for messages, and for guessing the kind, as in "node/mesh/material", of which the last
-    /// that says one counts; may be NULL
+    /// for messages, and for guessing the kind by English words in it (hair, eyelash, skirt, hat): "node/mesh/material",
+    /// of which the one that the fewest meshes share counts first, where the mesh lies as it says; may be NULL
     /// </summary>
     public sbyte* name;
 
@@ -1120,7 +1121,8 @@ internal unsafe struct SdefSkeleton {
     public UInt32 role_count;
 
     /// <summary>
-    /// joint_count texts, for messages and for guessing roles; may be NULL, and so may each
+    /// joint_count texts, for messages and for guessing roles, as Unity, VRM, Mixamo, Rigify, MMD and other tools name
+    /// joints; may be NULL, and so may each
     /// </summary>
     public sbyte** names;
 

@@ -37,6 +37,12 @@ public sealed class Options
     /// </summary>
     public double FaceSquash = double.NaN;
 
+    /// <summary>
+    /// How tall the result is, in the character's units, grown or shrunk as a whole about the ground; 0: as tall as the
+    /// character was; NaN (default): as the style makes it.
+    /// </summary>
+    public double Height = double.NaN;
+
     /// <summary>Default <see cref="SuperDeform.FaceCurve.F4"/>.</summary>
     public FaceCurve FaceCurve = FaceCurve.F4;
 
@@ -89,6 +95,7 @@ public sealed class Options
         native->amount = Amount;
         native->hair_length = HairLength;
         native->face_squash = FaceSquash;
+        native->height = Height;
         native->face_curve = (uint)FaceCurve;
         native->rig_weights = (uint)RigWeights;
         native->rig_garments = (uint)RigGarments;

@@ -53,6 +53,16 @@ public static class SuperDeformLibrary
         found = true;
     }
 
+    /// <summary>The release of the native library that is loaded, such as 0.2.0.</summary>
+    public static unsafe string NativeVersion
+    {
+        get
+        {
+            Check();
+            return Text.Of(Native.sdef_version());
+        }
+    }
+
     /// <summary>The name of a status as C has it, such as SDEF_STATUS_BUSY.</summary>
     public static unsafe string StatusName(Status status)
     {

@@ -7,7 +7,7 @@ use clap::builder::ValueParser;
 use glam::Vec3;
 use regex::Regex;
 use std::path::PathBuf;
-use superdeform::{FaceCurve, GarmentWeights, Stage, WeightMethod};
+use superdeform::{FaceCurve, GarmentWeights, Height, Stage, WeightMethod};
 use values::{choice, count, help, number};
 
 /// Turns a 3D character into its super-deformed (SD, chibi) version.
@@ -61,6 +61,9 @@ pub struct Arguments {
 
     #[arg(long, value_name = "X", value_parser = number("hair_length"), help = help("hair_length"), help_heading = STYLE)]
     pub hair_length: Option<f64>,
+
+    #[arg(long, value_name = "X", value_parser = ValueParser::new(values::height), help = help("height"), help_heading = STYLE)]
+    pub height: Option<Height>,
 
     /// Set a bone group, e.g. upper_leg:length=0.4,thickness=0.8: scales (length, thickness), or how much of
     /// the reference is taken, 0 to 1 (length_transfer, thickness_transfer); repeatable

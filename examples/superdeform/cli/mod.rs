@@ -235,6 +235,7 @@ fn options(arguments: &Arguments) -> Result<Options, Refusal> {
         amount: arguments.amount.unwrap_or(unset.amount),
         limits: !arguments.no_limits && !arguments.paper,
         hair_length: arguments.hair_length.unwrap_or(unset.hair_length),
+        height: arguments.height.unwrap_or(unset.height),
         stage: arguments.stage.unwrap_or(unset.stage),
         thread_count: arguments.threads.unwrap_or(unset.thread_count),
     })

@@ -5,8 +5,8 @@ use glam::Vec3;
 use regex::Regex;
 use std::path::PathBuf;
 use std::str::FromStr;
-use superdeform::GroupSettings;
 use superdeform::options::{OptionInfo, TABLE, Values, find};
+use superdeform::{Error, GroupSettings, Height};
 
 /// Settings of one bone group.
 #[derive(Clone, Debug)]
@@ -59,6 +59,11 @@ fn number_of(name: &str, text: &str) -> Result<f64, String> {
         }
         _ => Ok(value),
     }
+}
+
+/// `style`, `keep`, or a number of units.
+pub fn height(text: &str) -> Result<Height, String> {
+    text.trim().parse().map_err(|error: Error| error.message)
 }
 
 /// A whole number in the range of the option `name`.

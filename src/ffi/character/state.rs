@@ -58,7 +58,12 @@ impl CharacterState {
     pub fn new(axes: Axes) -> Self {
         let character = Arc::new(Character { axes, ..Character::default() });
         let resolved = Resolved { character, warnings: Vec::new(), roles_found: false };
-        Self { resolved: Mutex::new(resolved), given: Humanoid::default(), kind_is_open: Vec::new(), rig: None }
+        Self {
+            resolved: Mutex::new(resolved),
+            given: Humanoid::default(),
+            kind_is_open: Vec::new(),
+            rig: None,
+        }
     }
 
     fn resolved(&mut self) -> &mut Resolved {

@@ -184,6 +184,12 @@ namespace SuperDeform.Editor
             return 1;
         }
 
+        /// <summary>How tall the result is; 1 before there is a preview.</summary>
+        internal float HeightFound
+        {
+            get { return numbers == null ? 1 : (float)numbers.Report.Result.Height; }
+        }
+
         /// <summary>Asks for the conversion.</summary>
         public void Convert()
         {

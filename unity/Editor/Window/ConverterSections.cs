@@ -177,6 +177,13 @@ namespace SuperDeform.Editor
                 value => model.Change("undo.tune", () => options.HeadScale = value)));
             section.Rows.Add(Slider("option.hair_length", OptionRange.HairLength, () => (float)options.HairLength,
                 value => model.Change("undo.tune", () => options.HairLength = value)));
+            section.Rows.Add(Toggle("option.height.keep", true, () => options.Height == 0,
+                value => model.Change("undo.tune", () => options.Height = value ? 0 : double.NaN)));
+            SliderRow height = Slider("option.height", 0.2f, 3, () => options.Height > 0 ? (float)options.Height : model.HeightFound,
+                value => model.Change("undo.tune", () => options.Height = value));
+            height.IsOwn = () => options.Height > 0;
+            height.Reset = () => model.Change("undo.tune", () => options.Height = double.NaN);
+            section.Rows.Add(height);
             SliderRow face = Slider("option.face_squash", 0, 1.5f,
                 () => double.IsNaN(options.FaceSquash) ? (float)OptionDefaults.FaceSquash : (float)options.FaceSquash,
                 value => model.Change("undo.face", () => options.FaceSquash = value));

@@ -11,6 +11,7 @@ public sealed class LibraryTests
     {
         SuperDeformLibrary.Check();
         Assert.AreEqual(Native.SDEF_ABI_VERSION, Native.sdef_abi_version());
+        Assert.AreEqual(SuperDeformLibrary.Version, SuperDeformLibrary.NativeVersion);
     }
 
     [Test]

@@ -19,6 +19,8 @@ public sealed class OptionsTests
             // No number is one of many: any will do.
             Assert.IsTrue(double.IsNaN(expected.face_squash) && double.IsNaN(given->face_squash));
             expected.face_squash = given->face_squash = 0;
+            Assert.IsTrue(double.IsNaN(expected.height) && double.IsNaN(given->height));
+            expected.height = given->height = 0;
             given->groups = null;
             given->bone_groups = null;
             given->rig_joints = null;
