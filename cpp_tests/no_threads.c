@@ -65,5 +65,5 @@ static void without_threads_the_bits_are_the_same(void) {
 int main(void) {
   figure_make(&figure);
   RUN(without_threads_the_bits_are_the_same);
-  return report();
+  return REPORT();
 }

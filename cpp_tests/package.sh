@@ -24,7 +24,7 @@ END
 cat >"$scratch/project/CMakeLists.txt" <<'END'
 cmake_minimum_required(VERSION 3.20)
 project(consumer LANGUAGES C CXX)
-find_package(superdeform 0.1 REQUIRED)
+find_package(superdeform 0.2 REQUIRED)
 foreach(kind superdeform static)
   add_executable(minimal_${kind} minimal.c)
   target_link_libraries(minimal_${kind} PRIVATE superdeform::${kind})
@@ -32,6 +32,12 @@ foreach(kind superdeform static)
   target_compile_features(hello_${kind} PRIVATE cxx_std_17)
   target_link_libraries(hello_${kind} PRIVATE superdeform::${kind})
 endforeach()
+add_library(plugin MODULE plugin.c)
+target_link_libraries(plugin PRIVATE superdeform::static)
+END
+cat >"$scratch/project/plugin.c" <<'END'
+#include <superdeform.h>
+uint32_t plugin_version(void) { return sdef_abi_version(); }
 END
 "$cmake" -S "$scratch/project" -B "$scratch/build" -DCMAKE_PREFIX_PATH="$prefix" >"$scratch/log" || { cat "$scratch/log"; exit 1; }
 "$cmake" --build "$scratch/build" >"$scratch/log" || { cat "$scratch/log"; exit 1; }
@@ -47,6 +53,9 @@ for kind in superdeform static; do
   said=$("$scratch/build/hello_$kind")
   [[ $said == found ]]
 done
+# A plugin exports what is its own.
+exported=$(nm -D --defined-only "$(find "$scratch/build" -name 'libplugin*')" | awk '{ print $NF }')
+[[ $exported == plugin_version ]] || { echo "a plugin exports $(wc -w <<<"$exported") functions:" $exported; exit 1; }
 # The one needs the shared library, the other does not.
 readelf -d "$scratch/build/minimal_superdeform" | grep -q 'NEEDED.*\[libsuperdeform.so\]'
 if readelf -d "$scratch/build/minimal_static" | grep -q superdeform; then

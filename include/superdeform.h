@@ -45,8 +45,8 @@
 // Progress   A callback (NULL: none) that is called on the caller's thread alone, with a fraction that rises to 1.
 //            What it returns, if not 0, ends the call with SDEF_STATUS_CANCELLED and leaves everything as it was. It
 //            may call the library, and must return: neither a C++ exception nor longjmp may leave it.
-// Memory     What the caller's arrays need is asked for and may give SDEF_STATUS_OUT_OF_MEMORY. Where rig, create, measure
-//            or get_report find none for work of their own, the process ends, as Rust programs do.
+// Memory     What the caller's arrays need is asked for and may give SDEF_STATUS_OUT_OF_MEMORY. Where rig, create,
+//            measure or get_report find none for work of their own, the process ends, as Rust programs do.
 // Cost       Cheap, microseconds: create, destroy, get_info, get_joints, map_points, styles but _measure. A pass over
 //            the vertices, some 0.1 microseconds each: add_mesh, apply, and set_options where only amount, face_squash,
 //            face_curve or thread_count change. Ten times that: set_options otherwise. Slow, seconds at 100,000
@@ -228,6 +228,9 @@ typedef struct SdefOptions {
   const SdefGivenJoint *rig_joints; // rig: joints that are known; the rest is found
   uint32_t rig_joint_count;         // elements of rig_joints
   uint32_t reserved;                // 0
+  double height;                    // how tall the result is, in the character's units, grown or shrunk as a whole
+                                    // about the ground; 0: as tall as the character was; NAN (default): as the style
+                                    // makes it
 } SdefOptions;
 
 // Fills *options with the defaults.

@@ -6,8 +6,12 @@
 //     superdeform::Deformer deformer(character, superdeform::Style::from_heads(2.5));
 //     deformer.apply({results.data(), results.size()}, [&](float fraction) { return window.closed(); });
 //
-// What each call does, takes and refuses stands in superdeform.h. Every status but SDEF_STATUS_OK comes as an Error. A
+// What each call does, takes and refuses stands in superdeform.h. Every status but SDEF_STATUS_OK is thrown as an Error. A
 // progress function may return nothing, or true to cancel; what it throws comes out of the call that it was given to.
+//
+// Without exceptions (-fno-exceptions) nothing is thrown: a call that fails gives an empty handle, zeros or nothing, and
+// superdeform::last_error() says why. A Style or Deformer may be empty and given another later, so it can be a member of a
+// class; an empty Character is Character(SdefCharacter{}).
 
 #ifndef SUPERDEFORM_HPP
 #define SUPERDEFORM_HPP
@@ -16,23 +20,42 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <exception>
 #include <iterator>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
+#if defined(__cpp_exceptions) || defined(_CPPUNWIND)
+#define SUPERDEFORM_EXCEPTIONS 1
+#include <exception>
+#include <stdexcept>
+#else
+#define SUPERDEFORM_EXCEPTIONS 0
+#endif
+
 namespace superdeform {
 
+#if SUPERDEFORM_EXCEPTIONS
+using ErrorBase = std::runtime_error;
+#else
+class ErrorBase {
+public:
+  explicit ErrorBase(std::string message) : message_(std::move(message)) {}
+  const char *what() const noexcept { return message_.c_str(); }
+
+private:
+  std::string message_;
+};
+#endif
+
 // What a call that failed says.
-class Error : public std::runtime_error {
+class Error : public ErrorBase {
 public:
   Error(SdefStatus status, const std::string &message, std::uint32_t mesh = SDEF_NONE,
         std::uint32_t element = SDEF_NONE, std::uint32_t element_kind = SDEF_ELEMENT_NONE)
-      : std::runtime_error(message), status_(status), mesh_(mesh), element_(element), element_kind_(element_kind) {}
+      : ErrorBase(message), status_(status), mesh_(mesh), element_(element), element_kind_(element_kind) {}
 
   SdefStatus status() const noexcept { return status_; }      // SDEF_STATUS_*
   std::uint32_t mesh() const noexcept { return mesh_; }       // the mesh concerned, or SDEF_NONE
@@ -67,29 +90,54 @@ private:
   std::size_t size_ = 0;
 };
 
+#if !SUPERDEFORM_EXCEPTIONS
+// Why the last call of this thread that failed did so; SDEF_STATUS_OK before there is one, or after it was taken back:
+// last_error() = {SDEF_STATUS_OK, ""}.
+inline Error &last_error() {
+  static thread_local Error error(SDEF_STATUS_OK, "");
+  return error;
+}
+#endif
+
 namespace detail {
 
-inline void check(SdefStatus status, const SdefError &error) {
-  if (status != SDEF_STATUS_OK) throw Error(status, error.message, error.mesh, error.element, error.element_kind);
+inline void fail(Error error) {
+#if SUPERDEFORM_EXCEPTIONS
+  throw error;
+#else
+  last_error() = std::move(error);
+#endif
 }
 
-// Refuses a library of another ABI; asked once.
-inline void check_version() {
-  static const bool checked = [] {
-    const std::uint32_t version = sdef_abi_version();
-    if (version == SDEF_ABI_VERSION) return true;
-    throw Error(SDEF_STATUS_BAD_ARGUMENT, "superdeform.hpp is for version " + std::to_string(SDEF_ABI_VERSION) +
-                                              " of the ABI, but the library has version " + std::to_string(version) +
-                                              ": take both from one release");
-  }();
-  (void)checked;
+inline void check(SdefStatus status, const SdefError &error) {
+  if (status != SDEF_STATUS_OK) fail({status, error.message, error.mesh, error.element, error.element_kind});
+}
+
+// Refuses a library of another ABI.
+inline bool check_version() {
+  static const std::uint32_t version = sdef_abi_version();
+  if (version == SDEF_ABI_VERSION) return true;
+  fail({SDEF_STATUS_BAD_ARGUMENT, "superdeform.hpp is for version " + std::to_string(SDEF_ABI_VERSION) +
+                                      " of the ABI, but the library has version " + std::to_string(version) +
+                                      ": take both from one release"});
+  return false;
 }
 
 // Calls a function of the ABI, which gets `arguments` and the error.
 template <class Function, class... Arguments> void call(Function function, Arguments... arguments) {
-  check_version();
+  if (!check_version()) return;
   SdefError error = SDEF_ERROR_INIT;
   check(function(arguments..., &error), error);
+}
+
+// What a progress function returns, as the library reads it.
+template <class Progress> std::int32_t asks_to_stop(Progress &progress, float fraction) {
+  if constexpr (std::is_void_v<std::invoke_result_t<Progress &, float>>) {
+    progress(fraction);
+    return 0;
+  } else {
+    return progress(fraction) ? 1 : 0;
+  }
 }
 
 // The same with a progress function: no exception may cross the library, so it waits until the call is over.
@@ -98,6 +146,7 @@ void call_with_progress(Progress &&progress, Function function, Arguments... arg
   if constexpr (std::is_null_pointer_v<std::decay_t<Progress>>) {
     call(function, arguments..., SdefProgress(nullptr), static_cast<void *>(nullptr));
   } else {
+#if SUPERDEFORM_EXCEPTIONS
     struct State {
       std::remove_reference_t<Progress> &progress;
       std::exception_ptr thrown;
@@ -105,12 +154,7 @@ void call_with_progress(Progress &&progress, Function function, Arguments... arg
     const auto trampoline = [](void *user, float fraction) -> std::int32_t {
       State &called = *static_cast<State *>(user);
       try {
-        if constexpr (std::is_void_v<std::invoke_result_t<Progress &, float>>) {
-          called.progress(fraction);
-          return 0;
-        } else {
-          return called.progress(fraction) ? 1 : 0;
-        }
+        return asks_to_stop(called.progress, fraction);
       } catch (...) {
         called.thrown = std::current_exception();
         return 1;
@@ -121,6 +165,13 @@ void call_with_progress(Progress &&progress, Function function, Arguments... arg
     const SdefStatus status = function(arguments..., SdefProgress(trampoline), static_cast<void *>(&state), &error);
     if (state.thrown) std::rethrow_exception(state.thrown);
     check(status, error);
+#else
+    using Called = std::remove_reference_t<Progress>;
+    const auto trampoline = [](void *user, float fraction) -> std::int32_t {
+      return asks_to_stop(*static_cast<Called *>(user), fraction);
+    };
+    call(function, arguments..., SdefProgress(trampoline), static_cast<void *>(&progress));
+#endif
   }
 }
 
@@ -140,10 +191,11 @@ template <class Function> std::string text(Function function) {
   }
 }
 
-inline void check_size(const char *name, std::size_t size, std::size_t needed) {
-  if (size != needed)
-    throw Error(SDEF_STATUS_BAD_ARGUMENT,
-                std::string(name) + " has " + std::to_string(size) + " numbers: give " + std::to_string(needed));
+inline bool check_size(const char *name, std::size_t size, std::size_t needed) {
+  if (size == needed) return true;
+  fail({SDEF_STATUS_BAD_ARGUMENT,
+        std::string(name) + " has " + std::to_string(size) + " numbers: give " + std::to_string(needed)});
+  return false;
 }
 
 // The owner of a handle.
@@ -275,7 +327,7 @@ public:
   // The weights that animate a mesh: influence_count numbers a vertex in each array.
   void weights(std::uint32_t mesh, std::uint32_t influence_count, View<std::uint32_t> joints,
                View<float> weights) const {
-    detail::check_size("joints", joints.size(), weights.size());
+    if (!detail::check_size("joints", joints.size(), weights.size())) return;
     const std::size_t capacity = influence_count == 0 ? 0 : weights.size() / influence_count;
     detail::call(sdef_character_get_weights, raw_, mesh, influence_count, joints.data(), weights.data(), capacity);
   }
@@ -286,6 +338,7 @@ public:
 // What a character should become.
 class Style : public detail::Handle<SdefStyle> {
 public:
+  Style() noexcept = default;
   // Takes a handle over.
   explicit Style(SdefStyle raw) noexcept : Handle(raw) {}
 
@@ -342,8 +395,6 @@ public:
   }
 
 private:
-  Style() noexcept = default;
-
   static Style from_heads_like(double heads, SdefStyle like) {
     Style style;
     detail::call(sdef_style_from_heads, heads, like, &style.raw_);
@@ -360,6 +411,7 @@ public:
     std::vector<double> inverse_binds; // 16 a joint
   };
 
+  Deformer() noexcept = default;
   template <class Progress = std::nullptr_t>
   Deformer(const Character &character, const Style &style, const SdefOptions &options = Options(),
            Progress &&progress = Progress()) {
@@ -397,10 +449,11 @@ public:
   void map_points(View<const std::uint32_t> joints, View<const double> points, View<double> positions,
                   View<double> scales = {}, View<double> jacobians = {}) const {
     const std::size_t count = joints.size();
-    detail::check_size("points", points.size(), 3 * count);
-    if (!positions.empty()) detail::check_size("positions", positions.size(), 3 * count);
-    if (!scales.empty()) detail::check_size("scales", scales.size(), count);
-    if (!jacobians.empty()) detail::check_size("jacobians", jacobians.size(), 9 * count);
+    const bool fits = detail::check_size("points", points.size(), 3 * count) &&
+                      (positions.empty() || detail::check_size("positions", positions.size(), 3 * count)) &&
+                      (scales.empty() || detail::check_size("scales", scales.size(), count)) &&
+                      (jacobians.empty() || detail::check_size("jacobians", jacobians.size(), 9 * count));
+    if (!fits) return;
     detail::call(sdef_deformer_map_points, raw_, joints.data(), points.data(), count, positions.data(), scales.data(),
                  jacobians.data());
   }
@@ -441,7 +494,7 @@ template <class Progress = std::nullptr_t>
 void super_deform(const SdefSkeleton *skeleton, View<const SdefMesh> meshes, const Style &style,
                   View<const SdefMeshResult> results, const SdefOptions &options = Options(),
                   Progress &&progress = Progress(), const float *up = nullptr, const float *forward = nullptr) {
-  detail::check_size("results", results.size(), meshes.size());
+  if (!detail::check_size("results", results.size(), meshes.size())) return;
   detail::call_with_progress(std::forward<Progress>(progress), sdef_super_deform, up, forward, skeleton, meshes.data(),
                              meshes.size(), style.get(), &options, results.data());
 }

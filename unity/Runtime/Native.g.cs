@@ -1100,6 +1100,12 @@ internal unsafe struct SdefOptions {
     /// 0
     /// </summary>
     public UInt32 reserved;
+
+    /// <summary>
+    /// how tall the result is, in the character's units, grown or shrunk as a whole about the ground; 0: as tall as the
+    /// character was; NAN (default): as the style makes it
+    /// </summary>
+    public double height;
 }
 
 [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
