@@ -7,7 +7,7 @@ use clap::builder::ValueParser;
 use glam::Vec3;
 use regex::Regex;
 use std::path::PathBuf;
-use superdeform::{FaceCurve, GarmentWeights, Height, Stage, WeightMethod};
+use superdeform::{FaceCurve, GarmentWeights, Height, Mode, Options, Stage, WeightMethod};
 use values::{choice, count, help, number};
 
 /// Turns a 3D character into its super-deformed (SD, chibi) version.
@@ -161,6 +161,27 @@ pub struct Arguments {
     /// Print nothing but errors
     #[arg(short, long)]
     pub quiet: bool,
+}
+
+impl Arguments {
+    /// The library's options, but for bone groups, which need files to be read.
+    pub fn options(&self) -> Options {
+        let unset = Options::default();
+        Options {
+            mode: if self.paper { Mode::Paper } else { Mode::Product },
+            rays: self.rays,
+            head_scale: self.head_scale.unwrap_or(unset.head_scale),
+            face_squash: self.face_squash,
+            face_curve: self.face_curve.unwrap_or(unset.face_curve),
+            amount: self.amount.unwrap_or(unset.amount),
+            limits: !self.no_limits && !self.paper,
+            hair_length: self.hair_length.unwrap_or(unset.hair_length),
+            height: self.height.unwrap_or(unset.height),
+            stage: self.stage.unwrap_or(unset.stage),
+            thread_count: self.threads.unwrap_or(unset.thread_count),
+            ..unset
+        }
+    }
 }
 
 const STYLE: &str = "Style";

@@ -13,7 +13,7 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use superdeform::internals::character::bones::Group as BoneGroup;
 use superdeform::internals::shape::style::BUILT_IN;
-use superdeform::{Axes, GroupSettings, MeshKind, Mode, Options, RigOptions};
+use superdeform::{Axes, GroupSettings, MeshKind, Options, RigOptions};
 use values::Group;
 
 /// The folder for results when no output path is given.
@@ -223,22 +223,7 @@ fn options(arguments: &Arguments) -> Result<Options, Refusal> {
         entry.length_transfer = settings.length_transfer.or(entry.length_transfer);
         entry.thickness_transfer = settings.thickness_transfer.or(entry.thickness_transfer);
     }
-    let unset = Options::default();
-    Ok(Options {
-        mode: if arguments.paper { Mode::Paper } else { Mode::Product },
-        rays: arguments.rays,
-        head_scale: arguments.head_scale.unwrap_or(unset.head_scale),
-        face_squash: arguments.face_squash,
-        face_curve: arguments.face_curve.unwrap_or(unset.face_curve),
-        groups,
-        bone_groups,
-        amount: arguments.amount.unwrap_or(unset.amount),
-        limits: !arguments.no_limits && !arguments.paper,
-        hair_length: arguments.hair_length.unwrap_or(unset.hair_length),
-        height: arguments.height.unwrap_or(unset.height),
-        stage: arguments.stage.unwrap_or(unset.stage),
-        thread_count: arguments.threads.unwrap_or(unset.thread_count),
-    })
+    Ok(Options { groups, bone_groups, ..arguments.options() })
 }
 
 /// Refuses to write over an input, or two results into one file.
