@@ -90,12 +90,15 @@ def main():
 
     models = pathlib.Path(options.models)
     if not models.is_dir():
-        print(f"skipped: no folder {models}")
-        print("0 passed, 0 failed")
-        return 0
+        print(f"no folder {models}: name one with --models or SUPERDEFORM_MODELS")
+        return 1
     targets = sorted(path for path in models.iterdir() if path.suffix in (".glb", ".vrm"))
     pairs = [(target, models / reference, mode) for target in targets for reference in REFERENCES for mode in MODES]
     pairs = [pair for pair in pairs if options.only in f"{pair[0].name} {pair[1].name} {pair[2]}"]
+
+    if not pairs:
+        print(f"no pair of {models} holds {options.only!r}")
+        return 1
 
     old = run(options.old, pairs, options.jobs)
     if options.save:

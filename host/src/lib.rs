@@ -14,7 +14,6 @@ pub mod rig;
 pub mod roles;
 pub mod samples;
 pub mod verify;
-pub mod vrm;
 pub mod write;
 
 use serde_json::Value;

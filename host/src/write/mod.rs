@@ -7,11 +7,12 @@ mod animations;
 mod nodes;
 mod store;
 mod vertices;
+mod vrm;
 
 use super::accessor::Reader;
+use super::bad_input;
 use super::file::GltfFile;
 use super::load::Loaded;
-use super::{bad_input, vrm};
 use animations::{animation_slots, hip_ratio};
 use glam::{DMat4, DVec3, Vec3};
 use nodes::{move_nodes, skin_slots};

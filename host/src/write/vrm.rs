@@ -3,9 +3,9 @@
 //! A point is attached to a node and stands in its space: it is mapped like a vertex of that joint and then expressed
 //! in the moved node's space. Lengths around a point (radii, stiffness, gravity) are multiplied by the local scale.
 
-use super::load::Loaded;
-use super::write::MapPoint;
-use super::{array_at, index_at, text_at};
+use super::MapPoint;
+use crate::load::Loaded;
+use crate::{array_at, index_at, text_at};
 use glam::{DMat3, DMat4, DVec3};
 use serde_json::{Value, json};
 use superdeform::Role;
@@ -40,7 +40,7 @@ impl Field<'_> {
 ///
 /// - `new_rest`: the rest transforms of the nodes after the deformation.
 /// - `height_ratio`: new over old height of the figure, for outlines.
-pub fn move_points(
+pub(super) fn move_points(
     json: &mut Value,
     loaded: &Loaded,
     new_rest: &[DMat4],
