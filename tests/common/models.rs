@@ -135,6 +135,8 @@ impl Run {
 /// Every model made like every reference, as the options are by default.
 pub fn runs() -> &'static [Run] {
     static RUNS: OnceLock<Vec<Run>> = OnceLock::new();
+    // Each test that looks at them says what it lacks, not the first alone.
+    let _ = (models(), present(&REFERENCES));
     RUNS.get_or_init(|| pairs(&Options::default()))
 }
 
@@ -152,16 +154,20 @@ pub fn in_parallel<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Sync)
     let next = AtomicUsize::new(0);
     let done: Mutex<Vec<(usize, R)>> = Mutex::new(Vec::new());
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    // What fails or is skipped in a thread bears the test's name.
+    let test = std::thread::current().name().unwrap_or("main").to_string();
     std::thread::scope(|scope| {
         for _ in 0..threads {
-            scope.spawn(|| {
+            let thread = std::thread::Builder::new().name(test.clone());
+            let run = || {
                 while let Some((index, item)) = Some(next.fetch_add(1, Ordering::Relaxed))
                     .and_then(|index| items.get(index).map(|item| (index, item)))
                 {
                     let result = work(item);
                     done.lock().unwrap().push((index, result));
                 }
-            });
+            };
+            thread.spawn_scoped(scope, run).unwrap();
         }
     });
     let mut done = done.into_inner().unwrap();

@@ -30,6 +30,7 @@ const HEADS: [(&str, f64); 4] = [("2 heads", 2.0), ("2.5 heads", 2.5), ("3 heads
 /// [`PEOPLE`] made 2 to 4 heads tall.
 fn heads_runs() -> &'static [(f64, Run)] {
     static RUNS: OnceLock<Vec<(f64, Run)>> = OnceLock::new();
+    let _ = (all_models(), present(&PEOPLE));
     RUNS.get_or_init(|| {
         let work: Vec<_> = present(&PEOPLE)
             .into_iter()
