@@ -45,8 +45,9 @@
 // Progress   A callback (NULL: none) that is called on the caller's thread alone, with a fraction that rises to 1.
 //            What it returns, if not 0, ends the call with SDEF_STATUS_CANCELLED and leaves everything as it was. It
 //            may call the library, and must return: neither a C++ exception nor longjmp may leave it.
-// Memory     What the caller's arrays need is asked for and may give SDEF_STATUS_OUT_OF_MEMORY. Where rig, create,
-//            measure or get_report find none for work of their own, the process ends, as Rust programs do.
+// Memory     Every call asks for what it needs at most before it begins; SDEF_STATUS_OUT_OF_MEMORY if it is not there.
+//            Where there is too little for more threads it works on one. The process can still end where less than
+//            1 MiB is left, or where other threads take what was there in the meantime.
 // Cost       Cheap, microseconds: create, destroy, get_info, get_joints, map_points, styles but _measure. A pass over
 //            the vertices, some 0.1 microseconds each: add_mesh, apply, and set_options where only amount, face_squash,
 //            face_curve or thread_count change. Ten times that: set_options otherwise. Slow, seconds at 100,000

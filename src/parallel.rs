@@ -1,5 +1,6 @@
 //! Work shared out among threads. Every item is made by itself, so results do not depend on how many there are.
 
+use std::cell::Cell;
 use std::ops::Range;
 
 /// The name of every thread that this module starts.
@@ -8,9 +9,28 @@ pub const WORKER: &str = "superdeform";
 /// More threads than this are of no use, and tens of thousands are more than a system can start.
 const MOST_THREADS: usize = 1024;
 
+thread_local! {
+    /// This thread starts no others.
+    static ALONE: Cell<bool> = const { Cell::new(false) };
+}
+
+/// Runs `work` on this thread alone: where there is no memory for the stacks of others.
+pub(crate) fn alone<T>(work: impl FnOnce() -> T) -> T {
+    struct Before(bool);
+    impl Drop for Before {
+        fn drop(&mut self) {
+            ALONE.set(self.0);
+        }
+    }
+    let _before = Before(ALONE.replace(true));
+    work()
+}
+
 /// The number of threads that `asked` stands for: 0 means all cores.
 pub fn thread_count(asked: usize) -> usize {
-    if asked == 0 {
+    if ALONE.get() {
+        1
+    } else if asked == 0 {
         std::thread::available_parallelism().map_or(1, usize::from)
     } else {
         asked.min(MOST_THREADS)

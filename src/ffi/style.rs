@@ -6,6 +6,7 @@ use super::arrays::{self, HostStruct, Input, Plain, host_structs, not_null, writ
 use super::basics::*;
 use super::guard::{Failure, Outcome, call};
 use super::handles::{self, Object};
+use super::memory;
 use super::options::{self, SdefOptions};
 use crate::character::Role;
 use crate::character::bones::HEAD_TOP;
@@ -198,7 +199,10 @@ pub unsafe extern "C" fn sdef_style_measure(
         let (options, _) = options::read(options)?;
         options.validate()?;
         let ready = handles::read(&state, "character")?.ready();
-        let study = Measured::of(ready.character(), &options)?;
+        let character = ready.character();
+        let study = memory::with(memory::to_measure(character), options.thread_count, || {
+            Ok(Measured::of(character, &options)?)
+        })?;
         give(shape(BodyShape { name: arrays::text(name), ..study.shape }), style)
     };
     unsafe { call(error, body) }

@@ -6,6 +6,7 @@ use super::arrays::{self, Output, host_structs, not_null, write_out};
 use super::basics::*;
 use super::guard::{Failure, Outcome, call};
 use super::handles::{self, Object};
+use super::memory;
 use crate::character::mesh::place;
 use crate::character::{Character, Mesh, MorphTarget};
 use core::ffi::{c_char, c_void};
@@ -257,6 +258,7 @@ pub unsafe extern "C" fn sdef_character_add_morph_target(
             vertex.map_or(failure.clone(), |vertex| failure.at(SDEF_ELEMENT_VERTEX, vertex))
         })?;
         drop(known);
+        state.ask_to_change()?;
         state.change(|character| character.meshes[index].morph_targets.push(target));
         Ok(())
     };
@@ -390,7 +392,7 @@ pub unsafe extern "C" fn sdef_character_get_weights(
         let numbers = count.saturating_mul(most);
         let joints = Output::new("joints", joints, numbers, numbers, 0)?;
         let weights = Output::new("weights", weights, numbers, numbers, 0)?;
-        let limited = all.limited(most);
+        let limited = memory::with(numbers.saturating_mul(8), 1, || Ok(all.limited(most)))?;
         let entry = |vertex: usize, influence: usize| limited.row(vertex).get(influence).copied();
         let entries = || (0..count).flat_map(|vertex| (0..most).map(move |influence| (vertex, influence)));
         joints.write_each(entries().map(|(v, i)| entry(v, i).map_or(0, |(joint, _)| joint + first)));

@@ -7,6 +7,7 @@ use crate::character::{Axes, Character, Humanoid, Mesh, Skeleton};
 use crate::error::Warning;
 use crate::ffi::basics::SDEF_ELEMENT_VERTEX;
 use crate::ffi::guard::{Failure, Outcome};
+use crate::ffi::memory;
 use crate::pipeline::Rig;
 use crate::progress::Progress;
 use crate::rig::RigOptions;
@@ -128,6 +129,15 @@ impl CharacterState {
         }
     }
 
+    /// Asks for the memory of a copy, which a change makes where a deformer keeps the character as it was.
+    pub fn ask_to_change(&mut self) -> Outcome {
+        let character = &self.resolved().character;
+        if Arc::strong_count(character) == 1 {
+            return Ok(());
+        }
+        memory::with(memory::to_copy(character), 1, || Ok(()))
+    }
+
     /// Gives it joints; its meshes must fit them.
     pub fn set_skeleton(&mut self, skeleton: Skeleton, roles: Humanoid) -> Outcome {
         let count = skeleton.joints.len();
@@ -138,6 +148,7 @@ impl CharacterState {
                 vertex.map_or(failure.clone(), |vertex| failure.at(SDEF_ELEMENT_VERTEX, vertex))
             })?;
         }
+        self.ask_to_change()?;
         self.given = roles.clone();
         self.change(|character| {
             character.skeleton = skeleton;
@@ -166,6 +177,7 @@ impl CharacterState {
         }
         // Released, so that the change need not copy the character.
         drop(character);
+        self.ask_to_change()?;
         self.kind_is_open.push(mesh.kind.is_none());
         self.change(|character| character.meshes.push(mesh));
         Ok(index)
@@ -174,9 +186,11 @@ impl CharacterState {
     /// Makes a rig.
     pub fn make_rig(&mut self, options: &RigOptions, progress: &mut Progress) -> Outcome {
         let own = self.ready().own;
-        let rig = Rig::with_progress(&own, options, progress)?;
-        let rigged = Arc::new(rig.applied_to(&own));
-        self.rig = Some(MadeRig { rig: Arc::new(rig), rigged });
-        Ok(())
+        memory::with(memory::to_rig(&own, options), options.thread_count, || {
+            let rig = Rig::with_progress(&own, options, progress)?;
+            let rigged = Arc::new(rig.applied_to(&own));
+            self.rig = Some(MadeRig { rig: Arc::new(rig), rigged });
+            Ok(())
+        })
     }
 }

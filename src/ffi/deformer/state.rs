@@ -8,6 +8,7 @@ use crate::ffi::arrays::{self, Output};
 use crate::ffi::basics::SDEF_STATUS_BUFFER_TOO_SMALL;
 use crate::ffi::character::Ready;
 use crate::ffi::guard::{self, Failure, Outcome};
+use crate::ffi::memory;
 use crate::options::Options;
 use crate::pipeline::{Deformed, Deformer, MeshOutputs, Style};
 use crate::progress::Progress;
@@ -27,12 +28,13 @@ pub struct DeformerState {
 impl DeformerState {
     /// Gives a character a style.
     pub fn new(ready: &Ready, style: &Style, options: &Options, progress: &mut Progress) -> Outcome<Self> {
-        let deformer = match &ready.rigged {
+        let bytes = memory::to_deform(ready.character());
+        let deformer = memory::with(bytes, options.thread_count, || match &ready.rigged {
             Some((rig, rigged)) => {
-                Deformer::with_rigged(rigged.clone(), &ready.own, rig, style, options, progress)
+                Ok(Deformer::with_rigged(rigged.clone(), &ready.own, rig, style, options, progress)?)
             }
-            None => Deformer::with_progress(ready.own.clone(), style, options, progress),
-        }?;
+            None => Ok(Deformer::with_progress(ready.own.clone(), style, options, progress)?),
+        })?;
         let notes = if ready.rigged.is_some() { Vec::new() } else { ready.warnings.clone() };
         Ok(Self { deformer, notes, report: OnceLock::new() })
     }
@@ -44,7 +46,8 @@ impl DeformerState {
 
     /// Changes its options; after an error it is as it was.
     pub fn set_options(&mut self, options: &Options, progress: &mut Progress) -> Outcome {
-        self.deformer.set_options(options, progress)?;
+        let bytes = memory::to_deform(self.deformer.character());
+        memory::with(bytes, options.thread_count, || Ok(self.deformer.set_options(options, progress)?))?;
         self.report = OnceLock::new();
         Ok(())
     }
@@ -57,7 +60,10 @@ impl DeformerState {
     /// The numbers of the run.
     pub fn report(&self) -> Outcome<&Report> {
         if self.report.get().is_none() {
-            let mut report = self.deformer.report(&self.deformer.apply())?;
+            let bytes = memory::to_report(self.deformer.character());
+            let threads = self.deformer.options().thread_count;
+            let mut report =
+                memory::with(bytes, threads, || Ok(self.deformer.report(&self.deformer.apply())?))?;
             report.warnings.splice(0..0, self.notes.iter().cloned());
             for warning in &mut report.warnings {
                 warning.message = guard::with_field(&warning.message, warning.option.take());
@@ -92,7 +98,10 @@ impl DeformerState {
             );
         }
         let outputs: Vec<MeshOutputs> = places.iter().map(Places::outputs).collect();
-        let deformed = self.deformer.apply_to(&outputs, progress)?;
+        let threads = self.deformer.options().thread_count;
+        let deformed = memory::with(memory::to_apply(character), threads, || {
+            Ok(self.deformer.apply_to(&outputs, progress)?)
+        })?;
         for (index, places) in places.iter().enumerate() {
             places.write(&deformed, index);
         }

@@ -1,0 +1,155 @@
+//! Memory is asked for before a call begins: where an allocation fails in its midst, Rust ends the process.
+//!
+//! What a call takes beyond what it gives back goes by vertices, triangles and voxels. The numbers here are upper bounds,
+//! half as much again and more than `tests/memory.rs` measures, which compares them; that also covers the sparse solver and
+//! the tree of triangles, whose packages cannot fail. Another thread of the host may still take between asking and using.
+
+use super::basics::SDEF_STATUS_OUT_OF_MEMORY;
+use super::guard::{Failure, Outcome};
+use crate::character::Character;
+use crate::geometry::bounds;
+use crate::options::{RigOptions, table};
+use crate::parallel;
+
+/// Bytes that any of the larger calls takes, whatever the character: names, tables, text.
+const BASE: usize = 1 << 19;
+/// Less than this is not asked for: so much is always assumed to be there.
+const NOT_ASKED: usize = 1 << 18;
+/// The stack of a thread (2 MiB by default) and what the system's allocator reserves for a thread of its own (64 MiB, twice
+/// that while it looks for a place), of which nothing is used until it is.
+const THREAD: usize = 136 << 20;
+
+/// What the memory of calls goes by.
+#[derive(Clone, Copy, Debug, Default)]
+struct Size {
+    vertices: usize,
+    triangles: usize,
+    /// Vertices of all morph targets.
+    morphs: usize,
+    weights: usize,
+}
+
+impl Size {
+    fn of(character: &Character) -> Self {
+        let mut size = Self::default();
+        for mesh in &character.meshes {
+            size.vertices += mesh.positions.len();
+            size.triangles += mesh.triangles.len();
+            size.morphs += mesh.positions.len() * mesh.morph_targets.len();
+            size.weights += mesh.weights.rows().map(<[_]>::len).sum::<usize>();
+        }
+        size
+    }
+
+    fn bytes(&self, [vertex, triangle, morph, weight]: [usize; 4]) -> usize {
+        let parts = [
+            (self.vertices, vertex),
+            (self.triangles, triangle),
+            (self.morphs, morph),
+            (self.weights, weight),
+        ];
+        parts.iter().fold(BASE, |sum, &(count, bytes)| sum.saturating_add(count.saturating_mul(bytes)))
+    }
+}
+
+/// A copy of a character, as a change makes where a deformer keeps it.
+pub fn to_copy(character: &Character) -> usize {
+    Size::of(character).bytes([64, 12, 36, 8])
+}
+
+/// Measuring a body.
+pub fn to_measure(character: &Character) -> usize {
+    Size::of(character).bytes([800, 500, 0, 16])
+}
+
+/// Making a deformer; changing its options takes no more.
+pub fn to_deform(character: &Character) -> usize {
+    Size::of(character).bytes([900, 500, 0, 16])
+}
+
+/// Deforming into the caller's arrays.
+pub fn to_apply(character: &Character) -> usize {
+    Size::of(character).bytes([350, 100, 120, 0])
+}
+
+/// Deforming and measuring the result.
+pub fn to_report(character: &Character) -> usize {
+    to_deform(character).saturating_add(to_apply(character))
+}
+
+/// Making a rig, and the character with it.
+pub fn to_rig(character: &Character, options: &RigOptions) -> usize {
+    let body = Size::of(character).bytes([1000, 600, 36, 8]);
+    body.saturating_add(voxels(character, options).saturating_mul(VOXEL))
+}
+
+/// Bytes a voxel of the box around a figure, of which the figure fills six in ten: 4 for each, 160 more for those within.
+/// People fill one in ten or fewer.
+const VOXEL: usize = 100;
+
+fn voxels(character: &Character, options: &RigOptions) -> usize {
+    let positions = character.meshes.iter().flat_map(|mesh| &mesh.positions).map(|p| p.as_dvec3());
+    let (low, high) = bounds(positions.filter(|p| p.is_finite()));
+    let extent = high - low;
+    let longest = extent.max_element();
+    if longest <= 0.0 || !longest.is_finite() {
+        return 0;
+    }
+    let resolution = options.voxel_resolution.min(1 << 10) as f64;
+    // Two voxels of edge on each side, and one for rounding.
+    let count = (extent / longest * resolution + 5.0).to_array().iter().product::<f64>();
+    count as usize
+}
+
+/// Runs `work` where there are `bytes` of memory, on one thread where there is not enough for more.
+pub fn with<T>(bytes: usize, threads: usize, work: impl FnOnce() -> Outcome<T>) -> Outcome<T> {
+    if bytes < NOT_ASKED {
+        return work();
+    }
+    let mut held = reserve(bytes);
+    if held.is_empty() {
+        return Err(Failure::new(
+            SDEF_STATUS_OUT_OF_MEMORY,
+            format!(
+                "there are no {} MiB of memory for this call: give less, or free some",
+                bytes.div_ceil(1 << 20)
+            ),
+        ));
+    }
+    let others = match threads {
+        1 => 0,
+        threads => parallel::thread_count(threads).min(table::MOST_THREADS as usize) - 1,
+    };
+    for _ in 0..others {
+        let more = reserve(THREAD);
+        if more.is_empty() {
+            drop(held);
+            return parallel::alone(work);
+        }
+        held.extend(more);
+    }
+    drop(held);
+    work()
+}
+
+/// Memory that is there, in pieces that are given back when they are dropped; empty where it is not.
+fn reserve(bytes: usize) -> Vec<Vec<u8>> {
+    let mut piece = Vec::new();
+    let mut pieces = Vec::new();
+    if piece.try_reserve_exact(bytes).is_ok() && pieces.try_reserve_exact(1).is_ok() {
+        pieces.push(piece);
+    }
+    pieces
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn more_than_there_is_is_a_status_and_the_work_is_not_begun() {
+        let failure = with(usize::MAX / 4, 1, || -> Outcome { panic!("begun") }).unwrap_err();
+        assert_eq!(failure.status, SDEF_STATUS_OUT_OF_MEMORY);
+        assert_eq!(with(1 << 20, 4, || Ok(7)).unwrap(), 7);
+    }
+}
