@@ -153,7 +153,13 @@ fn each_limit_acts_where_it_should() {
         // 0.75 * 0.2 / 0.3 is half a head; 0.19 of the head's 0.3, over 0.06.
         ("a neck's longest", |_, r| r.neck = 0.2, |s| s.neck.length, 0.19 * 0.3 / 0.06),
         // What the neck leaves, (0.6 - 0.057) / 0.45 of what was asked, torso and legs share.
-        ("what the neck leaves", |_, r| r.neck = 0.2, |s| s.shoulder_spread, 0.6272),
+        ("the torso under it", |_, r| r.neck = 0.2, |s| s.torso.length, 0.225 * 0.543 / 0.45 / 0.5),
+        (
+            "the legs under it",
+            |_, r| r.neck = 0.2,
+            |s| s.upper_leg.length,
+            (0.225 * 0.543 / 0.45 - 0.06) / 0.72,
+        ),
         ("a neck's shortest", |_, r| r.neck = 0.004, |s| s.neck.length, 0.03 * 0.3 / 0.06),
         // 1.5 times what the target has in heads: 0.075.
         ("a neck's growth", |t, _| t.neck = 0.01, |s| s.neck.length, 0.075 * 0.3 / 0.01),
