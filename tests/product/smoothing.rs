@@ -113,6 +113,28 @@ fn copies_along_a_seam_share_one_row_and_loose_meshes_none() {
 }
 
 #[test]
+fn where_hair_is_rooted_in_skin_the_skin_takes_its_weights() {
+    let (mut positions, mut triangles) = grid(0.0, 0);
+    let (right, of_right) = grid(0.0, SIDE * SIDE);
+    positions.extend(right.iter().map(|&p| p + (SIDE - 1) as f64 * WIDTH * DVec3::X));
+    triangles.extend(of_right);
+    let (figure, weld) = figure(positions, triangles);
+    // Whichever of the two comes first.
+    for hair_first in [true, false] {
+        let is_hair = |vertex: usize| (vertex < SIDE * SIDE) == hair_first;
+        let mut rows: Vec<PartWeights> = (0..2 * SIDE * SIDE)
+            .map(|vertex| if is_hair(vertex) { Part::Hair.alone() } else { Part::Torso.alone() })
+            .collect();
+        let frozen: Vec<bool> = (0..rows.len()).map(is_hair).collect();
+        smooth_along(&figure, &weld, &frozen, &mut rows, 1);
+        for y in 0..SIDE {
+            let seam = [y * SIDE + SIDE - 1, SIDE * SIDE + y * SIDE];
+            assert!(seam.iter().all(|&vertex| rows[vertex] == Part::Hair.alone()), "{y}: {hair_first}");
+        }
+    }
+}
+
+#[test]
 fn layers_of_cloth_come_to_move_alike() {
     // Two sheets a tenth of the width apart, not joined.
     let (mut positions, mut triangles) = grid(0.0, 0);
