@@ -38,7 +38,14 @@ fn pipeline(criterion: &mut Criterion) {
         group.bench_function("study", |bencher| bencher.iter(|| Measured::of(&character, &options)));
         group.bench_function("part_bindings", |bencher| {
             bencher.iter(|| {
-                part_bindings(&study.figure, &study.anatomy, &character.skeleton, &weld, options.thread_count)
+                part_bindings(
+                    &study.figure,
+                    &study.anatomy,
+                    study.face.as_ref(),
+                    &character.skeleton,
+                    &weld,
+                    options.thread_count,
+                )
             });
         });
         // Measured, bindings and field.

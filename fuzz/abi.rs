@@ -330,7 +330,7 @@ impl Host<'_> {
         options.rig_voxel_resolution = 16;
         options.rig_fingers = 0;
         for _ in 0..bytes.below(6) {
-            match bytes.below(24) {
+            match bytes.below(27) {
                 0 => options.mode = 1,
                 1 => options.stage = bytes.below(4) as u32,
                 2 => options.face_curve = bytes.below(4) as u32,
@@ -394,6 +394,9 @@ impl Host<'_> {
                     options.groups = null();
                     options.group_count = bytes.u32();
                 }
+                23 => options.youth = bytes.number(),
+                24 => options.seat = bytes.number(),
+                25 => options.hair_lay = bytes.number(),
                 _ => {
                     options.rig_joints = null();
                     options.rig_joint_count = bytes.u32();

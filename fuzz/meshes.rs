@@ -92,6 +92,10 @@ pub fn run(data: &[u8]) {
         options.hair_length = f64::from(bytes.byte()) / 255.0;
         options.head_scale = 0.1 + f64::from(bytes.byte()) / 26.0;
         options.face_squash = Some(bytes.tame());
+        options.youth = f64::from(bytes.byte()) / 255.0;
+        options.seat = f64::from(bytes.byte()) / 255.0;
+        options.hair_lay = f64::from(bytes.byte()) / 255.0;
+        options.smile = f64::from(bytes.byte()) / 255.0;
     }
     let style = match bytes.below(4) {
         0 => Style::heads(2.0).unwrap(),

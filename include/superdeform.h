@@ -233,6 +233,17 @@ typedef struct SdefOptions {
   double height;                    // how tall the result is, in the character's units, grown or shrunk as a whole
                                     // about the ground; 0: as tall as the character was; NAN (default): as the style
                                     // makes it, or as tall as it was if it has as few heads already
+  double youth;                     // the face from its own age (0) to a child's, or the reference's (1, default)
+  double youth_eye;                 // of youth, 0 to 1 (default): eyes grow, lids open
+  double youth_lower;               // of youth, 0 to 1 (default): eyes and all beside them sink
+  double youth_nose;                // of youth, 0 to 1 (default): the nose shrinks
+  double youth_cheek;               // of youth, 0 to 1 (default): cheeks fill
+  double youth_jaw;                 // of youth, 0 to 1 (default): chin and mouth become smaller and rounder
+  double youth_skull;               // of youth, 0 to 1 (default): the skull becomes as wide and deep as the reference's
+  double youth_ear;                 // of youth, 0 to 1 (default): ears come closer and become smaller
+  double smile;                     // lifts the corners of the mouth, 0 (default) to 1
+  double seat;                      // moves the head back over the chest and fills the nape, 0 to 1 (default)
+  double hair_lay;                  // lays long hair on the body instead of letting it flare, 0 to 1 (default)
 } SdefOptions;
 
 // Fills *options with the defaults.
@@ -251,8 +262,9 @@ SdefStatus sdef_options_init(SdefOptions *options, uint32_t struct_size, SdefErr
 #define SDEF_MESH_BODY 1                // Skin, or skin fused with clothes.
 #define SDEF_MESH_GARMENT 2             // Clothes.
 #define SDEF_MESH_HAIR 3                // Hair of the head.
-#define SDEF_MESH_FACE_PART 4           // Eyes, brows, lashes, teeth, tongue: what follows the face.
+#define SDEF_MESH_FACE_PART 4           // Brows, lashes, teeth, tongue: what follows the face.
 #define SDEF_MESH_ACCESSORY 5           // Hats, glasses, bags, weapons: what keeps its shape.
+#define SDEF_MESH_EYE 6                 // Eyeballs, irises, pupils: face parts that keep their shape.
 
 #define SDEF_TYPE_DEFAULT 0             // uint32_t for indices and joints, float for weights.
 #define SDEF_TYPE_U8 1                  // uint8_t; as a weight 255 stands for 1.
@@ -476,6 +488,8 @@ typedef struct SdefStyleNumbers {
   double lower_arm_radius; // likewise
   double upper_leg_radius; // likewise
   double lower_leg_radius; // likewise
+  double eye_height;       // the eyes' height above the chin over head_length, 0 to 1
+  double eye_size;         // square root of half an eye's width by half its height, over head_length, 0 to 0.5
 } SdefStyleNumbers;
 
 // A style of so many heads.

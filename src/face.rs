@@ -3,6 +3,18 @@
 //! D'Arcy Thompson. On growth and form. 1945.
 //! Shen, Luo, Huang and Chen. SD models: super-deformed character models. Pacific Graphics 2012 (the sphere of Fig. 7f).
 
+pub mod brows;
+pub mod dual;
+pub mod eyes;
+pub mod flow;
+pub mod head;
+pub mod iris;
+pub mod landmarks;
+pub mod raster;
+pub mod seat;
+pub mod stage;
+pub mod youth;
+
 use crate::error::Warning;
 use crate::geometry::{Mapped, outer};
 use crate::options::FaceCurve;

@@ -2,9 +2,13 @@
 
 use crate::character::Role;
 use crate::error::Warning;
+use crate::face::eyes::{EyeSource, Eyes};
+use crate::face::landmarks::{FaceLandmarks, Pair};
 use crate::options::{Mode, Options};
 use crate::shape::group::{Coefficient, GroupShape, group_shapes};
+use crate::shape::product::head::head_frame;
 use crate::shape::{BodyShape, Heights, Measured};
+use glam::DVec3;
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -25,6 +29,71 @@ pub struct FigureReport {
     pub file_joints: BTreeMap<String, [f64; 3]>,
     /// Read from the geometry.
     pub landmarks: Heights,
+    /// The face; absent where no chin is seen.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub face: Option<FaceReport>,
+}
+
+/// What was found of a face, in head lengths.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct FaceReport {
+    /// How the eyes were found: `hints`, `pieces`, `blink`, `joints`, `twins` or `none`.
+    pub source: &'static str,
+    /// How sure that is, 0 to 1.
+    pub confidence: f64,
+    /// Height of the eyes above the chin.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ye: Option<f64>,
+    /// Half the distance between them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub d: Option<f64>,
+    /// Half the width of an opening.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub a: Option<f64>,
+    /// Half its height.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub b: Option<f64>,
+    /// The eyeballs' radius.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub radius: Option<f64>,
+    /// Height of the nose's tip, and how far it stands out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub nose: Option<[f64; 2]>,
+    /// How far aside the head is where the ears begin, and how far they stick out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ears: Option<[f64; 2]>,
+    /// Half the width of the face at the eyes.
+    pub half_width: f64,
+    /// Half the width of the skull.
+    pub skull_half_width: f64,
+    /// Where all that is: the eyes and the tip of the nose, model space.
+    pub points: BTreeMap<&'static str, [f64; 3]>,
+}
+
+impl FaceReport {
+    /// Of `face`, whose points `place` takes to model space.
+    pub fn of(face: &FaceLandmarks, place: impl Fn(DVec3) -> DVec3) -> Self {
+        let eyes = face.eyes.iter().flat_map(|(_, eyes)| ["left_eye", "right_eye"].into_iter().zip(eyes));
+        let eyes = eyes.map(|(name, eye)| (name, eye.middle()));
+        let points = eyes.chain(face.nose.map(|nose| ("nose", nose.tip)));
+        let pair = face.eyes.as_ref().map(|(_, eyes)| Pair::of(eyes));
+        let source = face.eyes.as_ref().map(|(source, _)| *source);
+        let radius = |eyes: &Eyes| 0.5 * (eyes[0].radius() + eyes[1].radius());
+        Self {
+            source: source.map_or("none", EyeSource::name),
+            confidence: source.map_or(0.0, EyeSource::confidence),
+            ye: pair.map(|pair| pair.height),
+            d: pair.map(|pair| pair.half_distance),
+            a: pair.map(|pair| pair.half_width),
+            b: pair.map(|pair| pair.half_height),
+            radius: face.eyes.as_ref().map(|(_, eyes)| radius(eyes)),
+            nose: face.nose.map(|nose| [nose.tip.y, nose.protrusion()]),
+            ears: face.ears.map(|ears| [ears.root, ears.reach()]),
+            half_width: face.half_width,
+            skull_half_width: face.skull_half_width,
+            points: points.map(|(name, p)| (name, place(p).to_array())).collect(),
+        }
+    }
 }
 
 impl FigureReport {
@@ -45,6 +114,10 @@ impl FigureReport {
             file_joints: joints.clone(),
             joints,
             landmarks: heights,
+            face: measured.face.as_ref().map(|face| {
+                let head = head_frame(&measured.anatomy);
+                FaceReport::of(face, |p| frame.to_model(head.from_unit(p)))
+            }),
         }
     }
 

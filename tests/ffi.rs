@@ -27,6 +27,7 @@ use superdeform::internals::ffi::options::*;
 use superdeform::internals::ffi::rig::*;
 use superdeform::internals::ffi::style::*;
 use superdeform::internals::shape::Measured;
+use superdeform::options::Features;
 use superdeform::{
     BodyShape, Character, Deformer, FaceCurve, GroupSettings, Height, Humanoid, Mode, MorphTarget, Options,
     Rig, RigOptions, Role, Stage, Style, find_roles,
@@ -283,6 +284,42 @@ fn options_that_are_set_later_give_what_a_new_deformer_gives() {
         ("head", SdefOptions { head_scale: 1.2, ..plain }, Options { head_scale: 1.2, ..Options::default() }),
         ("rays", SdefOptions { rays: 7, ..plain }, Options { rays: Some(7), ..Options::default() }),
         ("limits", SdefOptions { limits: 0, ..plain }, Options { limits: false, ..Options::default() }),
+        (
+            "youth",
+            SdefOptions { youth: 0.4, youth_nose: 0.2, smile: 0.3, seat: 0.6, hair_lay: 0.1, ..plain },
+            Options {
+                youth: 0.4,
+                features: Features { nose: 0.2, ..Features::default() },
+                smile: 0.3,
+                seat: 0.6,
+                hair_lay: 0.1,
+                ..Options::default()
+            },
+        ),
+        (
+            "features",
+            SdefOptions {
+                youth_eye: 0.1,
+                youth_lower: 0.2,
+                youth_cheek: 0.3,
+                youth_jaw: 0.4,
+                youth_skull: 0.5,
+                youth_ear: 0.6,
+                ..plain
+            },
+            Options {
+                features: Features {
+                    eye: 0.1,
+                    lower: 0.2,
+                    cheek: 0.3,
+                    jaw: 0.4,
+                    skull: 0.5,
+                    ear: 0.6,
+                    nose: 1.0,
+                },
+                ..Options::default()
+            },
+        ),
         (
             "stage",
             SdefOptions { stage: SDEF_STAGE_LENGTH, hair_length: 0.3, ..plain },

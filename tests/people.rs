@@ -519,7 +519,14 @@ fn the_ends_of_the_face_stay_for_any_squash() {
     for mode in MODES {
         for (curve, limit) in CURVES {
             let with = |squash: f64| {
-                let options = Options { face_squash: Some(squash), face_curve: curve, ..options(mode) };
+                // Eq. 12 or 13 alone.
+                let options = Options {
+                    face_squash: Some(squash),
+                    face_curve: curve,
+                    youth: 0.0,
+                    seat: 0.0,
+                    ..options(mode)
+                };
                 Run::like_chibi(&adult(), &options)
             };
             let plain = with(0.0);

@@ -10,6 +10,7 @@ mod picture;
 mod progress;
 mod report;
 mod run;
+mod shades;
 mod sheet;
 mod words;
 

@@ -5,7 +5,7 @@
 use crate::cli::{self, Command, Reference};
 use crate::progress::Progress;
 use crate::words::{self, sentence, sentence_of_reference};
-use crate::{input, output, report, sheet};
+use crate::{input, output, report, shades, sheet};
 use glam::DVec3;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -41,6 +41,8 @@ fn stages(command: &Command, progress: &Progress) -> Result<Done, String> {
     let start = Instant::now();
     progress.stage("reading");
     let mut target = input::target(command)?;
+    let seen = sheet::appearance(&target);
+    shades::shade(&mut target.character, &seen);
     let reference = input::reference(command)?;
     let load_time = start.elapsed();
 

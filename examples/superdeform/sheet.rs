@@ -31,7 +31,7 @@ pub fn png(
 }
 
 /// What the picture needs beside the shape.
-fn appearance(loaded: &Loaded) -> Appearance {
+pub fn appearance(loaded: &Loaded) -> Appearance {
     let primitives = loaded.bindings.iter().map(|binding| (binding.mesh, binding.primitive));
     let reader = Reader::new(&loaded.file);
     picture::read_appearance(&loaded.file.json, &loaded.file.binary, primitives, |accessor, components| {
@@ -51,6 +51,12 @@ fn view<'a>(
     let character = &loaded.character;
     let meshes = character.meshes.iter().zip(&appearance.surfaces).enumerate();
     let heights = &figure.landmarks;
+    let marks = figure.face.iter().flat_map(|face| face.points.values());
+    let marks = if deformed.is_none() {
+        marks.map(|&p| DVec3::from_array(p).as_vec3()).collect()
+    } else {
+        Vec::new()
+    };
     View {
         title: title.to_string(),
         note: format!("{:.1} heads", figure.heads),
@@ -78,6 +84,7 @@ fn view<'a>(
             sole: heights.sole as f32,
         }),
         as_tall_as: None,
+        marks,
     }
 }
 

@@ -317,6 +317,7 @@ fn place(
     let mut mesh = Mesh {
         name: raw.name,
         kind: None,
+        shade: superdeform::internals::character::Shade::Unknown,
         positions: raw.positions,
         triangles: raw.triangles,
         normals: raw.normals,

@@ -56,7 +56,11 @@ pub(super) fn read_primitive(
     };
     // What has no normals itself can have no changes of them.
     let keys = [("NORMAL", !normals.is_empty()), ("TANGENT", !tangents.is_empty())];
-    let target_names = array_at(&mesh_json["extras"], "targetNames");
+    // Some exporters write the names beside the primitive's targets.
+    let target_names = match array_at(&mesh_json["extras"], "targetNames") {
+        [] => array_at(&json["extras"], "targetNames"),
+        names => names,
+    };
     let mut morph_targets = Vec::new();
     for (index, target) in array_at(json, "targets").iter().enumerate() {
         let name = target_names.get(index).and_then(Value::as_str).unwrap_or("");

@@ -17,10 +17,12 @@ pub enum MeshKind {
     Garment,
     /// Hair that belongs to the head.
     Hair,
-    /// Eyes, brows, lashes, teeth, tongue: parts that follow the face.
+    /// Brows, lashes, teeth, tongue: parts that follow the face.
     FacePart,
     /// Hats, glasses, bags, weapons: things that keep their shape.
     Accessory,
+    /// Eyeballs, irises, pupils: parts of the face that keep their shape.
+    Eye,
 }
 
 /// Words that name things which keep their shape; they come before hair and face, so that a hair band or eye glasses
@@ -33,8 +35,13 @@ const ACCESSORY_WORDS: &str = "accessory accessories axe backpack bag band bow b
 /// Words that name skin, which is the body even beside a word for hair or face ("Body_Hair", "Face_Skin").
 const BODY_WORDS: &str = "body skin torso";
 
-const FACE_WORDS: &str = "brow brows eye eyeball eyeballs eyebrow eyebrows eyelash eyelashes eyelid eyelids eyeline eyeliner \
-    eyes iris irises lash lashes lips mouth pupil pupils sclera tear tears teeth tooth tongue";
+const FACE_WORDS: &str = "brow brows eyebrow eyebrows eyelash eyelashes eyelid eyelids eyeline eyeliner eyeshadow lash \
+    lashes lips mouth tear tears teeth tooth tongue";
+
+const EYE_WORDS: &str = "cornea corneas eye eyeball eyeballs eyes iris irises pupil pupils sclera scleras";
+
+/// Beside a word for the eye, these name what is around it.
+const AROUND_EYE_WORDS: &str = "lid lids line liner makeup shadow socket";
 
 const HAIR_WORDS: &str = "ahoge bang bangs braid braids forelock fringe hair hairs hairback hairfront hairstyle pigtail \
     pigtails ponytail ponytails sidelock twintail twintails wig";
@@ -51,8 +58,12 @@ const GARMENT_WORDS: &str = "apron armor armour belt blouse boot boots bottoms b
 const HAIR_OF_HEAD: f64 = 0.5;
 
 /// A mesh called by a word of the face is part of it where the head moves at least this share of it: one black material
-/// may serve for eyes and shoes. Seen: 1 for eyes and teeth, 0.69 where eyes and shoes are one mesh.
+/// may serve for teeth and shoes. Seen: 1 for teeth.
 const FACE_OF_HEAD: f64 = 0.9;
+
+/// A mesh of eyes may hold more than these, such as black shoes: what of it the head moves are the eyes. Less than this is
+/// none. Seen: 0.69 where eyes and shoes are one mesh.
+const EYE_OF_HEAD: f64 = 0.05;
 
 /// The same of one vertex, and the share by which limbs move no hair: the greater one decides. A majority.
 const MOST_OF_A_VERTEX: f64 = 0.5;
@@ -67,11 +78,21 @@ impl MeshKind {
         matches!(self, Self::Hair | Self::Accessory)
     }
 
+    /// True for all that follows the face.
+    pub fn is_of_face(self) -> bool {
+        matches!(self, Self::FacePart | Self::Eye)
+    }
+
+    /// What stages see that make no difference between the eyes and the rest of a face.
+    pub(crate) fn without_eyes(self) -> Self {
+        if self == Self::Eye { Self::FacePart } else { self }
+    }
+
     /// Guesses what a mesh depicts from one name, of its material, mesh or node; `None` where no word of it is known.
     ///
     /// A name is cut into words at anything that is no letter and before a capital (`HairBack_01` is hair, back), so
     /// that a chair is no hair and what is no hat. English words only. Words for accessories count before those for
-    /// skin, face, hair and clothes, in this order.
+    /// skin, face, eyes, hair and clothes, in this order.
     ///
     /// ```
     /// use superdeform::MeshKind;
@@ -86,10 +107,12 @@ impl MeshKind {
             (ACCESSORY_WORDS, MeshKind::Accessory),
             (BODY_WORDS, MeshKind::Body),
             (FACE_WORDS, MeshKind::FacePart),
+            (EYE_WORDS, MeshKind::Eye),
             (HAIR_WORDS, MeshKind::Hair),
             (GARMENT_WORDS, MeshKind::Garment),
         ];
-        order.into_iter().find(|(known, _)| any_of(known)).map(|(_, kind)| kind)
+        let kind = order.into_iter().find(|(known, _)| any_of(known)).map(|(_, kind)| kind)?;
+        Some(if any_of(AROUND_EYE_WORDS) { kind.without_eyes() } else { kind })
     }
 
     /// What one vertex of a mesh of this kind is, of whose weight `head` is the head's share and `limbs` that of arms
@@ -97,7 +120,7 @@ impl MeshKind {
     /// limb moves is no hair.
     pub(crate) fn of_vertex(self, head: f64, limbs: f64) -> MeshKind {
         match self {
-            Self::FacePart if head <= MOST_OF_A_VERTEX => Self::Body,
+            Self::FacePart | Self::Eye if head <= MOST_OF_A_VERTEX => Self::Body,
             Self::Hair if limbs > MOST_OF_A_VERTEX => Self::Body,
             kind => kind,
         }
@@ -113,6 +136,7 @@ impl fmt::Display for MeshKind {
             Self::Hair => "hair",
             Self::FacePart => "face part",
             Self::Accessory => "accessory",
+            Self::Eye => "eye",
         })
     }
 }
@@ -204,7 +228,7 @@ impl Place {
 
     /// True where `mesh` lies where what `kind` says does.
     fn bears_out(&self, kind: MeshKind, mesh: &Mesh) -> bool {
-        if !matches!(kind, MeshKind::Hair | MeshKind::FacePart) || mesh.positions.is_empty() {
+        if !(kind == MeshKind::Hair || kind.is_of_face()) || mesh.positions.is_empty() {
             return true;
         }
         match self {
@@ -217,7 +241,12 @@ impl Place {
                     .map(|&(_, weight)| f64::from(weight))
                     .sum();
                 let share = held / mesh.weights.row_count().max(1) as f64;
-                share >= if kind == MeshKind::Hair { HAIR_OF_HEAD } else { FACE_OF_HEAD }
+                share
+                    >= match kind {
+                        MeshKind::Hair => HAIR_OF_HEAD,
+                        MeshKind::Eye => EYE_OF_HEAD,
+                        _ => FACE_OF_HEAD,
+                    }
             }
             Self::Extent { up, low, high } => {
                 let chin = low + LOWEST_CHIN * (high - low);
@@ -270,7 +299,10 @@ mod tests {
             ("sunglasses", Some(Accessory)),
             ("Knight_Helmet", Some(Accessory)),
             ("eyelash", Some(FacePart)),
-            ("N00_000_00_EyeIris_00_EYE (Instance)", Some(FacePart)),
+            ("N00_000_00_EyeIris_00_EYE (Instance)", Some(Eye)),
+            ("N00_000_00_FaceEyeline_00_FACE", Some(FacePart)),
+            ("Eye_Shadow", Some(FacePart)),
+            ("eyes", Some(Eye)),
             ("FaceMouth_00_FACE", Some(FacePart)),
             ("teeth", Some(FacePart)),
             ("Body_Hair", Some(Body)),
@@ -339,9 +371,9 @@ mod tests {
             mesh(0.8, 0.9, &[head, hair, head]),
             mesh(0.0, 0.2, &[hips, hips]),
         ]);
-        // Eyes and shoes of one material are no part of the face, fur on boots no hair; the next name counts.
+        // Of eyes and shoes of one material the eyes are what the head moves; fur on boots is no hair: the next name counts.
         let paths = ["eyes", "hair", "mouth", "fur_hair/Boots"];
-        assert_eq!(kinds(&figure, &paths), [None, Some(Hair), Some(FacePart), Some(Garment)]);
+        assert_eq!(kinds(&figure, &paths), [Some(Eye), Some(Hair), Some(FacePart), Some(Garment)]);
     }
 
     #[test]
@@ -351,10 +383,7 @@ mod tests {
         figure.skeleton.joints.clear();
         figure.humanoid = Default::default();
         figure.meshes.iter_mut().for_each(|mesh| mesh.weights = Weights::default());
-        assert_eq!(
-            kinds(&figure, &["eyes", "eyes", "hair", "hair"]),
-            [None, Some(FacePart), None, Some(Hair)]
-        );
+        assert_eq!(kinds(&figure, &["eyes", "eyes", "hair", "hair"]), [None, Some(Eye), None, Some(Hair)]);
     }
 
     #[test]

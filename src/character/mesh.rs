@@ -1,6 +1,6 @@
 //! Meshes of a character: vertices, triangles, normals, tangents, morph targets, and what the mesh depicts.
 
-use super::{MeshKind, Weights};
+use super::{MeshKind, Shade, Weights};
 use crate::error::{Element, Error, ErrorKind, Named, Result};
 use glam::{Vec3, Vec4};
 
@@ -77,6 +77,8 @@ pub struct Mesh {
     pub tangents: Vec<Vec4>,
     /// Morph targets, any number.
     pub morph_targets: Vec<MorphTarget>,
+    /// How bright it is, for the face step; nothing need be known.
+    pub shade: Shade,
     /// Skin weights: one row a vertex. A mesh that hangs rigidly from a joint has weight 1 to it throughout.
     /// No rows at all means that the mesh has no rig.
     pub weights: Weights,

@@ -8,6 +8,7 @@ pub mod mesh;
 pub(crate) mod mesh_list;
 pub mod naming;
 pub mod roles;
+pub mod shade;
 pub mod skeleton;
 pub mod tree_roles;
 pub mod weights;
@@ -18,6 +19,7 @@ use glam::Vec3;
 pub use humanoid::{Humanoid, Role};
 pub use kinds::MeshKind;
 pub use mesh::{Mesh, MorphTarget};
+pub use shade::{GreyImage, Shade};
 pub use skeleton::{Joint, Skeleton};
 pub use weights::Weights;
 

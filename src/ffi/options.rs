@@ -8,7 +8,8 @@ use super::guard::{Failure, Outcome, call};
 use crate::character::Role;
 use crate::error::Named;
 use crate::options::{
-    FaceCurve, GarmentWeights, GroupSettings, Height, Mode, Options, RigOptions, Stage, WeightMethod,
+    FaceCurve, Features, GarmentWeights, GroupSettings, Height, Mode, Options, RigOptions, Stage,
+    WeightMethod,
 };
 use core::ffi::c_char;
 use glam::DVec3;
@@ -182,6 +183,28 @@ pub struct SdefOptions {
     /// how tall the result is, in the character's units, grown or shrunk as a whole about the ground; 0: as tall as the
     /// character was; NAN (default): as the style makes it, or as tall as it was if it has as few heads already
     pub height: f64,
+    /// the face from its own age (0) to a child's, or the reference's (1, default)
+    pub youth: f64,
+    /// of youth, 0 to 1 (default): eyes grow, lids open
+    pub youth_eye: f64,
+    /// of youth, 0 to 1 (default): eyes and all beside them sink
+    pub youth_lower: f64,
+    /// of youth, 0 to 1 (default): the nose shrinks
+    pub youth_nose: f64,
+    /// of youth, 0 to 1 (default): cheeks fill
+    pub youth_cheek: f64,
+    /// of youth, 0 to 1 (default): chin and mouth become smaller and rounder
+    pub youth_jaw: f64,
+    /// of youth, 0 to 1 (default): the skull becomes as wide and deep as the reference's
+    pub youth_skull: f64,
+    /// of youth, 0 to 1 (default): ears come closer and become smaller
+    pub youth_ear: f64,
+    /// lifts the corners of the mouth, 0 (default) to 1
+    pub smile: f64,
+    /// moves the head back over the chest and fills the nape, 0 to 1 (default)
+    pub seat: f64,
+    /// lays long hair on the body instead of letting it flare, 0 to 1 (default)
+    pub hair_lay: f64,
 }
 unsafe impl Plain for SdefOptions {}
 unsafe impl HostStruct for SdefOptions {
@@ -221,6 +244,17 @@ fn defaults() -> SdefOptions {
         amount: options.amount,
         hair_length: options.hair_length,
         face_squash: f64::NAN,
+        youth: options.youth,
+        youth_eye: options.features.eye,
+        youth_lower: options.features.lower,
+        youth_nose: options.features.nose,
+        youth_cheek: options.features.cheek,
+        youth_jaw: options.features.jaw,
+        youth_skull: options.features.skull,
+        youth_ear: options.features.ear,
+        smile: options.smile,
+        seat: options.seat,
+        hair_lay: options.hair_lay,
         face_curve: options.face_curve as u32,
         group_count: 0,
         groups: null(),
@@ -288,6 +322,19 @@ pub(super) unsafe fn read(options: *const SdefOptions) -> Outcome<(Options, RigO
         amount: given.amount,
         limits: one_of("limits", given.limits, &[false, true])?,
         hair_length: given.hair_length,
+        youth: given.youth,
+        features: Features {
+            eye: given.youth_eye,
+            lower: given.youth_lower,
+            nose: given.youth_nose,
+            cheek: given.youth_cheek,
+            jaw: given.youth_jaw,
+            skull: given.youth_skull,
+            ear: given.youth_ear,
+        },
+        smile: given.smile,
+        seat: given.seat,
+        hair_lay: given.hair_lay,
         height: match unless_nan(given.height) {
             None => Height::Style,
             Some(0.0) => Height::Keep,

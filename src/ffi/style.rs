@@ -13,6 +13,7 @@ use crate::character::bones::HEAD_TOP;
 use crate::error::Named;
 use crate::options::table;
 use crate::pipeline::Style;
+use crate::shape::body_shape::FaceStyle;
 use crate::shape::product::anatomy::Proportions;
 use crate::shape::style::BUILT_IN;
 use crate::shape::{BodyShape, BoneShape, Heights, Measured};
@@ -91,6 +92,10 @@ pub struct SdefStyleNumbers {
     pub upper_leg_radius: f64,
     /// likewise
     pub lower_leg_radius: f64,
+    /// the eyes' height above the chin over head_length, 0 to 1
+    pub eye_height: f64,
+    /// square root of half an eye's width by half its height, over head_length, 0 to 0.5
+    pub eye_size: f64,
 }
 unsafe impl Plain for SdefStyleNumbers {}
 unsafe impl HostStruct for SdefStyleNumbers {
@@ -256,6 +261,9 @@ pub unsafe extern "C" fn sdef_style_from_numbers(
                 upper_leg_radius: known(given.upper_leg_radius),
                 lower_leg_radius: known(given.lower_leg_radius),
             }),
+            face: known(given.eye_height)
+                .zip(known(given.eye_size))
+                .map(|(eye_height, eye_size)| FaceStyle { eye_height, eye_size }),
             ..BodyShape::default()
         };
         for (index, bone) in bones.iter().enumerate() {
@@ -404,6 +412,8 @@ const UNKNOWN: SdefStyleNumbers = SdefStyleNumbers {
     lower_arm_radius: f64::NAN,
     upper_leg_radius: f64::NAN,
     lower_leg_radius: f64::NAN,
+    eye_height: f64::NAN,
+    eye_size: f64::NAN,
 };
 
 fn numbers_of(style: &Style) -> SdefStyleNumbers {
@@ -425,6 +435,9 @@ fn numbers_of(style: &Style) -> SdefStyleNumbers {
             sole: marks.sole,
             ..numbers
         };
+    }
+    if let Some(FaceStyle { eye_height, eye_size }) = shape.face {
+        numbers = SdefStyleNumbers { eye_height, eye_size, ..numbers };
     }
     if let Some(p) = &shape.proportions {
         let or_nan = |number: Option<f64>| number.unwrap_or(f64::NAN);

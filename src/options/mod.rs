@@ -204,12 +204,48 @@ pub struct Options {
     pub limits: bool,
     /// Length of hair below the chin: 1 ends it at the part of the body where it ended, 0 at the chin.
     pub hair_length: f64,
+    /// How far the face goes from the target's own age (0) to a child's or the reference's (1).
+    pub youth: f64,
+    /// How much of that each feature does.
+    pub features: Features,
+    /// How far the mouth's corners rise, 0 to 1: a look of its own.
+    pub smile: f64,
+    /// How far the head goes back over the chest and the nape fills, 0 to 1.
+    pub seat: f64,
+    /// How far long hair lies down on the body, 0 to 1.
+    pub hair_lay: f64,
     /// How tall the result is.
     pub height: Height,
     /// Stop after this stage.
     pub stage: Stage,
     /// Threads to use; 0 means all cores.
     pub thread_count: usize,
+}
+
+/// How much of youth each feature of a face takes, 0 to 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Features {
+    /// Eyes grow and lids open.
+    pub eye: f64,
+    /// Eyes and all beside them sink.
+    pub lower: f64,
+    /// The nose shrinks.
+    pub nose: f64,
+    /// Cheeks fill.
+    pub cheek: f64,
+    /// Chin and mouth become smaller and rounder.
+    pub jaw: f64,
+    /// The skull becomes as wide and deep as the reference's, the forehead rounder.
+    pub skull: f64,
+    /// Ears come closer and become smaller.
+    pub ear: f64,
+}
+
+impl Default for Features {
+    /// All of each.
+    fn default() -> Self {
+        Self { eye: 1.0, lower: 1.0, nose: 1.0, cheek: 1.0, jaw: 1.0, skull: 1.0, ear: 1.0 }
+    }
 }
 
 impl Default for Options {
@@ -225,6 +261,11 @@ impl Default for Options {
             amount: 1.0,
             limits: true,
             hair_length: 1.0,
+            youth: 1.0,
+            features: Features::default(),
+            smile: 0.0,
+            seat: 1.0,
+            hair_lay: 1.0,
             height: Height::Style,
             stage: Stage::Face,
             thread_count: 0,
@@ -242,13 +283,24 @@ impl Options {
     }
 
     /// What is set of the options that are numbers, with their names.
-    pub fn numbers(&self) -> [(&'static str, Option<f64>); 6] {
+    pub fn numbers(&self) -> [(&'static str, Option<f64>); 17] {
         [
             ("rays", self.rays.map(|rays| rays as f64)),
             ("head_scale", Some(self.head_scale)),
             ("amount", Some(self.amount)),
             ("hair_length", Some(self.hair_length)),
             ("face_squash", self.face_squash),
+            ("youth", Some(self.youth)),
+            ("youth_eye", Some(self.features.eye)),
+            ("youth_lower", Some(self.features.lower)),
+            ("youth_nose", Some(self.features.nose)),
+            ("youth_cheek", Some(self.features.cheek)),
+            ("youth_jaw", Some(self.features.jaw)),
+            ("youth_skull", Some(self.features.skull)),
+            ("youth_ear", Some(self.features.ear)),
+            ("smile", Some(self.smile)),
+            ("seat", Some(self.seat)),
+            ("hair_lay", Some(self.hair_lay)),
             ("thread_count", Some(self.thread_count as f64)),
         ]
     }

@@ -228,6 +228,28 @@ pub const TABLE: &[OptionInfo] = rows! {
         "how much younger the face gets; 0 leaves it";
     "face_curve", Plain, Values::Choice(FaceCurve::NAMES), "", Default::Choice(FaceCurve::F4.name()), BOTH,
         "the curve that makes the face younger: the paper's f4 or f2, or a sphere";
+    "youth", Plain, SHARES, "", Default::Number(1.0), PRODUCT,
+        "from the face's own age (0) to a child's, or the reference's (1)";
+    "youth_eye", Plain, SHARES, "", Default::Number(1.0), PRODUCT,
+        "of youth: eyes grow, lids open";
+    "youth_lower", Plain, SHARES, "", Default::Number(1.0), PRODUCT,
+        "of youth: eyes and all beside them sink";
+    "youth_nose", Plain, SHARES, "", Default::Number(1.0), PRODUCT,
+        "of youth: the nose shrinks";
+    "youth_cheek", Plain, SHARES, "", Default::Number(1.0), PRODUCT,
+        "of youth: cheeks fill";
+    "youth_jaw", Plain, SHARES, "", Default::Number(1.0), PRODUCT,
+        "of youth: chin and mouth become smaller and rounder";
+    "youth_skull", Plain, SHARES, "", Default::Number(1.0), PRODUCT,
+        "of youth: the skull becomes as wide and deep as the reference's";
+    "youth_ear", Plain, SHARES, "", Default::Number(1.0), PRODUCT,
+        "of youth: ears come closer and become smaller";
+    "smile", Plain, SHARES, "", Default::Number(0.0), PRODUCT,
+        "lifts the corners of the mouth";
+    "seat", Plain, SHARES, "", Default::Number(1.0), PRODUCT,
+        "moves the head back over the chest and fills the nape";
+    "hair_lay", Plain, SHARES, "", Default::Number(1.0), PRODUCT,
+        "lays long hair on the body instead of letting it flare";
     "thread_count", Plain, count(0, MOST_THREADS), "threads", Default::Number(0.0), BOTH,
         "threads to use; 0 means all cores";
     "groups", Plain, Values::Other, "", Default::Found, BOTH,
@@ -267,7 +289,7 @@ pub const TABLE: &[OptionInfo] = rows! {
     "humanoid", Character, Values::Other, "", Default::Found, BOTH,
         "which joint plays which humanoid role";
     "kinds", Character, Values::Other, "", Default::Found, BOTH,
-        "what each mesh depicts: body, garment, hair, part of the face, accessory";
+        "what each mesh depicts: body, garment, hair, part of the face, eye, accessory";
 };
 
 /// The option named `name`.

@@ -203,7 +203,7 @@ impl Deformer {
             }
             let whole = start + vertex;
             let p = figure.positions[whole] + figure.frame.to_canonical(delta.as_dvec3());
-            single(figure.frame.to_model(placement.vertex(whole, p) - after[whole]))
+            single(figure.frame.to_model(placement.beside(whole, p) - after[whole]))
         };
         deltas.iter().enumerate().map(moved).collect()
     }

@@ -1,6 +1,7 @@
 //! How the target hangs on a field, and where the field takes its points.
 
 use crate::character::Character;
+use crate::face::stage::Ways;
 use crate::parallel;
 use crate::shape::field::{Binding, Field};
 use crate::shape::figure::Figure;
@@ -80,14 +81,31 @@ pub struct Placement<'a> {
     pub field: &'a Field,
     /// Added to each vertex at the end, as far as the field's amount says; empty where nothing is.
     pub hair_offsets: &'a [DVec3],
+    /// The same for each joint.
+    pub joint_offsets: &'a [DVec3],
+    /// The vertices' ways through the face step, where they are kept.
+    pub ways: Option<&'a Ways>,
     /// Threads to use, 0 for all cores.
     pub threads: usize,
 }
 
 impl Placement<'_> {
-    /// Where `vertex` goes, or a point `p` near it that moves with it; canonical frame.
-    pub fn vertex(&self, vertex: usize, p: DVec3) -> DVec3 {
-        let to = self.field.place(p, &self.bindings.vertices[vertex]);
+    /// Where a point `p` goes that moves with `vertex`; canonical frame.
+    pub fn beside(&self, vertex: usize, p: DVec3) -> DVec3 {
+        self.with_hair_offset(vertex, self.field.place(p, &self.bindings.vertices[vertex]))
+    }
+
+    /// Where `vertex` goes, canonical frame.
+    pub fn vertex(&self, vertex: usize) -> DVec3 {
+        let (p, binding) = (self.figure.positions[vertex], &self.bindings.vertices[vertex]);
+        let to = match self.ways {
+            Some(ways) => self.field.place_along(p, binding, vertex, ways),
+            None => self.field.place(p, binding),
+        };
+        self.with_hair_offset(vertex, to)
+    }
+
+    fn with_hair_offset(&self, vertex: usize, to: DVec3) -> DVec3 {
         match self.hair_offsets.get(vertex) {
             Some(&offset) => to + self.field.finish.share_of_offsets() * offset,
             None => to,
@@ -96,22 +114,24 @@ impl Placement<'_> {
 
     /// Where every vertex goes, canonical frame.
     pub fn all_vertices(&self) -> Vec<DVec3> {
-        let positions = &self.figure.positions;
-        parallel::collect(self.threads, positions.len(), LEAST_VERTICES, |vertex| {
-            self.vertex(vertex, positions[vertex])
+        parallel::collect(self.threads, self.figure.positions.len(), LEAST_VERTICES, |vertex| {
+            self.vertex(vertex)
         })
     }
 
     /// As [`Self::all_vertices`], of these.
     pub fn vertices(&self, vertices: &[u32]) -> Vec<DVec3> {
         parallel::collect(self.threads, vertices.len(), LEAST_VERTICES, |index| {
-            let vertex = vertices[index] as usize;
-            self.vertex(vertex, self.figure.positions[vertex])
+            self.vertex(vertices[index] as usize)
         })
     }
 
     /// Where `joint` goes, canonical frame.
     pub fn joint(&self, joint: usize) -> DVec3 {
-        self.field.place(self.figure.joints[joint], &self.bindings.joints[joint])
+        let to = self.field.place(self.figure.joints[joint], &self.bindings.joints[joint]);
+        match self.joint_offsets.get(joint) {
+            Some(&offset) => to + self.field.finish.share_of_offsets() * offset,
+            None => to,
+        }
     }
 }

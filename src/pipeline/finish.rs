@@ -27,6 +27,9 @@ impl Deformer {
         let ground = ground.unwrap_or_else(|| self.ground_shift());
         self.field.finish = Finish { amount, ground, ..Finish::default() };
         self.finish_face();
+        self.finish_youth();
+        self.finish_seat();
+        self.finish_hair();
         self.finish_height();
     }
 
@@ -34,7 +37,7 @@ impl Deformer {
     fn ground_shift(&self) -> f64 {
         let field = self.field.with(Finish { amount: self.options.amount, ..Finish::default() });
         let ground = &self.deformation.bindings.ground;
-        let after = Placement { field: &field, ..self.placement() }.vertices(&ground.vertices);
+        let after = Placement { field: &field, ways: None, ..self.placement() }.vertices(&ground.vertices);
         let lowest = after.iter().map(|p| p.y).min_by(f64::total_cmp);
         lowest.map_or(0.0, |lowest| ground.height - lowest)
     }
@@ -99,12 +102,13 @@ impl Deformer {
     fn face_box(&self) -> Option<(DVec3, DVec3)> {
         let figure = &self.target.measured.figure;
         let whole = self.field.with(Finish::default());
-        let placement = Placement { field: &whole, ..self.placement() };
+        let placement = Placement { field: &whole, ways: None, ..self.placement() };
         let is_of_face = |&vertex: &usize| {
-            matches!(figure.kind(vertex), MeshKind::Body | MeshKind::FacePart) && is_of_head(figure, vertex)
+            let kind = figure.kind(vertex);
+            (kind == MeshKind::Body || kind.is_of_face()) && is_of_head(figure, vertex)
         };
         let vertices = (0..figure.positions.len()).filter(is_of_face);
-        let (low, high) = bounds(vertices.map(|vertex| placement.vertex(vertex, figure.positions[vertex])));
+        let (low, high) = bounds(vertices.map(|vertex| placement.vertex(vertex)));
         let around = (low.x <= high.x).then_some((low, high));
         match &*self.deformation.body {
             BodyField::Parts(field) => Some(product::face_box(field, around)),

@@ -13,6 +13,8 @@ mod report;
 mod result;
 mod rig_weights;
 pub mod rigging;
+mod strands;
+mod young;
 
 pub use result::{Deformed, DeformedMesh, MeshOutputs};
 pub use rigging::Rig;
@@ -50,6 +52,10 @@ pub struct Deformer {
     deformation: Deformation,
     /// The deformation's field with amount, ground and face as the options say.
     field: Field,
+    /// What the face step was last made of, and its ways.
+    young: Option<young::Made>,
+    /// What hair does after the head's stages; without these the deformation's offsets are all.
+    hair: Option<strands::Laid>,
     warnings: Vec<Warning>,
     timing: Timing,
 }
@@ -182,6 +188,11 @@ impl Deformer {
             amount: self.options.amount,
             face_squash: self.options.face_squash,
             face_curve: self.options.face_curve,
+            youth: self.options.youth,
+            features: self.options.features,
+            smile: self.options.smile,
+            seat: self.options.seat,
+            hair_lay: self.options.hair_lay,
             height: self.options.height,
             thread_count: self.options.thread_count,
             ..options.clone()
@@ -198,7 +209,8 @@ impl Deformer {
             || options.bone_groups != self.options.bone_groups;
         if measures_anew {
             let clock = Instant::now();
-            target.measured = Arc::new(Measured::of_figure(target.measured.figure.clone(), options)?);
+            target.measured =
+                Arc::new(Measured::of_figure(target.measured.figure.clone(), &target.character, options)?);
             timing.measure = milliseconds(clock);
         }
         let product = self.deformation.product.clone().filter(|_| !measures_anew);
@@ -230,8 +242,18 @@ impl Deformer {
         warnings.append(&mut deformation.warnings);
         deformation.warnings = warnings;
         let field = Field::of(Arc::clone(&deformation.body));
-        let mut deformer =
-            Self { target, rig, style, options, deformation, field, warnings: Vec::new(), timing };
+        let mut deformer = Self {
+            target,
+            rig,
+            style,
+            options,
+            deformation,
+            field,
+            young: None,
+            hair: None,
+            warnings: Vec::new(),
+            timing,
+        };
         deformer.finish(None);
         deformer.timing.deform = milliseconds(clock);
         progress.at(1.0)?;
@@ -244,7 +266,9 @@ impl Deformer {
             figure: &self.target.measured.figure,
             bindings: &self.deformation.bindings,
             field: &self.field,
-            hair_offsets: &self.deformation.hair_offsets,
+            hair_offsets: self.hair.as_ref().map_or(&self.deformation.hair_offsets, |hair| &hair.offsets),
+            joint_offsets: self.hair.as_ref().map_or(&[], |hair| &hair.joint_offsets),
+            ways: self.young.as_ref().map(|young| &*young.ways),
             threads: self.options.thread_count,
         }
     }
@@ -259,7 +283,11 @@ impl Deformer {
             Mode::Paper => None,
         };
         let binding = on_head.as_ref().unwrap_or(&self.deformation.bindings.joints[joint]);
-        let Mapped { position, jacobian } = self.field.map(p, binding);
+        let Mapped { mut position, jacobian } = self.field.map(p, binding);
+        if let (Some(hair), Some(product)) = (&self.hair, &self.deformation.product) {
+            let offset = hair.offset(product, &self.target, &self.field, binding, joint, p);
+            position += self.field.finish.share_of_offsets() * offset;
+        }
         Mapped { position: frame.to_model(position), jacobian: frame.jacobian_to_model(jacobian) }
     }
 

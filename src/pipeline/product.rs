@@ -1,9 +1,11 @@
 //! Product mode in order: parts, coefficients until the number of heads is right, and hair outside of the body.
 
 use super::attach::{Bindings, GroundContact, Placement, joint_bindings};
+use super::strands::Strands;
 use super::{Deformation, Target};
 use crate::character::Role;
 use crate::error::{Error, ErrorKind, Named, Result, Warning};
+use crate::face::seat::SeatSources;
 use crate::options::Options;
 use crate::options::table::PRODUCT_FACE_SQUASH;
 use crate::progress::Progress;
@@ -16,6 +18,7 @@ use crate::shape::product::coefficients::{Goal, heads_of, part_coefficients};
 use crate::shape::product::field::PartField;
 use crate::shape::product::groups::PartGroups;
 use crate::shape::product::hair::HairOnBody;
+use crate::shape::product::head::seat_sources;
 use crate::shape::product::landmarks::{HeadPlacement, HeadSources};
 use crate::shape::product::part::Part;
 use crate::shape::product::scales::PartCoefficients;
@@ -45,6 +48,8 @@ pub struct ProductTarget {
     parts: PartBindings,
     hair: OnceLock<HairOnBody>,
     head_sources: OnceLock<HeadSources>,
+    seat_sources: OnceLock<SeatSources>,
+    strands: OnceLock<Strands>,
 }
 
 impl ProductTarget {
@@ -53,7 +58,8 @@ impl ProductTarget {
         let measured = &target.measured;
         let figure = &measured.figure;
         let skeleton = &target.character.skeleton;
-        let mut parts = part_bindings(figure, &measured.anatomy, skeleton, &target.weld, threads);
+        let mut parts =
+            part_bindings(figure, &measured.anatomy, measured.face.as_ref(), skeleton, &target.weld, threads);
         let vertices = std::mem::take(&mut parts.vertices);
         let of_legs =
             |vertex: usize| vertices[vertex].weights[Part::LeftUpperLeg as usize..].iter().sum::<f32>();
@@ -70,7 +76,31 @@ impl ProductTarget {
             joints: Arc::new(joints),
             ground: Arc::new(ground),
         };
-        Self { bindings, parts, hair: OnceLock::new(), head_sources: OnceLock::new() }
+        Self {
+            bindings,
+            parts,
+            hair: OnceLock::new(),
+            head_sources: OnceLock::new(),
+            seat_sources: OnceLock::new(),
+            strands: OnceLock::new(),
+        }
+    }
+
+    /// What the seat of the head is measured on.
+    pub fn seat_sources(&self, measured: &Measured) -> &SeatSources {
+        self.seat_sources.get_or_init(|| {
+            let binding = |binding: &Binding| match binding {
+                Binding::Parts(binding) => *binding,
+                _ => PartBinding::to(Part::Torso),
+            };
+            let bindings: Vec<PartBinding> = self.bindings.vertices.iter().map(binding).collect();
+            seat_sources(&measured.figure, &measured.anatomy, &bindings)
+        })
+    }
+
+    /// The vertices of hats, glasses and earrings, thing by thing.
+    pub fn things(&self) -> &[Vec<u32>] {
+        &self.parts.things
     }
 
     /// A vertex's weight to `part`.
@@ -83,7 +113,15 @@ impl ProductTarget {
 
     /// Where `field` takes the target's points.
     fn placement<'a>(&'a self, figure: &'a Figure, field: &'a Field, threads: usize) -> Placement<'a> {
-        Placement { figure, bindings: &self.bindings, field, hair_offsets: &[], threads }
+        Placement {
+            figure,
+            bindings: &self.bindings,
+            field,
+            hair_offsets: &[],
+            joint_offsets: &[],
+            ways: None,
+            threads,
+        }
     }
 
     /// How many heads tall `placement` makes the target, measured on the result.
@@ -94,22 +132,28 @@ impl ProductTarget {
     }
 
     /// What is added to each vertex so that locks which lay on the body still do; empty where nothing is.
-    fn hair_offsets(&self, target: &Target, placement: &Placement) -> Vec<DVec3> {
+    pub fn hair_offsets(&self, target: &Target, placement: &Placement) -> Vec<DVec3> {
         let hair = self.hair.get_or_init(|| self.hair_on_body(target));
         if hair.is_empty() {
-            return Vec::new();
+            return placement.hair_offsets.to_vec();
         }
         let after = placement.all_vertices();
         let (low, high) = extent(&after);
         let offsets = hair.kept_outside(&after, &target.weld, high - low);
+        let mut all = placement.hair_offsets.to_vec();
         if offsets.is_empty() {
-            return Vec::new();
+            return all;
         }
-        let mut all = vec![DVec3::ZERO; after.len()];
+        all.resize(after.len(), DVec3::ZERO);
         for (vertex, offset) in offsets {
-            all[vertex] = offset;
+            all[vertex] += offset;
         }
         all
+    }
+
+    /// The hair's strands, and how they hang.
+    pub fn strands(&self, target: &Target) -> &Strands {
+        self.strands.get_or_init(|| Strands::of(target, &self.bindings))
     }
 
     fn hair_on_body(&self, target: &Target) -> HairOnBody {

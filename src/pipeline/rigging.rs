@@ -143,7 +143,10 @@ impl Rig {
         }
         for ((mesh, weights), kind) in rigged.meshes.iter_mut().zip(&self.weights).zip(&self.kinds) {
             mesh.weights = weights.shifted(own as u32);
-            mesh.kind = Some(*kind);
+            // The rig makes no difference between eyes and the rest of a face.
+            if mesh.kind.map(MeshKind::without_eyes) != Some(*kind) {
+                mesh.kind = Some(*kind);
+            }
         }
         rigged.axes.forward = Some(self.forward.as_vec3());
         rigged

@@ -191,7 +191,12 @@ struct Cells {
 fn known_kinds(character: &Character) -> Vec<Option<MeshKind>> {
     let names: Vec<MeshNames> = character.meshes.iter().map(|mesh| MeshNames::of_path(&mesh.name)).collect();
     let named = kinds_from_names(character, &names);
-    character.meshes.iter().zip(named).map(|(mesh, named)| mesh.kind.or(named)).collect()
+    character
+        .meshes
+        .iter()
+        .zip(named)
+        .map(|(mesh, named)| mesh.kind.or(named).map(MeshKind::without_eyes))
+        .collect()
 }
 
 /// Whether each mesh tells anything: hair and accessories do only where there is nothing else.

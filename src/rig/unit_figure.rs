@@ -62,7 +62,7 @@ impl UnitFigure {
         for p in &mut positions {
             *p = (*p - origin) / height;
         }
-        let kinds = character.meshes.iter().map(|mesh| mesh.kind).collect();
+        let kinds = character.meshes.iter().map(|mesh| mesh.kind.map(MeshKind::without_eyes)).collect();
         let names = character.meshes.iter().map(|mesh| mesh.name.clone()).collect();
         Ok(Self { positions, triangles, mesh_starts, triangle_starts, kinds, names, frame, origin, height })
     }

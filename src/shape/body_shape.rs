@@ -3,6 +3,7 @@
 use super::heights::Heights;
 use crate::character::Role;
 use crate::character::bones::HEAD_TOP;
+use crate::face::landmarks::{FaceLandmarks, Pair};
 use crate::shape::product::anatomy::Proportions;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
@@ -40,6 +41,36 @@ pub struct BodyShape {
     /// Lengths and widths of the parts, which product mode transfers.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub proportions: Option<Proportions>,
+    /// The eyes, where they were found.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub face: Option<FaceStyle>,
+}
+
+/// What a face takes after a reference's, in head lengths.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FaceStyle {
+    /// ye: the eyes' height above the chin.
+    pub eye_height: f64,
+    /// e: the geometric mean of an opening's half width and half height.
+    pub eye_size: f64,
+}
+
+impl FaceStyle {
+    /// Of a face whose eyes were found.
+    pub fn of(face: &FaceLandmarks) -> Option<Self> {
+        let (_, eyes) = face.eyes.as_ref()?;
+        let pair = Pair::of(eyes);
+        Some(Self { eye_height: pair.height, eye_size: pair.size() })
+    }
+
+    /// This face (0) to `other` (1).
+    pub fn blended(self, other: Self, amount: f64) -> Self {
+        let mix = |a: f64, b: f64| a + amount * (b - a);
+        Self {
+            eye_height: mix(self.eye_height, other.eye_height),
+            eye_size: mix(self.eye_size, other.eye_size),
+        }
+    }
 }
 
 impl Default for BodyShape {
@@ -51,6 +82,7 @@ impl Default for BodyShape {
             bones: BTreeMap::new(),
             landmarks: None,
             proportions: None,
+            face: None,
         }
     }
 }

@@ -8,6 +8,8 @@ use super::paper::field::{BoneBinding, PaperField};
 use super::product::binding::PartBinding;
 use super::product::field::PartField;
 use crate::face::FaceShape;
+use crate::face::seat::Seat;
+use crate::face::stage::{FaceBinding, Ways, YoungFace};
 use crate::geometry::Mapped;
 use glam::{DMat3, DVec3};
 use std::sync::Arc;
@@ -88,6 +90,14 @@ impl Finish {
 pub struct Field {
     /// What gives the body its shape.
     pub body: Arc<BodyField>,
+    /// What makes the face younger, beyond Eqs. 12 and 13.
+    pub young: Option<Arc<YoungFace>>,
+    /// How far along it goes, 0 to 1.
+    pub youth: f64,
+    /// How the head sits over the chest.
+    pub seat: Option<Arc<Seat>>,
+    /// How much of that is done, 0 to 1.
+    pub seat_amount: f64,
     /// What is done last.
     pub finish: Finish,
 }
@@ -95,18 +105,45 @@ pub struct Field {
 impl Field {
     /// The field of `body`, all the way.
     pub fn of(body: Arc<BodyField>) -> Self {
-        Self { body, finish: Finish::default() }
+        Self { body, young: None, youth: 0.0, seat: None, seat_amount: 0.0, finish: Finish::default() }
     }
 
-    /// The same field, with another end.
+    /// The body's field alone, with another end.
     pub fn with(&self, finish: Finish) -> Self {
-        Self { body: Arc::clone(&self.body), finish }
+        Self { finish, ..Self::of(Arc::clone(&self.body)) }
     }
 
     /// Where `p` goes.
     pub fn place(&self, p: DVec3, binding: &Binding) -> DVec3 {
+        self.place_with(p, binding, |young, to, binding| young.place(to, binding, self.youth))
+    }
+
+    /// As [`Self::place`], for a vertex whose way through the face step may be kept.
+    pub fn place_along(&self, p: DVec3, binding: &Binding, vertex: usize, ways: &Ways) -> DVec3 {
+        self.place_with(p, binding, |young, to, binding| {
+            young.place_along(to, binding, self.youth, vertex, ways)
+        })
+    }
+
+    #[inline(always)]
+    fn place_with(
+        &self,
+        p: DVec3,
+        binding: &Binding,
+        face: impl FnOnce(&YoungFace, DVec3, FaceBinding) -> DVec3,
+    ) -> DVec3 {
         let to = match (&*self.body, binding) {
-            (BodyField::Parts(field), Binding::Parts(binding)) => field.place(p, binding, &self.finish.face),
+            (BodyField::Parts(field), Binding::Parts(binding)) => {
+                let to = field.place(p, binding, &self.finish.face);
+                let to = match &self.young {
+                    Some(young) if binding.face != FaceBinding::None => face(young, to, binding.face),
+                    _ => to,
+                };
+                match &self.seat {
+                    Some(seat) => seat.place(to, binding.of_head_and_neck(), self.seat_amount),
+                    None => to,
+                }
+            }
             (BodyField::Bones(field), Binding::Bones(binding)) => field.place(p, binding, &self.finish.face),
             _ => return p,
         };
@@ -116,7 +153,17 @@ impl Field {
     /// Where `p` goes, and the Jacobian there at fixed weights.
     pub fn map(&self, p: DVec3, binding: &Binding) -> Mapped {
         let to = match (&*self.body, binding) {
-            (BodyField::Parts(field), Binding::Parts(binding)) => field.map(p, binding, &self.finish.face),
+            (BodyField::Parts(field), Binding::Parts(binding)) => {
+                let to = field.map(p, binding, &self.finish.face);
+                let to = match &self.young {
+                    Some(young) => to.then(|to| young.map(to, binding.face, self.youth)),
+                    None => to,
+                };
+                match &self.seat {
+                    Some(seat) => to.then(|to| seat.map(to, binding.of_head_and_neck(), self.seat_amount)),
+                    None => to,
+                }
+            }
             (BodyField::Bones(field), Binding::Bones(binding)) => field.map(p, binding, &self.finish.face),
             _ => return Mapped::unmoved(p),
         };

@@ -1,12 +1,14 @@
 //! All that is read from one character before anything is deformed (§V-A): layout, anatomy, bones, body shape.
 
-use super::body_shape::BodyShape;
+use super::body_shape::{BodyShape, FaceStyle};
 use super::figure::Figure;
 use super::measure::measure;
 use super::product::anatomy::Anatomy;
+use super::product::head::head;
 use crate::character::bones::{Bone, bones};
 use crate::character::{Character, MeshKind, Role};
 use crate::error::Result;
+use crate::face::landmarks::FaceLandmarks;
 use crate::geometry::Surface;
 use crate::options::Options;
 use crate::parallel;
@@ -25,6 +27,8 @@ pub struct Measured {
     pub figure: Figure,
     /// Landmarks and proportions.
     pub anatomy: Anatomy,
+    /// The face in head lengths, where there is a chin to measure from.
+    pub face: Option<FaceLandmarks>,
     /// Where the joints of the roles are, canonical frame.
     pub joints: BTreeMap<Role, DVec3>,
     /// The end of the head bone: straight above the head joint, hair and hats included.
@@ -39,14 +43,14 @@ impl Measured {
     /// # Errors
     /// As [`Figure::of`] and [`measure`].
     pub fn of(character: &Character, options: &Options) -> Result<Self> {
-        Self::of_figure(Figure::of(character)?, options)
+        Self::of_figure(Figure::of(character)?, character, options)
     }
 
-    /// Measures a character that is laid out already.
+    /// Measures a character that is laid out already, as `figure`.
     ///
     /// # Errors
     /// As [`measure`].
-    pub fn of_figure(figure: Figure, options: &Options) -> Result<Self> {
+    pub fn of_figure(figure: Figure, character: &Character, options: &Options) -> Result<Self> {
         let threads = if figure.triangles.len() < LEAST_TRIANGLES { 1 } else { options.thread_count };
         let (surfaces, anatomy) = parallel::both(threads, || surfaces(&figure), || Anatomy::of(&figure));
         let joints: BTreeMap<Role, DVec3> =
@@ -59,7 +63,10 @@ impl Measured {
         let mut shape = measure(&bones, &joints, head_top, &surfaces, options.ray_count())?;
         shape.landmarks = Some(anatomy.landmarks.heights);
         shape.proportions = Some(anatomy.proportions.clone());
-        Ok(Self { figure, anatomy, joints, head_top, shape })
+        let has_chin = anatomy.landmarks.chin_seen;
+        let face = has_chin.then(|| FaceLandmarks::of(&head(character, &figure, &anatomy)));
+        shape.face = face.as_ref().and_then(FaceStyle::of);
+        Ok(Self { figure, anatomy, face, joints, head_top, shape })
     }
 
     /// The bones between those roles of the figure that are in `roles` too.

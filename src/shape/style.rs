@@ -3,7 +3,7 @@
 //! A measured body is needed for nothing but its numbers, so it can be saved as a small JSON text and used without
 //! its model, blended with another, or stretched to a number of heads.
 
-use super::body_shape::{BodyShape, BoneShape, VERSION};
+use super::body_shape::{BodyShape, BoneShape, FaceStyle, VERSION};
 use super::measured::Measured;
 use super::product::anatomy::Proportions;
 use crate::character::Character;
@@ -121,6 +121,13 @@ impl BodyShape {
                 }
             }
         }
+        if let Some(FaceStyle { eye_height, eye_size }) = self.face
+            && !((0.0..1.0).contains(&eye_height) && eye_size > 0.0 && eye_size < 0.5)
+        {
+            return Err(bad(format!(
+                "the style's eyes are {eye_size} large at {eye_height}: give both in head lengths, or no face"
+            )));
+        }
         if let Some(proportions) = &self.proportions {
             proportions.validate()?;
         }
@@ -163,7 +170,11 @@ impl BodyShape {
             (Some(a), Some(b)) => Some(a.blended(b, amount)),
             (a, b) => a.clone().or(b.clone()),
         };
-        Self { bones, proportions, landmarks: None, ..self.clone() }
+        let face = match (self.face, other.face) {
+            (Some(a), Some(b)) => Some(a.blended(b, amount)),
+            (a, b) => a.or(b),
+        };
+        Self { bones, proportions, face, landmarks: None, ..self.clone() }
     }
 
     /// The same body with everything below the head made longer or shorter, so that it is `heads` heads tall.

@@ -156,7 +156,14 @@ pub fn c_mesh(mesh: &Mesh) -> Box<CMesh> {
             .collect(),
         kept: mesh.clone(),
     });
-    let kinds = [MeshKind::Body, MeshKind::Garment, MeshKind::Hair, MeshKind::FacePart, MeshKind::Accessory];
+    let kinds = [
+        MeshKind::Body,
+        MeshKind::Garment,
+        MeshKind::Hair,
+        MeshKind::FacePart,
+        MeshKind::Accessory,
+        MeshKind::Eye,
+    ];
     let kept = &made.kept;
     let pointer = |empty: bool, start: *const f32| if empty { null() } else { start };
     let weighted = !made.weights.is_empty();

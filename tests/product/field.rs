@@ -3,6 +3,7 @@
 use crate::people::Person;
 use crate::tubes::{Tubes, blended, crowd, jacobian_error, mirrored_weights, numbers};
 use glam::{DMat3, DVec3};
+use superdeform::internals::face::stage::FaceBinding;
 use superdeform::internals::face::{FaceMap, FaceShape};
 use superdeform::internals::geometry::Mapped;
 use superdeform::internals::shape::product::anatomy::Anatomy;
@@ -265,7 +266,7 @@ fn no_part_jumps_anywhere() {
     // A mixture of torso, neck and hair stands for blended weights.
     let mut mixed = Part::Torso.alone();
     (mixed[0], mixed[1], mixed[15]) = (0.5, 0.25, 0.25);
-    let mixed = PartBinding { weights: mixed, attachment: Attachment::Plain };
+    let mixed = PartBinding { weights: mixed, attachment: Attachment::Plain, face: FaceBinding::None };
     const STEP: f64 = 1e-4;
     let norm = |jacobian: DMat3| jacobian.to_cols_array().iter().map(|x| x * x).sum::<f64>().sqrt();
     for binding in PARTS.map(PartBinding::to).into_iter().chain([mixed]) {
@@ -314,7 +315,7 @@ fn jacobians_are_those_of_central_differences() {
                 1 => Attachment::Piece(0),
                 _ => Attachment::Plain,
             };
-            let binding = PartBinding { weights, attachment };
+            let binding = PartBinding { weights, attachment, face: FaceBinding::None };
             let p = DVec3::new(0.8 * next() - 0.4, 2.0 * next() - 0.1, 0.4 * next() - 0.2);
             let map = |p: DVec3| field.map(p, &binding, &face);
             let step = 1e-6;
@@ -373,12 +374,20 @@ fn a_piece_is_moved_and_scaled_as_one_and_does_not_sink_into_the_ground() {
         (1, anchors[1], free[1].min(on_torso(anchors[1]).y / anchors[1].y)),
         (2, anchors[1], free[1]),
     ] {
-        let binding = PartBinding { weights: Part::Head.alone(), attachment: Attachment::Piece(index) };
+        let binding = PartBinding {
+            weights: Part::Head.alone(),
+            attachment: Attachment::Piece(index),
+            face: FaceBinding::None,
+        };
         let place = |p: DVec3| field.place(p, &binding, &NO_FACE);
         assert_near("anchor", place(anchor), on_torso(anchor));
         assert_near("size", place(anchor + away) - place(anchor), size * away);
     }
-    let on_ground = PartBinding { weights: Part::Torso.alone(), attachment: Attachment::Piece(1) };
+    let on_ground = PartBinding {
+        weights: Part::Torso.alone(),
+        attachment: Attachment::Piece(1),
+        face: FaceBinding::None,
+    };
     let lowest = field.place(anchors[1].with_y(before.sole), &on_ground, &NO_FACE);
     assert!(lowest.y > -1e-9, "{lowest}");
 }
@@ -392,7 +401,11 @@ fn what_sits_on_the_face_takes_the_face_map_of_one_point() {
     let face = FaceShape::Curve(curve);
     let heights = anatomy.landmarks.heights;
     let centre = DVec3::new(0.0, heights.chin + 0.4 * heights.head_length(), 0.08);
-    let binding = PartBinding { weights: Part::Head.alone(), attachment: Attachment::OnFace(centre) };
+    let binding = PartBinding {
+        weights: Part::Head.alone(),
+        attachment: Attachment::OnFace(centre),
+        face: FaceBinding::None,
+    };
     let shift = curve.map(by_part(&field, Part::Head, centre).y) - by_part(&field, Part::Head, centre).y;
     assert!(shift < -0.001, "{shift}");
     for away in [DVec3::ZERO, DVec3::new(0.05, 0.03, 0.02), DVec3::new(0.0, 0.3, 0.0)] {

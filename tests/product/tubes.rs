@@ -30,7 +30,7 @@ impl Tubes {
         let figure = Figure::of(&character).unwrap();
         let anatomy = Anatomy::of(&figure);
         let weld = weld(&figure.positions, SEAM * figure.height());
-        let bindings = part_bindings(&figure, &anatomy, &character.skeleton, &weld, 1);
+        let bindings = part_bindings(&figure, &anatomy, None, &character.skeleton, &weld, 1);
         Self { person, character, figure, anatomy, bindings }
     }
 

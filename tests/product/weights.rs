@@ -6,7 +6,6 @@ use glam::DVec3;
 use std::collections::HashMap;
 use superdeform::internals::shape::product::binding::{PartBinding, joint_binding};
 use superdeform::internals::shape::product::part::Part;
-use superdeform::internals::shape::product::pieces::Attachment;
 use superdeform::{Character, Mesh, MeshKind, Role, Weights};
 
 fn share(tubes: &Tubes, vertex: usize, part: Part) -> f32 {
@@ -299,5 +298,5 @@ fn joints_without_a_role_fold_into_their_part_and_those_of_the_head_into_hair() 
     assert_eq!(binding(twist), PartBinding::to(Part::LeftLowerArm));
     assert_eq!(binding(plait), PartBinding::to(Part::Hair));
     let head = tubes.figure.humanoid.joint(Role::Head).unwrap();
-    assert_eq!(binding(head), PartBinding { weights: Part::Head.alone(), attachment: Attachment::Plain });
+    assert_eq!(binding(head), PartBinding::to(Part::Head));
 }

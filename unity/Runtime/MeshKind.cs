@@ -11,9 +11,11 @@ public enum MeshKind : uint
     Garment = 2,
     /// <summary>Hair of the head.</summary>
     Hair = 3,
-    /// <summary>Eyes, brows, lashes, teeth, tongue: what follows the face.</summary>
+    /// <summary>Brows, lashes, teeth, tongue: what follows the face.</summary>
     FacePart = 4,
     /// <summary>Hats, glasses, bags, weapons: what keeps its shape.</summary>
     Accessory = 5,
+    /// <summary>Eyeballs, irises, pupils: face parts that keep their shape.</summary>
+    Eye = 6,
 }
 }

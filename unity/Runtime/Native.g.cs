@@ -62,6 +62,7 @@ internal static unsafe partial class Native
     internal const UInt32 SDEF_MESH_HAIR = 3;
     internal const UInt32 SDEF_MESH_FACE_PART = 4;
     internal const UInt32 SDEF_MESH_ACCESSORY = 5;
+    internal const UInt32 SDEF_MESH_EYE = 6;
     internal const UInt32 SDEF_TYPE_DEFAULT = 0;
     internal const UInt32 SDEF_TYPE_U8 = 1;
     internal const UInt32 SDEF_TYPE_U16 = 2;
@@ -1106,6 +1107,61 @@ internal unsafe struct SdefOptions {
     /// character was; NAN (default): as the style makes it, or as tall as it was if it has as few heads already
     /// </summary>
     public double height;
+
+    /// <summary>
+    /// the face from its own age (0) to a child's, or the reference's (1, default)
+    /// </summary>
+    public double youth;
+
+    /// <summary>
+    /// of youth, 0 to 1 (default): eyes grow, lids open
+    /// </summary>
+    public double youth_eye;
+
+    /// <summary>
+    /// of youth, 0 to 1 (default): eyes and all beside them sink
+    /// </summary>
+    public double youth_lower;
+
+    /// <summary>
+    /// of youth, 0 to 1 (default): the nose shrinks
+    /// </summary>
+    public double youth_nose;
+
+    /// <summary>
+    /// of youth, 0 to 1 (default): cheeks fill
+    /// </summary>
+    public double youth_cheek;
+
+    /// <summary>
+    /// of youth, 0 to 1 (default): chin and mouth become smaller and rounder
+    /// </summary>
+    public double youth_jaw;
+
+    /// <summary>
+    /// of youth, 0 to 1 (default): the skull becomes as wide and deep as the reference's
+    /// </summary>
+    public double youth_skull;
+
+    /// <summary>
+    /// of youth, 0 to 1 (default): ears come closer and become smaller
+    /// </summary>
+    public double youth_ear;
+
+    /// <summary>
+    /// lifts the corners of the mouth, 0 (default) to 1
+    /// </summary>
+    public double smile;
+
+    /// <summary>
+    /// moves the head back over the chest and fills the nape, 0 to 1 (default)
+    /// </summary>
+    public double seat;
+
+    /// <summary>
+    /// lays long hair on the body instead of letting it flare, 0 to 1 (default)
+    /// </summary>
+    public double hair_lay;
 }
 
 [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
@@ -1506,6 +1562,16 @@ internal unsafe struct SdefStyleNumbers {
     /// likewise
     /// </summary>
     public double lower_leg_radius;
+
+    /// <summary>
+    /// the eyes' height above the chin over head_length, 0 to 1
+    /// </summary>
+    public double eye_height;
+
+    /// <summary>
+    /// square root of half an eye's width by half its height, over head_length, 0 to 0.5
+    /// </summary>
+    public double eye_size;
 }
 
 /// <summary>
@@ -1551,6 +1617,39 @@ public partial struct OptionRange
 
     /// <summary>How much younger the face gets; 0 leaves it.</summary>
     public static readonly OptionRange FaceSquash = new OptionRange(-10, 10);
+
+    /// <summary>From the face's own age (0) to a child's, or the reference's (1).</summary>
+    public static readonly OptionRange Youth = new OptionRange(0, 1);
+
+    /// <summary>Of youth: eyes grow, lids open.</summary>
+    public static readonly OptionRange YouthEye = new OptionRange(0, 1);
+
+    /// <summary>Of youth: eyes and all beside them sink.</summary>
+    public static readonly OptionRange YouthLower = new OptionRange(0, 1);
+
+    /// <summary>Of youth: the nose shrinks.</summary>
+    public static readonly OptionRange YouthNose = new OptionRange(0, 1);
+
+    /// <summary>Of youth: cheeks fill.</summary>
+    public static readonly OptionRange YouthCheek = new OptionRange(0, 1);
+
+    /// <summary>Of youth: chin and mouth become smaller and rounder.</summary>
+    public static readonly OptionRange YouthJaw = new OptionRange(0, 1);
+
+    /// <summary>Of youth: the skull becomes as wide and deep as the reference's.</summary>
+    public static readonly OptionRange YouthSkull = new OptionRange(0, 1);
+
+    /// <summary>Of youth: ears come closer and become smaller.</summary>
+    public static readonly OptionRange YouthEar = new OptionRange(0, 1);
+
+    /// <summary>Lifts the corners of the mouth.</summary>
+    public static readonly OptionRange Smile = new OptionRange(0, 1);
+
+    /// <summary>Moves the head back over the chest and fills the nape.</summary>
+    public static readonly OptionRange Seat = new OptionRange(0, 1);
+
+    /// <summary>Lays long hair on the body instead of letting it flare.</summary>
+    public static readonly OptionRange HairLay = new OptionRange(0, 1);
 
     /// <summary>Threads to use; 0 means all cores.</summary>
     public static readonly OptionRange ThreadCount = new OptionRange(0, 1024);
@@ -1600,6 +1699,39 @@ public static class OptionDefaults
 
     /// <summary>How much younger the face gets; 0 leaves it.</summary>
     public const double FaceSquash = 0.8;
+
+    /// <summary>From the face's own age (0) to a child's, or the reference's (1).</summary>
+    public const double Youth = 1;
+
+    /// <summary>Of youth: eyes grow, lids open.</summary>
+    public const double YouthEye = 1;
+
+    /// <summary>Of youth: eyes and all beside them sink.</summary>
+    public const double YouthLower = 1;
+
+    /// <summary>Of youth: the nose shrinks.</summary>
+    public const double YouthNose = 1;
+
+    /// <summary>Of youth: cheeks fill.</summary>
+    public const double YouthCheek = 1;
+
+    /// <summary>Of youth: chin and mouth become smaller and rounder.</summary>
+    public const double YouthJaw = 1;
+
+    /// <summary>Of youth: the skull becomes as wide and deep as the reference's.</summary>
+    public const double YouthSkull = 1;
+
+    /// <summary>Of youth: ears come closer and become smaller.</summary>
+    public const double YouthEar = 1;
+
+    /// <summary>Lifts the corners of the mouth.</summary>
+    public const double Smile = 0;
+
+    /// <summary>Moves the head back over the chest and fills the nape.</summary>
+    public const double Seat = 1;
+
+    /// <summary>Lays long hair on the body instead of letting it flare.</summary>
+    public const double HairLay = 1;
 
     /// <summary>Threads to use; 0 means all cores.</summary>
     public const uint ThreadCount = 0;

@@ -43,6 +43,39 @@ public sealed class Options
     /// </summary>
     public double Height = double.NaN;
 
+    /// <summary>The face from its own age (0) to a child's, or the reference's (1, default).</summary>
+    public double Youth = OptionDefaults.Youth;
+
+    /// <summary>Of youth, 0 to 1 (default): eyes grow, lids open.</summary>
+    public double YouthEye = OptionDefaults.YouthEye;
+
+    /// <summary>Of youth, 0 to 1 (default): eyes and all beside them sink.</summary>
+    public double YouthLower = OptionDefaults.YouthLower;
+
+    /// <summary>Of youth, 0 to 1 (default): the nose shrinks.</summary>
+    public double YouthNose = OptionDefaults.YouthNose;
+
+    /// <summary>Of youth, 0 to 1 (default): cheeks fill.</summary>
+    public double YouthCheek = OptionDefaults.YouthCheek;
+
+    /// <summary>Of youth, 0 to 1 (default): chin and mouth become smaller and rounder.</summary>
+    public double YouthJaw = OptionDefaults.YouthJaw;
+
+    /// <summary>Of youth, 0 to 1 (default): the skull becomes as wide and deep as the reference's.</summary>
+    public double YouthSkull = OptionDefaults.YouthSkull;
+
+    /// <summary>Of youth, 0 to 1 (default): ears come closer and become smaller.</summary>
+    public double YouthEar = OptionDefaults.YouthEar;
+
+    /// <summary>Lifts the corners of the mouth, 0 (default) to 1.</summary>
+    public double Smile = OptionDefaults.Smile;
+
+    /// <summary>Moves the head back over the chest and fills the nape, 0 to 1 (default).</summary>
+    public double Seat = OptionDefaults.Seat;
+
+    /// <summary>Lays long hair on the body instead of letting it flare, 0 to 1 (default).</summary>
+    public double HairLay = OptionDefaults.HairLay;
+
     /// <summary>Default <see cref="SuperDeform.FaceCurve.F4"/>.</summary>
     public FaceCurve FaceCurve = FaceCurve.F4;
 
@@ -96,6 +129,17 @@ public sealed class Options
         native->hair_length = HairLength;
         native->face_squash = FaceSquash;
         native->height = Height;
+        native->youth = Youth;
+        native->youth_eye = YouthEye;
+        native->youth_lower = YouthLower;
+        native->youth_nose = YouthNose;
+        native->youth_cheek = YouthCheek;
+        native->youth_jaw = YouthJaw;
+        native->youth_skull = YouthSkull;
+        native->youth_ear = YouthEar;
+        native->smile = Smile;
+        native->seat = Seat;
+        native->hair_lay = HairLay;
         native->face_curve = (uint)FaceCurve;
         native->rig_weights = (uint)RigWeights;
         native->rig_garments = (uint)RigGarments;

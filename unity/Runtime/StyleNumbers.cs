@@ -69,6 +69,12 @@ public sealed class StyleNumbers
     /// <summary>Likewise.</summary>
     public double LowerLegRadius = double.NaN;
 
+    /// <summary>The eyes' height above the chin over HeadLength, 0 to 1.</summary>
+    public double EyeHeight = double.NaN;
+
+    /// <summary>Square root of half an eye's width by half its height, over HeadLength, 0 to 0.5.</summary>
+    public double EyeSize = double.NaN;
+
     public StyleNumbers() { }
 
     internal StyleNumbers(SdefStyleNumbers native)
@@ -94,6 +100,8 @@ public sealed class StyleNumbers
         LowerArmRadius = native.lower_arm_radius;
         UpperLegRadius = native.upper_leg_radius;
         LowerLegRadius = native.lower_leg_radius;
+        EyeHeight = native.eye_height;
+        EyeSize = native.eye_size;
     }
 
     internal unsafe SdefStyleNumbers ToNative()
@@ -121,6 +129,8 @@ public sealed class StyleNumbers
         native.lower_arm_radius = LowerArmRadius;
         native.upper_leg_radius = UpperLegRadius;
         native.lower_leg_radius = LowerLegRadius;
+        native.eye_height = EyeHeight;
+        native.eye_size = EyeSize;
         return native;
     }
 }

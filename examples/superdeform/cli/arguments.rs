@@ -7,6 +7,7 @@ use clap::builder::ValueParser;
 use glam::Vec3;
 use regex::Regex;
 use std::path::PathBuf;
+use superdeform::options::Features;
 use superdeform::{FaceCurve, GarmentWeights, Height, Mode, Options, Stage, WeightMethod};
 use values::{choice, count, help, number};
 
@@ -64,6 +65,39 @@ pub struct Arguments {
 
     #[arg(long, value_name = "X", value_parser = ValueParser::new(values::height), help = help("height"), help_heading = STYLE)]
     pub height: Option<Height>,
+
+    #[arg(long, value_name = "X", value_parser = number("youth"), help = help("youth"), help_heading = FACE)]
+    pub youth: Option<f64>,
+
+    #[arg(long, value_name = "X", value_parser = number("youth_eye"), help = help("youth_eye"), help_heading = FACE)]
+    pub youth_eye: Option<f64>,
+
+    #[arg(long, value_name = "X", value_parser = number("youth_lower"), help = help("youth_lower"), help_heading = FACE)]
+    pub youth_lower: Option<f64>,
+
+    #[arg(long, value_name = "X", value_parser = number("youth_nose"), help = help("youth_nose"), help_heading = FACE)]
+    pub youth_nose: Option<f64>,
+
+    #[arg(long, value_name = "X", value_parser = number("youth_cheek"), help = help("youth_cheek"), help_heading = FACE)]
+    pub youth_cheek: Option<f64>,
+
+    #[arg(long, value_name = "X", value_parser = number("youth_jaw"), help = help("youth_jaw"), help_heading = FACE)]
+    pub youth_jaw: Option<f64>,
+
+    #[arg(long, value_name = "X", value_parser = number("youth_skull"), help = help("youth_skull"), help_heading = FACE)]
+    pub youth_skull: Option<f64>,
+
+    #[arg(long, value_name = "X", value_parser = number("youth_ear"), help = help("youth_ear"), help_heading = FACE)]
+    pub youth_ear: Option<f64>,
+
+    #[arg(long, value_name = "X", value_parser = number("smile"), help = help("smile"), help_heading = FACE)]
+    pub smile: Option<f64>,
+
+    #[arg(long, value_name = "X", value_parser = number("seat"), help = help("seat"), help_heading = FACE)]
+    pub seat: Option<f64>,
+
+    #[arg(long, value_name = "X", value_parser = number("hair_lay"), help = help("hair_lay"), help_heading = FACE)]
+    pub hair_lay: Option<f64>,
 
     /// Set a bone group, e.g. upper_leg:length=0.4,thickness=0.8: scales (length, thickness), or how much of
     /// the reference is taken, 0 to 1 (length_transfer, thickness_transfer); repeatable
@@ -130,7 +164,7 @@ pub struct Arguments {
     #[arg(long, value_name = "MAP.json", help_heading = READING)]
     pub reference_humanoid: Option<PathBuf>,
 
-    /// Meshes that are skin; matched, like the four below, against node|mesh|material
+    /// Meshes that are skin; matched, like the five below, against node|mesh|material
     #[arg(long, value_name = "REGEX", value_parser = ValueParser::new(values::pattern), help_heading = READING)]
     pub body: Vec<Regex>,
 
@@ -142,9 +176,13 @@ pub struct Arguments {
     #[arg(long, value_name = "REGEX", value_parser = ValueParser::new(values::pattern), help_heading = READING)]
     pub hair: Vec<Regex>,
 
-    /// Meshes that follow the face: eyes, brows, lashes, teeth
+    /// Meshes that follow the face: brows, lashes, teeth
     #[arg(long, value_name = "REGEX", value_parser = ValueParser::new(values::pattern), help_heading = READING)]
     pub face_part: Vec<Regex>,
+
+    /// Meshes that are eyes: eyeballs, irises, pupils
+    #[arg(long, value_name = "REGEX", value_parser = ValueParser::new(values::pattern), help_heading = READING)]
+    pub eye: Vec<Regex>,
 
     /// Meshes that keep their shape: hats, glasses, bags
     #[arg(long, value_name = "REGEX", value_parser = ValueParser::new(values::pattern), help_heading = READING)]
@@ -176,6 +214,19 @@ impl Arguments {
             amount: self.amount.unwrap_or(unset.amount),
             limits: !self.no_limits && !self.paper,
             hair_length: self.hair_length.unwrap_or(unset.hair_length),
+            youth: self.youth.unwrap_or(unset.youth),
+            features: Features {
+                eye: self.youth_eye.unwrap_or(unset.features.eye),
+                lower: self.youth_lower.unwrap_or(unset.features.lower),
+                nose: self.youth_nose.unwrap_or(unset.features.nose),
+                cheek: self.youth_cheek.unwrap_or(unset.features.cheek),
+                jaw: self.youth_jaw.unwrap_or(unset.features.jaw),
+                skull: self.youth_skull.unwrap_or(unset.features.skull),
+                ear: self.youth_ear.unwrap_or(unset.features.ear),
+            },
+            smile: self.smile.unwrap_or(unset.smile),
+            seat: self.seat.unwrap_or(unset.seat),
+            hair_lay: self.hair_lay.unwrap_or(unset.hair_lay),
             height: self.height.unwrap_or(unset.height),
             stage: self.stage.unwrap_or(unset.stage),
             thread_count: self.threads.unwrap_or(unset.thread_count),
@@ -185,6 +236,7 @@ impl Arguments {
 }
 
 const STYLE: &str = "Style";
+const FACE: &str = "Face and hair";
 const METHOD: &str = "Method";
 const NEW_RIG: &str = "Rig";
 const READING: &str = "Reading the files";

@@ -176,6 +176,7 @@ fn command(arguments: Arguments) -> Result<Command, Refusal> {
         (MeshKind::Garment, arguments.garment),
         (MeshKind::Hair, arguments.hair),
         (MeshKind::FacePart, arguments.face_part),
+        (MeshKind::Eye, arguments.eye),
         (MeshKind::Accessory, arguments.accessory),
     ] {
         kinds.extend(patterns.into_iter().map(|pattern| (kind, pattern)));

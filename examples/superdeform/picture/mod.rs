@@ -12,7 +12,7 @@ mod materials;
 mod surface;
 
 pub use appearance::{Appearance, read as read_appearance};
-pub use materials::Material;
+pub use materials::{Material, Texture};
 pub use surface::PictureMesh;
 
 use camera::Camera;
@@ -42,6 +42,9 @@ const TICK: f32 = 5.0;
 
 const BACKGROUND_TOP: [f32; 3] = [246.0, 247.0, 250.0];
 const BACKGROUND_BOTTOM: [f32; 3] = [226.0, 230.0, 237.0];
+/// Rings around what was found of a face: their colour, and their radius in pixels.
+const MARK_COLOUR: [u8; 3] = [230, 60, 60];
+const MARK_RADIUS: f32 = 4.0;
 const TITLE_COLOUR: [u8; 3] = [58, 64, 78];
 const NOTE_COLOUR: [u8; 3] = [124, 132, 148];
 const RULER_COLOUR: [u8; 3] = [150, 158, 174];
@@ -64,6 +67,8 @@ pub struct View<'a> {
     pub heads: Option<Heads>,
     /// The view whose height this one is drawn at, by index; its own height where there is none.
     pub as_tall_as: Option<usize>,
+    /// Points of the face that were found, ringed in the view from the front.
+    pub marks: Vec<Vec3>,
 }
 
 /// What a ruler of heads is made from: heights along up, model units.
@@ -111,6 +116,7 @@ pub fn draw(views: &[View]) -> RgbImage {
     for (view, figure) in views.iter().zip(&figures) {
         let centre = left + figure.width(scale) / 2.0;
         let pixels = scale * figure.scale;
+        let start = left;
         for camera in &figure.cameras {
             let origin = [left - camera.low.x * pixels, ground + camera.low.y * pixels];
             shadow(
@@ -121,6 +127,11 @@ pub fn draw(views: &[View]) -> RgbImage {
             );
             draw_figure(&mut sheet, view, figure, camera, pixels, origin);
             left += camera.width() * pixels + VIEW_GAP;
+        }
+        let front = &figure.cameras[0];
+        for mark in &view.marks {
+            let [right, up] = [mark.dot(front.right) - front.low.x, mark.dot(front.up) - front.low.y];
+            ring(&mut sheet, [start + right * pixels, ground - up * pixels]);
         }
         if let Some(heads) = &view.heads {
             let [front, side] = &figure.cameras;
@@ -188,6 +199,23 @@ fn scale(figures: &[Figure]) -> f32 {
     let drawn: f32 = figures.iter().map(|figure| figure.width(by_height) - VIEW_GAP).sum();
     let gaps = FIGURE_GAP + figures.len() as f32 * (FIGURE_GAP + VIEW_GAP);
     by_height * ((LARGEST_WIDTH - gaps) / drawn.max(1.0)).clamp(0.0, 1.0)
+}
+
+/// A small ring around a point of the sheet.
+fn ring(sheet: &mut RgbImage, [x, y]: [f32; 2]) {
+    let reach = MARK_RADIUS + 1.0;
+    let pixels =
+        |at: f32, end: u32| (at - reach).max(0.0) as u32..((at + reach + 1.0).max(0.0) as u32).min(end);
+    for row in pixels(y, sheet.height()) {
+        for column in pixels(x, sheet.width()) {
+            let away = (column as f32 + 0.5 - x).hypot(row as f32 + 0.5 - y);
+            let ink = (1.0 - (away - MARK_RADIUS).abs()).max(0.0);
+            let Rgb(under) = sheet.get_pixel_mut(column, row);
+            for (channel, value) in under.iter_mut().enumerate() {
+                *value = (f32::from(*value) * (1.0 - ink) + f32::from(MARK_COLOUR[channel]) * ink) as u8;
+            }
+        }
+    }
 }
 
 fn background(width: u32, height: u32, ground: f32) -> RgbImage {
@@ -303,6 +331,7 @@ mod tests {
     fn view<'a>(meshes: &[Part<'a>]) -> View<'a> {
         View {
             title: "target".to_string(),
+            marks: Vec::new(),
             note: String::new(),
             meshes: meshes
                 .iter()

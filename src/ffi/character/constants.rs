@@ -9,10 +9,12 @@ pub const SDEF_MESH_BODY: u32 = 1;
 pub const SDEF_MESH_GARMENT: u32 = 2;
 /// Hair of the head.
 pub const SDEF_MESH_HAIR: u32 = 3;
-/// Eyes, brows, lashes, teeth, tongue: what follows the face.
+/// Brows, lashes, teeth, tongue: what follows the face.
 pub const SDEF_MESH_FACE_PART: u32 = 4;
 /// Hats, glasses, bags, weapons: what keeps its shape.
 pub const SDEF_MESH_ACCESSORY: u32 = 5;
+/// Eyeballs, irises, pupils: face parts that keep their shape.
+pub const SDEF_MESH_EYE: u32 = 6;
 
 /// uint32_t for indices and joints, float for weights.
 pub const SDEF_TYPE_DEFAULT: u32 = 0;

@@ -4,7 +4,7 @@ use super::{
     SDEF_TYPE_DEFAULT, SDEF_TYPE_F32, SDEF_TYPE_U8, SDEF_TYPE_U16, SDEF_TYPE_U32, SdefMesh, SdefSkeleton,
 };
 use crate::character::mesh::place;
-use crate::character::{Axes, Character, Humanoid, Joint, Mesh, MeshKind, Role, Skeleton, Weights};
+use crate::character::{Axes, Character, Humanoid, Joint, Mesh, MeshKind, Role, Shade, Skeleton, Weights};
 use crate::error::Named;
 use crate::ffi::arrays::{self, Input, reserved};
 use crate::ffi::basics::{SDEF_ELEMENT_JOINT, SDEF_ELEMENT_VERTEX};
@@ -123,6 +123,7 @@ unsafe fn mesh(given: &SdefMesh) -> Outcome<Mesh> {
         Some(MeshKind::Hair),
         Some(MeshKind::FacePart),
         Some(MeshKind::Accessory),
+        Some(MeshKind::Eye),
     ];
     let kind = one_of("kind", given.kind, &kinds)?;
     let count = given.vertex_count;
@@ -141,6 +142,7 @@ unsafe fn mesh(given: &SdefMesh) -> Outcome<Mesh> {
             normals: arrays::optional("normals", given.normals, count, given.normal_stride)?,
             tangents: arrays::optional("tangents", given.tangents, count, given.tangent_stride)?,
             morph_targets: Vec::new(),
+            shade: Shade::Unknown,
             weights: weights.read()?,
             name,
         })

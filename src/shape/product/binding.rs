@@ -2,13 +2,17 @@
 
 use super::anatomy::Anatomy;
 use super::hair::HairOutline;
+use super::head::eye_roles;
 use super::part::{Part, PartWeights};
 use super::pieces::{Attachment, Piece, Pieces};
 use super::weights::part_weights;
-use crate::character::{Role, Skeleton};
-use crate::geometry::{Weld, components};
+use crate::character::{MeshKind, Role, Skeleton};
+use crate::face::landmarks::FaceLandmarks;
+use crate::face::stage::FaceBinding;
+use crate::geometry::{Bounds, Weld, bounds, clusters, components, smoothstep};
 use crate::shape::figure::Figure;
 use glam::DVec3;
+use std::collections::BTreeMap;
 
 /// How one point is attached to the body.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,12 +21,28 @@ pub struct PartBinding {
     pub weights: PartWeights,
     /// Besides the weights.
     pub attachment: Attachment,
+    /// How it takes part in the face step.
+    pub face: FaceBinding,
 }
 
 impl PartBinding {
     /// Moved by one part alone.
     pub fn to(part: Part) -> Self {
-        Self { weights: part.alone(), attachment: Attachment::Plain }
+        let face = match part {
+            Part::Head => FaceBinding::Skin(1.0),
+            Part::Hair => FaceBinding::Hair(1.0),
+            _ => FaceBinding::None,
+        };
+        Self { weights: part.alone(), attachment: Attachment::Plain, face }
+    }
+
+    /// How far it goes where head and neck go, 0 to 1; what is carried on the body does not.
+    pub fn of_head_and_neck(&self) -> f64 {
+        if matches!(self.attachment, Attachment::Piece(_)) {
+            return 0.0;
+        }
+        let parts = [Part::Head, Part::Neck, Part::Hair];
+        smoothstep(parts.iter().map(|&part| f64::from(self.weights[part as usize])).sum())
     }
 }
 
@@ -35,12 +55,17 @@ pub struct PartBindings {
     pub pieces: Vec<Piece>,
     /// For each joint the piece it belongs to.
     pub joint_pieces: Vec<Option<usize>>,
+    /// The vertices of each thing that [`FaceBinding::Piece`] speaks of.
+    pub things: Vec<Vec<u32>>,
+    /// True where eye joints turn the eyes: then they are the eyeballs' own.
+    pub eye_turns: bool,
     /// The outline of the hair below the chin, where there is some.
     pub hair: Option<HairOutline>,
 }
 
 /// Binds every vertex of `figure` to its parts.
 ///
+/// - `face`: what of it was found; eyeballs move as such.
 /// - `weld`: the figure's vertices by position.
 /// - `threads`: at most this many, 0 for all cores; the result does not depend on it.
 ///
@@ -48,6 +73,7 @@ pub struct PartBindings {
 pub fn part_bindings(
     figure: &Figure,
     anatomy: &Anatomy,
+    face: Option<&FaceLandmarks>,
     skeleton: &Skeleton,
     weld: &Weld,
     threads: usize,
@@ -62,9 +88,68 @@ pub fn part_bindings(
             .map(|vertex| figure.positions[vertex]),
         DVec3::new(anatomy.middle_x, anatomy.landmarks.heights.chin, anatomy.head_joint.z),
     );
-    let bind = |(weights, attachment)| PartBinding { weights, attachment };
-    let vertices = weights.into_iter().zip(attachments).map(bind).collect();
-    PartBindings { vertices, pieces, joint_pieces: of_joints, hair }
+    let eye_turns = face.is_some_and(FaceLandmarks::eyes_turn);
+    let things = things_on_head(figure, &members, &attachments);
+    let face = face_bindings(figure, face, &weights, &attachments, &things);
+    let bind = |((weights, attachment), face)| PartBinding { weights, attachment, face };
+    let vertices = weights.into_iter().zip(attachments).zip(face).map(bind).collect();
+    PartBindings { vertices, pieces, joint_pieces: of_joints, things, eye_turns, hair }
+}
+
+/// How each vertex takes part in the face step: with the skin or the hair as far as the head moves it, as an eyeball, or
+/// with a thing that keeps its shape.
+fn face_bindings(
+    figure: &Figure,
+    face: Option<&FaceLandmarks>,
+    weights: &[PartWeights],
+    attachments: &[Attachment],
+    things: &[Vec<u32>],
+) -> Vec<FaceBinding> {
+    let bind = |vertex: usize| {
+        let of_head = weights[vertex][Part::Head as usize] + weights[vertex][Part::Hair as usize];
+        let share = smoothstep(f64::from(of_head)) as f32;
+        match (attachments[vertex], figure.kind(vertex)) {
+            _ if share == 0.0 => FaceBinding::None,
+            (Attachment::Plain, MeshKind::Hair) => FaceBinding::Hair(share),
+            (Attachment::Plain, _) => FaceBinding::Skin(share),
+            _ => FaceBinding::None,
+        }
+    };
+    let mut bindings: Vec<FaceBinding> = (0..weights.len()).map(bind).collect();
+    for (thing, vertices) in things.iter().enumerate() {
+        for &vertex in vertices {
+            bindings[vertex as usize] = FaceBinding::Piece(thing as u32);
+        }
+    }
+    let eyes = face.and_then(|face| face.eyes.as_ref());
+    for (side, eye) in eyes.iter().flat_map(|(_, eyes)| eyes.iter().enumerate()) {
+        for &vertex in eye.ball.iter().flat_map(|ball| &ball.vertices) {
+            bindings[vertex as usize] = FaceBinding::Ball(side as u8);
+        }
+    }
+    bindings
+}
+
+/// Boxes nearer to each other than this share of H are of one thing: lenses in their frame.
+const ONE_THING: f64 = 0.003;
+
+/// Hats, glasses, earrings: components that take the face map as a whole, together where they touch.
+fn things_on_head(figure: &Figure, members: &[Vec<u32>], attachments: &[Attachment]) -> Vec<Vec<u32>> {
+    let is_thing = |members: &&Vec<u32>| {
+        members.first().is_some_and(|&first| matches!(attachments[first as usize], Attachment::OnFace(_)))
+    };
+    let components: Vec<&Vec<u32>> = members.iter().filter(is_thing).collect();
+    let margin = DVec3::splat(ONE_THING * figure.height());
+    let boxes: Vec<Bounds> = components
+        .iter()
+        .map(|members| bounds(members.iter().map(|&vertex| figure.positions[vertex as usize])))
+        .map(|(low, high)| (low - margin, high + margin))
+        .collect();
+    let mut things: BTreeMap<usize, Vec<u32>> = BTreeMap::new();
+    for (members, least) in components.iter().zip(clusters(&boxes, |_, _| true)) {
+        things.entry(least).or_default().extend(*members);
+    }
+    things.into_values().collect()
 }
 
 /// The vertices of each connected component.
@@ -83,6 +168,12 @@ fn members_of_components(figure: &Figure, weld: &Weld) -> Vec<Vec<u32>> {
 pub fn joint_binding(figure: &Figure, bindings: &PartBindings, joint: usize) -> PartBinding {
     let role = figure.joint_roles[joint].unwrap_or(Role::Hips);
     let mut binding = PartBinding::to(Part::of(role));
+    let own = |side: Role| figure.humanoid.joint(side) == Some(joint);
+    if let Some(side) = eye_roles(figure).into_iter().position(own)
+        && bindings.eye_turns
+    {
+        binding.face = FaceBinding::Ball(side as u8);
+    }
     if let Some(piece) = bindings.joint_pieces[joint] {
         binding.attachment = Attachment::Piece(piece);
     } else if role == Role::Head && figure.humanoid.joint(role) != Some(joint) {

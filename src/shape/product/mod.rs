@@ -6,10 +6,13 @@
 pub mod anatomy;
 pub mod binding;
 pub mod coefficients;
+pub mod curtain;
 pub mod field;
 pub mod groups;
 pub mod hair;
+pub mod head;
 pub mod landmarks;
+pub mod long_hair;
 pub mod part;
 pub mod pieces;
 pub mod scales;

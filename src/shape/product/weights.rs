@@ -79,7 +79,7 @@ fn head_only(figure: &Figure, parts: &[PartWeights], members: &[Vec<u32>]) -> Ve
     let of_head = |vertex: u32| parts[vertex as usize][Part::Head as usize];
     let of_body = |vertex: u32| 1.0 - of_head(vertex) - parts[vertex as usize][Part::Neck as usize];
     let mut head_only: Vec<bool> =
-        figure.kinds.iter().map(|kind| matches!(kind, MeshKind::Hair | MeshKind::FacePart)).collect();
+        figure.kinds.iter().map(|&kind| kind == MeshKind::Hair || kind.is_of_face()).collect();
     for members in members {
         let mean = members.iter().map(|&vertex| of_head(vertex)).sum::<f32>() / members.len().max(1) as f32;
         if mean > HEAD_ONLY && members.iter().all(|&vertex| of_body(vertex) < BODY_DUST) {

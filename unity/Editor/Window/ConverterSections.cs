@@ -190,6 +190,28 @@ namespace SuperDeform.Editor
             face.IsOwn = () => !double.IsNaN(options.FaceSquash);
             face.Reset = () => model.Change("undo.face", () => options.FaceSquash = double.NaN);
             section.Rows.Add(face);
+            section.Rows.Add(Slider("option.youth", OptionRange.Youth, () => (float)options.Youth,
+                value => model.Change("undo.face", () => options.Youth = value)));
+            section.Rows.Add(Slider("option.youth_eye", OptionRange.YouthEye, () => (float)options.YouthEye,
+                value => model.Change("undo.face", () => options.YouthEye = value)));
+            section.Rows.Add(Slider("option.youth_lower", OptionRange.YouthLower, () => (float)options.YouthLower,
+                value => model.Change("undo.face", () => options.YouthLower = value)));
+            section.Rows.Add(Slider("option.youth_nose", OptionRange.YouthNose, () => (float)options.YouthNose,
+                value => model.Change("undo.face", () => options.YouthNose = value)));
+            section.Rows.Add(Slider("option.youth_cheek", OptionRange.YouthCheek, () => (float)options.YouthCheek,
+                value => model.Change("undo.face", () => options.YouthCheek = value)));
+            section.Rows.Add(Slider("option.youth_jaw", OptionRange.YouthJaw, () => (float)options.YouthJaw,
+                value => model.Change("undo.face", () => options.YouthJaw = value)));
+            section.Rows.Add(Slider("option.youth_skull", OptionRange.YouthSkull, () => (float)options.YouthSkull,
+                value => model.Change("undo.face", () => options.YouthSkull = value)));
+            section.Rows.Add(Slider("option.youth_ear", OptionRange.YouthEar, () => (float)options.YouthEar,
+                value => model.Change("undo.face", () => options.YouthEar = value)));
+            section.Rows.Add(Slider("option.smile", OptionRange.Smile, () => (float)options.Smile,
+                value => model.Change("undo.face", () => options.Smile = value)));
+            section.Rows.Add(Slider("option.seat", OptionRange.Seat, () => (float)options.Seat,
+                value => model.Change("undo.face", () => options.Seat = value)));
+            section.Rows.Add(Slider("option.hair_lay", OptionRange.HairLay, () => (float)options.HairLay,
+                value => model.Change("undo.face", () => options.HairLay = value)));
             section.Rows.Add(Popup("face_curve", typeof(FaceCurve), () => (int)options.FaceCurve,
                 value => model.Change("undo.face", () => options.FaceCurve = (FaceCurve)value)));
             section.Rows.Add(new TextRow { Label = Strings.Get("tune.groups"), Strong = true });

@@ -1,0 +1,147 @@
+//! Numbers that carry their gradient, so that a map is written once and its Jacobian is exact.
+
+use glam::{DMat3, DVec3};
+use std::ops::{Add, Mul, Neg, Sub};
+
+/// A number, with or without its gradient.
+pub trait Number:
+    Copy
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Neg<Output = Self>
+    + Add<f64, Output = Self>
+    + Sub<f64, Output = Self>
+    + Mul<f64, Output = Self>
+{
+    /// A constant.
+    fn constant(value: f64) -> Self;
+
+    /// The number itself.
+    fn value(self) -> f64;
+
+    /// 1 / self.
+    fn recip(self) -> Self;
+
+    /// Its square root; 0 at and below 0.
+    fn root(self) -> Self;
+
+    /// Its distance from 0.
+    fn distance(self) -> Self {
+        if self.value() < 0.0 { -self } else { self }
+    }
+}
+
+impl Number for f64 {
+    fn constant(value: f64) -> Self {
+        value
+    }
+
+    fn value(self) -> f64 {
+        self
+    }
+
+    fn recip(self) -> Self {
+        1.0 / self
+    }
+
+    fn root(self) -> Self {
+        self.max(0.0).sqrt()
+    }
+}
+
+/// A number and its derivatives by the three coordinates of a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Dual {
+    /// The number.
+    pub value: f64,
+    /// Its derivatives.
+    pub gradient: DVec3,
+}
+
+impl Dual {
+    /// The coordinates of `p`.
+    pub fn point(p: DVec3) -> [Self; 3] {
+        [(p.x, DVec3::X), (p.y, DVec3::Y), (p.z, DVec3::Z)].map(|(value, gradient)| Self { value, gradient })
+    }
+
+    /// A point, and the matrix of its derivatives.
+    pub fn split(p: [Self; 3]) -> (DVec3, DMat3) {
+        let [x, y, z] = p;
+        let rows = DMat3::from_cols(x.gradient, y.gradient, z.gradient);
+        (DVec3::new(x.value, y.value, z.value), rows.transpose())
+    }
+}
+
+impl Number for Dual {
+    fn constant(value: f64) -> Self {
+        Self { value, gradient: DVec3::ZERO }
+    }
+
+    fn value(self) -> f64 {
+        self.value
+    }
+
+    fn recip(self) -> Self {
+        let value = 1.0 / self.value;
+        Self { value, gradient: -value * value * self.gradient }
+    }
+
+    fn root(self) -> Self {
+        let value = self.value.max(0.0).sqrt();
+        let slope = if value > 0.0 { 0.5 / value } else { 0.0 };
+        Self { value, gradient: slope * self.gradient }
+    }
+}
+
+impl Add for Dual {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        Self { value: self.value + other.value, gradient: self.gradient + other.gradient }
+    }
+}
+
+impl Sub for Dual {
+    type Output = Self;
+    fn sub(self, other: Self) -> Self {
+        Self { value: self.value - other.value, gradient: self.gradient - other.gradient }
+    }
+}
+
+impl Mul for Dual {
+    type Output = Self;
+    fn mul(self, other: Self) -> Self {
+        Self {
+            value: self.value * other.value,
+            gradient: self.value * other.gradient + other.value * self.gradient,
+        }
+    }
+}
+
+impl Neg for Dual {
+    type Output = Self;
+    fn neg(self) -> Self {
+        Self { value: -self.value, gradient: -self.gradient }
+    }
+}
+
+impl Add<f64> for Dual {
+    type Output = Self;
+    fn add(self, other: f64) -> Self {
+        Self { value: self.value + other, ..self }
+    }
+}
+
+impl Sub<f64> for Dual {
+    type Output = Self;
+    fn sub(self, other: f64) -> Self {
+        Self { value: self.value - other, ..self }
+    }
+}
+
+impl Mul<f64> for Dual {
+    type Output = Self;
+    fn mul(self, other: f64) -> Self {
+        Self { value: self.value * other, gradient: self.gradient * other }
+    }
+}

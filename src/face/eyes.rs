@@ -1,0 +1,415 @@
+//! Where the eyes are: by pieces of the mesh, by what blinks, by joints, by twin pieces; else nowhere.
+//!
+//! Dents in the depth map were tried and dropped: they took a brow and an egg-shaped head for eyes on two of three
+//! heads, and a wrong eye bends the face where it should not.
+
+use super::head::{Head, quantile_ends};
+use super::iris::{Iris, iris};
+use crate::geometry::{bounds, components, weld};
+
+use glam::{DVec2, DVec3};
+
+/// How the eyes were found, surest first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EyeSource {
+    /// The host said where they are.
+    Hints,
+    /// Meshes that are eyes, or vertices that eye joints move.
+    Pieces,
+    /// What a blink moves.
+    Blink,
+    /// The eye joints alone.
+    Joints,
+    /// Two mirrored pieces of the head.
+    Twins,
+}
+
+impl EyeSource {
+    /// The name in a report.
+    pub fn name(self) -> &'static str {
+        match self {
+            EyeSource::Hints => "hints",
+            EyeSource::Pieces => "pieces",
+            EyeSource::Blink => "blink",
+            EyeSource::Joints => "joints",
+            EyeSource::Twins => "twins",
+        }
+    }
+
+    /// How sure that is, 0 to 1.
+    pub fn confidence(self) -> f64 {
+        match self {
+            EyeSource::Hints => 1.0,
+            EyeSource::Pieces => 0.95,
+            EyeSource::Blink => 0.9,
+            EyeSource::Twins => 0.7,
+            EyeSource::Joints => 0.6,
+        }
+    }
+}
+
+/// A piece of a mesh that is an eye: a ball, or a disc that stands for one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Eyeball {
+    /// The box around it.
+    pub low: DVec3,
+    /// See `low`.
+    pub high: DVec3,
+    /// What it turns about: the eye's joint where that lies in it, else its middle.
+    pub centre: DVec3,
+    /// True where an eye joint moves it.
+    pub turns: bool,
+    /// Its vertices, in the figure's numbers.
+    pub vertices: Vec<u32>,
+    /// Its painted iris, where one is seen.
+    pub iris: Option<Iris>,
+}
+
+impl Eyeball {
+    /// R: half the larger of its width and height.
+    pub fn radius(&self) -> f64 {
+        0.5 * (self.high - self.low).truncate().max_element()
+    }
+
+    /// True for a ball, false for a disc.
+    pub fn is_ball(&self) -> bool {
+        let extent = self.high - self.low;
+        extent.z > 0.5 * extent.x
+    }
+}
+
+/// One eye.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Eye {
+    /// The opening between the lids, seen from the front: its lower end towards -x, at the depth of its foremost point.
+    pub low: DVec3,
+    /// Its upper end towards +x, at the same depth.
+    pub high: DVec3,
+    /// What is seen in it, where that is a piece of its own.
+    pub ball: Option<Eyeball>,
+}
+
+impl Eye {
+    /// The opening's middle.
+    pub fn middle(&self) -> DVec3 {
+        0.5 * (self.low + self.high)
+    }
+
+    /// a: half the opening's width.
+    pub fn half_width(&self) -> f64 {
+        0.5 * (self.high.x - self.low.x)
+    }
+
+    /// b: half its height.
+    pub fn half_height(&self) -> f64 {
+        0.5 * (self.high.y - self.low.y)
+    }
+
+    /// R of the ball; the larger half extent of the opening where there is none.
+    pub fn radius(&self) -> f64 {
+        let opening = self.half_width().max(self.half_height());
+        self.ball.as_ref().map_or(opening, Eyeball::radius)
+    }
+}
+
+/// Left and right eye.
+pub type Eyes = [Eye; 2];
+
+/// The first source that gives both eyes, with the irises painted on them.
+pub fn eyes(head: &Head) -> Option<(EyeSource, Eyes)> {
+    let (source, mut eyes) = found(head)?;
+    for ball in eyes.iter_mut().filter_map(|eye| eye.ball.as_mut()) {
+        ball.iris = iris(head, ball);
+    }
+    Some((source, eyes))
+}
+
+fn found(head: &Head) -> Option<(EyeSource, Eyes)> {
+    let blink = by_blink(head);
+    if let Some(mut eyes) = by_pieces(head) {
+        for (eye, blink) in eyes.iter_mut().zip(blink.iter().flatten()) {
+            let more = blink.half_height() - eye.half_height();
+            if more > 0.0 {
+                eye.low.y -= more;
+                eye.high.y += more;
+            }
+        }
+        return Some((EyeSource::Pieces, eyes));
+    }
+    let or = |found: Option<Eyes>, source: EyeSource| found.map(|eyes| (source, eyes));
+    or(blink, EyeSource::Blink)
+        .or_else(|| or(by_joints(head), EyeSource::Joints))
+        .or_else(|| or(by_twins(head), EyeSource::Twins))
+}
+
+/// A connected piece of one side of the head.
+struct Piece {
+    vertices: Vec<u32>,
+    triangles: Vec<u32>,
+    low: DVec3,
+    high: DVec3,
+}
+
+impl Piece {
+    fn middle(&self) -> DVec3 {
+        0.5 * (self.low + self.high)
+    }
+
+    fn extent(&self) -> DVec3 {
+        self.high - self.low
+    }
+}
+
+/// Connected pieces of `chosen`, numbers of `triangles`, on one side of the middle.
+fn pieces(head: &Head, triangles: &[[u32; 3]], side: f64) -> Vec<Piece> {
+    // Only their own vertices are welded: an eye in its socket often touches the lids.
+    let mut used: Vec<u32> = triangles.iter().flatten().copied().collect();
+    used.sort_unstable();
+    used.dedup();
+    let number = |vertex: u32| used.binary_search(&vertex).expect("all are listed") as u32;
+    let own: Vec<[u32; 3]> = triangles.iter().map(|corners| corners.map(number)).collect();
+    let points: Vec<DVec3> = used.iter().map(|&vertex| head.points[vertex as usize]).collect();
+    let weld = weld(&points, head.parts.seam / head.frame.length);
+    let component = components(&own, &weld);
+    let mut found: Vec<Vec<u32>> = vec![Vec::new(); weld.count];
+    for (index, corners) in triangles.iter().enumerate() {
+        let x: f64 = corners.iter().map(|&corner| head.points[corner as usize].x).sum();
+        if side * x > 0.0 {
+            found[component[weld.representative[own[index][0] as usize] as usize] as usize]
+                .push(index as u32);
+        }
+    }
+    found.retain(|triangles| !triangles.is_empty());
+    found
+        .into_iter()
+        .map(|members| {
+            let mut vertices: Vec<u32> =
+                members.iter().flat_map(|&triangle| triangles[triangle as usize]).collect();
+            vertices.sort_unstable();
+            vertices.dedup();
+            let (low, high) = bounds(vertices.iter().map(|&vertex| head.points[vertex as usize]));
+            Piece { vertices, triangles: members, low, high }
+        })
+        .collect()
+}
+
+/// How far from the middle an eye's may be, in head lengths.
+const ASIDE: std::ops::Range<f64> = 0.03..0.42;
+/// Widths of an eye's piece, in head lengths.
+const PIECE_WIDTH: std::ops::Range<f64> = 0.02..0.42;
+/// What is flatter than this part of its width is a brow or a lash.
+const PIECE_FLATTEST: f64 = 0.33;
+/// What is higher than this, in head lengths, is no eye.
+const PIECE_HEIGHT: f64 = 0.5;
+/// Squares of a look at an opening, in head lengths: with the front view's own, b is a row off.
+const FINE: f64 = 0.002;
+/// The share of an opening at each end that is left out, against single squares.
+const OPENING_ENDS: f64 = 0.002;
+/// A joint further from a ball's middle than this part of its radius is not what it turns about.
+const JOINT_IN_BALL: f64 = 0.6;
+
+/// Meshes that are eyes, or what eye joints move.
+fn by_pieces(head: &Head) -> Option<Eyes> {
+    let triangles = head.eyes();
+    let [left, right] = [0, 1].map(|side| {
+        let pieces = pieces(head, &triangles, if side == 0 { 1.0 } else { -1.0 });
+        let fits = |piece: &&Piece| {
+            let (extent, aside) = (piece.extent(), piece.middle().x.abs());
+            let heights = PIECE_FLATTEST * extent.x..PIECE_HEIGHT;
+            ASIDE.contains(&aside) && PIECE_WIDTH.contains(&extent.x) && heights.contains(&extent.y)
+        };
+        let area = |piece: &Piece| piece.extent().x * piece.extent().y;
+        let largest = pieces.iter().filter(fits).max_by(|a, b| area(a).total_cmp(&area(b)))?;
+        // Iris and pupil may be pieces of their own.
+        let slack = 0.1 * largest.extent();
+        let (low, high) = (largest.low - slack, largest.high + slack);
+        let inside = |piece: &&Piece| piece.low.cmpge(low).all() && piece.high.cmple(high).all();
+        let parts: Vec<&Piece> = pieces.iter().filter(inside).collect();
+        let own: Vec<[u32; 3]> =
+            parts.iter().flat_map(|piece| &piece.triangles).map(|&index| triangles[index as usize]).collect();
+        let mut vertices: Vec<u32> = parts.iter().flat_map(|piece| &piece.vertices).copied().collect();
+        vertices.sort_unstable();
+        vertices.dedup();
+        let (low, high) = bounds(vertices.iter().map(|&vertex| head.points[vertex as usize]));
+        let opening = opening(head, &own, low, high)?;
+        let radius = 0.5 * (high - low).truncate().max_element();
+        let middle = 0.5 * (low + high);
+        let joint = head.eye_joint(side).filter(|joint| joint.distance(middle) < JOINT_IN_BALL * radius);
+        let moved = vertices.iter().filter(|&&vertex| head.parts.turns[vertex as usize]).count();
+        let ball = Eyeball {
+            low,
+            high,
+            centre: joint.unwrap_or(middle),
+            turns: 2 * moved > vertices.len(),
+            vertices,
+            iris: None,
+        };
+        Some(Eye { low: opening.0.extend(high.z), high: opening.1.extend(high.z), ball: Some(ball) })
+    });
+    Some([left?, right?]).filter(are_plausible)
+}
+
+/// Where the front shows `own` triangles, within the box from `low` to `high`.
+fn opening(head: &Head, own: &[[u32; 3]], low: DVec3, high: DVec3) -> Option<(DVec2, DVec2)> {
+    let margin = DVec2::splat(FINE);
+    let mut of_eye = own.to_vec();
+    of_eye.sort_unstable();
+    let view = head.front_view(low.truncate() - margin, high.truncate() + margin, FINE);
+    let (mut x, mut y) = (Vec::new(), Vec::new());
+    for row in 0..view.rows() {
+        for column in 0..view.columns() {
+            if let Some(triangle) = view.triangle(column, row)
+                && of_eye.binary_search(&head.bare[triangle]).is_ok()
+            {
+                let middle = view.middle(column, row);
+                x.push(middle.x);
+                y.push(middle.y);
+            }
+        }
+    }
+    let ((left, right), (bottom, top)) =
+        (quantile_ends(&mut x, OPENING_ENDS)?, quantile_ends(&mut y, OPENING_ENDS)?);
+    Some((DVec2::new(left, bottom), DVec2::new(right, top)))
+}
+
+/// True for the name of a morph target that closes an eye.
+pub fn closes_an_eye(name: &str) -> bool {
+    let name = name.to_lowercase();
+    let any = |words: &[&str]| words.iter().any(|word| name.contains(word));
+    let closes = any(&["blink", "wink", "eyeclose", "eye_close", "eyesclose", "eyes_close", "eye close"]);
+    closes && !any(&["smile", "squint", "happy", "joy"])
+}
+
+/// A blink moves what moves by more than this part of its greatest travel.
+const BLINK_LEAST: f64 = 0.3;
+/// The share of a blink's vertices at each end that is left out.
+const BLINK_ENDS: f64 = 0.03;
+/// Fewer vertices that move are no lids.
+const BLINK_VERTICES: usize = 3;
+
+/// What blinks move: their lids' vertices lie around the opening, and travel through it.
+fn by_blink(head: &Head) -> Option<Eyes> {
+    let parts = &head.parts;
+    let mut travel = vec![0.0f64; head.points.len()];
+    for (mesh, start) in parts.character.meshes.iter().zip(parts.mesh_starts) {
+        for target in mesh.morph_targets.iter().filter(|target| closes_an_eye(&target.name)) {
+            for (vertex, delta) in target.positions.iter().enumerate() {
+                let moved = &mut travel[start + vertex];
+                *moved = moved.max(f64::from(delta.length()) / head.frame.length);
+            }
+        }
+    }
+    let [left, right] = [1.0, -1.0].map(|side| {
+        let of_side: Vec<usize> = (0..travel.len())
+            .filter(|&vertex| travel[vertex] > 0.0 && side * head.points[vertex].x > 0.0)
+            .filter(|&vertex| parts.of_head[vertex])
+            .collect();
+        let most = of_side.iter().map(|&vertex| travel[vertex]).fold(0.0, f64::max);
+        let lids: Vec<DVec3> = of_side
+            .iter()
+            .filter(|&&vertex| travel[vertex] > BLINK_LEAST * most)
+            .map(|&vertex| head.points[vertex])
+            .collect();
+        if lids.len() < BLINK_VERTICES {
+            return None;
+        }
+        let mut x: Vec<f64> = lids.iter().map(|p| p.x).collect();
+        let mut y: Vec<f64> = lids.iter().map(|p| p.y).collect();
+        let ((inner, outer), (bottom, top)) =
+            (quantile_ends(&mut x, BLINK_ENDS)?, quantile_ends(&mut y, BLINK_ENDS)?);
+        let middle = 0.5 * (bottom + top);
+        let front = lids.iter().map(|p| p.z).fold(f64::NEG_INFINITY, f64::max);
+        let low = DVec3::new(inner, middle - 0.5 * most, front);
+        Some(Eye { low, high: DVec3::new(outer, middle + 0.5 * most, front), ball: None })
+    });
+    Some([left?, right?]).filter(are_plausible)
+}
+
+/// Half width and height of an opening that only a joint tells of, in half distances of the eyes: an adult's.
+const OPENING_BY_JOINT: [f64; 2] = [0.45, 0.25];
+
+/// The eye joints; the skin before them is the opening's depth.
+fn by_joints(head: &Head) -> Option<Eyes> {
+    let joints = [head.eye_joint(0)?, head.eye_joint(1)?];
+    let d = 0.5 * (joints[0].x - joints[1].x);
+    let [left, right] = joints.map(|joint| {
+        let front = head.front.depth_at(joint.truncate())?;
+        let half = (d * DVec2::from_array(OPENING_BY_JOINT)).extend(0.0);
+        let middle = joint.with_z(front);
+        Some(Eye { low: middle - half, high: middle + half, ball: None })
+    });
+    Some([left?, right?]).filter(are_plausible)
+}
+
+/// Two eyes stand side by side in the middle third of a head: what does not is no pair of eyes.
+fn are_plausible(eyes: &Eyes) -> bool {
+    let [left, right] = eyes.each_ref().map(Eye::middle);
+    let d = 0.5 * (left.x - right.x);
+    TWIN_ASIDE.contains(&d)
+        && TWIN_HEIGHT.contains(&(0.5 * (left.y + right.y)))
+        && (left.y - right.y).abs() < 0.5 * d
+        && (left.x + right.x).abs() < d
+        && eyes.iter().all(|eye| eye.half_width() < d && eye.half_width() > 0.0 && eye.half_height() > 0.0)
+}
+
+/// Twins are mirrored to this, in head lengths.
+const TWIN_MIRRORED: f64 = 0.03;
+/// Their widths; how flat and how high they may be; how far aside and how high up they are; in head lengths.
+const TWIN_WIDTH: std::ops::Range<f64> = 0.03..0.3;
+/// See [`TWIN_WIDTH`]. Painted eyes of figurines are dots or stand upright; brows, moustaches and tusks lie.
+const TWIN_FLATTEST: f64 = 0.8;
+/// See [`TWIN_WIDTH`].
+const TWIN_MOST: f64 = 0.4;
+/// See [`TWIN_WIDTH`].
+const TWIN_ASIDE: std::ops::Range<f64> = 0.07..0.36;
+/// See [`TWIN_WIDTH`].
+const TWIN_HEIGHT: std::ops::Range<f64> = 0.2..0.62;
+/// Of a twin's box at least this share is seen from the front.
+const TWIN_SEEN: f64 = 0.5;
+
+/// Two small pieces without names that mirror each other, as figurines' painted-black eyes are.
+fn by_twins(head: &Head) -> Option<Eyes> {
+    let pieces = [1.0, -1.0].map(|side| pieces(head, &head.bare, side));
+    let fits = |piece: &&Piece| {
+        let (extent, middle) = (piece.extent(), piece.middle());
+        TWIN_WIDTH.contains(&extent.x)
+            && (TWIN_FLATTEST * extent.x..TWIN_MOST).contains(&extent.y)
+            && TWIN_ASIDE.contains(&middle.x.abs())
+            && TWIN_HEIGHT.contains(&middle.y)
+    };
+    let mut best: Option<(f64, Eyes)> = None;
+    for left in pieces[0].iter().filter(fits) {
+        for right in pieces[1].iter().filter(fits) {
+            let mirrored = DVec3::new(-right.middle().x, right.middle().y, right.middle().z);
+            let grown = left.extent() - right.extent();
+            if left.middle().distance(mirrored) > TWIN_MIRRORED || grown.abs().max_element() > TWIN_MIRRORED {
+                continue;
+            }
+            let eye = |piece: &Piece| {
+                let own: Vec<[u32; 3]> =
+                    piece.triangles.iter().map(|&index| head.bare[index as usize]).collect();
+                let (low, high) = opening(head, &own, piece.low, piece.high)?;
+                let seen = (high - low).element_product() / piece.extent().truncate().element_product();
+                let ball = Eyeball {
+                    low: piece.low,
+                    high: piece.high,
+                    centre: piece.middle(),
+                    turns: false,
+                    vertices: piece.vertices.clone(),
+                    iris: None,
+                };
+                let eye =
+                    Eye { low: low.extend(piece.high.z), high: high.extend(piece.high.z), ball: Some(ball) };
+                (seen > TWIN_SEEN).then_some(eye)
+            };
+            if let (Some(left), Some(right)) = (eye(left), eye(right)) {
+                let area = left.half_width() * left.half_height();
+                let eyes = [left, right];
+                if are_plausible(&eyes) && best.as_ref().is_none_or(|(most, _)| area > *most) {
+                    best = Some((area, eyes));
+                }
+            }
+        }
+    }
+    best.map(|(_, eyes)| eyes)
+}

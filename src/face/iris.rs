@@ -1,0 +1,151 @@
+//! Painted irises: where on an eyeball the dark disc is, how large, and how it grows on the ball.
+
+use super::dual::Number;
+use super::eyes::Eyeball;
+use super::flow::step;
+use super::head::{Head, quantile};
+use super::raster::{DepthMap, Window};
+use glam::{DVec2, DVec3};
+
+/// An iris on a ball.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Iris {
+    /// Where its middle is, from the ball's middle, in the ball's half extents: of unit length.
+    pub towards: DVec3,
+    /// How far its edge is from there, in radians.
+    pub angle: f64,
+}
+
+/// Squares of a look at a ball, in its widths.
+const SQUARES: f64 = 48.0;
+/// Only what looks to the front this much is seen well.
+const FACING: f64 = 0.45;
+/// Dark is below this part of the way from a ball's darkest to its lightest 3 and 10 of 100.
+const DARK: f64 = 0.55;
+/// See [`DARK`].
+const DARKEST: (f64, f64) = (0.03, 0.90);
+/// A ball whose lights and darks differ less has no iris that is seen.
+const CONTRAST: f64 = 0.15;
+/// Shares of a ball's front that an iris may take.
+const SHARE: (f64, f64) = (0.02, 0.55);
+/// An iris lies within this cosine of its middle.
+const NEAR: f64 = 0.8;
+/// Rings about its middle in which the share of dark is looked at, in radians.
+const RING: f64 = 0.04;
+
+/// The iris on `ball`, from how bright it is; `None` where nobody knows that, or it shows none.
+pub fn iris(head: &Head, ball: &Eyeball) -> Option<Iris> {
+    let is_own =
+        |corners: &&[u32; 3]| corners.iter().all(|corner| ball.vertices.binary_search(corner).is_ok());
+    let own: Vec<[u32; 3]> = head.parts.triangles.iter().filter(is_own).copied().collect();
+    let (middle, half) = (0.5 * (ball.low + ball.high), 0.5 * (ball.high - ball.low));
+    let step = 2.0 * half.x / SQUARES;
+    let window = Window { low: ball.low.truncate(), high: ball.high.truncate(), step };
+    let view = DepthMap::new(&head.points, &own, window);
+    let mut seen: Vec<(DVec3, f64)> = Vec::new();
+    for row in 0..view.rows() {
+        for column in 0..view.columns() {
+            let p = view.middle(column, row);
+            let (Some(depth), Some(triangle)) = (view.depth(column, row), view.triangle(column, row)) else {
+                continue;
+            };
+            let towards = ((p.extend(depth) - middle) / half).normalize_or_zero();
+            if towards.z > FACING
+                && let Some(shade) = head.shade(own[triangle], DVec2::new(p.x, p.y))
+            {
+                seen.push((towards, shade));
+            }
+        }
+    }
+    let mut shades: Vec<f64> = seen.iter().map(|&(_, shade)| shade).collect();
+    let (darkest, lightest) = (quantile(&mut shades, DARKEST.0)?, quantile(&mut shades, DARKEST.1)?);
+    if lightest - darkest < CONTRAST {
+        return None;
+    }
+    let limit = darkest + DARK * (lightest - darkest);
+    let dark: Vec<DVec3> =
+        seen.iter().filter(|&&(_, shade)| shade < limit).map(|&(towards, _)| towards).collect();
+    let share = dark.len() as f64 / seen.len() as f64;
+    if share < SHARE.0 || share > SHARE.1 {
+        return None;
+    }
+    let mut towards = dark.iter().sum::<DVec3>().normalize_or_zero();
+    for _ in 0..5 {
+        let near = dark.iter().filter(|direction| direction.dot(towards) > NEAR);
+        towards = near.sum::<DVec3>().normalize_or_zero();
+    }
+    if towards == DVec3::ZERO {
+        return None;
+    }
+    let mut rings: Vec<[usize; 2]> = vec![[0; 2]; (1.2 / RING) as usize];
+    for &(direction, shade) in &seen {
+        let ring = (direction.dot(towards).clamp(-1.0, 1.0).acos() / RING) as usize;
+        if let Some(counts) = rings.get_mut(ring) {
+            counts[usize::from(shade < limit)] += 1;
+        }
+    }
+    // The middle holds highlights, and few squares.
+    let edge = (3..rings.len()).find(|&ring| rings[ring][0] > rings[ring][1])?;
+    Some(Iris { towards, angle: edge as f64 * RING })
+}
+
+/// How an iris grows and where it looks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct IrisFlow {
+    /// The ball's middle and half extents, before.
+    pub middle: DVec3,
+    /// See `middle`.
+    pub half: DVec3,
+    /// What is found there.
+    pub iris: Iris,
+    /// How many times as large it becomes, 1 to [`MOST_GROWTH`].
+    pub growth: f64,
+    /// By how much the ball turns outwards, in radians, towards +x where above 0.
+    pub yaw: f64,
+}
+
+/// Larger, the rest of the ball's front would be pressed into too little of it.
+pub const MOST_GROWTH: f64 = 1.6;
+/// The iris grows evenly up to so many of its own chords, and nothing changes beyond this chord.
+const EVEN: f64 = 1.05;
+/// 2 sin(1.75 / 2): three quarters of the way to the ball's edge lie behind its side.
+const UNTOUCHED: f64 = 1.535;
+
+impl IrisFlow {
+    /// Where a point of the ball is after the share `youth` of the change, before the ball itself moves.
+    ///
+    /// Each point keeps its distance from the ball's middle, in the ball's half extents.
+    pub fn map<N: Number>(&self, p: [N; 3], youth: f64) -> [N; 3] {
+        let [x, y, z] = [0, 1, 2].map(|axis| (p[axis] - self.middle[axis]) * (1.0 / self.half[axis]));
+        let radius = (x * x + y * y + z * z).root();
+        if radius.value() <= 0.0 {
+            return p;
+        }
+        let inverse = radius.recip();
+        let [x, y, z] = [x * inverse, y * inverse, z * inverse];
+        let w = self.iris.towards;
+        let along = x * w.x + y * w.y + z * w.z;
+        // The square of the chord to the iris's middle.
+        let square = -along * 2.0 + 2.0;
+        let start = EVEN * 2.0 * (0.5 * self.iris.angle).sin();
+        let grown = 1.0 + youth * (self.growth - 1.0);
+        let mut moved = [x, y, z];
+        if square.value() < UNTOUCHED * UNTOUCHED && square.value() > 0.0 {
+            let chord = square.root();
+            let fades = -step((chord - start) * (1.0 / (UNTOUCHED - start))) + 1.0;
+            let factor = fades * (grown - 1.0) + 1.0;
+            let new_square = square * factor * factor;
+            let new_along = -new_square * 0.5 + 1.0;
+            // What is at right angles to the middle grows with the chord, and shrinks as the sphere turns away.
+            let rest = (-new_square * 0.25 + 1.0) * (-square * 0.25 + 1.0).recip();
+            let across = factor * rest.root();
+            moved = [0, 1, 2].map(|axis| {
+                let own = [x, y, z][axis] - along * w[axis];
+                new_along * w[axis] + own * across
+            });
+        }
+        let (sin, cos) = (youth * self.yaw).sin_cos();
+        let turned = [moved[0] * cos + moved[2] * sin, moved[1], moved[2] * cos - moved[0] * sin];
+        [0, 1, 2].map(|axis| turned[axis] * radius * self.half[axis] + self.middle[axis])
+    }
+}

@@ -1,0 +1,186 @@
+//! The face step as a stage of the deformation: where the stages before put a point, to where a younger face has it.
+
+use super::flow::{Flow, Follower, STEPS, along};
+use super::head::HeadFrame;
+use crate::geometry::Mapped;
+use crate::parallel;
+use glam::{DMat3, DVec3, Vec3};
+
+/// How a point takes part in the face step.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum FaceBinding {
+    /// Not at all.
+    #[default]
+    None,
+    /// With the flow, by this share, 0 to 1.
+    Skin(f32),
+    /// With the flow of hair.
+    Hair(f32),
+    /// As a point of the left (0) or right (1) eyeball.
+    Ball(u8),
+    /// With so-and-so many of the pieces that keep their shape.
+    Piece(u32),
+}
+
+/// The face step, for any youth.
+#[derive(Clone, Debug)]
+pub struct YoungFace {
+    /// Where the head is, after the stages before.
+    frame: HeadFrame,
+    skin: Follower,
+    hair: Follower,
+    /// What hats, glasses and earrings do after each piece of the way: one row for each thing.
+    pieces: Vec<[Similarity; STEPS]>,
+}
+
+/// Moved and scaled as one: p -> shift + scale p, in head lengths.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Similarity {
+    scale: f64,
+    shift: DVec3,
+}
+
+/// The ways of vertices, from where the stages before put them, in head lengths.
+#[derive(Clone, Debug, Default)]
+pub struct Ways {
+    /// For each vertex its row in `ways`; `NO_WAY` where it is not kept.
+    rows: Vec<u32>,
+    ways: Vec<[Vec3; STEPS]>,
+}
+
+const NO_WAY: u32 = u32::MAX;
+
+impl YoungFace {
+    /// The step that moves a head at `frame` by `flow`.
+    ///
+    /// `things`: where the stages before put the vertices of each thing that keeps its shape.
+    pub fn new(frame: HeadFrame, flow: Flow, things: &[Vec<DVec3>]) -> Self {
+        let hair = Follower::new(flow.of_hair());
+        let mut face = Self { frame, skin: Follower::new(flow), hair, pieces: Vec::new() };
+        face.pieces = things.iter().map(|points| face.piece(points)).collect();
+        face
+    }
+
+    /// The similarities that take a thing nearest to where the flow takes its points: glasses grow with the eyes that they
+    /// stand before, hats with the skull.
+    fn piece(&self, points: &[DVec3]) -> [Similarity; STEPS] {
+        let from: Vec<DVec3> = points.iter().map(|&p| self.frame.to_unit(p)).collect();
+        let ways: Vec<_> = from.iter().map(|&p| self.skin.way(p)).collect();
+        let mean =
+            |of: &dyn Fn(usize) -> DVec3| (0..from.len()).map(of).sum::<DVec3>() / from.len().max(1) as f64;
+        let middle = mean(&|point| from[point]);
+        let spread: f64 = from.iter().map(|p| p.distance_squared(middle)).sum();
+        std::array::from_fn(|step| {
+            let moved = mean(&|point| ways[point][step]);
+            let along: f64 =
+                (0..from.len()).map(|point| (from[point] - middle).dot(ways[point][step] - moved)).sum();
+            let scale = if spread > 0.0 { along / spread } else { 1.0 };
+            Similarity { scale, shift: moved - scale * middle }
+        })
+    }
+
+    /// What the points follow.
+    pub fn flow(&self) -> &Flow {
+        self.skin.flow()
+    }
+
+    /// Where the head is, after the stages before.
+    pub fn frame(&self) -> HeadFrame {
+        self.frame
+    }
+
+    /// Where `p`, which the stages before have put there, is after the share `youth` of its way.
+    pub fn place(&self, p: DVec3, binding: FaceBinding, youth: f64) -> DVec3 {
+        let (follower, share) = match binding {
+            FaceBinding::Skin(share) => (&self.skin, share),
+            FaceBinding::Hair(share) => (&self.hair, share),
+            _ => return self.map(p, binding, youth).position,
+        };
+        let from = self.frame.to_unit(p);
+        p + f64::from(share) * self.frame.length * (follower.place(from, youth) - from)
+    }
+
+    /// As [`Self::place`], with the Jacobian.
+    pub fn map(&self, p: DVec3, binding: FaceBinding, youth: f64) -> Mapped {
+        let (follower, share) = match binding {
+            FaceBinding::None => return Mapped::unmoved(p),
+            FaceBinding::Skin(share) => (&self.skin, f64::from(share)),
+            FaceBinding::Hair(share) => (&self.hair, f64::from(share)),
+            FaceBinding::Ball(eye) => {
+                let Some(eyes) = &self.flow().eyes else { return Mapped::unmoved(p) };
+                let (to, jacobian) = eyes[usize::from(eye)].ball(self.frame.to_unit(p), youth);
+                return Mapped { position: self.frame.from_unit(to), jacobian };
+            }
+            FaceBinding::Piece(piece) => {
+                let from = self.frame.to_unit(p);
+                let way = self.pieces[piece as usize].map(|after| after.shift + after.scale * from);
+                let scales = self.pieces[piece as usize].map(|after| DVec3::splat(after.scale));
+                let scale = along(DVec3::ONE, &scales, youth).x;
+                let position = self.frame.from_unit(along(from, &way, youth));
+                return Mapped { position, jacobian: DMat3::IDENTITY * scale };
+            }
+        };
+        let from = self.frame.to_unit(p);
+        let (to, jacobian) = follower.map(from, youth);
+        Mapped {
+            position: p + share * self.frame.length * (to - from),
+            jacobian: DMat3::IDENTITY + (jacobian - DMat3::IDENTITY) * share,
+        }
+    }
+
+    /// The ways of vertices that the stages before put at `points`.
+    ///
+    /// - `bindings`: one for each.
+    /// - `threads`: at most this many, 0 for all cores.
+    pub fn ways(&self, points: &[DVec3], bindings: &[FaceBinding], threads: usize) -> Ways {
+        let follower = |vertex: usize| match bindings[vertex] {
+            FaceBinding::Skin(share) if share > 0.0 => Some(&self.skin),
+            FaceBinding::Hair(share) if share > 0.0 => Some(&self.hair),
+            _ => None,
+        };
+        let mut rows = vec![NO_WAY; points.len()];
+        let moved: Vec<usize> = (0..points.len()).filter(|&vertex| follower(vertex).is_some()).collect();
+        for (row, &vertex) in moved.iter().enumerate() {
+            rows[vertex] = row as u32;
+        }
+        let ways = parallel::collect(threads, moved.len(), LEAST_WAYS, |row| {
+            let vertex = moved[row];
+            let from = self.frame.to_unit(points[vertex]);
+            match follower(vertex) {
+                Some(follower) => follower.way(from).map(|p| (p - from).as_vec3()),
+                None => [Vec3::ZERO; STEPS],
+            }
+        });
+        Ways { rows, ways }
+    }
+
+    /// As [`Self::place`], for a vertex whose way is kept.
+    pub fn place_along(
+        &self,
+        p: DVec3,
+        binding: FaceBinding,
+        youth: f64,
+        vertex: usize,
+        ways: &Ways,
+    ) -> DVec3 {
+        match (ways.rows.get(vertex), binding) {
+            (Some(&row), FaceBinding::Skin(share) | FaceBinding::Hair(share)) if row != NO_WAY => {
+                let moved = along_f32(&ways.ways[row as usize], youth);
+                p + f64::from(share) * self.frame.length * moved.as_dvec3()
+            }
+            _ => self.place(p, binding, youth),
+        }
+    }
+}
+
+/// Fewer ways than this are not worth a thread.
+const LEAST_WAYS: usize = 1000;
+
+/// As [`along`], from 0.
+fn along_f32(way: &[Vec3; STEPS], youth: f64) -> Vec3 {
+    let along = youth.clamp(0.0, 1.0) * STEPS as f64;
+    let whole = (along as usize).min(STEPS);
+    let rest = (along - whole as f64) as f32;
+    let last = if whole == 0 { Vec3::ZERO } else { way[whole - 1] };
+    if rest > 0.0 { last + rest * (way[whole] - last) } else { last }
+}

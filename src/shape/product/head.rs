@@ -1,0 +1,82 @@
+//! What the face step needs of a figure's head.
+
+use super::anatomy::Anatomy;
+use super::binding::PartBinding;
+use super::part::Part;
+use crate::character::{Character, MeshKind, Role};
+use crate::face::head::{Head, HeadFrame, HeadParts};
+use crate::face::seat::SeatSources;
+use crate::geometry::SEAM;
+use crate::shape::figure::Figure;
+use glam::DVec3;
+
+/// The head of `character`, which is laid out as `figure`.
+pub fn head<'a>(character: &'a Character, figure: &'a Figure, anatomy: &Anatomy) -> Head<'a> {
+    let all = 0..figure.positions.len();
+    let of_kind = |kind: MeshKind| figure.kinds.iter().map(|&own| own == kind).collect();
+    let is_eye = |role: Role| matches!(role, Role::LeftEye | Role::RightEye);
+    let turns: Vec<bool> = all.clone().map(|vertex| figure.weight_of(vertex, is_eye) > 0.5).collect();
+    let parts = HeadParts {
+        character,
+        mesh_starts: &figure.mesh_starts,
+        triangles: &figure.triangles,
+        of_head: all.clone().map(|vertex| figure.weight_of(vertex, Role::is_head) > 0.5).collect(),
+        is_hair: of_kind(MeshKind::Hair),
+        is_accessory: of_kind(MeshKind::Accessory),
+        is_eye: all.map(|vertex| turns[vertex] || figure.kind(vertex) == MeshKind::Eye).collect(),
+        turns,
+        eye_joints: eye_roles(figure).map(|role| figure.role_position(role)),
+        seam: SEAM * figure.height(),
+    };
+    Head::new(parts, &figure.positions, head_frame(anatomy))
+}
+
+/// The roles of the eyes towards +x and -x: in left-handed axes the left eye is the second.
+pub fn eye_roles(figure: &Figure) -> [Role; 2] {
+    let x = |role: Role| figure.role_position(role).map(|p| p.x);
+    let is_mirrored = x(Role::LeftEye).zip(x(Role::RightEye)).is_some_and(|(left, right)| left < right);
+    if is_mirrored { [Role::RightEye, Role::LeftEye] } else { [Role::LeftEye, Role::RightEye] }
+}
+
+/// Where a figure's head is.
+pub fn head_frame(anatomy: &Anatomy) -> HeadFrame {
+    let heights = anatomy.landmarks.heights;
+    HeadFrame {
+        origin: DVec3::new(anatomy.middle_x, heights.chin, anatomy.head_joint.z),
+        length: heights.head_length(),
+    }
+}
+
+/// How far beside and below the head its seat is measured, in head lengths: more than the parts' maps make of a head's
+/// width, and the chest of a child's body.
+const SEAT_REACH: (f64, f64) = (0.4, 1.2);
+
+/// What the seat of a figure's head is measured on: the middle of what is not an arm.
+pub fn seat_sources(figure: &Figure, anatomy: &Anatomy, bindings: &[PartBinding]) -> SeatSources {
+    let frame = head_frame(anatomy);
+    let is_near = |vertex: usize| {
+        let p = frame.to_unit(figure.positions[vertex]);
+        let arms: f32 = bindings[vertex].weights[Part::LeftUpperArm as usize..].iter().take(6).sum();
+        p.x.abs() < SEAT_REACH.0 && p.y > -SEAT_REACH.1 && arms < 0.5
+    };
+    let is_near: Vec<bool> = (0..figure.positions.len()).map(is_near).collect();
+    let of = |choose: &dyn Fn(MeshKind) -> bool| {
+        figure.triangles_where(|vertex| is_near[vertex] && choose(figure.kind(vertex)))
+    };
+    let mut sources = SeatSources {
+        bare: of(&|kind| !kind.is_carried()),
+        with_hair: of(&|kind| kind != MeshKind::Accessory),
+        ..SeatSources::default()
+    };
+    let mut numbers = vec![u32::MAX; figure.positions.len()];
+    for corner in sources.bare.iter_mut().chain(&mut sources.with_hair).flatten() {
+        let number = &mut numbers[*corner as usize];
+        if *number == u32::MAX {
+            *number = sources.vertices.len() as u32;
+            sources.vertices.push(*corner);
+            sources.shares.push(bindings[*corner as usize].of_head_and_neck() as f32);
+        }
+        *corner = *number;
+    }
+    sources
+}

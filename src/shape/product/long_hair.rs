@@ -1,0 +1,337 @@
+//! Long hair on a child's body: it hangs from the head and lies where it lay, on the body that is there now (§VII, D30).
+//!
+//! What grows with the head and narrows to the body's girth on its way down flares, swings and stands off like a brim.
+//! Here hair is never wider further down, leans in by no more than [`LEAN`], and then follows the body at its old
+//! distance. All is read from two maps about the torso's axis: how far the body reaches at each angle and height, and
+//! how far the hair does.
+
+use crate::face::head::HeadFrame;
+use crate::face::head::quantile;
+use crate::geometry::{Weld, smoothstep};
+use glam::DVec3;
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+/// Angles about the axis, and the height of a row in head lengths.
+pub(super) const ANGLES: usize = 24;
+/// See [`ANGLES`].
+const ROW: f64 = 0.035;
+/// The top row's height above the chin.
+const TOP: f64 = 1.2;
+/// Rows: to the soles of a figure of 6 heads.
+const ROWS: usize = 210;
+/// The share of points in a field of a map that it holds.
+const OUTER: f64 = 0.95;
+/// Hair is long where it reaches further below the chin than this.
+const LONG: f64 = 0.12;
+/// Hair lies on the body where its median distance from it is in this range, below the chin.
+const LYING: (f64, f64) = (0.02, 0.25);
+/// From the first height on the hair's own outline holds, which may not grow downwards.
+const HANGS_FROM: f64 = 0.48;
+/// Hair goes over from where the head takes it to where it lies between these heights.
+const GOES_OVER: (f64, f64) = (0.44, 0.24);
+/// How fast hair leans in towards the body: by 31 degrees.
+const LEAN: f64 = 0.60;
+/// Of its old distance from the body hair keeps all, or this much of the head's growth where that is less.
+const KEPT: f64 = 0.55;
+/// Hair lies at least so far from the body, and nowhere nearer than the second number.
+const LEAST_GAP: (f64, f64) = (0.02, 0.012);
+/// A strand keeps its place between the body (0) and the hair's outline (1), within these.
+const SHARES: (f64, f64) = (0.06, 1.1);
+/// Steps that even out what is added, half the way to the neighbours' mean each.
+const SMOOTHED: usize = 3;
+
+/// How far something reaches from an axis, by angle and height; head lengths.
+#[derive(Clone, Debug)]
+pub(super) struct PolarMap {
+    rows: Vec<[f64; ANGLES]>,
+}
+
+/// A point about the axis: angle in fields of a map, height above the chin, distance from the axis.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Polar {
+    pub angle: f64,
+    pub height: f64,
+    pub radius: f64,
+}
+
+/// The axis, and the head's frame that heights and lengths are in.
+#[derive(Clone, Copy, Debug)]
+pub struct Axis {
+    /// Where the head is.
+    pub frame: HeadFrame,
+    /// Where the torso's axis is, seen from above: x and z.
+    pub middle: [f64; 2],
+}
+
+impl Axis {
+    pub(super) fn polar(&self, p: DVec3) -> Polar {
+        let (x, z) = (p.x - self.middle[0], p.z - self.middle[1]);
+        // 0 in front, growing towards the left.
+        let turn = x.atan2(z).rem_euclid(TAU) / TAU;
+        Polar {
+            // The first field's middle is in front, so that the fields of a mirrored figure are the mirrored ones.
+            angle: (turn * ANGLES as f64 + 0.5) % ANGLES as f64,
+            height: (p.y - self.frame.origin.y) / self.frame.length,
+            radius: x.hypot(z) / self.frame.length,
+        }
+    }
+}
+
+fn row_of(height: f64) -> f64 {
+    ((TOP - height) / ROW).clamp(0.0, (ROWS - 1) as f64)
+}
+
+impl PolarMap {
+    /// The map of `points`; fields without a point are filled from those beside them, then from the rows above.
+    pub(super) fn of(points: impl Iterator<Item = Polar>) -> Self {
+        let mut fields: Vec<Vec<f64>> = vec![Vec::new(); ROWS * ANGLES];
+        for Polar { angle, height, radius } in points {
+            if height <= TOP + 0.5 * ROW {
+                let row = row_of(height).round() as usize;
+                fields[row * ANGLES + angle as usize % ANGLES].push(radius);
+            }
+        }
+        let rows = fields.chunks_mut(ANGLES).map(|row| {
+            let mut values = [f64::NAN; ANGLES];
+            for (value, field) in values.iter_mut().zip(row) {
+                *value = quantile(field, OUTER).unwrap_or(f64::NAN);
+            }
+            filled_round(values)
+        });
+        let mut rows: Vec<[f64; ANGLES]> = rows.collect();
+        for row in 1..ROWS {
+            if rows[row][0].is_nan() {
+                rows[row] = rows[row - 1];
+            }
+        }
+        for row in (0..ROWS - 1).rev() {
+            if rows[row][0].is_nan() {
+                rows[row] = rows[row + 1];
+            }
+        }
+        Self { rows }
+    }
+
+    /// The value at an angle and a height, between the middles of four fields.
+    pub(super) fn at(&self, p: Polar) -> f64 {
+        let (row, angle) = (row_of(p.height), (p.angle - 0.5).rem_euclid(ANGLES as f64));
+        let (above, before) = (row as usize, angle as usize % ANGLES);
+        let below = (above + 1).min(ROWS - 1);
+        let after = (before + 1) % ANGLES;
+        let (down, round) = (row - above as f64, angle - angle.floor());
+        let mix = |row: &[f64; ANGLES]| row[before] + round * (row[after] - row[before]);
+        mix(&self.rows[above]) + down * (mix(&self.rows[below]) - mix(&self.rows[above]))
+    }
+}
+
+/// A row whose gaps are filled evenly from both sides; all gaps where there is nothing.
+fn filled_round(values: [f64; ANGLES]) -> [f64; ANGLES] {
+    std::array::from_fn(|index| {
+        if !values[index].is_nan() {
+            return values[index];
+        }
+        let find = |step: usize| {
+            (1..ANGLES).find_map(|distance| {
+                let value = values[(index + distance * step) % ANGLES];
+                (!value.is_nan()).then_some((distance as f64, value))
+            })
+        };
+        match (find(1), find(ANGLES - 1)) {
+            (Some((after, a)), Some((before, b))) => (a * before + b * after) / (after + before),
+            _ => f64::NAN,
+        }
+    })
+}
+
+/// Points on `triangles`, no further apart than about a third of a row.
+fn samples(points: &[DVec3], triangles: &[[u32; 3]], spacing: f64) -> Vec<DVec3> {
+    let mut all = Vec::new();
+    for corners in triangles {
+        let [a, b, c] = corners.map(|corner| points[corner as usize]);
+        let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
+        let steps = ((longest / spacing).ceil() as usize).clamp(1, MOST_STEPS);
+        for i in 0..=steps {
+            for j in 0..=steps - i {
+                let (u, v) = (i as f64 / steps as f64, j as f64 / steps as f64);
+                all.push(a + u * (b - a) + v * (c - a));
+            }
+        }
+    }
+    all
+}
+
+/// A triangle is cut no finer than this along an edge.
+const MOST_STEPS: usize = 12;
+
+/// Long hair that lies on the body, and how it does, before anything moves.
+#[derive(Clone, Debug)]
+pub struct LongHair {
+    /// The hair's vertices.
+    pub vertices: Vec<u32>,
+    /// For each strand, whether it lies on the body: then its vertices are among these.
+    pub lies: Vec<bool>,
+    /// The body's vertices, and triangles between these numbers.
+    pub body_vertices: Vec<u32>,
+    body: Vec<[u32; 3]>,
+    axis: Axis,
+    own: PolarMap,
+    outline: PolarMap,
+    /// For each of the hair's vertices its place, which it shares with those that it is welded to.
+    places: Vec<u32>,
+    /// For each place those that an edge joins it with.
+    around: Vec<Vec<u32>>,
+}
+
+impl LongHair {
+    /// The hair of `strands`, connected pieces by the figure's vertices, that lies on `body`; `None` where none does.
+    ///
+    /// - `positions`: of the whole figure, `triangles`: all of its; `body`: those that hair may lie on.
+    pub fn of(
+        positions: &[DVec3],
+        triangles: &[[u32; 3]],
+        weld: &Weld,
+        strands: &[Vec<u32>],
+        body: &[[u32; 3]],
+        axis: Axis,
+    ) -> Option<Self> {
+        if body.is_empty() {
+            return None;
+        }
+        let spacing = ROW * axis.frame.length / 3.0;
+        let own = PolarMap::of(samples(positions, body, spacing).into_iter().map(|p| axis.polar(p)));
+        let lies: Vec<bool> = strands.iter().map(|strand| lies(positions, strand, &own, axis)).collect();
+        let lying = strands.iter().zip(&lies).filter(|&(_, &lies)| lies);
+        let mut vertices: Vec<u32> = lying.flat_map(|(strand, _)| strand).copied().collect();
+        vertices.sort_unstable();
+        if vertices.is_empty() {
+            return None;
+        }
+        let outline = PolarMap::of(vertices.iter().map(|&vertex| axis.polar(positions[vertex as usize])));
+        let mut body_vertices: Vec<u32> = body.iter().flatten().copied().collect();
+        body_vertices.sort_unstable();
+        body_vertices.dedup();
+        let number = |vertex: u32| body_vertices.binary_search(&vertex).expect("all are listed") as u32;
+        let body = body.iter().map(|corners| corners.map(number)).collect();
+        let (places, around) = places(&vertices, triangles, weld);
+        Some(Self { vertices, lies, body_vertices, body, axis, own, outline, places, around })
+    }
+
+    /// `offsets`, one for each of [`Self::vertices`], evened out along the hair.
+    pub fn smoothed(&self, offsets: &[DVec3]) -> Vec<DVec3> {
+        let mut sums = vec![(DVec3::ZERO, 0.0); self.around.len()];
+        for (&place, &offset) in self.places.iter().zip(offsets) {
+            let sum = &mut sums[place as usize];
+            *sum = (sum.0 + offset, sum.1 + 1.0);
+        }
+        let mut now: Vec<DVec3> = sums.into_iter().map(|(sum, count)| sum / f64::max(count, 1.0)).collect();
+        for _ in 0..SMOOTHED {
+            let last = now.clone();
+            for (place, near) in self.around.iter().enumerate().filter(|(_, near)| !near.is_empty()) {
+                let mean = near.iter().map(|&other| last[other as usize]).sum::<DVec3>() / near.len() as f64;
+                now[place] = 0.5 * (last[place] + mean);
+            }
+        }
+        self.places.iter().map(|&place| now[place as usize]).collect()
+    }
+
+    /// Where the hair would hang on the body as it is now.
+    ///
+    /// - `hair`, `body`: where [`Self::vertices`] and [`Self::body_vertices`] are before.
+    /// - `positions`: of the whole figure at rest; `axis`: as it is now.
+    pub fn hanging(
+        self: &Arc<Self>,
+        positions: &[DVec3],
+        hair: &[DVec3],
+        body: &[DVec3],
+        axis: Axis,
+    ) -> Hanging {
+        let spacing = ROW * axis.frame.length / 3.0;
+        let now = PolarMap::of(samples(body, &self.body, spacing).into_iter().map(|p| axis.polar(p)));
+        let outline = PolarMap::of(hair.iter().map(|&p| axis.polar(p)));
+        // In the lengths of the head that it hangs from now.
+        let growth = axis.frame.length / self.axis.frame.length;
+        let kept = (KEPT * growth).min(1.0) / growth;
+        let gaps = PolarMap::of(self.vertices.iter().zip(hair).map(|(&vertex, &p)| {
+            let before = self.axis.polar(positions[vertex as usize]);
+            let gap = kept * (before.radius - self.own.at(before));
+            Polar { radius: gap, ..axis.polar(p) }
+        }));
+        let mut envelope = outline.clone();
+        for row in 0..ROWS {
+            let height = TOP - ROW * row as f64;
+            for angle in 0..ANGLES {
+                let body = now.rows[row][angle];
+                let wanted = if height > HANGS_FROM {
+                    outline.rows[row][angle]
+                } else {
+                    let above = envelope.rows[row - 1][angle];
+                    let lying = body + gaps.rows[row][angle].max(LEAST_GAP.0);
+                    let own = if height > 0.0 { outline.rows[row][angle] } else { lying };
+                    above.min(own.max(above - LEAN * ROW))
+                };
+                envelope.rows[row][angle] = wanted.max(body + LEAST_GAP.1);
+            }
+        }
+        Hanging { before: Arc::clone(self), axis, body: now, envelope }
+    }
+}
+
+/// The places of `vertices`, welded, and which of them edges join.
+fn places(vertices: &[u32], triangles: &[[u32; 3]], weld: &Weld) -> (Vec<u32>, Vec<Vec<u32>>) {
+    let mut welded: Vec<u32> = vertices.iter().map(|&vertex| weld.representative[vertex as usize]).collect();
+    let all = welded.clone();
+    welded.sort_unstable();
+    welded.dedup();
+    let place = |representative: u32| welded.binary_search(&representative).ok().map(|place| place as u32);
+    let mut around: Vec<Vec<u32>> = vec![Vec::new(); welded.len()];
+    for corners in triangles {
+        if let [Some(a), Some(b), Some(c)] = weld.triangle(*corners).map(place) {
+            for (from, to) in [(a, b), (b, c), (c, a)] {
+                around[from as usize].push(to);
+                around[to as usize].push(from);
+            }
+        }
+    }
+    for near in &mut around {
+        near.sort_unstable();
+        near.dedup();
+    }
+    (all.into_iter().filter_map(place).collect(), around)
+}
+
+/// True for a strand that reaches below the chin and lies on the body there.
+fn lies(positions: &[DVec3], strand: &[u32], body: &PolarMap, axis: Axis) -> bool {
+    let points = strand.iter().map(|&vertex| axis.polar(positions[vertex as usize]));
+    let lowest = points.clone().map(|p| p.height).fold(f64::INFINITY, f64::min);
+    let mut gaps: Vec<f64> = points.filter(|p| p.height < 0.0).map(|p| p.radius - body.at(p)).collect();
+    lowest < -LONG && quantile(&mut gaps, 0.5).is_some_and(|gap| gap >= LYING.0 && gap <= LYING.1)
+}
+
+/// Hair on the body as it is now.
+#[derive(Clone, Debug)]
+pub struct Hanging {
+    before: Arc<LongHair>,
+    axis: Axis,
+    body: PolarMap,
+    envelope: PolarMap,
+}
+
+impl Hanging {
+    /// What must be added to a point of the hair that was at `rest` and is at `now`.
+    pub fn offset(&self, rest: DVec3, now: DVec3) -> DVec3 {
+        let p = self.axis.polar(now);
+        let over = smoothstep((GOES_OVER.0 - p.height) / (GOES_OVER.0 - GOES_OVER.1));
+        if over == 0.0 || p.radius <= 0.0 {
+            return DVec3::ZERO;
+        }
+        let before = self.before.axis.polar(rest);
+        let own = self.before.own.at(before);
+        let depth = (self.before.outline.at(before) - own).max(LEAST_GAP.1);
+        let share = ((before.radius - own) / depth).clamp(SHARES.0, SHARES.1);
+        let body = self.body.at(p);
+        let radius = body + share * (self.envelope.at(p) - body);
+        let outwards = DVec3::new(now.x - self.axis.middle[0], 0.0, now.z - self.axis.middle[1]);
+        outwards * (over * (radius / p.radius - 1.0))
+    }
+}
