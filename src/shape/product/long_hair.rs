@@ -1,7 +1,7 @@
 //! Long hair on a child's body: it hangs from the head and lies where it lay, on the body that is there now (§VII, D30).
 //!
 //! What grows with the head and narrows to the body's girth on its way down flares, swings and stands off like a brim.
-//! Here hair is never wider further down, leans in by no more than [`LEAN`], and then follows the body at its old
+//! Here hair is never wider further down, leans in by no more than `LEAN`, and then follows the body at its old
 //! distance. All is read from two maps about the torso's axis: how far the body reaches at each angle and height, and
 //! how far the hair does.
 
