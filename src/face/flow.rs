@@ -214,7 +214,7 @@ pub(super) struct BrowFlow {
     pub lines: [(f64, f64); 2],
     /// d, before and after.
     pub half_distances: [f64; 2],
-    /// How far below the line the eyes' openings are, at least [`LEAST_BELOW`].
+    /// How far below the line the eyes' openings are, at least a twentieth of the head length.
     pub below: f64,
 }
 
