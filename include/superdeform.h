@@ -17,9 +17,8 @@
 //            winding: a mirrored character gives the mirrored result. Vertices are floats, joints and points doubles.
 // Matrices   16 doubles, column by column, for column vectors: the translation is numbers 12, 13 and 14, and numbers
 //            3, 7, 11 and 15 are 0, 0, 0 and 1.
-// Results    The feet stay on the ground. The height does not stay unless asked (SdefOptions.height): a figure of fewer
-//            heads is shorter. sdef_deformer_get_figure says how tall it was and is; scale by that what belongs to it
-//            (capsules, cameras, steps).
+// Results    The feet stay on the ground. The height does not stay: a figure of fewer heads is shorter. sdef_deformer_
+//            get_figure says how tall it was and is; scale what belongs to it (capsules, cameras, steps) by that.
 // Handles    A handle is a number, not an address. 0 is none. One that is destroyed, made up or of another kind gives
 //            SDEF_STATUS_BAD_HANDLE and nothing worse. Styles and deformers keep what they need of a character, which
 //            may be changed or destroyed before them.
@@ -232,7 +231,7 @@ typedef struct SdefOptions {
   uint32_t reserved;                // 0
   double height;                    // how tall the result is, in the character's units, grown or shrunk as a whole
                                     // about the ground; 0: as tall as the character was; NAN (default): as the style
-                                    // makes it, or as tall as it was if it has as few heads already
+                                    // makes it
   double youth;                     // the face from its own age (0) to a child's, or the reference's (1, default)
   double youth_eye;                 // of youth, 0 to 1 (default): eyes grow, lids open
   double youth_lower;               // of youth, 0 to 1 (default): eyes and all beside them sink

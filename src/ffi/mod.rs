@@ -19,9 +19,8 @@
 //!            winding: a mirrored character gives the mirrored result. Vertices are floats, joints and points doubles.
 //! Matrices   16 doubles, column by column, for column vectors: the translation is numbers 12, 13 and 14, and numbers
 //!            3, 7, 11 and 15 are 0, 0, 0 and 1.
-//! Results    The feet stay on the ground. The height does not stay unless asked (SdefOptions.height): a figure of fewer
-//!            heads is shorter. sdef_deformer_get_figure says how tall it was and is; scale by that what belongs to it
-//!            (capsules, cameras, steps).
+//! Results    The feet stay on the ground. The height does not stay: a figure of fewer heads is shorter. sdef_deformer_
+//!            get_figure says how tall it was and is; scale what belongs to it (capsules, cameras, steps) by that.
 //! Handles    A handle is a number, not an address. 0 is none. One that is destroyed, made up or of another kind gives
 //!            SDEF_STATUS_BAD_HANDLE and nothing worse. Styles and deformers keep what they need of a character, which
 //!            may be changed or destroyed before them.

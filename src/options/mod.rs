@@ -117,8 +117,7 @@ names!(GarmentWeights { Robust: "robust", Nearest: "nearest", Heat: "heat" });
 /// How tall the result is. It grows or shrinks as a whole, about the ground below the hips.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Height {
-    /// As the style makes it: a figure of fewer heads is shorter. In product mode one that has as few already keeps its
-    /// height.
+    /// As the style makes it: a figure of fewer heads is shorter.
     #[default]
     Style,
     /// As tall as the character was.

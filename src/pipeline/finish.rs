@@ -9,8 +9,6 @@ use crate::geometry::range;
 use crate::options::{Height, Mode, Stage};
 use crate::shape::field::{BodyField, Finish};
 use crate::shape::measured::is_of_head;
-use crate::shape::product::anatomy::Proportions;
-use crate::shape::style::Style;
 use glam::DVec3;
 use std::time::Instant;
 
@@ -62,7 +60,6 @@ impl Deformer {
     fn finish_height(&mut self) {
         let figure = &self.target.measured.figure;
         let height = match self.options.height {
-            Height::Style if self.is_short_enough() => figure.height(),
             Height::Style => return,
             Height::Keep => figure.height(),
             Height::Units(units) => units,
@@ -73,19 +70,6 @@ impl Deformer {
             self.field.finish.about = hips.with_y(self.deformation.bindings.ground.height);
             self.field.finish.size = height / (high - low);
         }
-    }
-
-    /// True where the target has as few heads as the style asks for, or fewer: its body would only grow around its head,
-    /// and it with it. Product mode alone: the paper's equations say how tall the result is.
-    ///
-    /// Seen: tubbykun, 2.2 heads, under a style of 2.5 came out at 1.42 m instead of 0.94.
-    fn is_short_enough(&self) -> bool {
-        let asked = match &self.style {
-            Style::Heads(heads) => Some(*heads),
-            Style::Shape(shape) => shape.proportions.as_ref().map(Proportions::heads),
-        };
-        let own = self.target.measured.anatomy.proportions.heads();
-        self.options.mode == Mode::Product && asked.is_some_and(|asked| own <= asked)
     }
 
     /// gamma as set, else the mode's own.

@@ -1104,7 +1104,7 @@ internal unsafe struct SdefOptions {
 
     /// <summary>
     /// how tall the result is, in the character's units, grown or shrunk as a whole about the ground; 0: as tall as the
-    /// character was; NAN (default): as the style makes it, or as tall as it was if it has as few heads already
+    /// character was; NAN (default): as the style makes it
     /// </summary>
     public double height;
 

@@ -39,7 +39,7 @@ public sealed class Options
 
     /// <summary>
     /// How tall the result is, in the character's units, grown or shrunk as a whole about the ground; 0: as tall as the
-    /// character was; NaN (default): as the style makes it, or as tall as it was if it has as few heads already.
+    /// character was; NaN (default): as the style makes it.
     /// </summary>
     public double Height = double.NaN;
 
