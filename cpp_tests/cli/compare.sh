@@ -9,7 +9,7 @@ done
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 name=$(basename "$target")
-"$example" --quiet "$target" "$reference" -o "$scratch/rust_$name"
+"$example" --quiet --youth 0 "$target" "$reference" -o "$scratch/rust_$name"
 "$cli" "$target" "$reference" "$scratch/cpp_$name" 2>/dev/null
 printf '%-42s' "$name"
 "$compare" "$scratch/rust_$name" "$scratch/cpp_$name" 1e-6
