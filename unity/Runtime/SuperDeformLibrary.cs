@@ -80,10 +80,15 @@ public static class SuperDeformLibrary
     {
         get
         {
-            return "The native library superdeform is not there or not for this machine (Windows, Linux and macOS, 64 "
-                + "bits): install this package from the release file superdeform-" + Version + ".tgz (Package Manager, "
-                + "Add package from tarball), or build the library in a checkout of the repository with: "
-                + BuildCommand;
+#if UNITY_EDITOR || !UNITY_5_3_OR_NEWER
+            return "The native library superdeform is not there or not for this machine (64 bits): install this package "
+                + "from the release file superdeform-" + Version + ".tgz (Package Manager, Add package from tarball), or "
+                + "build the library in a checkout of the repository with: " + BuildCommand;
+#else
+            return "The native library superdeform is not in this player: add the library for its system to the project's "
+                + "Assets/Plugins folder and tick that system in its import settings (the define SUPERDEFORM_RUNTIME "
+                + "asks for it)";
+#endif
         }
     }
 

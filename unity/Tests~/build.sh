@@ -36,8 +36,6 @@ assembly() {
 assembly SuperDeform "" "-unsafe -d:UNITY_EDITOR" Runtime
 nunit=$(find /usr/lib/cli /usr/lib/mono -name nunit.framework.dll 2>/dev/null | sort | tail -n 1)
 assembly SuperDeform.Tests SuperDeform "-unsafe -d:UNITY_EDITOR -d:UNITY_INCLUDE_TESTS -r:$nunit" Tests/Runtime
-# As a player for a system where libraries are linked in.
-assembly SuperDeform.Player "" "-unsafe -d:UNITY_IOS -d:ENABLE_IL2CPP" Runtime
 assembly UnityEngine "" "-unsafe -nowarn:67,108,114,169,414,649,660,661" Tests~/UnityStubs/Engine
 assembly UnityEditor "UnityEngine" "-unsafe -nowarn:67,108,114,169,414,649,660,661" Tests~/UnityStubs/Editor
 editor="SuperDeform UnityEngine UnityEditor"

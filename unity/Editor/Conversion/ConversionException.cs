@@ -34,6 +34,8 @@ namespace SuperDeform.Editor
             if (known != null) return known;
             string key = "failed";
             if (cause is CancelledException) return new ConversionException(new Finding("cancelled", Severity.Info, where), cause);
+            Finding tooNew = cause is LibraryMissingException ? LibraryFile.TooNew() : null;
+            if (tooNew != null) return new ConversionException(tooNew, cause);
             if (cause is LibraryMissingException) key = "library_missing";
             else if (cause is LibraryVersionException) key = "library_version";
             else if (cause is SuperDeformException) key = "library_says";
