@@ -14,6 +14,7 @@ use superdeform::internals::ffi::all_at_once::*;
 use superdeform::internals::ffi::basics::*;
 use superdeform::internals::ffi::character::*;
 use superdeform::internals::ffi::deformer::*;
+use superdeform::internals::ffi::lifetime::*;
 use superdeform::internals::ffi::options::*;
 use superdeform::internals::ffi::rig::*;
 use superdeform::internals::ffi::style::*;

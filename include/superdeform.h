@@ -135,6 +135,8 @@ const char *sdef_version(void);
 // The name of a status, such as "SDEF_STATUS_BUSY"; "unknown status" for other numbers. Static text.
 const char *sdef_status_name(SdefStatus status);
 
+// ---- How long handles live ------------------------------------------------------------------------------------------
+
 // How many handles there are that nobody has destroyed, of all kinds and all threads; 0 where nothing leaks.
 uint64_t sdef_live_handles(void);
 

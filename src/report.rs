@@ -2,8 +2,9 @@
 
 use crate::character::Role;
 use crate::error::Warning;
+use crate::face::eyes::Pair;
 use crate::face::eyes::{EyeSource, Eyes};
-use crate::face::landmarks::{FaceLandmarks, Pair};
+use crate::face::landmarks::FaceLandmarks;
 use crate::options::{Mode, Options};
 use crate::shape::group::{Coefficient, GroupShape, group_shapes};
 use crate::shape::product::head::head_frame;

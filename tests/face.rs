@@ -5,9 +5,9 @@ mod models;
 
 use glam::{DMat3, DVec3};
 use models::{Run, check_all, in_parallel, model, models as all_models, present};
-use superdeform::internals::face::eyes::{Eye, EyeSource, Eyeball};
+use superdeform::internals::face::eyes::{Eye, EyeSource, Eyeball, Pair};
 use superdeform::internals::face::flow::{Flow, Follower, STEPS, along};
-use superdeform::internals::face::landmarks::{Ears, FaceLandmarks, Nose, Pair};
+use superdeform::internals::face::landmarks::{Ears, FaceLandmarks, Nose};
 use superdeform::internals::face::youth::FaceAim;
 use superdeform::internals::shape::Measured;
 use superdeform::internals::shape::figure::Figure;

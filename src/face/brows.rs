@@ -3,8 +3,8 @@
 //! Brows that fall towards the nose make an adult's stern look; enlarged eyes make it a cross one. Geometry alone cannot
 //! tell it, and lifting every brow makes neutral faces sad: so it is read from how bright the skin is.
 
+use super::eyes::Pair;
 use super::head::{Head, quantile};
-use super::landmarks::Pair;
 use glam::DVec2;
 
 /// Both brows' line: where its inner and outer ends are, in distance from the middle and height, head lengths.

@@ -50,6 +50,17 @@ impl Number for f64 {
     }
 }
 
+/// 0 up to 0, 1 from 1 on; slope and curvature are 0 at both ends.
+pub(crate) fn step<N: Number>(t: N) -> N {
+    if t.value() <= 0.0 {
+        return N::constant(0.0);
+    }
+    if t.value() >= 1.0 {
+        return N::constant(1.0);
+    }
+    t * t * t * ((t * 6.0 - 15.0) * t + 10.0)
+}
+
 /// A number and its derivatives by the three coordinates of a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dual {

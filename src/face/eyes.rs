@@ -115,11 +115,43 @@ impl Eye {
 /// Left and right eye.
 pub type Eyes = [Eye; 2];
 
+/// What both eyes have in common.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pair {
+    /// ye: the mean height of their openings.
+    pub height: f64,
+    /// d: half the distance of the openings' middles.
+    pub half_distance: f64,
+    /// a: half an opening's width.
+    pub half_width: f64,
+    /// b: half its height.
+    pub half_height: f64,
+}
+
+impl Pair {
+    /// The means of left and right.
+    pub fn of(eyes: &Eyes) -> Self {
+        let [left, right] = eyes.each_ref().map(Eye::middle);
+        let mean = |of: fn(&Eye) -> f64| 0.5 * (of(&eyes[0]) + of(&eyes[1]));
+        Self {
+            height: 0.5 * (left.y + right.y),
+            half_distance: 0.5 * (left.x - right.x),
+            half_width: mean(Eye::half_width),
+            half_height: mean(Eye::half_height),
+        }
+    }
+
+    /// e: how large an eye is.
+    pub fn size(&self) -> f64 {
+        (self.half_width * self.half_height).sqrt()
+    }
+}
+
 /// The first source that gives both eyes, with the irises painted on them.
 pub fn eyes(head: &Head) -> Option<(EyeSource, Eyes)> {
     let (source, mut eyes) = found(head)?;
     for ball in eyes.iter_mut().filter_map(|eye| eye.ball.as_mut()) {
-        ball.iris = iris(head, ball);
+        ball.iris = iris(head, &ball.vertices, (ball.low, ball.high));
     }
     Some((source, eyes))
 }

@@ -8,7 +8,7 @@
 //! Each piece moves a point by less than its distance from its neighbours (step times the field's slope is below 1, see
 //! the tests), so each is one to one, and so is the way.
 
-use super::dual::{Dual, Number};
+use super::dual::{Dual, Number, step};
 use super::iris::IrisFlow;
 use glam::{DMat3, DVec3};
 
@@ -17,17 +17,6 @@ pub const STEPS: usize = 12;
 
 /// Where a point is after each piece of its way, in head lengths.
 pub type Way = [DVec3; STEPS];
-
-/// 0 up to 0, 1 from 1 on; slope and curvature are 0 at both ends.
-pub(crate) fn step<N: Number>(t: N) -> N {
-    if t.value() <= 0.0 {
-        return N::constant(0.0);
-    }
-    if t.value() >= 1.0 {
-        return N::constant(1.0);
-    }
-    t * t * t * ((t * 6.0 - 15.0) * t + 10.0)
-}
 
 /// The square of a bump's reach, in its widths: there (1 - 1 / 4.52)^4 is 1 / e at one width, as a Gaussian's.
 const BUMP_REACH: f64 = 4.52;

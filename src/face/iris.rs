@@ -1,10 +1,9 @@
 //! Painted irises: where on an eyeball the dark disc is, how large, and how it grows on the ball.
 
-use super::dual::Number;
-use super::eyes::Eyeball;
-use super::flow::step;
+use super::dual::{Number, step};
 use super::head::{Head, quantile};
 use super::raster::{DepthMap, Window};
+use crate::geometry::Bounds;
 use glam::{DVec2, DVec3};
 
 /// An iris on a ball.
@@ -33,14 +32,14 @@ const NEAR: f64 = 0.8;
 /// Rings about its middle in which the share of dark is looked at, in radians.
 const RING: f64 = 0.04;
 
-/// The iris on `ball`, from how bright it is; `None` where nobody knows that, or it shows none.
-pub fn iris(head: &Head, ball: &Eyeball) -> Option<Iris> {
-    let is_own =
-        |corners: &&[u32; 3]| corners.iter().all(|corner| ball.vertices.binary_search(corner).is_ok());
+/// The iris on the ball of `vertices`, in ascending order, that fills the box from `low` to `high`, from how bright it
+/// is; `None` where nobody knows that, or it shows none.
+pub fn iris(head: &Head, vertices: &[u32], (low, high): Bounds) -> Option<Iris> {
+    let is_own = |corners: &&[u32; 3]| corners.iter().all(|corner| vertices.binary_search(corner).is_ok());
     let own: Vec<[u32; 3]> = head.parts.triangles.iter().filter(is_own).copied().collect();
-    let (middle, half) = (0.5 * (ball.low + ball.high), 0.5 * (ball.high - ball.low));
+    let (middle, half) = (0.5 * (low + high), 0.5 * (high - low));
     let step = 2.0 * half.x / SQUARES;
-    let window = Window { low: ball.low.truncate(), high: ball.high.truncate(), step };
+    let window = Window { low: low.truncate(), high: high.truncate(), step };
     let view = DepthMap::new(&head.points, &own, window);
     let mut seen: Vec<(DVec3, f64)> = Vec::new();
     for row in 0..view.rows() {

@@ -1,7 +1,7 @@
 //! What a face is made of, read from the geometry: eyes, nose, mouth, ears, the widths of face and skull.
 
 use super::brows::{Brows, brows};
-use super::eyes::{Eye, EyeSource, Eyeball, Eyes, eyes};
+use super::eyes::{Eye, EyeSource, Eyeball, Eyes, Pair, eyes};
 use super::head::{Head, quantile};
 use super::raster::{DepthMap, Window};
 use glam::{DVec2, DVec3};
@@ -143,38 +143,6 @@ impl FaceLandmarks {
             crown_half_width: aside(self.crown_half_width, 0.5 * (CROWN_ROWS.0 + CROWN_ROWS.1), 0.0),
             ears: self.ears.map(ears),
         }
-    }
-}
-
-/// What both eyes have in common.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pair {
-    /// ye: the mean height of their openings.
-    pub height: f64,
-    /// d: half the distance of the openings' middles.
-    pub half_distance: f64,
-    /// a: half an opening's width.
-    pub half_width: f64,
-    /// b: half its height.
-    pub half_height: f64,
-}
-
-impl Pair {
-    /// The means of left and right.
-    pub fn of(eyes: &Eyes) -> Self {
-        let [left, right] = eyes.each_ref().map(Eye::middle);
-        let mean = |of: fn(&Eye) -> f64| 0.5 * (of(&eyes[0]) + of(&eyes[1]));
-        Self {
-            height: 0.5 * (left.y + right.y),
-            half_distance: 0.5 * (left.x - right.x),
-            half_width: mean(Eye::half_width),
-            half_height: mean(Eye::half_height),
-        }
-    }
-
-    /// e: how large an eye is.
-    pub fn size(&self) -> f64 {
-        (self.half_width * self.half_height).sqrt()
     }
 }
 

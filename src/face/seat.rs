@@ -3,8 +3,8 @@
 //! A head that grows about its joint hangs out before the chest, on the neck of an adult: a funnel from the side. Both
 //! are measured on the deformed body, from the front and from behind.
 
+use super::dual::step;
 use super::dual::{Dual, Number};
-use super::flow::step;
 use super::head::HeadFrame;
 use super::raster::{DepthMap, Window};
 use crate::geometry::Mapped;

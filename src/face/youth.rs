@@ -2,9 +2,10 @@
 
 use super::brows::Brows;
 use super::eyes::Eye;
+use super::eyes::Pair;
 use super::flow::{Bell, BrowFlow, EarFlow, EyeFlow, Flow, Follower, Lids, Shrink};
 use super::iris::{IrisFlow, MOST_GROWTH as MOST_IRIS};
-use super::landmarks::{Ears, FaceLandmarks, Nose, Pair};
+use super::landmarks::{Ears, FaceLandmarks, Nose};
 use crate::options::Features;
 use glam::{DVec2, DVec3};
 

@@ -1,8 +1,10 @@
 //! All at once
 
 use super::basics::{SdefError, SdefProgress, SdefStatus, SdefStyle};
-use super::character::{CharacterState, SdefMesh, SdefSkeleton, read};
-use super::deformer::{DeformerState, SdefMeshResult};
+use super::character::state::CharacterState;
+use super::character::{SdefMesh, SdefSkeleton, read};
+use super::deformer::SdefMeshResult;
+use super::deformer::state::DeformerState;
 use super::guard::{call, progress_of};
 use super::options::{self, SdefOptions};
 use super::{arrays, handles};

@@ -1,8 +1,6 @@
 //! Version, status, errors, handles
 
-use super::guard::{self, call};
-use super::handles;
-use core::ffi::{c_char, c_void};
+use core::ffi::{CStr, c_char, c_void};
 use safer_ffi::prelude::*;
 
 /// Compared with sdef_abi_version() before anything else.
@@ -131,24 +129,24 @@ pub extern "C" fn sdef_version() -> *const c_char {
 /// The name of a status, such as "SDEF_STATUS_BUSY"; "unknown status" for other numbers. Static text.
 #[ffi_export]
 pub extern "C" fn sdef_status_name(status: SdefStatus) -> *const c_char {
-    guard::status_name(status)
+    name_of(status).as_ptr()
 }
 
-/// How many handles there are that nobody has destroyed, of all kinds and all threads; 0 where nothing leaks.
-#[ffi_export]
-pub extern "C" fn sdef_live_handles() -> u64 {
-    handles::live()
-}
-
-/// Destroys what a handle stands for. One call for all kinds, so that an owner of handles needs no more than the id.
-///
-/// handle: the id of a character, style or deformer; 0 is allowed and does nothing
-///
-/// Returns at once and is never BUSY: a call that uses the handle on another thread goes on to its end and still writes
-/// its arrays, so wait for it before they go. The memory goes with the last such call.
-///
-/// Errors: BAD_HANDLE.
-#[ffi_export]
-pub unsafe extern "C" fn sdef_destroy(handle: u64, error: *mut SdefError) -> SdefStatus {
-    unsafe { call(error, || handles::remove(handle)) }
+fn name_of(status: SdefStatus) -> &'static CStr {
+    match status {
+        SDEF_STATUS_OK => c"SDEF_STATUS_OK",
+        SDEF_STATUS_BAD_ARGUMENT => c"SDEF_STATUS_BAD_ARGUMENT",
+        SDEF_STATUS_BAD_HANDLE => c"SDEF_STATUS_BAD_HANDLE",
+        SDEF_STATUS_BAD_INPUT => c"SDEF_STATUS_BAD_INPUT",
+        SDEF_STATUS_BAD_OPTION => c"SDEF_STATUS_BAD_OPTION",
+        SDEF_STATUS_BAD_STYLE => c"SDEF_STATUS_BAD_STYLE",
+        SDEF_STATUS_NO_HUMANOID => c"SDEF_STATUS_NO_HUMANOID",
+        SDEF_STATUS_NO_GEOMETRY => c"SDEF_STATUS_NO_GEOMETRY",
+        SDEF_STATUS_BUFFER_TOO_SMALL => c"SDEF_STATUS_BUFFER_TOO_SMALL",
+        SDEF_STATUS_BUSY => c"SDEF_STATUS_BUSY",
+        SDEF_STATUS_CANCELLED => c"SDEF_STATUS_CANCELLED",
+        SDEF_STATUS_OUT_OF_MEMORY => c"SDEF_STATUS_OUT_OF_MEMORY",
+        SDEF_STATUS_INTERNAL => c"SDEF_STATUS_INTERNAL",
+        _ => c"unknown status",
+    }
 }

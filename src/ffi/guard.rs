@@ -2,7 +2,7 @@
 
 use super::basics::*;
 use crate::error::{Element, Error, ErrorKind, Warning};
-use core::ffi::{c_char, c_void};
+use core::ffi::c_void;
 use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::ptr::{addr_of, addr_of_mut};
@@ -223,31 +223,10 @@ fn keep_quiet() {
     });
 }
 
-/// The name of a status.
-pub fn status_name(status: SdefStatus) -> *const c_char {
-    let name = match status {
-        SDEF_STATUS_OK => c"SDEF_STATUS_OK",
-        SDEF_STATUS_BAD_ARGUMENT => c"SDEF_STATUS_BAD_ARGUMENT",
-        SDEF_STATUS_BAD_HANDLE => c"SDEF_STATUS_BAD_HANDLE",
-        SDEF_STATUS_BAD_INPUT => c"SDEF_STATUS_BAD_INPUT",
-        SDEF_STATUS_BAD_OPTION => c"SDEF_STATUS_BAD_OPTION",
-        SDEF_STATUS_BAD_STYLE => c"SDEF_STATUS_BAD_STYLE",
-        SDEF_STATUS_NO_HUMANOID => c"SDEF_STATUS_NO_HUMANOID",
-        SDEF_STATUS_NO_GEOMETRY => c"SDEF_STATUS_NO_GEOMETRY",
-        SDEF_STATUS_BUFFER_TOO_SMALL => c"SDEF_STATUS_BUFFER_TOO_SMALL",
-        SDEF_STATUS_BUSY => c"SDEF_STATUS_BUSY",
-        SDEF_STATUS_CANCELLED => c"SDEF_STATUS_CANCELLED",
-        SDEF_STATUS_OUT_OF_MEMORY => c"SDEF_STATUS_OUT_OF_MEMORY",
-        SDEF_STATUS_INTERNAL => c"SDEF_STATUS_INTERNAL",
-        _ => c"unknown status",
-    };
-    name.as_ptr()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::ffi::CStr;
+    use core::ffi::{CStr, c_char};
 
     fn error(size: usize) -> SdefError {
         SdefError {

@@ -70,6 +70,7 @@ pub mod character;
 pub mod deformer;
 mod guard;
 mod handles;
+pub mod lifetime;
 pub mod memory;
 pub mod options;
 pub mod rig;

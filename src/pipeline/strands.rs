@@ -2,7 +2,7 @@
 
 use super::attach::{Bindings, Placement};
 use super::{Deformer, Target};
-use crate::face::landmarks::Pair;
+use crate::face::eyes::Pair;
 use crate::geometry::components;
 use crate::options::Stage;
 use crate::shape::field::{Binding, BodyField, Field, Finish};

@@ -3,7 +3,8 @@
 use super::heights::Heights;
 use crate::character::Role;
 use crate::character::bones::HEAD_TOP;
-use crate::face::landmarks::{FaceLandmarks, Pair};
+use crate::face::eyes::Pair;
+use crate::face::landmarks::FaceLandmarks;
 use crate::shape::product::anatomy::Proportions;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};

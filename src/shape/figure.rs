@@ -107,6 +107,13 @@ impl Figure {
         self.humanoid.joint(role).map(|joint| self.joints[joint])
     }
 
+    /// The roles of the eyes towards +x and -x: in left-handed axes the left eye is the second.
+    pub fn eye_roles(&self) -> [Role; 2] {
+        let x = |role: Role| self.role_position(role).map(|p| p.x);
+        let is_mirrored = x(Role::LeftEye).zip(x(Role::RightEye)).is_some_and(|(left, right)| left < right);
+        if is_mirrored { [Role::RightEye, Role::LeftEye] } else { [Role::LeftEye, Role::RightEye] }
+    }
+
     /// What `vertex` belongs to.
     pub fn kind(&self, vertex: usize) -> MeshKind {
         self.kinds[vertex]

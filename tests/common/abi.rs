@@ -7,6 +7,7 @@ use std::ptr::{null, null_mut};
 use superdeform::internals::ffi::basics::*;
 use superdeform::internals::ffi::character::*;
 use superdeform::internals::ffi::deformer::*;
+use superdeform::internals::ffi::lifetime::*;
 use superdeform::internals::ffi::options::*;
 use superdeform::internals::ffi::style::*;
 use superdeform::{Character, Deformed, Humanoid, Mesh, MeshKind, MorphTarget, Role};

@@ -19,7 +19,8 @@ pub fn root() -> PathBuf {
 }
 
 /// The modules of `src/ffi` that are the header's sections, in order.
-pub const SECTIONS: [&str; 7] = ["basics", "options", "character", "rig", "style", "deformer", "all_at_once"];
+pub const SECTIONS: [&str; 8] =
+    ["basics", "lifetime", "options", "character", "rig", "style", "deformer", "all_at_once"];
 
 /// The text of a file of `src/ffi`.
 fn read(path: &str) -> Option<String> {
@@ -33,11 +34,10 @@ pub fn source(section: &str) -> String {
     }
     let source =
         read(&format!("{section}/mod.rs")).unwrap_or_else(|| panic!("there is no src/ffi/{section}"));
-    let Some(constants) = read(&format!("{section}/constants.rs")) else { return source };
-    // Constants stand before the structs that they are for.
+    let Some(types) = read(&format!("{section}/types.rs")) else { return source };
     let (comment, rest) = source.split_once("\n\n").expect("a comment and items");
-    let constants = constants.split_once("\n\n").expect("a comment and items").1;
-    format!("{comment}\n\n{constants}\n{rest}")
+    let types = types.split_once("\n\n").expect("a comment and items").1;
+    format!("{comment}\n\n{types}\n{rest}")
 }
 
 /// The header's first comment.

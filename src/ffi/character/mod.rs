@@ -2,158 +2,22 @@
 //!
 //! Meshes and joints in rest pose: the pose in which vertices and joints fit together, best with arms out (T or A pose).
 
-use super::arrays::{self, Output, host_structs, not_null, write_out};
+use super::arrays::{self, Output, not_null, write_out};
 use super::basics::*;
 use super::guard::{Failure, Outcome, call};
 use super::handles::{self, Object};
 use super::memory;
 use crate::character::mesh::place;
 use crate::character::{Character, Mesh, MorphTarget};
-use core::ffi::{c_char, c_void};
 use safer_ffi::prelude::*;
+use state::CharacterState;
 use std::sync::{Arc, RwLock};
 
-mod constants;
-pub(super) mod read;
-mod state;
+pub mod read;
+pub mod state;
+pub mod types;
 
-pub use constants::*;
-pub(super) use state::{CharacterState, Ready};
-
-/// A mesh. Zero it, set struct_size, and fill in what there is.
-///
-/// Weights come in one of two shapes, or not at all (all zero: the mesh has no rig, or waits for one):
-/// fixed: influence_count joints and weights a vertex, vertex after vertex; row_starts is NULL.
-/// rows:  vertex v has the joints and weights row_starts[v] to row_starts[v + 1] - 1; influence_count is how many there
-///        are in all, row_starts holds vertex_count + 1 numbers that rise from 0, both strides are 0.
-/// Weights are 0 or more; each vertex's are scaled to sum 1 where it matters. Weight 0 may name any joint. A vertex
-/// whose weights are all 0 moves with the hips, and so does a mesh without weights beside a skeleton: what is fixed to a
-/// joint (a sword, a cape) has weight 1 to it throughout.
-#[derive_ReprC]
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct SdefMesh {
-    /// sizeof(SdefMesh)
-    pub struct_size: u32,
-    /// SDEF_MESH_*
-    pub kind: u32,
-    /// for messages, and for guessing the kind by English words in it (hair, eyelash, skirt, hat): "node/mesh/material",
-    /// of which the one that the fewest meshes share counts first, where the mesh lies as it says; may be NULL
-    pub name: *const c_char,
-    /// up to 4294967294
-    pub vertex_count: usize,
-    /// 3 floats a vertex, model units
-    pub positions: *const f32,
-    /// bytes from vertex to vertex; 0: 12
-    pub position_stride: usize,
-    /// 3 floats a vertex, of any length: unit vectors come out; may be NULL
-    pub normals: *const f32,
-    /// bytes from vertex to vertex; 0: 12
-    pub normal_stride: usize,
-    /// 4 floats a vertex: a vector, of any length too, and the handedness; may be NULL
-    pub tangents: *const f32,
-    /// bytes from vertex to vertex; 0: 16
-    pub tangent_stride: usize,
-    /// 3 vertices a triangle, packed
-    pub indices: *const c_void,
-    /// numbers in indices: 3 times the triangles
-    pub index_count: usize,
-    /// SDEF_TYPE_U8, _U16 or _U32 (or 0): how wide the array's numbers are
-    pub index_type: u32,
-    /// SDEF_TYPE_U8, _U16 or _U32 (or 0), likewise
-    pub joint_type: u32,
-    /// SDEF_TYPE_U8, _U16 or _F32 (or 0), likewise
-    pub weight_type: u32,
-    /// 0
-    pub reserved: u32,
-    /// joints a vertex (fixed), or in all (rows)
-    pub influence_count: usize,
-    /// indices of joints
-    pub joints: *const c_void,
-    /// bytes from vertex to vertex; 0: influence_count joints
-    pub joint_stride: usize,
-    /// one for each joint
-    pub weights: *const c_void,
-    /// bytes from vertex to vertex; 0: influence_count weights
-    pub weight_stride: usize,
-    /// vertex_count + 1 numbers (rows), or NULL (fixed)
-    pub row_starts: *const u32,
-}
-
-/// A morph target (blend shape): what is added to each vertex of a mesh at weight 1. All arrays are as long as the mesh.
-#[derive_ReprC]
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct SdefMorphTarget {
-    /// sizeof(SdefMorphTarget)
-    pub struct_size: u32,
-    /// 0
-    pub reserved: u32,
-    /// for messages; may be NULL
-    pub name: *const c_char,
-    /// 3 floats a vertex, model units
-    pub positions: *const f32,
-    /// bytes from vertex to vertex; 0: 12
-    pub position_stride: usize,
-    /// 3 floats a vertex; may be NULL
-    pub normals: *const f32,
-    /// bytes from vertex to vertex; 0: 12
-    pub normal_stride: usize,
-    /// 3 floats a vertex: changes of the direction; may be NULL
-    pub tangents: *const f32,
-    /// bytes from vertex to vertex; 0: 12
-    pub tangent_stride: usize,
-}
-
-/// All joints of a character, those without a humanoid role too.
-#[derive_ReprC]
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct SdefSkeleton {
-    /// sizeof(SdefSkeleton)
-    pub struct_size: u32,
-    /// elements of role_joints, up to SDEF_ROLE_COUNT
-    pub role_count: u32,
-    /// joint_count texts, for messages and for guessing roles, as Unity, VRM, Mixamo, Rigify, MMD and other tools name
-    /// joints; may be NULL, and so may each
-    pub names: *const *const c_char,
-    /// joints
-    pub joint_count: usize,
-    /// the parent of each joint, or -1; in any order
-    pub parents: *const i32,
-    /// a matrix a joint, joint space to model space, at rest
-    pub rest_matrices: *const f64,
-    /// bytes from matrix to matrix; 0: 128
-    pub rest_stride: usize,
-    /// by SDEF_ROLE_*: the joint that plays the role, or -1; a joint plays one role; where hips, head, an upper leg or
-    /// upper arm is left out, roles are guessed from names and the shape of the skeleton; may be NULL
-    pub role_joints: *const i32,
-}
-
-/// What a character holds.
-#[derive_ReprC]
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct SdefCharacterInfo {
-    /// sizeof(SdefCharacterInfo)
-    pub struct_size: u32,
-    /// meshes
-    pub mesh_count: u32,
-    /// joints, those of a made rig among them
-    pub joint_count: u32,
-    /// joints that came with the character: the first ones
-    pub own_joint_count: u32,
-    /// of all meshes
-    pub morph_target_count: u32,
-    /// 1 where sdef_character_rig has made a rig
-    pub rig_made: u32,
-    /// of all meshes
-    pub vertex_count: u64,
-    /// of all meshes
-    pub triangle_count: u64,
-}
-
-host_structs!(SdefMesh, SdefMorphTarget, SdefSkeleton, SdefCharacterInfo);
+pub use types::*;
 
 /// Makes an empty character.
 ///

@@ -2,7 +2,6 @@
 
 use super::anatomy::Anatomy;
 use super::hair::HairOutline;
-use super::head::eye_roles;
 use super::part::{Part, PartWeights};
 use super::pieces::{Attachment, Piece, Pieces};
 use super::weights::part_weights;
@@ -169,7 +168,7 @@ pub fn joint_binding(figure: &Figure, bindings: &PartBindings, joint: usize) -> 
     let role = figure.joint_roles[joint].unwrap_or(Role::Hips);
     let mut binding = PartBinding::to(Part::of(role));
     let own = |side: Role| figure.humanoid.joint(side) == Some(joint);
-    if let Some(side) = eye_roles(figure).into_iter().position(own)
+    if let Some(side) = figure.eye_roles().into_iter().position(own)
         && bindings.eye_turns
     {
         binding.face = FaceBinding::Ball(side as u8);

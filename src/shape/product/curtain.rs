@@ -4,7 +4,7 @@
 //! strands go round the head, each to the side that it is on, until the eyes are free.
 
 use super::long_hair::{ANGLES, Axis, Polar, PolarMap};
-use crate::face::flow::step;
+use crate::face::dual::step;
 use glam::DVec3;
 use std::f64::consts::{PI, TAU};
 

@@ -25,17 +25,10 @@ pub fn head<'a>(character: &'a Character, figure: &'a Figure, anatomy: &Anatomy)
         is_accessory: of_kind(MeshKind::Accessory),
         is_eye: all.map(|vertex| turns[vertex] || figure.kind(vertex) == MeshKind::Eye).collect(),
         turns,
-        eye_joints: eye_roles(figure).map(|role| figure.role_position(role)),
+        eye_joints: figure.eye_roles().map(|role| figure.role_position(role)),
         seam: SEAM * figure.height(),
     };
     Head::new(parts, &figure.positions, head_frame(anatomy))
-}
-
-/// The roles of the eyes towards +x and -x: in left-handed axes the left eye is the second.
-pub fn eye_roles(figure: &Figure) -> [Role; 2] {
-    let x = |role: Role| figure.role_position(role).map(|p| p.x);
-    let is_mirrored = x(Role::LeftEye).zip(x(Role::RightEye)).is_some_and(|(left, right)| left < right);
-    if is_mirrored { [Role::RightEye, Role::LeftEye] } else { [Role::LeftEye, Role::RightEye] }
 }
 
 /// Where a figure's head is.
