@@ -1,16 +1,28 @@
 //! The report as a file, and as a few lines for a person.
 
+use serde::Serialize;
+use serde_json::Value;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use superdeform::Report;
+use superdeform_host::licence::Licence;
 
-/// Writes `report` as indented JSON.
+/// What stands in the file: the library's report, and what the host knows of the target's file.
+#[derive(Serialize)]
+struct FileReport<'a> {
+    #[serde(flatten)]
+    report: &'a Report,
+    licence: Value,
+}
+
+/// Writes `report` as indented JSON, with the licence of the target.
 ///
 /// # Errors
 /// One sentence with the path and the reason.
-pub fn write(report: &Report, path: &Path) -> Result<(), String> {
+pub fn write(report: &Report, licence: &Licence, path: &Path) -> Result<(), String> {
+    let report = FileReport { report, licence: licence.to_json() };
     let mut text =
-        serde_json::to_string_pretty(report).map_err(|error| format!("{}: {error}", path.display()))?;
+        serde_json::to_string_pretty(&report).map_err(|error| format!("{}: {error}", path.display()))?;
     text.push('\n');
     crate::output::write(path, text.as_bytes())
 }

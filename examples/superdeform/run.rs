@@ -41,6 +41,7 @@ fn stages(command: &Command, progress: &Progress) -> Result<Done, String> {
     let start = Instant::now();
     progress.stage("reading");
     let mut target = input::target(command)?;
+    check_licence(&target, command)?;
     let seen = sheet::appearance(&target);
     shades::shade(&mut target.character, &seen);
     let reference = input::reference(command)?;
@@ -100,16 +101,31 @@ fn stages(command: &Command, progress: &Progress) -> Result<Done, String> {
     // The picture is made beside the result.
     report.timing_ms.total = milliseconds(start.elapsed() - draw_time);
     if let Some(path) = &command.report {
-        report::write(&report, path)?;
+        report::write(&report, &target.licence, path)?;
         files.push(("report", path.clone()));
     }
     Ok(Done { report, files })
 }
 
+/// Refuses a target that may not be changed.
+fn check_licence(target: &Loaded, command: &Command) -> Result<(), String> {
+    let licence = &target.licence;
+    if licence.is_prohibited() && !command.allow_prohibited {
+        return Err(format!(
+            "{}'s licence does not allow changes ({}): ask its author, or add --allow-prohibited if you are the author or may change it",
+            target.file.name, licence.because
+        ));
+    }
+    Ok(())
+}
+
 /// What was found while the files were read.
 fn warnings_of_files(target: &Loaded, reference: Option<&Loaded>) -> Vec<Warning> {
+    // To take a reference's proportions is no change of it.
+    let about_licence = |code: &str| matches!(code, "modification_prohibited" | "redistribution_prohibited");
     let of_reference = reference.iter().flat_map(|reference| &reference.warnings);
     let of_reference = of_reference
+        .filter(|warning| !about_licence(warning.code))
         .map(|warning| Warning::new(warning.code, format!("in the reference, {}", warning.message)));
     target.warnings.iter().cloned().chain(of_reference).collect()
 }
@@ -211,7 +227,35 @@ fn milliseconds(duration: Duration) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use serde_json::{Value, json};
+    use std::path::Path;
+    use superdeform_host::file::GltfFile;
+    use superdeform_host::samples;
     use superdeform_host::verify::closure;
+
+    #[test]
+    fn what_may_not_be_changed_is_converted_for_its_author_alone() {
+        let folder = std::env::temp_dir().join(format!("superdeform-licence-{}", std::process::id()));
+        let (source, result) = (folder.join("a.glb"), folder.join("b.glb"));
+        let report = folder.join("b.json");
+        let mut file = GltfFile::read(&samples::data().join("kaykit_rogue.glb")).unwrap();
+        let licence = "CC-BY-ND-4.0 (http://creativecommons.org/licenses/by-nd/4.0/)";
+        file.json["asset"]["extras"] = json!({"license": licence});
+        output::write(&source, &file.to_bytes().unwrap()).unwrap();
+        let text = |path: &Path| path.to_str().unwrap().to_string();
+        let mut arguments = ["superdeform", "", "sd2", "-q", "-o", "", "--report", ""].map(str::to_string);
+        (arguments[1], arguments[5], arguments[7]) = (text(&source), text(&result), text(&report));
+        let refusal = run(&cli::parse(&arguments).ok().unwrap()).err().unwrap();
+        assert!(refusal.contains("by-nd") && refusal.contains("--allow-prohibited"), "{refusal}");
+        assert!(!result.exists() && !report.exists());
+        let allowed = arguments.iter().cloned().chain(["--allow-prohibited".to_string()]);
+        let done = run(&cli::parse(allowed).ok().unwrap()).unwrap();
+        assert!(done.report.warnings.iter().any(|warning| warning.code == "modification_prohibited"));
+        let written: Value = serde_json::from_slice(&std::fs::read(&report).unwrap()).unwrap();
+        assert_eq!(written["licence"]["changes"], "prohibited");
+        assert!(written["result"]["heads"].is_f64());
+        std::fs::remove_dir_all(&folder).unwrap();
+    }
 
     #[test]
     fn the_sample_pair_is_written_where_the_field_takes_it() {

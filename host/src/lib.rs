@@ -8,6 +8,7 @@ pub mod bind;
 pub mod file;
 mod frame;
 mod kinds;
+pub mod licence;
 pub mod load;
 mod primitive;
 pub mod rig;

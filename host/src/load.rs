@@ -5,6 +5,7 @@ use super::bind::{NodeTree, RestPose, Skin, read_skins, rest_pose};
 use super::file::GltfFile;
 use super::frame::Frame;
 use super::kinds::set_kinds;
+use super::licence::Licence;
 use super::primitive::{RawMesh, read_primitive};
 use super::{array_at, bad_input, index_at, roles, text_at};
 use glam::{DMat4, Vec3};
@@ -90,6 +91,8 @@ pub struct Loaded {
     pub node_of_joint: Vec<usize>,
     /// True where the file's own rig is kept; false where the character has neither joints nor weights.
     pub rigged: bool,
+    /// What the file says of its licence.
+    pub licence: Licence,
     /// What a person should know.
     pub warnings: Vec<Warning>,
 }
@@ -140,12 +143,8 @@ pub fn load(file: GltfFile, options: &LoadOptions) -> Result<Loaded> {
         character.meshes.iter_mut().for_each(|mesh| mesh.weights = Weights::default());
         node_of_joint.clear();
     }
-    if is_change_prohibited(&file) {
-        warnings.push(Warning::new(
-            "modification_prohibited",
-            format!("{}'s licence does not allow changes (meta.modification is prohibited): ask its author before sharing the result", file.name),
-        ));
-    }
+    let licence = Licence::of(&file);
+    warnings.extend(licence.warning(&file.name));
     character
         .validate()
         .map_err(|error| Error { message: format!("{}: {}", file.name, error.message), ..error })?;
@@ -159,6 +158,7 @@ pub fn load(file: GltfFile, options: &LoadOptions) -> Result<Loaded> {
         joint_of_node,
         node_of_joint,
         rigged,
+        licence,
         warnings,
     })
 }
@@ -257,12 +257,6 @@ fn find_humanoid(
 pub fn is_vrm(file: &GltfFile) -> bool {
     let extensions = &file.json["extensions"];
     extensions.get("VRMC_vrm").is_some() || extensions.get("VRM").is_some()
-}
-
-/// True where a VRM 1.0 header does not allow changes; where it does not say, they are prohibited.
-fn is_change_prohibited(file: &GltfFile) -> bool {
-    let header = &file.json["extensions"]["VRMC_vrm"];
-    header.is_object() && matches!(text_at(&header["meta"], "modification"), "" | "prohibited")
 }
 
 /// Refuses positions that are no numbers, before any transform can spread them.

@@ -196,6 +196,10 @@ pub struct Arguments {
     #[arg(long, value_name = "AXIS", allow_hyphen_values = true, value_parser = ValueParser::new(values::axis), help_heading = READING)]
     pub forward: Option<Vec3>,
 
+    /// Convert what its licence forbids to change, because you are its author or have been allowed to
+    #[arg(long, help_heading = READING)]
+    pub allow_prohibited: bool,
+
     /// Print nothing but errors
     #[arg(short, long)]
     pub quiet: bool,

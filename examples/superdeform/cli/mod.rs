@@ -67,6 +67,8 @@ pub struct Command {
     pub joints: Option<PathBuf>,
     /// The target with its new rig, not deformed.
     pub save_rigged: Option<PathBuf>,
+    /// Convert what its licence forbids to change.
+    pub allow_prohibited: bool,
     /// Print nothing but errors.
     pub quiet: bool,
 }
@@ -198,6 +200,7 @@ fn command(arguments: Arguments) -> Result<Command, Refusal> {
         rig_options,
         joints: arguments.joints,
         save_rigged: arguments.save_rigged,
+        allow_prohibited: arguments.allow_prohibited,
         quiet: arguments.quiet,
     };
     check_paths(&command)?;
