@@ -66,13 +66,12 @@ namespace SuperDeform.Editor
 
         static void CheckAvatars(GameObject avatar, List<Finding> findings)
         {
-            Animator own = avatar.GetComponent<Animator>();
+            bool ownIsOne = HumanoidRoles.IsHumanoid(avatar.GetComponent<Animator>());
             Animator[] humanoids = Array.FindAll(avatar.GetComponentsInChildren<Animator>(true), HumanoidRoles.IsHumanoid);
-            bool ownIsOne = HumanoidRoles.IsHumanoid(own);
-            if (humanoids.Length > 1)
+            // Below a humanoid they may be outfits: see CheckOutfits.
+            if (!ownIsOne && humanoids.Length > 1)
             {
-                Animator other = Array.Find(humanoids, animator => animator != own);
-                findings.Add(new Finding("two_avatars", Severity.Error, other, avatar.name, other.name));
+                findings.Add(new Finding("two_avatars", Severity.Error, humanoids[1], avatar.name, humanoids[0].name).WithChoice(humanoids[0].gameObject));
             }
             Transform parent = avatar.transform.parent;
             Animator above = parent == null ? null : parent.GetComponentInParent<Animator>();
@@ -80,7 +79,7 @@ namespace SuperDeform.Editor
             {
                 // A part of an avatar, or an avatar within another.
                 string key = ownIsOne ? "inside_avatar" : "part_of_avatar";
-                findings.Add(new Finding(key, Severity.Error, above, avatar.name, above.name));
+                findings.Add(new Finding(key, Severity.Error, above, avatar.name, above.name).WithChoice(ownIsOne ? null : above.gameObject));
             }
         }
 
@@ -137,6 +136,8 @@ namespace SuperDeform.Editor
             HumanBodyBones? missing = HumanoidRoles.Missing(role => roles[role] >= 0);
             if (!HumanoidRoles.IsHumanoid(data.Animator)) CheckHumanoid(data, skinned, rigAuto, missing, findings);
             if (missing != null) return;
+            Outfits.Find(data, roles);
+            CheckOutfits(data, findings);
             CheckBody(data, roles, findings);
             CheckPose(data, roles, findings);
         }
@@ -189,6 +190,19 @@ namespace SuperDeform.Editor
             return string.IsNullOrEmpty(path) ? null : AssetImporter.GetAtPath(path) as ModelImporter;
         }
 
+        /// <summary>Humanoid Animators below the avatar's own: outfits, as long as their bones are twins of its bones.</summary>
+        static void CheckOutfits(AvatarData data, List<Finding> findings)
+        {
+            if (!HumanoidRoles.IsHumanoid(data.Animator)) return;
+            foreach (Animator animator in data.Root.GetComponentsInChildren<Animator>(true))
+            {
+                if (animator == data.Animator || !HumanoidRoles.IsHumanoid(animator)) continue;
+                bool outfit = Array.Exists(data.Joints, joint => joint.IsChildOf(animator.transform) && data.Twins[data.IndexOf(joint)] != data.IndexOf(joint));
+                if (outfit) findings.Add(new Finding("outfit", Severity.Info, animator, animator.name, data.Root.name));
+                else findings.Add(new Finding("two_avatars", Severity.Error, animator, data.Root.name, animator.name).WithChoice(animator.gameObject));
+            }
+        }
+
         /// <summary>Is there a mesh that hips or limbs move?</summary>
         static void CheckBody(AvatarData data, int[] roles, List<Finding> findings)
         {
@@ -200,6 +214,10 @@ namespace SuperDeform.Editor
                 ofBody[joint] = Array.Exists(limbs, limb => roles[(int)limb] == joint) || parent >= 0 && ofBody[parent];
             }
             ofBody[roles[(int)HumanBodyBones.Hips]] = true;
+            for (int joint = 0; joint < ofBody.Length; joint++)
+            {
+                ofBody[joint] |= ofBody[data.Twins[joint]];
+            }
             double held = 0, all = 0;
             foreach (RendererData renderer in data.Renderers)
             {

@@ -1,4 +1,5 @@
 using System;
+using UnityEngine;
 
 namespace SuperDeform.Editor
 {
@@ -36,6 +37,9 @@ namespace SuperDeform.Editor
         /// <summary>Mends it, with Undo where Unity can undo it; null where there is no fix.</summary>
         public Action Fix;
 
+        /// <summary>The avatar to choose instead, where that is the way out; else null.</summary>
+        public GameObject Choice;
+
         public Finding(string key, Severity severity, UnityEngine.Object where, params object[] values)
         {
             Key = key;
@@ -49,6 +53,13 @@ namespace SuperDeform.Editor
         {
             FixKey = fixKey;
             Fix = fix;
+            return this;
+        }
+
+        /// <summary>The finding with a button that chooses another avatar; null: without.</summary>
+        public Finding WithChoice(GameObject choice)
+        {
+            Choice = choice;
             return this;
         }
 

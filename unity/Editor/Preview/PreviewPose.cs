@@ -48,10 +48,33 @@ namespace SuperDeform.Editor
         };
 
         /// <param name="jointOf">By role, the joint; -1: none, and its limb stays.</param>
-        internal static void Take(PreviewPose pose, ProxySkeleton skeleton, int[] jointOf)
+        /// <param name="twins">By joint: the joint of the body that it moves with, or itself.</param>
+        internal static void Take(PreviewPose pose, ProxySkeleton skeleton, int[] jointOf, int[] twins)
         {
             if (pose == PreviewPose.AsItStands)
                 return;
+            Matrix4x4[] from = System.Array.ConvertAll(twins, twin => skeleton.Of(twin).worldToLocalMatrix);
+            Quaternion[] before = System.Array.ConvertAll(twins, twin => skeleton.Of(twin).rotation);
+            Vector3[] places = new Vector3[twins.Length];
+            Quaternion[] turns = new Quaternion[twins.Length];
+            for (int joint = 0; joint < twins.Length; joint++)
+            {
+                places[joint] = from[joint].MultiplyPoint3x4(skeleton.Of(joint).position);
+                turns[joint] = Quaternion.Inverse(before[joint]) * skeleton.Of(joint).rotation;
+            }
+            Bend(pose, skeleton, jointOf);
+            // Parents come first, so that what a parent does to a child is overwritten.
+            for (int joint = 0; joint < twins.Length; joint++)
+                if (twins[joint] != joint)
+                {
+                    Transform twin = skeleton.Of(twins[joint]);
+                    skeleton.Of(joint).position = twin.localToWorldMatrix.MultiplyPoint3x4(places[joint]);
+                    skeleton.Of(joint).rotation = twin.rotation * turns[joint];
+                }
+        }
+
+        private static void Bend(PreviewPose pose, ProxySkeleton skeleton, int[] jointOf)
+        {
             foreach (Limb limb in pose == PreviewPose.Walks ? walks : sits)
             {
                 int from = jointOf[(int)limb.From], to = jointOf[(int)limb.To];

@@ -163,7 +163,7 @@ namespace SuperDeform.Editor
         {
             skeleton.Stand(result);
             if (avatar.Rigged)
-                PreviewPoses.Take(pose, skeleton, jointOf);
+                PreviewPoses.Take(pose, skeleton, jointOf, avatar.Twins);
         }
 
         /// <summary>Follows the avatar, which may have been moved or posed.</summary>

@@ -21,6 +21,16 @@ namespace SuperDeform.Editor
         /// <summary>By joint: its parent; -1 for children of the root.</summary>
         public int[] Parents;
 
+        /// <summary>
+        /// By joint: the joint of the body that it moves with, where an outfit brings an armature of its own; else itself.
+        /// </summary>
+        public int[] Twins;
+
+        /// <summary>
+        /// By joint: its parent as a build will have it, with outfits merged and accessories under their bones; in any order.
+        /// </summary>
+        public int[] MergedParents;
+
         /// <summary>By joint: its transform to its parent's space, as it stands.</summary>
         public Affine[] Local;
 

@@ -157,6 +157,7 @@ namespace SuperDeform.Editor
             }
             Double3 forward = data.Rigged ? Facing.Of(roles, data.Rest) : new Double3(0, 0, 1);
             data.Character = new Character(Up, new[] { (float)forward.X, (float)forward.Y, (float)forward.Z });
+            Outfits.Find(data, roles);
             if (data.Rigged) data.Character.SetSkeleton(Skeleton(data, roles));
             AddMeshes(data);
             AddMorphTargets(data);
@@ -171,7 +172,7 @@ namespace SuperDeform.Editor
             SkeletonArrays skeleton = new SkeletonArrays
             {
                 Names = Array.ConvertAll(data.Joints, joint => joint.name),
-                Parents = data.Parents,
+                Parents = data.MergedParents,
                 RestMatrices = new double[16 * data.Joints.Length],
                 RoleJoints = roles
             };
@@ -197,7 +198,7 @@ namespace SuperDeform.Editor
                     Tangents = part.Gather(renderer.ModelTangents),
                     Indices = part.Indices
                 };
-                if (data.Rigged) RendererReader.GiveWeights(part, mesh);
+                if (data.Rigged) RendererReader.GiveWeights(part, mesh, data.Twins);
                 data.Character.AddMesh(mesh);
             }
         }

@@ -70,7 +70,7 @@ namespace SuperDeform.Editor
                 Positions = Array.ConvertAll(part.Gather(part.Renderer.ModelVertices), p => new Vector3(-p.x, p.y, p.z)),
                 Indices = part.Indices
             };
-            RendererReader.GiveWeights(part, mesh);
+            RendererReader.GiveWeights(part, mesh, null);
             return mesh;
         }
     }

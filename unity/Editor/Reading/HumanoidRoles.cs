@@ -41,11 +41,7 @@ namespace SuperDeform.Editor
         {
             Transform[] roles = new Transform[Count];
             if (!IsHumanoid(animator)) return roles;
-            Dictionary<string, Transform> byName = new Dictionary<string, Transform>();
-            foreach (Transform transform in animator.GetComponentsInChildren<Transform>(true))
-            {
-                if (!byName.ContainsKey(transform.name)) byName.Add(transform.name, transform);
-            }
+            Dictionary<string, Transform> byName = ByName(animator);
             HumanBone[] human = animator.avatar.humanDescription.human ?? new HumanBone[0];
             for (int role = 0; role < Count; role++)
             {
@@ -60,6 +56,25 @@ namespace SuperDeform.Editor
                 }
             }
             return roles;
+        }
+
+        /// <summary>
+        /// Transforms below an animator by their names; of several the first that is not another humanoid's, as outfits are.
+        /// </summary>
+        static Dictionary<string, Transform> ByName(Animator animator)
+        {
+            Dictionary<string, Transform> own = new Dictionary<string, Transform>(), others = new Dictionary<string, Transform>();
+            foreach (Transform transform in animator.GetComponentsInChildren<Transform>(true))
+            {
+                Animator[] above = transform.GetComponentsInParent<Animator>(true);
+                Dictionary<string, Transform> byName = Array.Find(above, IsHumanoid) == animator ? own : others;
+                if (!byName.ContainsKey(transform.name)) byName.Add(transform.name, transform);
+            }
+            foreach (KeyValuePair<string, Transform> other in others)
+            {
+                if (!own.ContainsKey(other.Key)) own.Add(other.Key, other.Value);
+            }
+            return own;
         }
 
         /// <summary>The first required role that no joint plays; null where all are there.</summary>

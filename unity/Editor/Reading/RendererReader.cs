@@ -122,6 +122,22 @@ namespace SuperDeform.Editor
             return held;
         }
 
+        /// <summary>Marks the joints that move vertices of a renderer.</summary>
+        internal static void MarkUsed(RendererData renderer, bool[] byJoint)
+        {
+            if (renderer.Skin == null)
+            {
+                if (renderer.Joint >= 0) byJoint[renderer.Joint] = true;
+                return;
+            }
+            bool placed = renderer.ModelVertices != null;
+            foreach (uint row in renderer.RowJoints)
+            {
+                int joint = placed ? (int)row : renderer.Skin.Joints[row];
+                if (joint >= 0) byJoint[joint] = true;
+            }
+        }
+
         /// <summary>Brings the mesh to the avatar's space at rest.</summary>
         /// <param name="rest">By joint.</param>
         internal static void Place(RendererData renderer, Affine[] rest)
@@ -206,7 +222,16 @@ namespace SuperDeform.Editor
         }
 
         /// <summary>Gives the library's mesh the weights of a part.</summary>
-        internal static void GiveWeights(PartData part, MeshArrays mesh)
+        /// <param name="twins">By joint, the one whose weights they are; null: each its own.</param>
+        internal static void GiveWeights(PartData part, MeshArrays mesh, int[] twins)
+        {
+            TakeWeights(part, mesh);
+            if (twins == null || !Array.Exists(mesh.Joints, joint => twins[joint] != joint)) return;
+            // The renderer's own rows stay: they name its bones.
+            mesh.Joints = Array.ConvertAll(mesh.Joints, joint => (uint)twins[joint]);
+        }
+
+        static void TakeWeights(PartData part, MeshArrays mesh)
         {
             RendererData renderer = part.Renderer;
             if (renderer.Skin == null)

@@ -87,6 +87,11 @@ namespace SuperDeform.Editor
                     model.Recheck();
                 };
             }
+            else if (finding.Choice != null)
+            {
+                row.FixLabel = Strings.Get("fix_choose");
+                row.Fix = () => model.SetAvatar(finding.Choice);
+            }
             return row;
         }
 

@@ -212,6 +212,7 @@ namespace SuperDeform.Editor.Tests
             Model model = Models.Load("kaykit_rogue.glb"), other = Models.Add("kaykit_rogue.glb");
             other.Root.name = "Guest";
             other.Root.transform.SetParent(model.Root.transform, false);
+            other.Root.transform.localPosition = new Vector3(1, 0, 0);
             Fails(model.Root, "two_avatars", model.Root.name, other.Root.name);
             ConversionException fault = Assert.Throws<ConversionException>(delegate { Converter.Convert(other.Root, Models.Settings(), null); });
             Says(fault.Finding, "inside_avatar", other.Root.name, model.Root.name);
