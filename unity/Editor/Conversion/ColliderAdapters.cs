@@ -36,9 +36,11 @@ namespace SuperDeform.Editor
             Vector3 axis = new Vector3(capsule.direction == 0 ? half : 0, capsule.direction == 1 ? half : 0, capsule.direction == 2 ? half : 0);
             Vector3 low = map.Point(capsule.transform, center - axis), high = map.Point(capsule.transform, center + axis);
             bool round = half == 0;
-            float height = round ? capsule.height * scale : Vector3.Distance(low, high) + 2 * capsule.radius * scale;
+            Vector3 along = new Vector3(capsule.direction == 0 ? 1 : 0, capsule.direction == 1 ? 1 : 0, capsule.direction == 2 ? 1 : 0);
+            float across = round ? scale : map.Across(capsule.transform, center, along);
+            float height = round ? capsule.height * scale : Vector3.Distance(low, high) + 2 * capsule.radius * across;
             capsule.center = round ? map.Point(capsule.transform, center) : (low + high) * 0.5f;
-            capsule.radius *= scale;
+            capsule.radius *= across;
             capsule.height = height;
         }
     }

@@ -24,7 +24,8 @@ namespace SuperDeform.Editor
             new BoxColliderAdapter(),
             new MeshColliderAdapter(),
             new CharacterControllerAdapter(),
-            new ClothAdapter()
+            new ClothAdapter(),
+            new ComponentTable()
         };
 
         /// <summary>

@@ -87,6 +87,61 @@ namespace SuperDeform.Editor
             return double.IsNaN(scales[0]) || double.IsInfinity(scales[0]) ? 1 : (float)scales[0];
         }
 
+        /// <summary>By how much a short way in one direction grows: a capsule's height.</summary>
+        /// <param name="direction">In the joint's space, of any length but 0.</param>
+        public float Stretch(Transform joint, Vector3 local, Vector3 direction)
+        {
+            Place(joint, Double3.Of(local));
+            double stretch = Stretched(Direction(joint, direction)).Length;
+            return stretch > 0 && !double.IsInfinity(stretch) ? (float)stretch : 1;
+        }
+
+        /// <summary>By how much short ways across a direction grow, in the mean: a capsule's radius.</summary>
+        public float Across(Transform joint, Vector3 local, Vector3 direction)
+        {
+            Place(joint, Double3.Of(local));
+            Double3 axis = Direction(joint, direction);
+            Double3 aside = axis.Cross(Math.Abs(axis.X) < 0.7 ? new Double3(1, 0, 0) : new Double3(0, 1, 0)).Normalized;
+            // The area of a section: it is the same whichever two ways across are taken.
+            double area = Stretched(aside).Cross(Stretched(axis.Cross(aside))).Length;
+            return area > 0 && !double.IsInfinity(area) ? (float)Math.Sqrt(area) : 1;
+        }
+
+        /// <summary>Where a point of the head goes, such as the point between the eyes; both in the root's space.</summary>
+        public Vector3 HeadPoint(Vector3 point)
+        {
+            int head = source.Roles[(int)HumanBodyBones.Head];
+            Transform joint = head < 0 ? source.Root.transform : source.Joints[head];
+            Place(joint, OldRest(joint).Inverse.Point(Double3.Of(point)));
+            return new Double3(positions[0], positions[1], positions[2]).ToVector3();
+        }
+
+        /// <summary>How far a transform moves in its parent's space.</summary>
+        public Vector3 Shift(Transform joint)
+        {
+            int index = source.IndexOf(Source(joint));
+            return index < 0 ? Vector3.zero : result.LocalShifts[index];
+        }
+
+        /// <summary>
+        /// True where the source itself becomes the new avatar, as in a build: it is still the same one to servers.
+        /// </summary>
+        public bool SameAvatar { get; internal set; }
+
+        /// <summary>A direction of a joint's space in the root's space, of length 1.</summary>
+        Double3 Direction(Transform joint, Vector3 direction)
+        {
+            return OldRest(joint).Direction(Double3.Of(direction)).Normalized;
+        }
+
+        Double3 Stretched(Double3 unit)
+        {
+            return new Double3(
+                jacobian[0] * unit.X + jacobian[3] * unit.Y + jacobian[6] * unit.Z,
+                jacobian[1] * unit.X + jacobian[4] * unit.Y + jacobian[7] * unit.Z,
+                jacobian[2] * unit.X + jacobian[5] * unit.Y + jacobian[8] * unit.Z);
+        }
+
         /// <summary>The new normal of a small plane, in the moved joint's space; it keeps its length.</summary>
         public Vector3 Normal(Transform joint, Vector3 local, Vector3 normal)
         {

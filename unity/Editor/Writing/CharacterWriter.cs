@@ -10,15 +10,6 @@ namespace SuperDeform.Editor
     /// </summary>
     internal static class CharacterWriter
     {
-        /// <summary>Components that hold lengths, which nobody adapts unless an adapter is registered.</summary>
-        static readonly string[] KnownForLengths =
-        {
-            "PositionConstraint", "ParentConstraint", "CharacterJoint", "ConfigurableJoint", "HingeJoint", "SpringJoint",
-            "VRCPhysBone", "VRCPhysBoneCollider", "VRCContactSender", "VRCContactReceiver", "VRCAvatarDescriptor", "DynamicBone",
-            "DynamicBoneCollider", "DynamicBonePlaneCollider", "MagicaCloth", "VRMSpringBone", "VRMSpringBoneColliderGroup",
-            "VRMFirstPerson", "VRM10SpringBoneJoint", "VRM10SpringBoneCollider", "Vrm10Instance"
-        };
-
         /// <summary>Makes a copy of the source what the result says.</summary>
         /// <param name="copy">An instance of the source.</param>
         /// <param name="map">Receives as assets the new meshes, the Avatar, and what adapters make.</param>
@@ -45,7 +36,7 @@ namespace SuperDeform.Editor
                 if (shift.x == 0 && shift.y == 0 && shift.z == 0) continue;
                 map.CopyOf(source.Joints[joint]).localPosition = result.LocalPositions[joint];
             }
-            Outlines.Scale(copy, map);
+            Outlines.Scale(copy, map, findings);
             if (source.Rigged)
             {
                 foreach (RendererResult renderer in result.Renderers)
@@ -99,7 +90,7 @@ namespace SuperDeform.Editor
 
         static void Adapt(GameObject copy, PointMap map, List<Finding> findings)
         {
-            SortedDictionary<string, bool> left = new SortedDictionary<string, bool>(StringComparer.Ordinal);
+            List<Component> left = new List<Component>();
             foreach (Component component in copy.GetComponentsInChildren<Component>(true))
             {
                 // Null where a script is missing.
@@ -108,8 +99,12 @@ namespace SuperDeform.Editor
                 IComponentAdapter adapter = ComponentAdapters.For(component);
                 if (adapter == null)
                 {
-                    if (Array.IndexOf(KnownForLengths, type) >= 0) left[type] = true;
+                    left.Add(component);
                     continue;
+                }
+                if (Array.IndexOf(ClothRows.NeedsCreate, component.GetType().FullName) >= 0)
+                {
+                    findings.Add(new Finding("needs_create", Severity.Warning, map.Source(component.transform), component.name, type));
                 }
                 try
                 {
@@ -120,7 +115,7 @@ namespace SuperDeform.Editor
                     findings.Add(new Finding("adapter_failed", Severity.Warning, null, type, component.name, cause.Message));
                 }
             }
-            if (left.Count > 0) findings.Add(new Finding("not_adapted", Severity.Warning, null, string.Join(", ", new List<string>(left.Keys).ToArray())));
+            Unlisted.Report(left, map, findings);
         }
     }
 }

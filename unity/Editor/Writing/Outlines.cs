@@ -4,15 +4,26 @@ using UnityEngine;
 namespace SuperDeform.Editor
 {
     /// <summary>
-    /// Outlines whose width is a length, not a share of the picture, keep their look on a smaller figure: the new avatar gets
-    /// copies of such materials, with a width in proportion to its height.
+    /// Outlines and fur whose width is a length, not a share of the picture, keep their look on a smaller figure: the new avatar
+    /// gets copies of such materials, with a width in proportion to its height.
     /// </summary>
+    /// <remarks>
+    /// MToon of VRM 0.x and lilToon count in centimetres, MToon of VRM 1.0 in metres, Poiyomi in hundredths of a metre: all are
+    /// multiplied.
+    /// </remarks>
     internal static class Outlines
     {
-        // MToon, in both versions of VRM. The mode: 0 none, 1 a width in the world, 2 a width on the screen.
+        // MToon alone has a mode: 0 none, 1 a width in the world, 2 a width on the screen.
         const string Mode = "_OutlineWidthMode", Width = "_OutlineWidth";
 
-        internal static void Scale(GameObject copy, PointMap map)
+        // Poiyomi. A locked material has its numbers in a shader of its own.
+        const string PoiyomiWidth = "_LineWidth", PoiyomiOn = "_EnableOutlines", Locked = "Hidden/Locked/";
+
+        // lilToon: a direction, and a length as its fourth number.
+        const string Fur = "_FurVector";
+
+        /// <param name="findings">Receives materials whose width cannot be changed.</param>
+        internal static void Scale(GameObject copy, PointMap map, List<Finding> findings)
         {
             if (map.HeightRatio == 1f) return;
             Dictionary<Material, Material> scaled = new Dictionary<Material, Material>();
@@ -22,31 +33,65 @@ namespace SuperDeform.Editor
                 bool changed = false;
                 for (int slot = 0; slot < materials.Length; slot++)
                 {
-                    if (!HasWidth(materials[slot])) continue;
-                    materials[slot] = Scaled(materials[slot], scaled, map);
-                    changed = true;
+                    if (materials[slot] == null) continue;
+                    Material made = Scaled(materials[slot], scaled, map, findings);
+                    changed |= made != materials[slot];
+                    materials[slot] = made;
                 }
                 if (changed) renderer.sharedMaterials = materials;
             }
         }
 
-        static bool HasWidth(Material material)
-        {
-            return material != null && material.HasProperty(Mode) && material.HasProperty(Width)
-                && material.GetFloat(Mode) == 1f && material.GetFloat(Width) > 0f;
-        }
-
-        static Material Scaled(Material material, Dictionary<Material, Material> scaled, PointMap map)
+        /// <summary>A copy with other widths; the material itself where it has none.</summary>
+        static Material Scaled(Material material, Dictionary<Material, Material> scaled, PointMap map, List<Finding> findings)
         {
             Material copy;
             if (scaled.TryGetValue(material, out copy)) return copy;
+            List<string> widths = Widths(material);
+            bool fur = HasFur(material);
+            if (widths.Contains(PoiyomiWidth) && material.shader != null && material.shader.name.StartsWith(Locked, System.StringComparison.Ordinal))
+            {
+                findings.Add(new Finding("locked_material", Severity.Warning, material, material.name));
+                widths.Remove(PoiyomiWidth);
+            }
+            scaled.Add(material, material);
+            if (widths.Count == 0 && !fur) return material;
             copy = Object.Instantiate(material);
             // Expressions find their materials by name.
             copy.name = material.name;
-            copy.SetFloat(Width, material.GetFloat(Width) * map.HeightRatio);
+            foreach (string width in widths)
+            {
+                copy.SetFloat(width, material.GetFloat(width) * map.HeightRatio);
+            }
+            if (fur)
+            {
+                Vector4 vector = material.GetVector(Fur);
+                copy.SetVector(Fur, new Vector4(vector.x, vector.y, vector.z, vector.w * map.HeightRatio));
+            }
             map.AddAsset(copy);
-            scaled.Add(material, copy);
+            scaled[material] = copy;
             return copy;
+        }
+
+        /// <summary>The properties that are lengths and not 0.</summary>
+        static List<string> Widths(Material material)
+        {
+            List<string> widths = new List<string>();
+            bool inWorld = !material.HasProperty(Mode) || material.GetFloat(Mode) == 1f;
+            if (inWorld && IsPositive(material, Width)) widths.Add(Width);
+            bool drawn = !material.HasProperty(PoiyomiOn) || material.GetFloat(PoiyomiOn) != 0f;
+            if (drawn && IsPositive(material, PoiyomiWidth)) widths.Add(PoiyomiWidth);
+            return widths;
+        }
+
+        static bool IsPositive(Material material, string property)
+        {
+            return material.HasProperty(property) && material.GetFloat(property) > 0f;
+        }
+
+        static bool HasFur(Material material)
+        {
+            return material.HasProperty(Fur) && material.shader != null && material.shader.name.Contains("Fur") && material.GetVector(Fur).w > 0f;
         }
     }
 }

@@ -27,6 +27,8 @@ namespace UnityEditor
             SerializedProperty found = new SerializedProperty(this, propertyPath);
             return found.Exists ? found : null;
         }
+        // Stands before the first property, as Unity's does.
+        public SerializedProperty GetIterator() { return new SerializedProperty(this, ""); }
         public void Update() { Pending.Clear(); }
         public void UpdateIfRequiredOrScript() { Update(); }
         public bool ApplyModifiedProperties() { if (Pending.Count == 0) return false; Undo.RecordObject(targetObject, null); return ApplyModifiedPropertiesWithoutUndo(); }
@@ -41,13 +43,65 @@ namespace UnityEditor
         public void Dispose() { }
     }
 
+    public enum SerializedPropertyType
+    {
+        Generic = -1, Integer, Boolean, Float, String, Color, ObjectReference, LayerMask, Enum, Vector2, Vector3, Vector4, Rect, ArraySize, Character,
+        AnimationCurve, Bounds, Gradient, Quaternion
+    }
+
     public class SerializedProperty
     {
         readonly SerializedObject m_Owner;
-        readonly string m_Path;
+        string m_Path;
         object m_New;
         bool m_Changed;
         internal SerializedProperty(SerializedObject owner, string path) { m_Owner = owner; m_Path = path; }
+
+        public SerializedPropertyType propertyType
+        {
+            get
+            {
+                object value = Value;
+                if (value is Object) return SerializedPropertyType.ObjectReference;
+                if (value == null) return SerializedPropertyType.Generic;
+                if (value is bool) return SerializedPropertyType.Boolean;
+                if (value is float || value is double) return SerializedPropertyType.Float;
+                if (value is string) return SerializedPropertyType.String;
+                if (value.GetType().IsEnum) return SerializedPropertyType.Enum;
+                if (value.GetType().IsPrimitive) return SerializedPropertyType.Integer;
+                if (value is Vector2) return SerializedPropertyType.Vector2;
+                if (value is Vector3) return SerializedPropertyType.Vector3;
+                if (value is Vector4) return SerializedPropertyType.Vector4;
+                if (value is Quaternion) return SerializedPropertyType.Quaternion;
+                if (value is Bounds) return SerializedPropertyType.Bounds;
+                return SerializedPropertyType.Generic;
+            }
+        }
+
+        /// The next property in the order of the fields, those within this one first where wanted.
+        public bool Next(bool enterChildren)
+        {
+            m_Changed = false;
+            object value = m_Owner.targetObject;
+            if (m_Path.Length > 0) Get(out value);
+            if (enterChildren && value != null && (m_Path.Length == 0 || !(value is Object) && !(value is IList) && !(value is string) && !value.GetType().IsPrimitive && !value.GetType().IsEnum))
+            {
+                FieldInfo[] fields = Fields.Of(value.GetType());
+                if (fields.Length > 0) { m_Path = m_Path.Length == 0 ? fields[0].Name : m_Path + "." + fields[0].Name; return true; }
+            }
+            for (string path = m_Path; path.Length > 0;)
+            {
+                int dot = path.LastIndexOf('.');
+                string above = dot < 0 ? "" : path.Substring(0, dot);
+                object holder = m_Owner.targetObject;
+                if (above.Length > 0) new SerializedProperty(m_Owner, above).Get(out holder);
+                FieldInfo[] fields = Fields.Of(holder.GetType());
+                int at = Array.FindIndex(fields, field => field.Name == path.Substring(dot + 1));
+                if (at + 1 < fields.Length) { m_Path = (above.Length == 0 ? "" : above + ".") + fields[at + 1].Name; return true; }
+                path = above;
+            }
+            return false;
+        }
 
         public string propertyPath { get { return m_Path; } }
         public string name { get { return m_Path.Substring(m_Path.LastIndexOf('.') + 1); } }
@@ -113,6 +167,9 @@ namespace UnityEditor
         public float floatValue { get { return Convert.ToSingle(Value); } set { Value = value; } }
         public string stringValue { get { return (string)Value; } set { Value = value; } }
         public int enumValueIndex { get { return Convert.ToInt32(Value); } set { Value = value; } }
+        public Vector2 vector2Value { get { return (Vector2)Value; } set { Value = value; } }
+        public Vector4 vector4Value { get { return (Vector4)Value; } set { Value = value; } }
+        public Quaternion quaternionValue { get { return (Quaternion)Value; } set { Value = value; } }
         public Vector3 vector3Value { get { return (Vector3)Value; } set { Value = value; } }
         public Object objectReferenceValue { get { return Value as Object; } set { Value = value; } }
         public bool isArray { get { return Value is IList; } }

@@ -30,10 +30,13 @@ namespace UnityEngine
         Color m_Color = Color.white;
         Texture m_Texture;
         Dictionary<string, float> m_Floats = new Dictionary<string, float>();
+        Dictionary<string, Vector4> m_Vectors = new Dictionary<string, Vector4>();
         public Material(Shader shader) { m_Shader = shader; }
-        public Material(Material source) { m_Shader = source.m_Shader; m_Color = source.m_Color; m_Texture = source.m_Texture; m_Floats = new Dictionary<string, float>(source.m_Floats); }
+        public Material(Material source) { m_Shader = source.m_Shader; m_Color = source.m_Color; m_Texture = source.m_Texture; m_Floats = new Dictionary<string, float>(source.m_Floats); m_Vectors = new Dictionary<string, Vector4>(source.m_Vectors); }
         // Shaders declare nothing here: a material has the properties that were set.
-        public bool HasProperty(string name) { Alive(); return m_Floats.ContainsKey(name); }
+        public bool HasProperty(string name) { Alive(); return m_Floats.ContainsKey(name) || m_Vectors.ContainsKey(name); }
+        public Vector4 GetVector(string name) { Vector4 value; Alive(); return m_Vectors.TryGetValue(name, out value) ? value : new Vector4(0, 0, 0, 0); }
+        public void SetVector(string name, Vector4 value) { Alive(); m_Vectors[name] = value; }
         public bool HasFloat(string name) { return HasProperty(name); }
         public float GetFloat(string name) { float value; Alive(); return m_Floats.TryGetValue(name, out value) ? value : 0f; }
         public void SetFloat(string name, float value) { Alive(); m_Floats[name] = value; }
@@ -170,9 +173,10 @@ namespace UnityEngine
     }
 
     public enum LightType { Spot = 0, Directional = 1, Point = 2, Area = 3 }
-    public sealed class Light : Behaviour
+    public sealed class Light : Behaviour // Serialized as Unity names it.
     {
-        float m_Range = 10f, m_Intensity = 1f;
+        float m_Range = 10f, m_Intensity = 1f, m_CookieSize = 10f;
+        Vector2 m_AreaSize = new Vector2(1, 2);
         LightType m_Type = LightType.Point;
         Color m_Color = Color.white;
         public float range { get { return m_Range; } set { m_Range = value; } }
