@@ -2,8 +2,11 @@
 //!
 //!     cargo run --release --example superdeform
 //!     cargo run --release --example superdeform -- TARGET REFERENCE -o OUT.glb
+//!     cargo run --release --example superdeform -- batch FOLDER --style sd2.5 -o RESULTS
 
+mod batch;
 mod cli;
+mod faults;
 mod input;
 mod output;
 mod picture;
@@ -15,10 +18,11 @@ mod sheet;
 mod words;
 
 use cli::Refusal;
+use cli::batch::Batch;
+use faults::without_panic;
+use std::ffi::OsString;
 use std::io::Write;
-use std::panic;
 use std::process::ExitCode;
-use std::sync::Mutex;
 
 /// Exit code for bad input and for faults of the program itself.
 const BAD_INPUT: u8 = 1;
@@ -26,14 +30,13 @@ const BAD_INPUT: u8 = 1;
 const WRONG_USAGE: u8 = 2;
 
 fn main() -> ExitCode {
-    let command = match cli::parse(std::env::args_os()) {
+    let words: Vec<OsString> = std::env::args_os().collect();
+    if words.get(1).is_some_and(|word| word == "batch") {
+        return many(words);
+    }
+    let command = match cli::parse(words) {
         Ok(command) => command,
-        Err(Refusal::Answer(text)) => {
-            print(&text);
-            return ExitCode::SUCCESS;
-        }
-        Err(Refusal::Usage(text)) => return fail(WRONG_USAGE, &text),
-        Err(Refusal::Input(text)) => return fail(BAD_INPUT, &text),
+        Err(refusal) => return refused(refusal),
     };
     match without_panic(|| run::run(&command)) {
         Ok(done) => {
@@ -46,30 +49,36 @@ fn main() -> ExitCode {
     }
 }
 
-/// Runs `work`; a panic becomes a sentence like any other error.
-fn without_panic<T>(work: impl FnOnce() -> Result<T, String>) -> Result<T, String> {
-    static FAULT: Mutex<Option<String>> = Mutex::new(None);
-    panic::set_hook(Box::new(|info| {
-        let place = info.location().map_or(String::new(), |place| format!(" at {place}"));
-        let what = panic_text(info.payload()).replace('\n', " ");
-        if let Ok(mut fault) = FAULT.lock() {
-            // The first panic is the cause; others follow from it.
-            fault.get_or_insert(format!("a fault in superdeform itself{place}: {what}"));
+/// Converts a batch.
+fn many(words: Vec<OsString>) -> ExitCode {
+    let batch = match Batch::parse_from_words(words) {
+        Ok(batch) => batch,
+        Err(refusal) => return refused(refusal),
+    };
+    match without_panic(|| batch::run(&batch)) {
+        Ok(outcome) => {
+            if !batch.settings.quiet {
+                print(&outcome.table);
+            }
+            if outcome.failures.is_empty() {
+                return ExitCode::SUCCESS;
+            }
+            let (failed, count) = (outcome.failures.len(), outcome.count);
+            let list = outcome.failures.join("\n");
+            fail(BAD_INPUT, &format!("{failed} of {count} files were not converted:\n{list}"))
         }
-    }));
-    let result = panic::catch_unwind(panic::AssertUnwindSafe(work));
-    let _ = panic::take_hook();
-    result.unwrap_or_else(|_| {
-        let fault = FAULT.lock().ok().and_then(|mut fault| fault.take());
-        Err(fault.unwrap_or_else(|| "a fault in superdeform itself".to_string()))
-    })
+        Err(sentence) => fail(BAD_INPUT, &sentence),
+    }
 }
 
-fn panic_text(payload: &(dyn std::any::Any + Send)) -> &str {
-    match (payload.downcast_ref::<String>(), payload.downcast_ref::<&str>()) {
-        (Some(text), _) => text,
-        (_, Some(text)) => text,
-        _ => "unknown",
+fn refused(refusal: Refusal) -> ExitCode {
+    match refusal {
+        Refusal::Answer(text) => {
+            print(&text);
+            ExitCode::SUCCESS
+        }
+        Refusal::Usage(text) => fail(WRONG_USAGE, &text),
+        Refusal::Input(text) => fail(BAD_INPUT, &text),
     }
 }
 

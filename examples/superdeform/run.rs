@@ -7,6 +7,7 @@ use crate::progress::Progress;
 use crate::words::{self, sentence, sentence_of_reference};
 use crate::{input, output, report, shades, sheet};
 use glam::DVec3;
+use serde_json::json;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -34,35 +35,68 @@ pub struct Done {
 /// # Errors
 /// One sentence; no file is left half-written.
 pub fn run(command: &Command) -> Result<Done, String> {
-    stages(command, &Progress::new(STAGE_COUNT, command.quiet))
+    stages(command, None, &Progress::new(STAGE_COUNT, command.quiet))
 }
 
-fn stages(command: &Command, progress: &Progress) -> Result<Done, String> {
+/// The same with a reference that has been measured; the report holds `key`, by which a batch knows the run.
+///
+/// # Errors
+/// As [`run`].
+pub fn run_with(command: &Command, source: &Source, key: &str) -> Result<Done, String> {
+    stages(command, Some((source, key)), &Progress::new(STAGE_COUNT, command.quiet))
+}
+
+/// Where proportions come from: the same for every target.
+pub struct Source {
+    reference: Option<Loaded>,
+    measured: Option<Measured>,
+    style: Style,
+}
+
+impl Source {
+    /// Reads and measures the reference of `command`.
+    ///
+    /// # Errors
+    /// One sentence that begins with the reference's name.
+    pub fn of(command: &Command) -> Result<Self, String> {
+        let reference = input::reference(command)?;
+        let measured = reference.as_ref().map(|reference| measure(reference, command)).transpose()?;
+        let style = style(command, measured.as_ref())?;
+        Ok(Self { reference, measured, style })
+    }
+}
+
+fn stages(command: &Command, in_batch: Option<(&Source, &str)>, progress: &Progress) -> Result<Done, String> {
     let start = Instant::now();
     progress.stage("reading");
     let mut target = input::target(command)?;
     check_licence(&target, command)?;
     let seen = sheet::appearance(&target);
     shades::shade(&mut target.character, &seen);
-    let reference = input::reference(command)?;
     let load_time = start.elapsed();
 
     progress.stage("measuring");
-    let measured = reference.as_ref().map(|reference| measure(reference, command)).transpose()?;
-    let style = style(command, measured.as_ref())?;
+    let own;
+    let Source { reference, measured, style } = match in_batch {
+        Some((source, _)) => source,
+        None => {
+            own = Source::of(command)?;
+            &own
+        }
+    };
 
     progress.stage("rigging");
     let rig = rig(&mut target, command)?;
 
     progress.stage("deforming");
     let deformer = match &rig {
-        Some(rig) => Deformer::with_rig(&target.character, rig, &style, &command.options),
-        None => Deformer::new(Arc::new(target.character.clone()), &style, &command.options),
+        Some(rig) => Deformer::with_rig(&target.character, rig, style, &command.options),
+        None => Deformer::new(Arc::new(target.character.clone()), style, &command.options),
     };
     let deformer = deformer.map_err(sentence)?;
     let deformed = deformer.apply();
     let mut report = deformer.report(&deformed).map_err(sentence)?;
-    if let Some(measured) = &measured {
+    if let Some(measured) = measured {
         // Measured over the roles of both, so that the two figures can be compared group by group.
         let of_target = &deformer.target().joints;
         let roles = measured.joints.keys().copied().filter(|role| of_target.contains_key(role)).collect();
@@ -77,17 +111,18 @@ fn stages(command: &Command, progress: &Progress) -> Result<Done, String> {
         Some(path) => Some((path, sheet::png(&target, reference.as_ref(), &deformed, &report)?)),
         None => None,
     };
+    let thumbnail = command.thumbnail.then(|| sheet::thumbnail(&target, &deformed, &report)).transpose()?;
     let draw_time = draw_start.elapsed();
 
     progress.stage("writing");
     let write_start = Instant::now();
-    let model = model(&target, &deformer, &deformed, rig.as_ref()).map_err(sentence)?;
+    let model = model(&target, &deformer, &deformed, rig.as_ref(), thumbnail.as_deref()).map_err(sentence)?;
     let mut results = vec![("model", &command.output, model)];
     if let Some(path) = &command.save_rigged {
         results.push(("rigged target", path, rigged_target(&target, rig.as_ref()).map_err(sentence)?));
     }
     results.extend(picture.map(|(path, bytes)| ("picture", path, bytes)));
-    if let (Some(path), Style::Shape(shape)) = (&command.save_style, &style) {
+    if let (Some(path), Style::Shape(shape)) = (&command.save_style, style) {
         results.push(("style", path, shape.to_json().into_bytes()));
     }
 
@@ -95,13 +130,15 @@ fn stages(command: &Command, progress: &Progress) -> Result<Done, String> {
     for (_, path, bytes) in &results {
         output::write(path, bytes)?;
     }
-    let mut files: Vec<_> = results.into_iter().map(|(name, path, _)| (name, path.clone())).collect();
+    let mut files: Vec<_> = results.iter().map(|&(name, path, _)| (name, path.clone())).collect();
     report.timing_ms.load = milliseconds(load_time);
     report.timing_ms.write = milliseconds(write_start.elapsed());
     // The picture is made beside the result.
     report.timing_ms.total = milliseconds(start.elapsed() - draw_time);
     if let Some(path) = &command.report {
-        report::write(&report, &target.licence, path)?;
+        let bytes = results[0].2.len();
+        let batch = in_batch.map(|(_, key)| json!({"key": key, "bytes": bytes}));
+        report::write(&report, &target.licence, batch, path)?;
         files.push(("report", path.clone()));
     }
     Ok(Done { report, files })
@@ -166,6 +203,7 @@ fn model(
     deformer: &Deformer,
     deformed: &Deformed,
     rig: Option<&Rig>,
+    thumbnail: Option<&[u8]>,
 ) -> superdeform::Result<Vec<u8>> {
     let mut file = write::rewrite(target, deformed, &|joint, point: DVec3| deformer.map(joint, point))?;
     if let Some(rig) = rig.filter(|_| !target.rigged) {
@@ -174,6 +212,10 @@ fn model(
             joint.rest.w_axis = at.extend(1.0);
         }
         add_rig(&mut file, target, &skeleton, &limited(rig))?;
+    }
+    if let Some(png) = thumbnail {
+        // What is no VRM has no thumbnail.
+        write::set_thumbnail(&mut file, png);
     }
     file.to_bytes()
 }
@@ -227,7 +269,7 @@ fn milliseconds(duration: Duration) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use serde_json::{Value, json};
+    use serde_json::Value;
     use std::path::Path;
     use superdeform_host::file::GltfFile;
     use superdeform_host::samples;

@@ -30,6 +30,20 @@ pub fn png(
     picture::png(&picture::draw(&views))
 }
 
+/// Pixels along each side of a thumbnail.
+const THUMBNAIL: u32 = 512;
+
+/// Draws the result's head, as PNG.
+///
+/// # Errors
+/// One sentence where it cannot be encoded.
+pub fn thumbnail(target: &Loaded, deformed: &Deformed, report: &Report) -> Result<Vec<u8>, String> {
+    let appearance = appearance(target);
+    let view = view("", &report.result, target, &appearance, Some(deformed));
+    let chin = report.result.landmarks.chin as f32;
+    picture::png(&picture::portrait(&view, chin, THUMBNAIL))
+}
+
 /// What the picture needs beside the shape.
 pub fn appearance(loaded: &Loaded) -> Appearance {
     let primitives = loaded.bindings.iter().map(|binding| (binding.mesh, binding.primitive));

@@ -2,8 +2,8 @@
 //! from the library's table of options; help written here says how files and switches are spelt, which the table cannot.
 
 use super::{Rig, values};
-use clap::Parser;
 use clap::builder::ValueParser;
+use clap::{Args, Parser};
 use glam::Vec3;
 use regex::Regex;
 use std::path::PathBuf;
@@ -14,7 +14,7 @@ use values::{choice, count, help, number};
 /// Turns a 3D character into its super-deformed (SD, chibi) version.
 #[derive(Debug, Parser)]
 #[command(name = "superdeform", version, max_term_width = 100, after_help = EXAMPLES)]
-pub struct Arguments {
+pub struct Single {
     /// The character to change: GLB, or VRM 0.x or 1.0 [default: a sample]
     pub target: Option<PathBuf>,
 
@@ -39,6 +39,21 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE.json")]
     pub save_style: Option<PathBuf>,
 
+    /// Write the target with its rig, not deformed
+    #[arg(long, value_name = "FILE.glb", help_heading = NEW_RIG)]
+    pub save_rigged: Option<PathBuf>,
+
+    /// Joints that are known: a JSON object, role to [x, y, z] as in a report's target.joints
+    #[arg(long, value_name = "FILE.json", help_heading = NEW_RIG)]
+    pub joints: Option<PathBuf>,
+
+    #[command(flatten)]
+    pub settings: Arguments,
+}
+
+/// How to convert, whatever is converted.
+#[derive(Clone, Debug, Args)]
+pub struct Arguments {
     #[arg(long, value_name = "N", value_parser = number("heads"), help = help("heads"), help_heading = STYLE)]
     pub heads: Option<f64>,
 
@@ -126,10 +141,6 @@ pub struct Arguments {
     #[arg(long, value_name = "RIG", value_enum, help_heading = NEW_RIG)]
     pub rig: Option<Rig>,
 
-    /// Write the target with its rig, not deformed
-    #[arg(long, value_name = "FILE.glb", help_heading = NEW_RIG)]
-    pub save_rigged: Option<PathBuf>,
-
     #[arg(long, value_name = "N", value_parser = count("thread_count"), help = help("thread_count"), help_heading = METHOD)]
     pub threads: Option<usize>,
 
@@ -151,10 +162,6 @@ pub struct Arguments {
     /// Give hands no finger joints
     #[arg(long, help_heading = NEW_RIG)]
     pub no_rig_fingers: bool,
-
-    /// Joints that are known: a JSON object, role to [x, y, z] as in a report's target.joints
-    #[arg(long, value_name = "FILE.json", help_heading = NEW_RIG)]
-    pub joints: Option<PathBuf>,
 
     /// Roles of the target's joints where they are not found: a JSON object, role to node name
     #[arg(long, value_name = "MAP.json", help_heading = READING)]
@@ -199,6 +206,10 @@ pub struct Arguments {
     /// Convert what its licence forbids to change, because you are its author or have been allowed to
     #[arg(long, help_heading = READING)]
     pub allow_prohibited: bool,
+
+    /// Draw a VRM's thumbnail anew from the result
+    #[arg(long)]
+    pub thumbnail: bool,
 
     /// Print nothing but errors
     #[arg(short, long)]
@@ -251,6 +262,7 @@ Examples:
   superdeform hero.vrm chibi.glb -o hero_sd.vrm
   superdeform hero.vrm --heads 2.5 -o hero_sd.vrm --picture hero.png
   superdeform hero.vrm chibi.glb --group upper_leg:length=0.4 --amount 0.8
+  superdeform batch avatars --style sd2.5 -o avatars_sd     many at a time; see superdeform batch --help
 
 Bone groups: head neck torso shoulder upper_arm lower_arm hand finger hip upper_leg lower_leg foot.
 Exit codes: 0 done, 1 bad input (one sentence on standard error), 2 wrong usage.";

@@ -1,10 +1,11 @@
 //! The command line: every option with its range and its help, read into one plain [`Command`].
 
 mod arguments;
+pub mod batch;
 mod values;
 
 use crate::input;
-use arguments::Arguments;
+use arguments::{Arguments, Single};
 use clap::error::ErrorKind;
 use clap::{Parser, ValueEnum};
 use regex::Regex;
@@ -69,6 +70,8 @@ pub struct Command {
     pub save_rigged: Option<PathBuf>,
     /// Convert what its licence forbids to change.
     pub allow_prohibited: bool,
+    /// Draw a VRM's thumbnail anew.
+    pub thumbnail: bool,
     /// Print nothing but errors.
     pub quiet: bool,
 }
@@ -97,23 +100,25 @@ pub enum Rig {
 /// # Errors
 /// [`Refusal`]: help or version, wrong usage, or a file of `--groups` that cannot be read.
 pub fn parse(arguments: impl IntoIterator<Item = impl Into<OsString> + Clone>) -> Result<Command, Refusal> {
-    match Arguments::try_parse_from(arguments) {
-        Ok(arguments) => command(arguments),
-        Err(error) => Err(match error.kind() {
-            ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => Refusal::Answer(error.to_string()),
-            // One sentence names the option, the value and the range; clap's hint below it adds nothing.
-            ErrorKind::ValueValidation => {
-                let text = error.to_string();
-                let line = text.lines().next().unwrap_or_default();
-                Refusal::Usage(line.trim_start_matches("error: ").to_string())
-            }
-            _ => Refusal::Usage(error.to_string().trim_start_matches("error: ").trim_end().to_string()),
-        }),
+    command(Single::try_parse_from(arguments).map_err(refusal)?)
+}
+
+fn refusal(error: clap::Error) -> Refusal {
+    match error.kind() {
+        ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => Refusal::Answer(error.to_string()),
+        // One sentence names the option, the value and the range; clap's hint below it adds nothing.
+        ErrorKind::ValueValidation => {
+            let text = error.to_string();
+            let line = text.lines().next().unwrap_or_default();
+            Refusal::Usage(line.trim_start_matches("error: ").to_string())
+        }
+        _ => Refusal::Usage(error.to_string().trim_start_matches("error: ").trim_end().to_string()),
     }
 }
 
 /// Fills in defaults and checks options against each other.
-fn command(arguments: Arguments) -> Result<Command, Refusal> {
+fn command(single: Single) -> Result<Command, Refusal> {
+    let arguments = single.settings;
     let axes = Axes { up: arguments.up.unwrap_or(Axes::default().up), forward: arguments.forward };
     if axes.forward.is_some_and(|forward| axes.up.dot(forward) != 0.0) {
         return Err(Refusal::Usage(
@@ -132,20 +137,20 @@ fn command(arguments: Arguments) -> Result<Command, Refusal> {
         thread_count: options.thread_count,
         ..unset
     };
-    if arguments.joints.is_some() && arguments.rig == Some(Rig::Keep) {
+    if single.joints.is_some() && arguments.rig == Some(Rig::Keep) {
         return Err(Refusal::Usage(
             "--joints is about a new rig, and --rig keep keeps the old one: leave one of them out"
                 .to_string(),
         ));
     }
-    if let Some(path) = arguments.save_rigged.as_ref().filter(|path| !has_extension(path, "glb")) {
+    if let Some(path) = single.save_rigged.as_ref().filter(|path| !has_extension(path, "glb")) {
         return Err(Refusal::Usage(format!(
             "--save-rigged {}: the rigged target is written as GLB, so give a name that ends in .glb",
             path.display()
         )));
     }
-    let target = arguments.target.unwrap_or_else(|| sample("quaternius_female_dress_unrigged.glb"));
-    let reference = match (arguments.heads, arguments.reference) {
+    let target = single.target.unwrap_or_else(|| sample("quaternius_female_dress_unrigged.glb"));
+    let reference = match (arguments.heads, single.reference) {
         (Some(heads), _) => Reference::Heads(heads),
         (None, Some(path)) if path.to_str().is_some_and(|name| BUILT_IN.contains(&name)) => {
             Reference::BuiltIn(path.to_string_lossy().into_owned())
@@ -154,7 +159,7 @@ fn command(arguments: Arguments) -> Result<Command, Refusal> {
         (None, Some(path)) => Reference::Model(path),
         (None, None) => Reference::Model(sample("kaykit_rogue.glb")),
     };
-    if arguments.save_style.is_some() && !matches!(reference, Reference::Model(_)) {
+    if single.save_style.is_some() && !matches!(reference, Reference::Model(_)) {
         return Err(Refusal::Usage(
             "--save-style saves what is measured on a model: give a GLB or VRM as REFERENCE".to_string(),
         ));
@@ -164,9 +169,9 @@ fn command(arguments: Arguments) -> Result<Command, Refusal> {
             "--blend mixes two styles, and --heads has no second one: give a REFERENCE instead".to_string(),
         ));
     }
-    let mut picture = arguments.picture;
-    let mut report = arguments.report;
-    let output = arguments.output.unwrap_or_else(|| {
+    let mut picture = single.picture;
+    let mut report = single.report;
+    let output = single.output.unwrap_or_else(|| {
         let base = default_output(&target);
         picture.get_or_insert(base.with_extension("png"));
         report.get_or_insert(base.with_extension("json"));
@@ -189,7 +194,7 @@ fn command(arguments: Arguments) -> Result<Command, Refusal> {
         output,
         picture,
         report,
-        save_style: arguments.save_style,
+        save_style: single.save_style,
         options,
         blend: arguments.blend,
         kinds,
@@ -198,9 +203,10 @@ fn command(arguments: Arguments) -> Result<Command, Refusal> {
         axes,
         rig: arguments.rig,
         rig_options,
-        joints: arguments.joints,
-        save_rigged: arguments.save_rigged,
+        joints: single.joints,
+        save_rigged: single.save_rigged,
         allow_prohibited: arguments.allow_prohibited,
+        thumbnail: arguments.thumbnail,
         quiet: arguments.quiet,
     };
     check_paths(&command)?;
@@ -444,7 +450,7 @@ mod tests {
 
     #[test]
     fn every_option_of_the_library_has_its_flag() {
-        let arguments = Arguments::command();
+        let arguments = Single::command();
         // glTF's axes are right-handed.
         for info in TABLE.iter().filter(|info| info.name != "rig_left_handed") {
             for flag in words::flag(info.name).split(", ") {

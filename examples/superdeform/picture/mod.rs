@@ -42,6 +42,9 @@ const TICK: f32 = 5.0;
 
 const BACKGROUND_TOP: [f32; 3] = [246.0, 247.0, 250.0];
 const BACKGROUND_BOTTOM: [f32; 3] = [226.0, 230.0, 237.0];
+/// A portrait's side, in heads as they are drawn.
+const PORTRAIT_MARGIN: f32 = 1.2;
+
 /// Rings around what was found of a face: their colour, and their radius in pixels.
 const MARK_COLOUR: [u8; 3] = [230, 60, 60];
 const MARK_RADIUS: f32 = 4.0;
@@ -145,6 +148,34 @@ pub fn draw(views: &[View]) -> RgbImage {
         left += FIGURE_GAP - VIEW_GAP;
     }
     sheet
+}
+
+/// Draws the head of `view` from the front, square, as large as fits into `size` pixels.
+///
+/// `chin`: its height along up; what is above it is the head, with hair and hat.
+pub fn portrait(view: &View, chin: f32, size: u32) -> RgbImage {
+    let figure = Figure::new(view);
+    let camera = &figure.cameras[0];
+    let seen = |point: &Vec3| [point.dot(camera.right), point.dot(camera.up)];
+    let of_head = view.meshes.iter().flat_map(|mesh| mesh.positions).filter(|point| point.is_finite());
+    let [left, right] = of_head
+        .map(seen)
+        .filter(|[_, height]| *height >= chin)
+        .fold([f32::INFINITY, f32::NEG_INFINITY], |[low, high], [x, _]| [low.min(x), high.max(x)]);
+    let (left, right) = if left <= right { (left, right) } else { (camera.low.x, camera.high.x) };
+    let tall = (camera.high.y - chin).max(1e-6);
+    // Twice the head's height holds every hat; wings and raised arms are cut off.
+    let side = PORTRAIT_MARGIN * (right - left).clamp(tall, 2.0 * tall);
+    let pixels = size as f32 / side;
+    // The whole figure is drawn, and the part around the head kept.
+    let origin = [-camera.low.x * pixels, camera.high.y * pixels];
+    let (width, height) = (camera.width() * pixels, figure.height() * pixels);
+    let mut sheet = background(width.ceil() as u32 + 2 * size, height.ceil() as u32 + 2 * size, -FIGURE_GAP);
+    let border = size as f32;
+    draw_figure(&mut sheet, view, &figure, camera, pixels, [origin[0] + border, origin[1] + border]);
+    let column = border + origin[0] + 0.5 * (left + right) * pixels - 0.5 * border;
+    let row = border + origin[1] - 0.5 * (camera.high.y + chin) * pixels - 0.5 * border;
+    image::imageops::crop_imm(&sheet, column.max(0.0) as u32, row.max(0.0) as u32, size, size).to_image()
 }
 
 /// A sheet as PNG.

@@ -6,6 +6,7 @@
 mod animations;
 mod nodes;
 mod store;
+mod thumbnail;
 mod vertices;
 mod vrm;
 
@@ -19,6 +20,7 @@ use nodes::{move_nodes, skin_slots};
 use serde_json::{Value, json};
 use store::store;
 use superdeform::{Deformed, Mapped, Result};
+pub use thumbnail::set_thumbnail;
 use vertices::mesh_slots;
 
 /// Where the field takes a point (model space) that is attached to a joint.

@@ -307,7 +307,7 @@ fn define(file: &mut GltfFile, definitions: Vec<Definition>) {
 }
 
 /// The buffer views that anything in the JSON names under `bufferView`.
-fn named_views(json: &Value) -> BTreeSet<usize> {
+pub(super) fn named_views(json: &Value) -> BTreeSet<usize> {
     let mut named = BTreeSet::new();
     let mut stack = vec![json];
     while let Some(value) = stack.pop() {
@@ -328,7 +328,7 @@ fn named_views(json: &Value) -> BTreeSet<usize> {
 }
 
 /// Keeps those bytes of the binary that the views `named` cover, and moves the views along.
-fn keep_named(file: &mut GltfFile, named: &BTreeSet<usize>) {
+pub(super) fn keep_named(file: &mut GltfFile, named: &BTreeSet<usize>) {
     let span = |view: &Value| {
         let start = index_at(view, "byteOffset").unwrap_or(0);
         (start, start + index_at(view, "byteLength").unwrap_or(0))
