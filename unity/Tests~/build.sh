@@ -33,19 +33,25 @@ assembly() {
   fi
 }
 
-assembly SuperDeform "" "-unsafe -d:UNITY_EDITOR" Runtime
+assembly SuperDeform "" "-unsafe -d:UNITY_EDITOR" Runtime/*.cs
 nunit=$(find /usr/lib/cli /usr/lib/mono -name nunit.framework.dll 2>/dev/null | sort | tail -n 1)
 assembly SuperDeform.Tests SuperDeform "-unsafe -d:UNITY_EDITOR -d:UNITY_INCLUDE_TESTS -r:$nunit" Tests/Runtime
 assembly UnityEngine "" "-unsafe -nowarn:67,108,114,169,414,649,660,661" Tests~/UnityStubs/Engine
 assembly UnityEditor "UnityEngine" "-unsafe -nowarn:67,108,114,169,414,649,660,661" Tests~/UnityStubs/Editor
-editor="SuperDeform UnityEngine UnityEditor"
-mapfile -t folders < <(find Editor -mindepth 1 -maxdepth 1 -type d ! -name 'Vrm?')
+# As in a project without NDMF, and as in one with it.
+assembly nadena.dev.ndmf.runtime UnityEngine "" Tests~/NdmfStubs/Runtime
+assembly nadena.dev.ndmf "nadena.dev.ndmf.runtime UnityEngine UnityEditor" "" Tests~/NdmfStubs/Editor
+assembly SuperDeform.Avatar.Alone UnityEngine "" Runtime/Avatar
+assembly SuperDeform.Avatar "nadena.dev.ndmf.runtime UnityEngine" -d:SUPERDEFORM_NDMF Runtime/Avatar
+editor="SuperDeform SuperDeform.Avatar nadena.dev.ndmf.runtime UnityEngine UnityEditor"
+mapfile -t folders < <(find Editor -mindepth 1 -maxdepth 1 -type d ! -name 'Vrm?' ! -name Ndmf)
 assembly SuperDeform.Editor "$editor" "-unsafe -d:UNITY_EDITOR" "${folders[@]}"
 for version in 0 1; do
   library=$([[ $version == 0 ]] && echo VRM || echo VRM10)
   assembly "$library" UnityEngine "-nowarn:649" Tests~/UniVrmStubs/Vrm$version
   assembly SuperDeform.Editor.Vrm$version "$editor SuperDeform.Editor $library" -d:UNITY_EDITOR Editor/Vrm$version
 done
+assembly SuperDeform.Editor.Ndmf "$editor SuperDeform.Editor nadena.dev.ndmf" -d:SUPERDEFORM_NDMF Editor/Ndmf
 assembly QuickStart "$editor SuperDeform.Editor" -d:UNITY_EDITOR Samples~/QuickStart
 
 echo "$passed passed, $failed failed"

@@ -26,7 +26,11 @@ NAME = metas.PACKAGE
 
 # Assemblies that other packages bring, and the one define without which they may be missing (None: always there).
 FOREIGN = {"UnityEngine.TestRunner": "UNITY_INCLUDE_TESTS", "UnityEditor.TestRunner": "UNITY_INCLUDE_TESTS",
-           "VRM": "SUPERDEFORM_VRM0", "VRM10": "SUPERDEFORM_VRM1"}
+           "VRM": "SUPERDEFORM_VRM0", "VRM10": "SUPERDEFORM_VRM1", "nadena.dev.ndmf": "SUPERDEFORM_NDMF",
+           "nadena.dev.ndmf.runtime": "SUPERDEFORM_NDMF"}
+
+# Assemblies that use one of those where its define stands, and compile without.
+EITHER_WAY = {"SuperDeform.Avatar", "SuperDeform.Editor"}
 
 # What Unity 2021.3 or the C# and .NET of its editor do not know. That everything else exists there is seen by compiling
 # against the stubs, which hold nothing newer; this list names what is written by habit.
@@ -171,7 +175,8 @@ def check_assemblies(root):
                     said.append(f"{name} is for all platforms but refers to {reference}, which is for the editor")
             elif reference not in FOREIGN:
                 said.append(f"{name} refers to {reference}, which nobody defines")
-            elif FOREIGN[reference] not in definition["defineConstraints"] or FOREIGN[reference] not in defines:
+            elif FOREIGN[reference] not in defines or (name not in EITHER_WAY
+                                                       and FOREIGN[reference] not in definition["defineConstraints"]):
                 said.append(f"{name} refers to {reference} but compiles where that is missing: constrain it to "
                             f"{FOREIGN[reference]}")
     for source in sources(root):

@@ -41,7 +41,7 @@ FAULTS = [
     ("paths", "names that differ in case", lambda root: put(root / "readme.md", ""), "one file on Windows"),
     ("paths", "a long path", lambda root: put(root / ("a" * 80) / ("b" * 80), ""), "too long"),
     ("assemblies", "a reference to nothing",
-     lambda root: edit(root / "Editor/SuperDeform.Editor.asmdef", '"SuperDeform"\n', '"SuperDeformed"\n'),
+     lambda root: edit(root / "Editor/SuperDeform.Editor.asmdef", '"SuperDeform",\n', '"SuperDeformed",\n'),
      "nobody defines"),
     ("assemblies", "UniVRM wanted always",
      lambda root: edit(root / "Editor/Vrm0/SuperDeform.Editor.Vrm0.asmdef", '"SUPERDEFORM_VRM0"\n    ],', "],"),

@@ -19,6 +19,12 @@ namespace SuperDeform.Editor
         /// </summary>
         public GameObject Instance;
 
+        /// <summary>Meshes, the Avatar and materials of an avatar that was converted in place; they belong to nobody yet.</summary>
+        public readonly List<Object> Assets = new List<Object>();
+
+        /// <summary>Of an avatar that was converted in place: what it had, and what it has instead.</summary>
+        public readonly List<KeyValuePair<Object, Object>> Replaced = new List<KeyValuePair<Object, Object>>();
+
         /// <summary>The numbers of the run.</summary>
         public Report Report;
 

@@ -18,10 +18,27 @@ namespace SuperDeform.Editor
         /// <exception cref="ConversionException">It cannot be done, and why; nothing is left behind.</exception>
         public static ConversionResult Convert(GameObject avatar, ConversionSettings settings, IConversionProgress progress)
         {
+            return Run(avatar, settings, new StageProgress(progress), Finish);
+        }
+
+        /// <summary>Converts an avatar itself, which a build step may do to its own copy: nothing is saved.</summary>
+        /// <param name="avatar">The root of an object of a scene that nobody else needs as it was.</param>
+        /// <returns>Assets and Replaced say what was made and what it stands for; there is no prefab.</returns>
+        /// <exception cref="ConversionException">
+        /// It cannot be done, and why. Until new meshes are made the avatar stays as it was.
+        /// </exception>
+        public static ConversionResult ConvertInPlace(GameObject avatar, ConversionSettings settings, IConversionProgress progress)
+        {
+            return Run(avatar, settings, new StageProgress(progress), FinishInPlace);
+        }
+
+        delegate ConversionResult Ending(AvatarData source, Deformer deformer, ConversionSettings settings, List<Finding> findings, StageProgress stages);
+
+        static ConversionResult Run(GameObject avatar, ConversionSettings settings, StageProgress stages, Ending ending)
+        {
             if (settings == null) throw new ArgumentNullException("settings");
             try
             {
-                StageProgress stages = new StageProgress(progress);
                 stages.Begin(ConversionStage.Reading);
                 List<Finding> findings = AvatarChecks.Of(avatar, settings.RigAuto);
                 if (findings.Count > 0 && findings[0].Severity == Severity.Error) throw new ConversionException(findings[0]);
@@ -38,7 +55,7 @@ namespace SuperDeform.Editor
                     using (Style style = settings.MakeStyle())
                     using (Deformer deformer = new Deformer(source.Character, style, settings.Options, stages.Part(ConversionStage.Deforming, 0f, 0.5f)))
                     {
-                        return Finish(source, deformer, settings, findings, stages);
+                        return ending(source, deformer, settings, findings, stages);
                     }
                 }
             }
@@ -50,7 +67,32 @@ namespace SuperDeform.Editor
 
         static ConversionResult Finish(AvatarData source, Deformer deformer, ConversionSettings settings, List<Finding> findings, StageProgress stages)
         {
-            AvatarResult result = new AvatarResult(source, false);
+            AvatarResult result;
+            ConversionResult done = Deform(source, deformer, findings, stages, out result);
+            using (ResultFolder folder = new ResultFolder(ParentFolder(source.Root, settings), source.Root.name))
+            {
+                Save(source, result, deformer, settings, folder, done, stages);
+            }
+            if (settings.PlaceInScene && !EditorUtility.IsPersistent(source.Root)) done.Instance = PlaceBeside(source, done.Prefab, result);
+            stages.End();
+            return done;
+        }
+
+        static ConversionResult FinishInPlace(AvatarData source, Deformer deformer, ConversionSettings settings, List<Finding> findings, StageProgress stages)
+        {
+            AvatarResult result;
+            ConversionResult done = Deform(source, deformer, findings, stages, out result);
+            PointMap map = new PointMap(source, result, deformer, source.Root.transform) { SameAvatar = true };
+            CharacterWriter.Write(source.Root, map, source, result, done.Findings);
+            done.Assets.AddRange(map.Assets);
+            done.Replaced.AddRange(map.Replaced);
+            stages.End();
+            return done;
+        }
+
+        static ConversionResult Deform(AvatarData source, Deformer deformer, List<Finding> findings, StageProgress stages, out AvatarResult result)
+        {
+            result = new AvatarResult(source, false);
             result.Apply(deformer, stages.Part(ConversionStage.Deforming, 0.5f, 1f));
             stages.Begin(ConversionStage.Reporting);
             ConversionResult done = new ConversionResult
@@ -64,12 +106,6 @@ namespace SuperDeform.Editor
                 done.Findings.Add(new Finding("library_notes", Severity.Warning, source.Root, Strings.OfLibrary(warning.Text)));
             }
             stages.Begin(ConversionStage.Writing);
-            using (ResultFolder folder = new ResultFolder(ParentFolder(source.Root, settings), source.Root.name))
-            {
-                Save(source, result, deformer, settings, folder, done, stages);
-            }
-            if (settings.PlaceInScene && !EditorUtility.IsPersistent(source.Root)) done.Instance = PlaceBeside(source, done.Prefab, result);
-            stages.End();
             return done;
         }
 

@@ -185,10 +185,20 @@ namespace SuperDeform.Editor
             get { return assets; }
         }
 
+        /// <summary>What was replaced, and what it was replaced with.</summary>
+        internal readonly List<KeyValuePair<UnityEngine.Object, UnityEngine.Object>> Replaced = new List<KeyValuePair<UnityEngine.Object, UnityEngine.Object>>();
+
+        /// <summary>Keeps an asset that stands for an old one.</summary>
+        internal void Replace(UnityEngine.Object old, UnityEngine.Object made)
+        {
+            AddAsset(made);
+            Replaced.Add(new KeyValuePair<UnityEngine.Object, UnityEngine.Object>(old, made));
+        }
+
         internal void Remember(Renderer original, Mesh made)
         {
             newMeshes[original] = made;
-            AddAsset(made);
+            Replace(RendererReader.MeshOf(original), made);
         }
 
         /// <summary>The mesh that was made for a renderer of the source.</summary>

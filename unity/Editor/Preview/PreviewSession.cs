@@ -24,7 +24,11 @@ namespace SuperDeform.Editor
         private bool showBefore, beside;
         private PreviewPose pose;
         private Matrix4x4 placedAt;
+        private bool counted;
         private float width;
+
+        /// <summary>Comes with true when a preview begins to be shown, with false when it ends.</summary>
+        public static event Action<bool> Shown;
 
         /// <summary>Reads the avatar and shows the result in its place.</summary>
         /// <param name="progress">Hears how far it is, which takes long where a rig is made; null for none.</param>
@@ -48,6 +52,9 @@ namespace SuperDeform.Editor
                 Show();
                 Place();
                 ApplyVisibility();
+                counted = true;
+                if (Shown != null)
+                    Shown(true);
             }
             catch (Exception cause)
             {
@@ -253,6 +260,9 @@ namespace SuperDeform.Editor
 
         public void Dispose()
         {
+            if (counted && Shown != null)
+                Shown(false);
+            counted = false;
             Unhide();
             foreach (ProxyRenderer renderer in renderers)
                 renderer.Destroy();

@@ -6,7 +6,7 @@ namespace SuperDeform.Editor.Vrm1
 {
     /// <summary>What UniVRM 1.0 holds in lengths: joints of springs, their colliders, the origin of look-at.</summary>
     /// <remarks>
-    /// Written for the fields of UniVRM 0.128 to 0.131. A spring's step is stiffness and gravity in metres: only scaled with
+    /// Written for the fields of UniVRM 0.123 to 0.131. A spring's step is stiffness and gravity in metres: only scaled with
     /// the joint it swings the same. Drag, directions, angles and the names in expressions stay.
     /// </remarks>
     public sealed class Vrm1Adapter : IComponentAdapter
@@ -83,8 +83,7 @@ namespace SuperDeform.Editor.Vrm1
 
         private static Transform Head(Vrm10Instance instance)
         {
-            var animator = instance.GetComponent<Animator>();
-            return animator != null && animator.isHuman ? animator.GetBoneTransform(HumanBodyBones.Head) : null;
+            return HumanoidRoles.Of(instance.GetComponent<Animator>())[(int)HumanBodyBones.Head];
         }
     }
 }

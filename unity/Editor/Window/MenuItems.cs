@@ -52,8 +52,7 @@ namespace SuperDeform.Editor
 
         internal static bool IsHumanoid(GameObject candidate)
         {
-            Animator animator = candidate == null ? null : candidate.GetComponent<Animator>();
-            return animator != null && animator.avatar != null && animator.isHuman;
+            return candidate != null && HumanoidRoles.IsHumanoid(candidate.GetComponent<Animator>());
         }
     }
 }

@@ -26,9 +26,16 @@ namespace SuperDeform.Editor
             HumanBone[] human = Array.FindAll(description.human ?? new HumanBone[0], bone => names.Contains(bone.boneName));
             description.human = human.Length > 0 ? human : Human(source.Roles, joint => source.Joints[joint].name);
             Animator animator = map.CopyOf(source.Animator.transform).GetComponent<Animator>();
-            animator.avatar = Build(animator.name, nodes, description, source);
-            animator.avatar.name = source.Animator.avatar.name;
-            map.AddAsset(animator.avatar);
+            Avatar old = source.Animator.avatar, made = Build(animator.name, nodes, description, source);
+            made.name = old.name;
+            animator.avatar = made;
+            // An Animator that takes an Avatar may put its bones where that says; the pose that the avatar stands in stays.
+            for (int joint = 0; joint < source.Joints.Length; joint++)
+            {
+                bool moved = !result.LocalShifts[joint].Equals(Vector3.zero);
+                if (moved) map.CopyOf(source.Joints[joint]).localPosition = result.LocalPositions[joint];
+            }
+            map.Replace(old, made);
         }
 
         /// <summary>
@@ -59,7 +66,7 @@ namespace SuperDeform.Editor
             {
                 Name = transform.name,
                 Parent = joints.IndexOf(source.Parents[joint]),
-                Position = transform.localPosition,
+                Position = result.LocalPositions[joint],
                 Rotation = transform.localRotation,
                 Scale = transform.localScale
             };
@@ -67,11 +74,10 @@ namespace SuperDeform.Editor
             int known = Array.FindIndex(skeleton, bone => bone.name == node.Name);
             if (known >= 0)
             {
-                node.Position = skeleton[known].position;
+                node.Position = skeleton[known].position + shift;
                 node.Rotation = skeleton[known].rotation;
                 node.Scale = skeleton[known].scale;
             }
-            node.Position += shift;
             return node;
         }
 

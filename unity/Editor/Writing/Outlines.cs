@@ -68,7 +68,7 @@ namespace SuperDeform.Editor
                 Vector4 vector = material.GetVector(Fur);
                 copy.SetVector(Fur, new Vector4(vector.x, vector.y, vector.z, vector.w * map.HeightRatio));
             }
-            map.AddAsset(copy);
+            map.Replace(material, copy);
             scaled[material] = copy;
             return copy;
         }

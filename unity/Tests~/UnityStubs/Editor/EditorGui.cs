@@ -195,7 +195,15 @@ namespace UnityEditor
         public SerializedObject serializedObject { get { return new SerializedObject(target); } }
         public virtual void OnInspectorGUI() { }
         public bool DrawDefaultInspector() { return false; }
-        public static Editor CreateEditor(Object targetObject) { return null; }
+        public void Repaint() { }
+        // OnEnable comes when the target is set.
+        public static Editor CreateEditor(Object targetObject, Type editorType)
+        {
+            Editor made = (Editor)Activator.CreateInstance(editorType, true);
+            made.target = targetObject;
+            Messages.Send(made, "OnEnable");
+            return made;
+        }
     }
 
     public sealed class GenericMenu

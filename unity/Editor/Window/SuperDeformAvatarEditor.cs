@@ -1,0 +1,129 @@
+using UnityEditor;
+using UnityEngine;
+
+namespace SuperDeform.Editor
+{
+    /// <summary>
+    /// The Inspector of a Super Deform Avatar: style and fine tuning as in the window, a preview while it is looked at, and a
+    /// button that makes a prefab. The avatar changes at build time alone.
+    /// </summary>
+    [CustomEditor(typeof(SuperDeformAvatar))]
+    public sealed class SuperDeformAvatarEditor : UnityEditor.Editor
+    {
+        /// <summary>Whether NDMF is in the project, which runs the component in a build.</summary>
+        internal static bool HasNdmf
+        {
+#if SUPERDEFORM_NDMF
+            get { return true; }
+#else
+            get { return false; }
+#endif
+        }
+
+        private ConverterModel model;
+        private ConverterController controller;
+
+        private SuperDeformAvatar Component { get { return (SuperDeformAvatar)target; } }
+
+        internal ConverterModel Model { get { return model; } }
+
+        internal ConverterController Controller { get { return controller; } }
+
+        private void OnEnable()
+        {
+            if (target == null || EditorApplication.isPlayingOrWillChangePlaymode)
+                return;
+            model = new ConverterModel { Avatar = Component.gameObject, Settings = SettingsText.Of(Component), PreviewOn = false };
+            model.Changing += Record;
+            model.Changed += Keep;
+            controller = new ConverterController(model);
+            EditorApplication.update += Tick;
+            Undo.undoRedoPerformed += ReadAgain;
+            AssemblyReloadEvents.beforeAssemblyReload += OnDisable;
+        }
+
+        private void OnDisable()
+        {
+            if (controller == null)
+                return;
+            EditorApplication.update -= Tick;
+            Undo.undoRedoPerformed -= ReadAgain;
+            AssemblyReloadEvents.beforeAssemblyReload -= OnDisable;
+            controller.Dispose();
+            controller = null;
+            model = null;
+        }
+
+        private void Record(string name)
+        {
+            Undo.RecordObject(Component, name);
+        }
+
+        private void Keep()
+        {
+            if (SettingsText.Write(SettingsText.Of(Component)) == SettingsText.Write(model.Settings)
+                && Component.ReferenceAvatar == model.Settings.ReferenceAvatar && Component.SavedStyle == model.Settings.SavedStyle)
+                return;
+            SettingsText.Give(Component, model.Settings);
+            EditorUtility.SetDirty(Component);
+        }
+
+        private void ReadAgain()
+        {
+            if (target == null || model == null)
+                return;
+            model.Settings = SettingsText.Of(Component);
+            model.Recheck();
+            Repaint();
+        }
+
+        private void Tick()
+        {
+            if (controller == null || !controller.Tick(EditorApplication.timeSinceStartup))
+                return;
+            Repaint();
+            SceneView.RepaintAll();
+        }
+
+        public override void OnInspectorGUI()
+        {
+            if (model == null)
+                return;
+            EditorGUILayout.HelpBox(Strings.Get(HasNdmf ? "component.built" : "component.no_ndmf"), MessageType.Info);
+            foreach (Finding finding in model.Findings)
+                RowDrawer.Draw(ConverterSections.Check(model, finding));
+            foreach (Section section in model.Sections)
+                if (section.Id == SectionId.Style || section.Id == SectionId.FineTuning || section.Id == SectionId.Preview)
+                    Draw(section);
+            if (model.Failure != null)
+                RowDrawer.Draw(ConverterSections.Check(model, model.Failure));
+            EditorGUI.BeginDisabledGroup(!model.CanConvert);
+            if (GUILayout.Button(new GUIContent(Strings.Get("component.convert"), Strings.Get("report.convert.tooltip")), GUILayout.Height(32)))
+                EditorApplication.delayCall += Convert;
+            EditorGUI.EndDisabledGroup();
+        }
+
+        private void Draw(Section section)
+        {
+            bool open = EditorGUILayout.Foldout(section.Open, section.Title, true);
+            if (open != section.Open)
+                section.Open = model.Open[(int)section.Id] = open;
+            if (!open)
+                return;
+            EditorGUI.indentLevel++;
+            foreach (Row row in section.Rows)
+                RowDrawer.Draw(row);
+            EditorGUI.indentLevel--;
+        }
+
+        private void Convert()
+        {
+            if (controller == null)
+                return;
+            using (var progress = new EditorProgress(Component.name))
+                if (controller.Convert(progress))
+                    EditorGUIUtility.PingObject(model.Result.Prefab);
+            Repaint();
+        }
+    }
+}

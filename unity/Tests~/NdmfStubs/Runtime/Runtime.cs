@@ -1,0 +1,4 @@
+namespace nadena.dev.ndmf
+{
+    public interface INDMFEditorOnly { }
+}
