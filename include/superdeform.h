@@ -214,6 +214,8 @@ typedef struct SdefOptions {
   uint32_t limits;                  // 1 (default) bounds what product mode may do to a body, 0 does not
   double head_scale;                // size of the head against what the style says, 0.1 to 10; default 1.5, the paper's
   double amount;                    // 0 gives the original back, 1 (default) the style
+  double profile;                   // 1 (default) makes every slice of the body as broad and deep as the style's, 0
+                                    // gives each part one thickness
   double hair_length;               // hair below the chin: 1 (default) ends where it ended on the body, 0 at the chin
   double face_squash;               // how much younger the face gets, -10 to 10 (bounded where it would fold); 0 leaves
                                     // it; NAN (default): 0.8 in product mode where a face is found, 0 in paper mode
@@ -519,6 +521,7 @@ SdefStatus sdef_style_measure(SdefCharacter character, const char *name, const S
     SdefError *error);
 
 // A style from numbers, as sdef_style_get_numbers gives them.
+// Its slices are those of a body of so many heads: measured ones go as text (sdef_style_to_json).
 //
 // name: of the style; may be NULL
 //

@@ -104,6 +104,7 @@ pub use pipeline::{Deformed, DeformedMesh, Deformer, MeshOutputs, Rig};
 pub use progress::Progress;
 pub use report::Report;
 pub use shape::product::anatomy::Proportions;
+pub use shape::product::profile::{ArmProfile, LegProfile, Profile, SkirtProfile, TorsoProfile};
 pub use shape::{BodyShape, BoneShape, Coefficient, GroupShape, Heights, Style};
 
 /// What the project's own tests, benchmarks and hosts look into; it may change with any version.

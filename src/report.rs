@@ -8,6 +8,8 @@ use crate::face::landmarks::FaceLandmarks;
 use crate::options::{Mode, Options};
 use crate::shape::group::{Coefficient, GroupShape, group_shapes};
 use crate::shape::product::head::head_frame;
+use crate::shape::product::profile::{CHAINS, Profile, wanted_of};
+use crate::shape::style::Style;
 use crate::shape::{BodyShape, Heights, Measured};
 use glam::DVec3;
 use serde::Serialize;
@@ -94,6 +96,34 @@ impl FaceReport {
             skull_half_width: face.skull_half_width,
             points: points.map(|(name, p)| (name, place(p).to_array())).collect(),
         }
+    }
+}
+
+/// How broad and deep the bodies are, in head lengths; what could not be measured is absent.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct ProfileReport {
+    /// Before.
+    pub target: Option<Profile>,
+    /// What the style wants; that of a body of so many heads where it has none of its own.
+    pub reference: Option<Profile>,
+    /// Measured anew on what came out.
+    pub result: Option<Profile>,
+    /// The result's size over the reference's, the mean over its slices: torso, hips, legs, arms, hand, foot.
+    pub ratios: BTreeMap<&'static str, f64>,
+}
+
+impl ProfileReport {
+    /// The profiles of `target` and `result`, and what `style` wants of a body.
+    pub fn of(target: &Measured, style: &Style, result: &Measured) -> Self {
+        let wanted = wanted_of(style, target.anatomy.landmarks.heights.heads()).map(|(wanted, _)| wanted);
+        let ratios = match (&wanted, &result.shape.profile) {
+            (Some(wanted), Some(result)) => {
+                CHAINS.into_iter().zip(result.ratios(wanted)).filter(|(_, ratio)| ratio.is_finite()).collect()
+            }
+            _ => BTreeMap::new(),
+        };
+        let (target, result) = (target.shape.profile.clone(), result.shape.profile.clone());
+        Self { target, reference: wanted, result, ratios }
     }
 }
 
@@ -195,6 +225,8 @@ pub struct Report {
     pub g: f64,
     /// By group name.
     pub coefficients: BTreeMap<String, Coefficient>,
+    /// The bodies slice by slice.
+    pub profile: ProfileReport,
     /// The rig.
     pub rig: RigReport,
     /// How much of what.

@@ -737,7 +737,9 @@ fn styles_come_back_as_text_and_as_numbers() {
             sdef_style_from_numbers(name.as_ptr(), &numbers, bones.as_ptr(), count, &mut again, error)
         })
         .unwrap();
-        assert_eq!(json(again).unwrap(), json(style).unwrap());
+        // All but the slices, which go as text alone.
+        let [had, came] = [style, again].map(|style| BodyShape::from_json(&json(style).unwrap()).unwrap());
+        assert_eq!(came, BodyShape { profile: None, ..had });
         destroy(again.id);
     }
     // Blends and stretches.

@@ -147,6 +147,8 @@ pub struct SdefOptions {
     pub head_scale: f64,
     /// 0 gives the original back, 1 (default) the style
     pub amount: f64,
+    /// 1 (default) makes every slice of the body as broad and deep as the style's, 0 gives each part one thickness
+    pub profile: f64,
     /// hair below the chin: 1 (default) ends where it ended on the body, 0 at the chin
     pub hair_length: f64,
     /// how much younger the face gets, -10 to 10 (bounded where it would fold); 0 leaves it;
@@ -242,6 +244,7 @@ fn defaults() -> SdefOptions {
         limits: u32::from(options.limits),
         head_scale: options.head_scale,
         amount: options.amount,
+        profile: options.profile,
         hair_length: options.hair_length,
         face_squash: f64::NAN,
         youth: options.youth,
@@ -321,6 +324,7 @@ pub(super) unsafe fn read(options: *const SdefOptions) -> Outcome<(Options, RigO
         face_curve: one_of("face_curve", given.face_curve, FaceCurve::ALL)?,
         amount: given.amount,
         limits: one_of("limits", given.limits, &[false, true])?,
+        profile: given.profile,
         hair_length: given.hair_length,
         youth: given.youth,
         features: Features {

@@ -214,6 +214,7 @@ pub unsafe extern "C" fn sdef_style_measure(
 }
 
 /// A style from numbers, as sdef_style_get_numbers gives them.
+/// Its slices are those of a body of so many heads: measured ones go as text (sdef_style_to_json).
 ///
 /// name: of the style; may be NULL
 ///

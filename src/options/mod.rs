@@ -189,6 +189,9 @@ pub struct Options {
     pub rays: Option<usize>,
     /// alpha_head (Eq. 4).
     pub head_scale: f64,
+    /// How much of the style's profile is taken: each slice of torso, legs and arms as broad and deep as the style's; 0 leaves
+    /// each part one thickness.
+    pub profile: f64,
     /// gamma (Eqs. 12, 13); `None`: the mode's own.
     pub face_squash: Option<f64>,
     /// Which curve `face_squash` is for.
@@ -253,6 +256,7 @@ impl Default for Options {
             mode: Mode::Product,
             rays: None,
             head_scale: table::HEAD_SCALE,
+            profile: 1.0,
             face_squash: None,
             face_curve: FaceCurve::F4,
             groups: BTreeMap::new(),
@@ -282,10 +286,11 @@ impl Options {
     }
 
     /// What is set of the options that are numbers, with their names.
-    pub fn numbers(&self) -> [(&'static str, Option<f64>); 17] {
+    pub fn numbers(&self) -> [(&'static str, Option<f64>); 18] {
         [
             ("rays", self.rays.map(|rays| rays as f64)),
             ("head_scale", Some(self.head_scale)),
+            ("profile", Some(self.profile)),
             ("amount", Some(self.amount)),
             ("hair_length", Some(self.hair_length)),
             ("face_squash", self.face_squash),

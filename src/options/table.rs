@@ -220,6 +220,8 @@ pub const TABLE: &[OptionInfo] = rows! {
         "size of the head: 1 keeps it, 1.5 is the paper's";
     "amount", Plain, SHARES, "", Default::Number(1.0), BOTH,
         "from the original (0) to the style (1)";
+    "profile", Plain, SHARES, "", Default::Number(1.0), PRODUCT,
+        "1 makes every slice of the body as broad and deep as the style's, 0 gives each part one thickness";
     "hair_length", Plain, SHARES, "", Default::Number(1.0), PRODUCT,
         "hair below the chin: 1 ends it where it ended on the body, 0 at the chin";
     "height", Plain, Values::Other, "", Default::Choice("style"), BOTH,

@@ -90,7 +90,7 @@ impl Deformer {
     fn rest_triangles(&self) -> &RestTriangles {
         let figure = &self.target.measured.figure;
         self.target.rest_triangles.get_or_init(|| {
-            Arc::new(RestTriangles::of(&figure.positions, &figure.triangles, &self.target.weld))
+            Arc::new(RestTriangles::of(&figure.positions, &figure.triangles, &self.target.measured.weld))
         })
     }
 
@@ -124,7 +124,7 @@ impl Deformer {
     fn turns(&self, index: usize, asked: MeshOutputs, gradients: &Gradients) -> Turns {
         let mesh = &self.target.character.meshes[index];
         let figure = &self.target.measured.figure;
-        let (frame, weld) = (figure.frame.rotation(), &self.target.weld);
+        let (frame, weld) = (figure.frame.rotation(), &self.target.measured.weld);
         let back = frame.transpose();
         let start = figure.mesh_starts[index];
         let threads = self.options.thread_count;

@@ -9,6 +9,7 @@ mod attach;
 mod finish;
 mod paper;
 mod product;
+mod profile;
 mod report;
 mod result;
 mod rig_weights;
@@ -22,7 +23,6 @@ pub use rigging::Rig;
 use crate::character::{Character, Humanoid, Role};
 use crate::error::{Result, Warning};
 pub use crate::geometry::Mapped;
-use crate::geometry::{SEAM, Weld, weld};
 pub use crate::options::{FaceCurve, GroupSettings, Mode, Options, Stage};
 use crate::progress::Progress;
 use crate::report::{RigReport, Timing};
@@ -65,7 +65,6 @@ pub struct Deformer {
 struct Target {
     character: Arc<Character>,
     measured: Arc<Measured>,
-    weld: Arc<Weld>,
     /// Made when directions are first wanted.
     rest_triangles: OnceLock<Arc<RestTriangles>>,
 }
@@ -170,8 +169,7 @@ impl Deformer {
         let measured = Arc::new(Measured::of(&character, options)?);
         let timing = Timing { measure: milliseconds(clock), ..Timing::default() };
         progress.at(0.4)?;
-        let weld = Arc::new(weld(&measured.figure.positions, SEAM * measured.figure.height()));
-        let target = Target { character, measured, weld, rest_triangles: OnceLock::new() };
+        let target = Target { character, measured, rest_triangles: OnceLock::new() };
         Self::deform(target, rig, style.clone(), options.clone(), None, timing, &mut progress.part(0.45, 1.0))
     }
 

@@ -58,7 +58,7 @@ fn bindings(target: &Target, field: &BoneField) -> Bindings {
     let weights = figure.role_weights.iter();
     let mut vertices: Vec<BoneBinding> =
         figure.positions.iter().zip(weights).map(|(&p, weights)| bind(p, weights)).collect();
-    for (members, centre) in head_accessories(figure, &target.weld) {
+    for (members, centre) in head_accessories(figure, &target.measured.weld) {
         for vertex in members {
             vertices[vertex].on_face = Some(centre);
         }

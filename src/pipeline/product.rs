@@ -1,6 +1,7 @@
 //! Product mode in order: parts, coefficients until the number of heads is right, and hair outside of the body.
 
 use super::attach::{Bindings, GroundContact, Placement, joint_bindings};
+use super::profile::{wants_profile, with_profile};
 use super::strands::Strands;
 use super::{Deformation, Target};
 use crate::character::Role;
@@ -32,6 +33,8 @@ use std::sync::{Arc, OnceLock};
 const HEADS_TOLERANCE: f64 = 5e-3;
 /// Fields that are tried for a head count. D27. Seen: none of 28 pairs needs more than four.
 const HEADS_ATTEMPTS: usize = 5;
+/// Fields with slices that are tried after these: where slices move the chin or the crown that rays find.
+const SLICED_ATTEMPTS: usize = 3;
 /// One correction changes what is asked for below the head by no more than these factors. D27. Seen: tighter ones reach
 /// fewer head counts.
 const HEADS_CORRECTION: (f64, f64) = (0.8, 1.25);
@@ -43,9 +46,9 @@ const HAIR_WARNED_ABOVE: f64 = 0.1;
 /// What product mode finds of a measured target once: no style and no option changes it.
 #[derive(Debug)]
 pub struct ProductTarget {
-    bindings: Bindings,
+    pub(super) bindings: Bindings,
     /// What the bindings were made with, less the vertices' own.
-    parts: PartBindings,
+    pub(super) parts: PartBindings,
     hair: OnceLock<HairOnBody>,
     head_sources: OnceLock<HeadSources>,
     seat_sources: OnceLock<SeatSources>,
@@ -58,8 +61,14 @@ impl ProductTarget {
         let measured = &target.measured;
         let figure = &measured.figure;
         let skeleton = &target.character.skeleton;
-        let mut parts =
-            part_bindings(figure, &measured.anatomy, measured.face.as_ref(), skeleton, &target.weld, threads);
+        let mut parts = part_bindings(
+            figure,
+            &measured.anatomy,
+            measured.face.as_ref(),
+            skeleton,
+            &target.measured.weld,
+            threads,
+        );
         let vertices = std::mem::take(&mut parts.vertices);
         let of_legs =
             |vertex: usize| vertices[vertex].weights[Part::LeftUpperLeg as usize..].iter().sum::<f32>();
@@ -112,7 +121,12 @@ impl ProductTarget {
     }
 
     /// Where `field` takes the target's points.
-    fn placement<'a>(&'a self, figure: &'a Figure, field: &'a Field, threads: usize) -> Placement<'a> {
+    pub(super) fn placement<'a>(
+        &'a self,
+        figure: &'a Figure,
+        field: &'a Field,
+        threads: usize,
+    ) -> Placement<'a> {
         Placement {
             figure,
             bindings: &self.bindings,
@@ -139,7 +153,7 @@ impl ProductTarget {
         }
         let after = placement.all_vertices();
         let (low, high) = extent(&after);
-        let offsets = hair.kept_outside(&after, &target.weld, high - low);
+        let offsets = hair.kept_outside(&after, &target.measured.weld, high - low);
         let mut all = placement.hair_offsets.to_vec();
         if offsets.is_empty() {
             return all;
@@ -165,7 +179,7 @@ impl ProductTarget {
         let of_head = |vertex: usize| self.weight(vertex, Part::Hair) + self.weight(vertex, Part::Head);
         let body =
             if hair.is_empty() { Vec::new() } else { figure.triangles_where(|vertex| of_head(vertex) < 0.5) };
-        HairOnBody::of(&figure.positions, &figure.triangles, body, hair, &target.weld)
+        HairOnBody::of(&figure.positions, &figure.triangles, body, hair, &target.measured.weld)
     }
 }
 
@@ -194,13 +208,15 @@ pub fn deform(
     let mut warnings = anatomy.warnings();
     warnings.extend(split);
     warnings.extend(hair_shortened(&product.parts, head_length));
-    let (attempt, heads_left) = best_attempt(target, &product, style, options, &groups, progress)?;
+    let request = Request { target, product: &product, style, options, groups: &groups };
+    let (attempt, heads_left) = request.best(progress)?;
     warnings.extend(attempt.warnings);
+    let field = attempt.field;
     progress.at(0.9)?;
-    let placement = product.placement(&target.measured.figure, &attempt.field, options.thread_count);
+    let placement = product.placement(&target.measured.figure, &field, options.thread_count);
     let hair_offsets = product.hair_offsets(target, &placement);
     Ok(Deformation {
-        body: attempt.field.body,
+        body: field.body,
         bindings: product.bindings.clone(),
         hair_offsets,
         head_ratio,
@@ -237,74 +253,100 @@ struct Attempt {
     field: Field,
     scales: PartCoefficients,
     warnings: Vec<Warning>,
+    /// The head count that was aimed at, and the one measured on the result.
+    aim: f64,
+    measured: f64,
+    /// |ln| of how far that is from what can be reached.
+    error: f64,
 }
 
-/// Fields until the head count measured on the result is right: the best of them, and a warning of what is left.
-fn best_attempt(
-    target: &Target,
-    product: &ProductTarget,
-    style: &Style,
-    options: &Options,
-    groups: &PartGroups,
-    progress: &mut Progress,
-) -> Result<(Attempt, Option<Warning>)> {
-    let proportions = &target.measured.anatomy.proportions;
-    let asked = match style {
-        Style::Heads(heads) => *heads,
-        Style::Shape(shape) => proportions_of(shape)?.heads(),
-    };
-    let mut aim = asked;
-    let mut best: Option<(f64, f64, Attempt)> = None;
-    for count in 0..HEADS_ATTEMPTS {
-        progress.at(0.3 + 0.1 * count as f32)?;
-        let attempt = attempt(target, product, style, aim / asked, options, groups)?;
-        let placement = product.placement(&target.measured.figure, &attempt.field, options.thread_count);
-        let measured = product.heads(&placement);
-        let is_limited = attempt.warnings.iter().any(|warning| warning.code == "heads_limited");
-        let reach = if is_limited { heads_of(proportions, &attempt.scales) } else { asked };
-        let error = (measured / reach).ln().abs();
-        if best.as_ref().is_none_or(|(least, ..)| error < *least) {
-            best = Some((error, measured, attempt));
+/// What is asked for, of whom.
+struct Request<'a> {
+    target: &'a Target,
+    product: &'a ProductTarget,
+    style: &'a Style,
+    options: &'a Options,
+    groups: &'a PartGroups,
+}
+
+impl Request<'_> {
+    /// Fields until the head count measured on the result is right, first of the parts alone and then with the style's
+    /// profile: the best of them, and a warning of what is left.
+    fn best(&self, progress: &mut Progress) -> Result<(Attempt, Option<Warning>)> {
+        let asked = match self.style {
+            Style::Heads(heads) => *heads,
+            Style::Shape(shape) => proportions_of(shape)?.heads(),
+        };
+        let mut best = self.best_of(HEADS_ATTEMPTS, asked, asked, false, &mut progress.part(0.3, 0.7))?;
+        if wants_profile(self.target, self.style, self.options) {
+            best = self.best_of(SLICED_ATTEMPTS, asked, best.aim, true, &mut progress.part(0.7, 0.9))?;
         }
-        if error <= HEADS_TOLERANCE || is_limited {
-            break;
-        }
-        let (least, most) = HEADS_CORRECTION;
-        aim = (aim - 1.0) * ((asked - 1.0) / (measured - 1.0)).clamp(least, most) + 1.0;
+        let Attempt { error, measured, .. } = best;
+        let heads_left = (error > HEADS_WARNED_ABOVE).then(|| {
+            let message = format!(
+                "{measured:.2} heads are measured on the result instead of {asked:.2}: its chin or crown reads differently from the target's"
+            );
+            Warning::new("heads_limited", message)
+        });
+        Ok((best, heads_left))
     }
-    let (error, measured, attempt) = best.expect("there is at least one attempt");
-    let heads_left = (error > HEADS_WARNED_ABOVE).then(|| {
-        let message = format!(
-            "{measured:.2} heads are measured on the result instead of {asked:.2}: its chin or crown reads differently from the target's"
-        );
-        Warning::new("heads_limited", message)
-    });
-    Ok((attempt, heads_left))
-}
 
-/// One field, for a style with everything below the head stretched by what makes the result `correction` times as many
-/// heads tall.
-fn attempt(
-    target: &Target,
-    product: &ProductTarget,
-    style: &Style,
-    correction: f64,
-    options: &Options,
-    groups: &PartGroups,
-) -> Result<Attempt> {
-    let anatomy = &target.measured.anatomy;
-    let stretched;
-    let goal = match style {
-        Style::Heads(heads) => Goal::Heads(heads * correction),
-        Style::Shape(shape) if correction == 1.0 => Goal::Reference(proportions_of(shape)?),
-        Style::Shape(shape) => {
-            stretched = shape.with_heads(proportions_of(shape)?.heads() * correction);
-            Goal::Reference(proportions_of(&stretched)?)
+    /// The best of so many fields, the first of which aims at `aim` heads.
+    fn best_of(
+        &self,
+        attempts: usize,
+        asked: f64,
+        mut aim: f64,
+        is_sliced: bool,
+        progress: &mut Progress,
+    ) -> Result<Attempt> {
+        let mut best: Option<Attempt> = None;
+        for count in 0..attempts {
+            progress.at(count as f32 / attempts as f32)?;
+            let attempt = self.attempt(asked, aim, is_sliced)?;
+            let (error, measured) = (attempt.error, attempt.measured);
+            let is_limited = attempt.warnings.iter().any(|warning| warning.code == "heads_limited");
+            if best.as_ref().is_none_or(|best| error < best.error) {
+                best = Some(attempt);
+            }
+            if error <= HEADS_TOLERANCE || is_limited {
+                break;
+            }
+            let (least, most) = HEADS_CORRECTION;
+            aim = (aim - 1.0) * ((asked - 1.0) / (measured - 1.0)).clamp(least, most) + 1.0;
         }
-    };
-    let (scales, warnings) = part_coefficients(&anatomy.proportions, goal, options, groups)?;
-    let field = PartField::new(anatomy, scales, &product.parts, options.hair_length);
-    Ok(Attempt { field: Field::of(Arc::new(BodyField::Parts(Box::new(field)))), scales, warnings })
+        Ok(best.expect("there is at least one attempt"))
+    }
+
+    /// One field, for a style with everything below the head stretched by what makes the result `aim` heads tall instead of
+    /// `asked`.
+    fn attempt(&self, asked: f64, aim: f64, is_sliced: bool) -> Result<Attempt> {
+        let Self { target, product, style, options, groups } = *self;
+        let anatomy = &target.measured.anatomy;
+        let stretched;
+        let goal = match style {
+            Style::Heads(_) => Goal::Heads(aim),
+            Style::Shape(shape) if aim == asked => Goal::Reference(proportions_of(shape)?),
+            Style::Shape(shape) => {
+                stretched = shape.with_heads(aim);
+                Goal::Reference(proportions_of(&stretched)?)
+            }
+        };
+        let (scales, mut warnings) = part_coefficients(&anatomy.proportions, goal, options, groups)?;
+        let field = PartField::new(anatomy, scales, &product.parts, options.hair_length);
+        let mut field = Field::of(Arc::new(BodyField::Parts(Box::new(field))));
+        if is_sliced {
+            let (sliced, limited) = with_profile(target, product, field, style, options, groups);
+            field = sliced;
+            warnings.extend(limited);
+        }
+        let measured =
+            product.heads(&product.placement(&target.measured.figure, &field, options.thread_count));
+        let is_limited = warnings.iter().any(|warning| warning.code == "heads_limited");
+        let reach = if is_limited { heads_of(&anatomy.proportions, &scales) } else { asked };
+        let error = (measured / reach).ln().abs();
+        Ok(Attempt { field, scales, warnings, aim, measured, error })
+    }
 }
 
 /// gamma where the user does not say: a head without a chin has no face to make younger.

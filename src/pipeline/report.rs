@@ -3,7 +3,7 @@
 use super::{Deformed, Deformer};
 use crate::character::Humanoid;
 use crate::error::Result;
-use crate::report::{Counts, FigureReport, Report, RigReport};
+use crate::report::{Counts, FigureReport, ProfileReport, Report, RigReport};
 use crate::shape::Measured;
 use crate::shape::style::Style;
 use glam::DVec3;
@@ -39,6 +39,7 @@ impl Deformer {
             mode: self.options.mode.name(),
             g: self.deformation.head_ratio,
             coefficients: self.deformation.coefficients.clone(),
+            profile: ProfileReport::of(&self.target.measured, &self.style, &measured),
             rig: self.rig.as_ref().map_or_else(|| self.kept_rig(), |rig| rig.report.clone()),
             counts: Counts {
                 vertices: character.vertex_count(),

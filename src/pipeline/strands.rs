@@ -53,10 +53,10 @@ impl Strands {
         };
         let is_hair = |vertex: usize| weight(vertex, Part::Hair) > 0.5;
         let triangles = figure.triangles_where(is_hair);
-        let component = components(&triangles, &target.weld);
+        let component = components(&triangles, &target.measured.weld);
         let mut strands: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
         for vertex in (0..figure.positions.len()).filter(|&vertex| is_hair(vertex)) {
-            let welded = target.weld.representative[vertex] as usize;
+            let welded = target.measured.weld.representative[vertex] as usize;
             strands.entry(component[welded]).or_default().push(vertex as u32);
         }
         let strands: Vec<Vec<u32>> = strands.into_values().collect();
@@ -88,7 +88,7 @@ impl Strands {
             None
         } else {
             let body = figure.triangles_where(is_body);
-            LongHair::of(&figure.positions, &figure.triangles, &target.weld, &strands, &body, axis)
+            LongHair::of(&figure.positions, &figure.triangles, &target.measured.weld, &strands, &body, axis)
         };
         let mut hair = Self {
             vertices,

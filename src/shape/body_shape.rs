@@ -6,11 +6,12 @@ use crate::character::bones::HEAD_TOP;
 use crate::face::eyes::Pair;
 use crate::face::landmarks::FaceLandmarks;
 use crate::shape::product::anatomy::Proportions;
+use crate::shape::product::profile::Profile;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The version that this library writes.
-pub const VERSION: u32 = 1;
+pub const VERSION: u32 = 2;
 
 /// l_i and r_i of a bone, model units.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -42,6 +43,9 @@ pub struct BodyShape {
     /// Lengths and widths of the parts, which product mode transfers.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub proportions: Option<Proportions>,
+    /// How broad and deep the body is, slice by slice.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub profile: Option<Profile>,
     /// The eyes, where they were found.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub face: Option<FaceStyle>,
@@ -84,6 +88,7 @@ impl Default for BodyShape {
             landmarks: None,
             proportions: None,
             face: None,
+            profile: None,
         }
     }
 }
@@ -176,7 +181,7 @@ mod tests {
     #[test]
     fn a_saved_style_reads_back_the_same() {
         let text = serde_json::to_string_pretty(&leg()).unwrap();
-        assert!(text.contains("\"superdeform_style\": 1"), "{text}");
+        assert!(text.contains("\"superdeform_style\": 2"), "{text}");
         assert_eq!(serde_json::from_str::<BodyShape>(&text).unwrap(), leg());
     }
 }

@@ -5,15 +5,18 @@ use super::figure::Figure;
 use super::measure::measure;
 use super::product::anatomy::Anatomy;
 use super::product::head::head;
+use super::product::part::{PartWeights, fold_to_parts};
+use super::product::profile::{BodyFrame, measure_profile};
 use crate::character::bones::{Bone, bones};
 use crate::character::{Character, MeshKind, Role};
 use crate::error::Result;
 use crate::face::landmarks::FaceLandmarks;
-use crate::geometry::Surface;
+use crate::geometry::{SEAM, Surface, Weld, weld};
 use crate::options::Options;
 use crate::parallel;
 use glam::DVec3;
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 /// A head joint above the head's top would make a head of no length: this share of H is left.
 const LEAST_HEAD: f64 = 0.01;
@@ -33,6 +36,8 @@ pub struct Measured {
     pub joints: BTreeMap<Role, DVec3>,
     /// The end of the head bone: straight above the head joint, hair and hats included.
     pub head_top: DVec3,
+    /// The figure's vertices by position.
+    pub weld: Arc<Weld>,
     /// Lengths and radii, and the proportions: all that a style keeps.
     pub shape: BodyShape,
 }
@@ -66,7 +71,11 @@ impl Measured {
         let has_chin = anatomy.landmarks.chin_seen;
         let face = has_chin.then(|| FaceLandmarks::of(&head(character, &figure, &anatomy)));
         shape.face = face.as_ref().and_then(FaceStyle::of);
-        Ok(Self { figure, anatomy, face, joints, head_top, shape })
+        let weld = Arc::new(weld(&figure.positions, SEAM * figure.height()));
+        let parts: Vec<PartWeights> = figure.role_weights.iter().map(|row| fold_to_parts(row)).collect();
+        let frame = BodyFrame::of(&figure, &anatomy);
+        shape.profile = Some(measure_profile(&figure, &figure.positions, &parts, &weld, &frame).0);
+        Ok(Self { figure, anatomy, face, joints, head_top, weld, shape })
     }
 
     /// The bones between those roles of the figure that are in `roles` too.

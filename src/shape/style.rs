@@ -6,6 +6,8 @@
 use super::body_shape::{BodyShape, BoneShape, FaceStyle, VERSION};
 use super::measured::Measured;
 use super::product::anatomy::Proportions;
+use super::product::profile::Profile;
+use super::product::profile::canonical::canonical;
 use crate::character::Character;
 use crate::error::{Error, ErrorKind, Result};
 use crate::options::{HEADS, Options};
@@ -61,7 +63,7 @@ impl BodyShape {
             "sd4" => (toddler()?, 4.0),
             _ => return None,
         };
-        Some(Self { name: name.to_string(), ..shape.with_heads(heads) })
+        Some(Self { version: VERSION, name: name.to_string(), ..shape.with_heads(heads) })
     }
 
     /// The style as JSON text, indented.
@@ -80,7 +82,7 @@ impl BodyShape {
         })?;
         if shape.version == 0 || shape.version > VERSION {
             return Err(bad(format!(
-                "the style has version {}, and this library reads version {VERSION}: save it again, or update",
+                "the style has version {}, and this library reads versions 1 to {VERSION}: save it again, or update",
                 shape.version
             )));
         }
@@ -131,6 +133,11 @@ impl BodyShape {
         if let Some(proportions) = &self.proportions {
             proportions.validate()?;
         }
+        if let Some((name, value)) = self.profile.as_ref().and_then(Profile::out_of_range) {
+            return Err(bad(format!(
+                "the style's profile has {name} {value}: extents must be from 0.001 to 20 head lengths, places from -20 to 20"
+            )));
+        }
         Ok(())
     }
 
@@ -139,7 +146,8 @@ impl BodyShape {
         self.proportions.as_ref().map(Proportions::heads)
     }
 
-    /// This style (0) to `other` (1), measured in heads; what only one of them has is taken from that one.
+    /// This style (0) to `other` (1), measured in heads; what only one of them has is taken from that one, but for a profile:
+    /// in its place stands that of a body of so many heads.
     pub fn blended(&self, other: &Self, amount: f64) -> Self {
         let mix = |a: f64, b: f64| a + amount * (b - a);
         let unit = self.head_length / other.head_length;
@@ -174,7 +182,18 @@ impl BodyShape {
             (Some(a), Some(b)) => Some(a.blended(b, amount)),
             (a, b) => a.or(b),
         };
-        Self { bones, proportions, face, landmarks: None, ..self.clone() }
+        // Two that lack a profile stay without: a mode or a target may yet choose one.
+        let profile = (self.profile.is_some() || other.profile.is_some())
+            .then(|| self.profile_or_canonical().zip(other.profile_or_canonical()))
+            .flatten()
+            .map(|(a, b)| a.blended(&b, amount))
+            .or_else(|| self.profile.clone().or(other.profile.clone()));
+        Self { version: VERSION, bones, proportions, landmarks: None, profile, face, ..self.clone() }
+    }
+
+    /// The profile, or that of a body of as many heads, where these are known.
+    fn profile_or_canonical(&self) -> Option<Profile> {
+        self.profile.clone().or_else(|| self.heads().map(canonical))
     }
 
     /// The same body with everything below the head made longer or shorter, so that it is `heads` heads tall.
@@ -200,6 +219,9 @@ impl BodyShape {
             ] {
                 *length *= stretch;
             }
+        }
+        if let Some(profile) = &mut shape.profile {
+            profile.arm_length *= stretch;
         }
         shape
     }

@@ -266,7 +266,12 @@ fn no_part_jumps_anywhere() {
     // A mixture of torso, neck and hair stands for blended weights.
     let mut mixed = Part::Torso.alone();
     (mixed[0], mixed[1], mixed[15]) = (0.5, 0.25, 0.25);
-    let mixed = PartBinding { weights: mixed, attachment: Attachment::Plain, face: FaceBinding::None };
+    let mixed = PartBinding {
+        weights: mixed,
+        attachment: Attachment::Plain,
+        face: FaceBinding::None,
+        is_skirt: false,
+    };
     const STEP: f64 = 1e-4;
     let norm = |jacobian: DMat3| jacobian.to_cols_array().iter().map(|x| x * x).sum::<f64>().sqrt();
     for binding in PARTS.map(PartBinding::to).into_iter().chain([mixed]) {
@@ -315,7 +320,7 @@ fn jacobians_are_those_of_central_differences() {
                 1 => Attachment::Piece(0),
                 _ => Attachment::Plain,
             };
-            let binding = PartBinding { weights, attachment, face: FaceBinding::None };
+            let binding = PartBinding { weights, attachment, face: FaceBinding::None, is_skirt: false };
             let p = DVec3::new(0.8 * next() - 0.4, 2.0 * next() - 0.1, 0.4 * next() - 0.2);
             let map = |p: DVec3| field.map(p, &binding, &face);
             let step = 1e-6;
@@ -378,6 +383,7 @@ fn a_piece_is_moved_and_scaled_as_one_and_does_not_sink_into_the_ground() {
             weights: Part::Head.alone(),
             attachment: Attachment::Piece(index),
             face: FaceBinding::None,
+            is_skirt: false,
         };
         let place = |p: DVec3| field.place(p, &binding, &NO_FACE);
         assert_near("anchor", place(anchor), on_torso(anchor));
@@ -387,6 +393,7 @@ fn a_piece_is_moved_and_scaled_as_one_and_does_not_sink_into_the_ground() {
         weights: Part::Torso.alone(),
         attachment: Attachment::Piece(1),
         face: FaceBinding::None,
+        is_skirt: false,
     };
     let lowest = field.place(anchors[1].with_y(before.sole), &on_ground, &NO_FACE);
     assert!(lowest.y > -1e-9, "{lowest}");
@@ -405,6 +412,7 @@ fn what_sits_on_the_face_takes_the_face_map_of_one_point() {
         weights: Part::Head.alone(),
         attachment: Attachment::OnFace(centre),
         face: FaceBinding::None,
+        is_skirt: false,
     };
     let shift = curve.map(by_part(&field, Part::Head, centre).y) - by_part(&field, Part::Head, centre).y;
     assert!(shift < -0.001, "{shift}");

@@ -274,7 +274,8 @@ fn what_belongs_to_the_head_alone_keeps_its_shape() {
                 }
                 let scale = is[axis] / was[axis];
                 let expected = size * 1.5 * [1.12, 1.0, 1.05][axis];
-                if (scale / expected - 1.0).abs() > 1e-3 {
+                // Of a head's mesh a hem on the neck has a share of the neck's weight, once weights are smoothed.
+                if (scale / expected - 1.0).abs() > 2e-3 {
                     let what = format!("{} ({:?})", given.name, given.kind);
                     failures.push(format!(
                         "{}: mesh {mesh} {what} scaled {scale:.4} instead of {expected:.3} along {}",

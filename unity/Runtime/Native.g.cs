@@ -499,6 +499,7 @@ internal static unsafe partial class Native
 
     /// <summary>
     /// A style from numbers, as sdef_style_get_numbers gives them.
+    /// Its slices are those of a body of so many heads: measured ones go as text (sdef_style_to_json).
     ///
     /// name: of the style; may be NULL
     ///
@@ -1020,6 +1021,11 @@ internal unsafe struct SdefOptions {
     /// 0 gives the original back, 1 (default) the style
     /// </summary>
     public double amount;
+
+    /// <summary>
+    /// 1 (default) makes every slice of the body as broad and deep as the style's, 0 gives each part one thickness
+    /// </summary>
+    public double profile;
 
     /// <summary>
     /// hair below the chin: 1 (default) ends where it ended on the body, 0 at the chin
@@ -1612,6 +1618,9 @@ public partial struct OptionRange
     /// <summary>From the original (0) to the style (1).</summary>
     public static readonly OptionRange Amount = new OptionRange(0, 1);
 
+    /// <summary>1 makes every slice of the body as broad and deep as the style's, 0 gives each part one thickness.</summary>
+    public static readonly OptionRange Profile = new OptionRange(0, 1);
+
     /// <summary>Hair below the chin: 1 ends it where it ended on the body, 0 at the chin.</summary>
     public static readonly OptionRange HairLength = new OptionRange(0, 1);
 
@@ -1693,6 +1702,9 @@ public static class OptionDefaults
 
     /// <summary>From the original (0) to the style (1).</summary>
     public const double Amount = 1;
+
+    /// <summary>1 makes every slice of the body as broad and deep as the style's, 0 gives each part one thickness.</summary>
+    public const double Profile = 1;
 
     /// <summary>Hair below the chin: 1 ends it where it ended on the body, 0 at the chin.</summary>
     public const double HairLength = 1;

@@ -28,6 +28,11 @@ public sealed class Options
     /// <summary>0 gives the original back, 1 (default) the style.</summary>
     public double Amount = OptionDefaults.Amount;
 
+    /// <summary>
+    /// 1 (default) makes every slice of the body as broad and deep as the style's, 0 gives each part one thickness.
+    /// </summary>
+    public double Profile = OptionDefaults.Profile;
+
     /// <summary>Hair below the chin: 1 (default) ends where it ended on the body, 0 at the chin.</summary>
     public double HairLength = OptionDefaults.HairLength;
 
@@ -126,6 +131,7 @@ public sealed class Options
         native->limits = Limits ? 1u : 0u;
         native->head_scale = HeadScale;
         native->amount = Amount;
+        native->profile = Profile;
         native->hair_length = HairLength;
         native->face_squash = FaceSquash;
         native->height = Height;

@@ -67,7 +67,8 @@ public sealed class Style : NativeObject
         }
     }
 
-    /// <summary>A style from numbers, as <see cref="Numbers"/> and <see cref="Bones"/> give them.</summary>
+    /// <summary>A style from numbers, as <see cref="Numbers"/> and <see cref="Bones"/> give them; its slices are those of a
+    /// body of so many heads.</summary>
     /// <param name="name">Of the style; may be null.</param>
     /// <param name="numbers">What is known.</param>
     /// <param name="bones">For paper mode; may be null.</param>

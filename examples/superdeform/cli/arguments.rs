@@ -67,6 +67,9 @@ pub struct Arguments {
     #[arg(long, value_name = "X", value_parser = number("head_scale"), help = help("head_scale"), help_heading = STYLE)]
     pub head_scale: Option<f64>,
 
+    #[arg(long, value_name = "X", value_parser = number("profile"), help = help("profile"), help_heading = STYLE)]
+    pub profile: Option<f64>,
+
     #[arg(long, value_name = "X", allow_negative_numbers = true, value_parser = number("face_squash"),
         help = help("face_squash"), help_heading = STYLE)]
     pub face_squash: Option<f64>,
@@ -224,6 +227,7 @@ impl Arguments {
             mode: if self.paper { Mode::Paper } else { Mode::Product },
             rays: self.rays,
             head_scale: self.head_scale.unwrap_or(unset.head_scale),
+            profile: self.profile.unwrap_or(unset.profile),
             face_squash: self.face_squash,
             face_curve: self.face_curve.unwrap_or(unset.face_curve),
             amount: self.amount.unwrap_or(unset.amount),

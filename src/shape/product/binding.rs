@@ -4,6 +4,7 @@ use super::anatomy::Anatomy;
 use super::hair::HairOutline;
 use super::part::{Part, PartWeights};
 use super::pieces::{Attachment, Piece, Pieces};
+use super::profile::skirts::skirt_vertices;
 use super::weights::part_weights;
 use crate::character::{MeshKind, Role, Skeleton};
 use crate::face::landmarks::FaceLandmarks;
@@ -22,6 +23,8 @@ pub struct PartBinding {
     pub attachment: Attachment,
     /// How it takes part in the face step.
     pub face: FaceBinding,
+    /// What the legs move of it follows the torso, as skirts do.
+    pub is_skirt: bool,
 }
 
 impl PartBinding {
@@ -32,7 +35,7 @@ impl PartBinding {
             Part::Hair => FaceBinding::Hair(1.0),
             _ => FaceBinding::None,
         };
-        Self { weights: part.alone(), attachment: Attachment::Plain, face }
+        Self { weights: part.alone(), attachment: Attachment::Plain, face, is_skirt: false }
     }
 
     /// How far it goes where head and neck go, 0 to 1; what is carried on the body does not.
@@ -90,8 +93,10 @@ pub fn part_bindings(
     let eye_turns = face.is_some_and(FaceLandmarks::eyes_turn);
     let things = things_on_head(figure, &members, &attachments);
     let face = face_bindings(figure, face, &weights, &attachments, &things);
-    let bind = |((weights, attachment), face)| PartBinding { weights, attachment, face };
-    let vertices = weights.into_iter().zip(attachments).zip(face).map(bind).collect();
+    let is_skirt = skirt_vertices(figure, anatomy, weld);
+    let bind =
+        |(((weights, attachment), face), is_skirt)| PartBinding { weights, attachment, face, is_skirt };
+    let vertices = weights.into_iter().zip(attachments).zip(face).zip(is_skirt).map(bind).collect();
     PartBindings { vertices, pieces, joint_pieces: of_joints, things, eye_turns, hair }
 }
 

@@ -5,11 +5,12 @@
 //! ground up; soles, crotch, shoulder line and chin are where neighbouring maps meet, and limbs start where the
 //! torso's map puts their joints. A vertex goes where the weighted mean of its parts' maps puts it.
 
-use super::anatomy::Anatomy;
+use super::anatomy::{Anatomy, Limb};
 use super::binding::{PartBinding, PartBindings};
 use super::hair::{HairMap, HairOutline};
 use super::part::{PART_COUNT, Part, PartWeights, TINY};
 use super::pieces::{Attachment, Piece};
+use super::profile::ProfileStage;
 use super::scales::{HeadScale, PartCoefficients, Scale};
 use crate::face::FaceShape;
 use crate::geometry::{Mapped, outer};
@@ -84,6 +85,8 @@ pub struct PartField {
     head_back: f64,
     hair: Option<HairMap>,
     pieces: Vec<Affine>,
+    /// What comes after the parts; `None` where nothing does.
+    profile: Option<ProfileStage>,
 }
 
 impl PartField {
@@ -111,6 +114,7 @@ impl PartField {
             head_back: 0.0,
             hair: None,
             pieces: Vec::new(),
+            profile: None,
         };
         let neck_base = DVec3::new(anatomy.middle_x, before.shoulder_line, base);
         field.neck_z[1] = field.torso(neck_base).position.z;
@@ -119,6 +123,28 @@ impl PartField {
         field.hair = bindings.hair.as_ref().map(|outline| field.hair_map(outline, hair_length));
         field.pieces = bindings.pieces.iter().map(|piece| field.piece_map(piece)).collect();
         field
+    }
+
+    /// The same field and then `profile`.
+    pub fn with_profile(mut self, profile: ProfileStage) -> Self {
+        self.profile = Some(profile);
+        self
+    }
+
+    /// Where the parts put a limb's joints.
+    pub fn place_limb(&self, limb: Limb) -> Limb {
+        let [root, middle, end] = limb.parts.map(|part| self.affine[part].to);
+        Limb { root, middle, end, ..limb }
+    }
+
+    /// Where the torso's own map puts `p`.
+    pub fn place_torso(&self, p: DVec3) -> DVec3 {
+        self.torso(p).position
+    }
+
+    /// Where the parts put the anchor of a piece.
+    pub fn piece_anchor(&self, piece: usize) -> DVec3 {
+        self.pieces[piece].to
     }
 
     /// Heights after, before the ground shift.
@@ -135,9 +161,15 @@ impl PartField {
     /// Where `p` goes, and the Jacobian there at fixed binding.
     #[inline(always)]
     pub fn map(&self, p: DVec3, binding: &PartBinding, face: &FaceShape) -> Mapped {
-        match binding.attachment {
-            Attachment::Piece(piece) => self.pieces[piece].map(p),
-            attachment => self.blend(p, &binding.weights, attachment, face),
+        let by_parts = |attachment| self.blend(p, &binding.weights, attachment, face);
+        match (binding.attachment, &self.profile) {
+            (Attachment::Piece(piece), None) => self.pieces[piece].map(p),
+            (Attachment::Piece(piece), Some(profile)) => {
+                let Mapped { position, jacobian } = self.pieces[piece].map(p);
+                Mapped { position: position + profile.piece_shift(piece), jacobian }
+            }
+            (attachment, None) => by_parts(attachment),
+            (attachment, Some(profile)) => by_parts(attachment).then(|p| profile.map(p, binding)),
         }
     }
 

@@ -15,6 +15,7 @@ pub mod landmarks;
 pub mod long_hair;
 pub mod part;
 pub mod pieces;
+pub mod profile;
 pub mod scales;
 pub mod smoothing;
 pub mod weights;

@@ -180,6 +180,8 @@ namespace SuperDeform.Editor
                 value => model.Change("undo.tune", () => options.Amount = value)));
             section.Rows.Add(Slider("option.head_scale", 0.5f, 2.5f, () => (float)options.HeadScale,
                 value => model.Change("undo.tune", () => options.HeadScale = value)));
+            section.Rows.Add(Slider("option.profile", OptionRange.Profile, () => (float)options.Profile,
+                value => model.Change("undo.tune", () => options.Profile = value)));
             section.Rows.Add(Slider("option.hair_length", OptionRange.HairLength, () => (float)options.HairLength,
                 value => model.Change("undo.tune", () => options.HairLength = value)));
             section.Rows.Add(Toggle("option.height.keep", true, () => options.Height == 0,

@@ -1,0 +1,235 @@
+//! Plane cuts of a mesh, joined into outlines, and how far these reach around a point.
+
+use super::groups::Groups;
+use super::weld::Weld;
+use glam::{DVec2, DVec3};
+
+/// Rays around a point, 10 degrees apart.
+pub const RAYS: usize = 36;
+
+/// An outline of fewer segments than this is no body's: the corner of a button, a sliver of a seam.
+const FEWEST_SEGMENTS: usize = 5;
+
+/// A stack of parallel planes: a point on their axis, the axis, and two directions across it; all three of unit length and
+/// at right angles.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Planes {
+    /// Height 0 on the axis; the middle of each plane's own coordinates.
+    pub origin: DVec3,
+    /// Heights are along it.
+    pub axis: DVec3,
+    /// The first coordinate within a plane.
+    pub across: DVec3,
+    /// The second one.
+    pub front: DVec3,
+}
+
+impl Planes {
+    /// Height of `p`, and its place within the plane there.
+    pub fn locate(&self, p: DVec3) -> (f64, DVec2) {
+        let arm = p - self.origin;
+        (arm.dot(self.axis), DVec2::new(arm.dot(self.across), arm.dot(self.front)))
+    }
+
+    /// The point at `height` and `place`.
+    pub fn point(&self, height: f64, place: DVec2) -> DVec3 {
+        self.origin + height * self.axis + place.x * self.across + place.y * self.front
+    }
+}
+
+/// Segments of one cut that hang together: a closed outline, or an open one where the mesh has a rim.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Outline {
+    /// Unordered.
+    pub segments: Vec<[DVec2; 2]>,
+}
+
+impl Outline {
+    /// Least and greatest first coordinate.
+    pub fn breadth(&self) -> (f64, f64) {
+        let xs = self.segments.iter().flatten().map(|p| p.x);
+        xs.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)))
+    }
+
+    /// How far the outline reaches from `centre` along each of [`RAYS`] rays: the furthest hit, NaN where there is none. The
+    /// first ray runs along the first coordinate, the others follow towards the second one.
+    pub fn reaches(&self, centre: DVec2) -> [f64; RAYS] {
+        let mut reaches = [f64::NAN; RAYS];
+        let rays = ray_directions();
+        let step = std::f64::consts::TAU / RAYS as f64;
+        for &[a, b] in &self.segments {
+            let (a, b) = (a - centre, b - centre);
+            let turn = a.perp_dot(b);
+            // Counter-clockwise from the first to the last point; a segment that points at the centre meets no ray.
+            let (first, last) = if turn > 0.0 { (a, b) } else { (b, a) };
+            let turn = turn.abs();
+            if turn <= 0.0 {
+                continue;
+            }
+            let from = first.y.atan2(first.x) / step;
+            let span = first.perp_dot(last).atan2(first.dot(last)) / step;
+            let mut ray = from.ceil();
+            while ray <= from + span {
+                let index = (ray as i64).rem_euclid(RAYS as i64) as usize;
+                let across = rays[index].perp_dot(last - first);
+                if across > 0.0 {
+                    // NaN is less than any reach.
+                    reaches[index] = reaches[index].max(turn / across);
+                }
+                ray += 1.0;
+            }
+        }
+        reaches
+    }
+}
+
+/// The rays that [`Outline::reaches`] casts.
+pub fn ray_directions() -> [DVec2; RAYS] {
+    std::array::from_fn(|ray| DVec2::from_angle(std::f64::consts::TAU * ray as f64 / RAYS as f64))
+}
+
+/// Cuts `triangles` by the planes at `heights`, which rise: the outlines of each cut.
+///
+/// Segments are one outline where they share an edge of the mesh, welded; outlines of less than five segments are left out.
+///
+/// - `positions`: by vertex. `weld`: these vertices by position.
+///
+/// O(triangles · cuts of each).
+pub fn slices(
+    positions: &[DVec3],
+    triangles: &[[u32; 3]],
+    weld: &Weld,
+    planes: &Planes,
+    heights: &[f64],
+) -> Vec<Vec<Outline>> {
+    let mut cuts: Vec<Cut> = heights.iter().map(|_| Cut::default()).collect();
+    for &corners in triangles {
+        let welded = weld.triangle(corners);
+        let places = corners.map(|vertex| planes.locate(positions[vertex as usize]));
+        let above = places.map(|(height, _)| height);
+        let (low, high) = (above[0].min(above[1]).min(above[2]), above[0].max(above[1]).max(above[2]));
+        // A corner counts as above a plane where it is higher than it: so a plane is met from `low` on, below `high`.
+        let first = heights.partition_point(|&height| height < low);
+        let end = heights.partition_point(|&height| height < high);
+        for (cut, &height) in cuts[first..end.max(first)].iter_mut().zip(&heights[first..]) {
+            cut.add(welded, &places, height);
+        }
+    }
+    cuts.into_iter().map(Cut::outlines).collect()
+}
+
+/// One cut in the making.
+#[derive(Default)]
+struct Cut {
+    segments: Vec<[DVec2; 2]>,
+    /// Edges that the segments end on, with the segment.
+    ends: Vec<([u32; 2], u32)>,
+}
+
+impl Cut {
+    /// Where the triangle of welded `corners` at `places` meets the plane at `height`.
+    fn add(&mut self, corners: [u32; 3], places: &[(f64, DVec2); 3], height: f64) {
+        let mut points = [DVec2::ZERO; 2];
+        let mut edges = [[0; 2]; 2];
+        let mut count = 0;
+        for (one, other) in [(0, 1), (1, 2), (2, 0)] {
+            if (places[one].0 > height) != (places[other].0 > height) && count < 2 {
+                // From the lower number to the higher one, so that both triangles at an edge meet at one point.
+                let (one, other) = if corners[one] < corners[other] { (one, other) } else { (other, one) };
+                let ((from, a), (to, b)) = (places[one], places[other]);
+                points[count] = a + (b - a) * ((height - from) / (to - from));
+                edges[count] = [corners[one], corners[other]];
+                count += 1;
+            }
+        }
+        if count == 2 {
+            let segment = self.segments.len() as u32;
+            self.segments.push(points);
+            self.ends.extend(edges.map(|edge| (edge, segment)));
+        }
+    }
+
+    fn outlines(mut self) -> Vec<Outline> {
+        let mut groups = Groups::new(self.segments.len());
+        self.ends.sort_unstable();
+        for pair in self.ends.windows(2) {
+            if pair[0].0 == pair[1].0 {
+                groups.join(pair[0].1 as usize, pair[1].1 as usize);
+            }
+        }
+        let mut outlines: Vec<Outline> = Vec::new();
+        let mut numbers = vec![usize::MAX; self.segments.len()];
+        for (segment, &points) in self.segments.iter().enumerate() {
+            let number = &mut numbers[groups.least(segment)];
+            if *number == usize::MAX {
+                *number = outlines.len();
+                outlines.push(Outline::default());
+            }
+            outlines[*number].segments.push(points);
+        }
+        outlines.retain(|outline| outline.segments.len() >= FEWEST_SEGMENTS);
+        outlines
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::weld;
+
+    const UPRIGHT: Planes = Planes { origin: DVec3::ZERO, axis: DVec3::Y, across: DVec3::X, front: DVec3::Z };
+
+    /// An open tube of half axes `a` and `b` about (x, z), from height 0 to 1, each quad's corners its own vertices.
+    fn tube(x: f64, z: f64, a: f64, b: f64) -> (Vec<DVec3>, Vec<[u32; 3]>) {
+        let side = |index: usize, y: f64| {
+            let (sin, cos) = (std::f64::consts::TAU * index as f64 / 72.0).sin_cos();
+            DVec3::new(x + a * cos, y, z + b * sin)
+        };
+        let mut positions = Vec::new();
+        let mut triangles = Vec::new();
+        for index in 0..72 {
+            let first = positions.len() as u32;
+            let next = (index + 1) % 72;
+            positions.extend([side(index, 0.0), side(next, 0.0), side(next, 1.0), side(index, 1.0)]);
+            triangles.extend([[first, first + 1, first + 2], [first, first + 2, first + 3]]);
+        }
+        (positions, triangles)
+    }
+
+    #[test]
+    fn a_tube_is_one_outline_that_reaches_its_half_axes() {
+        let (positions, triangles) = tube(0.3, -0.1, 0.4, 0.2);
+        let cuts = slices(&positions, &triangles, &weld(&positions, 1e-9), &UPRIGHT, &[-0.5, 0.3, 0.7, 1.5]);
+        assert_eq!(cuts.iter().map(Vec::len).collect::<Vec<_>>(), [0, 1, 1, 0]);
+        let reaches = cuts[1][0].reaches(DVec2::new(0.3, -0.1));
+        // 72 sides have a corner on every ray.
+        for (ray, wanted) in [(0, 0.4), (9, 0.2), (18, 0.4), (27, 0.2)] {
+            assert!((reaches[ray] - wanted).abs() < 1e-9, "ray {ray}: {}", reaches[ray]);
+        }
+        let aside = cuts[1][0].reaches(DVec2::new(0.5, -0.1));
+        assert!((aside[0] - 0.2).abs() < 1e-9 && (aside[18] - 0.6).abs() < 1e-9);
+    }
+
+    #[test]
+    fn what_does_not_touch_is_another_outline() {
+        let (mut positions, mut triangles) = tube(0.0, 0.0, 0.4, 0.4);
+        let (more, others) = tube(2.0, 0.0, 0.1, 0.1);
+        triangles.extend(others.iter().map(|corners| corners.map(|vertex| vertex + positions.len() as u32)));
+        positions.extend(more);
+        let cuts = slices(&positions, &triangles, &weld(&positions, 1e-9), &UPRIGHT, &[0.5]);
+        assert_eq!(cuts[0].len(), 2);
+        assert!((cuts[0][1].breadth().0 - 1.9).abs() < 1e-9);
+        // From afar an outline is met on the few rays that point to it.
+        let hits = cuts[0][1].reaches(DVec2::ZERO).iter().filter(|reach| !reach.is_nan()).count();
+        assert_eq!(hits, 1);
+    }
+
+    #[test]
+    fn a_plane_through_vertices_cuts_once() {
+        let (positions, triangles) = tube(0.0, 0.0, 1.0, 1.0);
+        // Corners at the plane's height are below it.
+        let cuts = slices(&positions, &triangles, &weld(&positions, 1e-9), &UPRIGHT, &[0.0, 1.0]);
+        assert_eq!((cuts[0].len(), cuts[1].len()), (1, 0));
+        assert_eq!(cuts[0][0].segments.len(), 144 / 2 + 72);
+    }
+}

@@ -1,0 +1,64 @@
+//! The stage after the parts: the body that the style wants, slice by slice.
+
+use super::Target;
+use super::product::ProductTarget;
+use crate::error::Warning;
+use crate::options::{Options, Stage};
+use crate::shape::field::{Binding, BodyField, Field};
+use crate::shape::product::field::PartField;
+use crate::shape::product::groups::PartGroups;
+use crate::shape::product::profile::{ProfileStage, Source, strengths, wanted_of};
+use crate::shape::style::Style;
+use std::sync::Arc;
+
+/// True where `style` and `options` ask for a profile of this target.
+pub fn wants_profile(target: &Target, style: &Style, options: &Options) -> bool {
+    let heads = target.measured.anatomy.landmarks.heights.heads();
+    let share = wanted_of(style, heads).map_or(0.0, |(_, share)| share);
+    share * options.profile > 0.0 && options.stage != Stage::Length
+}
+
+/// `field`, the parts' own, and then the profile that the style wants, as much of it as the options take; with a warning of what
+/// soft limits took.
+pub fn with_profile(
+    target: &Target,
+    product: &ProductTarget,
+    field: Field,
+    style: &Style,
+    options: &Options,
+    groups: &PartGroups,
+) -> (Field, Option<Warning>) {
+    let measured = &target.measured;
+    let wanted = wanted_of(style, measured.anatomy.landmarks.heights.heads());
+    let (Some((wanted, share)), BodyField::Parts(parts)) = (wanted, &*field.body) else {
+        return (field, None);
+    };
+    let share = share * options.profile;
+    let positions = product.placement(&measured.figure, &field, options.thread_count).all_vertices();
+    let source = Source {
+        figure: &measured.figure,
+        anatomy: &measured.anatomy,
+        weld: &measured.weld,
+        rest: measured.shape.profile.as_ref(),
+        pieces: &product.parts.pieces,
+        binding: &|vertex| match &product.bindings.vertices[vertex] {
+            Binding::Parts(binding) => Some(binding),
+            _ => None,
+        },
+        threads: options.thread_count,
+    };
+    let strengths = |frame: &_| strengths(share, options, groups, frame);
+    let stage = ProfileStage::of(&source, parts, &positions, &wanted, strengths);
+    let limited = limited(&stage);
+    let parts = PartField::clone(parts).with_profile(stage);
+    (Field::of(Arc::new(BodyField::Parts(Box::new(parts)))), limited)
+}
+
+fn limited(stage: &ProfileStage) -> Option<Warning> {
+    let items: Vec<String> =
+        stage.limited().iter().map(|(what, wanted, got)| format!("{what} {wanted:.2} to {got:.2}")).collect();
+    (!items.is_empty()).then(|| {
+        let message = format!("limited slices that the style wants thicker or thinner: {}", items.join(", "));
+        Warning::new("coefficient_limited", message).about("profile")
+    })
+}

@@ -1,0 +1,141 @@
+//! What a body of so many heads is like where no reference says so: a chibi's, not a small adult's.
+
+use super::curve::monotone_cubic;
+use super::{
+    ARM_STATIONS, ArmProfile, LEG_STATIONS, LegProfile, Profile, Row, TORSO_STATIONS, TorsoProfile, stations,
+};
+use crate::geometry::smoothstep;
+
+/// Up to so many heads a style's profile is taken in full; towards the second number less of it, and from the third on none:
+/// a slim man stays slimmer than a stout one.
+///
+/// Up to 3.4: bodies of 2.5 heads at less than full strength are lollipops. From 4.5 on .7 of the way, as artists' figures of
+/// that height differ among themselves.
+const STRENGTH: [(f64, f64); 3] = [(2.5, 1.0), (3.4, 0.7), (4.5, 0.7)];
+const NONE_FROM: f64 = 7.0;
+
+/// A body by hand: five knots a row.
+struct Known {
+    heads: f64,
+    torso: [[f64; 5]; 3],
+    leg_outward: f64,
+    leg: [f64; 5],
+    arm: [f64; 5],
+    hand: [f64; 3],
+    foot: [f64; 5],
+    /// Neck, shoulder, length of the arm.
+    lengths: [f64; 3],
+}
+
+/// Bodies without tunics and shorts: of 2.2 heads after KayKit's adventurers (rogue, barbarian), of 4.5 after MakeHuman's
+/// baby, and between Godette and the baby; smoothed by hand. In head lengths.
+const KNOWN: [Known; 3] = [
+    Known {
+        heads: 2.2,
+        torso: [
+            [0.38, 0.385, 0.385, 0.37, 0.33],
+            [0.30, 0.31, 0.31, 0.30, 0.28],
+            [0.0, 0.01, 0.02, 0.02, 0.01],
+        ],
+        leg_outward: 0.17,
+        leg: [0.115, 0.115, 0.115, 0.11, 0.115],
+        arm: [0.13, 0.115, 0.105, 0.11, 0.115],
+        hand: [0.19, 0.115, 0.105],
+        foot: [0.29, 0.115, 0.12, 0.17, 0.155],
+        lengths: [0.15, 0.24, 0.60],
+    },
+    Known {
+        heads: 3.4,
+        torso: [
+            [0.45, 0.43, 0.40, 0.37, 0.34],
+            [0.31, 0.32, 0.31, 0.29, 0.27],
+            [0.02, 0.05, 0.08, 0.07, 0.04],
+        ],
+        leg_outward: 0.25,
+        leg: [0.17, 0.15, 0.135, 0.125, 0.115],
+        arm: [0.13, 0.115, 0.10, 0.095, 0.085],
+        hand: [0.35, 0.125, 0.09],
+        foot: [0.39, 0.12, 0.115, 0.30, 0.155],
+        lengths: [0.14, 0.32, 0.90],
+    },
+    Known {
+        heads: 4.5,
+        torso: [
+            [0.52, 0.48, 0.46, 0.45, 0.44],
+            [0.33, 0.37, 0.38, 0.36, 0.34],
+            [0.04, 0.07, 0.10, 0.08, 0.04],
+        ],
+        leg_outward: 0.30,
+        leg: [0.24, 0.21, 0.18, 0.15, 0.11],
+        arm: [0.17, 0.16, 0.14, 0.12, 0.09],
+        hand: [0.48, 0.165, 0.105],
+        foot: [0.49, 0.15, 0.135, 0.40, 0.133],
+        lengths: [0.15, 0.45, 1.33],
+    },
+];
+
+/// The profile of a body of `heads` heads.
+pub fn canonical(heads: f64) -> Profile {
+    let at = KNOWN.iter().rposition(|known| known.heads <= heads).unwrap_or(0).min(KNOWN.len() - 2);
+    let (low, high) = (&KNOWN[at], &KNOWN[at + 1]);
+    let t = ((heads - low.heads) / (high.heads - low.heads)).clamp(0.0, 1.0);
+    let mix = |a: f64, b: f64| a + t * (b - a);
+    let row = |ends: (f64, f64), read: &dyn Fn(&Known) -> [f64; 5]| -> Row {
+        let places: [f64; 5] = std::array::from_fn(|knot| ends.0 + (ends.1 - ends.0) * knot as f64 / 4.0);
+        let (a, b) = (read(low), read(high));
+        let knots: [f64; 5] = std::array::from_fn(|knot| mix(a[knot], b[knot]));
+        stations(ends).map(|t| monotone_cubic(&places, &knots, t))
+    };
+    let torso = |which: usize| row(TORSO_STATIONS, &|known| known.torso[which]);
+    let leg = row(LEG_STATIONS, &|known| known.leg);
+    let arm = row(ARM_STATIONS, &|known| known.arm);
+    let numbers = |a: f64, b: f64| mix(a, b);
+    Profile {
+        torso: Some(TorsoProfile { breadth: torso(0), depth: torso(1), forward: torso(2) }),
+        leg: Some(LegProfile {
+            outward: [numbers(low.leg_outward, high.leg_outward); super::STATIONS],
+            breadth: leg,
+            depth: leg,
+            forward: [0.0; super::STATIONS],
+        }),
+        arm: Some(ArmProfile { breadth: arm, depth: arm }),
+        skirt: None,
+        hand: Some(std::array::from_fn(|which| mix(low.hand[which], high.hand[which]))),
+        foot: Some(std::array::from_fn(|which| mix(low.foot[which], high.foot[which]))),
+        neck: Some(mix(low.lengths[0], high.lengths[0])),
+        shoulder: mix(low.lengths[1], high.lengths[1]),
+        arm_length: mix(low.lengths[2], high.lengths[2]),
+    }
+}
+
+/// How much of [`canonical`] a style of `heads` heads takes.
+pub fn canonical_strength(heads: f64) -> f64 {
+    let [(_, _), (_, _), (last, least)] = STRENGTH;
+    if heads > last {
+        return least * (1.0 - smoothstep((heads - last) / (NONE_FROM - last)));
+    }
+    let places = STRENGTH.map(|(heads, _)| heads);
+    monotone_cubic(&places, &STRENGTH.map(|(_, strength)| strength), heads)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn known_bodies_are_met_and_between_them_all_is_between() {
+        let bottom = |heads: f64| canonical(heads).torso.unwrap().breadth[0];
+        assert_eq!((bottom(2.2), bottom(1.8), bottom(4.5), bottom(9.0)), (0.38, 0.38, 0.52, 0.52));
+        assert!((bottom(2.8) - 0.415).abs() < 1e-12);
+        let hand = canonical(3.95).hand.unwrap();
+        assert!((hand[0] - 0.415).abs() < 1e-12, "{hand:?}");
+    }
+
+    #[test]
+    fn small_figures_take_all_of_it_and_adults_nothing() {
+        assert_eq!(canonical_strength(1.8), 1.0);
+        assert_eq!(canonical_strength(2.5), 1.0);
+        assert!((canonical_strength(4.0) - 0.7).abs() < 1e-12);
+        assert_eq!(canonical_strength(7.0), 0.0);
+    }
+}

@@ -1,0 +1,176 @@
+//! Curves through slices, and tables of curves that are read together.
+
+/// The monotone cubic through `knots` at `places`, which rise, at `x`; constant beyond the ends.
+///
+/// Fritsch and Carlson. Monotone piecewise cubic interpolation. SIAM Journal on Numerical Analysis 17(2), 1980; slopes as
+/// Fritsch and Butland's weighted harmonic means.
+pub fn monotone_cubic(places: &[f64], knots: &[f64], x: f64) -> f64 {
+    let last = places.len() - 1;
+    if x <= places[0] || last == 0 {
+        return knots[0];
+    }
+    if x >= places[last] {
+        return knots[last];
+    }
+    let at = places.partition_point(|&place| place <= x).clamp(1, last) - 1;
+    let step = |at: usize| places[at + 1] - places[at];
+    let rise = |at: usize| (knots[at + 1] - knots[at]) / step(at);
+    let slope = |knot: usize| {
+        if knot == 0 || knot == last {
+            // One-sided, of three points, kept from overshooting.
+            let (near, far) = if knot == 0 { (0, 1) } else { (last - 1, last.saturating_sub(2)) };
+            if last == 1 {
+                return rise(0);
+            }
+            let end = ((2.0 * step(near) + step(far)) * rise(near) - step(near) * rise(far))
+                / (step(near) + step(far));
+            return if end * rise(near) <= 0.0 {
+                0.0
+            } else if rise(near) * rise(far) <= 0.0 && end.abs() > 3.0 * rise(near).abs() {
+                3.0 * rise(near)
+            } else {
+                end
+            };
+        }
+        let (before, after) = (rise(knot - 1), rise(knot));
+        if before * after <= 0.0 {
+            return 0.0;
+        }
+        let (one, other) = (2.0 * step(knot) + step(knot - 1), step(knot) + 2.0 * step(knot - 1));
+        (one + other) / (one / before + other / after)
+    };
+    let (h, t) = (step(at), (x - places[at]) / step(at));
+    let (a, b) = (slope(at) * h, slope(at + 1) * h);
+    let (t2, t3) = (t * t, t * t * t);
+    (2.0 * t3 - 3.0 * t2 + 1.0) * knots[at]
+        + (t3 - 2.0 * t2 + t) * a
+        + (3.0 * t2 - 2.0 * t3) * knots[at + 1]
+        + (t3 - t2) * b
+}
+
+/// `N` functions of one place, sampled at even steps; between the samples cubic, with a slope that has no jumps; constant
+/// beyond the ends.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Table<const N: usize> {
+    start: f64,
+    step: f64,
+    rows: Vec<[f64; N]>,
+}
+
+impl<const N: usize> Table<N> {
+    /// `functions` from `start` to `end` in `count` samples, at least 2.
+    pub fn sample(start: f64, end: f64, count: usize, functions: impl Fn(f64) -> [f64; N]) -> Self {
+        let step = (end - start) / (count - 1) as f64;
+        Self { start, step, rows: (0..count).map(|row| functions(start + step * row as f64)).collect() }
+    }
+
+    /// The same functions without what is shorter than `sigma`: weighted means, by a Gaussian.
+    pub fn smoothed(&self, sigma: f64) -> Self {
+        let reach = (3.0 * sigma / self.step).ceil() as i64;
+        let weights: Vec<f64> = (-reach..=reach)
+            .map(|offset| (-0.5 * (offset as f64 * self.step / sigma).powi(2)).exp())
+            .collect();
+        let total: f64 = weights.iter().sum();
+        let last = self.rows.len() as i64 - 1;
+        let rows = (0..=last)
+            .map(|row| {
+                let mut sum = [0.0; N];
+                for (offset, weight) in (-reach..=reach).zip(&weights) {
+                    let near = &self.rows[(row + offset).clamp(0, last) as usize];
+                    sum.iter_mut().zip(near).for_each(|(sum, value)| *sum += weight * value);
+                }
+                sum.map(|sum| sum / total)
+            })
+            .collect();
+        Self { rows, ..*self }
+    }
+
+    /// Replaces the samples, at their places.
+    pub fn map(&mut self, change: impl Fn(f64, &mut [f64; N])) {
+        for (row, values) in self.rows.iter_mut().enumerate() {
+            change(self.start + self.step * row as f64, values);
+        }
+    }
+
+    /// The functions' values and slopes at `x`.
+    #[inline]
+    pub fn at(&self, x: f64) -> ([f64; N], [f64; N]) {
+        let last = self.rows.len() - 1;
+        let place = (x - self.start) / self.step;
+        // NaN is at no place, and takes the first row.
+        if place.is_nan() || place <= 0.0 {
+            return (self.rows[0], [0.0; N]);
+        }
+        if place >= last as f64 {
+            return (self.rows[last], [0.0; N]);
+        }
+        let row = place as usize;
+        let t = place - row as f64;
+        let [before, from, to, after] =
+            [row.saturating_sub(1), row, row + 1, (row + 2).min(last)].map(|row| &self.rows[row]);
+        // At the ends the slope is 0, as beyond them.
+        let (is_first, is_last) = (row == 0, row + 1 == last);
+        let (t2, t3) = (t * t, t * t * t);
+        let value = [2.0 * t3 - 3.0 * t2 + 1.0, t3 - 2.0 * t2 + t, 3.0 * t2 - 2.0 * t3, t3 - t2];
+        let slope = [6.0 * (t2 - t), 3.0 * t2 - 4.0 * t + 1.0, 6.0 * (t - t2), 3.0 * t2 - 2.0 * t];
+        let (mut values, mut slopes) = ([0.0; N], [0.0; N]);
+        for function in 0..N {
+            let a = if is_first { 0.0 } else { 0.5 * (to[function] - before[function]) };
+            let b = if is_last { 0.0 } else { 0.5 * (after[function] - from[function]) };
+            let mix = |by: &[f64; 4]| by[0] * from[function] + by[1] * a + by[2] * to[function] + by[3] * b;
+            values[function] = mix(&value);
+            slopes[function] = mix(&slope) / self.step;
+        }
+        (values, slopes)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_cubic_is_monotone_meets_its_knots_and_stays_beyond_them() {
+        let (places, knots) = ([0.0, 1.0, 1.5, 4.0], [1.0, 1.0, 3.0, 3.5]);
+        for (place, knot) in places.iter().zip(knots) {
+            assert!((monotone_cubic(&places, &knots, *place) - knot).abs() < 1e-12);
+        }
+        let mut last = 1.0;
+        for index in -10..60 {
+            let y = monotone_cubic(&places, &knots, 0.1 * f64::from(index));
+            assert!(y >= last - 1e-12, "{index}");
+            last = y;
+        }
+        assert_eq!(monotone_cubic(&places, &knots, -3.0), 1.0);
+        assert_eq!(monotone_cubic(&places, &knots, 9.0), 3.5);
+        // A straight line is met everywhere.
+        assert!((monotone_cubic(&[0.0, 1.0, 3.0], &[0.0, 2.0, 6.0], 2.2) - 4.4).abs() < 1e-12);
+    }
+
+    #[test]
+    fn slopes_of_a_table_are_its_values_slopes() {
+        let table = Table::sample(-1.0, 2.0, 40, |x| [x.sin(), x * x, 3.0]);
+        for index in -15..30 {
+            let x = 0.083 * f64::from(index);
+            let (_, slopes) = table.at(x);
+            let h = 1e-6;
+            let (high, low) = (table.at(x + h).0, table.at(x - h).0);
+            for function in 0..3 {
+                let wanted = (high[function] - low[function]) / (2.0 * h);
+                assert!((slopes[function] - wanted).abs() < 1e-5, "{x} {function}");
+            }
+            // In the first and the last step the curve goes over to the constant beyond: up to 4/27 of a step off.
+            let step = 3.0 / 39.0;
+            let off = if (-1.0 + step..2.0 - step).contains(&x) { 1e-3 } else { 4.0 / 27.0 * step };
+            assert!((table.at(x).0[0] - x.clamp(-1.0, 2.0).sin()).abs() < off, "{x}");
+        }
+        assert_eq!(table.at(f64::NAN).0, table.at(-9.0).0);
+    }
+
+    #[test]
+    fn smoothing_keeps_lines_and_flattens_waves() {
+        let table = Table::sample(0.0, 4.0, 401, |x| [2.0 * x, (20.0 * x).sin()]).smoothed(0.2);
+        let (values, _) = table.at(2.0);
+        assert!((values[0] - 4.0).abs() < 1e-9 && values[1].abs() < 1e-2);
+    }
+}

@@ -1,0 +1,483 @@
+//! Gives a body the wanted profile: one map of slices for torso, legs, arms, hands, feet and neck, blended by the weights.
+//!
+//! Each map keeps the place along its own axis but for what an arm's length changes, and is monotone on the others: so one
+//! chain alone cannot fold.
+
+use super::curve::{Table, monotone_cubic};
+use super::measure::{BodyFrame, BodyLines};
+use super::scales::Scales;
+use super::slab::slab;
+use super::{ARM_STATIONS, LEG_STATIONS, Profile, STATIONS, TORSO_STATIONS, station_at, stations};
+use crate::geometry::slice::Planes;
+use crate::geometry::smoothstep;
+use crate::geometry::{Mapped, outer};
+use crate::shape::product::part::{Part, PartWeights};
+use glam::{DMat3, DVec2, DVec3};
+
+/// Rows of the tables: so many for a head length, and for an arm.
+const ROWS_PER_HEAD: f64 = 100.0;
+const ROWS_OF_ARM: usize = 200;
+/// What is shorter than this, in head lengths, is smoothed out of the torso's functions: it joins torso and legs at the crotch
+/// and torso and neck at the shoulder line.
+const JOINING: f64 = 0.08;
+/// A leg goes over from the torso's map to its own between these places from crotch (0) to ankle (1); an arm between shoulder
+/// joint (0) and wrist (1).
+const LEG_FADE: (f64, f64) = (-0.02, 0.30);
+const ARM_FADE: (f64, f64) = (0.05, 0.20);
+/// Where a hand takes over from the arm, in parts of its length.
+const HAND_FADE: f64 = 0.25;
+/// The palm's share of a hand's length, and the half width of its border with the fingers.
+const PALM: f64 = 0.45;
+const KNUCKLES: f64 = 0.08;
+/// Fingers become this much shorter than palms, as a power of the hand's own scale.
+const FINGERS_SHORTER: f64 = 1.3;
+/// A neck's surface, in its radii: collars lie on it.
+const NECK_REACH: f64 = 1.2;
+/// Half extents where a body has none that were measured, in head lengths; nothing is scaled there.
+const ANY_HALF: f64 = 0.4;
+/// The toe box begins behind the ankle, in head lengths, and is whole at this part of the way from ankle to toes.
+const TOE_BOX: (f64, f64) = (0.05, 0.6);
+
+/// Columns of the table over heights: of the torso (and what hangs from it below the crotch), then of a leg.
+const TORSO_SCALE: usize = 0;
+const TORSO_HALF: usize = 2;
+const TORSO_MIDDLE: usize = 4;
+const TORSO_SHIFT: usize = 5;
+const LEG: usize = 6;
+const LEVEL_COLUMNS: usize = 13;
+/// Of a leg: scale, scale, half, half, outward, forward, shift forward.
+type LevelTable = Table<LEVEL_COLUMNS>;
+
+/// The map.
+#[derive(Clone, Debug)]
+pub struct BodyMap {
+    middle_x: f64,
+    /// On which sides of the middle the left and the right leg are.
+    signs: [f64; 2],
+    level: LevelTable,
+    /// Heights of the crotch and the ankles.
+    crotch: f64,
+    leg_length: f64,
+    spread: f64,
+    arms: [Option<ArmMap>; 2],
+    feet: [FootMap; 2],
+    neck: NeckMap,
+    arm_fade: (f64, f64),
+    leg_fade: (f64, f64),
+}
+
+#[derive(Clone, Debug)]
+struct ArmMap {
+    planes: Planes,
+    /// Where the shoulder joint goes, less where it was.
+    base: DVec3,
+    length: f64,
+    /// By the place along the arm, model units: how much further it goes, scales, halves, middles.
+    table: Table<7>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct FootMap {
+    ankle: DVec3,
+    to: DVec3,
+    /// Across, and forward.
+    breadth: f64,
+    length: f64,
+    /// How much higher the toes' surface becomes, and the toe box.
+    toes: f64,
+    toe_height: f64,
+    toe_box: (f64, f64),
+    sole: f64,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct NeckMap {
+    middle: DVec2,
+    scale: f64,
+    half: f64,
+}
+
+impl BodyMap {
+    /// The map that does what `scales` say to a body of profile `own` in `frame`.
+    pub fn new(own: &Profile, lines: &BodyLines, frame: &BodyFrame, scales: &Scales) -> Self {
+        let length = frame.head_length();
+        let level = level_table(own, frame, scales);
+        let mut map = Self {
+            middle_x: frame.middle_x,
+            signs: [frame.sign(2), frame.sign(3)],
+            level,
+            crotch: frame.heights.crotch,
+            leg_length: frame.leg_length(),
+            spread: if own.leg.is_some() { scales.spread * length } else { 0.0 },
+            arms: [None, None],
+            leg_fade: (LEG_FADE.0, LEG_FADE.1),
+            arm_fade: (ARM_FADE.0, ARM_FADE.1),
+            feet: [0, 1].map(|side| FootMap::still(frame.limbs[2 + side].end)),
+            neck: NeckMap {
+                middle: DVec2::new(frame.middle_x, frame.shoulders.z),
+                scale: scales.neck,
+                half: NECK_REACH * own.neck.unwrap_or(ANY_HALF / 2.0) * length,
+            },
+        };
+        if own.foot.is_some() {
+            for side in 0..2 {
+                let ankle = frame.limbs[2 + side].end;
+                map.feet[side] = map.foot(side, ankle, own, scales, frame);
+            }
+        }
+        for side in 0..2 {
+            map.arms[side] = map.arm(side, own, lines, frame, scales);
+        }
+        map
+    }
+
+    /// Where `p` goes that `weights` bind, and the Jacobian there at fixed weights.
+    ///
+    /// - `is_skirt`: what the legs move of it follows the torso's map, as skirts do.
+    pub fn map(&self, p: DVec3, weights: &PartWeights, is_skirt: bool) -> Mapped {
+        let sum = |first: Part, count: usize| -> f64 {
+            weights[first as usize..first as usize + count].iter().sum::<f32>().into()
+        };
+        let mut to = DVec3::ZERO;
+        let mut jacobian = DMat3::ZERO;
+        let mut total = 0.0;
+        let mut add = |weight: f64, moved: Mapped| {
+            to += weight * moved.position;
+            jacobian += moved.jacobian * weight;
+            total += weight;
+        };
+        let legs = [Part::LeftUpperLeg, Part::RightUpperLeg];
+        let of_legs: f64 = legs.iter().map(|&first| sum(first, 3)).sum();
+        let torso = sum(Part::Torso, 1) + if is_skirt { of_legs } else { 0.0 };
+        if torso > 0.0 {
+            add(torso, self.torso(p));
+        }
+        let neck = sum(Part::Neck, 1);
+        if neck > 0.0 {
+            add(neck, self.neck.map(p));
+        }
+        let head = sum(Part::Head, 1) + sum(Part::Hair, 1);
+        if head > 0.0 {
+            add(head, Mapped::unmoved(p));
+        }
+        for (side, first) in [Part::LeftUpperArm, Part::RightUpperArm].into_iter().enumerate() {
+            let arm = sum(first, 3);
+            if arm > 0.0 {
+                add(arm, self.arm_or_torso(side, p));
+            }
+        }
+        if !is_skirt && of_legs > 0.0 {
+            for (side, &first) in legs.iter().enumerate() {
+                let leg = sum(first, 2);
+                if leg > 0.0 {
+                    add(leg, self.leg_or_torso(side, p));
+                }
+                let foot = f64::from(weights[first as usize + 2]);
+                if foot > 0.0 {
+                    add(foot, self.feet[side].map(p));
+                }
+            }
+        }
+        Mapped { position: to / total, jacobian: jacobian * (1.0 / total) }
+    }
+
+    /// What the torso, and what hangs from it, is mapped by.
+    pub fn torso(&self, p: DVec3) -> Mapped {
+        let (row, slopes) = self.level.at(p.y);
+        let x = slab(p.x - self.middle_x, row[TORSO_SCALE], row[TORSO_HALF]);
+        let z = slab(p.z - row[TORSO_MIDDLE], row[TORSO_SCALE + 1], row[TORSO_HALF + 1]);
+        let x_slope = x.by_scale * slopes[TORSO_SCALE] + x.by_half * slopes[TORSO_HALF];
+        let z_slope = z.by_scale * slopes[TORSO_SCALE + 1]
+            + z.by_half * slopes[TORSO_HALF + 1]
+            + (1.0 - z.by_place) * slopes[TORSO_MIDDLE]
+            + slopes[TORSO_SHIFT];
+        let position = DVec3::new(self.middle_x + x.to, p.y, row[TORSO_MIDDLE] + row[TORSO_SHIFT] + z.to);
+        Mapped { position, jacobian: level(x.by_place, x_slope, z.by_place, z_slope) }
+    }
+
+    fn leg(&self, side: usize, p: DVec3) -> Mapped {
+        let (row, slopes) = self.level.at(p.y);
+        let (row, slopes) = (&row[LEG..], &slopes[LEG..]);
+        let sign = self.signs[side];
+        let centre = self.middle_x + sign * row[4];
+        let x = slab(p.x - centre, row[0], row[2]);
+        let z = slab(p.z - row[5], row[1], row[3]);
+        let x_slope = x.by_scale * slopes[0] + x.by_half * slopes[2] + (1.0 - x.by_place) * sign * slopes[4];
+        let z_slope =
+            z.by_scale * slopes[1] + z.by_half * slopes[3] + (1.0 - z.by_place) * slopes[5] + slopes[6];
+        let position = DVec3::new(centre + sign * self.spread + x.to, p.y, row[5] + row[6] + z.to);
+        Mapped { position, jacobian: level(x.by_place, x_slope, z.by_place, z_slope) }
+    }
+
+    /// Near the crotch a leg's map is the torso's, so that hips agree whatever the weights say.
+    fn leg_or_torso(&self, side: usize, p: DVec3) -> Mapped {
+        let t = (self.crotch - p.y) / self.leg_length;
+        let leg_fade = self.leg_fade;
+        let (share, slope) = fade((t - leg_fade.0) / (leg_fade.1 - leg_fade.0));
+        let slope = DVec3::NEG_Y * (slope / (leg_fade.1 - leg_fade.0) / self.leg_length);
+        mix(share, slope, || self.torso(p), || self.leg(side, p))
+    }
+
+    fn arm_or_torso(&self, side: usize, p: DVec3) -> Mapped {
+        let Some(arm) = &self.arms[side] else { return self.torso(p) };
+        let t = arm.planes.locate(p).0 / arm.length;
+        let fade_ends = self.arm_fade;
+        let (share, slope) = fade((t - fade_ends.0) / (fade_ends.1 - fade_ends.0));
+        let slope = arm.planes.axis * (slope / (fade_ends.1 - fade_ends.0) / arm.length);
+        mix(share, slope, || self.torso(p), || arm.map(p))
+    }
+
+    fn foot(&self, side: usize, ankle: DVec3, own: &Profile, scales: &Scales, frame: &BodyFrame) -> FootMap {
+        let length = frame.head_length();
+        let [toe, _, _, _, height] = own.foot.unwrap_or_default();
+        let to = self.leg_or_torso(side, ankle).position;
+        let toe_box = (ankle.z + TOE_BOX.0 * length, ankle.z + TOE_BOX.1 * toe * length);
+        FootMap {
+            ankle,
+            to,
+            breadth: scales.foot[1],
+            length: scales.foot[0],
+            toes: scales.foot[2],
+            toe_height: height * length,
+            toe_box,
+            sole: frame.heights.sole,
+        }
+    }
+
+    fn arm(
+        &self,
+        side: usize,
+        own: &Profile,
+        lines: &BodyLines,
+        frame: &BodyFrame,
+        scales: &Scales,
+    ) -> Option<ArmMap> {
+        let planes = frame.arm_planes(side)?;
+        let (profile, middles) = (own.arm.as_ref()?, lines.arm_middles[side].as_ref()?);
+        let head = frame.head_length();
+        let length = frame.arm_length(side);
+        let places = stations(ARM_STATIONS);
+        let hand = own.hand.map(|hand| hand.map(|size| size * head));
+        let hand_length = hand.map_or(0.5 * length, |hand| hand[0]);
+        let row = |s: f64| -> [f64; 6] {
+            let t = s / length;
+            let at = |row: &[f64; STATIONS]| monotone_cubic(&places, row, t);
+            // What is the hand's own: 0 at the wrist, 1 from 40 % of its length.
+            let share = monotone_cubic(&[0.0, HAND_FADE], &[0.0, 1.0], (s - length) / hand_length);
+            let over = |arm: f64, hand: f64| arm * (hand / arm).powf(share);
+            let [_, broad, thin] =
+                hand.unwrap_or([0.0, head * at(&profile.depth), head * at(&profile.breadth)]);
+            [
+                over(at(&scales.arm.breadth), scales.hand[2]),
+                over(at(&scales.arm.depth), scales.hand[1]),
+                over(head * at(&profile.breadth), thin),
+                over(head * at(&profile.depth), broad),
+                at(&middles[0]),
+                at(&middles[1]),
+            ]
+        };
+        let [palm, fingers] = palm_and_fingers(scales.hand[0]);
+        let along = |s: f64| {
+            let t = (s - length) / hand_length;
+            let to_palm = smoothstep(t / HAND_FADE);
+            let to_fingers = smoothstep((t - PALM + KNUCKLES) / (2.0 * KNUCKLES));
+            let hand = palm * (fingers / palm).powf(to_fingers);
+            if s < 0.0 { 1.0 } else { scales.arm_length * (hand / scales.arm_length).powf(to_palm) }
+        };
+        let (start, end) = (-0.2 * length, length + 1.5 * hand_length);
+        let step = (end - start) / (ROWS_OF_ARM - 1) as f64;
+        // What each step becomes longer or shorter, summed up.
+        let mut longer = vec![0.0];
+        for row in 1..ROWS_OF_ARM {
+            let s = start + step * (row as f64 - 0.5);
+            longer.push(longer[row - 1] + step * (along(s) - 1.0));
+        }
+        let table = Table::sample(start, end, ROWS_OF_ARM, |s| {
+            let [a, b, c, d, e, f] = row(s);
+            let at = ((s - start) / step).round() as usize;
+            [longer[at], a, b, c, d, e, f]
+        });
+        let base = self.torso(planes.origin).position - planes.origin;
+        Some(ArmMap { planes, base, length, table })
+    }
+}
+
+impl ArmMap {
+    fn map(&self, p: DVec3) -> Mapped {
+        let (s, place) = self.planes.locate(p);
+        let (row, slopes) = self.table.at(s);
+        let across = slab(place.x - row[5], row[1], row[3]);
+        let front = slab(place.y - row[6], row[2], row[4]);
+        let across_slope =
+            across.by_scale * slopes[1] + across.by_half * slopes[3] + (1.0 - across.by_place) * slopes[5];
+        let front_slope =
+            front.by_scale * slopes[2] + front.by_half * slopes[4] + (1.0 - front.by_place) * slopes[6];
+        let position =
+            self.base + self.planes.point(s + row[0], DVec2::new(row[5] + across.to, row[6] + front.to));
+        let axes = DMat3::from_cols(self.planes.axis, self.planes.across, self.planes.front);
+        let local = DMat3::from_cols(
+            DVec3::new(1.0 + slopes[0], across_slope, front_slope),
+            DVec3::new(0.0, across.by_place, 0.0),
+            DVec3::new(0.0, 0.0, front.by_place),
+        );
+        Mapped { position, jacobian: axes * local * axes.transpose() }
+    }
+}
+
+impl FootMap {
+    fn still(ankle: DVec3) -> Self {
+        Self {
+            ankle,
+            to: ankle,
+            breadth: 1.0,
+            length: 1.0,
+            toes: 1.0,
+            toe_height: 1.0,
+            toe_box: (0.0, 1.0),
+            sole: 0.0,
+        }
+    }
+
+    /// Linear about the ankle, so that the instep of a high heel is not sheared over; the toe box grows up from the sole, which
+    /// stays as flat as it was: from the sole to the toes' top what is added grows by a smooth step.
+    fn map(&self, p: DVec3) -> Mapped {
+        let arm = p - self.ankle;
+        let (share, slope) = fade((p.z - self.toe_box.0) / (self.toe_box.1 - self.toe_box.0));
+        let slope = slope / (self.toe_box.1 - self.toe_box.0);
+        let (up, up_slope) = fade((p.y - self.sole) / self.toe_height);
+        let added = (self.toes - 1.0) * self.toe_height;
+        let position = DVec3::new(
+            self.to.x + self.breadth * arm.x,
+            p.y + added * share * up,
+            self.to.z + self.length * arm.z,
+        );
+        let jacobian = DMat3::from_cols(
+            DVec3::X * self.breadth,
+            DVec3::Y * (1.0 + (self.toes - 1.0) * share * up_slope),
+            DVec3::new(0.0, added * slope * up, self.length),
+        );
+        Mapped { position, jacobian }
+    }
+}
+
+impl NeckMap {
+    fn map(&self, p: DVec3) -> Mapped {
+        let x = slab(p.x - self.middle.x, self.scale, self.half);
+        let z = slab(p.z - self.middle.y, self.scale, self.half);
+        let position = DVec3::new(self.middle.x + x.to, p.y, self.middle.y + z.to);
+        Mapped { position, jacobian: level(x.by_place, 0.0, z.by_place, 0.0) }
+    }
+}
+
+/// The scales of palm and fingers that make a hand `scale` times as long: mitts have shorter fingers, not shorter palms.
+fn palm_and_fingers(scale: f64) -> [f64; 2] {
+    let shorter = scale.min(1.0).powf(FINGERS_SHORTER);
+    let palm = scale / (PALM + (1.0 - PALM) * shorter);
+    [palm, palm * shorter]
+}
+
+/// A smoothstep and its slope.
+fn fade(t: f64) -> (f64, f64) {
+    let inside = t.clamp(0.0, 1.0);
+    (smoothstep(t), 6.0 * inside * (1.0 - inside))
+}
+
+/// `share` of the second map and the rest of the first, where the share changes by `slope`.
+fn mix(share: f64, slope: DVec3, first: impl Fn() -> Mapped, second: impl Fn() -> Mapped) -> Mapped {
+    if share <= 0.0 {
+        return first();
+    }
+    if share >= 1.0 {
+        return second();
+    }
+    let (first, second) = (first(), second());
+    let apart = second.position - first.position;
+    let jacobian = first.jacobian * (1.0 - share) + second.jacobian * share + outer(apart, slope);
+    Mapped { position: first.position + share * apart, jacobian }
+}
+
+/// The Jacobian of a map that keeps heights: slopes of x by x and y, of z by z and y.
+fn level(x_by_x: f64, x_by_y: f64, z_by_z: f64, z_by_y: f64) -> DMat3 {
+    DMat3::from_cols(DVec3::X * x_by_x, DVec3::new(x_by_y, 1.0, z_by_y), DVec3::Z * z_by_z)
+}
+
+/// Torso and legs by height, model units.
+fn level_table(own: &Profile, frame: &BodyFrame, scales: &Scales) -> LevelTable {
+    let length = frame.head_length();
+    let planes = frame.torso_planes();
+    let (torso_length, leg_length) = (frame.torso_length(), frame.leg_length());
+    let (crotch, shoulder_line, chin) =
+        (frame.heights.crotch, frame.heights.shoulder_line, frame.heights.chin);
+    let torso_places = stations(TORSO_STATIONS);
+    let leg_places = stations(LEG_STATIONS);
+    let of_leg = |y: f64| -> [f64; 7] {
+        let t = (crotch - y) / leg_length;
+        let Some(leg) = &own.leg else {
+            let half = ANY_HALF / 2.0 * length;
+            return [1.0, 1.0, half, half, half, planes.origin.z, 0.0];
+        };
+        let at = |row: &[f64; STATIONS]| monotone_cubic(&leg_places, row, t);
+        [
+            at(&scales.leg.breadth),
+            at(&scales.leg.depth),
+            length * at(&leg.breadth),
+            length * at(&leg.depth),
+            length * at(&leg.outward),
+            planes.origin.z + length * at(&leg.forward),
+            length * at(&scales.leg.shift),
+        ]
+    };
+    let of_torso = |y: f64| -> [f64; 6] {
+        let t = (y - crotch) / torso_length;
+        let neck = smoothstep((y - shoulder_line) / (chin - shoulder_line).max(1e-3 * length));
+        let at = |row: &[f64; STATIONS]| monotone_cubic(&torso_places, row, t);
+        let to_neck = |scale: f64| scale * (scales.neck / scale).powf(neck);
+        let half = |row: Option<&[f64; STATIONS]>| length * row.map_or(ANY_HALF, at);
+        let torso = own.torso.as_ref();
+        [
+            to_neck(at(&scales.torso.breadth)),
+            to_neck(at(&scales.torso.depth)),
+            half(torso.map(|torso| &torso.breadth)),
+            half(torso.map(|torso| &torso.depth)),
+            planes.origin.z + length * torso.map_or(0.0, |torso| at(&torso.forward)),
+            length * at(&scales.torso.shift),
+        ]
+    };
+    // Below the crotch: the hull of both legs, or the skirt.
+    let below = |y: f64| -> [f64; 6] {
+        let [scale_x, scale_z, half_x, half_z, outward, forward, shift] = of_leg(y);
+        if own.leg.is_none() {
+            return of_torso(crotch);
+        }
+        if scales.skirt.is_empty() {
+            let hull = outward + half_x;
+            let new_hull = outward + scales.spread * length + scale_x * half_x;
+            return [new_hull / hull, scale_z, hull, half_z, forward, shift];
+        }
+        let t = (crotch - y) / leg_length;
+        let places: Vec<f64> =
+            scales.skirt.iter().map(|skirt| station_at(LEG_STATIONS, skirt.station)).collect();
+        let at = |number: &dyn Fn(&super::scales::SkirtScale) -> f64| {
+            let knots: Vec<f64> = scales.skirt.iter().map(number).collect();
+            monotone_cubic(&places, &knots, t)
+        };
+        [
+            at(&|skirt| skirt.scale[0]),
+            at(&|skirt| skirt.scale[1]),
+            length * at(&|skirt| skirt.half[0]),
+            length * at(&|skirt| skirt.half[1]),
+            planes.origin.z + length * at(&|skirt| skirt.forward),
+            shift,
+        ]
+    };
+    let (start, end) = (frame.heights.sole - 0.3 * length, chin + 0.3 * length);
+    let count = ((end - start) / length * ROWS_PER_HEAD).ceil() as usize + 2;
+    let torso = Table::sample(start, end, count, |y| if y < crotch { below(y) } else { of_torso(y) });
+    let torso = torso.smoothed(JOINING * length);
+    Table::sample(start, end, count, |y| {
+        let mut row = [0.0; LEVEL_COLUMNS];
+        row[..LEG].copy_from_slice(&torso.at(y).0);
+        row[LEG..].copy_from_slice(&of_leg(y));
+        row
+    })
+}

@@ -1,0 +1,478 @@
+//! Measures a profile: some seventy cuts, each read around the bones.
+
+use super::smooth::{smooth, smooth_lengths};
+use super::station::{Slice, slice_around};
+use super::{
+    ARM_STATIONS, ArmProfile, LEG_STATIONS, LegProfile, Profile, Row, SkirtProfile, TORSO_STATIONS,
+    TorsoProfile, stations,
+};
+use crate::character::Role;
+use crate::geometry::slice::{Outline, Planes, slices};
+use crate::geometry::weld::Weld;
+use crate::shape::figure::Figure;
+use crate::shape::heights::Heights;
+use crate::shape::product::anatomy::{Anatomy, Limb};
+use crate::shape::product::part::{Part, PartWeights};
+use glam::{DVec2, DVec3};
+
+/// Torso and legs are what arms and head move less than this: their joints' own rounding is too much of a thing to let go.
+pub(super) const ARM_SHARE: f32 = 0.35;
+pub(super) const HEAD_SHARE: f32 = 0.5;
+/// An arm is what it moves more than this.
+const OWN_ARM_SHARE: f32 = 0.4;
+/// What reaches further than this over the middle is no leg, in head lengths.
+pub(super) const OVER_MIDDLE: f64 = 0.012;
+/// What reaches as far as this over it on both sides is a skirt.
+const SKIRT_OVER_MIDDLE: f64 = 0.05;
+/// Hands and feet are what they move more than this.
+const EXTREMITY_SHARE: f32 = 0.5;
+/// A hand ends at this quantile of its vertices' reach, and is as broad as those between the other two within this part of its
+/// length.
+const HAND_END: f64 = 0.99;
+const HAND_SIDES: (f64, f64) = (0.02, 0.98);
+const HAND_PALM: (f64, f64) = (0.15, 0.75);
+/// A neck is read at these heights between shoulder line and chin.
+const NECK_HEIGHTS: [f64; 3] = [0.45, 0.6, 0.75];
+/// A neck is no thicker than this, in head lengths: a scarf is.
+const THICKEST_NECK: f64 = 0.18;
+/// A knee further off the line from hip to ankle than this part of the leg's length is bent, and its slices are no leg's.
+const BENT: f64 = 0.25;
+/// The toes' height is this quantile of what lies in front of this part of the way from ankle to toe.
+const TOES_TOP: f64 = 0.97;
+const TOES_FROM: f64 = 0.4;
+
+/// Where a body's chains lie: heights and joints, as found or as a field puts them.
+#[derive(Clone, Debug)]
+pub struct BodyFrame {
+    /// The landmarks.
+    pub heights: Heights,
+    /// Left arm, right arm, left leg, right leg; legs begin at the height of the crotch.
+    pub limbs: [Limb; 4],
+    /// The middle between the hip joints, and between the shoulder joints.
+    pub hips: DVec3,
+    #[allow(missing_docs)]
+    pub shoulders: DVec3,
+    /// The plane that halves the body.
+    pub middle_x: f64,
+}
+
+impl BodyFrame {
+    /// The frame of a figure as it stands.
+    pub fn of(figure: &Figure, anatomy: &Anatomy) -> Self {
+        Self::placed(figure, anatomy, anatomy.landmarks.heights, |limb| limb, |p| p)
+    }
+
+    /// The frame of a figure that has been moved: its `heights` after, and where limbs and points of the torso went.
+    pub fn placed(
+        figure: &Figure,
+        anatomy: &Anatomy,
+        heights: Heights,
+        place_limb: impl Fn(Limb) -> Limb,
+        place_torso: impl Fn(DVec3) -> DVec3,
+    ) -> Self {
+        let limbs = anatomy.limbs.map(place_limb);
+        let middle = |p: DVec3| p.with_x(anatomy.middle_x);
+        let hips: Vec<DVec3> = [Role::LeftUpperLeg, Role::RightUpperLeg]
+            .iter()
+            .filter_map(|&role| figure.role_position(role))
+            .collect();
+        let hips = hips.iter().sum::<DVec3>() / hips.len().max(1) as f64;
+        Self {
+            heights,
+            limbs,
+            hips: middle(place_torso(hips)),
+            shoulders: middle((limbs[0].root + limbs[1].root) / 2.0),
+            middle_x: anatomy.middle_x,
+        }
+    }
+
+    /// On which side of the middle limb number `limb` is: in left-handed axes the left is at negative x.
+    pub fn sign(&self, limb: usize) -> f64 {
+        if self.limbs[limb].end.x < self.limbs[limb ^ 1].end.x { -1.0 } else { 1.0 }
+    }
+
+    /// L: chin to crown.
+    pub fn head_length(&self) -> f64 {
+        self.heights.head_length()
+    }
+
+    /// The torso's own axis, from the crotch (0) up; heights in model units.
+    pub fn torso_planes(&self) -> Planes {
+        let origin = DVec3::new(self.middle_x, self.heights.crotch, self.hips.z);
+        Planes { origin, axis: DVec3::Y, across: DVec3::X, front: DVec3::Z }
+    }
+
+    /// The planes of both legs, from the crotch (0) down.
+    pub fn leg_planes(&self) -> Planes {
+        Planes { axis: DVec3::NEG_Y, ..self.torso_planes() }
+    }
+
+    /// The planes of the arm on one side, from the shoulder joint (0) to the wrist; `None` where they coincide.
+    pub fn arm_planes(&self, side: usize) -> Option<Planes> {
+        let limb = &self.limbs[side];
+        let axis = (limb.end - limb.root).try_normalize()?;
+        // An arm that points forward has its front above.
+        let front = DVec3::Z.reject_from_normalized(axis);
+        let front = if front.length() > 0.1 { front } else { DVec3::Y.reject_from_normalized(axis) };
+        let front = front.normalize();
+        let up = front.cross(axis);
+        let up = if up.dot(DVec3::Y) < 0.0 { -up } else { up };
+        Some(Planes { origin: limb.root, axis, across: up, front })
+    }
+
+    /// From the torso's bottom to its top, model units.
+    pub fn torso_length(&self) -> f64 {
+        self.heights.shoulder_line - self.heights.crotch
+    }
+
+    /// From the crotch to the ankles, model units.
+    pub fn leg_length(&self) -> f64 {
+        self.heights.crotch - (self.limbs[2].end.y + self.limbs[3].end.y) / 2.0
+    }
+
+    /// Where the knees are between crotch (0) and ankles (1), and the elbows between shoulder joints and wrists.
+    pub fn knee(&self) -> f64 {
+        (self.heights.crotch - (self.limbs[2].middle.y + self.limbs[3].middle.y) / 2.0) / self.leg_length()
+    }
+
+    #[allow(missing_docs)]
+    pub fn elbow(&self) -> f64 {
+        let upper: f64 = self.limbs[..2].iter().map(|limb| limb.root.distance(limb.middle)).sum();
+        let lower: f64 = self.limbs[..2].iter().map(|limb| limb.middle.distance(limb.end)).sum();
+        upper / (upper + lower)
+    }
+
+    /// Shoulder joint to wrist, straight, model units.
+    pub fn arm_length(&self, side: usize) -> f64 {
+        self.limbs[side].root.distance(self.limbs[side].end)
+    }
+}
+
+/// What a map needs of its own figure beside the profile: the middles of its arms' slices, in each arm's planes, model units.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct BodyLines {
+    /// Left, right; smoothed.
+    pub arm_middles: [Option<[Row; 2]>; 2],
+}
+
+/// Measures the profile of a figure whose vertices are at `positions`.
+///
+/// - `parts`: each vertex's weights by part. `weld`: the vertices by position.
+///
+/// O(triangles), some seventy cuts.
+pub fn measure_profile(
+    figure: &Figure,
+    positions: &[DVec3],
+    parts: &[PartWeights],
+    weld: &Weld,
+    frame: &BodyFrame,
+) -> (Profile, BodyLines) {
+    let body = Body { figure, positions, parts, weld, frame, length: frame.head_length() };
+    let trunk = body.triangles(|row| {
+        arm_share(row, 0) + arm_share(row, 1) < ARM_SHARE && row[Part::Head as usize] < HEAD_SHARE
+    });
+    let (leg, skirt) = body.legs(&trunk);
+    let (arm, arm_middles) = body.arms();
+    let length = body.length;
+    let profile = Profile {
+        torso: body.torso(&trunk),
+        leg,
+        arm,
+        skirt,
+        hand: body.hand(),
+        foot: body.foot(),
+        neck: body.neck(&trunk),
+        shoulder: (0..2).map(|side| (frame.limbs[side].root.x - frame.middle_x).abs()).sum::<f64>()
+            / (2.0 * length),
+        arm_length: (frame.arm_length(0) + frame.arm_length(1)) / (2.0 * length),
+    };
+    (profile.sound(), BodyLines { arm_middles })
+}
+
+/// What arm number `side` moves of a vertex: upper and lower arm, hand.
+pub(super) fn arm_share(row: &PartWeights, side: usize) -> f32 {
+    let first = if side == 0 { Part::LeftUpperArm } else { Part::RightUpperArm } as usize;
+    row[first..first + 3].iter().sum()
+}
+
+struct Body<'a> {
+    figure: &'a Figure,
+    positions: &'a [DVec3],
+    parts: &'a [PartWeights],
+    weld: &'a Weld,
+    frame: &'a BodyFrame,
+    /// L.
+    length: f64,
+}
+
+impl Body<'_> {
+    /// Triangles of the body and its clothes whose corners' weights `choose` accepts.
+    fn triangles(&self, choose: impl Fn(&PartWeights) -> bool) -> Vec<[u32; 3]> {
+        self.figure.triangles_where(|vertex| !self.figure.is_carried(vertex) && choose(&self.parts[vertex]))
+    }
+
+    /// One vertex at each place: quantiles must not depend on how often seams repeat it.
+    fn places(&self) -> impl Iterator<Item = usize> {
+        self.weld.first_vertices().into_iter().map(|vertex| vertex as usize)
+    }
+
+    fn cut(&self, triangles: &[[u32; 3]], planes: &Planes, heights: &[f64]) -> Vec<Vec<Outline>> {
+        slices(self.positions, triangles, self.weld, planes, heights)
+    }
+
+    fn torso(&self, triangles: &[[u32; 3]]) -> Option<TorsoProfile> {
+        let planes = self.frame.torso_planes();
+        let heights = stations(TORSO_STATIONS).map(|t| t * self.frame.torso_length());
+        let shoulders = planes.locate(self.frame.shoulders);
+        let cuts = self.cut(triangles, &planes, &heights);
+        let rows: Vec<Option<Slice>> = cuts
+            .iter()
+            .zip(&heights)
+            .map(|(outlines, &height)| {
+                let start = DVec2::new(0.0, shoulders.1.y * height / shoulders.0);
+                slice_around(&outlines.iter().collect::<Vec<_>>(), start, true)
+            })
+            .collect();
+        let [_, forward, breadth, depth] = rows_of(&rows, self.length);
+        Some(TorsoProfile {
+            breadth: smooth_lengths(&breadth)?,
+            depth: smooth_lengths(&depth)?,
+            forward: smooth(&forward)?,
+        })
+    }
+
+    fn legs(&self, triangles: &[[u32; 3]]) -> (Option<LegProfile>, Option<SkirtProfile>) {
+        let planes = self.frame.leg_planes();
+        let heights = stations(LEG_STATIONS).map(|t| t * self.frame.leg_length());
+        let cuts = self.cut(triangles, &planes, &heights);
+        let mut sides: Vec<[Row; 4]> = Vec::new();
+        for side in 2..4 {
+            let sign = self.frame.sign(side);
+            let limb = &self.frame.limbs[side];
+            if bend(limb) > BENT * limb.root.distance(limb.end) {
+                continue;
+            }
+            let over = |outline: &&Outline| {
+                let (low, high) = outline.breadth();
+                (if sign > 0.0 { -low } else { high }) > OVER_MIDDLE * self.length
+            };
+            let rows: Vec<Option<Slice>> = cuts
+                .iter()
+                .zip(&heights)
+                .map(|(outlines, &height)| {
+                    let legs: Vec<&Outline> = outlines.iter().filter(|outline| !over(outline)).collect();
+                    let bone = planes.locate(on_limb(limb, planes.origin.y - height)).1;
+                    slice_around(&legs, bone, false)
+                })
+                .collect();
+            let mut rows = rows_of(&rows, self.length);
+            rows[0] = rows[0].map(|x| sign * x);
+            sides.push(rows);
+        }
+        let [outward, forward, breadth, depth] = mean_rows(&sides);
+        let leg = (|| {
+            Some(LegProfile {
+                outward: smooth(&outward)?,
+                breadth: smooth_lengths(&breadth)?,
+                depth: smooth_lengths(&depth)?,
+                forward: smooth(&forward)?,
+            })
+        })();
+        (leg, self.skirt(&cuts, &heights))
+    }
+
+    fn skirt(&self, cuts: &[Vec<Outline>], heights: &Row) -> Option<SkirtProfile> {
+        let planes = self.frame.leg_planes();
+        let reach = SKIRT_OVER_MIDDLE * self.length;
+        let rows: Vec<Option<Slice>> = cuts
+            .iter()
+            .zip(heights)
+            .map(|(outlines, &height)| {
+                let skirts: Vec<&Outline> = outlines
+                    .iter()
+                    .filter(|outline| {
+                        let (low, high) = outline.breadth();
+                        low < -reach && high > reach
+                    })
+                    .collect();
+                let line = |side: usize| {
+                    planes.locate(on_limb(&self.frame.limbs[side], planes.origin.y - height)).1.y
+                };
+                slice_around(&skirts, DVec2::new(0.0, (line(2) + line(3)) / 2.0), true)
+            })
+            .collect();
+        let [_, forward, breadth, depth] = rows_of(&rows, self.length).map(|row| row.map(known));
+        breadth.iter().any(Option::is_some).then_some(SkirtProfile { breadth, depth, forward })
+    }
+
+    fn arms(&self) -> (Option<ArmProfile>, [Option<[Row; 2]>; 2]) {
+        let mut sides: Vec<[Row; 4]> = Vec::new();
+        let mut middles = [None, None];
+        for (side, middle) in middles.iter_mut().enumerate() {
+            let Some(planes) = self.frame.arm_planes(side) else { continue };
+            let limb = &self.frame.limbs[side];
+            let triangles = self.triangles(|row| arm_share(row, side) > OWN_ARM_SHARE);
+            let length = self.frame.arm_length(side);
+            let heights = stations(ARM_STATIONS).map(|t| t * length);
+            let elbow = planes.locate(limb.middle);
+            let rows: Vec<Option<Slice>> = self
+                .cut(&triangles, &planes, &heights)
+                .iter()
+                .zip(&heights)
+                .map(|(outlines, &height)| {
+                    // The elbow may lie off the straight line.
+                    let bone = if height < elbow.0 {
+                        elbow.1 * (height / elbow.0)
+                    } else {
+                        elbow.1 * ((length - height) / (length - elbow.0).max(1e-30))
+                    };
+                    slice_around(&outlines.iter().collect::<Vec<_>>(), bone, false)
+                })
+                .collect();
+            let rows = rows_of(&rows, self.length);
+            *middle = (|| {
+                let line = |row: &Row| smooth(row).map(|line| line.map(|x| x * self.length));
+                Some([line(&rows[0])?, line(&rows[1])?])
+            })();
+            sides.push(rows);
+        }
+        let [_, _, breadth, depth] = mean_rows(&sides);
+        let arm =
+            (|| Some(ArmProfile { breadth: smooth_lengths(&breadth)?, depth: smooth_lengths(&depth)? }))();
+        (arm, middles)
+    }
+
+    /// Length, half breadth, half thickness.
+    fn hand(&self) -> Option<[f64; 3]> {
+        let sides: Vec<[f64; 3]> = (0..2)
+            .filter_map(|side| {
+                let limb = &self.frame.limbs[side];
+                let planes = Planes { origin: limb.end, ..self.frame.arm_planes(side)? };
+                let points: Vec<(f64, DVec2)> = self
+                    .places()
+                    .filter(|&vertex| {
+                        self.parts[vertex][limb.parts[2]] > EXTREMITY_SHARE && !self.figure.is_carried(vertex)
+                    })
+                    .map(|vertex| planes.locate(self.positions[vertex]))
+                    .filter(|point| point.0 > 0.0)
+                    .collect();
+                let length = quantile(points.iter().map(|point| point.0), HAND_END)?;
+                let palm = || {
+                    points
+                        .iter()
+                        .filter(|point| (HAND_PALM.0..=HAND_PALM.1).contains(&(point.0 / length)))
+                        .map(|point| point.1)
+                };
+                let half = |axis: fn(DVec2) -> f64| {
+                    let low = quantile(palm().map(axis), HAND_SIDES.0)?;
+                    Some((quantile(palm().map(axis), HAND_SIDES.1)? - low) / 2.0)
+                };
+                Some([length, half(|p| p.y)?, half(|p| p.x)?])
+            })
+            .collect();
+        mean_numbers(&sides, self.length)
+    }
+
+    /// To the toes, to the heel, half breadth, how far outward, height of the toes.
+    fn foot(&self) -> Option<[f64; 5]> {
+        let sides: Vec<[f64; 5]> = (2..4)
+            .filter_map(|side| {
+                let limb = &self.frame.limbs[side];
+                let sign = self.frame.sign(side);
+                let points: Vec<DVec3> = self
+                    .places()
+                    .filter(|&vertex| {
+                        let row = &self.parts[vertex];
+                        let leg = row[limb.parts[0]] + row[limb.parts[1]];
+                        let is_foot = row[limb.parts[2]] > EXTREMITY_SHARE
+                            || (leg + row[limb.parts[2]] > EXTREMITY_SHARE
+                                && self.positions[vertex].y < limb.end.y);
+                        is_foot && !self.figure.is_carried(vertex)
+                    })
+                    .map(|vertex| self.positions[vertex])
+                    .collect();
+                let toe = quantile(points.iter().map(|p| p.z), 1.0)? - limb.end.z;
+                let heel = limb.end.z - quantile(points.iter().map(|p| p.z), 0.0)?;
+                let low = points.iter().filter(|p| p.y < limb.end.y).map(|p| p.x);
+                let (inner, outer) = (quantile(low.clone(), 0.0)?, quantile(low, 1.0)?);
+                let toes = points.iter().filter(|p| p.z > limb.end.z + TOES_FROM * toe).map(|p| p.y);
+                let height = quantile(toes, TOES_TOP)? - self.frame.heights.sole;
+                let outward = sign * ((inner + outer) / 2.0 - self.frame.middle_x);
+                (toe > 0.0).then_some([toe, heel, (outer - inner) / 2.0, outward, height])
+            })
+            .collect();
+        mean_numbers(&sides, self.length)
+    }
+
+    fn neck(&self, triangles: &[[u32; 3]]) -> Option<f64> {
+        let Heights { shoulder_line, chin, .. } = self.frame.heights;
+        let planes = self.frame.torso_planes();
+        let heights = NECK_HEIGHTS.map(|t| shoulder_line + t * (chin - shoulder_line) - planes.origin.y);
+        let start = planes.locate(self.frame.shoulders).1;
+        let mut radii: Vec<f64> = self
+            .cut(triangles, &planes, &heights)
+            .iter()
+            .filter_map(|outlines| slice_around(&outlines.iter().collect::<Vec<_>>(), start, true))
+            .map(|slice| (slice.half.x + slice.half.y) / 2.0)
+            .collect();
+        radii.sort_by(f64::total_cmp);
+        radii.get(radii.len() / 2).map(|radius| (radius / self.length).min(THICKEST_NECK))
+    }
+}
+
+/// How far a limb's middle joint lies off the line between its ends.
+fn bend(limb: &Limb) -> f64 {
+    let along = (limb.end - limb.root).normalize_or_zero();
+    (limb.middle - limb.root).reject_from(along).length()
+}
+
+/// The point of a leg's bones at height `y`.
+pub(super) fn on_limb(limb: &Limb, y: f64) -> DVec3 {
+    let (a, b) = if y > limb.middle.y { (limb.root, limb.middle) } else { (limb.middle, limb.end) };
+    let t = (a.y - y) / (a.y - b.y).max(1e-30);
+    a.lerp(b, t.clamp(0.0, 1.0))
+}
+
+/// Middle across, middle in depth, half breadth, half depth, in units of `length`.
+fn rows_of(slices: &[Option<Slice>], length: f64) -> [Row; 4] {
+    let row = |read: fn(&Slice) -> f64| {
+        std::array::from_fn(|station| slices[station].as_ref().map_or(f64::NAN, read) / length)
+    };
+    [
+        row(|slice| slice.middle.x),
+        row(|slice| slice.middle.y),
+        row(|slice| slice.half.x),
+        row(|slice| slice.half.y),
+    ]
+}
+
+/// The mean of both sides, slice by slice; of one where the other is missing.
+fn mean_rows(sides: &[[Row; 4]]) -> [Row; 4] {
+    std::array::from_fn(|row| {
+        std::array::from_fn(|station| {
+            let known: Vec<f64> =
+                sides.iter().map(|side| side[row][station]).filter(|x| !x.is_nan()).collect();
+            known.iter().sum::<f64>() / known.len() as f64
+        })
+    })
+}
+
+fn mean_numbers<const N: usize>(sides: &[[f64; N]], length: f64) -> Option<[f64; N]> {
+    let count = sides.len() as f64;
+    (!sides.is_empty()).then(|| {
+        std::array::from_fn(|which| sides.iter().map(|side| side[which]).sum::<f64>() / count / length)
+    })
+}
+
+fn known(number: f64) -> Option<f64> {
+    (!number.is_nan()).then_some(number)
+}
+
+/// The value below which `share` of `values` lie; `None` for none.
+fn quantile(values: impl Iterator<Item = f64>, share: f64) -> Option<f64> {
+    let mut values: Vec<f64> = values.collect();
+    values.sort_by(f64::total_cmp);
+    let at = share * values.len().checked_sub(1)? as f64;
+    let (low, high) = (values[at as usize], values[at.ceil() as usize]);
+    Some(low + (high - low) * at.fract())
+}

@@ -1,0 +1,306 @@
+//! How far a body reaches around an axis, by height and direction, and a scale for each: a map of its relief.
+
+use super::station::surface;
+use crate::geometry::slice::{Outline, Planes, RAYS};
+use glam::{DMat2, DMat3, DVec2, DVec3};
+
+/// Of the rays of a cut, so many have to meet something, or the cut is taken from those beside it.
+const FEWEST_HITS: f64 = 0.6;
+/// No reach counts for more than so many times the usual one of its cut.
+const FURTHEST: f64 = 1.6;
+/// Times that the middle of a cut is put between its sides.
+const CENTRINGS: usize = 2;
+
+/// One number for each direction.
+pub type Ring = [f64; RAYS];
+
+/// Reaches by row (height) and direction.
+#[derive(Clone, Debug)]
+pub struct RadiusMap {
+    /// The axis and the directions.
+    pub planes: Planes,
+    /// Height of the first row, and between rows.
+    pub start: f64,
+    #[allow(missing_docs)]
+    pub step: f64,
+    /// Middle of each row.
+    pub middles: Vec<DVec2>,
+    /// By row, then direction.
+    pub reaches: Vec<Ring>,
+    /// What the reaches are scaled by.
+    pub scales: Vec<Ring>,
+}
+
+impl RadiusMap {
+    /// The reaches of what `cuts` show at even heights; `None` where nothing is met anywhere.
+    ///
+    /// - `bones`: where each cut's middle is looked for.
+    /// - `sigma`: middles are smoothed by a Gaussian that wide, model units. `is_middle`: across they stay at 0.
+    pub fn of(
+        planes: Planes,
+        (start, step): (f64, f64),
+        cuts: &[Vec<Outline>],
+        bones: &[DVec2],
+        sigma: f64,
+        is_middle: bool,
+    ) -> Option<Self> {
+        let mut middles: Vec<DVec2> = cuts
+            .iter()
+            .zip(bones)
+            .map(|(outlines, &bone)| {
+                let outlines: Vec<&Outline> = outlines.iter().collect();
+                let mut middle = bone;
+                for _ in 0..CENTRINGS {
+                    let reaches = surface(&outlines, middle);
+                    let half = |one: usize, other: usize| {
+                        let shift = (reaches[one] - reaches[other]) / 2.0;
+                        if shift.is_nan() { 0.0 } else { shift }
+                    };
+                    let across = if is_middle { 0.0 } else { half(0, RAYS / 2) };
+                    middle += DVec2::new(across, half(RAYS / 4, 3 * RAYS / 4));
+                }
+                middle
+            })
+            .collect();
+        middles = smoothed(
+            &middles,
+            sigma / step,
+            |sum, value, weight| *sum += *value * weight,
+            |sum, total| sum / total,
+        );
+        let mut reaches: Vec<Ring> = cuts
+            .iter()
+            .zip(&middles)
+            .map(|(outlines, &middle)| bounded(surface(&outlines.iter().collect::<Vec<_>>(), middle)))
+            .collect();
+        fill(&mut reaches)?;
+        let scales = vec![[1.0; RAYS]; reaches.len()];
+        Some(Self { planes, start, step, middles, reaches, scales })
+    }
+
+    /// The height of a row.
+    pub fn height(&self, row: usize) -> f64 {
+        self.start + self.step * row as f64
+    }
+
+    /// How the map moves `p`, and the gradient of that: everything within a reach is scaled about the row's middle, what lies
+    /// further out moves as far as the surface does.
+    pub fn shift(&self, p: DVec3) -> (DVec3, DMat3) {
+        let (height, place) = self.planes.locate(p);
+        let row = Taps::new((height - self.start) / self.step);
+        let last = self.reaches.len() as i64 - 1;
+        let rows = row.indices.map(|index| index.clamp(0, last) as usize);
+        let (mut middle, mut middle_slope) = (DVec2::ZERO, DVec2::ZERO);
+        for (tap, &index) in rows.iter().enumerate() {
+            middle += row.weights[tap] * self.middles[index];
+            middle_slope += row.slopes[tap] / self.step * self.middles[index];
+        }
+        let arm = place - middle;
+        let distance = arm.length();
+        if distance <= 0.0 {
+            return (DVec3::ZERO, DMat3::ZERO);
+        }
+        let turns = arm.y.atan2(arm.x) / std::f64::consts::TAU;
+        let ray = Taps::new(turns * RAYS as f64);
+        let rays = ray.indices.map(|index| index.rem_euclid(RAYS as i64) as usize);
+        // Reach and scale: values, by row, by direction.
+        let mut read = [[0.0; 3]; 2];
+        for tap in 0..3 {
+            for (which, rings) in [&self.reaches, &self.scales].into_iter().enumerate() {
+                let ring = &rings[rows[tap]];
+                let (mut value, mut slope) = (0.0, 0.0);
+                for other in 0..3 {
+                    value += ray.weights[other] * ring[rays[other]];
+                    slope += ray.slopes[other] * ring[rays[other]];
+                }
+                read[which][0] += row.weights[tap] * value;
+                read[which][1] += row.slopes[tap] * value / self.step;
+                read[which][2] += row.weights[tap] * slope * RAYS as f64 / std::f64::consts::TAU;
+            }
+        }
+        let [[reach, reach_by_height, reach_by_turn], [scale, scale_by_height, scale_by_turn]] = read;
+        let outward = arm / distance;
+        let around = DVec2::new(-outward.y, outward.x);
+        // How far outward, and its derivatives by distance, height and angle.
+        let (far, by_distance, by_height, by_turn) = if distance < reach {
+            let change = scale - 1.0;
+            (change * distance, change, scale_by_height * distance, scale_by_turn * distance)
+        } else {
+            let change = scale - 1.0;
+            (
+                change * reach,
+                0.0,
+                scale_by_height * reach + change * reach_by_height,
+                scale_by_turn * reach + change * reach_by_turn,
+            )
+        };
+        // Within the plane, by the place in it.
+        let outer = |a: DVec2, b: DVec2| DMat2::from_cols(a * b.x, a * b.y);
+        let by_place = outer(outward, by_distance * outward + by_turn / distance * around)
+            + outer(around, around) * (far / distance);
+        let by_height = by_height * outward - by_place * middle_slope;
+        let in_plane = far * outward;
+        let [axis, across, front] = [self.planes.axis, self.planes.across, self.planes.front];
+        let lift = |v: DVec2| v.x * across + v.y * front;
+        let columns = [
+            lift(by_height) * axis.x + lift(by_place.x_axis) * across.x + lift(by_place.y_axis) * front.x,
+            lift(by_height) * axis.y + lift(by_place.x_axis) * across.y + lift(by_place.y_axis) * front.y,
+            lift(by_height) * axis.z + lift(by_place.x_axis) * across.z + lift(by_place.y_axis) * front.z,
+        ];
+        (lift(in_plane), DMat3::from_cols(columns[0], columns[1], columns[2]))
+    }
+}
+
+/// The three samples around a place, by a quadratic B-spline: smooth, and without overshooting.
+struct Taps {
+    indices: [i64; 3],
+    weights: [f64; 3],
+    slopes: [f64; 3],
+}
+
+impl Taps {
+    fn new(place: f64) -> Self {
+        let nearest = place.round();
+        let t = place - nearest;
+        let nearest = nearest as i64;
+        Self {
+            indices: [nearest - 1, nearest, nearest + 1],
+            weights: [0.5 * (0.5 - t) * (0.5 - t), 0.75 - t * t, 0.5 * (0.5 + t) * (0.5 + t)],
+            slopes: [t - 0.5, -2.0 * t, t + 0.5],
+        }
+    }
+}
+
+/// Weighted means along `rows`, by a Gaussian `sigma` rows wide.
+pub fn smoothed<T: Copy + Default>(
+    rows: &[T],
+    sigma: f64,
+    add: impl Fn(&mut T, &T, f64),
+    divide: impl Fn(T, f64) -> T,
+) -> Vec<T> {
+    let reach = (3.0 * sigma).ceil() as usize;
+    (0..rows.len())
+        .map(|row| {
+            let (mut sum, mut total) = (T::default(), 0.0);
+            let near = row.saturating_sub(reach)..(row + reach + 1).min(rows.len());
+            for (other, value) in near.clone().zip(&rows[near]) {
+                let off = (other as f64 - row as f64) / sigma;
+                let weight = (-0.5 * off * off).exp();
+                add(&mut sum, value, weight);
+                total += weight;
+            }
+            divide(sum, total)
+        })
+        .collect()
+}
+
+/// As [`smoothed`], of rings.
+pub fn smoothed_rings(rings: &[Ring], sigma: f64) -> Vec<Ring> {
+    // Arrays of this length have no default.
+    let columns: Vec<Vec<f64>> = (0..RAYS)
+        .map(|ray| {
+            let column: Vec<f64> = rings.iter().map(|ring| ring[ray]).collect();
+            smoothed(&column, sigma, |sum, value, weight| *sum += value * weight, |sum, total| sum / total)
+        })
+        .collect();
+    (0..rings.len()).map(|row| std::array::from_fn(|ray| columns[ray][row])).collect()
+}
+
+/// Reaches no further than [`FURTHEST`]; gaps between rays filled along the ring; NaN where too few rays meet anything.
+fn bounded(mut ring: Ring) -> Ring {
+    let mut hits: Vec<f64> = ring.iter().copied().filter(|reach| !reach.is_nan()).collect();
+    if (hits.len() as f64) < FEWEST_HITS * RAYS as f64 {
+        return [f64::NAN; RAYS];
+    }
+    let usual = super::station::median(&mut hits);
+    let known = ring;
+    for (ray, reach) in ring.iter_mut().enumerate() {
+        if reach.is_nan() {
+            let find = |step: usize| {
+                (1..RAYS).map(|away| known[(ray + step * away) % RAYS]).position(|reach| !reach.is_nan())
+            };
+            // There are hits, so both are found.
+            let (before, after) = (find(RAYS - 1).unwrap_or(0) + 1, find(1).unwrap_or(0) + 1);
+            let (low, high) = (known[(ray + (RAYS - 1) * before) % RAYS], known[(ray + after) % RAYS]);
+            *reach = low + (high - low) * before as f64 / (before + after) as f64;
+        }
+        *reach = reach.min(FURTHEST * usual);
+    }
+    ring
+}
+
+/// Fills rows of which nothing is known by those beside them.
+fn fill(reaches: &mut [Ring]) -> Option<()> {
+    let known: Vec<usize> = (0..reaches.len()).filter(|&row| !reaches[row][0].is_nan()).collect();
+    if known.is_empty() {
+        return None;
+    }
+    for row in 0..reaches.len() {
+        let at = known.partition_point(|&other| other < row);
+        let above = known.get(at).copied();
+        let below = at.checked_sub(1).map(|at| known[at]);
+        let (low, high) = (below.or(above)?, above.or(below)?);
+        let t = if high > low { (row - low) as f64 / (high - low) as f64 } else { 0.0 };
+        reaches[row] =
+            std::array::from_fn(|ray| reaches[low][ray] + t * (reaches[high][ray] - reaches[low][ray]));
+    }
+    Some(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn waist() -> RadiusMap {
+        let planes = Planes {
+            origin: DVec3::new(0.1, 0.2, -0.1),
+            axis: DVec3::new(0.6, 0.8, 0.0),
+            across: DVec3::new(0.8, -0.6, 0.0),
+            front: DVec3::Z,
+        };
+        let ring = |row: usize, off: f64| -> Ring {
+            std::array::from_fn(|ray| {
+                1.0 + 0.1 * (0.7 * row as f64 + off).sin() + 0.05 * (ray as f64 / 3.0).cos()
+            })
+        };
+        RadiusMap {
+            planes,
+            start: -0.5,
+            step: 0.1,
+            middles: (0..12).map(|row| DVec2::new(0.01 * row as f64, 0.02 * (row as f64).cos())).collect(),
+            reaches: (0..12).map(|row| ring(row, 0.3)).collect(),
+            scales: (0..12).map(|row| ring(row, 1.1)).collect(),
+        }
+    }
+
+    #[test]
+    fn the_gradient_is_that_of_the_shift() {
+        let map = waist();
+        let h = 1e-6;
+        for index in 0..60 {
+            let angle = 0.37 * f64::from(index);
+            let distance = 0.2 + 0.03 * f64::from(index);
+            let p = map.planes.point(0.01 * f64::from(index), distance * DVec2::from_angle(angle));
+            let gradient = map.shift(p).1;
+            for axis in [DVec3::X, DVec3::Y, DVec3::Z] {
+                let wanted = (map.shift(p + h * axis).0 - map.shift(p - h * axis).0) / (2.0 * h);
+                assert!(
+                    (gradient * axis).distance(wanted) < 1e-5,
+                    "{index}: {:?} {wanted:?}",
+                    gradient * axis
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn gaps_are_filled_from_both_sides() {
+        let mut ring = [1.0; RAYS];
+        ring[35] = f64::NAN;
+        ring[0] = f64::NAN;
+        ring[1] = 1.3;
+        let filled = bounded(ring);
+        assert!((filled[35] - 1.1).abs() < 1e-12 && (filled[0] - 1.2).abs() < 1e-12, "{filled:?}");
+        assert!(bounded([f64::NAN; RAYS])[0].is_nan());
+    }
+}

@@ -1,0 +1,304 @@
+//! Relief follows length: what stands out of a body is smoothed where the body has become shorter and not thinner.
+//!
+//! A torso that is .4 as long and .8 as thick has twice the slopes: a bust is a spike, a hem a shelf, calves are balls. So the
+//! reach of the surface around torso and limbs is smoothed along them, and what lies on it moves along.
+
+use super::measure::{ARM_SHARE, BodyFrame, HEAD_SHARE, OVER_MIDDLE, arm_share, on_limb};
+use super::radius_map::{RadiusMap, Ring, smoothed_rings};
+use crate::geometry::slice::{Outline, RAYS, slices};
+use crate::geometry::smoothstep;
+use crate::geometry::weld::Weld;
+use crate::geometry::{Mapped, outer};
+use crate::shape::figure::Figure;
+use crate::shape::product::part::{Part, PartWeights};
+use glam::{DMat3, DVec2, DVec3};
+
+/// Rows of the torso and of limbs, in head lengths.
+const TORSO_STEP: f64 = 0.02;
+const LIMB_STEP: f64 = 0.015;
+/// Widths of the Gaussians that leave no relief, and of that for the middles, in head lengths.
+const TORSO_SIGMA: f64 = 0.16;
+const LIMB_SIGMA: f64 = 0.20;
+const MIDDLE_SIGMA: f64 = 0.20;
+/// What the reach may be scaled by.
+const TORSO_BOUNDS: (f64, f64) = (0.72, 1.10);
+const LIMB_BOUNDS: (f64, f64) = (0.70, 1.20);
+/// The scales themselves are smoothed this wide, in head lengths, and over one direction to each side.
+const SCALE_SIGMA: f64 = 0.015;
+/// Beyond both ends of a limb its line goes on with this part of its slope over this much, in head lengths: a flare at a cuff
+/// is tucked in.
+const ENDS: (f64, f64) = (0.35, 0.20);
+/// The torso's rows reach down by this part of the leg.
+const TORSO_BOTTOM: f64 = 0.45;
+/// Rows of a leg and of an arm, as parts of it.
+const LEG_ROWS: (f64, f64) = (0.02, 1.05);
+const ARM_ROWS: (f64, f64) = (0.05, 1.02);
+/// Below these heights under the crotch, in torsos, the torso's relief ends; above these it does to the sides, and in the
+/// middle.
+const BOTTOM_FADE: (f64, f64) = (0.04, 0.22);
+const TOP_FADE: (f64, f64) = (0.86, 1.0);
+
+/// Relief maps of a body.
+#[derive(Clone, Debug)]
+pub struct Relief {
+    torso: Option<RadiusMap>,
+    legs: [Option<RadiusMap>; 2],
+    arms: [Option<RadiusMap>; 2],
+    crotch: f64,
+    torso_length: f64,
+    leg_length: f64,
+    arm_lengths: [f64; 2],
+    top_fade: (f64, f64),
+}
+
+impl Relief {
+    /// Measures the relief of a figure whose vertices are at `positions`, and what is to become of it.
+    ///
+    /// - `strength`: 0 leaves the torso's, the legs' and the arms' relief, 1 smooths all of it.
+    pub fn of(
+        figure: &Figure,
+        positions: &[DVec3],
+        parts: &[PartWeights],
+        weld: &Weld,
+        frame: &BodyFrame,
+        strength: [f64; 3],
+    ) -> Self {
+        let body = Body { figure, positions, parts, weld, frame, length: frame.head_length() };
+        let leg = |side: usize| (strength[1] > 0.0).then(|| body.leg(side, strength[1])).flatten();
+        let arm = |side: usize| (strength[2] > 0.0).then(|| body.arm(side, strength[2])).flatten();
+        Self {
+            torso: (strength[0] > 0.0).then(|| body.torso(strength[0])).flatten(),
+            legs: [leg(0), leg(1)],
+            arms: [arm(0), arm(1)],
+            crotch: frame.heights.crotch,
+            torso_length: frame.torso_length(),
+            leg_length: frame.leg_length(),
+            arm_lengths: [frame.arm_length(0), frame.arm_length(1)],
+            top_fade: (TOP_FADE.0, TOP_FADE.1),
+        }
+    }
+
+    /// Where `p` goes that `weights` bind, and the Jacobian there at fixed weights.
+    pub fn map(&self, p: DVec3, weights: &PartWeights, is_skirt: bool) -> Mapped {
+        let mut to = p;
+        let mut jacobian = DMat3::IDENTITY;
+        let mut add = |share: f64, slope: DVec3, (shift, gradient): (DVec3, DMat3)| {
+            to += share * shift;
+            jacobian += gradient * share + outer(shift, slope);
+        };
+        let arms = [0, 1].map(|side| f64::from(arm_share(weights, side)));
+        if let Some(map) = &self.torso {
+            let of_head = f64::from(
+                weights[Part::Head as usize] + weights[Part::Hair as usize] + weights[Part::Neck as usize],
+            );
+            let bound =
+                (1.0 - smoothstep((arms[0] + arms[1] - 0.02) / 0.3)) * (1.0 - smoothstep(of_head / 0.5));
+            let t = (p.y - self.crotch) / self.torso_length;
+            let top_fade = self.top_fade;
+            let (top, top_slope) = fade((t - top_fade.0) / (top_fade.1 - top_fade.0));
+            let (bottom, bottom_slope) = fade((-t - BOTTOM_FADE.0) / (BOTTOM_FADE.1 - BOTTOM_FADE.0));
+            let share = bound * (1.0 - top) * (1.0 - bottom);
+            if share > 0.0 {
+                let slope = bound
+                    * (bottom_slope / (BOTTOM_FADE.1 - BOTTOM_FADE.0) * (1.0 - top)
+                        - top_slope / (top_fade.1 - top_fade.0) * (1.0 - bottom))
+                    / self.torso_length;
+                let (mut shift, mut gradient) = map.shift(p);
+                if p.y < self.crotch {
+                    // Legs stay where they stand.
+                    let (below, below_slope) = fade((self.crotch - p.y) / (0.05 * self.torso_length));
+                    let keep = 1.0 - below;
+                    let x = shift.x;
+                    shift.x *= keep;
+                    gradient.x_axis.x *= keep;
+                    gradient.y_axis.x =
+                        gradient.y_axis.x * keep + x * below_slope / (0.05 * self.torso_length);
+                    gradient.z_axis.x *= keep;
+                }
+                add(share, DVec3::Y * slope, (shift, gradient));
+            }
+        }
+        for side in 0..2 {
+            if let Some(map) = &self.legs[side]
+                && !is_skirt
+            {
+                let first = [Part::LeftUpperLeg, Part::RightUpperLeg][side] as usize;
+                let bound = f64::from(weights[first] + weights[first + 1]);
+                let t = (self.crotch - p.y) / self.leg_length;
+                let (share, slope) = fade(t / 0.22);
+                if bound * share > 0.0 {
+                    add(bound * share, DVec3::NEG_Y * (bound * slope / 0.22 / self.leg_length), map.shift(p));
+                }
+            }
+            if let Some(map) = &self.arms[side] {
+                let bound = ((arms[side] - 0.1) / 0.8).clamp(0.0, 1.0);
+                let t = map.planes.locate(p).0 / self.arm_lengths[side];
+                let (start, start_slope) = fade((t - 0.05) / 0.2);
+                let (end, end_slope) = fade((t - 0.98) / 0.12);
+                let share = bound * start * (1.0 - end);
+                if share > 0.0 {
+                    let slope = bound * (start_slope / 0.2 * (1.0 - end) - end_slope / 0.12 * start)
+                        / self.arm_lengths[side];
+                    add(share, map.planes.axis * slope, map.shift(p));
+                }
+            }
+        }
+        Mapped { position: to, jacobian }
+    }
+}
+
+/// A smoothstep and its slope.
+fn fade(t: f64) -> (f64, f64) {
+    let inside = t.clamp(0.0, 1.0);
+    (smoothstep(t), 6.0 * inside * (1.0 - inside))
+}
+
+struct Body<'a> {
+    figure: &'a Figure,
+    positions: &'a [DVec3],
+    parts: &'a [PartWeights],
+    weld: &'a Weld,
+    frame: &'a BodyFrame,
+    length: f64,
+}
+
+impl Body<'_> {
+    fn triangles(&self, choose: impl Fn(&PartWeights) -> bool) -> Vec<[u32; 3]> {
+        self.figure.triangles_where(|vertex| !self.figure.is_carried(vertex) && choose(&self.parts[vertex]))
+    }
+
+    fn torso(&self, strength: f64) -> Option<RadiusMap> {
+        let triangles = self.triangles(|row| {
+            arm_share(row, 0) + arm_share(row, 1) < ARM_SHARE && row[Part::Head as usize] < HEAD_SHARE
+        });
+        let planes = self.frame.torso_planes();
+        let start = -TORSO_BOTTOM * self.frame.leg_length();
+        let step = TORSO_STEP * self.length;
+        let heights = even_heights(start, 1.0 * self.frame.torso_length(), step);
+        let cuts = slices(self.positions, &triangles, self.weld, &planes, &heights);
+        let shoulders = planes.locate(self.frame.shoulders);
+        let bones: Vec<DVec2> = heights
+            .iter()
+            .map(|height| DVec2::new(0.0, shoulders.1.y * (height / shoulders.0).max(0.0)))
+            .collect();
+        let sigma = TORSO_SIGMA * self.length;
+        let mut map = RadiusMap::of(planes, (start, step), &cuts, &bones, sigma, true)?;
+        mirror(&mut map.reaches);
+        let smooth = smoothed_rings(&map.reaches, sigma / step);
+        self.set_scales(&mut map, &smooth, (TORSO_BOUNDS.0, TORSO_BOUNDS.1), strength);
+        Some(map)
+    }
+
+    fn leg(&self, side: usize, strength: f64) -> Option<RadiusMap> {
+        let limb = &self.frame.limbs[2 + side];
+        let [upper, lower, foot] = limb.parts;
+        let triangles = self.triangles(|row| row[upper] + row[lower] + row[foot] > 0.3 && row[foot] < 0.6);
+        let planes = self.frame.leg_planes();
+        let length = self.frame.leg_length();
+        let step = LIMB_STEP * self.length;
+        let start = LEG_ROWS.0 * length;
+        let heights = even_heights(start, LEG_ROWS.1 * length, step);
+        let mut cuts = slices(self.positions, &triangles, self.weld, &planes, &heights);
+        let over = |outline: &Outline| {
+            let (low, high) = outline.breadth();
+            (if self.frame.sign(2 + side) > 0.0 { -low } else { high }) > OVER_MIDDLE * self.length
+        };
+        cuts.iter_mut().for_each(|outlines| outlines.retain(|outline| !over(outline)));
+        let bones: Vec<DVec2> =
+            heights.iter().map(|&height| planes.locate(on_limb(limb, planes.origin.y - height)).1).collect();
+        self.limb(planes, (start, step), &cuts, &bones, strength)
+    }
+
+    fn arm(&self, side: usize, strength: f64) -> Option<RadiusMap> {
+        let limb = &self.frame.limbs[side];
+        let planes = self.frame.arm_planes(side)?;
+        let length = self.frame.arm_length(side);
+        let triangles = self.triangles(|row| arm_share(row, side) > 0.4 && row[limb.parts[2]] < 0.7);
+        let step = LIMB_STEP * self.length;
+        let start = ARM_ROWS.0 * length;
+        let heights = even_heights(start, ARM_ROWS.1 * length, step);
+        let cuts = slices(self.positions, &triangles, self.weld, &planes, &heights);
+        let elbow = planes.locate(limb.middle);
+        let bones: Vec<DVec2> = heights
+            .iter()
+            .map(|&height| {
+                if height < elbow.0 {
+                    elbow.1 * (height / elbow.0)
+                } else {
+                    elbow.1 * ((length - height) / (length - elbow.0).max(1e-30))
+                }
+            })
+            .collect();
+        self.limb(planes, (start, step), &cuts, &bones, strength)
+    }
+
+    fn limb(
+        &self,
+        planes: crate::geometry::slice::Planes,
+        rows: (f64, f64),
+        cuts: &[Vec<Outline>],
+        bones: &[DVec2],
+        strength: f64,
+    ) -> Option<RadiusMap> {
+        let mut map = RadiusMap::of(planes, rows, cuts, bones, MIDDLE_SIGMA * self.length, false)?;
+        let smooth =
+            smoothed_beyond(&map.reaches, LIMB_SIGMA * self.length / rows.1, ENDS.1 * self.length / rows.1);
+        self.set_scales(&mut map, &smooth, LIMB_BOUNDS, strength);
+        Some(map)
+    }
+
+    /// The scales from reaches to smooth reaches.
+    fn set_scales(&self, map: &mut RadiusMap, smooth: &[Ring], (least, most): (f64, f64), strength: f64) {
+        let raw: Vec<Ring> = map
+            .reaches
+            .iter()
+            .zip(smooth)
+            .map(|(reach, smooth)| {
+                std::array::from_fn(|ray| (smooth[ray] / reach[ray]).clamp(least, most).powf(strength))
+            })
+            .collect();
+        let along = smoothed_rings(&raw, SCALE_SIGMA * self.length / map.step);
+        map.scales = along
+            .iter()
+            .map(|ring| {
+                std::array::from_fn(|ray| {
+                    0.25 * ring[(ray + RAYS - 1) % RAYS] + 0.5 * ring[ray] + 0.25 * ring[(ray + 1) % RAYS]
+                })
+            })
+            .collect();
+    }
+}
+
+fn even_heights(start: f64, end: f64, step: f64) -> Vec<f64> {
+    let count = ((end - start) / step).ceil().max(1.0) as usize + 1;
+    (0..count).map(|row| start + step * row as f64).collect()
+}
+
+/// Makes left and right the same: ray 0 runs to the left.
+fn mirror(rings: &mut [Ring]) {
+    for ring in rings {
+        let other = *ring;
+        for (ray, reach) in ring.iter_mut().enumerate() {
+            *reach = 0.5 * (other[ray] + other[(RAYS / 2 + RAYS - ray) % RAYS]);
+        }
+    }
+}
+
+/// Smooth reaches, by their logarithms; beyond both ends lines go on that begin with what `reach` rows show.
+fn smoothed_beyond(rings: &[Ring], sigma: f64, reach: f64) -> Vec<Ring> {
+    let pad = (3.0 * sigma).ceil() as usize;
+    let logs: Vec<Ring> = rings.iter().map(|ring| ring.map(f64::ln)).collect();
+    let reach = (reach.round() as usize).clamp(1, logs.len().saturating_sub(1).max(1));
+    let line = |from: usize, to: usize, away: f64| -> Ring {
+        std::array::from_fn(|ray| {
+            let slope = (logs[to][ray] - logs[from][ray]) / reach as f64;
+            logs[to][ray] + ENDS.0 * slope * away
+        })
+    };
+    let last = logs.len() - 1;
+    let (inner, before) = (reach.min(last), last.saturating_sub(reach));
+    let mut padded: Vec<Ring> = (1..=pad).rev().map(|away| line(inner, 0, away as f64)).collect();
+    padded.extend(&logs);
+    padded.extend((1..=pad).map(|away| line(before, last, away as f64)));
+    smoothed_rings(&padded, sigma)[pad..pad + logs.len()].iter().map(|ring| ring.map(f64::exp)).collect()
+}

@@ -1,0 +1,410 @@
+//! From a body's own profile to the wanted one: how each slice is scaled and where its middle goes.
+
+use super::curve::monotone_cubic;
+use super::slab::soft_scale;
+use super::{LEG_STATIONS, LegProfile, Profile, Row, STATIONS, TORSO_STATIONS, station_at, stations};
+use crate::geometry::smoothstep;
+
+/// Soft limits of ln S: of slices, hands and feet.
+const MOST: f64 = 1.3;
+const MOST_OF_HAND: f64 = 1.5;
+const MOST_OF_FOOT: f64 = 0.6;
+/// The scales of a hand (a foot) along its axes stay within this of their mean, in logarithms.
+const HAND_SPREAD: f64 = 0.8;
+const FOOT_SPREAD: f64 = 0.25;
+/// The part of a line's own curve that goes over to the wanted one's.
+const CURVE: f64 = 0.8;
+/// A leg's (the torso's) middle moves forward or back by at most this part of its half depth.
+const LEG_CURVE_MOST: f64 = 0.35;
+const BELLY_MOST: f64 = 0.2;
+/// The distance between legs is that of this part of them from the crotch; below it is stance.
+const SPREAD_UP_TO: f64 = 0.4;
+/// Legs and feet leave at least this much to the middle, in head lengths.
+const CLEAR: f64 = 0.015;
+/// The torso goes over to the legs (to the skirt) below it by this much, up to this place.
+const TO_LEGS: (f64, f64) = (0.6, 0.35);
+const TO_SKIRT: (f64, f64) = (0.8, 0.55);
+/// A skirt keeps at least the first of these from the legs, where it had it, and the second is enough, in head lengths.
+const SKIRT_ROOM: (f64, f64) = (0.02, 0.1);
+/// What a visible arm may lose and gain.
+const ARM_LENGTH: (f64, f64) = (0.8, 1.05);
+/// What a neck may.
+const NECK: (f64, f64) = (0.7, 1.45);
+/// A neck that cannot be measured follows the top of the torso by this power, within this, in logarithms.
+const NECK_AFTER_TORSO: (f64, f64) = (0.5, 0.3);
+/// The slice at which a reference's thigh below its shorts is believed, and how much thicker it is this far above.
+const BELOW_SHORTS: (f64, f64) = (0.45, 0.35);
+const GROWS_OVER: f64 = 0.35;
+/// What is cut off the thighs brings the legs nearer together by this part of it.
+const NEARER: f64 = 0.7;
+/// The torso above its hem, where it is believed, and how much broader hips may be.
+const ABOVE_HEM: (f64, f64) = (0.6, 1.25);
+
+/// What a soft limit takes of a scale is told above this share of it.
+const NOTED_ABOVE: f64 = 0.1;
+
+/// How much of the way to go, by chain and slice; 1 for all.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Strengths {
+    /// By slice, upwards.
+    pub torso: f64,
+    /// Downwards.
+    pub leg: Row,
+    /// Outwards.
+    pub arm: Row,
+    #[allow(missing_docs)]
+    pub hand: f64,
+    #[allow(missing_docs)]
+    pub foot: f64,
+    #[allow(missing_docs)]
+    pub neck: f64,
+    /// How far the legs stand from the middle.
+    pub spread: f64,
+    /// Lengths of the arms.
+    pub arm_length: f64,
+    /// Soft limits hold.
+    pub is_limited: bool,
+}
+
+impl Strengths {
+    /// The same for everything.
+    pub fn all(strength: f64) -> Self {
+        Self {
+            torso: strength,
+            leg: [strength; STATIONS],
+            arm: [strength; STATIONS],
+            hand: strength,
+            foot: strength,
+            neck: strength,
+            spread: strength,
+            arm_length: strength,
+            is_limited: true,
+        }
+    }
+
+    /// `most`, where limits hold.
+    fn limit(&self, most: f64) -> f64 {
+        if self.is_limited { most } else { f64::INFINITY }
+    }
+}
+
+/// Scales of two axes by slice, and how far the middles move forward, in head lengths.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SliceScales {
+    /// Across.
+    pub breadth: Row,
+    /// Forward.
+    pub depth: Row,
+    /// Forward.
+    pub shift: Row,
+}
+
+impl SliceScales {
+    const NONE: Self = Self { breadth: [1.0; STATIONS], depth: [1.0; STATIONS], shift: [0.0; STATIONS] };
+}
+
+/// How a skirt is scaled, at those slices of the legs where there is one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SkirtScale {
+    /// Of the legs.
+    pub station: usize,
+    /// The skirt's own half breadth, half depth and middle, in head lengths.
+    pub half: [f64; 2],
+    #[allow(missing_docs)]
+    pub forward: f64,
+    /// Across, forward.
+    pub scale: [f64; 2],
+}
+
+/// What is done to a body, in its own head lengths.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scales {
+    #[allow(missing_docs)]
+    pub torso: SliceScales,
+    #[allow(missing_docs)]
+    pub leg: SliceScales,
+    /// How far each leg moves outward.
+    pub spread: f64,
+    /// Without shift.
+    pub arm: SliceScales,
+    /// Along the arm, from shoulder to wrist.
+    pub arm_length: f64,
+    /// Length, breadth, thickness.
+    pub hand: [f64; 3],
+    /// Length, breadth, height of the toes.
+    pub foot: [f64; 3],
+    #[allow(missing_docs)]
+    pub neck: f64,
+    /// From the crotch down.
+    pub skirt: Vec<SkirtScale>,
+    /// Of what soft limits took more than a tenth, with the scale that was wanted and the one that it got, where most was
+    /// taken.
+    pub limited: Vec<(&'static str, f64, f64)>,
+}
+
+impl Scales {
+    /// Notes what the limits took of a scale.
+    fn note(&mut self, what: &'static str, wanted: f64, got: f64) {
+        let taken = |wanted: f64, got: f64| (wanted / got).ln().abs();
+        if taken(wanted, got) <= (1.0 + NOTED_ABOVE).ln() {
+            return;
+        }
+        match self.limited.iter_mut().find(|known| known.0 == what) {
+            Some(known) if taken(known.1, known.2) >= taken(wanted, got) => {}
+            Some(known) => *known = (what, wanted, got),
+            None => self.limited.push((what, wanted, got)),
+        }
+    }
+
+    fn note_rows(&mut self, what: &'static str, rows: [[&Row; 3]; 2], strengths: &Row) {
+        for [wanted, own, got] in rows {
+            for station in 0..STATIONS {
+                self.note(what, (wanted[station] / own[station]).powf(strengths[station]), got[station]);
+            }
+        }
+    }
+}
+
+/// What makes a body of profile `own` one of profile `wanted`; what either lacks stays as it is.
+pub fn scales(own: &Profile, wanted: &Profile, strengths: &Strengths) -> Scales {
+    let wanted = bare(wanted, own);
+    let mut result = Scales {
+        torso: SliceScales::NONE,
+        leg: SliceScales::NONE,
+        spread: 0.0,
+        arm: SliceScales::NONE,
+        arm_length: 1.0,
+        hand: [1.0; 3],
+        foot: [1.0; 3],
+        neck: 1.0,
+        skirt: Vec::new(),
+        limited: Vec::new(),
+    };
+    if let (Some(own), Some(wanted)) = (&own.leg, &wanted.leg) {
+        leg(&mut result, own, wanted, strengths);
+    }
+    if let (Some(own), Some(wanted)) = (&own.torso, &wanted.torso) {
+        let (row, most) = ([strengths.torso; STATIONS], strengths.limit(MOST));
+        result.torso = SliceScales {
+            breadth: soft_row(&wanted.breadth, &own.breadth, &row, most),
+            depth: soft_row(&wanted.depth, &own.depth, &row, most),
+            shift: curve(&wanted.forward, &own.forward, &own.depth, BELLY_MOST, &row),
+        };
+        let SliceScales { breadth, depth, .. } = result.torso;
+        let rows = [[&wanted.breadth, &own.breadth, &breadth], [&wanted.depth, &own.depth, &depth]];
+        result.note_rows("torso", rows, &row);
+    }
+    if let Some(own) = &own.leg {
+        join_hips(&mut result, own);
+    }
+    skirt(&mut result, own);
+    if let (Some(own_arm), Some(wanted_arm)) = (&own.arm, &wanted.arm) {
+        let most = strengths.limit(MOST);
+        result.arm.breadth = soft_row(&wanted_arm.breadth, &own_arm.breadth, &strengths.arm, most);
+        result.arm.depth = soft_row(&wanted_arm.depth, &own_arm.depth, &strengths.arm, most);
+        let SliceScales { breadth, depth, .. } = result.arm;
+        let rows =
+            [[&wanted_arm.breadth, &own_arm.breadth, &breadth], [&wanted_arm.depth, &own_arm.depth, &depth]];
+        result.note_rows("arms", rows, &strengths.arm);
+        arm_length(&mut result, own, &wanted, strengths.arm_length);
+    }
+    if let (Some(own), Some(wanted)) = (own.hand, wanted.hand) {
+        // Palms may look down or forward: what is broader is the breadth.
+        let sorted = |[length, one, other]: [f64; 3]| [length, one.max(other), one.min(other)];
+        let [length, broad, thin] = soft_three(
+            sorted(wanted),
+            sorted(own),
+            strengths.hand,
+            strengths.limit(MOST_OF_HAND),
+            strengths.limit(HAND_SPREAD),
+        );
+        result.hand = if own[1] >= own[2] { [length, broad, thin] } else { [length, thin, broad] };
+        let asked = sorted(wanted).into_iter().zip(sorted(own));
+        for ((wanted, own), got) in asked.zip([length, broad, thin]) {
+            result.note("hands", (wanted / own).powf(strengths.hand), got);
+        }
+    }
+    if let (Some(own), Some(wanted)) = (own.foot, wanted.foot) {
+        foot(&mut result, own, wanted, strengths);
+    }
+    result.neck = match (own.neck, wanted.neck) {
+        (Some(own), Some(wanted)) => (wanted / own).clamp(NECK.0, NECK.1).powf(strengths.neck),
+        _ => {
+            let top = [result.torso.breadth, result.torso.depth].map(|row| row[STATIONS - 1]);
+            let (power, most) = NECK_AFTER_TORSO;
+            (0.5 * power * (top[0] * top[1]).ln()).clamp(-most, most).exp()
+        }
+    };
+    result
+}
+
+/// A reference's shorts and tunic are no flesh: its thighs taper on from below the shorts, its hips from above the hem. But
+/// whoever wears such things too keeps them.
+fn bare(wanted: &Profile, own: &Profile) -> Profile {
+    let mut bare = wanted.clone();
+    let kept = |cap: f64, wanted: f64, own: Option<f64>| match own {
+        _ if cap >= wanted => wanted,
+        Some(own) => own.clamp(cap, wanted),
+        None => cap,
+    };
+    if let Some(leg) = &mut bare.leg {
+        let places = stations(LEG_STATIONS);
+        let (from, growth) = BELOW_SHORTS;
+        let below = [&leg.breadth, &leg.depth].map(|row| monotone_cubic(&places, row, from));
+        for (station, &t) in places.iter().enumerate().filter(|&(_, &t)| t < from) {
+            let taper = 1.0 + growth * (from - t) / GROWS_OVER;
+            let own = own.leg.as_ref();
+            let breadth = kept(below[0] * taper, leg.breadth[station], own.map(|own| own.breadth[station]));
+            let depth = kept(below[1] * taper, leg.depth[station], own.map(|own| own.depth[station]));
+            leg.outward[station] -= NEARER * (leg.breadth[station] - breadth);
+            leg.breadth[station] = breadth;
+            leg.depth[station] = depth;
+        }
+    }
+    if let Some(torso) = &mut bare.torso {
+        let places = stations(TORSO_STATIONS);
+        let (from, growth) = ABOVE_HEM;
+        let above = monotone_cubic(&places, &torso.breadth, from);
+        let hull = bare.leg.as_ref().map_or(0.0, |leg| leg.outward[0] + leg.breadth[0]);
+        let bottom = (growth * above).max(hull);
+        for (station, &t) in places.iter().enumerate().filter(|&(_, &t)| t < from) {
+            let cap = above + (bottom - above) * (from - t) / (from - places[0]);
+            let own = own.torso.as_ref().map(|own| own.breadth[station]);
+            torso.breadth[station] = kept(cap, torso.breadth[station], own);
+        }
+    }
+    bare
+}
+
+fn soft_row(wanted: &Row, own: &Row, strengths: &Row, most: f64) -> Row {
+    std::array::from_fn(|station| soft_scale(wanted[station], own[station], strengths[station], most))
+}
+
+/// How far each middle moves, so that the line through them is curved like the wanted one; its ends stay.
+fn curve(wanted: &Row, own: &Row, own_depth: &Row, most: f64, strengths: &Row) -> Row {
+    let off_chord = |row: &Row, station: usize| {
+        let t = station as f64 / (STATIONS - 1) as f64;
+        row[station] - (row[0] + t * (row[STATIONS - 1] - row[0]))
+    };
+    std::array::from_fn(|station| {
+        let most = most * own_depth[station];
+        let shift = CURVE * (off_chord(wanted, station) - off_chord(own, station));
+        strengths[station] * shift.clamp(-most, most)
+    })
+}
+
+fn leg(result: &mut Scales, own: &LegProfile, wanted: &LegProfile, strengths: &Strengths) {
+    let most = strengths.limit(MOST);
+    result.leg = SliceScales {
+        breadth: soft_row(&wanted.breadth, &own.breadth, &strengths.leg, most),
+        depth: soft_row(&wanted.depth, &own.depth, &strengths.leg, most),
+        shift: curve(&wanted.forward, &own.forward, &own.depth, LEG_CURVE_MOST, &strengths.leg),
+    };
+    let SliceScales { breadth, depth, .. } = result.leg;
+    let rows = [[&wanted.breadth, &own.breadth, &breadth], [&wanted.depth, &own.depth, &depth]];
+    result.note_rows("legs", rows, &strengths.leg);
+    let upper = (0..STATIONS).filter(|&station| station_at(LEG_STATIONS, station) < SPREAD_UP_TO);
+    let mean =
+        |number: &dyn Fn(usize) -> f64| upper.clone().map(number).sum::<f64>() / upper.clone().count() as f64;
+    let new_breadth = |station: usize| result.leg.breadth[station] * own.breadth[station];
+    let gap = |leg: &LegProfile| mean(&|station| leg.outward[station] - leg.breadth[station]);
+    let delta = strengths.spread * mean(&|station| wanted.outward[station] - own.outward[station]);
+    let roomy = gap(own).max((gap(own) + gap(wanted)) / 2.0);
+    let most = mean(&|station| new_breadth(station) - own.outward[station]) + roomy;
+    let least = (0..STATIONS)
+        .map(|station| CLEAR + new_breadth(station) - own.outward[station])
+        .fold(f64::NEG_INFINITY, f64::max);
+    // Where own legs are nearer than what is to be left, they stay that near.
+    let touching =
+        (0..STATIONS).map(|station| CLEAR + own.breadth[station] - own.outward[station]).fold(0.0, f64::max);
+    result.spread = delta.min(most).max(least - touching);
+}
+
+/// Towards the crotch the torso goes over to the legs below it: nobody gets the hem of a tunic as flesh.
+fn join_hips(result: &mut Scales, own: &LegProfile) {
+    let outer = own.outward[0] + own.breadth[0];
+    let new_outer = own.outward[0] + result.spread + result.leg.breadth[0] * own.breadth[0];
+    towards(&mut result.torso, [new_outer / outer, result.leg.depth[0]], (TO_LEGS.0, TO_LEGS.1));
+}
+
+fn towards(torso: &mut SliceScales, hips: [f64; 2], (share, reach): (f64, f64)) {
+    for (station, t) in stations(TORSO_STATIONS).into_iter().enumerate() {
+        let share = share * (1.0 - smoothstep(t / reach));
+        for (row, hips) in [(&mut torso.breadth, hips[0]), (&mut torso.depth, hips[1])] {
+            row[station] *= (hips / row[station]).powf(share);
+        }
+    }
+}
+
+/// A skirt follows the hips and stays outside of the legs below it.
+fn skirt(result: &mut Scales, own: &Profile) {
+    let (Some(skirt), Some(leg)) = (&own.skirt, &own.leg) else { return };
+    let hips = [result.torso.breadth[0], result.torso.depth[0]];
+    for station in 0..STATIONS {
+        let (Some(breadth), Some(depth), Some(forward)) =
+            (skirt.breadth[station], skirt.depth[station], skirt.forward[station])
+        else {
+            continue;
+        };
+        let off = (leg.forward[station] - forward).abs();
+        let new = [
+            result.leg.breadth[station] * leg.breadth[station],
+            result.leg.depth[station] * leg.depth[station],
+        ];
+        let legs = [leg.outward[station] + leg.breadth[station], off + leg.depth[station]];
+        let new_legs = [leg.outward[station] + result.spread + new[0], off + new[1]];
+        let half = [breadth, depth];
+        let scale = [0, 1].map(|axis| {
+            // A skirt that is no wider than this around the legs keeps its distance, whichever it is.
+            let (tight, wide) = SKIRT_ROOM;
+            let room = half[axis] - legs[axis];
+            let kept =
+                if room < tight { room } else { (room * new_legs[axis] / legs[axis]).clamp(tight, wide) };
+            let least = new_legs[axis] + kept;
+            let most = new_legs[axis] + room;
+            (half[axis] * hips[axis]).min(most).max(least) / half[axis]
+        });
+        result.skirt.push(SkirtScale { station, half, forward, scale });
+    }
+    if let Some(first) = result.skirt.first() {
+        let scale = first.scale;
+        towards(&mut result.torso, scale, TO_SKIRT);
+    }
+}
+
+/// What is seen of an arm begins where the torso ends.
+fn arm_length(result: &mut Scales, own: &Profile, wanted: &Profile, strength: f64) {
+    let (Some(own_torso), Some(wanted_torso)) = (&own.torso, &wanted.torso) else { return };
+    let hidden = |breadth: f64, shoulder: f64| (breadth - shoulder).max(0.0);
+    let top = STATIONS - 1;
+    let scale = result.torso.breadth[top];
+    let visible = wanted.arm_length - hidden(wanted_torso.breadth[top], wanted.shoulder);
+    let own_visible = own.arm_length - scale * hidden(own_torso.breadth[top], own.shoulder);
+    if own_visible > 0.0 && visible > 0.0 {
+        result.arm_length = (visible / own_visible).clamp(ARM_LENGTH.0, ARM_LENGTH.1).powf(strength);
+    }
+}
+
+/// Soft scales of three axes, none further than `spread` from their mean.
+fn soft_three(wanted: [f64; 3], own: [f64; 3], strength: f64, most: f64, spread: f64) -> [f64; 3] {
+    let logs: [f64; 3] = std::array::from_fn(|axis| soft_scale(wanted[axis], own[axis], strength, most).ln());
+    let mean = logs.iter().sum::<f64>() / 3.0;
+    logs.map(|log| log.clamp(mean - spread, mean + spread).exp())
+}
+
+/// Along z by length, along x by breadth; heights of the toes.
+fn foot(result: &mut Scales, own: [f64; 5], wanted: [f64; 5], strengths: &Strengths) {
+    let (strength, most) = (strengths.foot, strengths.limit(MOST_OF_FOOT));
+    let logs = [
+        soft_scale(wanted[0] + wanted[1], own[0] + own[1], strength, most).ln(),
+        soft_scale(wanted[2], own[2], strength, most).ln(),
+    ];
+    let (mean, spread) = ((logs[0] + logs[1]) / 2.0, strengths.limit(FOOT_SPREAD));
+    let [length, breadth] = logs.map(|log| log.clamp(mean - spread, mean + spread).exp());
+    let room = (own[3] + result.spread - CLEAR).max(own[2]) / own[2];
+    let toes = (wanted[4] / own[4]).clamp(1.0, 1.8).powf(strength);
+    result.foot = [length, breadth.min(room), toes];
+    let asked = |wanted: f64, own: f64| (wanted / own).powf(strength);
+    result.note("feet", asked(wanted[0] + wanted[1], own[0] + own[1]), length);
+    result.note("feet", asked(wanted[2], own[2]), result.foot[1]);
+}

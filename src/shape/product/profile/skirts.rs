@@ -1,0 +1,72 @@
+//! Which vertices are a skirt's, a robe's or the tails' of a coat: they hang around both legs and follow neither.
+
+use crate::geometry::weld::{Weld, components, neighbours};
+use crate::shape::figure::Figure;
+use crate::shape::product::anatomy::Anatomy;
+
+/// From this part of the leg's length under the crotch on, trousers are two tubes.
+const FORK: f64 = 0.08;
+/// Heights at which pieces are looked at, as parts of the leg's length under the crotch.
+const HEIGHTS: [f64; 6] = [FORK, 0.2, 0.35, 0.5, 0.65, 0.8];
+/// A piece that reaches this far over the middle on both sides hangs around both legs, in head lengths.
+const OVER_MIDDLE: f64 = 0.05;
+
+/// True for the vertices of pieces that below the crotch still join left and right; upwards to the crotch.
+///
+/// - `weld`: the figure's vertices by position.
+///
+/// O(triangles).
+pub fn skirt_vertices(figure: &Figure, anatomy: &Anatomy, weld: &Weld) -> Vec<bool> {
+    let heights = &anatomy.landmarks.heights;
+    let ankle = (anatomy.limbs[2].end.y + anatomy.limbs[3].end.y) / 2.0;
+    let height = |t: f64| heights.crotch - t * (heights.crotch - ankle);
+    let firsts = weld.first_vertices();
+    let place = |welded: usize| figure.positions[firsts[welded] as usize];
+    let (fork, reach) = (height(FORK), OVER_MIDDLE * heights.head_length());
+    let hanging: Vec<[u32; 3]> = figure
+        .triangles
+        .iter()
+        .filter(|corners| {
+            corners.iter().any(|&vertex| figure.positions[vertex as usize].y < heights.crotch)
+                && !figure.is_carried(corners[0] as usize)
+        })
+        .copied()
+        .collect();
+    let mut is_skirt = vec![false; weld.count];
+    for y in HEIGHTS.map(height) {
+        let is_above = |vertex: u32| figure.positions[vertex as usize].y > y;
+        let cut: Vec<[u32; 3]> = hanging
+            .iter()
+            .filter(|corners| corners.iter().any(|&v| is_above(v)) && !corners.iter().all(|&v| is_above(v)))
+            .copied()
+            .collect();
+        let piece = components(&cut, weld);
+        let mut breadths = vec![(f64::INFINITY, f64::NEG_INFINITY); weld.count];
+        for welded in cut.iter().flat_map(|&corners| weld.triangle(corners)) {
+            let x = place(welded as usize).x - anatomy.middle_x;
+            let (low, high) = &mut breadths[piece[welded as usize] as usize];
+            (*low, *high) = (low.min(x), high.max(x));
+        }
+        for welded in cut.iter().flat_map(|&corners| weld.triangle(corners)) {
+            let (low, high) = breadths[piece[welded as usize] as usize];
+            is_skirt[welded as usize] |= low < -reach && high > reach;
+        }
+    }
+    if is_skirt.iter().any(|&is_skirt| is_skirt) {
+        // Down to the hem, and then up to the crotch, where legs may join it.
+        let around = neighbours(&hanging, weld);
+        for (bottom, top) in [(f64::NEG_INFINITY, fork), (fork, heights.crotch)] {
+            let mut next: Vec<usize> = (0..weld.count).filter(|&welded| is_skirt[welded]).collect();
+            while let Some(welded) = next.pop() {
+                for &other in around.of(welded) {
+                    let (other, y) = (other as usize, place(other as usize).y);
+                    if !is_skirt[other] && y >= bottom && y < top {
+                        is_skirt[other] = true;
+                        next.push(other);
+                    }
+                }
+            }
+        }
+    }
+    weld.representative.iter().map(|&welded| is_skirt[welded as usize]).collect()
+}

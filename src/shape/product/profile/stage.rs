@@ -1,0 +1,152 @@
+//! The stage of product mode that comes after the parts' maps: relief, and then the slices of the wanted profile.
+
+use super::measure::{BodyFrame, measure_profile};
+use super::relief::Relief;
+use super::scales::{Strengths, scales};
+use super::{BodyMap, Profile, Row, STATIONS};
+use crate::geometry::{Mapped, Weld, smoothstep};
+use crate::parallel;
+use crate::shape::figure::Figure;
+use crate::shape::product::anatomy::Anatomy;
+use crate::shape::product::binding::PartBinding;
+use crate::shape::product::field::PartField;
+use crate::shape::product::part::{PartWeights, fold_to_parts};
+use crate::shape::product::pieces::Piece;
+use glam::DVec3;
+
+/// Fewer vertices than this are not worth a thread.
+const LEAST_VERTICES: usize = 8000;
+/// What becomes this much stubbier (its length shrinks to .7 of what its thickness does) loses all of its relief.
+const SMOOTH_FROM: f64 = 0.3;
+
+/// The stage. Each of its maps is measured on what the one before gives.
+#[derive(Clone, Debug)]
+pub struct ProfileStage {
+    relief: Relief,
+    slices: BodyMap,
+    /// What is added to each piece that keeps its shape: how its anchor moves.
+    piece_shifts: Vec<DVec3>,
+    /// What soft limits took: of what, the wanted scale and the one it got.
+    limited: Vec<(&'static str, f64, f64)>,
+}
+
+/// What a stage is made of, beside the field before it.
+pub struct Source<'a> {
+    #[allow(missing_docs)]
+    pub figure: &'a Figure,
+    #[allow(missing_docs)]
+    pub anatomy: &'a Anatomy,
+    /// The figure's vertices by position.
+    pub weld: &'a Weld,
+    /// The figure's own profile as it stands.
+    pub rest: Option<&'a Profile>,
+    /// Pieces that keep their shape.
+    pub pieces: &'a [Piece],
+    /// How vertex number so-and-so is bound.
+    pub binding: &'a (dyn Fn(usize) -> Option<&'a PartBinding> + Sync),
+    /// At most this many, 0 for all cores.
+    pub threads: usize,
+}
+
+/// How much more torso, legs and arms shrink in length than in thickness: the first over the second.
+fn stubbiness(
+    rest: &Profile,
+    wanted: &Profile,
+    before: &BodyFrame,
+    after: &BodyFrame,
+    grown: f64,
+) -> [f64; 3] {
+    let thicker = |own: Option<[&Row; 2]>, wanted: Option<[&Row; 2]>| match (own, wanted) {
+        (Some(own), Some(wanted)) => {
+            let log = |at: usize| 0.5 * (wanted[0][at] * wanted[1][at] / (own[0][at] * own[1][at])).ln();
+            grown * ((0..STATIONS).map(log).sum::<f64>() / STATIONS as f64).exp()
+        }
+        _ => grown,
+    };
+    let torso = thicker(
+        rest.torso.as_ref().map(|torso| [&torso.breadth, &torso.depth]),
+        wanted.torso.as_ref().map(|torso| [&torso.breadth, &torso.depth]),
+    );
+    let leg = thicker(
+        rest.leg.as_ref().map(|leg| [&leg.breadth, &leg.depth]),
+        wanted.leg.as_ref().map(|leg| [&leg.breadth, &leg.depth]),
+    );
+    let arm = thicker(
+        rest.arm.as_ref().map(|arm| [&arm.breadth, &arm.depth]),
+        wanted.arm.as_ref().map(|arm| [&arm.breadth, &arm.depth]),
+    );
+    let arm_length = |frame: &BodyFrame| frame.arm_length(0) + frame.arm_length(1);
+    [
+        after.torso_length() / before.torso_length() / torso,
+        after.leg_length() / before.leg_length() / leg,
+        arm_length(after) / arm_length(before) / arm,
+    ]
+}
+
+impl ProfileStage {
+    /// The stage that gives a body whose vertices `field` takes to `positions` the profile `wanted`.
+    ///
+    /// `strengths`: how much of it each chain takes, given where the field puts the body.
+    pub fn of(
+        source: &Source,
+        field: &PartField,
+        positions: &[DVec3],
+        wanted: &Profile,
+        strengths: impl Fn(&BodyFrame) -> Strengths,
+    ) -> Self {
+        let Source { figure, anatomy, weld, .. } = *source;
+        let parts: Vec<PartWeights> = figure.role_weights.iter().map(|row| fold_to_parts(row)).collect();
+        let place_limb = |limb| field.place_limb(limb);
+        let place_torso = |p| field.place_torso(p);
+        let frame = BodyFrame::placed(figure, anatomy, *field.after(), place_limb, place_torso);
+        let strengths = strengths(&frame);
+        let stubbier = source.rest.map_or([1.0; 3], |rest| {
+            let grown = frame.head_length() / anatomy.landmarks.heights.head_length();
+            stubbiness(rest, wanted, &BodyFrame::of(figure, anatomy), &frame, grown)
+        });
+        let mean = |row: &Row| row.iter().sum::<f64>() / STATIONS as f64;
+        let of_chains = [strengths.torso, mean(&strengths.leg), mean(&strengths.arm)];
+        let relief_strength =
+            std::array::from_fn(|chain| of_chains[chain] * smoothstep((1.0 - stubbier[chain]) / SMOOTH_FROM));
+        let relief = Relief::of(figure, positions, &parts, weld, &frame, relief_strength);
+        let smooth = parallel::collect(source.threads, positions.len(), LEAST_VERTICES, |vertex| {
+            let p = positions[vertex];
+            (source.binding)(vertex)
+                .map_or(p, |binding| relief.map(p, &binding.weights, binding.is_skirt).position)
+        });
+        let (own, lines) = measure_profile(figure, &smooth, &parts, weld, &frame);
+        let scales = scales(&own, wanted, &strengths);
+        let slices = BodyMap::new(&own, &lines, &frame, &scales);
+        let mut stage = Self { relief, slices, piece_shifts: Vec::new(), limited: scales.limited };
+        stage.piece_shifts = source
+            .pieces
+            .iter()
+            .enumerate()
+            .map(|(index, piece)| {
+                let at = field.piece_anchor(index);
+                stage.of_parts(at, &piece.weights, false).position - at
+            })
+            .collect();
+        stage
+    }
+
+    /// Where `p`, as the parts leave it, goes.
+    #[inline]
+    pub fn map(&self, p: DVec3, binding: &PartBinding) -> Mapped {
+        self.of_parts(p, &binding.weights, binding.is_skirt)
+    }
+
+    /// What is added to a piece.
+    pub fn piece_shift(&self, piece: usize) -> DVec3 {
+        self.piece_shifts[piece]
+    }
+
+    /// Of what soft limits took more than a tenth: the wanted scale and the one that it got.
+    pub fn limited(&self) -> &[(&'static str, f64, f64)] {
+        &self.limited
+    }
+
+    fn of_parts(&self, p: DVec3, weights: &PartWeights, is_skirt: bool) -> Mapped {
+        self.relief.map(p, weights, is_skirt).then(|p| self.slices.map(p, weights, is_skirt))
+    }
+}

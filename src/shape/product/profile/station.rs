@@ -1,0 +1,171 @@
+//! One slice of a body: its middle, half breadth and half depth, whatever is worn over it.
+
+use crate::geometry::slice::{Outline, RAYS};
+use glam::DVec2;
+
+/// An outline that this share of the rays meet goes around: it is a layer of the body or of its clothes.
+const GOES_AROUND: f64 = 0.6;
+/// A layer inside, whose reach is less than this share of the biggest one's, is hidden: the plug of a neck, the inner body of
+/// a kit.
+const HIDDEN: f64 = 0.5;
+/// What is further out than this many times the innermost layer stands off the body.
+const STANDS_OFF: f64 = 1.35;
+/// An open outline that meets this share of the rays, and one of the rays to a side, counts where it lies on the body: half a
+/// jacket does, a strap, a cape and an apron do not.
+const LIES_ON: f64 = 0.3;
+/// An extent is the median of the rays up to two beside it (20 degrees): a buckle or a bulge does not count. So many of
+/// them have to meet something.
+const BESIDE: usize = 2;
+const FEWEST_HITS: usize = 3;
+/// The rays to the sides.
+const SIDES: [usize; 2] = [0, RAYS / 2];
+/// Times that the middle is put between the extents.
+const CENTRINGS: usize = 2;
+
+/// A slice, in its plane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Slice {
+    /// Its middle.
+    pub middle: DVec2,
+    /// Half the breadth and half the depth.
+    pub half: DVec2,
+}
+
+/// The slice that `outlines` make around `start`; `None` where front, back, or both sides are open.
+///
+/// - `keeps_across`: the middle stays where it is across, as that of a torso between two sides.
+pub fn slice_around(outlines: &[&Outline], start: DVec2, keeps_across: bool) -> Option<Slice> {
+    let mut middle = start;
+    for _ in 0..CENTRINGS {
+        let [out, front, inner, back] = extents(outlines, middle);
+        let halfway = |one: f64, other: f64| {
+            let shift = (one - other) / 2.0;
+            if shift.is_nan() { 0.0 } else { shift }
+        };
+        middle += DVec2::new(if keeps_across { 0.0 } else { halfway(out, inner) }, halfway(front, back));
+    }
+    let [out, front, inner, back] = extents(outlines, middle);
+    let breadth = match (out.is_nan(), inner.is_nan()) {
+        (true, true) => return None,
+        (true, false) => inner,
+        (false, true) => out,
+        (false, false) => (out + inner) / 2.0,
+    };
+    let depth = (front + back) / 2.0;
+    (breadth > 0.0 && depth > 0.0).then_some(Slice { middle, half: DVec2::new(breadth, depth) })
+}
+
+/// How far the body reaches from `middle` along the first coordinate, the second one, and back; NaN where it is open.
+fn extents(outlines: &[&Outline], middle: DVec2) -> [f64; 4] {
+    let surface = surface(outlines, middle);
+    [0, 1, 2, 3].map(|quarter| {
+        let ray = quarter * RAYS / 4 + RAYS;
+        let mut near: Vec<f64> = (ray - BESIDE..=ray + BESIDE)
+            .map(|ray| surface[ray % RAYS])
+            .filter(|reach| !reach.is_nan())
+            .collect();
+        if near.len() < FEWEST_HITS { f64::NAN } else { median(&mut near) }
+    })
+}
+
+/// The surface of the body that `outlines` make, on each ray from `middle`; NaN where there is none.
+pub fn surface(outlines: &[&Outline], middle: DVec2) -> [f64; RAYS] {
+    let reaches: Vec<[f64; RAYS]> = outlines.iter().map(|outline| outline.reaches(middle)).collect();
+    let share =
+        |reaches: &[f64; RAYS]| reaches.iter().filter(|reach| !reach.is_nan()).count() as f64 / RAYS as f64;
+    let typical = |reaches: &[f64; RAYS]| {
+        let mut hits: Vec<f64> = reaches.iter().copied().filter(|reach| !reach.is_nan()).collect();
+        median(&mut hits)
+    };
+    let (mut layers, open): (Vec<_>, Vec<_>) =
+        reaches.iter().partition(|reaches| share(reaches) >= GOES_AROUND);
+    let biggest = layers.iter().map(&typical).fold(0.0, f64::max);
+    layers.retain(|layer| typical(layer) >= HIDDEN * biggest);
+    std::array::from_fn(|ray| {
+        let hits = layers.iter().map(|layer| layer[ray]);
+        // NaN is neither greater nor less than any hit.
+        let (nearest, furthest) =
+            hits.fold((f64::NAN, f64::NAN), |(low, high), hit| (low.min(hit), high.max(hit)));
+        if nearest.is_nan() {
+            return reaches.iter().map(|outline| outline[ray]).fold(f64::NAN, f64::min);
+        }
+        let reach = furthest.min(STANDS_OFF * nearest);
+        open.iter()
+            .filter(|outline| share(outline) >= LIES_ON && SIDES.iter().any(|&side| !outline[side].is_nan()))
+            .map(|outline| outline[ray])
+            .filter(|&hit| hit <= STANDS_OFF * reach)
+            .fold(reach, f64::max)
+    })
+}
+
+pub(super) fn median(values: &mut [f64]) -> f64 {
+    values.sort_by(f64::total_cmp);
+    0.5 * (values[(values.len() - 1) / 2] + values[values.len() / 2])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::TAU;
+
+    /// The part from `from` to `to`, in degrees, of an ellipse.
+    fn ellipse(middle: DVec2, half: DVec2, from: f64, to: f64) -> Outline {
+        let point = |index: usize| {
+            // The last point of a closed one is the first one, to the bit.
+            let index = if to - from == 360.0 { index % 360 } else { index };
+            let angle = (from + (to - from) * index as f64 / 360.0).to_radians();
+            middle + half * DVec2::from_angle(angle)
+        };
+        Outline { segments: (0..360).map(|index| [point(index), point(index + 1)]).collect() }
+    }
+
+    fn around(outlines: &[Outline]) -> Option<Slice> {
+        slice_around(&outlines.iter().collect::<Vec<_>>(), DVec2::new(0.02, -0.03), false)
+    }
+
+    const BODY: DVec2 = DVec2::new(0.4, 0.3);
+
+    /// The median of five rays over an ellipse: those 10 degrees beside the axis.
+    fn beside(half: DVec2) -> DVec2 {
+        let reach = |degrees: f64| {
+            let ray = DVec2::from_angle(degrees * TAU / 360.0);
+            1.0 / (ray / half).length()
+        };
+        DVec2::new(reach(10.0), reach(80.0))
+    }
+
+    #[test]
+    fn an_ellipse_has_its_middle_and_its_half_axes() {
+        let middle = DVec2::new(0.1, 0.05);
+        let slice = around(&[ellipse(middle, BODY, 0.0, 360.0)]).unwrap();
+        // Twice halfway between what is seen from beside the middle leaves a thirtieth of what the start was off.
+        assert!(slice.middle.distance(middle) < middle.distance(DVec2::new(0.02, -0.03)) / 30.0, "{slice:?}");
+        assert!((slice.half - beside(BODY)).abs().max_element() < 2e-3, "{slice:?}");
+    }
+
+    #[test]
+    fn a_cape_and_a_plug_do_not_show() {
+        let body = || ellipse(DVec2::ZERO, BODY, 0.0, 360.0);
+        let cape = ellipse(DVec2::ZERO, 1.6 * BODY, 200.0, 340.0);
+        let plug = ellipse(DVec2::ZERO, 0.3 * BODY, 0.0, 360.0);
+        let bare = around(&[body()]).unwrap();
+        assert_eq!(around(&[body(), cape, plug]).unwrap(), bare);
+    }
+
+    #[test]
+    fn a_jacket_open_in_front_counts_and_a_wide_coat_by_as_much_as_lies_on() {
+        let body = || ellipse(DVec2::ZERO, BODY, 0.0, 360.0);
+        let jacket = ellipse(DVec2::ZERO, 1.2 * BODY, 110.0, 430.0);
+        let slice = around(&[body(), jacket]).unwrap();
+        assert!((slice.half.x / beside(1.2 * BODY).x - 1.0).abs() < 0.01, "{slice:?}");
+        let coat = ellipse(DVec2::ZERO, 1.8 * BODY, 0.0, 360.0);
+        let slice = around(&[body(), coat]).unwrap();
+        assert!((slice.half.x / (1.35 * beside(BODY).x) - 1.0).abs() < 0.01, "{slice:?}");
+    }
+
+    #[test]
+    fn half_a_body_is_none() {
+        assert_eq!(around(&[ellipse(DVec2::ZERO, BODY, 0.0, 180.0)]), None);
+        assert_eq!(around(&[]), None);
+    }
+}

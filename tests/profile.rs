@@ -1,0 +1,323 @@
+//! Profiles of real models, against what another program measured on them, and of people made of tubes.
+
+#[path = "common/models.rs"]
+mod models;
+
+#[path = "common/people.rs"]
+mod people;
+
+use glam::{DMat3, DVec3};
+use models::{Run, furthest, model, positions, rest_positions, style_of};
+use people::Person;
+use std::collections::BTreeMap;
+use std::sync::Arc;
+use superdeform::internals::geometry::{SEAM, weld};
+use superdeform::internals::shape::Measured;
+use superdeform::internals::shape::product::part::{PartWeights, fold_to_parts};
+use superdeform::internals::shape::product::profile::{BodyFrame, Profile, Row, measure_profile};
+use superdeform::{BodyShape, Deformer, GroupSettings, Options, Stage, Style};
+
+/// The profile of a model of `shared/models` and its head length; `None` where it is not there. `head`: how long the head is
+/// from the crown down, where another program says so.
+fn profile_of(name: &str, head: Option<f64>) -> Option<(Profile, f64)> {
+    let measured = Measured::of(&model(name)?.character, &Options::default()).unwrap();
+    let figure = &measured.figure;
+    let parts: Vec<PartWeights> = figure.role_weights.iter().map(|row| fold_to_parts(row)).collect();
+    let welded = weld(&figure.positions, SEAM * figure.height());
+    let mut frame = BodyFrame::of(figure, &measured.anatomy);
+    if let Some(head) = head {
+        frame.heights.chin = frame.heights.crown - head;
+    }
+    let (profile, _) = measure_profile(figure, &figure.positions, &parts, &welded, &frame);
+    Some((profile, frame.head_length()))
+}
+
+/// What a prototype in another language found, with a reader, cuts and landmarks of its own: in head lengths of its own,
+/// which are given too. Numbers are those of the slices 1, 4, 7, 10 and 13 where there are five.
+struct Known {
+    name: &'static str,
+    head_length: f64,
+    numbers: &'static [(&'static str, &'static [f64])],
+}
+
+const KNOWN: [Known; 4] = [
+    Known {
+        name: "kaykit_rogue.glb",
+        head_length: 0.9320,
+        numbers: &[
+            ("torso breadth", &[0.400, 0.407, 0.409, 0.392, 0.355]),
+            ("torso depth", &[0.337, 0.341, 0.339, 0.328, 0.316]),
+            ("leg breadth", &[0.115, 0.116, 0.110, 0.107, 0.120]),
+            ("leg outward", &[0.181, 0.181, 0.181, 0.181, 0.181]),
+            ("arm breadth", &[0.148, 0.119, 0.111, 0.117, 0.127]),
+            ("hand", &[0.198, 0.125, 0.119]),
+            ("foot", &[0.303, 0.121, 0.128, 0.181]),
+        ],
+    },
+    Known {
+        name: "godette.vrm",
+        head_length: 0.4061,
+        numbers: &[
+            ("torso breadth", &[0.518, 0.462, 0.386, 0.328, 0.290]),
+            ("torso depth", &[0.319, 0.312, 0.276, 0.246, 0.218]),
+            ("leg breadth", &[0.205, 0.143, 0.124, 0.120, 0.113]),
+            ("leg outward", &[0.315, 0.332, 0.355, 0.377, 0.397]),
+            ("arm breadth", &[0.112, 0.094, 0.078, 0.068, 0.061]),
+            ("hand", &[0.397, 0.128, 0.084]),
+            ("foot", &[0.398, 0.111, 0.114, 0.397]),
+            ("neck", &[0.130]),
+        ],
+    },
+    Known {
+        name: "makehuman_baby_reference.glb",
+        head_length: 0.1342,
+        numbers: &[
+            ("torso breadth", &[0.519, 0.478, 0.458, 0.451, 0.446]),
+            ("torso depth", &[0.330, 0.385, 0.397, 0.380, 0.375]),
+            ("leg breadth", &[0.273, 0.221, 0.186, 0.153, 0.103]),
+            ("leg depth", &[0.273, 0.213, 0.179, 0.150, 0.124]),
+            ("leg outward", &[0.302, 0.333, 0.408, 0.467, 0.480]),
+            ("arm breadth", &[0.162, 0.153, 0.143, 0.121, 0.084]),
+            ("hand", &[0.500, 0.171, 0.109]),
+            ("foot", &[0.489, 0.152, 0.135, 0.490]),
+        ],
+    },
+    Known {
+        name: "valid_hispanic_f_2_casual.glb",
+        head_length: 0.2304,
+        numbers: &[
+            ("torso breadth", &[0.752, 0.672, 0.577, 0.567, 0.639]),
+            ("torso depth", &[0.590, 0.520, 0.447, 0.439, 0.470]),
+            ("leg breadth", &[0.264, 0.237, 0.210, 0.172, 0.136]),
+        ],
+    },
+];
+
+/// The same numbers of a profile, in model units.
+fn numbers(profile: &Profile, head_length: f64, what: &str) -> Vec<f64> {
+    let torso = profile.torso.as_ref().unwrap();
+    let leg = profile.leg.as_ref().unwrap();
+    let arm = profile.arm.as_ref().unwrap();
+    let five = |row: &Row| (0..5).map(|index| row[3 * index]).collect::<Vec<f64>>();
+    let found = match what {
+        "torso breadth" => five(&torso.breadth),
+        "torso depth" => five(&torso.depth),
+        "leg breadth" => five(&leg.breadth),
+        "leg depth" => five(&leg.depth),
+        "leg outward" => five(&leg.outward),
+        "arm breadth" => five(&arm.breadth),
+        "hand" => profile.hand.unwrap().to_vec(),
+        "foot" => profile.foot.unwrap()[..4].to_vec(),
+        "neck" => vec![profile.neck.unwrap()],
+        _ => unreachable!(),
+    };
+    found.into_iter().map(|number| number * head_length).collect()
+}
+
+#[test]
+fn profiles_are_what_another_program_measured() {
+    for known in &KNOWN {
+        let Some((profile, head_length)) = profile_of(known.name, Some(known.head_length)) else { continue };
+        for (what, wanted) in known.numbers {
+            let found = numbers(&profile, head_length, what);
+            for (index, (found, wanted)) in found.iter().zip(*wanted).enumerate() {
+                let wanted_here = wanted * known.head_length;
+                let off = (found - wanted_here).abs();
+                // A neck of a seventh of a head is read between jaw and shoulders, where its radius changes most.
+                let most = if *what == "neck" { 0.025 } else { 0.01 };
+                assert!(
+                    off <= (most * known.head_length).max(0.03 * wanted_here.abs()),
+                    "{}: {what} {index} is {:.4} of its head instead of {wanted}",
+                    known.name,
+                    found / known.head_length
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn a_skirt_is_no_leg_and_ends_where_it_ends() {
+    let name = "valid_hispanic_f_2_casual.glb";
+    let Some((profile, head_length)) = profile_of(name, None) else { return };
+    let skirt = profile.skirt.unwrap();
+    // 0.77, 0.79, 0.80 of a head of 0.2304 at the three slices that it reaches.
+    let known: Vec<f64> = skirt.breadth.iter().flatten().copied().collect();
+    assert_eq!(known.len(), 3);
+    for (found, wanted) in known.iter().zip([0.77, 0.79, 0.80]) {
+        assert!((found * head_length - wanted * 0.2304).abs() <= 0.03 * wanted * 0.2304, "{found}");
+    }
+}
+
+/// A woman in a dress, and what a reference of 2.3 heads, one of 4.6 and a number make of her.
+const TARGET: &str = "quaternius_female_dress.glb";
+const REFERENCE: &str = "kaykit_rogue.glb";
+const TODDLER: &str = "makehuman_baby_reference.glb";
+
+fn shape_of(name: &str) -> BodyShape {
+    match style_of(name, &Options::default()) {
+        Style::Shape(shape) => *shape,
+        Style::Heads(_) => unreachable!(),
+    }
+}
+
+fn of_shape(shape: BodyShape) -> Style {
+    Style::Shape(Box::new(shape))
+}
+
+fn run(style: &Style, options: &Options) -> Run {
+    Run::new(TARGET, "style", style, options)
+}
+
+fn at_hand() -> bool {
+    [TARGET, REFERENCE, TODDLER].iter().all(|name| model(name).is_some())
+}
+
+/// How far a result is from another, in heights of the target.
+fn apart(one: &Run, other: &Run) -> f64 {
+    furthest(&positions(&one.deformed), &positions(&other.deformed)) / one.height()
+}
+
+#[test]
+fn a_body_that_has_the_profile_already_stays() {
+    for name in [TARGET, REFERENCE] {
+        if model(name).is_none() {
+            continue;
+        }
+        let options = Options { head_scale: 1.0, face_squash: Some(0.0), ..Options::default() };
+        let run = Run::new(name, name, &style_of(name, &options), &options);
+        let moved = furthest(&positions(&run.deformed), &rest_positions(&model(name).unwrap().character));
+        assert!(moved <= 1e-5 * run.height(), "{name}: {moved}");
+    }
+}
+
+#[test]
+fn a_result_has_the_body_of_its_reference() {
+    if !at_hand() {
+        return;
+    }
+    for name in [REFERENCE, TODDLER] {
+        let run = run(&style_of(name, &Options::default()), &Options::default());
+        let report = run.deformer.report(&run.deformed).unwrap();
+        // Relief and soft limits leave a tenth; fingers of one bone and a toddler's hands are met to a fifth.
+        for (chain, ratio) in &report.profile.ratios {
+            let least = if *chain == "hand" { 0.8 } else { 0.9 };
+            assert!((least..=1.1).contains(ratio), "{name}: {chain} {ratio}");
+        }
+        assert_eq!(report.profile.ratios.len(), 6);
+        assert_eq!(report.profile.reference, shape_of(name).profile);
+    }
+}
+
+#[test]
+fn a_share_of_the_profile_is_between_none_and_all() {
+    if !at_hand() {
+        return;
+    }
+    let style = style_of(REFERENCE, &Options::default());
+    let ratios = |profile: f64| {
+        let run = run(&style, &Options { profile, ..Options::default() });
+        run.deformer.report(&run.deformed).unwrap().profile.ratios
+    };
+    let [none, half, all] = [0.0, 0.5, 1.0].map(ratios);
+    // A thin adult's torso and arms for so large a head: the parts' own thickness leaves more than an eighth.
+    for chain in ["torso", "arms", "legs"] {
+        assert!(none[chain] < 0.88 && none[chain] < half[chain] && half[chain] < all[chain], "{chain}");
+    }
+    let lengths =
+        |profile: f64| run(&style, &Options { profile, stage: Stage::Length, ..Options::default() });
+    assert_eq!(apart(&lengths(0.0), &lengths(1.0)), 0.0);
+}
+
+#[test]
+fn a_saved_style_has_the_profile_and_an_older_one_that_of_so_many_heads() {
+    if !at_hand() {
+        return;
+    }
+    let shape = shape_of(REFERENCE);
+    let read = BodyShape::from_json(&shape.to_json()).unwrap();
+    assert_eq!((read.version, &read.profile), (2, &shape.profile));
+    let plain = Options::default();
+    let moved = apart(&run(&of_shape(shape.clone()), &plain), &run(&of_shape(read), &plain));
+    assert!(moved <= 1e-6, "{moved}");
+    let mut older: BTreeMap<String, serde_json::Value> = serde_json::from_str(&shape.to_json()).unwrap();
+    older.remove("profile").unwrap();
+    older.insert("superdeform_style".to_string(), 1.into());
+    let older = BodyShape::from_json(&serde_json::to_string(&older).unwrap()).unwrap();
+    assert_eq!(older.profile, None);
+    let with = run(&of_shape(older.clone()), &plain);
+    let without = run(&of_shape(older), &Options { profile: 0.0, ..plain });
+    assert!(apart(&with, &without) > 0.01);
+}
+
+#[test]
+fn half_of_two_styles_is_between_them_in_every_chain() {
+    if !at_hand() {
+        return;
+    }
+    let (small, tall) = (shape_of(REFERENCE), shape_of(TODDLER));
+    let results = [0.0, 0.5, 1.0].map(|amount| {
+        let run = run(&of_shape(small.blended(&tall, amount)), &Options::default());
+        run.deformer.report(&run.deformed).unwrap().profile.result.unwrap()
+    });
+    let sizes = |profile: &Profile| {
+        let (torso, leg, arm) =
+            (profile.torso.as_ref().unwrap(), profile.leg.as_ref().unwrap(), profile.arm.as_ref().unwrap());
+        let mean = |row: &Row| row.iter().sum::<f64>() / row.len() as f64;
+        [mean(&torso.breadth), mean(&leg.breadth), mean(&arm.breadth), profile.hand.unwrap()[0]]
+    };
+    let [low, half, high] = results.each_ref().map(sizes);
+    for chain in 0..4 {
+        assert!(low[chain] < half[chain] && half[chain] < high[chain], "{chain}: {low:?} {half:?} {high:?}");
+    }
+}
+
+#[test]
+fn a_thickness_that_is_set_stands() {
+    if !at_hand() {
+        return;
+    }
+    let style = style_of(REFERENCE, &Options::default());
+    let with = |group: &str, settings: GroupSettings, profile: f64| {
+        let groups = BTreeMap::from([(group.to_string(), settings)]);
+        run(&style, &Options { groups, profile, ..Options::default() })
+    };
+    let arms =
+        |run: &Run| run.deformer.report(&run.deformed).unwrap().profile.result.unwrap().arm.unwrap().breadth;
+    let set = GroupSettings { thickness_scale: Some(1.0), ..GroupSettings::default() };
+    let kept = GroupSettings { thickness_transfer: Some(0.0), ..GroupSettings::default() };
+    for settings in [set, kept] {
+        let (sliced, parts) =
+            (arms(&with("lower_arm", settings, 1.0)), arms(&with("lower_arm", settings, 0.0)));
+        // The slices between elbow and wrist; those at the ends are the neighbours' too.
+        for station in 8..11 {
+            assert!((sliced[station] / parts[station] - 1.0).abs() < 0.05, "{station} {sliced:?} {parts:?}");
+        }
+        assert!(sliced[2] / parts[2] > 1.2, "{sliced:?} {parts:?}");
+    }
+}
+
+#[test]
+fn the_jacobian_is_that_of_the_slices_too() {
+    let character = Arc::new(Person { blended: true, arm_angle: 30.0, ..Person::adult() }.build());
+    let style = Style::Heads(2.5);
+    let deformer = Deformer::new(character.clone(), &style, &Options::default()).unwrap();
+    let step = 1e-6;
+    let mut compared = 0;
+    for joint in 0..character.skeleton.joints.len() {
+        let at = character.skeleton.joints[joint].position();
+        for offset in
+            [DVec3::new(0.01, 0.02, 0.03), DVec3::new(-0.04, -0.01, 0.05), DVec3::new(0.03, 0.0, -0.09)]
+        {
+            let p = at + offset;
+            let place = |p: DVec3| deformer.map(joint, p).position;
+            let slope = |axis: DVec3| (place(p + step * axis) - place(p - step * axis)) / (2.0 * step);
+            let differences = DMat3::from_cols(slope(DVec3::X), slope(DVec3::Y), slope(DVec3::Z));
+            let jacobian = deformer.map(joint, p).jacobian;
+            // A point may lie on an edge of a piecewise map, where both sides' slopes are right: few do.
+            compared += usize::from(jacobian.abs_diff_eq(differences, 1e-4));
+        }
+    }
+    let all = 3 * character.skeleton.joints.len();
+    assert!(compared * 100 >= 95 * all, "{compared} of {all}");
+}
