@@ -14,6 +14,9 @@ namespace SuperDeform.Editor
         /// </summary>
         public string PrefabPath;
 
+        /// <summary>True where an earlier result was brought up to date.</summary>
+        public bool Updated;
+
         /// <summary>
         /// The prefab's instance beside the source; null where the source is no object of a scene or none was wanted.
         /// </summary>

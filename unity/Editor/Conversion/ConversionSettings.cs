@@ -57,6 +57,11 @@ namespace SuperDeform.Editor
         public bool PlaceInScene = true;
 
         /// <summary>
+        /// Makes another result even where there is one of the same avatar; else that one is brought up to date.
+        /// </summary>
+        public bool NewCopy;
+
+        /// <summary>
         /// The style that these settings describe; the caller disposes it.
         ///
         /// Measures the reference avatar where that is the source. Throws ConversionException.

@@ -69,11 +69,20 @@ namespace SuperDeform.Editor
         {
             AvatarResult result;
             ConversionResult done = Deform(source, deformer, findings, stages, out result);
-            using (ResultFolder folder = new ResultFolder(ParentFolder(source.Root, settings), source.Root.name))
+            ResultUpdate update = settings.NewCopy ? null : ResultUpdate.Find(ResultUpdate.IdentityOf(source.Root), FolderOf(settings));
+            if (update != null)
             {
-                Save(source, result, deformer, settings, folder, done, stages);
+                Save(source, result, deformer, settings, update.Save, done, stages);
             }
-            if (settings.PlaceInScene && !EditorUtility.IsPersistent(source.Root)) done.Instance = PlaceBeside(source, done.Prefab, result);
+            else
+            {
+                using (ResultFolder folder = new ResultFolder(ParentFolder(source.Root, settings), source.Root.name))
+                {
+                    Save(source, result, deformer, settings, folder.Save, done, stages);
+                }
+            }
+            done.Updated = update != null;
+            if (settings.PlaceInScene && !EditorUtility.IsPersistent(source.Root)) done.Instance = InstanceOf(done.Prefab, source.Root) ?? PlaceBeside(source, done.Prefab, result);
             stages.End();
             return done;
         }
@@ -109,7 +118,10 @@ namespace SuperDeform.Editor
             return done;
         }
 
-        static void Save(AvatarData source, AvatarResult result, Deformer deformer, ConversionSettings settings, ResultFolder folder, ConversionResult done, StageProgress stages)
+        /// <returns>The prefab's path.</returns>
+        delegate string Saving(GameObject copy, SuperDeformPreset container, IList<UnityEngine.Object> assets);
+
+        static void Save(AvatarData source, AvatarResult result, Deformer deformer, ConversionSettings settings, Saving save, ConversionResult done, StageProgress stages)
         {
             GameObject copy = UnityEngine.Object.Instantiate(source.Root);
             PointMap map = new PointMap(source, result, deformer, copy.transform);
@@ -128,30 +140,29 @@ namespace SuperDeform.Editor
                 // An asset cannot name objects of a scene.
                 if (preset.Settings.ReferenceAvatar != null && !EditorUtility.IsPersistent(preset.Settings.ReferenceAvatar)) preset.Settings.ReferenceAvatar = null;
                 stages.Begin(ConversionStage.Saving);
-                done.PrefabPath = folder.Save(copy, preset, map.Assets);
+                preset.Avatar = ResultUpdate.IdentityOf(source.Root);
+                preset.Made.AddRange(new HierarchyPaths(copy).Names);
+                done.PrefabPath = save(copy, preset, map.Assets);
                 done.Prefab = AssetDatabase.LoadAssetAtPath<GameObject>(done.PrefabPath);
                 saved = true;
             }
             finally
             {
                 UnityEngine.Object.DestroyImmediate(copy);
-                if (!saved)
+                map.Assets.Add(preset);
+                foreach (UnityEngine.Object asset in map.Assets)
                 {
-                    // The folder goes with those that are assets by now.
-                    folder.Dispose();
-                    map.Assets.Add(preset);
-                    foreach (UnityEngine.Object asset in map.Assets)
-                    {
-                        if (asset != null) UnityEngine.Object.DestroyImmediate(asset, true);
-                    }
+                    // Of a folder that was not finished even what is an asset goes, with its file.
+                    if (asset != null && !saved && !AssetDatabase.Contains(asset)) UnityEngine.Object.DestroyImmediate(asset);
                 }
+                if (saved && !AssetDatabase.Contains(preset)) UnityEngine.Object.DestroyImmediate(preset);
             }
         }
 
         /// <summary>The settings' folder, else that of the avatar's own asset, else "Assets".</summary>
         static string ParentFolder(GameObject avatar, ConversionSettings settings)
         {
-            string folder = (settings.OutputFolder ?? "").Replace('\\', '/').Trim().TrimEnd('/');
+            string folder = FolderOf(settings);
             if (folder.Length > 0)
             {
                 bool inProject = folder == "Assets" || folder.StartsWith("Assets/") || folder.StartsWith("Packages/");
@@ -163,10 +174,28 @@ namespace SuperDeform.Editor
             return slash > 0 && path.StartsWith("Assets/") ? path.Substring(0, slash) : "Assets";
         }
 
+        static string FolderOf(ConversionSettings settings)
+        {
+            return (settings.OutputFolder ?? "").Replace('\\', '/').Trim().TrimEnd('/');
+        }
+
+        /// <summary>The instance of a prefab in the source's scene; null where there is none.</summary>
+        static GameObject InstanceOf(GameObject prefab, GameObject source)
+        {
+            foreach (GameObject root in source.scene.GetRootGameObjects())
+            {
+                foreach (Transform transform in root.GetComponentsInChildren<Transform>(true))
+                {
+                    if (PrefabUtility.GetCorrespondingObjectFromSource(transform.gameObject) == prefab) return transform.gameObject;
+                }
+            }
+            return null;
+        }
+
         /// <summary>An instance of the result, to the right of the source, as a child of the same object.</summary>
         static GameObject PlaceBeside(AvatarData source, GameObject prefab, AvatarResult result)
         {
-            GameObject instance = (GameObject)PrefabUtility.InstantiatePrefab(prefab);
+            GameObject instance = (GameObject)PrefabUtility.InstantiatePrefab(prefab, source.Root.scene);
             Undo.RegisterCreatedObjectUndo(instance, Strings.Get("undo_convert"));
             Box box = new Box();
             foreach (RendererData renderer in source.Renderers)

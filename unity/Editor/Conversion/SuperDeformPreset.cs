@@ -1,3 +1,4 @@
+using System.Collections.Generic;
 using UnityEngine;
 
 namespace SuperDeform.Editor
@@ -9,5 +10,11 @@ namespace SuperDeform.Editor
     public sealed class SuperDeformPreset : ScriptableObject
     {
         public ConversionSettings Settings = new ConversionSettings();
+
+        /// <summary>Of a result: the avatar that it was made of, so that it is found again.</summary>
+        [HideInInspector] public string Avatar = "";
+
+        /// <summary>Of a result: the names of all objects and components that were made; others are a person's own.</summary>
+        [HideInInspector] public List<string> Made = new List<string>();
     }
 }

@@ -96,16 +96,29 @@ namespace SuperDeform.Editor
                 {
                     AssetDatabase.AddObjectToAsset(asset, container);
                 }
+            }
+            catch (Exception cause)
+            {
+                throw Refused(path, cause);
+            }
+            SaveContainer(container, path);
+        }
+
+        /// <summary>Writes the file of the assets.</summary>
+        internal static void SaveContainer(UnityEngine.Object container, string path)
+        {
+            try
+            {
                 AssetDatabase.SaveAssetIfDirty(container);
             }
             catch (Exception cause)
             {
                 throw Refused(path, cause);
             }
-            if (!IsWritten(path) || !AssetDatabase.Contains(container)) throw Refused(path, null);
+            if (!IsWritten(path) || !AssetDatabase.Contains(container) || EditorUtility.IsDirty(container)) throw Refused(path, null);
         }
 
-        static void SavePrefab(GameObject copy, string path)
+        internal static void SavePrefab(GameObject copy, string path)
         {
             bool success;
             GameObject prefab;

@@ -289,14 +289,107 @@ namespace SuperDeform.Editor.Tests
         }
 
         [Test]
-        public void converting_again_overwrites_nothing()
+        public void a_new_copy_overwrites_nothing()
         {
             ConversionFigure figure = new ConversionFigure().Make();
-            string first = Converter.Convert(figure.Root, Settings(), null).PrefabPath;
+            ConversionSettings settings = Settings();
+            settings.NewCopy = true;
+            string first = Converter.Convert(figure.Root, settings, null).PrefabPath;
             byte[] bytes = File.ReadAllBytes(first);
-            string second = Converter.Convert(figure.Root, Settings(), null).PrefabPath;
-            Assert.AreNotEqual(first, second);
+            ConversionResult second = Converter.Convert(figure.Root, settings, null);
+            Assert.AreNotEqual(first, second.PrefabPath);
+            Assert.That(second.Updated, Is.False);
             Assert.AreEqual(bytes, File.ReadAllBytes(first));
+        }
+
+        [Test]
+        public void converting_again_brings_the_same_files_up_to_date()
+        {
+            ConversionFigure figure = new ConversionFigure { WithShapes = true }.Make();
+            ConversionSettings settings = Settings();
+            settings.PlaceInScene = true;
+            ConversionResult first = Converter.Convert(figure.Root, settings, null);
+            string prefab = AssetDatabase.AssetPathToGUID(first.PrefabPath), container = Path.ChangeExtension(first.PrefabPath, ".asset");
+            Mesh mesh = Find(first.Prefab, "Body").GetComponent<SkinnedMeshRenderer>().sharedMesh;
+            Avatar avatar = first.Prefab.GetComponent<Animator>().avatar;
+            Vector3[] before = mesh.vertices;
+            string[] files = StubProject.FilesOnDisk();
+            settings.Heads = 3.5f;
+            ConversionResult second = Converter.Convert(figure.Root, settings, null);
+            Assert.That(second.Updated);
+            Assert.AreEqual(first.PrefabPath, second.PrefabPath);
+            Assert.AreEqual(prefab, AssetDatabase.AssetPathToGUID(second.PrefabPath));
+            Assert.AreEqual(files, StubProject.FilesOnDisk());
+            Assert.AreSame(mesh, Find(second.Prefab, "Body").GetComponent<SkinnedMeshRenderer>().sharedMesh, "the mesh that others may refer to");
+            Assert.AreSame(avatar, second.Prefab.GetComponent<Animator>().avatar);
+            Assert.AreNotEqual(before, mesh.vertices);
+            Assert.AreSame(first.Instance, second.Instance, "no second instance");
+            Assert.AreEqual(3.5f, AssetDatabase.LoadAssetAtPath<SuperDeformPreset>(container).Settings.Heads);
+            settings.NewCopy = true;
+            Assert.AreEqual(Drawn(Converter.Convert(figure.Root, settings, null).Prefab, "Body"), Drawn(second.Prefab, "Body"), "as a new copy");
+        }
+
+        [Test]
+        public void what_a_person_has_added_to_a_result_stays()
+        {
+            ConversionFigure figure = new ConversionFigure().Make();
+            string path = Converter.Convert(figure.Root, Settings(), null).PrefabPath;
+            GameObject contents = PrefabUtility.LoadPrefabContents(path);
+            Transform head = Find(contents, "J_Head");
+            var crown = new GameObject("Crown").transform;
+            crown.SetParent(head, false);
+            crown.localPosition = new Vector3(0, 0.3f, 0);
+            crown.gameObject.AddComponent<VRC.SDK3.Dynamics.PhysBone.Components.VRCPhysBoneCollider>().rootTransform = head;
+            var bone = Find(contents, "J_LeftHand").gameObject.AddComponent<VRC.SDK3.Dynamics.PhysBone.Components.VRCPhysBone>();
+            bone.rootTransform = crown;
+            bone.radius = 0.123f;
+            PrefabUtility.SaveAsPrefabAsset(contents, path);
+            PrefabUtility.UnloadPrefabContents(contents);
+            // A new thing of the source comes, and what went goes.
+            new GameObject("Ribbon").transform.SetParent(figure.Bones[HumanBodyBones.Chest], false);
+            UnityEngine.Object.DestroyImmediate(figure.Hat.gameObject);
+            for (int time = 0; time < 2; time++)
+            {
+                GameObject prefab = Converter.Convert(figure.Root, Settings(), null).Prefab;
+                Assert.AreEqual(1, Array.FindAll(prefab.GetComponentsInChildren<Transform>(true), one => one.name == "Crown").Length);
+                Transform stays = Find(prefab, "Crown");
+                Assert.AreEqual("J_Head", stays.parent.name);
+                Assert.AreEqual(0.3f, stays.localPosition.y);
+                Assert.AreSame(stays.parent, stays.GetComponent<VRC.SDK3.Dynamics.PhysBone.Components.VRCPhysBoneCollider>().rootTransform);
+                var hand = Find(prefab, "J_LeftHand").GetComponents<VRC.SDK3.Dynamics.PhysBone.Components.VRCPhysBone>();
+                Assert.AreEqual(1, hand.Length);
+                Assert.AreEqual(0.123f, hand[0].radius);
+                Assert.AreSame(stays, hand[0].rootTransform);
+                Assert.That(Find(prefab, "Ribbon"), Is.Not.Null);
+                Assert.That(Array.Exists(prefab.GetComponentsInChildren<Transform>(true), one => one.name == "Hat"), Is.False);
+            }
+        }
+
+        [Test]
+        public void another_avatar_of_the_same_name_gets_its_own_result()
+        {
+            string first = Converter.Convert(new ConversionFigure().Make().Root, Settings(), null).PrefabPath;
+            string second = Converter.Convert(new ConversionFigure().Make().Root, Settings(), null).PrefabPath;
+            Assert.AreNotEqual(first, second);
+        }
+
+        [Test]
+        public void an_update_that_cannot_be_written_leaves_the_files_as_they_were()
+        {
+            ConversionFigure figure = new ConversionFigure().Make();
+            string path = Converter.Convert(figure.Root, Settings(), null).PrefabPath, container = Path.ChangeExtension(path, ".asset");
+            byte[] prefab = File.ReadAllBytes(path), assets = File.ReadAllBytes(container);
+            foreach (string ending in new[] { ".prefab", ".asset" })
+            {
+                int writes = 0;
+                StubDisk.Refuse = file => file.EndsWith(ending) && writes++ == 0;
+                ConversionSettings other = Settings();
+                other.Heads = 4;
+                Assert.Throws<ConversionException>(() => Converter.Convert(figure.Root, other, null));
+                StubDisk.Refuse = null;
+                Assert.AreEqual(prefab, File.ReadAllBytes(path), ending);
+                Assert.AreEqual(assets.Length, File.ReadAllBytes(container).Length, ending);
+            }
         }
 
         [Test]
@@ -491,7 +584,9 @@ namespace SuperDeform.Editor.Tests
             GameObject plain = Converter.Convert(figure.Root, Settings(), null).Prefab;
             Quaternion lowered = Quaternion.AngleAxis(70, Vector3.forward);
             figure.Bones[HumanBodyBones.LeftUpperArm].localRotation = lowered;
-            ConversionResult posed = Converter.Convert(figure.Root, Settings(), null);
+            ConversionSettings settings = Settings();
+            settings.NewCopy = true;
+            ConversionResult posed = Converter.Convert(figure.Root, settings, null);
             Assert.That(posed.Findings.Exists(finding => finding.Key == "pose_not_rest"));
             Assert.AreEqual(lowered, Find(posed.Prefab, "J_LeftUpperArm").localRotation);
             Assert.That(Apart(Find(plain, "Body").GetComponent<SkinnedMeshRenderer>().sharedMesh.vertices, Find(posed.Prefab, "Body").GetComponent<SkinnedMeshRenderer>().sharedMesh.vertices), Is.LessThan(1e-5 * Height));

@@ -51,6 +51,14 @@ namespace UnityEditor
         public static GameObject CreateGameObjectWithHideFlags(string name, HideFlags flags, params Type[] components) { GameObject made = new GameObject(name, components); made.hideFlags = flags; return made; }
     }
 
+    /// Kind 1: an object of a file, 2: an object of a scene.
+    public struct GlobalObjectId
+    {
+        string m_Text;
+        public static GlobalObjectId GetGlobalObjectIdSlow(Object targetObject) { return new GlobalObjectId { m_Text = "GlobalObjectId_V1-" + (EditorUtility.IsPersistent(targetObject) ? 1 : 2) + "-0-" + targetObject.GetInstanceID() + "-0" }; }
+        public override string ToString() { return m_Text; }
+    }
+
     public sealed class GameObjectUtility
     {
         public static int GetMonoBehavioursWithMissingScriptCount(GameObject go) { return go.components.FindAll(delegate (Component component) { return component is MissingScript; }).Count; }

@@ -50,7 +50,13 @@ namespace UnityEditor
                 return null;
             }
             AssetDatabase.File old;
-            if (AssetDatabase.Files.TryGetValue(assetPath, out old)) { AssetDatabase.SetPath(old.Main, null); Object.DestroyImmediate(old.Main); }
+            if (AssetDatabase.Files.TryGetValue(assetPath, out old))
+            {
+                // Instances stay instances; what they look like changes in Unity alone.
+                foreach (GameObject instance in s_Roots) { Object source; if (instance != null && s_Sources.TryGetValue(instance, out source) && ReferenceEquals(source, old.Main)) Link(instance, asset); }
+                AssetDatabase.SetPath(old.Main, null);
+                Object.DestroyImmediate(old.Main);
+            }
             AssetDatabase.Files[assetPath] = file;
             success = true;
             return asset;

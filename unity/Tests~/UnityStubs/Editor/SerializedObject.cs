@@ -84,6 +84,8 @@ namespace UnityEditor
             m_Changed = false;
             object value = m_Owner.targetObject;
             if (m_Path.Length > 0) Get(out value);
+            IList items = value as IList;
+            if (enterChildren && items != null && items.Count > 0 && m_Path.Length > 0) { m_Path += ".Array.data[0]"; return true; }
             if (enterChildren && value != null && (m_Path.Length == 0 || !(value is Object) && !(value is IList) && !(value is string) && !value.GetType().IsPrimitive && !value.GetType().IsEnum))
             {
                 FieldInfo[] fields = Fields.Of(value.GetType());
@@ -93,6 +95,18 @@ namespace UnityEditor
             {
                 int dot = path.LastIndexOf('.');
                 string above = dot < 0 ? "" : path.Substring(0, dot);
+                int open = path.LastIndexOf(".Array.data[", StringComparison.Ordinal);
+                if (open >= 0 && open == path.Length - path.Substring(open).Length && path.IndexOf(']', open) == path.Length - 1)
+                {
+                    // An element: the next one, or what comes after the list.
+                    object list;
+                    string whole = path.Substring(0, open);
+                    int next = int.Parse(path.Substring(open + 12).TrimEnd(']')) + 1;
+                    new SerializedProperty(m_Owner, whole).Get(out list);
+                    if (next < ((IList)list).Count) { m_Path = whole + ".Array.data[" + next + "]"; return true; }
+                    path = whole;
+                    continue;
+                }
                 object holder = m_Owner.targetObject;
                 if (above.Length > 0) new SerializedProperty(m_Owner, above).Get(out holder);
                 FieldInfo[] fields = Fields.Of(holder.GetType());
@@ -142,7 +156,7 @@ namespace UnityEditor
         object Value
         {
             get { object value; if (m_Changed) return m_New; if (!Get(out value)) throw new InvalidOperationException("property '" + m_Path + "' is gone"); return value; }
-            set { m_New = value; m_Changed = true; m_Owner.Pending.Add(delegate { Assign(m_Owner.targetObject, m_Path.Replace(".Array.data[", "[").Split('.'), 0, value); m_Changed = false; }); }
+            set { string path = m_Path; m_New = value; m_Changed = true; m_Owner.Pending.Add(delegate { Assign(m_Owner.targetObject, path.Replace(".Array.data[", "[").Split('.'), 0, value); m_Changed = false; }); }
         }
         static object Assign(object target, string[] parts, int at, object value)
         {
