@@ -249,13 +249,15 @@ def keys_used(root):
 
 def check_strings(root):
     said = []
-    english, japanese = texts(root, "en"), texts(root, "ja")
-    said += [f"en.json lacks {key}" for key in sorted(japanese.keys() - english.keys())]
-    said += [f"ja.json lacks {key}" for key in sorted(english.keys() - japanese.keys())]
-    for key in sorted(english.keys() & japanese.keys()):
-        places = [set(re.findall(r"\{(\d+)", text)) for text in (english[key], japanese[key])]
-        if places[0] != places[1]:
-            said.append(f"{key} has the values {sorted(places[0])} in English, {sorted(places[1])} in Japanese")
+    english = texts(root, "en")
+    for language, name in {"ja": "Japanese", "ko": "Korean", "zh": "Chinese"}.items():
+        other = texts(root, language)
+        said += [f"en.json lacks {key}" for key in sorted(other.keys() - english.keys())]
+        said += [f"{language}.json lacks {key}" for key in sorted(english.keys() - other.keys())]
+        for key in sorted(english.keys() & other.keys()):
+            places = [set(re.findall(r"\{(\d+)", text)) for text in (english[key], other[key])]
+            if places[0] != places[1]:
+                said.append(f"{key} has the values {sorted(places[0])} in English, {sorted(places[1])} in {name}")
     for key, source in sorted(keys_used(root).items()):
         if key not in english:
             said.append(f"{source} says {key}, of which en.json knows nothing")

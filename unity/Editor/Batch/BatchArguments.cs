@@ -26,7 +26,7 @@ namespace SuperDeform.Editor
 
         private static readonly string[] own =
         {
-            "Avatars", "Heads", "Reference", "Style", "Blend", "Group", "Rig", "Output", "Report", "Language"
+            "Avatars", "Heads", "Reference", "Style", "Blend", "Group", "Rig", "Output", "NewCopy", "Report", "Language"
         };
 
         // The library's options go by the names of their fields. Lists have an option of their own or none, and an avatar
@@ -68,7 +68,7 @@ namespace SuperDeform.Editor
         {
             // First, so that the sentences after it are in the language asked for.
             if (given.ContainsKey("Language"))
-                Strings.Language = Word("Language", "en", "ja");
+                Strings.Language = Word("Language", new List<string>(Strings.Languages).ToArray());
             string avatars;
             if (given.TryGetValue("Avatars", out avatars))
                 foreach (string path in avatars.Split(';'))
@@ -86,6 +86,8 @@ namespace SuperDeform.Editor
             string folder;
             if (given.TryGetValue("Output", out folder))
                 Settings.OutputFolder = folder.Replace('\\', '/');
+            if (given.ContainsKey("NewCopy"))
+                Settings.NewCopy = Word("NewCopy", "yes", "no") == "yes";
             given.TryGetValue("Report", out ReportPath);
             foreach (string group in groups)
                 TakeGroup(group);

@@ -112,7 +112,7 @@ namespace SuperDeform.Editor
             };
             foreach (Warning warning in deformer.Warnings)
             {
-                done.Findings.Add(new Finding("library_notes", Severity.Warning, source.Root, Strings.OfLibrary(warning.Text)));
+                done.Findings.Add(LibraryWarnings.Of(warning, source.Root));
             }
             stages.Begin(ConversionStage.Writing);
             return done;

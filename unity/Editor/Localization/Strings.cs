@@ -11,18 +11,22 @@ namespace SuperDeform.Editor
 {
     /// <summary>What the package says to people, in their language.</summary>
     /// <remarks>
-    /// The texts stand in one file a language beside this one, <c>en.json</c> and <c>ja.json</c>: an object from keys to
-    /// texts, in which {0}, {1} stand for values. Both have the same keys. English answers where another language cannot.
+    /// The texts stand in one file a language beside this one, <c>en.json</c> and so on: an object from keys to
+    /// texts, in which {0}, {1} stand for values. All have the same keys. English answers where another language cannot.
     /// </remarks>
     public static class Strings
     {
         private const string Chosen = "SuperDeform.Language";
-        private static readonly string[] languages = { "en", "ja" };
+        private static readonly string[] languages = { "en", "ja", "ko", "zh" };
+
+        /// <summary>What each language calls itself, in the order of Languages.</summary>
+        internal static readonly string[] LanguageNames = { "English", "日本語", "한국어", "简体中文" };
+
         private static readonly Dictionary<string, Dictionary<string, string>> read =
             new Dictionary<string, Dictionary<string, string>>();
         private static string language;
 
-        /// <summary>The languages there are: "en", "ja".</summary>
+        /// <summary>The languages there are: "en", "ja", "ko", "zh" (simplified Chinese).</summary>
         public static IList<string> Languages { get { return Array.AsReadOnly(languages); } }
 
         /// <summary>The language in use. At first the one chosen last, else the system's, else "en".</summary>
@@ -33,7 +37,7 @@ namespace SuperDeform.Editor
             {
                 if (language == null)
                 {
-                    string own = Application.systemLanguage == SystemLanguage.Japanese ? "ja" : "en";
+                    string own = OfSystem(Application.systemLanguage);
                     string chosen = EditorPrefs.GetString(Chosen, own);
                     language = Array.IndexOf(languages, chosen) >= 0 ? chosen : own;
                 }
@@ -46,6 +50,18 @@ namespace SuperDeform.Editor
                         + string.Join(", ", languages) + ".");
                 language = value;
                 EditorPrefs.SetString(Chosen, value);
+            }
+        }
+
+        private static string OfSystem(SystemLanguage system)
+        {
+            switch (system)
+            {
+                case SystemLanguage.Japanese: return "ja";
+                case SystemLanguage.Korean: return "ko";
+                case SystemLanguage.Chinese:
+                case SystemLanguage.ChineseSimplified: return "zh";
+                default: return "en";
             }
         }
 

@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using UnityEditor;
 using UnityEngine;
 
 namespace SuperDeform.Editor
@@ -7,7 +8,7 @@ namespace SuperDeform.Editor
     /// <summary>Shows what an avatar becomes, in the Scene view, while settings change. The avatar is never changed.</summary>
     /// <remarks>
     /// The avatar is read and measured once. A slider then costs what the library has to do again, a deformation into arrays
-    /// that are kept, and handing those to the proxy's meshes. Blend shapes take no part. The proxy is never saved, and
+    /// that are kept, and handing those to the proxy's meshes. Blend shapes that are on take part as they were at the start. The proxy is never saved, and
     /// Dispose takes it away: on closing, before scripts reload, and before play mode.
     /// </remarks>
     public sealed class PreviewSession : IDisposable
@@ -24,6 +25,7 @@ namespace SuperDeform.Editor
         private bool showBefore, beside;
         private PreviewPose pose;
         private Matrix4x4 placedAt;
+        private readonly List<float> worn = new List<float>();
         private bool counted;
         private float width;
 
@@ -39,10 +41,11 @@ namespace SuperDeform.Editor
             {
                 this.avatar = CharacterReader.Read(avatar, new ReadOptions
                 {
-                    WithMorphs = false, RigAuto = settings.RigAuto, RigOptions = settings.Options,
+                    AsWorn = true, RigAuto = settings.RigAuto, RigOptions = settings.Options,
                     RigProgress = Part(progress, ConversionStage.Rigging, 0, 0.7f)
                 });
                 jointOf = JointsByRole(this.avatar);
+                Weights(worn);
                 Deform(settings, SettingsChange.Style, Part(progress, ConversionStage.Deforming, 0.7f, 1));
                 skeleton = new ProxySkeleton(this.avatar);
                 result = new AvatarResult(this.avatar, true);
@@ -52,6 +55,7 @@ namespace SuperDeform.Editor
                 Show();
                 Place();
                 ApplyVisibility();
+                Selection.selectionChanged += SelectOriginal;
                 counted = true;
                 if (Shown != null)
                     Shown(true);
@@ -173,16 +177,91 @@ namespace SuperDeform.Editor
                 PreviewPoses.Take(pose, skeleton, jointOf, avatar.Twins);
         }
 
-        /// <summary>Follows the avatar, which may have been moved or posed.</summary>
+        /// <summary>The weights of all blend shapes. Without garbage.</summary>
+        private void Weights(List<float> weights)
+        {
+            weights.Clear();
+            foreach (RendererData data in avatar.Renderers)
+            {
+                var skinned = data.Renderer as SkinnedMeshRenderer;
+                for (int shape = 0; skinned != null && shape < data.Mesh.blendShapeCount; shape++)
+                    weights.Add(skinned.GetBlendShapeWeight(shape));
+            }
+        }
+
+        /// <summary>Whether blend shapes are on that were not at the start, or otherwise: what is shown is another face.</summary>
+        public bool IsWornOtherwise
+        {
+            get
+            {
+                int at = 0;
+                foreach (RendererData data in avatar.Renderers)
+                {
+                    var skinned = data.Renderer as SkinnedMeshRenderer;
+                    for (int shape = 0; skinned != null && shape < data.Mesh.blendShapeCount; shape++, at++)
+                        if (at >= worn.Count || worn[at] != skinned.GetBlendShapeWeight(shape))
+                            return true;
+                }
+                return false;
+            }
+        }
+
+        /// <summary>The avatar's object that one of the proxy's stands for; null for others.</summary>
+        public GameObject OriginalOf(GameObject shown)
+        {
+            if (shown == null || Proxy == null || !shown.transform.IsChildOf(Proxy.transform))
+                return null;
+            foreach (ProxyRenderer renderer in renderers)
+                if (renderer.IsOn(shown))
+                    return renderer.Original.gameObject;
+            return avatar.Root;
+        }
+
+        /// <summary>A click on the proxy selects what it stands for: the proxy itself is nothing that can be changed.</summary>
+        private void SelectOriginal()
+        {
+            GameObject original = OriginalOf(Selection.activeGameObject);
+            if (original != null)
+                Selection.activeGameObject = original;
+        }
+
+        /// <summary>Where the avatar is, as it is shown.</summary>
+        public Bounds Bounds
+        {
+            get
+            {
+                bool any = false;
+                var bounds = new Bounds(avatar.Root.transform.position, Vector3.zero);
+                foreach (RendererData data in avatar.Renderers)
+                    if (data.Renderer != null)
+                    {
+                        if (any)
+                            bounds.Encapsulate(data.Renderer.bounds);
+                        else
+                            bounds = data.Renderer.bounds;
+                        any = true;
+                    }
+                return bounds;
+            }
+        }
+
+        /// <summary>
+        /// Follows the avatar, which may have been moved, posed, painted otherwise, or had parts switched on and off.
+        /// </summary>
         /// <returns>Whether it had been.</returns>
         public bool Follow()
         {
+            bool changed = false;
+            foreach (ProxyRenderer renderer in renderers)
+                changed |= renderer.Follow(!showBefore);
+            if (changed && !showBefore && !beside)
+                Hide();
             bool placed = !placedAt.Equals(avatar.Root.transform.localToWorldMatrix), posed = skeleton.HasMoved();
             if (placed)
                 Place();
             if (posed)
                 Stand();
-            return placed || posed;
+            return changed || placed || posed;
         }
 
         private void Place()
@@ -215,7 +294,7 @@ namespace SuperDeform.Editor
                 renderer.Visible = !showBefore;
             if (showBefore || beside)
                 Unhide();
-            else if (hidden.Count == 0)
+            else
                 Hide();
         }
 
@@ -260,6 +339,7 @@ namespace SuperDeform.Editor
 
         public void Dispose()
         {
+            Selection.selectionChanged -= SelectOriginal;
             if (counted && Shown != null)
                 Shown(false);
             counted = false;

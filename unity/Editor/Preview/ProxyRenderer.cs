@@ -1,3 +1,5 @@
+using System.Collections.Generic;
+using UnityEditor;
 using UnityEngine;
 
 namespace SuperDeform.Editor
@@ -5,8 +7,8 @@ namespace SuperDeform.Editor
     /// <summary>A renderer that stands for one of the avatar's: the same look, vertices that follow the deformer.</summary>
     /// <remarks>
     /// Its vertices are in the space of the avatar's root at rest, as the library gives them; so the bind pose of a bone is
-    /// the inverse of its rest matrix there. A mesh that hangs from one joint gets that joint as its only bone. It has no
-    /// blend shapes: nothing that a slider moves takes time for them.
+    /// the inverse of its rest matrix there. A mesh that hangs from one joint gets that joint as its only bone. Blend
+    /// shapes that are on are in the vertices.
     /// </remarks>
     internal sealed class ProxyRenderer
     {
@@ -15,6 +17,7 @@ namespace SuperDeform.Editor
         private readonly Mesh mesh;
         private readonly Matrix4x4[] bindPoses;
         private readonly SkinnedMeshRenderer renderer;
+        private readonly List<Material> now = new List<Material>(), before = new List<Material>();
 
         internal ProxyRenderer(AvatarData avatar, RendererResult result, ProxySkeleton skeleton)
         {
@@ -62,14 +65,48 @@ namespace SuperDeform.Editor
             mesh.bindposes = bindPoses;
         }
 
+        /// <summary>The avatar's renderer; null once it was deleted.</summary>
+        internal Renderer Original { get { return result.Source.Renderer; } }
+
+        /// <summary>Whether an object is the one that it is shown by.</summary>
+        internal bool IsOn(GameObject shown)
+        {
+            return renderer.gameObject == shown && Original != null;
+        }
+
         /// <summary>Whether it is to be seen, where the avatar's renderer is.</summary>
         internal bool Visible
         {
-            set
+            set { renderer.enabled = value && IsOriginalSeen; }
+        }
+
+        // The eye in the Hierarchy hides an object in the Scene view alone.
+        private bool IsOriginalSeen
+        {
+            get
             {
-                Renderer original = result.Source.Renderer;
-                renderer.enabled = value && original != null && original.enabled && original.gameObject.activeInHierarchy;
+                return Original != null && Original.enabled && Original.gameObject.activeInHierarchy
+                    && !SceneVisibilityManager.instance.IsHidden(Original.gameObject);
             }
+        }
+
+        /// <summary>Follows the avatar's renderer: seen or not, and its materials. Without garbage.</summary>
+        /// <returns>Whether anything had changed.</returns>
+        internal bool Follow(bool visible)
+        {
+            bool seen = visible && IsOriginalSeen, changed = renderer.enabled != seen;
+            renderer.enabled = seen;
+            if (Original == null)
+                return changed;
+            Original.GetSharedMaterials(now);
+            renderer.GetSharedMaterials(before);
+            bool same = now.Count == before.Count;
+            for (int slot = 0; same && slot < now.Count; slot++)
+                same = now[slot] == before[slot];
+            if (same)
+                return changed;
+            renderer.sharedMaterials = now.ToArray();
+            return true;
         }
 
         internal void Destroy()

@@ -1,4 +1,5 @@
 using UnityEngine;
+using UnityEngine.SceneManagement;
 
 namespace SuperDeform.Editor
 {
@@ -17,6 +18,9 @@ namespace SuperDeform.Editor
         {
             this.avatar = avatar;
             Root = new GameObject(avatar.Root.name + " (preview)") { hideFlags = HideFlags.HideAndDontSave }.transform;
+            // The scene of the avatar, which need not be the active one; the view of a prefab shows its own alone.
+            if (avatar.Root.scene.IsValid())
+                SceneManager.MoveGameObjectToScene(Root.gameObject, avatar.Root.scene);
             joints = new Transform[avatar.Joints.Length];
             inverses = new Matrix4x4[joints.Length];
             places = new Vector3[joints.Length];

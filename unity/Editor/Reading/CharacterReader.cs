@@ -37,6 +37,7 @@ namespace SuperDeform.Editor
                 {
                     RendererReader.Place(renderer, data.Rest);
                     if (options.WithMorphs) RendererReader.ReadFrames(renderer);
+                    else if (options.AsWorn) RendererReader.ReadWorn(renderer);
                     renderer.Parts.AddRange(SubmeshParts.Of(renderer));
                     data.Parts.AddRange(renderer.Parts);
                 }

@@ -32,7 +32,7 @@ namespace SuperDeform.Editor
                 if (HumanoidRoles.Missing(role => roles[role] >= 0) != null) return roles;
                 foreach (Warning warning in mirrored.Warnings)
                 {
-                    data.Findings.Add(new Finding("library_notes", Severity.Warning, data.Root, warning.Text));
+                    data.Findings.Add(LibraryWarnings.Of(warning, data.Root));
                 }
                 return roles;
             }

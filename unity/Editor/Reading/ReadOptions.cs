@@ -6,6 +6,11 @@ namespace SuperDeform.Editor
         /// <summary>Reads blend shapes too: needed for a result, not for a preview or a measurement.</summary>
         public bool WithMorphs;
 
+        /// <summary>
+        /// Reads the blend shapes that are on as one, by their weights: the avatar as it is worn, for a preview.
+        /// </summary>
+        public bool AsWorn;
+
         /// <summary>Makes a rig even where the avatar has one, and takes rigs that show no humanoid.</summary>
         public bool RigAuto;
 

@@ -301,6 +301,61 @@ namespace SuperDeform.Editor
             }
         }
 
+        /// <summary>Reads the blend shapes that are on, as one frame of weight 100; none where all are off.</summary>
+        internal static void ReadWorn(RendererData renderer)
+        {
+            SkinnedMeshRenderer skinned = renderer.Renderer as SkinnedMeshRenderer;
+            if (skinned == null) return;
+            int count = renderer.Vertices.Length;
+            Vector3[] positions = null, normals = null, places = null, turns = null, tangents = null;
+            for (int shape = 0; shape < renderer.Mesh.blendShapeCount; shape++)
+            {
+                float weight = skinned.GetBlendShapeWeight(shape);
+                if (weight == 0f) continue;
+                if (positions == null)
+                {
+                    positions = new Vector3[count];
+                    normals = new Vector3[count];
+                    places = new Vector3[count];
+                    turns = new Vector3[count];
+                    tangents = new Vector3[count];
+                }
+                foreach (KeyValuePair<int, float> part in FrameShares(renderer.Mesh, shape, weight))
+                {
+                    renderer.Mesh.GetBlendShapeFrameVertices(shape, part.Key, places, turns, tangents);
+                    for (int vertex = 0; vertex < count; vertex++)
+                    {
+                        positions[vertex] += places[vertex] * part.Value;
+                        normals[vertex] += turns[vertex] * part.Value;
+                    }
+                }
+            }
+            if (positions == null) return;
+            renderer.Frames.Add(new BlendFrame
+            {
+                ShapeName = "as worn", Weight = 100, Positions = positions, Normals = renderer.Normals != null && Any(normals) ? normals : null
+            });
+        }
+
+        /// <summary>
+        /// The frames of a shape that a weight lies between, and how much of each it is; beyond the ends it goes on in a line, as
+        /// Unity does where weights are not clamped.
+        /// </summary>
+        internal static List<KeyValuePair<int, float>> FrameShares(Mesh mesh, int shape, float weight)
+        {
+            List<KeyValuePair<int, float>> shares = new List<KeyValuePair<int, float>>();
+            int last = mesh.GetBlendShapeFrameCount(shape) - 1, frame = 0;
+            while (frame < last && weight > mesh.GetBlendShapeFrameWeight(shape, frame))
+            {
+                frame++;
+            }
+            float high = mesh.GetBlendShapeFrameWeight(shape, frame), low = frame == 0 ? 0 : mesh.GetBlendShapeFrameWeight(shape, frame - 1);
+            float along = high == low ? 1 : (weight - low) / (high - low);
+            shares.Add(new KeyValuePair<int, float>(frame, along));
+            if (frame > 0) shares.Add(new KeyValuePair<int, float>(frame - 1, 1 - along));
+            return shares;
+        }
+
         static bool Any(Vector3[] deltas)
         {
             foreach (Vector3 delta in deltas)

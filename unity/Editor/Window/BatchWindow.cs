@@ -33,6 +33,37 @@ namespace SuperDeform.Editor
                     avatars.Add(candidate);
         }
 
+        /// <summary>Draws an avatar of the list; false where it is to go.</summary>
+        private static bool Listed(GameObject avatar)
+        {
+            EditorGUILayout.BeginHorizontal();
+            EditorGUILayout.LabelField(avatar == null ? "-" : avatar.name);
+            bool goes = GUILayout.Button(new GUIContent("\u00d7", Strings.Get("batch.remove")), GUILayout.Width(24));
+            EditorGUILayout.EndHorizontal();
+            return !goes;
+        }
+
+        /// <summary>Avatars that are dropped anywhere on the window join the list.</summary>
+        private void AcceptDrops()
+        {
+            EventType now = Event.current == null ? EventType.Ignore : Event.current.type;
+            if (now != EventType.DragUpdated && now != EventType.DragPerform)
+                return;
+            var dropped = new List<GameObject>();
+            foreach (Object one in DragAndDrop.objectReferences)
+                if (one is GameObject)
+                    dropped.Add((GameObject)one);
+            if (dropped.Count == 0)
+                return;
+            DragAndDrop.visualMode = DragAndDropVisualMode.Copy;
+            if (now == EventType.DragPerform)
+            {
+                DragAndDrop.AcceptDrag();
+                Add(dropped);
+            }
+            Event.current.Use();
+        }
+
         /// <summary>Converts all, with the settings of the converter window.</summary>
         public BatchReport Convert()
         {
@@ -56,8 +87,13 @@ namespace SuperDeform.Editor
             EditorGUILayout.LabelField(Strings.Get("batch.avatars"), EditorStyles.boldLabel);
             if (avatars.Count == 0)
                 EditorGUILayout.LabelField(Strings.Get("batch.empty"), EditorStyles.wordWrappedLabel);
-            foreach (GameObject avatar in avatars)
-                EditorGUILayout.LabelField(avatar == null ? "-" : avatar.name);
+            for (int i = 0; i < avatars.Count; i++)
+                if (!Listed(avatars[i]))
+                {
+                    Undo.RecordObject(this, Strings.Get("undo.batch"));
+                    avatars.RemoveAt(i--);
+                }
+            AcceptDrops();
             EditorGUILayout.BeginHorizontal();
             if (GUILayout.Button(Strings.Get("batch.add")))
                 Add(Selection.gameObjects);

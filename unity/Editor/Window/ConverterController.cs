@@ -17,15 +17,34 @@ namespace SuperDeform.Editor
         private bool stale = true;
         private bool measured;
         private double changedAt;
+        private bool resting, wornOtherwise;
 
         public ConverterController(ConverterModel model)
         {
             this.model = model;
             model.Changed += MarkStale;
+            SceneView.duringSceneGui += DrawBadge;
         }
 
         /// <summary>What the Scene view shows; null where there is no preview.</summary>
         public PreviewSession Preview { get { return preview; } }
+
+        /// <summary>While nobody can see the window there is no preview: the avatar is seen as it is.</summary>
+        public bool Resting
+        {
+            get { return resting; }
+            set
+            {
+                stale |= resting != value;
+                resting = value;
+            }
+        }
+
+        private void DrawBadge(SceneView view)
+        {
+            if (preview != null && preview.IsAlive)
+                PreviewBadge.Draw(view, preview);
+        }
 
         /// <summary>Brings the preview up to the model, and measures once settings rest.</summary>
         /// <param name="now">Seconds, as EditorApplication.timeSinceStartup.</param>
@@ -38,9 +57,21 @@ namespace SuperDeform.Editor
                 Drop();
                 stale = true;
             }
+            if (preview != null && preview.IsWornOtherwise != wornOtherwise)
+            {
+                // A slider of a blend shape moves: when it rests, the avatar is read anew.
+                wornOtherwise = !wornOtherwise;
+                changedAt = now;
+            }
+            if (preview != null && wornOtherwise && now - changedAt >= Rest)
+            {
+                Drop();
+                stale = true;
+            }
             if (stale)
             {
                 stale = false;
+                wornOtherwise = false;
                 measured = false;
                 changedAt = now;
                 Follow();
@@ -57,7 +88,7 @@ namespace SuperDeform.Editor
 
         private void Follow()
         {
-            if (!model.PreviewOn || !model.CanConvert)
+            if (resting || !model.PreviewOn || !model.CanConvert)
             {
                 Drop();
                 model.SetPreviewFailure(null);
@@ -131,6 +162,28 @@ namespace SuperDeform.Editor
             }
         }
 
+        /// <summary>Saves the settings as a file that can be taken again; one that is there is changed.</summary>
+        /// <param name="path">From the project's folder, such as Assets/chibi.asset.</param>
+        public void SavePreset(string path)
+        {
+            try
+            {
+                var preset = AssetDatabase.LoadAssetAtPath<SuperDeformPreset>(path);
+                bool isNew = preset == null;
+                if (isNew)
+                    preset = ScriptableObject.CreateInstance<SuperDeformPreset>();
+                preset.Settings = model.Settings.Clone();
+                if (isNew)
+                    AssetDatabase.CreateAsset(preset, path);
+                EditorUtility.SetDirty(preset);
+                AssetDatabase.SaveAssetIfDirty(preset);
+            }
+            catch (Exception fault)
+            {
+                model.SetFailure(Reason(fault));
+            }
+        }
+
         private Finding Reason(Exception fault)
         {
             Finding reason = ConversionException.From(fault, model.Avatar).Finding;
@@ -156,6 +209,7 @@ namespace SuperDeform.Editor
         public void Dispose()
         {
             model.Changed -= MarkStale;
+            SceneView.duringSceneGui -= DrawBadge;
             Drop();
         }
     }

@@ -197,10 +197,32 @@ namespace SuperDeform.Editor
                 Converting();
         }
 
+        /// <summary>Comes when the settings are to be saved as a file.</summary>
+        public event Action SavingPreset;
+
+        internal void SavePreset()
+        {
+            if (SavingPreset != null)
+                SavingPreset();
+        }
+
+        /// <summary>Takes the settings of a file; the avatar stays.</summary>
+        public void Take(SuperDeformPreset preset)
+        {
+            Change("undo.preset", () => Settings = preset.Settings.Clone());
+            Recheck();
+        }
+
         internal void SaveStyle()
         {
             if (SavingStyle != null)
                 SavingStyle();
+        }
+
+        /// <summary>Makes the sections anew, without saying that anything has changed.</summary>
+        internal void Touched()
+        {
+            sections = null;
         }
 
         /// <summary>Says that something is no longer as it was, for instance after Undo.</summary>

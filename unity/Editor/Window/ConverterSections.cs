@@ -10,10 +10,10 @@ namespace SuperDeform.Editor
     {
         internal static List<Section> Of(ConverterModel model)
         {
-            return new List<Section> { Avatar(model), Style(model), FineTuning(model), Preview(model), Report(model) };
+            return new List<Section> { Avatar(model), Style(model), TuningSection.Of(model), Preview(model), Report(model) };
         }
 
-        private static Section New(ConverterModel model, SectionId id)
+        internal static Section New(ConverterModel model, SectionId id)
         {
             return new Section { Id = id, Title = Strings.Get("section." + id), Open = model.Open[(int)id] };
         }
@@ -107,6 +107,16 @@ namespace SuperDeform.Editor
             ConversionSettings settings = model.Settings;
             Section section = New(model, SectionId.Style);
             section.Summary = StyleName(settings);
+            section.Rows.Add(new ObjectRow
+            {
+                Label = Strings.Get("style.settings"), Tooltip = Strings.Get("style.settings.tooltip"),
+                Type = typeof(SuperDeformPreset), Get = () => null,
+                Set = value =>
+                {
+                    if (value != null)
+                        model.Take((SuperDeformPreset)value);
+                }
+            });
             section.Rows.Add(new ChoiceRow
             {
                 Label = Strings.Get("style.presets"), Tooltip = Strings.Get("style.presets.tooltip"),
@@ -165,111 +175,6 @@ namespace SuperDeform.Editor
             UnityEngine.Object like = settings.Source == StyleSource.ReferenceAvatar
                 ? settings.ReferenceAvatar : (UnityEngine.Object)settings.SavedStyle;
             return like == null ? Strings.Get("style.none") : like.name;
-        }
-
-        // ---- Fine tuning: by bone group, and of the head ------------------------------------------------------------
-
-        private static Section FineTuning(ConverterModel model)
-        {
-            ConversionSettings settings = model.Settings;
-            Options options = settings.Options;
-            Section section = New(model, SectionId.FineTuning);
-            int own = GroupTunings.Count(settings);
-            section.Summary = own == 0 ? "" : Strings.Get("tune.summary", own);
-            section.Rows.Add(Slider("option.amount", OptionRange.Amount, () => (float)options.Amount,
-                value => model.Change("undo.tune", () => options.Amount = value)));
-            section.Rows.Add(Slider("option.head_scale", 0.5f, 2.5f, () => (float)options.HeadScale,
-                value => model.Change("undo.tune", () => options.HeadScale = value)));
-            section.Rows.Add(Slider("option.profile", OptionRange.Profile, () => (float)options.Profile,
-                value => model.Change("undo.tune", () => options.Profile = value)));
-            section.Rows.Add(Slider("option.hair_length", OptionRange.HairLength, () => (float)options.HairLength,
-                value => model.Change("undo.tune", () => options.HairLength = value)));
-            section.Rows.Add(Toggle("option.height.keep", true, () => options.Height == 0,
-                value => model.Change("undo.tune", () => options.Height = value ? 0 : double.NaN)));
-            SliderRow height = Slider("option.height", 0.2f, 3, () => options.Height > 0 ? (float)options.Height : model.HeightFound,
-                value => model.Change("undo.tune", () => options.Height = value));
-            height.IsOwn = () => options.Height > 0;
-            height.Reset = () => model.Change("undo.tune", () => options.Height = double.NaN);
-            section.Rows.Add(height);
-            SliderRow face = Slider("option.face_squash", 0, 1.5f,
-                () => double.IsNaN(options.FaceSquash) ? (float)OptionDefaults.FaceSquash : (float)options.FaceSquash,
-                value => model.Change("undo.face", () => options.FaceSquash = value));
-            face.IsOwn = () => !double.IsNaN(options.FaceSquash);
-            face.Reset = () => model.Change("undo.face", () => options.FaceSquash = double.NaN);
-            section.Rows.Add(face);
-            section.Rows.Add(Slider("option.youth", OptionRange.Youth, () => (float)options.Youth,
-                value => model.Change("undo.face", () => options.Youth = value)));
-            section.Rows.Add(Slider("option.youth_eye", OptionRange.YouthEye, () => (float)options.YouthEye,
-                value => model.Change("undo.face", () => options.YouthEye = value)));
-            section.Rows.Add(Slider("option.youth_lower", OptionRange.YouthLower, () => (float)options.YouthLower,
-                value => model.Change("undo.face", () => options.YouthLower = value)));
-            section.Rows.Add(Slider("option.youth_nose", OptionRange.YouthNose, () => (float)options.YouthNose,
-                value => model.Change("undo.face", () => options.YouthNose = value)));
-            section.Rows.Add(Slider("option.youth_cheek", OptionRange.YouthCheek, () => (float)options.YouthCheek,
-                value => model.Change("undo.face", () => options.YouthCheek = value)));
-            section.Rows.Add(Slider("option.youth_jaw", OptionRange.YouthJaw, () => (float)options.YouthJaw,
-                value => model.Change("undo.face", () => options.YouthJaw = value)));
-            section.Rows.Add(Slider("option.youth_skull", OptionRange.YouthSkull, () => (float)options.YouthSkull,
-                value => model.Change("undo.face", () => options.YouthSkull = value)));
-            section.Rows.Add(Slider("option.youth_ear", OptionRange.YouthEar, () => (float)options.YouthEar,
-                value => model.Change("undo.face", () => options.YouthEar = value)));
-            section.Rows.Add(Slider("option.smile", OptionRange.Smile, () => (float)options.Smile,
-                value => model.Change("undo.face", () => options.Smile = value)));
-            section.Rows.Add(Slider("option.seat", OptionRange.Seat, () => (float)options.Seat,
-                value => model.Change("undo.face", () => options.Seat = value)));
-            section.Rows.Add(Slider("option.hair_lay", OptionRange.HairLay, () => (float)options.HairLay,
-                value => model.Change("undo.face", () => options.HairLay = value)));
-            section.Rows.Add(Popup("face_curve", typeof(FaceCurve), () => (int)options.FaceCurve,
-                value => model.Change("undo.face", () => options.FaceCurve = (FaceCurve)value)));
-            section.Rows.Add(new TextRow { Label = Strings.Get("tune.groups"), Strong = true });
-            section.Rows.Add(new ColumnsRow
-            {
-                Label = Strings.Get("report.group"), Columns = Words("option.length_scale", "option.thickness_scale")
-            });
-            foreach (TunableGroup group in GroupTunings.Groups)
-                section.Rows.Add(GroupOf(model, group));
-            section.Rows.Add(new ActionRow
-            {
-                Label = Strings.Get("tune.reset"), Enabled = own > 0,
-                Do = () => model.Change("undo.reset", () => GroupTunings.Clear(settings))
-            });
-            return section;
-        }
-
-        private static GroupRow GroupOf(ConverterModel model, TunableGroup group)
-        {
-            string length = group.IsSize ? "tune.size" : group.IsSpread ? "tune.spread" : "option.length_scale";
-            return new GroupRow
-            {
-                Label = NameOf(group),
-                Sliders = new[]
-                {
-                    GroupSlider(model, group.Name, length, () => model.ScaleFound(group.Name, false),
-                        tuned => tuned.LengthScale, (tuned, value) => tuned.LengthScale = value),
-                    group.IsSize || group.IsSpread ? null
-                        : GroupSlider(model, group.Name, "option.thickness_scale", () => model.ScaleFound(group.Name, true),
-                            tuned => tuned.ThicknessScale, (tuned, value) => tuned.ThicknessScale = value)
-                }
-            };
-        }
-
-        private static string NameOf(TunableGroup group)
-        {
-            string name = Strings.Get("group." + group.Name);
-            return group.IsSize ? Strings.Get("group.size", name) : group.IsSpread ? Strings.Get("group.spread", name) : name;
-        }
-
-        // found: what it is until a person sets it.
-        private static SliderRow GroupSlider(ConverterModel model, string group, string key, Func<float> found,
-            Func<GroupSettings, double> get, Action<GroupSettings, double> change)
-        {
-            Func<double> own = () => get(GroupTunings.Of(model.Settings, group));
-            Action<double> set = value => model.Change("undo.tune",
-                () => GroupTunings.Change(model.Settings, group, tuned => change(tuned, value)));
-            SliderRow row = Slider(key, 0.1f, 2, () => double.IsNaN(own()) ? found() : (float)own(), value => set(value));
-            row.IsOwn = () => !double.IsNaN(own());
-            row.Reset = () => set(double.NaN);
-            return row;
         }
 
         // ---- Preview: in the Scene view -----------------------------------------------------------------------------
@@ -331,6 +236,14 @@ namespace SuperDeform.Editor
                 Get = () => model.Settings.OutputFolder ?? "",
                 Set = value => model.Change("undo.folder", () => model.Settings.OutputFolder = value)
             });
+            section.Rows.Add(Toggle("report.new_copy", true, () => model.Settings.NewCopy,
+                value => model.Change("undo.folder", () => model.Settings.NewCopy = value)));
+            section.Rows.Add(Toggle("report.place", true, () => model.Settings.PlaceInScene,
+                value => model.Change("undo.folder", () => model.Settings.PlaceInScene = value)));
+            section.Rows.Add(new ActionRow
+            {
+                Label = Strings.Get("style.keep"), Tooltip = Strings.Get("style.keep.tooltip"), Do = model.SavePreset
+            });
             section.Rows.Add(new ActionRow
             {
                 Label = Strings.Get("report.convert"), Tooltip = Strings.Get("report.convert.tooltip"), Main = true,
@@ -342,7 +255,7 @@ namespace SuperDeform.Editor
             {
                 section.Rows.Add(new CheckRow
                 {
-                    Severity = Severity.Info, Label = Strings.Get("report.made", model.Result.PrefabPath),
+                    Severity = Severity.Info, Label = Strings.Get(model.Result.Updated ? "report.updated" : "report.made", model.Result.PrefabPath),
                     Where = model.Result.Prefab
                 });
                 foreach (Finding finding in model.Result.Findings)
@@ -355,7 +268,7 @@ namespace SuperDeform.Editor
         // What the checks of the avatar or the preview say already is not said again.
         private static bool IsNews(ConverterModel model, Finding finding)
         {
-            if (finding.Key == "library_notes")
+            if (LibraryWarnings.IsOne(finding))
                 return model.Numbers == null;
             foreach (Finding known in model.Findings)
                 if (known.Text == finding.Text)
@@ -381,29 +294,21 @@ namespace SuperDeform.Editor
                     if (found.Name == group.Name)
                         table.Cells.Add(new[]
                         {
-                            NameOf(group), Percent(found.LengthScale),
+                            TuningSection.NameOf(group), Percent(found.LengthScale),
                             group.IsSpread || group.IsSize ? "" : Percent(found.ThicknessScale)
                         });
             return table;
         }
 
-        // Codes of the library for what a person may like to know, but need not do anything about.
-        private static readonly string[] harmless = { "coefficient_limited", "crown_with_hair", "hair_shortened", "kind_guessed" };
-
-        /// <summary>What the library warns of, in words for people; its own sentence where there are none.</summary>
         private static CheckRow Warned(Warning warning)
         {
-            string key = "warning." + warning.Code, sentence = Strings.OfLibrary(warning.Text);
-            return new CheckRow
-            {
-                Label = Strings.Has(key) ? Strings.Get(key, sentence) : sentence,
-                Severity = Array.IndexOf(harmless, warning.Code) >= 0 ? Severity.Info : Severity.Warning
-            };
+            Finding said = LibraryWarnings.Of(warning, null);
+            return new CheckRow { Label = said.Text, Severity = said.Severity };
         }
 
         // ---- Small things -------------------------------------------------------------------------------------------
 
-        private static string[] Words(params string[] keys)
+        internal static string[] Words(params string[] keys)
         {
             return Array.ConvertAll(keys, key => Strings.Get(key));
         }
@@ -429,7 +334,7 @@ namespace SuperDeform.Editor
         }
 
         // An option of the library that is one of some words.
-        private static PopupRow Popup(string option, Type words, Func<int> get, Action<int> set)
+        internal static PopupRow Popup(string option, Type words, Func<int> get, Action<int> set)
         {
             string key = "option." + option;
             return new PopupRow
@@ -439,12 +344,12 @@ namespace SuperDeform.Editor
             };
         }
 
-        private static SliderRow Slider(string key, OptionRange range, Func<float> get, Action<float> set)
+        internal static SliderRow Slider(string key, OptionRange range, Func<float> get, Action<float> set)
         {
             return Slider(key, (float)range.Low, (float)range.High, get, set);
         }
 
-        private static SliderRow Slider(string key, float low, float high, Func<float> get, Action<float> set)
+        internal static SliderRow Slider(string key, float low, float high, Func<float> get, Action<float> set)
         {
             return new SliderRow
             {
@@ -453,7 +358,7 @@ namespace SuperDeform.Editor
             };
         }
 
-        private static ToggleRow Toggle(string key, bool enabled, Func<bool> get, Action<bool> set)
+        internal static ToggleRow Toggle(string key, bool enabled, Func<bool> get, Action<bool> set)
         {
             return new ToggleRow
             {

@@ -70,6 +70,7 @@ namespace SuperDeform.Editor
             connected.Changing += RecordUndo;
             connected.Converting += ConvertSoon;
             connected.SavingStyle += SaveStyleSoon;
+            connected.SavingPreset += SavePresetSoon;
             controller = new ConverterController(connected);
         }
 
@@ -80,6 +81,7 @@ namespace SuperDeform.Editor
             connected.Changing -= RecordUndo;
             connected.Converting -= ConvertSoon;
             connected.SavingStyle -= SaveStyleSoon;
+            connected.SavingPreset -= SavePresetSoon;
             controller.Dispose();
             controller = null;
             connected = null;
@@ -100,6 +102,19 @@ namespace SuperDeform.Editor
                 Disconnect();
             else if (change == PlayModeStateChange.EnteredEditMode)
                 Connect();
+        }
+
+        private void OnBecameVisible()
+        {
+            if (controller != null)
+                controller.Resting = false;
+        }
+
+        // Another tab lies over it, or it is closed.
+        private void OnBecameInvisible()
+        {
+            if (controller != null)
+                controller.Resting = true;
         }
 
         private void OnFocus()
@@ -130,6 +145,19 @@ namespace SuperDeform.Editor
         private void SaveStyleSoon()
         {
             EditorApplication.delayCall += SaveStyle;
+        }
+
+        private void SavePresetSoon()
+        {
+            EditorApplication.delayCall += SavePreset;
+        }
+
+        private void SavePreset()
+        {
+            string path = EditorUtility.SaveFilePanelInProject(Strings.Get("style.keep.title"), "chibi", "asset", "");
+            if (!string.IsNullOrEmpty(path) && controller != null)
+                controller.SavePreset(path);
+            Repaint();
         }
 
         private void Convert()
@@ -187,7 +215,7 @@ namespace SuperDeform.Editor
             int now = Strings.Languages.IndexOf(Strings.Language);
             EditorGUILayout.BeginHorizontal();
             GUILayout.FlexibleSpace();
-            int chosen = GUILayout.Toolbar(now, new[] { "English", "日本語" });
+            int chosen = GUILayout.Toolbar(now, Strings.LanguageNames);
             EditorGUILayout.EndHorizontal();
             if (chosen != now)
                 Strings.Language = Strings.Languages[chosen];

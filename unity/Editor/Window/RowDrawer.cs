@@ -11,6 +11,20 @@ namespace SuperDeform.Editor
         private const float ButtonWidth = 64;
         private const float ResetWidth = 24;
 
+        /// <summary>A section with a title that folds it, for an Inspector.</summary>
+        internal static void Draw(Section section, ConverterModel model)
+        {
+            bool open = EditorGUILayout.Foldout(section.Open, section.Title, true);
+            if (open != section.Open)
+                section.Open = model.Open[(int)section.Id] = open;
+            if (!open)
+                return;
+            EditorGUI.indentLevel++;
+            foreach (Row row in section.Rows)
+                Draw(row);
+            EditorGUI.indentLevel--;
+        }
+
         internal static void Draw(Row row)
         {
             EditorGUI.BeginDisabledGroup(!row.Enabled);
@@ -99,6 +113,9 @@ namespace SuperDeform.Editor
 
         private static void Columns(ColumnsRow row, GUIContent label)
         {
+            // Below each other every slider says itself what it is.
+            if (IsNarrow(row.Columns.Length))
+                return;
             EditorGUILayout.BeginHorizontal();
             EditorGUILayout.LabelField(label, EditorStyles.boldLabel, GUILayout.Width(GroupLabel));
             foreach (string column in row.Columns)
@@ -107,8 +124,27 @@ namespace SuperDeform.Editor
             EditorGUILayout.EndHorizontal();
         }
 
+        /// <summary>
+        /// Unity draws no slider, only its number, where there are less than 105 points for both: 50 for the slider, 5 between, 50
+        /// for the number (EditorGUI.DoSlider). In a narrow window the sliders of a group stand below each other.
+        /// </summary>
+        internal const float LeastSlider = 105;
+
+        // Margins, the scroll bar and the indent of a section.
+        private const float Aside = 48;
+
+        internal static bool IsNarrow(int columns)
+        {
+            return (EditorGUIUtility.currentViewWidth - GroupLabel - ResetWidth - Aside) / columns < LeastSlider + 4;
+        }
+
         private static void Group(GroupRow row, GUIContent label)
         {
+            if (IsNarrow(row.Sliders.Length))
+            {
+                Stacked(row, label);
+                return;
+            }
             EditorGUILayout.BeginHorizontal();
             EditorGUILayout.LabelField(label, row.IsOwn ? EditorStyles.boldLabel : EditorStyles.label, GUILayout.Width(GroupLabel));
             foreach (SliderRow slider in row.Sliders)
@@ -120,12 +156,26 @@ namespace SuperDeform.Editor
             EditorGUILayout.EndHorizontal();
         }
 
+        private static void Stacked(GroupRow row, GUIContent label)
+        {
+            EditorGUILayout.LabelField(label, row.IsOwn ? EditorStyles.boldLabel : EditorStyles.label);
+            EditorGUI.indentLevel++;
+            foreach (SliderRow slider in row.Sliders)
+                if (slider != null)
+                    Slider(slider, new GUIContent(slider.Label, slider.Tooltip));
+            EditorGUI.indentLevel--;
+        }
+
         private static void BareSlider(SliderRow row)
         {
+            // An indent would take from the slider what the grid has given it.
+            int indent = EditorGUI.indentLevel;
+            EditorGUI.indentLevel = 0;
             EditorGUI.BeginChangeCheck();
-            float value = EditorGUILayout.Slider(row.Get(), row.Low, row.High, GUILayout.MinWidth(40));
+            float value = EditorGUILayout.Slider(row.Get(), row.Low, row.High, GUILayout.MinWidth(LeastSlider));
             if (EditorGUI.EndChangeCheck())
                 row.Set(value);
+            EditorGUI.indentLevel = indent;
         }
 
         private static void Reset(bool possible, Action reset)

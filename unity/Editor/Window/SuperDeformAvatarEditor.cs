@@ -94,26 +94,13 @@ namespace SuperDeform.Editor
                 RowDrawer.Draw(ConverterSections.Check(model, finding));
             foreach (Section section in model.Sections)
                 if (section.Id == SectionId.Style || section.Id == SectionId.FineTuning || section.Id == SectionId.Preview)
-                    Draw(section);
+                    RowDrawer.Draw(section, model);
             if (model.Failure != null)
                 RowDrawer.Draw(ConverterSections.Check(model, model.Failure));
             EditorGUI.BeginDisabledGroup(!model.CanConvert);
             if (GUILayout.Button(new GUIContent(Strings.Get("component.convert"), Strings.Get("report.convert.tooltip")), GUILayout.Height(32)))
                 EditorApplication.delayCall += Convert;
             EditorGUI.EndDisabledGroup();
-        }
-
-        private void Draw(Section section)
-        {
-            bool open = EditorGUILayout.Foldout(section.Open, section.Title, true);
-            if (open != section.Open)
-                section.Open = model.Open[(int)section.Id] = open;
-            if (!open)
-                return;
-            EditorGUI.indentLevel++;
-            foreach (Row row in section.Rows)
-                RowDrawer.Draw(row);
-            EditorGUI.indentLevel--;
         }
 
         private void Convert()

@@ -42,7 +42,7 @@ namespace SuperDeform.Editor
         /// <param name="source">What is deformed.</param>
         /// <param name="forPreview">
         /// Vertices stay at rest in the root's space, and nothing is done that only a result needs; for a source that was
-        /// read without blend shapes.
+        /// read without blend shapes or as it is worn.
         /// </param>
         public AvatarResult(AvatarData source, bool forPreview)
         {
@@ -76,6 +76,7 @@ namespace SuperDeform.Editor
             foreach (RendererResult renderer in Renderers)
             {
                 renderer.Spread();
+                if (forPreview) renderer.Wear();
             }
             if (forPreview) return;
             MeasureHeight();

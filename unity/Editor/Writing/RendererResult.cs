@@ -63,6 +63,23 @@ namespace SuperDeform.Editor
             }
         }
 
+        /// <summary>Adds the one frame of a source that was read as it is worn.</summary>
+        internal void Wear()
+        {
+            if (Source.Frames.Count == 0) return;
+            foreach (PartResult part in Parts)
+            {
+                if (!part.Part.MovesPlaces[0]) continue;
+                bool turns = Normals != null && part.Output.MorphNormals != null;
+                for (int vertex = 0; vertex < part.Part.VertexCount; vertex++)
+                {
+                    int place = part.Part.VertexOf(vertex);
+                    Positions[place] += part.Delta(part.Output.MorphPositions, 0, vertex);
+                    if (turns) Normals[place] = (Normals[place] + part.Delta(part.Output.MorphNormals, 0, vertex)).normalized;
+                }
+            }
+        }
+
         /// <summary>oldJoint, newJoint: the joint that the bounds are kept in, at rest, before and after</summary>
         internal void Measure(Affine oldJoint, Affine newJoint)
         {

@@ -68,10 +68,16 @@ namespace SuperDeform.Editor.Tests
         [Test]
         public void a_turned_and_scaled_armature_changes_nothing()
         {
-            ConversionResult plain = Converter.Convert(new ConversionFigure().Make().Root, Settings(), null);
-            ConversionResult turned = Converter.Convert(new ConversionFigure { Turned = true }.Make().Root, Settings(), null);
-            foreach (string name in new[] { "Body", "Hair", "Hat" })
-                Assert.That(Apart(Drawn(plain.Prefab, name), Drawn(turned.Prefab, name)), Is.LessThan(1e-4 * Height), name);
+            // The rings of the tubes lie in planes that profiles cut along: rounding takes the one or the other side of a ring.
+            foreach (double profile in new[] { 0.0, 1.0 })
+            {
+                ConversionSettings settings = Settings();
+                settings.Options.Profile = profile;
+                ConversionResult plain = Converter.Convert(new ConversionFigure().Make().Root, settings, null);
+                ConversionResult turned = Converter.Convert(new ConversionFigure { Turned = true }.Make().Root, settings, null);
+                foreach (string name in new[] { "Body", "Hair", "Hat" })
+                    Assert.That(Apart(Drawn(plain.Prefab, name), Drawn(turned.Prefab, name)), Is.LessThan((profile == 0 ? 1e-4 : 5e-3) * Height), name);
+            }
         }
 
         [Test]

@@ -12,7 +12,8 @@ references=()
 for name in SuperDeform UnityEngine UnityEditor SuperDeform.Editor; do references+=("-r:$out/$name.dll"); done
 # Under the name of the tests' assembly, which may see what is internal.
 mkdir -p "$out/picture"
-cp "$nunit" "$out"/*.dll "$out/picture/"
+cp "$out"/*.dll "$out/picture/"
+cp "$nunit" "$out/picture/"
 mcs -nologo -langversion:7.2 -warn:0 -out:"$out/picture/SuperDeform.Editor.Tests.exe" "${references[@]}" -r:"$nunit" \
   unity/Tests~/WindowPicture/*.cs unity/Tests~/Glb/*.cs unity/Tests~/Headless/Models.cs
 rm -f "$out/picture/SuperDeform.Editor.Tests.dll"

@@ -10,7 +10,8 @@ namespace UnityEditor
     public class EditorGUI
     {
         static readonly Stack<bool> s_Changed = new Stack<bool>(), s_Enabled = new Stack<bool>();
-        public static int indentLevel;
+        static int s_Indent;
+        public static int indentLevel { get { return s_Indent; } set { s_Indent = value; Gui.Indent = () => 15f * s_Indent; } }
         public static bool showMixedValue;
         public static void BeginChangeCheck() { s_Changed.Push(GUI.changed); GUI.changed = false; }
         public static bool EndChangeCheck() { bool now = GUI.changed; GUI.changed = s_Changed.Pop() | now; return now; }
@@ -38,12 +39,12 @@ namespace UnityEditor
 
     public sealed class EditorGUILayout
     {
-        public static void LabelField(string label, params GUILayoutOption[] options) { Gui.Draw("LabelField", label); }
-        public static void LabelField(string label, GUIStyle style, params GUILayoutOption[] options) { Gui.Draw("LabelField", label); }
+        public static void LabelField(string label, params GUILayoutOption[] options) { Gui.Measure("label", false, false, options); Gui.Draw("LabelField", label); }
+        public static void LabelField(string label, GUIStyle style, params GUILayoutOption[] options) { Gui.Measure("label", false, false, options); Gui.Draw("LabelField", label); }
         public static void LabelField(string label, string label2, params GUILayoutOption[] options) { Gui.Draw("LabelField", label + ": " + label2); }
         public static void LabelField(string label, string label2, GUIStyle style, params GUILayoutOption[] options) { Gui.Draw("LabelField", label + ": " + label2); }
-        public static void LabelField(GUIContent label, params GUILayoutOption[] options) { Gui.Draw("LabelField", label); }
-        public static void LabelField(GUIContent label, GUIStyle style, params GUILayoutOption[] options) { Gui.Draw("LabelField", label); }
+        public static void LabelField(GUIContent label, params GUILayoutOption[] options) { Gui.Measure("label", false, false, options); Gui.Draw("LabelField", label); }
+        public static void LabelField(GUIContent label, GUIStyle style, params GUILayoutOption[] options) { Gui.Measure("label", false, false, options); Gui.Draw("LabelField", label); }
         public static void LabelField(GUIContent label, GUIContent label2, params GUILayoutOption[] options) { Gui.Draw("LabelField", label.text + ": " + label2.text); }
         public static void SelectableLabel(string text, params GUILayoutOption[] options) { Gui.Draw("SelectableLabel", text); }
         public static void SelectableLabel(string text, GUIStyle style, params GUILayoutOption[] options) { Gui.Draw("SelectableLabel", text); }
@@ -51,9 +52,9 @@ namespace UnityEditor
         public static void PrefixLabel(GUIContent label) { Gui.Draw("PrefixLabel", label); }
         public static void HelpBox(string message, MessageType type) { Gui.Draw("HelpBox " + type, message); }
         public static void HelpBox(string message, MessageType type, bool wide) { Gui.Draw("HelpBox " + type, message); }
-        public static float Slider(float value, float leftValue, float rightValue, params GUILayoutOption[] options) { return Gui.Value("Slider", "", value); }
-        public static float Slider(string label, float value, float leftValue, float rightValue, params GUILayoutOption[] options) { return Gui.Value("Slider", label, value); }
-        public static float Slider(GUIContent label, float value, float leftValue, float rightValue, params GUILayoutOption[] options) { return Gui.Value("Slider", label.text, value); }
+        public static float Slider(float value, float leftValue, float rightValue, params GUILayoutOption[] options) { Gui.Measure("", true, false, options); return Gui.Value("Slider", "", value); }
+        public static float Slider(string label, float value, float leftValue, float rightValue, params GUILayoutOption[] options) { Gui.Measure(label, true, true, options); return Gui.Value("Slider", label, value); }
+        public static float Slider(GUIContent label, float value, float leftValue, float rightValue, params GUILayoutOption[] options) { Gui.Measure(label.text, true, true, options); return Gui.Value("Slider", label.text, value); }
         public static int IntSlider(string label, int value, int leftValue, int rightValue, params GUILayoutOption[] options) { return Gui.Value("IntSlider", label, value); }
         public static int IntSlider(GUIContent label, int value, int leftValue, int rightValue, params GUILayoutOption[] options) { return Gui.Value("IntSlider", label.text, value); }
         public static float FloatField(float value, params GUILayoutOption[] options) { return Gui.Value("FloatField", "", value); }
@@ -182,10 +183,13 @@ namespace UnityEditor
         public static SceneView lastActiveSceneView { get; internal set; }
         public Camera camera { get { return null; } }
         public Vector3 pivot { get; set; }
+        /// Draws a view, as Unity does on its repaints.
+        internal static void Draw(SceneView view) { if (duringSceneGui != null) duringSceneGui(view); }
+        internal Bounds? Framed;
         public static void RepaintAll() { if (lastActiveSceneView != null && duringSceneGui != null) duringSceneGui(lastActiveSceneView); }
         public bool FrameSelected() { return true; }
         public bool Frame(Bounds bounds) { return true; }
-        public bool Frame(Bounds bounds, bool instant) { return true; }
+        public bool Frame(Bounds bounds, bool instant) { Framed = bounds; return true; }
     }
 
     public class Editor : ScriptableObject
@@ -251,6 +255,16 @@ namespace UnityEditor
             foreach (Light light in lights) if (light != null) Object.DestroyImmediate(light.gameObject);
             if (m_Camera != null) Object.DestroyImmediate(m_Camera);
         }
+    }
+
+    // Hidden by the eye in the Hierarchy.
+    public sealed class SceneVisibilityManager
+    {
+        public static readonly SceneVisibilityManager instance = new SceneVisibilityManager();
+        readonly HashSet<GameObject> m_Hidden = new HashSet<GameObject>();
+        public bool IsHidden(GameObject gameObject, bool includeDescendants = false) { return m_Hidden.Contains(gameObject); }
+        public void Hide(GameObject gameObject, bool includeDescendants) { m_Hidden.Add(gameObject); }
+        public void Show(GameObject gameObject, bool includeDescendants) { m_Hidden.Remove(gameObject); }
     }
 
     public sealed class Handles

@@ -83,7 +83,7 @@ namespace UnityEditor
         public static bool wideMode = true;
         public static float singleLineHeight { get { return 18f; } }
         public static float standardVerticalSpacing { get { return 2f; } }
-        public static float currentViewWidth { get { return 400f; } }
+        public static float currentViewWidth { get { return Gui.Width; } }
         public static float pixelsPerPoint { get { return 1f; } }
         public static bool isProSkin { get { return true; } }
         public static GUIContent IconContent(string name) { return new GUIContent("", (Texture)null, name); }
@@ -344,6 +344,8 @@ namespace UnityStubs
     /// What the editor does around scripts.
     public static class StubEditor
     {
+        public static void DrawScene(SceneView view) { SceneView.Draw(view); }
+        public static Bounds? Framed(SceneView view) { return view.Framed; }
         /// Runs every [InitializeOnLoadMethod] of the loaded assemblies.
         public static void LoadScripts()
         {

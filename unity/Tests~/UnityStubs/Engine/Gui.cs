@@ -72,7 +72,7 @@ namespace UnityEngine
         public static implicit operator GUIStyle(string name) { GUIStyle style = new GUIStyle(); style.name = name; return style; }
     }
     public class GUISkin : ScriptableObject { public GUIStyle box = new GUIStyle(), label = new GUIStyle(), button = new GUIStyle(), textField = new GUIStyle(), toggle = new GUIStyle(); }
-    public sealed class GUILayoutOption { internal GUILayoutOption() { } }
+    public sealed class GUILayoutOption { internal string Kind = ""; internal float Value; }
     public sealed class ExitGUIException : Exception { }
 
     public class GUI
@@ -126,15 +126,15 @@ namespace UnityEngine
     }
     public class GUILayout
     {
-        public static GUILayoutOption Width(float width) { return new GUILayoutOption(); }
-        public static GUILayoutOption MinWidth(float width) { return new GUILayoutOption(); }
+        public static GUILayoutOption Width(float width) { return new GUILayoutOption { Kind = "Width", Value = width }; }
+        public static GUILayoutOption MinWidth(float width) { return new GUILayoutOption { Kind = "MinWidth", Value = width }; }
         public static GUILayoutOption MaxWidth(float width) { return new GUILayoutOption(); }
         public static GUILayoutOption Height(float height) { return new GUILayoutOption(); }
         public static GUILayoutOption MinHeight(float height) { return new GUILayoutOption(); }
         public static GUILayoutOption MaxHeight(float height) { return new GUILayoutOption(); }
         public static GUILayoutOption ExpandWidth(bool expand) { return new GUILayoutOption(); }
         public static GUILayoutOption ExpandHeight(bool expand) { return new GUILayoutOption(); }
-        public static void Space(float pixels) { }
+        public static void Space(float pixels) { Gui.Take(pixels); }
         public static void FlexibleSpace() { }
         public static void BeginHorizontal(params GUILayoutOption[] options) { Gui.Begin("Horizontal"); }
         public static void BeginHorizontal(GUIStyle style, params GUILayoutOption[] options) { Gui.Begin("Horizontal"); }
@@ -154,8 +154,8 @@ namespace UnityEngine
         public static void Label(GUIContent content, GUIStyle style, params GUILayoutOption[] options) { Gui.Draw("Label", content); }
         public static void Box(string text, params GUILayoutOption[] options) { Gui.Draw("Box", text); }
         public static void Box(GUIContent content, params GUILayoutOption[] options) { Gui.Draw("Box", content); }
-        public static bool Button(string text, params GUILayoutOption[] options) { return Gui.Pressed("Button", text); }
-        public static bool Button(GUIContent content, params GUILayoutOption[] options) { return Gui.Pressed("Button", content); }
+        public static bool Button(string text, params GUILayoutOption[] options) { Gui.Measure(text, false, false, options); return Gui.Pressed("Button", text); }
+        public static bool Button(GUIContent content, params GUILayoutOption[] options) { Gui.Measure(content.text, false, false, options); return Gui.Pressed("Button", content); }
         public static bool Button(string text, GUIStyle style, params GUILayoutOption[] options) { return Gui.Pressed("Button", text); }
         public static bool Button(GUIContent content, GUIStyle style, params GUILayoutOption[] options) { return Gui.Pressed("Button", content); }
         public static bool Toggle(bool value, string text, params GUILayoutOption[] options) { return Gui.Value("Toggle", text, value); }
@@ -183,19 +183,71 @@ namespace UnityStubs
         public static readonly Dictionary<string, object> Enter = new Dictionary<string, object>();
         static readonly Stack<string> s_Open = new Stack<string>();
 
+        /// How wide the window is, and the sliders of the last pass that were too narrow to be drawn: their numbers alone were.
+        public static float Width = 440;
+        public static readonly List<string> Barless = new List<string>();
+        public static int Sliders;
+        // UnityCsReference 2021.3, EditorGUI.DoSlider: the bar is drawn where there is room for 50 + 5 + 50 points after the label.
+        const float Least = 105;
+        static readonly Stack<List<Control>> s_Rows = new Stack<List<Control>>();
+        static float s_Taken;
+        internal static Func<float> Indent = () => 0f;
+        sealed class Control { public string Name; public float Fixed = -1, Least; public bool Slider, Labelled; public float Indent; }
+
+        internal static void Take(float pixels) { s_Taken += s_Rows.Count > 0 ? pixels : 0; }
+        internal static void Measure(string name, bool slider, bool labelled, UnityEngine.GUILayoutOption[] options)
+        {
+            Control control = new Control { Name = name, Slider = slider, Labelled = labelled, Indent = Indent() };
+            foreach (UnityEngine.GUILayoutOption option in options ?? new UnityEngine.GUILayoutOption[0])
+            {
+                if (option.Kind == "Width") control.Fixed = option.Value;
+                if (option.Kind == "MinWidth") control.Least = option.Value;
+            }
+            if (s_Rows.Count > 0) s_Rows.Peek().Add(control);
+            else Place(new List<Control> { control });
+        }
+        // Fixed widths first; what is left is shared evenly, as flexible controls of one kind share it.
+        static void Place(List<Control> row)
+        {
+            float left = Width - 24 - s_Taken;
+            int flexible = 0;
+            foreach (Control control in row) { if (control.Fixed >= 0) left -= control.Fixed + 4; else flexible++; }
+            foreach (Control control in row)
+            {
+                if (!control.Slider) continue;
+                Sliders++;
+                float width = control.Fixed >= 0 ? control.Fixed : left / flexible - 4;
+                if (control.Labelled) width -= Math.Max(120, Width * 0.45f - 40);
+                if (width - control.Indent < Least) Barless.Add(control.Name + " " + width);
+            }
+        }
+
         /// One pass of drawing: fails where a group is left open or closed by another's end.
         public static void Pass(Action draw)
         {
             Drawn.Clear();
+            Barless.Clear();
+            Sliders = 0;
+            s_Rows.Clear();
             s_Open.Clear();
             draw();
             if (s_Open.Count > 0) throw new InvalidOperationException("GUI: Begin" + s_Open.Peek() + " has no End");
         }
-        internal static void Begin(string group) { s_Open.Push(group); }
+        internal static void Begin(string group)
+        {
+            s_Open.Push(group);
+            if (group != "Horizontal") return;
+            s_Rows.Push(new List<Control>());
+            s_Taken = 0;
+        }
         internal static void End(string group)
         {
             if (s_Open.Count == 0 || s_Open.Peek() != group) throw new InvalidOperationException("GUI: End" + group + " closes " + (s_Open.Count == 0 ? "nothing" : s_Open.Peek()));
             s_Open.Pop();
+            if (group != "Horizontal") return;
+            List<Control> row = s_Rows.Pop();
+            Place(row);
+            s_Taken = 0;
         }
         internal static void Draw(string control, string text) { Drawn.Add(control + (UnityEngine.GUI.enabled ? "" : " (disabled)") + ": " + text); }
         internal static void Draw(string control, UnityEngine.GUIContent content) { Draw(control, content == null ? "" : content.text); }
