@@ -201,6 +201,18 @@ static void a_deformer_is_applied(void) {
   OK(sdef_deformer_map_points(deformer, owners, points[0], FIGURE_PARTS, mapped[0], scales, jacobians[0], &error));
   for (int joint = 0; joint < FIGURE_PARTS; joint++) CHECK(scales[joint] > 0.05 && scales[joint] < 20);
 
+  // A capsule is as thick as the limb; a ball that it was clear of stays clear of it.
+  const uint32_t guarded[] = {0};
+  SdefSpringBall ball = {.struct_size = sizeof ball, .joint = 3, .y = figure.rest[3][13], .z = 0.6, .radius = 0.05};
+  SdefCollider collider = {.struct_size = sizeof collider, .kind = SDEF_COLLIDER_CAPSULE, .joint = 3, .spring_count = 1,
+                           .springs = guarded, .y = figure.rest[3][13], .end_y = figure.rest[3][13] + 0.1, .radius = 0.1};
+  OK(sdef_deformer_map_colliders(deformer, &collider, 1, &ball, 1, &collider, &error));
+  CHECK(fabs(collider.y - mapped[3][1]) < 1e-9 && collider.end_y > collider.y);
+  CHECK(collider.radius > 0.01 && collider.radius < 1 && collider.newly_inside == 0 && collider.yielded <= 0.2);
+  collider.kind = 9;
+  CHECK(sdef_deformer_map_colliders(deformer, &collider, 1, &ball, 1, &collider, &error) == SDEF_STATUS_BAD_INPUT);
+  CHECK(error.element_kind == SDEF_ELEMENT_COLLIDER && error.element == 0);
+
   SdefGroup groups[32];
   groups[0].struct_size = sizeof *groups;
   OK(sdef_deformer_get_groups(deformer, groups, 32, &count, &error));

@@ -92,6 +92,10 @@ static void deformers() {
   deformer.map_points(owners, points, moved, scales, jacobians);
   CHECK(moved[1] < 1.6 && scales[0] > 0 && jacobians[0] > 0);
   deformer.map_points(owners, points, {}, scales);
+  std::vector<SdefCollider> colliders(1, superdeform::make<SdefCollider>());
+  colliders[0].joint = 3, colliders[0].y = 1.6, colliders[0].z = 0.1, colliders[0].radius = 0.1;
+  deformer.map_colliders(colliders);
+  CHECK(std::fabs(colliders[0].y - moved[1]) < 1e-9 && std::fabs(colliders[0].radius - 0.1 * scales[0]) < 1e-9);
   CHECK(deformer.groups().size() >= 6);
   deformer.warnings();
   Options options;

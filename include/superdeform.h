@@ -100,6 +100,8 @@ typedef uint32_t SdefStatus;
 #define SDEF_ELEMENT_GIVEN_JOINT 7      // An element of SdefOptions.rig_joints.
 #define SDEF_ELEMENT_BONE 8             // An element of the array bones of sdef_style_from_numbers.
 
+#define SDEF_ELEMENT_COLLIDER 9         // An element of the array colliders of sdef_deformer_map_colliders.
+
 // What went wrong. The caller's: SDEF_ERROR_INIT or {0} before the first call; every call fills it anew.
 typedef struct SdefError {
   uint32_t struct_size;  // sizeof(SdefError), or 0 for the size that it had in version 1 of the ABI
@@ -587,6 +589,43 @@ typedef struct SdefGroup {
   double reference_radius; // the style's, in its own units
 } SdefGroup;
 
+#define SDEF_COLLIDER_SPHERE 0          // A ball around the first point.
+#define SDEF_COLLIDER_CAPSULE 1         // Round, from the first point to the second.
+// Through the first point; the second is its normal, which points to where springs may be.
+#define SDEF_COLLIDER_PLANE 2
+#define SDEF_COLLIDER_INSIDE_SPHERE 3   // A sphere that springs are kept inside of.
+#define SDEF_COLLIDER_INSIDE_CAPSULE 4  // A capsule that springs are kept inside of.
+
+// A collider of springs; lengths and points in model space.
+typedef struct SdefCollider {
+  uint32_t struct_size;    // sizeof(SdefCollider)
+  uint32_t kind;           // SDEF_COLLIDER_*
+  uint32_t joint;          // the joint that it moves with
+  uint32_t spring_count;   // elements of springs
+  const uint32_t *springs; // the springs that it is for: indices into the call's array springs; NULL where there are
+                           // none
+  double x;                // the first point
+  double y;                // the first point
+  double z;                // the first point
+  double end_x;            // the second point, or the normal
+  double end_y;            // the second point, or the normal
+  double end_z;            // the second point, or the normal
+  double radius;           // of spheres and capsules
+  double yielded;          // of a result: the share of its radius that it yields to springs, 0 to 0.2
+  uint32_t newly_inside;   // of a result: springs that start inside and did not
+  uint32_t reserved;       // 0
+} SdefCollider;
+
+// The ball that a spring keeps out of colliders, at the end of its bone; model space.
+typedef struct SdefSpringBall {
+  uint32_t struct_size; // sizeof(SdefSpringBall)
+  uint32_t joint;       // the joint at the end of the bone
+  double x;             // its middle
+  double y;             // its middle
+  double z;             // its middle
+  double radius;        // its radius
+} SdefSpringBall;
+
 #define SDEF_FIGURE_TARGET 0            // The character before.
 #define SDEF_FIGURE_REFERENCE 1         // The style; NAN throughout for a style of N heads.
 #define SDEF_FIGURE_RESULT 2            // Measured anew on what comes out.
@@ -666,6 +705,17 @@ SdefStatus sdef_deformer_get_joints(SdefDeformer deformer, double *positions, do
 // Errors: BAD_INPUT with the point as the element.
 SdefStatus sdef_deformer_map_points(SdefDeformer deformer, const uint32_t *joints, const double *points, size_t count,
     double *positions, double *scales, double *jacobians, SdefError *error);
+
+// Maps colliders of springs: their points go as map_points has it, and they are as thick as the mesh around them, a
+// capsule across its axis. One that a spring would newly start inside of yields, by a fifth of its radius at most.
+//
+// colliders:    count structs, all of one struct_size
+// springs:      spring_count structs, all of one struct_size: what colliders may name
+// results:      receives count structs, struct_size of the first is set before; may be colliders
+//
+// Errors: BAD_INPUT with the collider as the element (SDEF_ELEMENT_COLLIDER), or the spring (SDEF_ELEMENT_POINT).
+SdefStatus sdef_deformer_map_colliders(SdefDeformer deformer, const SdefCollider *colliders, size_t count,
+    const SdefSpringBall *springs, size_t spring_count, SdefCollider *results, SdefError *error);
 
 // Gives what is done to each bone group.
 //

@@ -458,6 +458,12 @@ public:
                  jacobians.data());
   }
 
+  // In place: each collider becomes what it is after the deformation. springs: what their springs name; may be empty.
+  void map_colliders(std::vector<SdefCollider> &colliders, const std::vector<SdefSpringBall> &springs = {}) const {
+    detail::call(sdef_deformer_map_colliders, raw_, colliders.data(), colliders.size(), springs.data(), springs.size(),
+                 colliders.data());
+  }
+
   std::vector<SdefGroup> groups() const {
     std::size_t count = 0;
     detail::call(sdef_deformer_get_groups, raw_, static_cast<SdefGroup *>(nullptr), std::size_t(0), &count);

@@ -652,6 +652,9 @@ fn a_licence_that_prohibits_changes_is_told() {
     made.json["extensions"]["VRMC_vrm"]["meta"].as_object_mut().unwrap().remove("modification");
     assert!(loaded(&made).warnings.iter().any(|warning| warning.code == "modification_prohibited"));
     assert!(loaded(&figure()).warnings.is_empty());
+    // Changes for oneself alone.
+    made.json["extensions"]["VRMC_vrm"]["meta"]["modification"] = json!("allowModification");
+    assert!(loaded(&made).warnings.iter().any(|warning| warning.code == "redistribution_prohibited"));
 }
 
 #[test]

@@ -28,6 +28,12 @@ struct Matrix {
     for (int row = 0; row < 3; row++) turned[row] = n[row] * v[0] + n[4 + row] * v[1] + n[8 + row] * v[2];
     return turned;
   }
+  // By the transpose: normals from the space that this leads to.
+  Vector turn_transposed(const Vector &v) const {
+    Vector turned{};
+    for (int row = 0; row < 3; row++) turned[row] = n[4 * row] * v[0] + n[4 * row + 1] * v[1] + n[4 * row + 2] * v[2];
+    return turned;
+  }
   // A place.
   Vector move(const Vector &v) const { return turn(v) + translation(); }
 

@@ -1,7 +1,10 @@
 #include "vrm.hpp"
 
 #include <cmath>
+#include <map>
+#include <numeric>
 #include <optional>
+#include <set>
 
 namespace {
 
@@ -72,15 +75,65 @@ public:
     const auto found = at(node, {});
     return found ? found->second : 1;
   }
-  // Moves the vector there; gives the scale.
-  double move(Value *vector, int node) const {
+  // Moves the vector there.
+  void move(Value *vector, int node) const {
     const auto local = vector_of(vector);
     const auto moved = at(node, local.value_or(Vector{}));
     if (local && moved) set_vector(*vector, moved->first);
-    return moved ? moved->second : 1;
+  }
+
+  std::optional<std::uint32_t> joint(int node) const {
+    if (node < 0 || node >= static_cast<int>(rest_.size()) || loaded_.joint_of_node[node] < 0) return std::nullopt;
+    return static_cast<std::uint32_t>(loaded_.joint_of_node[node]);
+  }
+
+  // The end of a bone, with the radius that the bone's own node says.
+  std::optional<SdefSpringBall> ball(int node, double radius) const {
+    const auto owner = joint(node);
+    if (!owner) return std::nullopt;
+    auto made = superdeform::make<SdefSpringBall>();
+    const Vector at = loaded_.rest[node].translation();
+    made.joint = *owner, made.x = at[0], made.y = at[1], made.z = at[2], made.radius = radius * unit(node);
+    return made;
+  }
+
+  // Moves a collider's points, its normal and its radius; `springs` are those that it is for.
+  void move_collider(std::uint32_t kind, Value &body, int node, const std::vector<SdefSpringBall> &springs) const {
+    const auto owner = joint(node);
+    if (!owner || !body.IsObject()) return;
+    const bool plane = kind == SDEF_COLLIDER_PLANE;
+    Value *offset = member(&body, "offset"), *end = member(&body, plane ? "normal" : "tail");
+    const Matrix &old = loaded_.rest[node], &now = rest_[node];
+    const Vector first = old.move(vector_of(offset).value_or(Vector{}));
+    const Vector normal = vector_of(end).value_or(Vector{0, 0, 1});
+    const Vector second = plane ? old.inverse().turn_transposed(normal) : old.move(vector_of(end).value_or(Vector{}));
+    Value *radius = member(&body, "radius");
+    std::vector<std::uint32_t> named(springs.size());
+    std::iota(named.begin(), named.end(), 0u);
+    std::vector<SdefCollider> colliders(1, superdeform::make<SdefCollider>());
+    SdefCollider &collider = colliders[0];
+    collider.kind = kind, collider.joint = *owner;
+    collider.springs = named.data(), collider.spring_count = static_cast<std::uint32_t>(named.size());
+    collider.x = first[0], collider.y = first[1], collider.z = first[2];
+    collider.end_x = second[0], collider.end_y = second[1], collider.end_z = second[2];
+    collider.radius = radius != nullptr && radius->IsNumber() ? radius->GetNumberAsDouble() * unit(node) : 0;
+    const double before = collider.radius;
+    deformer_.map_colliders(colliders, springs);
+    if (offset != nullptr) set_vector(*offset, now.inverse().move({collider.x, collider.y, collider.z}));
+    const Vector moved{collider.end_x, collider.end_y, collider.end_z};
+    if (kind == SDEF_COLLIDER_CAPSULE || kind == SDEF_COLLIDER_INSIDE_CAPSULE) {
+      if (end != nullptr) set_vector(*end, now.inverse().move(moved));
+    } else if (plane && end != nullptr) {
+      const Vector turned = now.turn_transposed(moved);
+      set_vector(*end, turned * (length(normal) / length(turned)));
+    }
+    if (before > 0) multiply(&body, "radius", collider.radius / before);
   }
 
 private:
+  // By how much lengths of a node's space are longer in model space.
+  double unit(int node) const { return std::cbrt(std::fabs(loaded_.rest[node].determinant())); }
+
   Loaded &loaded_;
   const superdeform::Deformer &deformer_;
   const std::vector<Matrix> &rest_;
@@ -95,14 +148,43 @@ int head_of(const Loaded &loaded) {
 
 // VRM 1.0
 void move_springs(Value &springs, const Field &field) {
+  // The springs of each collider, by way of groups.
+  std::map<int, std::vector<SdefSpringBall>> guarded;
+  each(member(&springs, "springs"), [&](Value &spring) {
+    std::vector<SdefSpringBall> balls;
+    Value *last = nullptr;
+    each(member(&spring, "joints"), [&](Value &joint) {
+      const Value *radius = last != nullptr ? member(last, "hitRadius") : nullptr;
+      const double length = radius != nullptr && radius->IsNumber() ? radius->GetNumberAsDouble() : 0;
+      const auto ball = field.ball(index_of(member(&joint, "node")), length);
+      if (last != nullptr && ball) balls.push_back(*ball);
+      last = &joint;
+    });
+    std::set<int> colliders;
+    each(member(&spring, "colliderGroups"), [&](Value &index) {
+      Value *groups = member(&springs, "colliderGroups");
+      const int group = index_of(&index);
+      if (groups == nullptr || group < 0 || group >= static_cast<int>(groups->ArrayLen())) return;
+      each(member(&groups->Get<Value::Array>()[group], "colliders"), [&](Value &one) { colliders.insert(index_of(&one)); });
+    });
+    for (const int collider : colliders)
+      guarded[collider].insert(guarded[collider].end(), balls.begin(), balls.end());
+  });
+  int index = 0;
   each(member(&springs, "colliders"), [&](Value &collider) {
     const int node = index_of(member(&collider, "node"));
-    Value *shape = member(&collider, "shape");
-    if (Value *sphere = member(shape, "sphere"))
-      multiply(sphere, "radius", field.move(member(sphere, "offset"), node));
-    if (Value *capsule = member(shape, "capsule")) {
-      const double one = field.move(member(capsule, "offset"), node), other = field.move(member(capsule, "tail"), node);
-      multiply(capsule, "radius", std::sqrt(one * other));
+    const std::vector<SdefSpringBall> &balls = guarded[index++];
+    Value *extended = member(member(&collider, "extensions"), "VRMC_springBone_extended_collider");
+    for (Value *shape : {member(&collider, "shape"), member(extended, "shape")}) {
+      const auto move = [&](const char *name, std::uint32_t out, std::uint32_t in) {
+        Value *body = member(shape, name);
+        if (body == nullptr) return;
+        const Value *inside = member(body, "inside");
+        field.move_collider(inside != nullptr && inside->IsBool() && inside->Get<bool>() ? in : out, *body, node, balls);
+      };
+      move("sphere", SDEF_COLLIDER_SPHERE, SDEF_COLLIDER_INSIDE_SPHERE);
+      move("capsule", SDEF_COLLIDER_CAPSULE, SDEF_COLLIDER_INSIDE_CAPSULE);
+      move("plane", SDEF_COLLIDER_PLANE, SDEF_COLLIDER_PLANE);
     }
   });
   each(member(&springs, "springs"), [&](Value &spring) {
@@ -118,12 +200,8 @@ void move_springs(Value &springs, const Field &field) {
 
 // VRM 0.x
 void move_secondary(const Loaded &loaded, Value *animation, const Field &field) {
-  each(member(animation, "colliderGroups"), [&](Value &group) {
-    const int node = index_of(member(&group, "node"));
-    each(member(&group, "colliders"), [&](Value &collider) {
-      multiply(&collider, "radius", field.move(member(&collider, "offset"), node));
-    });
-  });
+  // The springs of each group of colliders.
+  std::map<int, std::vector<SdefSpringBall>> guarded;
   each(member(animation, "boneGroups"), [&](Value &group) {
     // One set of numbers for several chains: the mean scale of all their joints.
     std::vector<bool> moved(loaded.rest.size());
@@ -131,16 +209,34 @@ void move_secondary(const Loaded &loaded, Value *animation, const Field &field) 
       const int node = index_of(&bone);
       if (node >= 0 && node < static_cast<int>(moved.size())) moved[node] = true;
     });
+    // A chain's first joint is the end of no bone.
+    const std::vector<bool> roots = moved;
+    const Value *radius = member(&group, "hitRadius");
+    std::vector<SdefSpringBall> balls;
     double sum = 0;
     int count = 0;
     for (const int node : loaded.nodes.order) {
       const int parent = loaded.nodes.parents[node];
       if (parent >= 0 && moved[parent]) moved[node] = true;
-      if (moved[node]) sum += field.scale(node), count++;
+      if (!moved[node]) continue;
+      sum += field.scale(node), count++;
+      const auto ball = field.ball(node, radius != nullptr && radius->IsNumber() ? radius->GetNumberAsDouble() : 0);
+      if (ball && !roots[node]) balls.push_back(*ball);
     }
+    each(member(&group, "colliderGroups"), [&](Value &index) {
+      std::vector<SdefSpringBall> &all = guarded[index_of(&index)];
+      all.insert(all.end(), balls.begin(), balls.end());
+    });
     if (count == 0) return;
     // VRM 0.x spells it so.
     for (const char *key : {"hitRadius", "stiffiness", "gravityPower"}) multiply(&group, key, sum / count);
+  });
+  int index = 0;
+  each(member(animation, "colliderGroups"), [&](Value &group) {
+    const int node = index_of(member(&group, "node"));
+    const std::vector<SdefSpringBall> &balls = guarded[index++];
+    each(member(&group, "colliders"),
+         [&](Value &collider) { field.move_collider(SDEF_COLLIDER_SPHERE, collider, node, balls); });
   });
 }
 

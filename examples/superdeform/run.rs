@@ -15,6 +15,7 @@ use superdeform::internals::shape::measured::Measured;
 use superdeform::internals::shape::style::BUILT_IN;
 use superdeform::report::FigureReport;
 use superdeform::{BodyShape, Deformed, Deformer, Error, Report, Rig, RigOptions, Style, Warning, Weights};
+use superdeform_host::file::GltfFile;
 use superdeform_host::load::Loaded;
 use superdeform_host::rig::{INFLUENCES, add_rig, rerigged};
 use superdeform_host::write;
@@ -103,6 +104,8 @@ fn stages(command: &Command, in_batch: Option<(&Source, &str)>, progress: &Progr
         report.reference = Some(FigureReport::of(measured, &roles, &command.options));
     }
     report.warnings.splice(0..0, warnings_of_files(&target, reference.as_ref()));
+    let map_point = |joint: usize, point: DVec3| deformer.map(joint, point);
+    report.warnings.extend(write::colliders::findings(&target, &deformed, &map_point, command.leaf_joints));
     report.warnings.iter_mut().for_each(words::name_flag);
 
     progress.stage("drawing");
@@ -116,7 +119,15 @@ fn stages(command: &Command, in_batch: Option<(&Source, &str)>, progress: &Progr
 
     progress.stage("writing");
     let write_start = Instant::now();
-    let model = model(&target, &deformer, &deformed, rig.as_ref(), thumbnail.as_deref()).map_err(sentence)?;
+    let mut model = model(&target, &deformer, &deformed, rig.as_ref()).map_err(sentence)?;
+    if command.leaf_joints {
+        write::colliders::add_leaf_joints(&mut model, &target, &deformed, &map_point);
+    }
+    if let Some(png) = thumbnail {
+        // What is no VRM has no thumbnail.
+        write::set_thumbnail(&mut model, &png);
+    }
+    let model = model.to_bytes().map_err(sentence)?;
     let mut results = vec![("model", &command.output, model)];
     if let Some(path) = &command.save_rigged {
         results.push(("rigged target", path, rigged_target(&target, rig.as_ref()).map_err(sentence)?));
@@ -203,8 +214,7 @@ fn model(
     deformer: &Deformer,
     deformed: &Deformed,
     rig: Option<&Rig>,
-    thumbnail: Option<&[u8]>,
-) -> superdeform::Result<Vec<u8>> {
+) -> superdeform::Result<GltfFile> {
     let mut file = write::rewrite(target, deformed, &|joint, point: DVec3| deformer.map(joint, point))?;
     if let Some(rig) = rig.filter(|_| !target.rigged) {
         let mut skeleton = rig.skeleton.clone();
@@ -213,11 +223,7 @@ fn model(
         }
         add_rig(&mut file, target, &skeleton, &limited(rig))?;
     }
-    if let Some(png) = thumbnail {
-        // What is no VRM has no thumbnail.
-        write::set_thumbnail(&mut file, png);
-    }
-    file.to_bytes()
+    Ok(file)
 }
 
 /// The target with the rig that it was deformed by, not deformed.
@@ -271,7 +277,6 @@ mod tests {
     use super::*;
     use serde_json::Value;
     use std::path::Path;
-    use superdeform_host::file::GltfFile;
     use superdeform_host::samples;
     use superdeform_host::verify::closure;
 

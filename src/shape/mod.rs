@@ -1,6 +1,7 @@
 //! From two rigs to a super-deformed body (§V).
 
 pub mod body_shape;
+pub mod collider;
 pub mod directions;
 pub mod field;
 pub mod figure;

@@ -171,7 +171,7 @@ pub fn figure() -> Made {
     made.json["extensionsUsed"] = json!(["VRMC_vrm"]);
     made.json["extensions"] = json!({"VRMC_vrm": {
         "specVersion": "1.0", "humanoid": {"humanBones": bones},
-        "meta": {"name": "Made", "authors": ["nobody"], "licenseUrl": "https://vrm.dev/licenses/1.0/", "modification": "allowModification"},
+        "meta": {"name": "Made", "authors": ["nobody"], "licenseUrl": "https://vrm.dev/licenses/1.0/", "modification": "allowModificationRedistribution"},
     }});
     made
 }

@@ -42,6 +42,7 @@ internal static unsafe partial class Native
     internal const UInt32 SDEF_ELEMENT_BONE_GROUP = 6;
     internal const UInt32 SDEF_ELEMENT_GIVEN_JOINT = 7;
     internal const UInt32 SDEF_ELEMENT_BONE = 8;
+    internal const UInt32 SDEF_ELEMENT_COLLIDER = 9;
     internal const UInt32 SDEF_MODE_PRODUCT = 0;
     internal const UInt32 SDEF_MODE_PAPER = 1;
     internal const UInt32 SDEF_STAGE_LENGTH = 0;
@@ -125,6 +126,11 @@ internal static unsafe partial class Native
     internal const UInt32 SDEF_ROLE_RIGHT_LITTLE_DISTAL = 53;
     internal const UInt32 SDEF_ROLE_UPPER_CHEST = 54;
     internal const UInt32 SDEF_BONE_HEAD_TOP = 55;
+    internal const UInt32 SDEF_COLLIDER_SPHERE = 0;
+    internal const UInt32 SDEF_COLLIDER_CAPSULE = 1;
+    internal const UInt32 SDEF_COLLIDER_PLANE = 2;
+    internal const UInt32 SDEF_COLLIDER_INSIDE_SPHERE = 3;
+    internal const UInt32 SDEF_COLLIDER_INSIDE_CAPSULE = 4;
     internal const UInt32 SDEF_FIGURE_TARGET = 0;
     internal const UInt32 SDEF_FIGURE_REFERENCE = 1;
     internal const UInt32 SDEF_FIGURE_RESULT = 2;
@@ -369,6 +375,26 @@ internal static unsafe partial class Native
         sbyte* json,
         UIntPtr capacity,
         UIntPtr* size,
+        SdefError* error);
+
+    /// <summary>
+    /// Maps colliders of springs: their points go as map_points has it, and they are as thick as the mesh around them, a
+    /// capsule across its axis. One that a spring would newly start inside of yields, by a fifth of its radius at most.
+    ///
+    /// colliders:    count structs, all of one struct_size
+    /// springs:      spring_count structs, all of one struct_size: what colliders may name
+    /// results:      receives count structs, struct_size of the first is set before; may be colliders
+    ///
+    /// Errors: BAD_INPUT with the collider as the element (SDEF_ELEMENT_COLLIDER), or the spring (SDEF_ELEMENT_POINT).
+    /// </summary>
+    [DllImport(Library, ExactSpelling = true, CallingConvention = CallingConvention.Cdecl)]
+    internal static extern UInt32 sdef_deformer_map_colliders(
+        SdefDeformer deformer,
+        SdefCollider* colliders,
+        UIntPtr count,
+        SdefSpringBall* springs,
+        UIntPtr spring_count,
+        SdefCollider* results,
         SdefError* error);
 
     /// <summary>
@@ -1446,6 +1472,123 @@ internal unsafe struct SdefReport {
     /// vertices that were weighted by another rule than the chosen one
     /// </summary>
     public UInt64 fallback_vertices;
+}
+
+/// <summary>
+/// A collider of springs; lengths and points in model space.
+/// </summary>
+[StructLayout(LayoutKind.Sequential)]
+internal unsafe struct SdefCollider {
+    /// <summary>
+    /// sizeof(SdefCollider)
+    /// </summary>
+    public UInt32 struct_size;
+
+    /// <summary>
+    /// SDEF_COLLIDER_*
+    /// </summary>
+    public UInt32 kind;
+
+    /// <summary>
+    /// the joint that it moves with
+    /// </summary>
+    public UInt32 joint;
+
+    /// <summary>
+    /// elements of springs
+    /// </summary>
+    public UInt32 spring_count;
+
+    /// <summary>
+    /// the springs that it is for: indices into the call's array springs; NULL where there are none
+    /// </summary>
+    public UInt32* springs;
+
+    /// <summary>
+    /// the first point
+    /// </summary>
+    public double x;
+
+    /// <summary>
+    /// the first point
+    /// </summary>
+    public double y;
+
+    /// <summary>
+    /// the first point
+    /// </summary>
+    public double z;
+
+    /// <summary>
+    /// the second point, or the normal
+    /// </summary>
+    public double end_x;
+
+    /// <summary>
+    /// the second point, or the normal
+    /// </summary>
+    public double end_y;
+
+    /// <summary>
+    /// the second point, or the normal
+    /// </summary>
+    public double end_z;
+
+    /// <summary>
+    /// of spheres and capsules
+    /// </summary>
+    public double radius;
+
+    /// <summary>
+    /// of a result: the share of its radius that it yields to springs, 0 to 0.2
+    /// </summary>
+    public double yielded;
+
+    /// <summary>
+    /// of a result: springs that start inside and did not
+    /// </summary>
+    public UInt32 newly_inside;
+
+    /// <summary>
+    /// 0
+    /// </summary>
+    public UInt32 reserved;
+}
+
+/// <summary>
+/// The ball that a spring keeps out of colliders, at the end of its bone; model space.
+/// </summary>
+[StructLayout(LayoutKind.Sequential)]
+internal unsafe struct SdefSpringBall {
+    /// <summary>
+    /// sizeof(SdefSpringBall)
+    /// </summary>
+    public UInt32 struct_size;
+
+    /// <summary>
+    /// the joint at the end of the bone
+    /// </summary>
+    public UInt32 joint;
+
+    /// <summary>
+    /// its middle
+    /// </summary>
+    public double x;
+
+    /// <summary>
+    /// its middle
+    /// </summary>
+    public double y;
+
+    /// <summary>
+    /// its middle
+    /// </summary>
+    public double z;
+
+    /// <summary>
+    /// its radius
+    /// </summary>
+    public double radius;
 }
 
 /// <summary>

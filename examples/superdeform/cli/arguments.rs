@@ -210,6 +210,10 @@ pub struct Arguments {
     #[arg(long, help_heading = READING)]
     pub allow_prohibited: bool,
 
+    /// Give each spring chain of a VRM 0.x one joint more, so that its last bone keeps its proportion
+    #[arg(long)]
+    pub leaf_joints: bool,
+
     /// Draw a VRM's thumbnail anew from the result
     #[arg(long)]
     pub thumbnail: bool,

@@ -70,6 +70,8 @@ pub struct Command {
     pub save_rigged: Option<PathBuf>,
     /// Convert what its licence forbids to change.
     pub allow_prohibited: bool,
+    /// Give spring chains of VRM 0.x one joint more.
+    pub leaf_joints: bool,
     /// Draw a VRM's thumbnail anew.
     pub thumbnail: bool,
     /// Print nothing but errors.
@@ -206,6 +208,7 @@ fn command(single: Single) -> Result<Command, Refusal> {
         joints: single.joints,
         save_rigged: single.save_rigged,
         allow_prohibited: arguments.allow_prohibited,
+        leaf_joints: arguments.leaf_joints,
         thumbnail: arguments.thumbnail,
         quiet: arguments.quiet,
     };

@@ -4,6 +4,7 @@
 //! changed keeps its bits. Accessors and buffer views keep their numbers, since extensions may name them.
 
 mod animations;
+pub mod colliders;
 mod nodes;
 mod store;
 mod thumbnail;

@@ -49,6 +49,7 @@ pub(super) fn mesh_slots(
                 meshes.push(copy);
             }
             json["nodes"][node]["mesh"] = json!(number);
+            name_copy(json, mesh, number);
             for slot in &mut local {
                 match &mut slot.place {
                     Place::Attribute { mesh, .. } | Place::Target { mesh, .. } => *mesh = number,
@@ -60,6 +61,23 @@ pub(super) fn mesh_slots(
     }
     slots.extend(versions.into_values().flatten().flat_map(|(_, local)| local));
     Ok(())
+}
+
+/// Whatever VRM 0.x says of a mesh it also says of its copy: expressions and what is seen from within. VRM 1.0 names nodes.
+fn name_copy(json: &mut Value, mesh: usize, copy: usize) {
+    let Some(vrm) = json.pointer_mut("/extensions/VRM") else { return };
+    let repeat = |list: Option<&mut Value>| {
+        let Some(list) = list.and_then(Value::as_array_mut) else { return };
+        let of_mesh = list.iter().filter(|entry| index_at(entry, "mesh") == Some(mesh));
+        let mut more: Vec<Value> = of_mesh.cloned().collect();
+        more.iter_mut().for_each(|entry| entry["mesh"] = json!(copy));
+        list.extend(more);
+    };
+    repeat(vrm.pointer_mut("/firstPerson/meshAnnotations"));
+    let groups = vrm.pointer_mut("/blendShapeMaster/blendShapeGroups").and_then(Value::as_array_mut);
+    for group in groups.into_iter().flatten() {
+        repeat(group.get_mut("binds"));
+    }
 }
 
 /// What leads from model space back to the file's, vertex by vertex.

@@ -3,10 +3,10 @@
 //! A point is attached to a node and stands in its space: it is mapped like a vertex of that joint and then expressed
 //! in the moved node's space. Lengths around a point (radii, stiffness, gravity) are multiplied by the local scale.
 
-use super::MapPoint;
+use super::{MapPoint, colliders};
 use crate::load::Loaded;
 use crate::{array_at, index_at, text_at};
-use glam::{DMat3, DMat4, DVec3};
+use glam::{DMat4, DVec3};
 use serde_json::{Value, json};
 use superdeform::Role;
 
@@ -22,17 +22,17 @@ impl Field<'_> {
         self.loaded.joint_of_node.get(node).copied().flatten()
     }
 
-    /// Where a point of a node's space goes (in the moved node's space), the local scale and the Jacobian.
-    fn at(&self, node: usize, local: DVec3) -> Option<(DVec3, f64, DMat3)> {
+    /// Where a point of a node's space goes (in the moved node's space), and the local scale.
+    fn at(&self, node: usize, local: DVec3) -> Option<(DVec3, f64)> {
         let joint = self.joint(node)?;
         let mapped = (self.map_point)(joint, self.loaded.pose.rest[node].transform_point3(local));
         let back = self.new_rest[node].inverse().transform_point3(mapped.position);
         let scale = mapped.local_scale();
-        (back.is_finite() && scale.is_finite()).then_some((back, scale, mapped.jacobian))
+        (back.is_finite() && scale.is_finite()).then_some((back, scale))
     }
 
     fn scale(&self, node: usize) -> Option<f64> {
-        self.at(node, DVec3::ZERO).map(|(_, scale, _)| scale)
+        self.at(node, DVec3::ZERO).map(|(_, scale)| scale)
     }
 }
 
@@ -51,6 +51,7 @@ pub(super) fn move_points(
     if !loaded.rigged {
         return;
     }
+    colliders::move_colliders(json, loaded, new_rest, map_point);
     let field = Field { loaded, new_rest, map_point };
     if let Some(vrm) = json.pointer_mut("/extensions/VRM") {
         vrm0(vrm, &field);
@@ -59,7 +60,7 @@ pub(super) fn move_points(
     if let (Some(head), Some(offset)) =
         (head, json.pointer_mut("/extensions/VRMC_vrm/lookAt/offsetFromHeadBone"))
         && let Some(local) = vector(offset)
-        && let Some((moved, ..)) = field.at(head, local)
+        && let Some((moved, _)) = field.at(head, local)
     {
         put(offset, local, moved);
     }
@@ -69,7 +70,7 @@ pub(super) fn move_points(
 }
 
 /// A vector written as an array (VRM 1.0).
-fn vector(value: &Value) -> Option<DVec3> {
+pub(super) fn vector(value: &Value) -> Option<DVec3> {
     let numbers: Vec<f64> = value.as_array()?.iter().filter_map(Value::as_f64).collect();
     <[f64; 3]>::try_from(numbers).ok().map(DVec3::from)
 }
@@ -79,14 +80,14 @@ fn differs(before: f64, after: f64) -> bool {
     (after - before).abs() > 1e-9 * before.abs().max(1e-6)
 }
 
-fn put(value: &mut Value, before: DVec3, after: DVec3) {
+pub(super) fn put(value: &mut Value, before: DVec3, after: DVec3) {
     if (0..3).any(|axis| differs(before[axis], after[axis])) {
         *value = json!(after.as_vec3().to_array());
     }
 }
 
 /// Multiplies the number at `key`; one that is not there has the value `default`.
-fn multiply(holder: &mut Value, key: &str, default: f64, factor: f64) {
+pub(super) fn multiply(holder: &mut Value, key: &str, default: f64, factor: f64) {
     let before = holder.get(key).and_then(Value::as_f64).unwrap_or(default);
     let after = before * factor;
     if holder.is_object() && differs(before, after) {
@@ -94,19 +95,8 @@ fn multiply(holder: &mut Value, key: &str, default: f64, factor: f64) {
     }
 }
 
-/// VRM 1.0 springs and colliders, with `VRMC_springBone_extended_collider`.
+/// VRM 1.0 springs.
 fn vrm1_springs(springs: &mut Value, field: &Field) {
-    for collider in list(springs, "colliders") {
-        let Some(node) = index_at(collider, "node") else {
-            continue;
-        };
-        if let Some(shape) = collider.get_mut("shape") {
-            collider_shape(shape, node, field);
-        }
-        if let Some(shape) = collider.pointer_mut("/extensions/VRMC_springBone_extended_collider/shape") {
-            collider_shape(shape, node, field);
-        }
-    }
     for spring in list(springs, "springs") {
         for joint in list(spring, "joints") {
             let Some(scale) = index_at(joint, "node").and_then(|node| field.scale(node)) else {
@@ -124,47 +114,6 @@ fn list<'a>(value: &'a mut Value, key: &str) -> impl Iterator<Item = &'a mut Val
     value.get_mut(key).and_then(Value::as_array_mut).into_iter().flatten()
 }
 
-fn collider_shape(shape: &mut Value, node: usize, field: &Field) {
-    for kind in ["sphere", "capsule", "plane"] {
-        let Some(body) = shape.get_mut(kind).filter(|body| body.is_object()) else {
-            continue;
-        };
-        let offset = body.get("offset").and_then(vector).unwrap_or(DVec3::ZERO);
-        let Some((moved, mut scale, jacobian)) = field.at(node, offset) else {
-            continue;
-        };
-        if let Some(value) = body.get_mut("offset") {
-            put(value, offset, moved);
-        } else if moved.length() > 1e-9 {
-            put(&mut body["offset"], offset, moved);
-        }
-        if kind == "capsule" {
-            let tail = body.get("tail").and_then(vector).unwrap_or(DVec3::ZERO);
-            if let Some((moved, tail_scale, _)) = field.at(node, tail) {
-                if body.get("tail").is_some() || moved.length() > 1e-9 {
-                    put(&mut body["tail"], tail, moved);
-                }
-                // One radius for both ends.
-                scale = (scale * tail_scale).sqrt();
-            }
-        }
-        if kind == "plane" {
-            let normal = body.get("normal").and_then(vector).unwrap_or(DVec3::Z);
-            let node_axes = DMat3::from_mat4(field.loaded.pose.rest[node]);
-            let turned = node_axes.transpose()
-                * jacobian.inverse().transpose()
-                * node_axes.inverse().transpose()
-                * normal;
-            let turned = turned.normalize_or(normal) * normal.length();
-            if (turned - normal).length() > 1e-9 {
-                put(&mut body["normal"], normal, turned);
-            }
-        } else {
-            multiply(body, "radius", 0.0, scale);
-        }
-    }
-}
-
 /// VRM 0.x: `firstPerson` and `secondaryAnimation`.
 ///
 /// Vectors of VRM 0.x stand as the left-handed engine of its first exporter has them, nodes as glTF has them, and the
@@ -178,26 +127,15 @@ fn vrm0(vrm: &mut Value, field: &Field) {
         if let Some(node) = bone.map(|node| node as usize).or(head)
             && let Some(offset) = first_person.get_mut("firstPersonBoneOffset")
         {
-            move_flipped(offset, node, field);
+            let before = flipped_vector(offset);
+            if let Some((moved, _)) = field.at(node, before) {
+                put_flipped(offset, before, moved);
+            }
         }
     }
     let Some(animation) = vrm.get_mut("secondaryAnimation") else {
         return;
     };
-    for group in list(animation, "colliderGroups") {
-        let Some(node) = index_at(group, "node") else {
-            continue;
-        };
-        for collider in list(group, "colliders") {
-            let scale = match collider.get_mut("offset") {
-                Some(offset) => move_flipped(offset, node, field),
-                None => field.scale(node),
-            };
-            if let Some(scale) = scale {
-                multiply(collider, "radius", 0.0, scale);
-            }
-        }
-    }
     let skeleton = &field.loaded.character.skeleton;
     let order = skeleton.parents_first();
     for group in list(animation, "boneGroups") {
@@ -228,18 +166,22 @@ fn vrm0(vrm: &mut Value, field: &Field) {
     }
 }
 
-/// Moves a vector {x, y, z} whose z is negated; gives the local scale there.
-fn move_flipped(offset: &mut Value, node: usize, field: &Field) -> Option<f64> {
-    let number = |key: &str| offset.get(key).and_then(Value::as_f64).unwrap_or(0.0);
-    let stored = DVec3::new(number("x"), number("y"), number("z"));
-    let (moved, scale, _) = field.at(node, stored * DVec3::new(1.0, 1.0, -1.0))?;
-    let moved = moved * DVec3::new(1.0, 1.0, -1.0);
-    if offset.is_object() && (0..3).any(|axis| differs(stored[axis], moved[axis])) {
+/// z is negated, see [`vrm0`].
+const FLIPPED: DVec3 = DVec3::new(1.0, 1.0, -1.0);
+
+/// A vector {x, y, z} of VRM 0.x in its node's space.
+pub(super) fn flipped_vector(value: &Value) -> DVec3 {
+    let number = |key: &str| value.get(key).and_then(Value::as_f64).unwrap_or(0.0);
+    DVec3::new(number("x"), number("y"), number("z")) * FLIPPED
+}
+
+/// Writes `after`, in the node's space, over such a vector.
+pub(super) fn put_flipped(value: &mut Value, before: DVec3, after: DVec3) {
+    if value.is_object() && (0..3).any(|axis| differs(before[axis], after[axis])) {
         for (axis, key) in ["x", "y", "z"].into_iter().enumerate() {
-            offset[key] = json!(moved[axis] as f32);
+            value[key] = json!((after * FLIPPED)[axis] as f32);
         }
     }
-    Some(scale)
 }
 
 /// Outlines whose width is a length, not a share of the picture, keep their look on a smaller figure.

@@ -17,6 +17,7 @@ use state::DeformerState;
 use std::collections::BTreeMap;
 use std::sync::{Arc, RwLock};
 
+mod colliders;
 pub mod state;
 pub mod types;
 
@@ -202,6 +203,42 @@ pub unsafe extern "C" fn sdef_deformer_map_points(
         positions.write_each(mapped.iter().map(|point| arrays::numbers(point.position)));
         scales.write_each(mapped.iter().map(|point| point.local_scale()));
         jacobians.write_each(mapped.iter().map(|point| point.jacobian.to_cols_array()));
+        Ok(())
+    };
+    unsafe { call(error, body) }
+}
+
+/// Maps colliders of springs: their points go as map_points has it, and they are as thick as the mesh around them, a
+/// capsule across its axis. One that a spring would newly start inside of yields, by a fifth of its radius at most.
+///
+/// colliders:    count structs, all of one struct_size
+/// springs:      spring_count structs, all of one struct_size: what colliders may name
+/// results:      receives count structs, struct_size of the first is set before; may be colliders
+///
+/// Errors: BAD_INPUT with the collider as the element (SDEF_ELEMENT_COLLIDER), or the spring (SDEF_ELEMENT_POINT).
+#[ffi_export]
+pub unsafe extern "C" fn sdef_deformer_map_colliders(
+    deformer: SdefDeformer,
+    colliders: *const SdefCollider,
+    count: usize,
+    springs: *const SdefSpringBall,
+    spring_count: usize,
+    results: *mut SdefCollider,
+    error: *mut SdefError,
+) -> SdefStatus {
+    let body = || unsafe {
+        let state = handles::deformer(deformer)?;
+        let state = handles::read(&state, "deformer")?;
+        let deformer = state.deformer();
+        let given = arrays::structs_in("colliders", colliders, count)?;
+        let springs = colliders::springs_of(deformer, arrays::structs_in("springs", springs, spring_count)?)?;
+        let mut mapped = arrays::reserved(count, "colliders")?;
+        for (index, collider) in given.iter().enumerate() {
+            mapped.push(colliders::map(deformer, index, collider, &springs)?);
+        }
+        if count > 0 {
+            arrays::structs_out("results", results, count, &mapped)?;
+        }
         Ok(())
     };
     unsafe { call(error, body) }

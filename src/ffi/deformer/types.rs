@@ -61,6 +61,73 @@ pub struct SdefGroup {
     pub reference_radius: f64,
 }
 
+/// A ball around the first point.
+pub const SDEF_COLLIDER_SPHERE: u32 = 0;
+/// Round, from the first point to the second.
+pub const SDEF_COLLIDER_CAPSULE: u32 = 1;
+/// Through the first point; the second is its normal, which points to where springs may be.
+pub const SDEF_COLLIDER_PLANE: u32 = 2;
+/// A sphere that springs are kept inside of.
+pub const SDEF_COLLIDER_INSIDE_SPHERE: u32 = 3;
+/// A capsule that springs are kept inside of.
+pub const SDEF_COLLIDER_INSIDE_CAPSULE: u32 = 4;
+
+/// A collider of springs; lengths and points in model space.
+#[derive_ReprC]
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct SdefCollider {
+    /// sizeof(SdefCollider)
+    pub struct_size: u32,
+    /// SDEF_COLLIDER_*
+    pub kind: u32,
+    /// the joint that it moves with
+    pub joint: u32,
+    /// elements of springs
+    pub spring_count: u32,
+    /// the springs that it is for: indices into the call's array springs; NULL where there are none
+    pub springs: *const u32,
+    /// the first point
+    pub x: f64,
+    /// the first point
+    pub y: f64,
+    /// the first point
+    pub z: f64,
+    /// the second point, or the normal
+    pub end_x: f64,
+    /// the second point, or the normal
+    pub end_y: f64,
+    /// the second point, or the normal
+    pub end_z: f64,
+    /// of spheres and capsules
+    pub radius: f64,
+    /// of a result: the share of its radius that it yields to springs, 0 to 0.2
+    pub yielded: f64,
+    /// of a result: springs that start inside and did not
+    pub newly_inside: u32,
+    /// 0
+    pub reserved: u32,
+}
+
+/// The ball that a spring keeps out of colliders, at the end of its bone; model space.
+#[derive_ReprC]
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct SdefSpringBall {
+    /// sizeof(SdefSpringBall)
+    pub struct_size: u32,
+    /// the joint at the end of the bone
+    pub joint: u32,
+    /// its middle
+    pub x: f64,
+    /// its middle
+    pub y: f64,
+    /// its middle
+    pub z: f64,
+    /// its radius
+    pub radius: f64,
+}
+
 /// The character before.
 pub const SDEF_FIGURE_TARGET: u32 = 0;
 /// The style; NAN throughout for a style of N heads.
@@ -111,4 +178,4 @@ pub struct SdefReport {
     /// vertices that were weighted by another rule than the chosen one
     pub fallback_vertices: u64,
 }
-host_structs!(SdefMeshResult, SdefGroup, SdefFigure, SdefReport);
+host_structs!(SdefMeshResult, SdefCollider, SdefSpringBall, SdefGroup, SdefFigure, SdefReport);

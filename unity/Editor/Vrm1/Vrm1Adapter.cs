@@ -55,8 +55,11 @@ namespace SuperDeform.Editor.Vrm1
                     break;
                 case VRM10SpringBoneColliderTypes.Capsule:
                 case VRM10SpringBoneColliderTypes.CapsuleInside:
-                    // One radius for both ends.
-                    scale = Mathf.Sqrt(scale * map.Scale(joint, collider.Tail));
+                    Vector3 axis = collider.Tail - collider.Offset;
+                    // Without length it is a sphere; one radius for both ends.
+                    scale = axis == Vector3.zero
+                        ? Mathf.Sqrt(scale * map.Scale(joint, collider.Tail))
+                        : Mathf.Sqrt(map.Across(joint, collider.Offset, axis) * map.Across(joint, collider.Tail, axis));
                     collider.Tail = map.Point(joint, collider.Tail);
                     collider.Radius *= scale;
                     break;
