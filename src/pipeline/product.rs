@@ -20,6 +20,7 @@ use crate::shape::product::field::PartField;
 use crate::shape::product::groups::PartGroups;
 use crate::shape::product::hair::HairOnBody;
 use crate::shape::product::head::seat_sources;
+use crate::shape::product::joints::mean_bindings;
 use crate::shape::product::landmarks::{HeadPlacement, HeadSources};
 use crate::shape::product::part::Part;
 use crate::shape::product::scales::PartCoefficients;
@@ -73,9 +74,12 @@ impl ProductTarget {
         let of_legs =
             |vertex: usize| vertices[vertex].weights[Part::LeftUpperLeg as usize..].iter().sum::<f32>();
         let ground = GroundContact::of(figure, |vertex| of_legs(vertex) > 0.5);
+        let means = mean_bindings(&target.character, figure, &vertices);
         let joints = joint_bindings(&target.character, figure, |joint| {
             Binding::Parts(if is_head_joint_in_neck(measured, joint) {
                 PartBinding::to(Part::Neck)
+            } else if let Some(mean) = means[joint] {
+                mean
             } else {
                 joint_binding(figure, &parts, joint)
             })

@@ -40,11 +40,14 @@ impl PartBinding {
 
     /// How far it goes where head and neck go, 0 to 1; what is carried on the body does not.
     pub fn of_head_and_neck(&self) -> f64 {
-        if matches!(self.attachment, Attachment::Piece(_)) {
-            return 0.0;
-        }
+        let with_piece = match self.attachment {
+            Attachment::Piece(_) => return 0.0,
+            Attachment::Strand { share, .. } => f64::from(share),
+            Attachment::Plain | Attachment::OnFace(_) => 0.0,
+        };
         let parts = [Part::Head, Part::Neck, Part::Hair];
-        smoothstep(parts.iter().map(|&part| f64::from(self.weights[part as usize])).sum())
+        (1.0 - with_piece)
+            * smoothstep(parts.iter().map(|&part| f64::from(self.weights[part as usize])).sum())
     }
 }
 
@@ -83,7 +86,7 @@ pub fn part_bindings(
     let members = members_of_components(figure, weld);
     let (weights, head_only) = part_weights(figure, anatomy, weld, &members, threads);
     let Pieces { attachments, pieces, of_joints } =
-        Pieces::of(figure, skeleton, &members, &head_only, &weights);
+        Pieces::of(figure, skeleton, weld, &members, &head_only, &weights);
     let hair = HairOutline::of(
         (0..figure.positions.len())
             .filter(|&vertex| weights[vertex][Part::Hair as usize] > 0.5)

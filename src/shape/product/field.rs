@@ -163,13 +163,36 @@ impl PartField {
     pub fn map(&self, p: DVec3, binding: &PartBinding, face: &FaceShape) -> Mapped {
         let by_parts = |attachment| self.blend(p, &binding.weights, attachment, face);
         match (binding.attachment, &self.profile) {
-            (Attachment::Piece(piece), None) => self.pieces[piece].map(p),
-            (Attachment::Piece(piece), Some(profile)) => {
-                let Mapped { position, jacobian } = self.pieces[piece].map(p);
-                Mapped { position: position + profile.piece_shift(piece), jacobian }
-            }
+            (Attachment::Piece(piece), _) => self.with_piece(piece, p),
+            (Attachment::Strand { piece, share }, _) => self.strand(p, binding, piece, f64::from(share)),
             (attachment, None) => by_parts(attachment),
             (attachment, Some(profile)) => by_parts(attachment).then(|p| profile.map(p, binding)),
+        }
+    }
+
+    #[inline(always)]
+    fn with_piece(&self, piece: usize, p: DVec3) -> Mapped {
+        let Mapped { position, jacobian } = self.pieces[piece].map(p);
+        match &self.profile {
+            Some(profile) => Mapped { position: position + profile.piece_shift(piece), jacobian },
+            None => Mapped { position, jacobian },
+        }
+    }
+
+    /// Between where the parts take `p` and where the piece does.
+    // Not inlined: few vertices are a strand's.
+    #[inline(never)]
+    fn strand(&self, p: DVec3, binding: &PartBinding, piece: usize, share: f64) -> Mapped {
+        let plain = PartBinding { attachment: Attachment::Plain, ..*binding };
+        let body = self.blend(p, &binding.weights, Attachment::Plain, &FaceShape::None);
+        let body = match &self.profile {
+            Some(profile) => body.then(|p| profile.map(p, &plain)),
+            None => body,
+        };
+        let whole = self.with_piece(piece, p);
+        Mapped {
+            position: body.position.lerp(whole.position, share),
+            jacobian: body.jacobian * (1.0 - share) + whole.jacobian * share,
         }
     }
 

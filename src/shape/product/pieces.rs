@@ -1,8 +1,9 @@
 //! What keeps its shape: hats, bags, buttons move and scale as one (product mode).
 
 use super::part::{PART_COUNT, Part, PartWeights, add};
+use super::strand;
 use crate::character::{MeshKind, Role, Skeleton};
-use crate::geometry::{Bounds, PointTree, bounds, clusters};
+use crate::geometry::{Bounds, PointTree, Weld, bounds, clusters, neighbours};
 use crate::shape::figure::Figure;
 use glam::DVec3;
 use std::collections::BTreeMap;
@@ -26,6 +27,13 @@ pub enum Attachment {
     OnFace(DVec3),
     /// Moves with piece number so-and-so, which keeps its shape.
     Piece(usize),
+    /// Leads from the body, which moves it by its weights, to a piece.
+    Strand {
+        /// The piece.
+        piece: usize,
+        /// How far it goes with the piece, 0 to 1.
+        share: f32,
+    },
 }
 
 /// A piece that keeps its shape: it is moved and scaled as one.
@@ -58,6 +66,7 @@ impl Pieces {
     pub fn of(
         figure: &Figure,
         skeleton: &Skeleton,
+        weld: &Weld,
         members: &[Vec<u32>],
         head_only: &[bool],
         weights: &[PartWeights],
@@ -68,7 +77,7 @@ impl Pieces {
             of_joints: Vec::new(),
         };
         pieces.add_hats(figure, members, head_only);
-        pieces.add_carried(figure, skeleton, members, head_only);
+        pieces.add_carried(figure, skeleton, weld, members, head_only);
         pieces.add_accessories(figure, members, head_only, weights);
         pieces.add_small(figure, members, head_only, weights);
         pieces
@@ -107,6 +116,7 @@ impl Pieces {
         &mut self,
         figure: &Figure,
         skeleton: &Skeleton,
+        weld: &Weld,
         members: &[Vec<u32>],
         head_only: &[bool],
     ) {
@@ -129,7 +139,7 @@ impl Pieces {
                     rigid_count[top] += usize::from(rigid);
                 }
             }
-            // A strap that goes over into the body stays with the body.
+            // What goes over into the body may be a strand.
             if let Some(first_top) = first_top
                 && members
                     .iter()
@@ -154,6 +164,20 @@ impl Pieces {
             self.add(&carried[joint], piece);
         }
         self.of_joints = top.iter().map(|top| top.and_then(|top| piece_of_top[top])).collect();
+        let piece_of = |vertex: u32| main(vertex).and_then(|joint| self.of_joints[joint]);
+        let strands =
+            strands(members, &piece_of, |vertex| head_only[vertex as usize] || !self.is_plain(vertex));
+        if strands.is_empty() {
+            return;
+        }
+        let neighbours = neighbours(&figure.triangles, weld);
+        for (piece, members) in strands {
+            let of_body = |vertex: u32| piece_of(vertex) != Some(piece);
+            let shares = strand::shares(figure, weld, &neighbours, members, of_body);
+            for (&vertex, share) in members.iter().zip(shares) {
+                self.attachments[vertex as usize] = Attachment::Strand { piece, share };
+            }
+        }
     }
 
     /// Bags, swords, machine arms that are meshes of kind accessory and hang rigidly from the body: components whose boxes
@@ -248,6 +272,31 @@ impl Pieces {
             self.add(members, Piece { anchor: (low + high) / 2.0, lowest: low.y, weights });
         }
     }
+}
+
+/// Components that lead from the body to a piece, with the piece: most of their vertices are moved by the piece's joints, and
+/// not all. A strap that the body holds for the greater part stays with the body.
+fn strands<'a>(
+    members: &'a [Vec<u32>],
+    piece_of: &impl Fn(u32) -> Option<usize>,
+    is_taken: impl Fn(u32) -> bool,
+) -> Vec<(usize, &'a Vec<u32>)> {
+    let mut found = Vec::new();
+    for members in members {
+        let mut counts: BTreeMap<usize, usize> = BTreeMap::new();
+        for piece in members.iter().filter_map(|&vertex| piece_of(vertex)) {
+            *counts.entry(piece).or_default() += 1;
+        }
+        let most = counts.into_iter().max_by_key(|&(piece, count)| (count, std::cmp::Reverse(piece)));
+        if let Some((piece, count)) = most
+            && 2 * count > members.len()
+            && count < members.len()
+            && !members.iter().any(|&vertex| is_taken(vertex))
+        {
+            found.push((piece, members));
+        }
+    }
+    found
 }
 
 /// For each joint the uppermost joint without a role that it hangs from, below a joint that has one.

@@ -1,0 +1,111 @@
+//! How joints without a role of their own are attached: as the mesh that they move (product mode).
+
+use super::binding::PartBinding;
+use super::part::{PART_COUNT, add};
+use super::pieces::Attachment;
+use crate::character::{Character, Role};
+use crate::face::stage::FaceBinding;
+use crate::shape::figure::Figure;
+use std::collections::BTreeMap;
+
+/// Vertices this near to a joint count alike, as a share of H; further ones count with the fourth power of how much further.
+/// D26: a joint bends the mesh where it stands, and a chain's joint moves all the cloth down to the next.
+const NEAR: f64 = 0.01;
+
+/// A piece's share beyond this is all, and below what is left of 1 none.
+const WHOLE: f32 = 0.999;
+
+/// For each joint the mean binding of the vertices that it moves, the nearest first; none for joints that play a role, hang
+/// from the head, or move nothing.
+///
+/// A joint that moves nothing and hangs from one with a mean takes that: the end of a chain stays with its chain.
+///
+/// O(influences).
+pub fn mean_bindings(
+    character: &Character,
+    figure: &Figure,
+    vertices: &[PartBinding],
+) -> Vec<Option<PartBinding>> {
+    let mut means: Vec<Mean> = figure.joints.iter().map(|_| Mean::default()).collect();
+    let mut own_role = vec![false; figure.joints.len()];
+    for (_, joint) in figure.humanoid.iter() {
+        own_role[joint] = true;
+    }
+    let near = NEAR * figure.height();
+    for (mesh, &start) in character.meshes.iter().zip(&figure.mesh_starts) {
+        for (vertex, row) in mesh.weights.rows().enumerate() {
+            let vertex = start + vertex;
+            for &(joint, weight) in row {
+                let joint = joint as usize;
+                if own_role[joint] || weight <= 0.0 {
+                    continue;
+                }
+                let away = figure.positions[vertex].distance_squared(figure.joints[joint]) + near * near;
+                means[joint].add(&vertices[vertex], f64::from(weight) * (near * near / away).powi(2));
+            }
+        }
+    }
+    let on_head = |joint: usize| figure.joint_roles[joint].is_none_or(|role| role == Role::Head);
+    let mut found: Vec<Option<PartBinding>> = means
+        .iter()
+        .enumerate()
+        .map(|(joint, mean)| if own_role[joint] || on_head(joint) { None } else { mean.binding() })
+        .collect();
+    for joint in character.skeleton.parents_first() {
+        let parent = character.skeleton.joints[joint].parent;
+        if found[joint].is_none() && !own_role[joint] && !on_head(joint) {
+            found[joint] = parent.and_then(|parent| found[parent]);
+        }
+    }
+    found
+}
+
+/// A weighted mean in the making.
+#[derive(Clone, Debug, Default)]
+struct Mean {
+    parts: [f64; PART_COUNT],
+    /// The weight of what goes with each piece.
+    pieces: BTreeMap<usize, f64>,
+    /// The weight of what is a skirt.
+    skirt: f64,
+    total: f64,
+}
+
+impl Mean {
+    fn add(&mut self, binding: &PartBinding, weight: f64) {
+        let (piece, share) = match binding.attachment {
+            // What takes the face map as a whole says nothing of the body.
+            Attachment::OnFace(_) => return,
+            Attachment::Plain => (None, 0.0),
+            Attachment::Piece(piece) => (Some(piece), 1.0),
+            Attachment::Strand { piece, share } => (Some(piece), share),
+        };
+        for (sum, &part) in self.parts.iter_mut().zip(&binding.weights) {
+            *sum += weight * f64::from(part);
+        }
+        if let Some(piece) = piece {
+            *self.pieces.entry(piece).or_default() += weight * f64::from(share);
+        }
+        if binding.is_skirt {
+            self.skirt += weight;
+        }
+        self.total += weight;
+    }
+
+    fn binding(&self) -> Option<PartBinding> {
+        if !(self.total > 0.0 && self.total.is_finite()) {
+            return None;
+        }
+        let mut weights = [0.0; PART_COUNT];
+        add(&mut weights, &self.parts.map(|sum| (sum / self.total) as f32), 1.0);
+        // A joint goes with one piece: the one that most of its mesh goes with.
+        let most = self.pieces.iter().max_by(|one, other| one.1.total_cmp(other.1));
+        let attachment = match most.map(|(&piece, &sum)| (piece, (sum / self.total) as f32)) {
+            Some((piece, share)) if share > WHOLE => Attachment::Piece(piece),
+            Some((piece, share)) if share > 1.0 - WHOLE => Attachment::Strand { piece, share },
+            _ => Attachment::Plain,
+        };
+        let is_skirt = 2.0 * self.skirt > self.total;
+        Some(PartBinding { weights, attachment, face: FaceBinding::None, is_skirt })
+    }
+}
