@@ -3,7 +3,7 @@
 pub mod models;
 
 use glam::{DMat4, DVec3, Vec3};
-use superdeform::{Axes, Character, Humanoid, Joint, Mesh, Role, Skeleton, Weights};
+use superdeform::{Character, Humanoid, Joint, Mesh, Role, Skeleton, Weights};
 
 /// A tube of `ring_count` rings of `side_count` vertices that stands on a chain of hips, spine and head, its
 /// weights blended from joint to joint.
@@ -42,7 +42,7 @@ pub fn tube(ring_count: usize, side_count: usize) -> Character {
         }
     }
     mesh.weights = Weights::from_rows(rows);
-    Character { meshes: vec![mesh], skeleton, humanoid, axes: Axes::default() }
+    Character { meshes: vec![mesh], skeleton, humanoid, ..Character::default() }
 }
 
 /// A closed body in one piece around capsules (two ends and a radius each), of about 14,000 vertices where the capsules

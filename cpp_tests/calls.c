@@ -26,6 +26,15 @@ static SdefCharacter make_character(int with_joints) {
     mesh.joints = mesh.weights = NULL;
     mesh.joint_stride = mesh.weight_stride = 0;
   }
+  const uint8_t pixels[6] = {0, 255, 9, 255, 0, 9};
+  const SdefImage image = {sizeof(SdefImage), 2, 2, 0, pixels, 3};
+  const double eye[3] = {0.03, 1.65, 0.1};
+  const SdefFaceHints hints = {sizeof(SdefFaceHints), 0, eye, NULL, 0.012, 0};
+  OK(sdef_character_add_image(character, &image, &mesh.image, &error));
+  CHECK(mesh.image == 1);
+  mesh.uvs = figure.vertices[0].position;
+  mesh.uv_stride = sizeof figure.vertices[0];
+  OK(sdef_character_set_face_hints(character, &hints, &error));
   OK(sdef_character_add_mesh(character, &mesh, &index, &error));
   CHECK(index == 0);
   OK(sdef_character_add_morph_target(character, 0, &figure.target, &error));

@@ -61,6 +61,15 @@ static void characters() {
   float last = 0;
   made.rig(options, [&](float fraction) { last = fraction; });
   CHECK(made.info().rig_made == 1 && last == 1);
+  const std::uint8_t pixel = 200;
+  SdefImage image = superdeform::make<SdefImage>();
+  image.width = image.height = 1;
+  image.pixels = &pixel;
+  CHECK(made.add_image(image) == 1 && made.add_image(image) == 2);
+  const double eye[3] = {0.03, 1.65, 0.1};
+  SdefFaceHints hints = superdeform::make<SdefFaceHints>();
+  hints.eye = eye;
+  made.set_face_hints(hints);
   const float up[3] = {0, 0, 1}, forward[3] = {0, -1, 0};
   CHECK(Character(up, forward).info().mesh_count == 0);
 }

@@ -590,6 +590,17 @@ impl Host<'_> {
             }
             _ => mesh.influence_count = too_many(bytes),
         }
+        if bytes.chance(20) {
+            mesh.luminance_stride = stride(bytes, 1);
+            let values: Vec<u8> = (0..count).map(|_| bytes.byte()).collect();
+            mesh.luminance = memory.input(bytes, &values, held(mesh.luminance_stride, 1));
+        }
+        if bytes.chance(20) {
+            mesh.image = bytes.below(3) as u32;
+            mesh.uv_stride = stride(bytes, 8);
+            let uvs: Vec<[f32; 2]> = (0..count).map(|_| [(); 2].map(|()| bytes.number() as f32)).collect();
+            mesh.uvs = memory.input_or_null(bytes, &uvs, held(mesh.uv_stride, 8)).cast();
+        }
         if bytes.chance(4) {
             mesh = SdefMesh { vertex_count: too_many(bytes), ..zeroed() };
         }
@@ -844,6 +855,51 @@ impl Host<'_> {
                     }
                 }
                 ("add_morph_target", status)
+            }
+            12 if self.bytes.chance(60) => {
+                let id = self.handle(0);
+                if self.is_lasting(id) {
+                    return;
+                }
+                let bytes = &mut self.bytes;
+                let (width, height) = (1 + bytes.below(9), 1 + bytes.below(9));
+                let row_stride = stride(bytes, width);
+                let size = (height - 1) * held(row_stride, width) + width;
+                let pixels: Vec<u8> = (0..size).map(|_| bytes.byte()).collect();
+                let image = SdefImage {
+                    width: if bytes.chance(10) { 0 } else { width as u32 },
+                    height: height as u32,
+                    pixels: memory.input_or_null(bytes, &pixels, 0),
+                    row_stride,
+                    ..zeroed()
+                };
+                let image = memory.sized(bytes, &image, true);
+                let mut number = 0;
+                let status = ask(bytes, |error| unsafe {
+                    sdef_character_add_image(SdefCharacter { id }, image, &mut number, error)
+                });
+                assert_eq!(status == SDEF_STATUS_OK, number != 0);
+                ("add_image", status)
+            }
+            12 if self.bytes.chance(60) => {
+                let id = self.handle(0);
+                if self.is_lasting(id) {
+                    return;
+                }
+                let bytes = &mut self.bytes;
+                let eyes = [(); 2].map(|()| vec![[(); 3].map(|()| bytes.number())]);
+                let hints = SdefFaceHints {
+                    eye: memory.input_or_null(bytes, &eyes[0], 0).cast(),
+                    other_eye: memory.input_or_null(bytes, &eyes[1], 0).cast(),
+                    half_width: if bytes.chance(128) { 0.0 } else { bytes.number() },
+                    half_height: if bytes.chance(128) { 0.0 } else { bytes.number() },
+                    ..zeroed()
+                };
+                let hints = memory.sized(bytes, &hints, true);
+                let status = ask(bytes, |error| unsafe {
+                    sdef_character_set_face_hints(SdefCharacter { id }, hints, error)
+                });
+                ("set_face_hints", status)
             }
             12 => {
                 let id = self.handle(0);

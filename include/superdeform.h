@@ -334,7 +334,37 @@ typedef struct SdefMesh {
   const void *weights;        // one for each joint
   size_t weight_stride;       // bytes from vertex to vertex; 0: influence_count weights
   const uint32_t *row_starts; // vertex_count + 1 numbers (rows), or NULL (fixed)
+  const uint8_t *luminance;   // how bright the surface is: a byte a vertex, from black (0) to white (255) as screens
+                              // show it; may be NULL. By this, or by uvs and image, the face step sees irises and brows
+                              // that are painted; left out, they stay as they are
+  size_t luminance_stride;    // bytes from vertex to vertex; 0: 1
+  const float *uvs;           // 2 floats a vertex: where it lies on the image, (0, 0) at the first pixel, (1, 1) at the
+                              // last; the image repeats beyond; may be NULL
+  size_t uv_stride;           // bytes from vertex to vertex; 0: 8
+  uint32_t image;             // what sdef_character_add_image gave for the image that the mesh shows, or 0
+  uint32_t reserved_2;        // 0
 } SdefMesh;
+
+// How bright a texture is: its base colour without the colours, as 54 red + 183 green + 19 blue of 256.
+typedef struct SdefImage {
+  uint32_t struct_size;  // sizeof(SdefImage)
+  uint32_t width;        // pixels in a row, 1 to 65536; above 512 a smaller one is made of it
+  uint32_t height;       // rows, likewise
+  uint32_t reserved;     // 0
+  const uint8_t *pixels; // width bytes a row, the row of v = 0 first
+  size_t row_stride;     // bytes from row to row; 0: width
+} SdefImage;
+
+// What a host knows of a face, in model space. Without it eyes are found by their meshes, blinks or joints, or as small
+// twin pieces.
+typedef struct SdefFaceHints {
+  uint32_t struct_size;    // sizeof(SdefFaceHints)
+  uint32_t reserved;       // 0
+  const double *eye;       // 3 doubles: the middle of an eye's opening; NULL: nothing is known
+  const double *other_eye; // 3 doubles: that of the other one; NULL: its mirror image
+  double half_width;       // half the width of an opening; 0: not known
+  double half_height;      // half its height; 0: not known
+} SdefFaceHints;
 
 // A morph target (blend shape): what is added to each vertex of a mesh at weight 1. All arrays are as long as the mesh.
 typedef struct SdefMorphTarget {
@@ -399,6 +429,19 @@ SdefStatus sdef_character_set_skeleton(SdefCharacter character, const SdefSkelet
 //
 // Errors: BAD_ARGUMENT; BAD_INPUT with the vertex or triangle as the element; OUT_OF_MEMORY.
 SdefStatus sdef_character_add_mesh(SdefCharacter character, const SdefMesh *mesh, uint32_t *index, SdefError *error);
+
+// Adds an image that meshes show, before these meshes; it is copied.
+//
+// number: receives what SdefMesh's image names it by, counted from 1
+//
+// Errors: BAD_ARGUMENT; OUT_OF_MEMORY.
+SdefStatus sdef_character_add_image(SdefCharacter character, const SdefImage *image, uint32_t *number,
+    SdefError *error);
+
+// Says what the host knows of the face, in place of what was said before.
+//
+// Errors: BAD_ARGUMENT; BAD_INPUT for numbers that are not finite, and sizes below 0; OUT_OF_MEMORY.
+SdefStatus sdef_character_set_face_hints(SdefCharacter character, const SdefFaceHints *hints, SdefError *error);
 
 // Adds a morph target to a mesh, after those that it has.
 //
@@ -753,7 +796,7 @@ SdefStatus sdef_deformer_get_report(SdefDeformer deformer, SdefReport *report, c
 //
 // up, forward:    as in sdef_character_create
 // skeleton:       NULL: a rig is made
-// meshes:         mesh_count structs, all of one struct_size; read before anything is written
+// meshes:         mesh_count structs, all of one struct_size; read before anything is written; their image is 0
 // style:          what they should become
 // options:        NULL for the defaults
 // results:        mesh_count structs, all of one struct_size

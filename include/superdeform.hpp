@@ -299,6 +299,15 @@ public:
     return index;
   }
 
+  // Gives the number that SdefMesh's image names it by.
+  std::uint32_t add_image(const SdefImage &image) {
+    std::uint32_t number = 0;
+    detail::call(sdef_character_add_image, raw_, &image, &number);
+    return number;
+  }
+
+  void set_face_hints(const SdefFaceHints &hints) { detail::call(sdef_character_set_face_hints, raw_, &hints); }
+
   void add_morph_target(std::uint32_t mesh, const SdefMorphTarget &target) {
     detail::call(sdef_character_add_morph_target, raw_, mesh, &target);
   }

@@ -94,7 +94,10 @@ mod rig;
 mod shape;
 
 pub use character::roles::find_roles;
-pub use character::{Axes, Character, Humanoid, Joint, Mesh, MeshKind, MorphTarget, Role, Skeleton, Weights};
+pub use character::{
+    Axes, Character, EyeHint, FaceHints, GreyImage, Humanoid, Joint, Mesh, MeshKind, MorphTarget, Role,
+    Shade, Skeleton, Weights,
+};
 pub use error::{Element, Error, ErrorKind, Result, Warning};
 pub use geometry::Mapped;
 pub use options::{

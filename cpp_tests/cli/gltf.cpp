@@ -255,6 +255,33 @@ std::vector<Matrix> inverse_binds(const tinygltf::Model &model, const tinygltf::
   return binds;
 }
 
+Grey grey(const tinygltf::Model &model, int index) {
+  Grey found;
+#ifdef TINYGLTF_DECODES_IMAGES
+  const tinygltf::Image &source = model.images.at(index);
+  const unsigned char *bytes = source.image.data();
+  std::size_t size = source.image.size();
+  if (source.bufferView >= 0) {
+    size = model.bufferViews.at(source.bufferView).byteLength;
+    bytes = within(model, source.bufferView, 0, 1, size, size);
+  }
+  tinygltf::Image decoded;
+  std::string error, warning;
+  if (!tinygltf::LoadImageData(&decoded, index, &error, &warning, 0, 0, bytes, static_cast<int>(size), nullptr)) return found;
+  found.width = decoded.width;
+  found.height = decoded.height;
+  // Four bytes a pixel, or twice as many, of which the first of two is the lower half.
+  const std::size_t wide = decoded.bits == 16 ? 2 : 1;
+  for (std::size_t at = 0; at + 4 * wide <= decoded.image.size(); at += 4 * wide) {
+    const unsigned char *pixel = decoded.image.data() + at + wide - 1;
+    found.pixels.push_back(static_cast<unsigned char>((54 * pixel[0] + 183 * pixel[wide] + 19 * pixel[2 * wide]) / 256));
+  }
+#else
+  (void)model, (void)index;
+#endif
+  return found;
+}
+
 int attribute(const std::map<std::string, int> &attributes, const std::string &name) {
   const auto found = attributes.find(name);
   return found == attributes.end() ? -1 : found->second;

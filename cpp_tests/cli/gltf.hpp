@@ -56,6 +56,14 @@ Nodes read_nodes(const tinygltf::Model &model);
 // Inverse bind matrices of a skin, one a joint.
 std::vector<Matrix> inverse_binds(const tinygltf::Model &model, const tinygltf::Skin &skin);
 
+// The brightness of an image, row by row; empty where it cannot be decoded.
+struct Grey {
+  int width = 0, height = 0;
+  std::vector<unsigned char> pixels;
+};
+
+Grey grey(const tinygltf::Model &model, int image);
+
 // The accessor of an attribute, or -1.
 int attribute(const std::map<std::string, int> &attributes, const std::string &name);
 

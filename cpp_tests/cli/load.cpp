@@ -1,6 +1,7 @@
 #include "load.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <map>
@@ -280,6 +281,66 @@ void set_placements(Loaded &loaded, Part &part, const tinygltf::Primitive &primi
   part.placements = blended;
 }
 
+// The image of the base colour, how its coordinates are called and moved; VRM 0.x may tell the image in a list of its own.
+struct Painted {
+  int image = -1, set = 0;
+  std::array<double, 6> transform{1, 0, 0, 0, 1, 0};
+};
+
+Painted painted_of(const tinygltf::Model &model, int index) {
+  Painted found;
+  if (index < 0) return found;
+  const tinygltf::Material &material = model.materials.at(index);
+  const tinygltf::TextureInfo &info = material.pbrMetallicRoughness.baseColorTexture;
+  int texture = info.index;
+  found.set = info.texCoord;
+  if (const auto moved = info.extensions.find("KHR_texture_transform"); moved != info.extensions.end()) {
+    const auto pair = [&](const char *key, double otherwise, int i) {
+      const tinygltf::Value &value = moved->second.Get(key);
+      return value.ArrayLen() == 2 ? value.Get(i).GetNumberAsDouble() : otherwise;
+    };
+    const tinygltf::Value &turned = moved->second.Get("rotation"), &set = moved->second.Get("texCoord");
+    const double angle = turned.IsNumber() ? turned.GetNumberAsDouble() : 0, sin = std::sin(angle), cos = std::cos(angle);
+    const double u = pair("scale", 1, 0), v = pair("scale", 1, 1);
+    found.transform = {cos * u, sin * v, pair("offset", 0, 0), -sin * u, cos * v, pair("offset", 0, 1)};
+    if (set.IsNumber()) found.set = set.GetNumberAsInt();
+  }
+  const auto old = model.extensions.find("VRM");
+  if (texture < 0 && old != model.extensions.end()) {
+    const tinygltf::Value &main = old->second.Get("materialProperties").Get(index).Get("textureProperties").Get("_MainTex");
+    if (main.IsNumber()) texture = main.GetNumberAsInt();
+  }
+  if (texture >= 0) found.image = model.textures.at(texture).source;
+  return found;
+}
+
+// What the mesh shows: the number of its image, handed over once, and where its vertices lie on it.
+void show(Loaded &loaded, const Part &part, SdefMesh &mesh) {
+  const tinygltf::Primitive &primitive = loaded.model.meshes[part.mesh].primitives[part.primitive];
+  const Painted painted = painted_of(loaded.model, primitive.material);
+  const int uvs = attribute(primitive.attributes, "TEXCOORD_" + std::to_string(painted.set));
+  if (painted.image < 0 || uvs < 0) return;
+  if (loaded.images.count(painted.image) == 0) {
+    const Grey from = grey(loaded.model, painted.image);
+    SdefImage image = superdeform::make<SdefImage>();
+    image.width = static_cast<std::uint32_t>(from.width);
+    image.height = static_cast<std::uint32_t>(from.height);
+    image.pixels = from.pixels.data();
+    loaded.images[painted.image] = from.pixels.empty() ? 0 : loaded.character.add_image(image);
+  }
+  mesh.image = loaded.images[painted.image];
+  if (mesh.image == 0) return;
+  std::vector<float> &numbers = loaded.floats.emplace_back(floats(loaded.model, uvs, 2));
+  std::array<float, 6> t;
+  std::transform(painted.transform.begin(), painted.transform.end(), t.begin(), [](double n) { return static_cast<float>(n); });
+  for (std::size_t at = 0; at + 1 < numbers.size(); at += 2) {
+    const float u = numbers[at], v = numbers[at + 1];
+    numbers[at] = t[0] * u + t[1] * v + t[2];
+    numbers[at + 1] = t[3] * u + t[4] * v + t[5];
+  }
+  mesh.uvs = numbers.data();
+}
+
 void set_arrays(Loaded &loaded, Part &part) {
   const tinygltf::Primitive &primitive = loaded.model.meshes[part.mesh].primitives[part.primitive];
   SdefMesh &mesh = part.arrays;
@@ -373,6 +434,7 @@ void set_skeleton(Loaded &loaded) {
 }
 
 void add_meshes(Loaded &loaded) {
+  loaded.images.clear();
   for (const Part &part : loaded.parts) {
     SdefMesh mesh = part.arrays;
     if (!loaded.rigged) {
@@ -380,6 +442,7 @@ void add_meshes(Loaded &loaded) {
       mesh.joints = mesh.weights = nullptr;
       mesh.joint_stride = mesh.weight_stride = 0;
     }
+    show(loaded, part, mesh);
     const std::uint32_t index = loaded.character.add_mesh(mesh);
     for (const SdefMorphTarget &target : part.targets) loaded.character.add_morph_target(index, target);
   }

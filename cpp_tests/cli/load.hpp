@@ -5,7 +5,9 @@
 #include "gltf.hpp"
 #include "superdeform.hpp"
 
+#include <cstdint>
 #include <deque>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -39,6 +41,8 @@ struct Loaded {
   bool rigged = false; // whether the file's own joints are the character's
 
   superdeform::Character character; // with a rig that was made where the file has none that can be used
+
+  std::map<int, std::uint32_t> images; // the file's images to the character's
 
   // What had to be converted.
   std::deque<std::vector<float>> floats;

@@ -74,6 +74,7 @@ fn stages(command: &Command, in_batch: Option<(&Source, &str)>, progress: &Progr
     check_licence(&target, command)?;
     let seen = sheet::appearance(&target);
     shades::shade(&mut target.character, &seen);
+    target.character.face_hints = command.face_hints;
     let load_time = start.elapsed();
 
     progress.stage("measuring");

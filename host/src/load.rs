@@ -135,7 +135,7 @@ pub fn load(file: GltfFile, options: &LoadOptions) -> Result<Loaded> {
     let humanoid = find_humanoid(&file, options, &tree, &joint_of_node, &skeleton, &meshes, &mut warnings)?;
     let rigged = humanoid.is_some();
     let humanoid = humanoid.unwrap_or_default();
-    let mut character = Character { meshes, skeleton, humanoid, axes: options.axes };
+    let mut character = Character { meshes, skeleton, humanoid, axes: options.axes, ..Character::default() };
     set_kinds(&mut character, &names, options.kinds, &mut warnings);
     let mut node_of_joint = tree.order.clone();
     if !rigged {

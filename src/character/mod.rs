@@ -1,6 +1,7 @@
 //! What a character is (§III, §IV-A): meshes, joints, weights and the humanoid roles of its joints.
 
 pub mod bones;
+pub mod face_hints;
 pub mod frame;
 pub mod humanoid;
 pub mod kinds;
@@ -14,6 +15,7 @@ pub mod tree_roles;
 pub mod weights;
 
 use crate::error::{Element, Error, ErrorKind, Result};
+pub use face_hints::{EyeHint, FaceHints};
 pub use frame::Frame;
 use glam::Vec3;
 pub use humanoid::{Humanoid, Role};
@@ -53,6 +55,8 @@ pub struct Character {
     pub humanoid: Humanoid,
     /// Which way it stands and looks.
     pub axes: Axes,
+    /// Where its eyes are, where the host knows better than the geometry tells.
+    pub face_hints: FaceHints,
 }
 
 impl Character {
@@ -76,6 +80,7 @@ impl Character {
                 ));
             }
         }
+        self.face_hints.validate()?;
         self.skeleton.validate()?;
         for (role, joint) in self.humanoid.iter() {
             if joint >= self.skeleton.joints.len() {

@@ -20,7 +20,11 @@ pub enum Shade {
     },
 }
 
-/// A small picture without colours. A few hundred pixels a side do: an iris should be some ten pixels wide.
+/// Images are kept no larger than this: where a face has a quarter of an image for itself an iris is still some ten pixels
+/// wide.
+pub const LONGEST_SIDE: usize = 512;
+
+/// A small picture without colours, at most [`LONGEST_SIDE`] pixels a side.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct GreyImage {
     /// Pixels in a row; above 0.
@@ -64,6 +68,28 @@ impl Shade {
 }
 
 impl GreyImage {
+    /// The image of these rows, in blocks of as many pixels as make it small enough. An image without pixels has none.
+    ///
+    /// - `pixel`: the brightness in a row and a column.
+    pub fn new(width: usize, height: usize, pixel: impl Fn(usize, usize) -> u8) -> Self {
+        let block = width.max(height).div_ceil(LONGEST_SIDE).max(1);
+        let (small_width, small_height) = (width.div_ceil(block), height.div_ceil(block));
+        let mut pixels = Vec::with_capacity(small_width * small_height);
+        for row in 0..small_height {
+            let rows = row * block..((row + 1) * block).min(height);
+            for column in 0..small_width {
+                let columns = column * block..((column + 1) * block).min(width);
+                let sum: usize = rows
+                    .clone()
+                    .map(|row| columns.clone().map(|column| usize::from(pixel(row, column))).sum::<usize>())
+                    .sum();
+                let count = rows.len() * columns.len();
+                pixels.push(((sum + count / 2) / count) as u8);
+            }
+        }
+        Self { width: small_width, height: small_height, pixels }
+    }
+
     /// The brightness at (u, v), 0 to 1, between the four nearest pixels.
     fn at(&self, u: f64, v: f64) -> f64 {
         let cell = |along: f64, count: usize| {

@@ -157,6 +157,11 @@ pub fn eyes(head: &Head) -> Option<(EyeSource, Eyes)> {
 }
 
 fn found(head: &Head) -> Option<(EyeSource, Eyes)> {
+    let or = |found: Option<Eyes>, source: EyeSource| found.map(|eyes| (source, eyes));
+    let seen = or(by_hints(head), EyeSource::Hints);
+    if seen.is_some() {
+        return seen;
+    }
     let blink = by_blink(head);
     if let Some(mut eyes) = by_pieces(head) {
         for (eye, blink) in eyes.iter_mut().zip(blink.iter().flatten()) {
@@ -168,7 +173,6 @@ fn found(head: &Head) -> Option<(EyeSource, Eyes)> {
         }
         return Some((EyeSource::Pieces, eyes));
     }
-    let or = |found: Option<Eyes>, source: EyeSource| found.map(|eyes| (source, eyes));
     or(blink, EyeSource::Blink)
         .or_else(|| or(by_joints(head), EyeSource::Joints))
         .or_else(|| or(by_twins(head), EyeSource::Twins))
@@ -308,7 +312,21 @@ fn opening(head: &Head, own: &[[u32; 3]], low: DVec3, high: DVec3) -> Option<(DV
 pub fn closes_an_eye(name: &str) -> bool {
     let name = name.to_lowercase();
     let any = |words: &[&str]| words.iter().any(|word| name.contains(word));
-    let closes = any(&["blink", "wink", "eyeclose", "eye_close", "eyesclose", "eyes_close", "eye close"]);
+    // The last ones are Japanese: blink, wink, eyes closed.
+    let closes = any(&[
+        "blink",
+        "wink",
+        "eyeclose",
+        "eye_close",
+        "eyesclose",
+        "eyes_close",
+        "eye close",
+        "まばたき",
+        "瞬き",
+        "ウィンク",
+        "ウインク",
+        "目閉じ",
+    ]);
     closes && !any(&["smile", "squint", "happy", "joy"])
 }
 
@@ -364,13 +382,50 @@ const OPENING_BY_JOINT: [f64; 2] = [0.45, 0.25];
 fn by_joints(head: &Head) -> Option<Eyes> {
     let joints = [head.eye_joint(0)?, head.eye_joint(1)?];
     let d = 0.5 * (joints[0].x - joints[1].x);
-    let [left, right] = joints.map(|joint| {
-        let front = head.front.depth_at(joint.truncate())?;
-        let half = (d * DVec2::from_array(OPENING_BY_JOINT)).extend(0.0);
-        let middle = joint.with_z(front);
-        Some(Eye { low: middle - half, high: middle + half, ball: None })
-    });
+    let half = d * DVec2::from_array(OPENING_BY_JOINT);
+    let [left, right] = joints.map(|joint| painted(head, joint.truncate(), half));
     Some([left?, right?]).filter(are_plausible)
+}
+
+/// An eye that is no piece of its own: an opening in the skin.
+fn painted(head: &Head, middle: DVec2, half: DVec2) -> Option<Eye> {
+    let front = head.front.depth_at(middle)?;
+    Some(Eye { low: (middle - half).extend(front), high: (middle + half).extend(front), ball: None })
+}
+
+/// A piece whose opening's middle is within this part of the eyes' half distance from where the host says an eye is, is
+/// that eye.
+const NEAR_HINT: f64 = 0.5;
+
+/// What the host says: pieces where it says that eyes are, else openings in the skin. Of one eye the other is its mirror
+/// image.
+fn by_hints(head: &Head) -> Option<Eyes> {
+    let mut hints: Vec<(DVec2, DVec2)> = head
+        .parts
+        .eye_hints
+        .iter()
+        .map(|&(p, half)| (head.frame.to_unit(p).truncate(), half / head.frame.length))
+        .collect();
+    if let &[(middle, half)] = &*hints {
+        hints.push((middle * DVec2::new(-1.0, 1.0), half));
+    }
+    hints.sort_by(|a, b| b.0.x.total_cmp(&a.0.x));
+    let &[left, right] = &*hints else { return None };
+    let d = 0.5 * (left.0.x - right.0.x);
+    let pieces = by_pieces(head);
+    let eye = |index: usize, (middle, half): (DVec2, DVec2)| {
+        let piece = pieces.as_ref().map(|eyes| &eyes[index]);
+        let mut eye = match piece.filter(|eye| eye.middle().truncate().distance(middle) < NEAR_HINT * d) {
+            Some(piece) => piece.clone(),
+            None => painted(head, middle, d * DVec2::from_array(OPENING_BY_JOINT))?,
+        };
+        for (axis, half) in half.to_array().into_iter().enumerate().filter(|&(_, half)| half > 0.0) {
+            eye.low[axis] = middle[axis] - half;
+            eye.high[axis] = middle[axis] + half;
+        }
+        Some(eye)
+    };
+    Some([eye(0, left)?, eye(1, right)?]).filter(are_plausible)
 }
 
 /// Two eyes stand side by side in the middle third of a head: what does not is no pair of eyes.

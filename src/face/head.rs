@@ -48,6 +48,8 @@ pub struct HeadParts<'a> {
     pub is_eye: Vec<bool>,
     /// What eye joints move.
     pub turns: Vec<bool>,
+    /// What the host says of the eyes: middle, half width and height, in the figure's frame; 0 where a size is not known.
+    pub eye_hints: Vec<(DVec3, DVec2)>,
     /// Where the joints of the left and the right eye are, in the character's units.
     pub eye_joints: [Option<DVec3>; 2],
     /// Vertices nearer than this are one, in the character's units.

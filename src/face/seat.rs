@@ -87,6 +87,15 @@ pub struct Seat {
     nape: Vec<[f64; 2]>,
 }
 
+/// How much of a seat is done, 0 to 1 each.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SeatAmount {
+    /// How far the head goes back.
+    pub back: f64,
+    /// How much the nape fills.
+    pub nape: f64,
+}
+
 /// The silhouettes of a figure's middle.
 struct Silhouettes {
     front: DepthMap,
@@ -209,9 +218,9 @@ impl Seat {
     }
 
     /// Where `p` goes, of which head and neck move the part `share`, and the Jacobian there.
-    pub fn map(&self, p: DVec3, share: f64, amount: f64) -> Mapped {
+    pub fn map(&self, p: DVec3, share: f64, amount: SeatAmount) -> Mapped {
         let [x, y, z] = Dual::point(self.frame.to_unit(p));
-        let back = self.goes_back([x, y, z]) * (share * amount);
+        let back = self.goes_back([x, y, z], amount) * share;
         let position = p - DVec3::Z * (self.frame.length * back.value);
         let mut jacobian = DMat3::IDENTITY;
         jacobian.x_axis.z = -back.gradient.x;
@@ -221,13 +230,13 @@ impl Seat {
     }
 
     /// As [`Self::map`], without the Jacobian.
-    pub fn place(&self, p: DVec3, share: f64, amount: f64) -> DVec3 {
-        let back = self.goes_back(self.frame.to_unit(p).to_array()) * share * amount;
+    pub fn place(&self, p: DVec3, share: f64, amount: SeatAmount) -> DVec3 {
+        let back = self.goes_back(self.frame.to_unit(p).to_array(), amount) * share;
         p - DVec3::Z * (self.frame.length * back)
     }
 
-    fn goes_back<N: Number>(&self, [x, y, z]: [N; 3]) -> N {
-        let back = self.fades(y) * self.back;
+    fn goes_back<N: Number>(&self, [x, y, z]: [N; 3], amount: SeatAmount) -> N {
+        let back = self.fades(y) * (self.back * amount.back);
         let row = (y - ROWS.0) * (1.0 / ROW);
         if self.nape.is_empty() || row.value() <= 0.0 || row.value() >= (ROW_COUNT - 1) as f64 {
             return back;
@@ -247,7 +256,7 @@ impl Seat {
         }
         let rises = step(depth * nape.recip());
         let falls = step((depth - nape - TAIL.0) * (1.0 / TAIL.1));
-        back + fill * rises * (-falls + 1.0) * wide
+        back + fill * rises * (-falls + 1.0) * wide * amount.nape
     }
 }
 

@@ -16,7 +16,7 @@ use safer_ffi::prelude::*;
 ///
 /// up, forward:    as in sdef_character_create
 /// skeleton:       NULL: a rig is made
-/// meshes:         mesh_count structs, all of one struct_size; read before anything is written
+/// meshes:         mesh_count structs, all of one struct_size; read before anything is written; their image is 0
 /// style:          what they should become
 /// options:        NULL for the defaults
 /// results:        mesh_count structs, all of one struct_size
@@ -48,7 +48,7 @@ pub unsafe extern "C" fn sdef_super_deform(
             state.set_skeleton(skeleton, roles)?;
         }
         for (index, mesh) in arrays::structs_in("meshes", meshes, mesh_count)?.iter().enumerate() {
-            let read = read::mesh_at(index, mesh)?;
+            let read = read::mesh_at(index, mesh, state.image(mesh.image))?;
             state.add_mesh(read)?;
         }
         let mut callback = progress_of(progress, user);

@@ -15,7 +15,10 @@ const LARGEST_STRUCT: usize = 1 << 16;
 /// Any bytes are a value of the type.
 pub unsafe trait Plain: Copy {}
 macro_rules! plain { ($($name:ty),*) => { $(unsafe impl Plain for $name {})* } }
-plain!(u8, u16, u32, i32, f32, f64, [f32; 3], [f32; 4], [f64; 3], [f64; 9], [f64; 16], [u32; 3], Vec3, Vec4);
+plain!(
+    u8, u16, u32, i32, f32, f64, [f32; 2], [f32; 3], [f32; 4], [f64; 3], [f64; 9], [f64; 16], [u32; 3], Vec3,
+    Vec4
+);
 
 /// An empty array that can hold `count` elements.
 pub fn reserved<T>(count: usize, what: impl Display) -> Outcome<Vec<T>> {

@@ -47,7 +47,7 @@ impl Deformer {
         if self.options.stage < Stage::Face || squash == 0.0 {
             return;
         }
-        let Some((low, high)) = self.face_box() else {
+        let Some((low, high)) = *self.deformation.face_box.get_or_init(|| self.face_box()) else {
             return;
         };
         let (face, warning) = FaceShape::in_box(low, high, self.options.face_curve, squash);

@@ -54,8 +54,12 @@ pub struct Deformer {
     field: Field,
     /// What the face step was last made of, and its ways.
     young: Option<young::Made>,
+    /// How the head sits on it.
+    sat: Option<young::Sat>,
     /// What hair does after the head's stages; without these the deformation's offsets are all.
     hair: Option<strands::Laid>,
+    /// That of the face as it was and of the youngest one.
+    laid: Option<strands::Ends>,
     warnings: Vec<Warning>,
     timing: Timing,
 }
@@ -84,6 +88,8 @@ struct Deformation {
     heads_left: Option<Warning>,
     /// What product mode found of the target, to be used again.
     product: Option<Arc<ProductTarget>>,
+    /// The box of the face map, made when it is first wanted; none where there is no face.
+    face_box: OnceLock<Option<(DVec3, DVec3)>>,
 }
 
 /// What the report says of a rig that was made.
@@ -248,7 +254,9 @@ impl Deformer {
             deformation,
             field,
             young: None,
+            sat: None,
             hair: None,
+            laid: None,
             warnings: Vec::new(),
             timing,
         };
@@ -266,7 +274,7 @@ impl Deformer {
             field: &self.field,
             hair_offsets: self.hair.as_ref().map_or(&self.deformation.hair_offsets, |hair| &hair.offsets),
             joint_offsets: self.hair.as_ref().map_or(&[], |hair| &hair.joint_offsets),
-            ways: self.young.as_ref().map(|young| &*young.ways),
+            ways: self.young.as_ref().and_then(|young| young.ways_after(self.field.finish.face)),
             threads: self.options.thread_count,
         }
     }
@@ -283,7 +291,7 @@ impl Deformer {
         let binding = on_head.as_ref().unwrap_or(&self.deformation.bindings.joints[joint]);
         let Mapped { mut position, jacobian } = self.field.map(p, binding);
         if let (Some(hair), Some(product)) = (&self.hair, &self.deformation.product) {
-            let offset = hair.offset(product, &self.target, &self.field, binding, joint, p);
+            let offset = hair.offset(product, &self.target, binding, joint, p);
             position += self.field.finish.share_of_offsets() * offset;
         }
         Mapped { position: frame.to_model(position), jacobian: frame.jacobian_to_model(jacobian) }

@@ -16,7 +16,7 @@ use crate::shape::paper::shorten::shorten;
 use crate::shape::style::Style;
 use glam::DVec3;
 use std::collections::{BTreeMap, BTreeSet};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// The paper's way to give `target` the style.
 ///
@@ -44,6 +44,7 @@ pub fn deform(target: &Target, style: &Style, options: &Options) -> Result<Defor
         warnings: found.warnings,
         heads_left: None,
         product: None,
+        face_box: OnceLock::new(),
     })
 }
 

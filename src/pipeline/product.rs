@@ -228,6 +228,7 @@ pub fn deform(
         warnings,
         heads_left,
         product: Some(product),
+        face_box: OnceLock::new(),
     })
 }
 

@@ -2,10 +2,11 @@
 
 use super::attach::Placement;
 use super::{Deformer, milliseconds};
+use crate::error::Warning;
 use crate::face::FaceShape;
 use crate::face::flow::Flow;
 use crate::face::head::HeadFrame;
-use crate::face::seat::Seat;
+use crate::face::seat::{Seat, SeatAmount};
 use crate::face::stage::{FaceBinding, Ways, YoungFace};
 use crate::face::youth::{FaceAim, adultness};
 use crate::options::{Features, Stage};
@@ -28,9 +29,33 @@ pub struct Made {
     smile: f64,
     /// q: how adult the face was.
     adultness: f64,
-    young: Arc<YoungFace>,
+    pub young: Arc<YoungFace>,
     /// The vertices' ways through it.
     pub ways: Arc<Ways>,
+}
+
+impl Made {
+    /// The vertices' ways, where these begin with a face of this shape.
+    pub fn ways_after(&self, squash: FaceShape) -> Option<&Ways> {
+        (self.squash == squash).then_some(&*self.ways)
+    }
+}
+
+/// A seat, and what it was measured on.
+#[derive(Clone, Debug)]
+pub struct Sat {
+    squash: FaceShape,
+    young: Option<Arc<YoungFace>>,
+    seat: Option<Arc<Seat>>,
+}
+
+/// True where both are the same object, or none.
+pub fn is_one<T>(a: &Option<Arc<T>>, b: &Option<Arc<T>>) -> bool {
+    match (a, b) {
+        (Some(a), Some(b)) => Arc::ptr_eq(a, b),
+        (None, None) => true,
+        _ => false,
+    }
 }
 
 /// All of the head's stages are done where a figure had this much more heads than it gets.
@@ -45,6 +70,7 @@ impl Deformer {
         if share == 0.0 || options.stage < Stage::Face || (options.youth == 0.0 && options.seat == 0.0) {
             return;
         }
+        self.warnings.extend(self.eyes_not_found());
         let clock = Instant::now();
         let is_same = |made: &Made| {
             made.squash == squash && made.features == options.features && made.smile == options.smile
@@ -59,6 +85,22 @@ impl Deformer {
         self.timing.face += milliseconds(clock);
     }
 
+    /// A warning where a face is there, and no eyes are known that could grow.
+    fn eyes_not_found(&self) -> Option<Warning> {
+        let measured = &self.target.measured;
+        let face = measured.face.as_ref()?;
+        let are_wanted = self.options.youth * self.options.features.eye > 0.0;
+        if !are_wanted || face.eyes.is_some() {
+            return None;
+        }
+        let message = if self.target.character.face_hints.is_empty() {
+            "no eyes were found on the face, so they keep their size: say where they are, or that their meshes are eyes"
+        } else {
+            "no eyes are where they are said to be, so they keep their size: give places on the face, left and right of its middle"
+        };
+        Some(Warning::new("face_eyes_not_found", message).about("eyes"))
+    }
+
     /// Puts the head over the chest as far as the options ask for.
     pub(super) fn finish_seat(&mut self) {
         self.field.seat = None;
@@ -71,11 +113,22 @@ impl Deformer {
         if options.stage < Stage::Face || options.seat * share == 0.0 {
             return;
         }
+        let amount = SeatAmount { back: share * options.seat, nape: share * options.seat * options.youth };
+        let young = self.young.as_ref().map(|made| Arc::clone(&made.young));
+        let squash = self.field.finish.face;
+        if let Some(sat) = self.sat.as_ref().filter(|sat| sat.squash == squash && is_one(&sat.young, &young))
+        {
+            self.field.seat.clone_from(&sat.seat);
+            self.field.seat_amount = amount;
+            return;
+        }
         let measured = &self.target.measured;
         let sources = product.seat_sources(measured);
-        // Before amount and ground, as the seat comes before these.
+        // Before amount and ground, as the seat comes before these; of the youngest face, whose nape fills most.
         let field = Field {
-            finish: Finish { face: self.field.finish.face, ..Finish::default() },
+            finish: Finish { face: squash, ..Finish::default() },
+            youth: share,
+            young: young.clone(),
             ..self.field.clone()
         };
         let placement =
@@ -86,9 +139,10 @@ impl Deformer {
         let frame = self.head_after(body, &field);
         let joint = field.place(measured.anatomy.head_joint, &on_head);
         let fill = self.young.as_ref().map_or(0.0, |made| made.adultness);
-        let seat = Seat::new(sources, &points, frame, heights.shoulder_line, joint, fill);
-        self.field.seat = seat.map(Arc::new);
-        self.field.seat_amount = share * options.seat;
+        let seat = Seat::new(sources, &points, frame, heights.shoulder_line, joint, fill).map(Arc::new);
+        self.field.seat.clone_from(&seat);
+        self.field.seat_amount = amount;
+        self.sat = Some(Sat { squash, young, seat });
     }
 
     /// How much of the head's own stages is done, 0 where the figure keeps its number of heads, which leaves a character made
@@ -152,7 +206,7 @@ impl Deformer {
             _ => FaceBinding::None,
         };
         let bindings: Vec<FaceBinding> = self.deformation.bindings.vertices.iter().map(binding).collect();
-        let ways = young.ways(&placement.all_vertices(), &bindings, self.options.thread_count);
+        let ways = young.ways(placement.all_vertices(), &bindings, self.options.thread_count);
         (young, ways)
     }
 }

@@ -8,7 +8,7 @@ use super::paper::field::{BoneBinding, PaperField};
 use super::product::binding::PartBinding;
 use super::product::field::PartField;
 use crate::face::FaceShape;
-use crate::face::seat::Seat;
+use crate::face::seat::{Seat, SeatAmount};
 use crate::face::stage::{FaceBinding, Ways, YoungFace};
 use crate::geometry::Mapped;
 use glam::{DMat3, DVec3};
@@ -96,8 +96,8 @@ pub struct Field {
     pub youth: f64,
     /// How the head sits over the chest.
     pub seat: Option<Arc<Seat>>,
-    /// How much of that is done, 0 to 1.
-    pub seat_amount: f64,
+    /// How much of that is done.
+    pub seat_amount: SeatAmount,
     /// What is done last.
     pub finish: Finish,
 }
@@ -105,7 +105,14 @@ pub struct Field {
 impl Field {
     /// The field of `body`, all the way.
     pub fn of(body: Arc<BodyField>) -> Self {
-        Self { body, young: None, youth: 0.0, seat: None, seat_amount: 0.0, finish: Finish::default() }
+        Self {
+            body,
+            young: None,
+            youth: 0.0,
+            seat: None,
+            seat_amount: SeatAmount::default(),
+            finish: Finish::default(),
+        }
     }
 
     /// The body's field alone, with another end.
@@ -115,39 +122,43 @@ impl Field {
 
     /// Where `p` goes.
     pub fn place(&self, p: DVec3, binding: &Binding) -> DVec3 {
-        self.place_with(p, binding, |young, to, binding| young.place(to, binding, self.youth))
-    }
-
-    /// As [`Self::place`], for a vertex whose way through the face step may be kept.
-    pub fn place_along(&self, p: DVec3, binding: &Binding, vertex: usize, ways: &Ways) -> DVec3 {
-        self.place_with(p, binding, |young, to, binding| {
-            young.place_along(to, binding, self.youth, vertex, ways)
-        })
-    }
-
-    #[inline(always)]
-    fn place_with(
-        &self,
-        p: DVec3,
-        binding: &Binding,
-        face: impl FnOnce(&YoungFace, DVec3, FaceBinding) -> DVec3,
-    ) -> DVec3 {
         let to = match (&*self.body, binding) {
             (BodyField::Parts(field), Binding::Parts(binding)) => {
                 let to = field.place(p, binding, &self.finish.face);
-                let to = match &self.young {
-                    Some(young) if binding.face != FaceBinding::None => face(young, to, binding.face),
-                    _ => to,
-                };
-                match &self.seat {
-                    Some(seat) => seat.place(to, binding.of_head_and_neck(), self.seat_amount),
-                    None => to,
-                }
+                self.place_head(to, binding, |young, to| young.place(to, binding.face, self.youth))
             }
             (BodyField::Bones(field), Binding::Bones(binding)) => field.place(p, binding, &self.finish.face),
             _ => return p,
         };
         self.finish.apply(p, Mapped::unmoved(to)).position
+    }
+
+    /// As [`Self::place`], for a vertex that is at `p`, of which it is kept where the body's field takes it and how it goes on
+    /// from there through the face step.
+    pub fn place_along(&self, p: DVec3, binding: &Binding, vertex: usize, ways: &Ways) -> DVec3 {
+        let Binding::Parts(binding) = binding else { return self.place(p, binding) };
+        let to = self.place_head(ways.from(vertex), binding, |young, to| {
+            young.place_along(to, binding.face, self.youth, vertex, ways)
+        });
+        self.finish.apply(p, Mapped::unmoved(to)).position
+    }
+
+    /// Where the head's own stages take a point that the body's field takes `to`.
+    #[inline(always)]
+    fn place_head(
+        &self,
+        to: DVec3,
+        binding: &PartBinding,
+        face: impl FnOnce(&YoungFace, DVec3) -> DVec3,
+    ) -> DVec3 {
+        let to = match &self.young {
+            Some(young) if binding.face != FaceBinding::None => face(young, to),
+            _ => to,
+        };
+        match &self.seat {
+            Some(seat) => seat.place(to, binding.of_head_and_neck(), self.seat_amount),
+            None => to,
+        }
     }
 
     /// Where `p` goes, and the Jacobian there at fixed weights.

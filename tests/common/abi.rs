@@ -10,7 +10,7 @@ use superdeform::internals::ffi::deformer::*;
 use superdeform::internals::ffi::lifetime::*;
 use superdeform::internals::ffi::options::*;
 use superdeform::internals::ffi::style::*;
-use superdeform::{Character, Deformed, Humanoid, Mesh, MeshKind, MorphTarget, Role};
+use superdeform::{Character, Deformed, FaceHints, Humanoid, Mesh, MeshKind, MorphTarget, Role, Shade};
 
 /// A status with its sentence.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -184,7 +184,44 @@ pub fn c_mesh(mesh: &Mesh) -> Box<CMesh> {
         row_starts: if weighted { made.starts.as_ptr() } else { null() },
         ..zeroed()
     };
+    match &kept.shade {
+        Shade::Vertices(values) => made.mesh.luminance = values.as_ptr(),
+        // Its number is known once it is added.
+        Shade::Image { uvs, .. } => made.mesh.uvs = uvs.as_ptr().cast(),
+        Shade::Unknown => {}
+    }
     made
+}
+
+/// Hands over the image that `mesh` shows, and gives its number; 0 without one.
+pub fn image_of(handle: SdefCharacter, mesh: &Mesh) -> u32 {
+    let Shade::Image { image, .. } = &mesh.shade else { return 0 };
+    let given = SdefImage {
+        struct_size: size_of::<SdefImage>() as u32,
+        width: image.width as u32,
+        height: image.height as u32,
+        pixels: image.pixels.as_ptr(),
+        ..zeroed()
+    };
+    let mut number = 0;
+    ask(|error| unsafe { sdef_character_add_image(handle, &given, &mut number, error) }).unwrap();
+    number
+}
+
+/// Hands over what is known of a face.
+pub fn hint(handle: SdefCharacter, hints: &FaceHints) {
+    let places = [hints.eye, hints.other_eye].map(|eye| eye.map(|eye| eye.middle.to_array()));
+    let pointer = |place: &Option<[f64; 3]>| place.as_ref().map_or(null(), |place| place.as_ptr());
+    let eye = hints.eye.unwrap_or_default();
+    let given = SdefFaceHints {
+        struct_size: size_of::<SdefFaceHints>() as u32,
+        eye: pointer(&places[0]),
+        other_eye: pointer(&places[1]),
+        half_width: eye.half_width,
+        half_height: eye.half_height,
+        ..zeroed()
+    };
+    ask(|error| unsafe { sdef_character_set_face_hints(handle, &given, error) }).unwrap();
 }
 
 /// A skeleton as C has it, with what its pointers point to.
@@ -246,13 +283,17 @@ pub fn given(character: &Character) -> SdefCharacter {
     ask(|error| unsafe { sdef_character_set_skeleton(handle, &skeleton.skeleton, error) }).unwrap();
     for (index, mesh) in character.meshes.iter().enumerate() {
         let mut added = 99;
-        let made = c_mesh(mesh);
+        let mut made = c_mesh(mesh);
+        made.mesh.image = image_of(handle, mesh);
         ask(|error| unsafe { sdef_character_add_mesh(handle, &made.mesh, &mut added, error) }).unwrap();
         assert_eq!(added as usize, index);
         for target in &mesh.morph_targets {
             let target = c_morph(target);
             ask(|error| unsafe { sdef_character_add_morph_target(handle, added, &target, error) }).unwrap();
         }
+    }
+    if !character.face_hints.is_empty() {
+        hint(handle, &character.face_hints);
     }
     handle
 }

@@ -237,6 +237,51 @@ const CASES: &[(&str, u32, &str, Call)] = &[
             sdef_character_add_mesh(host.empty, &c_mesh(&person().meshes[0]).mesh, null_mut(), error)
         }),
     ),
+    ("an image that is none", ARGUMENT, "image is 7", Mesh(|_, mesh| mesh.image = 7)),
+    (
+        "an image without pixels",
+        ARGUMENT,
+        "width is 0",
+        Other(|host, error| unsafe {
+            let image = SdefImage { struct_size: size_of::<SdefImage>() as u32, ..zeroed() };
+            let mut number = 0;
+            sdef_character_add_image(host.full, &image, &mut number, error)
+        }),
+    ),
+    (
+        "an eye that is nowhere",
+        INPUT,
+        "NaN",
+        Other(|host, error| unsafe {
+            let nowhere = [f64::NAN; 3];
+            let eye = nowhere.as_ptr();
+            let size = size_of::<SdefFaceHints>() as u32;
+            let hints = SdefFaceHints { struct_size: size, eye, ..zeroed() };
+            sdef_character_set_face_hints(host.full, &hints, error)
+        }),
+    ),
+    (
+        "an eye of no width",
+        INPUT,
+        "-1 wide",
+        Other(|host, error| unsafe {
+            let eye = [0.0; 3];
+            let size = size_of::<SdefFaceHints>() as u32;
+            let hints = SdefFaceHints { struct_size: size, eye: eye.as_ptr(), half_width: -1.0, ..zeroed() };
+            sdef_character_set_face_hints(host.full, &hints, error)
+        }),
+    ),
+    (
+        "the other eye alone",
+        ARGUMENT,
+        "eye is NULL",
+        Other(|host, error| unsafe {
+            let eye = [0.0; 3];
+            let size = size_of::<SdefFaceHints>() as u32;
+            let hints = SdefFaceHints { struct_size: size, other_eye: eye.as_ptr(), ..zeroed() };
+            sdef_character_set_face_hints(host.full, &hints, error)
+        }),
+    ),
     (
         "no morph target",
         ARGUMENT,

@@ -80,6 +80,61 @@ public sealed class Character : NativeObject
         }
     }
 
+    /// <summary>Adds an image that meshes show, before these, and gives the number that they name it by.</summary>
+    /// <param name="width">Pixels in a row.</param>
+    /// <param name="height">Rows.</param>
+    /// <param name="pixels">
+    /// From black (0) to white (255), as 54 red + 183 green + 19 blue of 256; the row of v = 0 first.
+    /// </param>
+    public unsafe int AddImage(int width, int height, byte[] pixels)
+    {
+        if (pixels == null) throw new ArgumentNullException("pixels");
+        if (width < 1 || height < 1 || (long)width * height > pixels.Length)
+            throw Failure.Argument("an image of " + width + " by " + height + " pixels does not fit " + pixels.Length
+                + " bytes: give one a pixel");
+        SdefImage image = new SdefImage();
+        image.struct_size = (uint)sizeof(SdefImage);
+        image.width = (uint)width;
+        image.height = (uint)height;
+        uint number;
+        SdefError error = Failure.None();
+        uint status;
+        fixed (byte* start = pixels)
+        {
+            image.pixels = start;
+            status = Native.sdef_character_add_image(Raw, &image, &number, &error);
+        }
+        GC.KeepAlive(this);
+        Failure.Check(status, &error);
+        return (int)number;
+    }
+
+    /// <summary>Says where the eyes are, where that cannot be seen in the meshes; in model space.</summary>
+    /// <param name="eye">3 numbers: the middle of an eye's opening; null: nothing is known.</param>
+    /// <param name="otherEye">Likewise; null: the mirror image of the first.</param>
+    /// <param name="halfWidth">Half the width of an opening; 0: not known.</param>
+    /// <param name="halfHeight">Half its height; 0: not known.</param>
+    /// <exception cref="InvalidInputException">A number that is not finite, or a size below 0.</exception>
+    public unsafe void SetFaceHints(double[] eye, double[] otherEye = null, double halfWidth = 0, double halfHeight = 0)
+    {
+        CheckPlace(eye, "eye");
+        CheckPlace(otherEye, "otherEye");
+        SdefFaceHints hints = new SdefFaceHints();
+        hints.struct_size = (uint)sizeof(SdefFaceHints);
+        hints.half_width = halfWidth;
+        hints.half_height = halfHeight;
+        SdefError error = Failure.None();
+        uint status;
+        fixed (double* one = eye, other = otherEye)
+        {
+            hints.eye = one;
+            hints.other_eye = other;
+            status = Native.sdef_character_set_face_hints(Raw, &hints, &error);
+        }
+        GC.KeepAlive(this);
+        Failure.Check(status, &error);
+    }
+
     /// <summary>Adds a morph target to a mesh, after those that it has.</summary>
     /// <exception cref="InvalidInputException">With the vertex that is not finite; or no such mesh.</exception>
     public unsafe void AddMorphTarget(int mesh, MorphArrays target)
@@ -191,6 +246,12 @@ public sealed class Character : NativeObject
             GC.KeepAlive(this);
             return warnings;
         }
+    }
+
+    private static void CheckPlace(double[] place, string name)
+    {
+        if (place != null && place.Length != 3)
+            throw Failure.Argument(name + " holds " + place.Length + " numbers: give 3, or null");
     }
 
     internal static void CheckDirection(float[] direction, string name)

@@ -23,6 +23,13 @@ internal static unsafe class MarshalMeshes
         mesh->positions = Vectors(scope, arrays.Positions, owner, "Positions", 3, arrays.FirstVertex, count);
         mesh->normals = Vectors(scope, arrays.Normals, owner, "Normals", 3, arrays.FirstVertex, count);
         mesh->tangents = Vectors(scope, arrays.Tangents, owner, "Tangents", 4, arrays.FirstVertex, count);
+        if (arrays.Luminance != null)
+        {
+            CheckLength(arrays.Luminance, owner, "Luminance", (long)arrays.FirstVertex + count);
+            mesh->luminance = (byte*)scope.Pin(arrays.Luminance, "Luminance") + arrays.FirstVertex;
+        }
+        mesh->uvs = Vectors(scope, arrays.Uvs, owner, "Uvs", 2, arrays.FirstVertex, count);
+        mesh->image = unchecked((uint)arrays.Image);
         FillIndices(scope, mesh, arrays, owner);
         if (arrays.RowStarts != null) FillRows(scope, mesh, arrays, owner, count);
         else if (arrays.Joints != null || arrays.Weights != null) FillFixed(scope, mesh, arrays, owner, count);

@@ -57,6 +57,18 @@ public sealed class MeshArrays
     /// <summary>A weight, 0 or more, for each of <see cref="Joints"/>; a vertex's are scaled to sum 1.</summary>
     public float[] Weights;
 
+    /// <summary>
+    /// How bright the surface is, from black (0) to white (255) as screens show it: by this, or by <see cref="Uvs"/> and
+    /// <see cref="Image"/>, the face step sees painted irises and brows. May be null.
+    /// </summary>
+    public byte[] Luminance;
+
+    /// <summary>2 floats a vertex, (0, 0) at the image's first pixel: float[], or any struct of 2 floats. May be null.</summary>
+    public Array Uvs;
+
+    /// <summary>What <see cref="Character.AddImage"/> gave for the image that the mesh shows, or 0.</summary>
+    public int Image;
+
     /// <summary>Joints a vertex where <see cref="RowStarts"/> is null.</summary>
     public int InfluenceCount;
 }

@@ -144,6 +144,20 @@ internal static unsafe partial class Native
     internal static extern UInt32 sdef_abi_version ();
 
     /// <summary>
+    /// Adds an image that meshes show, before these meshes; it is copied.
+    ///
+    /// number: receives what SdefMesh's image names it by, counted from 1
+    ///
+    /// Errors: BAD_ARGUMENT; OUT_OF_MEMORY.
+    /// </summary>
+    [DllImport(Library, ExactSpelling = true, CallingConvention = CallingConvention.Cdecl)]
+    internal static extern UInt32 sdef_character_add_image(
+        SdefCharacter character,
+        SdefImage* image,
+        UInt32* number,
+        SdefError* error);
+
+    /// <summary>
     /// Adds a mesh; everything is copied. A rig made before goes: it did not know this mesh.
     ///
     /// index: receives the mesh's index, counted from 0; may be NULL
@@ -252,6 +266,17 @@ internal static unsafe partial class Native
         SdefOptions* options,
         SdefProgress progress,
         void* user,
+        SdefError* error);
+
+    /// <summary>
+    /// Says what the host knows of the face, in place of what was said before.
+    ///
+    /// Errors: BAD_ARGUMENT; BAD_INPUT for numbers that are not finite, and sizes below 0; OUT_OF_MEMORY.
+    /// </summary>
+    [DllImport(Library, ExactSpelling = true, CallingConvention = CallingConvention.Cdecl)]
+    internal static extern UInt32 sdef_character_set_face_hints(
+        SdefCharacter character,
+        SdefFaceHints* hints,
         SdefError* error);
 
     /// <summary>
@@ -610,7 +635,7 @@ internal static unsafe partial class Native
     ///
     /// up, forward:    as in sdef_character_create
     /// skeleton:       NULL: a rig is made
-    /// meshes:         mesh_count structs, all of one struct_size; read before anything is written
+    /// meshes:         mesh_count structs, all of one struct_size; read before anything is written; their image is 0
     /// style:          what they should become
     /// options:        NULL for the defaults
     /// results:        mesh_count structs, all of one struct_size
@@ -648,6 +673,78 @@ internal unsafe struct SdefCharacter {
     /// 0: none
     /// </summary>
     public UInt64 id;
+}
+
+/// <summary>
+/// How bright a texture is: its base colour without the colours, as 54 red + 183 green + 19 blue of 256.
+/// </summary>
+[StructLayout(LayoutKind.Sequential)]
+internal unsafe struct SdefImage {
+    /// <summary>
+    /// sizeof(SdefImage)
+    /// </summary>
+    public UInt32 struct_size;
+
+    /// <summary>
+    /// pixels in a row, 1 to 65536; above 512 a smaller one is made of it
+    /// </summary>
+    public UInt32 width;
+
+    /// <summary>
+    /// rows, likewise
+    /// </summary>
+    public UInt32 height;
+
+    /// <summary>
+    /// 0
+    /// </summary>
+    public UInt32 reserved;
+
+    /// <summary>
+    /// width bytes a row, the row of v = 0 first
+    /// </summary>
+    public byte* pixels;
+
+    /// <summary>
+    /// bytes from row to row; 0: width
+    /// </summary>
+    public UIntPtr row_stride;
+}
+
+/// <summary>
+/// What went wrong. The caller's: SDEF_ERROR_INIT or {0} before the first call; every call fills it anew.
+/// </summary>
+[StructLayout(LayoutKind.Sequential)]
+internal unsafe struct SdefError {
+    /// <summary>
+    /// sizeof(SdefError), or 0 for the size that it had in version 1 of the ABI
+    /// </summary>
+    public UInt32 struct_size;
+
+    /// <summary>
+    /// as returned
+    /// </summary>
+    public UInt32 status;
+
+    /// <summary>
+    /// index of the mesh concerned, or SDEF_NONE
+    /// </summary>
+    public UInt32 mesh;
+
+    /// <summary>
+    /// index of the element concerned, or SDEF_NONE
+    /// </summary>
+    public UInt32 element;
+
+    /// <summary>
+    /// what element counts: SDEF_ELEMENT_*
+    /// </summary>
+    public UInt32 element_kind;
+
+    /// <summary>
+    /// one sentence, UTF-8, always terminated, cut between characters; empty after SDEF_STATUS_OK
+    /// </summary>
+    public fixed sbyte message[512];
 }
 
 /// <summary>
@@ -773,42 +870,38 @@ internal unsafe struct SdefMesh {
     /// vertex_count + 1 numbers (rows), or NULL (fixed)
     /// </summary>
     public UInt32* row_starts;
-}
-
-/// <summary>
-/// What went wrong. The caller's: SDEF_ERROR_INIT or {0} before the first call; every call fills it anew.
-/// </summary>
-[StructLayout(LayoutKind.Sequential)]
-internal unsafe struct SdefError {
-    /// <summary>
-    /// sizeof(SdefError), or 0 for the size that it had in version 1 of the ABI
-    /// </summary>
-    public UInt32 struct_size;
 
     /// <summary>
-    /// as returned
+    /// how bright the surface is: a byte a vertex, from black (0) to white (255) as screens show it; may be NULL. By this,
+    /// or by uvs and image, the face step sees irises and brows that are painted; left out, they stay as they are
     /// </summary>
-    public UInt32 status;
+    public byte* luminance;
 
     /// <summary>
-    /// index of the mesh concerned, or SDEF_NONE
+    /// bytes from vertex to vertex; 0: 1
     /// </summary>
-    public UInt32 mesh;
+    public UIntPtr luminance_stride;
 
     /// <summary>
-    /// index of the element concerned, or SDEF_NONE
+    /// 2 floats a vertex: where it lies on the image, (0, 0) at the first pixel, (1, 1) at the last; the image repeats
+    /// beyond; may be NULL
     /// </summary>
-    public UInt32 element;
+    public float* uvs;
 
     /// <summary>
-    /// what element counts: SDEF_ELEMENT_*
+    /// bytes from vertex to vertex; 0: 8
     /// </summary>
-    public UInt32 element_kind;
+    public UIntPtr uv_stride;
 
     /// <summary>
-    /// one sentence, UTF-8, always terminated, cut between characters; empty after SDEF_STATUS_OK
+    /// what sdef_character_add_image gave for the image that the mesh shows, or 0
     /// </summary>
-    public fixed sbyte message[512];
+    public UInt32 image;
+
+    /// <summary>
+    /// 0
+    /// </summary>
+    public UInt32 reserved_2;
 }
 
 /// <summary>
@@ -1198,6 +1291,43 @@ internal unsafe struct SdefOptions {
 
 [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
 internal unsafe delegate Int32 SdefProgress(void* user, float fraction);
+
+/// <summary>
+/// What a host knows of a face, in model space. Without it eyes are found by their meshes, blinks or joints, or as small
+/// twin pieces.
+/// </summary>
+[StructLayout(LayoutKind.Sequential)]
+internal unsafe struct SdefFaceHints {
+    /// <summary>
+    /// sizeof(SdefFaceHints)
+    /// </summary>
+    public UInt32 struct_size;
+
+    /// <summary>
+    /// 0
+    /// </summary>
+    public UInt32 reserved;
+
+    /// <summary>
+    /// 3 doubles: the middle of an eye's opening; NULL: nothing is known
+    /// </summary>
+    public double* eye;
+
+    /// <summary>
+    /// 3 doubles: that of the other one; NULL: its mirror image
+    /// </summary>
+    public double* other_eye;
+
+    /// <summary>
+    /// half the width of an opening; 0: not known
+    /// </summary>
+    public double half_width;
+
+    /// <summary>
+    /// half its height; 0: not known
+    /// </summary>
+    public double half_height;
+}
 
 /// <summary>
 /// All joints of a character, those without a humanoid role too.

@@ -8,7 +8,7 @@ use glam::Vec3;
 use regex::Regex;
 use std::path::PathBuf;
 use superdeform::options::Features;
-use superdeform::{FaceCurve, GarmentWeights, Height, Mode, Options, Stage, WeightMethod};
+use superdeform::{FaceCurve, FaceHints, GarmentWeights, Height, Mode, Options, Stage, WeightMethod};
 use values::{choice, count, help, number};
 
 /// Turns a 3D character into its super-deformed (SD, chibi) version.
@@ -116,6 +116,10 @@ pub struct Arguments {
 
     #[arg(long, value_name = "X", value_parser = number("hair_lay"), help = help("hair_lay"), help_heading = FACE)]
     pub hair_lay: Option<f64>,
+
+    /// Where the left eye is, in the target's space, or both eyes: where they are not found, or not well
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = ValueParser::new(values::eyes), help_heading = FACE)]
+    pub eyes: Option<FaceHints>,
 
     /// Set a bone group, e.g. upper_leg:length=0.4,thickness=0.8: scales (length, thickness), or how much of
     /// the reference is taken, 0 to 1 (length_transfer, thickness_transfer); repeatable

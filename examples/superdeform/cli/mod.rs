@@ -14,7 +14,7 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use superdeform::internals::character::bones::Group as BoneGroup;
 use superdeform::internals::shape::style::BUILT_IN;
-use superdeform::{Axes, GroupSettings, MeshKind, Options, RigOptions};
+use superdeform::{Axes, FaceHints, GroupSettings, MeshKind, Options, RigOptions};
 use values::Group;
 
 /// The folder for results when no output path is given.
@@ -60,6 +60,8 @@ pub struct Command {
     pub reference_humanoid: Option<PathBuf>,
     /// Which way the target stands and looks.
     pub axes: Axes,
+    /// Where the target's eyes are, as far as it is said.
+    pub face_hints: FaceHints,
     /// Keep the target's rig or make one; `None` keeps one that can be used.
     pub rig: Option<Rig>,
     /// What the auto-rig is told, but for known joints.
@@ -199,6 +201,7 @@ fn command(single: Single) -> Result<Command, Refusal> {
         save_style: single.save_style,
         options,
         blend: arguments.blend,
+        face_hints: arguments.eyes.unwrap_or_default(),
         kinds,
         humanoid: arguments.humanoid,
         reference_humanoid: arguments.reference_humanoid,

@@ -1,12 +1,12 @@
 //! The values of arguments, each from its text; what is refused is refused in one sentence that names the value.
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use regex::Regex;
 use std::path::PathBuf;
 use std::str::FromStr;
 use superdeform::options::{OptionInfo, TABLE, Values, find};
-use superdeform::{Error, GroupSettings, Height};
+use superdeform::{Error, EyeHint, FaceHints, GroupSettings, Height};
 
 /// Settings of one bone group.
 #[derive(Clone, Debug)]
@@ -104,6 +104,19 @@ pub fn axis(text: &str) -> Result<Vec3, String> {
         _ => return Err("give one of +X, -X, +Y, -Y, +Z, -Z".to_string()),
     };
     Ok(sign * axis)
+}
+
+/// `X,Y,Z` of one eye, or `X,Y,Z,X,Y,Z` of both.
+pub fn eyes(text: &str) -> Result<FaceHints, String> {
+    let refused = || format!("`{text}` is no eye: give X,Y,Z of one eye, or X,Y,Z,X,Y,Z of both");
+    let numbers = text.split(',').map(|number| number.trim().parse::<f64>().map_err(|_| refused()));
+    let numbers = numbers.collect::<Result<Vec<f64>, String>>()?;
+    let eye = |numbers: &[f64; 3]| EyeHint { middle: DVec3::from_array(*numbers), ..EyeHint::default() };
+    match numbers.as_chunks::<3>() {
+        ([one], []) => Ok(FaceHints { eye: Some(eye(one)), other_eye: None }),
+        ([one, other], []) => Ok(FaceHints { eye: Some(eye(one)), other_eye: Some(eye(other)) }),
+        _ => Err(refused()),
+    }
 }
 
 /// A regular expression; the sentence is the last line of a longer drawing.

@@ -8,6 +8,7 @@ use image::imageops::thumbnail;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::sync::Arc;
+use superdeform::GreyImage;
 
 /// Longest side of a decoded texture: a figure in a picture is about this many pixels tall.
 const TEXTURE_SIZE: u32 = 512;
@@ -41,6 +42,8 @@ pub enum Wrap {
 pub struct Texture {
     /// sRGB colours and alpha.
     pub image: Arc<RgbaImage>,
+    /// How bright the whole image is, for the face step.
+    pub grey: Arc<GreyImage>,
     /// Along u and along v.
     pub wrap: [Wrap; 2],
     /// `KHR_texture_transform` as two rows that take (u, v, 1).
@@ -96,7 +99,10 @@ pub fn materials(document: &Value, blob: &[u8]) -> Vec<Material> {
         let Some(texture) = *texture else { continue };
         let image = image_index(document, texture).and_then(|image| images.get(&image));
         match (image, &mut material.texture) {
-            (Some(image), Some(place)) => place.image = Arc::clone(image),
+            (Some((image, grey)), Some(place)) => {
+                place.image = Arc::clone(image);
+                place.grey = Arc::clone(grey);
+            }
             (_, place) => *place = None,
         }
     }
@@ -139,6 +145,7 @@ fn one_material(document: &Value, material: &Value, index: usize) -> (Material, 
         base_colour,
         texture: texture.map(|texture| Texture {
             image: Arc::default(),
+            grey: Arc::default(),
             wrap: wrap(document, texture),
             transform: transform(move_by),
         }),
@@ -176,8 +183,11 @@ fn image_index(document: &Value, texture: usize) -> Option<usize> {
     whole(&document["textures"][texture]["source"])
 }
 
+/// A decoded image, small, and how bright it is.
+type Decoded = (Arc<RgbaImage>, Arc<GreyImage>);
+
 /// Decodes the images with these indices, several at a time: this is most of what a picture costs.
-fn decode(document: &Value, blob: &[u8], sources: &[usize]) -> BTreeMap<usize, Arc<RgbaImage>> {
+fn decode(document: &Value, blob: &[u8], sources: &[usize]) -> BTreeMap<usize, Decoded> {
     let thread_count = std::thread::available_parallelism().map_or(1, usize::from);
     let chunk = sources.len().div_ceil(thread_count).max(1);
     std::thread::scope(|scope| {
@@ -186,7 +196,7 @@ fn decode(document: &Value, blob: &[u8], sources: &[usize]) -> BTreeMap<usize, A
             .map(|part| {
                 scope.spawn(move || {
                     part.iter()
-                        .filter_map(|&source| Some((source, Arc::new(one_image(document, blob, source)?))))
+                        .filter_map(|&source| Some((source, one_image(document, blob, source)?)))
                         .collect::<Vec<_>>()
                 })
             })
@@ -196,17 +206,27 @@ fn decode(document: &Value, blob: &[u8], sources: &[usize]) -> BTreeMap<usize, A
     })
 }
 
-fn one_image(document: &Value, blob: &[u8], source: usize) -> Option<RgbaImage> {
+fn one_image(document: &Value, blob: &[u8], source: usize) -> Option<Decoded> {
     let view = &document["bufferViews"][whole(&document["images"][source]["bufferView"])?];
     let start = whole(&view["byteOffset"]).unwrap_or(0);
     let end = start.checked_add(whole(&view["byteLength"])?)?;
     let image = image::load_from_memory(blob.get(start..end)?).ok()?.into_rgba8();
+    let grey = Arc::new(grey(&image));
     let longest = image.width().max(image.height());
     if longest <= TEXTURE_SIZE {
-        return Some(image);
+        return Some((Arc::new(image), grey));
     }
     let side = |length: u32| (u64::from(length) * u64::from(TEXTURE_SIZE) / u64::from(longest)).max(1) as u32;
-    Some(thumbnail(&image, side(image.width()), side(image.height())))
+    Some((Arc::new(thumbnail(&image, side(image.width()), side(image.height()))), grey))
+}
+
+/// Luma of Rec. 709, of sRGB values.
+fn grey(image: &RgbaImage) -> GreyImage {
+    let luma = |row: usize, column: usize| {
+        let [red, green, blue, _] = image.get_pixel(column as u32, row as u32).0.map(u32::from);
+        ((54 * red + 183 * green + 19 * blue) / 256) as u8
+    };
+    GreyImage::new(image.width() as usize, image.height() as usize, luma)
 }
 
 fn list<'a>(document: &'a Value, key: &str) -> &'a [Value] {

@@ -12,7 +12,7 @@ mod materials;
 mod surface;
 
 pub use appearance::{Appearance, read as read_appearance};
-pub use materials::{Material, Texture};
+pub use materials::Material;
 pub use surface::PictureMesh;
 
 use camera::Camera;

@@ -78,10 +78,56 @@ pub unsafe extern "C" fn sdef_character_add_mesh(
     let body = || unsafe {
         let state = handles::character(character)?;
         let given = arrays::struct_in(mesh)?;
-        let index_to_be = handles::read(&state, "character")?.character().meshes.len();
-        let mesh = read::mesh_at(index_to_be, &given)?;
+        let (index_to_be, image) = {
+            let state = handles::read(&state, "character")?;
+            (state.character().meshes.len(), state.image(given.image))
+        };
+        let mesh = read::mesh_at(index_to_be, &given, image)?;
         let added = handles::write(&state, "character")?.add_mesh(mesh)?;
         write_out(index, added as u32);
+        Ok(())
+    };
+    unsafe { call(error, body) }
+}
+
+/// Adds an image that meshes show, before these meshes; it is copied.
+///
+/// number: receives what SdefMesh's image names it by, counted from 1
+///
+/// Errors: BAD_ARGUMENT; OUT_OF_MEMORY.
+#[ffi_export]
+pub unsafe extern "C" fn sdef_character_add_image(
+    character: SdefCharacter,
+    image: *const SdefImage,
+    number: *mut u32,
+    error: *mut SdefError,
+) -> SdefStatus {
+    let body = || unsafe {
+        let state = handles::character(character)?;
+        not_null("number", number)?;
+        let image = read::image(&arrays::struct_in(image)?)?;
+        let added = handles::write(&state, "character")?.add_image(image)?;
+        write_out(number, added);
+        Ok(())
+    };
+    unsafe { call(error, body) }
+}
+
+/// Says what the host knows of the face, in place of what was said before.
+///
+/// Errors: BAD_ARGUMENT; BAD_INPUT for numbers that are not finite, and sizes below 0; OUT_OF_MEMORY.
+#[ffi_export]
+pub unsafe extern "C" fn sdef_character_set_face_hints(
+    character: SdefCharacter,
+    hints: *const SdefFaceHints,
+    error: *mut SdefError,
+) -> SdefStatus {
+    let body = || unsafe {
+        let state = handles::character(character)?;
+        let hints = read::face_hints(&arrays::struct_in(hints)?)?;
+        let mut state = handles::write(&state, "character")?;
+        state.ask_to_change()?;
+        state.change(|character| character.face_hints = hints);
         Ok(())
     };
     unsafe { call(error, body) }

@@ -1,17 +1,22 @@
 //! Skeletons and meshes, from the caller's arrays to the library's.
 
 use super::types::{
-    SDEF_TYPE_DEFAULT, SDEF_TYPE_F32, SDEF_TYPE_U8, SDEF_TYPE_U16, SDEF_TYPE_U32, SdefMesh, SdefSkeleton,
+    SDEF_TYPE_DEFAULT, SDEF_TYPE_F32, SDEF_TYPE_U8, SDEF_TYPE_U16, SDEF_TYPE_U32, SdefFaceHints, SdefImage,
+    SdefMesh, SdefSkeleton,
 };
 use crate::character::mesh::place;
-use crate::character::{Axes, Character, Humanoid, Joint, Mesh, MeshKind, Role, Shade, Skeleton, Weights};
+use crate::character::{
+    Axes, Character, EyeHint, FaceHints, GreyImage, Humanoid, Joint, Mesh, MeshKind, Role, Shade, Skeleton,
+    Weights,
+};
 use crate::error::Named;
 use crate::ffi::arrays::{self, Input, reserved};
 use crate::ffi::basics::{SDEF_ELEMENT_JOINT, SDEF_ELEMENT_VERTEX};
 use crate::ffi::guard::{Failure, Outcome};
 use crate::ffi::options::one_of;
 use core::ffi::c_void;
-use glam::Vec3;
+use glam::{DVec3, Vec2, Vec3};
+use std::sync::Arc;
 
 /// Reads the axes.
 ///
@@ -99,22 +104,89 @@ pub unsafe fn skeleton(skeleton: *const SdefSkeleton) -> Outcome<(Skeleton, Huma
     Ok((skeleton, humanoid))
 }
 
-/// As [`mesh`], with the mesh in what is said of a mistake: it will be number `index`.
+/// As [`mesh`], with the mesh in what is said of a mistake: it will be number `index`. `image`: what it names.
 ///
 /// # Safety
 /// The struct and its arrays are as the header says.
-pub unsafe fn mesh_at(index: usize, given: &SdefMesh) -> Outcome<Mesh> {
-    unsafe { mesh(given) }.map_err(|failure| {
+pub unsafe fn mesh_at(
+    index: usize,
+    given: &SdefMesh,
+    image: Outcome<Option<Arc<GreyImage>>>,
+) -> Outcome<Mesh> {
+    unsafe { image.and_then(|image| mesh(given, image)) }.map_err(|failure| {
         let name = unsafe { arrays::text(given.name) };
         Failure { message: format!("{}: {}", place(index, &name), failure.message), ..failure }.in_mesh(index)
     })
+}
+
+/// The longest side of an image.
+const LONGEST_IMAGE: u32 = 1 << 16;
+
+/// Reads an image.
+///
+/// # Safety
+/// The struct and its array are as the header says.
+pub unsafe fn image(given: &SdefImage) -> Outcome<GreyImage> {
+    for (what, side) in [("width", given.width), ("height", given.height)] {
+        if !(1..=LONGEST_IMAGE).contains(&side) {
+            return Err(Failure::argument(format!("{what} is {side}: give 1 to {LONGEST_IMAGE} pixels")));
+        }
+    }
+    let (width, height) = (given.width as usize, given.height as usize);
+    let stride = arrays::stride_of(&"pixels", given.pixels.is_null(), height, given.row_stride, width)?;
+    // SAFETY: row and column lie within what was checked.
+    let pixel = |row: usize, column: usize| unsafe { *given.pixels.add(row * stride + column) };
+    Ok(GreyImage::new(width, height, pixel))
+}
+
+/// Reads what is known of a face.
+///
+/// # Safety
+/// The struct and its arrays are as the header says.
+pub unsafe fn face_hints(given: &SdefFaceHints) -> Outcome<FaceHints> {
+    if given.eye.is_null() && !given.other_eye.is_null() {
+        return Err(Failure::argument("eye is NULL, but other_eye is not: give one eye as eye"));
+    }
+    let eye = |middle: *const f64| {
+        let SdefFaceHints { half_width, half_height, .. } = *given;
+        // SAFETY: it is NULL or points to 3 doubles.
+        let middle = unsafe { middle.cast::<[f64; 3]>().read_unaligned() };
+        EyeHint { middle: DVec3::from_array(middle), half_width, half_height }
+    };
+    let eye = |middle: *const f64| (!middle.is_null()).then(|| eye(middle));
+    let hints = FaceHints { eye: eye(given.eye), other_eye: eye(given.other_eye) };
+    hints.validate()?;
+    Ok(hints)
+}
+
+/// How bright a mesh is, as far as the host says.
+///
+/// # Safety
+/// As [`mesh`].
+unsafe fn shade(given: &SdefMesh, image: Option<Arc<GreyImage>>) -> Outcome<Shade> {
+    let count = given.vertex_count;
+    if !given.luminance.is_null() {
+        let values =
+            unsafe { Input::<u8>::new("luminance", given.luminance, count, given.luminance_stride) }?;
+        return Ok(Shade::Vertices(values.to_vec("luminance")?));
+    }
+    let Some(image) = image else { return Ok(Shade::Unknown) };
+    let uvs = unsafe { Input::<[f32; 2]>::new("uvs", given.uvs.cast(), count, given.uv_stride) }?;
+    if let Some(vertex) = uvs.iter().position(|uv| !uv.iter().all(|along| along.is_finite())) {
+        let [u, v] = uvs.get(vertex);
+        let message = format!("the uv of vertex {vertex} is ({u}, {v}): uvs must be finite numbers");
+        return Err(Failure::input(message).at(SDEF_ELEMENT_VERTEX, vertex));
+    }
+    let mut all = reserved(count, "uvs")?;
+    all.extend(uvs.iter().map(Vec2::from_array));
+    Ok(Shade::Image { uvs: all, image })
 }
 
 /// Reads a mesh, but for what needs the character.
 ///
 /// # Safety
 /// The struct and its arrays are as the header says.
-unsafe fn mesh(given: &SdefMesh) -> Outcome<Mesh> {
+unsafe fn mesh(given: &SdefMesh, image: Option<Arc<GreyImage>>) -> Outcome<Mesh> {
     let name = unsafe { arrays::text(given.name) };
     let kinds = [
         None,
@@ -142,7 +214,7 @@ unsafe fn mesh(given: &SdefMesh) -> Outcome<Mesh> {
             normals: arrays::optional("normals", given.normals, count, given.normal_stride)?,
             tangents: arrays::optional("tangents", given.tangents, count, given.tangent_stride)?,
             morph_targets: Vec::new(),
-            shade: Shade::Unknown,
+            shade: shade(given, image)?,
             weights: weights.read()?,
             name,
         })

@@ -3,7 +3,7 @@
 use crate::character::kinds::{MeshNames, kinds_from_names};
 use crate::character::mesh::place;
 use crate::character::roles::find_roles;
-use crate::character::{Axes, Character, Humanoid, Mesh, Skeleton};
+use crate::character::{Axes, Character, GreyImage, Humanoid, Mesh, Skeleton};
 use crate::error::Warning;
 use crate::ffi::basics::SDEF_ELEMENT_VERTEX;
 use crate::ffi::guard::{Failure, Outcome};
@@ -20,6 +20,8 @@ pub struct CharacterState {
     given: Humanoid,
     /// By mesh: whether the host left open what it is.
     kind_is_open: Vec<bool>,
+    /// What meshes show.
+    images: Vec<Arc<GreyImage>>,
     rig: Option<MadeRig>,
 }
 
@@ -63,6 +65,7 @@ impl CharacterState {
             resolved: Mutex::new(resolved),
             given: Humanoid::default(),
             kind_is_open: Vec::new(),
+            images: Vec::new(),
             rig: None,
         }
     }
@@ -155,6 +158,26 @@ impl CharacterState {
             character.humanoid = roles;
         });
         Ok(())
+    }
+
+    /// Adds an image, and gives its number.
+    pub fn add_image(&mut self, image: GreyImage) -> Outcome<u32> {
+        self.images.push(Arc::new(image));
+        u32::try_from(self.images.len())
+            .map_err(|_| Failure::argument("the character has 4294967295 images already: give fewer"))
+    }
+
+    /// The image of this number; none of 0.
+    pub fn image(&self, number: u32) -> Outcome<Option<Arc<GreyImage>>> {
+        match (number as usize).checked_sub(1) {
+            None => Ok(None),
+            Some(index) => self.images.get(index).cloned().map(Some).ok_or_else(|| {
+                let count = self.images.len();
+                Failure::argument(format!(
+                    "image is {number}, but the character has {count}: give what sdef_character_add_image gave, or 0"
+                ))
+            }),
+        }
     }
 
     /// Adds a mesh, and gives its index.

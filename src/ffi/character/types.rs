@@ -148,6 +148,59 @@ pub struct SdefMesh {
     pub weight_stride: usize,
     /// vertex_count + 1 numbers (rows), or NULL (fixed)
     pub row_starts: *const u32,
+    /// how bright the surface is: a byte a vertex, from black (0) to white (255) as screens show it; may be NULL. By this,
+    /// or by uvs and image, the face step sees irises and brows that are painted; left out, they stay as they are
+    pub luminance: *const u8,
+    /// bytes from vertex to vertex; 0: 1
+    pub luminance_stride: usize,
+    /// 2 floats a vertex: where it lies on the image, (0, 0) at the first pixel, (1, 1) at the last; the image repeats
+    /// beyond; may be NULL
+    pub uvs: *const f32,
+    /// bytes from vertex to vertex; 0: 8
+    pub uv_stride: usize,
+    /// what sdef_character_add_image gave for the image that the mesh shows, or 0
+    pub image: u32,
+    /// 0
+    pub reserved_2: u32,
+}
+
+/// How bright a texture is: its base colour without the colours, as 54 red + 183 green + 19 blue of 256.
+#[derive_ReprC]
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct SdefImage {
+    /// sizeof(SdefImage)
+    pub struct_size: u32,
+    /// pixels in a row, 1 to 65536; above 512 a smaller one is made of it
+    pub width: u32,
+    /// rows, likewise
+    pub height: u32,
+    /// 0
+    pub reserved: u32,
+    /// width bytes a row, the row of v = 0 first
+    pub pixels: *const u8,
+    /// bytes from row to row; 0: width
+    pub row_stride: usize,
+}
+
+/// What a host knows of a face, in model space. Without it eyes are found by their meshes, blinks or joints, or as small
+/// twin pieces.
+#[derive_ReprC]
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct SdefFaceHints {
+    /// sizeof(SdefFaceHints)
+    pub struct_size: u32,
+    /// 0
+    pub reserved: u32,
+    /// 3 doubles: the middle of an eye's opening; NULL: nothing is known
+    pub eye: *const f64,
+    /// 3 doubles: that of the other one; NULL: its mirror image
+    pub other_eye: *const f64,
+    /// half the width of an opening; 0: not known
+    pub half_width: f64,
+    /// half its height; 0: not known
+    pub half_height: f64,
 }
 
 /// A morph target (blend shape): what is added to each vertex of a mesh at weight 1. All arrays are as long as the mesh.
@@ -223,4 +276,4 @@ pub struct SdefCharacterInfo {
     pub triangle_count: u64,
 }
 
-host_structs!(SdefMesh, SdefMorphTarget, SdefSkeleton, SdefCharacterInfo);
+host_structs!(SdefMesh, SdefImage, SdefFaceHints, SdefMorphTarget, SdefSkeleton, SdefCharacterInfo);

@@ -8,7 +8,7 @@ use crate::face::head::{Head, HeadFrame, HeadParts};
 use crate::face::seat::SeatSources;
 use crate::geometry::SEAM;
 use crate::shape::figure::Figure;
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 /// The head of `character`, which is laid out as `figure`.
 pub fn head<'a>(character: &'a Character, figure: &'a Figure, anatomy: &Anatomy) -> Head<'a> {
@@ -25,6 +25,11 @@ pub fn head<'a>(character: &'a Character, figure: &'a Figure, anatomy: &Anatomy)
         is_accessory: of_kind(MeshKind::Accessory),
         is_eye: all.map(|vertex| turns[vertex] || figure.kind(vertex) == MeshKind::Eye).collect(),
         turns,
+        eye_hints: character
+            .face_hints
+            .all()
+            .map(|eye| (figure.frame.to_canonical(eye.middle), DVec2::new(eye.half_width, eye.half_height)))
+            .collect(),
         eye_joints: figure.eye_roles().map(|role| figure.role_position(role)),
         seam: SEAM * figure.height(),
     };

@@ -159,7 +159,7 @@ namespace SuperDeform.Editor
             Double3 forward = data.Rigged ? Facing.Of(roles, data.Rest) : new Double3(0, 0, 1);
             data.Character = new Character(Up, new[] { (float)forward.X, (float)forward.Y, (float)forward.Z });
             Outfits.Find(data, roles);
-            if (data.Rigged) data.Character.SetSkeleton(Skeleton(data, roles));
+            if (data.Rigged) data.Character.SetSkeleton(Skeleton(data, EyeBones.Added(data, roles)));
             AddMeshes(data);
             AddMorphTargets(data);
             if (!data.RigMade) return;
@@ -186,6 +186,7 @@ namespace SuperDeform.Editor
 
         static void AddMeshes(AvatarData data)
         {
+            PaintedSurfaces surfaces = new PaintedSurfaces(data.Character);
             foreach (PartData part in data.Parts)
             {
                 RendererData renderer = part.Renderer;
@@ -199,6 +200,7 @@ namespace SuperDeform.Editor
                     Tangents = part.Gather(renderer.ModelTangents),
                     Indices = part.Indices
                 };
+                surfaces.Show(part, mesh);
                 if (data.Rigged) RendererReader.GiveWeights(part, mesh, data.Twins);
                 data.Character.AddMesh(mesh);
             }

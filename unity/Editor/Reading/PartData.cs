@@ -11,6 +11,9 @@ namespace SuperDeform.Editor
 
         public RendererData Renderer;
 
+        /// <summary>What most of its triangles show; may be null.</summary>
+        public Material Material;
+
         /// <summary>
         /// The mesh's vertices FirstVertex to FirstVertex + VertexCount - 1, where Vertices is null.
         /// </summary>

@@ -69,11 +69,13 @@ namespace SuperDeform.Editor
                     vertices.Add(vertex);
                 }
                 if (vertices.Count == 0) continue;
+                Material material = MostSeen(renderer, same, triangles, submesh);
                 bool contiguous = vertices[vertices.Count - 1] - vertices[0] == vertices.Count - 1;
                 parts.Add(new PartData
                 {
                     Renderer = renderer,
-                    Name = Name(renderer, same, triangles, submesh),
+                    Name = renderer.Renderer.name + "/" + renderer.Mesh.name + "/" + (material == null ? "" : material.name),
+                    Material = material,
                     FirstVertex = vertices[0],
                     VertexCount = vertices.Count,
                     Vertices = contiguous ? null : vertices.ToArray(),
@@ -97,10 +99,8 @@ namespace SuperDeform.Editor
             return indices.ToArray();
         }
 
-        /// <summary>
-        /// "object/mesh/material"; the material of the submesh with the most triangles stands for all.
-        /// </summary>
-        static string Name(RendererData renderer, int[] same, int[][] triangles, int part)
+        /// <summary>The material of the submesh with the most triangles stands for all; null where there is none.</summary>
+        static Material MostSeen(RendererData renderer, int[] same, int[][] triangles, int part)
         {
             int largest = part;
             for (int submesh = part; submesh < triangles.Length; submesh++)
@@ -108,8 +108,7 @@ namespace SuperDeform.Editor
                 if (Find(same, submesh) == part && triangles[submesh].Length > triangles[largest].Length) largest = submesh;
             }
             Material[] materials = renderer.Renderer.sharedMaterials;
-            bool known = largest < materials.Length && materials[largest] != null;
-            return renderer.Renderer.name + "/" + renderer.Mesh.name + "/" + (known ? materials[largest].name : "");
+            return largest < materials.Length ? materials[largest] : null;
         }
 
         static int Find(int[] same, int submesh)

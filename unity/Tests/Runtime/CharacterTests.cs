@@ -25,6 +25,40 @@ public sealed class CharacterTests
     }
 
     [Test]
+    public void Images_are_numbered_and_meshes_show_them()
+    {
+        Mannequin figure = new Mannequin();
+        using (Character character = figure.Character())
+        {
+            Assert.AreEqual(1, character.AddImage(2, 1, new byte[] { 0, 255 }));
+            Assert.AreEqual(2, character.AddImage(1, 1, new byte[] { 9 }));
+            MeshArrays mesh = figure.Mesh();
+            mesh.Image = 2;
+            mesh.Uvs = new float[2 * figure.VertexCount];
+            character.AddMesh(mesh);
+            mesh.Image = 3;
+            Thrown.Says(Thrown.Invalid(Status.BadArgument, () => character.AddMesh(mesh)), "3");
+            mesh.Image = 0;
+            mesh.Uvs = null;
+            mesh.Luminance = new byte[figure.VertexCount - 1];
+            Thrown.Says(Thrown.Invalid(Status.BadArgument, () => character.AddMesh(mesh)), "Luminance");
+            Thrown.Says(Thrown.Invalid(Status.BadArgument, () => character.AddImage(2, 2, new byte[3])), "3");
+        }
+    }
+
+    [Test]
+    public void Hints_are_places()
+    {
+        using (Character character = new Mannequin().Character())
+        {
+            character.SetFaceHints(new[] { 0.03, 1.6, 0.1 });
+            character.SetFaceHints(null);
+            Thrown.Says(Thrown.Invalid(Status.BadInput, () => character.SetFaceHints(new[] { double.NaN, 1, 0 })), "NaN");
+            Thrown.Says(Thrown.Invalid(Status.BadArgument, () => character.SetFaceHints(new double[2])), "2");
+        }
+    }
+
+    [Test]
     public void Its_joints_come_back_as_given()
     {
         Mannequin figure = new Mannequin();

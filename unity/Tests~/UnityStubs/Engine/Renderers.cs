@@ -9,10 +9,36 @@ namespace UnityEngine
     public class Texture2D : Texture
     {
         public Texture2D(int width, int height) { this.width = width; this.height = height; }
+        Color32[] m_Pixels;
+        public Texture2D(int width, int height, TextureFormat format, bool mipChain) : this(width, height) { }
+        public void SetPixels32(Color32[] colors) { m_Pixels = colors; }
+        public Color32[] GetPixels32() { return m_Pixels ?? new Color32[width * height]; }
+        // Of the pixel that lies there: the graphics card mixes them.
+        public void ReadPixels(Rect source, int destX, int destY)
+        {
+            Texture2D from = RenderTexture.active.Shown;
+            Color32[] pixels = from.GetPixels32();
+            m_Pixels = new Color32[width * height];
+            for (int y = 0; y < height; y++)
+                for (int x = 0; x < width; x++)
+                    m_Pixels[y * width + x] = pixels[y * from.height / height * from.width + x * from.width / width];
+        }
         public static Texture2D whiteTexture { get { return new Texture2D(4, 4); } }
         public static Texture2D grayTexture { get { return new Texture2D(4, 4); } }
     }
-    public class RenderTexture : Texture { public RenderTexture(int width, int height, int depth) { this.width = width; this.height = height; } }
+    public enum TextureFormat { RGBA32 = 4 }
+    public enum RenderTextureFormat { ARGB32 = 0 }
+    public enum RenderTextureReadWrite { Default, Linear, sRGB }
+    public class RenderTexture : Texture
+    {
+        internal Texture2D Shown;
+        public RenderTexture(int width, int height, int depth) { this.width = width; this.height = height; }
+        public static RenderTexture active { get; set; }
+        public static RenderTexture GetTemporary(int width, int height, int depthBuffer, RenderTextureFormat format, RenderTextureReadWrite readWrite) { return new RenderTexture(width, height, depthBuffer); }
+        public static void ReleaseTemporary(RenderTexture temp) { DestroyImmediate(temp); }
+    }
+    public class Graphics { public static void Blit(Texture source, RenderTexture dest) { dest.Shown = (Texture2D)source; } }
+    public sealed class SystemInfo { public static GraphicsDeviceType graphicsDeviceType { get { return GraphicsDeviceType.Vulkan; } } }
     public sealed class Shader : Object
     {
         static readonly Dictionary<string, Shader> s_Known = new Dictionary<string, Shader>();
@@ -34,7 +60,7 @@ namespace UnityEngine
         public Material(Shader shader) { m_Shader = shader; }
         public Material(Material source) { m_Shader = source.m_Shader; m_Color = source.m_Color; m_Texture = source.m_Texture; m_Floats = new Dictionary<string, float>(source.m_Floats); m_Vectors = new Dictionary<string, Vector4>(source.m_Vectors); }
         // Shaders declare nothing here: a material has the properties that were set.
-        public bool HasProperty(string name) { Alive(); return m_Floats.ContainsKey(name) || m_Vectors.ContainsKey(name); }
+        public bool HasProperty(string name) { Alive(); return m_Floats.ContainsKey(name) || m_Vectors.ContainsKey(name) || (name == "_MainTex" && m_Texture != null); }
         public Vector4 GetVector(string name) { Vector4 value; Alive(); return m_Vectors.TryGetValue(name, out value) ? value : new Vector4(0, 0, 0, 0); }
         public void SetVector(string name, Vector4 value) { Alive(); m_Vectors[name] = value; }
         public bool HasFloat(string name) { return HasProperty(name); }
@@ -42,6 +68,8 @@ namespace UnityEngine
         public void SetFloat(string name, float value) { Alive(); m_Floats[name] = value; }
         public Shader shader { get { return m_Shader; } set { m_Shader = value; } }
         public Color color { get { return m_Color; } set { m_Color = value; } }
+        public Vector2 mainTextureScale = Vector2.one;
+        public Vector2 mainTextureOffset = Vector2.zero;
         public Texture mainTexture { get { return m_Texture; } set { m_Texture = value; } }
     }
     public class TextAsset : Object
