@@ -34,7 +34,10 @@ static SdefCharacter make_character(int with_joints) {
   CHECK(mesh.image == 1);
   mesh.uvs = figure.vertices[0].position;
   mesh.uv_stride = sizeof figure.vertices[0];
+  const SdefFaceHints none = {sizeof(SdefFaceHints), 0, NULL, NULL, 0, 0};
   OK(sdef_character_set_face_hints(character, &hints, &error));
+  // The call that keeps nothing takes none.
+  OK(sdef_character_set_face_hints(character, &none, &error));
   OK(sdef_character_add_mesh(character, &mesh, &index, &error));
   CHECK(index == 0);
   OK(sdef_character_add_morph_target(character, 0, &figure.target, &error));

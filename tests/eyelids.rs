@@ -4,6 +4,8 @@
 mod lids;
 #[path = "common/models.rs"]
 mod models;
+#[path = "common/painted.rs"]
+mod painted;
 
 use lids::{View, closed, eyes, turned, with_blink};
 use models::{check_all, models as all_models, present};
@@ -20,8 +22,14 @@ const ADULTS: [&str; 4] = [
     "valid_hispanic_f_2_casual.glb",
 ];
 
-/// What is left of an eye may differ by this much of what is seen of it open.
-const SHARE: f64 = 0.02;
+/// What is seen of an eye that is half closed, or looks aside, may differ by a twentieth of what is seen of it open: lids
+/// that open more than the ball grows stand a little more obliquely.
+const SHARE: f64 = 0.05;
+/// Of an eye that is shut nothing is seen.
+const SHUT: f64 = 0.005;
+/// What is seen in front of a lid may be more than before by this part of what is seen of the open eye: it is a square of
+/// the view wide at most.
+const IN_FRONT: f64 = 0.02;
 
 fn deformed(character: &Character, style: &Style) -> Deformed {
     Deformer::new(Arc::new(character.clone()), style, &Options::default()).unwrap().apply()
@@ -44,9 +52,9 @@ fn made_blinks_close_as_far_as_before() {
     }
     let styles = styles();
     check_all(&names, |&name| {
-        let plain = &all_models()[name].character;
-        let measured = Measured::of(plain, &Options::default()).unwrap();
-        let character = with_blink(plain, &measured);
+        let plain = painted::painted(&all_models()[name]);
+        let measured = Measured::of(&plain, &Options::default()).unwrap();
+        let character = with_blink(&plain, &measured);
         let (before, of_eyes) = (&measured.figure, eyes(&measured));
         let mut wrong = Vec::new();
         if of_eyes.len() != 2 {
@@ -66,8 +74,9 @@ fn made_blinks_close_as_far_as_before() {
                     ];
                     let share = [0, 1].map(|of| seen[of].count() as f64 / rest[of].count() as f64);
                     let outside = [0, 1].map(|of| seen[of].outside(&rest[of]));
-                    println!("{name} like {style_name}, eye {index} at {weight}: {share:.3?} {outside:?}");
-                    if (share[1] - share[0]).abs() > SHARE || outside[1] > outside[0] {
+                    let allowed = if weight == 1.0 { SHUT } else { SHARE };
+                    let in_front = outside[0] as f64 + IN_FRONT * rest[1].count() as f64;
+                    if (share[1] - share[0]).abs() > allowed || outside[1] as f64 > in_front {
                         wrong.push(format!(
                             "{name} like {style_name}, eye {index} at {weight}: {share:.3?} of it seen, {outside:?} squares outside"
                         ));
@@ -88,7 +97,7 @@ fn eyes_that_look_aside_stay_in_their_sockets() {
     }
     let styles = styles();
     check_all(&names, |&name| {
-        let character = &all_models()[name].character;
+        let character = &painted::painted(&all_models()[name]);
         let measured = Measured::of(character, &Options::default()).unwrap();
         let (before, of_eyes) = (&measured.figure, eyes(&measured));
         let mut wrong = Vec::new();
@@ -108,7 +117,8 @@ fn eyes_that_look_aside_stay_in_their_sockets() {
                     println!(
                         "{name} like {style_name}, eye {index} at {yaw} {pitch}: {share:.3?} {outside:?}"
                     );
-                    if (share[1] - share[0]).abs() > SHARE || outside[1] > outside[0] {
+                    let in_front = outside[0] as f64 + IN_FRONT * rest[1].count() as f64;
+                    if (share[1] - share[0]).abs() > SHARE || outside[1] as f64 > in_front {
                         wrong.push(format!(
                             "{name} like {style_name}, eye {index} turned by {yaw} and {pitch}: {share:.3?} of it seen, {outside:?} squares outside"
                         ));
@@ -120,7 +130,7 @@ fn eyes_that_look_aside_stay_in_their_sockets() {
     });
 }
 
-/// Blinks that models bring along, of faces that stay as young as they are.
+/// Blinks that models bring along, of faces that are young already.
 const BLINKING: [&str; 3] = ["catbot.vrm", "cool_loops.vrm", "godette.vrm"];
 
 #[test]
@@ -154,7 +164,6 @@ fn own_blinks_travel_as_far_as_the_eye_is_high() {
         for (style_name, style) in &styles {
             let result = character.with(&deformed(character, style));
             let (_, is) = travel(&Figure::of(&result).unwrap(), &result);
-            println!("{name} like {style_name}: shut to {was:.3}, then to {is:.3}");
             if (is - was).abs() > SHARE {
                 wrong.push(format!(
                     "{name} like {style_name}: shut to {was:.3} of its height, then to {is:.3}"

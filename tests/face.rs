@@ -2,9 +2,12 @@
 
 #[path = "common/models.rs"]
 mod models;
+#[path = "common/painted.rs"]
+mod painted;
 
 use glam::{DMat3, DVec3};
 use models::{Run, check_all, in_parallel, model, models as all_models, present};
+use std::sync::Arc;
 use superdeform::internals::face::eyes::{Eye, EyeSource, Eyeball, Pair};
 use superdeform::internals::face::flow::{Flow, Follower, STEPS, along};
 use superdeform::internals::face::landmarks::{Ears, FaceLandmarks, Nose};
@@ -12,7 +15,7 @@ use superdeform::internals::face::youth::FaceAim;
 use superdeform::internals::shape::Measured;
 use superdeform::internals::shape::figure::Figure;
 use superdeform::options::Features;
-use superdeform::{Options, Role, Style};
+use superdeform::{Deformer, EyeHint, FaceHints, Options, Role, Style};
 
 /// What was measured on these heads by another program, by rays, from the same definitions: eyes' height, half distance,
 /// half width and height of an opening, ball; nose's height and protrusion; half width of face and skull. NaN: no figure.
@@ -249,8 +252,9 @@ fn adult_options() -> Options {
 /// Each head before and after the stages of the head alone, 2.5 heads tall.
 fn head_runs(names: &[&'static str]) -> Vec<[Run; 2]> {
     in_parallel(&present(names), |&name| {
+        let character = painted::painted(&all_models()[name]);
         [adult_options(), Options { hair_lay: 0.0, ..Options::default() }]
-            .map(|options| Run::new(name, "2.5 heads", &Style::Heads(2.5), &options))
+            .map(|options| Run::of(character.clone(), name, "2.5 heads", &Style::Heads(2.5), &options))
     })
 }
 
@@ -290,7 +294,13 @@ fn no_head_folds_and_hardly_a_triangle_turns_over() {
             // A sliver a thousand times as long as it is wide faces no way.
             if before.length() > 1e-3 {
                 count += 1;
-                turned += usize::from(before.dot(after) < 0.0);
+                if before.dot(after) < 0.0 {
+                    turned += 1;
+                    let mesh = was.mesh_starts.partition_point(|&start| start <= corners[0] as usize) - 1;
+                    let at = (measured.figure.positions[corners[0] as usize] - origin) / length;
+                    let name = &young.loaded.character.meshes[mesh].name;
+                    println!("{}: a triangle of {name} at {at:.3} turned over", young.name);
+                }
             }
         }
         if turned > before_this {
@@ -321,7 +331,10 @@ fn a_stylised_face_stays() {
         return;
     };
     let own = models::style(&godette.character, &Options::default());
-    let styles = [("2.5 heads", Style::Heads(2.5)), ("godette", own)];
+    let mut styles = vec![("2.5 heads", Style::Heads(2.5)), ("godette", own)];
+    if model("kaykit_rogue.glb").is_some() {
+        styles.push(("KayKit", models::style_of("kaykit_rogue.glb", &Options::default())));
+    }
     for (name, style) in &styles {
         let [plain, young] = [0.0, 1.0].map(|youth| {
             Run::new(
@@ -336,4 +349,43 @@ fn a_stylised_face_stays() {
         let furthest = was.iter().zip(&is).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max);
         assert!(furthest <= 1e-3 * head, "{name}: {}", furthest / head);
     }
+}
+
+#[test]
+fn eyes_are_where_a_host_says_they_are() {
+    let Some(man) = model("quaternius_man_2017.glb") else {
+        println!("skipped: quaternius_man_2017.glb is not there");
+        return;
+    };
+    let plain = measured("quaternius_man_2017.glb");
+    assert!(plain.face.as_ref().unwrap().eyes.is_none());
+    let heights = plain.anatomy.landmarks.heights;
+    let length = heights.head_length();
+    let place = |side: f64, y: f64| {
+        let p = DVec3::new(plain.anatomy.middle_x + 0.15 * side * length, heights.chin + y * length, 0.0);
+        plain.figure.frame.to_model(p)
+    };
+    let eye =
+        |side: f64, y: f64, half_width: f64| EyeHint { middle: place(side, y), half_width, half_height: 0.0 };
+    let of = |eye: Option<EyeHint>, other_eye: Option<EyeHint>| {
+        let mut character = man.character.clone();
+        character.face_hints = FaceHints { eye, other_eye };
+        let deformer = Deformer::new(Arc::new(character), &Style::Heads(2.5), &Options::default()).unwrap();
+        let warned = deformer.warnings().iter().any(|warning| warning.code == "face_eyes_not_found");
+        (deformer.target().face.clone().unwrap().eyes, warned)
+    };
+    let (none, warned) = of(None, None);
+    assert!(none.is_none() && warned);
+    // One eye stands for both; the sizes are those that are said, or an adult's.
+    let (both, warned) = of(Some(eye(1.0, 0.45, 0.05 * length)), None);
+    let (source, eyes) = both.unwrap();
+    assert!(source == EyeSource::Hints && !warned);
+    let pair = Pair::of(&eyes);
+    assert!((pair.height - 0.45).abs() < 1e-6 && (pair.half_distance - 0.15).abs() < 1e-6, "{pair:?}");
+    assert!((pair.half_width - 0.05).abs() < 1e-6 && pair.half_height > 0.02, "{pair:?}");
+    let (both, _) = of(Some(eye(-1.0, 0.45, 0.0)), Some(eye(1.0, 0.45, 0.0)));
+    assert!((Pair::of(&both.unwrap().1).half_distance - 0.15).abs() < 1e-6);
+    // No eye is above the crown.
+    let (none, warned) = of(Some(eye(1.0, 1.4, 0.0)), None);
+    assert!(none.is_none() && warned);
 }

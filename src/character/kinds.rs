@@ -43,8 +43,10 @@ const EYE_WORDS: &str = "cornea corneas eye eyeball eyeballs eyes iris irises pu
 /// Beside a word for the eye, these name what is around it.
 const AROUND_EYE_WORDS: &str = "lid lids line liner makeup shadow socket";
 
-const HAIR_WORDS: &str = "ahoge bang bangs braid braids forelock fringe hair hairs hairback hairfront hairstyle pigtail \
-    pigtails ponytail ponytails sidelock twintail twintails wig";
+/// Beards are hair, so that no chin is seen at their tip.
+const HAIR_WORDS: &str = "ahoge bang bangs beard beards braid braids forelock fringe goatee hair hairs hairback hairfront \
+    hairstyle moustache moustaches mustache pigtail pigtails ponytail ponytails sideburns sidelock twintail twintails \
+    whiskers wig";
 
 const GARMENT_WORDS: &str = "apron armor armour belt blouse boot boots bottoms bra cape cardigan cloak cloth clothes clothing \
     coat costume dress garment glove gloves gown hood hoodie jacket jeans kimono leggings necktie \
@@ -290,6 +292,7 @@ mod tests {
             ("Hair001", Some(Hair)),
             ("HairBack_01", Some(Hair)),
             ("Long_Ponytail", Some(Hair)),
+            ("Dwarf_Beard", Some(Hair)),
             ("bangs.L", Some(Hair)),
             ("chair", None),
             ("what", None),

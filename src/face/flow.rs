@@ -132,6 +132,8 @@ pub(super) struct EyeFlow {
     pub rates: DVec3,
     /// ln of the eyeball's own scales.
     pub ball_rates: DVec3,
+    /// How far the eyeball goes back behind its lids, so that it can turn.
+    pub ball_back: f64,
     /// The plateau's radii before.
     pub inner: DVec3,
     /// What the lids open beyond the plateau, in a window of their own.
@@ -293,7 +295,8 @@ impl EyeFlow {
     pub fn ball(&self, p: DVec3, time: f64) -> (DVec3, DMat3) {
         let scale = exp(time * self.ball_rates);
         let p = self.iris.map_or(p, |iris| DVec3::from_array(iris.map(p.to_array(), time)));
-        (self.centre(time) + scale * (p - self.from), DMat3::from_diagonal(scale))
+        let centre = self.centre(time) - DVec3::Z * (time * self.ball_back);
+        (centre + scale * (p - self.from), DMat3::from_diagonal(scale))
     }
 }
 

@@ -151,6 +151,11 @@ impl Flow {
             if is_bare {
                 opens = 1.0;
             }
+            // A head that widens makes an ellipsoid of a ball, which takes room where it turns.
+            let wider = eye.ball.as_ref().filter(|_| turns).map_or(0.0, |ball| {
+                let extent = ball.high - ball.low;
+                (extent.x / extent.y - 1.0).clamp(0.0, MOST_OVAL)
+            });
             let depth = if turns { s } else { 1.0 + FLAT_DEPTH * (s - 1.0) };
             let opening = eye.middle();
             let from = match &eye.ball {
@@ -203,6 +208,7 @@ impl Flow {
                 to,
                 rates: DVec3::new(s.ln(), (s * opens).ln(), depth.ln()),
                 ball_rates: DVec3::new(s, s, depth).map(f64::ln),
+                ball_back: TURNING_ROOM * wider * s * radius,
                 inner: DVec3::new(rx, ry, radius.max(PLATEAU_DEEP)),
                 lids,
                 iris: iris_flow,
@@ -322,6 +328,11 @@ const MOST_FROWN: f64 = 0.06;
 const LEAST_BELOW: f64 = 0.05;
 /// Half the size of the smallest ear.
 const LEAST_EAR: f64 = 0.05;
+/// The part of its widening that a ball of radius 1 goes back by, so that it stays behind its lids when it turns by 20
+/// degrees: its radius at 30 degrees from the front grows by sin(50)^2 - sin(30)^2 = .34 of the widening then.
+const TURNING_ROOM: f64 = 0.34;
+/// Balls are not taken to be wider than this, whatever was modelled of them.
+const MOST_OVAL: f64 = 0.15;
 /// What does not turn grows in depth by this part of what it grows across: all of it bulges like goggles.
 const FLAT_DEPTH: f64 = 0.25;
 /// The face curves back like a parabola of this radius.

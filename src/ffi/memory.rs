@@ -54,7 +54,7 @@ impl Size {
 
 /// A copy of a character, as a change makes where a deformer keeps it.
 pub fn to_copy(character: &Character) -> usize {
-    Size::of(character).bytes([64, 12, 36, 8])
+    Size::of(character).bytes([72, 12, 36, 8])
 }
 
 /// Measuring a body.

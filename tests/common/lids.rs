@@ -91,7 +91,9 @@ pub fn eyes(measured: &Measured) -> Vec<&Eye> {
 pub fn closed(figure: &Figure, character: &Character, weight: f64) -> Vec<DVec3> {
     let mut points = figure.positions.clone();
     for (mesh, &start) in character.meshes.iter().zip(&figure.mesh_starts) {
-        for target in mesh.morph_targets.iter().filter(|target| closes_an_eye(&target.name)) {
+        // One of the models calls its blink so.
+        let closes = |name: &str| closes_an_eye(name) || name == "close";
+        for target in mesh.morph_targets.iter().filter(|target| closes(&target.name)) {
             for (vertex, delta) in target.positions.iter().enumerate() {
                 points[start + vertex] += weight * figure.frame.to_canonical(delta.as_dvec3());
             }
@@ -124,11 +126,14 @@ pub fn with_blink(character: &Character, measured: &Measured) -> Character {
             let half = b * (1.0 - aside * aside).sqrt();
             let fades = (1.0 - (up - 1.5).max(0.0) / 2.5).clamp(0.0, 1.0);
             let mut to = from - DVec3::Y * 2.2 * half * fades;
-            let arm = to.truncate() - ball.centre.truncate();
-            let rest = radius * radius - arm.length_squared();
-            if rest > 0.0 {
-                to.z = to.z.max(ball.centre.z + 1.06 * rest.sqrt());
-            }
+            // Half closed, a lid is half of the way, which must clear the ball too.
+            let before = |p: glam::DVec2| {
+                let arm = p - ball.centre.truncate();
+                ball.centre.z + 1.04 * (radius * radius - arm.length_squared()).max(0.0).sqrt()
+            };
+            let half_way = 0.5 * (from + to);
+            to.z = to.z.max(before(to.truncate()));
+            to.z = to.z.max(2.0 * before(half_way.truncate()) - from.z);
             deltas[vertex] = frame.length * (to - from);
         }
     }

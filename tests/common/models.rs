@@ -89,9 +89,20 @@ pub struct Run {
 
 impl Run {
     pub fn new(target: &'static str, style_name: &'static str, style: &Style, options: &Options) -> Self {
+        Self::of(models()[target].character.clone(), target, style_name, style, options)
+    }
+
+    /// As [`Run::new`], of `character`, which is that model's with more known of it.
+    pub fn of(
+        character: Character,
+        target: &'static str,
+        style_name: &'static str,
+        style: &Style,
+        options: &Options,
+    ) -> Self {
         let name = format!("{target} like {style_name}");
         let loaded = &models()[target];
-        let deformer = Deformer::new(Arc::new(loaded.character.clone()), style, options)
+        let deformer = Deformer::new(Arc::new(character), style, options)
             .unwrap_or_else(|error| panic!("{name}: {error}"));
         let deformed = deformer.apply();
         Self { name, target, style: style_name, loaded, deformer, deformed }

@@ -16,8 +16,15 @@ namespace VRC.SDK3.Avatars.Components
         public Quaternion rotation = Quaternion.Euler(0, 0, 90);
     }
 
+    [Serializable]
+    public class EyeLookSettings
+    {
+        public Transform leftEye, rightEye;
+    }
+
     public class VRCAvatarDescriptor : MonoBehaviour
     {
+        public EyeLookSettings customEyeLookSettings = new EyeLookSettings();
         public Vector3 ViewPosition, portraitCameraPositionOffset = new Vector3(0, 1.5f, 1);
         public ColliderConfig collider_head = new ColliderConfig(), collider_torso = new ColliderConfig(), collider_footL = new ColliderConfig(),
             collider_footR = new ColliderConfig(), collider_handL = new ColliderConfig(), collider_handR = new ColliderConfig(),
