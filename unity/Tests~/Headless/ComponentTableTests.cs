@@ -21,6 +21,11 @@ namespace SuperDeform.Editor.Tests
             public void Adapt(Component copy, PointMap map) { if (Ask != null) Ask(map); }
         }
 
+        internal static void Ask(Action<PointMap> ask)
+        {
+            Probe.Ask = ask;
+        }
+
         private const HumanBodyBones Arm = HumanBodyBones.LeftUpperArm, Leg = HumanBodyBones.RightUpperLeg;
         private ConversionFigure figure;
         private readonly HashSet<string> tried = new HashSet<string>();

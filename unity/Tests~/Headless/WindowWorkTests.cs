@@ -113,6 +113,37 @@ namespace SuperDeform.Editor.Tests
         }
 
         [Test]
+        public void what_is_undone_can_be_done_again_and_the_preview_follows()
+        {
+            Undo.ClearAll();
+            window.Controller.Tick(0);
+            Undo.IncrementCurrentGroup();
+            Slider("option.amount").Set(0.5f);
+            Undo.IncrementCurrentGroup();
+            Slider("option.head_scale").Set(1.2f);
+            window.Controller.Tick(1);
+            Vector3[] both = Shown();
+            Undo.PerformUndo();
+            window.Controller.Tick(2);
+            Assert.AreEqual(1, Slider("option.head_scale").Get(), 1e-6);
+            Assert.AreEqual(0.5f, Slider("option.amount").Get());
+            Vector3[] one = Shown();
+            Assert.AreNotEqual(both, one);
+            Undo.PerformRedo();
+            window.Controller.Tick(3);
+            Assert.AreEqual(1.2f, Slider("option.head_scale").Get(), 1e-6);
+            Assert.AreEqual(both, Shown());
+            Undo.PerformUndo();
+            Undo.PerformUndo();
+            Assert.AreEqual(1, Slider("option.amount").Get());
+        }
+
+        private Vector3[] Shown()
+        {
+            return Array.Find(window.Controller.Preview.Proxy.GetComponentsInChildren<SkinnedMeshRenderer>(true), one => one.name == "Body").sharedMesh.vertices;
+        }
+
+        [Test]
         public void settings_are_saved_and_loaded_as_files()
         {
             window.Model.Settings.Heads = 3.5f;

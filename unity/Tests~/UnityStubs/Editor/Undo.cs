@@ -26,7 +26,10 @@ namespace UnityEditor
         static int s_Group;
         static string s_GroupName = "";
 
-        static void Add(Step step, string name) { step.Group = s_Group; step.Name = name; if (name != null) s_GroupName = name; s_Steps.Add(step); }
+        // What was undone and not done anew; a new step forgets it.
+        static readonly List<List<Recorded>> s_Redo = new List<List<Recorded>>();
+
+        static void Add(Step step, string name) { s_Redo.Clear(); step.Group = s_Group; step.Name = name; if (name != null) s_GroupName = name; s_Steps.Add(step); }
         static object[] Save(Object value)
         {
             FieldInfo[] fields = Fields.Of(value.GetType());
@@ -67,16 +70,34 @@ namespace UnityEditor
         public static void RevertAllInCurrentGroup() { Back(s_Group); }
         public static void RevertAllDownToGroup(int group) { for (int at = s_Group; at >= group; at--) Back(at); }
         public static void FlushUndoRecordObjects() { }
-        public static void ClearAll() { s_Steps.Clear(); s_Group++; s_GroupName = ""; }
+        public static void ClearAll() { s_Steps.Clear(); s_Redo.Clear(); s_Group++; s_GroupName = ""; }
         public static void ClearUndo(Object identifier) { s_Steps.RemoveAll(delegate (Step step) { return step is Recorded && ((Recorded)step).What == identifier || step is Created && ((Created)step).What == identifier; }); }
         public static void PerformUndo()
         {
             if (s_Steps.Count == 0) return;
+            List<Recorded> undone = new List<Recorded>();
+            foreach (Step step in s_Steps) if (step is Recorded && step.Group == s_Steps[s_Steps.Count - 1].Group) undone.Add((Recorded)step);
+            List<Recorded> redo = undone.ConvertAll(step => new Recorded { What = step.What, Values = step.What == null ? null : Save(step.What), Name = step.Name, Group = step.Group });
             Back(s_Steps[s_Steps.Count - 1].Group);
+            s_Redo.Add(redo);
             UndoRedoCallback listeners = undoRedoPerformed;
             if (listeners != null) listeners();
         }
-        public static void PerformRedo() { throw new NotSupportedException("redo is not part of this stub"); }
+        // Changes come back; what was created and destroyed again does not.
+        public static void PerformRedo()
+        {
+            if (s_Redo.Count == 0) return;
+            List<Recorded> redo = s_Redo[s_Redo.Count - 1];
+            s_Redo.RemoveAt(s_Redo.Count - 1);
+            foreach (Recorded step in redo)
+            {
+                if (step.What == null) continue;
+                s_Steps.Add(new Recorded { What = step.What, Values = Save(step.What), Name = step.Name, Group = step.Group });
+                Restore(step.What, step.Values);
+            }
+            UndoRedoCallback listeners = undoRedoPerformed;
+            if (listeners != null) listeners();
+        }
         static void Back(int group)
         {
             for (int at = s_Steps.Count - 1; at >= 0; at--)

@@ -1,0 +1,168 @@
+using System;
+using System.Collections.Generic;
+using nadena.dev.modular_avatar.core;
+using nadena.dev.ndmf;
+using NUnit.Framework;
+using SuperDeform.Editor.Ndmf;
+using UnityEditor;
+using UnityEngine;
+using UnityStubs;
+using VRC.SDK3.Avatars.Components;
+using VRC.SDK3.Dynamics.Contact.Components;
+using VRC.SDK3.Dynamics.PhysBone.Components;
+
+namespace SuperDeform.Editor.Tests
+{
+    /// <summary>
+    /// A made-up avatar as artists have them, through each of the four ways to convert: body with a shrink shape at 100, two
+    /// outfits with armatures of their own, PhysBones, colliders, contacts, descriptor, lilToon's outlines.
+    /// </summary>
+    [TestFixture]
+    public class DressedAvatarTests
+    {
+        private const float Height = 1.9f;
+        private ConversionFigure figure;
+        private Vector3[] wantedCoat, wantedHair;
+        private float ratio;
+
+        private static ConversionSettings Settings()
+        {
+            return new ConversionSettings { Source = StyleSource.BuiltIn, BuiltInStyle = "sd2.5", OutputFolder = "Assets/Out", PlaceInScene = false };
+        }
+
+        private static SkinnedMeshRenderer Coat(ConversionFigure figure)
+        {
+            SkinnedMeshRenderer coat = UnityEngine.Object.Instantiate(figure.Body, figure.Root.transform);
+            coat.name = "Coat";
+            coat.bones = figure.Body.bones;
+            coat.rootBone = figure.Body.rootBone;
+            Mesh mesh = UnityEngine.Object.Instantiate(figure.Body.sharedMesh);
+            Vector3[] vertices = mesh.vertices, normals = mesh.normals;
+            for (int i = 0; i < vertices.Length; i++)
+                vertices[i] += normals[i] * 0.015f;
+            mesh.vertices = vertices;
+            mesh.name = "CoatMesh";
+            coat.sharedMesh = mesh;
+            return coat;
+        }
+
+        [SetUp]
+        public void Begin()
+        {
+            Models.NewProject();
+            ComponentTableTests.Ask(null);
+            // What the same clothes do on the avatar's own armature.
+            var merged = new ConversionFigure { WithShapes = true }.Make();
+            Coat(merged);
+            ConversionResult wanted = Converter.Convert(merged.Root, Settings(), null);
+            wantedCoat = ConversionTests.Drawn(wanted.Prefab, "Coat");
+            wantedHair = ConversionTests.Drawn(wanted.Prefab, "Hair");
+            ratio = (float)(wanted.Report.Result.Height / wanted.Report.Target.Height);
+
+            Models.NewProject();
+            figure = new ConversionFigure { WithShapes = true }.Make();
+            Transform hips = figure.Bones[HumanBodyBones.Hips];
+            SkinnedMeshRenderer coat = Coat(figure);
+            // One outfit set up with Modular Avatar, one as it was bought: a humanoid with names of its own.
+            var first = Wardrobe.Armature(figure.Root, hips, name => name + ".coat");
+            Wardrobe.Bind(coat, first);
+            Transform outfit = figure.Root.transform.Find("Outfit");
+            outfit.name = "CoatOutfit";
+            var merge = outfit.GetChild(0).gameObject.AddComponent<ModularAvatarMergeArmature>();
+            merge.mergeTarget.referencePath = "Armature";
+            merge.suffix = ".coat";
+            int number = 0;
+            var second = Wardrobe.Armature(figure.Root, hips, name => "bone" + number++);
+            Wardrobe.Bind(figure.Hair, second);
+            Wardrobe.MakeHumanoid(figure.Root.transform.Find("Outfit").gameObject, figure.Bones, second);
+            figure.Body.SetBlendShapeWeight(1, 100);
+            AddComponents();
+        }
+
+        private void AddComponents()
+        {
+            var left = new GameObject("LeftEye").transform;
+            var right = new GameObject("RightEye").transform;
+            left.SetParent(figure.Bones[HumanBodyBones.Head], false);
+            right.SetParent(figure.Bones[HumanBodyBones.Head], false);
+            left.position = new Vector3(-0.03f, 1.7f, 0.08f);
+            right.position = new Vector3(0.03f, 1.7f, 0.08f);
+            var descriptor = figure.Root.AddComponent<VRCAvatarDescriptor>();
+            descriptor.ViewPosition = new Vector3(0, 1.7f, 0.08f);
+            descriptor.collider_head.transform = figure.Bones[HumanBodyBones.Head];
+            figure.Root.AddComponent<VRC.Core.PipelineManager>();
+            figure.Bones[HumanBodyBones.Head].gameObject.AddComponent<VRCPhysBone>();
+            figure.Bones[HumanBodyBones.Chest].gameObject.AddComponent<VRCPhysBoneCollider>();
+            figure.Bones[HumanBodyBones.LeftHand].gameObject.AddComponent<VRCContactSender>();
+            figure.Bones[HumanBodyBones.RightHand].gameObject.AddComponent<VRCContactReceiver>();
+            var paint = new Material(Shader.Find("lilToon")) { name = "Skin lil" };
+            paint.SetFloat("_OutlineWidth", 0.08f);
+            StubProject.Import("Assets/Skin lil.mat", paint);
+            figure.Body.sharedMaterials = new[] { paint, paint };
+        }
+
+        private double Apart(Vector3[] one, Vector3[] other)
+        {
+            double most = 0;
+            for (int i = 0; i < one.Length; i++)
+                most = Math.Max(most, Vector3.Distance(one[i], other[i]));
+            return most;
+        }
+
+        private void IsDressed(GameObject result, string how)
+        {
+            double coat = Apart(wantedCoat, ConversionTests.Drawn(result, "Coat")), hair = Apart(wantedHair, ConversionTests.Drawn(result, "Hair"));
+            Vector3 eyes = (ConversionTests.Find(result, "LeftEye").position + ConversionTests.Find(result, "RightEye").position) * 0.5f - result.transform.position;
+            float view = Vector3.Distance(eyes, result.GetComponent<VRCAvatarDescriptor>().ViewPosition);
+            Console.WriteLine(how + ": coat " + (coat / Height).ToString("0.0E0") + ", hair " + (hair / Height).ToString("0.0E0") + ", view " + (view / Height).ToString("0.0E0") + " of the height off");
+            Assert.That(coat, Is.LessThan(1e-3 * Height), how);
+            Assert.That(hair, Is.LessThan(1e-3 * Height), how);
+            Assert.That(view, Is.LessThan(2e-3f * Height), how);
+            Assert.AreEqual(0.08f * ratio, ConversionTests.Find(result, "Body").GetComponent<SkinnedMeshRenderer>().sharedMaterial.GetFloat("_OutlineWidth"), 1e-3, how);
+            Assert.AreEqual(100, ConversionTests.Find(result, "Body").GetComponent<SkinnedMeshRenderer>().GetBlendShapeWeight(1), how);
+            Assert.AreNotEqual(0.05f, result.GetComponentInChildren<VRCPhysBone>().radius, how);
+            Assert.AreNotEqual(0.05f, result.GetComponentInChildren<VRCPhysBoneCollider>().radius, how);
+            Assert.AreNotEqual(0.05f, result.GetComponentInChildren<VRCContactSender>().radius, how);
+            Assert.AreNotEqual(0.05f, result.GetComponentInChildren<VRCContactReceiver>().radius, how);
+            Assert.AreNotEqual(0.11f, result.GetComponent<VRCAvatarDescriptor>().collider_head.radius, how);
+        }
+
+        [Test]
+        public void it_comes_out_dressed_by_the_window_the_menu_a_batch_and_a_build()
+        {
+            string before = Fingerprint.Of(figure.Root);
+            var findings = AvatarChecks.Of(figure.Root);
+            Assert.That(findings.FindAll(finding => finding.Severity == Severity.Error), Is.Empty);
+            Assert.That(findings.Exists(finding => finding.Key == "outfit"));
+
+            ConverterWindow window = ConverterWindow.Open(figure.Root);
+            window.Model.Settings = Settings();
+            window.Model.Touch();
+            window.Model.Convert();
+            StubEditor.Tick();
+            Assert.That(window.Model.Failure, Is.Null, window.Model.Failure == null ? "" : window.Model.Failure.Text);
+            string path = window.Model.Result.PrefabPath;
+            IsDressed(window.Model.Result.Prefab, "window");
+
+            Selection.activeGameObject = figure.Root;
+            Assert.That(MenuItems.CanConvertSelected());
+            MenuItems.ConvertSelected();
+            IsDressed(AssetDatabase.LoadAssetAtPath<GameObject>(path), "menu command, a second time");
+            window.Close();
+
+            BatchReport report = BatchConvert.Convert(new[] { figure.Root }, Settings());
+            Assert.AreEqual(0, report.Failed);
+            Assert.AreEqual(path, report.Entries[0].Result.PrefabPath);
+            Assert.That(report.Entries[0].Result.Updated);
+            IsDressed(report.Entries[0].Result.Prefab, "batch, a third time");
+
+            GameObject clone = UnityEngine.Object.Instantiate(figure.Root);
+            SettingsText.Give(clone.AddComponent<SuperDeformAvatar>(), Settings());
+            NdmfStub.Build<SuperDeformPlugin>(clone);
+            Assert.That(NdmfStub.Report.FindAll(line => line.StartsWith("Error") || line.StartsWith("Internal")), Is.Empty);
+            IsDressed(clone, "NDMF");
+            Assert.AreEqual("avtr_1", clone.GetComponent<VRC.Core.PipelineManager>().blueprintId);
+            Assert.AreEqual(before, Fingerprint.Of(figure.Root), "the source");
+        }
+    }
+}
