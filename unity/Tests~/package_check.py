@@ -293,7 +293,7 @@ def check_documentation(root):
     words = plain(manual)
     said = [f"Documentation~/superdeform.md does not explain {key}: {texts(root, 'en')[key]}"
             for key in failures(root) if plain(texts(root, "en")[key]) not in words]
-    for page in [root / "README.md", root / "Documentation~" / "superdeform.md"]:
+    for page in [root / "README.md", *sorted((root / "Documentation~").glob("*.md"))]:
         for target in re.findall(r"\]\((?!https?:|#)([^)#]+)", read(page)):
             if not (page.parent / target.replace("%20", " ")).exists():
                 said.append(f"{page.relative_to(root)} links to {target}, which is not there")
