@@ -155,6 +155,63 @@ public sealed class Deformer : NativeObject
         Failure.Check(status, &error);
     }
 
+    /// <summary>
+    /// Maps colliders of springs: their points go as MapPoints has it, and they are as thick as the mesh around them, a capsule
+    /// across its axis. One that a spring would newly start inside of yields, by a fifth of its radius at most.
+    /// </summary>
+    /// <param name="springs">What colliders may name; null for none.</param>
+    /// <exception cref="InvalidInputException">With the collider, or the spring, as the element.</exception>
+    public unsafe SpringCollider[] MapColliders(SpringCollider[] colliders, SpringBall[] springs = null)
+    {
+        if (colliders == null) throw new ArgumentNullException("colliders");
+        SpringCollider[] results = (SpringCollider[])colliders.Clone();
+        SdefCollider[] native = new SdefCollider[colliders.Length];
+        SdefSpringBall[] balls = Array.ConvertAll(springs ?? new SpringBall[0], ball => new SdefSpringBall
+        {
+            struct_size = (uint)sizeof(SdefSpringBall), joint = ball.Joint, x = ball.X, y = ball.Y, z = ball.Z, radius = ball.Radius
+        });
+        List<uint> named = new List<uint>();
+        foreach (SpringCollider collider in colliders) named.AddRange(collider.Springs ?? new uint[0]);
+        uint[] all = named.ToArray();
+        SdefError error = Failure.None();
+        uint status;
+        fixed (SdefCollider* items = native)
+        fixed (SdefSpringBall* ballsIn = balls)
+        fixed (uint* names = all)
+        {
+            uint* next = names;
+            for (int i = 0; i < colliders.Length; i++)
+            {
+                SpringCollider from = colliders[i];
+                int count = from.Springs == null ? 0 : from.Springs.Length;
+                items[i] = new SdefCollider
+                {
+                    struct_size = (uint)sizeof(SdefCollider), kind = (uint)from.Kind, joint = from.Joint, spring_count = (uint)count,
+                    springs = count == 0 ? null : next, x = from.X, y = from.Y, z = from.Z,
+                    end_x = from.EndX, end_y = from.EndY, end_z = from.EndZ, radius = from.Radius
+                };
+                next += count;
+            }
+            status = Native.sdef_deformer_map_colliders(Raw, items, (UIntPtr)(uint)native.Length, ballsIn, (UIntPtr)(uint)balls.Length, items, &error);
+        }
+        GC.KeepAlive(this);
+        Failure.Check(status, &error);
+        for (int i = 0; i < results.Length; i++)
+        {
+            SdefCollider to = native[i];
+            results[i].X = to.x;
+            results[i].Y = to.y;
+            results[i].Z = to.z;
+            results[i].EndX = to.end_x;
+            results[i].EndY = to.end_y;
+            results[i].EndZ = to.end_z;
+            results[i].Radius = to.radius;
+            results[i].Yielded = to.yielded;
+            results[i].NewlyInside = to.newly_inside;
+        }
+        return results;
+    }
+
     /// <summary>What is done to each bone group.</summary>
     public unsafe Group[] GetGroups()
     {

@@ -73,10 +73,10 @@ namespace SuperDeform.Editor
             rows["VRC.SDK3.Avatars.Components.VRCStation"] = new Rule[0];
             rows["VRC.SDK3.Avatars.Components.VRCHeadChop"] = new Rule[0];
             rows["VRC.Core.PipelineManager"] = new[] { Identity("blueprintId") };
-            rows[Dynamics + "PhysBone.Components.VRCPhysBone"] = new[] { Frame("rootTransform"), ChainLength("radius"), EndPoint("endpointPosition") };
-            Rule[] shape = { Frame("rootTransform"), Capsule("position", "radius", "height", "rotation"), Point("position") };
+            rows[Dynamics + "PhysBone.Components.VRCPhysBone"] = new[] { InSpaceOf("rootTransform"), ChainLength("radius"), EndPoint("endpointPosition") };
+            Rule[] shape = { InSpaceOf("rootTransform"), Capsule("position", "radius", "height", "rotation"), Point("position") };
             rows[Dynamics + "PhysBone.Components.VRCPhysBoneCollider"] = shape;
-            Rule[] contact = { Frame("rootTransform"), Capsule("position", "radius", "height", "rotation"), Sides("size", "position"), Point("position") };
+            Rule[] contact = { InSpaceOf("rootTransform"), Capsule("position", "radius", "height", "rotation"), Sides("size", "position"), Point("position") };
             rows[Dynamics + "Contact.Components.VRCContactSender"] = contact;
             rows[Dynamics + "Contact.Components.VRCContactReceiver"] = contact;
             rows[Dynamics + "Constraint.Components.VRCPositionConstraint"] = new[] { RestPosition("PositionAtRest", "TargetTransform"), Length("PositionOffset") };
@@ -92,10 +92,10 @@ namespace SuperDeform.Editor
                 rows[Dynamics + "Constraint.Components.VRC" + kind + "Constraint"] = new Rule[0];
             }
             string portable = "nadena.dev.ndmf.multiplatform.components.";
-            rows[portable + "PortableDynamicBone"] = new[] { Frame("m_root"), ChainLength("m_baseRadius.m_value") };
+            rows[portable + "PortableDynamicBone"] = new[] { InSpaceOf("m_root"), ChainLength("m_baseRadius.m_value") };
             rows[portable + "PortableDynamicBoneCollider"] = new[]
             {
-                Frame("m_root"), Capsule("m_positionOffset", "m_radius", "m_height", "m_rotationOffset"), Point("m_positionOffset")
+                InSpaceOf("m_root"), Capsule("m_positionOffset", "m_radius", "m_height", "m_rotationOffset"), Point("m_positionOffset")
             };
         }
 
@@ -111,7 +111,7 @@ namespace SuperDeform.Editor
             foreach (string part in parts)
             {
                 string at = "collider_" + part + ".";
-                rules.Add(Frame(at + "transform"));
+                rules.Add(InSpaceOf(at + "transform"));
                 rules.Add(Capsule(at + "position", at + "radius", at + "height", at + "rotation"));
                 rules.Add(Point(at + "position"));
             }
@@ -126,7 +126,7 @@ namespace SuperDeform.Editor
         {
             rows["DynamicBone"] = new[]
             {
-                Frame("m_Root"), ChainLength("m_Radius"), ChainLength("m_Gravity"), ChainLength("m_Force"), EndLength("m_EndOffset")
+                InSpaceOf("m_Root"), ChainLength("m_Radius"), ChainLength("m_Gravity"), ChainLength("m_Force"), EndLength("m_EndOffset")
             };
             rows["DynamicBoneCollider"] = new[]
             {
@@ -278,7 +278,7 @@ namespace SuperDeform.Editor
             const string modular = "nadena.dev.modular_avatar.core.", optimizer = "Anatawa12.AvatarOptimizer.";
             rows[modular + "ModularAvatarGlobalCollider"] = new[]
             {
-                Frame("m_rootTransform.targetObject"), Capsule("m_position", "m_radius", "m_height", "m_rotation"), Point("m_position")
+                InSpaceOf("m_rootTransform.targetObject"), Capsule("m_position", "m_radius", "m_height", "m_rotation"), Point("m_position")
             };
             rows[optimizer + "RemoveMeshInBox"] = new[] { Sides("boxes[*].size", "boxes[*].center"), Point("boxes[*].center") };
             rows[optimizer + "MergePhysBone"] = new[] { Length("radiusConfig.value"), Length("endpointPositionConfig.value") };

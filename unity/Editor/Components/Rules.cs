@@ -11,7 +11,7 @@ namespace SuperDeform.Editor
     internal static class Rules
     {
         /// <summary>Points of the rules after it are in the space of the transform at a path, where that is set.</summary>
-        internal static Rule Frame(string path)
+        internal static Rule InSpaceOf(string path)
         {
             return scope => scope.Frame = scope.TransformAt(path) ?? scope.Component.transform;
         }

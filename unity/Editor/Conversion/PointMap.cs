@@ -101,9 +101,9 @@ namespace SuperDeform.Editor
         {
             Place(joint, Double3.Of(local));
             Double3 axis = Direction(joint, direction);
-            Double3 aside = axis.Cross(Math.Abs(axis.X) < 0.7 ? new Double3(1, 0, 0) : new Double3(0, 1, 0)).Normalized;
-            // The area of a section: it is the same whichever two ways across are taken.
-            double area = Stretched(aside).Cross(Stretched(axis.Cross(aside))).Length;
+            // How volume grows over how the axis does: the area of a section across where the axis comes to lie.
+            double volume = Stretched(new Double3(1, 0, 0)).Dot(Stretched(new Double3(0, 1, 0)).Cross(Stretched(new Double3(0, 0, 1))));
+            double area = Math.Abs(volume) / Stretched(axis).Length;
             return area > 0 && !double.IsInfinity(area) ? (float)Math.Sqrt(area) : 1;
         }
 

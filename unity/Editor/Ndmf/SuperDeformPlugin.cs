@@ -81,7 +81,7 @@ namespace SuperDeform.Editor.Ndmf
 
         private static Localizer Texts
         {
-            get { return texts ?? (texts = new Localizer("en-US", Languages)); }
+            get { return texts ?? (texts = new Localizer("en-US", new Func<List<ValueTuple<string, Func<string, string>>>>(Languages))); }
         }
 
         // Sentences come whole and in the package's own language; the title alone is looked up.

@@ -162,6 +162,41 @@ public sealed class DeformerTests
     }
 
     [Test]
+    public void Colliders_go_where_their_points_go_and_yield_to_springs()
+    {
+        uint head = (uint)figure.Skeleton.RoleJoints[(int)HumanoidRole.Head];
+        double[] at = new double[3], positions = new double[3], scales = new double[1];
+        for (int i = 0; i < 3; i++) at[i] = figure.Skeleton.RestMatrices[16 * head + 12 + i];
+        deformer.MapPoints(new[] { head }, at, positions, scales);
+        SpringCollider sphere = new SpringCollider { Kind = ColliderKind.Sphere, Joint = head, X = at[0], Y = at[1], Z = at[2], Radius = 0.05 };
+        SpringCollider moved = deformer.MapColliders(new[] { sphere })[0];
+        Assert.AreEqual(positions[0], moved.X, 1e-12);
+        Assert.AreEqual(positions[1], moved.Y, 1e-12);
+        Assert.AreEqual(positions[2], moved.Z, 1e-12);
+        Assert.AreEqual(0.05 * scales[0], moved.Radius, 1e-9);
+        Assert.AreEqual(0.0, moved.Yielded);
+        // A capsule of the head's two ends; a plane keeps the length of its normal.
+        SpringCollider capsule = new SpringCollider { Kind = ColliderKind.Capsule, Joint = head, X = at[0], Y = at[1], Z = at[2], EndX = at[0], EndY = at[1] + 0.1, EndZ = at[2], Radius = 0.05 };
+        SpringCollider plane = new SpringCollider { Kind = ColliderKind.Plane, Joint = head, X = at[0], Y = at[1], Z = at[2], EndX = 0, EndY = 2, EndZ = 0 };
+        // A spring that does not move with the head: the head grows into it.
+        SpringBall ball = new SpringBall { Joint = 0, X = at[0] + 0.0601, Y = at[1], Z = at[2], Radius = 0.01 };
+        sphere.Springs = new uint[] { 0 };
+        SpringCollider[] all = deformer.MapColliders(new[] { capsule, plane, sphere }, new[] { ball });
+        double[] top = { at[0], at[1] + 0.1, at[2] }, end = new double[3];
+        deformer.MapPoints(new[] { head }, top, end);
+        Assert.AreEqual(end[1], all[0].EndY, 1e-12);
+        Assert.IsTrue(all[0].Radius > 0);
+        Assert.AreEqual(2.0, all[1].EndY, 1e-9);
+        Assert.IsTrue(all[2].Yielded >= 0 && all[2].Yielded <= 0.2, all[2].Yielded.ToString());
+        Assert.AreEqual(moved.Radius * (1 - all[2].Yielded), all[2].Radius, 1e-9);
+        Assert.AreEqual(0, deformer.MapColliders(new SpringCollider[0]).Length);
+        plane.Joint = 99;
+        Assert.AreEqual(1, Thrown.Invalid(Status.BadInput, () => deformer.MapColliders(new[] { capsule, plane })).Element);
+        ball.Joint = 99;
+        Assert.AreEqual(0, Thrown.Invalid(Status.BadInput, () => deformer.MapColliders(new[] { sphere }, new[] { ball })).Element);
+    }
+
+    [Test]
     public void Groups_have_names_scales_and_sizes()
     {
         Options options = new Options();

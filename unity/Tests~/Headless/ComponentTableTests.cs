@@ -70,7 +70,8 @@ namespace SuperDeform.Editor.Tests
             Vector3 other = Vector3.Cross(axis.normalized, one);
             Vector3 first = map.Point(frame, at + one * 1e-3f) - map.Point(frame, at - one * 1e-3f);
             Vector3 second = map.Point(frame, at + other * 1e-3f) - map.Point(frame, at - other * 1e-3f);
-            return Mathf.Sqrt(Vector3.Cross(first, second).magnitude) / 2e-3f;
+            Vector3 along = map.Point(frame, at + axis.normalized * 1e-3f) - map.Point(frame, at - axis.normalized * 1e-3f);
+            return Mathf.Sqrt(Mathf.Abs(Vector3.Dot(Vector3.Cross(first, second), along.normalized))) / 2e-3f;
         }
 
         private static object Times(object old, float scale)
