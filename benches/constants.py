@@ -183,7 +183,7 @@ def prepare(scratch, files):
                 sites += rewrite(path, name)
         library = sources / "lib.rs"
         text = library.read_text()
-        library.write_text(text.replace("\npub mod character;", PROBE + "\npub mod character;", 1))
+        library.write_text(re.sub(r"\n((?:pub )?mod character;)", lambda found: PROBE + found[0], text, count=1))
         listed.parent.mkdir(exist_ok=True)
         listed.write_text(json.dumps(sites))
     environment = {**os.environ, "CARGO_PROFILE_RELEASE_DEBUG": "0", "CARGO_PROFILE_RELEASE_OPT_LEVEL": "2", "CARGO_INCREMENTAL": "0"}

@@ -42,6 +42,18 @@ static void mistakes_of_the_caller(void) {
   SdefMesh mesh = figure.mesh;
   mesh.positions = NULL;
   FAILS(SDEF_STATUS_BAD_ARGUMENT, sdef_character_add_mesh(character, &mesh, NULL, &error));
+  SdefSkeleton skeleton = figure.skeleton;
+  skeleton.rest_matrices = NULL;
+  FAILS(SDEF_STATUS_BAD_ARGUMENT, sdef_character_set_skeleton(character, &skeleton, &error));
+  CHECK(strstr(error.message, "rest_matrices") != NULL);
+  // Structs of one array have one size, whatever it is.
+  SdefOptions options;
+  SdefGroupSettings groups[2] = {SDEF_GROUP_SETTINGS_INIT, SDEF_GROUP_SETTINGS_INIT};
+  OK(sdef_options_init(&options, sizeof options, &error));
+  groups[0].group = "torso", groups[1].group = "head", groups[1].struct_size += 8;
+  options.groups = groups, options.group_count = 2;
+  SdefDeformer none;
+  FAILS(SDEF_STATUS_BAD_ARGUMENT, sdef_deformer_create(character, style, &options, NULL, NULL, &none, &error));
   const SdefStyle gone = style;
   OK(sdef_style_from_text("sd2", 3, &style, &error));
   OK(sdef_destroy(gone.id, &error));

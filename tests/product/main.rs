@@ -8,9 +8,12 @@ mod people;
 
 mod anatomy;
 mod coefficients;
+mod curtain;
 mod field;
 mod hair;
+mod head;
 mod landmarks;
+mod long_hair;
 mod models;
 mod part;
 mod pieces;
