@@ -62,8 +62,32 @@ static void without_threads_the_bits_are_the_same(void) {
   free(refusing);
 }
 
+// A job system of one thread, which does what it is given last first.
+static int tasks = 0;
+
+static void run_backwards(void *user, SdefTask task, void *data, uint32_t count) {
+  CHECK(user == &tasks && count > 1);
+  for (uint32_t index = count; index > 0; index--) task(data, index - 1), tasks++;
+}
+
+static void a_job_system_does_the_work_in_place_of_threads(void) {
+  float *alone = (float *)calloc(3 * VERTICES, sizeof *alone), *jobs = (float *)calloc(3 * VERTICES, sizeof *alone);
+  deform(1, alone);
+  refused = 0;
+  OK(sdef_set_jobs(run_backwards, &tasks, &error));
+  deform(4, jobs);
+  CHECK(refused == 0 && tasks > 20);
+  CHECK(memcmp(alone, jobs, 3 * VERTICES * sizeof *alone) == 0);
+  OK(sdef_set_jobs(NULL, NULL, &error));
+  deform(4, jobs);
+  CHECK(refused > 0);
+  free(alone);
+  free(jobs);
+}
+
 int main(void) {
   figure_make(&figure);
   RUN(without_threads_the_bits_are_the_same);
+  RUN(a_job_system_does_the_work_in_place_of_threads);
   return REPORT();
 }

@@ -170,6 +170,38 @@ static void progress_comes_on_the_callers_thread() {
   CHECK(!elsewhere);
 }
 
+// A job system with threads of its own: results are the same bits, progress still comes here.
+static void a_hosts_own_threads_do_the_work() {
+  const std::vector<float> same = expected();
+  std::atomic<int> tasks{0};
+  const SdefJobs jobs = [](void *user, SdefTask task, void *data, uint32_t count) {
+    run(static_cast<int>(count), [&](int index) {
+      task(data, static_cast<uint32_t>(index));
+      ++*static_cast<std::atomic<int> *>(user);
+    });
+  };
+  OK(sdef_set_jobs(jobs, &tasks, nullptr));
+  const superdeform::Character made = character();
+  superdeform::Options options;
+  options.thread_count = 3;
+  const std::thread::id here = std::this_thread::get_id();
+  bool is_here = true;
+  const superdeform::Deformer deformer(made, superdeform::Style::from_heads(2.5), options, [&](float) {
+    is_here = is_here && std::this_thread::get_id() == here;
+  });
+  CHECK(deformed(deformer) == same && is_here);
+  superdeform::Character bare;
+  SdefMesh mesh = figure().mesh;
+  mesh.influence_count = 0;
+  mesh.joints = mesh.weights = nullptr;
+  mesh.joint_stride = mesh.weight_stride = 0;
+  bare.add_mesh(mesh);
+  options.rig_voxel_resolution = 32;
+  bare.rig(options);
+  CHECK(tasks > 0);
+  OK(sdef_set_jobs(nullptr, nullptr, nullptr));
+}
+
 int main() {
   figure();
   RUN(eight_hosts_do_not_meet);
@@ -178,5 +210,6 @@ int main() {
   RUN(what_is_destroyed_elsewhere_ends_with_its_last_use);
   RUN(a_callback_that_changes_what_calls_it_is_told_so);
   RUN(progress_comes_on_the_callers_thread);
+  RUN(a_hosts_own_threads_do_the_work);
   return REPORT();
 }

@@ -17,16 +17,17 @@
 //            winding: a mirrored character gives the mirrored result. Vertices are floats, joints and points doubles.
 // Matrices   16 doubles, column by column, for column vectors: the translation is numbers 12, 13 and 14, and numbers
 //            3, 7, 11 and 15 are 0, 0, 0 and 1.
-// Results    The feet stay on the ground. The height does not stay: a figure of fewer heads is shorter. sdef_deformer_
-//            get_figure says how tall it was and is; scale what belongs to it (capsules, cameras, steps) by that.
+// Results    The feet stay on the ground. The height does not: a figure of fewer heads is shorter, one that has as few
+//            already keeps its size (SdefOptions.height asks for another). sdef_deformer_get_figure says how tall it
+//            was and is; scale what belongs to it (capsules, cameras, steps) by that.
 // Handles    A handle is a number, not an address. 0 is none. One that is destroyed, made up or of another kind gives
 //            SDEF_STATUS_BAD_HANDLE and nothing worse. Styles and deformers keep what they need of a character, which
 //            may be changed or destroyed before them.
 // Threads    Any thread may call anything at any time. Calls that read may run beside each other on one handle; where a
 //            call that changes a handle meets another use of it, the later of the two gets SDEF_STATUS_BUSY (so does
 //            a progress callback that changes what it is called from). No thread outlives a call. Where the system
-//            starts no more threads, a call uses fewer. Results are the same bits for any number of threads and on
-//            every run.
+//            starts no more threads, a call uses fewer; a host's own may do the work (sdef_set_jobs). Results are the
+//            same bits for any number of threads and on every run.
 // Arrays in  A pointer, a count, and for vertices a stride: the bytes from one element to the next, 0 for packed. They
 //            need no alignment, are read during the call and never kept. NULL is allowed where the count is 0, and for
 //            arrays that may be left out, which say so.
@@ -42,9 +43,10 @@
 //            and 1 stand for no and yes.
 // Errors     Every call that can fail returns a SdefStatus; its last argument, which may be NULL, receives a sentence
 //            that names the array, the element, the value and the remedy. Other results are then as they were.
-// Progress   A callback (NULL: none) that is called on the caller's thread alone, with a fraction that rises to 1.
-//            What it returns, if not 0, ends the call with SDEF_STATUS_CANCELLED and leaves everything as it was. It
-//            may call the library, and must return: neither a C++ exception nor longjmp may leave it.
+// Progress   A callback (NULL: none) that is called on the caller's thread alone, with a fraction that rises to 1: some
+//            twenty times by rig and deformer_create, a few times by other calls. What it returns, if not 0, ends the
+//            call with SDEF_STATUS_CANCELLED and leaves everything as it was. It may call the library, and must return:
+//            neither a C++ exception nor longjmp may leave it.
 // Memory     Every call asks for what it needs at most before it begins; SDEF_STATUS_OUT_OF_MEMORY if it is not there.
 //            Where there is too little for more threads it works on one. The process can still end where less than
 //            1 MiB is left, or where other threads take what was there in the meantime.
@@ -152,6 +154,28 @@ uint64_t sdef_live_handles(void);
 // Errors: BAD_HANDLE.
 SdefStatus sdef_destroy(uint64_t handle, SdefError *error);
 
+// ---- Threads of the host --------------------------------------------------------------------------------------------
+//
+// The library starts threads where a call needs them, and ends them with it. A job system of the host's own may do the
+// work instead. There is no such hook for memory: a call gives back what it takes but for what handles keep, and all of
+// it comes from malloc (Windows: the process heap), where hosts count it already.
+
+// One piece of a call's work, to be called by SdefJobs: task(data, index).
+typedef void (*SdefTask)(void *data, uint32_t index);
+
+// A job system: calls task(data, index) once for every index below count, on any threads, beside each other or not,
+// and returns when all of these calls have returned. user is handed on.
+typedef void (*SdefJobs)(void *user, SdefTask task, void *data, uint32_t count);
+
+// Has jobs do the work of all calls that this thread makes from now on, in place of threads of the library's own, which
+// are then not started. Results are the same bits. Tasks neither wait for each other nor call jobs again; there are at
+// most thread_count (SdefOptions) at a time, and a progress callback still comes on the caller's thread alone, between
+// them.
+//
+// jobs: NULL: threads of the library's own again
+// user: handed on; must live until jobs is set anew, or this thread ends
+SdefStatus sdef_set_jobs(SdefJobs jobs, void *user, SdefError *error);
+
 // ---- Options --------------------------------------------------------------------------------------------------------
 //
 // One struct for everything that can be set; each function reads what concerns it.
@@ -237,7 +261,7 @@ typedef struct SdefOptions {
   uint32_t reserved;                // 0
   double height;                    // how tall the result is, in the character's units, grown or shrunk as a whole
                                     // about the ground; 0: as tall as the character was; NAN (default): as the style
-                                    // makes it
+                                    // makes it, in product mode at most as tall as it was
   double youth;                     // the face from its own age (0) to a child's, or the reference's (1, default)
   double youth_eye;                 // of youth, 0 to 1 (default): eyes grow, lids open
   double youth_lower;               // of youth, 0 to 1 (default): eyes and all beside them sink

@@ -1,7 +1,11 @@
 //! Work shared out among threads. Every item is made by itself, so results do not depend on how many there are.
 
-use std::cell::Cell;
+use std::cell::{Cell, RefCell};
 use std::ops::Range;
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
+use std::rc::Rc;
+use std::sync::{Mutex, PoisonError};
+use std::thread::LocalKey;
 
 /// The name of every thread that this module starts.
 pub const WORKER: &str = "superdeform";
@@ -9,21 +13,51 @@ pub const WORKER: &str = "superdeform";
 /// More threads than this are of no use, and tens of thousands are more than a system can start.
 const MOST_THREADS: usize = 1024;
 
+/// A host's own way to run tasks beside each other, such as an engine's job system.
+pub trait Jobs {
+    /// Runs `task` of every index below `count`, on whichever threads, and waits for all of them.
+    fn run(&self, count: usize, task: &(dyn Fn(usize) + Sync));
+}
+
 thread_local! {
     /// This thread starts no others.
     static ALONE: Cell<bool> = const { Cell::new(false) };
+    /// This thread is in a task of [`Jobs`].
+    static IN_TASK: Cell<bool> = const { Cell::new(false) };
+    /// What runs this thread's tasks in place of threads that are started for them.
+    static JOBS: RefCell<Option<Rc<dyn Jobs>>> = const { RefCell::new(None) };
+}
+
+/// Runs `work` while `flag` is set.
+fn within<T>(flag: &'static LocalKey<Cell<bool>>, work: impl FnOnce() -> T) -> T {
+    struct Before(&'static LocalKey<Cell<bool>>, bool);
+    impl Drop for Before {
+        fn drop(&mut self) {
+            self.0.set(self.1);
+        }
+    }
+    let _before = Before(flag, flag.replace(true));
+    work()
 }
 
 /// Runs `work` on this thread alone: where there is no memory for the stacks of others.
 pub(crate) fn alone<T>(work: impl FnOnce() -> T) -> T {
-    struct Before(bool);
-    impl Drop for Before {
-        fn drop(&mut self) {
-            ALONE.set(self.0);
-        }
-    }
-    let _before = Before(ALONE.replace(true));
-    work()
+    within(&ALONE, work)
+}
+
+/// Has this thread's tasks run by `jobs` from now on; `None`: by threads that are started for them.
+pub(crate) fn set_jobs(jobs: Option<Rc<dyn Jobs>>) {
+    JOBS.set(jobs);
+}
+
+/// What runs this thread's tasks, where it is not to work alone.
+pub(crate) fn jobs() -> Option<Rc<dyn Jobs>> {
+    if ALONE.get() { None } else { JOBS.with_borrow(Clone::clone) }
+}
+
+/// True where this thread works for another one.
+pub(crate) fn is_worker() -> bool {
+    IN_TASK.try_with(Cell::get).unwrap_or(false) || std::thread::current().name() == Some(WORKER)
 }
 
 /// The number of threads that `asked` stands for: 0 means all cores.
@@ -75,14 +109,18 @@ pub fn collect_with<S, T: Send>(
         run(0..count, &mut all);
         return all;
     }
+    let run = &run;
+    let work = move |first: usize| {
+        let indices = first..(first + share).min(count);
+        let mut all = Vec::with_capacity(indices.len());
+        run(indices, &mut all);
+        all
+    };
+    if let Some(jobs) = jobs() {
+        all.extend(by_jobs(&*jobs, count.div_ceil(share), |index| work(index * share)).into_iter().flatten());
+        return all;
+    }
     std::thread::scope(|scope| {
-        let run = &run;
-        let work = move |first: usize| {
-            let indices = first..(first + share).min(count);
-            let mut all = Vec::with_capacity(indices.len());
-            run(indices, &mut all);
-            all
-        };
         let others: Vec<_> =
             (share..count).step_by(share).map(|first| beside(scope, move || work(first))).collect();
         run(0..share.min(count), &mut all);
@@ -91,6 +129,28 @@ pub fn collect_with<S, T: Send>(
         }
     });
     all
+}
+
+/// `make` of every index below `count`, in order, by `jobs`. What these leave out is done here; what they do twice, once.
+fn by_jobs<T: Send>(jobs: &dyn Jobs, count: usize, make: impl Fn(usize) -> T + Sync) -> Vec<T> {
+    let places: Vec<Mutex<Option<std::thread::Result<T>>>> = (0..count).map(|_| Mutex::new(None)).collect();
+    jobs.run(count, &|index| {
+        let Some(place) = places.get(index) else { return };
+        let mut place = place.lock().unwrap_or_else(PoisonError::into_inner);
+        if place.is_none() {
+            // The host's threads are its own: a task uses no others, and no panic leaves it.
+            let work = || catch_unwind(AssertUnwindSafe(|| make(index)));
+            *place = Some(within(&IN_TASK, || alone(work)));
+        }
+    });
+    let take = |(index, place): (usize, Mutex<Option<std::thread::Result<T>>>)| match place
+        .into_inner()
+        .unwrap_or_else(PoisonError::into_inner)
+    {
+        Some(made) => made.unwrap_or_else(|panic| resume_unwind(panic)),
+        None => make(index),
+    };
+    places.into_iter().enumerate().map(take).collect()
 }
 
 /// Work that another thread does, or that is left for when it is asked for.
@@ -103,7 +163,7 @@ impl<W: FnOnce() -> T, T> Beside<'_, W, T> {
     /// What the work gives; a panic of it goes on here.
     fn join(self) -> T {
         match self {
-            Self::Thread(thread) => thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)),
+            Self::Thread(thread) => thread.join().unwrap_or_else(|panic| resume_unwind(panic)),
             Self::Left(work) => work(),
         }
     }
@@ -121,9 +181,9 @@ fn beside<'scope, T: Send + 'scope, W: Clone + FnOnce() -> T + Send + 'scope>(
     }
 }
 
-/// Both results, made side by side where there are two threads to use.
+/// Both results, made side by side where there are two threads to use and they are the library's own.
 pub fn both<A: Send, B>(threads: usize, one: impl Fn() -> A + Sync, other: impl FnOnce() -> B) -> (A, B) {
-    if thread_count(threads) == 1 {
+    if thread_count(threads) == 1 || jobs().is_some() {
         return (one(), other());
     }
     std::thread::scope(|scope| {
@@ -149,6 +209,36 @@ mod tests {
         }
     }
 
+    /// A host that runs tasks backwards, each as often as it is told.
+    struct Backwards(usize);
+
+    impl Jobs for Backwards {
+        fn run(&self, count: usize, task: &(dyn Fn(usize) + Sync)) {
+            // Beyond the last one too, as no host should.
+            (0..=count).rev().for_each(|index| (0..self.0).for_each(|_| task(index)));
+        }
+    }
+
+    #[test]
+    fn jobs_of_a_host_make_the_same_whether_it_runs_each_once_twice_or_not_at_all() {
+        for times in 0..3 {
+            set_jobs(Some(Rc::new(Backwards(times))));
+            let here = std::thread::current().id();
+            let make = |index: usize| (index * index, std::thread::current().id(), is_worker());
+            let made = collect(4, 100, 1, make);
+            let expected: Vec<_> = (0..100).map(|index| (index * index, here, times > 0)).collect();
+            assert_eq!(made, expected);
+            // A task starts none of its own, and shares none out.
+            let inner = collect(4, 4, 1, |_| collect(4, 4, 1, |_| std::thread::current().id()));
+            assert!(inner.iter().flatten().all(|&thread| thread == here));
+            assert_eq!(both(4, || std::thread::current().id(), || 2), (here, 2));
+            let panics = catch_unwind(|| collect(4, 10, 1, |index| assert_ne!(index, 9)));
+            assert!(panics.is_err() && !is_worker());
+            set_jobs(None);
+        }
+        assert!(jobs().is_none());
+    }
+
     #[test]
     fn two_things_are_made_side_by_side() {
         for threads in 0..3 {
@@ -158,7 +248,7 @@ mod tests {
 
     #[test]
     fn a_panic_reaches_the_caller() {
-        let made = std::panic::catch_unwind(|| collect(2, 10, 1, |index| assert_ne!(index, 9)));
+        let made = catch_unwind(|| collect(2, 10, 1, |index| assert_ne!(index, 9)));
         assert!(made.is_err());
     }
 }

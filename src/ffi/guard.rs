@@ -212,8 +212,7 @@ fn keep_quiet() {
         let before = std::panic::take_hook();
         std::panic::set_hook(Box::new(move |info| {
             let in_call = DEPTH.try_with(|depth| depth.get() > 0).unwrap_or(false);
-            let worker = std::thread::current().name() == Some(crate::parallel::WORKER);
-            if !in_call && !worker {
+            if !in_call && !crate::parallel::is_worker() {
                 return before(info);
             }
             if let (Some(at), Ok(mut place)) = (info.location(), PLACE.try_lock()) {

@@ -80,25 +80,55 @@ pub fn to_report(character: &Character) -> usize {
 /// Making a rig, and the character with it.
 pub fn to_rig(character: &Character, options: &RigOptions) -> usize {
     let body = Size::of(character).bytes([1000, 600, 36, 8]);
-    body.saturating_add(voxels(character, options).saturating_mul(VOXEL))
+    let [all, within] = voxels(character, options.voxel_resolution);
+    body.saturating_add(all.saturating_mul(VOXEL)).saturating_add(within.saturating_mul(VOXEL_WITHIN))
 }
 
-/// Bytes a voxel of the box around a figure, of which the figure fills six in ten: 4 for each, 160 more for those within.
-/// People fill one in ten or fewer.
-const VOXEL: usize = 100;
+/// Bytes a voxel of the box around a figure, 4 and half as much again.
+const VOXEL: usize = 6;
+/// Bytes more a voxel within the figure, 160 and half as much again.
+const VOXEL_WITHIN: usize = 240;
+/// Columns on each side of the grid that [`voxels`] looks through.
+const COLUMNS: usize = 64;
 
-fn voxels(character: &Character, options: &RigOptions) -> usize {
+/// How many voxels the box around a figure has, and how many of them are within it at most: between the nearest and the
+/// furthest triangle of each of a grid of columns along the box's shortest side.
+fn voxels(character: &Character, resolution: usize) -> [usize; 2] {
     let positions = character.meshes.iter().flat_map(|mesh| &mesh.positions).map(|p| p.as_dvec3());
     let (low, high) = bounds(positions.filter(|p| p.is_finite()));
     let extent = high - low;
     let longest = extent.max_element();
     if longest <= 0.0 || !longest.is_finite() {
-        return 0;
+        return [0; 2];
     }
-    let resolution = options.voxel_resolution.min(1 << 10) as f64;
+    let resolution = resolution.min(1 << 10) as f64;
     // Two voxels of edge on each side, and one for rounding.
-    let count = (extent / longest * resolution + 5.0).to_array().iter().product::<f64>();
-    count as usize
+    let sides = extent / longest * resolution + 5.0;
+    let depth = (0..3).min_by(|&a, &b| extent[a].total_cmp(&extent[b])).unwrap_or(2);
+    let (across, up) = ((depth + 1) % 3, (depth + 2) % 3);
+    let mut columns = vec![(f64::INFINITY, f64::NEG_INFINITY); COLUMNS * COLUMNS];
+    let column = |p: f64, axis: usize| {
+        let share = (p - low[axis]) / extent[axis].max(f64::MIN_POSITIVE);
+        ((share * COLUMNS as f64) as usize).min(COLUMNS - 1)
+    };
+    for mesh in &character.meshes {
+        for corners in &mesh.triangles {
+            let corners = corners.map(|corner| mesh.positions[corner as usize].as_dvec3());
+            let (from, to) = bounds(corners);
+            for row in column(from[up], up)..=column(to[up], up) {
+                for place in column(from[across], across)..=column(to[across], across) {
+                    let seen = &mut columns[row * COLUMNS + place];
+                    *seen = (seen.0.min(from[depth]), seen.1.max(to[depth]));
+                }
+            }
+        }
+    }
+    // The surface's own voxels count too, on either side.
+    let through = |&(from, to): &(f64, f64)| (to - from) / longest * resolution + 3.0;
+    let seen: f64 = columns.iter().filter(|(from, to)| from <= to).map(through).sum();
+    let all = sides.element_product();
+    let within = seen * sides[across] * sides[up] / (COLUMNS * COLUMNS) as f64;
+    [all as usize, within.min(all) as usize]
 }
 
 /// Runs `work` where there are `bytes` of memory, on one thread where there is not enough for more.
@@ -118,6 +148,7 @@ pub fn with<T>(bytes: usize, threads: usize, work: impl FnOnce() -> Outcome<T>) 
     }
     let others = match threads {
         1 => 0,
+        _ if parallel::jobs().is_some() => 0,
         threads => parallel::thread_count(threads).min(table::MOST_THREADS as usize) - 1,
     };
     for _ in 0..others {

@@ -183,7 +183,7 @@ pub struct SdefOptions {
     /// 0
     pub reserved: u32,
     /// how tall the result is, in the character's units, grown or shrunk as a whole about the ground; 0: as tall as the
-    /// character was; NAN (default): as the style makes it
+    /// character was; NAN (default): as the style makes it, in product mode at most as tall as it was
     pub height: f64,
     /// the face from its own age (0) to a child's, or the reference's (1, default)
     pub youth: f64,

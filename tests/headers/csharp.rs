@@ -135,6 +135,16 @@ fn mended(block: &str) -> String {
             "internal unsafe delegate Int32 SdefProgress(void* user, float fraction);",
         ),
         ("int32_void_ptr_float_fptr", "SdefProgress"),
+        (
+            "public unsafe /* static */ delegate\n    void\n    void_void_ptr_void_void_ptr_uint32_fptr_void_ptr_uint32_fptr (\n        void * _0,\n        void_void_ptr_uint32_fptr _1,\n        void * _2,\n        UInt32 _3);",
+            "internal unsafe delegate void SdefJobs(void* user, SdefTask task, void* data, UInt32 count);",
+        ),
+        ("void_void_ptr_void_void_ptr_uint32_fptr_void_ptr_uint32_fptr", "SdefJobs"),
+        (
+            "public unsafe /* static */ delegate\n    void\n    void_void_ptr_uint32_fptr (\n        void * _0,\n        UInt32 _1);",
+            "internal unsafe delegate void SdefTask(void* data, UInt32 index);",
+        ),
+        ("void_void_ptr_uint32_fptr", "SdefTask"),
         (" /*const*/", ""),
     ] {
         text = text.replace(from, to);

@@ -100,7 +100,7 @@ fn shape(declared: &str) -> String {
     if declared == "void" || declared.is_empty() {
         return "no argument".to_string();
     }
-    if declared.contains("(*") || declared.contains("SdefProgress") {
+    if ["(*", "_fptr", "SdefProgress", "SdefJobs"].iter().any(|callback| declared.contains(callback)) {
         return "callback".to_string();
     }
     let depth = declared.matches('*').count();

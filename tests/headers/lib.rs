@@ -19,8 +19,8 @@ pub fn root() -> PathBuf {
 }
 
 /// The modules of `src/ffi` that are the header's sections, in order.
-pub const SECTIONS: [&str; 8] =
-    ["basics", "lifetime", "options", "character", "rig", "style", "deformer", "all_at_once"];
+pub const SECTIONS: [&str; 9] =
+    ["basics", "lifetime", "jobs", "options", "character", "rig", "style", "deformer", "all_at_once"];
 
 /// The text of a file of `src/ffi`.
 fn read(path: &str) -> Option<String> {

@@ -512,6 +512,21 @@ internal static unsafe partial class Native
         SdefError* error);
 
     /// <summary>
+    /// Has jobs do the work of all calls that this thread makes from now on, in place of threads of the library's own, which
+    /// are then not started. Results are the same bits. Tasks neither wait for each other nor call jobs again; there are at
+    /// most thread_count (SdefOptions) at a time, and a progress callback still comes on the caller's thread alone, between
+    /// them.
+    ///
+    /// jobs: NULL: threads of the library's own again
+    /// user: handed on; must live until jobs is set anew, or this thread ends
+    /// </summary>
+    [DllImport(Library, ExactSpelling = true, CallingConvention = CallingConvention.Cdecl)]
+    internal static extern UInt32 sdef_set_jobs(
+        SdefJobs jobs,
+        void* user,
+        SdefError* error);
+
+    /// <summary>
     /// The name of a status, such as "SDEF_STATUS_BUSY"; "unknown status" for other numbers. Static text.
     /// </summary>
     [DllImport(Library, ExactSpelling = true, CallingConvention = CallingConvention.Cdecl)]
@@ -1229,7 +1244,7 @@ internal unsafe struct SdefOptions {
 
     /// <summary>
     /// how tall the result is, in the character's units, grown or shrunk as a whole about the ground; 0: as tall as the
-    /// character was; NAN (default): as the style makes it
+    /// character was; NAN (default): as the style makes it, in product mode at most as tall as it was
     /// </summary>
     public double height;
 
@@ -1603,6 +1618,12 @@ internal unsafe struct SdefReport {
     /// </summary>
     public UInt64 fallback_vertices;
 }
+
+[UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+internal unsafe delegate void SdefTask(void* data, UInt32 index);
+
+[UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+internal unsafe delegate void SdefJobs(void* user, SdefTask task, void* data, UInt32 count);
 
 /// <summary>
 /// A collider of springs; lengths and points in model space.
