@@ -1,6 +1,7 @@
 //! Heat weights by the number of vertices: `cargo bench --bench heat`.
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use superdeform::Progress;
 use superdeform::internals::rig::heat::{HeatOptions, HeatSystem, heat_weights};
 use superdeform_benches::models;
 
@@ -16,9 +17,10 @@ fn heat(criterion: &mut Criterion) {
                 let options = HeatOptions { heat: 1.0, thread_count: 2 };
                 bencher.iter(|| heat_weights(&positions, &triangles, &body.bones, &options));
             });
-            let system = HeatSystem::new(&positions, &triangles, &body.bones, 2);
+            let system =
+                HeatSystem::new(&positions, &triangles, &body.bones, 2, &mut Progress::none()).unwrap();
             group.bench_function(BenchmarkId::new("another_c", positions.len()), |bencher| {
-                bencher.iter(|| system.weights(3.0));
+                bencher.iter(|| system.weights(3.0, &mut Progress::none()));
             });
         }
         group.finish();

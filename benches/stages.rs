@@ -45,6 +45,7 @@ fn pipeline(criterion: &mut Criterion) {
                     &character.skeleton,
                     &weld,
                     options.thread_count,
+                    &mut Progress::none(),
                 )
             });
         });

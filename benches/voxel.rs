@@ -3,11 +3,11 @@
 use criterion::{Criterion, criterion_group, criterion_main};
 use glam::DVec3;
 use std::collections::BTreeMap;
-use superdeform::Role;
 use superdeform::internals::character::Frame;
 use superdeform::internals::rig::UnitFigure;
 use superdeform::internals::rig::skeleton::weight_bones;
 use superdeform::internals::rig::voxel::{VoxelOptions, heat_would_be_poor, voxel_weights};
+use superdeform::{Progress, Role};
 use superdeform_benches::models;
 
 fn volume(criterion: &mut Criterion) {
@@ -23,7 +23,14 @@ fn volume(criterion: &mut Criterion) {
         group.sample_size(10);
         group.bench_function("voxel_weights", |bencher| {
             bencher.iter(|| {
-                voxel_weights(&figure.positions, &figure.triangles, &bones, &VoxelOptions::default())
+                voxel_weights(
+                    &figure.positions,
+                    &figure.triangles,
+                    &bones,
+                    &VoxelOptions::default(),
+                    &mut Progress::none(),
+                )
+                .unwrap()
             });
         });
         group.bench_function("heat_would_be_poor", |bencher| {

@@ -1,9 +1,13 @@
 //! How far a run is, reported to whoever waits for it, and its wish to stop.
 
 use crate::error::{Error, ErrorKind, Result};
+use crate::parallel;
 
 /// What is called with the share that is done, 0 to 1; false asks to stop.
 pub type Callback<'a> = &'a mut dyn FnMut(f32) -> bool;
+
+/// How many parts a long piece of work is done in, to report between them.
+const PARTS: usize = 8;
 
 /// Reports how far a run is, always on the thread that started it.
 pub struct Progress<'a> {
@@ -34,6 +38,32 @@ impl<'a> Progress<'a> {
             return Ok(());
         }
         Err(Error::new(ErrorKind::Cancelled, "the progress callback asked to stop: everything is as it was"))
+    }
+
+    /// As [`parallel::collect_with`], in up to [`PARTS`] parts with a report after each.
+    ///
+    /// # Errors
+    /// As [`Progress::at`].
+    pub(crate) fn collect_with<S, T: Send>(
+        &mut self,
+        threads: usize,
+        count: usize,
+        least: usize,
+        start: impl Fn() -> S + Sync,
+        make: impl Fn(&mut S, usize) -> T + Sync,
+    ) -> Result<Vec<T>> {
+        // A part has work for every thread.
+        let part = count.div_ceil(PARTS).max(least * parallel::thread_count(threads));
+        let mut all = Vec::with_capacity(count);
+        while all.len() < count {
+            let (first, size) = (all.len(), part.min(count - all.len()));
+            let made = parallel::collect_with(threads, size, least, &start, |state, index| {
+                make(state, first + index)
+            });
+            all.extend(made);
+            self.at(all.len() as f32 / count as f32)?;
+        }
+        Ok(all)
     }
 
     /// The progress of a stage of the work, which takes this one from `from` to `to`.

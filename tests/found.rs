@@ -4,7 +4,7 @@ use glam::{DVec3, Vec3};
 use superdeform::internals::parallel;
 use superdeform::internals::rig::WeightBone;
 use superdeform::internals::rig::voxel::{VoxelOptions, voxel_weights};
-use superdeform::{BodyShape, Character, Heights, Mesh, Proportions, Rig, RigOptions};
+use superdeform::{BodyShape, Character, Heights, Mesh, Progress, Proportions, Rig, RigOptions};
 
 #[test]
 fn more_threads_than_a_system_has_are_no_fault() {
@@ -23,9 +23,17 @@ fn a_bone_far_outside_the_body_is_far_away() {
     for far in [1e7, 1e30, 1e300] {
         let bone = |joint: u32, x: f64| WeightBone { joint, segments: vec![[DVec3::new(x, 0.5, 0.5); 2]] };
         let options = VoxelOptions { resolution: 16, falloff: 0.2, thread_count: 1 };
-        let alone = voxel_weights(&positions, &triangles, &[bone(7, far)], &options);
+        let alone =
+            voxel_weights(&positions, &triangles, &[bone(7, far)], &options, &mut Progress::none()).unwrap();
         assert!(alone.weights.rows().all(|row| row == [(7, 1.0)]), "{far}");
-        let beside = voxel_weights(&positions, &triangles, &[bone(7, far), bone(3, 0.5)], &options);
+        let beside = voxel_weights(
+            &positions,
+            &triangles,
+            &[bone(7, far), bone(3, 0.5)],
+            &options,
+            &mut Progress::none(),
+        )
+        .unwrap();
         assert!(beside.weights.rows().all(|row| row.iter().all(|&(_, weight)| weight >= 0.0)), "{far}");
     }
 }

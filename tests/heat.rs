@@ -2,6 +2,7 @@
 
 use glam::{DMat3, DVec3};
 use std::collections::BTreeMap;
+use superdeform::Progress;
 use superdeform::internals::geometry::{Weld, weld};
 use superdeform::internals::rig::heat::{HeatOptions, HeatSystem, heat_weights};
 use superdeform::internals::rig::skeleton::weight_bones;
@@ -171,9 +172,10 @@ fn on_a_tube_the_weight_falls_off_as_analysis_says() {
         (0.2, 2.0, 16, 120),
     ] {
         let mesh = tube(radius, half_length, sides, rings);
-        let system = HeatSystem::new(&mesh.0, &mesh.1, &tube_bones(half_length), 2);
+        let system =
+            HeatSystem::new(&mesh.0, &mesh.1, &tube_bones(half_length), 2, &mut Progress::none()).unwrap();
         for c in [1.0_f64, 4.0] {
-            let weighted = system.weights(c);
+            let weighted = system.weights(c, &mut Progress::none()).unwrap();
             check(&weighted, mesh.0.len());
             assert!(weighted.fallback.is_empty());
             for (p, weight) in mesh.0.iter().zip(column(&weighted, 7)) {
@@ -188,12 +190,15 @@ fn on_a_tube_the_weight_falls_off_as_analysis_says() {
 #[test]
 fn a_system_gives_what_single_calls_give() {
     let (mesh, bones) = figure();
-    let system = HeatSystem::new(&mesh.0, &mesh.1, &bones, 1);
+    let system = HeatSystem::new(&mesh.0, &mesh.1, &bones, 1, &mut Progress::none()).unwrap();
     for c in [3.0, 1.0] {
-        let weighted = system.weights(c);
+        let weighted = system.weights(c, &mut Progress::none()).unwrap();
         assert!(weighted.weights == heat(&mesh, &bones, c).weights);
     }
-    let (soft, sharp) = (system.weights(1.0), system.weights(3.0));
+    let (soft, sharp) = (
+        system.weights(1.0, &mut Progress::none()).unwrap(),
+        system.weights(3.0, &mut Progress::none()).unwrap(),
+    );
     let blended =
         |weighted: &WeightSet| column(weighted, 1).iter().filter(|&&w| w > 0.05 && w < 0.95).count();
     assert!(blended(&sharp) < blended(&soft));

@@ -305,14 +305,60 @@ fn feet_stay_on_the_ground() {
     tell(failures);
 }
 
+/// The heights between which a result's vertices lie.
+fn extent(deformed: &Deformed) -> (f64, f64) {
+    let heights = deformed.meshes.iter().flat_map(|mesh| &mesh.positions).map(|p| f64::from(p.y));
+    heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), y| (low.min(y), high.max(y)))
+}
+
+#[test]
+fn nobody_becomes_taller_and_no_number_of_heads_makes_a_jump() {
+    let character = Arc::new(chibi().build());
+    let of = |heads: f64| {
+        let deformer = Deformer::new(character.clone(), &Style::Heads(heads), &Options::default()).unwrap();
+        let own = deformer.target().anatomy.proportions.heads();
+        let (low, high) = extent(&deformer.apply());
+        (own, (high - low) / deformer.target().figure.height())
+    };
+    let own = of(2.5).0;
+    const STEP: f64 = 0.04;
+    let heights: Vec<(f64, f64)> =
+        (-10..=10).map(|step| own + STEP * f64::from(step)).map(|heads| (heads, of(heads).1)).collect();
+    for &(heads, height) in &heights {
+        assert!(height < 1.01, "{heads:.2} heads of {own:.2}: {height:.3} H");
+        if heads >= own {
+            assert!(height > 0.99, "{heads:.2} heads of {own:.2}: {height:.3} H");
+        }
+    }
+    for pair in heights.windows(2) {
+        // The body is heads - 1 head lengths: a step more of them is this much of the height.
+        let most = 2.0 * STEP / (own - 1.0);
+        assert!((pair[1].1 - pair[0].1).abs() < most, "from {:?} to {:?}", pair[0], pair[1]);
+    }
+}
+
+#[test]
+fn half_the_amount_is_half_way_for_a_figure_that_keeps_its_size() {
+    let character = Arc::new(chibi().build());
+    let vertices = |amount: f64| -> Vec<DVec3> {
+        let options = Options { amount, ..Options::default() };
+        let deformer = Deformer::new(character.clone(), &Style::Heads(3.5), &options).unwrap();
+        let all: Vec<DVec3> =
+            deformer.apply().meshes.iter().flat_map(|mesh| &mesh.positions).map(|p| p.as_dvec3()).collect();
+        // Where the ground is may hang on another vertex half way.
+        let low = lowest(&all);
+        all.into_iter().map(|p| p - low * DVec3::Y).collect()
+    };
+    let (none, half, all) = (vertices(0.0), vertices(0.5), vertices(1.0));
+    let middle: Vec<DVec3> = none.iter().zip(&all).map(|(one, other)| 0.5 * (*one + *other)).collect();
+    assert!(furthest(&none, &all) > 0.02, "the style does something");
+    assert!(furthest(&half, &middle) < 1e-4, "{}", furthest(&half, &middle));
+}
+
 #[test]
 fn the_height_is_the_style_s_the_character_s_or_a_number() {
     let person = Person { skirt: true, ..adult() };
     let character = Arc::new(person.build());
-    let extent = |deformed: &Deformed| {
-        let heights = deformed.meshes.iter().flat_map(|mesh| &mesh.positions).map(|p| f64::from(p.y));
-        heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), y| (low.min(y), high.max(y)))
-    };
     let before = character.meshes.iter().flat_map(|mesh| &mesh.positions).map(|p| f64::from(p.y));
     let before = before.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), y| (low.min(y), high.max(y)));
     for mode in MODES {

@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 use superdeform::internals::rig::UnitFigure;
 use superdeform::internals::rig::joints::{FoundJoints, find_joints};
 use superdeform::internals::rig::silhouette::{GridFrame, RayGrid};
-use superdeform::{Character, Mesh, Role};
+use superdeform::{Character, Mesh, Progress, Role};
 use truth::{Case, cases};
 
 use Role::*;
@@ -45,7 +45,8 @@ fn outcome(case: &Case) -> Outcome {
     let figure = UnitFigure::of(&case.character, case.forward).unwrap();
     let truth = case.joints.iter().map(|(&role, &at)| (role, figure.to_unit(at))).collect();
     let start = std::time::Instant::now();
-    let found = find_joints(&figure, &figure.kinds, &BTreeMap::new(), false, 2);
+    let found =
+        find_joints(&figure, &figure.kinds, &BTreeMap::new(), false, 2, &mut Progress::none()).unwrap();
     if std::env::var_os("PICTURES").is_some() {
         println!("{}: {} triangles, {:?}", case.name, figure.triangles.len(), start.elapsed());
     }
@@ -237,7 +238,8 @@ fn report(unnamed: bool) {
 
 fn found_of(character: &Character, forward: DVec3) -> (UnitFigure, FoundJoints) {
     let figure = UnitFigure::of(character, forward).unwrap();
-    let found = find_joints(&figure, &figure.kinds, &BTreeMap::new(), false, 1);
+    let found =
+        find_joints(&figure, &figure.kinds, &BTreeMap::new(), false, 1, &mut Progress::none()).unwrap();
     (figure, found)
 }
 
@@ -383,7 +385,8 @@ fn what_is_no_figure_is_doubted() {
         ("upside down", upside_down),
     ] {
         let Ok(figure) = UnitFigure::of(&character, DVec3::Z) else { continue };
-        let found = find_joints(&figure, &figure.kinds, &BTreeMap::new(), false, 1);
+        let found =
+            find_joints(&figure, &figure.kinds, &BTreeMap::new(), false, 1, &mut Progress::none()).unwrap();
         for (role, joint) in &found.joints {
             assert!(joint.position.is_finite(), "{name}: {role}");
             if joint.confidence >= 0.5 {
@@ -457,7 +460,15 @@ fn things_worn_are_survived() {
             truth: BTreeMap::new(),
             found: FoundJoints::default(),
         };
-        let found = find_joints(&outcome.figure, &outcome.figure.kinds, &BTreeMap::new(), false, 2);
+        let found = find_joints(
+            &outcome.figure,
+            &outcome.figure.kinds,
+            &BTreeMap::new(),
+            false,
+            2,
+            &mut Progress::none(),
+        )
+        .unwrap();
         let truth: BTreeMap<Role, DVec3> = character
             .humanoid
             .iter()
@@ -496,7 +507,7 @@ fn things_worn_are_survived() {
 }
 
 fn joints_of(figure: &UnitFigure, given: &BTreeMap<Role, DVec3>, threads: usize) -> FoundJoints {
-    find_joints(figure, &figure.kinds, given, false, threads)
+    find_joints(figure, &figure.kinds, given, false, threads, &mut Progress::none()).unwrap()
 }
 
 #[test]

@@ -15,7 +15,7 @@ use superdeform::internals::rig::voxel::{
     NEAREST_BONE, VOLUME_APART, VoxelOptions, heat_would_be_poor, voxel_weights,
 };
 use superdeform::internals::rig::{UnitFigure, WeightBone, WeightSet};
-use superdeform::{Role, Weights};
+use superdeform::{Progress, Role, Weights};
 use truth::Case;
 
 type Soup = (Vec<DVec3>, Vec<[u32; 3]>);
@@ -126,7 +126,7 @@ fn check_rows(name: &str, weighted: &WeightSet, vertex_count: usize, bones: &[We
 fn on_a_tube_bones_meet_at_the_joint_and_blend_over_its_radius() {
     for (radius, closed) in [(0.1, true), (0.05, true), (0.1, false)] {
         let ((positions, triangles), bones) = tube(radius, closed);
-        let made = voxel_weights(&positions, &triangles, &bones, &options(0));
+        let made = voxel_weights(&positions, &triangles, &bones, &options(0), &mut Progress::none()).unwrap();
         assert_eq!(check_rows("tube", &made, positions.len(), &bones), [""; 0]);
         assert!(made.fallback.is_empty());
         let upper = |vertex: usize| share(&made.weights, vertex, 1);
@@ -153,7 +153,11 @@ fn a_larger_falloff_is_rigid_sooner() {
     let ((positions, triangles), bones) = tube(0.1, true);
     let at = |falloff: f64, ring: usize| {
         let options = VoxelOptions { falloff, ..VoxelOptions::default() };
-        share(&voxel_weights(&positions, &triangles, &bones, &options).weights, 24 * ring, 1)
+        share(
+            &voxel_weights(&positions, &triangles, &bones, &options, &mut Progress::none()).unwrap().weights,
+            24 * ring,
+            1,
+        )
     };
     for falloff in [0.0, 0.2, 0.5, 1.0] {
         assert!((at(falloff, 50) - 0.5).abs() < 1e-5);
@@ -175,7 +179,7 @@ fn limbs_side_by_side_do_not_move_each_other() {
         bone(1, DVec3::new(-0.08, 1.0, 0.0), DVec3::new(-0.08, 0.0, 0.0)),
         bone(2, DVec3::new(0.08, 1.0, 0.0), DVec3::new(0.08, 0.0, 0.0)),
     ];
-    let made = voxel_weights(&positions, &triangles, &bones, &options(0));
+    let made = voxel_weights(&positions, &triangles, &bones, &options(0), &mut Progress::none()).unwrap();
     for (vertex, p) in positions.iter().enumerate() {
         if p.y < 0.8 {
             let own = if p.x < 0.0 { 1 } else { 2 };
@@ -190,7 +194,7 @@ fn what_floats_follows_what_it_floats_over() {
     let count = tube.0.len();
     let button = sphere(DVec3::new(0.16, 0.9, 0.0), 0.01);
     let (positions, triangles) = join(&[tube, button]);
-    let made = voxel_weights(&positions, &triangles, &bones, &options(0));
+    let made = voxel_weights(&positions, &triangles, &bones, &options(0), &mut Progress::none()).unwrap();
     assert_eq!(made.fallback, BTreeMap::from([(VOLUME_APART, positions.len() - count)]));
     for vertex in count..positions.len() {
         assert!(share(&made.weights, vertex, 1) > 0.999);
@@ -204,7 +208,7 @@ fn a_head_whose_top_nobody_knows_is_the_heads() {
     (positions, triangles) = join(&[(positions, triangles), sphere(DVec3::Y * 0.8, 0.2)]);
     let joints = [DVec3::ZERO, DVec3::Y * 0.3, DVec3::Y * 0.6];
     let bones = [bone(0, joints[0], joints[1]), bone(1, joints[1], joints[2]), bone(2, joints[2], joints[2])];
-    let made = voxel_weights(&positions, &triangles, &bones, &options(0));
+    let made = voxel_weights(&positions, &triangles, &bones, &options(0), &mut Progress::none()).unwrap();
     for (vertex, p) in positions.iter().enumerate().filter(|(_, p)| p.y > 0.75) {
         assert!(share(&made.weights, vertex, 2) >= 0.97, "{p}: {:?}", made.weights.row(vertex));
     }
@@ -213,7 +217,8 @@ fn a_head_whose_top_nobody_knows_is_the_heads() {
 #[test]
 fn neither_unit_nor_order_nor_pose_matter() {
     let ((positions, triangles), bones) = tube(0.1, true);
-    let made = voxel_weights(&positions, &triangles, &bones, &options(0)).weights;
+    let made =
+        voxel_weights(&positions, &triangles, &bones, &options(0), &mut Progress::none()).unwrap().weights;
     let moved = |map: &dyn Fn(DVec3) -> DVec3| {
         let positions: Vec<DVec3> = positions.iter().map(|&p| map(p)).collect();
         let bones: Vec<WeightBone> = bones
@@ -223,7 +228,7 @@ fn neither_unit_nor_order_nor_pose_matter() {
                 segments: bone.segments.iter().map(|ends| ends.map(map)).collect(),
             })
             .collect();
-        voxel_weights(&positions, &triangles, &bones, &options(0)).weights
+        voxel_weights(&positions, &triangles, &bones, &options(0), &mut Progress::none()).unwrap().weights
     };
     for scale in [1e-3, 1e3] {
         assert!(difference(&made, &moved(&|p| p * scale)) < 1e-4);
@@ -238,7 +243,8 @@ fn neither_unit_nor_order_nor_pose_matter() {
         triangles.iter().map(|corners| corners.map(|v| count - 1 - v)).collect();
     backwards.reverse();
     backwards.iter_mut().step_by(2).for_each(|corners| corners.swap(0, 2));
-    let other = voxel_weights(&reversed, &backwards, &bones, &options(0)).weights;
+    let other =
+        voxel_weights(&reversed, &backwards, &bones, &options(0), &mut Progress::none()).unwrap().weights;
     let other = Weights::from_rows((0..positions.len()).rev().map(|vertex| other.row(vertex).to_vec()));
     assert!(difference(&made, &other) < 1e-5);
 }
@@ -286,14 +292,20 @@ fn hostile_surfaces_have_weights_everywhere() {
     let soup: Vec<DVec3> = (0..900).map(|_| DVec3::new(random(), random(), random())).collect();
     cases.push(("a soup", (soup, (0..300).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect()), bones.clone()));
     for (name, (positions, triangles), bones) in cases {
-        let made = voxel_weights(&positions, &triangles, &bones, &options(0));
+        let made = voxel_weights(&positions, &triangles, &bones, &options(0), &mut Progress::none()).unwrap();
         assert_eq!(check_rows(name, &made, positions.len(), &bones), [""; 0]);
         assert!(!made.fallback.contains_key(NEAREST_BONE), "{name}");
         heat_would_be_poor(&positions, &triangles, &bones);
     }
-    let none = voxel_weights(&[], &[], &bones, &options(0));
+    let none = voxel_weights(&[], &[], &bones, &options(0), &mut Progress::none()).unwrap();
     assert_eq!(none.weights.row_count(), 0);
-    assert_eq!(voxel_weights(&positions, &triangles, &[], &options(0)).weights.row_count(), positions.len());
+    assert_eq!(
+        voxel_weights(&positions, &triangles, &[], &options(0), &mut Progress::none())
+            .unwrap()
+            .weights
+            .row_count(),
+        positions.len()
+    );
     assert_eq!(heat_would_be_poor(&[], &[], &[]), None);
 }
 
@@ -301,7 +313,8 @@ fn hostile_surfaces_have_weights_everywhere() {
 fn coincident_bones_share_evenly() {
     let ((positions, triangles), bones) = tube(0.1, true);
     let same = [bones[0].clone(), WeightBone { joint: 1, ..bones[0].clone() }];
-    let made = voxel_weights(&positions, &triangles, &same, &options(0)).weights;
+    let made =
+        voxel_weights(&positions, &triangles, &same, &options(0), &mut Progress::none()).unwrap().weights;
     for vertex in 0..positions.len() {
         assert!((share(&made, vertex, 0) - 0.5).abs() < 1e-6);
     }
@@ -336,7 +349,8 @@ fn real(case: &Case, options: &VoxelOptions) -> Real {
     let joints: BTreeMap<Role, DVec3> =
         case.joints.iter().map(|(&role, &at)| (role, figure.to_unit(at))).collect();
     let bones = weight_bones(&joints, &BTreeMap::new(), None);
-    let made = voxel_weights(&figure.positions, &figure.triangles, &bones, options);
+    let made =
+        voxel_weights(&figure.positions, &figure.triangles, &bones, options, &mut Progress::none()).unwrap();
     Real { figure, joints, bones, made }
 }
 
@@ -458,7 +472,10 @@ fn a_symmetric_person_has_symmetric_weights() {
         let joints: BTreeMap<Role, DVec3> =
             person.joints().into_iter().map(|(role, at)| (role, figure.to_unit(at))).collect();
         let bones = weight_bones(&joints, &BTreeMap::new(), None);
-        let made = voxel_weights(&figure.positions, &figure.triangles, &bones, &options(0)).weights;
+        let made =
+            voxel_weights(&figure.positions, &figure.triangles, &bones, &options(0), &mut Progress::none())
+                .unwrap()
+                .weights;
         let roles: Vec<Role> = joints.keys().copied().collect();
         let key = |p: DVec3| [p.x, p.y, p.z].map(|x| (x * 1e6).round() as i64);
         let at: BTreeMap<[i64; 3], usize> =

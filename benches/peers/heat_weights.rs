@@ -5,6 +5,7 @@
 
 use serde_json::{Map, Value, json};
 use std::time::Instant;
+use superdeform::Progress;
 use superdeform::internals::rig::WeightBone;
 use superdeform::internals::rig::heat::HeatSystem;
 use superdeform_benches::models;
@@ -23,10 +24,10 @@ fn main() {
         .map(|(&ends, joint)| WeightBone { joint, segments: vec![ends] })
         .collect();
     let start = Instant::now();
-    let system = HeatSystem::new(&positions, &triangles, &bones, 2);
+    let system = HeatSystem::new(&positions, &triangles, &bones, 2, &mut Progress::none()).unwrap();
     let mut weights = Map::new();
     for c in arguments {
-        let weighted = system.weights(c.parse().expect("c is a number"));
+        let weighted = system.weights(c.parse().expect("c is a number"), &mut Progress::none()).unwrap();
         eprintln!("c = {c}: {:?} after {:.3} s", weighted.fallback, start.elapsed().as_secs_f64());
         weights.insert(c, weighted.weights.rows().map(|row| json!(row)).collect::<Vec<Value>>().into());
     }

@@ -117,7 +117,7 @@ names!(GarmentWeights { Robust: "robust", Nearest: "nearest", Heat: "heat" });
 /// How tall the result is. It grows or shrinks as a whole, about the ground below the hips.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Height {
-    /// As the style makes it: a figure of fewer heads is shorter.
+    /// As the style makes it: a figure of fewer heads is shorter. In product mode nobody becomes taller than before.
     #[default]
     Style,
     /// As tall as the character was.

@@ -225,7 +225,7 @@ pub const TABLE: &[OptionInfo] = rows! {
     "hair_length", Plain, SHARES, "", Default::Number(1.0), PRODUCT,
         "hair below the chin: 1 ends it where it ended on the body, 0 at the chin";
     "height", Plain, Values::Other, "", Default::Choice("style"), BOTH,
-        "how tall the result is: as the style makes it (style), as tall as before (keep), or a number in the character's units";
+        "how tall the result is: as the style makes it, at most as before (style), as tall as before (keep), or a number in the character's units";
     "face_squash", Plain, SQUASHES, "", by_mode(PRODUCT_FACE_SQUASH, 0.0), BOTH,
         "how much younger the face gets; 0 leaves it";
     "face_curve", Plain, Values::Choice(FaceCurve::NAMES), "", Default::Choice(FaceCurve::F4.name()), BOTH,

@@ -3,10 +3,12 @@
 use super::attach::Placement;
 use super::{Deformer, milliseconds, product};
 use crate::character::{MeshKind, Role};
+use crate::error::Result;
 use crate::face::FaceShape;
 use crate::geometry::bounds;
 use crate::geometry::range;
 use crate::options::{Height, Mode, Stage};
+use crate::progress::Progress;
 use crate::shape::field::{BodyField, Finish};
 use crate::shape::measured::is_of_head;
 use glam::DVec3;
@@ -16,24 +18,36 @@ impl Deformer {
     /// Makes the field of the amount and the face that the options ask for, and the warnings with it.
     ///
     /// `ground`: the shift that puts the feet on the ground, where it is known already.
-    pub(super) fn finish(&mut self, ground: Option<f64>) {
+    ///
+    /// # Errors
+    /// `Cancelled`, with some of it done.
+    pub(super) fn finish(&mut self, ground: Option<f64>, progress: &mut Progress) -> Result<()> {
         let amount = self.options.amount;
         self.warnings.clone_from(&self.deformation.warnings);
         if amount == 1.0 {
             self.warnings.extend(self.deformation.heads_left.clone());
         }
-        let ground = ground.unwrap_or_else(|| self.ground_shift());
-        self.field.finish = Finish { amount, ground, ..Finish::default() };
+        let hips = self.target.measured.figure.role_position(Role::Hips).unwrap_or_default();
+        let about = hips.with_y(self.deformation.bindings.ground.height);
+        let finish = Finish { whole: self.deformation.whole, amount, about, ..Finish::default() };
+        let ground = ground.unwrap_or_else(|| self.ground_shift(finish));
+        self.field.finish = Finish { ground, ..finish };
+        progress.at(0.1)?;
         self.finish_face();
+        progress.at(0.2)?;
         self.finish_youth();
+        progress.at(0.5)?;
         self.finish_seat();
+        progress.at(0.7)?;
         self.finish_hair();
+        progress.at(0.9)?;
         self.finish_height();
+        Ok(())
     }
 
     /// Feet stand where they stood: the lowest vertex that touches the ground keeps its height.
-    fn ground_shift(&self) -> f64 {
-        let field = self.field.with(Finish { amount: self.options.amount, ..Finish::default() });
+    fn ground_shift(&self, finish: Finish) -> f64 {
+        let field = self.field.with(finish);
         let ground = &self.deformation.bindings.ground;
         let after = Placement { field: &field, ways: None, ..self.placement() }.vertices(&ground.vertices);
         let lowest = after.iter().map(|p| p.y).min_by(f64::total_cmp);
@@ -66,8 +80,6 @@ impl Deformer {
         };
         let (low, high) = range(self.placement().all_vertices().iter().map(|p| p.y));
         if low < high {
-            let hips = figure.role_position(Role::Hips).unwrap_or_default();
-            self.field.finish.about = hips.with_y(self.deformation.bindings.ground.height);
             self.field.finish.size = height / (high - low);
         }
     }

@@ -7,6 +7,7 @@
 mod apply;
 mod attach;
 mod finish;
+mod hair;
 mod paper;
 mod product;
 mod profile;
@@ -28,6 +29,7 @@ use crate::progress::Progress;
 use crate::report::{RigReport, Timing};
 use crate::shape::directions::RestTriangles;
 use crate::shape::field::{BodyField, Field};
+use crate::shape::figure::Figure;
 use crate::shape::group::group_shapes;
 use crate::shape::measured::Measured;
 pub use crate::shape::style::Style;
@@ -57,9 +59,9 @@ pub struct Deformer {
     /// How the head sits on it.
     sat: Option<young::Sat>,
     /// What hair does after the head's stages; without these the deformation's offsets are all.
-    hair: Option<strands::Laid>,
+    hair: Option<hair::Laid>,
     /// That of the face as it was and of the youngest one.
-    laid: Option<strands::Ends>,
+    laid: Option<hair::Ends>,
     warnings: Vec<Warning>,
     timing: Timing,
 }
@@ -80,6 +82,8 @@ struct Deformation {
     bindings: Bindings,
     /// What keeps locks of hair outside the body, added to each vertex at the end; empty where nothing does.
     hair_offsets: Vec<DVec3>,
+    /// What the whole shrinks by, so that nobody becomes taller (D31); at most 1.
+    whole: f64,
     /// g of Eq. 9.
     head_ratio: f64,
     coefficients: BTreeMap<String, Coefficient>,
@@ -106,7 +110,7 @@ impl Deformer {
     /// Measures the target and makes the field that gives it the style.
     ///
     /// # Errors
-    /// What [`Character::validate`] and [`Figure::of`](crate::shape::figure::Figure::of) refuse; `BadOption` for options
+    /// What [`Character::validate`] and [`Figure::of`] refuse; `BadOption` for options
     /// out of their range and for a style of N heads in paper mode; `BadStyle` for a style without what the mode transfers.
     pub fn new(character: Arc<Character>, style: &Style, options: &Options) -> Result<Self> {
         Self::with_progress(character, style, options, &mut Progress::none())
@@ -172,11 +176,14 @@ impl Deformer {
         }
         progress.at(0.0)?;
         let clock = Instant::now();
-        let measured = Arc::new(Measured::of(&character, options)?);
+        let figure = Figure::of(&character)?;
+        progress.at(0.05)?;
+        let part = &mut progress.part(0.05, 0.25);
+        let measured = Arc::new(Measured::of_figure(figure, &character, options, part)?);
         let timing = Timing { measure: milliseconds(clock), ..Timing::default() };
-        progress.at(0.4)?;
+        progress.at(0.25)?;
         let target = Target { character, measured, rest_triangles: OnceLock::new() };
-        Self::deform(target, rig, style.clone(), options.clone(), None, timing, &mut progress.part(0.45, 1.0))
+        Self::deform(target, rig, style.clone(), options.clone(), None, timing, &mut progress.part(0.3, 1.0))
     }
 
     /// Changes the options, with the same result as a deformer made anew; only what depends on the change is done
@@ -205,7 +212,7 @@ impl Deformer {
             let same_amount = options.amount == self.options.amount;
             self.options = options.clone();
             let ground = same_amount.then_some(self.field.finish.ground);
-            self.finish(ground);
+            self.finish(ground, &mut Progress::none())?;
             return Ok(());
         }
         let (mut target, mut timing) = (self.target.clone(), self.timing);
@@ -213,8 +220,9 @@ impl Deformer {
             || options.bone_groups != self.options.bone_groups;
         if measures_anew {
             let clock = Instant::now();
-            target.measured =
-                Arc::new(Measured::of_figure(target.measured.figure.clone(), &target.character, options)?);
+            let figure = target.measured.figure.clone();
+            let part = &mut progress.part(0.0, 0.4);
+            target.measured = Arc::new(Measured::of_figure(figure, &target.character, options, part)?);
             timing.measure = milliseconds(clock);
         }
         let product = self.deformation.product.clone().filter(|_| !measures_anew);
@@ -237,7 +245,9 @@ impl Deformer {
         progress.at(0.0)?;
         let clock = Instant::now();
         let mut deformation = match options.mode {
-            Mode::Product => product::deform(&target, product, &style, &options, progress)?,
+            Mode::Product => {
+                product::deform(&target, product, &style, &options, &mut progress.part(0.0, 0.8))?
+            }
             Mode::Paper => paper::deform(&target, &style, &options)?,
         };
         let mut warnings = rig.as_ref().map(|rig| rig.warnings.clone()).unwrap_or_default();
@@ -260,7 +270,8 @@ impl Deformer {
             warnings: Vec::new(),
             timing,
         };
-        deformer.finish(None);
+        progress.at(0.8)?;
+        deformer.finish(None, &mut progress.part(0.8, 1.0))?;
         deformer.timing.deform = milliseconds(clock);
         progress.at(1.0)?;
         Ok(deformer)

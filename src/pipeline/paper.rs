@@ -39,6 +39,7 @@ pub fn deform(target: &Target, style: &Style, options: &Options) -> Result<Defor
         bindings: bindings(target, &field),
         body: Arc::new(BodyField::Bones(PaperField { bones: field, stage: options.stage })),
         hair_offsets: Vec::new(),
+        whole: 1.0,
         head_ratio: found.head_ratio,
         coefficients: found.groups,
         warnings: found.warnings,

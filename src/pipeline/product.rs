@@ -58,7 +58,7 @@ pub struct ProductTarget {
 
 impl ProductTarget {
     /// Binds vertices and joints to parts.
-    fn of(target: &Target, threads: usize) -> Self {
+    fn of(target: &Target, threads: usize, progress: &mut Progress) -> Result<Self> {
         let measured = &target.measured;
         let figure = &measured.figure;
         let skeleton = &target.character.skeleton;
@@ -69,7 +69,8 @@ impl ProductTarget {
             skeleton,
             &target.measured.weld,
             threads,
-        );
+            progress,
+        )?;
         let vertices = std::mem::take(&mut parts.vertices);
         let of_legs =
             |vertex: usize| vertices[vertex].weights[Part::LeftUpperLeg as usize..].iter().sum::<f32>();
@@ -89,14 +90,14 @@ impl ProductTarget {
             joints: Arc::new(joints),
             ground: Arc::new(ground),
         };
-        Self {
+        Ok(Self {
             bindings,
             parts,
             hair: OnceLock::new(),
             head_sources: OnceLock::new(),
             seat_sources: OnceLock::new(),
             strands: OnceLock::new(),
-        }
+        })
     }
 
     /// What the seat of the head is measured on.
@@ -200,7 +201,10 @@ pub fn deform(
     options: &Options,
     progress: &mut Progress,
 ) -> Result<Deformation> {
-    let product = product.unwrap_or_else(|| Arc::new(ProductTarget::of(target, options.thread_count)));
+    let product = match product {
+        Some(product) => product,
+        None => Arc::new(ProductTarget::of(target, options.thread_count, &mut progress.part(0.0, 0.4))?),
+    };
     let anatomy = &target.measured.anatomy;
     let head_length = anatomy.proportions.head_length;
     let head_ratio = match style {
@@ -216,13 +220,17 @@ pub fn deform(
     let (attempt, heads_left) = request.best(progress)?;
     warnings.extend(attempt.warnings);
     let field = attempt.field;
-    progress.at(0.9)?;
+    progress.at(0.6)?;
     let placement = product.placement(&target.measured.figure, &field, options.thread_count);
     let hair_offsets = product.hair_offsets(target, &placement);
+    progress.at(0.75)?;
+    let whole = not_taller(&Placement { hair_offsets: &hair_offsets, ..placement });
+    progress.at(0.9)?;
     Ok(Deformation {
         body: field.body,
         bindings: product.bindings.clone(),
         hair_offsets,
+        whole,
         head_ratio,
         coefficients: attempt.scales.by_group(&groups),
         warnings,
@@ -230,6 +238,14 @@ pub fn deform(
         product: Some(product),
         face_box: OnceLock::new(),
     })
+}
+
+/// What a whole figure is to shrink by, so that it becomes no taller than it was (D31): 1 where it does not.
+///
+/// Seen: tubbykun, 2.2 heads, came out of a style of 2.5 heads at 1.42 m instead of .94.
+fn not_taller(placement: &Placement) -> f64 {
+    let (low, high) = extent(&placement.all_vertices());
+    if low < high { (placement.figure.height() / (high - low)).min(1.0) } else { 1.0 }
 }
 
 /// What the mode transfers of a style's body.
@@ -282,9 +298,9 @@ impl Request<'_> {
             Style::Heads(heads) => *heads,
             Style::Shape(shape) => proportions_of(shape)?.heads(),
         };
-        let mut best = self.best_of(HEADS_ATTEMPTS, asked, asked, false, &mut progress.part(0.3, 0.7))?;
+        let mut best = self.best_of(HEADS_ATTEMPTS, asked, asked, false, &mut progress.part(0.4, 0.5))?;
         if wants_profile(self.target, self.style, self.options) {
-            best = self.best_of(SLICED_ATTEMPTS, asked, best.aim, true, &mut progress.part(0.7, 0.9))?;
+            best = self.best_of(SLICED_ATTEMPTS, asked, best.aim, true, &mut progress.part(0.5, 0.65))?;
         }
         let Attempt { error, measured, .. } = best;
         let heads_left = (error > HEADS_WARNED_ABOVE).then(|| {

@@ -2,7 +2,8 @@
 
 use super::milliseconds;
 use crate::character::{Humanoid, MeshKind, Role, Weights};
-use crate::error::Warning;
+use crate::error::{Result, Warning};
+use crate::progress::Progress;
 use crate::rig::eyes::Eye;
 use crate::rig::heat::HeatSystem;
 use crate::rig::mesh_kinds::body_is_whole;
@@ -79,7 +80,8 @@ impl<'a> Binder<'a> {
         humanoid: &Humanoid,
         eyes: &'a [Eye],
         options: &'a RigOptions,
-    ) -> Self {
+        progress: &mut Progress,
+    ) -> Result<Self> {
         let clock = Instant::now();
         let of =
             |kind: MeshKind| -> Vec<usize> { (0..kinds.len()).filter(|&mesh| kinds[mesh] == kind).collect() };
@@ -101,6 +103,7 @@ impl<'a> Binder<'a> {
             body.sort_unstable();
         }
         let body = Group::new(figure, body);
+        progress.at(0.1)?;
         let mut warnings = Vec::new();
         let method = match options.method {
             WeightMethod::Auto => match heat_would_be_poor(&body.positions, &body.triangles, bones) {
@@ -116,6 +119,9 @@ impl<'a> Binder<'a> {
             method => method,
         };
         let threads = options.thread_count;
+        progress.at(0.25)?;
+        let progress = &mut progress.part(0.25, 1.0);
+        let (points, triangles) = (&body.positions, &body.triangles);
         let rule = match method {
             WeightMethod::Volume => {
                 let options = VoxelOptions {
@@ -123,15 +129,15 @@ impl<'a> Binder<'a> {
                     falloff: FALLOFF,
                     thread_count: threads,
                 };
-                BodyRule::Volume(voxel_weights(&body.positions, &body.triangles, bones, &options))
+                BodyRule::Volume(voxel_weights(points, triangles, bones, &options, progress)?)
             }
-            _ => BodyRule::Heat(HeatSystem::new(&body.positions, &body.triangles, bones, threads)),
+            _ => BodyRule::Heat(HeatSystem::new(points, triangles, bones, threads, progress)?),
         };
         let separate = |meshes: Vec<usize>| -> Vec<Group> {
             meshes.into_iter().map(|mesh| Group::new(figure, vec![mesh])).collect()
         };
         let joint = |role: Role| humanoid.joint(role).map(|joint| joint as u32);
-        Self {
+        Ok(Self {
             figure,
             head: joint(Role::Head),
             eye_joints: eyes.iter().map(|eye| joint(eye.role)).collect(),
@@ -147,11 +153,18 @@ impl<'a> Binder<'a> {
             warnings,
             body_time: milliseconds(clock),
             garment_time: 0.0,
-        }
+        })
     }
 
     /// Weights of every mesh, with how many vertices took theirs by another rule.
-    pub fn weights(&mut self, heat: f64) -> (Vec<Weights>, BTreeMap<String, usize>) {
+    ///
+    /// # Errors
+    /// `Cancelled`.
+    pub fn weights(
+        &mut self,
+        heat: f64,
+        progress: &mut Progress,
+    ) -> Result<(Vec<Weights>, BTreeMap<String, usize>)> {
         let threads = self.options.thread_count;
         let clock = Instant::now();
         let mut fallback = BTreeMap::new();
@@ -165,7 +178,7 @@ impl<'a> Binder<'a> {
         let of_body = match &self.rule {
             BodyRule::Volume(weighted) => weighted,
             BodyRule::Heat(system) => {
-                heated = system.weights(heat);
+                heated = system.weights(heat, &mut progress.part(0.0, 0.5))?;
                 &heated
             }
         };
@@ -173,6 +186,7 @@ impl<'a> Binder<'a> {
         let mut weights = vec![Weights::default(); self.figure.mesh_count()];
         body.share(self.figure, &of_body.weights, &mut weights);
         self.body_time += milliseconds(clock);
+        progress.at(0.5)?;
 
         let clock = Instant::now();
         if !self.garments.is_empty() || !self.accessories.meshes.is_empty() {
@@ -185,6 +199,7 @@ impl<'a> Binder<'a> {
                 let worn = self.garments.iter().map(on_skin).collect();
                 (skin, worn)
             });
+            progress.at(0.7)?;
             let source = Source {
                 skin,
                 positions: &body.positions,
@@ -195,6 +210,7 @@ impl<'a> Binder<'a> {
                 let weighted = worn.weights(&source, threads);
                 count(&weighted);
                 group.share(self.figure, &weighted.weights, &mut weights);
+                progress.at(0.85)?;
             }
             let things = &self.accessories;
             let carried = rigid_weights(&source, &things.positions, &things.triangles);
@@ -209,6 +225,7 @@ impl<'a> Binder<'a> {
             }));
         }
         self.garment_time += milliseconds(clock);
-        (weights, fallback)
+        progress.at(1.0)?;
+        Ok((weights, fallback))
     }
 }

@@ -71,13 +71,23 @@ impl Rig {
         progress.at(0.0)?;
         let clock = Instant::now();
         let (forward, mut warnings) = find_forward(character);
+        progress.at(0.05)?;
         let figure = UnitFigure::in_axes(character, forward, options.left_handed)?;
+        progress.at(0.1)?;
         let (mut kinds, kind_warnings) = guess_kinds(&figure);
         warnings.extend(kind_warnings);
         let given = options.given.iter().map(|(&role, &at)| (role, figure.to_unit(at))).collect();
         let guessed: Vec<Option<MeshKind>> = kinds.iter().copied().map(Some).collect();
-        let mut found = find_joints(&figure, &guessed, &given, options.fingers, options.thread_count);
+        let mut found = find_joints(
+            &figure,
+            &guessed,
+            &given,
+            options.fingers,
+            options.thread_count,
+            &mut progress.part(0.1, 0.25),
+        )?;
         warnings.append(&mut found.warnings);
+        progress.at(0.25)?;
         warnings.extend(refine_kinds(&figure, &mut kinds, &found.joints));
         let eyes = find_eyes(&figure, &kinds, &found);
         for eye in &eyes {
@@ -91,13 +101,12 @@ impl Rig {
             found.joints.iter().map(|(&role, joint)| (role, joint.position)).collect();
         let bones = weight_bones(&at, &found.tips, Some(found.chin));
         let (_, humanoid) = skeleton_of(&at);
-        let mut binder = Binder::new(&figure, &kinds, &bones, &humanoid, &eyes, options);
+        let mut binder =
+            Binder::new(&figure, &kinds, &bones, &humanoid, &eyes, options, &mut progress.part(0.3, 0.72))?;
         warnings.append(&mut binder.warnings);
-        progress.at(0.4)?;
-        let (weights, fallback) = binder.weights(options.heat);
-        progress.at(0.7)?;
+        let (weights, fallback) = binder.weights(options.heat, &mut progress.part(0.72, 0.9))?;
         let skin_weights = match binder.rule {
-            BodyRule::Heat(_) => binder.weights(SKIN_HEAT.max(options.heat)).0,
+            BodyRule::Heat(_) => binder.weights(SKIN_HEAT.max(options.heat), &mut progress.part(0.9, 1.0))?.0,
             BodyRule::Volume(_) => weights.clone(),
         };
         progress.at(1.0)?;

@@ -11,8 +11,9 @@ use super::head_line::{HeadLine, head_line, middle};
 use super::legs::{Leg, LegGap, Legs, find_legs, leg};
 use super::{FoundJoint, UnitFigure};
 use crate::character::{MeshKind, Role};
-use crate::error::Warning;
+use crate::error::{Result, Warning};
 use crate::geometry::{PointTree, Surface};
+use crate::progress::Progress;
 use glam::DVec3;
 use std::collections::BTreeMap;
 
@@ -111,25 +112,32 @@ pub struct FoundJoints {
     pub warnings: Vec<Warning>,
 }
 
-/// Finds the joints of `figure`. Never fails: what is not seen is placed by ratio.
+/// Finds the joints of `figure`; what is not seen is placed by ratio.
 ///
 /// `kinds` are those of the unit figure's meshes, `None` where nobody knows. `given` joints (its space) stay where they are,
 /// with confidence 1, and the rest is found around them.
+///
+/// # Errors
+/// `Cancelled`.
 pub fn find_joints(
     figure: &UnitFigure,
     kinds: &[Option<MeshKind>],
     given: &BTreeMap<Role, DVec3>,
     fingers: bool,
     thread_count: usize,
-) -> FoundJoints {
+    progress: &mut Progress,
+) -> Result<FoundJoints> {
     let given: BTreeMap<Role, DVec3> =
         given.iter().filter(|(_, at)| at.is_finite()).map(|(&role, &at)| (role, at)).collect();
     let view = FrontView::of(figure, kinds, thread_count);
+    progress.at(0.5)?;
     let mut found = Search { view: &view, given: &given, found: FoundJoints::default() }.run();
+    progress.at(0.7)?;
     if fingers {
         add_fingers(figure, &view, &mut found);
     }
-    found
+    progress.at(1.0)?;
+    Ok(found)
 }
 
 struct Search<'a> {

@@ -7,7 +7,9 @@ use super::volume::{OUTSIDE, Volume, nearest};
 use super::wholeness::Wholeness;
 use super::{WeightBone, WeightSet};
 use crate::character::Weights;
+use crate::error::Result;
 use crate::parallel;
+use crate::progress::Progress;
 use glam::{DVec3, IVec3};
 use std::collections::BTreeMap;
 
@@ -62,21 +64,26 @@ const OWNERSHIP: i32 = 8;
 /// a transition would be four radii wide. Here exp(-((1 - a) lag + a lag^2)) takes its place, which for a = 0 is what
 /// heat does on a tube: half a radius around the joint.
 ///
+/// # Errors
+/// `Cancelled`.
+///
 /// O(voxels · bones in reach · log voxels), a few megabytes at 128 voxels.
 pub fn voxel_weights(
     positions: &[DVec3],
     triangles: &[[u32; 3]],
     bones: &[WeightBone],
     options: &VoxelOptions,
-) -> WeightSet {
+    progress: &mut Progress,
+) -> Result<WeightSet> {
     let joints: Vec<u32> =
         bones.iter().filter(|bone| !bone.segments.is_empty()).map(|bone| bone.joint).collect();
     if joints.is_empty() || positions.is_empty() {
         let joint = bones.first().map_or(0, |bone| bone.joint);
-        return WeightSet { weights: Weights::rigid(joint, positions.len()), fallback: BTreeMap::new() };
+        return Ok(WeightSet { weights: Weights::rigid(joint, positions.len()), fallback: BTreeMap::new() });
     }
     let resolution = options.resolution.clamp(16, 512);
     let volume = Volume::new(positions, triangles, resolution);
+    progress.at(0.3)?;
     let segments: Vec<Vec<[DVec3; 2]>> =
         bones.iter().map(|bone| bone.segments.clone()).filter(|segments| !segments.is_empty()).collect();
     let bones = place_bones(&volume, &segments);
@@ -86,7 +93,9 @@ pub fn voxel_weights(
 
     let points: Vec<DVec3> = positions.iter().map(|&p| volume.to_grid(p)).collect();
     let slots: Vec<u32> = points.iter().map(|&p| volume.slot(nearest(p))).collect();
-    let rows = distance_rows(&paths, &bones, &points, &slots, &profile, options.thread_count);
+    progress.at(0.4)?;
+    let distances = &mut progress.part(0.4, 0.9);
+    let rows = distance_rows(&paths, &bones, &points, &slots, &profile, options.thread_count, distances)?;
     let mut radii = radii(&points, triangles, &rows, bones.len());
     for (radius, bone) in radii.iter_mut().zip(&bones) {
         // Folds inside the body are no limb's surface; so what is filled around the bone counts as well.
@@ -122,7 +131,8 @@ pub fn voxel_weights(
             fallback.insert(rule, count);
         }
     }
-    WeightSet { weights, fallback }
+    progress.at(1.0)?;
+    Ok(WeightSet { weights, fallback })
 }
 
 /// The bone that is closest to `p`, whatever lies between.
@@ -150,7 +160,8 @@ fn distance_rows(
     slots: &[u32],
     profile: &Profile,
     thread_count: usize,
-) -> Rows {
+    progress: &mut Progress,
+) -> Result<Rows> {
     let volume = paths.volume;
     let mut nearest = Distances::new(volume.cells.len());
     nearest.spread(paths, bones, 0..bones.len(), |_| f32::INFINITY);
@@ -171,7 +182,8 @@ fn distance_rows(
     let touching = |bone: usize| (0..bones.len()).filter(move |&other| bones[other].touches(&bones[bone]));
     let bounds: Vec<f32> =
         (0..bones.len()).map(|bone| touching(bone).map(bound).fold(bound(bone), f32::max)).collect();
-    let columns = parallel::collect_with(
+    progress.at(0.2)?;
+    let columns = progress.part(0.2, 0.9).collect_with(
         thread_count,
         bones.len(),
         1,
@@ -196,7 +208,7 @@ fn distance_rows(
             }
             column
         },
-    );
+    )?;
     let mut starts = vec![0u32; points.len() + 1];
     for &(vertex, _) in columns.iter().flatten() {
         starts[vertex as usize + 1] += 1;
@@ -213,7 +225,7 @@ fn distance_rows(
             *at += 1;
         }
     }
-    Rows { starts, entries }
+    Ok(Rows { starts, entries })
 }
 
 /// The distance of a bone from `p`: of the voxels around it those that see the bone give the straight distance from `p`

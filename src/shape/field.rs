@@ -39,44 +39,49 @@ pub enum BodyField {
 pub struct Finish {
     /// Eqs. 12 and 13. Each mode says what is on the face, so this goes through its field.
     pub face: FaceShape,
+    /// All the way, the body is this many times as large as its field makes it.
+    pub whole: f64,
     /// 0 leaves everything where it is, 1 goes all the way.
     pub amount: f64,
     /// Added to all heights in the end.
     pub ground: f64,
     /// Then everything grows by this.
     pub size: f64,
-    /// What stays where it is when everything grows.
+    /// What stays where it is when everything grows or shrinks.
     pub about: DVec3,
 }
 
 impl Default for Finish {
     /// All the way, without a younger face, from where the field puts the ground.
     fn default() -> Self {
-        Self { face: FaceShape::None, amount: 1.0, ground: 0.0, size: 1.0, about: DVec3::ZERO }
+        Self { face: FaceShape::None, whole: 1.0, amount: 1.0, ground: 0.0, size: 1.0, about: DVec3::ZERO }
     }
 }
 
 impl Finish {
     /// Part of the way from `p` to where the body's field takes it.
     #[inline(always)]
-    fn apply(&self, p: DVec3, Mapped { position, jacobian }: Mapped) -> Mapped {
+    fn apply(&self, p: DVec3, to: Mapped) -> Mapped {
+        let Mapped { position, jacobian } = self.grown(to, self.whole);
         // Written so that amount 0 gives p itself, bit for bit.
         let to = Mapped {
             position: p + self.amount * (position - p) + DVec3::Y * self.ground,
             jacobian: DMat3::IDENTITY + (jacobian - DMat3::IDENTITY) * self.amount,
         };
-        if self.size == 1.0 {
+        self.grown(to, self.size)
+    }
+
+    #[inline(always)]
+    fn grown(&self, to: Mapped, size: f64) -> Mapped {
+        if size == 1.0 {
             return to;
         }
-        Mapped {
-            position: self.about + self.size * (to.position - self.about),
-            jacobian: to.jacobian * self.size,
-        }
+        Mapped { position: self.about + size * (to.position - self.about), jacobian: to.jacobian * size }
     }
 
     /// How much of an offset is left that is added to where the body's field takes a point.
     pub fn share_of_offsets(&self) -> f64 {
-        self.size * self.amount
+        self.size * self.amount * self.whole
     }
 
     /// True where everything stays.

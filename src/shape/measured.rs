@@ -14,6 +14,7 @@ use crate::face::landmarks::FaceLandmarks;
 use crate::geometry::{SEAM, Surface, Weld, weld};
 use crate::options::Options;
 use crate::parallel;
+use crate::progress::Progress;
 use glam::DVec3;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -48,16 +49,22 @@ impl Measured {
     /// # Errors
     /// As [`Figure::of`] and [`measure`].
     pub fn of(character: &Character, options: &Options) -> Result<Self> {
-        Self::of_figure(Figure::of(character)?, character, options)
+        Self::of_figure(Figure::of(character)?, character, options, &mut Progress::none())
     }
 
     /// Measures a character that is laid out already, as `figure`.
     ///
     /// # Errors
-    /// As [`measure`].
-    pub fn of_figure(figure: Figure, character: &Character, options: &Options) -> Result<Self> {
+    /// As [`measure`]; `Cancelled`.
+    pub fn of_figure(
+        figure: Figure,
+        character: &Character,
+        options: &Options,
+        progress: &mut Progress,
+    ) -> Result<Self> {
         let threads = if figure.triangles.len() < LEAST_TRIANGLES { 1 } else { options.thread_count };
         let (surfaces, anatomy) = parallel::both(threads, || surfaces(&figure), || Anatomy::of(&figure));
+        progress.at(0.4)?;
         let joints: BTreeMap<Role, DVec3> =
             figure.humanoid.iter().map(|(role, joint)| (role, figure.joints[joint])).collect();
         let least = anatomy.head_joint.y + LEAST_HEAD * figure.height();
@@ -66,15 +73,19 @@ impl Measured {
         let bones = bones(&roles, &options.bone_groups);
         let surfaces: Vec<&Surface> = surfaces.iter().collect();
         let mut shape = measure(&bones, &joints, head_top, &surfaces, options.ray_count())?;
+        progress.at(0.55)?;
         shape.landmarks = Some(anatomy.landmarks.heights);
         shape.proportions = Some(anatomy.proportions.clone());
         let has_chin = anatomy.landmarks.chin_seen;
         let face = has_chin.then(|| FaceLandmarks::of(&head(character, &figure, &anatomy)));
+        progress.at(0.7)?;
         shape.face = face.as_ref().and_then(FaceStyle::of);
         let weld = Arc::new(weld(&figure.positions, SEAM * figure.height()));
+        progress.at(0.8)?;
         let parts: Vec<PartWeights> = figure.role_weights.iter().map(|row| fold_to_parts(row)).collect();
         let frame = BodyFrame::of(&figure, &anatomy);
         shape.profile = Some(measure_profile(&figure, &figure.positions, &parts, &weld, &frame).0);
+        progress.at(1.0)?;
         Ok(Self { figure, anatomy, face, joints, head_top, weld, shape })
     }
 

@@ -9,7 +9,7 @@ use superdeform::internals::shape::figure::Figure;
 use superdeform::internals::shape::product::anatomy::Anatomy;
 use superdeform::internals::shape::product::binding::{PartBindings, part_bindings};
 use superdeform::internals::shape::product::part::{PART_COUNT, Part, PartWeights};
-use superdeform::{Character, MeshKind};
+use superdeform::{Character, MeshKind, Progress};
 
 pub struct Tubes {
     pub person: Person,
@@ -30,7 +30,9 @@ impl Tubes {
         let figure = Figure::of(&character).unwrap();
         let anatomy = Anatomy::of(&figure);
         let weld = weld(&figure.positions, SEAM * figure.height());
-        let bindings = part_bindings(&figure, &anatomy, None, &character.skeleton, &weld, 1);
+        let bindings =
+            part_bindings(&figure, &anatomy, None, &character.skeleton, &weld, 1, &mut Progress::none())
+                .unwrap();
         Self { person, character, figure, anatomy, bindings }
     }
 

@@ -17,7 +17,7 @@ fn check(deformer: &Deformer, what: &str, joint: u32, numbers: &[f64], radius: f
         ));
     }
     if numbers.iter().any(|number| !number.is_finite()) {
-        return Err(format!("{what} is at {numbers:?}: points must be finite numbers"));
+        return Err(format!("{what} has a number that is not finite: give points of finite numbers"));
     }
     if !(radius >= 0.0 && radius.is_finite()) {
         return Err(format!("{what} has the radius {radius}: give 0 or more"));

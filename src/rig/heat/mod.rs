@@ -11,9 +11,11 @@ mod nearest;
 
 use super::{WeightBone, WeightSet};
 use crate::character::Weights;
+use crate::error::Result;
 use crate::geometry::laplacian::{Cholesky, Symbolic, cotangent_laplacian, has_area};
 use crate::geometry::{SEAM, Weld, bounds, components, weld};
 use crate::parallel;
+use crate::progress::Progress;
 use glam::DVec3;
 use nearest::{NearestBones, Segments};
 use std::collections::BTreeMap;
@@ -61,7 +63,10 @@ pub fn heat_weights(
     bones: &[WeightBone],
     options: &HeatOptions,
 ) -> WeightSet {
-    HeatSystem::new(positions, triangles, bones, options.thread_count).weights(options.heat)
+    let mut quiet = Progress::none();
+    HeatSystem::new(positions, triangles, bones, options.thread_count, &mut quiet)
+        .and_then(|system| system.weights(options.heat, &mut quiet))
+        .expect("nobody asks to stop")
 }
 
 /// The heat equation of a mesh and its bones, for any c.
@@ -116,13 +121,17 @@ impl HeatSystem {
     /// - `triangles`: those with a vertex that is not there are left out.
     /// - `thread_count`: 0 means all cores. Results are the same for any number.
     ///
+    /// # Errors
+    /// `Cancelled`.
+    ///
     /// One ray a vertex, one look at every segment.
     pub fn new(
         positions: &[DVec3],
         triangles: &[[u32; 3]],
         bones: &[WeightBone],
         thread_count: usize,
-    ) -> Self {
+        progress: &mut Progress,
+    ) -> Result<Self> {
         let is_there =
             |corners: &&[u32; 3]| corners.iter().all(|&vertex| (vertex as usize) < positions.len());
         let triangles = || triangles.iter().filter(is_there);
@@ -133,6 +142,7 @@ impl HeatSystem {
         arrange(&mut weld, &mut points);
         let pieces = Components::of(&points, triangles().map(|&corners| weld.triangle(corners)));
         let segments = Segments::of(bones, &frame);
+        progress.at(0.2)?;
         let ((laplacian, symbolic), nearest) = parallel::both(
             thread_count,
             || {
@@ -141,8 +151,9 @@ impl HeatSystem {
                 laplacian.off_diagonal = Vec::new();
                 (laplacian, symbolic)
             },
-            || NearestBones::of(&points, &pieces, &segments, thread_count),
+            || NearestBones::of(&points, &pieces, &segments, thread_count, &mut progress.part(0.2, 0.9)),
         );
+        let nearest = nearest?;
         let mut system = Self {
             thread_count,
             weld,
@@ -155,7 +166,8 @@ impl HeatSystem {
             symbolic,
         };
         system.choose_rules(pieces.starts.len() - 1);
-        system
+        progress.at(1.0)?;
+        Ok(system)
     }
 
     /// Tells how each component gets its weights, and takes the rest out of the system.
@@ -195,7 +207,10 @@ impl HeatSystem {
     /// The weights for one c (1 spreads weights over about a limb's radius; larger is sharper), taken into 1e-4..1e6.
     ///
     /// A row has every joint whose weight is at least 1e-6, in ascending order.
-    pub fn weights(&self, heat: f64) -> WeightSet {
+    ///
+    /// # Errors
+    /// `Cancelled`.
+    pub fn weights(&self, heat: f64, progress: &mut Progress) -> Result<WeightSet> {
         let mut fallback = BTreeMap::new();
         let mut count = |rule: Option<&'static str>| {
             if let Some(rule) = rule {
@@ -206,11 +221,11 @@ impl HeatSystem {
             let joint = self.joints.first().copied().unwrap_or(0);
             let vertex_count = self.weld.representative.len();
             (0..vertex_count).for_each(|_| count(Some("no_bone")));
-            return WeightSet { weights: Weights::rigid(joint, vertex_count), fallback };
+            return Ok(WeightSet { weights: Weights::rigid(joint, vertex_count), fallback });
         }
         // Also where it is not a number.
         let heat = if heat > HEAT_RANGE[0] { heat.min(HEAT_RANGE[1]) } else { HEAT_RANGE[0] };
-        let (blocks, is_raised) = self.solve(heat);
+        let (blocks, is_raised) = self.solve(heat, &mut progress.part(0.0, 0.8))?;
         let means = self.means();
         let mut ends = vec![0; blocks.len()];
         let mut starts = Vec::with_capacity(self.weld.count + 1);
@@ -259,7 +274,8 @@ impl HeatSystem {
             let welded = welded as usize;
             entries[starts[welded]..starts[welded + 1]].iter().copied()
         }));
-        WeightSet { weights, fallback }
+        progress.at(1.0)?;
+        Ok(WeightSet { weights, fallback })
     }
 
     /// From bones to joints: one entry a joint, ascending, sum 1.
@@ -280,9 +296,9 @@ impl HeatSystem {
     }
 
     /// The solution by blocks of bones, and whether the diagonal was raised.
-    fn solve(&self, heat: f64) -> (Vec<Solution>, bool) {
+    fn solve(&self, heat: f64, progress: &mut Progress) -> Result<(Vec<Solution>, bool)> {
         let Some(symbolic) = &self.symbolic else {
-            return (Vec::new(), false);
+            return Ok((Vec::new(), false));
         };
         let factored = SHIFTS.iter().find_map(|&shift| {
             let diagonal: Vec<f64> = (self.diagonal.iter().zip(&self.exchange))
@@ -291,8 +307,9 @@ impl HeatSystem {
             Some((Cholesky::with(symbolic, &diagonal)?, shift))
         });
         let Some((cholesky, shift)) = factored else {
-            return (Vec::new(), false);
+            return Ok((Vec::new(), false));
         };
+        progress.at(0.4)?;
         // (vertex, share) by bones: A H P / c without its zeros.
         let mut sources: Vec<Vec<(u32, f64)>> = vec![Vec::new(); self.joints.len()];
         for (vertex, &exchange) in self.exchange.iter().enumerate() {
@@ -306,7 +323,7 @@ impl HeatSystem {
         let bones: Vec<usize> = (0..sources.len()).filter(|&bone| !sources[bone].is_empty()).collect();
         let blocks: Vec<&[usize]> = bones.chunks(BLOCK).collect();
         let size = self.weld.count;
-        let solutions = parallel::collect(self.thread_count, blocks.len(), 1, |block| {
+        let solved = |&mut (): &mut (), block: usize| {
             let bones = blocks[block];
             let mut columns = vec![0.0; bones.len() * size];
             for (column, &bone) in columns.chunks_mut(size).zip(bones) {
@@ -324,8 +341,10 @@ impl HeatSystem {
                 }
             }
             solution
-        });
-        (solutions, shift > 0.0)
+        };
+        let mut progress = progress.part(0.4, 1.0);
+        let solutions = progress.collect_with(self.thread_count, blocks.len(), 1, || (), solved)?;
+        Ok((solutions, shift > 0.0))
     }
 
     /// The bones of components that have one temperature.

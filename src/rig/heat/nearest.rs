@@ -1,8 +1,10 @@
 //! The bones that are nearest to each vertex, and whether it sees them.
 
 use super::{Components, Frame};
+use crate::error::Result;
 use crate::geometry::{Surface, foot};
 use crate::parallel;
+use crate::progress::Progress;
 use crate::rig::WeightBone;
 use glam::DVec3;
 
@@ -98,13 +100,15 @@ impl NearestBones {
         pieces: &Components,
         segments: &Segments,
         thread_count: usize,
-    ) -> Self {
+        progress: &mut Progress,
+    ) -> Result<Self> {
         let component_count = pieces.starts.len() - 1;
         let surfaces = parallel::collect(thread_count, component_count, 1, |component| {
             Surface::new(points, pieces.triangles_of(component))
         });
+        progress.at(0.3)?;
         let chunks: Vec<&[DVec3]> = points.chunks(CHUNK).collect();
-        let found = parallel::collect_with(
+        let found = progress.part(0.3, 1.0).collect_with(
             thread_count,
             chunks.len(),
             1,
@@ -117,7 +121,7 @@ impl NearestBones {
                 }
                 found
             },
-        );
+        )?;
         let mut all = Self { starts: vec![0], ..Self::default() };
         for chunk in found {
             let start = all.shares.len() as u32;
@@ -126,7 +130,7 @@ impl NearestBones {
             all.heat.extend(chunk.heat);
             all.seen.extend(chunk.seen);
         }
-        all
+        Ok(all)
     }
 
     /// Adds a vertex; `near` are the bones near to it. Here `starts` are ends.

@@ -7,9 +7,11 @@ use super::pieces::{Attachment, Piece, Pieces};
 use super::profile::skirts::skirt_vertices;
 use super::weights::part_weights;
 use crate::character::{MeshKind, Role, Skeleton};
+use crate::error::Result;
 use crate::face::landmarks::FaceLandmarks;
 use crate::face::stage::FaceBinding;
 use crate::geometry::{Bounds, Weld, bounds, clusters, components, smoothstep};
+use crate::progress::Progress;
 use crate::shape::figure::Figure;
 use glam::DVec3;
 use std::collections::BTreeMap;
@@ -74,6 +76,9 @@ pub struct PartBindings {
 /// - `weld`: the figure's vertices by position.
 /// - `threads`: at most this many, 0 for all cores; the result does not depend on it.
 ///
+/// # Errors
+/// `Cancelled`.
+///
 /// O(vertices · log vertices).
 pub fn part_bindings(
     figure: &Figure,
@@ -82,9 +87,11 @@ pub fn part_bindings(
     skeleton: &Skeleton,
     weld: &Weld,
     threads: usize,
-) -> PartBindings {
+    progress: &mut Progress,
+) -> Result<PartBindings> {
     let members = members_of_components(figure, weld);
-    let (weights, head_only) = part_weights(figure, anatomy, weld, &members, threads);
+    let part = &mut progress.part(0.05, 0.8);
+    let (weights, head_only) = part_weights(figure, anatomy, weld, &members, threads, part)?;
     let Pieces { attachments, pieces, of_joints } =
         Pieces::of(figure, skeleton, weld, &members, &head_only, &weights);
     let hair = HairOutline::of(
@@ -100,7 +107,8 @@ pub fn part_bindings(
     let bind =
         |(((weights, attachment), face), is_skirt)| PartBinding { weights, attachment, face, is_skirt };
     let vertices = weights.into_iter().zip(attachments).zip(face).zip(is_skirt).map(bind).collect();
-    PartBindings { vertices, pieces, joint_pieces: of_joints, things, eye_turns, hair }
+    progress.at(1.0)?;
+    Ok(PartBindings { vertices, pieces, joint_pieces: of_joints, things, eye_turns, hair })
 }
 
 /// How each vertex takes part in the face step: with the skin or the hair as far as the head moves it, as an eyeball, or

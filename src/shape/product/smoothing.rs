@@ -1,9 +1,11 @@
 //! Smooths the weights of the parts along the mesh, then across layers of cloth (product mode).
 
 use super::part::{PART_COUNT, Part, PartWeights, add};
+use crate::error::Result;
 use crate::geometry::point_tree::{Near, PointTree};
 use crate::geometry::{Neighbours, Weld, neighbours};
 use crate::parallel;
+use crate::progress::Progress;
 use crate::shape::figure::Figure;
 use glam::DVec3;
 
@@ -158,13 +160,17 @@ fn umbrella_steps(
 
 /// A Gaussian over near vertices of any mesh, so that cloth and body move together. Left arm,
 /// right arm and the rest do not mix: a hand on the hip must not carry the hip along.
+///
+/// # Errors
+/// `Cancelled`.
 pub fn smooth_across(
     figure: &Figure,
     weld: &Weld,
     frozen: &[bool],
     parts: &mut [PartWeights],
     threads: usize,
-) {
+    progress: &mut Progress,
+) -> Result<()> {
     let sigma = SMOOTHING_WIDTH * figure.height();
     let class_of = |row: &PartWeights| {
         let sum = |first: Part| row[first as usize..first as usize + 3].iter().sum::<f32>();
@@ -190,11 +196,16 @@ pub fn smooth_across(
         }
         sample_of[vertex] = *sample;
     }
-    let smoothed = samples.each_ref().map(|samples| {
+    let all = samples.iter().map(Vec::len).sum::<usize>().max(1) as f32;
+    let mut done = 0.0;
+    let mut smoothed: [Vec<PartWeights>; CLASS_COUNT] = Default::default();
+    for (samples, smoothed) in samples.iter().zip(&mut smoothed) {
         let points: Vec<DVec3> = samples.iter().map(|&vertex| figure.positions[vertex]).collect();
         let rows: Vec<PartWeights> = samples.iter().map(|&vertex| parts[vertex]).collect();
-        layer_steps(&points, rows, sigma, threads)
-    });
+        let start = done;
+        done += samples.len() as f32 / all;
+        *smoothed = layer_steps(&points, rows, sigma, threads, &mut progress.part(start, done))?;
+    }
     for (vertex, &sample) in sample_of.iter().enumerate() {
         if sample != u32::MAX {
             parts[vertex] = smoothed[class[vertex] as usize][sample as usize];
@@ -204,6 +215,7 @@ pub fn smooth_across(
         let total: f32 = row.iter().sum();
         row.iter_mut().for_each(|weight| *weight /= total);
     }
+    Ok(())
 }
 
 /// The points that one point is smoothed with, in the order of the tree.
@@ -214,10 +226,17 @@ struct Layer {
 }
 
 /// `LAYER_PASSES` Gaussian means over the nearest points within [`LAYER_REACH`] standard deviations, `sigma` each.
-fn layer_steps(points: &[DVec3], rows: Vec<PartWeights>, sigma: f64, threads: usize) -> Vec<PartWeights> {
+fn layer_steps(
+    points: &[DVec3],
+    rows: Vec<PartWeights>,
+    sigma: f64,
+    threads: usize,
+    progress: &mut Progress,
+) -> Result<Vec<PartWeights>> {
     let tree = PointTree::new(points);
     let reach = LAYER_REACH * sigma;
-    let layers = parallel::collect_with(
+    progress.at(0.1)?;
+    let layers = progress.part(0.1, 0.7).collect_with(
         threads,
         points.len(),
         LEAST_SAMPLES,
@@ -249,9 +268,10 @@ fn layer_steps(points: &[DVec3], rows: Vec<PartWeights>, sigma: f64, threads: us
             }
             layer
         },
-    );
+    )?;
     let mut ordered: Vec<PartWeights> = tree.indices().iter().map(|&index| rows[index as usize]).collect();
-    for _ in 0..LAYER_PASSES {
+    for pass in 0..LAYER_PASSES {
+        progress.at(0.7 + 0.1 * pass as f32)?;
         ordered = parallel::collect(threads, points.len(), LEAST_SAMPLES, |slot| {
             let layer = &layers[slot];
             let mut sum = [0.0; PART_COUNT];
@@ -268,5 +288,6 @@ fn layer_steps(points: &[DVec3], rows: Vec<PartWeights>, sigma: f64, threads: us
     for (&index, row) in tree.indices().iter().zip(ordered) {
         smoothed[index as usize] = row;
     }
-    smoothed
+    progress.at(1.0)?;
+    Ok(smoothed)
 }

@@ -9,7 +9,9 @@ use super::anatomy::Anatomy;
 use super::part::{Part, PartWeights, TINY, fold_to_parts};
 use super::smoothing::{smooth_across, smooth_along};
 use crate::character::{MeshKind, Role};
+use crate::error::Result;
 use crate::geometry::{Weld, bounds, smoothstep};
+use crate::progress::Progress;
 use crate::shape::figure::Figure;
 use glam::DVec3;
 
@@ -39,13 +41,17 @@ const HAIR_REACH: (f64, f64) = (0.36, 0.5);
 ///
 /// - `members`: the vertices of each connected component of the figure, by `weld`.
 /// - `threads`: at most this many, 0 for all cores; the result does not depend on it.
+///
+/// # Errors
+/// `Cancelled`.
 pub fn part_weights(
     figure: &Figure,
     anatomy: &Anatomy,
     weld: &Weld,
     members: &[Vec<u32>],
     threads: usize,
-) -> (Vec<PartWeights>, Vec<bool>) {
+    progress: &mut Progress,
+) -> Result<(Vec<PartWeights>, Vec<bool>)> {
     let mut parts: Vec<PartWeights> = figure.role_weights.iter().map(|row| fold_to_parts(row)).collect();
     let head_only = head_only(figure, &parts, members);
     for vertex in 0..parts.len() {
@@ -58,7 +64,9 @@ pub fn part_weights(
         }
     }
     mark_hanging_hair(figure, anatomy, members, &head_only, &mut parts);
+    progress.at(0.1)?;
     smooth_along(figure, weld, &head_only, &mut parts, threads);
+    progress.at(0.3)?;
     // Skin at the root of hair has moved over to the hair's weights, and must stay there or the hair line opens.
     let mut holds_head_only = vec![false; weld.count];
     for (vertex, _) in head_only.iter().enumerate().filter(|&(_, &head_only)| head_only) {
@@ -66,11 +74,11 @@ pub fn part_weights(
     }
     let frozen: Vec<bool> =
         weld.representative.iter().map(|&welded| holds_head_only[welded as usize]).collect();
-    smooth_across(figure, weld, &frozen, &mut parts, threads);
+    smooth_across(figure, weld, &frozen, &mut parts, threads, &mut progress.part(0.3, 1.0))?;
     for (row, &p) in parts.iter_mut().zip(&figure.positions) {
         settle_soles(row, p, anatomy);
     }
-    (parts, head_only)
+    Ok((parts, head_only))
 }
 
 /// Vertices that move with the head alone: components without torso or limb weight whose mean head weight is above
