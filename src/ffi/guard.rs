@@ -74,6 +74,7 @@ pub fn with_field(message: &str, option: Option<&str>) -> String {
         // A host names joints by their numbers.
         Some("humanoid") => "role_joints, or sdef_character_rig",
         Some("kinds") => "kind",
+        Some("eyes") => "sdef_character_set_face_hints, or kind",
         Some("blend") => "amount",
         Some(option) => option,
         None => return message.to_string(),

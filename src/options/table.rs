@@ -292,6 +292,8 @@ pub const TABLE: &[OptionInfo] = rows! {
         "which joint plays which humanoid role";
     "kinds", Character, Values::Other, "", Default::Found, BOTH,
         "what each mesh depicts: body, garment, hair, part of the face, eye, accessory";
+    "eyes", Character, Values::Other, "", Default::Found, BOTH,
+        "where the eyes are, where they are not found";
 };
 
 /// The option named `name`.

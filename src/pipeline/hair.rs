@@ -11,7 +11,7 @@ use crate::face::stage::YoungFace;
 use crate::options::Stage;
 use crate::shape::field::{Binding, BodyField, Field, Finish};
 use crate::shape::product::binding::PartBinding;
-use crate::shape::product::curtain::{Curtain, Openings, sides};
+use crate::shape::product::curtain::{Curtain, Openings};
 use crate::shape::product::field::PartField;
 use crate::shape::product::head::head_frame;
 use crate::shape::product::long_hair::{Axis, Hanging};

@@ -1619,12 +1619,6 @@ internal unsafe struct SdefReport {
     public UInt64 fallback_vertices;
 }
 
-[UnmanagedFunctionPointer(CallingConvention.Cdecl)]
-internal unsafe delegate void SdefTask(void* data, UInt32 index);
-
-[UnmanagedFunctionPointer(CallingConvention.Cdecl)]
-internal unsafe delegate void SdefJobs(void* user, SdefTask task, void* data, UInt32 count);
-
 /// <summary>
 /// A collider of springs; lengths and points in model space.
 /// </summary>
@@ -1741,6 +1735,12 @@ internal unsafe struct SdefSpringBall {
     /// </summary>
     public double radius;
 }
+
+[UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+internal unsafe delegate void SdefTask(void* data, UInt32 index);
+
+[UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+internal unsafe delegate void SdefJobs(void* user, SdefTask task, void* data, UInt32 count);
 
 /// <summary>
 /// A style as plain numbers, in the units of its model; NAN: not known. Product mode transfers what is from
