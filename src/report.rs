@@ -183,6 +183,18 @@ pub struct RigReport {
     pub fallback_vertices: BTreeMap<String, usize>,
 }
 
+/// How far the lowest sole is above the floor in a walk that was made for ordinary legs, as a share of the figure's height; below
+/// 0 it dips in. Absent where a leg is not complete.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct SoleClearance {
+    /// Before.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub target: Option<f64>,
+    /// After.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub result: Option<f64>,
+}
+
 /// How much of what.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 #[allow(missing_docs)]
@@ -229,6 +241,11 @@ pub struct Report {
     pub profile: ProfileReport,
     /// The rig.
     pub rig: RigReport,
+    /// Soles and the floor in a walk.
+    pub sole_clearance: SoleClearance,
+    /// How far a vertex is at most from where it should be when two morph targets are on at once, as a share of the result's
+    /// height: the field bends, and targets add up straight.
+    pub morph_pair_error: f64,
     /// How much of what.
     pub counts: Counts,
     /// Milliseconds by stage.

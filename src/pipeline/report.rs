@@ -3,8 +3,9 @@
 use super::{Deformed, Deformer};
 use crate::character::Humanoid;
 use crate::error::Result;
-use crate::report::{Counts, FigureReport, ProfileReport, Report, RigReport};
+use crate::report::{Counts, FigureReport, ProfileReport, Report, RigReport, SoleClearance};
 use crate::shape::Measured;
+use crate::shape::stride::clearance_of;
 use crate::shape::style::Style;
 use glam::DVec3;
 use std::collections::BTreeMap;
@@ -41,6 +42,8 @@ impl Deformer {
             coefficients: self.deformation.coefficients.clone(),
             profile: ProfileReport::of(&self.target.measured, &self.style, &measured),
             rig: self.rig.as_ref().map_or_else(|| self.kept_rig(), |rig| rig.report.clone()),
+            sole_clearance: SoleClearance { target: soles(&self.target.measured), result: soles(&measured) },
+            morph_pair_error: self.morph_pair_error() / measured.figure.height(),
             counts: Counts {
                 vertices: character.vertex_count(),
                 triangles: character.triangle_count(),
@@ -53,6 +56,38 @@ impl Deformer {
         })
     }
 
+    /// How far a vertex is at most from where the field takes it when its two largest morph targets are on at once, model units.
+    fn morph_pair_error(&self) -> f64 {
+        if self.field.finish.is_nothing() {
+            return 0.0;
+        }
+        let placement = self.placement();
+        let figure = placement.figure;
+        let mut worst: f64 = 0.0;
+        for (mesh, &start) in self.target.character.meshes.iter().zip(&figure.mesh_starts) {
+            for vertex in 0..mesh.positions.len() {
+                let mut largest = [DVec3::ZERO; 2];
+                for delta in mesh.morph_targets.iter().map(|target| target.positions[vertex].as_dvec3()) {
+                    if delta.length_squared() > largest[0].length_squared() {
+                        largest = [delta, largest[0]];
+                    } else if delta.length_squared() > largest[1].length_squared() {
+                        largest[1] = delta;
+                    }
+                }
+                if largest[1] == DVec3::ZERO {
+                    continue;
+                }
+                let p = mesh.positions[vertex].as_dvec3();
+                let to =
+                    |delta: DVec3| placement.beside(start + vertex, figure.frame.to_canonical(p + delta));
+                let [one, other] = largest;
+                let straight = to(one) + to(other) - to(DVec3::ZERO);
+                worst = worst.max(to(one + other).distance(straight));
+            }
+        }
+        worst
+    }
+
     /// The character's own rig, of which every joint is sure.
     fn kept_rig(&self) -> RigReport {
         let roles = self.target.measured.joints.keys();
@@ -62,6 +97,11 @@ impl Deformer {
             ..RigReport::default()
         }
     }
+}
+
+/// How far soles stay from the floor in a walk.
+fn soles(measured: &Measured) -> Option<f64> {
+    clearance_of(&measured.figure, measured.anatomy.landmarks.heights.sole)
 }
 
 /// Where the joints of `humanoid` are, by role.

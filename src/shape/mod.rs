@@ -11,6 +11,7 @@ pub mod measure;
 pub mod measured;
 pub mod paper;
 pub mod product;
+pub mod stride;
 pub mod style;
 
 pub use body_shape::{BodyShape, BoneShape};
