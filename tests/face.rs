@@ -15,7 +15,7 @@ use superdeform::internals::face::youth::FaceAim;
 use superdeform::internals::shape::Measured;
 use superdeform::internals::shape::figure::Figure;
 use superdeform::options::Features;
-use superdeform::{Deformer, EyeHint, FaceHints, Options, Role, Style};
+use superdeform::{Deformer, EyeHint, FaceHints, Options, Progress, Role, Style};
 
 /// What was measured on these heads by another program, by rays, from the same definitions: eyes' height, half distance,
 /// half width and height of an opening, ball; nose's height and protrusion; half width of face and skull. NaN: no figure.
@@ -388,4 +388,45 @@ fn eyes_are_where_a_host_says_they_are() {
     // No eye is above the crown.
     let (none, warned) = of(Some(eye(1.0, 1.4, 0.0)), None);
     assert!(none.is_none() && warned);
+}
+
+#[test]
+fn sliders_of_the_head_give_what_a_new_deformer_gives() {
+    let names =
+        present(&["makehuman_female_rigged.glb", "quaternius_male_casual.glb", "valid_aian_m_1_milit.glb"]);
+    if names.is_empty() {
+        println!("skipped: none of these models is there");
+        return;
+    }
+    let of = |youth, seat, hair_lay, smile| Options { youth, seat, hair_lay, smile, ..Options::default() };
+    let steps = [
+        of(0.4, 1.0, 1.0, 0.0),
+        of(0.7, 1.0, 1.0, 0.0),
+        of(0.7, 0.5, 1.0, 0.0),
+        of(0.7, 0.5, 0.3, 0.0),
+        of(0.0, 0.5, 0.3, 0.0),
+        of(0.0, 0.0, 0.0, 0.0),
+        of(0.6, 0.0, 0.0, 1.0),
+        Options { face_squash: Some(0.2), ..of(0.6, 1.0, 1.0, 0.0) },
+        of(1.0, 1.0, 1.0, 0.0),
+    ];
+    check_all(&names, |&name| {
+        let character = Arc::new(all_models()[name].character.clone());
+        let style = Style::Heads(2.5);
+        let new = |options: &Options| Deformer::new(Arc::clone(&character), &style, options).unwrap();
+        let mut deformer = new(&Options::default());
+        let head = deformer.target().figure.humanoid.joint(Role::Head).unwrap();
+        let at = deformer.target().figure.frame.to_model(deformer.target().anatomy.head_centre);
+        let mut wrong = Vec::new();
+        for (step, options) in steps.iter().enumerate() {
+            deformer.set_options(options, &mut Progress::none()).unwrap();
+            let fresh = new(options);
+            let (slid, made) = (deformer.apply(), fresh.apply());
+            let is_same = models::positions(&slid) == models::positions(&made) && slid.joints == made.joints;
+            if !is_same || deformer.map(head, at) != fresh.map(head, at) {
+                wrong.push(format!("{name}: step {step} differs"));
+            }
+        }
+        wrong
+    });
 }

@@ -393,6 +393,9 @@ fn painted(head: &Head, middle: DVec2, half: DVec2) -> Option<Eye> {
     Some(Eye { low: (middle - half).extend(front), high: (middle + half).extend(front), ball: None })
 }
 
+/// Half width and height of an opening of which only the middle is said, in half distances of the eyes: the mean of eight
+/// adult heads.
+const OPENING_BY_HINT: [f64; 2] = [0.32, 0.18];
 /// A piece whose opening's middle is within this part of the eyes' half distance from where the host says an eye is, is
 /// that eye.
 const NEAR_HINT: f64 = 0.5;
@@ -417,7 +420,7 @@ fn by_hints(head: &Head) -> Option<Eyes> {
         let piece = pieces.as_ref().map(|eyes| &eyes[index]);
         let mut eye = match piece.filter(|eye| eye.middle().truncate().distance(middle) < NEAR_HINT * d) {
             Some(piece) => piece.clone(),
-            None => painted(head, middle, d * DVec2::from_array(OPENING_BY_JOINT))?,
+            None => painted(head, middle, d * DVec2::from_array(OPENING_BY_HINT))?,
         };
         for (axis, half) in half.to_array().into_iter().enumerate().filter(|&(_, half)| half > 0.0) {
             eye.low[axis] = middle[axis] - half;
