@@ -197,6 +197,38 @@ public sealed class DeformerTests
     }
 
     [Test]
+    public void A_job_system_of_the_hosts_does_the_work_and_gives_the_same_bits()
+    {
+        double[] before = new double[3 * figure.JointCount], after = new double[3 * figure.JointCount];
+        int runs = 0;
+        using (Style style = Style.FromHeads(3))
+        {
+            using (Deformer own = new Deformer(character, style)) own.GetJoints(before, null);
+            using (new JobScope((count, task) =>
+            {
+                System.Threading.Interlocked.Increment(ref runs);
+                System.Threading.Tasks.Parallel.For(0, count, task);
+            }))
+            {
+                using (Deformer hosts = new Deformer(character, style)) hosts.GetJoints(after, null);
+                // A rig is work enough for several threads.
+                using (Character rigged = figure.Character()) rigged.Rig(new Options { ThreadCount = 4 });
+            }
+            Assert.AreEqual(before, after);
+            Assert.IsTrue(runs > 0, "the runner was never called");
+            int once = runs;
+            using (Deformer own = new Deformer(character, style)) own.GetJoints(after, null);
+            Assert.AreEqual(once, runs, "after its end");
+            // What a runner leaves out is done all the same, and what it throws comes out.
+            JobScope lazy = new JobScope((count, task) => { throw new NotSupportedException("no jobs today"); });
+            using (Character rigged = figure.Character()) rigged.Rig(new Options { ThreadCount = 4 });
+            Assert.Throws<NotSupportedException>(() => lazy.Dispose());
+            lazy.Dispose();
+            Assert.Throws<ArgumentNullException>(() => new JobScope(null));
+        }
+    }
+
+    [Test]
     public void Groups_have_names_scales_and_sizes()
     {
         Options options = new Options();
