@@ -23,7 +23,7 @@ use std::sync::Arc;
 use superdeform::internals::character::bones::Group;
 use superdeform::internals::geometry::Surface;
 use superdeform::internals::shape::Measured;
-use superdeform::internals::shape::product::profile::{Profile, Row, STATIONS};
+use superdeform::internals::shape::product::profile::{LegProfile, Profile, Row, STATIONS, flesh};
 use superdeform::{Character, MeshKind, Role};
 use superdeform::{Deformer, Options, Style};
 
@@ -206,12 +206,13 @@ fn flips(before: &Figure, after: &Figure) -> [usize; 2] {
 }
 
 /// What [`profile_ratios`] gives.
-const PARTS: [&str; 7] = ["torso", "chest", "hips", "legs", "arms", "hand", "foot"];
+const PARTS: [&str; 8] = ["torso", "chest", "hips", "hips' flesh", "legs", "arms", "hand", "foot"];
 
 /// The result's profile over the reference's, each in its own heads: means over the slices of the root of breadth and depth;
-/// the chest's breadth at the torso's last slice, the hips' at the legs' first one; hands by the cube root of their box, feet by
+/// the chest's breadth at the torso's last slice, the hips' at the legs' first one, as it is and without the shorts that only
+/// the reference wears; hands by the cube root of their box, feet by
 /// the square root of theirs. NaN for what is missing.
-fn profile_ratios(wanted: &Profile, got: &Profile) -> [f64; 7] {
+fn profile_ratios(wanted: &Profile, got: &Profile) -> [f64; 8] {
     let mean = |got: [&Row; 2], wanted: [&Row; 2]| {
         let ratio = |at: usize| ((got[0][at] * got[1][at]) / (wanted[0][at] * wanted[1][at])).sqrt();
         (0..STATIONS).map(ratio).sum::<f64>() / STATIONS as f64
@@ -220,11 +221,14 @@ fn profile_ratios(wanted: &Profile, got: &Profile) -> [f64; 7] {
     let torsos = got.torso.as_ref().zip(wanted.torso.as_ref());
     let legs = got.leg.as_ref().zip(wanted.leg.as_ref());
     let arms = got.arm.as_ref().zip(wanted.arm.as_ref());
+    let bare = flesh(wanted, got).leg;
+    let outer = |leg: &LegProfile| leg.outward[0] + leg.breadth[0];
     let size = |sizes: &[f64]| sizes.iter().product::<f64>().powf(1.0 / sizes.len() as f64);
     [
         over(torsos.map(|(a, b)| mean([&a.breadth, &a.depth], [&b.breadth, &b.depth]))),
         over(torsos.map(|(a, b)| a.breadth[STATIONS - 1] / b.breadth[STATIONS - 1])),
-        over(legs.map(|(a, b)| (a.outward[0] + a.breadth[0]) / (b.outward[0] + b.breadth[0]))),
+        over(legs.map(|(a, b)| outer(a) / outer(b))),
+        over(got.leg.as_ref().zip(bare.as_ref()).map(|(a, b)| outer(a) / outer(b))),
         over(legs.map(|(a, b)| mean([&a.breadth, &a.depth], [&b.breadth, &b.depth]))),
         over(arms.map(|(a, b)| mean([&a.breadth, &a.depth], [&b.breadth, &b.depth]))),
         over(got.hand.zip(wanted.hand).map(|(a, b)| size(&a) / size(&b))),
@@ -307,9 +311,9 @@ fn main() {
         std::fs::create_dir_all(folder).expect("the folder can be made");
     }
     let mut ratios: BTreeMap<Group, Vec<f64>> = BTreeMap::new();
-    let mut profiles: [Vec<f64>; 7] = Default::default();
+    let mut profiles: [Vec<f64>; 8] = Default::default();
     println!(
-        "pair: torso, upper arm, lower arm, upper leg, lower leg | profile: torso, chest, hips, legs, arms, hand, foot | heads | flips (face) of triangles | legs, arms, cloth (before)"
+        "pair: torso, upper arm, lower arm, upper leg, lower leg | profile: torso, chest, hips, their flesh, legs, arms, hand, foot | heads | flips (face) of triangles | legs, arms, cloth (before)"
     );
     for reference_name in REFERENCES {
         let reference_path = folder.join(reference_name);

@@ -14,8 +14,8 @@ use std::sync::Arc;
 use superdeform::internals::geometry::{SEAM, weld};
 use superdeform::internals::shape::Measured;
 use superdeform::internals::shape::product::part::{PartWeights, fold_to_parts};
-use superdeform::internals::shape::product::profile::{BodyFrame, Profile, Row, measure_profile};
-use superdeform::{BodyShape, Deformer, GroupSettings, Options, Stage, Style};
+use superdeform::internals::shape::product::profile::{BodyFrame, CHAINS, Profile, Row, measure_profile};
+use superdeform::{BodyShape, Deformer, GroupSettings, Options, Rig, RigOptions, Stage, Style};
 
 /// The profile of a model of `shared/models` and its head length; `None` where it is not there. `head`: how long the head is
 /// from the crown down, where another program says so.
@@ -294,6 +294,47 @@ fn a_thickness_that_is_set_stands() {
             assert!((sliced[station] / parts[station] - 1.0).abs() < 0.05, "{station} {sliced:?} {parts:?}");
         }
         assert!(sliced[2] / parts[2] > 1.2, "{sliced:?} {parts:?}");
+    }
+}
+
+/// What the warnings of a run with code `coefficient_limited` say, that of slices left out.
+fn bounds_named(run: &Run) -> String {
+    let warnings = run.deformer.warnings().iter();
+    let named = warnings.filter(|warning| warning.code == "coefficient_limited" && warning.option.is_none());
+    named.map(|warning| warning.message.clone()).collect::<Vec<_>>().join("; ")
+}
+
+#[test]
+fn bounds_on_what_the_slices_set_are_not_warned_of() {
+    if !at_hand() {
+        return;
+    }
+    let style = style_of(REFERENCE, &Options::default());
+    let named = |options: &Options| bounds_named(&run(&style, options));
+    let sliced = named(&Options::default());
+    let parts = named(&Options { profile: 0.0, ..Options::default() });
+    let transfer = GroupSettings { thickness_transfer: Some(0.0), ..GroupSettings::default() };
+    let groups = BTreeMap::from([("upper_leg".to_string(), transfer), ("lower_leg".to_string(), transfer)]);
+    let legs = named(&Options { groups, ..Options::default() });
+    for what in ["lower_arm thickness", "upper_leg thickness", "lower_leg thickness", "hand"] {
+        assert!(parts.contains(what) && !sliced.contains(what), "{what}: {parts} | {sliced}");
+    }
+    assert!(sliced.contains("leg length"), "{sliced}");
+    assert!(legs.contains("upper_leg thickness") && !legs.contains("lower_arm thickness"), "{legs}");
+}
+
+#[test]
+fn a_reference_without_a_rig_has_the_body_that_it_has_with_one() {
+    let name = "quaternius_female_dress_unrigged.glb";
+    let (Some(bare), Some(twin)) = (model(name), model(TARGET)) else { return };
+    let rig = Rig::of(&bare.character, &RigOptions::default()).unwrap();
+    let rigged = rig.applied_to(&bare.character);
+    let profile =
+        |character: &_| Measured::of(character, &Options::default()).unwrap().shape.profile.unwrap();
+    let ratios = profile(&rigged).ratios(&profile(&twin.character));
+    // As near as results are to be to their references.
+    for (chain, ratio) in CHAINS.iter().zip(ratios) {
+        assert!((0.9..=1.1).contains(&ratio), "{chain}: {ratio}");
     }
 }
 

@@ -19,12 +19,13 @@ const ROW_COUNT: usize = 96;
 const MIDDLE: f64 = 0.09;
 /// See [`MIDDLE`].
 const BESIDE: (f64, f64) = (0.14, 0.22);
-/// Where the chin's front, the skull's back and the chest are looked at; the chest against the shoulder line.
+/// Where the chin's front, the skull's back and the chest are looked at; the chest against the shoulder line, half a row off
+/// the rows of a neck of whole hundredths: those are common, and the last digit would choose the rows.
 const CHIN: (f64, f64) = (0.02, 0.12);
 /// See [`CHIN`].
 const SKULL: (f64, f64) = (0.40, 0.62);
 /// See [`CHIN`].
-const CHEST: (f64, f64) = (-0.30, -0.02);
+const CHEST: (f64, f64) = (-0.305, -0.025);
 /// A chin may hang so far before the chest, a skull so far behind the back; artists: .08 to .10, .06 to .20.
 const CHIN_BEFORE: f64 = 0.12;
 /// See [`CHIN_BEFORE`].

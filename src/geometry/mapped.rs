@@ -30,6 +30,51 @@ impl Mapped {
     }
 }
 
+/// What comes out of a map: a [`Mapped`], or its place alone. Maps that are written for both cost no Jacobian where none is
+/// asked for.
+pub trait Moved: Copy {
+    /// What a map gives.
+    fn of(position: DVec3, jacobian: impl FnOnce() -> DMat3) -> Self;
+    /// The point's new place.
+    fn position(self) -> DVec3;
+    /// The map's Jacobian at the point; 0 where none is kept.
+    fn jacobian(self) -> DMat3;
+}
+
+impl Moved for Mapped {
+    #[inline(always)]
+    fn of(position: DVec3, jacobian: impl FnOnce() -> DMat3) -> Self {
+        Self { position, jacobian: jacobian() }
+    }
+
+    #[inline(always)]
+    fn position(self) -> DVec3 {
+        self.position
+    }
+
+    #[inline(always)]
+    fn jacobian(self) -> DMat3 {
+        self.jacobian
+    }
+}
+
+impl Moved for DVec3 {
+    #[inline(always)]
+    fn of(position: DVec3, _: impl FnOnce() -> DMat3) -> Self {
+        position
+    }
+
+    #[inline(always)]
+    fn position(self) -> DVec3 {
+        self
+    }
+
+    #[inline(always)]
+    fn jacobian(self) -> DMat3 {
+        DMat3::ZERO
+    }
+}
+
 /// The product of a column and a row.
 pub fn outer(column: DVec3, row: DVec3) -> DMat3 {
     DMat3::from_cols(column * row.x, column * row.y, column * row.z)

@@ -17,7 +17,7 @@ pub mod weld;
 pub use bounds::{Bounds, bounds, bounds_by_group, clusters, grown_clusters, range};
 pub use cells::CellMap;
 pub use groups::Groups;
-pub use mapped::{Mapped, outer};
+pub use mapped::{Mapped, Moved, outer};
 pub use point_tree::PointTree;
 pub use profile::{StepSearch, deepest_step};
 pub use segment::foot;

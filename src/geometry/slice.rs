@@ -66,10 +66,12 @@ impl Outline {
             if turn <= 0.0 {
                 continue;
             }
-            let from = first.y.atan2(first.x) / step;
-            let span = first.perp_dot(last).atan2(first.dot(last)) / step;
-            let mut ray = from.ceil();
-            while ray <= from + span {
+            // By each point's own angle, and without the first one: a ray through a corner meets one of the segments that share
+            // it, whatever the last digits are.
+            let [from, to] = [first, last].map(|point| point.y.atan2(point.x) / step);
+            let to = if to < from { to + RAYS as f64 } else { to };
+            let mut ray = from.floor() + 1.0;
+            while ray <= to {
                 let index = (ray as i64).rem_euclid(RAYS as i64) as usize;
                 let across = rays[index].perp_dot(last - first);
                 if across > 0.0 {

@@ -1,7 +1,7 @@
 //! Product mode in order: parts, coefficients until the number of heads is right, and hair outside of the body.
 
 use super::attach::{Bindings, GroundContact, Placement, joint_bindings};
-use super::profile::{wants_profile, with_profile};
+use super::profile::{Sliced, wants_profile, with_profile};
 use super::strands::Strands;
 use super::{Deformation, Target};
 use crate::character::Role;
@@ -353,14 +353,16 @@ impl Request<'_> {
                 Goal::Reference(proportions_of(&stretched)?)
             }
         };
-        let (scales, mut warnings) = part_coefficients(&anatomy.proportions, goal, options, groups)?;
+        let (scales, limits) = part_coefficients(&anatomy.proportions, goal, options, groups)?;
         let field = PartField::new(anatomy, scales, &product.parts, options.hair_length);
-        let mut field = Field::of(Arc::new(BodyField::Parts(Box::new(field))));
-        if is_sliced {
-            let (sliced, limited) = with_profile(target, product, field, style, options, groups);
-            field = sliced;
-            warnings.extend(limited);
-        }
+        let field = Field::of(Arc::new(BodyField::Parts(Box::new(field))));
+        let Sliced { field, limited, replaced } = if is_sliced {
+            with_profile(target, product, field, style, options, groups)
+        } else {
+            Sliced { field, limited: None, replaced: Vec::new() }
+        };
+        let mut warnings = limits.warnings(&replaced);
+        warnings.extend(limited);
         let measured =
             product.heads(&product.placement(&target.measured.figure, &field, options.thread_count));
         let is_limited = warnings.iter().any(|warning| warning.code == "heads_limited");

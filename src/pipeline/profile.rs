@@ -18,8 +18,17 @@ pub fn wants_profile(target: &Target, style: &Style, options: &Options) -> bool 
     share * options.profile > 0.0 && options.stage != Stage::Length
 }
 
-/// `field`, the parts' own, and then the profile that the style wants, as much of it as the options take; with a warning of what
-/// soft limits took.
+/// A field with the profile that a style wants.
+pub struct Sliced {
+    /// The field.
+    pub field: Field,
+    /// What soft limits took.
+    pub limited: Option<Warning>,
+    /// As [`ProfileStage::replaced`].
+    pub replaced: Vec<&'static str>,
+}
+
+/// `field`, the parts' own, and then the profile that the style wants, as much of it as the options take.
 pub fn with_profile(
     target: &Target,
     product: &ProductTarget,
@@ -27,11 +36,11 @@ pub fn with_profile(
     style: &Style,
     options: &Options,
     groups: &PartGroups,
-) -> (Field, Option<Warning>) {
+) -> Sliced {
     let measured = &target.measured;
     let wanted = wanted_of(style, measured.anatomy.landmarks.heights.heads());
     let (Some((wanted, share)), BodyField::Parts(parts)) = (wanted, &*field.body) else {
-        return (field, None);
+        return Sliced { field, limited: None, replaced: Vec::new() };
     };
     let share = share * options.profile;
     let positions = product.placement(&measured.figure, &field, options.thread_count).all_vertices();
@@ -49,9 +58,9 @@ pub fn with_profile(
     };
     let strengths = |frame: &_| strengths(share, options, groups, frame);
     let stage = ProfileStage::of(&source, parts, &positions, &wanted, strengths);
-    let limited = limited(&stage);
+    let (limited, replaced) = (limited(&stage), stage.replaced().to_vec());
     let parts = PartField::clone(parts).with_profile(stage);
-    (Field::of(Arc::new(BodyField::Parts(Box::new(parts)))), limited)
+    Sliced { field: Field::of(Arc::new(BodyField::Parts(Box::new(parts)))), limited, replaced }
 }
 
 fn limited(stage: &ProfileStage) -> Option<Warning> {

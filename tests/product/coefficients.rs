@@ -51,7 +51,8 @@ fn small() -> Proportions {
 }
 
 fn solved(target: &Proportions, goal: Goal, options: &Options) -> (PartCoefficients, Vec<Warning>) {
-    part_coefficients(target, goal, options, &PartGroups::default()).unwrap()
+    let (scales, limits) = part_coefficients(target, goal, options, &PartGroups::default()).unwrap();
+    (scales, limits.warnings(&[]))
 }
 
 /// Within the sixth digit, as the numbers below are written.

@@ -114,6 +114,7 @@ impl Goal<'_> {
 }
 
 /// A bound that acted: on what, from which value, to which.
+#[derive(Clone, Copy, Debug, PartialEq)]
 struct Bounded {
     what: &'static str,
     from: f64,
@@ -217,7 +218,43 @@ impl Asked {
     }
 }
 
-/// The scales that make `target` like `goal`, and warnings that name every bound that acted.
+/// The bounds that acted on [`part_coefficients`], and the number of heads that came out beside the one asked for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Limits {
+    acted: Vec<Bounded>,
+    heads: f64,
+    asked: f64,
+}
+
+impl Limits {
+    /// Warnings that name every bound that acted: `heads_limited`, `coefficient_limited`.
+    ///
+    /// - `replaced`: thicknesses and sizes that something else sets afterwards, by their names in the warnings. Their bounds are
+    ///   not warned of.
+    pub fn warnings(&self, replaced: &[&str]) -> Vec<Warning> {
+        let list = |chosen: &dyn Fn(&Bounded) -> bool| {
+            let chosen = self.acted.iter().filter(|bounded| chosen(bounded));
+            let item = |Bounded { what, from, to }: &Bounded| format!("{what} {from:.3} to {to:.3}");
+            chosen.map(item).collect::<Vec<_>>().join(", ")
+        };
+        let mut warnings = Vec::new();
+        let Self { heads, asked, .. } = self;
+        let of_height =
+            list(&|bounded| ["neck", "torso length", "leg length", "foot"].contains(&bounded.what));
+        if (heads / asked - 1.0).abs() > HEADS_WARNED_ABOVE && !of_height.is_empty() {
+            let message = format!("{heads:.2} heads instead of {asked:.2}: limited {of_height}");
+            warnings.push(Warning::new("heads_limited", message));
+        }
+        let kept = list(&|bounded| !replaced.contains(&bounded.what));
+        if !kept.is_empty() {
+            let message = format!("limited to keep the shape sound: {kept}");
+            warnings.push(Warning::new("coefficient_limited", message));
+        }
+        warnings
+    }
+}
+
+/// The scales that make `target` like `goal`, and the bounds that acted.
 ///
 /// `groups`: which group's settings each part follows.
 ///
@@ -228,7 +265,7 @@ pub fn part_coefficients(
     goal: Goal,
     options: &Options,
     groups: &PartGroups,
-) -> Result<(PartCoefficients, Vec<Warning>)> {
+) -> Result<(PartCoefficients, Limits)> {
     let mut solver = Solver::new(target, goal, options);
     let asked = solver.asked();
     let (torso, leg) = solver.solve_neck(&asked);
@@ -244,8 +281,8 @@ pub fn part_coefficients(
         scales = scales.lengths_only();
     }
     scales.validate()?;
-    let warnings = warnings(target, goal, &scales, &bounds.acted);
-    Ok((scales, warnings))
+    let limits = Limits { acted: bounds.acted, heads: heads_of(target, &scales), asked: goal.heads() };
+    Ok((scales, limits))
 }
 
 /// The scales found so far, part after part; the order is that of the warnings.
@@ -421,28 +458,6 @@ impl<'a> Solver<'a> {
 /// The least length of a limb of these two segments.
 fn shortest(upper: Scale, lower: Scale) -> f64 {
     (upper.thickness.max(lower.thickness) / STUBBIEST).max(SHORTEST_LIMB)
-}
-
-fn warnings(target: &Proportions, goal: Goal, scales: &PartCoefficients, acted: &[Bounded]) -> Vec<Warning> {
-    let mut warnings = Vec::new();
-    let of_height =
-        |bounded: &&Bounded| ["neck", "torso length", "leg length", "foot"].contains(&bounded.what);
-    let list = |acted: &mut dyn Iterator<Item = &Bounded>| {
-        let items: Vec<String> =
-            acted.map(|Bounded { what, from, to }| format!("{what} {from:.3} to {to:.3}")).collect();
-        items.join(", ")
-    };
-    let (got, asked) = (heads_of(target, scales), goal.heads());
-    let heights = list(&mut acted.iter().filter(of_height));
-    if (got / asked - 1.0).abs() > HEADS_WARNED_ABOVE && !heights.is_empty() {
-        let message = format!("{got:.2} heads instead of {asked:.2}: limited {heights}");
-        warnings.push(Warning::new("heads_limited", message));
-    }
-    if !acted.is_empty() {
-        let message = format!("limited to keep the shape sound: {}", list(&mut acted.iter()));
-        warnings.push(Warning::new("coefficient_limited", message));
-    }
-    warnings
 }
 
 /// How many heads tall a figure of proportions `target` becomes.

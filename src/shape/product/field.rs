@@ -155,11 +155,18 @@ impl PartField {
     /// Where `p` goes.
     pub fn place(&self, p: DVec3, binding: &PartBinding, face: &FaceShape) -> DVec3 {
         // Everything below is inlined, so that the Jacobian is not made here.
-        self.map(p, binding, face).position
+        let by_parts = |attachment| self.blend(p, &binding.weights, attachment, face).position;
+        match (binding.attachment, &self.profile) {
+            (Attachment::Piece(piece), _) => self.with_piece(piece, p).position,
+            (Attachment::Strand { piece, share }, _) => {
+                self.strand(p, binding, piece, f64::from(share)).position
+            }
+            (attachment, None) => by_parts(attachment),
+            (attachment, Some(profile)) => profile.place(by_parts(attachment), binding),
+        }
     }
 
     /// Where `p` goes, and the Jacobian there at fixed binding.
-    #[inline(always)]
     pub fn map(&self, p: DVec3, binding: &PartBinding, face: &FaceShape) -> Mapped {
         let by_parts = |attachment| self.blend(p, &binding.weights, attachment, face);
         match (binding.attachment, &self.profile) {

@@ -92,36 +92,60 @@ impl<const N: usize> Table<N> {
         }
     }
 
-    /// The functions' values and slopes at `x`.
-    #[inline]
-    pub fn at(&self, x: f64) -> ([f64; N], [f64; N]) {
+    /// The functions around `x`.
+    #[inline(always)]
+    pub fn at(&self, x: f64) -> Reading<'_, N> {
         let last = self.rows.len() - 1;
         let place = (x - self.start) / self.step;
         // NaN is at no place, and takes the first row.
-        if place.is_nan() || place <= 0.0 {
-            return (self.rows[0], [0.0; N]);
-        }
-        if place >= last as f64 {
-            return (self.rows[last], [0.0; N]);
-        }
-        let row = place as usize;
-        let t = place - row as f64;
-        let [before, from, to, after] =
-            [row.saturating_sub(1), row, row + 1, (row + 2).min(last)].map(|row| &self.rows[row]);
+        let (row, t) = if place.is_nan() || place <= 0.0 {
+            (0, 0.0)
+        } else if place >= last as f64 {
+            (last - 1, 1.0)
+        } else {
+            (place as usize, place - place.floor())
+        };
         // At the ends the slope is 0, as beyond them.
-        let (is_first, is_last) = (row == 0, row + 1 == last);
-        let (t2, t3) = (t * t, t * t * t);
-        let value = [2.0 * t3 - 3.0 * t2 + 1.0, t3 - 2.0 * t2 + t, 3.0 * t2 - 2.0 * t3, t3 - t2];
-        let slope = [6.0 * (t2 - t), 3.0 * t2 - 4.0 * t + 1.0, 6.0 * (t - t2), 3.0 * t2 - 2.0 * t];
-        let (mut values, mut slopes) = ([0.0; N], [0.0; N]);
-        for function in 0..N {
-            let a = if is_first { 0.0 } else { 0.5 * (to[function] - before[function]) };
-            let b = if is_last { 0.0 } else { 0.5 * (after[function] - from[function]) };
-            let mix = |by: &[f64; 4]| by[0] * from[function] + by[1] * a + by[2] * to[function] + by[3] * b;
-            values[function] = mix(&value);
-            slopes[function] = mix(&slope) / self.step;
-        }
-        (values, slopes)
+        let before = if row == 0 { 1 } else { row - 1 };
+        let after = if row + 1 == last { row } else { row + 2 };
+        Reading { rows: [before, row, row + 1, after].map(|row| &self.rows[row]), t, step: self.step }
+    }
+}
+
+/// The functions of a [`Table`] around one place.
+#[derive(Clone, Copy, Debug)]
+pub struct Reading<'a, const N: usize> {
+    rows: [&'a [f64; N]; 4],
+    /// From the second row (0) to the third.
+    t: f64,
+    step: f64,
+}
+
+impl<const N: usize> Reading<'_, N> {
+    /// The functions' values.
+    #[inline(always)]
+    pub fn values(&self) -> [f64; N] {
+        let (t, t2, t3) = (self.t, self.t * self.t, self.t * self.t * self.t);
+        self.mixed([2.0 * t3 - 3.0 * t2 + 1.0, t3 - 2.0 * t2 + t, 3.0 * t2 - 2.0 * t3, t3 - t2])
+    }
+
+    /// Their slopes.
+    #[inline(always)]
+    pub fn slopes(&self) -> [f64; N] {
+        let (t, t2) = (self.t, self.t * self.t);
+        self.mixed([6.0 * (t2 - t), 3.0 * t2 - 4.0 * t + 1.0, 6.0 * (t - t2), 3.0 * t2 - 2.0 * t])
+            .map(|slope| slope / self.step)
+    }
+
+    /// The two rows beside the place and the slopes there, by these shares.
+    #[inline(always)]
+    fn mixed(&self, by: [f64; 4]) -> [f64; N] {
+        let [before, from, to, after] = self.rows;
+        std::array::from_fn(|function| {
+            let a = 0.5 * (to[function] - before[function]);
+            let b = 0.5 * (after[function] - from[function]);
+            by[0] * from[function] + by[1] * a + by[2] * to[function] + by[3] * b
+        })
     }
 }
 
@@ -152,9 +176,9 @@ mod tests {
         let table = Table::sample(-1.0, 2.0, 40, |x| [x.sin(), x * x, 3.0]);
         for index in -15..30 {
             let x = 0.083 * f64::from(index);
-            let (_, slopes) = table.at(x);
+            let slopes = table.at(x).slopes();
             let h = 1e-6;
-            let (high, low) = (table.at(x + h).0, table.at(x - h).0);
+            let (high, low) = (table.at(x + h).values(), table.at(x - h).values());
             for function in 0..3 {
                 let wanted = (high[function] - low[function]) / (2.0 * h);
                 assert!((slopes[function] - wanted).abs() < 1e-5, "{x} {function}");
@@ -162,15 +186,15 @@ mod tests {
             // In the first and the last step the curve goes over to the constant beyond: up to 4/27 of a step off.
             let step = 3.0 / 39.0;
             let off = if (-1.0 + step..2.0 - step).contains(&x) { 1e-3 } else { 4.0 / 27.0 * step };
-            assert!((table.at(x).0[0] - x.clamp(-1.0, 2.0).sin()).abs() < off, "{x}");
+            assert!((table.at(x).values()[0] - x.clamp(-1.0, 2.0).sin()).abs() < off, "{x}");
         }
-        assert_eq!(table.at(f64::NAN).0, table.at(-9.0).0);
+        assert_eq!(table.at(f64::NAN).values(), table.at(-9.0).values());
     }
 
     #[test]
     fn smoothing_keeps_lines_and_flattens_waves() {
         let table = Table::sample(0.0, 4.0, 401, |x| [2.0 * x, (20.0 * x).sin()]).smoothed(0.2);
-        let (values, _) = table.at(2.0);
+        let values = table.at(2.0).values();
         assert!((values[0] - 4.0).abs() < 1e-9 && values[1].abs() < 1e-2);
     }
 }

@@ -10,13 +10,15 @@ use super::slab::slab;
 use super::{ARM_STATIONS, LEG_STATIONS, Profile, STATIONS, TORSO_STATIONS, station_at, stations};
 use crate::geometry::slice::Planes;
 use crate::geometry::smoothstep;
-use crate::geometry::{Mapped, outer};
+use crate::geometry::{Moved, outer};
 use crate::shape::product::part::{Part, PartWeights};
 use glam::{DMat3, DVec2, DVec3};
 
 /// Rows of the tables: so many for a head length, and for an arm.
 const ROWS_PER_HEAD: f64 = 100.0;
 const ROWS_OF_ARM: usize = 200;
+/// No table has more rows: for heads that are tiny beside their bodies.
+const MOST_ROWS: f64 = 10_000.0;
 /// What is shorter than this, in head lengths, is smoothed out of the torso's functions: it joins torso and legs at the crotch
 /// and torso and neck at the shoulder line.
 const JOINING: f64 = 0.08;
@@ -38,15 +40,10 @@ const ANY_HALF: f64 = 0.4;
 /// The toe box begins behind the ankle, in head lengths, and is whole at this part of the way from ankle to toes.
 const TOE_BOX: (f64, f64) = (0.05, 0.6);
 
-/// Columns of the table over heights: of the torso (and what hangs from it below the crotch), then of a leg.
-const TORSO_SCALE: usize = 0;
-const TORSO_HALF: usize = 2;
-const TORSO_MIDDLE: usize = 4;
-const TORSO_SHIFT: usize = 5;
-const LEG: usize = 6;
-const LEVEL_COLUMNS: usize = 13;
-/// Of a leg: scale, scale, half, half, outward, forward, shift forward.
-type LevelTable = Table<LEVEL_COLUMNS>;
+/// By height, of the torso and what hangs from it below the crotch: scale, scale, half, half, forward, shift forward.
+type TorsoTable = Table<6>;
+/// By height, of a leg: scale, scale, half, half, outward, forward, shift forward.
+type LegTable = Table<7>;
 
 /// The map.
 #[derive(Clone, Debug)]
@@ -54,7 +51,8 @@ pub struct BodyMap {
     middle_x: f64,
     /// On which sides of the middle the left and the right leg are.
     signs: [f64; 2],
-    level: LevelTable,
+    torso: TorsoTable,
+    leg: LegTable,
     /// Heights of the crotch and the ankles.
     crotch: f64,
     leg_length: f64,
@@ -101,11 +99,12 @@ impl BodyMap {
     /// The map that does what `scales` say to a body of profile `own` in `frame`.
     pub fn new(own: &Profile, lines: &BodyLines, frame: &BodyFrame, scales: &Scales) -> Self {
         let length = frame.head_length();
-        let level = level_table(own, frame, scales);
+        let (torso, leg) = level_tables(own, frame, scales);
         let mut map = Self {
             middle_x: frame.middle_x,
             signs: [frame.sign(2), frame.sign(3)],
-            level,
+            torso,
+            leg,
             crotch: frame.heights.crotch,
             leg_length: frame.leg_length(),
             spread: if own.leg.is_some() { scales.spread * length } else { 0.0 },
@@ -131,19 +130,19 @@ impl BodyMap {
         map
     }
 
-    /// Where `p` goes that `weights` bind, and the Jacobian there at fixed weights.
+    /// Where `p` goes that `weights` bind; a Jacobian is that at fixed weights.
     ///
     /// - `is_skirt`: what the legs move of it follows the torso's map, as skirts do.
-    pub fn map(&self, p: DVec3, weights: &PartWeights, is_skirt: bool) -> Mapped {
+    pub fn map<M: Moved>(&self, p: DVec3, weights: &PartWeights, is_skirt: bool) -> M {
         let sum = |first: Part, count: usize| -> f64 {
             weights[first as usize..first as usize + count].iter().sum::<f32>().into()
         };
         let mut to = DVec3::ZERO;
         let mut jacobian = DMat3::ZERO;
         let mut total = 0.0;
-        let mut add = |weight: f64, moved: Mapped| {
-            to += weight * moved.position;
-            jacobian += moved.jacobian * weight;
+        let mut add = |weight: f64, moved: M| {
+            to += weight * moved.position();
+            jacobian += moved.jacobian() * weight;
             total += weight;
         };
         let legs = [Part::LeftUpperLeg, Part::RightUpperLeg];
@@ -158,7 +157,7 @@ impl BodyMap {
         }
         let head = sum(Part::Head, 1) + sum(Part::Hair, 1);
         if head > 0.0 {
-            add(head, Mapped::unmoved(p));
+            add(head, M::of(p, || DMat3::IDENTITY));
         }
         for (side, first) in [Part::LeftUpperArm, Part::RightUpperArm].into_iter().enumerate() {
             let arm = sum(first, 3);
@@ -178,39 +177,41 @@ impl BodyMap {
                 }
             }
         }
-        Mapped { position: to / total, jacobian: jacobian * (1.0 / total) }
+        M::of(to / total, || jacobian * (1.0 / total))
     }
 
     /// What the torso, and what hangs from it, is mapped by.
-    pub fn torso(&self, p: DVec3) -> Mapped {
-        let (row, slopes) = self.level.at(p.y);
-        let x = slab(p.x - self.middle_x, row[TORSO_SCALE], row[TORSO_HALF]);
-        let z = slab(p.z - row[TORSO_MIDDLE], row[TORSO_SCALE + 1], row[TORSO_HALF + 1]);
-        let x_slope = x.by_scale * slopes[TORSO_SCALE] + x.by_half * slopes[TORSO_HALF];
-        let z_slope = z.by_scale * slopes[TORSO_SCALE + 1]
-            + z.by_half * slopes[TORSO_HALF + 1]
-            + (1.0 - z.by_place) * slopes[TORSO_MIDDLE]
-            + slopes[TORSO_SHIFT];
-        let position = DVec3::new(self.middle_x + x.to, p.y, row[TORSO_MIDDLE] + row[TORSO_SHIFT] + z.to);
-        Mapped { position, jacobian: level(x.by_place, x_slope, z.by_place, z_slope) }
+    pub fn torso<M: Moved>(&self, p: DVec3) -> M {
+        let at = self.torso.at(p.y);
+        let [x_scale, z_scale, x_half, z_half, forward, shift] = at.values();
+        let x = slab(p.x - self.middle_x, x_scale, x_half);
+        let z = slab(p.z - forward, z_scale, z_half);
+        M::of(DVec3::new(self.middle_x + x.to, p.y, forward + shift + z.to), || {
+            let [x_scale, z_scale, x_half, z_half, forward, shift] = at.slopes();
+            let x_slope = x.by_scale * x_scale + x.by_half * x_half;
+            let z_slope = z.by_scale * z_scale + z.by_half * z_half + (1.0 - z.by_place) * forward + shift;
+            level(x.by_place, x_slope, z.by_place, z_slope)
+        })
     }
 
-    fn leg(&self, side: usize, p: DVec3) -> Mapped {
-        let (row, slopes) = self.level.at(p.y);
-        let (row, slopes) = (&row[LEG..], &slopes[LEG..]);
+    fn leg<M: Moved>(&self, side: usize, p: DVec3) -> M {
+        let at = self.leg.at(p.y);
+        let [x_scale, z_scale, x_half, z_half, outward, forward, shift] = at.values();
         let sign = self.signs[side];
-        let centre = self.middle_x + sign * row[4];
-        let x = slab(p.x - centre, row[0], row[2]);
-        let z = slab(p.z - row[5], row[1], row[3]);
-        let x_slope = x.by_scale * slopes[0] + x.by_half * slopes[2] + (1.0 - x.by_place) * sign * slopes[4];
-        let z_slope =
-            z.by_scale * slopes[1] + z.by_half * slopes[3] + (1.0 - z.by_place) * slopes[5] + slopes[6];
-        let position = DVec3::new(centre + sign * self.spread + x.to, p.y, row[5] + row[6] + z.to);
-        Mapped { position, jacobian: level(x.by_place, x_slope, z.by_place, z_slope) }
+        let centre = self.middle_x + sign * outward;
+        let x = slab(p.x - centre, x_scale, x_half);
+        let z = slab(p.z - forward, z_scale, z_half);
+        let position = DVec3::new(centre + sign * self.spread + x.to, p.y, forward + shift + z.to);
+        M::of(position, || {
+            let [x_scale, z_scale, x_half, z_half, outward, forward, shift] = at.slopes();
+            let x_slope = x.by_scale * x_scale + x.by_half * x_half + (1.0 - x.by_place) * sign * outward;
+            let z_slope = z.by_scale * z_scale + z.by_half * z_half + (1.0 - z.by_place) * forward + shift;
+            level(x.by_place, x_slope, z.by_place, z_slope)
+        })
     }
 
     /// Near the crotch a leg's map is the torso's, so that hips agree whatever the weights say.
-    fn leg_or_torso(&self, side: usize, p: DVec3) -> Mapped {
+    fn leg_or_torso<M: Moved>(&self, side: usize, p: DVec3) -> M {
         let t = (self.crotch - p.y) / self.leg_length;
         let leg_fade = self.leg_fade;
         let (share, slope) = fade((t - leg_fade.0) / (leg_fade.1 - leg_fade.0));
@@ -218,7 +219,7 @@ impl BodyMap {
         mix(share, slope, || self.torso(p), || self.leg(side, p))
     }
 
-    fn arm_or_torso(&self, side: usize, p: DVec3) -> Mapped {
+    fn arm_or_torso<M: Moved>(&self, side: usize, p: DVec3) -> M {
         let Some(arm) = &self.arms[side] else { return self.torso(p) };
         let t = arm.planes.locate(p).0 / arm.length;
         let fade_ends = self.arm_fade;
@@ -230,7 +231,7 @@ impl BodyMap {
     fn foot(&self, side: usize, ankle: DVec3, own: &Profile, scales: &Scales, frame: &BodyFrame) -> FootMap {
         let length = frame.head_length();
         let [toe, _, _, _, height] = own.foot.unwrap_or_default();
-        let to = self.leg_or_torso(side, ankle).position;
+        let to = self.leg_or_torso(side, ankle);
         let toe_box = (ankle.z + TOE_BOX.0 * length, ankle.z + TOE_BOX.1 * toe * length);
         FootMap {
             ankle,
@@ -297,30 +298,34 @@ impl BodyMap {
             let at = ((s - start) / step).round() as usize;
             [longer[at], a, b, c, d, e, f]
         });
-        let base = self.torso(planes.origin).position - planes.origin;
+        let base = self.torso::<DVec3>(planes.origin) - planes.origin;
         Some(ArmMap { planes, base, length, table })
     }
 }
 
 impl ArmMap {
-    fn map(&self, p: DVec3) -> Mapped {
+    fn map<M: Moved>(&self, p: DVec3) -> M {
         let (s, place) = self.planes.locate(p);
-        let (row, slopes) = self.table.at(s);
+        let at = self.table.at(s);
+        let row = at.values();
         let across = slab(place.x - row[5], row[1], row[3]);
         let front = slab(place.y - row[6], row[2], row[4]);
-        let across_slope =
-            across.by_scale * slopes[1] + across.by_half * slopes[3] + (1.0 - across.by_place) * slopes[5];
-        let front_slope =
-            front.by_scale * slopes[2] + front.by_half * slopes[4] + (1.0 - front.by_place) * slopes[6];
-        let position =
-            self.base + self.planes.point(s + row[0], DVec2::new(row[5] + across.to, row[6] + front.to));
-        let axes = DMat3::from_cols(self.planes.axis, self.planes.across, self.planes.front);
-        let local = DMat3::from_cols(
-            DVec3::new(1.0 + slopes[0], across_slope, front_slope),
-            DVec3::new(0.0, across.by_place, 0.0),
-            DVec3::new(0.0, 0.0, front.by_place),
-        );
-        Mapped { position, jacobian: axes * local * axes.transpose() }
+        let to = DVec2::new(row[5] + across.to, row[6] + front.to);
+        M::of(self.base + self.planes.point(s + row[0], to), || {
+            let slopes = at.slopes();
+            let across_slope = across.by_scale * slopes[1]
+                + across.by_half * slopes[3]
+                + (1.0 - across.by_place) * slopes[5];
+            let front_slope =
+                front.by_scale * slopes[2] + front.by_half * slopes[4] + (1.0 - front.by_place) * slopes[6];
+            let axes = DMat3::from_cols(self.planes.axis, self.planes.across, self.planes.front);
+            let local = DMat3::from_cols(
+                DVec3::new(1.0 + slopes[0], across_slope, front_slope),
+                DVec3::new(0.0, across.by_place, 0.0),
+                DVec3::new(0.0, 0.0, front.by_place),
+            );
+            axes * local * axes.transpose()
+        })
     }
 }
 
@@ -340,7 +345,7 @@ impl FootMap {
 
     /// Linear about the ankle, so that the instep of a high heel is not sheared over; the toe box grows up from the sole, which
     /// stays as flat as it was: from the sole to the toes' top what is added grows by a smooth step.
-    fn map(&self, p: DVec3) -> Mapped {
+    fn map<M: Moved>(&self, p: DVec3) -> M {
         let arm = p - self.ankle;
         let (share, slope) = fade((p.z - self.toe_box.0) / (self.toe_box.1 - self.toe_box.0));
         let slope = slope / (self.toe_box.1 - self.toe_box.0);
@@ -351,21 +356,22 @@ impl FootMap {
             p.y + added * share * up,
             self.to.z + self.length * arm.z,
         );
-        let jacobian = DMat3::from_cols(
-            DVec3::X * self.breadth,
-            DVec3::Y * (1.0 + (self.toes - 1.0) * share * up_slope),
-            DVec3::new(0.0, added * slope * up, self.length),
-        );
-        Mapped { position, jacobian }
+        M::of(position, || {
+            DMat3::from_cols(
+                DVec3::X * self.breadth,
+                DVec3::Y * (1.0 + (self.toes - 1.0) * share * up_slope),
+                DVec3::new(0.0, added * slope * up, self.length),
+            )
+        })
     }
 }
 
 impl NeckMap {
-    fn map(&self, p: DVec3) -> Mapped {
+    fn map<M: Moved>(&self, p: DVec3) -> M {
         let x = slab(p.x - self.middle.x, self.scale, self.half);
         let z = slab(p.z - self.middle.y, self.scale, self.half);
         let position = DVec3::new(self.middle.x + x.to, p.y, self.middle.y + z.to);
-        Mapped { position, jacobian: level(x.by_place, 0.0, z.by_place, 0.0) }
+        M::of(position, || level(x.by_place, 0.0, z.by_place, 0.0))
     }
 }
 
@@ -383,7 +389,7 @@ fn fade(t: f64) -> (f64, f64) {
 }
 
 /// `share` of the second map and the rest of the first, where the share changes by `slope`.
-fn mix(share: f64, slope: DVec3, first: impl Fn() -> Mapped, second: impl Fn() -> Mapped) -> Mapped {
+fn mix<M: Moved>(share: f64, slope: DVec3, first: impl Fn() -> M, second: impl Fn() -> M) -> M {
     if share <= 0.0 {
         return first();
     }
@@ -391,9 +397,10 @@ fn mix(share: f64, slope: DVec3, first: impl Fn() -> Mapped, second: impl Fn() -
         return second();
     }
     let (first, second) = (first(), second());
-    let apart = second.position - first.position;
-    let jacobian = first.jacobian * (1.0 - share) + second.jacobian * share + outer(apart, slope);
-    Mapped { position: first.position + share * apart, jacobian }
+    let apart = second.position() - first.position();
+    M::of(first.position() + share * apart, || {
+        first.jacobian() * (1.0 - share) + second.jacobian() * share + outer(apart, slope)
+    })
 }
 
 /// The Jacobian of a map that keeps heights: slopes of x by x and y, of z by z and y.
@@ -402,7 +409,7 @@ fn level(x_by_x: f64, x_by_y: f64, z_by_z: f64, z_by_y: f64) -> DMat3 {
 }
 
 /// Torso and legs by height, model units.
-fn level_table(own: &Profile, frame: &BodyFrame, scales: &Scales) -> LevelTable {
+fn level_tables(own: &Profile, frame: &BodyFrame, scales: &Scales) -> (TorsoTable, LegTable) {
     let length = frame.head_length();
     let planes = frame.torso_planes();
     let (torso_length, leg_length) = (frame.torso_length(), frame.leg_length());
@@ -471,13 +478,7 @@ fn level_table(own: &Profile, frame: &BodyFrame, scales: &Scales) -> LevelTable 
         ]
     };
     let (start, end) = (frame.heights.sole - 0.3 * length, chin + 0.3 * length);
-    let count = ((end - start) / length * ROWS_PER_HEAD).ceil() as usize + 2;
+    let count = ((end - start) / length * ROWS_PER_HEAD).ceil().min(MOST_ROWS) as usize + 2;
     let torso = Table::sample(start, end, count, |y| if y < crotch { below(y) } else { of_torso(y) });
-    let torso = torso.smoothed(JOINING * length);
-    Table::sample(start, end, count, |y| {
-        let mut row = [0.0; LEVEL_COLUMNS];
-        row[..LEG].copy_from_slice(&torso.at(y).0);
-        row[LEG..].copy_from_slice(&of_leg(y));
-        row
-    })
+    (torso.smoothed(JOINING * length), Table::sample(start, end, count, of_leg))
 }

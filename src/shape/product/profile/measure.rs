@@ -26,6 +26,9 @@ pub(super) const OVER_MIDDLE: f64 = 0.012;
 const SKIRT_OVER_MIDDLE: f64 = 0.05;
 /// Hands and feet are what they move more than this.
 const EXTREMITY_SHARE: f32 = 0.5;
+/// Beyond a wrist and under an ankle is what lies this much further, in head lengths: a ring of vertices at the joint itself is
+/// not, whatever its last digits are.
+const BEYOND: f64 = 1e-3;
 /// A hand ends at this quantile of its vertices' reach, and is as broad as those between the other two within this part of its
 /// length.
 const HAND_END: f64 = 0.99;
@@ -354,7 +357,7 @@ impl Body<'_> {
                         self.parts[vertex][limb.parts[2]] > EXTREMITY_SHARE && !self.figure.is_carried(vertex)
                     })
                     .map(|vertex| planes.locate(self.positions[vertex]))
-                    .filter(|point| point.0 > 0.0)
+                    .filter(|point| point.0 > BEYOND * self.length)
                     .collect();
                 let length = quantile(points.iter().map(|point| point.0), HAND_END)?;
                 let palm = || {
@@ -379,6 +382,7 @@ impl Body<'_> {
             .filter_map(|side| {
                 let limb = &self.frame.limbs[side];
                 let sign = self.frame.sign(side);
+                let under = limb.end.y - BEYOND * self.length;
                 let points: Vec<DVec3> = self
                     .places()
                     .filter(|&vertex| {
@@ -386,14 +390,14 @@ impl Body<'_> {
                         let leg = row[limb.parts[0]] + row[limb.parts[1]];
                         let is_foot = row[limb.parts[2]] > EXTREMITY_SHARE
                             || (leg + row[limb.parts[2]] > EXTREMITY_SHARE
-                                && self.positions[vertex].y < limb.end.y);
+                                && self.positions[vertex].y < under);
                         is_foot && !self.figure.is_carried(vertex)
                     })
                     .map(|vertex| self.positions[vertex])
                     .collect();
                 let toe = quantile(points.iter().map(|p| p.z), 1.0)? - limb.end.z;
                 let heel = limb.end.z - quantile(points.iter().map(|p| p.z), 0.0)?;
-                let low = points.iter().filter(|p| p.y < limb.end.y).map(|p| p.x);
+                let low = points.iter().filter(|p| p.y < under).map(|p| p.x);
                 let (inner, outer) = (quantile(low.clone(), 0.0)?, quantile(low, 1.0)?);
                 let toes = points.iter().filter(|p| p.z > limb.end.z + TOES_FROM * toe).map(|p| p.y);
                 let height = quantile(toes, TOES_TOP)? - self.frame.heights.sole;

@@ -24,7 +24,7 @@ pub use map::BodyMap;
 pub use measure::{BodyFrame, BodyLines, measure_profile};
 pub use numbers::CHAINS;
 pub use relief::Relief;
-pub use scales::{Scales, Strengths, scales};
+pub use scales::{Scales, Strengths, flesh, scales};
 pub use stage::{ProfileStage, Source};
 pub use wanted::{strengths, wanted_of};
 

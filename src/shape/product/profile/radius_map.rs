@@ -1,6 +1,7 @@
 //! How far a body reaches around an axis, by height and direction, and a scale for each: a map of its relief.
 
 use super::station::surface;
+use crate::geometry::Moved;
 use crate::geometry::slice::{Outline, Planes, RAYS};
 use glam::{DMat2, DMat3, DVec2, DVec3};
 
@@ -83,71 +84,64 @@ impl RadiusMap {
         self.start + self.step * row as f64
     }
 
-    /// How the map moves `p`, and the gradient of that: everything within a reach is scaled about the row's middle, what lies
-    /// further out moves as far as the surface does.
-    pub fn shift(&self, p: DVec3) -> (DVec3, DMat3) {
+    /// How the map moves `p`, with the gradient of that for a Jacobian: everything within a reach is scaled about the row's
+    /// middle, what lies further out moves as far as the surface does.
+    #[inline(always)]
+    pub fn shift<M: Moved>(&self, p: DVec3) -> M {
         let (height, place) = self.planes.locate(p);
         let row = Taps::new((height - self.start) / self.step);
         let last = self.reaches.len() as i64 - 1;
         let rows = row.indices.map(|index| index.clamp(0, last) as usize);
-        let (mut middle, mut middle_slope) = (DVec2::ZERO, DVec2::ZERO);
-        for (tap, &index) in rows.iter().enumerate() {
-            middle += row.weights[tap] * self.middles[index];
-            middle_slope += row.slopes[tap] / self.step * self.middles[index];
-        }
-        let arm = place - middle;
+        let mixed = |by: &[f64; 3]| -> DVec2 { (0..3).map(|tap| by[tap] * self.middles[rows[tap]]).sum() };
+        let arm = place - mixed(&row.weights);
         let distance = arm.length();
         if distance <= 0.0 {
-            return (DVec3::ZERO, DMat3::ZERO);
+            return M::of(DVec3::ZERO, || DMat3::ZERO);
         }
         let turns = arm.y.atan2(arm.x) / std::f64::consts::TAU;
         let ray = Taps::new(turns * RAYS as f64);
         let rays = ray.indices.map(|index| index.rem_euclid(RAYS as i64) as usize);
-        // Reach and scale: values, by row, by direction.
-        let mut read = [[0.0; 3]; 2];
-        for tap in 0..3 {
-            for (which, rings) in [&self.reaches, &self.scales].into_iter().enumerate() {
+        // Of reaches or scales, by these weights of rows and of directions.
+        let read = |rings: &[Ring], by_row: &[f64; 3], by_ray: &[f64; 3]| -> f64 {
+            let along = |tap: usize| {
                 let ring = &rings[rows[tap]];
-                let (mut value, mut slope) = (0.0, 0.0);
-                for other in 0..3 {
-                    value += ray.weights[other] * ring[rays[other]];
-                    slope += ray.slopes[other] * ring[rays[other]];
-                }
-                read[which][0] += row.weights[tap] * value;
-                read[which][1] += row.slopes[tap] * value / self.step;
-                read[which][2] += row.weights[tap] * slope * RAYS as f64 / std::f64::consts::TAU;
-            }
-        }
-        let [[reach, reach_by_height, reach_by_turn], [scale, scale_by_height, scale_by_turn]] = read;
-        let outward = arm / distance;
-        let around = DVec2::new(-outward.y, outward.x);
-        // How far outward, and its derivatives by distance, height and angle.
-        let (far, by_distance, by_height, by_turn) = if distance < reach {
-            let change = scale - 1.0;
-            (change * distance, change, scale_by_height * distance, scale_by_turn * distance)
-        } else {
-            let change = scale - 1.0;
-            (
-                change * reach,
-                0.0,
-                scale_by_height * reach + change * reach_by_height,
-                scale_by_turn * reach + change * reach_by_turn,
-            )
+                (0..3).map(|other| by_ray[other] * ring[rays[other]]).sum::<f64>()
+            };
+            (0..3).map(|tap| by_row[tap] * along(tap)).sum()
         };
-        // Within the plane, by the place in it.
-        let outer = |a: DVec2, b: DVec2| DMat2::from_cols(a * b.x, a * b.y);
-        let by_place = outer(outward, by_distance * outward + by_turn / distance * around)
-            + outer(around, around) * (far / distance);
-        let by_height = by_height * outward - by_place * middle_slope;
-        let in_plane = far * outward;
-        let [axis, across, front] = [self.planes.axis, self.planes.across, self.planes.front];
-        let lift = |v: DVec2| v.x * across + v.y * front;
-        let columns = [
-            lift(by_height) * axis.x + lift(by_place.x_axis) * across.x + lift(by_place.y_axis) * front.x,
-            lift(by_height) * axis.y + lift(by_place.x_axis) * across.y + lift(by_place.y_axis) * front.y,
-            lift(by_height) * axis.z + lift(by_place.x_axis) * across.z + lift(by_place.y_axis) * front.z,
-        ];
-        (lift(in_plane), DMat3::from_cols(columns[0], columns[1], columns[2]))
+        let reach = read(&self.reaches, &row.weights, &ray.weights);
+        let change = read(&self.scales, &row.weights, &ray.weights) - 1.0;
+        let outward = arm / distance;
+        let far = change * distance.min(reach);
+        let lift = |v: DVec2| v.x * self.planes.across + v.y * self.planes.front;
+        M::of(lift(far * outward), || {
+            let by_height = |rings: &[Ring]| read(rings, &row.slopes, &ray.weights) / self.step;
+            let by_turn =
+                |rings: &[Ring]| read(rings, &row.weights, &ray.slopes) * RAYS as f64 / std::f64::consts::TAU;
+            // How far outward, by distance, height and angle.
+            let (far_by_distance, far_by_height, far_by_turn) = if distance < reach {
+                (change, by_height(&self.scales) * distance, by_turn(&self.scales) * distance)
+            } else {
+                let slope =
+                    |by: &dyn Fn(&[Ring]) -> f64| by(&self.scales) * reach + change * by(&self.reaches);
+                (0.0, slope(&by_height), slope(&by_turn))
+            };
+            // Within the plane, by the place in it.
+            let around = DVec2::new(-outward.y, outward.x);
+            let outer = |a: DVec2, b: DVec2| DMat2::from_cols(a * b.x, a * b.y);
+            let by_place = outer(outward, far_by_distance * outward + far_by_turn / distance * around)
+                + outer(around, around) * (far / distance);
+            let by_height = far_by_height * outward - by_place * mixed(&row.slopes) / self.step;
+            let [axis, across, front] = [self.planes.axis, self.planes.across, self.planes.front];
+            let column = |of: f64, x: f64, y: f64| {
+                lift(by_height) * of + lift(by_place.x_axis) * x + lift(by_place.y_axis) * y
+            };
+            DMat3::from_cols(
+                column(axis.x, across.x, front.x),
+                column(axis.y, across.y, front.y),
+                column(axis.z, across.z, front.z),
+            )
+        })
     }
 }
 
@@ -250,6 +244,7 @@ fn fill(reaches: &mut [Ring]) -> Option<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::Mapped;
 
     fn waist() -> RadiusMap {
         let planes = Planes {
@@ -281,9 +276,10 @@ mod tests {
             let angle = 0.37 * f64::from(index);
             let distance = 0.2 + 0.03 * f64::from(index);
             let p = map.planes.point(0.01 * f64::from(index), distance * DVec2::from_angle(angle));
-            let gradient = map.shift(p).1;
+            let gradient = map.shift::<Mapped>(p).jacobian;
             for axis in [DVec3::X, DVec3::Y, DVec3::Z] {
-                let wanted = (map.shift(p + h * axis).0 - map.shift(p - h * axis).0) / (2.0 * h);
+                let shift = |p: DVec3| map.shift::<DVec3>(p);
+                let wanted = (shift(p + h * axis) - shift(p - h * axis)) / (2.0 * h);
                 assert!(
                     (gradient * axis).distance(wanted) < 1e-5,
                     "{index}: {:?} {wanted:?}",

@@ -8,7 +8,7 @@ use super::radius_map::{RadiusMap, Ring, smoothed_rings};
 use crate::geometry::slice::{Outline, RAYS, slices};
 use crate::geometry::smoothstep;
 use crate::geometry::weld::Weld;
-use crate::geometry::{Mapped, outer};
+use crate::geometry::{Moved, outer};
 use crate::shape::figure::Figure;
 use crate::shape::product::part::{Part, PartWeights};
 use glam::{DMat3, DVec2, DVec3};
@@ -16,6 +16,8 @@ use glam::{DMat3, DVec2, DVec3};
 /// Rows of the torso and of limbs, in head lengths.
 const TORSO_STEP: f64 = 0.02;
 const LIMB_STEP: f64 = 0.015;
+/// No map has more rows: for heads that are tiny beside their bodies.
+const MOST_ROWS: f64 = 2000.0;
 /// Widths of the Gaussians that leave no relief, and of that for the middles, in head lengths.
 const TORSO_SIGMA: f64 = 0.16;
 const LIMB_SIGMA: f64 = 0.20;
@@ -37,6 +39,9 @@ const ARM_ROWS: (f64, f64) = (0.05, 1.02);
 /// middle.
 const BOTTOM_FADE: (f64, f64) = (0.04, 0.22);
 const TOP_FADE: (f64, f64) = (0.86, 1.0);
+/// Under the crotch, over this part of the torso's length, the torso's relief stops moving what it smooths sideways: legs stay where
+/// they stand.
+const LEGS_STAY: f64 = 0.05;
 
 /// Relief maps of a body.
 #[derive(Clone, Debug)]
@@ -48,7 +53,6 @@ pub struct Relief {
     torso_length: f64,
     leg_length: f64,
     arm_lengths: [f64; 2],
-    top_fade: (f64, f64),
 }
 
 impl Relief {
@@ -74,17 +78,16 @@ impl Relief {
             torso_length: frame.torso_length(),
             leg_length: frame.leg_length(),
             arm_lengths: [frame.arm_length(0), frame.arm_length(1)],
-            top_fade: (TOP_FADE.0, TOP_FADE.1),
         }
     }
 
-    /// Where `p` goes that `weights` bind, and the Jacobian there at fixed weights.
-    pub fn map(&self, p: DVec3, weights: &PartWeights, is_skirt: bool) -> Mapped {
+    /// Where `p` goes that `weights` bind; a Jacobian is that at fixed weights.
+    pub fn map<M: Moved>(&self, p: DVec3, weights: &PartWeights, is_skirt: bool) -> M {
         let mut to = p;
         let mut jacobian = DMat3::IDENTITY;
-        let mut add = |share: f64, slope: DVec3, (shift, gradient): (DVec3, DMat3)| {
-            to += share * shift;
-            jacobian += gradient * share + outer(shift, slope);
+        let mut add = |share: f64, slope: DVec3, shift: M| {
+            to += share * shift.position();
+            jacobian += shift.jacobian() * share + outer(shift.position(), slope);
         };
         let arms = [0, 1].map(|side| f64::from(arm_share(weights, side)));
         if let Some(map) = &self.torso {
@@ -93,29 +96,9 @@ impl Relief {
             );
             let bound =
                 (1.0 - smoothstep((arms[0] + arms[1] - 0.02) / 0.3)) * (1.0 - smoothstep(of_head / 0.5));
-            let t = (p.y - self.crotch) / self.torso_length;
-            let top_fade = self.top_fade;
-            let (top, top_slope) = fade((t - top_fade.0) / (top_fade.1 - top_fade.0));
-            let (bottom, bottom_slope) = fade((-t - BOTTOM_FADE.0) / (BOTTOM_FADE.1 - BOTTOM_FADE.0));
-            let share = bound * (1.0 - top) * (1.0 - bottom);
-            if share > 0.0 {
-                let slope = bound
-                    * (bottom_slope / (BOTTOM_FADE.1 - BOTTOM_FADE.0) * (1.0 - top)
-                        - top_slope / (top_fade.1 - top_fade.0) * (1.0 - bottom))
-                    / self.torso_length;
-                let (mut shift, mut gradient) = map.shift(p);
-                if p.y < self.crotch {
-                    // Legs stay where they stand.
-                    let (below, below_slope) = fade((self.crotch - p.y) / (0.05 * self.torso_length));
-                    let keep = 1.0 - below;
-                    let x = shift.x;
-                    shift.x *= keep;
-                    gradient.x_axis.x *= keep;
-                    gradient.y_axis.x =
-                        gradient.y_axis.x * keep + x * below_slope / (0.05 * self.torso_length);
-                    gradient.z_axis.x *= keep;
-                }
-                add(share, DVec3::Y * slope, (shift, gradient));
+            let (share, slope) = self.torso_share(p.y);
+            if bound * share > 0.0 {
+                add(bound * share, DVec3::Y * (bound * slope), self.torso_shift(map, p));
             }
         }
         for side in 0..2 {
@@ -143,7 +126,32 @@ impl Relief {
                 }
             }
         }
-        Mapped { position: to, jacobian }
+        M::of(to, || jacobian)
+    }
+
+    /// How much of the torso's relief is smoothed at height `y`, and the slope of that.
+    fn torso_share(&self, y: f64) -> (f64, f64) {
+        let t = (y - self.crotch) / self.torso_length;
+        let (top, top_slope) = fade((t - TOP_FADE.0) / (TOP_FADE.1 - TOP_FADE.0));
+        let (bottom, bottom_slope) = fade((-t - BOTTOM_FADE.0) / (BOTTOM_FADE.1 - BOTTOM_FADE.0));
+        let slope = bottom_slope / (BOTTOM_FADE.1 - BOTTOM_FADE.0) * (1.0 - top)
+            - top_slope / (TOP_FADE.1 - TOP_FADE.0) * (1.0 - bottom);
+        ((1.0 - top) * (1.0 - bottom), slope / self.torso_length)
+    }
+
+    /// How the torso's relief moves `p`: below the crotch what stands there stays where it stands.
+    fn torso_shift<M: Moved>(&self, map: &RadiusMap, p: DVec3) -> M {
+        let shift: M = map.shift(p);
+        if p.y >= self.crotch {
+            return shift;
+        }
+        let (below, below_slope) = fade((self.crotch - p.y) / (LEGS_STAY * self.torso_length));
+        let DVec3 { x, y, z } = shift.position();
+        M::of(DVec3::new((1.0 - below) * x, y, z), || {
+            let keep = DMat3::from_diagonal(DVec3::new(1.0 - below, 1.0, 1.0));
+            keep * shift.jacobian()
+                + outer(DVec3::X * x, DVec3::Y * (below_slope / (LEGS_STAY * self.torso_length)))
+        })
     }
 }
 
@@ -174,7 +182,7 @@ impl Body<'_> {
         let planes = self.frame.torso_planes();
         let start = -TORSO_BOTTOM * self.frame.leg_length();
         let step = TORSO_STEP * self.length;
-        let heights = even_heights(start, 1.0 * self.frame.torso_length(), step);
+        let (heights, step) = even_heights(start, 1.0 * self.frame.torso_length(), step);
         let cuts = slices(self.positions, &triangles, self.weld, &planes, &heights);
         let shoulders = planes.locate(self.frame.shoulders);
         let bones: Vec<DVec2> = heights
@@ -185,7 +193,7 @@ impl Body<'_> {
         let mut map = RadiusMap::of(planes, (start, step), &cuts, &bones, sigma, true)?;
         mirror(&mut map.reaches);
         let smooth = smoothed_rings(&map.reaches, sigma / step);
-        self.set_scales(&mut map, &smooth, (TORSO_BOUNDS.0, TORSO_BOUNDS.1), strength);
+        self.set_scales(&mut map, &smooth, TORSO_BOUNDS, strength);
         Some(map)
     }
 
@@ -197,7 +205,7 @@ impl Body<'_> {
         let length = self.frame.leg_length();
         let step = LIMB_STEP * self.length;
         let start = LEG_ROWS.0 * length;
-        let heights = even_heights(start, LEG_ROWS.1 * length, step);
+        let (heights, step) = even_heights(start, LEG_ROWS.1 * length, step);
         let mut cuts = slices(self.positions, &triangles, self.weld, &planes, &heights);
         let over = |outline: &Outline| {
             let (low, high) = outline.breadth();
@@ -216,7 +224,7 @@ impl Body<'_> {
         let triangles = self.triangles(|row| arm_share(row, side) > 0.4 && row[limb.parts[2]] < 0.7);
         let step = LIMB_STEP * self.length;
         let start = ARM_ROWS.0 * length;
-        let heights = even_heights(start, ARM_ROWS.1 * length, step);
+        let (heights, step) = even_heights(start, ARM_ROWS.1 * length, step);
         let cuts = slices(self.positions, &triangles, self.weld, &planes, &heights);
         let elbow = planes.locate(limb.middle);
         let bones: Vec<DVec2> = heights
@@ -269,9 +277,11 @@ impl Body<'_> {
     }
 }
 
-fn even_heights(start: f64, end: f64, step: f64) -> Vec<f64> {
-    let count = ((end - start) / step).ceil().max(1.0) as usize + 1;
-    (0..count).map(|row| start + step * row as f64).collect()
+/// Heights from `start` to `end` or a little beyond, and the step between them: `step`, or more where that would be too many.
+fn even_heights(start: f64, end: f64, step: f64) -> (Vec<f64>, f64) {
+    let step = step.max((end - start) / MOST_ROWS);
+    let count = ((end - start) / step).ceil().clamp(1.0, MOST_ROWS) as usize + 1;
+    ((0..count).map(|row| start + step * row as f64).collect(), step)
 }
 
 /// Makes left and right the same: ray 0 runs to the left.

@@ -22,7 +22,7 @@ const SPREAD_UP_TO: f64 = 0.4;
 /// Legs and feet leave at least this much to the middle, in head lengths.
 const CLEAR: f64 = 0.015;
 /// The torso goes over to the legs (to the skirt) below it by this much, up to this place.
-const TO_LEGS: (f64, f64) = (0.6, 0.35);
+const TO_LEGS: (f64, f64) = (0.45, 0.35);
 const TO_SKIRT: (f64, f64) = (0.8, 0.55);
 /// A skirt keeps at least the first of these from the legs, where it had it, and the second is enough, in head lengths.
 const SKIRT_ROOM: (f64, f64) = (0.02, 0.1);
@@ -140,6 +140,8 @@ pub struct Scales {
     /// Of what soft limits took more than a tenth, with the scale that was wanted and the one that it got, where most was
     /// taken.
     pub limited: Vec<(&'static str, f64, f64)>,
+    /// Of what the parts' own thickness and size count no more: the bounds on them, by their names in warnings.
+    pub replaced: Vec<&'static str>,
 }
 
 impl Scales {
@@ -167,7 +169,7 @@ impl Scales {
 
 /// What makes a body of profile `own` one of profile `wanted`; what either lacks stays as it is.
 pub fn scales(own: &Profile, wanted: &Profile, strengths: &Strengths) -> Scales {
-    let wanted = bare(wanted, own);
+    let wanted = flesh(wanted, own);
     let mut result = Scales {
         torso: SliceScales::NONE,
         leg: SliceScales::NONE,
@@ -179,9 +181,14 @@ pub fn scales(own: &Profile, wanted: &Profile, strengths: &Strengths) -> Scales 
         neck: 1.0,
         skirt: Vec::new(),
         limited: Vec::new(),
+        replaced: Vec::new(),
     };
+    let is_taken = |row: &Row| row.iter().any(|&strength| strength > 0.0);
     if let (Some(own), Some(wanted)) = (&own.leg, &wanted.leg) {
         leg(&mut result, own, wanted, strengths);
+        if is_taken(&strengths.leg) {
+            result.replaced.extend(["upper_leg thickness", "lower_leg thickness"]);
+        }
     }
     if let (Some(own), Some(wanted)) = (&own.torso, &wanted.torso) {
         let (row, most) = ([strengths.torso; STATIONS], strengths.limit(MOST));
@@ -193,6 +200,9 @@ pub fn scales(own: &Profile, wanted: &Profile, strengths: &Strengths) -> Scales 
         let SliceScales { breadth, depth, .. } = result.torso;
         let rows = [[&wanted.breadth, &own.breadth, &breadth], [&wanted.depth, &own.depth, &depth]];
         result.note_rows("torso", rows, &row);
+        if is_taken(&row) {
+            result.replaced.push("torso thickness");
+        }
     }
     if let Some(own) = &own.leg {
         join_hips(&mut result, own);
@@ -206,6 +216,9 @@ pub fn scales(own: &Profile, wanted: &Profile, strengths: &Strengths) -> Scales 
         let rows =
             [[&wanted_arm.breadth, &own_arm.breadth, &breadth], [&wanted_arm.depth, &own_arm.depth, &depth]];
         result.note_rows("arms", rows, &strengths.arm);
+        if is_taken(&strengths.arm) {
+            result.replaced.extend(["upper_arm thickness", "lower_arm thickness"]);
+        }
         arm_length(&mut result, own, &wanted, strengths.arm_length);
     }
     if let (Some(own), Some(wanted)) = (own.hand, wanted.hand) {
@@ -223,9 +236,15 @@ pub fn scales(own: &Profile, wanted: &Profile, strengths: &Strengths) -> Scales 
         for ((wanted, own), got) in asked.zip([length, broad, thin]) {
             result.note("hands", (wanted / own).powf(strengths.hand), got);
         }
+        if strengths.hand > 0.0 {
+            result.replaced.push("hand");
+        }
     }
     if let (Some(own), Some(wanted)) = (own.foot, wanted.foot) {
         foot(&mut result, own, wanted, strengths);
+        if strengths.foot > 0.0 {
+            result.replaced.push("foot");
+        }
     }
     result.neck = match (own.neck, wanted.neck) {
         (Some(own), Some(wanted)) => (wanted / own).clamp(NECK.0, NECK.1).powf(strengths.neck),
@@ -240,7 +259,7 @@ pub fn scales(own: &Profile, wanted: &Profile, strengths: &Strengths) -> Scales 
 
 /// A reference's shorts and tunic are no flesh: its thighs taper on from below the shorts, its hips from above the hem. But
 /// whoever wears such things too keeps them.
-fn bare(wanted: &Profile, own: &Profile) -> Profile {
+pub fn flesh(wanted: &Profile, own: &Profile) -> Profile {
     let mut bare = wanted.clone();
     let kept = |cap: f64, wanted: f64, own: Option<f64>| match own {
         _ if cap >= wanted => wanted,

@@ -13,13 +13,13 @@ const OFF: (f64, f64) = (0.04, 1.5);
 /// Fewer measured slices than this make no line.
 const FEWEST: usize = 3;
 
-/// A line through `measured` that belts, hems and cuffs hardly move; NaN where nothing was measured. `None` for fewer than 3
-/// slices.
+/// A line through `measured` that belts, hems and cuffs hardly move; what is no finite number was not measured. `None` for fewer
+/// than 3 slices, and for numbers whose squares are none.
 ///
 /// It minimises the sum of W (z - y)^2 + .02 K^2 |D2 z|^2 + .001 |D1 z|^2 for K slices, and again with W = 1 / (1 + (r / s)^2)
 /// for what is left, r = y - z.
 pub fn smooth(measured: &Row) -> Option<Row> {
-    let is_known = |y: &f64| !y.is_nan();
+    let is_known = |y: &f64| y.is_finite();
     if measured.iter().filter(|y| is_known(y)).count() < FEWEST {
         return None;
     }
@@ -28,6 +28,9 @@ pub fn smooth(measured: &Row) -> Option<Row> {
     for _ in 0..ROUNDS {
         let mut off: Vec<f64> =
             (0..STATIONS).map(|at| (measured[at] - line[at]).abs()).filter(is_known).collect();
+        if off.len() < FEWEST {
+            return None;
+        }
         off.sort_by(f64::total_cmp);
         let usual = 0.5 * (off[(off.len() - 1) / 2] + off[off.len() / 2]);
         let far = (OFF.1 * usual).max(OFF.0);
@@ -37,7 +40,7 @@ pub fn smooth(measured: &Row) -> Option<Row> {
         }
         line = fit(measured, &weights);
     }
-    Some(line)
+    line.iter().all(|y| y.is_finite()).then_some(line)
 }
 
 /// As [`smooth`], of lengths above 0, by their logarithms.
@@ -117,5 +120,17 @@ mod tests {
         few[3] = 1.0;
         few[9] = 2.0;
         assert_eq!(smooth(&few), None);
+    }
+
+    #[test]
+    fn what_is_out_of_range_makes_no_line() {
+        let mut wild = [1.0; STATIONS];
+        wild[2] = f64::INFINITY;
+        wild[7] = f64::NAN;
+        assert!(smooth(&wild).unwrap().iter().all(|&y| (y - 1.0).abs() < 1e-9));
+        assert_eq!(smooth_lengths(&[0.0; STATIONS]), None);
+        for huge in [1e300, -1e308] {
+            assert!(smooth(&wild.map(|y| y * huge)).is_none_or(|line| line.iter().all(|y| y.is_finite())));
+        }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::measure::{BodyFrame, measure_profile};
 use super::relief::Relief;
-use super::scales::{Strengths, scales};
+use super::scales::{Scales, Strengths, scales};
 use super::{BodyMap, Profile, Row, STATIONS};
 use crate::geometry::{Mapped, Weld, smoothstep};
 use crate::parallel;
@@ -28,6 +28,7 @@ pub struct ProfileStage {
     piece_shifts: Vec<DVec3>,
     /// What soft limits took: of what, the wanted scale and the one it got.
     limited: Vec<(&'static str, f64, f64)>,
+    replaced: Vec<&'static str>,
 }
 
 /// What a stage is made of, beside the field before it.
@@ -111,29 +112,35 @@ impl ProfileStage {
         let relief = Relief::of(figure, positions, &parts, weld, &frame, relief_strength);
         let smooth = parallel::collect(source.threads, positions.len(), LEAST_VERTICES, |vertex| {
             let p = positions[vertex];
-            (source.binding)(vertex)
-                .map_or(p, |binding| relief.map(p, &binding.weights, binding.is_skirt).position)
+            (source.binding)(vertex).map_or(p, |binding| relief.map(p, &binding.weights, binding.is_skirt))
         });
         let (own, lines) = measure_profile(figure, &smooth, &parts, weld, &frame);
         let scales = scales(&own, wanted, &strengths);
         let slices = BodyMap::new(&own, &lines, &frame, &scales);
-        let mut stage = Self { relief, slices, piece_shifts: Vec::new(), limited: scales.limited };
+        let Scales { limited, replaced, .. } = scales;
+        let mut stage = Self { relief, slices, piece_shifts: Vec::new(), limited, replaced };
         stage.piece_shifts = source
             .pieces
             .iter()
             .enumerate()
             .map(|(index, piece)| {
                 let at = field.piece_anchor(index);
-                stage.of_parts(at, &piece.weights, false).position - at
+                stage.placed(at, &piece.weights, false) - at
             })
             .collect();
         stage
     }
 
     /// Where `p`, as the parts leave it, goes.
-    #[inline]
+    pub fn place(&self, p: DVec3, binding: &PartBinding) -> DVec3 {
+        self.placed(p, &binding.weights, binding.is_skirt)
+    }
+
+    /// The same and the Jacobian there.
     pub fn map(&self, p: DVec3, binding: &PartBinding) -> Mapped {
-        self.of_parts(p, &binding.weights, binding.is_skirt)
+        let PartBinding { weights, is_skirt, .. } = binding;
+        let smooth: Mapped = self.relief.map(p, weights, *is_skirt);
+        smooth.then(|p| self.slices.map(p, weights, *is_skirt))
     }
 
     /// What is added to a piece.
@@ -146,7 +153,12 @@ impl ProfileStage {
         &self.limited
     }
 
-    fn of_parts(&self, p: DVec3, weights: &PartWeights, is_skirt: bool) -> Mapped {
-        self.relief.map(p, weights, is_skirt).then(|p| self.slices.map(p, weights, is_skirt))
+    /// Of what the parts' own thickness and size count no more, by the names of the bounds on them.
+    pub fn replaced(&self) -> &[&'static str] {
+        &self.replaced
+    }
+
+    fn placed(&self, p: DVec3, weights: &PartWeights, is_skirt: bool) -> DVec3 {
+        self.slices.map(self.relief.map(p, weights, is_skirt), weights, is_skirt)
     }
 }
