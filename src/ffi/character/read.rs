@@ -104,7 +104,7 @@ pub unsafe fn skeleton(skeleton: *const SdefSkeleton) -> Outcome<(Skeleton, Huma
     Ok((skeleton, humanoid))
 }
 
-/// As [`mesh`], with the mesh in what is said of a mistake: it will be number `index`. `image`: what it names.
+/// As `mesh`, with the mesh in what is said of a mistake: it will be number `index`. `image`: what it names.
 ///
 /// # Safety
 /// The struct and its arrays are as the header says.
