@@ -97,6 +97,11 @@ static void a_character_gives_back_what_it_got(void) {
   OK(sdef_destroy(character.id, &error));
 }
 
+static void in_order(void *user, SdefTask task, void *data, uint32_t count) {
+  for (uint32_t index = 0; index < count; index++) task(data, index);
+  ++*(int *)user;
+}
+
 static void a_rig_is_made(void) {
   SdefCharacter character = make_character(0);
   SdefOptions options;
@@ -106,9 +111,12 @@ static void a_rig_is_made(void) {
   options.rig_joint_count = 1;
   options.rig_weights = SDEF_WEIGHTS_VOLUME;
   options.rig_voxel_resolution = 48;
-  int calls = 0;
+  options.thread_count = 2;
+  int calls = 0, jobs = 0;
+  OK(sdef_set_jobs(in_order, &jobs, &error));
   OK(sdef_character_rig(character, &options, count_calls, &calls, &error));
-  CHECK(calls > 0);
+  OK(sdef_set_jobs(NULL, NULL, &error));
+  CHECK(calls > 0 && jobs > 0);
   SdefCharacterInfo info = {0};
   info.struct_size = sizeof info;
   OK(sdef_character_get_info(character, &info, &error));

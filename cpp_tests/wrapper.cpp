@@ -58,9 +58,18 @@ static void characters() {
   Options options;
   options.rig_voxel_resolution = 48;
   options.rig_weights = SDEF_WEIGHTS_VOLUME;
+  options.thread_count = 2;
   float last = 0;
+  int jobs = 0;
+  superdeform::set_jobs(
+      [](void *user, SdefTask task, void *data, std::uint32_t count) {
+        for (std::uint32_t index = 0; index < count; index++) task(data, index);
+        ++*static_cast<int *>(user);
+      },
+      &jobs);
   made.rig(options, [&](float fraction) { last = fraction; });
-  CHECK(made.info().rig_made == 1 && last == 1);
+  superdeform::set_jobs(nullptr);
+  CHECK(made.info().rig_made == 1 && last == 1 && jobs > 0);
   const std::uint8_t pixel = 200;
   SdefImage image = superdeform::make<SdefImage>();
   image.width = image.height = 1;

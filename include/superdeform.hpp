@@ -504,6 +504,10 @@ public:
   std::string warnings() const { return superdeform::warnings(*this); }
 };
 
+// Has jobs do the work of all calls that this thread makes from now on; a null pointer: threads of the library's own again.
+// It must not throw.
+inline void set_jobs(SdefJobs jobs, void *user = nullptr) { detail::call(sdef_set_jobs, jobs, user); }
+
 // Deforms meshes in one call. skeleton: NULL makes a rig. up, forward: NULL as in sdef_character_create.
 template <class Progress = std::nullptr_t>
 void super_deform(const SdefSkeleton *skeleton, View<const SdefMesh> meshes, const Style &style,
