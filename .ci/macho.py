@@ -7,6 +7,7 @@
     macho.py FILE PROCESSOR needs | exports          prints libraries that it loads, or symbols that it exports
     macho.py FILE PROCESSOR keep PREFIX              hides all symbols but those of this prefix, in a file for one processor,
                                                      and signs it anew: zig's linker exports all that Rust has
+    macho.py OUT ARM64 X86_64 join                   puts two files for one processor each into one, archives too
 """
 import hashlib
 import struct
@@ -124,7 +125,20 @@ def signed_pages(data, offset, size, anew=False):
     return slots
 
 
+def join(path, *files):
+    """A file for both processors: a header, and each file at a page of its own."""
+    out = bytearray(struct.pack(">2I", 0xCAFEBABE, len(files)).ljust(1 << 14, b"\0"))
+    for index, (processor, file) in enumerate(zip(("arm64", "x86_64"), files)):
+        data = open(file, "rb").read()
+        subtype = 0 if processor == "arm64" else 3
+        struct.pack_into(">5I", out, 8 + 20 * index, CPU[processor], subtype, len(out), len(data), 14)
+        out += data.ljust((len(data) + (1 << 14) - 1) >> 14 << 14, b"\0")
+    open(path, "wb").write(out)
+
+
 def main():
+    if sys.argv[-1] == "join":
+        return join(*sys.argv[1:-1])
     path, processor, minimum, *names = sys.argv[1:]
     data = part_of(open(path, "rb").read(), processor)
     if minimum == "keep":
