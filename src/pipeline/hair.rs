@@ -97,7 +97,7 @@ impl Laid {
     /// What is added to a point that was at `rest` and moves with `joint`, before the amount.
     pub fn offset(
         &self,
-        product: &super::product::ProductTarget,
+        product: &super::product_target::ProductTarget,
         target: &Target,
         binding: &Binding,
         joint: usize,

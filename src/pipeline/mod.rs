@@ -10,6 +10,7 @@ mod finish;
 mod hair;
 mod paper;
 mod product;
+mod product_target;
 mod profile;
 mod report;
 mod result;
@@ -36,7 +37,7 @@ pub use crate::shape::style::Style;
 use crate::shape::{BodyShape, Coefficient, GroupShape};
 use attach::{Bindings, Placement};
 use glam::DVec3;
-use product::ProductTarget;
+use product_target::ProductTarget;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Arc, OnceLock};
 use std::time::Instant;
@@ -296,7 +297,7 @@ impl Deformer {
         let frame = &measured.figure.frame;
         let p = frame.to_canonical(point);
         let on_head = match self.options.mode {
-            Mode::Product => product::on_head(measured, joint, p),
+            Mode::Product => product_target::on_head(measured, joint, p),
             Mode::Paper => None,
         };
         let binding = on_head.as_ref().unwrap_or(&self.deformation.bindings.joints[joint]);

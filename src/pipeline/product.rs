@@ -1,28 +1,21 @@
 //! Product mode in order: parts, coefficients until the number of heads is right, and hair outside of the body.
 
-use super::attach::{Bindings, GroundContact, Placement, joint_bindings};
+use super::attach::Placement;
+use super::product_target::ProductTarget;
 use super::profile::{Sliced, wants_profile, with_profile};
-use super::strands::Strands;
 use super::{Deformation, Target};
-use crate::character::Role;
 use crate::error::{Error, ErrorKind, Named, Result, Warning};
-use crate::face::seat::SeatSources;
 use crate::options::Options;
 use crate::options::table::PRODUCT_FACE_SQUASH;
 use crate::progress::Progress;
-use crate::shape::field::{Binding, BodyField, Field};
-use crate::shape::figure::{Figure, extent};
+use crate::shape::field::{BodyField, Field};
+use crate::shape::figure::extent;
 use crate::shape::heights::Heights;
 use crate::shape::product::anatomy::Proportions;
-use crate::shape::product::binding::{PartBinding, PartBindings, joint_binding, part_bindings};
+use crate::shape::product::binding::PartBindings;
 use crate::shape::product::coefficients::{Goal, heads_of, part_coefficients};
 use crate::shape::product::field::PartField;
 use crate::shape::product::groups::PartGroups;
-use crate::shape::product::hair::HairOnBody;
-use crate::shape::product::head::seat_sources;
-use crate::shape::product::joints::mean_bindings;
-use crate::shape::product::landmarks::{HeadPlacement, HeadSources};
-use crate::shape::product::part::Part;
 use crate::shape::product::scales::PartCoefficients;
 use crate::shape::style::Style;
 use crate::shape::{BodyShape, Measured};
@@ -43,150 +36,6 @@ const HEADS_CORRECTION: (f64, f64) = (0.8, 1.25);
 const HEADS_WARNED_ABOVE: f64 = 0.01;
 /// Hair that reaches further below the chin than this, in heads, is warned of.
 const HAIR_WARNED_ABOVE: f64 = 0.1;
-
-/// What product mode finds of a measured target once: no style and no option changes it.
-#[derive(Debug)]
-pub struct ProductTarget {
-    pub(super) bindings: Bindings,
-    /// What the bindings were made with, less the vertices' own.
-    pub(super) parts: PartBindings,
-    hair: OnceLock<HairOnBody>,
-    head_sources: OnceLock<HeadSources>,
-    seat_sources: OnceLock<SeatSources>,
-    strands: OnceLock<Strands>,
-}
-
-impl ProductTarget {
-    /// Binds vertices and joints to parts.
-    fn of(target: &Target, threads: usize, progress: &mut Progress) -> Result<Self> {
-        let measured = &target.measured;
-        let figure = &measured.figure;
-        let skeleton = &target.character.skeleton;
-        let mut parts = part_bindings(
-            figure,
-            &measured.anatomy,
-            measured.face.as_ref(),
-            skeleton,
-            &target.measured.weld,
-            threads,
-            progress,
-        )?;
-        let vertices = std::mem::take(&mut parts.vertices);
-        let of_legs =
-            |vertex: usize| vertices[vertex].weights[Part::LeftUpperLeg as usize..].iter().sum::<f32>();
-        let ground = GroundContact::of(figure, |vertex| of_legs(vertex) > 0.5);
-        let means = mean_bindings(&target.character, figure, &vertices);
-        let joints = joint_bindings(&target.character, figure, |joint| {
-            Binding::Parts(if is_head_joint_in_neck(measured, joint) {
-                PartBinding::to(Part::Neck)
-            } else if let Some(mean) = means[joint] {
-                mean
-            } else {
-                joint_binding(figure, &parts, joint)
-            })
-        });
-        let bindings = Bindings {
-            vertices: Arc::new(vertices.into_iter().map(Binding::Parts).collect()),
-            joints: Arc::new(joints),
-            ground: Arc::new(ground),
-        };
-        Ok(Self {
-            bindings,
-            parts,
-            hair: OnceLock::new(),
-            head_sources: OnceLock::new(),
-            seat_sources: OnceLock::new(),
-            strands: OnceLock::new(),
-        })
-    }
-
-    /// What the seat of the head is measured on.
-    pub fn seat_sources(&self, measured: &Measured) -> &SeatSources {
-        self.seat_sources.get_or_init(|| {
-            let binding = |binding: &Binding| match binding {
-                Binding::Parts(binding) => *binding,
-                _ => PartBinding::to(Part::Torso),
-            };
-            let bindings: Vec<PartBinding> = self.bindings.vertices.iter().map(binding).collect();
-            seat_sources(&measured.figure, &measured.anatomy, &bindings)
-        })
-    }
-
-    /// The vertices of hats, glasses and earrings, thing by thing.
-    pub fn things(&self) -> &[Vec<u32>] {
-        &self.parts.things
-    }
-
-    /// A vertex's weight to `part`.
-    fn weight(&self, vertex: usize, part: Part) -> f32 {
-        match &self.bindings.vertices[vertex] {
-            Binding::Parts(binding) => binding.weights[part as usize],
-            _ => 0.0,
-        }
-    }
-
-    /// Where `field` takes the target's points.
-    pub(super) fn placement<'a>(
-        &'a self,
-        figure: &'a Figure,
-        field: &'a Field,
-        threads: usize,
-    ) -> Placement<'a> {
-        Placement {
-            figure,
-            bindings: &self.bindings,
-            field,
-            hair_offsets: &[],
-            joint_offsets: &[],
-            ways: None,
-            threads,
-        }
-    }
-
-    /// How many heads tall `placement` makes the target, measured on the result.
-    fn heads(&self, placement: &Placement) -> f64 {
-        let sources = self.head_sources.get_or_init(|| HeadSources::of(placement.figure));
-        let positions = placement.vertices(&sources.vertices);
-        sources.heads(&HeadPlacement::of(placement.figure, positions, |joint| placement.joint(joint)))
-    }
-
-    /// What is added to each vertex so that locks which lay on the body still do; empty where nothing is.
-    pub fn hair_offsets(&self, target: &Target, placement: &Placement) -> Vec<DVec3> {
-        let hair = self.hair.get_or_init(|| self.hair_on_body(target));
-        if hair.is_empty() {
-            return placement.hair_offsets.to_vec();
-        }
-        let after = placement.all_vertices();
-        let (low, high) = extent(&after);
-        let offsets = hair.kept_outside(&after, &target.measured.weld, high - low);
-        let mut all = placement.hair_offsets.to_vec();
-        if offsets.is_empty() {
-            return all;
-        }
-        all.resize(after.len(), DVec3::ZERO);
-        for (vertex, offset) in offsets {
-            all[vertex] += offset;
-        }
-        all
-    }
-
-    /// The hair's strands, and how they hang.
-    pub fn strands(&self, target: &Target) -> &Strands {
-        self.strands.get_or_init(|| Strands::of(target, &self.bindings))
-    }
-
-    fn hair_on_body(&self, target: &Target) -> HairOnBody {
-        let figure = &target.measured.figure;
-        let chin = target.measured.anatomy.landmarks.heights.chin;
-        let hair: Vec<usize> = (0..figure.positions.len())
-            .filter(|&vertex| figure.positions[vertex].y < chin && self.weight(vertex, Part::Hair) > 0.5)
-            .collect();
-        let of_head = |vertex: usize| self.weight(vertex, Part::Hair) + self.weight(vertex, Part::Head);
-        let body =
-            if hair.is_empty() { Vec::new() } else { figure.triangles_where(|vertex| of_head(vertex) < 0.5) };
-        HairOnBody::of(&figure.positions, &figure.triangles, body, hair, &target.measured.weld)
-    }
-}
 
 /// The product's way to give `target` the style.
 ///
@@ -383,19 +232,4 @@ pub fn face_box(field: &PartField, around: Option<(DVec3, DVec3)>) -> (DVec3, DV
     let reach = 0.5 * (crown - chin);
     let (low, high) = around.unwrap_or((DVec3::splat(-reach), DVec3::splat(reach)));
     (low.with_y(chin), high.with_y(crown))
-}
-
-/// Heads often turn about a point in the neck: a head joint below the chin moves as the neck does.
-fn is_head_joint_in_neck(measured: &Measured, joint: usize) -> bool {
-    let figure = &measured.figure;
-    figure.humanoid.joint(Role::Head) == Some(joint)
-        && figure.joints[joint].y < measured.anatomy.landmarks.heights.chin
-}
-
-/// What hangs from a head joint in the neck is on the head all the same, above the chin: the binding of such a point `p`,
-/// canonical frame.
-pub fn on_head(measured: &Measured, joint: usize, p: DVec3) -> Option<Binding> {
-    let is_above_chin = p.y >= measured.anatomy.landmarks.heights.chin;
-    (is_above_chin && is_head_joint_in_neck(measured, joint))
-        .then(|| Binding::Parts(PartBinding::to(Part::Head)))
 }

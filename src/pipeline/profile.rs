@@ -1,7 +1,7 @@
 //! The stage after the parts: the body that the style wants, slice by slice.
 
 use super::Target;
-use super::product::ProductTarget;
+use super::product_target::ProductTarget;
 use crate::error::Warning;
 use crate::options::{Options, Stage};
 use crate::shape::field::{Binding, BodyField, Field};
