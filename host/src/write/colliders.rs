@@ -1,6 +1,6 @@
 //! Colliders of spring bones, VRM 0.x and 1.0, and the springs that they guard.
 
-use super::vrm::{flipped_vector, multiply, put, put_flipped, vector};
+use super::numbers::{flipped_vector, multiply, put, put_flipped, vector};
 use super::{MapPoint, new_rest};
 use crate::load::Loaded;
 use crate::{array_at, index_at, text_at};

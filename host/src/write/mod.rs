@@ -6,6 +6,7 @@
 mod animations;
 pub mod colliders;
 mod nodes;
+mod numbers;
 mod store;
 mod thumbnail;
 mod vertices;

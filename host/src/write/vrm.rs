@@ -3,11 +3,12 @@
 //! A point is attached to a node and stands in its space: it is mapped like a vertex of that joint and then expressed
 //! in the moved node's space. Lengths around a point (radii, stiffness, gravity) are multiplied by the local scale.
 
+use super::numbers::{flipped_vector, multiply, put, put_flipped, vector};
 use super::{MapPoint, colliders};
 use crate::load::Loaded;
 use crate::{array_at, index_at, text_at};
 use glam::{DMat4, DVec3};
-use serde_json::{Value, json};
+use serde_json::Value;
 use superdeform::Role;
 
 /// The field at nodes of one file.
@@ -66,32 +67,6 @@ pub(super) fn move_points(
     }
     if let Some(springs) = json.pointer_mut("/extensions/VRMC_springBone") {
         vrm1_springs(springs, &field);
-    }
-}
-
-/// A vector written as an array (VRM 1.0).
-pub(super) fn vector(value: &Value) -> Option<DVec3> {
-    let numbers: Vec<f64> = value.as_array()?.iter().filter_map(Value::as_f64).collect();
-    <[f64; 3]>::try_from(numbers).ok().map(DVec3::from)
-}
-
-/// True for a change beyond rounding.
-fn differs(before: f64, after: f64) -> bool {
-    (after - before).abs() > 1e-9 * before.abs().max(1e-6)
-}
-
-pub(super) fn put(value: &mut Value, before: DVec3, after: DVec3) {
-    if (0..3).any(|axis| differs(before[axis], after[axis])) {
-        *value = json!(after.as_vec3().to_array());
-    }
-}
-
-/// Multiplies the number at `key`; one that is not there has the value `default`.
-pub(super) fn multiply(holder: &mut Value, key: &str, default: f64, factor: f64) {
-    let before = holder.get(key).and_then(Value::as_f64).unwrap_or(default);
-    let after = before * factor;
-    if holder.is_object() && differs(before, after) {
-        holder[key] = json!(after as f32);
     }
 }
 
@@ -162,24 +137,6 @@ fn vrm0(vrm: &mut Value, field: &Field) {
             // VRM 0.x spells it so.
             multiply(group, "stiffiness", 0.0, scale);
             multiply(group, "gravityPower", 0.0, scale);
-        }
-    }
-}
-
-/// z is negated, see [`vrm0`].
-const FLIPPED: DVec3 = DVec3::new(1.0, 1.0, -1.0);
-
-/// A vector {x, y, z} of VRM 0.x in its node's space.
-pub(super) fn flipped_vector(value: &Value) -> DVec3 {
-    let number = |key: &str| value.get(key).and_then(Value::as_f64).unwrap_or(0.0);
-    DVec3::new(number("x"), number("y"), number("z")) * FLIPPED
-}
-
-/// Writes `after`, in the node's space, over such a vector.
-pub(super) fn put_flipped(value: &mut Value, before: DVec3, after: DVec3) {
-    if value.is_object() && (0..3).any(|axis| differs(before[axis], after[axis])) {
-        for (axis, key) in ["x", "y", "z"].into_iter().enumerate() {
-            value[key] = json!((after * FLIPPED)[axis] as f32);
         }
     }
 }
