@@ -64,7 +64,7 @@ pub fn to_measure(character: &Character) -> usize {
 
 /// Making a deformer; changing its options takes no more.
 pub fn to_deform(character: &Character) -> usize {
-    Size::of(character).bytes([900, 500, 0, 16])
+    Size::of(character).bytes([1500, 500, 0, 16])
 }
 
 /// Deforming into the caller's arrays.
