@@ -15,6 +15,9 @@ printf '%-42s' "$name"
 # No two decoders of JPEG give the same pixels, and by these irises are measured.
 tolerance=1e-6
 if grep -qa image/jpeg "$target"; then tolerance=1e-4; fi
+# Where a rig is made the two differ in last digits (1e-8 without profiles), and by these a profile's ray that runs along an
+# edge meets it or not: as much as tests/laws allows.
+if ! grep -qa '"skins"' "$target"; then tolerance=5e-5; fi
 "$compare" "$scratch/rust_$name" "$scratch/cpp_$name" "$tolerance"
 # The comparison sees a difference where there is one.
 if "$compare" "$target" "$scratch/cpp_$name" 1e-2 >/dev/null 2>&1; then
