@@ -2,6 +2,7 @@
 
 use crate::character::Character;
 use crate::face::stage::Ways;
+use crate::geometry::range;
 use crate::parallel;
 use crate::shape::field::{Binding, Field};
 use crate::shape::figure::Figure;
@@ -27,7 +28,7 @@ pub struct Bindings {
 pub struct GroundContact {
     /// The vertices.
     pub vertices: Vec<u32>,
-    /// The height of the lowest one, canonical frame.
+    /// The height of the lowest one, canonical frame; where none stands, of the lowest vertex that there is.
     pub height: f64,
 }
 
@@ -38,8 +39,10 @@ impl GroundContact {
             .filter(|&vertex| stands(vertex))
             .map(|vertex| vertex as u32)
             .collect();
-        let heights = vertices.iter().map(|&vertex| figure.positions[vertex as usize].y);
-        let height = heights.fold(f64::INFINITY, f64::min);
+        let standing = range(vertices.iter().map(|&vertex| figure.positions[vertex as usize].y));
+        let (height, _) =
+            if vertices.is_empty() { range(figure.positions.iter().map(|p| p.y)) } else { standing };
+        let height = if height.is_finite() { height } else { 0.0 };
         Self { vertices, height }
     }
 }

@@ -12,7 +12,7 @@ use crate::shape::product::binding::PartBinding;
 use crate::shape::product::field::PartField;
 use crate::shape::product::part::{PartWeights, fold_to_parts};
 use crate::shape::product::pieces::Piece;
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 /// Fewer vertices than this are not worth a thread.
 const LEAST_VERTICES: usize = 8000;
@@ -131,7 +131,7 @@ impl ProfileStage {
         stage
     }
 
-    /// Where `p`, as the parts leave it, goes.
+    /// Where `p`, as the parts leave it, goes. It stays where a body of next to no length gives no number.
     pub fn place(&self, p: DVec3, binding: &PartBinding) -> DVec3 {
         self.placed(p, &binding.weights, binding.is_skirt)
     }
@@ -140,7 +140,8 @@ impl ProfileStage {
     pub fn map(&self, p: DVec3, binding: &PartBinding) -> Mapped {
         let PartBinding { weights, is_skirt, .. } = binding;
         let smooth: Mapped = self.relief.map(p, weights, *is_skirt);
-        smooth.then(|p| self.slices.map(p, weights, *is_skirt))
+        let to = smooth.then(|p| self.slices.map(p, weights, *is_skirt));
+        if to.position.is_finite() { to } else { Mapped { position: p, jacobian: DMat3::IDENTITY } }
     }
 
     /// What is added to a piece.
@@ -159,6 +160,7 @@ impl ProfileStage {
     }
 
     fn placed(&self, p: DVec3, weights: &PartWeights, is_skirt: bool) -> DVec3 {
-        self.slices.map(self.relief.map(p, weights, is_skirt), weights, is_skirt)
+        let to: DVec3 = self.slices.map(self.relief.map(p, weights, is_skirt), weights, is_skirt);
+        if to.is_finite() { to } else { p }
     }
 }
