@@ -158,7 +158,7 @@ impl Taps {
         let t = place - nearest;
         let nearest = nearest as i64;
         Self {
-            indices: [nearest - 1, nearest, nearest + 1],
+            indices: [nearest.saturating_sub(1), nearest, nearest.saturating_add(1)],
             weights: [0.5 * (0.5 - t) * (0.5 - t), 0.75 - t * t, 0.5 * (0.5 + t) * (0.5 + t)],
             slopes: [t - 0.5, -2.0 * t, t + 0.5],
         }
