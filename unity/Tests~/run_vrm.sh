@@ -40,7 +40,7 @@ cp "$library" "$out/library/libsuperdeform.so"
 # deform NAME: the file's springs as lines, and those of the example program's result.
 deform() {
   python3 "$tests/Vrm/springs.py" list "$out/$1.vrm" >"$out/$1.txt"
-  "$example" "$out/$1.vrm" --heads 2.5 --quiet -o "$out/$1_sd.vrm"
+  "$example" "$out/$1.vrm" --heads 1.8 --quiet -o "$out/$1_sd.vrm"
   python3 "$tests/Vrm/springs.py" list "$out/$1_sd.vrm" >"$out/$1_sd.txt"
 }
 python3 "$tests/Vrm/springs.py" fixture tests/data/kaykit_rogue.glb "$out/rogue.vrm"

@@ -2,6 +2,7 @@ using System;
 using System.Collections.Generic;
 using UnityEditor;
 using UnityEngine;
+using static SuperDeform.Editor.ColliderRules;
 using static SuperDeform.Editor.Rules;
 
 namespace SuperDeform.Editor
@@ -14,7 +15,7 @@ namespace SuperDeform.Editor
     /// Joints move and are not scaled, so all that a component multiplies by its transform's scale changes here. Angles, ratios,
     /// times and curves along a chain stay.
     /// </remarks>
-    internal sealed class ComponentTable : IComponentAdapter
+    internal sealed class ComponentTable : ISpringAdapter
     {
         static readonly Dictionary<string, Rule[]> Rows = new Dictionary<string, Rule[]>();
 
@@ -32,20 +33,26 @@ namespace SuperDeform.Editor
             get { return Rows.Keys; }
         }
 
-        /// <summary>The rules for a class, or for one that it derives from; null where it is not in the table.</summary>
-        static Rule[] Find(Component component)
+        /// <summary>What a table holds for a class, or for one that it derives from; null where it is not in the table.</summary>
+        static T Find<T>(Dictionary<string, T> table, Component component) where T : class
         {
             for (Type type = component.GetType(); type != null; type = type.BaseType)
             {
-                Rule[] rules;
-                if (Rows.TryGetValue(type.FullName, out rules)) return rules;
+                T found;
+                if (table.TryGetValue(type.FullName, out found)) return found;
             }
             return null;
         }
 
         public bool Handles(Component copy)
         {
-            return Find(copy) != null;
+            return Find(Rows, copy) != null;
+        }
+
+        public void AddSprings(Component copy, Springs springs)
+        {
+            SpringRow row = Find(SpringRow.All, copy);
+            if (row != null) row.Add(copy, springs);
         }
 
         public void Adapt(Component copy, PointMap map)
@@ -53,7 +60,7 @@ namespace SuperDeform.Editor
             using (SerializedObject properties = new SerializedObject(copy))
             {
                 PropertyScope scope = new PropertyScope(copy, properties, map);
-                foreach (Rule rule in Find(copy))
+                foreach (Rule rule in Find(Rows, copy))
                 {
                     rule(scope);
                 }
@@ -67,6 +74,9 @@ namespace SuperDeform.Editor
     {
         const string Dynamics = "VRC.SDK3.Dynamics.";
 
+        // VRCPhysBoneColliderBase.ShapeType, PortableDynamicColliderType; a contact's third shape is a box.
+        static readonly int[] IsBall = { 0 }, IsCapsule = { 1 }, IsPlane = { 2 }, IsBox = { 2 };
+
         internal static void Add(Dictionary<string, Rule[]> rows)
         {
             rows["VRC.SDK3.Avatars.Components.VRCAvatarDescriptor"] = Descriptor();
@@ -74,9 +84,16 @@ namespace SuperDeform.Editor
             rows["VRC.SDK3.Avatars.Components.VRCHeadChop"] = new Rule[0];
             rows["VRC.Core.PipelineManager"] = new[] { Identity("blueprintId") };
             rows[Dynamics + "PhysBone.Components.VRCPhysBone"] = new[] { InSpaceOf("rootTransform"), ChainLength("radius"), EndPoint("endpointPosition") };
-            Rule[] shape = { InSpaceOf("rootTransform"), Capsule("position", "radius", "height", "rotation"), Point("position") };
-            rows[Dynamics + "PhysBone.Components.VRCPhysBoneCollider"] = shape;
-            Rule[] contact = { InSpaceOf("rootTransform"), Capsule("position", "radius", "height", "rotation"), Sides("size", "position"), Point("position") };
+            rows[Dynamics + "PhysBone.Components.VRCPhysBoneCollider"] = new[]
+            {
+                InSpaceOf("rootTransform"), When("shapeType", IsBall, Ball("position", "radius", "insideBounds")),
+                When("shapeType", IsCapsule, Upright("position", "radius", "height", "rotation", "insideBounds")), When("shapeType", IsPlane, Plane("position", "rotation"))
+            };
+            Rule[] contact =
+            {
+                InSpaceOf("rootTransform"), When("shapeType", IsBall, Ball("position", "radius")), When("shapeType", IsCapsule, Upright("position", "radius", "height", "rotation")),
+                When("shapeType", IsBox, Sides("size", "position")), When("shapeType", IsBox, Point("position"))
+            };
             rows[Dynamics + "Contact.Components.VRCContactSender"] = contact;
             rows[Dynamics + "Contact.Components.VRCContactReceiver"] = contact;
             rows[Dynamics + "Constraint.Components.VRCPositionConstraint"] = new[] { RestPosition("PositionAtRest", "TargetTransform"), Length("PositionOffset") };
@@ -95,7 +112,9 @@ namespace SuperDeform.Editor
             rows[portable + "PortableDynamicBone"] = new[] { InSpaceOf("m_root"), ChainLength("m_baseRadius.m_value") };
             rows[portable + "PortableDynamicBoneCollider"] = new[]
             {
-                InSpaceOf("m_root"), Capsule("m_positionOffset", "m_radius", "m_height", "m_rotationOffset"), Point("m_positionOffset")
+                InSpaceOf("m_root"), When("m_colliderType", IsBall, Ball("m_positionOffset", "m_radius")),
+                When("m_colliderType", IsCapsule, Upright("m_positionOffset", "m_radius", "m_height", "m_rotationOffset")),
+                When("m_colliderType", IsPlane, Plane("m_positionOffset", "m_rotationOffset"))
             };
         }
 
@@ -112,8 +131,7 @@ namespace SuperDeform.Editor
             {
                 string at = "collider_" + part + ".";
                 rules.Add(InSpaceOf(at + "transform"));
-                rules.Add(Capsule(at + "position", at + "radius", at + "height", at + "rotation"));
-                rules.Add(Point(at + "position"));
+                rules.Add(Upright(at + "position", at + "radius", at + "height", at + "rotation"));
             }
             return rules.ToArray();
         }
@@ -126,13 +144,9 @@ namespace SuperDeform.Editor
         {
             rows["DynamicBone"] = new[]
             {
-                InSpaceOf("m_Root"), ChainLength("m_Radius"), ChainLength("m_Gravity"), ChainLength("m_Force"), EndLength("m_EndOffset")
+                InSpaceOf("m_Root", "m_Roots.Array.data[0]"), ChainLength("m_Radius"), ChainLength("m_Gravity"), ChainLength("m_Force"), EndLength("m_EndOffset")
             };
-            rows["DynamicBoneCollider"] = new[]
-            {
-                Across("m_Radius", "m_Center", Axis("m_Direction")), Across("m_Radius2", "m_Center", Axis("m_Direction")),
-                Along("m_Height", "m_Center", Axis("m_Direction")), Point("m_Center")
-            };
+            rows["DynamicBoneCollider"] = new[] { Along("m_Center", Axis("m_Direction"), "m_Height", "m_Radius", "m_Radius2", "m_Bound") };
             rows["DynamicBonePlaneCollider"] = new[] { Point("m_Center") };
             AddFirst(rows);
             AddSecond(rows);
@@ -141,12 +155,8 @@ namespace SuperDeform.Editor
         static void AddFirst(Dictionary<string, Rule[]> rows)
         {
             const string space = "MagicaCloth.";
-            rows[space + "MagicaSphereCollider"] = new[] { Length("radius", "center"), Point("center") };
-            rows[space + "MagicaCapsuleCollider"] = new[]
-            {
-                Along("length", "center", Axis("axis")), Across("startRadius", "center", Axis("axis")),
-                Across("endRadius", "center", Axis("axis")), Point("center")
-            };
+            rows[space + "MagicaSphereCollider"] = new[] { Ball("center", "radius") };
+            rows[space + "MagicaCapsuleCollider"] = new[] { HalfAlong("center", Axis("axis"), "length", "startRadius", "endRadius") };
             rows[space + "MagicaPlaneCollider"] = new[] { Point("center") };
             // Their rest shape is an asset that only their own Create button makes: see NeedsCreate.
             List<Rule> cloth = new List<Rule>();
@@ -177,12 +187,11 @@ namespace SuperDeform.Editor
         static void AddSecond(Dictionary<string, Rule[]> rows)
         {
             const string space = "MagicaCloth2.";
-            rows[space + "MagicaSphereCollider"] = new[] { Length("size", "center"), Point("center") };
+            rows[space + "MagicaSphereCollider"] = new[] { Ball("center", "size.x") };
             // Two radii and a length.
             rows[space + "MagicaCapsuleCollider"] = new[]
             {
-                Across("size.x", "center", Axis("direction")), Across("size.y", "center", Axis("direction")),
-                Along("size.z", "center", Axis("direction")), Point("center")
+                Along("center", Axis("direction", "reverseDirection"), "size.z", "size.x", "size.y", null, "radiusSeparation", "alignedOnCenter")
             };
             rows[space + "MagicaPlaneCollider"] = new[] { Point("center") };
             const string at = "serializeData.";
@@ -278,7 +287,7 @@ namespace SuperDeform.Editor
             const string modular = "nadena.dev.modular_avatar.core.", optimizer = "Anatawa12.AvatarOptimizer.";
             rows[modular + "ModularAvatarGlobalCollider"] = new[]
             {
-                InSpaceOf("m_rootTransform.targetObject"), Capsule("m_position", "m_radius", "m_height", "m_rotation"), Point("m_position")
+                InSpaceOf("m_rootTransform.targetObject"), Upright("m_position", "m_radius", "m_height", "m_rotation")
             };
             rows[optimizer + "RemoveMeshInBox"] = new[] { Sides("boxes[*].size", "boxes[*].center"), Point("boxes[*].center") };
             rows[optimizer + "MergePhysBone"] = new[] { Length("radiusConfig.value"), Length("endpointPositionConfig.value") };

@@ -1,4 +1,3 @@
-using System;
 using System.Collections.Generic;
 using UnityEditor;
 using UnityEngine;
@@ -40,19 +39,7 @@ namespace SuperDeform.Editor
         /// <summary>Paths with a number for each element in place of "[*]"; the path itself where it has none.</summary>
         internal List<string> Expand(string path)
         {
-            List<string> paths = new List<string>();
-            int star = path.IndexOf("[*]", StringComparison.Ordinal);
-            if (star < 0)
-            {
-                paths.Add(path);
-                return paths;
-            }
-            SerializedProperty array = At(path.Substring(0, star));
-            for (int index = 0; array != null && index < array.arraySize; index++)
-            {
-                paths.AddRange(Expand(path.Substring(0, star) + ".Array.data[" + index + "]" + path.Substring(star + 3)));
-            }
-            return paths;
+            return Serialized.Expand(properties, path);
         }
 
         /// <summary>A vector of three: one of Unity's, or any value of x, y and z; other where there is none.</summary>
@@ -78,10 +65,46 @@ namespace SuperDeform.Editor
             At(path + ".z").floatValue = value.z;
         }
 
+        /// <summary>A number; other where there is none, or the path is null.</summary>
+        internal float FloatAt(string path, float other)
+        {
+            SerializedProperty property = path == null ? null : At(path);
+            return property == null ? other : property.floatValue;
+        }
+
+        /// <summary>Sets a number, where there is one.</summary>
+        internal void SetFloat(string path, float value)
+        {
+            SerializedProperty property = At(path);
+            if (property != null) property.floatValue = value;
+        }
+
+        /// <summary>Whether a switch is on, or an enumeration is not at its first word; other where there is none, or the path is null.</summary>
+        internal bool IsOn(string path, bool other = false)
+        {
+            SerializedProperty property = path == null ? null : At(path);
+            if (property == null) return other;
+            return property.propertyType == SerializedPropertyType.Boolean ? property.boolValue : property.intValue != 0;
+        }
+
+        /// <summary>A rotation; none where there is none.</summary>
+        internal Quaternion TurnAt(string path)
+        {
+            SerializedProperty property = At(path);
+            return property == null ? Quaternion.identity : property.quaternionValue;
+        }
+
+        /// <summary>Sets a rotation, where there is one.</summary>
+        internal void SetTurn(string path, Quaternion value)
+        {
+            SerializedProperty property = At(path);
+            if (property != null) property.quaternionValue = value;
+        }
+
         /// <summary>Multiplies a number, or each number of a vector.</summary>
         internal void Multiply(string path, float scale)
         {
-            SerializedProperty property = At(path);
+            SerializedProperty property = path == null ? null : At(path);
             if (property == null) return;
             switch (property.propertyType)
             {

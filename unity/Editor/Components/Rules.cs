@@ -10,13 +10,18 @@ namespace SuperDeform.Editor
     /// <summary>The ways in which properties change. In paths "[*]" stands for every element of a list.</summary>
     internal static class Rules
     {
-        /// <summary>Points of the rules after it are in the space of the transform at a path, where that is set.</summary>
-        internal static Rule InSpaceOf(string path)
+        /// <summary>Points of the rules after it are in the space of the transform at the first of the paths where one is set.</summary>
+        internal static Rule InSpaceOf(params string[] paths)
         {
-            return scope => scope.Frame = scope.TransformAt(path) ?? scope.Component.transform;
+            return scope =>
+            {
+                scope.Frame = scope.Component.transform;
+                string set = Array.Find(paths, path => scope.TransformAt(path) != null);
+                if (set != null) scope.Frame = scope.TransformAt(set);
+            };
         }
 
-        /// <summary>A rule for an enumeration's values alone.</summary>
+        /// <summary>A rule for some values of an enumeration alone.</summary>
         internal static Rule When(string path, int[] values, Rule rule)
         {
             return scope =>
@@ -128,42 +133,16 @@ namespace SuperDeform.Editor
             return expanded.Substring(0, close + 1) + other.Substring(star + 3);
         }
 
-        /// <summary>
-        /// A capsule of full height along Y, turned by a rotation: height along its axis, radius across it. An empty path:
-        /// there is none.
-        /// </summary>
-        internal static Rule Capsule(string center, string radius, string height, string rotation)
-        {
-            return scope =>
-            {
-                Vector3 at = scope.VectorAt(center, Vector3.zero);
-                SerializedProperty turn = string.IsNullOrEmpty(rotation) ? null : scope.At(rotation);
-                Vector3 axis = turn == null ? new Vector3(0, 1, 0) : turn.quaternionValue * new Vector3(0, 1, 0);
-                scope.Multiply(radius, scope.Map.Across(scope.Frame, at, axis));
-                scope.Multiply(height, scope.Map.Stretch(scope.Frame, at, axis));
-            };
-        }
-
-        /// <summary>A length along one of the frame's axes, 0 to 2, or the one that a property says.</summary>
-        internal static Rule Along(string path, string at, Func<PropertyScope, Vector3> axis)
-        {
-            return scope => scope.Multiply(path, scope.Map.Stretch(scope.Frame, scope.VectorAt(at, Vector3.zero), axis(scope)));
-        }
-
-        /// <summary>A length across one of the frame's axes.</summary>
-        internal static Rule Across(string path, string at, Func<PropertyScope, Vector3> axis)
-        {
-            return scope => scope.Multiply(path, scope.Map.Across(scope.Frame, scope.VectorAt(at, Vector3.zero), axis(scope)));
-        }
-
         /// <summary>The axis that an enumeration of X, Y, Z names.</summary>
-        internal static Func<PropertyScope, Vector3> Axis(string path)
+        /// <param name="reversed">Where it says whether it is the negative axis; null: it is not.</param>
+        internal static Func<PropertyScope, Vector3> Axis(string path, string reversed = null)
         {
             return scope =>
             {
                 SerializedProperty property = scope.At(path);
                 int axis = property == null ? 1 : property.intValue;
-                return new Vector3(axis == 0 ? 1 : 0, axis == 1 ? 1 : 0, axis == 2 ? 1 : 0);
+                float way = scope.IsOn(reversed) ? -1 : 1;
+                return new Vector3(axis == 0 ? way : 0, axis == 1 ? way : 0, axis == 2 ? way : 0);
             };
         }
 

@@ -74,9 +74,9 @@ namespace SuperDeform.Editor
                 style = SourceStyle();
                 if (Source == StyleSource.Heads || Blend == 0f) return style;
                 using (Style source = style)
-                using (Style stretched = Style.FromHeads(Heads, source))
+                using (Style stretched = Style.FromHeads(Decimal.Of(Heads), source))
                 {
-                    style = Style.Blend(source, stretched, Blend);
+                    style = Style.Blend(source, stretched, Decimal.Of(Blend));
                 }
                 return style;
             }
@@ -103,7 +103,7 @@ namespace SuperDeform.Editor
                 case StyleSource.BuiltIn:
                     return Style.FromText(BuiltInStyle);
                 default:
-                    return Style.FromHeads(Heads);
+                    return Style.FromHeads(Decimal.Of(Heads));
             }
         }
 

@@ -28,6 +28,7 @@ namespace SuperDeform.Editor
             this.source = source;
             this.result = result;
             this.deformer = deformer;
+            Colliders = new ColliderMap(this, deformer);
             Pair(source.Root.transform, copy);
         }
 
@@ -106,6 +107,28 @@ namespace SuperDeform.Editor
             double area = Math.Abs(volume) / Stretched(axis).Length;
             return area > 0 && !double.IsInfinity(area) ? (float)Math.Sqrt(area) : 1;
         }
+
+        /// <summary>
+        /// What becomes of a collider of springs: as thick as the mesh around it, a capsule across its axis, and up to a fifth
+        /// thinner where a spring would newly start inside of it.
+        /// </summary>
+        /// <param name="joint">The transform that it moves with, and in whose space it is given and comes back.</param>
+        /// <param name="named">The component that springs name it by; null: none does.</param>
+        public LocalCollider Collider(Transform joint, LocalCollider collider, Component named)
+        {
+            int index = IndexOf(joint);
+            if (index >= 0) return Colliders.Of(joint, (uint)index, collider, named);
+            bool plane = collider.Kind == ColliderKind.Plane;
+            return new LocalCollider
+            {
+                Kind = collider.Kind,
+                Start = Point(joint, collider.Start),
+                End = plane ? Normal(joint, collider.Start, collider.End) : Point(joint, collider.End),
+                Radius = collider.Radius * Scale(joint, collider.Start)
+            };
+        }
+
+        internal readonly ColliderMap Colliders;
 
         /// <summary>Where a point of the head goes, such as the point between the eyes; both in the root's space.</summary>
         public Vector3 HeadPoint(Vector3 point)
@@ -212,19 +235,20 @@ namespace SuperDeform.Editor
             return copyOf[original];
         }
 
-        int IndexOf(Transform joint)
+        /// <summary>The library's joint that a transform is; -1 for what keeps its place on the ground.</summary>
+        internal int IndexOf(Transform joint)
         {
             int index = source.Rigged ? source.IndexOf(Source(joint)) : -1;
             return index == 0 && source.HoldsRoot ? -1 : index;
         }
 
-        Affine OldRest(Transform joint)
+        internal Affine OldRest(Transform joint)
         {
             int index = source.IndexOf(Source(joint));
             return index < 0 ? Affine.Identity : source.Rest[index];
         }
 
-        Affine NewRest(Transform joint)
+        internal Affine NewRest(Transform joint)
         {
             int index = source.IndexOf(Source(joint));
             return index < 0 ? Affine.Identity : result.Rest[index];

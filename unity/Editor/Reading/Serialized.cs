@@ -1,5 +1,8 @@
+using System;
+using System.Collections.Generic;
 using UnityEditor;
 using UnityEngine;
+using Object = UnityEngine.Object;
 
 namespace SuperDeform.Editor
 {
@@ -36,6 +39,36 @@ namespace SuperDeform.Editor
             GameObject holder = value as GameObject;
             Component part = value as Component;
             return holder != null ? holder.transform : part != null ? part.transform : null;
+        }
+
+        /// <summary>The transforms at a path, where "[*]" stands for every element of a list; those that are not set are left out.</summary>
+        internal static List<Transform> TransformsAt(SerializedObject component, string path)
+        {
+            return Expand(component, path).ConvertAll(each => TransformAt(component, each)).FindAll(transform => transform != null);
+        }
+
+        /// <summary>The same for components.</summary>
+        internal static List<Component> ComponentsAt(SerializedObject component, string path)
+        {
+            return Expand(component, path).ConvertAll(each => component.FindProperty(each).objectReferenceValue as Component).FindAll(found => found != null);
+        }
+
+        /// <summary>Paths with a number for each element in place of "[*]"; the path itself where it has none.</summary>
+        internal static List<string> Expand(SerializedObject component, string path)
+        {
+            List<string> paths = new List<string>();
+            int star = path.IndexOf("[*]", StringComparison.Ordinal);
+            if (star < 0)
+            {
+                paths.Add(path);
+                return paths;
+            }
+            SerializedProperty array = component.FindProperty(path.Substring(0, star));
+            for (int index = 0; array != null && index < array.arraySize; index++)
+            {
+                paths.AddRange(Expand(component, path.Substring(0, star) + ".Array.data[" + index + "]" + path.Substring(star + 3)));
+            }
+            return paths;
         }
     }
 }

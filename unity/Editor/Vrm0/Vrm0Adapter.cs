@@ -10,7 +10,7 @@ namespace SuperDeform.Editor.Vrm0
     /// Written for the fields of UniVRM 0.68 to 0.131. A spring's step is stiffness and gravity in metres: only scaled with
     /// the chain it swings the same. Drag, directions and the angles of look-at stay.
     /// </remarks>
-    public sealed class Vrm0Adapter : IComponentAdapter
+    public sealed class Vrm0Adapter : ISpringAdapter
     {
         [InitializeOnLoadMethod]
         private static void Register()
@@ -35,8 +35,19 @@ namespace SuperDeform.Editor.Vrm0
                 AdaptViewpoint((VRMFirstPerson)copy, map);
         }
 
-        // One set of numbers for several chains: the mean scale of all their joints.
-        private static void AdaptSpring(VRMSpringBone spring, PointMap map)
+        /// <summary>Adds the ends of a spring's bones: the joints of its chains but the first of each, which is the end of none.</summary>
+        public void AddSprings(Component copy, Springs springs)
+        {
+            var spring = copy as VRMSpringBone;
+            if (spring == null || spring.ColliderGroups == null)
+                return;
+            foreach (Transform joint in JointsOf(spring))
+                if (!spring.RootBones.Contains(joint))
+                    foreach (VRMSpringBoneColliderGroup group in spring.ColliderGroups)
+                        springs.Add(group, joint, Vector3.zero, spring.m_hitRadius, joint);
+        }
+
+        private static HashSet<Transform> JointsOf(VRMSpringBone spring)
         {
             var joints = new HashSet<Transform>();
             foreach (Transform root in spring.RootBones)
@@ -44,9 +55,15 @@ namespace SuperDeform.Editor.Vrm0
                 if (root != null)
                     joints.UnionWith(root.GetComponentsInChildren<Transform>(true));
             }
+            return joints;
+        }
+
+        // One set of numbers for several chains: the mean scale of all their joints.
+        private static void AdaptSpring(VRMSpringBone spring, PointMap map)
+        {
             double sum = 0;
             int count = 0;
-            foreach (Transform joint in joints)
+            foreach (Transform joint in JointsOf(spring))
             {
                 if (map.Joint(joint) == null)
                     continue;
@@ -67,9 +84,9 @@ namespace SuperDeform.Editor.Vrm0
                 return;
             foreach (VRMSpringBoneColliderGroup.SphereCollider collider in group.Colliders)
             {
-                float scale = map.Scale(group.transform, collider.Offset);
-                collider.Offset = map.Point(group.transform, collider.Offset);
-                collider.Radius *= scale;
+                LocalCollider moved = map.Collider(group.transform, new LocalCollider { Start = collider.Offset, Radius = collider.Radius }, group);
+                collider.Offset = moved.Start;
+                collider.Radius = moved.Radius;
             }
         }
 

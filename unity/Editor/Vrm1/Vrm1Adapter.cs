@@ -1,3 +1,4 @@
+using System.Collections.Generic;
 using UniVRM10;
 using UnityEditor;
 using UnityEngine;
@@ -9,7 +10,7 @@ namespace SuperDeform.Editor.Vrm1
     /// Written for the fields of UniVRM 0.123 to 0.131. A spring's step is stiffness and gravity in metres: only scaled with
     /// the joint it swings the same. Drag, directions, angles and the names in expressions stay.
     /// </remarks>
-    public sealed class Vrm1Adapter : IComponentAdapter
+    public sealed class Vrm1Adapter : ISpringAdapter
     {
         [InitializeOnLoadMethod]
         private static void Register()
@@ -36,6 +37,32 @@ namespace SuperDeform.Editor.Vrm1
                 AdaptCollider((VRM10SpringBoneCollider)copy, map);
         }
 
+        /// <summary>Adds the ends of an avatar's spring bones: each joint, with the radius of the one before it.</summary>
+        public void AddSprings(Component copy, Springs springs)
+        {
+            var instance = copy as Vrm10Instance;
+            if (instance == null || instance.SpringBone == null)
+                return;
+            foreach (Vrm10InstanceSpringBone.Spring spring in instance.SpringBone.Springs)
+                foreach (VRM10SpringBoneCollider collider in CollidersOf(spring))
+                    for (int end = 1; end < spring.Joints.Count; end++)
+                        if (spring.Joints[end - 1] != null && spring.Joints[end] != null)
+                        {
+                            Transform joint = spring.Joints[end].transform;
+                            springs.Add(collider, joint, Vector3.zero, spring.Joints[end - 1].m_jointRadius, joint);
+                        }
+        }
+
+        // A collider may be in several groups.
+        private static HashSet<VRM10SpringBoneCollider> CollidersOf(Vrm10InstanceSpringBone.Spring spring)
+        {
+            var colliders = new HashSet<VRM10SpringBoneCollider>();
+            foreach (VRM10SpringBoneColliderGroup group in spring.ColliderGroups)
+                if (group != null)
+                    colliders.UnionWith(group.Colliders);
+            return colliders;
+        }
+
         private static void AdaptJoint(VRM10SpringBoneJoint joint, PointMap map)
         {
             float scale = map.Scale(joint.transform, Vector3.zero);
@@ -46,29 +73,25 @@ namespace SuperDeform.Editor.Vrm1
 
         private static void AdaptCollider(VRM10SpringBoneCollider collider, PointMap map)
         {
-            Transform joint = collider.transform;
-            float scale = map.Scale(joint, collider.Offset);
-            switch (collider.ColliderType)
+            bool plane = collider.ColliderType == VRM10SpringBoneColliderTypes.Plane;
+            LocalCollider moved = map.Collider(collider.transform, new LocalCollider
             {
-                case VRM10SpringBoneColliderTypes.Plane:
-                    collider.Normal = map.Normal(joint, collider.Offset, collider.Normal);
-                    break;
-                case VRM10SpringBoneColliderTypes.Capsule:
-                case VRM10SpringBoneColliderTypes.CapsuleInside:
-                    Vector3 axis = collider.Tail - collider.Offset;
-                    // Without length it is a sphere; one radius for both ends.
-                    scale = axis == Vector3.zero
-                        ? Mathf.Sqrt(scale * map.Scale(joint, collider.Tail))
-                        : Mathf.Sqrt(map.Across(joint, collider.Offset, axis) * map.Across(joint, collider.Tail, axis));
-                    collider.Tail = map.Point(joint, collider.Tail);
-                    collider.Radius *= scale;
-                    break;
-                default:
-                    collider.Radius *= scale;
-                    break;
-            }
-            collider.Offset = map.Point(joint, collider.Offset);
+                Kind = Kinds[collider.ColliderType], Start = collider.Offset, End = plane ? collider.Normal : collider.Tail, Radius = collider.Radius
+            }, collider);
+            collider.Offset = moved.Start;
+            collider.Radius = moved.Radius;
+            if (plane)
+                collider.Normal = moved.End;
+            else if (collider.ColliderType == VRM10SpringBoneColliderTypes.Capsule || collider.ColliderType == VRM10SpringBoneColliderTypes.CapsuleInside)
+                collider.Tail = moved.End;
         }
+
+        private static readonly Dictionary<VRM10SpringBoneColliderTypes, ColliderKind> Kinds = new Dictionary<VRM10SpringBoneColliderTypes, ColliderKind>
+        {
+            { VRM10SpringBoneColliderTypes.Sphere, ColliderKind.Sphere }, { VRM10SpringBoneColliderTypes.Capsule, ColliderKind.Capsule },
+            { VRM10SpringBoneColliderTypes.Plane, ColliderKind.Plane }, { VRM10SpringBoneColliderTypes.SphereInside, ColliderKind.InsideSphere },
+            { VRM10SpringBoneColliderTypes.CapsuleInside, ColliderKind.InsideCapsule }
+        };
 
         // The settings of look-at lie in an asset that the old avatar uses too: the new one gets its own.
         private static void AdaptLookAt(Vrm10Instance instance, PointMap map)

@@ -68,7 +68,7 @@ namespace SuperDeform.Editor
             section.Rows.Add(Slider("option.rig_heat", 0.1f, 10, () => (float)options.RigHeat,
                 value => model.Change("undo.rig", () => options.RigHeat = value)));
             section.Rows.Add(Slider("option.rig_voxel_resolution", OptionRange.RigVoxelResolution, () => options.RigVoxelResolution,
-                value => model.Change("undo.rig", () => options.RigVoxelResolution = (uint)Mathf.RoundToInt(value))));
+                value => model.Change("undo.rig", () => options.RigVoxelResolution = (uint)Math.Round(value))));
             section.Rows.Add(Popup("rig_garments", typeof(GarmentWeights), () => (int)options.RigGarments,
                 value => model.Change("undo.rig", () => options.RigGarments = (GarmentWeights)value)));
             section.Rows.Add(Toggle("option.rig_fingers", true, () => options.RigFingers,
@@ -155,10 +155,10 @@ namespace SuperDeform.Editor
             bool fromModel = settings.Source == StyleSource.ReferenceAvatar || settings.Source == StyleSource.SavedStyle;
             if (fromModel)
                 section.Rows.Add(Slider("style.blend", OptionRange.Blend, () => settings.Blend,
-                    value => model.Change("undo.blend", () => settings.Blend = value)));
+                    value => model.Change("undo.blend", () => settings.Blend = (float)value)));
             if (settings.Source == StyleSource.Heads || fromModel && settings.Blend > 0)
                 section.Rows.Add(Slider("style.heads", OptionRange.Heads, () => settings.Heads,
-                    value => model.Change("undo.heads", () => settings.Heads = value)));
+                    value => model.Change("undo.heads", () => settings.Heads = (float)value)));
             if (fromModel)
                 section.Rows.Add(new ActionRow
                 {
@@ -344,17 +344,17 @@ namespace SuperDeform.Editor
             };
         }
 
-        internal static SliderRow Slider(string key, OptionRange range, Func<float> get, Action<float> set)
+        internal static SliderRow Slider(string key, OptionRange range, Func<float> get, Action<double> set)
         {
             return Slider(key, (float)range.Low, (float)range.High, get, set);
         }
 
-        internal static SliderRow Slider(string key, float low, float high, Func<float> get, Action<float> set)
+        internal static SliderRow Slider(string key, float low, float high, Func<float> get, Action<double> set)
         {
             return new SliderRow
             {
                 Label = Strings.Get(key), Tooltip = Strings.Get(key + ".tooltip"), Low = low, High = high,
-                Get = get, Set = set, IsOwn = () => false
+                Get = get, Set = value => set(Decimal.Of(value)), IsOwn = () => false
             };
         }
 

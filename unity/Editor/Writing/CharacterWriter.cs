@@ -91,11 +91,16 @@ namespace SuperDeform.Editor
         static void Adapt(GameObject copy, PointMap map, List<Finding> findings)
         {
             List<Component> left = new List<Component>();
-            foreach (Component component in copy.GetComponentsInChildren<Component>(true))
+            // Null where a script is missing.
+            Component[] components = Array.FindAll(copy.GetComponentsInChildren<Component>(true), component => component != null);
+            // Before any adapter changes a radius.
+            foreach (Component component in components)
             {
-                // Null where a script is missing.
-                if (component == null) continue;
-                string type = component.GetType().Name;
+                ISpringAdapter adapter = ComponentAdapters.For(component) as ISpringAdapter;
+                if (adapter != null) Try(component, findings, () => adapter.AddSprings(component, map.Colliders.Springs));
+            }
+            foreach (Component component in components)
+            {
                 IComponentAdapter adapter = ComponentAdapters.For(component);
                 if (adapter == null)
                 {
@@ -104,18 +109,36 @@ namespace SuperDeform.Editor
                 }
                 if (Array.IndexOf(ClothRows.NeedsCreate, component.GetType().FullName) >= 0)
                 {
-                    findings.Add(new Finding("needs_create", Severity.Warning, map.Source(component.transform), component.name, type));
+                    findings.Add(new Finding("needs_create", Severity.Warning, map.Source(component.transform), component.name, component.GetType().Name));
                 }
-                try
-                {
-                    adapter.Adapt(component, map);
-                }
-                catch (Exception cause)
-                {
-                    findings.Add(new Finding("adapter_failed", Severity.Warning, null, type, component.name, cause.Message));
-                }
+                Try(component, findings, () => adapter.Adapt(component, map));
             }
             Unlisted.Report(left, map, findings);
+            ReportColliders(map.Colliders, findings);
+        }
+
+        /// <summary>Lets an adapter do its work, which may be anybody's; what it throws becomes a finding.</summary>
+        static void Try(Component component, List<Finding> findings, Action work)
+        {
+            try
+            {
+                work();
+            }
+            catch (Exception cause)
+            {
+                findings.Add(new Finding("adapter_failed", Severity.Warning, null, component.GetType().Name, component.name, cause.Message));
+            }
+        }
+
+        static void ReportColliders(ColliderMap colliders, List<Finding> findings)
+        {
+            foreach (KeyValuePair<Transform, int> crowded in colliders.Crowded)
+            {
+                findings.Add(new Finding("spring_in_collider", Severity.Warning, crowded.Key, crowded.Value, crowded.Key.name));
+            }
+            if (colliders.YieldedCount == 0) return;
+            double percent = Math.Ceiling(100 * colliders.MostYielded);
+            findings.Add(new Finding("collider_yields", Severity.Info, null, colliders.YieldedCount, percent));
         }
     }
 }

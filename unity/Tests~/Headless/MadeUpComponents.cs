@@ -47,6 +47,8 @@ namespace VRC.SDK3.Dynamics.PhysBone.Components
     public class VRCPhysBone : MonoBehaviour
     {
         public Transform rootTransform;
+        public List<Transform> ignoreTransforms = new List<Transform>();
+        public List<VRCPhysBoneCollider> colliders = new List<VRCPhysBoneCollider>();
         public float radius = 0.05f, pull = 0.2f, gravity = 0.1f, maxStretch = 0.3f;
         public Vector3 endpointPosition = new Vector3(0, 0.06f, 0.01f);
     }
@@ -55,6 +57,7 @@ namespace VRC.SDK3.Dynamics.PhysBone.Components
     {
         public Transform rootTransform;
         public int shapeType = 1;
+        public bool insideBounds;
         public float radius = 0.05f, height = 0.4f;
         public Vector3 position = new Vector3(0.01f, 0.1f, 0);
         public Quaternion rotation = Quaternion.Euler(0, 0, 90);
@@ -66,6 +69,7 @@ namespace VRC.SDK3.Dynamics.Contact.Components
     public class Contact : MonoBehaviour
     {
         public Transform rootTransform;
+        public int shapeType = 1;
         public float radius = 0.05f, height = 0.4f;
         public Vector3 position = new Vector3(0.01f, 0.1f, 0), size = new Vector3(0.1f, 0.2f, 0.3f);
         public Quaternion rotation = Quaternion.identity;
@@ -107,6 +111,7 @@ namespace nadena.dev.ndmf.multiplatform.components
     public class PortableDynamicBoneCollider : MonoBehaviour
     {
         public Transform m_root;
+        public int m_colliderType = 1;
         public float m_radius = 0.05f, m_height = 0.3f;
         public Vector3 m_positionOffset = new Vector3(0, 0.1f, 0);
         public Quaternion m_rotationOffset = Quaternion.identity;
@@ -144,12 +149,14 @@ namespace Anatawa12.AvatarOptimizer
 public class DynamicBone : MonoBehaviour
 {
     public Transform m_Root;
+    public List<Transform> m_Roots = new List<Transform>(), m_Exclusions = new List<Transform>();
+    public List<DynamicBoneCollider> m_Colliders = new List<DynamicBoneCollider>();
     public float m_Radius = 0.05f, m_EndLength = 0.5f;
     public Vector3 m_EndOffset = new Vector3(0, 0.05f, 0), m_Gravity = new Vector3(0, -0.01f, 0), m_Force = new Vector3(0, 0, 0.01f);
 }
 public class DynamicBoneCollider : MonoBehaviour
 {
-    public int m_Direction = 2;
+    public int m_Direction = 2, m_Bound;
     public float m_Radius = 0.05f, m_Radius2 = 0.06f, m_Height = 0.3f;
     public Vector3 m_Center = new Vector3(0.01f, 0.1f, 0);
 }
@@ -168,8 +175,15 @@ namespace MagicaCloth
             penetrationDistance = new BezierParam(), penetrationRadius = new BezierParam();
         public float nearDistanceLength = 0.1f, springRadius = 0.1f, maxVolumeLength = 0.1f, teleportDistance = 0.2f, mass = 3;
     }
-    public class MagicaBoneCloth : MonoBehaviour { public ClothParams clothParams = new ClothParams(); }
-    public class MagicaBoneSpring : MonoBehaviour { public ClothParams clothParams = new ClothParams(); }
+    [Serializable] public class ClothTarget { public List<Transform> rootList = new List<Transform>(); }
+    [Serializable] public class TeamData { public List<MonoBehaviour> colliderList = new List<MonoBehaviour>(); }
+    public class MagicaBoneCloth : MonoBehaviour
+    {
+        public ClothParams clothParams = new ClothParams();
+        public ClothTarget clothTarget = new ClothTarget();
+        public TeamData teamData = new TeamData();
+    }
+    public class MagicaBoneSpring : MagicaBoneCloth { }
     public class MagicaMeshCloth : MonoBehaviour { public ClothParams clothParams = new ClothParams(); }
     public class MagicaMeshSpring : MonoBehaviour { public ClothParams clothParams = new ClothParams(); }
 }
@@ -179,15 +193,21 @@ namespace MagicaCloth2
     [Serializable] public struct float3 { public float x, y, z; public float3(float x, float y, float z) { this.x = x; this.y = y; this.z = z; } }
     public class ColliderComponent : MonoBehaviour { public int direction = 1; public Vector3 center = new Vector3(0, 0.1f, 0), size = new Vector3(0.05f, 0.06f, 0.3f); }
     public class MagicaSphereCollider : ColliderComponent { }
-    public class MagicaCapsuleCollider : ColliderComponent { }
+    public class MagicaCapsuleCollider : ColliderComponent { public bool reverseDirection, radiusSeparation = true, alignedOnCenter = true; }
     public class MagicaPlaneCollider : ColliderComponent { }
     [Serializable] public class CurveSerializeData { public float value = 0.05f; public bool useCurve; }
     [Serializable] public class MotionConstraint { public CurveSerializeData maxDistance = new CurveSerializeData(), backstopDistance = new CurveSerializeData(); public float backstopRadius = 2; }
-    [Serializable] public class ColliderConstraint { public CurveSerializeData limitDistance = new CurveSerializeData(); }
+    [Serializable]
+    public class ColliderConstraint
+    {
+        public CurveSerializeData limitDistance = new CurveSerializeData();
+        public List<ColliderComponent> colliderList = new List<ColliderComponent>();
+    }
     [Serializable] public class SelfConstraint { public CurveSerializeData surfaceThickness = new CurveSerializeData(); }
     [Serializable]
     public class ClothSerializeData
     {
+        public List<Transform> rootBones = new List<Transform>();
         public CurveSerializeData radius = new CurveSerializeData();
         public MotionConstraint motionConstraint = new MotionConstraint();
         public ColliderConstraint colliderCollisionConstraint = new ColliderConstraint();

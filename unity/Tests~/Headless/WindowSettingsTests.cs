@@ -1,3 +1,5 @@
+using System;
+using System.Collections.Generic;
 using NUnit.Framework;
 
 namespace SuperDeform.Editor.Tests
@@ -83,6 +85,61 @@ namespace SuperDeform.Editor.Tests
             Assert.AreEqual(SettingsChange.Rig, After(settings => { settings.RigAuto = true; settings.Heads = 3; }));
             Assert.AreEqual(SettingsChange.Rig, After(settings => settings.Options.RigFingers = false));
             Assert.AreEqual(SettingsChange.Rig, After(settings => settings.Options.RigJoints.Add(new GivenJoint())));
+        }
+
+        [Test]
+        public void the_library_takes_both_ends_of_every_slider()
+        {
+            Models.NewProject();
+            var model = new ConverterModel { Avatar = new ConversionFigure().Make().Root, RigOpen = true };
+            model.Settings.Source = StyleSource.Heads;
+            using (AvatarData avatar = CharacterReader.Read(model.Avatar, new ReadOptions()))
+            using (Style style = Style.FromText("sd2.5"))
+            using (var deformer = new Deformer(avatar.Character, style, model.Settings.Options))
+            {
+                int count = Sliders(model).Count;
+                Assert.That(count, Is.GreaterThan(30));
+                for (int slider = 0; slider < count; slider++)
+                    foreach (bool high in new[] { false, true })
+                    {
+                        ConversionSettings before = model.Settings.Clone();
+                        SliderRow row = Sliders(model)[slider];
+                        row.Set(high ? row.High : row.Low);
+                        Assert.DoesNotThrow(() => deformer.SetOptions(model.Settings.Options), row.Label);
+                        Assert.DoesNotThrow(() => model.Settings.MakeStyle().Dispose(), row.Label);
+                        model.Settings = before;
+                        model.Touch();
+                    }
+            }
+        }
+
+        private static List<SliderRow> Sliders(ConverterModel model)
+        {
+            var sliders = new List<SliderRow>();
+            foreach (Section section in model.Sections)
+                foreach (Row row in section.Rows)
+                {
+                    if (row is SliderRow)
+                        sliders.Add((SliderRow)row);
+                    if (row is GroupRow)
+                        sliders.AddRange(Array.FindAll(((GroupRow)row).Sliders, slider => slider != null));
+                }
+            return sliders;
+        }
+
+        [Test]
+        public void a_slider_gives_the_number_that_it_shows()
+        {
+            var model = new ConverterModel();
+            model.Settings.Source = StyleSource.Heads;
+            SliderRow heads = Sliders(model).Find(row => row.Label == Strings.Get("style.heads"));
+            heads.Set(1.8f);
+            using (Style style = model.Settings.MakeStyle())
+                Assert.AreEqual(1.8, style.Numbers.Heads);
+            SliderRow amount = Sliders(model).Find(row => row.Label == Strings.Get("option.amount"));
+            amount.Set(0.7f);
+            Assert.AreEqual(0.7, model.Settings.Options.Amount);
+            StringAssert.Contains("Options.Amount = 0.7\n", SettingsText.Write(model.Settings));
         }
     }
 }

@@ -11,6 +11,9 @@ namespace SuperDeform.Editor.Tests
     internal sealed class SpringLine
     {
         public string Kind, Joint, Shape;
+
+        /// <summary>Of a spring of VRM 0.x: the joints of the groups of colliders that it keeps out of, or "-".</summary>
+        public string Groups;
         public float[] Numbers;
 
         public static List<SpringLine> Read(string path)
@@ -26,6 +29,8 @@ namespace SuperDeform.Editor.Tests
                 line.Joint = words[at++];
             if (line.Kind == "collider")
                 line.Shape = words[at++];
+            if (line.Kind == "spring")
+                line.Groups = words[at++];
             line.Numbers = words.Skip(at).Select(word => float.Parse(word, CultureInfo.InvariantCulture)).ToArray();
             return line;
         }

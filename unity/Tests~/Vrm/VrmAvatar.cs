@@ -74,7 +74,18 @@ namespace SuperDeform.Editor.Tests
             }
             avatar.Asset.LookAt.OffsetFromHead = avatar.Old("look-at").Single().Vector(0);
             StubProjectAsset("Assets/" + name + ".asset", avatar.Asset);
-            avatar.Root.AddComponent<Vrm10Instance>().Vrm = avatar.Asset;
+            var instance = avatar.Root.AddComponent<Vrm10Instance>();
+            instance.Vrm = avatar.Asset;
+            var group = avatar.Root.AddComponent<VRM10SpringBoneColliderGroup>();
+            group.Colliders.AddRange(avatar.Root.GetComponentsInChildren<VRM10SpringBoneCollider>(true));
+            instance.SpringBone.ColliderGroups.Add(group);
+            foreach (SpringLine line in avatar.Old("chain"))
+            {
+                var spring = new Vrm10InstanceSpringBone.Spring(line.Joint);
+                spring.ColliderGroups.Add(group);
+                spring.Joints.AddRange(line.Joint.Split(',').Select(joint => avatar.Find(joint).GetComponent<VRM10SpringBoneJoint>()));
+                instance.SpringBone.Springs.Add(spring);
+            }
             return avatar;
         }
 
@@ -105,7 +116,8 @@ namespace SuperDeform.Editor.Tests
             var secondary = new GameObject("springs");
             secondary.transform.SetParent(avatar.Root.transform, false);
             foreach (SpringLine line in avatar.Old("spring"))
-                avatar.AddSpring(secondary, line.Joint.Split(','), line.Numbers);
+                avatar.AddSpring(secondary, line.Joint.Split(','), line.Numbers).ColliderGroups = line.Groups.Split(',').Where(joint => joint != "-")
+                    .Select(joint => avatar.Find(joint).GetComponent<VRMSpringBoneColliderGroup>()).ToArray();
             foreach (SpringLine line in avatar.Old("viewpoint"))
             {
                 var viewpoint = avatar.Root.AddComponent<VRMFirstPerson>();
@@ -115,13 +127,14 @@ namespace SuperDeform.Editor.Tests
             return avatar;
         }
 
-        public void AddSpring(GameObject holder, IEnumerable<string> roots, float[] numbers)
+        public VRMSpringBone AddSpring(GameObject holder, IEnumerable<string> roots, float[] numbers)
         {
             var spring = holder.AddComponent<VRMSpringBone>();
             spring.RootBones = roots.Select(Find).ToList();
             spring.m_hitRadius = numbers[0];
             spring.m_stiffnessForce = numbers[1];
             spring.m_gravityPower = numbers[2];
+            return spring;
         }
 
         public static VRMSpringBoneColliderGroup.SphereCollider Sphere(SpringLine line)
@@ -129,11 +142,16 @@ namespace SuperDeform.Editor.Tests
             return new VRMSpringBoneColliderGroup.SphereCollider { Offset = line.Vector(0), Radius = line.Last };
         }
 
-        /// <summary>The prefab at 2.5 heads, as the example program was asked.</summary>
+        /// <summary>What the last conversion said.</summary>
+        public List<Finding> Findings;
+
+        /// <summary>The prefab at 1.8 heads, as the example program was asked: the rogue is a stubby one already.</summary>
         public GameObject Convert()
         {
-            var settings = new ConversionSettings { Heads = 2.5f, OutputFolder = "Assets/Results" };
-            return Converter.Convert(Root, settings, null).Prefab;
+            var settings = new ConversionSettings { Heads = 1.8f, OutputFolder = "Assets/Results" };
+            ConversionResult result = Converter.Convert(Root, settings, null);
+            Findings = result.Findings;
+            return result.Prefab;
         }
     }
 }

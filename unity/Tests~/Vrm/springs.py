@@ -26,6 +26,9 @@ SHAPES = [
     ("upperarm.l", "capsule", {"offset": [0, 0.02, 0], "tail": [0, 0.2, 0], "radius": 0.05, "inside": True}),
     ("spine", "plane", {"offset": [0, 0.1, 0.05], "normal": [0.2672612, 0.5345225, 0.8017837]}),
     ("hand.r", "sphere", {"offset": [0.01, 0.02, 0.03], "radius": 0.05}),
+    # The left elbow and the right foot are just outside, and come nearer: one yields enough, the other does not.
+    ("spine", "sphere", {"radius": 0.65}),
+    ("hips", "sphere", {"radius": 0.27}),
 ]
 CHAINS = [["upperarm.l", "lowerarm.l", "wrist.l", "hand.l", "handslot.l"], ["head"],
           ["upperleg.r", "lowerleg.r", "foot.r", "toes.r"]]
@@ -57,7 +60,7 @@ def fixture(source, target):
             collider["extensions"] = {"VRMC_springBone_extended_collider": {"specVersion": "1.0", "shape": {kind: body}}}
         colliders.append(collider)
     springs = [{"joints": [{"node": node[name], "hitRadius": 0.03 + 0.01 * index, "stiffness": 1.5, "gravityPower": 0.25,
-                            "dragForce": 0.4} for index, name in enumerate(chain)]} for chain in CHAINS]
+                            "dragForce": 0.4} for index, name in enumerate(chain)], "colliderGroups": [0]} for chain in CHAINS]
     document.setdefault("extensions", {}).update({
         "VRMC_vrm": {
             "specVersion": "1.0",
@@ -66,7 +69,8 @@ def fixture(source, target):
             "humanoid": {"humanBones": {bone: {"node": node[name]} for bone, name in HUMANOID.items()}},
             "lookAt": {"type": "bone", "offsetFromHeadBone": [0.02, 0.35, 0.3]},
         },
-        "VRMC_springBone": {"specVersion": "1.0", "colliders": colliders, "springs": springs},
+        "VRMC_springBone": {"specVersion": "1.0", "colliders": colliders, "springs": springs,
+                            "colliderGroups": [{"colliders": list(range(len(colliders)))}]},
     })
     document["extensionsUsed"] = sorted({*document.get("extensionsUsed", []), *document["extensions"],
                                          "VRMC_springBone_extended_collider"})
@@ -93,6 +97,9 @@ def list_vrm1(document, names):
             *turned(body.get("offset", [0, 0, 0])), *turned(body.get("tail", [0, 0, 0])),
             *turned(body.get("normal", [0, 0, 1])), float(body.get("radius", 0)))
     for spring in document["extensions"].get("VRMC_springBone", {}).get("springs", []):
+        # Of which the one group of colliders keeps out.
+        if spring.get("colliderGroups"):
+            say("chain", ",".join(names[joint["node"]] for joint in spring["joints"]))
         for joint in spring["joints"]:
             say("joint", names[joint["node"]],
                 *floats([joint.get("hitRadius", 0), joint.get("stiffness", 1), joint.get("gravityPower", 0)]))
@@ -112,6 +119,7 @@ def list_vrm0(document, names):
             say("group-collider", names[group["node"]], *vector(collider["offset"]), float(collider["radius"]))
     for group in vrm["secondaryAnimation"]["boneGroups"]:
         say("spring", ",".join(names[bone] for bone in group["bones"]),
+            ",".join(names[vrm["secondaryAnimation"]["colliderGroups"][index]["node"]] for index in group["colliderGroups"]) or "-",
             *floats([group["hitRadius"], group["stiffiness"], group["gravityPower"]]))
     first = vrm["firstPerson"]
     say("viewpoint", names[first["firstPersonBone"]], *vector(first["firstPersonBoneOffset"]))

@@ -1,7 +1,9 @@
 // Names and shapes of what the adapter touches of UniVRM 1.0, so that it compiles and runs without UniVRM.
 // Read in vrm-c/UniVRM (MIT), Assets/VRM10/Runtime/Components, 0.128.2: VRM10SpringBoneJoint, VRM10SpringBoneCollider,
-// Vrm10Instance, VRM10Object, VRM10ObjectLookAt.
+// VRM10SpringBoneColliderGroup, Vrm10Instance, Vrm10InstanceSpringBone, VRM10Object, VRM10ObjectLookAt.
 
+using System;
+using System.Collections.Generic;
 using UnityEngine;
 
 namespace UniVRM10
@@ -33,7 +35,7 @@ namespace UniVRM10
         public Vector3 Normal = Vector3.up;
     }
 
-    [System.Serializable]
+    [Serializable]
     public class VRM10ObjectLookAt
     {
         public Vector3 OffsetFromHead = new Vector3(0, 0.06f, 0);
@@ -49,8 +51,35 @@ namespace UniVRM10
         public VRM10ObjectLookAt LookAt = new VRM10ObjectLookAt();
     }
 
+    public class VRM10SpringBoneColliderGroup : MonoBehaviour
+    {
+        public List<VRM10SpringBoneCollider> Colliders = new List<VRM10SpringBoneCollider>();
+    }
+
+    [Serializable]
+    public sealed class Vrm10InstanceSpringBone
+    {
+        public List<VRM10SpringBoneColliderGroup> ColliderGroups = new List<VRM10SpringBoneColliderGroup>();
+
+        [Serializable]
+        public class Spring
+        {
+            public string Name;
+            public List<VRM10SpringBoneColliderGroup> ColliderGroups = new List<VRM10SpringBoneColliderGroup>();
+            public List<VRM10SpringBoneJoint> Joints = new List<VRM10SpringBoneJoint>();
+
+            public Spring(string name)
+            {
+                Name = name;
+            }
+        }
+
+        public List<Spring> Springs = new List<Spring>();
+    }
+
     public class Vrm10Instance : MonoBehaviour
     {
         public VRM10Object Vrm;
+        public Vrm10InstanceSpringBone SpringBone = new Vrm10InstanceSpringBone();
     }
 }
