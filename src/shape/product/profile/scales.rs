@@ -12,6 +12,8 @@ const MOST_OF_FOOT: f64 = 0.6;
 /// The scales of a hand (a foot) along its axes stay within this of their mean, in logarithms.
 const HAND_SPREAD: f64 = 0.8;
 const FOOT_SPREAD: f64 = 0.25;
+/// A hand this much broader than thick lies flat; one as broad as thick is a fist.
+const FLAT_HAND: f64 = 1.3;
 /// The part of a line's own curve that goes over to the wanted one's.
 const CURVE: f64 = 0.8;
 /// A leg's (the torso's) middle moves forward or back by at most this part of its half depth.
@@ -231,7 +233,10 @@ pub fn scales(own: &Profile, wanted: &Profile, strengths: &Strengths) -> Scales 
             strengths.limit(MOST_OF_HAND),
             strengths.limit(HAND_SPREAD),
         );
-        result.hand = if own[1] >= own[2] { [length, broad, thin] } else { [length, thin, broad] };
+        // A fist is neither, and takes the mean: last digits must not tell which way it lies.
+        let lies = ((own[1] / own[2]).ln() / FLAT_HAND.ln()).clamp(-1.0, 1.0);
+        let along = |share: f64| (share * broad.ln() + (1.0 - share) * thin.ln()).exp();
+        result.hand = [length, along((1.0 + lies) / 2.0), along((1.0 - lies) / 2.0)];
         let asked = sorted(wanted).into_iter().zip(sorted(own));
         for ((wanted, own), got) in asked.zip([length, broad, thin]) {
             result.note("hands", (wanted / own).powf(strengths.hand), got);
