@@ -212,10 +212,16 @@ impl Request<'_> {
         };
         let mut warnings = limits.warnings(&replaced);
         warnings.extend(limited);
-        let measured =
-            product.heads(&product.placement(&target.measured.figure, &field, options.thread_count));
+        let reached = heads_of(&anatomy.proportions, &scales);
+        // A chin that the target does not show is no more to be believed where the result shows one: a ball's underside
+        // steps back here or there, as last digits say.
+        let measured = if anatomy.landmarks.chin_seen {
+            product.heads(&product.placement(&target.measured.figure, &field, options.thread_count))
+        } else {
+            reached
+        };
         let is_limited = warnings.iter().any(|warning| warning.code == "heads_limited");
-        let reach = if is_limited { heads_of(&anatomy.proportions, &scales) } else { asked };
+        let reach = if is_limited { reached } else { asked };
         let error = (measured / reach).ln().abs();
         Ok(Attempt { field, scales, warnings, aim, measured, error })
     }
