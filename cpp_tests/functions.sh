@@ -3,7 +3,7 @@
 # offers is called by the test in C++.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-functions=$(grep -oE '^(SdefStatus|uint32_t|uint64_t|const char \*) ?\*?sdef_[a-z_]+\(' include/superdeform.h | grep -oE 'sdef_[a-z_]+')
+functions=$(grep -oE '^SDEF_API (SdefStatus|uint32_t|uint64_t|const char \*) ?\*?sdef_[a-z_]+\(' include/superdeform.h | grep -oE 'sdef_[a-z_]+')
 count=$(wc -w <<<"$functions")
 ((count >= 25)) || { echo "only $count functions found in superdeform.h: has its form changed?"; exit 1; }
 failed=0

@@ -62,7 +62,6 @@ pub const SDEF_ELEMENT_BONE_GROUP: u32 = 6;
 pub const SDEF_ELEMENT_GIVEN_JOINT: u32 = 7;
 /// An element of the array bones of sdef_style_from_numbers.
 pub const SDEF_ELEMENT_BONE: u32 = 8;
-
 /// An element of the array colliders of sdef_deformer_map_colliders.
 pub const SDEF_ELEMENT_COLLIDER: u32 = 9;
 

@@ -124,7 +124,8 @@ fn shape(declared: &str) -> String {
 
 #[test]
 fn both_generators_see_the_same_functions() {
-    let ours = functions_of(&c_header());
+    // What stands before each says nothing of a type.
+    let ours = functions_of(&c_header().replace("SDEF_API ", ""));
     let exports: usize =
         SECTIONS.iter().map(|section| source(section).matches("#[ffi_export]").count()).sum();
     assert_eq!(ours.len(), exports);

@@ -73,7 +73,7 @@ else
   cat "$out/nunit.log"
 fi
 
-functions=$(grep -oE '^(SdefStatus|uint32_t|uint64_t|const char \*) ?\*?sdef_[a-z_]+\(' include/superdeform.h | grep -oE 'sdef_[a-z_]+')
+functions=$(grep -oE '^SDEF_API (SdefStatus|uint32_t|uint64_t|const char \*) ?\*?sdef_[a-z_]+\(' include/superdeform.h | grep -oE 'sdef_[a-z_]+')
 for function in $functions; do
   check "no test calls $function" grep -q "Searching for '$function'" "$out/mono.log"
 done

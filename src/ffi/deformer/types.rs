@@ -65,7 +65,7 @@ pub struct SdefGroup {
 pub const SDEF_COLLIDER_SPHERE: u32 = 0;
 /// Round, from the first point to the second.
 pub const SDEF_COLLIDER_CAPSULE: u32 = 1;
-/// Through the first point; the second is its normal, which points to where springs may be.
+/// Through the first point; the second is its normal, to where springs may be.
 pub const SDEF_COLLIDER_PLANE: u32 = 2;
 /// A sphere that springs are kept inside of.
 pub const SDEF_COLLIDER_INSIDE_SPHERE: u32 = 3;
