@@ -40,7 +40,8 @@ assembly UnityEngine "" "-unsafe -nowarn:67,108,114,169,414,649,660,661" Tests~/
 assembly UnityEditor "UnityEngine" "-unsafe -nowarn:67,108,114,169,414,649,660,661" Tests~/UnityStubs/Editor
 # As in a project without NDMF, and as in one with it.
 assembly nadena.dev.ndmf.runtime UnityEngine "" Tests~/NdmfStubs/Runtime
-assembly nadena.dev.ndmf "nadena.dev.ndmf.runtime UnityEngine UnityEditor" "" Tests~/NdmfStubs/Editor
+assembly System.Collections.Immutable "" "" Tests~/NdmfStubs/Immutable
+assembly nadena.dev.ndmf "nadena.dev.ndmf.runtime System.Collections.Immutable UnityEngine UnityEditor" "" Tests~/NdmfStubs/Editor
 assembly SuperDeform.Avatar.Alone UnityEngine "" Runtime/Avatar
 assembly SuperDeform.Avatar "nadena.dev.ndmf.runtime UnityEngine" -d:SUPERDEFORM_NDMF Runtime/Avatar
 editor="SuperDeform SuperDeform.Avatar nadena.dev.ndmf.runtime UnityEngine UnityEditor"
@@ -51,7 +52,7 @@ for version in 0 1; do
   assembly "$library" UnityEngine "-nowarn:649" Tests~/UniVrmStubs/Vrm$version
   assembly SuperDeform.Editor.Vrm$version "$editor SuperDeform.Editor $library" -d:UNITY_EDITOR Editor/Vrm$version
 done
-assembly SuperDeform.Editor.Ndmf "$editor SuperDeform.Editor nadena.dev.ndmf" -d:SUPERDEFORM_NDMF Editor/Ndmf
+assembly SuperDeform.Editor.Ndmf "$editor SuperDeform.Editor nadena.dev.ndmf System.Collections.Immutable" -d:SUPERDEFORM_NDMF Editor/Ndmf
 assembly QuickStart "$editor SuperDeform.Editor" -d:UNITY_EDITOR Samples~/QuickStart
 
 echo "$passed passed, $failed failed"

@@ -38,7 +38,7 @@ cc -shared -fPIC -o "$out/other_library/libsuperdeform.so" "$out/other.c"
 nunit=$(find /usr/lib/cli /usr/lib/mono -name nunit.framework.dll 2>/dev/null | sort | head -n 1)
 cp "$nunit" "$out/"
 references=()
-for name in SuperDeform UnityEngine UnityEditor SuperDeform.Editor VRM VRM10 SuperDeform.Editor.Vrm0 SuperDeform.Editor.Vrm1 SuperDeform.Avatar SuperDeform.Editor.Ndmf nadena.dev.ndmf.runtime nadena.dev.ndmf nunit.framework; do
+for name in SuperDeform UnityEngine UnityEditor SuperDeform.Editor VRM VRM10 SuperDeform.Editor.Vrm0 SuperDeform.Editor.Vrm1 SuperDeform.Avatar SuperDeform.Editor.Ndmf nadena.dev.ndmf.runtime nadena.dev.ndmf System.Collections.Immutable nunit.framework; do
   [[ -e $out/$name.dll ]] && references+=("-r:$out/$name.dll")
 done
 mapfile -t sources < <(find "$tests/Headless" "$tests/Glb" "$tests/WindowPicture" -name '*.cs' | sort)

@@ -19,6 +19,8 @@ namespace SuperDeform.Editor
         public ConversionSettings Settings = new ConversionSettings();
         /// <summary>Where the report goes; null: nowhere.</summary>
         public string ReportPath;
+        /// <summary>Whether avatars whose licence forbids changes are converted: the person who asks has permission.</summary>
+        public bool AllowProhibited;
 
         private readonly Dictionary<string, string> given =
             new Dictionary<string, string>(StringComparer.OrdinalIgnoreCase);
@@ -26,7 +28,7 @@ namespace SuperDeform.Editor
 
         private static readonly string[] own =
         {
-            "Avatars", "Heads", "Reference", "Style", "Blend", "Group", "Rig", "Output", "NewCopy", "Report", "Language"
+            "Avatars", "Heads", "Reference", "Style", "Blend", "Group", "Rig", "Output", "NewCopy", "Report", "AllowProhibited", "Language"
         };
 
         // The library's options go by the names of their fields. Lists have an option of their own or none, and an avatar
@@ -89,6 +91,8 @@ namespace SuperDeform.Editor
             if (given.ContainsKey("NewCopy"))
                 Settings.NewCopy = Word("NewCopy", "yes", "no") == "yes";
             given.TryGetValue("Report", out ReportPath);
+            if (given.ContainsKey("AllowProhibited"))
+                AllowProhibited = Word("AllowProhibited", "yes", "no") == "yes";
             foreach (string group in groups)
                 TakeGroup(group);
             TakeStyle();

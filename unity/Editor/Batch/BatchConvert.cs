@@ -19,7 +19,9 @@ namespace SuperDeform.Editor
     ///                                                    every number, word, yes or no of the class Options, by its name
     ///   -superdeformGroup upper_leg:length=0.4,thickness=0.8     may stand several times
     ///   -superdeformRig keep|auto
-    ///   -superdeformOutput Assets/Chibis  -superdeformReport report.json  -superdeformLanguage en|ja
+    ///   -superdeformOutput Assets/Chibis  -superdeformNewCopy yes|no  -superdeformReport report.json
+    ///   -superdeformAllowProhibited yes|no               licences that forbid changes: yes says that you have permission
+    ///   -superdeformLanguage en|ja|ko|zh
     /// </code>
     /// Leave out Unity's -quit: the command ends Unity itself. Exit code: 0 all were converted, 1 some were not, 2 the
     /// command line is wrong.
@@ -64,6 +66,8 @@ namespace SuperDeform.Editor
             foreach (string path in arguments.Avatars)
             {
                 var avatar = AssetDatabase.LoadAssetAtPath<GameObject>(path);
+                if (avatar != null && arguments.AllowProhibited)
+                    Licences.Allow(avatar);
                 BatchEntry entry = avatar == null
                     ? new BatchEntry { Avatar = path, Failure = Strings.Get("batch.not_found", path) }
                     : ConvertOne(avatar, arguments.Settings, null);

@@ -10,7 +10,7 @@ namespace SuperDeform.Editor
     {
         static readonly List<Action<GameObject, List<Finding>>> More = new List<Action<GameObject, List<Finding>>>();
 
-        /// <summary>Adds a check, such as one of a file's licence: it adds findings to the list.</summary>
+        /// <summary>Adds a check, such as one of a platform's limits: it adds findings to the list.</summary>
         public static void Register(Action<GameObject, List<Finding>> check)
         {
             if (check == null) throw new ArgumentNullException("check");
@@ -39,6 +39,7 @@ namespace SuperDeform.Editor
             CheckAvatars(avatar, findings);
             CheckBones(avatar, findings);
             if (CheckMeshes(avatar, findings)) CheckSkeleton(avatar, rigAuto, library, findings);
+            Licences.Check(avatar, findings);
             foreach (Action<GameObject, List<Finding>> check in More)
             {
                 check(avatar, findings);

@@ -112,7 +112,9 @@ namespace SuperDeform.Editor
             };
             foreach (Warning warning in deformer.Warnings)
             {
-                done.Findings.Add(LibraryWarnings.Of(warning, source.Root));
+                Finding said = LibraryWarnings.Of(warning, source.Root);
+                // Two of a kind, about two parts, are one sentence in the editor's language.
+                if (!done.Findings.Exists(known => known.Text == said.Text)) done.Findings.Add(said);
             }
             stages.Begin(ConversionStage.Writing);
             return done;

@@ -31,7 +31,8 @@ namespace SuperDeform.Editor.Ndmf
                 .AfterPlugin("net.rs64.tex-trans-tool")
                 .BeforePlugin("nadena.dev.modular-avatar.late-transform-stages")
                 .BeforePlugin("net.narazaka.vrchat.floor_adjuster")
-                .Run("Super-deform the avatar", Deform);
+                .Run("Super-deform the avatar", Deform)
+                .PreviewingWith(new SuperDeformPreview());
         }
 
         internal static void Deform(BuildContext context)

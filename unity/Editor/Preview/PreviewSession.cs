@@ -8,26 +8,24 @@ namespace SuperDeform.Editor
     /// <summary>Shows what an avatar becomes, in the Scene view, while settings change. The avatar is never changed.</summary>
     /// <remarks>
     /// The avatar is read and measured once. A slider then costs what the library has to do again, a deformation into arrays
-    /// that are kept, and handing those to the proxy's meshes. Blend shapes that are on take part as they were at the start. The proxy is never saved, and
-    /// Dispose takes it away: on closing, before scripts reload, and before play mode.
+    /// that are kept, and handing those to the proxy's meshes. Blend shapes that are on take part as they were at the start. The
+    /// proxy is never saved, and Dispose takes it away: on closing, before scripts reload, and before play mode.
     /// </remarks>
     public sealed class PreviewSession : IDisposable
     {
-        private readonly AvatarData avatar;
-        private readonly PreviewStyle style = new PreviewStyle();
+        private readonly PreviewFigure figure;
         private readonly List<ProxyRenderer> renderers = new List<ProxyRenderer>();
         private readonly List<Renderer> hidden = new List<Renderer>();
         private readonly int[] jointOf;
-        private AvatarResult result;
         private ProxySkeleton skeleton;
-        private Deformer deformer;
-        private ConversionSettings shown;
         private bool showBefore, beside;
         private PreviewPose pose;
         private Matrix4x4 placedAt;
         private readonly List<float> worn = new List<float>();
         private bool counted;
         private float width;
+
+        private AvatarData Avatar { get { return figure.Avatar; } }
 
         /// <summary>Comes with true when a preview begins to be shown, with false when it ends.</summary>
         public static event Action<bool> Shown;
@@ -39,19 +37,18 @@ namespace SuperDeform.Editor
         {
             try
             {
-                this.avatar = CharacterReader.Read(avatar, new ReadOptions
+                ReadOptions reading = new ReadOptions
                 {
                     AsWorn = true, RigAuto = settings.RigAuto, RigOptions = settings.Options,
                     RigProgress = Part(progress, ConversionStage.Rigging, 0, 0.7f)
-                });
-                jointOf = JointsByRole(this.avatar);
+                };
+                figure = new PreviewFigure(avatar, settings, reading, true, Part(progress, ConversionStage.Deforming, 0.7f, 1));
+                jointOf = JointsByRole(Avatar);
                 Weights(worn);
-                Deform(settings, SettingsChange.Style, Part(progress, ConversionStage.Deforming, 0.7f, 1));
-                skeleton = new ProxySkeleton(this.avatar);
-                result = new AvatarResult(this.avatar, true);
-                foreach (RendererResult renderer in result.Renderers)
+                skeleton = new ProxySkeleton(Avatar);
+                foreach (RendererResult renderer in figure.Result.Renderers)
                     if (renderer.Source.Parts.Count > 0)
-                        renderers.Add(new ProxyRenderer(this.avatar, renderer, skeleton));
+                        renderers.Add(new ProxyRenderer(Avatar, renderer, skeleton));
                 Show();
                 Place();
                 ApplyVisibility();
@@ -71,53 +68,25 @@ namespace SuperDeform.Editor
         public GameObject Proxy { get { return skeleton == null || skeleton.Root == null ? null : skeleton.Root.gameObject; } }
 
         /// <summary>Whether the avatar and the proxy are still there.</summary>
-        public bool IsAlive { get { return avatar.Root != null && Proxy != null; } }
+        public bool IsAlive { get { return Avatar.Root != null && Proxy != null; } }
 
         /// <summary>Whether this session is for an avatar and its rig.</summary>
         public bool Fits(GameObject candidate, ConversionSettings settings)
         {
-            return IsAlive && candidate == avatar.Root && settings.RigAuto == shown.RigAuto;
+            return IsAlive && candidate == Avatar.Root && settings.RigAuto == figure.Shown.RigAuto;
         }
 
         /// <summary>Brings the proxy up to the settings; only what depends on the change is done again.</summary>
         /// <exception cref="ConversionException">They cannot be; the proxy stays as it was.</exception>
         public void Update(ConversionSettings settings)
         {
-            SettingsChange change = SettingsChanges.Between(shown, settings);
-            if (change == SettingsChange.None)
-                return;
-            if (change == SettingsChange.Rig)
-                throw new InvalidOperationException("Another rig needs a new session.");
-            try
-            {
-                Deform(settings, change, null);
+            if (figure.Update(settings))
                 Show();
-            }
-            catch (Exception cause)
-            {
-                throw ConversionException.From(cause, avatar.Root);
-            }
-        }
-
-        private void Deform(ConversionSettings settings, SettingsChange change, ProgressHandler progress)
-        {
-            if (change == SettingsChange.Options)
-                deformer.SetOptions(settings.Options, null);
-            else
-                using (Style wanted = style.Make(settings))
-                {
-                    var made = new Deformer(avatar.Character, wanted, settings.Options, progress);
-                    if (deformer != null)
-                        deformer.Dispose();
-                    deformer = made;
-                }
-            shown = settings.Clone();
         }
 
         private void Show()
         {
-            result.Apply(deformer, null);
-            skeleton.Move(result);
+            skeleton.Move(figure.Result);
             Stand();
             foreach (ProxyRenderer renderer in renderers)
                 renderer.Show(skeleton);
@@ -128,7 +97,7 @@ namespace SuperDeform.Editor
         {
             return new PreviewNumbers
             {
-                Report = deformer.GetReport(), Groups = deformer.GetGroups(), Warnings = deformer.Warnings
+                Report = figure.Deformer.GetReport(), Groups = figure.Deformer.GetGroups(), Warnings = figure.Deformer.Warnings
             };
         }
 
@@ -172,16 +141,16 @@ namespace SuperDeform.Editor
 
         private void Stand()
         {
-            skeleton.Stand(result);
-            if (avatar.Rigged)
-                PreviewPoses.Take(pose, skeleton, jointOf, avatar.Twins);
+            skeleton.Stand(figure.Result);
+            if (Avatar.Rigged)
+                PreviewPoses.Take(pose, skeleton, jointOf, Avatar.Twins);
         }
 
         /// <summary>The weights of all blend shapes. Without garbage.</summary>
         private void Weights(List<float> weights)
         {
             weights.Clear();
-            foreach (RendererData data in avatar.Renderers)
+            foreach (RendererData data in Avatar.Renderers)
             {
                 var skinned = data.Renderer as SkinnedMeshRenderer;
                 for (int shape = 0; skinned != null && shape < data.Mesh.blendShapeCount; shape++)
@@ -195,7 +164,7 @@ namespace SuperDeform.Editor
             get
             {
                 int at = 0;
-                foreach (RendererData data in avatar.Renderers)
+                foreach (RendererData data in Avatar.Renderers)
                 {
                     var skinned = data.Renderer as SkinnedMeshRenderer;
                     for (int shape = 0; skinned != null && shape < data.Mesh.blendShapeCount; shape++, at++)
@@ -214,15 +183,25 @@ namespace SuperDeform.Editor
             foreach (ProxyRenderer renderer in renderers)
                 if (renderer.IsOn(shown))
                     return renderer.Original.gameObject;
-            return avatar.Root;
+            return Avatar.Root;
         }
 
-        /// <summary>A click on the proxy selects what it stands for: the proxy itself is nothing that can be changed.</summary>
+        /// <summary>
+        /// A click on the proxy, or a rectangle around it, selects what it stands for: the proxy itself is nothing that can be changed.
+        /// </summary>
         private void SelectOriginal()
         {
-            GameObject original = OriginalOf(Selection.activeGameObject);
-            if (original != null)
-                Selection.activeGameObject = original;
+            UnityEngine.Object[] selected = Selection.objects;
+            if (!Array.Exists(selected, one => OriginalOf(one as GameObject) != null))
+                return;
+            var originals = new List<UnityEngine.Object>();
+            foreach (UnityEngine.Object one in selected)
+            {
+                UnityEngine.Object original = OriginalOf(one as GameObject) ?? one;
+                if (!originals.Contains(original))
+                    originals.Add(original);
+            }
+            Selection.objects = originals.ToArray();
         }
 
         /// <summary>Where the avatar is, as it is shown.</summary>
@@ -231,8 +210,8 @@ namespace SuperDeform.Editor
             get
             {
                 bool any = false;
-                var bounds = new Bounds(avatar.Root.transform.position, Vector3.zero);
-                foreach (RendererData data in avatar.Renderers)
+                var bounds = new Bounds(Avatar.Root.transform.position, Vector3.zero);
+                foreach (RendererData data in Avatar.Renderers)
                     if (data.Renderer != null)
                     {
                         if (any)
@@ -256,7 +235,7 @@ namespace SuperDeform.Editor
                 changed |= renderer.Follow(!showBefore);
             if (changed && !showBefore && !beside)
                 Hide();
-            bool placed = !placedAt.Equals(avatar.Root.transform.localToWorldMatrix), posed = skeleton.HasMoved();
+            bool placed = !placedAt.Equals(Avatar.Root.transform.localToWorldMatrix), posed = skeleton.HasMoved();
             if (placed)
                 Place();
             if (posed)
@@ -266,12 +245,10 @@ namespace SuperDeform.Editor
 
         private void Place()
         {
-            Transform root = avatar.Root.transform;
+            Transform root = Avatar.Root.transform;
             placedAt = root.localToWorldMatrix;
             Vector3 aside = beside ? root.right * (1.2f * Width() * root.lossyScale.x) : Vector3.zero;
-            skeleton.Root.position = root.position + aside;
-            skeleton.Root.rotation = root.rotation;
-            skeleton.Root.localScale = root.lossyScale;
+            skeleton.Place(root, aside);
         }
 
         private float Width()
@@ -279,7 +256,7 @@ namespace SuperDeform.Editor
             if (width > 0)
                 return width;
             float low = 0, high = 0;
-            foreach (RendererData renderer in avatar.Renderers)
+            foreach (RendererData renderer in Avatar.Renderers)
                 foreach (Vector3 vertex in renderer.ModelVertices)
                 {
                     low = Mathf.Min(low, vertex.x);
@@ -301,7 +278,7 @@ namespace SuperDeform.Editor
         // forceRenderingOff is not saved and is no change of the object: nothing of the avatar is left different.
         private void Hide()
         {
-            foreach (RendererData data in avatar.Renderers)
+            foreach (RendererData data in Avatar.Renderers)
                 if (data.Renderer != null && data.Parts.Count > 0 && !data.Renderer.forceRenderingOff)
                 {
                     data.Renderer.forceRenderingOff = true;
@@ -350,11 +327,8 @@ namespace SuperDeform.Editor
             if (skeleton != null)
                 skeleton.Destroy();
             skeleton = null;
-            if (deformer != null)
-                deformer.Dispose();
-            style.Dispose();
-            if (avatar != null)
-                avatar.Dispose();
+            if (figure != null)
+                figure.Dispose();
         }
     }
 }

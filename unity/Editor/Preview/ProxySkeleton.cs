@@ -39,6 +39,14 @@ namespace SuperDeform.Editor
             }
         }
 
+        /// <summary>Stands where a root stands, some way aside in the world.</summary>
+        internal void Place(Transform root, Vector3 aside)
+        {
+            Root.position = root.position + aside;
+            Root.rotation = root.rotation;
+            Root.localScale = root.lossyScale;
+        }
+
         /// <summary>The transform that stands for a joint; the root for -1.</summary>
         internal Transform Of(int joint)
         {

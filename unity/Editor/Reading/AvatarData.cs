@@ -59,6 +59,9 @@ namespace SuperDeform.Editor
         /// <summary>True where the library has made a rig.</summary>
         public bool RigMade;
 
+        /// <summary>True where blend shapes that are on were read as one frame, which belongs to what is shown.</summary>
+        public bool AsWorn;
+
         /// <summary>Warnings and notes about the avatar.</summary>
         public readonly List<Finding> Findings = new List<Finding>();
 

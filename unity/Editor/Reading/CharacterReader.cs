@@ -22,12 +22,12 @@ namespace SuperDeform.Editor
         public static AvatarData Read(GameObject avatar, ReadOptions options)
         {
             if (avatar == null) throw new ConversionException(new Finding("no_avatar", Severity.Error, null));
-            AvatarData data = new AvatarData { Root = avatar };
+            AvatarData data = new AvatarData { Root = avatar, AsWorn = options.AsWorn && !options.WithMorphs };
             try
             {
                 SuperDeformLibrary.Check();
                 data.Animator = HumanoidRoles.Speaker(avatar);
-                ReadRenderers(data);
+                ReadRenderers(data, options.Shown);
                 ReadJoints(data);
                 ReadSkins(data);
                 ReadPose(data);
@@ -37,7 +37,7 @@ namespace SuperDeform.Editor
                 {
                     RendererReader.Place(renderer, data.Rest);
                     if (options.WithMorphs) RendererReader.ReadFrames(renderer);
-                    else if (options.AsWorn) RendererReader.ReadWorn(renderer);
+                    else if (data.AsWorn) RendererReader.ReadWorn(renderer);
                     renderer.Parts.AddRange(SubmeshParts.Of(renderer));
                     data.Parts.AddRange(renderer.Parts);
                 }
@@ -57,21 +57,23 @@ namespace SuperDeform.Editor
         internal static AvatarData ReadSkeleton(GameObject avatar)
         {
             AvatarData data = new AvatarData { Root = avatar, Animator = HumanoidRoles.Speaker(avatar) };
-            ReadRenderers(data);
+            ReadRenderers(data, null);
             ReadJoints(data);
             ReadSkins(data);
             ReadPose(data);
             return data;
         }
 
-        static void ReadRenderers(AvatarData data)
+        static void ReadRenderers(AvatarData data, Dictionary<Renderer, Renderer> shown)
         {
             foreach (Renderer renderer in data.Root.GetComponentsInChildren<Renderer>(true))
             {
-                Mesh mesh = RendererReader.MeshOf(renderer);
+                Renderer instead;
+                if (shown == null || !shown.TryGetValue(renderer, out instead) || instead == null) instead = renderer;
+                Mesh mesh = RendererReader.MeshOf(instead);
                 if (mesh == null) continue;
                 if (!mesh.isReadable) throw new ConversionException(Readability.NotReadable(mesh, renderer));
-                data.Renderers.Add(new RendererData { Renderer = renderer, Mesh = mesh, Vertices = mesh.vertices });
+                data.Renderers.Add(new RendererData { Renderer = renderer, Shown = instead, Mesh = mesh, Vertices = mesh.vertices });
             }
             if (data.Renderers.Count == 0) throw new ConversionException(new Finding("no_mesh", Severity.Error, data.Root, data.Root.name));
         }

@@ -1,3 +1,6 @@
+using System.Collections.Generic;
+using UnityEngine;
+
 namespace SuperDeform.Editor
 {
     /// <summary>How an avatar is read.</summary>
@@ -10,6 +13,12 @@ namespace SuperDeform.Editor
         /// Reads the blend shapes that are on as one, by their weights: the avatar as it is worn, for a preview.
         /// </summary>
         public bool AsWorn;
+
+        /// <summary>
+        /// By renderer of the avatar, the one whose mesh, materials and blend shapes are read instead; others are read themselves,
+        /// and all if this is null.
+        /// </summary>
+        public Dictionary<Renderer, Renderer> Shown;
 
         /// <summary>Makes a rig even where the avatar has one, and takes rigs that show no humanoid.</summary>
         public bool RigAuto;

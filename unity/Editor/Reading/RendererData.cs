@@ -8,7 +8,10 @@ namespace SuperDeform.Editor
     {
         public Renderer Renderer;
 
-        /// <summary>The avatar's own mesh; never changed.</summary>
+        /// <summary>The one whose mesh, materials and blend shapes are read: itself, or what stands for it in a preview.</summary>
+        public Renderer Shown;
+
+        /// <summary>The avatar's own mesh, or what is shown for it; never changed.</summary>
         public Mesh Mesh;
 
         /// <summary>

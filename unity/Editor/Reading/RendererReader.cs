@@ -304,7 +304,7 @@ namespace SuperDeform.Editor
         /// <summary>Reads the blend shapes that are on, as one frame of weight 100; none where all are off.</summary>
         internal static void ReadWorn(RendererData renderer)
         {
-            SkinnedMeshRenderer skinned = renderer.Renderer as SkinnedMeshRenderer;
+            SkinnedMeshRenderer skinned = renderer.Shown as SkinnedMeshRenderer;
             if (skinned == null) return;
             int count = renderer.Vertices.Length;
             Vector3[] positions = null, normals = null, places = null, turns = null, tangents = null;

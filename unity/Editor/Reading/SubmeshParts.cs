@@ -107,7 +107,7 @@ namespace SuperDeform.Editor
             {
                 if (Find(same, submesh) == part && triangles[submesh].Length > triangles[largest].Length) largest = submesh;
             }
-            Material[] materials = renderer.Renderer.sharedMaterials;
+            Material[] materials = renderer.Shown.sharedMaterials;
             return largest < materials.Length ? materials[largest] : null;
         }
 

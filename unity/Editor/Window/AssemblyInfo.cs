@@ -1,4 +1,5 @@
 using System.Runtime.CompilerServices;
 
+[assembly: InternalsVisibleTo("SuperDeform.Editor.Ndmf")]
 [assembly: InternalsVisibleTo("SuperDeform.Editor.Tests")]
 [assembly: InternalsVisibleTo("PreviewBench")]

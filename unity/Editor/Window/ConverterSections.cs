@@ -222,7 +222,12 @@ namespace SuperDeform.Editor
                 });
                 section.Rows.Add(Groups(numbers));
                 foreach (Warning warning in numbers.Warnings)
-                    section.Rows.Add(Warned(warning));
+                {
+                    CheckRow said = Warned(warning);
+                    // Two of a kind, about two parts, are one sentence in the editor's language.
+                    if (!section.Rows.Exists(row => row is CheckRow && row.Label == said.Label))
+                        section.Rows.Add(said);
+                }
             }
             else
                 section.Rows.Add(new TextRow { Label = Strings.Get("report.none") });

@@ -31,23 +31,20 @@ namespace SuperDeform.Editor
         /// <summary>By joint of the library, those of a made rig among them: 3 numbers in the root's space.</summary>
         public double[] JointPositions { get; private set; }
 
-        /// <summary>The lowest vertex before and after, and new over old height; not for a preview.</summary>
+        /// <summary>The lowest vertex before and after, and new over old height; not of what stays at rest.</summary>
         public double OldLow { get; private set; }
         public double NewLow { get; private set; }
         public double HeightRatio { get; private set; }
 
         readonly MeshOutput[] outputs;
-        readonly bool forPreview;
+        readonly bool atRest;
 
         /// <param name="source">What is deformed.</param>
-        /// <param name="forPreview">
-        /// Vertices stay at rest in the root's space, and nothing is done that only a result needs; for a source that was
-        /// read without blend shapes or as it is worn.
-        /// </param>
-        public AvatarResult(AvatarData source, bool forPreview)
+        /// <param name="atRest">Vertices stay at rest in the root's space, and nothing is done that only meshes of an avatar need.</param>
+        public AvatarResult(AvatarData source, bool atRest)
         {
             Source = source;
-            this.forPreview = forPreview;
+            this.atRest = atRest;
             foreach (RendererData renderer in source.Renderers)
             {
                 Renderers.Add(new RendererResult(renderer));
@@ -76,9 +73,9 @@ namespace SuperDeform.Editor
             foreach (RendererResult renderer in Renderers)
             {
                 renderer.Spread();
-                if (forPreview) renderer.Wear();
+                if (Source.AsWorn) renderer.Wear();
             }
-            if (forPreview) return;
+            if (atRest) return;
             MeasureHeight();
             foreach (RendererResult renderer in Renderers)
             {

@@ -15,12 +15,8 @@ namespace SuperDeform.Editor
             try
             {
                 mesh.name = source.Mesh.name;
-                mesh.vertices = result.Positions;
-                if (result.Normals != null) mesh.normals = result.Normals;
-                if (result.Tangents != null) mesh.tangents = result.Tangents;
-                if (result.BindPoses != null) mesh.bindposes = result.BindPoses;
+                Write(mesh, result);
                 if (source.Frames.Count > 0) WriteFrames(mesh, result);
-                mesh.RecalculateBounds();
                 return mesh;
             }
             catch
@@ -28,6 +24,16 @@ namespace SuperDeform.Editor
                 Object.DestroyImmediate(mesh);
                 throw;
             }
+        }
+
+        /// <summary>Gives a mesh new vertices and bind poses.</summary>
+        internal static void Write(Mesh mesh, RendererResult result)
+        {
+            mesh.vertices = result.Positions;
+            if (result.Normals != null) mesh.normals = result.Normals;
+            if (result.Tangents != null) mesh.tangents = result.Tangents;
+            if (result.BindPoses != null) mesh.bindposes = result.BindPoses;
+            mesh.RecalculateBounds();
         }
 
         static void WriteFrames(Mesh mesh, RendererResult result)

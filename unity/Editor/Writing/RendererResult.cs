@@ -12,7 +12,7 @@ namespace SuperDeform.Editor
         public readonly RendererData Source;
 
         /// <summary>
-        /// One a vertex, in mesh space (for a preview: in the root's); Normals and Tangents null where the mesh has none.
+        /// One a vertex, in mesh space (in the root's where it stays at rest); Normals and Tangents null where the mesh has none.
         /// </summary>
         public readonly Vector3[] Positions, Normals;
         public readonly Vector4[] Tangents;

@@ -97,6 +97,21 @@ namespace SuperDeform.Editor.Bench
                 result.Apply(Deformer, null);
             }
 
+            // The library's share of Apply, alone.
+            internal void Deform()
+            {
+                if (outputs == null)
+                {
+                    var all = new List<MeshOutput>();
+                    foreach (RendererResult renderer in result.Renderers)
+                        all.AddRange(renderer.Parts.ConvertAll(part => part.Output));
+                    outputs = all.ToArray();
+                }
+                Deformer.Apply(outputs);
+            }
+
+            private MeshOutput[] outputs;
+
             internal void Show()
             {
                 skeleton.Move(result);
@@ -187,12 +202,16 @@ namespace SuperDeform.Editor.Bench
         // Gives the median of deforming and updating.
         private static double Slider(string name, int rounds, Path path, Action<int> move)
         {
-            Times library = new Times(), apply = new Times(), show = new Times(), both = new Times(), all = new Times();
+            Times library = new Times(), deform = new Times(), apply = new Times(), show = new Times(), both = new Times(), all = new Times();
+            var own = new Times();
             for (int round = 0; round < rounds; round++)
             {
                 library.Start();
                 move(round);
                 double one = library.Stop();
+                deform.Start();
+                path.Deform();
+                double alone = deform.Stop();
                 apply.Start();
                 path.Apply();
                 double two = apply.Stop();
@@ -200,11 +219,14 @@ namespace SuperDeform.Editor.Bench
                 path.Show();
                 double three = show.Stop();
                 both.Add(two + three);
+                own.Add(two + three - alone);
                 all.Add(one + two + three);
             }
             Console.WriteLine("{0,-10} the library's own part         {1}", name, library);
+            Console.WriteLine("{0,-10} the library deforms            {1}", "", deform);
             Console.WriteLine("{0,-10} deform into the arrays         {1}", "", apply);
             Console.WriteLine("{0,-10} arrays into the meshes         {1}", "", show);
+            Console.WriteLine("{0,-10} C# alone, of the last two      {1}   {2:0.00} of the library's", "", own, own.Median / deform.Median);
             Console.WriteLine("{0,-10} a whole frame                  {1}", "", all);
             return both.Median;
         }

@@ -25,33 +25,11 @@ namespace SuperDeform.Editor.Tests
             return new ConversionSettings { Heads = 2.5f, OutputFolder = "Assets/Out", PlaceInScene = false };
         }
 
-        /// <summary>The vertices of a renderer as it is drawn, in its avatar's space.</summary>
-        internal static Vector3[] Drawn(GameObject root, string name)
-        {
-            Transform holder = Find(root, name);
-            Matrix4x4 space = root.transform.worldToLocalMatrix;
-            var skinned = holder.GetComponent<SkinnedMeshRenderer>();
-            if (skinned == null)
-                return Array.ConvertAll(holder.GetComponent<MeshFilter>().sharedMesh.vertices, p => (space * holder.localToWorldMatrix).MultiplyPoint3x4(p));
-            Vector3[] positions, normals;
-            Skinning.Drawn(skinned, space, out positions, out normals);
-            return positions;
-        }
-
         internal static Transform Find(GameObject root, string name)
         {
             Transform found = Array.Find(root.GetComponentsInChildren<Transform>(true), transform => transform.name == name);
             Assert.That(found, Is.Not.Null, name);
             return found;
-        }
-
-        private static double Apart(Vector3[] one, Vector3[] other)
-        {
-            Assert.AreEqual(one.Length, other.Length);
-            double most = 0;
-            for (int i = 0; i < one.Length; i++)
-                most = Math.Max(most, Vector3.Distance(one[i], other[i]));
-            return most;
         }
 
         [Test]
@@ -76,7 +54,7 @@ namespace SuperDeform.Editor.Tests
                 ConversionResult plain = Converter.Convert(new ConversionFigure().Make().Root, settings, null);
                 ConversionResult turned = Converter.Convert(new ConversionFigure { Turned = true }.Make().Root, settings, null);
                 foreach (string name in new[] { "Body", "Hair", "Hat" })
-                    Assert.That(Apart(Drawn(plain.Prefab, name), Drawn(turned.Prefab, name)), Is.LessThan((profile == 0 ? 1e-4 : 5e-3) * Height), name);
+                    Assert.That(Drawing.Apart(Drawing.Drawn(plain.Prefab, name), Drawing.Drawn(turned.Prefab, name)), Is.LessThan((profile == 0 ? 1e-4 : 5e-3) * Height), name);
             }
         }
 
@@ -132,7 +110,7 @@ namespace SuperDeform.Editor.Tests
             settings.Options.FaceSquash = 0.5f;
             GameObject prefab = Converter.Convert(figure.Root, settings, null).Prefab;
             var body = Find(prefab, "Body").GetComponent<SkinnedMeshRenderer>();
-            Vector3[] rest = Drawn(prefab, "Body");
+            Vector3[] rest = Drawing.Drawn(prefab, "Body");
             using (AvatarData data = CharacterReader.Read(figure.Root, new ReadOptions { WithMorphs = true }))
             using (Style style = settings.MakeStyle())
             using (var deformer = new Deformer(data.Character, style, settings.Options, null))
@@ -211,7 +189,7 @@ namespace SuperDeform.Editor.Tests
             double height = result.Report.Result.Height / result.Report.Target.Height;
             var sphere = Find(result.Prefab, "J_Head").GetComponent<SphereCollider>();
             Vector3 center = sphere.transform.TransformPoint(sphere.center);
-            Vector3[] hair = Drawn(result.Prefab, "Hair");
+            Vector3[] hair = Drawing.Drawn(result.Prefab, "Hair");
             var box = new Bounds(hair[0], Vector3.zero);
             foreach (Vector3 p in hair)
                 box.Encapsulate(p);
@@ -233,7 +211,7 @@ namespace SuperDeform.Editor.Tests
             Matrix4x4 toBone = body.rootBone.worldToLocalMatrix * prefab.transform.localToWorldMatrix;
             Bounds wide = body.localBounds;
             wide.Expand(1e-3f * wide.size.magnitude);
-            foreach (Vector3 p in Drawn(prefab, "Body"))
+            foreach (Vector3 p in Drawing.Drawn(prefab, "Body"))
                 Assert.That(wide.Contains(toBone.MultiplyPoint3x4(p)));
         }
 
@@ -332,7 +310,7 @@ namespace SuperDeform.Editor.Tests
             Assert.AreSame(first.Instance, second.Instance, "no second instance");
             Assert.AreEqual(3.5f, AssetDatabase.LoadAssetAtPath<SuperDeformPreset>(container).Settings.Heads);
             settings.NewCopy = true;
-            Assert.AreEqual(Drawn(Converter.Convert(figure.Root, settings, null).Prefab, "Body"), Drawn(second.Prefab, "Body"), "as a new copy");
+            Assert.AreEqual(Drawing.Drawn(Converter.Convert(figure.Root, settings, null).Prefab, "Body"), Drawing.Drawn(second.Prefab, "Body"), "as a new copy");
         }
 
         [Test]
@@ -595,7 +573,7 @@ namespace SuperDeform.Editor.Tests
             ConversionResult posed = Converter.Convert(figure.Root, settings, null);
             Assert.That(posed.Findings.Exists(finding => finding.Key == "pose_not_rest"));
             Assert.AreEqual(lowered, Find(posed.Prefab, "J_LeftUpperArm").localRotation);
-            Assert.That(Apart(Find(plain, "Body").GetComponent<SkinnedMeshRenderer>().sharedMesh.vertices, Find(posed.Prefab, "Body").GetComponent<SkinnedMeshRenderer>().sharedMesh.vertices), Is.LessThan(1e-5 * Height));
+            Assert.That(Drawing.Apart(Find(plain, "Body").GetComponent<SkinnedMeshRenderer>().sharedMesh.vertices, Find(posed.Prefab, "Body").GetComponent<SkinnedMeshRenderer>().sharedMesh.vertices), Is.LessThan(1e-5 * Height));
         }
 
         [Test]
@@ -605,7 +583,7 @@ namespace SuperDeform.Editor.Tests
             Transform arm = figure.Bones[HumanBodyBones.LeftUpperArm];
             // Bound with the arm down, as the mesh has it; then stood up again.
             arm.localRotation = Quaternion.AngleAxis(89, Vector3.forward);
-            Vector3[] down = Drawn(figure.Root, "Body");
+            Vector3[] down = Drawing.Drawn(figure.Root, "Body");
             figure.Body.sharedMesh.vertices = down;
             figure.Body.sharedMesh.bindposes = Array.ConvertAll(figure.Body.bones, bone => bone.worldToLocalMatrix);
             figure.Hair.sharedMesh.bindposes = Array.ConvertAll(figure.Hair.bones, bone => bone.worldToLocalMatrix);
@@ -626,7 +604,7 @@ namespace SuperDeform.Editor.Tests
                 var expected = new AvatarResult(data, true);
                 expected.Apply(deformer, null);
                 foreach (RendererResult renderer in expected.Renderers)
-                    Assert.That(Apart(renderer.Positions, Drawn(result.Prefab, renderer.Source.Renderer.name)), Is.LessThan(1e-5 * Height), renderer.Source.Renderer.name);
+                    Assert.That(Drawing.Apart(renderer.Positions, Drawing.Drawn(result.Prefab, renderer.Source.Renderer.name)), Is.LessThan(1e-5 * Height), renderer.Source.Renderer.name);
             }
             return result;
         }
@@ -647,8 +625,8 @@ namespace SuperDeform.Editor.Tests
             Assert.That(inside.GetComponent<Animator>().avatar.isHuman);
             // The same shape, in the space of the object that was turned.
             Matrix4x4 back = inside.worldToLocalMatrix * result.Prefab.transform.localToWorldMatrix;
-            Vector3[] there = Array.ConvertAll(Drawn(result.Prefab, "Body"), p => back.MultiplyPoint3x4(p));
-            Assert.That(Apart(Drawn(alone.Prefab, "Body"), there), Is.LessThan(2e-3 * Height));
+            Vector3[] there = Array.ConvertAll(Drawing.Drawn(result.Prefab, "Body"), p => back.MultiplyPoint3x4(p));
+            Assert.That(Drawing.Apart(Drawing.Drawn(alone.Prefab, "Body"), there), Is.LessThan(2e-3 * Height));
         }
 
         [Test]
@@ -662,7 +640,7 @@ namespace SuperDeform.Editor.Tests
                 bone.name = "b" + number++;
             ConversionResult result = Converter.Convert(figure.Root, Settings(), null);
             Assert.That(result.Findings.Exists(finding => finding.Key == "no_animator"));
-            Assert.That(Apart(Drawn(named, "Body"), Drawn(result.Prefab, "Body")), Is.LessThan(1e-3 * Height));
+            Assert.That(Drawing.Apart(Drawing.Drawn(named, "Body"), Drawing.Drawn(result.Prefab, "Body")), Is.LessThan(1e-3 * Height));
         }
 
         [Test]
@@ -679,7 +657,7 @@ namespace SuperDeform.Editor.Tests
             holder.AddComponent<MeshFilter>().sharedMesh = mesh;
             var shown = holder.AddComponent<MeshRenderer>();
             shown.sharedMaterials = Array.ConvertAll(new[] { "a", "b", "c" }, name => new Material(Shader.Find("Standard")) { name = name });
-            List<PartData> parts = SubmeshParts.Of(new RendererData { Renderer = shown, Mesh = mesh, Vertices = mesh.vertices });
+            List<PartData> parts = SubmeshParts.Of(new RendererData { Renderer = shown, Shown = shown, Mesh = mesh, Vertices = mesh.vertices });
             Assert.AreEqual(new[] { "H/M/a", "H/M/b", "H/M/c" }, parts.ConvertAll(part => part.Name).ToArray());
             // The first two share all vertices with the fourth; vertex 0 goes with what follows it.
             Assert.AreEqual(new[] { 0, 4 }, new[] { parts[0].FirstVertex, parts[0].VertexCount });

@@ -2,6 +2,7 @@ using System;
 using System.Collections.Generic;
 using nadena.dev.modular_avatar.core;
 using nadena.dev.ndmf;
+using nadena.dev.ndmf.preview;
 using NUnit.Framework;
 using SuperDeform.Editor.Ndmf;
 using UnityEditor;
@@ -20,30 +21,15 @@ namespace SuperDeform.Editor.Tests
     [TestFixture]
     public class DressedAvatarTests
     {
-        private const float Height = 1.9f;
+        private const float Height = 1.9f, Thick = 0.015f;
         private ConversionFigure figure;
         private Vector3[] wantedCoat, wantedHair;
+        private Dictionary<string, double[]> before, wantedLengths;
         private float ratio;
 
         private static ConversionSettings Settings()
         {
             return new ConversionSettings { Source = StyleSource.BuiltIn, BuiltInStyle = "sd2.5", OutputFolder = "Assets/Out", PlaceInScene = false };
-        }
-
-        private static SkinnedMeshRenderer Coat(ConversionFigure figure)
-        {
-            SkinnedMeshRenderer coat = UnityEngine.Object.Instantiate(figure.Body, figure.Root.transform);
-            coat.name = "Coat";
-            coat.bones = figure.Body.bones;
-            coat.rootBone = figure.Body.rootBone;
-            Mesh mesh = UnityEngine.Object.Instantiate(figure.Body.sharedMesh);
-            Vector3[] vertices = mesh.vertices, normals = mesh.normals;
-            for (int i = 0; i < vertices.Length; i++)
-                vertices[i] += normals[i] * 0.015f;
-            mesh.vertices = vertices;
-            mesh.name = "CoatMesh";
-            coat.sharedMesh = mesh;
-            return coat;
         }
 
         [SetUp]
@@ -53,16 +39,18 @@ namespace SuperDeform.Editor.Tests
             ComponentTableTests.Ask(null);
             // What the same clothes do on the avatar's own armature.
             var merged = new ConversionFigure { WithShapes = true }.Make();
-            Coat(merged);
+            Wardrobe.Coat(merged, Thick);
+            AddComponents(merged);
             ConversionResult wanted = Converter.Convert(merged.Root, Settings(), null);
-            wantedCoat = ConversionTests.Drawn(wanted.Prefab, "Coat");
-            wantedHair = ConversionTests.Drawn(wanted.Prefab, "Hair");
+            wantedCoat = Drawing.Drawn(wanted.Prefab, "Coat");
+            wantedHair = Drawing.Drawn(wanted.Prefab, "Hair");
+            wantedLengths = Lengths(wanted.Prefab);
             ratio = (float)(wanted.Report.Result.Height / wanted.Report.Target.Height);
 
             Models.NewProject();
             figure = new ConversionFigure { WithShapes = true }.Make();
             Transform hips = figure.Bones[HumanBodyBones.Hips];
-            SkinnedMeshRenderer coat = Coat(figure);
+            SkinnedMeshRenderer coat = Wardrobe.Coat(figure, Thick);
             // One outfit set up with Modular Avatar, one as it was bought: a humanoid with names of its own.
             var first = Wardrobe.Armature(figure.Root, hips, name => name + ".coat");
             Wardrobe.Bind(coat, first);
@@ -76,10 +64,11 @@ namespace SuperDeform.Editor.Tests
             Wardrobe.Bind(figure.Hair, second);
             Wardrobe.MakeHumanoid(figure.Root.transform.Find("Outfit").gameObject, figure.Bones, second);
             figure.Body.SetBlendShapeWeight(1, 100);
-            AddComponents();
+            AddComponents(figure);
+            before = Lengths(figure.Root);
         }
 
-        private void AddComponents()
+        private static void AddComponents(ConversionFigure figure)
         {
             var left = new GameObject("LeftEye").transform;
             var right = new GameObject("RightEye").transform;
@@ -101,17 +90,45 @@ namespace SuperDeform.Editor.Tests
             figure.Body.sharedMaterials = new[] { paint, paint };
         }
 
-        private double Apart(Vector3[] one, Vector3[] other)
+        /// <summary>Every number of the components of the table, by component and path.</summary>
+        private static Dictionary<string, double[]> Lengths(GameObject root)
         {
-            double most = 0;
-            for (int i = 0; i < one.Length; i++)
-                most = Math.Max(most, Vector3.Distance(one[i], other[i]));
-            return most;
+            var types = new HashSet<string>(ComponentTable.Types);
+            var found = new Dictionary<string, double[]>();
+            foreach (Component component in root.GetComponentsInChildren<Component>(true))
+            {
+                if (!types.Contains(component.GetType().FullName))
+                    continue;
+                using (var properties = new SerializedObject(component))
+                {
+                    SerializedProperty property = properties.GetIterator();
+                    while (property.Next(property.propertyPath.Length == 0 || property.propertyType == SerializedPropertyType.Generic))
+                    {
+                        double[] numbers = Numbers(property);
+                        if (numbers != null)
+                            found.Add(component.GetType().Name + "." + property.propertyPath, numbers);
+                    }
+                }
+            }
+            return found;
+        }
+
+        private static double[] Numbers(SerializedProperty property)
+        {
+            switch (property.propertyType)
+            {
+                case SerializedPropertyType.Float: return new double[] { property.floatValue };
+                case SerializedPropertyType.Vector3: return new double[] { property.vector3Value.x, property.vector3Value.y, property.vector3Value.z };
+                case SerializedPropertyType.Quaternion:
+                    Quaternion turn = property.quaternionValue;
+                    return new double[] { turn.x, turn.y, turn.z, turn.w };
+                default: return null;
+            }
         }
 
         private void IsDressed(GameObject result, string how)
         {
-            double coat = Apart(wantedCoat, ConversionTests.Drawn(result, "Coat")), hair = Apart(wantedHair, ConversionTests.Drawn(result, "Hair"));
+            double coat = Drawing.Apart(wantedCoat, Drawing.Drawn(result, "Coat")), hair = Drawing.Apart(wantedHair, Drawing.Drawn(result, "Hair"));
             Vector3 eyes = (ConversionTests.Find(result, "LeftEye").position + ConversionTests.Find(result, "RightEye").position) * 0.5f - result.transform.position;
             float view = Vector3.Distance(eyes, result.GetComponent<VRCAvatarDescriptor>().ViewPosition);
             Console.WriteLine(how + ": coat " + (coat / Height).ToString("0.0E0") + ", hair " + (hair / Height).ToString("0.0E0") + ", view " + (view / Height).ToString("0.0E0") + " of the height off");
@@ -120,17 +137,21 @@ namespace SuperDeform.Editor.Tests
             Assert.That(view, Is.LessThan(2e-3f * Height), how);
             Assert.AreEqual(0.08f * ratio, ConversionTests.Find(result, "Body").GetComponent<SkinnedMeshRenderer>().sharedMaterial.GetFloat("_OutlineWidth"), 1e-3, how);
             Assert.AreEqual(100, ConversionTests.Find(result, "Body").GetComponent<SkinnedMeshRenderer>().GetBlendShapeWeight(1), how);
-            Assert.AreNotEqual(0.05f, result.GetComponentInChildren<VRCPhysBone>().radius, how);
-            Assert.AreNotEqual(0.05f, result.GetComponentInChildren<VRCPhysBoneCollider>().radius, how);
-            Assert.AreNotEqual(0.05f, result.GetComponentInChildren<VRCContactSender>().radius, how);
-            Assert.AreNotEqual(0.05f, result.GetComponentInChildren<VRCContactReceiver>().radius, how);
-            Assert.AreNotEqual(0.11f, result.GetComponent<VRCAvatarDescriptor>().collider_head.radius, how);
+            // As on the avatar whose clothes are merged; that each number is what it should be, the table's own tests say.
+            Dictionary<string, double[]> lengths = Lengths(result);
+            CollectionAssert.AreEquivalent(wantedLengths.Keys, lengths.Keys, how);
+            foreach (string name in wantedLengths.Keys)
+                for (int i = 0; i < wantedLengths[name].Length; i++)
+                    Assert.AreEqual(wantedLengths[name][i], lengths[name][i], 1e-4, how + ": " + name);
+            foreach (string changed in new[] { "VRCPhysBone.radius", "VRCPhysBone.endpointPosition", "VRCPhysBoneCollider.radius", "VRCPhysBoneCollider.height",
+                "VRCContactSender.radius", "VRCContactReceiver.position", "VRCAvatarDescriptor.collider_head.radius", "VRCAvatarDescriptor.ViewPosition" })
+                CollectionAssert.AreNotEqual(before[changed], lengths[changed], how + ": " + changed);
         }
 
         [Test]
         public void it_comes_out_dressed_by_the_window_the_menu_a_batch_and_a_build()
         {
-            string before = Fingerprint.Of(figure.Root);
+            string source = Fingerprint.Of(figure.Root);
             var findings = AvatarChecks.Of(figure.Root);
             Assert.That(findings.FindAll(finding => finding.Severity == Severity.Error), Is.Empty);
             Assert.That(findings.Exists(finding => finding.Key == "outfit"));
@@ -141,7 +162,7 @@ namespace SuperDeform.Editor.Tests
             window.Model.Convert();
             StubEditor.Tick();
             Assert.That(window.Model.Failure, Is.Null, window.Model.Failure == null ? "" : window.Model.Failure.Text);
-            string path = window.Model.Result.PrefabPath;
+            string path = window.Model.Result.PrefabPath, guid = AssetDatabase.AssetPathToGUID(path);
             IsDressed(window.Model.Result.Prefab, "window");
 
             Selection.activeGameObject = figure.Root;
@@ -154,6 +175,7 @@ namespace SuperDeform.Editor.Tests
             Assert.AreEqual(0, report.Failed);
             Assert.AreEqual(path, report.Entries[0].Result.PrefabPath);
             Assert.That(report.Entries[0].Result.Updated);
+            Assert.AreEqual(guid, AssetDatabase.AssetPathToGUID(path), "the same prefab to whatever refers to it");
             IsDressed(report.Entries[0].Result.Prefab, "batch, a third time");
 
             GameObject clone = UnityEngine.Object.Instantiate(figure.Root);
@@ -162,7 +184,17 @@ namespace SuperDeform.Editor.Tests
             Assert.That(NdmfStub.Report.FindAll(line => line.StartsWith("Error") || line.StartsWith("Internal")), Is.Empty);
             IsDressed(clone, "NDMF");
             Assert.AreEqual("avtr_1", clone.GetComponent<VRC.Core.PipelineManager>().blueprintId);
-            Assert.AreEqual(before, Fingerprint.Of(figure.Root), "the source");
+            Assert.AreEqual(source, Fingerprint.Of(figure.Root), "the source");
+
+            SettingsText.Give(figure.Root.AddComponent<SuperDeformAvatar>(), Settings());
+            using (NdmfPreviewStub preview = NdmfPreviewStub.Of(NdmfStub.Filters[0]))
+            {
+                preview.Frame();
+                var coat = ConversionTests.Find(figure.Root, "Coat").GetComponent<Renderer>();
+                Vector3[] shown = Drawing.Drawn(preview.Proxy(coat), figure.Root.transform.worldToLocalMatrix);
+                Assert.That(Drawing.Apart(wantedCoat, shown), Is.LessThan(1e-3 * Height), "NDMF's preview");
+            }
+            NdmfPreviewStub.CloseScene();
         }
     }
 }

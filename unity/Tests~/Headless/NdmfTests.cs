@@ -65,7 +65,7 @@ namespace SuperDeform.Editor.Tests
             Assert.AreEqual(before, Fingerprint.Of(figure.Root));
             foreach (string name in new[] { "Body", "Hair", "Hat" })
             {
-                Assert.AreEqual(ConversionTests.Drawn(prefab, name), ConversionTests.Drawn(clone, name), name);
+                Assert.AreEqual(Drawing.Drawn(prefab, name), Drawing.Drawn(clone, name), name);
                 Mesh made = Models.MeshOf(ConversionTests.Find(clone, name).GetComponent<Renderer>());
                 Assert.That(NdmfStub.Saved.Contains(made), name);
                 Assert.That(NdmfStub.Replaced.Exists(pair => pair.Value == made && pair.Key == Models.MeshOf(ConversionTests.Find(figure.Root, name).GetComponent<Renderer>())), name);

@@ -18,32 +18,15 @@ namespace SuperDeform.Editor.Tests
 
         private static Vector3[] Converted(GameObject root, string cloth)
         {
-            return ConversionTests.Drawn(Converter.Convert(root, Settings(), null).Prefab, cloth);
-        }
-
-        private static double Apart(Vector3[] one, Vector3[] other)
-        {
-            double most = 0;
-            for (int i = 0; i < one.Length; i++)
-                most = Math.Max(most, Vector3.Distance(one[i], other[i]));
-            return most;
+            return Drawing.Drawn(Converter.Convert(root, Settings(), null).Prefab, cloth);
         }
 
         /// <summary>A person whose hair has a bone's weights all over; the cloth is a second body, one size larger.</summary>
         private static ConversionFigure Figure(out SkinnedMeshRenderer coat)
         {
             var figure = new ConversionFigure { Turned = true, WithShapes = true }.Make();
-            coat = UnityEngine.Object.Instantiate(figure.Body, figure.Root.transform);
-            coat.name = "Coat";
-            coat.bones = figure.Body.bones;
-            coat.rootBone = figure.Body.rootBone;
-            Mesh mesh = UnityEngine.Object.Instantiate(figure.Body.sharedMesh);
-            Vector3[] vertices = mesh.vertices, normals = mesh.normals;
-            for (int i = 0; i < vertices.Length; i++)
-                vertices[i] += normals[i] * 1.5f;
-            mesh.vertices = vertices;
-            mesh.name = "CoatMesh";
-            coat.sharedMesh = mesh;
+            // Its meshes are in centimetres.
+            coat = Wardrobe.Coat(figure, 1.5f);
             return figure;
         }
 
@@ -59,7 +42,7 @@ namespace SuperDeform.Editor.Tests
             Wardrobe.Bind(coat, twins);
             dress(dressed, twins);
             string before = Fingerprint.Of(dressed.Root);
-            double apart = Apart(wanted, Converted(dressed.Root, "Coat"));
+            double apart = Drawing.Apart(wanted, Converted(dressed.Root, "Coat"));
             Console.WriteLine(how + ": at most " + (apart / 1.9).ToString("0.00E0") + " of the height apart");
             Assert.That(apart, Is.LessThan(1e-3 * 1.9), how);
             Assert.AreEqual(before, Fingerprint.Of(dressed.Root), how);
@@ -143,9 +126,9 @@ namespace SuperDeform.Editor.Tests
             var proxy = proxied.gameObject.AddComponent<ModularAvatarBoneProxy>();
             proxy.boneReference = HumanBodyBones.Head;
             GameObject prefab = Converter.Convert(figure.Root, Settings(), null).Prefab;
-            Vector3[] wanted = ConversionTests.Drawn(prefab, "Hat");
-            Assert.That(Apart(wanted, ConversionTests.Drawn(prefab, "OnTwin")), Is.LessThan(1e-3 * 1.9));
-            Assert.That(Apart(wanted, ConversionTests.Drawn(prefab, "Proxied")), Is.LessThan(1e-3 * 1.9));
+            Vector3[] wanted = Drawing.Drawn(prefab, "Hat");
+            Assert.That(Drawing.Apart(wanted, Drawing.Drawn(prefab, "OnTwin")), Is.LessThan(1e-3 * 1.9));
+            Assert.That(Drawing.Apart(wanted, Drawing.Drawn(prefab, "Proxied")), Is.LessThan(1e-3 * 1.9));
         }
 
         private static MeshRenderer Hat(ConversionFigure figure, Transform parent, string name)
@@ -175,7 +158,7 @@ namespace SuperDeform.Editor.Tests
                 Transform hips = HumanoidRoles.Of(dressed.Root.GetComponent<Animator>())[0];
                 var twins = Wardrobe.Armature(dressed.Root, hips, name => name);
                 Wardrobe.Bind(ConversionTests.Find(dressed.Root, cloth).GetComponent<SkinnedMeshRenderer>(), twins);
-                double apart = Apart(wanted, Converted(dressed.Root, cloth)) / height;
+                double apart = Drawing.Apart(wanted, Converted(dressed.Root, cloth)) / height;
                 Console.WriteLine(cloth + ": at most " + apart.ToString("0.00E0") + " of the height apart");
                 Assert.That(apart, Is.LessThan(1e-3), cloth);
             }
@@ -212,7 +195,7 @@ namespace SuperDeform.Editor.Tests
                 session.Pose = PreviewPose.Sits;
                 Vector3[] body = Shown(session, "Body"), cloth = Shown(session, "Coat");
                 // 1.5 cm larger as it was made, less as it is shown.
-                Assert.That(Apart(body, cloth), Is.LessThan(0.05));
+                Assert.That(Drawing.Apart(body, cloth), Is.LessThan(0.05));
             }
         }
     }

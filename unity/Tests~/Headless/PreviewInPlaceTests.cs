@@ -26,22 +26,6 @@ namespace SuperDeform.Editor.Tests
             settings.Options.FaceSquash = 0.5;
         }
 
-        private static Vector3[] Drawn(GameObject root, string name)
-        {
-            SkinnedMeshRenderer renderer = Array.Find(root.GetComponentsInChildren<SkinnedMeshRenderer>(true), one => one.name == name);
-            Vector3[] positions, normals;
-            Skinning.Drawn(renderer, root.transform.worldToLocalMatrix, out positions, out normals);
-            return positions;
-        }
-
-        private static double Apart(Vector3[] one, Vector3[] other)
-        {
-            double most = 0;
-            for (int i = 0; i < one.Length; i++)
-                most = Math.Max(most, Vector3.Distance(one[i], other[i]));
-            return most;
-        }
-
         [Test]
         public void blend_shapes_that_are_on_are_shown()
         {
@@ -49,10 +33,10 @@ namespace SuperDeform.Editor.Tests
             foreach (float weight in new[] { 100f, 70f, 25f })
             {
                 figure.Body.SetBlendShapeWeight(0, weight);
-                Vector3[] wanted = Drawn(Converter.Convert(figure.Root, settings, null).Prefab, "Body");
+                Vector3[] wanted = Drawing.Drawn(Converter.Convert(figure.Root, settings, null).Prefab, "Body");
                 using (var session = new PreviewSession(figure.Root, settings))
                 {
-                    double apart = Apart(wanted, Drawn(session.Proxy, "Body"));
+                    double apart = Drawing.Apart(wanted, Drawing.Drawn(session.Proxy, "Body"));
                     Console.WriteLine("Smile at " + weight + ": " + (apart / 1.9).ToString("0.0E0") + " of the height from the result");
                     // Between frames the shape is a mean of two, deformed at once here and one by one there.
                     Assert.That(apart, Is.LessThan(weight == 100 ? 1e-5 * 1.9 : 2e-3 * 1.9), weight.ToString());
@@ -60,7 +44,7 @@ namespace SuperDeform.Editor.Tests
             }
             figure.Body.SetBlendShapeWeight(0, 0);
             using (var session = new PreviewSession(figure.Root, settings))
-                Assert.That(Apart(Drawn(Converter.Convert(figure.Root, settings, null).Prefab, "Body"), Drawn(session.Proxy, "Body")), Is.LessThan(1e-5 * 1.9));
+                Assert.That(Drawing.Apart(Drawing.Drawn(Converter.Convert(figure.Root, settings, null).Prefab, "Body"), Drawing.Drawn(session.Proxy, "Body")), Is.LessThan(1e-5 * 1.9));
         }
 
         [Test]
@@ -123,6 +107,10 @@ namespace SuperDeform.Editor.Tests
                 Assert.AreSame(figure.Hair.gameObject, Selection.activeGameObject);
                 Selection.activeGameObject = session.Proxy;
                 Assert.AreSame(figure.Root, Selection.activeGameObject);
+                // A rectangle around all of it.
+                GameObject body = Array.Find(session.Proxy.GetComponentsInChildren<SkinnedMeshRenderer>(true), one => one.name == "Body").gameObject;
+                Selection.objects = new UnityEngine.Object[] { shown, body, figure.Hair.gameObject };
+                CollectionAssert.AreEqual(new[] { figure.Hair.gameObject, figure.Body.gameObject }, Selection.objects);
                 var other = new GameObject("Other");
                 Selection.activeGameObject = other;
                 Assert.AreSame(other, Selection.activeGameObject);

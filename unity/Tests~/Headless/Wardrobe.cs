@@ -31,6 +31,24 @@ namespace SuperDeform.Editor.Tests
     /// <summary>Dresses an avatar as artists do: the outfit below its root, with a copy of its armature.</summary>
     internal static class Wardrobe
     {
+        /// <summary>A coat: the body once more, one size larger, on the avatar's own armature.</summary>
+        /// <param name="thick">How far it stands off the body, in the mesh's units.</param>
+        internal static SkinnedMeshRenderer Coat(ConversionFigure figure, float thick)
+        {
+            SkinnedMeshRenderer coat = UnityEngine.Object.Instantiate(figure.Body, figure.Root.transform);
+            coat.name = "Coat";
+            coat.bones = figure.Body.bones;
+            coat.rootBone = figure.Body.rootBone;
+            Mesh mesh = UnityEngine.Object.Instantiate(figure.Body.sharedMesh);
+            Vector3[] vertices = mesh.vertices, normals = mesh.normals;
+            for (int i = 0; i < vertices.Length; i++)
+                vertices[i] += normals[i] * thick;
+            mesh.vertices = vertices;
+            mesh.name = "CoatMesh";
+            coat.sharedMesh = mesh;
+            return coat;
+        }
+
         /// <summary>A copy of an armature's joints alone, called otherwise, below Outfit/Armature.1.</summary>
         internal static Dictionary<Transform, Transform> Armature(GameObject root, Transform hips, Func<string, string> rename)
         {

@@ -7,7 +7,7 @@ namespace SuperDeform.Editor.WindowPicture
     /// </summary>
     internal static class Picture
     {
-        internal static readonly string[] Files = { "window.svg", "window.ja.svg" };
+        internal static readonly string[] Files = { "window.svg", "window.ja.svg", "window.ko.svg", "window.zh.svg" };
 
         /// <summary>Draws the window in one language.</summary>
         /// <param name="file">One of Files.</param>
@@ -15,7 +15,8 @@ namespace SuperDeform.Editor.WindowPicture
         {
             Model character = Models.Load("quaternius_female_dress.glb");
             character.Root.name = "Mika";
-            Strings.Language = file == "window.ja.svg" ? "ja" : "en";
+            string[] parts = file.Split('.');
+            Strings.Language = parts.Length == 3 ? parts[1] : "en";
             try
             {
                 var model = new ConverterModel();

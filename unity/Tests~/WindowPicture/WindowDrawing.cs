@@ -44,8 +44,7 @@ namespace SuperDeform.Editor.WindowPicture
             canvas.Rectangle(left + 1, y + 1, 124, 23, Canvas.Background, 3);
             canvas.Text(From, y + 16, Strings.Get("window.title"), Canvas.Words);
             y += 30;
-            string[] languages = { "English", "日本語" };
-            Buttons(languages, Strings.Languages.IndexOf(Strings.Language), To - 130, 130, true);
+            Buttons(Strings.LanguageNames, Strings.Languages.IndexOf(Strings.Language), To - 260, 260, true);
             y += RowHeight + 2;
             foreach (Section section in model.Sections)
             {

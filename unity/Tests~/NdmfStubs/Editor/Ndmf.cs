@@ -3,6 +3,7 @@ using System;
 using System.Collections.Generic;
 using nadena.dev.ndmf.fluent;
 using nadena.dev.ndmf.localization;
+using nadena.dev.ndmf.preview;
 using UnityEngine;
 using Object = UnityEngine.Object;
 
@@ -69,7 +70,7 @@ namespace nadena.dev.ndmf
 namespace nadena.dev.ndmf.fluent
 {
     public delegate void InlinePass(BuildContext context);
-    public sealed class DeclaringPass { }
+    public sealed class DeclaringPass { public DeclaringPass PreviewingWith(params IRenderFilter[] filters) { NdmfStub.Filters.AddRange(filters); return this; } }
     public sealed class Sequence
     {
         internal BuildPhase Phase;
@@ -101,11 +102,6 @@ namespace nadena.dev.ndmf.localization
     }
 }
 
-namespace nadena.dev.ndmf.preview
-{
-    public static class NDMFPreview { public static int DisablePreviewDepth { get; set; } }
-}
-
 namespace nadena.dev.ndmf
 {
     /// What tests see of a build.
@@ -116,10 +112,13 @@ namespace nadena.dev.ndmf
         public static readonly List<string> Report = new List<string>();
         internal static readonly List<Sequence> Sequences = new List<Sequence>();
 
+        /// What stands for the passes in a preview.
+        public static readonly List<IRenderFilter> Filters = new List<IRenderFilter>();
+
         /// Runs a plugin's passes on a clone; gives the phases and constraints as text.
         public static string Build<T>(GameObject clone) where T : Plugin<T>, new()
         {
-            Saved.Clear(); Replaced.Clear(); Report.Clear(); Sequences.Clear();
+            Saved.Clear(); Replaced.Clear(); Report.Clear(); Sequences.Clear(); Filters.Clear();
             new T().Begin();
             string said = "";
             foreach (Sequence sequence in Sequences)

@@ -1,6 +1,7 @@
 // Names and shapes of what the adapter touches of UniVRM 0.x, so that it compiles and runs without UniVRM.
 // Read in vrm-c/UniVRM (MIT), Assets/VRM/Runtime, at 83b63ea (VRMSpringBone), 56bf73f (VRMSpringBoneColliderGroup) and
-// 07311ec (VRMFirstPerson); the fields are the same since 0.68.
+// 07311ec (VRMFirstPerson); the fields are the same since 0.68. VRMMeta, VRMMetaObject: 17b0958; LicenseType: the words of the
+// specification of VRM 0.x.
 
 using System.Collections.Generic;
 using UnityEngine;
@@ -36,6 +37,23 @@ namespace VRM
     {
         public Transform FirstPersonBone;
         public Vector3 FirstPersonOffset;
+    }
+
+    public enum LicenseType
+    {
+        Redistribution_Prohibited, CC0, CC_BY, CC_BY_NC, CC_BY_SA, CC_BY_NC_SA, CC_BY_ND, CC_BY_NC_ND, Other
+    }
+
+    public class VRMMetaObject : ScriptableObject
+    {
+        public string OtherPermissionUrl;
+        public LicenseType LicenseType;
+        public string OtherLicenseUrl;
+    }
+
+    public class VRMMeta : MonoBehaviour
+    {
+        public VRMMetaObject Meta;
     }
 
     public class VRMLookAtBoneApplyer : MonoBehaviour

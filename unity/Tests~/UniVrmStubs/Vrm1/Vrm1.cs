@@ -1,6 +1,7 @@
 // Names and shapes of what the adapter touches of UniVRM 1.0, so that it compiles and runs without UniVRM.
 // Read in vrm-c/UniVRM (MIT), Assets/VRM10/Runtime/Components, 0.128.2: VRM10SpringBoneJoint, VRM10SpringBoneCollider,
-// VRM10SpringBoneColliderGroup, Vrm10Instance, Vrm10InstanceSpringBone, VRM10Object, VRM10ObjectLookAt.
+// VRM10SpringBoneColliderGroup, Vrm10Instance, Vrm10InstanceSpringBone, VRM10Object, VRM10ObjectLookAt, VRM10ObjectMeta; ModificationType (there of UniGLTF) has
+// the words of the specification.
 
 using System;
 using System.Collections.Generic;
@@ -46,8 +47,23 @@ namespace UniVRM10
         public GameObject Prefab { set; get; }
     }
 
+    public enum ModificationType
+    {
+        prohibited,
+        allowModification,
+        allowModificationRedistribution,
+    }
+
+    [Serializable]
+    public class VRM10ObjectMeta
+    {
+        public ModificationType Modification = ModificationType.allowModificationRedistribution;
+        public string OtherLicenseUrl;
+    }
+
     public class VRM10Object : PrefabRelatedScriptableObject
     {
+        public VRM10ObjectMeta Meta = new VRM10ObjectMeta();
         public VRM10ObjectLookAt LookAt = new VRM10ObjectLookAt();
     }
 

@@ -180,6 +180,7 @@ namespace UnityEditor
         public int intValue { get { return Convert.ToInt32(Value); } set { Value = value; } }
         public float floatValue { get { return Convert.ToSingle(Value); } set { Value = value; } }
         public string stringValue { get { return (string)Value; } set { Value = value; } }
+        public string[] enumNames { get { return Enum.GetNames(Value.GetType()); } }
         public int enumValueIndex { get { return Convert.ToInt32(Value); } set { Value = value; } }
         public Vector2 vector2Value { get { return (Vector2)Value; } set { Value = value; } }
         public Vector4 vector4Value { get { return (Vector4)Value; } set { Value = value; } }

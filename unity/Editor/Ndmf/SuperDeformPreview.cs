@@ -1,0 +1,214 @@
+using System;
+using System.Collections.Generic;
+using System.Collections.Immutable;
+using System.Linq;
+using System.Threading.Tasks;
+using nadena.dev.ndmf.preview;
+using UnityEngine;
+using UnityEngine.SceneManagement;
+
+namespace SuperDeform.Editor.Ndmf
+{
+    /// <summary>What NDMF shows of avatars with a Super Deform Avatar component while they are edited: what a build makes of them.</summary>
+    /// <remarks>
+    /// It stands behind the filters of other plugins, and deforms what those show: bodies whose covered parts are cut away, for
+    /// instance. Outfits that a build merges follow as twins, as everywhere.
+    /// </remarks>
+    internal sealed class SuperDeformPreview : IRenderFilter
+    {
+        private static readonly TogglablePreviewNode onOff = TogglablePreviewNode.Create(() => "Super Deform", "com.superdeform.converter/preview", true);
+
+        /// <summary>The switch in NDMF's list of previews.</summary>
+        public IEnumerable<TogglablePreviewNode> GetPreviewControlNodes()
+        {
+            return new[] { onOff };
+        }
+
+        public bool IsEnabled(ComputeContext context)
+        {
+            return context.Observe(onOff.IsEnabled);
+        }
+
+        /// <summary>The whole avatar counts, with what is switched off.</summary>
+        public bool StrictRenderGroup { get { return true; } }
+
+        public bool CanEnableRenderers { get { return false; } }
+
+        public ImmutableList<RenderGroup> GetTargetGroups(ComputeContext context)
+        {
+            var groups = new List<RenderGroup>();
+            foreach (GameObject root in context.GetAvatarRoots())
+            {
+                SuperDeformAvatar component = context.GetComponent<SuperDeformAvatar>(root);
+                if (component == null)
+                    continue;
+                Renderer[] renderers = Array.FindAll(context.GetComponentsInChildren<Renderer>(root, true), renderer => RendererReader.MeshOf(renderer) != null);
+                if (renderers.Length > 0)
+                    groups.Add(RenderGroup.For(renderers).WithData(component));
+            }
+            return groups.ToImmutableList();
+        }
+
+        public Task<IRenderFilterNode> Instantiate(RenderGroup group, IEnumerable<(Renderer, Renderer)> proxyPairs, ComputeContext context)
+        {
+            SuperDeformAvatar component = group.GetData<SuperDeformAvatar>();
+            return Task.FromResult<IRenderFilterNode>(new SuperDeformPreviewNode(component, proxyPairs.ToList(), context));
+        }
+    }
+
+    /// <summary>One avatar in NDMF's preview. One that cannot be deformed is shown as it is: a build says why.</summary>
+    internal sealed class SuperDeformPreviewNode : IRenderFilterNode
+    {
+        private readonly SuperDeformAvatar component;
+        private readonly PreviewFigure figure;
+        private readonly ProxySkeleton skeleton;
+        private readonly Dictionary<Renderer, ShownMesh> meshes = new Dictionary<Renderer, ShownMesh>();
+
+        /// <summary>One renderer's mesh and bones.</summary>
+        private sealed class ShownMesh
+        {
+            internal Mesh Mesh;
+
+            /// <summary>Of a skinned renderer; null for one that hangs from one joint.</summary>
+            internal Transform[] Bones;
+
+            /// <summary>The transform that stands for the renderer's own.</summary>
+            internal Transform Holder;
+
+            internal Transform RootBone;
+            internal Bounds Bounds;
+        }
+
+        public RenderAspects WhatChanged { get { return RenderAspects.Mesh | RenderAspects.Shapes; } }
+
+        internal SuperDeformPreviewNode(SuperDeformAvatar component, List<(Renderer, Renderer)> pairs, ComputeContext context)
+        {
+            this.component = component;
+            ConversionSettings settings = Observed(component, context);
+            try
+            {
+                var reading = new ReadOptions { AsWorn = true, RigAuto = settings.RigAuto, RigOptions = settings.Options, Shown = pairs.ToDictionary(pair => pair.Item1, pair => pair.Item2) };
+                figure = new PreviewFigure(component.gameObject, settings, reading, false, null);
+                skeleton = new ProxySkeleton(figure.Avatar);
+                // NDMF empties this scene before scripts reload and before play mode.
+                Scene scene = NDMFPreviewSceneManager.GetPreviewScene();
+                if (scene.IsValid())
+                    SceneManager.MoveGameObjectToScene(skeleton.Root.gameObject, scene);
+                foreach (RendererResult renderer in figure.Result.Renderers)
+                    meshes.Add(renderer.Source.Renderer, Made(renderer));
+                Follow();
+            }
+            catch (ConversionException)
+            {
+                Dispose();
+                meshes.Clear();
+                figure = null;
+                skeleton = null;
+            }
+        }
+
+        private static ConversionSettings Observed(SuperDeformAvatar component, ComputeContext context)
+        {
+            context.Observe(component, one => one.Settings);
+            context.Observe(component, one => one.ReferenceAvatar);
+            context.Observe(component, one => one.SavedStyle);
+            return SettingsText.Of(component);
+        }
+
+        private ShownMesh Made(RendererResult renderer)
+        {
+            RendererData source = renderer.Source;
+            Mesh mesh = UnityEngine.Object.Instantiate(source.Mesh);
+            mesh.name = source.Mesh.name;
+            // Those that are on are in the vertices.
+            mesh.ClearBlendShapes();
+            Transform holder = source.Renderer.transform;
+            var shown = new ShownMesh { Mesh = mesh, Holder = skeleton.Of(figure.Avatar.IndexOf(holder)) };
+            Write(shown, renderer);
+            var skinned = source.Renderer as SkinnedMeshRenderer;
+            if (skinned == null)
+                return shown;
+            shown.Bones = Array.ConvertAll(skinned.bones, bone => bone == null ? null : skeleton.Of(figure.Avatar.IndexOf(bone)));
+            shown.RootBone = skinned.rootBone == null ? shown.Holder : skeleton.Of(figure.Avatar.IndexOf(skinned.rootBone));
+            return shown;
+        }
+
+        private static void Write(ShownMesh shown, RendererResult renderer)
+        {
+            MeshWriter.Write(shown.Mesh, renderer);
+            var skinned = renderer.Source.Renderer as SkinnedMeshRenderer;
+            if (skinned != null)
+                shown.Bounds = MeshWriter.NewBounds(skinned.localBounds, renderer);
+        }
+
+        /// <summary>Takes new settings without reading the avatar again, as long as nothing else has changed.</summary>
+        public Task<IRenderFilterNode> Refresh(IEnumerable<(Renderer, Renderer)> proxyPairs, ComputeContext context, RenderAspects updatedAspects)
+        {
+            bool same = (updatedAspects & (RenderAspects.Mesh | RenderAspects.Shapes)) == 0;
+            if (!same || figure == null || component == null || skeleton.Root == null)
+                return Task.FromResult<IRenderFilterNode>(null);
+            ConversionSettings settings = Observed(component, context);
+            try
+            {
+                if (SettingsChanges.Between(figure.Shown, settings) == SettingsChange.Rig)
+                    return Task.FromResult<IRenderFilterNode>(null);
+                if (figure.Update(settings))
+                    foreach (RendererResult renderer in figure.Result.Renderers)
+                        Write(meshes[renderer.Source.Renderer], renderer);
+                skeleton.Stand(figure.Result);
+            }
+            catch (ConversionException)
+            {
+                return Task.FromResult<IRenderFilterNode>(null);
+            }
+            return Task.FromResult<IRenderFilterNode>(this);
+        }
+
+        public void OnFrameGroup()
+        {
+            if (figure != null && component != null && skeleton.Root != null)
+                Follow();
+        }
+
+        private void Follow()
+        {
+            skeleton.Place(figure.Avatar.Root.transform, Vector3.zero);
+            if (skeleton.HasMoved())
+                skeleton.Stand(figure.Result);
+        }
+
+        /// <summary>Each frame begins with the original's mesh and bones.</summary>
+        public void OnFrame(Renderer original, Renderer proxy)
+        {
+            ShownMesh shown;
+            // NDMF may have emptied its scene.
+            if (figure == null || skeleton.Root == null || proxy == null || !meshes.TryGetValue(original, out shown))
+                return;
+            var skinned = proxy as SkinnedMeshRenderer;
+            if (skinned == null)
+            {
+                proxy.GetComponent<MeshFilter>().sharedMesh = shown.Mesh;
+                Transform place = proxy.transform;
+                place.SetParent(shown.Holder, false);
+                place.localPosition = Vector3.zero;
+                place.localRotation = Quaternion.identity;
+                place.localScale = Vector3.one;
+                return;
+            }
+            skinned.sharedMesh = shown.Mesh;
+            skinned.bones = shown.Bones;
+            skinned.rootBone = shown.RootBone;
+            skinned.localBounds = shown.Bounds;
+        }
+
+        public void Dispose()
+        {
+            foreach (ShownMesh shown in meshes.Values)
+                UnityEngine.Object.DestroyImmediate(shown.Mesh);
+            if (skeleton != null)
+                skeleton.Destroy();
+            if (figure != null)
+                figure.Dispose();
+        }
+    }
+}

@@ -1,0 +1,90 @@
+using System;
+using UnityEngine;
+
+namespace SuperDeform.Editor
+{
+    /// <summary>
+    /// An avatar that is read and measured once, and deformed again when settings change: a slider costs what the library has to
+    /// do again, and a deformation into arrays that are kept.
+    /// </summary>
+    internal sealed class PreviewFigure : IDisposable
+    {
+        private readonly PreviewStyle style = new PreviewStyle();
+        private Deformer deformer;
+
+        internal AvatarData Avatar { get; private set; }
+
+        internal AvatarResult Result { get; private set; }
+
+        /// <summary>What Result was made by.</summary>
+        internal ConversionSettings Shown { get; private set; }
+
+        internal Deformer Deformer { get { return deformer; } }
+
+        /// <param name="reading">With AsWorn.</param>
+        /// <param name="atRest">Whether vertices stay at rest in the root's space, which saves the way back to each mesh's.</param>
+        /// <param name="progress">May be null.</param>
+        /// <exception cref="ConversionException">The avatar cannot be read or deformed, and why.</exception>
+        internal PreviewFigure(GameObject avatar, ConversionSettings settings, ReadOptions reading, bool atRest, ProgressHandler progress)
+        {
+            try
+            {
+                Avatar = CharacterReader.Read(avatar, reading);
+                Deform(settings, SettingsChange.Style, progress);
+                Result = new AvatarResult(Avatar, atRest);
+                Result.Apply(deformer, null);
+            }
+            catch (Exception cause)
+            {
+                Dispose();
+                throw ConversionException.From(cause, avatar);
+            }
+        }
+
+        /// <summary>Brings the result up to settings; only what depends on the change is done again.</summary>
+        /// <returns>Whether anything had changed.</returns>
+        /// <exception cref="ConversionException">They cannot be; the result stays as it was.</exception>
+        internal bool Update(ConversionSettings settings)
+        {
+            SettingsChange change = SettingsChanges.Between(Shown, settings);
+            if (change == SettingsChange.None)
+                return false;
+            if (change == SettingsChange.Rig)
+                throw new InvalidOperationException("Another rig needs the avatar to be read anew.");
+            try
+            {
+                Deform(settings, change, null);
+                Result.Apply(deformer, null);
+                return true;
+            }
+            catch (Exception cause)
+            {
+                throw ConversionException.From(cause, Avatar.Root);
+            }
+        }
+
+        private void Deform(ConversionSettings settings, SettingsChange change, ProgressHandler progress)
+        {
+            if (change == SettingsChange.Options)
+                deformer.SetOptions(settings.Options, null);
+            else
+                using (Style wanted = style.Make(settings))
+                {
+                    var made = new Deformer(Avatar.Character, wanted, settings.Options, progress);
+                    if (deformer != null)
+                        deformer.Dispose();
+                    deformer = made;
+                }
+            Shown = settings.Clone();
+        }
+
+        public void Dispose()
+        {
+            if (deformer != null)
+                deformer.Dispose();
+            style.Dispose();
+            if (Avatar != null)
+                Avatar.Dispose();
+        }
+    }
+}

@@ -1,0 +1,208 @@
+using System;
+using System.Collections.Generic;
+using System.Linq;
+using nadena.dev.ndmf;
+using nadena.dev.ndmf.preview;
+using NUnit.Framework;
+using SuperDeform.Editor.Ndmf;
+using UnityEngine;
+using UnityStubs;
+
+namespace SuperDeform.Editor.Tests
+{
+    /// <summary>NDMF's preview shows what a build makes, of what other plugins' previews show, and the avatar stays as it is.</summary>
+    [TestFixture]
+    public class NdmfPreviewTests
+    {
+        private const float Height = 1.9f;
+        private ConversionFigure figure;
+        private SuperDeformAvatar component;
+        private IRenderFilter filter;
+
+        [SetUp]
+        public void Begin()
+        {
+            Models.NewProject();
+            figure = new ConversionFigure { Turned = true, WithShapes = true }.Make();
+            component = figure.Root.AddComponent<SuperDeformAvatar>();
+            var settings = new ConversionSettings { Heads = 2.5f };
+            GroupTunings.Change(settings, "upper_leg", tuned => tuned.LengthScale = 0.7);
+            SettingsText.Give(component, settings);
+            NdmfStub.Build<SuperDeformPlugin>(new GameObject("Nobody"));
+            filter = NdmfStub.Filters.Single();
+        }
+
+        [TearDown]
+        public void End()
+        {
+            NdmfPreviewStub.CloseScene();
+        }
+
+        private Renderer[] Parts()
+        {
+            return new Renderer[] { figure.Body, figure.Hair, figure.Hat };
+        }
+
+        /// <summary>What a build draws of each part.</summary>
+        private Dictionary<Renderer, Vector3[]> Built()
+        {
+            GameObject clone = UnityEngine.Object.Instantiate(figure.Root);
+            NdmfStub.Build<SuperDeformPlugin>(clone);
+            var drawn = Parts().ToDictionary(part => part, part => Drawing.Drawn(ConversionTests.Find(clone, part.name).GetComponent<Renderer>(), Matrix4x4.identity));
+            UnityEngine.Object.DestroyImmediate(clone);
+            return drawn;
+        }
+
+        private void ShowsWhatIsBuilt(NdmfPreviewStub preview, string when)
+        {
+            foreach (KeyValuePair<Renderer, Vector3[]> built in Built())
+                Assert.That(Drawing.Apart(built.Value, Drawing.Drawn(preview.Proxy(built.Key), Matrix4x4.identity)), Is.LessThan(1e-5 * Height), when + ": " + built.Key.name);
+        }
+
+        [Test]
+        public void it_shows_what_a_build_makes_and_changes_nothing()
+        {
+            string before = Fingerprint.Of(figure.Root);
+            figure.Root.transform.position = new Vector3(2, 0, 1);
+            figure.Root.transform.rotation = Quaternion.Euler(0, 30, 0);
+            string moved = Fingerprint.Of(figure.Root);
+            Assert.AreNotEqual(before, moved);
+            int objects = UnityEngine.Object.FindObjectsOfType<Transform>().Length;
+            using (NdmfPreviewStub preview = NdmfPreviewStub.Of(filter))
+            {
+                preview.Frame();
+                ShowsWhatIsBuilt(preview, "at first");
+                // Nothing has changed: nothing is made again.
+                Assert.AreEqual("", preview.Frame());
+                ShowsWhatIsBuilt(preview, "a frame later");
+                Assert.That(Drawing.Apart(Drawing.Drawn(figure.Body, Matrix4x4.identity), Drawing.Drawn(preview.Proxy(figure.Body), Matrix4x4.identity)), Is.GreaterThan(0.1 * Height));
+            }
+            Assert.AreEqual(moved, Fingerprint.Of(figure.Root));
+            Assert.AreEqual(objects, UnityEngine.Object.FindObjectsOfType<Transform>().Length, "nothing is left");
+        }
+
+        [Test]
+        public void a_setting_is_taken_without_reading_the_avatar_again()
+        {
+            using (NdmfPreviewStub preview = NdmfPreviewStub.Of(filter))
+            {
+                preview.Frame();
+                IRenderFilterNode node = preview.Node;
+                ConversionSettings settings = SettingsText.Of(component);
+                settings.Options.HeadScale = 1.2;
+                SettingsText.Give(component, settings);
+                Assert.AreEqual("refreshed", preview.Frame());
+                ShowsWhatIsBuilt(preview, "another head");
+                settings.Heads = 3;
+                SettingsText.Give(component, settings);
+                Assert.AreEqual("refreshed", preview.Frame());
+                ShowsWhatIsBuilt(preview, "another style");
+                Assert.AreSame(node, preview.Node);
+                settings.RigAuto = true;
+                SettingsText.Give(component, settings);
+                Assert.AreEqual("instantiated", preview.Frame());
+            }
+        }
+
+        [Test]
+        public void it_stands_as_the_avatar_stands()
+        {
+            using (NdmfPreviewStub preview = NdmfPreviewStub.Of(filter))
+            {
+                preview.Frame();
+                figure.Bones[HumanBodyBones.LeftUpperArm].localRotation *= Quaternion.Euler(0, 0, 40);
+                figure.Root.transform.position = new Vector3(0, 0, 3);
+                Assert.AreEqual("", preview.Frame());
+                ShowsWhatIsBuilt(preview, "posed and moved");
+            }
+        }
+
+        [Test]
+        public void blend_shapes_that_are_on_are_shown()
+        {
+            using (NdmfPreviewStub preview = NdmfPreviewStub.Of(filter))
+            {
+                preview.Frame();
+                Vector3[] before = Drawing.Drawn(preview.Proxy(figure.Body), Matrix4x4.identity);
+                figure.Body.SetBlendShapeWeight(1, 100);
+                Assert.AreEqual("instantiated", preview.Frame());
+                ShowsWhatIsBuilt(preview, "Breathe");
+                Assert.That(Drawing.Apart(before, Drawing.Drawn(preview.Proxy(figure.Body), Matrix4x4.identity)), Is.GreaterThan(1e-3));
+            }
+        }
+
+        [Test]
+        public void what_other_plugins_show_is_deformed()
+        {
+            // A plugin that cuts the first half of the triangles away, and their vertices.
+            var cut = new Dictionary<Mesh, Mesh>();
+            Func<Mesh, Mesh> before = mesh =>
+            {
+                if (mesh != figure.Body.sharedMesh)
+                    return mesh;
+                Mesh made;
+                if (!cut.TryGetValue(mesh, out made))
+                {
+                    made = UnityEngine.Object.Instantiate(mesh);
+                    Vector3[] vertices = mesh.vertices;
+                    made.vertices = Array.ConvertAll(vertices, p => p * 0.99f);
+                    made.subMeshCount = 1;
+                    cut.Add(mesh, made);
+                }
+                return made;
+            };
+            using (NdmfPreviewStub preview = NdmfPreviewStub.Of(filter, before))
+            {
+                preview.Frame();
+                Mesh shown = ((SkinnedMeshRenderer)preview.Proxy(figure.Body)).sharedMesh;
+                Assert.AreEqual(1, shown.subMeshCount);
+                Mesh own = figure.Body.sharedMesh;
+                figure.Body.sharedMesh = before(own);
+                ShowsWhatIsBuilt(preview, "cut");
+                figure.Body.sharedMesh = own;
+            }
+        }
+
+        [Test]
+        public void it_is_for_avatars_with_the_component_and_can_be_switched_off()
+        {
+            Assert.That(filter.StrictRenderGroup, "the whole avatar counts");
+            TogglablePreviewNode onOff = filter.GetPreviewControlNodes().Single();
+            onOff.IsEnabled.Value = false;
+            Assert.That(NdmfPreviewStub.Of(filter), Is.Null);
+            onOff.IsEnabled.Value = true;
+            UnityEngine.Object.DestroyImmediate(component);
+            Assert.That(NdmfPreviewStub.Of(filter), Is.Null);
+        }
+
+        [Test]
+        public void what_cannot_be_deformed_is_shown_as_it_is()
+        {
+            component.Settings = "Source = SavedStyle\n";
+            using (NdmfPreviewStub preview = NdmfPreviewStub.Of(filter))
+            {
+                preview.Frame();
+                foreach (Renderer part in Parts())
+                    Assert.That(Drawing.Apart(Drawing.Drawn(part, Matrix4x4.identity), Drawing.Drawn(preview.Proxy(part), Matrix4x4.identity)), Is.LessThan(1e-5 * Height), part.name);
+                component.Settings = "Source = Heads\n";
+                Assert.AreEqual("instantiated", preview.Frame());
+                ShowsWhatIsBuilt(preview, "mended");
+            }
+        }
+
+        [Test]
+        public void an_emptied_scene_is_no_fault()
+        {
+            using (NdmfPreviewStub preview = NdmfPreviewStub.Of(filter))
+            {
+                preview.Frame();
+                IRenderFilterNode node = preview.Node;
+                Renderer[] proxies = Array.ConvertAll(Parts(), preview.Proxy);
+                NdmfPreviewStub.CloseScene();
+                node.OnFrameGroup();
+                for (int part = 0; part < proxies.Length; part++)
+                    node.OnFrame(Parts()[part], proxies[part]);
+            }
+        }
+    }
+}
