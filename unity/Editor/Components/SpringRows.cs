@@ -16,7 +16,9 @@ namespace SuperDeform.Editor
         /// <summary>The radius; curves along the chain, 1 at most, are left out.</summary>
         internal string Radius;
 
-        /// <summary>Whether the root's scale multiplies the radius, not that of the component's own object; which is the root where none is set.
+        /// <summary>
+        /// Whether the scale of the root multiplies the radius, and the component's own object is the root where none is set; else
+        /// the scale is the object's, and there is no chain without a root.
         /// </summary>
         internal bool ByRoot;
 

@@ -26,7 +26,8 @@ namespace SuperDeform.Editor
             return Of(avatar, false);
         }
 
-        /// <summary>rigAuto: a rig will be made, so that no humanoid is needed</summary>
+        /// <summary>The same.</summary>
+        /// <param name="rigAuto">A rig will be made, so that no humanoid is needed.</param>
         public static List<Finding> Of(GameObject avatar, bool rigAuto)
         {
             List<Finding> findings = new List<Finding>();

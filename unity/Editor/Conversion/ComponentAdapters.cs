@@ -10,7 +10,9 @@ namespace SuperDeform.Editor
         /// <summary>True for components that Adapt is for.</summary>
         bool Handles(Component copy);
 
-        /// <summary>copy: a component of the new avatar, which still holds what the source's holds</summary>
+        /// <summary>Brings one component from the old lengths to the new ones.</summary>
+        /// <param name="copy">Of the new avatar; it still holds what the source's holds.</param>
+        /// <param name="map">Where points go, and by how much lengths grow.</param>
         void Adapt(Component copy, PointMap map);
     }
 

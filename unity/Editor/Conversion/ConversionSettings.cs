@@ -74,9 +74,9 @@ namespace SuperDeform.Editor
                 style = SourceStyle();
                 if (Source == StyleSource.Heads || Blend == 0f) return style;
                 using (Style source = style)
-                using (Style stretched = Style.FromHeads(Decimal.Of(Heads), source))
+                using (Style stretched = Style.FromHeads(Exact.Of(Heads), source))
                 {
-                    style = Style.Blend(source, stretched, Decimal.Of(Blend));
+                    style = Style.Blend(source, stretched, Exact.Of(Blend));
                 }
                 return style;
             }
@@ -103,7 +103,7 @@ namespace SuperDeform.Editor
                 case StyleSource.BuiltIn:
                     return Style.FromText(BuiltInStyle);
                 default:
-                    return Style.FromHeads(Decimal.Of(Heads));
+                    return Style.FromHeads(Exact.Of(Heads));
             }
         }
 

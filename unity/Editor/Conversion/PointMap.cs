@@ -22,7 +22,7 @@ namespace SuperDeform.Editor
         readonly uint[] joints = new uint[1];
         readonly double[] points = new double[3], positions = new double[3], scales = new double[1], jacobian = new double[9];
 
-        /// <summary>copy: the new avatar's root, whose hierarchy is the source's</summary>
+        /// <param name="copy">The new avatar's root, whose hierarchy is the source's.</param>
         internal PointMap(AvatarData source, AvatarResult result, Deformer deformer, Transform copy)
         {
             this.source = source;

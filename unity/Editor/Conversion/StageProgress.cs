@@ -14,7 +14,7 @@ namespace SuperDeform.Editor
 
         readonly IConversionProgress progress;
 
-        /// <summary>progress: null for none</summary>
+        /// <param name="progress">Null for none.</param>
         internal StageProgress(IConversionProgress progress)
         {
             this.progress = progress;

@@ -23,8 +23,8 @@ namespace SuperDeform.Editor
                 measured = plain.MakeStyle();
                 measuredOn = settings.ReferenceAvatar;
             }
-            using (Style stretched = Style.FromHeads(Decimal.Of(settings.Heads), measured))
-                return Style.Blend(measured, stretched, Decimal.Of(settings.Blend));
+            using (Style stretched = Style.FromHeads(Exact.Of(settings.Heads), measured))
+                return Style.Blend(measured, stretched, Exact.Of(settings.Blend));
         }
 
         public void Dispose()

@@ -265,11 +265,9 @@ namespace SuperDeform.Editor
 
         public bool Equals(Affine other)
         {
-            for (int index = 0; index < 12; index++)
-            {
-                if (this[index] != other[index]) return false;
-            }
-            return true;
+            return M00 == other.M00 && M01 == other.M01 && M02 == other.M02 && M03 == other.M03
+                && M10 == other.M10 && M11 == other.M11 && M12 == other.M12 && M13 == other.M13
+                && M20 == other.M20 && M21 == other.M21 && M22 == other.M22 && M23 == other.M23;
         }
 
         public override bool Equals(object other)

@@ -13,13 +13,13 @@ namespace SuperDeform.Editor
         /// <summary>The library keeps no more pixels a side.</summary>
         const int LongestSide = 512;
 
-        readonly Character m_Character;
-        readonly Dictionary<Texture, int> m_Images = new Dictionary<Texture, int>();
-        readonly Dictionary<RendererData, Vector2[]> m_Uvs = new Dictionary<RendererData, Vector2[]>();
+        readonly Character character;
+        readonly Dictionary<Texture, int> images = new Dictionary<Texture, int>();
+        readonly Dictionary<RendererData, Vector2[]> allUvs = new Dictionary<RendererData, Vector2[]>();
 
         internal PaintedSurfaces(Character character)
         {
-            m_Character = character;
+            this.character = character;
         }
 
         /// <summary>Tells the library's mesh of a part what the part shows.</summary>
@@ -44,10 +44,10 @@ namespace SuperDeform.Editor
         Vector2[] UvsOf(RendererData renderer)
         {
             Vector2[] uvs;
-            if (!m_Uvs.TryGetValue(renderer, out uvs))
+            if (!allUvs.TryGetValue(renderer, out uvs))
             {
                 uvs = renderer.Mesh.uv;
-                m_Uvs[renderer] = uvs = uvs.Length == renderer.Vertices.Length ? uvs : null;
+                allUvs[renderer] = uvs = uvs.Length == renderer.Vertices.Length ? uvs : null;
             }
             return uvs;
         }
@@ -62,11 +62,11 @@ namespace SuperDeform.Editor
         int ImageOf(Texture texture)
         {
             int number;
-            if (m_Images.TryGetValue(texture, out number)) return number;
+            if (images.TryGetValue(texture, out number)) return number;
             int width, height;
             byte[] pixels = Brightness(texture, out width, out height);
-            if (pixels != null) number = m_Character.AddImage(width, height, pixels);
-            m_Images[texture] = number;
+            if (pixels != null) number = character.AddImage(width, height, pixels);
+            images[texture] = number;
             return number;
         }
 

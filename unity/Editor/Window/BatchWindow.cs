@@ -24,7 +24,7 @@ namespace SuperDeform.Editor
         /// <summary>What the last batch said.</summary>
         public IList<string> Lines { get { return lines; } }
 
-        /// <summary>Adds humanoids that are not yet in the list.</summary>
+        /// <summary>Adds avatars that are not yet in the list: objects that show anything.</summary>
         public void Add(IEnumerable<GameObject> candidates)
         {
             Undo.RecordObject(this, Strings.Get("undo.batch"));

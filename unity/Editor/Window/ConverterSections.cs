@@ -359,7 +359,7 @@ namespace SuperDeform.Editor
             return new SliderRow
             {
                 Label = Strings.Get(key), Tooltip = Strings.Get(key + ".tooltip"), Low = low, High = high,
-                Get = get, Set = value => set(Decimal.Of(value)), IsOwn = () => false
+                Get = get, Set = value => set(Exact.Of(value)), IsOwn = () => false
             };
         }
 

@@ -66,6 +66,12 @@ namespace SuperDeform.Editor
         public void Apply(Deformer deformer, ProgressHandler progress)
         {
             deformer.Apply(outputs, progress);
+            Take(deformer);
+        }
+
+        /// <summary>What is done with what the library has written; what a slider costs here.</summary>
+        internal void Take(Deformer deformer)
+        {
             int joints = deformer.JointCount;
             if (JointPositions == null || JointPositions.Length != 3 * joints) JointPositions = new double[3 * joints];
             deformer.GetJoints(JointPositions, null);

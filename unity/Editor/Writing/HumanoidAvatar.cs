@@ -98,7 +98,9 @@ namespace SuperDeform.Editor
             return human.ToArray();
         }
 
-        /// <summary>description: its skeleton is that of the nodes afterwards</summary>
+        /// <summary>An Avatar for a hierarchy of nodes.</summary>
+        /// <param name="description">Its skeleton is that of the nodes afterwards.</param>
+        /// <exception cref="ConversionException">Unity refuses it.</exception>
         internal static Avatar Build(string rootName, List<AvatarNode> nodes, HumanDescription description, AvatarData source)
         {
             List<SkeletonBone> skeleton = new List<SkeletonBone>

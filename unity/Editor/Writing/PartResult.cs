@@ -36,12 +36,17 @@ namespace SuperDeform.Editor
         internal void Spread()
         {
             if (Part.Vertices == null) return;
-            for (int vertex = 0; vertex < Part.VertexCount; vertex++)
+            Spread((Vector3[])Output.Positions, renderer.Positions);
+            if (renderer.Normals != null) Spread((Vector3[])Output.Normals, renderer.Normals);
+            if (renderer.Tangents != null) Spread((Vector4[])Output.Tangents, renderer.Tangents);
+        }
+
+        void Spread<T>(T[] from, T[] to) where T : struct
+        {
+            int[] places = Part.Vertices;
+            for (int vertex = 0; vertex < places.Length; vertex++)
             {
-                int place = Part.Vertices[vertex];
-                renderer.Positions[place] = ((Vector3[])Output.Positions)[vertex];
-                if (renderer.Normals != null) renderer.Normals[place] = ((Vector3[])Output.Normals)[vertex];
-                if (renderer.Tangents != null) renderer.Tangents[place] = ((Vector4[])Output.Tangents)[vertex];
+                to[places[vertex]] = from[vertex];
             }
         }
 

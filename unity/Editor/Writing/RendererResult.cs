@@ -80,7 +80,9 @@ namespace SuperDeform.Editor
             }
         }
 
-        /// <summary>oldJoint, newJoint: the joint that the bounds are kept in, at rest, before and after</summary>
+        /// <summary>Measures the boxes before and after.</summary>
+        /// <param name="oldJoint">The joint that the bounds are kept in, at rest, before.</param>
+        /// <param name="newJoint">The same, after.</param>
         internal void Measure(Affine oldJoint, Affine newJoint)
         {
             OldBox = Box.Around(Source.ModelVertices, oldJoint.Inverse);
@@ -250,7 +252,7 @@ namespace SuperDeform.Editor
         readonly RendererData renderer;
         readonly Frame common;
 
-        /// <summary>placement: mesh space to the avatar's space, where it is the same for all vertices</summary>
+        /// <param name="placement">Mesh space to the avatar's space, where it is the same for all vertices.</param>
         internal BackFrames(RendererData renderer, Affine placement)
         {
             this.renderer = renderer;

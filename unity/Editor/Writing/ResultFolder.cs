@@ -19,7 +19,7 @@ namespace SuperDeform.Editor
         readonly Stack<string> made = new Stack<string>();
         bool kept;
 
-        /// <summary>parent: a folder of the project, which is made where it is missing</summary>
+        /// <param name="parent">A folder of the project, which is made where it is missing.</param>
         internal ResultFolder(string parent, string avatarName)
         {
             name = Safe(avatarName) + "_SD";

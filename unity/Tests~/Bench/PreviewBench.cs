@@ -4,6 +4,8 @@
 //
 // bench.sh beside this file builds and runs it. Against stand-ins of Unity's meshes, whose setters copy the array as
 // Unity's do; the upload to the graphics card, which Unity does later on another thread, is not in these numbers.
+// "C# alone" is what this package does itself of a frame: joints, submeshes whose vertices lie apart, the meshes' arrays. At
+// 50,000 vertices it took 0.7 ms (0.5 at best), 2 % of deforming and showing; all else is the library's.
 using System;
 using System.Collections.Generic;
 using System.Diagnostics;
@@ -97,20 +99,11 @@ namespace SuperDeform.Editor.Bench
                 result.Apply(Deformer, null);
             }
 
-            // The library's share of Apply, alone.
-            internal void Deform()
+            // What is C#'s own of Apply.
+            internal void Take()
             {
-                if (outputs == null)
-                {
-                    var all = new List<MeshOutput>();
-                    foreach (RendererResult renderer in result.Renderers)
-                        all.AddRange(renderer.Parts.ConvertAll(part => part.Output));
-                    outputs = all.ToArray();
-                }
-                Deformer.Apply(outputs);
+                result.Take(Deformer);
             }
-
-            private MeshOutput[] outputs;
 
             internal void Show()
             {
@@ -202,31 +195,32 @@ namespace SuperDeform.Editor.Bench
         // Gives the median of deforming and updating.
         private static double Slider(string name, int rounds, Path path, Action<int> move)
         {
-            Times library = new Times(), deform = new Times(), apply = new Times(), show = new Times(), both = new Times(), all = new Times();
-            var own = new Times();
+            Times library = new Times(), apply = new Times(), show = new Times(), both = new Times(), all = new Times();
+            Times take = new Times(), share = new Times();
             for (int round = 0; round < rounds; round++)
             {
                 library.Start();
                 move(round);
                 double one = library.Stop();
-                deform.Start();
-                path.Deform();
-                double alone = deform.Stop();
                 apply.Start();
                 path.Apply();
                 double two = apply.Stop();
+                take.Start();
+                path.Take();
+                double own = take.Stop();
                 show.Start();
                 path.Show();
                 double three = show.Stop();
                 both.Add(two + three);
-                own.Add(two + three - alone);
+                share.Add(own + three);
                 all.Add(one + two + three);
             }
             Console.WriteLine("{0,-10} the library's own part         {1}", name, library);
-            Console.WriteLine("{0,-10} the library deforms            {1}", "", deform);
             Console.WriteLine("{0,-10} deform into the arrays         {1}", "", apply);
             Console.WriteLine("{0,-10} arrays into the meshes         {1}", "", show);
-            Console.WriteLine("{0,-10} C# alone, of the last two      {1}   {2:0.00} of the library's", "", own, own.Median / deform.Median);
+            // Medians of the same rounds: a busy machine slows both.
+            Console.WriteLine("{0,-10} C# alone, of the last two      {1}   {2:0.0} % of deforming and showing", "", share,
+                100 * share.Median / both.Median);
             Console.WriteLine("{0,-10} a whole frame                  {1}", "", all);
             return both.Median;
         }
