@@ -109,15 +109,23 @@ namespace SuperDeform.Editor
 
         static void Hear(Statement said, SerializedObject meta, string words, params string[] addresses)
         {
-            SerializedProperty property = meta.FindProperty(words);
+            string word = WordAt(meta, words);
             Changes changes;
-            string word = property == null ? "" : property.enumNames[property.enumValueIndex];
             if (Words.TryGetValue(word, out changes)) said.Hear(changes, word);
             foreach (string path in addresses)
             {
                 string address = Serialized.TextAt(meta, path);
                 if (!string.IsNullOrEmpty(address)) said.Hear(OfAddress(address), address);
             }
+        }
+
+        /// <summary>The word of an enumeration; empty where there is none, or one of another version.</summary>
+        static string WordAt(SerializedObject meta, string path)
+        {
+            SerializedProperty property = meta.FindProperty(path);
+            if (property == null || property.propertyType != SerializedPropertyType.Enum) return "";
+            int index = property.enumValueIndex;
+            return index >= 0 && index < property.enumNames.Length ? property.enumNames[index] : "";
         }
 
         /// <summary>

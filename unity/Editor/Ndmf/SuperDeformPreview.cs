@@ -4,6 +4,7 @@ using System.Collections.Immutable;
 using System.Linq;
 using System.Threading.Tasks;
 using nadena.dev.ndmf.preview;
+using UnityEditor;
 using UnityEngine;
 using UnityEngine.SceneManagement;
 
@@ -63,6 +64,9 @@ namespace SuperDeform.Editor.Ndmf
         private readonly PreviewFigure figure;
         private readonly ProxySkeleton skeleton;
         private readonly Dictionary<Renderer, ShownMesh> meshes = new Dictionary<Renderer, ShownMesh>();
+        private ComputeContext context;
+        private double changedAt;
+        private bool hasRested;
 
         /// <summary>One renderer's mesh and bones.</summary>
         private sealed class ShownMesh
@@ -84,6 +88,7 @@ namespace SuperDeform.Editor.Ndmf
         internal SuperDeformPreviewNode(SuperDeformAvatar component, List<(Renderer, Renderer)> pairs, ComputeContext context)
         {
             this.component = component;
+            this.context = context;
             ConversionSettings settings = Observed(component, context);
             try
             {
@@ -141,12 +146,18 @@ namespace SuperDeform.Editor.Ndmf
                 shown.Bounds = MeshWriter.NewBounds(skinned.localBounds, renderer);
         }
 
-        /// <summary>Takes new settings without reading the avatar again, as long as nothing else has changed.</summary>
+        /// <summary>
+        /// Takes new settings without reading the avatar again. Where blend shapes or a renderer change, it is read when that rests: a
+        /// slider of a shape moves on meanwhile.
+        /// </summary>
         public Task<IRenderFilterNode> Refresh(IEnumerable<(Renderer, Renderer)> proxyPairs, ComputeContext context, RenderAspects updatedAspects)
         {
-            bool same = (updatedAspects & (RenderAspects.Mesh | RenderAspects.Shapes)) == 0;
+            bool same = (updatedAspects & RenderAspects.Mesh) == 0 && !hasRested;
             if (!same || figure == null || component == null || skeleton.Root == null)
                 return Task.FromResult<IRenderFilterNode>(null);
+            this.context = context;
+            if ((updatedAspects & RenderAspects.Shapes) != 0)
+                ReadWhenRested();
             ConversionSettings settings = Observed(component, context);
             try
             {
@@ -162,6 +173,22 @@ namespace SuperDeform.Editor.Ndmf
                 return Task.FromResult<IRenderFilterNode>(null);
             }
             return Task.FromResult<IRenderFilterNode>(this);
+        }
+
+        private void ReadWhenRested()
+        {
+            changedAt = EditorApplication.timeSinceStartup;
+            EditorApplication.update -= Wait;
+            EditorApplication.update += Wait;
+        }
+
+        private void Wait()
+        {
+            if (EditorApplication.timeSinceStartup - changedAt < ConverterController.Rest)
+                return;
+            EditorApplication.update -= Wait;
+            hasRested = true;
+            context.Invalidate();
         }
 
         public void OnFrameGroup()
@@ -203,6 +230,7 @@ namespace SuperDeform.Editor.Ndmf
 
         public void Dispose()
         {
+            EditorApplication.update -= Wait;
             foreach (ShownMesh shown in meshes.Values)
                 UnityEngine.Object.DestroyImmediate(shown.Mesh);
             if (skeleton != null)

@@ -9,8 +9,8 @@ namespace SuperDeform.Editor
     /// <remarks>The window, which draws, calls Tick on every update of the editor; tests call it too.</remarks>
     public sealed class ConverterController : IDisposable
     {
-        // How long settings rest before the result is measured: measuring takes longer than a frame.
-        private const double Rest = 0.25;
+        // How long settings rest, in seconds, before what takes longer than a frame: measuring the result, reading the avatar.
+        internal const double Rest = 0.25;
 
         private readonly ConverterModel model;
         private PreviewSession preview;

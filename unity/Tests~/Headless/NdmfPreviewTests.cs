@@ -118,17 +118,28 @@ namespace SuperDeform.Editor.Tests
         }
 
         [Test]
-        public void blend_shapes_that_are_on_are_shown()
+        public void blend_shapes_that_are_on_are_shown_once_they_rest()
         {
             using (NdmfPreviewStub preview = NdmfPreviewStub.Of(filter))
             {
                 preview.Frame();
                 Vector3[] before = Drawing.Drawn(preview.Proxy(figure.Body), Matrix4x4.identity);
-                figure.Body.SetBlendShapeWeight(1, 100);
+                foreach (float weight in new[] { 50f, 100f })
+                {
+                    figure.Body.SetBlendShapeWeight(1, weight);
+                    Assert.AreEqual("refreshed", preview.Frame(), "a slider goes on");
+                    StubEditor.Tick();
+                    Assert.AreEqual("", preview.Frame());
+                }
+                System.Threading.Thread.Sleep(300);
+                StubEditor.Tick();
                 Assert.AreEqual("instantiated", preview.Frame());
                 ShowsWhatIsBuilt(preview, "Breathe");
                 Assert.That(Drawing.Apart(before, Drawing.Drawn(preview.Proxy(figure.Body), Matrix4x4.identity)), Is.GreaterThan(1e-3));
+                figure.Body.SetBlendShapeWeight(1, 0);
+                preview.Frame();
             }
+            Assert.That(UnityEditor.EditorApplication.update, Is.Null, "nobody waits any more");
         }
 
         [Test]

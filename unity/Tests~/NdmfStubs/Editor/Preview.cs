@@ -41,8 +41,10 @@ namespace nadena.dev.ndmf.preview
     {
         /// What was observed: a check whether it is still the same.
         internal readonly List<Func<bool>> Same = new List<Func<bool>>();
-        public ComputeContext(string description) { }
-        public bool IsInvalidated { get { return Same.Exists(same => !same()); } }
+        bool m_Invalidated;
+        public Action Invalidate { get; private set; }
+        public ComputeContext(string description) { Invalidate = () => m_Invalidated = true; }
+        public bool IsInvalidated { get { return m_Invalidated || Same.Exists(same => !same()); } }
     }
 
     public static class ComputeContextQueries
