@@ -62,6 +62,7 @@ static void options(void) {
   CHECK(options.mode == SDEF_MODE_PRODUCT && options.stage == SDEF_STAGE_FACE && options.rays == 0);
   CHECK(options.limits == 1 && options.head_scale == 1.5 && options.amount == 1 && options.hair_length == 1);
   CHECK(isnan(options.face_squash) && options.face_curve == SDEF_FACE_CURVE_F4 && options.group_count == 0);
+  CHECK(options.repair == SDEF_REPAIR_ON);
   CHECK(options.groups == NULL && options.bone_groups == NULL && options.bone_group_count == 0);
   CHECK(options.rig_weights == SDEF_WEIGHTS_AUTO && options.rig_garments == SDEF_GARMENTS_ROBUST);
   CHECK(options.rig_voxel_resolution == 128 && options.rig_fingers == 1 && options.rig_left_handed == 0);

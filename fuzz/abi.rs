@@ -331,7 +331,7 @@ impl Host<'_> {
         options.rig_voxel_resolution = 16;
         options.rig_fingers = 0;
         for _ in 0..bytes.below(6) {
-            match bytes.below(27) {
+            match bytes.below(28) {
                 0 => options.mode = 1,
                 1 => options.stage = bytes.below(4) as u32,
                 2 => options.face_curve = bytes.below(4) as u32,
@@ -398,6 +398,7 @@ impl Host<'_> {
                 23 => options.youth = bytes.number(),
                 24 => options.seat = bytes.number(),
                 25 => options.hair_lay = bytes.number(),
+                26 => options.repair = bytes.below(4) as u32,
                 _ => {
                     options.rig_joints = null();
                     options.rig_joint_count = bytes.u32();

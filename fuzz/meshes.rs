@@ -5,7 +5,7 @@ use std::sync::Arc;
 use superdeform::internals::shape::Measured;
 use superdeform::{
     BodyShape, Character, Deformer, FaceCurve, GarmentWeights, Joint, MeshKind, Mode, MorphTarget, Options,
-    Rig, RigOptions, Role, Stage, Style, WeightMethod,
+    Repair, Rig, RigOptions, Role, Stage, Style, WeightMethod,
 };
 
 fn character(bytes: &mut Bytes) -> Character {
@@ -84,6 +84,7 @@ pub fn run(data: &[u8]) {
         face_curve: bytes.of(&[FaceCurve::F4, FaceCurve::F2, FaceCurve::Sphere]),
         rays: Some(3 + bytes.below(6)),
         limits: bytes.chance(200),
+        repair: bytes.of(&[Repair::On, Repair::Off, Repair::Kept]),
         thread_count: 1,
         ..Options::default()
     };

@@ -197,6 +197,12 @@ SDEF_API SdefStatus sdef_set_jobs(SdefJobs jobs, void *user, SdefError *error);
 #define SDEF_FACE_CURVE_F2 1            // Eq. 12.
 #define SDEF_FACE_CURVE_SPHERE 2        // The sphere approximation of Shen et al.
 
+#define SDEF_REPAIR_OFF 0               // They may end inside.
+#define SDEF_REPAIR_ON 1                // They are pushed out.
+// As they were pushed last, whatever else has changed since, or as ON where nothing was pushed yet: for while a slider
+// moves. It saves the time to find out anew, which ON takes once the slider is let go.
+#define SDEF_REPAIR_KEPT 2
+
 #define SDEF_WEIGHTS_AUTO 0             // Heat where the body allows it, else the volume.
 #define SDEF_WEIGHTS_HEAT 1             // Heat equilibrium on the surface (Baran and Popovic); for closed bodies.
 #define SDEF_WEIGHTS_VOLUME 2           // Distances through voxels (Dionne and de Lasa); for open and patched bodies.
@@ -264,7 +270,8 @@ typedef struct SdefOptions {
   double rig_heat;                  // rig: how sharp weights by heat are, 0.01 to 1000; default 1
   const SdefGivenJoint *rig_joints; // rig: joints that are known; the rest is found
   uint32_t rig_joint_count;         // elements of rig_joints
-  uint32_t reserved;                // 0
+  uint32_t repair;                  // SDEF_REPAIR_*: clothes that were outside of the body and would end inside;
+                                    // default ON; product mode alone
   double height;                    // how tall the result is, in the character's units, grown or shrunk as a whole
                                     // about the ground; 0: as tall as the character was; NAN (default): as the style
                                     // makes it, in product mode at most as tall as it was

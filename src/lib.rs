@@ -101,7 +101,7 @@ pub use character::{
 pub use error::{Element, Error, ErrorKind, Result, Warning};
 pub use geometry::Mapped;
 pub use options::{
-    FaceCurve, GarmentWeights, GroupSettings, Height, Mode, Options, RigOptions, Stage, WeightMethod,
+    FaceCurve, GarmentWeights, GroupSettings, Height, Mode, Options, Repair, RigOptions, Stage, WeightMethod,
 };
 pub use pipeline::{Deformed, DeformedMesh, Deformer, MeshOutputs, Rig};
 pub use progress::Progress;

@@ -31,7 +31,7 @@ use superdeform::internals::shape::Measured;
 use superdeform::options::Features;
 use superdeform::{
     BodyShape, Character, Deformer, FaceCurve, GroupSettings, Height, Humanoid, Mode, MorphTarget, Options,
-    Rig, RigOptions, Role, Stage, Style, find_roles,
+    Repair, Rig, RigOptions, Role, Stage, Style, find_roles,
 };
 
 /// Held by every test, so that one can wait until no other is at work and count the handles that are left.
@@ -284,6 +284,11 @@ fn options_that_are_set_later_give_what_a_new_deformer_gives() {
         ),
         ("head", SdefOptions { head_scale: 1.2, ..plain }, Options { head_scale: 1.2, ..Options::default() }),
         ("rays", SdefOptions { rays: 7, ..plain }, Options { rays: Some(7), ..Options::default() }),
+        (
+            "repair",
+            SdefOptions { repair: SDEF_REPAIR_OFF, ..plain },
+            Options { repair: Repair::Off, ..Options::default() },
+        ),
         ("limits", SdefOptions { limits: 0, ..plain }, Options { limits: false, ..Options::default() }),
         (
             "youth",

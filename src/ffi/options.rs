@@ -8,7 +8,7 @@ use super::guard::{Failure, Outcome, call};
 use crate::character::Role;
 use crate::error::Named;
 use crate::options::{
-    FaceCurve, Features, GarmentWeights, GroupSettings, Height, Mode, Options, RigOptions, Stage,
+    FaceCurve, Features, GarmentWeights, GroupSettings, Height, Mode, Options, Repair, RigOptions, Stage,
     WeightMethod,
 };
 use core::ffi::c_char;
@@ -34,6 +34,14 @@ pub const SDEF_FACE_CURVE_F4: u32 = 0;
 pub const SDEF_FACE_CURVE_F2: u32 = 1;
 /// The sphere approximation of Shen et al.
 pub const SDEF_FACE_CURVE_SPHERE: u32 = 2;
+
+/// They may end inside.
+pub const SDEF_REPAIR_OFF: u32 = 0;
+/// They are pushed out.
+pub const SDEF_REPAIR_ON: u32 = 1;
+/// As they were pushed last, whatever else has changed since, or as ON where nothing was pushed yet: for while a slider
+/// moves. It saves the time to find out anew, which ON takes once the slider is let go.
+pub const SDEF_REPAIR_KEPT: u32 = 2;
 
 /// Heat where the body allows it, else the volume.
 pub const SDEF_WEIGHTS_AUTO: u32 = 0;
@@ -180,8 +188,8 @@ pub struct SdefOptions {
     pub rig_joints: *const SdefGivenJoint,
     /// elements of rig_joints
     pub rig_joint_count: u32,
-    /// 0
-    pub reserved: u32,
+    /// SDEF_REPAIR_*: clothes that were outside of the body and would end inside; default ON; product mode alone
+    pub repair: u32,
     /// how tall the result is, in the character's units, grown or shrunk as a whole about the ground; 0: as tall as the
     /// character was; NAN (default): as the style makes it, in product mode at most as tall as it was
     pub height: f64,
@@ -271,7 +279,7 @@ fn defaults() -> SdefOptions {
         rig_heat: rig.heat,
         rig_joints: null(),
         rig_joint_count: 0,
-        reserved: 0,
+        repair: options.repair as u32,
         height: f64::NAN,
     }
 }
@@ -339,6 +347,7 @@ pub(super) unsafe fn read(options: *const SdefOptions) -> Outcome<(Options, RigO
         smile: given.smile,
         seat: given.seat,
         hair_lay: given.hair_lay,
+        repair: one_of("repair", given.repair, Repair::ALL)?,
         height: match unless_nan(given.height) {
             None => Height::Style,
             Some(0.0) => Height::Keep,
@@ -412,10 +421,13 @@ mod tests {
         let rules =
             [GarmentWeights::Robust, GarmentWeights::Nearest, GarmentWeights::Heat].map(|rule| rule as u32);
         assert_eq!([SDEF_GARMENTS_ROBUST, SDEF_GARMENTS_NEAREST, SDEF_GARMENTS_HEAT], rules);
+        let repairs = [Repair::Off, Repair::On, Repair::Kept].map(|repair| repair as u32);
+        assert_eq!([SDEF_REPAIR_OFF, SDEF_REPAIR_ON, SDEF_REPAIR_KEPT], repairs);
         // What is read back: the n-th of all is the number n.
         assert!(Mode::ALL.iter().enumerate().all(|(number, &mode)| mode as usize == number));
         assert!(Stage::ALL.iter().enumerate().all(|(number, &stage)| stage as usize == number));
         assert!(FaceCurve::ALL.iter().enumerate().all(|(number, &curve)| curve as usize == number));
+        assert!(Repair::ALL.iter().enumerate().all(|(number, &repair)| repair as usize == number));
         assert!(WeightMethod::ALL.iter().enumerate().all(|(number, &method)| method as usize == number));
         assert!(GarmentWeights::ALL.iter().enumerate().all(|(number, &rule)| rule as usize == number));
     }

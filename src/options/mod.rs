@@ -114,6 +114,21 @@ pub enum GarmentWeights {
 
 names!(GarmentWeights { Robust: "robust", Nearest: "nearest", Heat: "heat" });
 
+/// Whether clothes that were outside of the body are kept outside of it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Repair {
+    /// They may end inside.
+    Off,
+    /// They are pushed out.
+    #[default]
+    On,
+    /// As they were pushed last, whatever else has changed since; where nothing was pushed yet, as [`Repair::On`]. For while a
+    /// slider moves: it saves the time to find out anew, which [`Repair::On`] takes once the slider is let go.
+    Kept,
+}
+
+names!(Repair { Off: "off", On: "on", Kept: "kept" });
+
 /// How tall the result is. It grows or shrinks as a whole, about the ground below the hips.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Height {
@@ -216,6 +231,8 @@ pub struct Options {
     pub seat: f64,
     /// How far long hair lies down on the body, 0 to 1.
     pub hair_lay: f64,
+    /// Whether clothes that the body would pierce are pushed out of it; product mode alone.
+    pub repair: Repair,
     /// How tall the result is.
     pub height: Height,
     /// Stop after this stage.
@@ -269,6 +286,7 @@ impl Default for Options {
             smile: 0.0,
             seat: 1.0,
             hair_lay: 1.0,
+            repair: Repair::On,
             height: Height::Style,
             stage: Stage::Face,
             thread_count: 0,

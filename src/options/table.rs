@@ -3,7 +3,7 @@
 //! [`Options::validate`](super::Options::validate) checks by this table, errors and warnings name an option as it does, and
 //! hosts make or check their help, ranges and defaults by it; each spells the name its own way.
 
-use super::{FaceCurve, GarmentWeights, Mode, Stage, WeightMethod};
+use super::{FaceCurve, GarmentWeights, Mode, Repair, Stage, WeightMethod};
 use crate::error::{Error, ErrorKind, Result};
 use std::fmt;
 
@@ -252,6 +252,8 @@ pub const TABLE: &[OptionInfo] = rows! {
         "moves the head back over the chest and fills the nape";
     "hair_lay", Plain, SHARES, "", Default::Number(1.0), PRODUCT,
         "lays long hair on the body instead of letting it flare";
+    "repair", Plain, Values::Choice(Repair::NAMES), "", Default::Choice(Repair::On.name()), PRODUCT,
+        "pushes clothes out of the body that were outside of it before; kept: as it did last, for while a slider moves";
     "thread_count", Plain, count(0, MOST_THREADS), "threads", Default::Number(0.0), BOTH,
         "threads to use; 0 means all cores";
     "groups", Plain, Values::Other, "", Default::Found, BOTH,

@@ -167,11 +167,13 @@ impl Deformer {
             seat_amount: SeatAmount { back: ends.seat_amount, nape: ends.seat_amount * youth },
             ..self.field.clone()
         };
+        // Over clothes as they are pushed out of the body.
+        let repaired = self.deformation.pushed.dense(self.target.measured.figure.positions.len());
         let placement =
-            Placement { field: &field, hair_offsets: &[], joint_offsets: &[], ..self.placement() };
+            Placement { field: &field, hair_offsets: &repaired, joint_offsets: &[], ..self.placement() };
         let mut end = End {
             field: field.clone(),
-            offsets: Vec::new(),
+            offsets: repaired.clone(),
             joint_offsets: Vec::new(),
             curtain: None,
             hanging: None,
@@ -226,9 +228,9 @@ impl Deformer {
             }
             end.hanging = Some(hanging);
         }
-        end.offsets = vec![DVec3::ZERO; figure.positions.len()];
+        end.offsets.resize(figure.positions.len(), DVec3::ZERO);
         for ((&vertex, &now), &to) in strands.vertices.iter().zip(&now).zip(&to) {
-            end.offsets[vertex as usize] = to - now;
+            end.offsets[vertex as usize] += to - now;
         }
         let of_joint = |(joint, strand): (usize, &Option<u32>)| match strand {
             Some(strand) => end.of_point(strands, *strand, figure.joints[joint], placement.joint(joint)),

@@ -25,6 +25,7 @@ pub use rigging::Rig;
 use crate::character::{Character, Humanoid, Role};
 use crate::error::{Result, Warning};
 pub use crate::geometry::Mapped;
+use crate::options::Repair;
 pub use crate::options::{FaceCurve, GroupSettings, Mode, Options, Stage};
 use crate::progress::Progress;
 use crate::report::{RigReport, Timing};
@@ -33,6 +34,7 @@ use crate::shape::field::{BodyField, Field};
 use crate::shape::figure::Figure;
 use crate::shape::group::group_shapes;
 use crate::shape::measured::Measured;
+use crate::shape::product::repair::Pushed;
 pub use crate::shape::style::Style;
 use crate::shape::{BodyShape, Coefficient, GroupShape};
 use attach::{Bindings, Placement};
@@ -81,8 +83,10 @@ struct Target {
 struct Deformation {
     body: Arc<BodyField>,
     bindings: Bindings,
-    /// What keeps locks of hair outside the body, added to each vertex at the end; empty where nothing does.
+    /// What keeps clothes and locks of hair outside the body, added to each vertex at the end; empty where nothing does.
     hair_offsets: Vec<DVec3>,
+    /// What keeps clothes outside of the body, a part of these.
+    pushed: Pushed,
     /// What the whole shrinks by, so that nobody becomes taller (D31); at most 1.
     whole: f64,
     /// g of Eq. 9.
@@ -95,6 +99,13 @@ struct Deformation {
     product: Option<Arc<ProductTarget>>,
     /// The box of the face map, made when it is first wanted; none where there is no face.
     face_box: OnceLock<Option<(DVec3, DVec3)>>,
+}
+
+/// What is known from before, and need not be found again.
+#[derive(Default)]
+struct Known {
+    product: Option<Arc<ProductTarget>>,
+    pushed: Option<Pushed>,
 }
 
 /// What the report says of a rig that was made.
@@ -184,7 +195,8 @@ impl Deformer {
         let timing = Timing { measure: milliseconds(clock), ..Timing::default() };
         progress.at(0.25)?;
         let target = Target { character, measured, rest_triangles: OnceLock::new() };
-        Self::deform(target, rig, style.clone(), options.clone(), None, timing, &mut progress.part(0.3, 1.0))
+        let known = Known::default();
+        Self::deform(target, rig, style.clone(), options.clone(), known, timing, &mut progress.part(0.3, 1.0))
     }
 
     /// Changes the options, with the same result as a deformer made anew; only what depends on the change is done
@@ -206,6 +218,7 @@ impl Deformer {
             seat: self.options.seat,
             hair_lay: self.options.hair_lay,
             height: self.options.height,
+            repair: if options.repair == Repair::Kept { self.options.repair } else { options.repair },
             thread_count: self.options.thread_count,
             ..options.clone()
         };
@@ -226,10 +239,13 @@ impl Deformer {
             target.measured = Arc::new(Measured::of_figure(figure, &target.character, options, part)?);
             timing.measure = milliseconds(clock);
         }
-        let product = self.deformation.product.clone().filter(|_| !measures_anew);
+        let known = Known {
+            product: self.deformation.product.clone().filter(|_| !measures_anew),
+            pushed: (options.repair == Repair::Kept).then(|| self.deformation.pushed.clone()),
+        };
         let (rig, style) = (self.rig.clone(), self.style.clone());
         let progress = &mut progress.part(0.4, 1.0);
-        *self = Self::deform(target, rig, style, options.clone(), product, timing, progress)?;
+        *self = Self::deform(target, rig, style, options.clone(), known, timing, progress)?;
         Ok(())
     }
 
@@ -239,16 +255,14 @@ impl Deformer {
         rig: Option<AutoRig>,
         style: Style,
         options: Options,
-        product: Option<Arc<ProductTarget>>,
+        known: Known,
         timing: Timing,
         progress: &mut Progress,
     ) -> Result<Self> {
         progress.at(0.0)?;
         let clock = Instant::now();
         let mut deformation = match options.mode {
-            Mode::Product => {
-                product::deform(&target, product, &style, &options, &mut progress.part(0.0, 0.8))?
-            }
+            Mode::Product => product::deform(&target, known, &style, &options, &mut progress.part(0.0, 0.8))?,
             Mode::Paper => paper::deform(&target, &style, &options)?,
         };
         let mut warnings = rig.as_ref().map(|rig| rig.warnings.clone()).unwrap_or_default();

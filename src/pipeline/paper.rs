@@ -13,6 +13,7 @@ use crate::shape::measured::is_of_head;
 use crate::shape::paper::coefficients::coefficients;
 use crate::shape::paper::field::{BoneBinding, BoneField, PaperField};
 use crate::shape::paper::shorten::shorten;
+use crate::shape::product::repair::Pushed;
 use crate::shape::style::Style;
 use glam::DVec3;
 use std::collections::{BTreeMap, BTreeSet};
@@ -39,6 +40,7 @@ pub fn deform(target: &Target, style: &Style, options: &Options) -> Result<Defor
         bindings: bindings(target, &field),
         body: Arc::new(BodyField::Bones(PaperField { bones: field, stage: options.stage })),
         hair_offsets: Vec::new(),
+        pushed: Pushed::default(),
         whole: 1.0,
         head_ratio: found.head_ratio,
         coefficients: found.groups,

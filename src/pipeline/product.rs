@@ -3,10 +3,10 @@
 use super::attach::Placement;
 use super::product_target::ProductTarget;
 use super::profile::{Sliced, wants_profile, with_profile};
-use super::{Deformation, Target};
+use super::{Deformation, Known, Target};
 use crate::error::{Error, ErrorKind, Named, Result, Warning};
-use crate::options::Options;
 use crate::options::table::PRODUCT_FACE_SQUASH;
+use crate::options::{Options, Repair};
 use crate::progress::Progress;
 use crate::shape::field::{BodyField, Field};
 use crate::shape::figure::extent;
@@ -16,6 +16,7 @@ use crate::shape::product::binding::PartBindings;
 use crate::shape::product::coefficients::{Goal, heads_of, part_coefficients};
 use crate::shape::product::field::PartField;
 use crate::shape::product::groups::PartGroups;
+use crate::shape::product::repair::Pushed;
 use crate::shape::product::scales::PartCoefficients;
 use crate::shape::style::Style;
 use crate::shape::{BodyShape, Measured};
@@ -39,18 +40,18 @@ const HAIR_WARNED_ABOVE: f64 = 0.1;
 
 /// The product's way to give `target` the style.
 ///
-/// `product`: what is known of the target already.
+/// `known`: what is known of the target already.
 ///
 /// # Errors
 /// `BadStyle` for a style without proportions; as [`part_coefficients`]; `Cancelled`.
 pub fn deform(
     target: &Target,
-    product: Option<Arc<ProductTarget>>,
+    known: Known,
     style: &Style,
     options: &Options,
     progress: &mut Progress,
 ) -> Result<Deformation> {
-    let product = match product {
+    let product = match known.product {
         Some(product) => product,
         None => Arc::new(ProductTarget::of(target, options.thread_count, &mut progress.part(0.0, 0.4))?),
     };
@@ -71,6 +72,14 @@ pub fn deform(
     let field = attempt.field;
     progress.at(0.6)?;
     let placement = product.placement(&target.measured.figure, &field, options.thread_count);
+    let pushed = match (options.repair, known.pushed) {
+        (Repair::Off, _) => Pushed::default(),
+        (Repair::Kept, Some(pushed)) => pushed,
+        (Repair::On | Repair::Kept, _) => product.push_clothes(target, &placement),
+    };
+    let repaired = pushed.dense(target.measured.figure.positions.len());
+    progress.at(0.7)?;
+    let placement = Placement { hair_offsets: &repaired, ..placement };
     let hair_offsets = product.hair_offsets(target, &placement);
     progress.at(0.75)?;
     let whole = not_taller(&Placement { hair_offsets: &hair_offsets, ..placement });
@@ -79,6 +88,7 @@ pub fn deform(
         body: field.body,
         bindings: product.bindings.clone(),
         hair_offsets,
+        pushed,
         whole,
         head_ratio,
         coefficients: attempt.scales.by_group(&groups),

@@ -16,6 +16,8 @@ use crate::shape::product::head::seat_sources;
 use crate::shape::product::joints::mean_bindings;
 use crate::shape::product::landmarks::{HeadPlacement, HeadSources};
 use crate::shape::product::part::Part;
+use crate::shape::product::repair::Pushed;
+use crate::shape::product::worn::Worn;
 use glam::DVec3;
 use std::sync::{Arc, OnceLock};
 
@@ -29,6 +31,7 @@ pub struct ProductTarget {
     head_sources: OnceLock<HeadSources>,
     seat_sources: OnceLock<SeatSources>,
     strands: OnceLock<Strands>,
+    worn: OnceLock<Worn>,
 }
 
 impl ProductTarget {
@@ -72,6 +75,7 @@ impl ProductTarget {
             head_sources: OnceLock::new(),
             seat_sources: OnceLock::new(),
             strands: OnceLock::new(),
+            worn: OnceLock::new(),
         })
     }
 
@@ -143,6 +147,29 @@ impl ProductTarget {
             all[vertex] += offset;
         }
         all
+    }
+
+    /// What keeps clothes outside of the body that `placement` makes.
+    pub fn push_clothes(&self, target: &Target, placement: &Placement) -> Pushed {
+        let worn = self.worn(target, placement.threads);
+        if worn.places.is_empty() {
+            return Pushed::default();
+        }
+        let after = placement.all_vertices();
+        let (low, high) = extent(&after);
+        worn.pushed(&after, &target.measured.weld, high - low, placement.threads)
+    }
+
+    /// The clothes, and how they lie over the body.
+    fn worn(&self, target: &Target, threads: usize) -> &Worn {
+        self.worn.get_or_init(|| {
+            let figure = &target.measured.figure;
+            let meshes = &target.character.meshes;
+            let is_known = |vertex: usize| {
+                meshes[figure.mesh_starts.partition_point(|&start| start <= vertex) - 1].kind.is_some()
+            };
+            Worn::of(figure, is_known, &target.measured.weld, threads)
+        })
     }
 
     /// The hair's strands, and how they hang.

@@ -378,6 +378,7 @@ const CASES: &[(&str, u32, &str, Call)] = &[
     ("options of size 0", ARGUMENT, "SdefOptions is 0", Deform(FULL, |_, o| o.struct_size = 0)),
     ("an unknown mode", ARGUMENT, "mode is 2", Deform(FULL, |_, options| options.mode = 2)),
     ("an unknown stage", ARGUMENT, "stage is 9", Deform(FULL, |_, options| options.stage = 9)),
+    ("repair of 3", ARGUMENT, "repair is 3", Deform(FULL, |_, options| options.repair = 3)),
     ("limits of 2", ARGUMENT, "limits is 2", Deform(FULL, |_, options| options.limits = 2)),
     ("an unknown curve", ARGUMENT, "face_curve is 3", Deform(FULL, |_, options| options.face_curve = 3)),
     ("2 rays", OPTION, "rays", Deform(FULL, |_, options| options.rays = 2)),

@@ -1,6 +1,8 @@
 //! Product mode, file by file as in `src/shape/product`, on people made of tubes: expected values come from how they are
 //! built. `models` looks at real models.
 
+#[path = "../common/clothes.rs"]
+mod clothes;
 #[path = "../common/models.rs"]
 mod common_models;
 #[path = "../common/people.rs"]
@@ -17,6 +19,7 @@ mod long_hair;
 mod models;
 mod part;
 mod pieces;
+mod repair;
 mod scales;
 mod smoothing;
 mod tubes;

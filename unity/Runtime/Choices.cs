@@ -31,6 +31,17 @@ public enum FaceCurve : uint
     Sphere = 2,
 }
 
+/// <summary>Clothes that were outside of the body and would end inside: SDEF_REPAIR_*.</summary>
+public enum Repair : uint
+{
+    /// <summary>They may end inside.</summary>
+    Off = 0,
+    /// <summary>They are pushed out.</summary>
+    On = 1,
+    /// <summary>As they were pushed last, or as On where nothing was pushed yet: for while a slider moves.</summary>
+    Kept = 2,
+}
+
 /// <summary>How the weights of a body are made where it has no rig: SDEF_WEIGHTS_*.</summary>
 public enum BodyWeights : uint
 {

@@ -51,6 +51,9 @@ internal static unsafe partial class Native
     internal const UInt32 SDEF_FACE_CURVE_F4 = 0;
     internal const UInt32 SDEF_FACE_CURVE_F2 = 1;
     internal const UInt32 SDEF_FACE_CURVE_SPHERE = 2;
+    internal const UInt32 SDEF_REPAIR_OFF = 0;
+    internal const UInt32 SDEF_REPAIR_ON = 1;
+    internal const UInt32 SDEF_REPAIR_KEPT = 2;
     internal const UInt32 SDEF_WEIGHTS_AUTO = 0;
     internal const UInt32 SDEF_WEIGHTS_HEAT = 1;
     internal const UInt32 SDEF_WEIGHTS_VOLUME = 2;
@@ -1238,9 +1241,9 @@ internal unsafe struct SdefOptions {
     public UInt32 rig_joint_count;
 
     /// <summary>
-    /// 0
+    /// SDEF_REPAIR_*: clothes that were outside of the body and would end inside; default ON; product mode alone
     /// </summary>
-    public UInt32 reserved;
+    public UInt32 repair;
 
     /// <summary>
     /// how tall the result is, in the character's units, grown or shrunk as a whole about the ground; 0: as tall as the

@@ -81,6 +81,9 @@ public sealed class Options
     /// <summary>Lays long hair on the body instead of letting it flare, 0 to 1 (default).</summary>
     public double HairLay = OptionDefaults.HairLay;
 
+    /// <summary>Clothes that were outside of the body and would end inside; default On; product mode alone.</summary>
+    public Repair Repair = Repair.On;
+
     /// <summary>Default <see cref="SuperDeform.FaceCurve.F4"/>.</summary>
     public FaceCurve FaceCurve = FaceCurve.F4;
 
@@ -146,6 +149,7 @@ public sealed class Options
         native->smile = Smile;
         native->seat = Seat;
         native->hair_lay = HairLay;
+        native->repair = (uint)Repair;
         native->face_curve = (uint)FaceCurve;
         native->rig_weights = (uint)RigWeights;
         native->rig_garments = (uint)RigGarments;

@@ -8,7 +8,7 @@ use glam::Vec3;
 use regex::Regex;
 use std::path::PathBuf;
 use superdeform::options::Features;
-use superdeform::{FaceCurve, FaceHints, GarmentWeights, Height, Mode, Options, Stage, WeightMethod};
+use superdeform::{FaceCurve, FaceHints, GarmentWeights, Height, Mode, Options, Repair, Stage, WeightMethod};
 use values::{choice, count, help, number};
 
 /// Turns a 3D character into its super-deformed (SD, chibi) version.
@@ -116,6 +116,10 @@ pub struct Arguments {
 
     #[arg(long, value_name = "X", value_parser = number("hair_lay"), help = help("hair_lay"), help_heading = FACE)]
     pub hair_lay: Option<f64>,
+
+    /// Push clothes out of the body that were outside of it before: 1, or 0 to leave them [default: 1]
+    #[arg(long, value_name = "0|1", value_parser = ValueParser::new(values::repair), help_heading = FACE)]
+    pub repair: Option<Repair>,
 
     /// Where the left eye is, in the target's space, or both eyes: where they are not found, or not well
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = ValueParser::new(values::eyes), help_heading = FACE)]
@@ -254,6 +258,7 @@ impl Arguments {
             smile: self.smile.unwrap_or(unset.smile),
             seat: self.seat.unwrap_or(unset.seat),
             hair_lay: self.hair_lay.unwrap_or(unset.hair_lay),
+            repair: self.repair.unwrap_or(unset.repair),
             height: self.height.unwrap_or(unset.height),
             stage: self.stage.unwrap_or(unset.stage),
             thread_count: self.threads.unwrap_or(unset.thread_count),
@@ -263,7 +268,7 @@ impl Arguments {
 }
 
 const STYLE: &str = "Style";
-const FACE: &str = "Face and hair";
+const FACE: &str = "Face, hair and clothes";
 const METHOD: &str = "Method";
 const NEW_RIG: &str = "Rig";
 const READING: &str = "Reading the files";

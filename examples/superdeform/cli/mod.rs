@@ -305,7 +305,7 @@ mod tests {
     use clap::CommandFactory;
     use glam::Vec3;
     use superdeform::options::TABLE;
-    use superdeform::{FaceCurve, GarmentWeights, Stage, WeightMethod};
+    use superdeform::{FaceCurve, GarmentWeights, Repair, Stage, WeightMethod};
 
     fn parsed(arguments: &[&str]) -> Command {
         parse(std::iter::once(&"superdeform").chain(arguments)).expect("a command")
@@ -441,6 +441,8 @@ mod tests {
             "--rays",
             "24",
             "--no-limits",
+            "--repair",
+            "0",
             "--rig-voxel-resolution",
             "64",
             "--rig-heat",
@@ -450,6 +452,7 @@ mod tests {
         let options = command.options;
         assert_eq!((options.face_squash, options.face_curve), (Some(-0.5), FaceCurve::Sphere));
         assert_eq!((options.stage, options.rays, options.limits), (Stage::Length, Some(24), false));
+        assert_eq!(options.repair, Repair::Off);
         let rig = command.rig_options;
         assert_eq!((rig.voxel_resolution, rig.heat, rig.fingers), (64, 2.0, false));
     }

@@ -6,7 +6,7 @@ use regex::Regex;
 use std::path::PathBuf;
 use std::str::FromStr;
 use superdeform::options::{OptionInfo, TABLE, Values, find};
-use superdeform::{Error, EyeHint, FaceHints, GroupSettings, Height};
+use superdeform::{Error, EyeHint, FaceHints, GroupSettings, Height, Repair};
 
 /// Settings of one bone group.
 #[derive(Clone, Debug)]
@@ -64,6 +64,17 @@ fn number_of(name: &str, text: &str) -> Result<f64, String> {
 /// `style`, `keep`, or a number of units.
 pub fn height(text: &str) -> Result<Height, String> {
     text.trim().parse().map_err(|error: Error| error.message)
+}
+
+/// 1 or 0.
+pub fn repair(text: &str) -> Result<Repair, String> {
+    match text.trim() {
+        "0" => Ok(Repair::Off),
+        "1" => Ok(Repair::On),
+        _ => Err(format!(
+            "`{text}` is neither 0 nor 1: give 1 to push clothes out of the body, 0 to leave them"
+        )),
+    }
 }
 
 /// A whole number in the range of the option `name`.

@@ -297,7 +297,7 @@ impl HairOnBody {
 }
 
 /// Six times the volume within `triangles`, below 0 where they are wound to look inwards.
-fn volume(points: &[DVec3], triangles: &[[u32; 3]]) -> f64 {
+pub fn volume(points: &[DVec3], triangles: &[[u32; 3]]) -> f64 {
     let corners = || triangles.iter().flatten().map(|&vertex| points[vertex as usize]);
     // About its own middle, or the holes of an open body would count.
     let middle = corners().sum::<DVec3>() / (3 * triangles.len()) as f64;
@@ -311,7 +311,7 @@ fn volume(points: &[DVec3], triangles: &[[u32; 3]]) -> f64 {
 }
 
 /// Normals of the welded vertices that `triangles` use, by area; zero elsewhere and at rims, where a surface ends.
-fn vertex_normals(points: &[DVec3], triangles: &[[u32; 3]], weld: &Weld) -> Vec<DVec3> {
+pub fn vertex_normals(points: &[DVec3], triangles: &[[u32; 3]], weld: &Weld) -> Vec<DVec3> {
     let mut normals = vec![DVec3::ZERO; weld.count];
     for corners in triangles {
         let normal = double_area(points, *corners);

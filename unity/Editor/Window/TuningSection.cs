@@ -19,6 +19,8 @@ namespace SuperDeform.Editor
             rows.Add(Number(model, "option.hair_length", OptionRange.HairLength, options => options.HairLength, (options, value) => options.HairLength = value));
             AddHeight(model, rows);
             AddFace(model, rows);
+            rows.Add(ConverterSections.Toggle("option.repair", true, () => settings.Options.Repair != Repair.Off,
+                value => model.Change("undo.tune", () => settings.Options.Repair = value ? Repair.On : Repair.Off)));
             int own = GroupTunings.Count(settings) + rows.FindAll(row => row is SliderRow && ((SliderRow)row).IsOwn()).Count;
             section.Summary = own == 0 ? "" : Strings.Get("tune.summary", own);
             rows.Add(new TextRow { Label = Strings.Get("tune.groups"), Strong = true });
@@ -42,7 +44,7 @@ namespace SuperDeform.Editor
             foreach (string name in new[]
             {
                 "Amount", "HeadScale", "Profile", "HairLength", "FaceSquash", "Height", "Youth", "YouthEye", "YouthLower", "YouthNose",
-                "YouthCheek", "YouthJaw", "YouthSkull", "YouthEar", "Smile", "Seat", "HairLay", "FaceCurve"
+                "YouthCheek", "YouthJaw", "YouthSkull", "YouthEar", "Smile", "Seat", "HairLay", "Repair", "FaceCurve"
             })
             {
                 System.Reflection.FieldInfo field = typeof(Options).GetField(name);

@@ -43,6 +43,7 @@ public sealed class LibraryTests
         AssertNumbers(typeof(Mode), "SDEF_MODE_");
         AssertNumbers(typeof(Stage), "SDEF_STAGE_");
         AssertNumbers(typeof(FaceCurve), "SDEF_FACE_CURVE_");
+        AssertNumbers(typeof(Repair), "SDEF_REPAIR_");
         AssertNumbers(typeof(BodyWeights), "SDEF_WEIGHTS_");
         AssertNumbers(typeof(GarmentWeights), "SDEF_GARMENTS_");
     }

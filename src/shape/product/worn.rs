@@ -1,0 +1,225 @@
+//! Clothes as they are worn: what lies over the body at rest, how far from it, and which sheet of cloth over which.
+
+use super::hair::{vertex_normals, volume};
+use crate::character::MeshKind;
+use crate::geometry::{Closest, Neighbours, Surface, Weld, components, neighbours};
+use crate::parallel;
+use crate::shape::figure::Figure;
+use glam::DVec3;
+
+/// What is of no known kind is worn where the body lies under it nearer than this, a share of H: 5 cm on an adult, a coat. D32.
+const WORN_REACH: f64 = 0.03;
+/// Under more than this share of its places. A majority: an arm is near the chest at its shoulder alone. D32.
+const WORN_SHARE: f64 = 0.5;
+/// Sheets of cloth further apart than this, a share of H, do not meet when one is pushed: most pushes are shorter. D32.
+const SHEET_REACH: f64 = 0.02;
+/// A sheet's own vertices are no sheet under it: hits nearer than this share of the way to the body are its own.
+const OWN_SHEET: f64 = 1e-4;
+/// Fewer vertices than this are not worth a thread.
+const LEAST_VERTICES: usize = 200;
+
+/// The outside of a body.
+pub struct Outside<'a> {
+    surface: Surface,
+    normals: Vec<DVec3>,
+    triangles: &'a [[u32; 3]],
+    weld: &'a Weld,
+    /// 1, or -1 for a body that is wound to look inwards, as mirrored ones are.
+    outwards: f64,
+}
+
+impl<'a> Outside<'a> {
+    /// Of `triangles` between `points`; `outwards`: 1, or -1 where they are wound to look inwards.
+    pub fn new(points: &[DVec3], triangles: &'a [[u32; 3]], weld: &'a Weld, outwards: f64) -> Self {
+        let normals = vertex_normals(points, triangles, weld);
+        Self { surface: Surface::new(points, triangles), normals, triangles, weld, outwards }
+    }
+
+    /// The closest point to `p`, how far outside of the body `p` is, below 0 inside, and the way out; `None` where there is
+    /// no inside: beside a rim, where a surface ends, and where there is no surface.
+    pub fn at(&self, p: DVec3) -> Option<(Closest, f64, DVec3)> {
+        let closest = self.surface.closest_point(p)?;
+        let corners = self.weld.triangle(self.triangles[closest.triangle]);
+        let normals = corners.map(|corner| self.normals[corner as usize]);
+        if normals.contains(&DVec3::ZERO) {
+            return None;
+        }
+        let blend: DVec3 =
+            normals.iter().zip(closest.barycentric).map(|(&normal, share)| share * normal).sum();
+        let normal = self.outwards * blend.normalize_or_zero();
+        let sign = if (p - closest.point).dot(normal) < 0.0 { -1.0 } else { 1.0 };
+        Some((closest, sign * closest.distance, normal))
+    }
+}
+
+/// A place on a sheet of cloth that lies under a vertex.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Under {
+    /// Corners of its triangle, as [`Worn::places`] counts.
+    pub corners: [u32; 3],
+    /// Where it is in there: at least 0, sum 1.
+    pub barycentric: [f64; 3],
+}
+
+/// Clothes and the body under them, at rest.
+#[derive(Clone, Debug, Default)]
+pub struct Worn {
+    /// Triangles of the body.
+    pub body: Vec<[u32; 3]>,
+    /// 1, or -1 for a body that is wound to look inwards, as mirrored ones are.
+    pub outwards: f64,
+    /// The welded vertices of the clothes; what follows counts by their order.
+    pub places: Vec<u32>,
+    /// One vertex at each place.
+    pub vertices: Vec<u32>,
+    /// Triangles of the clothes.
+    pub triangles: Vec<[u32; 3]>,
+    /// Along the edges of the clothes.
+    pub around: Neighbours,
+    /// How far outside of the body each place is: not a number where there is no inside, below 0 inside.
+    pub distances: Vec<f64>,
+    /// The sheet under each place.
+    pub under: Vec<Option<Under>>,
+    /// True for places where cloth and body are one: they stay.
+    pub is_sewn: Vec<bool>,
+}
+
+impl Worn {
+    /// What there is at rest.
+    ///
+    /// Garments are worn; what is of no known kind is too, where other meshes are known to be the body and it lies over
+    /// them.
+    ///
+    /// - `is_known`: for each vertex whether its kind was given or read from its name.
+    pub fn of(figure: &Figure, is_known: impl Fn(usize) -> bool, weld: &Weld, threads: usize) -> Self {
+        let body_is_known = (0..figure.positions.len())
+            .any(|vertex| figure.kind(vertex) == MeshKind::Body && is_known(vertex));
+        // 0: neither, 1: body, 2: cloth, 3: perhaps cloth.
+        let class = |corners: &[u32; 3]| {
+            let vertex = corners[0] as usize;
+            match figure.kind(vertex) {
+                MeshKind::Garment => 2,
+                MeshKind::Body if body_is_known && !is_known(vertex) => 3,
+                MeshKind::Body => 1,
+                _ => 0,
+            }
+        };
+        let of_class = |wanted: u8| -> Vec<[u32; 3]> {
+            figure.triangles.iter().filter(|corners| class(corners) == wanted).copied().collect()
+        };
+        let (mut body, mut cloth, perhaps) = (of_class(1), of_class(2), of_class(3));
+        if body.is_empty() || (cloth.is_empty() && perhaps.is_empty()) {
+            return Self::default();
+        }
+        let outwards = if volume(&figure.positions, &body) < 0.0 { -1.0 } else { 1.0 };
+        for (triangles, is_worn) in lying_over(figure, &body, outwards, perhaps, weld, threads) {
+            if is_worn { cloth.extend(triangles) } else { body.extend(triangles) }
+        }
+        if cloth.is_empty() {
+            return Self::default();
+        }
+        Self::between(figure, body, outwards, &cloth, weld, threads)
+    }
+
+    fn between(
+        figure: &Figure,
+        body: Vec<[u32; 3]>,
+        outwards: f64,
+        cloth: &[[u32; 3]],
+        weld: &Weld,
+        threads: usize,
+    ) -> Self {
+        let mut index_of = vec![u32::MAX; weld.count];
+        let (mut places, mut vertices) = (Vec::new(), Vec::new());
+        for &vertex in cloth.iter().flatten() {
+            let place = weld.representative[vertex as usize];
+            if index_of[place as usize] == u32::MAX {
+                index_of[place as usize] = places.len() as u32;
+                places.push(place);
+                vertices.push(vertex);
+            }
+        }
+        let triangles: Vec<[u32; 3]> = cloth
+            .iter()
+            .map(|&corners| weld.triangle(corners).map(|place| index_of[place as usize]))
+            .collect();
+        let own = Weld { representative: (0..places.len() as u32).collect(), count: places.len() };
+        let around = neighbours(&triangles, &own);
+        let mut is_sewn = vec![false; places.len()];
+        for &vertex in body.iter().flatten() {
+            let index = index_of[weld.representative[vertex as usize] as usize];
+            if index != u32::MAX {
+                is_sewn[index as usize] = true;
+            }
+        }
+        let outside = Outside::new(&figure.positions, &body, weld, outwards);
+        let points: Vec<DVec3> = vertices.iter().map(|&vertex| figure.positions[vertex as usize]).collect();
+        let sheets = Surface::new(&points, &triangles);
+        let reach = SHEET_REACH * figure.height();
+        let find = |index: usize| {
+            let p = points[index];
+            let Some((closest, distance, _)) = outside.at(p) else { return (f64::NAN, None) };
+            if distance <= 0.0 {
+                return (distance, None);
+            }
+            let way = closest.point - p;
+            let hit = sheets.all_hits(p, way).into_iter().find(|hit| {
+                hit.t > OWN_SHEET && hit.t <= 1.0 && !triangles[hit.triangle].contains(&(index as u32))
+            });
+            let under = hit.filter(|hit| hit.t * distance < reach).map(|hit| Under {
+                corners: triangles[hit.triangle],
+                barycentric: [1.0 - hit.u - hit.v, hit.u, hit.v],
+            });
+            (distance, under)
+        };
+        let (distances, under) =
+            parallel::collect(threads, points.len(), LEAST_VERTICES, find).into_iter().unzip();
+        Self { body, outwards, places, vertices, triangles, around, distances, under, is_sewn }
+    }
+}
+
+/// The components of `triangles`, and whether each lies over the body: over half of its places have body under them.
+fn lying_over(
+    figure: &Figure,
+    body: &[[u32; 3]],
+    outwards: f64,
+    triangles: Vec<[u32; 3]>,
+    weld: &Weld,
+    threads: usize,
+) -> Vec<(Vec<[u32; 3]>, bool)> {
+    if triangles.is_empty() {
+        return Vec::new();
+    }
+    let component = components(&triangles, weld);
+    let of = |corners: &[u32; 3]| component[weld.representative[corners[0] as usize] as usize];
+    let mut places: Vec<u32> = triangles.iter().flat_map(|&corners| weld.triangle(corners)).collect();
+    places.sort_unstable();
+    places.dedup();
+    let first = weld.first_vertices();
+    let outside = Outside::new(&figure.positions, body, weld, outwards);
+    let reach = WORN_REACH * figure.height();
+    let lies = parallel::collect(threads, places.len(), LEAST_VERTICES, |index| {
+        let p = figure.positions[first[places[index] as usize] as usize];
+        outside.at(p).is_some_and(|(_, distance, _)| distance > 0.0 && distance < reach)
+    });
+    let count = component.iter().max().map_or(0, |&last| last as usize + 1);
+    let (mut all, mut over) = (vec![0u32; count], vec![0u32; count]);
+    for (&place, &lies) in places.iter().zip(&lies) {
+        let component = component[place as usize] as usize;
+        all[component] += 1;
+        over[component] += u32::from(lies);
+    }
+    let mut by_component: Vec<Vec<[u32; 3]>> = vec![Vec::new(); count];
+    for corners in triangles {
+        by_component[of(&corners) as usize].push(corners);
+    }
+    by_component
+        .into_iter()
+        .enumerate()
+        .filter(|(_, triangles)| !triangles.is_empty())
+        .map(|(component, triangles)| {
+            let is_worn = f64::from(over[component]) > WORN_SHARE * f64::from(all[component]);
+            (triangles, is_worn)
+        })
+        .collect()
+}

@@ -1,0 +1,180 @@
+//! Clothes that were outside of the body stay outside of it, on real models; `product/repair.rs` has the stage alone.
+
+#[path = "common/clothes.rs"]
+mod clothes;
+#[path = "common/models.rs"]
+mod common;
+
+use clothes::{BY_KIND, Pose, REST, SEEDSAN, SIT, Sorting, WALK, inside, posed};
+use common::{Run, check_all, in_parallel, model, style_of};
+use glam::DVec3;
+use std::sync::OnceLock;
+use superdeform::{BodyShape, Character, MeshKind, Options, Progress, Repair, Style};
+
+/// A dressed model like a style, as it comes out with and without the repair.
+struct Pair {
+    name: String,
+    sorting: Sorting,
+    /// Off, on.
+    runs: [Run; 2],
+}
+
+const DRESSED: [(&str, Sorting); 3] = [
+    ("makehuman_female_rigged.glb", BY_KIND),
+    ("quaternius_female_dress.glb", BY_KIND),
+    ("seedsan_vrm1.vrm", SEEDSAN),
+];
+
+fn styles() -> Vec<(&'static str, Style)> {
+    let options = Options::default();
+    let mut styles = vec![
+        ("2.5 heads", Style::heads(2.5).unwrap()),
+        ("sd2", Style::Shape(Box::new(BodyShape::built_in("sd2").unwrap()))),
+    ];
+    let models = ["kaykit_rogue.glb", "godette.vrm"];
+    styles.extend(
+        models.into_iter().filter(|name| model(name).is_some()).map(|name| (name, style_of(name, &options))),
+    );
+    styles
+}
+
+fn pairs() -> &'static [Pair] {
+    static PAIRS: OnceLock<Vec<Pair>> = OnceLock::new();
+    let there: Vec<_> = DRESSED.into_iter().filter(|(name, _)| model(name).is_some()).collect();
+    PAIRS.get_or_init(|| {
+        let styles = styles();
+        let work: Vec<_> =
+            there.iter().flat_map(|dressed| styles.iter().map(move |style| (dressed, style))).collect();
+        in_parallel(&work, |&(&(target, sorting), (style_name, style))| {
+            let runs = [Repair::Off, Repair::On].map(|repair| {
+                Run::new(
+                    target,
+                    style_name,
+                    style,
+                    &Options { repair, thread_count: 1, ..Options::default() },
+                )
+            });
+            Pair { name: runs[0].name.clone(), sorting, runs }
+        })
+    })
+}
+
+/// Shares of the clothes' vertices that are inside the body in a pose and were not before: without the repair, with it.
+fn newly_inside(pair: &Pair, pose: Pose) -> [f64; 2] {
+    let character: &Character = pair.runs[0].deformer.character();
+    let before = inside(character, &posed(character, pose), pair.sorting);
+    assert!(before.len() > 500, "{}: {} vertices are worn", pair.name, before.len());
+    pair.runs.each_ref().map(|run| {
+        let result = character.with(&run.deformed);
+        let after = inside(&result, &posed(&result, pose), pair.sorting);
+        let count = before.iter().zip(&after).filter(|&(&before, &after)| after && !before).count();
+        count as f64 / before.len() as f64
+    })
+}
+
+#[test]
+fn at_rest_hardly_any_cloth_is_newly_inside() {
+    check_all(pairs(), |pair| {
+        let [without, with] = newly_inside(pair, REST);
+        println!("{}: {:.2} -> {:.2} %", pair.name, 100.0 * without, 100.0 * with);
+        if with <= 0.005 && with <= without {
+            return Vec::new();
+        }
+        vec![format!(
+            "{}: {:.2} % without the repair, {:.2} % with it",
+            pair.name,
+            100.0 * without,
+            100.0 * with
+        )]
+    });
+}
+
+#[test]
+fn walking_and_sitting_no_more_is_inside_than_without_the_repair() {
+    // Two styles of each model are enough: poses take their time.
+    let pairs: Vec<&Pair> = pairs().iter().step_by(2).collect();
+    check_all(&pairs, |pair| {
+        let mut wrong = Vec::new();
+        for (name, pose) in [("walk", WALK), ("sit", SIT)] {
+            let [without, with] = newly_inside(pair, pose).map(|share| 100.0 * share);
+            println!("{}, {name}: {without:.2} -> {with:.2} %", pair.name);
+            if with > without {
+                wrong.push(format!(
+                    "{}, {name}: {without:.2} % without the repair, {with:.2} % with it",
+                    pair.name
+                ));
+            }
+        }
+        wrong
+    });
+}
+
+#[test]
+fn nothing_but_clothes_moves_and_no_triangle_turns_over() {
+    check_all(pairs(), |pair| {
+        let [off, on] = &pair.runs;
+        let mut wrong = Vec::new();
+        for (mesh, content) in off.loaded.character.meshes.iter().enumerate() {
+            let points = |run: &Run| -> Vec<DVec3> {
+                run.deformed.meshes[mesh].positions.iter().map(|p| p.as_dvec3()).collect()
+            };
+            let (before, after) = (points(off), points(on));
+            let may_move = matches!(content.kind, None | Some(MeshKind::Garment | MeshKind::Hair));
+            if !may_move && before != after {
+                wrong.push(format!("{}: {} moves", pair.name, content.name));
+            }
+            if content.kind == Some(MeshKind::Hair) {
+                continue;
+            }
+            for corners in &content.triangles {
+                let normal = |points: &[DVec3]| {
+                    let [a, b, c] = corners.map(|vertex| points[vertex as usize]);
+                    (b - a).cross(c - a)
+                };
+                // Rounding to floats may turn needles over.
+                let (one, other) = (normal(&before), normal(&after));
+                if one.dot(other) < -1e-16 * on.height().powi(4) {
+                    wrong.push(format!("{}: {corners:?} of {} turned over", pair.name, content.name));
+                }
+            }
+        }
+        wrong
+    });
+}
+
+#[test]
+fn a_push_grows_with_the_amount_and_is_kept_while_a_slider_moves() {
+    let Some(loaded) = model("seedsan_vrm1.vrm").or_else(|| model("quaternius_female_dress.glb")) else {
+        return;
+    };
+    let style = Style::heads(2.5).unwrap();
+    let options = Options { thread_count: 2, ..Options::default() };
+    let character = std::sync::Arc::new(loaded.character.clone());
+    let of = |options: &Options| superdeform::Deformer::new(character.clone(), &style, options).unwrap();
+    let positions = |deformer: &superdeform::Deformer| common::positions(&deformer.apply());
+    let offsets = |on: &superdeform::Deformer, off: &superdeform::Deformer| -> Vec<DVec3> {
+        positions(on).iter().zip(positions(off)).map(|(p, q)| *p - q).collect()
+    };
+    let off = Options { repair: Repair::Off, ..options.clone() };
+    let (mut with, mut without) = (of(&options), of(&off));
+    let whole = offsets(&with, &without);
+    let longest = whole.iter().map(|offset| offset.length()).fold(0.0, f64::max);
+    assert!(longest > 0.0, "nothing is pushed");
+    let none = &mut Progress::none();
+    with.set_options(&Options { amount: 0.25, ..options.clone() }, none).unwrap();
+    without.set_options(&Options { amount: 0.25, ..off.clone() }, none).unwrap();
+    for (part, whole) in offsets(&with, &without).iter().zip(&whole) {
+        assert!(part.distance(0.25 * *whole) < 2e-6, "{part} of {whole}");
+    }
+    // Another body, with the push as it was; and anew once the slider is let go.
+    let moved = Options { profile: 0.5, ..options.clone() };
+    with.set_options(&Options { repair: Repair::Kept, ..moved.clone() }, none).unwrap();
+    let plain = of(&Options { repair: Repair::Off, ..moved.clone() });
+    for (part, whole) in offsets(&with, &plain).iter().zip(&whole) {
+        assert!(part.distance(*whole) < 2e-6, "{part} instead of {whole}");
+    }
+    with.set_options(&moved, none).unwrap();
+    assert_eq!(positions(&with), positions(&of(&moved)));
+    // Kept where nothing was pushed yet.
+    assert_eq!(positions(&of(&Options { repair: Repair::Kept, ..moved.clone() })), positions(&with));
+}
