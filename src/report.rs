@@ -195,6 +195,27 @@ pub struct SoleClearance {
     pub result: Option<f64>,
 }
 
+/// How clothes were kept outside of the body.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct RepairReport {
+    /// Vertices that were pushed.
+    pub pushed: usize,
+    /// How far at most, as a share of the result's height.
+    pub furthest: f64,
+    /// Of all places of the clothes, the share that is inside the body and was not before: at rest, in the widest stride of a
+    /// walk, and sitting.
+    pub newly_inside: NewlyInside,
+}
+
+/// See [`RepairReport`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[allow(missing_docs)]
+pub struct NewlyInside {
+    pub rest: f64,
+    pub walk: f64,
+    pub sit: f64,
+}
+
 /// How much of what.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 #[allow(missing_docs)]
@@ -241,6 +262,9 @@ pub struct Report {
     pub profile: ProfileReport,
     /// The rig.
     pub rig: RigReport,
+    /// The clothes; absent in paper mode and where nothing is known to be worn.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub repair: Option<RepairReport>,
     /// Soles and the floor in a walk.
     pub sole_clearance: SoleClearance,
     /// How far a vertex is at most from where it should be when two morph targets are on at once, as a share of the result's

@@ -161,7 +161,7 @@ impl ProductTarget {
     }
 
     /// The clothes, and how they lie over the body.
-    fn worn(&self, target: &Target, threads: usize) -> &Worn {
+    pub fn worn(&self, target: &Target, threads: usize) -> &Worn {
         self.worn.get_or_init(|| {
             let figure = &target.measured.figure;
             let meshes = &target.character.meshes;

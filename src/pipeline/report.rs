@@ -2,9 +2,12 @@
 
 use super::{Deformed, Deformer};
 use crate::character::Humanoid;
-use crate::error::Result;
-use crate::report::{Counts, FigureReport, ProfileReport, Report, RigReport, SoleClearance};
+use crate::error::{Result, Warning};
+use crate::report::{
+    Counts, FigureReport, NewlyInside, ProfileReport, RepairReport, Report, RigReport, SoleClearance,
+};
 use crate::shape::Measured;
+use crate::shape::pose::{Pose, SIT, WALK, posed};
 use crate::shape::stride::clearance_of;
 use crate::shape::style::Style;
 use glam::DVec3;
@@ -30,6 +33,9 @@ impl Deformer {
                 joint_count = rig.own_count;
             }
         }
+        let repair = self.clothes(&measured);
+        let mut warnings = self.warnings.clone();
+        warnings.extend(repair.and_then(pierced));
         Ok(Report {
             target,
             reference: match &self.style {
@@ -42,6 +48,7 @@ impl Deformer {
             coefficients: self.deformation.coefficients.clone(),
             profile: ProfileReport::of(&self.target.measured, &self.style, &measured),
             rig: self.rig.as_ref().map_or_else(|| self.kept_rig(), |rig| rig.report.clone()),
+            repair,
             sole_clearance: SoleClearance { target: soles(&self.target.measured), result: soles(&measured) },
             morph_pair_error: self.morph_pair_error() / measured.figure.height(),
             counts: Counts {
@@ -52,7 +59,33 @@ impl Deformer {
                 joints: joint_count,
             },
             timing_ms: self.timing,
-            warnings: self.warnings.clone(),
+            warnings,
+        })
+    }
+
+    /// What became of the clothes in `result`.
+    fn clothes(&self, result: &Measured) -> Option<RepairReport> {
+        let (measured, threads) = (&self.target.measured, self.options.thread_count);
+        let worn = self.deformation.product.as_ref()?.worn(&self.target, threads);
+        if worn.places.is_empty() {
+            return None;
+        }
+        let newly_inside = |pose: Pose| {
+            let [before, after] = [&measured.figure, &result.figure]
+                .map(|figure| worn.inside(&posed(figure, pose), &measured.weld, threads));
+            let count = before.iter().zip(&after).filter(|&(&before, &after)| after && !before).count();
+            count as f64 / before.len() as f64
+        };
+        let offsets = &self.deformation.pushed.offsets;
+        let furthest = offsets.iter().map(|(_, offset)| offset.length()).fold(0.0, f64::max);
+        Some(RepairReport {
+            pushed: offsets.len(),
+            furthest: self.field.finish.share_of_offsets() * furthest / result.figure.height(),
+            newly_inside: NewlyInside {
+                rest: newly_inside(&[]),
+                walk: newly_inside(WALK),
+                sit: newly_inside(SIT),
+            },
         })
     }
 
@@ -97,6 +130,22 @@ impl Deformer {
             ..RigReport::default()
         }
     }
+}
+
+/// A share of the clothes that is pierced sitting is told above this: a fiftieth is a hem.
+const PIERCED_WARNED_ABOVE: f64 = 0.02;
+
+/// A warning where the body goes through clothes in a pose, which no rest pose mends.
+fn pierced(repair: RepairReport) -> Option<Warning> {
+    let NewlyInside { walk, sit, .. } = repair.newly_inside;
+    (walk.max(sit) > PIERCED_WARNED_ABOVE).then(|| {
+        let message = format!(
+            "the body goes through more of the clothes than before: {:.1} % of them in a walk, {:.1} % sitting; give a skirt springs, or weights to the thighs",
+            100.0 * walk,
+            100.0 * sit
+        );
+        Warning::new("clothes_pierced", message)
+    })
 }
 
 /// How far soles stay from the floor in a walk.

@@ -137,7 +137,7 @@ impl<'a> Membrane<'a> {
         let found = parallel::collect(threads, places.len(), LEAST_PLACES, |index| {
             let place = places[index] as usize;
             let old = self.worn.distances[place];
-            if !(old > 0.0) || self.worn.is_sewn[place] {
+            if old.is_nan() || old <= 0.0 || self.worn.is_sewn[place] {
                 return None;
             }
             let displaced = self.displaced[place];

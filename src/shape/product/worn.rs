@@ -121,6 +121,15 @@ impl Worn {
         Self::between(figure, body, outwards, &cloth, weld, threads)
     }
 
+    /// For each place whether the body is around it, where all vertices are at `points`.
+    pub fn inside(&self, points: &[DVec3], weld: &Weld, threads: usize) -> Vec<bool> {
+        let outside = Outside::new(points, &self.body, weld, self.outwards);
+        parallel::collect(threads, self.places.len(), LEAST_VERTICES, |place| {
+            let p = points[self.vertices[place] as usize];
+            outside.at(p).is_some_and(|(_, distance, _)| distance < 0.0)
+        })
+    }
+
     fn between(
         figure: &Figure,
         body: Vec<[u32; 3]>,
