@@ -13,17 +13,26 @@ struct FileReport<'a> {
     #[serde(flatten)]
     report: &'a Report,
     licence: Value,
+    /// By how many degrees the aim constraint that turns most does at rest.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    aim_degrees: Option<f64>,
     /// What a batch knows a finished run by.
     #[serde(skip_serializing_if = "Option::is_none")]
     batch: Option<Value>,
 }
 
-/// Writes `report` as indented JSON, with the licence of the target and what a batch knows the run by.
+/// Writes `report` as indented JSON, with the licence of the target, its aim that turns most, and what a batch knows the run by.
 ///
 /// # Errors
 /// One sentence with the path and the reason.
-pub fn write(report: &Report, licence: &Licence, batch: Option<Value>, path: &Path) -> Result<(), String> {
-    let report = FileReport { report, licence: licence.to_json(), batch };
+pub fn write(
+    report: &Report,
+    licence: &Licence,
+    aim_degrees: Option<f64>,
+    batch: Option<Value>,
+    path: &Path,
+) -> Result<(), String> {
+    let report = FileReport { report, licence: licence.to_json(), aim_degrees, batch };
     let mut text =
         serde_json::to_string_pretty(&report).map_err(|error| format!("{}: {error}", path.display()))?;
     text.push('\n');

@@ -150,7 +150,8 @@ fn stages(command: &Command, in_batch: Option<(&Source, &str)>, progress: &Progr
     if let Some(path) = &command.report {
         let bytes = results[0].2.len();
         let batch = in_batch.map(|(_, key)| json!({"key": key, "bytes": bytes}));
-        report::write(&report, &target.licence, batch, path)?;
+        let aim = write::colliders::aim_turn(&target, &deformed).map(|(degrees, _)| degrees);
+        report::write(&report, &target.licence, aim, batch, path)?;
         files.push(("report", path.clone()));
     }
     Ok(Done { report, files })

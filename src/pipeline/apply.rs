@@ -77,14 +77,39 @@ impl Deformer {
             return joints.iter().map(|joint| joint.position()).collect();
         }
         let placement = self.placement();
+        let eyes = self.eye_joints();
         joints
             .iter()
             .enumerate()
-            .map(|(index, joint)| match placement.bindings.joints[index] {
-                Binding::Fixed => joint.position(),
-                _ => placement.figure.frame.to_model(placement.joint(index)),
+            .map(|(index, joint)| match eyes.iter().find(|(eye, _)| *eye == index) {
+                Some(&(_, at)) => placement.figure.frame.to_model(at),
+                None => match placement.bindings.joints[index] {
+                    Binding::Fixed => joint.position(),
+                    _ => placement.figure.frame.to_model(placement.joint(index)),
+                },
             })
             .collect()
+    }
+
+    /// Joints that play eyes, and where they are now, canonical frame: at the same place in the eye that they turn, which the
+    /// field moves as it moves the face before it.
+    fn eye_joints(&self) -> Vec<(usize, DVec3)> {
+        let Some(product) = &self.deformation.product else { return Vec::new() };
+        let placement = self.placement();
+        let figure = placement.figure;
+        let place = |(joint, vertices): &(usize, Vec<u32>)| {
+            let before: Vec<DVec3> =
+                vertices.iter().map(|&vertex| figure.positions[vertex as usize]).collect();
+            let after = placement.vertices(vertices);
+            let middle = |points: &[DVec3]| points.iter().sum::<DVec3>() / points.len() as f64;
+            let (from, to) = (middle(&before), middle(&after));
+            let size = |points: &[DVec3], middle: DVec3| {
+                points.iter().map(|p| p.distance_squared(middle)).sum::<f64>().sqrt()
+            };
+            let scale = size(&after, to) / size(&before, from);
+            scale.is_finite().then(|| (*joint, to + scale * (figure.joints[*joint] - from)))
+        };
+        product.eyes.iter().filter_map(place).collect()
     }
 
     fn rest_triangles(&self) -> &RestTriangles {

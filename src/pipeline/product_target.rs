@@ -25,6 +25,8 @@ use std::sync::{Arc, OnceLock};
 #[derive(Debug)]
 pub struct ProductTarget {
     pub(super) bindings: Bindings,
+    /// Joints that play eyes, and the vertices that each moves most.
+    pub(super) eyes: Vec<(usize, Vec<u32>)>,
     /// What the bindings were made with, less the vertices' own.
     pub(super) parts: PartBindings,
     hair: OnceLock<HairOnBody>,
@@ -70,6 +72,7 @@ impl ProductTarget {
         };
         Ok(Self {
             bindings,
+            eyes: eyes(target),
             parts,
             hair: OnceLock::new(),
             head_sources: OnceLock::new(),
@@ -188,6 +191,24 @@ impl ProductTarget {
             if hair.is_empty() { Vec::new() } else { figure.triangles_where(|vertex| of_head(vertex) < 0.5) };
         HairOnBody::of(&figure.positions, &figure.triangles, body, hair, &target.measured.weld)
     }
+}
+
+/// Fewer vertices than this have no middle to speak of.
+const LEAST_EYE: usize = 8;
+
+/// Joints that play eyes, and the vertices of what they turn.
+fn eyes(target: &Target) -> Vec<(usize, Vec<u32>)> {
+    let (character, figure) = (&target.character, &target.measured.figure);
+    let of = |joint: usize| -> Vec<u32> {
+        let turns = |row: &[(u32, f32)]| row.iter().any(|&(by, weight)| by as usize == joint && weight > 0.5);
+        let meshes = character.meshes.iter().zip(&figure.mesh_starts);
+        let rows = meshes
+            .flat_map(|(mesh, &start)| mesh.weights.rows().enumerate().map(move |(v, row)| (start + v, row)));
+        rows.filter(|(_, row)| turns(row)).map(|(vertex, _)| vertex as u32).collect()
+    };
+    let joints =
+        [Role::LeftEye, Role::RightEye].into_iter().filter_map(|role| character.humanoid.joint(role));
+    joints.map(|joint| (joint, of(joint))).filter(|(_, vertices)| vertices.len() >= LEAST_EYE).collect()
 }
 
 /// Heads often turn about a point in the neck: a head joint below the chin moves as the neck does.

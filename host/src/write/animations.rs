@@ -25,6 +25,15 @@ pub(super) fn hip_ratio(loaded: &Loaded, deformed: &Deformed) -> f64 {
     if before > 1e-3 * (high - low) && ratio.is_finite() && ratio > 0.0 { ratio } else { 1.0 }
 }
 
+/// What translation tracks are scaled by, beside the field.
+#[derive(Clone, Copy)]
+pub(super) struct ClipScales<'a> {
+    /// As [`hip_ratio`] gives it.
+    pub(super) hip_ratio: f64,
+    /// Added to the hips' keys of each animation; empty where nothing is.
+    pub(super) carries: &'a [DVec3],
+}
+
 /// Translation tracks: how far a key lies from the rest is scaled, and the rest is the new one.
 ///
 /// The scale is that of the hips' height for the hips and for what does not hang from them (a root that travels, feet
@@ -33,7 +42,7 @@ pub(super) fn hip_ratio(loaded: &Loaded, deformed: &Deformed) -> f64 {
 pub(super) fn animation_slots(
     loaded: &Loaded,
     shifts: &BTreeMap<usize, Shift>,
-    hip_ratio: f64,
+    scales: ClipScales,
     map_point: &MapPoint,
     reader: &Reader,
     json: &mut Value,
@@ -88,14 +97,21 @@ pub(super) fn animation_slots(
                 Some(joint) if below_hips => {
                     map_point(joint, loaded.character.skeleton.joints[joint].position()).local_scale()
                 }
-                _ => hip_ratio,
+                _ => scales.hip_ratio,
             };
-            if shift.is_some() || scale != 1.0 {
+            let carry = match scales.carries.get(animation) {
+                Some(&carry) if Some(node) == hips => carry,
+                _ => DVec3::ZERO,
+            };
+            if shift.is_some() || scale != 1.0 || carry != DVec3::ZERO {
                 for (key, raw) in numbers.chunks_exact_mut(3).enumerate() {
                     let value = Vec3::from_slice(raw).as_dvec3();
                     // In-tangent, value, out-tangent: tangents are differences.
-                    let value =
-                        if cubic && key % 3 != 1 { value * scale } else { after + (value - before) * scale };
+                    let value = if cubic && key % 3 != 1 {
+                        value * scale
+                    } else {
+                        after + (value - before) * scale + carry
+                    };
                     raw.copy_from_slice(&value.as_vec3().to_array());
                 }
             }

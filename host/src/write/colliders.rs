@@ -331,8 +331,9 @@ pub fn add_leaf_joints(
 /// Aims are told in degrees from here on.
 const AIM_TOLERANCE: f64 = 1.0;
 
-/// Aim constraints that look another way at rest than before: the way from the node to what it aims at turns.
-fn aims(loaded: &Loaded, deformed: &Deformed) -> Option<Warning> {
+/// The aim constraint that turns most at rest: by how many degrees the way from its node to what it aims at does, and the
+/// node; `None` for a file without aims.
+pub fn aim_turn(loaded: &Loaded, deformed: &Deformed) -> Option<(f64, usize)> {
     let after = new_rest(loaded, deformed);
     let mut worst: Option<(f64, usize)> = None;
     for (node, json) in loaded.file.list("nodes").iter().enumerate() {
@@ -343,11 +344,16 @@ fn aims(loaded: &Loaded, deformed: &Deformed) -> Option<Warning> {
         };
         let way = |rest: &[DMat4]| (rest[source].w_axis - rest[node].w_axis).truncate();
         let degrees = way(&loaded.pose.rest).angle_between(way(&after)).to_degrees();
-        if degrees > worst.map_or(AIM_TOLERANCE, |(most, _)| most) {
+        if worst.is_none_or(|(most, _)| degrees > most) {
             worst = Some((degrees, node));
         }
     }
-    worst.map(|(degrees, node)| {
+    worst
+}
+
+/// Aim constraints that look another way at rest than before.
+fn aims(loaded: &Loaded, deformed: &Deformed) -> Option<Warning> {
+    aim_turn(loaded, deformed).filter(|&(degrees, _)| degrees > AIM_TOLERANCE).map(|(degrees, node)| {
         Warning::new(
             "aim_turned",
             format!(

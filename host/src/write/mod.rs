@@ -7,6 +7,7 @@ mod animations;
 pub mod colliders;
 mod nodes;
 mod numbers;
+pub mod soles;
 mod store;
 mod thumbnail;
 mod vertices;
@@ -14,9 +15,10 @@ mod vrm;
 
 use super::accessor::Reader;
 use super::bad_input;
+use super::bind::RestPose;
 use super::file::GltfFile;
 use super::load::Loaded;
-use animations::{animation_slots, hip_ratio};
+use animations::{ClipScales, animation_slots, hip_ratio};
 use glam::{DMat4, DVec3, Vec3};
 use nodes::{move_nodes, skin_slots};
 use serde_json::{Value, json};
@@ -104,8 +106,26 @@ pub fn rewrite(loaded: &Loaded, deformed: &Deformed, map_point: &MapPoint) -> Re
     skin_slots(loaded, &new_rest, &reader(), &mut slots)?;
     let shifts = move_nodes(loaded, &new_rest, &mut file.json);
     let hip_ratio = hip_ratio(loaded, deformed);
-    animation_slots(loaded, &shifts, hip_ratio, map_point, &reader(), &mut file.json, &mut slots)?;
+    let (plain, before_clips) = (file.clone(), slots.clone());
+    let scales = ClipScales { hip_ratio, carries: &[] };
+    animation_slots(loaded, &shifts, scales, map_point, &reader(), &mut file.json, &mut slots)?;
     store(&reader(), &mut file, slots)?;
+    if loaded.rigged && !loaded.file.list("animations").is_empty() {
+        // Where that leaves the soles shows in what was written; then all is written anew.
+        let after = Loaded {
+            file: file.clone(),
+            character: loaded.character.with(deformed),
+            pose: RestPose { rest: new_rest.clone(), ..loaded.pose.clone() },
+            ..loaded.clone()
+        };
+        let carries = soles::carries(loaded, &after, hip_ratio)?;
+        if carries.iter().any(|carry| *carry != DVec3::ZERO) {
+            let scales = ClipScales { hip_ratio, carries: &carries };
+            (file, slots) = (plain, before_clips);
+            animation_slots(loaded, &shifts, scales, map_point, &reader(), &mut file.json, &mut slots)?;
+            store(&reader(), &mut file, slots)?;
+        }
+    }
     let height_ratio = height_ratio(loaded, deformed);
     vrm::move_points(&mut file.json, loaded, &new_rest, map_point, height_ratio);
     Ok(file)
