@@ -7,11 +7,10 @@ use crate::error::{Result, Warning};
 use crate::progress::Progress;
 use crate::report::RigReport;
 use crate::rig::eyes::find_eyes;
-use crate::rig::facing::find_forward;
-use crate::rig::joints::find_joints;
-use crate::rig::mesh_kinds::{guess_kinds, refine_kinds};
+use crate::rig::mesh_kinds::refine_kinds;
+use crate::rig::placed::Placed;
 use crate::rig::skeleton::{skeleton_of, weight_bones};
-use crate::rig::{FoundJoint, RigOptions, UnitFigure, WeightMethod};
+use crate::rig::{FoundJoint, RigOptions, WeightMethod};
 use glam::DVec3;
 use std::collections::BTreeMap;
 use std::time::Instant;
@@ -70,24 +69,8 @@ impl Rig {
         options.validate()?;
         progress.at(0.0)?;
         let clock = Instant::now();
-        let (forward, mut warnings) = find_forward(character);
-        progress.at(0.05)?;
-        let figure = UnitFigure::in_axes(character, forward, options.left_handed)?;
-        progress.at(0.1)?;
-        let (mut kinds, kind_warnings) = guess_kinds(&figure);
-        warnings.extend(kind_warnings);
-        let given = options.given.iter().map(|(&role, &at)| (role, figure.to_unit(at))).collect();
-        let guessed: Vec<Option<MeshKind>> = kinds.iter().copied().map(Some).collect();
-        let mut found = find_joints(
-            &figure,
-            &guessed,
-            &given,
-            options.fingers,
-            options.thread_count,
-            &mut progress.part(0.1, 0.25),
-        )?;
-        warnings.append(&mut found.warnings);
-        progress.at(0.25)?;
+        let Placed { figure, forward, mut kinds, mut found, mut warnings } =
+            Placed::of(character, options, &mut progress.part(0.0, 0.25))?;
         warnings.extend(refine_kinds(&figure, &mut kinds, &found.joints));
         let eyes = find_eyes(&figure, &kinds, &found);
         for eye in &eyes {

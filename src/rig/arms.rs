@@ -10,6 +10,8 @@ const PIT_DROP: f64 = 0.8;
 /// Where the trunk begins, its side reaches down from the arm by this share of the way to the crotch (seen: ±30 %
 /// changes no joint), ...
 const TRUNK_DROP: f64 = 0.3;
+/// ... but by at least so many heights: a hand that hangs beside the crotch is no trunk, ...
+const LEAST_DROP: f64 = 0.06;
 /// ... within this distance: a cuff or a thick sleeve does not. Seen: ±30 % changes no joint.
 const TRUNK_WITHIN: f64 = 0.04;
 /// The share of an arm, from the tip, to which its line is fitted. Seen: ±30 % moves joints by under 0.0005 H.
@@ -136,8 +138,9 @@ pub fn find_arm(view: &FrontView, left: bool, crotch: f64, floor: f64, most: f64
     let reaches_down = |steps: usize, from: f64, run: (usize, usize)| {
         let within = (TRUNK_WITHIN / cell) as usize;
         (steps.saturating_sub(within)..=steps).any(|steps| {
-            inwards(steps, (from as usize, run.1))
-                .is_some_and(|run| (run.0 as f64) < from - TRUNK_DROP * (from - crotch_row))
+            inwards(steps, (from as usize, run.1)).is_some_and(|run| {
+                (run.0 as f64) < from - (TRUNK_DROP * (from - crotch_row)).max(LEAST_DROP / cell)
+            })
         })
     };
     for steps in (0..outermost).rev() {

@@ -80,8 +80,15 @@ impl<'a> FrontView<'a> {
         ];
         let triangles_of = |set: &[Option<MeshKind>]| figure.triangles_where(|mesh| is(mesh, set));
         let clothed = triangles_of(sets[2]);
-        let reference = if clothed.is_empty() { figure.triangles.clone() } else { clothed };
-        let reference_grid = front(&figure.positions, &reference, 0.0, threads);
+        let mut reference = if clothed.is_empty() { figure.triangles.clone() } else { clothed };
+        let mut reference_grid = front(&figure.positions, &reference, 0.0, threads);
+        // Of a figure in pieces whose kinds were guessed wrong, all pieces are looked at.
+        let guessed = figure.kinds.iter().all(Option::is_none);
+        let some = reference.len() < figure.triangles.len();
+        if guessed && some && filled_share(&reference_grid) < FILLED_ROWS {
+            reference = figure.triangles.clone();
+            reference_grid = front(&figure.positions, &reference, 0.0, threads);
+        }
         let whole = Extent::of(&reference_grid);
         let mut chosen = None;
         for set in &sets[..2] {
@@ -256,9 +263,15 @@ fn is_whole(grid: &RayGrid, all: &Extent) -> bool {
     {
         return false;
     }
+    filled_share(grid) >= FILLED_ROWS && connected_share(grid) >= CONNECTED_SHARE
+}
+
+/// The share of the rows between the lowest and the highest that show something.
+fn filled_share(grid: &RayGrid) -> f64 {
+    let own = Extent::of(grid);
     let (first, last) = (grid.row(own.low), grid.row(own.high - 0.5 * grid.frame.cell));
     let filled = (first..=last).filter(|&row| !runs(grid, row).is_empty()).count();
-    filled as f64 >= FILLED_ROWS * (last - first + 1) as f64 && connected_share(grid) >= CONNECTED_SHARE
+    filled as f64 / (last - first + 1) as f64
 }
 
 /// True where nearly all rows show the figure's front about the axis, not the back of its head without a face.

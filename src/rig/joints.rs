@@ -8,7 +8,8 @@ use super::arms::{Arm, find_arm};
 use super::front_view::FrontView;
 use super::hand::{Hand, find_fingers};
 use super::head_line::{HeadLine, head_line, middle};
-use super::legs::{Leg, LegGap, Legs, find_legs, leg};
+use super::legs::{Leg, LegGap, LegLobes, Legs, find_legs, leg};
+use super::solid::Solid;
 use super::{FoundJoint, UnitFigure};
 use crate::character::{MeshKind, Role};
 use crate::error::{Result, Warning};
@@ -44,6 +45,11 @@ const CHEST_SHARE: f64 = 0.48;
 const SPINE_OF_CHEST: f64 = 0.46;
 /// The legs are looked for below this share of the height. Seen: at -30 %, three more joints off by over 0.06 H.
 const LEGS_BELOW: f64 = 0.8;
+/// A gap between legs that ends below this share of the shoulders' height ends at the hem of something. The crotch of
+/// people is at .58 of it (Winter, table 4.1: .818 and .48 H), that of an SD figure of two heads at .45.
+const LEAST_LEGS: f64 = 0.38;
+/// One above this share of the same is no crotch either.
+const MOST_LEGS: f64 = 0.78;
 /// The arms' radius is taken to be no more than this, in heights, and this where no arm is seen. Seen: ±30 % changes no
 /// joint.
 const MOST_RADIUS: f64 = 0.02;
@@ -149,22 +155,32 @@ struct Search<'a> {
 impl Search<'_> {
     fn run(mut self) -> FoundJoints {
         let view = self.view;
-        let mut legs = find_legs(view, LEGS_BELOW * view.high);
-        let floor = HANDS_ABOVE * legs.crotch;
-        let reach = [true, false].map(|left| reach(view, left, floor));
-        let most = LONGER_ARM * reach[0].min(reach[1]);
-        let arms = [true, false].map(|left| find_arm(view, left, legs.crotch, floor, most));
-        let arms = arms.map(|arm| {
-            arm.filter(|arm| {
-                let share = (arm.shoulder.y - legs.crotch) / (view.high - legs.crotch).max(1e-6);
-                let length = arm.shoulder.distance(arm.elbow) + arm.elbow.distance(arm.tip);
-                (SHOULDER_RANGE.0..=SHOULDER_RANGE.1).contains(&share) && length > SLENDER * arm.radius
-            })
-        });
-        if legs.seen == LegGap::Unseen
-            && let [Some(one), Some(other)] = &arms
+        let solid = Solid::new(view.positions, &view.triangles, view.axis);
+        let lobes = LegLobes::of(&solid, view.low, LEGS_BELOW * view.high);
+        drop(solid);
+        let (mut legs, inside) = find_legs(view, &lobes, LEGS_BELOW * view.high);
+        let mut arms = self.arms(&legs);
+        let shoulders = |arms: &[Option<Arm>; 2]| match arms {
+            [Some(one), Some(other)] => {
+                Some((0.5 * (one.shoulder.y + other.shoulder.y), one.pit_seen && other.pit_seen))
+            }
+            _ => None,
+        };
+        let share = |legs: &Legs, line: f64| (legs.crotch - view.low) / (line - view.low).max(1e-6);
+        let is_low = |legs: &Legs, arms| {
+            shoulders(arms).is_some_and(|(line, seen)| seen && share(legs, line) < LEAST_LEGS)
+        };
+        if let Some(inside) = inside
+            && is_low(&legs, &arms)
         {
-            legs = Legs::below_shoulders(view, 0.5 * (one.shoulder.y + other.shoulder.y));
+            legs = inside;
+            arms = self.arms(&legs);
+        }
+        if let Some((line, seen)) = shoulders(&arms)
+            && (legs.seen == LegGap::Unseen
+                || (seen && !(LEAST_LEGS..=MOST_LEGS).contains(&share(&legs, line))))
+        {
+            legs = Legs::below_shoulders(view, line);
         }
         let pair = [true, false].map(|left| {
             let given = |role: Role| self.given.get(&role.on_side(left)).copied();
@@ -200,6 +216,21 @@ impl Search<'_> {
             }
         }
         self.found
+    }
+
+    /// The arms over legs, as far as they are some.
+    fn arms(&self, legs: &Legs) -> [Option<Arm>; 2] {
+        let view = self.view;
+        let floor = HANDS_ABOVE * legs.crotch;
+        let reach = [true, false].map(|left| reach(view, left, floor));
+        let most = LONGER_ARM * reach[0].min(reach[1]);
+        [true, false].map(|left| {
+            find_arm(view, left, legs.crotch, floor, most).filter(|arm| {
+                let share = (arm.shoulder.y - legs.crotch) / (view.high - legs.crotch).max(1e-6);
+                let length = arm.shoulder.distance(arm.elbow) + arm.elbow.distance(arm.tip);
+                (SHOULDER_RANGE.0..=SHOULDER_RANGE.1).contains(&share) && length > SLENDER * arm.radius
+            })
+        })
     }
 
     fn at(&self, role: Role) -> DVec3 {

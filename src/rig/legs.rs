@@ -1,7 +1,8 @@
 //! Legs: where they divide, and where hip, knee, ankle and toes are in them.
 
-use super::front_view::FrontView;
+use super::front_view::{FrontView, median};
 use super::silhouette::lowest;
+use super::solid::{Lobes, Solid};
 use glam::DVec3;
 
 /// Filled rows between two legs of up to this height do not end the gap between them: shoes, knees, a ribbon. Seen:
@@ -29,6 +30,15 @@ const CROTCH_BELOW: f64 = 0.6;
 const LEAST_LEG: f64 = 0.006;
 /// ... and inside of a skirt one narrower than this. Seen: ±30 % moves joints by under 0.0005 H.
 const LEAST_LEG_INSIDE: f64 = 0.02;
+/// Two lobes of a slice are one where the neck between them is this share of their radius: thighs that touch are still
+/// two.
+const ONE: f64 = 0.8;
+/// Rays and slices that differ by less than this, in heights, see the same crotch; rays are finer.
+const SAME_CROTCH: f64 = 0.012;
+/// Where lobes are thinner than this share of what rays see, they are the walls of something open.
+const HOLLOW: f64 = 0.5;
+/// A section whose middle lies further from the leg's than this share of its radius holds something else.
+const ASTRAY: f64 = 0.6;
 /// Legs stand within this distance of the axis. Seen: at -30 %, joints lie 0.026 H further off, 31 more by over 0.06 H.
 const LEG_REACH: f64 = 0.25;
 /// The hip joint lies above the crotch by this share of the crotch's height. Seen: at +30 %, four more joints off by
@@ -120,6 +130,8 @@ pub struct Legs {
     pub seen: LegGap,
     /// Sections of the left and of the right leg, upwards.
     pub sections: [Vec<Section>; 2],
+    /// Where rays see the legs in each row, from the lowest.
+    pairs: Vec<Option<[Limb; 2]>>,
 }
 
 /// One leg's joints.
@@ -144,8 +156,77 @@ struct Limb {
     steps: (usize, usize),
 }
 
-/// Looks for the legs below `top`.
-pub fn find_legs(view: &FrontView, top: f64) -> Legs {
+/// What horizontal slices of the solid show of the legs: two lobes with a neck between them that is air below the
+/// crotch, thinner than they are where thighs touch, and as thick above.
+pub struct LegLobes {
+    /// The lobes of each row, from the lowest.
+    rows: Vec<(f64, Option<Lobes>)>,
+    /// The height at which the two become one, where they do within the range of crotches.
+    pub crotch: Option<f64>,
+}
+
+impl LegLobes {
+    /// Slices `solid` up to the highest crotch.
+    pub fn of(solid: &Solid, low: f64, top: f64) -> Self {
+        let (first, last) = (solid.row(low + SOLE_AT), solid.row(CROTCH_RANGE.1.min(top)));
+        let rows: Vec<(f64, Option<Lobes>)> = (first..=last)
+            .map(|row| (solid.middle([0, row, 0]).y, solid.slice(row, LEG_REACH).lobes()))
+            .collect();
+        let are_one = |(_, lobes): &(f64, Option<Lobes>)| lobes.is_none_or(|lobes| lobes.neck >= ONE);
+        let bridge = (BRIDGE / solid.cell) as usize;
+        let crotch = rows.windows(bridge.max(1)).find(|rows| rows.iter().all(are_one));
+        let crotch = crotch.map(|rows| rows[0].0 - 0.5 * solid.cell).filter(|&y| y >= CROTCH_RANGE.0);
+        Self { rows, crotch }
+    }
+
+    /// True where the solid has not the thickness that rays see: surfaces are open, and what they enclose is empty.
+    fn are_hollow(&self, legs: &Legs) -> bool {
+        let mut shares: Vec<f64> = [true, false]
+            .into_iter()
+            .zip(&legs.sections)
+            .flat_map(|(left, sections)| sections.iter().map(move |section| (left, section)))
+            .filter_map(|(left, seen)| {
+                let lobe = self.section(left, seen.y)?;
+                Some(lobe.half_width / seen.half_width.min(seen.half_depth()).max(1e-6))
+            })
+            .collect();
+        !shares.is_empty() && median(&mut shares) < HOLLOW
+    }
+
+    /// The section of one leg at a height.
+    fn section(&self, left: bool, y: f64) -> Option<Section> {
+        let nearest = self.rows.iter().min_by(|a, b| (a.0 - y).abs().total_cmp(&(b.0 - y).abs()))?;
+        let lobe = nearest.1?.sides[usize::from(!left)];
+        let (front, back) = (lobe.z + lobe.radius, lobe.z - lobe.radius);
+        Some(Section { y, x: lobe.x, half_width: lobe.radius, front, back })
+    }
+}
+
+/// Looks for the legs below `top`: as the lobes tell, and as rays see them higher up inside of something.
+///
+/// Legs go on up into clothes, and so do the shells of legs into that of a trunk: which of the two it is, shoulders tell.
+pub fn find_legs(view: &FrontView, lobes: &LegLobes, top: f64) -> (Legs, Option<Legs>) {
+    let mut legs = seen_legs(view, top);
+    if lobes.are_hollow(&legs) {
+        return (legs, None);
+    }
+    let mut inside = None;
+    if let Some(crotch) = lobes.crotch
+        && (legs.seen == LegGap::Unseen || (legs.crotch - crotch).abs() > SAME_CROTCH)
+    {
+        let first = view.grid.row(view.low);
+        let sections = sections(view, crotch, first, &legs.pairs);
+        let told = Legs { crotch, seen: LegGap::Open, sections, pairs: legs.pairs.clone() };
+        if legs.seen == LegGap::Inside && legs.crotch > crotch {
+            inside = Some(legs);
+        }
+        legs = told;
+    }
+    legs.heed(lobes, view.low);
+    (legs, inside)
+}
+
+fn seen_legs(view: &FrontView, top: f64) -> Legs {
     let mut pairs: Vec<Option<[Limb; 2]>> = Vec::new();
     let (mut crotch, mut seen) = (None, LegGap::Unseen);
     let first = view.grid.row(view.low);
@@ -188,7 +269,7 @@ pub fn find_legs(view: &FrontView, top: f64) -> Legs {
         (_, Some(y)) => y,
     };
     let sections = sections(view, crotch, first, &pairs);
-    Legs { crotch, seen, sections }
+    Legs { crotch, seen, sections, pairs }
 }
 
 impl Legs {
@@ -196,7 +277,21 @@ impl Legs {
     pub fn below_shoulders(view: &FrontView, shoulder_line: f64) -> Self {
         let first = view.grid.row(view.low);
         let crotch = view.low + CROTCH_OF_SHOULDERS * (shoulder_line - view.low).max(0.0);
-        Self { crotch, seen: LegGap::Unseen, sections: sections(view, crotch, first, &[]) }
+        Self { crotch, seen: LegGap::Unseen, sections: sections(view, crotch, first, &[]), pairs: Vec::new() }
+    }
+
+    /// Takes the lobes' word where a section holds something beside the leg: a tail, a cape, hair.
+    fn heed(&mut self, lobes: &LegLobes, low: f64) {
+        let foot = low + ANKLE_RANGE.1 * (self.crotch - low);
+        for (left, sections) in [true, false].into_iter().zip(&mut self.sections) {
+            for section in sections.iter_mut().filter(|section| section.y > foot) {
+                let Some(lobe) = lobes.section(left, section.y) else { continue };
+                let off = (section.x - lobe.x).abs().max((section.z() - lobe.z()).abs());
+                if off > ASTRAY * lobe.half_width {
+                    *section = lobe;
+                }
+            }
+        }
     }
 }
 

@@ -15,6 +15,7 @@
 //! | `head_line` | neck, chin, crown |
 //! | `hand` | fingers: the `section` at the wrist, the `region` beyond it |
 //! | `joints` | all of these put together, sides made alike, what is not seen by ratio |
+//! | `placed` | the above in order: the way a character looks, kinds, joints |
 //! | `eyes` | eyeballs |
 //! | `skeleton` | joints as a tree, and the bones that weights start from |
 //! | `wholeness` | whether the surface is whole enough for heat |
@@ -36,8 +37,10 @@ pub mod heat;
 pub mod joints;
 pub mod legs;
 pub mod mesh_kinds;
+pub mod placed;
 pub mod silhouette;
 pub mod skeleton;
+pub mod solid;
 pub mod transfer;
 pub mod unit_figure;
 pub mod volume;

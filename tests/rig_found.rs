@@ -1,0 +1,415 @@
+//! Joints of people as they come: fused figures of random proportions, A-poses, solids of one skin.
+
+#[path = "common/figures.rs"]
+mod figures;
+#[path = "common/models.rs"]
+mod models;
+#[path = "common/people.rs"]
+mod people;
+#[path = "common/solid.rs"]
+mod solid;
+#[path = "common/truth.rs"]
+mod truth;
+
+use figures::{Figure, Pose};
+use glam::{DMat3, DVec3};
+use std::collections::BTreeMap;
+use std::fmt::Write;
+use superdeform::internals::rig::UnitFigure;
+use superdeform::internals::rig::placed::Placed;
+use superdeform::{Character, Progress, RigOptions, Role};
+
+use Role::*;
+
+const LIMBS: [(&str, [Role; 2]); 6] = [
+    ("shoulder", [LeftUpperArm, RightUpperArm]),
+    ("elbow", [LeftLowerArm, RightLowerArm]),
+    ("wrist", [LeftHand, RightHand]),
+    ("hip", [LeftUpperLeg, RightUpperLeg]),
+    ("knee", [LeftLowerLeg, RightLowerLeg]),
+    ("ankle", [LeftFoot, RightFoot]),
+];
+
+/// What became of one figure: how far each limb joint is off, in heights of the person, and how sure it is.
+struct Outcome {
+    name: String,
+    joints: BTreeMap<&'static str, Vec<(f64, f64)>>,
+    /// Why there is no rig, where there is none.
+    refused: Option<String>,
+}
+
+impl Outcome {
+    fn of(name: &str, character: &Character, truth: &BTreeMap<Role, DVec3>, height: f64) -> Self {
+        let options = RigOptions { fingers: false, thread_count: 1, ..RigOptions::default() };
+        let mut outcome = Self { name: name.to_string(), joints: BTreeMap::new(), refused: None };
+        let placed = match Placed::of(character, &options, &mut Progress::none()) {
+            Ok(placed) => placed,
+            Err(error) => {
+                outcome.refused = Some(error.message);
+                return outcome;
+            }
+        };
+        for (label, pair) in LIMBS {
+            for role in pair {
+                let Some(&truth) = truth.get(&role) else { continue };
+                let joint = placed.found.joints[&role];
+                let off = placed.figure.to_model(joint.position).distance(truth) / height;
+                outcome.joints.entry(label).or_default().push((off, joint.confidence));
+            }
+        }
+        picture(&outcome.name, &placed, truth);
+        outcome
+    }
+
+    fn all(&self) -> impl Iterator<Item = (f64, f64)> {
+        self.joints.values().flatten().copied()
+    }
+
+    fn worst(&self) -> f64 {
+        self.all().map(|(off, _)| off).fold(0.0, f64::max)
+    }
+
+    fn line(&self) -> String {
+        let mut line = format!("{:60}", self.name);
+        if let Some(sentence) = &self.refused {
+            return format!("{line} refused: {sentence}");
+        }
+        for (label, joints) in &self.joints {
+            for (off, sure) in joints {
+                let mark = match (*off > 0.06, *sure >= 0.5) {
+                    (true, true) => "!",
+                    (true, false) => "?",
+                    (false, true) => " ",
+                    (false, false) => "-",
+                };
+                write!(line, " {}{off:.3}{mark}", &label[..2]).unwrap();
+            }
+        }
+        line
+    }
+}
+
+/// Front and side view with true (red) and found (blue, pale where doubtful) joints, where `PICTURES` names a folder.
+fn picture(name: &str, placed: &Placed, truth: &BTreeMap<Role, DVec3>) {
+    use superdeform::internals::rig::silhouette::{GridFrame, RayGrid};
+    let Some(folder) = std::env::var_os("PICTURES") else { return };
+    let cell = 1.0 / 300.0;
+    let columns = 360;
+    let mut image = image::RgbImage::from_pixel(2 * columns as u32, 300, image::Rgb([255; 3]));
+    for (view, right) in [DVec3::X, DVec3::Z].into_iter().enumerate() {
+        let origin = right * (-0.5 * columns as f64 * cell);
+        let frame = GridFrame { origin, right, up: DVec3::Y, cell, columns, rows: 300 };
+        let grid = RayGrid::new(&placed.figure.positions, &placed.figure.triangles, frame, 1);
+        for row in 0..300 {
+            for column in 0..columns {
+                let count = grid.hits(column, row).len() as i32;
+                let shade = if count == 0 { 255 } else { 215 - 15 * (count / 2).min(7) } as u8;
+                image.put_pixel((view * columns + column) as u32, 299 - row as u32, image::Rgb([shade; 3]));
+            }
+        }
+        let mut mark = |p: DVec3, colour: [u8; 3]| {
+            let (x, y) = (grid.column(p.dot(right)) as i32, 299 - grid.row(p.y) as i32);
+            for d in -3..=3i32 {
+                for (x, y) in [(x + d, y + d), (x + d, y - d)] {
+                    if (0..columns as i32).contains(&x) && (0..300).contains(&y) {
+                        image.put_pixel((view * columns) as u32 + x as u32, y as u32, image::Rgb(colour));
+                    }
+                }
+            }
+        };
+        for (role, joint) in &placed.found.joints {
+            if let Some(&truth) = truth.get(role) {
+                mark(placed.figure.to_unit(truth), [220, 0, 0]);
+            }
+            mark(joint.position, if joint.confidence < 0.5 { [150, 130, 255] } else { [0, 0, 220] });
+        }
+    }
+    let name: String = name.chars().map(|c| if c.is_alphanumeric() { c } else { '_' }).collect();
+    image.save(std::path::Path::new(&folder).join(format!("{name}.png"))).unwrap();
+}
+
+/// Figures over all joints of many outcomes.
+struct Summary {
+    /// The share of joints within 0.03 heights.
+    near: f64,
+    /// The share of trusted joints beyond 0.06.
+    trusted_far: f64,
+    /// The share of figures all of whose joints are within 0.06.
+    people_right: f64,
+}
+
+fn summary(title: &str, outcomes: &[Outcome]) -> Summary {
+    if std::env::var_os("LINES").is_some() {
+        outcomes.iter().for_each(|outcome| println!("{}", outcome.line()));
+    }
+    let all: Vec<(f64, f64)> = outcomes.iter().flat_map(Outcome::all).collect();
+    let share = |count: usize, of: usize| if of > 0 { count as f64 / of as f64 } else { 0.0 };
+    let near = all.iter().filter(|(off, _)| *off <= 0.03).count();
+    let doubted = all.iter().filter(|(off, sure)| *off <= 0.03 && *sure < 0.5).count();
+    let far = all.iter().filter(|(off, _)| *off > 0.06).count();
+    let trusted: Vec<f64> = all.iter().filter(|(_, sure)| *sure >= 0.5).map(|(off, _)| *off).collect();
+    let trusted_far = trusted.iter().filter(|off| **off > 0.06).count();
+    let rigged = outcomes.iter().filter(|outcome| outcome.refused.is_none());
+    let right = rigged.clone().filter(|outcome| outcome.worst() <= 0.06).count();
+    println!(
+        "{title}: {} figures, {} refused; joints within .03: {:.1} %, beyond .06: {:.1} %; near ones doubted: {:.1} %; \
+         trusted ones beyond .06: {:.2} % ({trusted_far}, {:.0} % of the far), beyond .10: {}; whole figures within .06: {:.1} %",
+        outcomes.len(),
+        outcomes.iter().filter(|outcome| outcome.refused.is_some()).count(),
+        100.0 * share(near, all.len()),
+        100.0 * share(far, all.len()),
+        100.0 * share(doubted, near),
+        100.0 * share(trusted_far, trusted.len()),
+        100.0 * share(trusted_far, far),
+        trusted.iter().filter(|off| **off > 0.10).count(),
+        100.0 * share(right, outcomes.len()),
+    );
+    for (label, _) in LIMBS {
+        let mut values: Vec<(f64, f64)> = Vec::new();
+        outcomes
+            .iter()
+            .filter_map(|outcome| outcome.joints.get(label))
+            .for_each(|joints| values.extend(joints));
+        values.sort_by(|a, b| a.0.total_cmp(&b.0));
+        if values.is_empty() {
+            continue;
+        }
+        let at = |share: f64| values[((values.len() - 1) as f64 * share) as usize].0;
+        let far = values.iter().filter(|(off, _)| *off > 0.06).count();
+        let silent = values.iter().filter(|(off, sure)| *off > 0.06 && *sure >= 0.5).count();
+        println!(
+            "   {label:9} median {:.3}, 90 % {:.3}, worst {:.3}, beyond .06 {far} of {}, trusted {silent}",
+            at(0.5),
+            at(0.9),
+            at(1.0),
+            values.len()
+        );
+    }
+    Summary {
+        near: share(near, all.len()),
+        trusted_far: share(trusted_far, trusted.len()),
+        people_right: share(right, outcomes.len()),
+    }
+}
+
+/// So many, or as many as the environment says.
+fn count(name: &str, usual: usize) -> usize {
+    std::env::var(name).ok().and_then(|text| text.parse().ok()).unwrap_or(usual)
+}
+
+fn only(name: &str) -> bool {
+    std::env::var("ONLY").map_or(true, |wanted| name.contains(&wanted))
+}
+
+/// So many figures of the generator: a third in shells, the others of one skin.
+fn random_people(count: usize) -> Vec<Outcome> {
+    let seeds: Vec<u64> = (0..count as u64).collect();
+    let outcomes = models::in_parallel(&seeds, |&seed| {
+        let figure = Figure::random(seed);
+        let (how, character) = if seed % 3 == 0 {
+            ("shells", figure.shells(seed % 2 == 0))
+        } else {
+            ("fused", figure.fused(128))
+        };
+        let name = format!("{how} {}", figure.name);
+        only(&name).then(|| Outcome::of(&name, &character, &figure.joints, 1.0))
+    });
+    outcomes.into_iter().flatten().collect()
+}
+
+#[test]
+fn random_people_are_found() {
+    let summary = summary("random people", &random_people(24));
+    assert!(summary.near >= 0.75, "{:.3} of the joints are near", summary.near);
+    assert!(summary.trusted_far <= 0.05, "{:.3} of the trusted joints are far off", summary.trusted_far);
+}
+
+/// Every table of this file, on many more figures; `FIGURES` says on how many random ones, `LINES` shows each, `ONLY`
+/// chooses by name, `PICTURES` names a folder for pictures.
+#[test]
+#[ignore = "minutes of measuring: run it with --ignored --nocapture"]
+fn survey() {
+    let outcomes = random_people(count("FIGURES", 500));
+    let all = summary("random people", &outcomes);
+    for pose in ["Arms", "Forward", "OneUp"] {
+        short_summary(pose, outcomes.iter().filter(|outcome| outcome.name.contains(pose)));
+    }
+    short_summary("bare", outcomes.iter().filter(|outcome| outcome.name.ends_with("[]")));
+    for thing in figures::THINGS {
+        let name = format!("{thing:?}");
+        short_summary(&name, outcomes.iter().filter(|outcome| outcome.name.contains(&name)));
+    }
+    let sweep = summary("arms by 5 degrees", &arms_by_angle(count("BODIES", 24)));
+    let stripped = summary("stripped models", &stripped());
+    for cells in [160, 300] {
+        summary(&format!("solids of {cells} cells"), &solids(&real_people(), cells));
+    }
+    let ways = summary("any way up", &any_way_up());
+    for (what, found) in [("random", all), ("sweep", sweep), ("stripped", stripped), ("ways", ways)] {
+        assert!(
+            found.trusted_far <= 0.15,
+            "{what}: {:.3} of the trusted joints are far off",
+            found.trusted_far
+        );
+    }
+}
+
+fn short_summary<'a>(title: &str, outcomes: impl Iterator<Item = &'a Outcome>) {
+    let outcomes: Vec<&Outcome> = outcomes.collect();
+    let all: Vec<(f64, f64)> = outcomes.iter().flat_map(|outcome| outcome.all()).collect();
+    let far = all.iter().filter(|(off, _)| *off > 0.06).count();
+    let silent = all.iter().filter(|(off, sure)| *off > 0.06 && *sure >= 0.5).count();
+    let near = all.iter().filter(|(off, _)| *off <= 0.03).count();
+    println!(
+        "   {title:14} {:3} figures: {:.1} % within .03, {far} of {} beyond .06, {silent} of these trusted",
+        outcomes.len(),
+        100.0 * near as f64 / all.len().max(1) as f64,
+        all.len()
+    );
+}
+
+#[test]
+fn arms_at_any_angle_are_found() {
+    let outcomes = arms_by_angle(2);
+    summary("arms by 5 degrees", &outcomes);
+    for outcome in &outcomes {
+        assert!(outcome.worst() <= 0.06, "{}", outcome.line());
+    }
+}
+
+/// Arms from 0 to 60 degrees under the horizontal, of so many bodies and two people of tubes.
+fn arms_by_angle(bodies: usize) -> Vec<Outcome> {
+    let cases: Vec<(u64, f64)> = (0..bodies as u64)
+        .flat_map(|seed| (0..=12).map(move |step| (1000 + seed, 5.0 * f64::from(step))))
+        .collect();
+    let mut outcomes = models::in_parallel(&cases, |&(seed, angle)| {
+        let figure = Figure::new(seed, Pose::Arms(angle), &[]);
+        let character = if seed % 2 == 0 { figure.shells(false) } else { figure.fused(128) };
+        Outcome::of(&format!("{angle:02} {}", figure.name), &character, &figure.joints, 1.0)
+    });
+    let people = [people::Person::adult(), people::Person::chibi()];
+    for person in people {
+        for step in 0..=12 {
+            let person = people::Person { arm_angle: 5.0 * f64::from(step), ..person.clone() };
+            let mut character = person.build();
+            character.meshes.iter_mut().for_each(|mesh| mesh.kind = None);
+            let name = format!("{:02} tubes of {:.1}", person.arm_angle, person.crown());
+            outcomes.push(Outcome::of(&name, &character, &person.joints(), person.crown()));
+        }
+    }
+    outcomes
+}
+
+/// One skin around everything that a model shows, from a grid of `cells` cells a height, as text-to-3D tools give.
+fn solid_of(case: &truth::Case, cells: usize) -> (Character, BTreeMap<Role, DVec3>) {
+    let figure = UnitFigure::of(&case.character, case.forward).unwrap();
+    let solid = solid::Solid::of_triangles(&figure.positions, &figure.triangles, 1.0 / cells as f64);
+    let (positions, triangles) = solid::surface(&solid);
+    let joints = case.joints.iter().map(|(&role, &at)| (role, figure.to_unit(at)));
+    let known = joints.filter(|(role, _)| {
+        // Quaternius' foot joints lie on the sole.
+        !(case.name.starts_with("quaternius") && matches!(role, LeftFoot | RightFoot))
+    });
+    (figures::character(vec![(String::new(), positions, triangles)]), known.collect())
+}
+
+/// Models that are no person with limbs, and why.
+const LEFT_OUT: [(&str, &str); 2] = [
+    ("catbot.vrm", "a robot of eight boxes, its arms apart from its trunk"),
+    ("kenney_mini_female_a.glb", "rigid parts without elbows and knees"),
+];
+
+fn real_people() -> Vec<truth::Case> {
+    let cases = truth::cases().into_iter();
+    cases.filter(|case| !LEFT_OUT.iter().any(|(name, _)| case.name == *name) && only(&case.name)).collect()
+}
+
+/// A few people of every make, dressed and bare, tall and chibi.
+const FEW: [&str; 5] = [
+    "cesiumman.glb",
+    "makehuman_child_reference.glb",
+    "quaternius_female_dress.glb",
+    "seedsan_vrm1.vrm",
+    "valid_black_m_2_busi.glb",
+];
+
+#[test]
+fn solids_of_people_are_found() {
+    let mut cases = real_people();
+    cases.retain(|case| FEW.contains(&case.name.as_str()));
+    let outcomes = solids(&cases, 160);
+    let found = summary("solids of 160 cells", &outcomes);
+    if outcomes.len() < FEW.len() {
+        println!("models are missing: nothing is judged");
+        return;
+    }
+    assert!(found.people_right >= 0.79, "{:.2} of the solids are right", found.people_right);
+    assert!(found.trusted_far == 0.0, "{:.3} of the trusted joints are far off", found.trusted_far);
+}
+
+fn solids(cases: &[truth::Case], cells: usize) -> Vec<Outcome> {
+    models::in_parallel(cases, |case| {
+        let (character, joints) = solid_of(case, cells);
+        Outcome::of(&format!("{} {cells}", case.name), &character, &joints, 1.0)
+    })
+}
+
+/// The models without rigs, names and kinds.
+fn stripped() -> Vec<Outcome> {
+    let mut cases = real_people();
+    cases.iter_mut().flat_map(|case| &mut case.character.meshes).for_each(|mesh| {
+        mesh.kind = None;
+        mesh.name.clear();
+    });
+    models::in_parallel(&cases, |case| {
+        let figure = UnitFigure::of(&case.character, case.forward).unwrap();
+        let known = case.joints.iter().filter(|(role, _)| {
+            !(case.name.starts_with("quaternius") && matches!(role, LeftFoot | RightFoot))
+        });
+        let mut character = case.character.clone();
+        character.axes.forward = None;
+        let height = figure.to_model(DVec3::Y).distance(figure.to_model(DVec3::ZERO));
+        Outcome::of(&case.name, &character, &known.map(|(&role, &at)| (role, at)).collect(), height)
+    })
+}
+
+/// Five bodies, each with its head along every axis, of which nobody is told.
+fn any_way_up() -> Vec<Outcome> {
+    let names = [
+        "makehuman_female_target.glb",
+        "seedsan_unrigged.glb",
+        "kaykit_knight.glb",
+        "tubbykun.vrm",
+        "quaternius_man_2017.glb",
+    ];
+    let turns = [
+        ("up +Y", DMat3::IDENTITY),
+        ("up -Y", DMat3::from_rotation_z(std::f64::consts::PI)),
+        ("up +X", DMat3::from_rotation_z(-std::f64::consts::FRAC_PI_2)),
+        ("up -X", DMat3::from_rotation_z(std::f64::consts::FRAC_PI_2)),
+        ("up +Z", DMat3::from_rotation_x(std::f64::consts::FRAC_PI_2)),
+        ("up -Z", DMat3::from_rotation_x(-std::f64::consts::FRAC_PI_2)),
+    ];
+    let cases: Vec<truth::Case> =
+        real_people().into_iter().filter(|case| names.contains(&case.name.as_str())).collect();
+    let all: Vec<(&truth::Case, &str, DMat3)> =
+        cases.iter().flat_map(|case| turns.iter().map(move |(how, turn)| (case, *how, *turn))).collect();
+    models::in_parallel(&all, |&(case, how, turn)| {
+        let figure = UnitFigure::of(&case.character, case.forward).unwrap();
+        let mut character = case.character.clone();
+        for mesh in &mut character.meshes {
+            mesh.kind = None;
+            mesh.name.clear();
+            mesh.normals.clear();
+            mesh.tangents.clear();
+            mesh.positions.iter_mut().for_each(|p| *p = (turn * p.as_dvec3()).as_vec3());
+        }
+        character.axes.forward = None;
+        let height = figure.to_model(DVec3::Y).distance(figure.to_model(DVec3::ZERO));
+        let known = case.joints.iter().filter(|(role, _)| {
+            !(case.name.starts_with("quaternius") && matches!(role, LeftFoot | RightFoot))
+        });
+        let truth = known.map(|(&role, &at)| (role, turn * at)).collect();
+        Outcome::of(&format!("{how} {}", case.name), &character, &truth, height)
+    })
+}
