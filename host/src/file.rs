@@ -83,7 +83,8 @@ impl GltfFile {
                 "{name} is neither GLB nor VRM, because it does not begin with glTF: export it as glTF 2.0 binary"
             )));
         };
-        let json: Value = serde_json::from_slice(text).map_err(|error| {
+        #[cfg_attr(not(feature = "meshopt"), allow(unused_mut))]
+        let mut json: Value = serde_json::from_slice(text).map_err(|error| {
             bad_input(format!("{name} holds JSON that cannot be read, {error}: export it anew"))
         })?;
         if !json.is_object() {
@@ -97,6 +98,10 @@ impl GltfFile {
                 "{name} says it is glTF version \"{version}\": only version 2.0 can be read, so export it anew"
             )));
         }
+        #[cfg(feature = "meshopt")]
+        let unpacked = crate::meshopt::unpack(name, &mut json, binary)?;
+        #[cfg(feature = "meshopt")]
+        let binary = unpacked.as_deref().unwrap_or(binary);
         check_extensions(name, &json)?;
         check_types_and_indices(name, &json)?;
         let mut file = Self { name: name.to_string(), json, binary: Vec::new() };
@@ -281,6 +286,15 @@ fn split_container<'a>(name: &str, bytes: &'a [u8]) -> Result<(&'a [u8], &'a [u8
     Ok((text, binary.unwrap_or(&[])))
 }
 
+/// What to do with a file that is compressed with `extension`.
+fn remedy(extension: &str) -> &'static str {
+    if extension == "KHR_draco_mesh_compression" {
+        "export it without compression, or unpack it first (gltf-transform copy, Blender)"
+    } else {
+        "export it without compression, unpack it first (gltf-transform copy), or use a build with the feature meshopt"
+    }
+}
+
 /// Refuses what is required and cannot be honoured.
 fn check_extensions(name: &str, json: &Value) -> Result<()> {
     let compressed = |extension: &str| {
@@ -291,9 +305,7 @@ fn check_extensions(name: &str, json: &Value) -> Result<()> {
     };
     for extension in array_at(json, "extensionsRequired").iter().filter_map(Value::as_str) {
         if compressed(extension) {
-            return Err(bad_input(format!(
-                "{name} is compressed with {extension}: export it without compression, or unpack it first (gltf-transform copy)"
-            )));
+            return Err(bad_input(format!("{name} is compressed with {extension}: {}", remedy(extension))));
         }
         let harmless = HARMLESS.contains(&extension)
             || HARMLESS_PREFIXES.iter().any(|prefix| extension.starts_with(prefix));
@@ -309,9 +321,7 @@ fn check_extensions(name: &str, json: &Value) -> Result<()> {
     for holder in in_views.chain(in_primitives) {
         let extensions = holder.get("extensions").and_then(Value::as_object);
         if let Some(extension) = extensions.and_then(|held| held.keys().find(|key| compressed(key))) {
-            return Err(bad_input(format!(
-                "{name} is compressed with {extension}: export it without compression, or unpack it first (gltf-transform copy)"
-            )));
+            return Err(bad_input(format!("{name} is compressed with {extension}: {}", remedy(extension))));
         }
     }
     Ok(())

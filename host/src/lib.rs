@@ -10,6 +10,8 @@ mod frame;
 mod kinds;
 pub mod licence;
 pub mod load;
+#[cfg(feature = "meshopt")]
+mod meshopt;
 mod primitive;
 pub mod rig;
 pub mod roles;
