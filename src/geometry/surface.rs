@@ -271,12 +271,16 @@ impl Surface {
         let Some(ray) = Ray::new((origin - self.centre) * self.scale, direction * self.scale) else {
             return;
         };
+        let Some(line) = Line::new(&ray, &self.nodes[0]) else {
+            return;
+        };
+        let mut way = line.way_to(t_max);
         let mut stack = Stack::new();
-        if let Some(t) = ray.enters(&self.nodes[0]) {
+        if let Some(t) = line.enters(&self.nodes[0]) {
             stack.push((0, t));
         }
         while let Some((index, t)) = stack.pop() {
-            if t > t_max {
+            if t > way {
                 continue;
             }
             let node = &self.nodes[index as usize];
@@ -290,12 +294,13 @@ impl Surface {
                     );
                     if let Some(hit) = hit.filter(|hit| hit.t <= t_max) {
                         t_max = visit(hit);
+                        way = line.way_to(t_max);
                     }
                 }
             } else {
                 let [one, two] = [first, first + 1].map(|child| {
-                    let t = ray.enters(&self.nodes[child as usize]);
-                    t.filter(|&t| t <= t_max).map(|t| (child, t))
+                    let t = line.enters(&self.nodes[child as usize]);
+                    t.filter(|&t| t <= way).map(|t| (child, t))
                 });
                 match (one, two) {
                     (Some(one), Some(two)) => {
@@ -315,7 +320,7 @@ impl Surface {
 /// A ray made ready: the axes permuted so that z is the direction's largest one, sheared to look along z.
 struct Ray {
     origin: DVec3,
-    inverse: DVec3,
+    direction: DVec3,
     axes: [usize; 3],
     shear: DVec3,
 }
@@ -330,24 +335,10 @@ impl Ray {
         let axes = [(largest + 1) % 3, (largest + 2) % 3, largest];
         Some(Self {
             origin,
-            inverse: direction.recip(),
+            direction,
             axes,
             shear: DVec3::new(direction[axes[0]] / z, direction[axes[1]] / z, 1.0 / z),
         })
-    }
-
-    /// Where the ray enters the node's box, at least 0; `None` where it passes by.
-    fn enters(&self, node: &Bvh2Node) -> Option<f64> {
-        let (low, high) = node_box(node);
-        let (mut enter, mut leave) = (0.0_f64, f64::INFINITY);
-        for axis in 0..3 {
-            let one = (low[axis] - self.origin[axis]) * self.inverse[axis];
-            let two = (high[axis] - self.origin[axis]) * self.inverse[axis];
-            // min and max pass over the NaN of 0 · infinity: a ray within a side of the box is not shut out.
-            enter = enter.max(one.min(two));
-            leave = leave.min(one.max(two));
-        }
-        (enter <= leave).then_some(enter)
     }
 
     /// Woop et al.: each edge function has exactly the opposite sign in the neighbour, and 0 counts as inside, so no
@@ -391,6 +382,76 @@ impl Ray {
             front: (determinant > 0.0) == (self.shear.z > 0.0),
         })
     }
+}
+
+/// A ray as the boxes see it: in single precision, of a direction of length 1, begun near the boxes.
+///
+/// Within [`NEAR`] of the unit box, what rounding moves a side by is a fraction of the boxes' padding, so no box is passed by
+/// that holds a triangle which the ray meets, and none is entered later than that.
+struct Line {
+    origin: Vec3A,
+    /// Of the direction; large where that is 0, so that a ray within a slab meets it and 0 times infinity is nowhere.
+    inverse: Vec3A,
+    /// How far along the ray it begins, and how many of its own lengths the ray's direction has.
+    start: f64,
+    length: f64,
+}
+
+/// Rays that begin further away, in units of the scene's largest extent, are moved to the box first.
+const NEAR: f64 = 2.0;
+/// Instead of the inverse of 0.
+const INFINITE: f32 = 1e30;
+
+impl Line {
+    /// `None` where the ray begins far away and passes by all boxes.
+    fn new(ray: &Ray, root: &Bvh2Node) -> Option<Self> {
+        // By the largest number first: a direction may have any length.
+        let largest = ray.direction.abs().max_element();
+        let direction = ray.direction / largest;
+        let length = largest * direction.length();
+        let direction = direction.normalize();
+        let mut start = 0.0;
+        if ray.origin.abs().max_element() > NEAR {
+            start = enters_far(ray.origin, direction, root)?;
+        }
+        let inverse = direction.as_vec3a().recip().clamp(Vec3A::splat(-INFINITE), Vec3A::splat(INFINITE));
+        let origin = (ray.origin + start * direction).as_vec3a();
+        Some(Self { origin, inverse, start, length })
+    }
+
+    /// How far the ray's parameter `t` is along the line, or a little further.
+    fn way_to(&self, t: f64) -> f32 {
+        let way = t * self.length - self.start;
+        if way.is_nan() {
+            return f32::INFINITY;
+        }
+        if way.is_finite() { (way + f64::from(BOX_PADDING) * way.abs()) as f32 } else { way as f32 }
+    }
+
+    /// Where the line enters the node's box, at least 0; `None` where it passes by.
+    #[inline(always)]
+    fn enters(&self, node: &Bvh2Node) -> Option<f32> {
+        let Aabb { min, max } = *node.aabb();
+        let (one, two) = ((min - self.origin) * self.inverse, (max - self.origin) * self.inverse);
+        let enter = one.min(two).max_element().max(0.0);
+        let leave = one.max(two).min_element();
+        (enter <= leave).then_some(enter)
+    }
+}
+
+/// Where a ray from far away enters the root's box, a little before; `None` where it passes by.
+#[cold]
+fn enters_far(origin: DVec3, direction: DVec3, root: &Bvh2Node) -> Option<f64> {
+    let (low, high) = node_box(root);
+    let (mut enter, mut leave) = (0.0_f64, f64::INFINITY);
+    for axis in 0..3 {
+        let one = (low[axis] - origin[axis]) / direction[axis];
+        let two = (high[axis] - origin[axis]) / direction[axis];
+        // min and max pass over the NaN of 0 / 0: a ray within a side of the box is not shut out.
+        enter = enter.max(one.min(two));
+        leave = leave.min(one.max(two));
+    }
+    (enter <= leave).then_some(enter)
 }
 
 fn node_box(node: &Bvh2Node) -> (DVec3, DVec3) {
@@ -439,18 +500,18 @@ fn closest_on_triangle(p: DVec3, &[a, b, c]: &[DVec3; 3]) -> (DVec3, [f64; 3]) {
 }
 
 /// Nodes still to visit; only a tree of unusual depth needs memory of its own.
-struct Stack {
-    near: [(u32, f64); 64],
+struct Stack<T> {
+    near: [(u32, T); 64],
     count: usize,
-    deep: Vec<(u32, f64)>,
+    deep: Vec<(u32, T)>,
 }
 
-impl Stack {
+impl<T: Copy + Default> Stack<T> {
     fn new() -> Self {
-        Self { near: [(0, 0.0); 64], count: 0, deep: Vec::new() }
+        Self { near: [(0, T::default()); 64], count: 0, deep: Vec::new() }
     }
 
-    fn push(&mut self, item: (u32, f64)) {
+    fn push(&mut self, item: (u32, T)) {
         if self.count < self.near.len() {
             self.near[self.count] = item;
             self.count += 1;
@@ -459,7 +520,7 @@ impl Stack {
         }
     }
 
-    fn pop(&mut self) -> Option<(u32, f64)> {
+    fn pop(&mut self) -> Option<(u32, T)> {
         if let Some(item) = self.deep.pop() {
             return Some(item);
         }
