@@ -71,6 +71,15 @@ pub fn thread_count(asked: usize) -> usize {
     }
 }
 
+/// Into how many shares `count` items are worth being cut, of which fewer than `least` are not worth a thread.
+pub fn share_count(threads: usize, count: usize, least: usize) -> usize {
+    // The system takes longer to say how many cores it has than a small work takes.
+    match count / least {
+        0 | 1 => 1,
+        most => most.min(thread_count(threads)),
+    }
+}
+
 /// `make` of every index below `count`, in order.
 ///
 /// - `threads`: at most this many, and at most 1024; 0 means all cores.
@@ -94,11 +103,7 @@ pub fn collect_with<S, T: Send>(
     start: impl Fn() -> S + Sync,
     make: impl Fn(&mut S, usize) -> T + Sync,
 ) -> Vec<T> {
-    // The system takes longer to say how many cores it has than a small work takes.
-    let share_count = match count / least {
-        0 | 1 => 1,
-        most => most.min(thread_count(threads)),
-    };
+    let share_count = share_count(threads, count, least);
     let share = count.div_ceil(share_count).max(1);
     let run = |indices: Range<usize>, all: &mut Vec<T>| {
         let mut state = start();

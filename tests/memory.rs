@@ -1,6 +1,8 @@
 //! What calls take at a time is less than what `src/ffi/memory.rs` asks for before they begin.
 #![allow(unsafe_code)]
 
+#[path = "common/abi.rs"]
+mod abi;
 #[path = "common/people.rs"]
 mod people;
 
@@ -19,10 +21,12 @@ use superdeform_host::samples;
 struct Counting;
 static NOW: AtomicUsize = AtomicUsize::new(0);
 static MOST: AtomicUsize = AtomicUsize::new(0);
+static CALLS: AtomicUsize = AtomicUsize::new(0);
 
 // SAFETY: the system's allocator.
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        CALLS.fetch_add(1, Relaxed);
         let now = NOW.fetch_add(layout.size(), Relaxed) + layout.size();
         MOST.fetch_max(now, Relaxed);
         unsafe { System.alloc(layout) }
@@ -75,6 +79,8 @@ fn no_call_takes_more_than_is_asked_for() {
         check_calls(name, loaded.character, &mut check);
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    // Here, as a test of its own would allocate beside this one.
+    a_second_apply_into_a_hosts_arrays_allocates_nothing();
 }
 
 /// What each call takes for one character, and what is asked for before it.
@@ -107,4 +113,20 @@ fn check_calls(name: &str, character: Character, check: &mut impl FnMut(String, 
             memory::to_rig(&bare, &options),
         );
     }
+}
+
+fn a_second_apply_into_a_hosts_arrays_allocates_nothing() {
+    let character = Person { fingers: true, ..Person::adult() }.build();
+    assert!(!character.meshes[0].normals.is_empty());
+    let handle = abi::given(&character);
+    let deformer = abi::deformer(handle, abi::of_heads(2.5), &abi::with_threads(1));
+    let mut room = abi::room(&character);
+    room.apply(deformer).unwrap();
+    let first = room.bits();
+    let before = CALLS.load(Relaxed);
+    room.apply(deformer).unwrap();
+    assert_eq!(CALLS.load(Relaxed) - before, 0);
+    assert!(room.bits() == first);
+    abi::destroy(deformer.id);
+    abi::destroy(handle.id);
 }

@@ -43,21 +43,12 @@ struct Similarity {
 /// The ways of vertices, from where the stages before put them, in head lengths.
 #[derive(Clone, Debug, Default)]
 pub struct Ways {
-    /// Where the stages before put each vertex, in the figure's frame.
-    from: Vec<DVec3>,
     /// For each vertex its row in `ways`; `NO_WAY` where it is not kept.
     rows: Vec<u32>,
     ways: Vec<[Vec3; STEPS]>,
 }
 
 const NO_WAY: u32 = u32::MAX;
-
-impl Ways {
-    /// Where the stages before put `vertex`.
-    pub fn from(&self, vertex: usize) -> DVec3 {
-        self.from[vertex]
-    }
-}
 
 impl YoungFace {
     /// The step that moves a head at `frame` by `flow`.
@@ -141,7 +132,7 @@ impl YoungFace {
     ///
     /// - `bindings`: one for each.
     /// - `threads`: at most this many, 0 for all cores.
-    pub fn ways(&self, points: Vec<DVec3>, bindings: &[FaceBinding], threads: usize) -> Ways {
+    pub fn ways(&self, points: &[DVec3], bindings: &[FaceBinding], threads: usize) -> Ways {
         let follower = |vertex: usize| match bindings[vertex] {
             FaceBinding::Skin(share) if share > 0.0 => Some(&self.skin),
             FaceBinding::Hair(share) if share > 0.0 => Some(&self.hair),
@@ -160,7 +151,7 @@ impl YoungFace {
                 None => [Vec3::ZERO; STEPS],
             }
         });
-        Ways { from: points, rows, ways }
+        Ways { rows, ways }
     }
 
     /// As [`Self::place`], for a vertex whose way is kept.

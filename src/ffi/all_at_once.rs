@@ -1,13 +1,14 @@
 //! All at once
 
+use super::arrays::{self, Structs};
 use super::basics::{SdefError, SdefProgress, SdefStatus, SdefStyle};
 use super::character::state::CharacterState;
 use super::character::{SdefMesh, SdefSkeleton, read};
 use super::deformer::SdefMeshResult;
 use super::deformer::state::DeformerState;
 use super::guard::{call, progress_of};
+use super::handles;
 use super::options::{self, SdefOptions};
-use super::{arrays, handles};
 use crate::progress::Progress;
 use core::ffi::c_void;
 use safer_ffi::prelude::*;
@@ -41,7 +42,7 @@ pub unsafe extern "C" fn sdef_super_deform(
         let style = handles::style(style)?;
         let (options, rig_options) = options::read(options)?;
         options.validate()?;
-        let results = arrays::structs_in("results", results, mesh_count)?;
+        let results = Structs::new("results", results, mesh_count)?;
         let mut state = CharacterState::new(read::axes(up, forward)?);
         if !skeleton.is_null() {
             let (skeleton, roles) = read::skeleton(skeleton)?;

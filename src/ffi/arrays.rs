@@ -2,6 +2,7 @@
 
 use super::basics::*;
 use super::guard::{Failure, Outcome};
+use crate::pipeline::places::Place;
 use core::ffi::{CStr, c_char};
 use glam::{DMat4, DVec3, Vec3, Vec4};
 use std::fmt::Display;
@@ -226,25 +227,54 @@ unsafe fn size_of_all<T: HostStruct>(what: &str, from: *const T, count: usize) -
 /// # Safety
 /// `from` is NULL or holds `count` structs.
 pub unsafe fn structs_in<T: HostStruct>(what: &str, from: *const T, count: usize) -> Outcome<Vec<T>> {
-    let mut all = Vec::new();
-    if count == 0 {
-        return Ok(all);
+    let structs = unsafe { Structs::new(what, from, count) }?;
+    let mut all = reserved(count, what)?;
+    for index in 0..count {
+        all.push(structs.get(index)?);
     }
-    unsafe {
-        let size = size_of_all(what, from, count)?;
-        all = reserved(count, what)?;
+    Ok(all)
+}
+
+/// Structs of an array of the caller's, all of the size that the first one says.
+pub struct Structs<T> {
+    start: *const u8,
+    size: usize,
+    count: usize,
+    element: std::marker::PhantomData<T>,
+}
+
+impl<T: HostStruct> Structs<T> {
+    /// Checks that all are of one size.
+    ///
+    /// # Safety
+    /// `from` is NULL or holds `count` structs, for as long as this is used.
+    pub unsafe fn new(what: &str, from: *const T, count: usize) -> Outcome<Self> {
+        let mut size = size_of::<T>();
+        if count > 0 {
+            size = unsafe { size_of_all(what, from, count) }?;
+        }
         for index in 0..count {
-            let from = from.cast::<u8>().add(index * size).cast::<T>();
-            let own = from.cast::<u32>().read_unaligned();
+            let own = unsafe { from.cast::<u8>().add(index * size).cast::<u32>().read_unaligned() };
             if own as usize != size {
                 return Err(Failure::argument(format!(
                     "struct_size of {what} {index} is {own}, but of the first it is {size}: give all the same"
                 )));
             }
-            all.push(struct_in(from)?);
         }
+        Ok(Self { start: from.cast(), size, count, element: std::marker::PhantomData })
     }
-    Ok(all)
+
+    /// How many there are.
+    pub fn len(&self) -> usize {
+        self.count
+    }
+
+    /// A copy of one of them.
+    pub fn get(&self, index: usize) -> Outcome<T> {
+        assert!(index < self.count);
+        // SAFETY: within what the caller said that the array holds.
+        unsafe { struct_in(self.start.add(index * self.size).cast()) }
+    }
 }
 
 /// Checks a struct that is to be written, so that errors come before work.
@@ -368,7 +398,7 @@ impl<T: Plain> Output<T> {
     }
 
     /// Writes `values`, of which there are as many as were checked.
-    pub fn write(&self, values: &[T]) {
+    pub fn write_all(&self, values: &[T]) {
         let count = self.count.min(values.len());
         if self.stride == size_of::<T>() {
             // SAFETY: the caller's array holds as many.
@@ -384,6 +414,21 @@ impl<T: Plain> Output<T> {
             // SAFETY: the caller's array holds as many.
             unsafe { self.start.add(index * self.stride).cast::<T>().write_unaligned(value) };
         }
+    }
+}
+
+// SAFETY: a host's array that one call writes to, each element from one thread.
+unsafe impl<T: Send> Send for Output<T> {}
+
+impl<T: Plain + Send> Place<T> for Output<T> {
+    fn cut(self, index: usize) -> (Self, Self) {
+        let index = index.min(self.count);
+        let start = self.start.wrapping_add(index * self.stride);
+        (Self { count: index, ..self }, Self { start, count: self.count - index, ..self })
+    }
+
+    fn write(&mut self, first: usize, values: &[T]) {
+        self.cut(first).1.write_all(values);
     }
 }
 

@@ -1,15 +1,26 @@
 //! Takes a character through the field: vertices, their directions, morph targets, joints.
 
 use super::attach::LEAST_VERTICES;
+use super::displacement::{Displacements, Ending, single};
+use super::places::{MeshPlaces, Place};
 use super::{Deformed, DeformedMesh, Deformer, MeshOutputs};
 use crate::character::{Mesh, MorphTarget};
 use crate::error::Result;
 use crate::parallel;
 use crate::progress::Progress;
-use crate::shape::directions::{Gradients, RestTriangles, has_volume, normal_matrix};
+use crate::shape::Measured;
+use crate::shape::directions::{Moved, PIECE, RestTriangles, Room, Turn};
 use crate::shape::field::Binding;
-use glam::{DVec3, Mat3A, Vec3, Vec3A};
-use std::sync::Arc;
+use glam::{DVec3, Vec3, Vec4};
+use std::ops::Range;
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// Positions that are written together.
+const BLOCK: usize = 256;
+/// Fewer positions than this are not worth a thread: it takes longer to start than to write them.
+const LEAST_POSITIONS: usize = 100_000;
+/// Fewer pieces than this are not worth a thread.
+const LEAST_PIECES: usize = 40;
 
 impl Deformer {
     /// The whole result.
@@ -35,39 +46,60 @@ impl Deformer {
     pub fn apply_to(&self, outputs: &[MeshOutputs], progress: &mut Progress) -> Result<Deformed> {
         let meshes = &self.target.character.meshes;
         assert_eq!(outputs.len(), meshes.len(), "one for each mesh");
-        progress.at(0.0)?;
-        if self.field.finish.is_nothing() {
-            // The way to the canonical frame and back costs a last digit.
-            let meshes = meshes.iter().zip(outputs).map(|(mesh, &asked)| unchanged(mesh, asked)).collect();
-            progress.at(1.0)?;
-            return Ok(Deformed { meshes, joints: self.deformed_joints() });
+        let made = |mesh: &Mesh, asked: &MeshOutputs| DeformedMesh {
+            positions: vec![Vec3::ZERO; mesh.positions.len()],
+            normals: vec![Vec3::ZERO; if asked.normals { mesh.normals.len() } else { 0 }],
+            tangents: vec![Vec4::ZERO; if asked.tangents { mesh.tangents.len() } else { 0 }],
+            morph_targets: Vec::new(),
+        };
+        let asked = |mesh: usize| outputs[mesh].morph_targets;
+        let targets = self.deformed_targets(asked, &mut progress.part(0.0, 0.8))?;
+        let mut deformed: Vec<DeformedMesh> =
+            meshes.iter().zip(outputs).map(|(mesh, asked)| made(mesh, asked)).collect();
+        let places = deformed.iter_mut().map(|mesh| MeshPlaces {
+            positions: Some(&mut mesh.positions[..]),
+            normals: (!mesh.normals.is_empty()).then_some(&mut mesh.normals[..]),
+            tangents: (!mesh.tangents.is_empty()).then_some(&mut mesh.tangents[..]),
+        });
+        self.apply_into(places, &mut progress.part(0.8, 1.0))?;
+        for (mesh, targets) in targets.into_iter().enumerate() {
+            deformed[mesh].morph_targets = targets;
         }
-        let threads = self.options.thread_count;
-        let after = self.placement().all_vertices();
-        progress.at(0.3)?;
-        let has_turns: Vec<bool> =
-            meshes.iter().zip(outputs).map(|(mesh, &asked)| has_directions(mesh, asked)).collect();
-        let rest = has_turns.contains(&true).then(|| self.rest_triangles());
-        let gradients = rest.map(|rest| rest.gradients(&after, threads));
-        progress.at(0.6)?;
-        let turns: Vec<Turns> = (0..meshes.len())
-            .map(|mesh| match &gradients {
-                Some(gradients) if has_turns[mesh] => self.turns(mesh, outputs[mesh], gradients),
-                _ => Turns::default(),
-            })
-            .collect();
-        let mut targets = self.deform_targets(outputs, &after, &turns).into_iter();
-        let deformed = turns
-            .into_iter()
-            .enumerate()
-            .map(|(mesh, turns)| {
-                let count = if outputs[mesh].morph_targets { meshes[mesh].morph_targets.len() } else { 0 };
-                let morph_targets = targets.by_ref().take(count).collect();
-                self.deformed_mesh(mesh, outputs[mesh], &after, turns, morph_targets)
-            })
-            .collect();
-        progress.at(1.0)?;
         Ok(Deformed { meshes: deformed, joints: self.deformed_joints() })
+    }
+
+    /// Whether writing this allocates memory: morph targets do each time, directions the first time.
+    pub(crate) fn apply_allocates(&self, asked: MeshOutputs) -> bool {
+        let directions = asked.normals || asked.tangents;
+        asked.morph_targets || directions && self.target.rest_triangles.get().is_none()
+    }
+
+    /// Writes the vertices of each mesh, and what else there is a place for.
+    ///
+    /// # Errors
+    /// `Cancelled`, with nothing written.
+    pub(crate) fn apply_into<V: Place<Vec3>, W: Place<Vec4>>(
+        &self,
+        places: impl Iterator<Item = MeshPlaces<V, W>>,
+        progress: &mut Progress,
+    ) -> Result<()> {
+        progress.at(0.0)?;
+        let meshes = &self.target.character.meshes;
+        for (index, mut places) in places.enumerate() {
+            if self.field.finish.is_nothing() {
+                write_unchanged(&meshes[index], places);
+                continue;
+            }
+            if let Some(positions) = places.positions.take() {
+                self.write_positions(index, positions);
+            }
+            if places.normals.is_some() || places.tangents.is_some() {
+                self.write_directions(index, places);
+            }
+        }
+        // All is written: it is too late to stop.
+        let _ = progress.at(1.0);
+        Ok(())
     }
 
     /// Where each joint is now, as in [`Deformed::joints`].
@@ -112,114 +144,170 @@ impl Deformer {
         product.eyes.iter().filter_map(place).collect()
     }
 
+    /// Where the vertices go, model space, mesh after mesh.
+    pub(super) fn deformed_positions(&self) -> impl Iterator<Item = Vec3> + '_ {
+        let ending = self.ending();
+        let rest = self.target.character.meshes.iter().flat_map(|mesh| &mesh.positions);
+        rest.zip(self.displacements()).map(move |(&p, &displacement)| ending.place(p, displacement))
+    }
+
+    fn displacements(&self) -> &[Vec3] {
+        self.displacements.as_ref().map_or(&[], Displacements::all)
+    }
+
+    fn ending(&self) -> Ending {
+        Ending::of(&self.field.finish, &self.target.measured.figure.frame)
+    }
+
+    /// The vertices of a mesh.
+    fn vertices(&self, mesh: usize) -> Range<usize> {
+        let starts = &self.target.measured.figure.mesh_starts;
+        starts[mesh]..starts[mesh + 1]
+    }
+
+    /// Writes where the vertices of a mesh go.
+    fn write_positions<V: Place<Vec3>>(&self, mesh: usize, place: V) {
+        let rest = &self.target.character.meshes[mesh].positions;
+        let displacements = &self.displacements()[self.vertices(mesh)];
+        let ending = self.ending();
+        let write = |first: usize, count: usize, mut place: V| {
+            let mut block = [Vec3::ZERO; BLOCK];
+            for start in (first..first + count).step_by(BLOCK) {
+                let end = (start + BLOCK).min(first + count);
+                let from = rest[start..end].iter().zip(&displacements[start..end]);
+                for (to, (&p, &displacement)) in block.iter_mut().zip(from) {
+                    *to = ending.place(p, displacement);
+                }
+                place.write(start - first, &block[..end - start]);
+            }
+        };
+        let threads = self.options.thread_count;
+        in_shares(threads, rest.len(), LEAST_POSITIONS, place, Place::cut, write);
+    }
+
+    /// Writes what the directions of a mesh turn into.
+    fn write_directions<V: Place<Vec3>, W: Place<Vec4>>(&self, mesh: usize, places: MeshPlaces<V, W>) {
+        let rest = self.rest_triangles();
+        let Mesh { normals, tangents, .. } = &self.target.character.meshes[mesh];
+        let pieces = rest.pieces(mesh);
+        let start = self.vertices(mesh).start;
+        let cut = |places: MeshPlaces<V, W>, count: usize| places.cut(count * PIECE);
+        let write = |first: usize, count: usize, mut places: MeshPlaces<V, W>| {
+            let mut room = Room::default();
+            let mut new_normals = [Vec3::ZERO; PIECE];
+            let mut new_tangents = [Vec4::ZERO; PIECE];
+            for (at, piece) in pieces.clone().skip(first).take(count).enumerate() {
+                let jacobians = rest.jacobians(piece, &self.moved(), &mut room);
+                let vertices = rest.vertices(piece);
+                for (index, vertex) in vertices.clone().enumerate() {
+                    let turn = jacobians.of(index).unwrap_or_else(|| self.turn_of_field(vertex));
+                    let new_normal = normals.get(vertex - start).map(|&normal| turn.normal(normal));
+                    if let Some(normal) = new_normal {
+                        new_normals[index] = normal;
+                    }
+                    if places.tangents.is_some() {
+                        let tangent = tangents[vertex - start];
+                        let turned = turn.tangent(tangent.truncate(), new_normal);
+                        new_tangents[index] = turned.extend(tangent.w);
+                    }
+                }
+                if let Some(normals) = &mut places.normals {
+                    normals.write(at * PIECE, &new_normals[..vertices.len()]);
+                }
+                if let Some(tangents) = &mut places.tangents {
+                    tangents.write(at * PIECE, &new_tangents[..vertices.len()]);
+                }
+            }
+        };
+        let threads = self.options.thread_count;
+        in_shares(threads, pieces.len(), LEAST_PIECES, places, cut, write);
+    }
+
     fn rest_triangles(&self) -> &RestTriangles {
-        let figure = &self.target.measured.figure;
+        let Measured { figure, weld, .. } = &*self.target.measured;
         self.target.rest_triangles.get_or_init(|| {
-            Arc::new(RestTriangles::of(&figure.positions, &figure.triangles, &self.target.measured.weld))
+            let meshes = &self.target.character.meshes;
+            let positions: Vec<Vec3> = meshes.iter().flat_map(|mesh| &mesh.positions).copied().collect();
+            Arc::new(RestTriangles::of(&positions, &figure.triangles, &figure.mesh_starts, weld))
         })
     }
 
-    /// One mesh of the result, its vertices among those that are `after`.
-    fn deformed_mesh(
-        &self,
-        index: usize,
-        asked: MeshOutputs,
-        after: &[DVec3],
-        turns: Turns,
-        morph_targets: Vec<MorphTarget>,
-    ) -> DeformedMesh {
-        let figure = &self.target.measured.figure;
-        let mesh = &self.target.character.meshes[index];
-        let start = figure.mesh_starts[index];
-        let of_mesh = &after[start..start + mesh.positions.len()];
-        let tangents = turns.tangents.iter().zip(&mesh.tangents);
-        DeformedMesh {
-            positions: of_mesh.iter().map(|&p| single(figure.frame.to_model(p))).collect(),
-            tangents: if asked.tangents {
-                tangents.map(|(tangent, old)| tangent.extend(old.w)).collect()
-            } else {
-                Vec::new()
-            },
-            normals: if asked.normals { turns.normals } else { Vec::new() },
-            morph_targets,
-        }
+    fn moved(&self) -> Moved<'_> {
+        let finish = &self.field.finish;
+        let (share, size) = ((finish.size * finish.amount) as f32, finish.size as f32);
+        Moved { displacements: self.displacements(), share, size }
     }
 
-    /// What the directions of a mesh turn into.
-    fn turns(&self, index: usize, asked: MeshOutputs, gradients: &Gradients) -> Turns {
-        let mesh = &self.target.character.meshes[index];
+    /// The field's own Jacobian at a vertex around which no triangle has one; model space.
+    #[cold]
+    fn turn_of_field(&self, vertex: usize) -> Turn {
         let figure = &self.target.measured.figure;
-        let (frame, weld) = (figure.frame.rotation(), &self.target.measured.weld);
-        let back = frame.transpose();
-        let start = figure.mesh_starts[index];
-        let threads = self.options.thread_count;
-        let turn = |vertex: usize| {
-            let whole = start + vertex;
-            let of_field = || {
-                let binding = &self.deformation.bindings.vertices[whole];
-                self.field.map(figure.positions[whole], binding).jacobian.as_mat3().into()
-            };
-            let welded = weld.representative[whole] as usize;
-            let jacobian = gradients.jacobian(welded).filter(has_volume).unwrap_or_else(of_field);
-            back * jacobian * frame
-        };
-        let has_targets = asked.morph_targets && !mesh.morph_targets.is_empty();
-        if !(asked.tangents || has_targets) {
-            // The turns themselves are not needed any more.
-            let normals = parallel::collect(threads, mesh.normals.len(), LEAST_VERTICES, |vertex| {
-                turned_normal(&turn(vertex), mesh.normals[vertex])
-            });
-            return Turns { normals, ..Turns::default() };
+        let binding = &self.deformation.bindings.vertices[vertex];
+        let jacobian = self.field.map(figure.positions[vertex], binding).jacobian;
+        Turn::of(figure.frame.jacobian_to_model(jacobian).as_mat3().into())
+    }
+
+    /// What the directions of all of a mesh's vertices turn by.
+    fn turns(&self, mesh: usize) -> Vec<Turn> {
+        let rest = self.rest_triangles();
+        let mut room = Room::default();
+        let mut turns = Vec::with_capacity(self.vertices(mesh).len());
+        for piece in rest.pieces(mesh) {
+            let jacobians = rest.jacobians(piece, &self.moved(), &mut room);
+            let of = |(index, vertex)| jacobians.of(index).unwrap_or_else(|| self.turn_of_field(vertex));
+            turns.extend(rest.vertices(piece).enumerate().map(of));
         }
-        let turns = parallel::collect(threads, mesh.positions.len(), LEAST_VERTICES, turn);
-        let mut turns = Turns { turns, normals: Vec::new(), tangents: Vec::new() };
-        turns.normals = parallel::collect(threads, mesh.normals.len(), LEAST_VERTICES, |vertex| {
-            turns.normal(vertex, mesh.normals[vertex])
-        });
-        turns.tangents = parallel::collect(threads, mesh.tangents.len(), LEAST_VERTICES, |vertex| {
-            turns.tangent(vertex, mesh.tangents[vertex].truncate())
-        });
         turns
     }
 
-    /// The morph targets that are asked for, mesh by mesh.
-    fn deform_targets(&self, outputs: &[MeshOutputs], after: &[DVec3], turns: &[Turns]) -> Vec<MorphTarget> {
-        let meshes = &self.target.character.meshes;
-        // One by one, whichever mesh they belong to: a face may hold them all.
-        let targets: Vec<(usize, usize)> = (0..meshes.len())
-            .filter(|&mesh| outputs[mesh].morph_targets)
-            .flat_map(|mesh| (0..meshes[mesh].morph_targets.len()).map(move |target| (mesh, target)))
-            .collect();
-        let least = if after.len() < LEAST_VERTICES { usize::MAX } else { 1 };
-        parallel::collect(self.options.thread_count, targets.len(), least, |index| {
-            let (mesh, target) = targets[index];
-            self.deform_target(mesh, target, after, &turns[mesh])
+    /// The morph targets of each mesh of which they are asked for.
+    ///
+    /// # Errors
+    /// `Cancelled`.
+    pub(crate) fn deformed_targets(
+        &self,
+        is_asked: impl Fn(usize) -> bool,
+        progress: &mut Progress,
+    ) -> Result<Vec<Vec<MorphTarget>>> {
+        let count = self.target.character.meshes.len();
+        let of_mesh = |mesh: usize| {
+            progress.at(mesh as f32 / count as f32)?;
+            Ok(if is_asked(mesh) { self.targets_of_mesh(mesh) } else { Vec::new() })
+        };
+        (0..count).map(of_mesh).collect()
+    }
+
+    fn targets_of_mesh(&self, mesh: usize) -> Vec<MorphTarget> {
+        let Mesh { morph_targets, normals, tangents, .. } = &self.target.character.meshes[mesh];
+        if self.field.finish.is_nothing() {
+            return morph_targets.clone();
+        }
+        let turn_normals =
+            !normals.is_empty() && morph_targets.iter().any(|target| !target.normals.is_empty());
+        let turn_tangents =
+            !tangents.is_empty() && morph_targets.iter().any(|target| !target.tangents.is_empty());
+        let turns = if turn_normals || turn_tangents { self.turns(mesh) } else { Vec::new() };
+        let new_normals: Vec<Vec3> =
+            turns.iter().zip(normals).map(|(turn, &normal)| turn.normal(normal)).collect();
+        let tangent =
+            |vertex: usize, tangent: Vec3| turns[vertex].tangent(tangent, new_normals.get(vertex).copied());
+        let directions: Vec<Vec3> = tangents.iter().map(|tangent| tangent.truncate()).collect();
+        let least = if self.vertices(mesh).len() < LEAST_VERTICES { usize::MAX } else { 1 };
+        parallel::collect(self.options.thread_count, morph_targets.len(), least, |index| {
+            let target = &morph_targets[index];
+            MorphTarget {
+                name: target.name.clone(),
+                positions: self.morph_positions(self.vertices(mesh).start, &target.positions),
+                normals: morph_turns(&target.normals, normals, &|vertex, normal| {
+                    turns[vertex].normal(normal)
+                }),
+                tangents: morph_turns(&target.tangents, &directions, &tangent),
+            }
         })
     }
 
-    fn deform_target(&self, mesh: usize, target: usize, after: &[DVec3], turns: &Turns) -> MorphTarget {
-        let start = self.target.measured.figure.mesh_starts[mesh];
-        let mesh = &self.target.character.meshes[mesh];
-        let target = &mesh.morph_targets[target];
-        let directions: Vec<Vec3> = if target.tangents.is_empty() {
-            Vec::new()
-        } else {
-            mesh.tangents.iter().map(|tangent| tangent.truncate()).collect()
-        };
-        MorphTarget {
-            name: target.name.clone(),
-            positions: self.morph_positions(start, &target.positions, after),
-            normals: morph_turns(&target.normals, &mesh.normals, &turns.normals, &|vertex, normal| {
-                turns.normal(vertex, normal)
-            }),
-            tangents: morph_turns(&target.tangents, &directions, &turns.tangents, &|vertex, tangent| {
-                turns.tangent(vertex, tangent)
-            }),
-        }
-    }
-
     /// D(v + d) - D(v): exact, and zero where d is.
-    fn morph_positions(&self, start: usize, deltas: &[Vec3], after: &[DVec3]) -> Vec<Vec3> {
+    fn morph_positions(&self, start: usize, deltas: &[Vec3]) -> Vec<Vec3> {
         let placement = self.placement();
         let figure = placement.figure;
         let moved = |(vertex, &delta): (usize, &Vec3)| {
@@ -228,74 +316,59 @@ impl Deformer {
             }
             let whole = start + vertex;
             let p = figure.positions[whole] + figure.frame.to_canonical(delta.as_dvec3());
-            single(figure.frame.to_model(placement.beside(whole, p) - after[whole]))
+            single(figure.frame.to_model(placement.beside(whole, p) - placement.vertex(whole)))
         };
         deltas.iter().enumerate().map(moved).collect()
     }
 }
 
-/// Whether directions of `mesh` are asked for.
-fn has_directions(mesh: &Mesh, asked: MeshOutputs) -> bool {
-    (asked.normals || asked.tangents || asked.morph_targets)
-        && !(mesh.normals.is_empty() && mesh.tangents.is_empty())
+/// Does `write` of so many items from one of them on, in shares side by side where there is enough to do.
+///
+/// `cut`: a place for the items before one of them, and for the rest.
+fn in_shares<P: Send>(
+    threads: usize,
+    count: usize,
+    least: usize,
+    place: P,
+    cut: impl Fn(P, usize) -> (P, P),
+    write: impl Fn(usize, usize, P) + Sync,
+) {
+    let share_count = parallel::share_count(threads, count, least);
+    if share_count == 1 {
+        return write(0, count, place);
+    }
+    let share = count.div_ceil(share_count);
+    let mut shares = Vec::with_capacity(share_count);
+    let mut rest = place;
+    for _ in 1..count.div_ceil(share) {
+        let (first, others) = cut(rest, share);
+        shares.push(Mutex::new(Some(first)));
+        rest = others;
+    }
+    shares.push(Mutex::new(Some(rest)));
+    parallel::collect(threads, shares.len(), 1, |index| {
+        if let Some(place) = shares[index].lock().unwrap_or_else(PoisonError::into_inner).take() {
+            let first = index * share;
+            write(first, share.min(count - first), place);
+        }
+    });
 }
 
-/// The mesh as it came, of it what is asked for.
-fn unchanged(mesh: &Mesh, asked: MeshOutputs) -> DeformedMesh {
-    let mut all = DeformedMesh { positions: mesh.positions.clone(), ..DeformedMesh::default() };
-    if asked.normals {
-        all.normals.clone_from(&mesh.normals);
+/// The mesh as it came, of it what there is a place for.
+fn write_unchanged<V: Place<Vec3>, W: Place<Vec4>>(mesh: &Mesh, mut places: MeshPlaces<V, W>) {
+    if let Some(positions) = &mut places.positions {
+        positions.write(0, &mesh.positions);
     }
-    if asked.tangents {
-        all.tangents.clone_from(&mesh.tangents);
+    if let Some(normals) = &mut places.normals {
+        normals.write(0, &mesh.normals);
     }
-    if asked.morph_targets {
-        all.morph_targets.clone_from(&mesh.morph_targets);
-    }
-    all
-}
-
-/// As floats. What lies beyond their range, which takes a model of over 1e30 units, ends there instead of at infinity.
-fn single(p: DVec3) -> Vec3 {
-    p.clamp(DVec3::splat(f32::MIN.into()), DVec3::splat(f32::MAX.into())).as_vec3()
-}
-
-/// How the directions at each vertex of a mesh turn, and what its own turn into; all empty where nothing of it is asked for.
-#[derive(Default)]
-struct Turns {
-    /// Model space; empty where normals alone are asked for.
-    turns: Vec<Mat3A>,
-    normals: Vec<Vec3>,
-    tangents: Vec<Vec3>,
-}
-
-impl Turns {
-    fn normal(&self, vertex: usize, normal: Vec3) -> Vec3 {
-        turned_normal(&self.turns[vertex], normal)
-    }
-
-    fn tangent(&self, vertex: usize, tangent: Vec3) -> Vec3 {
-        let turned = Vec3::from(self.turns[vertex] * Vec3A::from(tangent));
-        let flat = match self.normals.get(vertex) {
-            Some(&normal) => turned.reject_from_normalized(normal),
-            None => turned,
-        };
-        flat.normalize_or(tangent)
+    if let Some(tangents) = &mut places.tangents {
+        tangents.write(0, &mesh.tangents);
     }
 }
 
-/// What `normal` becomes where the surface turns by `turn`.
-fn turned_normal(turn: &Mat3A, normal: Vec3) -> Vec3 {
-    (normal_matrix(turn) * Vec3A::from(normal)).normalize_or(normal.into()).into()
-}
-
-/// Changes of unit vectors: what the changed vector turns into, less what the unchanged one did.
-fn morph_turns(
-    deltas: &[Vec3],
-    before: &[Vec3],
-    after: &[Vec3],
-    turn: &dyn Fn(usize, Vec3) -> Vec3,
-) -> Vec<Vec3> {
+/// Changes of unit vectors: what the changed vector turns into, less what the unchanged one does.
+fn morph_turns(deltas: &[Vec3], before: &[Vec3], turn: &dyn Fn(usize, Vec3) -> Vec3) -> Vec<Vec3> {
     if before.len() != deltas.len() {
         // Without base vectors there is nothing that the deltas change.
         return deltas.to_vec();
@@ -310,7 +383,7 @@ fn morph_turns(
             let changed = before[vertex] + delta;
             // What comes out is of unit length, whatever came in.
             let length = if before[vertex] == Vec3::ZERO { 1.0 } else { before[vertex].length() };
-            turn(vertex, changed) * (changed.length() / length) - after[vertex]
+            turn(vertex, changed) * (changed.length() / length) - turn(vertex, before[vertex])
         })
         .collect()
 }

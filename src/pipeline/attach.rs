@@ -1,5 +1,6 @@
 //! How the target hangs on a field, and where the field takes its points.
 
+use super::displacement::is_of_head;
 use crate::character::Character;
 use crate::face::stage::Ways;
 use crate::geometry::range;
@@ -21,6 +22,22 @@ pub struct Bindings {
     pub joints: Arc<Vec<Binding>>,
     /// Where it stands.
     pub ground: Arc<GroundContact>,
+    /// The vertices that the stages after the body's can move, ascending.
+    pub of_head: Arc<Vec<u32>>,
+}
+
+impl Bindings {
+    /// All that hangs on the field so.
+    pub fn new(vertices: Vec<Binding>, joints: Vec<Binding>, ground: GroundContact) -> Self {
+        let of_head =
+            (0..vertices.len() as u32).filter(|&vertex| is_of_head(&vertices[vertex as usize])).collect();
+        Self {
+            vertices: Arc::new(vertices),
+            joints: Arc::new(joints),
+            ground: Arc::new(ground),
+            of_head: Arc::new(of_head),
+        }
+    }
 }
 
 /// Vertices of which the lowest stays where it is, and its height.
@@ -86,13 +103,29 @@ pub struct Placement<'a> {
     pub hair_offsets: &'a [DVec3],
     /// The same for each joint.
     pub joint_offsets: &'a [DVec3],
-    /// The vertices' ways through the face step, where they are kept.
+    /// Where the body of `field`, with its face, takes the vertices, where that is kept.
+    pub placed: Option<&'a [DVec3]>,
+    /// How they go on from there through the face step, where that is kept.
     pub ways: Option<&'a Ways>,
     /// Threads to use, 0 for all cores.
     pub threads: usize,
 }
 
-impl Placement<'_> {
+impl<'a> Placement<'a> {
+    /// By `field` alone.
+    pub fn new(figure: &'a Figure, bindings: &'a Bindings, field: &'a Field, threads: usize) -> Self {
+        Self {
+            figure,
+            bindings,
+            field,
+            hair_offsets: &[],
+            joint_offsets: &[],
+            placed: None,
+            ways: None,
+            threads,
+        }
+    }
+
     /// Where a point `p` goes that moves with `vertex`; canonical frame.
     pub fn beside(&self, vertex: usize, p: DVec3) -> DVec3 {
         self.with_hair_offset(vertex, self.field.place(p, &self.bindings.vertices[vertex]))
@@ -101,8 +134,8 @@ impl Placement<'_> {
     /// Where `vertex` goes, canonical frame.
     pub fn vertex(&self, vertex: usize) -> DVec3 {
         let (p, binding) = (self.figure.positions[vertex], &self.bindings.vertices[vertex]);
-        let to = match self.ways {
-            Some(ways) => self.field.place_along(p, binding, vertex, ways),
+        let to = match self.placed {
+            Some(placed) => self.field.place_from(p, placed[vertex], binding, vertex, self.ways),
             None => self.field.place(p, binding),
         };
         self.with_hair_offset(vertex, to)
@@ -113,6 +146,13 @@ impl Placement<'_> {
             Some(&offset) => to + self.field.finish.share_of_offsets() * offset,
             None => to,
         }
+    }
+
+    /// Where the body of the field alone takes every vertex, canonical frame.
+    pub fn all_placed(&self) -> Vec<DVec3> {
+        let place =
+            |vertex| self.field.place_body(self.figure.positions[vertex], &self.bindings.vertices[vertex]);
+        parallel::collect(self.threads, self.figure.positions.len(), LEAST_VERTICES, place)
     }
 
     /// Where every vertex goes, canonical frame.

@@ -1,6 +1,6 @@
 //! Amount, ground, face and height: what is done last, in this order, and anew for every change of these alone.
 
-use super::attach::Placement;
+use super::attach::{LEAST_VERTICES, Placement};
 use super::{Deformer, milliseconds, product};
 use crate::character::{MeshKind, Role};
 use crate::error::Result;
@@ -8,10 +8,12 @@ use crate::face::FaceShape;
 use crate::geometry::bounds;
 use crate::geometry::range;
 use crate::options::{Height, Mode, Stage};
+use crate::parallel;
 use crate::progress::Progress;
 use crate::shape::field::{BodyField, Finish};
 use crate::shape::measured::is_of_head;
 use glam::DVec3;
+use std::sync::Arc;
 use std::time::Instant;
 
 impl Deformer {
@@ -34,12 +36,15 @@ impl Deformer {
         self.field.finish = Finish { ground, ..finish };
         progress.at(0.1)?;
         self.finish_face();
+        self.finish_placed();
         progress.at(0.2)?;
         self.finish_youth();
         progress.at(0.5)?;
         self.finish_seat();
         progress.at(0.7)?;
         self.finish_hair();
+        progress.at(0.8)?;
+        self.finish_displacements();
         progress.at(0.9)?;
         self.finish_height();
         Ok(())
@@ -49,7 +54,9 @@ impl Deformer {
     fn ground_shift(&self, finish: Finish) -> f64 {
         let field = self.field.with(finish);
         let ground = &self.deformation.bindings.ground;
-        let after = Placement { field: &field, ways: None, ..self.placement() }.vertices(&ground.vertices);
+        let placed = Some(&self.deformation.placed[..]);
+        let placement = Placement { field: &field, placed, ways: None, ..self.placement() };
+        let after = placement.vertices(&ground.vertices);
         let lowest = after.iter().map(|p| p.y).min_by(f64::total_cmp);
         lowest.map_or(0.0, |lowest| ground.height - lowest)
     }
@@ -70,6 +77,28 @@ impl Deformer {
         self.timing.face = milliseconds(clock);
     }
 
+    /// Asks the body's field where it takes the vertices that the face moves.
+    fn finish_placed(&mut self) {
+        let squash = self.field.finish.face;
+        if self.placed.as_ref().is_some_and(|(face, _)| *face == squash) {
+            return;
+        }
+        let mut placed = Arc::clone(&self.deformation.placed);
+        if squash != FaceShape::None {
+            let Placement { figure, bindings, threads, .. } = self.placement();
+            let of_head = Arc::clone(&bindings.of_head);
+            let new = parallel::collect(threads, of_head.len(), LEAST_VERTICES, |index| {
+                let vertex = of_head[index] as usize;
+                self.field.place_body(figure.positions[vertex], &bindings.vertices[vertex])
+            });
+            let all = Arc::make_mut(&mut placed);
+            for (&vertex, new) in of_head.iter().zip(new) {
+                all[vertex as usize] = new;
+            }
+        }
+        self.placed = Some((squash, placed));
+    }
+
     /// Makes everything as tall as the options say, about the ground below the hips.
     fn finish_height(&mut self) {
         let figure = &self.target.measured.figure;
@@ -78,7 +107,8 @@ impl Deformer {
             Height::Keep => figure.height(),
             Height::Units(units) => units,
         };
-        let (low, high) = range(self.placement().all_vertices().iter().map(|p| p.y));
+        let up = figure.frame.to_model(DVec3::Y);
+        let (low, high) = range(self.deformed_positions().map(|p| p.as_dvec3().dot(up)));
         if low < high {
             self.field.finish.size = height / (high - low);
         }
@@ -98,7 +128,8 @@ impl Deformer {
     fn face_box(&self) -> Option<(DVec3, DVec3)> {
         let figure = &self.target.measured.figure;
         let whole = self.field.with(Finish::default());
-        let placement = Placement { field: &whole, ways: None, ..self.placement() };
+        let placed = Some(&self.deformation.placed[..]);
+        let placement = Placement { field: &whole, placed, ways: None, ..self.placement() };
         let is_of_face = |&vertex: &usize| {
             let kind = figure.kind(vertex);
             (kind == MeshKind::Body || kind.is_of_face()) && is_of_head(figure, vertex)

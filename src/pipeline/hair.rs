@@ -117,7 +117,7 @@ impl Laid {
 impl Deformer {
     /// Lays hair as the options ask for, and keeps it outside of the body.
     pub(super) fn finish_hair(&mut self) {
-        self.hair = None;
+        let known = self.hair.take();
         let amount = self.head_growth() * self.options.hair_lay;
         let lays = amount > 0.0 && self.options.stage == Stage::Face;
         let is_changed = lays || self.field.young.is_some() || self.field.seat.is_some();
@@ -149,7 +149,11 @@ impl Deformer {
         for (end, is_seen) in [youth < 1.0, youth > 0.0].into_iter().enumerate() {
             ends.of[end].take_if(|_| !is_seen);
         }
-        self.hair = Some(Laid::new(ends, youth));
+        let is_same = |laid: &Arc<Laid>| {
+            let ends = laid.ends.of.iter().zip(&ends.of).all(|(known, new)| is_one(known, new));
+            ends && laid.youth == youth
+        };
+        self.hair = known.filter(is_same).or_else(|| Some(Arc::new(Laid::new(ends, youth))));
     }
 
     /// Hair on the face as it was (`youth` 0) or on the youngest one (1).

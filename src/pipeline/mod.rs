@@ -6,9 +6,11 @@
 
 mod apply;
 mod attach;
+mod displacement;
 mod finish;
 mod hair;
 mod paper;
+pub mod places;
 mod product;
 mod product_target;
 mod profile;
@@ -24,6 +26,7 @@ pub use rigging::Rig;
 
 use crate::character::{Character, Humanoid, Role};
 use crate::error::{Result, Warning};
+use crate::face::FaceShape;
 pub use crate::geometry::Mapped;
 use crate::options::Repair;
 pub use crate::options::{FaceCurve, GroupSettings, Mode, Options, Stage};
@@ -38,6 +41,7 @@ use crate::shape::product::repair::Pushed;
 pub use crate::shape::style::Style;
 use crate::shape::{BodyShape, Coefficient, GroupShape};
 use attach::{Bindings, Placement};
+use displacement::Displacements;
 use glam::DVec3;
 use product_target::ProductTarget;
 use std::collections::{BTreeMap, BTreeSet};
@@ -57,14 +61,18 @@ pub struct Deformer {
     deformation: Deformation,
     /// The deformation's field with amount, ground and face as the options say.
     field: Field,
+    /// Where the body's field takes the vertices, with the face of this shape.
+    placed: Option<(FaceShape, Arc<Vec<DVec3>>)>,
     /// What the face step was last made of, and its ways.
     young: Option<young::Made>,
     /// How the head sits on it.
     sat: Option<young::Sat>,
     /// What hair does after the head's stages; without these the deformation's offsets are all.
-    hair: Option<hair::Laid>,
+    hair: Option<Arc<hair::Laid>>,
     /// That of the face as it was and of the youngest one.
     laid: Option<hair::Ends>,
+    /// Where all of that takes the vertices; there once the options are done.
+    displacements: Option<Displacements>,
     warnings: Vec<Warning>,
     timing: Timing,
 }
@@ -83,6 +91,8 @@ struct Target {
 struct Deformation {
     body: Arc<BodyField>,
     bindings: Bindings,
+    /// Where the body takes the vertices without a younger face, canonical frame.
+    placed: Arc<Vec<DVec3>>,
     /// What keeps clothes and locks of hair outside the body, added to each vertex at the end; empty where nothing does.
     hair_offsets: Vec<DVec3>,
     /// What keeps clothes outside of the body, a part of these.
@@ -282,6 +292,8 @@ impl Deformer {
             sat: None,
             hair: None,
             laid: None,
+            displacements: None,
+            placed: None,
             warnings: Vec::new(),
             timing,
         };
@@ -300,6 +312,11 @@ impl Deformer {
             field: &self.field,
             hair_offsets: self.hair.as_ref().map_or(&self.deformation.hair_offsets, |hair| &hair.offsets),
             joint_offsets: self.hair.as_ref().map_or(&[], |hair| &hair.joint_offsets),
+            placed: self
+                .placed
+                .as_ref()
+                .filter(|(face, _)| *face == self.field.finish.face)
+                .map(|(_, placed)| &placed[..]),
             ways: self.young.as_ref().and_then(|young| young.ways_after(self.field.finish.face)),
             threads: self.options.thread_count,
         }

@@ -1,13 +1,13 @@
 //! The paper's own way in order: coefficients (Eqs. 9-11), skeleton (Eqs. 1-4), mesh (Eqs. 5-8).
 
-use super::attach::{Bindings, GroundContact, joint_bindings};
+use super::attach::{Bindings, GroundContact, Placement, joint_bindings};
 use super::{Deformation, Target};
 use crate::character::bones::Bone;
 use crate::character::{MeshKind, Role};
 use crate::error::{Error, ErrorKind, Result};
 use crate::geometry::{Weld, bounds, components};
 use crate::options::Options;
-use crate::shape::field::{Binding, BodyField};
+use crate::shape::field::{Binding, BodyField, Field};
 use crate::shape::figure::Figure;
 use crate::shape::measured::is_of_head;
 use crate::shape::paper::coefficients::coefficients;
@@ -36,9 +36,14 @@ pub fn deform(target: &Target, style: &Style, options: &Options) -> Result<Defor
     let (joints, head_top) = (&measured.joints, measured.head_top);
     let shortened = shorten(&bones, joints, head_top, &found.groups);
     let field = BoneField::new(&bones, joints, head_top, &shortened, &found.groups);
+    let bindings = bindings(target, &field);
+    let field = Field::of(Arc::new(BodyField::Bones(PaperField { bones: field, stage: options.stage })));
+    let figure = &measured.figure;
+    let placed = Placement::new(figure, &bindings, &field, options.thread_count).all_placed();
     Ok(Deformation {
-        bindings: bindings(target, &field),
-        body: Arc::new(BodyField::Bones(PaperField { bones: field, stage: options.stage })),
+        bindings,
+        body: field.body,
+        placed: Arc::new(placed),
         hair_offsets: Vec::new(),
         pushed: Pushed::default(),
         whole: 1.0,
@@ -71,11 +76,8 @@ fn bindings(target: &Target, field: &BoneField) -> Bindings {
         let role = figure.joint_roles[joint].unwrap_or(Role::Hips);
         Binding::Bones(bind(figure.joints[joint], &[(role, 1.0)]))
     });
-    Bindings {
-        vertices: Arc::new(vertices.into_iter().map(Binding::Bones).collect()),
-        joints: Arc::new(joints),
-        ground: Arc::new(GroundContact::of(figure, |vertex| figure.kind(vertex) != MeshKind::Hair)),
-    }
+    let ground = GroundContact::of(figure, |vertex| figure.kind(vertex) != MeshKind::Hair);
+    Bindings::new(vertices.into_iter().map(Binding::Bones).collect(), joints, ground)
 }
 
 /// Hats and glasses: components of accessories that the head moves, with the middle of each.

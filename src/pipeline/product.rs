@@ -16,11 +16,13 @@ use crate::shape::product::binding::PartBindings;
 use crate::shape::product::coefficients::{Goal, heads_of, part_coefficients};
 use crate::shape::product::field::PartField;
 use crate::shape::product::groups::PartGroups;
+use crate::shape::product::part::{PartWeights, fold_to_parts};
 use crate::shape::product::repair::Pushed;
 use crate::shape::product::scales::PartCoefficients;
 use crate::shape::style::Style;
 use crate::shape::{BodyShape, Measured};
 use glam::DVec3;
+use std::cell::OnceCell;
 use std::sync::{Arc, OnceLock};
 
 /// A head count as near as this to the one asked for needs no correction. D27. Seen: ±30 % moves vertices by up to .004
@@ -66,12 +68,15 @@ pub fn deform(
     let mut warnings = anatomy.warnings();
     warnings.extend(split);
     warnings.extend(hair_shortened(&product.parts, head_length));
-    let request = Request { target, product: &product, style, options, groups: &groups };
+    let request =
+        Request { target, product: &product, style, options, groups: &groups, weights: OnceCell::new() };
     let (attempt, heads_left) = request.best(progress)?;
     warnings.extend(attempt.warnings);
     let field = attempt.field;
     progress.at(0.6)?;
     let placement = product.placement(&target.measured.figure, &field, options.thread_count);
+    let placed = placement.all_placed();
+    let placement = Placement { placed: Some(&placed), ..placement };
     let pushed = match (options.repair, known.pushed) {
         (Repair::Off, _) => Pushed::default(),
         (Repair::Kept, Some(pushed)) => pushed,
@@ -87,6 +92,7 @@ pub fn deform(
     Ok(Deformation {
         body: field.body,
         bindings: product.bindings.clone(),
+        placed: Arc::new(placed),
         hair_offsets,
         pushed,
         whole,
@@ -147,6 +153,8 @@ struct Request<'a> {
     style: &'a Style,
     options: &'a Options,
     groups: &'a PartGroups,
+    /// What the rig's own weights give the parts of each vertex, once it is needed.
+    weights: OnceCell<Vec<PartWeights>>,
 }
 
 impl Request<'_> {
@@ -201,7 +209,7 @@ impl Request<'_> {
     /// One field, for a style with everything below the head stretched by what makes the result `aim` heads tall instead of
     /// `asked`.
     fn attempt(&self, asked: f64, aim: f64, is_sliced: bool) -> Result<Attempt> {
-        let Self { target, product, style, options, groups } = *self;
+        let &Self { target, product, style, options, groups, .. } = self;
         let anatomy = &target.measured.anatomy;
         let stretched;
         let goal = match style {
@@ -216,7 +224,9 @@ impl Request<'_> {
         let field = PartField::new(anatomy, scales, &product.parts, options.hair_length);
         let field = Field::of(Arc::new(BodyField::Parts(Box::new(field))));
         let Sliced { field, limited, replaced } = if is_sliced {
-            with_profile(target, product, field, style, options, groups)
+            let roles = &target.measured.figure.role_weights;
+            let weights = self.weights.get_or_init(|| roles.iter().map(|row| fold_to_parts(row)).collect());
+            with_profile(target, product, weights, field, style, options, groups)
         } else {
             Sliced { field, limited: None, replaced: Vec::new() }
         };

@@ -19,7 +19,7 @@ use crate::shape::product::part::Part;
 use crate::shape::product::repair::Pushed;
 use crate::shape::product::worn::Worn;
 use glam::DVec3;
-use std::sync::{Arc, OnceLock};
+use std::sync::OnceLock;
 
 /// What product mode finds of a measured target once: no style and no option changes it.
 #[derive(Debug)]
@@ -65,11 +65,7 @@ impl ProductTarget {
                 joint_binding(figure, &parts, joint)
             })
         });
-        let bindings = Bindings {
-            vertices: Arc::new(vertices.into_iter().map(Binding::Parts).collect()),
-            joints: Arc::new(joints),
-            ground: Arc::new(ground),
-        };
+        let bindings = Bindings::new(vertices.into_iter().map(Binding::Parts).collect(), joints, ground);
         Ok(Self {
             bindings,
             eyes: eyes(target),
@@ -114,15 +110,7 @@ impl ProductTarget {
         field: &'a Field,
         threads: usize,
     ) -> Placement<'a> {
-        Placement {
-            figure,
-            bindings: &self.bindings,
-            field,
-            hair_offsets: &[],
-            joint_offsets: &[],
-            ways: None,
-            threads,
-        }
+        Placement::new(figure, &self.bindings, field, threads)
     }
 
     /// How many heads tall `placement` makes the target, measured on the result.

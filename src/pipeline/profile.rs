@@ -7,6 +7,7 @@ use crate::options::{Options, Stage};
 use crate::shape::field::{Binding, BodyField, Field};
 use crate::shape::product::field::PartField;
 use crate::shape::product::groups::PartGroups;
+use crate::shape::product::part::PartWeights;
 use crate::shape::product::profile::{ProfileStage, Source, strengths, wanted_of};
 use crate::shape::style::Style;
 use std::sync::Arc;
@@ -29,9 +30,12 @@ pub struct Sliced {
 }
 
 /// `field`, the parts' own, and then the profile that the style wants, as much of it as the options take.
+///
+/// `weights`: what the rig's own weights give the parts of each vertex.
 pub fn with_profile(
     target: &Target,
     product: &ProductTarget,
+    weights: &[PartWeights],
     field: Field,
     style: &Style,
     options: &Options,
@@ -47,6 +51,7 @@ pub fn with_profile(
     let source = Source {
         figure: &measured.figure,
         anatomy: &measured.anatomy,
+        parts: weights,
         weld: &measured.weld,
         rest: measured.shape.profile.as_ref(),
         pieces: &product.parts.pieces,

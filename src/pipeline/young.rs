@@ -206,7 +206,10 @@ impl Deformer {
             _ => FaceBinding::None,
         };
         let bindings: Vec<FaceBinding> = self.deformation.bindings.vertices.iter().map(binding).collect();
-        let ways = young.ways(placement.all_vertices(), &bindings, self.options.thread_count);
+        let ways = match &self.placed {
+            Some((_, placed)) => young.ways(placed, &bindings, self.options.thread_count),
+            None => young.ways(&placement.all_placed(), &bindings, self.options.thread_count),
+        };
         (young, ways)
     }
 }

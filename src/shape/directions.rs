@@ -3,44 +3,182 @@
 //! The field's own Jacobian holds the weights fixed, but weights change along the surface and that turns it too. So
 //! the Jacobian is fitted to what happened to the triangles around each welded vertex; authored normals (faces of
 //! drawn characters have edited ones) keep what was edited, and vertices at one place turn alike.
+//!
+//! Vertices are taken in [`Piece`]s, as many as fit a processor's nearest memory with the triangles around them: four
+//! triangles side by side, and nothing kept from piece to piece. A triangle at a border is looked at by each of its pieces,
+//! in the order of the mesh, so that the pieces do not show.
 
+use crate::geometry::bounds;
 use crate::geometry::weld::Weld;
-use crate::parallel;
-use glam::{DVec3, Mat3A, Vec3, Vec3A, Vec4};
+use glam::{DVec3, Mat3A, Mat4, Vec3, Vec3A, Vec4};
+use std::ops::Range;
 
 /// Triangles of less than this share of their longest edge's square have no direction: rounding to 32 bits alone would
 /// turn them.
 const LEAST_AREA: f64 = 1e-10;
-/// Fewer triangles than this are not worth a thread.
-const LEAST_TRIANGLES: usize = 4000;
+/// Vertices of a piece.
+pub const PIECE: usize = 256;
+/// Groups of four triangles that are looked at together, and so the corners that they have at most.
+const GROUPS: usize = 64;
+const CORNERS: usize = 1024;
+const _: () = assert!(CORNERS >= 3 * LANES * GROUPS && CORNERS.is_power_of_two());
+/// Triangles of a group.
+const LANES: usize = 4;
+/// The slot of corners that are no vertex of the piece: sums that nobody reads.
+const NO_SLOT: u16 = PIECE as u16;
 
-/// What a mesh is at rest, to fit Jacobians to what happens to it.
+/// What meshes are at rest, to fit Jacobians to what happens to them.
 #[derive(Clone, Debug, Default)]
 pub struct RestTriangles {
-    /// One for each triangle that has an area.
-    triangles: Vec<RestTriangle>,
-    /// Where each welded vertex's triangles start in `around`; one more than there are welded vertices.
-    starts: Vec<u32>,
-    /// Triangles around each welded vertex, ascending; twice where two of a triangle's corners are one vertex.
-    around: Vec<u32>,
+    pieces: Vec<Piece>,
+    /// Of each mesh, its first piece; one more than there are meshes.
+    mesh_pieces: Vec<u32>,
+    /// For each vertex which of its piece's sums are its own: vertices at one place share them.
+    slots: Vec<u16>,
+    batches: Vec<Batch>,
+    corners: Vec<Corner>,
+    groups: Vec<Group>,
     /// From model units to edges of about 1, so that no unit is out of a float's range. A power of two, by which nothing is
     /// rounded: a mirrored mesh, wound the other way, may have another one.
-    scale: f64,
+    scale: f32,
 }
 
-/// Directions come out as floats, so these numbers are kept as such: half as much to read.
+/// Vertices that follow each other in a mesh.
 #[derive(Clone, Debug)]
-struct RestTriangle {
-    corners: [u32; 3],
-    /// Rows by which the two edges after, and a normal, make up the gradient, by area.
-    rows: [Vec3; 3],
-    /// Twice the triangle's.
-    area: f32,
+struct Piece {
+    vertices: Range<u32>,
+    batches: Range<u32>,
+}
+
+/// Triangles around a piece's vertices, no more than there is room for.
+#[derive(Clone, Debug)]
+struct Batch {
+    corners: Range<u32>,
+    groups: Range<u32>,
+}
+
+/// A vertex of the figure, and where it is at rest: from the middle of all, so that nothing is lost far from the origin, scaled.
+#[derive(Clone, Copy, Debug)]
+struct Corner {
+    vertex: u32,
+    at: Vec3,
+}
+
+/// Four triangles that have an area; the last ones of a batch may have none.
+#[derive(Clone, Debug)]
+struct Group {
+    /// Of each of the three corners, which of the batch's it is.
+    corners: [[u16; LANES]; 3],
+    /// Of each of them, the sums of its piece that it adds to.
+    slots: [[u16; LANES]; 3],
+    /// Rows by which the two edges after, and a normal, make up the gradient, by area; x, y and z of each. The normal's is by the
+    /// root of the area, as it is multiplied by that of the area after.
+    rows: [[Vec4; 3]; 3],
+    /// Twice the triangles', 0 for none.
+    areas: Vec4,
+}
+
+impl Group {
+    const NONE: Self = Self {
+        corners: [[0; LANES]; 3],
+        slots: [[NO_SLOT; LANES]; 3],
+        rows: [[Vec4::ZERO; 3]; 3],
+        areas: Vec4::ZERO,
+    };
+}
+
+/// Where vertices go: scale (p + stretch p + share d), up to a shift; a displacement d for each vertex.
+#[derive(Clone, Copy, Debug)]
+pub struct Moved<'a> {
+    /// All displacements, model units.
+    pub displacements: &'a [Vec3],
+    /// How much of them.
+    pub share: f32,
+    /// How many times as large the whole becomes.
+    pub size: f32,
+}
+
+/// Room to fit Jacobians in: one for each thread, whatever the number of pieces.
+pub struct Room {
+    /// By corner: where it is after.
+    points: [Vec4; CORNERS],
+    /// By slot: columns times the triangles' area, summed up, and that area as the first one's w.
+    sums: [[Vec4; 3]; PIECE + 1],
+}
+
+impl Default for Room {
+    fn default() -> Self {
+        Self { points: [Vec4::ZERO; CORNERS], sums: [[Vec4::ZERO; 3]; PIECE + 1] }
+    }
+}
+
+/// The Jacobians of a piece's vertices.
+pub struct Jacobians<'a> {
+    sums: &'a [[Vec4; 3]; PIECE + 1],
+    slots: &'a [u16],
+}
+
+impl Jacobians<'_> {
+    /// The Jacobian fitted to the triangles around the piece's vertex number `index`, their mean by area; `None` where none
+    /// has an area, or the mean has lost its volume.
+    #[inline(always)]
+    pub fn of(&self, index: usize) -> Option<Turn> {
+        let [x, y, z] = self.sums[usize::from(self.slots[index])];
+        let by_area = x.w.recip();
+        let column = |v: Vec4| Vec3A::from_vec4(v * by_area);
+        let turn = Turn::of(Mat3A::from_cols(column(x), column(y), column(z)));
+        (x.w > 0.0 && turn.volume.abs() > LEAST_VOLUME).then_some(turn)
+    }
+}
+
+/// Below this determinant a Jacobian has no volume left, and turns nothing.
+const LEAST_VOLUME: f32 = 1e-12;
+
+/// What directions turn by.
+#[derive(Clone, Copy, Debug)]
+pub struct Turn {
+    jacobian: Mat3A,
+    /// Its inverse transpose, up to a factor.
+    cofactors: Mat3A,
+    /// Its determinant.
+    volume: f32,
+}
+
+impl Turn {
+    /// By a Jacobian.
+    #[inline(always)]
+    pub fn of(jacobian: Mat3A) -> Self {
+        let (x, y, z) = (jacobian.x_axis, jacobian.y_axis, jacobian.z_axis);
+        let cofactors = Mat3A::from_cols(y.cross(z), z.cross(x), x.cross(y));
+        Self { jacobian, cofactors, volume: cofactors.x_axis.dot(x) }
+    }
+
+    /// What a normal becomes.
+    #[inline(always)]
+    pub fn normal(&self, normal: Vec3) -> Vec3 {
+        let turned = self.cofactors * Vec3A::from(normal);
+        let turned = if self.volume < 0.0 { -turned } else { turned };
+        turned.normalize_or(normal.into()).into()
+    }
+
+    /// What a tangent becomes, at right angles to the new normal where there is one.
+    #[inline(always)]
+    pub fn tangent(&self, tangent: Vec3, new_normal: Option<Vec3>) -> Vec3 {
+        let turned = self.jacobian * Vec3A::from(tangent);
+        let flat = match new_normal {
+            Some(normal) => turned.reject_from_normalized(normal.into()),
+            None => turned,
+        };
+        flat.normalize_or(tangent.into()).into()
+    }
 }
 
 impl RestTriangles {
     /// The triangles between `positions`, around the vertices that `weld` makes one.
-    pub fn of(positions: &[DVec3], triangles: &[[u32; 3]], weld: &Weld) -> Self {
+    ///
+    /// - `positions`: model space; those of a mesh follow each other.
+    /// - `mesh_starts`: where each mesh's vertices start; one more than there are meshes.
+    pub fn of(positions: &[Vec3], triangles: &[[u32; 3]], mesh_starts: &[usize], weld: &Weld) -> Self {
         let has_area = |&corners: &[u32; 3]| {
             let (a, b) = edges(positions, corners);
             let longest = a.length_squared().max(b.length_squared()).max((b - a).length_squared());
@@ -49,6 +187,140 @@ impl RestTriangles {
         let triangles: Vec<[u32; 3]> = triangles.iter().copied().filter(has_area).collect();
         let total: f64 = triangles.iter().map(|&corners| edges(positions, corners).0.length()).sum();
         let scale = 2f64.powi((triangles.len() as f64 / total).log2().round() as i32);
+        let around = Around::of(&triangles, weld);
+        let mut rest = Self {
+            slots: vec![NO_SLOT; positions.len()],
+            scale: scale as f32,
+            mesh_pieces: vec![0],
+            ..Self::default()
+        };
+        let mut builder = Builder {
+            positions,
+            middle: bounds_middle(positions),
+            triangles: &triangles,
+            scale,
+            weld,
+            slots: vec![NO_SLOT; weld.count],
+            corners: vec![u16::MAX; positions.len()],
+        };
+        for mesh in mesh_starts.windows(2) {
+            for first in (mesh[0]..mesh[1]).step_by(PIECE) {
+                builder.add(first..(first + PIECE).min(mesh[1]), &around, &mut rest);
+            }
+            rest.mesh_pieces.push(rest.pieces.len() as u32);
+        }
+        // Kept as long as the deformer.
+        rest.groups.shrink_to_fit();
+        rest.corners.shrink_to_fit();
+        rest
+    }
+
+    /// The pieces of a mesh.
+    pub fn pieces(&self, mesh: usize) -> Range<usize> {
+        self.mesh_pieces[mesh] as usize..self.mesh_pieces[mesh + 1] as usize
+    }
+
+    /// A piece's vertices, as indices into all.
+    pub fn vertices(&self, piece: usize) -> Range<usize> {
+        let Range { start, end } = self.pieces[piece].vertices;
+        start as usize..end as usize
+    }
+
+    /// What happens around each vertex of a piece.
+    ///
+    /// The deformation gradients of the triangles' edges, with the normal as third axis scaled by the root of the change of
+    /// area, so that a uniform scaling is fitted exactly.
+    pub fn jacobians<'a>(&'a self, piece: usize, moved: &Moved, room: &'a mut Room) -> Jacobians<'a> {
+        let Piece { vertices, batches } = &self.pieces[piece];
+        room.sums.fill([Vec4::ZERO; 3]);
+        let (size, share) = (moved.size, self.scale * moved.share);
+        for batch in &self.batches[range(batches)] {
+            for (point, corner) in room.points.iter_mut().zip(&self.corners[range(&batch.corners)]) {
+                let displacement = moved.displacements[corner.vertex as usize];
+                *point = (size * corner.at + share * displacement).extend(0.0);
+            }
+            for group in &self.groups[range(&batch.groups)] {
+                group.add(&room.points, &mut room.sums);
+            }
+        }
+        Jacobians { sums: &room.sums, slots: &self.slots[range(vertices)] }
+    }
+}
+
+impl Group {
+    /// Adds the triangles' gradients to the sums of their corners.
+    #[inline(always)]
+    fn add(&self, points: &[Vec4; CORNERS], sums: &mut [[Vec4; 3]; PIECE + 1]) {
+        let point =
+            |corner: usize, lane: usize| points[usize::from(self.corners[corner][lane]) & (CORNERS - 1)];
+        let edge = |corner: usize| {
+            let edges: [Vec4; LANES] = std::array::from_fn(|lane| point(corner, lane) - point(0, lane));
+            transposed(edges)
+        };
+        let (a, b) = (edge(1), edge(2));
+        let [rows_a, rows_b, rows_n] = &self.rows;
+        let cross = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+        let area_after = root(cross[0] * cross[0] + cross[1] * cross[1] + cross[2] * cross[2]);
+        // The normal, times the root of the area after.
+        let factor = root(area_after) / area_after;
+        let normal = cross.map(|v| v * factor);
+        // A triangle that has lost its area says nothing.
+        let counts = area_after.cmpgt(Vec4::ZERO) & area_after.is_finite_mask();
+        let select = |v: Vec4| if counts.all() { v } else { Vec4::select(counts, v, Vec4::ZERO) };
+        let [a, b, normal] = [[a[0], a[1], a[2]], [b[0], b[1], b[2]], normal].map(|v| v.map(select));
+        let columns: [[Vec4; LANES]; 3] = std::array::from_fn(|column| {
+            let of = |axis: usize| {
+                a[axis] * rows_a[column] + b[axis] * rows_b[column] + normal[axis] * rows_n[column]
+            };
+            let last = if column == 0 { select(self.areas) } else { Vec4::ZERO };
+            transposed([of(0), of(1), of(2), last])
+        });
+        for lane in 0..LANES {
+            for slots in &self.slots {
+                let sum = &mut sums[usize::from(slots[lane]).min(PIECE)];
+                for (sum, column) in sum.iter_mut().zip(&columns) {
+                    *sum += column[lane];
+                }
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn transposed([x, y, z, w]: [Vec4; 4]) -> [Vec4; 4] {
+    let Mat4 { x_axis, y_axis, z_axis, w_axis } = Mat4::from_cols(x, y, z, w).transpose();
+    [x_axis, y_axis, z_axis, w_axis]
+}
+
+#[inline(always)]
+fn root(v: Vec4) -> Vec4 {
+    Vec4::from_array(v.to_array().map(f32::sqrt))
+}
+
+fn range(of: &Range<u32>) -> Range<usize> {
+    of.start as usize..of.end as usize
+}
+
+/// The middle of the box around `positions`.
+fn bounds_middle(positions: &[Vec3]) -> DVec3 {
+    let (low, high) = bounds(positions.iter().map(|p| p.as_dvec3()));
+    (low + high) / 2.0
+}
+
+/// From a triangle's first corner to the others.
+fn edges(points: &[Vec3], [a, b, c]: [u32; 3]) -> (DVec3, DVec3) {
+    let [a, b, c] = [a, b, c].map(|corner| points[corner as usize].as_dvec3());
+    (b - a, c - a)
+}
+
+/// The triangles around each welded vertex, ascending; twice where two of a triangle's corners are one vertex.
+struct Around {
+    starts: Vec<u32>,
+    triangles: Vec<u32>,
+}
+
+impl Around {
+    fn of(triangles: &[[u32; 3]], weld: &Weld) -> Self {
         let mut starts = vec![0u32; weld.count + 1];
         for corner in triangles.iter().flat_map(|&corners| weld.triangle(corners)) {
             starts[corner as usize + 1] += 1;
@@ -65,84 +337,100 @@ impl RestTriangles {
                 *place += 1;
             }
         }
-        let rest = |corners: [u32; 3]| {
-            let (a, b) = edges(positions, corners);
-            let (a, b) = (a * scale, b * scale);
-            let cross = a.cross(b);
-            let area = cross.length();
-            let normal = cross / area;
-            let rows = [b.cross(normal), normal.cross(a), area * normal].map(|row| row.as_vec3());
-            RestTriangle { corners, rows, area: area as f32 }
-        };
-        Self { triangles: triangles.into_iter().map(rest).collect(), starts, around, scale }
+        Self { starts, triangles: around }
     }
 
-    /// What happens to each triangle where all vertices go to `after`.
-    ///
-    /// The deformation gradient of its edges, with the normal as third axis scaled by the root of the change of area, so
-    /// that a uniform scaling is fitted exactly.
-    ///
-    /// - `threads`: at most this many, 0 for all cores; the result does not depend on it.
-    pub fn gradients(&self, after: &[DVec3], threads: usize) -> Gradients<'_> {
-        let gradient = |index: usize| {
-            let RestTriangle { corners, rows, area } = &self.triangles[index];
-            let (a, b) = edges(after, *corners);
-            let [a, b] = [a, b].map(|edge| (edge * self.scale).as_vec3a());
-            let cross = a.cross(b);
-            let area_after = cross.length();
-            if area_after <= 0.0 || !area_after.is_finite() {
-                return [Vec4::ZERO; 3];
-            }
-            let normal = cross * ((area_after / area).sqrt() / area_after);
-            let column = |axis: usize| a * rows[0][axis] + b * rows[1][axis] + normal * rows[2][axis];
-            [column(0).extend(*area), column(1).extend(0.0), column(2).extend(0.0)]
-        };
-        let by_area = parallel::collect(threads, self.triangles.len(), LEAST_TRIANGLES, gradient);
-        Gradients { rest: self, by_area }
+    fn of_vertex(&self, welded: u32) -> &[u32] {
+        let welded = welded as usize;
+        &self.triangles[self.starts[welded] as usize..self.starts[welded + 1] as usize]
     }
 }
 
-/// What happens to each triangle of a mesh.
-pub struct Gradients<'a> {
-    rest: &'a RestTriangles,
-    /// Columns times the triangle's area, and that area as the first one's w; all 0 for a triangle that has lost its own.
-    by_area: Vec<[Vec4; 3]>,
+/// What pieces are made of.
+struct Builder<'a> {
+    positions: &'a [Vec3],
+    middle: DVec3,
+    triangles: &'a [[u32; 3]],
+    scale: f64,
+    weld: &'a Weld,
+    /// By welded vertex its slot in the piece, by vertex its corner in the batch, while these are made.
+    slots: Vec<u16>,
+    corners: Vec<u16>,
 }
 
-impl Gradients<'_> {
-    /// The Jacobian fitted to the triangles around a welded vertex, their mean by area; `None` where none has an area.
-    pub fn jacobian(&self, welded: usize) -> Option<Mat3A> {
-        let around = self.rest.starts[welded] as usize..self.rest.starts[welded + 1] as usize;
-        let mut sum = [Vec4::ZERO; 3];
-        for &triangle in &self.rest.around[around] {
-            for (sum, column) in sum.iter_mut().zip(&self.by_area[triangle as usize]) {
-                *sum += *column;
+impl Builder<'_> {
+    fn add(&mut self, vertices: Range<usize>, around: &Around, rest: &mut RestTriangles) {
+        let mut count = 0;
+        let mut triangles = Vec::new();
+        for vertex in vertices.clone() {
+            let welded = self.weld.representative[vertex];
+            let slot = &mut self.slots[welded as usize];
+            if *slot == NO_SLOT {
+                *slot = count;
+                count += 1;
+                triangles.extend_from_slice(around.of_vertex(welded));
             }
+            rest.slots[vertex] = *slot;
         }
-        let total = sum[0].w;
-        let [x, y, z] = sum.map(|column| Vec3A::from_vec4(column) * total.recip());
-        (total > 0.0).then(|| Mat3A::from_cols(x, y, z))
+        triangles.sort_unstable();
+        triangles.dedup();
+        let first = rest.batches.len() as u32;
+        for batch in triangles.chunks(LANES * GROUPS) {
+            self.add_batch(batch, rest);
+        }
+        for vertex in vertices.clone() {
+            self.slots[self.weld.representative[vertex] as usize] = NO_SLOT;
+        }
+        rest.pieces.push(Piece {
+            vertices: vertices.start as u32..vertices.end as u32,
+            batches: first..rest.batches.len() as u32,
+        });
     }
-}
 
-/// From a triangle's first corner to the others.
-fn edges(points: &[DVec3], [a, b, c]: [u32; 3]) -> (DVec3, DVec3) {
-    let first = points[a as usize];
-    (points[b as usize] - first, points[c as usize] - first)
-}
+    fn add_batch(&mut self, triangles: &[u32], rest: &mut RestTriangles) {
+        let (first_corner, first_group) = (rest.corners.len(), rest.groups.len() as u32);
+        for four in triangles.chunks(LANES) {
+            let mut group = Group::NONE;
+            for (lane, &triangle) in four.iter().enumerate() {
+                let corners = self.triangles[triangle as usize];
+                for (corner, &vertex) in corners.iter().enumerate() {
+                    let of_batch = &mut self.corners[vertex as usize];
+                    if *of_batch == u16::MAX {
+                        *of_batch = (rest.corners.len() - first_corner) as u16;
+                        let at = self.positions[vertex as usize].as_dvec3() - self.middle;
+                        rest.corners.push(Corner { vertex, at: (self.scale * at).as_vec3() });
+                    }
+                    group.corners[corner][lane] = *of_batch;
+                    group.slots[corner][lane] =
+                        self.slots[self.weld.representative[vertex as usize] as usize];
+                }
+                let (rows, area) = self.rows(corners);
+                group.areas[lane] = area;
+                for (row, of_group) in rows.iter().zip(&mut group.rows) {
+                    for (axis, lanes) in of_group.iter_mut().enumerate() {
+                        lanes[lane] = row[axis];
+                    }
+                }
+            }
+            rest.groups.push(group);
+        }
+        for corner in &rest.corners[first_corner..] {
+            self.corners[corner.vertex as usize] = u16::MAX;
+        }
+        rest.batches.push(Batch {
+            corners: first_corner as u32..rest.corners.len() as u32,
+            groups: first_group..rest.groups.len() as u32,
+        });
+    }
 
-/// Below this determinant a Jacobian has no volume left, and turns nothing.
-const LEAST_VOLUME: f32 = 1e-12;
-
-/// Whether normals can be turned by `jacobian`.
-pub fn has_volume(jacobian: &Mat3A) -> bool {
-    jacobian.determinant().abs() > LEAST_VOLUME
-}
-
-/// The matrix that turns normals where `jacobian` moves points: its inverse transpose, up to a factor.
-pub fn normal_matrix(jacobian: &Mat3A) -> Mat3A {
-    let (x, y, z) = (jacobian.x_axis, jacobian.y_axis, jacobian.z_axis);
-    let volume = y.cross(z);
-    let cofactors = Mat3A::from_cols(volume, z.cross(x), x.cross(y));
-    if volume.dot(x) < 0.0 { -cofactors } else { cofactors }
+    /// See [`Group::rows`]; and twice the area.
+    fn rows(&self, corners: [u32; 3]) -> ([Vec3; 3], f32) {
+        let (a, b) = edges(self.positions, corners);
+        let (a, b) = (a * self.scale, b * self.scale);
+        let cross = a.cross(b);
+        let area = cross.length();
+        let normal = cross / area;
+        let rows = [b.cross(normal), normal.cross(a), area.sqrt() * normal].map(|row| row.as_vec3());
+        (rows, area as f32)
+    }
 }

@@ -127,25 +127,37 @@ impl Field {
 
     /// Where `p` goes.
     pub fn place(&self, p: DVec3, binding: &Binding) -> DVec3 {
-        let to = match (&*self.body, binding) {
-            (BodyField::Parts(field), Binding::Parts(binding)) => {
-                let to = field.place(p, binding, &self.finish.face);
-                self.place_head(to, binding, |young, to| young.place(to, binding.face, self.youth))
-            }
-            (BodyField::Bones(field), Binding::Bones(binding)) => field.place(p, binding, &self.finish.face),
-            _ => return p,
+        self.place_from(p, self.place_body(p, binding), binding, 0, None)
+    }
+
+    /// As [`Self::place`], for a vertex that is at `p` and that the body's field, with the face that is asked for, takes to
+    /// `placed`; `ways` may hold how it goes on from there through the face step.
+    pub fn place_from(
+        &self,
+        p: DVec3,
+        placed: DVec3,
+        binding: &Binding,
+        vertex: usize,
+        ways: Option<&Ways>,
+    ) -> DVec3 {
+        let to = match binding {
+            Binding::Parts(binding) => self.place_head(placed, binding, |young, to| match ways {
+                Some(ways) => young.place_along(to, binding.face, self.youth, vertex, ways),
+                None => young.place(to, binding.face, self.youth),
+            }),
+            Binding::Bones(_) => placed,
+            Binding::Fixed => return p,
         };
         self.finish.apply(p, Mapped::unmoved(to)).position
     }
 
-    /// As [`Self::place`], for a vertex that is at `p`, of which it is kept where the body's field takes it and how it goes on
-    /// from there through the face step.
-    pub fn place_along(&self, p: DVec3, binding: &Binding, vertex: usize, ways: &Ways) -> DVec3 {
-        let Binding::Parts(binding) = binding else { return self.place(p, binding) };
-        let to = self.place_head(ways.from(vertex), binding, |young, to| {
-            young.place_along(to, binding.face, self.youth, vertex, ways)
-        });
-        self.finish.apply(p, Mapped::unmoved(to)).position
+    /// Where the body's field alone takes `p`, with the face that is asked for.
+    pub fn place_body(&self, p: DVec3, binding: &Binding) -> DVec3 {
+        match (&*self.body, binding) {
+            (BodyField::Parts(field), Binding::Parts(binding)) => field.place(p, binding, &self.finish.face),
+            (BodyField::Bones(field), Binding::Bones(binding)) => field.place(p, binding, &self.finish.face),
+            _ => p,
+        }
     }
 
     /// Where the head's own stages take a point that the body's field takes `to`.

@@ -11,7 +11,7 @@ use std::sync::{Arc, OnceLock};
 use superdeform::internals::geometry::Surface;
 use superdeform::internals::shape::Measured;
 use superdeform::internals::shape::figure::Figure;
-use superdeform::{Deformed, Deformer, MeshKind, Options, Progress, Role, Style};
+use superdeform::{Deformed, Deformer, Height, MeshKind, Mode, Options, Progress, Role, Style};
 
 /// People of the usual build, in casual and formal clothes, one without a face, one in a dance pose.
 const PEOPLE: [&str; 8] = [
@@ -26,6 +26,48 @@ const PEOPLE: [&str; 8] = [
 ];
 
 const HEADS: [(&str, f64); 4] = [("2 heads", 2.0), ("2.5 heads", 2.5), ("3 heads", 3.0), ("4 heads", 4.0)];
+
+/// How far a vertex of `deformer`'s result is at most from where the field of 64-bit numbers takes it, heights.
+fn off_field(deformer: &Deformer) -> f64 {
+    let made = deformer.apply();
+    let made = made.meshes.iter().flat_map(|mesh| &mesh.positions);
+    let wanted = deformer.field_positions();
+    let off = made.zip(&wanted).map(|(p, wanted)| p.as_dvec3().distance(*wanted)).fold(0.0, f64::max);
+    let height = match deformer.options().height {
+        Height::Units(units) => units,
+        _ => deformer.target().figure.height(),
+    };
+    off / height
+}
+
+#[test]
+fn what_is_written_is_where_the_field_takes_it() {
+    let changes = [
+        Options { amount: 0.37, youth: 0.6, ..Options::default() },
+        Options { height: Height::Units(17.0), seat: 0.3, ..Options::default() },
+    ];
+    let off = |run: &Run| {
+        let mut deformer = run.deformer.clone();
+        // Those of one reference change as those of the others do.
+        let changes = if run.style == REFERENCES[0] { &changes[..] } else { &[] };
+        let changed = changes.iter().map(|options| {
+            deformer.set_options(options, &mut Progress::none()).unwrap();
+            off_field(&deformer)
+        });
+        (changed.fold(off_field(&run.deformer), f64::max), run.name.clone())
+    };
+    let all = in_parallel(runs(), off);
+    let paper = Options { mode: Mode::Paper, ..Options::default() };
+    let names: Vec<&str> = all_models().keys().map(String::as_str).collect();
+    let papers = in_parallel(&names, |&name| {
+        let style = style_of(REFERENCES[0], &paper);
+        let character = Arc::new(all_models()[name].character.clone());
+        (off_field(&Deformer::new(character, &style, &paper).unwrap()), format!("{name}, paper"))
+    });
+    for (off, name) in all.into_iter().chain(papers) {
+        assert!(off <= 1e-6, "{name}: {off:e}");
+    }
+}
 
 /// [`PEOPLE`] made 2 to 4 heads tall.
 fn heads_runs() -> &'static [(f64, Run)] {

@@ -239,14 +239,14 @@ pub unsafe extern "C" fn sdef_character_get_joints(
                 role_of[joint] = role as u32;
             }
         }
-        roles.write(&role_of);
+        roles.write_all(&role_of);
         rests.write_each(joints.iter().map(|joint| joint.rest.to_cols_array()));
         let mut sure = vec![1.0; count];
         if let Some((rig, _)) = &ready.rigged {
             let own = ready.own.skeleton.joints.len();
             sure[own..].copy_from_slice(&rig.confidence);
         }
-        confidence.write(&sure);
+        confidence.write_all(&sure);
         Ok(())
     };
     unsafe { call(error, body) }

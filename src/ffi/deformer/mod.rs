@@ -1,6 +1,6 @@
 //! The deformer: made once, applied as often as something changes
 
-use super::arrays::{self, Input, Output, not_null, write_out};
+use super::arrays::{self, Input, Output, Structs, not_null, write_out};
 use super::basics::*;
 use super::guard::{self, Failure, call, progress_of};
 use super::handles::{self, Object};
@@ -98,7 +98,7 @@ pub unsafe extern "C" fn sdef_deformer_apply(
         let state = handles::deformer(deformer)?;
         let state = handles::read(&state, "deformer")?;
         state.check_count(mesh_count)?;
-        let results = arrays::structs_in("results", results, mesh_count)?;
+        let results = Structs::new("results", results, mesh_count)?;
         let mut callback = progress_of(progress, user);
         state.apply(&results, &mut Progress::new(&mut callback))
     };
@@ -147,7 +147,7 @@ pub unsafe extern "C" fn sdef_deformer_get_joints(
                 }
                 inverses.push(inverse.to_cols_array());
             }
-            binds.write(&inverses);
+            binds.write_all(&inverses);
         }
         places.write_each(joints.iter().map(|at| arrays::numbers(*at)));
         Ok(())

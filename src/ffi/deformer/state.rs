@@ -1,19 +1,21 @@
 //! What stands behind a handle of a deformer, and where its results go.
 
 use super::types::SdefMeshResult;
-use crate::character::Character;
 use crate::character::mesh::place;
+use crate::character::{Character, MorphTarget};
 use crate::error::Warning;
-use crate::ffi::arrays::{self, Output};
+use crate::ffi::arrays::{Output, Structs};
 use crate::ffi::basics::SDEF_STATUS_BUFFER_TOO_SMALL;
 use crate::ffi::character::state::Ready;
 use crate::ffi::guard::{self, Failure, Outcome};
 use crate::ffi::memory;
 use crate::options::Options;
-use crate::pipeline::{Deformed, Deformer, MeshOutputs, Style};
+use crate::pipeline::places::MeshPlaces;
+use crate::pipeline::{Deformer, MeshOutputs, Style};
 use crate::progress::Progress;
 use crate::report::Report;
 use glam::{Vec3, Vec4};
+use std::fmt;
 use std::sync::OnceLock;
 
 /// A deformer behind a handle.
@@ -88,24 +90,36 @@ impl DeformerState {
     ///
     /// # Safety
     /// The structs and their arrays are as the header says.
-    pub unsafe fn apply(&self, results: &[SdefMeshResult], progress: &mut Progress) -> Outcome {
+    pub unsafe fn apply(&self, results: &Structs<SdefMeshResult>, progress: &mut Progress) -> Outcome {
         let character = self.deformer.character();
         self.check_count(results.len())?;
-        let mut places = arrays::reserved(results.len(), "results")?;
-        for (index, result) in results.iter().enumerate() {
-            places.push(
-                unsafe { Places::new(character, index, result) }.map_err(|error| error.in_mesh(index))?,
-            );
+        let places = |index: usize| {
+            unsafe { Places::new(character, index, &results.get(index)?) }
+                .map_err(|error| error.in_mesh(index))
+        };
+        // All are checked before anything is written.
+        let mut asked = MeshOutputs::default();
+        for index in 0..results.len() {
+            let outputs = places(index)?.outputs();
+            asked.normals |= outputs.normals;
+            asked.tangents |= outputs.tangents;
+            asked.morph_targets |= outputs.morph_targets;
         }
-        let outputs: Vec<MeshOutputs> = places.iter().map(Places::outputs).collect();
-        let threads = self.deformer.options().thread_count;
-        let deformed = memory::with(memory::to_apply(character), threads, || {
-            Ok(self.deformer.apply_to(&outputs, progress)?)
-        })?;
-        for (index, places) in places.iter().enumerate() {
-            places.write(&deformed, index);
-        }
-        Ok(())
+        let bytes = if self.deformer.apply_allocates(asked) { memory::to_apply(character) } else { 0 };
+        memory::with(bytes, self.deformer.options().thread_count, || {
+            let checked = |index| places(index).expect("it was checked");
+            let mut targets = Vec::new();
+            if asked.morph_targets {
+                let is_asked = |index| checked(index).outputs().morph_targets;
+                targets = self.deformer.deformed_targets(is_asked, &mut progress.part(0.0, 0.8))?;
+            }
+            let all = (0..results.len()).map(|index| checked(index).of_mesh());
+            self.deformer.apply_into(all, &mut progress.part(0.8, 1.0))?;
+            for (index, targets) in targets.iter().enumerate() {
+                checked(index).write_targets(targets);
+            }
+            Ok(())
+        })
     }
 }
 
@@ -133,7 +147,7 @@ impl Places {
         };
         lacks("normals", !result.normals.is_null(), !mesh.normals.is_empty())?;
         lacks("tangents", !result.tangents.is_null(), !mesh.tangents.is_empty())?;
-        let name = |what: &str| format!("{}: {what}", place(index, &mesh.name));
+        let name = |what| Named { index, mesh: &mesh.name, what };
         unsafe {
             let positions = Output::new(
                 name("positions"),
@@ -171,7 +185,8 @@ impl Places {
                     ));
                 }
             }
-            for target in 0..targets {
+            let is_asked = starts.iter().any(|(_, start)| !start.is_null());
+            for target in 0..if is_asked { targets } else { 0 } {
                 let mut places = [Output::none(); 3];
                 for (place, (what, start)) in places.iter_mut().zip(starts) {
                     if !start.is_null() {
@@ -193,20 +208,38 @@ impl Places {
         }
     }
 
-    fn write(&self, deformed: &Deformed, index: usize) {
-        let mesh = &deformed.meshes[index];
-        let count = mesh.positions.len();
-        self.positions.write(&mesh.positions);
-        self.normals.write(&mesh.normals);
-        self.tangents.write(&mesh.tangents);
-        for (target, places) in mesh.morph_targets.iter().zip(&self.morphs) {
+    /// Where the library writes.
+    fn of_mesh(&self) -> MeshPlaces<Output<Vec3>, Output<Vec4>> {
+        MeshPlaces {
+            positions: self.positions.is_given().then_some(self.positions),
+            normals: self.normals.is_given().then_some(self.normals),
+            tangents: self.tangents.is_given().then_some(self.tangents),
+        }
+    }
+
+    fn write_targets(&self, targets: &[MorphTarget]) {
+        for (target, places) in targets.iter().zip(&self.morphs) {
+            let count = target.positions.len();
             for (place, deltas) in places.iter().zip([&target.positions, &target.normals, &target.tangents]) {
                 if deltas.is_empty() {
                     place.write_each(std::iter::repeat_n(Vec3::ZERO, count));
                 } else {
-                    place.write(deltas);
+                    place.write_all(deltas);
                 }
             }
         }
+    }
+}
+
+/// An array in sentences, put together when there is something to say.
+struct Named<'a> {
+    index: usize,
+    mesh: &'a str,
+    what: &'a str,
+}
+
+impl fmt::Display for Named<'_> {
+    fn fmt(&self, to: &mut fmt::Formatter) -> fmt::Result {
+        write!(to, "{}: {}", place(self.index, self.mesh), self.what)
     }
 }

@@ -66,6 +66,7 @@ impl RadiusMap {
         middles = smoothed(
             &middles,
             sigma / step,
+            DVec2::ZERO,
             |sum, value, weight| *sum += *value * weight,
             |sum, total| sum / total,
         );
@@ -166,20 +167,26 @@ impl Taps {
 }
 
 /// Weighted means along `rows`, by a Gaussian `sigma` rows wide.
-pub fn smoothed<T: Copy + Default>(
+fn smoothed<T: Copy>(
     rows: &[T],
     sigma: f64,
+    zero: T,
     add: impl Fn(&mut T, &T, f64),
     divide: impl Fn(T, f64) -> T,
 ) -> Vec<T> {
     let reach = (3.0 * sigma).ceil() as usize;
+    let weights: Vec<f64> = (0..=reach.min(rows.len()))
+        .map(|rows| {
+            let off = rows as f64 / sigma;
+            (-0.5 * off * off).exp()
+        })
+        .collect();
     (0..rows.len())
         .map(|row| {
-            let (mut sum, mut total) = (T::default(), 0.0);
+            let (mut sum, mut total) = (zero, 0.0);
             let near = row.saturating_sub(reach)..(row + reach + 1).min(rows.len());
             for (other, value) in near.clone().zip(&rows[near]) {
-                let off = (other as f64 - row as f64) / sigma;
-                let weight = (-0.5 * off * off).exp();
+                let weight = weights[other.abs_diff(row)];
                 add(&mut sum, value, weight);
                 total += weight;
             }
@@ -190,14 +197,13 @@ pub fn smoothed<T: Copy + Default>(
 
 /// As [`smoothed`], of rings.
 pub fn smoothed_rings(rings: &[Ring], sigma: f64) -> Vec<Ring> {
-    // Arrays of this length have no default.
-    let columns: Vec<Vec<f64>> = (0..RAYS)
-        .map(|ray| {
-            let column: Vec<f64> = rings.iter().map(|ring| ring[ray]).collect();
-            smoothed(&column, sigma, |sum, value, weight| *sum += value * weight, |sum, total| sum / total)
-        })
-        .collect();
-    (0..rings.len()).map(|row| std::array::from_fn(|ray| columns[ray][row])).collect()
+    smoothed(
+        rings,
+        sigma,
+        [0.0; RAYS],
+        |sum, ring, weight| sum.iter_mut().zip(ring).for_each(|(sum, value)| *sum += value * weight),
+        |sum, total| sum.map(|sum| sum / total),
+    )
 }
 
 /// Reaches no further than [`FURTHEST`]; gaps between rays filled along the ring; NaN where too few rays meet anything.

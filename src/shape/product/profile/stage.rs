@@ -10,7 +10,7 @@ use crate::shape::figure::Figure;
 use crate::shape::product::anatomy::Anatomy;
 use crate::shape::product::binding::PartBinding;
 use crate::shape::product::field::PartField;
-use crate::shape::product::part::{PartWeights, fold_to_parts};
+use crate::shape::product::part::PartWeights;
 use crate::shape::product::pieces::Piece;
 use glam::{DMat3, DVec3};
 
@@ -37,6 +37,8 @@ pub struct Source<'a> {
     pub figure: &'a Figure,
     #[allow(missing_docs)]
     pub anatomy: &'a Anatomy,
+    /// What the rig's own weights give the parts of each vertex.
+    pub parts: &'a [PartWeights],
     /// The figure's vertices by position.
     pub weld: &'a Weld,
     /// The figure's own profile as it stands.
@@ -95,8 +97,7 @@ impl ProfileStage {
         wanted: &Profile,
         strengths: impl Fn(&BodyFrame) -> Strengths,
     ) -> Self {
-        let Source { figure, anatomy, weld, .. } = *source;
-        let parts: Vec<PartWeights> = figure.role_weights.iter().map(|row| fold_to_parts(row)).collect();
+        let Source { figure, anatomy, weld, parts, .. } = *source;
         let place_limb = |limb| field.place_limb(limb);
         let place_torso = |p| field.place_torso(p);
         let frame = BodyFrame::placed(figure, anatomy, *field.after(), place_limb, place_torso);
@@ -109,12 +110,12 @@ impl ProfileStage {
         let of_chains = [strengths.torso, mean(&strengths.leg), mean(&strengths.arm)];
         let relief_strength =
             std::array::from_fn(|chain| of_chains[chain] * smoothstep((1.0 - stubbier[chain]) / SMOOTH_FROM));
-        let relief = Relief::of(figure, positions, &parts, weld, &frame, relief_strength);
+        let relief = Relief::of(figure, positions, parts, weld, &frame, relief_strength);
         let smooth = parallel::collect(source.threads, positions.len(), LEAST_VERTICES, |vertex| {
             let p = positions[vertex];
             (source.binding)(vertex).map_or(p, |binding| relief.map(p, &binding.weights, binding.is_skirt))
         });
-        let (own, lines) = measure_profile(figure, &smooth, &parts, weld, &frame);
+        let (own, lines) = measure_profile(figure, &smooth, parts, weld, &frame);
         let scales = scales(&own, wanted, &strengths);
         let slices = BodyMap::new(&own, &lines, &frame, &scales);
         let Scales { limited, replaced, .. } = scales;

@@ -1,0 +1,175 @@
+//! Where the vertices go all the way, kept as floats: what is left for an apply is the same for all of them, and linear.
+//!
+//! The field of 64-bit numbers says where each vertex goes; what hangs on the vertex there (weights, slices, a younger face,
+//! hair) changes only when the options do. So it is asked once for each change, for the vertices that the change can move,
+//! and an apply reads a rest position and a displacement and writes a position: 36 bytes a vertex.
+
+use super::Deformer;
+use super::attach::Placement;
+use super::hair::Laid;
+use crate::character::Frame;
+use crate::face::FaceShape;
+use crate::face::seat::{Seat, SeatAmount};
+use crate::face::stage::{FaceBinding, YoungFace};
+use crate::parallel;
+use crate::shape::field::{Binding, Field, Finish};
+use crate::shape::product::part::Part;
+use glam::{DVec3, Vec3};
+use std::sync::Arc;
+
+/// Fewer vertices than this are not worth a thread.
+const LEAST_VERTICES: usize = 8000;
+
+/// How far each vertex goes all the way, model space, before amount, ground and height.
+#[derive(Clone, Debug)]
+pub struct Displacements {
+    of: Arc<Vec<Vec3>>,
+    head: HeadStages,
+}
+
+impl Displacements {
+    /// One for each vertex of the figure.
+    pub fn all(&self) -> &[Vec3] {
+        &self.of
+    }
+}
+
+/// What the displacements of the head's vertices are made of, beside the body's field.
+#[derive(Clone, Debug)]
+struct HeadStages {
+    squash: FaceShape,
+    young: Option<Arc<YoungFace>>,
+    youth: f64,
+    seat: Option<Arc<Seat>>,
+    seat_amount: SeatAmount,
+    hair: Option<Arc<Laid>>,
+}
+
+impl HeadStages {
+    fn of(deformer: &Deformer) -> Self {
+        let Field { young, youth, seat, seat_amount, finish, .. } = &deformer.field;
+        Self {
+            squash: finish.face,
+            young: young.clone(),
+            youth: *youth,
+            seat: seat.clone(),
+            seat_amount: *seat_amount,
+            hair: deformer.hair.clone(),
+        }
+    }
+
+    fn is_same(&self, other: &Self) -> bool {
+        fn is_one<T>(a: &Option<Arc<T>>, b: &Option<Arc<T>>) -> bool {
+            a.as_ref().map(Arc::as_ptr) == b.as_ref().map(Arc::as_ptr)
+        }
+        self.squash == other.squash
+            && is_one(&self.young, &other.young)
+            && self.youth == other.youth
+            && is_one(&self.seat, &other.seat)
+            && self.seat_amount == other.seat_amount
+            && is_one(&self.hair, &other.hair)
+    }
+}
+
+/// True where the stages after the body's can move what is attached so.
+pub fn is_of_head(binding: &Binding) -> bool {
+    match binding {
+        Binding::Parts(binding) => {
+            let parts = [Part::Head, Part::Neck, Part::Hair];
+            binding.face != FaceBinding::None
+                || parts.iter().any(|&part| binding.weights[part as usize] > 0.0)
+        }
+        Binding::Bones(binding) => binding.head > 0.0,
+        Binding::Fixed => false,
+    }
+}
+
+impl Deformer {
+    /// Where the field of 64-bit numbers takes the vertices, model space, mesh after mesh: what an apply is held to.
+    #[doc(hidden)]
+    pub fn field_positions(&self) -> Vec<DVec3> {
+        let placement = self.placement();
+        placement.all_vertices().into_iter().map(|p| placement.figure.frame.to_model(p)).collect()
+    }
+
+    /// Asks the field where the vertices go that this change of options can move.
+    pub(super) fn finish_displacements(&mut self) {
+        let head = HeadStages::of(self);
+        let known = self.displacements.take();
+        let finish = self.field.finish;
+        let field = Field {
+            finish: Finish {
+                face: finish.face,
+                whole: finish.whole,
+                about: finish.about,
+                ..Finish::default()
+            },
+            ..self.field.clone()
+        };
+        let placement = Placement { field: &field, ..self.placement() };
+        let figure = placement.figure;
+        let displacement = |vertex: usize| {
+            single(figure.frame.to_model(placement.vertex(vertex) - figure.positions[vertex]))
+        };
+        let threads = self.options.thread_count;
+        let of = match known {
+            Some(known) if known.head.is_same(&head) => known.of,
+            Some(mut known) => {
+                let bindings = &self.deformation.bindings;
+                let moved = &bindings.of_head;
+                let new = parallel::collect(threads, moved.len(), LEAST_VERTICES, |index| {
+                    displacement(moved[index] as usize)
+                });
+                let all = Arc::make_mut(&mut known.of);
+                for (&vertex, new) in moved.iter().zip(new) {
+                    all[vertex as usize] = new;
+                }
+                known.of
+            }
+            None => {
+                let count = figure.positions.len();
+                Arc::new(parallel::collect(threads, count, LEAST_VERTICES, displacement))
+            }
+        };
+        self.displacements = Some(Displacements { of, head });
+    }
+}
+
+/// What is done last, for a vertex at `p` whose displacement is `d`: p + ((size - 1) (p - about) + size (amount d + ground)).
+///
+/// Written so that nothing as large as `p` is rounded twice: far from the origin only the sum is.
+#[derive(Clone, Copy, Debug)]
+pub struct Ending {
+    /// size - 1.
+    grows: f32,
+    about: Vec3,
+    /// amount size.
+    share: f32,
+    /// The ground's shift, size times.
+    lift: Vec3,
+}
+
+impl Ending {
+    /// As `finish` says, in the model space of `frame`.
+    pub fn of(finish: &Finish, frame: &Frame) -> Self {
+        Self {
+            grows: (finish.size - 1.0) as f32,
+            about: single(frame.to_model(finish.about)),
+            share: (finish.size * finish.amount) as f32,
+            lift: single(frame.to_model(DVec3::Y * (finish.size * finish.ground))),
+        }
+    }
+
+    /// Where a vertex ends.
+    #[inline(always)]
+    pub fn place(&self, p: Vec3, displacement: Vec3) -> Vec3 {
+        let to = p + (self.grows * (p - self.about) + (self.share * displacement + self.lift));
+        // What lies beyond the range of floats, which takes a model of over 1e30 units, ends there instead of at infinity.
+        to.clamp(Vec3::splat(f32::MIN), Vec3::splat(f32::MAX))
+    }
+}
+
+/// As floats; what lies beyond their range ends there.
+pub fn single(p: DVec3) -> Vec3 {
+    p.clamp(DVec3::splat(f32::MIN.into()), DVec3::splat(f32::MAX.into())).as_vec3()
+}

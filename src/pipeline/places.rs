@@ -1,0 +1,48 @@
+//! Where results go: arrays of the library's own or of a host, written in place and in pieces.
+
+use glam::{Vec3, Vec4};
+
+/// An array to write results to, which can be cut so that threads write pieces of it.
+pub trait Place<T>: Send + Sized {
+    /// What lies before `index`, and the rest.
+    fn cut(self, index: usize) -> (Self, Self);
+
+    /// Writes `values` from `first` on.
+    fn write(&mut self, first: usize, values: &[T]);
+}
+
+impl<T: Copy + Send> Place<T> for &mut [T] {
+    fn cut(self, index: usize) -> (Self, Self) {
+        self.split_at_mut(index)
+    }
+
+    fn write(&mut self, first: usize, values: &[T]) {
+        self[first..first + values.len()].copy_from_slice(values);
+    }
+}
+
+/// Where the results of one mesh go; what is not asked for has no place.
+pub struct MeshPlaces<V, W> {
+    /// New rest positions, model space.
+    pub positions: Option<V>,
+    /// New unit normals.
+    pub normals: Option<V>,
+    /// New unit tangents.
+    pub tangents: Option<W>,
+}
+
+impl<V: Place<Vec3>, W: Place<Vec4>> MeshPlaces<V, W> {
+    /// The same for the vertices before `vertex`, and for the rest.
+    pub fn cut(self, vertex: usize) -> (Self, Self) {
+        fn halves<T, P: Place<T>>(place: Option<P>, index: usize) -> (Option<P>, Option<P>) {
+            place.map(|place| place.cut(index)).unzip()
+        }
+        let (positions, rest_of_positions) = halves(self.positions, vertex);
+        let (normals, rest_of_normals) = halves(self.normals, vertex);
+        let (tangents, rest_of_tangents) = halves(self.tangents, vertex);
+        (
+            Self { positions, normals, tangents },
+            Self { positions: rest_of_positions, normals: rest_of_normals, tangents: rest_of_tangents },
+        )
+    }
+}
