@@ -36,25 +36,27 @@ fn bump<N: Number>(square: N) -> N {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Bell {
     pub centre: f64,
-    pub width: f64,
+    /// 1 over its width.
+    pub per_width: f64,
 }
 
 impl Bell {
     fn at<N: Number>(&self, y: N) -> N {
-        let t = (y - self.centre) * (1.0 / self.width);
+        let t = (y - self.centre) * self.per_width;
         bump(t * t)
     }
 }
 
-/// A window with a flat top: 1 within the inner radii, 0 outside of the outer ones, which differ by side.
+/// A window with a flat top: 1 within the inner radii, 0 outside of the outer ones, which differ by side. All are kept as 1 over
+/// them.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Window {
     pub centre: DVec3,
-    pub inner: DVec3,
+    pub per_inner: DVec3,
     /// Towards lower coordinates.
-    pub outer_low: DVec3,
+    pub per_low: DVec3,
     /// Towards higher ones.
-    pub outer_high: DVec3,
+    pub per_high: DVec3,
 }
 
 impl Window {
@@ -63,13 +65,13 @@ impl Window {
         let mut outer = N::constant(0.0);
         for (axis, &along) in p.iter().enumerate() {
             let from = along - self.centre[axis];
-            let reach = if from.value() < 0.0 { self.outer_low[axis] } else { self.outer_high[axis] };
-            let (i, o) = (from * (1.0 / self.inner[axis]), from * (1.0 / reach));
+            let per_reach = if from.value() < 0.0 { self.per_low[axis] } else { self.per_high[axis] };
+            let (i, o) = (from * self.per_inner[axis], from * per_reach);
             inner = inner + i * i;
             outer = outer + o * o;
-        }
-        if outer.value() >= 1.0 {
-            return N::constant(0.0);
+            if outer.value() >= 1.0 {
+                return N::constant(0.0);
+            }
         }
         if inner.value() <= 1.0 {
             return N::constant(1.0);
@@ -87,9 +89,9 @@ pub(super) struct Shrink {
     pub centre: DVec3,
     /// Per unit of time, the centre's y.
     pub sinks: f64,
-    /// Towards lower and higher coordinates.
-    pub low: DVec3,
-    pub high: DVec3,
+    /// 1 over its radii towards lower and higher coordinates.
+    pub per_low: DVec3,
+    pub per_high: DVec3,
     /// ln of the scales.
     pub rates: DVec3,
 }
@@ -102,12 +104,12 @@ impl Shrink {
         let from = [p[0] - self.centre.x, p[1] - (self.centre.y + self.sinks * t), p[2] - self.centre.z];
         let mut square = N::constant(0.0);
         for (axis, &along) in from.iter().enumerate() {
-            let reach = if along.value() < 0.0 { self.low[axis] } else { self.high[axis] };
-            let share = along * (1.0 / reach);
+            let per_reach = if along.value() < 0.0 { self.per_low[axis] } else { self.per_high[axis] };
+            let share = along * per_reach;
             square = square + share * share;
-        }
-        if square.value() >= 1.0 {
-            return (N::constant(0.0), from);
+            if square.value() >= 1.0 {
+                return (N::constant(0.0), from);
+            }
         }
         (step((-square.root() + 1.0) * SOFT), from)
     }
@@ -266,9 +268,9 @@ impl EyeFlow {
         let x = |is_low: bool| if (centre.x > 0.0) == is_low { inward } else { aside };
         let window = Window {
             centre,
-            inner,
-            outer_low: DVec3::new(x(true), down, depth),
-            outer_high: DVec3::new(x(false), up, depth),
+            per_inner: inner.recip(),
+            per_low: DVec3::new(x(true), down, depth).recip(),
+            per_high: DVec3::new(x(false), up, depth).recip(),
         };
         let lids = self.lids.map(|lids| {
             let grown = exp(time * self.rates);
@@ -282,9 +284,9 @@ impl EyeFlow {
             let x = |is_low: bool| if (middle.x > 0.0) == is_low { inward } else { aside };
             let window = Window {
                 centre: middle,
-                inner,
-                outer_low: DVec3::new(x(true), up, LIDS_OUTER.z),
-                outer_high: DVec3::new(x(false), up, LIDS_OUTER.z),
+                per_inner: inner.recip(),
+                per_low: DVec3::new(x(true), up, LIDS_OUTER.z).recip(),
+                per_high: DVec3::new(x(false), up, LIDS_OUTER.z).recip(),
             };
             (window, Lids { radius: lids.radius * grown.x, ..lids })
         });

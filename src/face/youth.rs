@@ -217,7 +217,7 @@ impl Flow {
     }
 
     fn add_head(&mut self, face: &FaceLandmarks, features: &Features, q: f64) {
-        let bell = |centre, width| Bell { centre, width };
+        let bell = |centre, width: f64| Bell { centre, per_width: 1.0 / width };
         self.widenings = vec![
             (q * features.cheek * 0.12, bell(0.22, 0.14)),
             (q * features.skull * cranium(face), bell(0.75, 0.22)),
@@ -243,16 +243,16 @@ impl Flow {
         self.shrinks.push(Shrink {
             centre: DVec3::new(nose.tip.x, nose.tip.y + 0.012, nose.side_z + 0.25 * prot),
             sinks: -0.75 * self.sinks,
-            low: DVec3::new(wide, low, deep),
-            high: DVec3::new(wide, high, deep),
+            per_low: DVec3::new(wide, low, deep).recip(),
+            per_high: DVec3::new(wide, high, deep).recip(),
             rates: DVec3::new(less(0.26 * k), less(0.26 * k), less(0.46 * k)),
         });
         // What scaling leaves goes back as a whole: no volume is lost by that.
         let window = Shrink {
             centre: DVec3::new(nose.tip.x, nose.tip.y, nose.tip.z),
             sinks: -0.75 * self.sinks,
-            low: DVec3::new(wide, low, 0.35),
-            high: DVec3::new(wide, high, 0.35),
+            per_low: DVec3::new(wide, low, 0.35).recip(),
+            per_high: DVec3::new(wide, high, 0.35).recip(),
             rates: DVec3::ZERO,
         };
         self.nose_back = Some((0.16 * k * prot, window));
@@ -262,10 +262,13 @@ impl Flow {
         let centre = DVec3::new(0.0, 0.55 * nose.base, self.front - 0.02);
         let half = DVec3::new(0.19, 0.095, 0.30);
         let rates = DVec3::new(less(0.36 * k), less(0.18 * k), 0.0);
-        self.shrinks.push(Shrink { centre, sinks: 0.0, low: half, high: half, rates });
+        let per_half = half.recip();
+        self.shrinks.push(Shrink { centre, sinks: 0.0, per_low: per_half, per_high: per_half, rates });
         if smile > 0.0 {
             let half = DVec3::new(0.34, 0.13, 0.40);
-            let window = Shrink { centre, sinks: 0.0, low: half, high: half, rates: DVec3::ZERO };
+            let per_half = half.recip();
+            let window =
+                Shrink { centre, sinks: 0.0, per_low: per_half, per_high: per_half, rates: DVec3::ZERO };
             self.smile = Some((0.010 * smile, 0.018 * smile, window));
         }
     }
