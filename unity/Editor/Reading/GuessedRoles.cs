@@ -49,13 +49,9 @@ namespace SuperDeform.Editor
             };
             for (int joint = 0; joint < data.Joints.Length; joint++)
             {
-                Affine rest = data.Rest[joint];
-                rest.M01 = -rest.M01;
-                rest.M02 = -rest.M02;
-                rest.M03 = -rest.M03;
-                rest.M10 = -rest.M10;
-                rest.M20 = -rest.M20;
-                rest.ToColumns(skeleton.RestMatrices, 16 * joint);
+                // Places tell roles; axes do not.
+                Double3 place = data.Rest[joint].Position;
+                Affine.Translation(new Double3(-place.X, place.Y, place.Z)).ToColumns(skeleton.RestMatrices, 16 * joint);
             }
             return skeleton;
         }

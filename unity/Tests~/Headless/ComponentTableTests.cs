@@ -330,6 +330,24 @@ namespace SuperDeform.Editor.Tests
         }
 
         [Test]
+        public void a_collider_in_the_shape_of_a_renderers_mesh_gets_the_new_mesh()
+        {
+            Begin();
+            Mesh hat = figure.Hat.GetComponent<MeshFilter>().sharedMesh, other = UnityEngine.Object.Instantiate(hat);
+            AssetDatabase.CreateAsset(other, "Assets/Other.asset");
+            figure.Hat.gameObject.AddComponent<MeshCollider>().sharedMesh = hat;
+            figure.Bones[Arm].gameObject.AddComponent<MeshCollider>().sharedMesh = other;
+            figure.Bones[Leg].gameObject.AddComponent<MeshCollider>();
+            Probe.Ask = null;
+            GameObject prefab = Converter.Convert(figure.Root, Settings(), null).Prefab;
+            Transform shown = ConversionTests.Find(prefab, "Hat");
+            Assert.AreNotSame(hat, shown.GetComponent<MeshFilter>().sharedMesh);
+            Assert.AreSame(shown.GetComponent<MeshFilter>().sharedMesh, shown.GetComponent<MeshCollider>().sharedMesh);
+            Assert.AreSame(other, ConversionTests.Find(prefab, figure.Bones[Arm].name).GetComponent<MeshCollider>().sharedMesh, "of no renderer");
+            Assert.That(ConversionTests.Find(prefab, figure.Bones[Leg].name).GetComponent<MeshCollider>().sharedMesh, Is.Null);
+        }
+
+        [Test]
         public void the_viewpoint_stays_between_the_eyes()
         {
             foreach (float size in new[] { 1f, 2f })

@@ -96,6 +96,22 @@ namespace SuperDeform.Editor.Tests
         }
 
         [Test]
+        public void every_warning_of_the_library_has_a_text_and_no_other_has()
+        {
+            var call = new Regex(@"Warning::new\(\s*""([a-z_]+)""");
+            var codes = new HashSet<string>();
+            foreach (string file in Directory.GetFiles(Path.Combine(Models.Repository, "src"), "*.rs", SearchOption.AllDirectories))
+                foreach (Match match in call.Matches(File.ReadAllText(file)))
+                    codes.Add("warning." + match.Groups[1].Value);
+            Assert.That(codes.Count, Is.GreaterThan(10));
+            var texts = new HashSet<string>();
+            foreach (string key in Texts("en").Keys)
+                if (key.StartsWith("warning."))
+                    texts.Add(key);
+            CollectionAssert.AreEquivalent(codes, texts);
+        }
+
+        [Test]
         public void every_text_is_named_by_the_code_or_made_of_names_that_are()
         {
             string code = "";
