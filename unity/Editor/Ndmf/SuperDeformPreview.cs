@@ -228,11 +228,25 @@ namespace SuperDeform.Editor.Ndmf
             skinned.localBounds = shown.Bounds;
         }
 
+        /// <summary>Gives NDMF its proxies back, which would go with the skeleton.</summary>
+        private static void Release(Transform holder)
+        {
+            for (int child = holder == null ? -1 : holder.childCount - 1; child >= 0; child--)
+            {
+                Transform hung = holder.GetChild(child);
+                if (hung.GetComponent<Renderer>() != null)
+                    hung.SetParent(null, false);
+            }
+        }
+
         public void Dispose()
         {
             EditorApplication.update -= Wait;
             foreach (ShownMesh shown in meshes.Values)
+            {
+                Release(shown.Holder);
                 UnityEngine.Object.DestroyImmediate(shown.Mesh);
+            }
             if (skeleton != null)
                 skeleton.Destroy();
             if (figure != null)

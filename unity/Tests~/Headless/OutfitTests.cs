@@ -131,6 +131,31 @@ namespace SuperDeform.Editor.Tests
             Assert.That(Drawing.Apart(wanted, Drawing.Drawn(prefab, "Proxied")), Is.LessThan(1e-3 * 1.9));
         }
 
+        [Test]
+        public void an_empty_object_with_a_bone_proxy_goes_with_the_bone()
+        {
+            Models.NewProject();
+            SkinnedMeshRenderer coat;
+            ConversionFigure figure = Figure(out coat);
+            // A contact's place above the head, say: held by the head, proxied to it, and held by nothing.
+            Transform held = Empty("Held", figure.Bones[HumanBodyBones.Head]), proxied = Empty("Proxied", figure.Root.transform);
+            Empty("Free", figure.Root.transform);
+            proxied.gameObject.AddComponent<ModularAvatarBoneProxy>().boneReference = HumanBodyBones.Head;
+            GameObject prefab = Converter.Convert(figure.Root, Settings(), null).Prefab;
+            Vector3 wanted = ConversionTests.Find(prefab, "Held").position;
+            Assert.That(Vector3.Distance(held.position, wanted), Is.GreaterThan(0.1f * 1.9f));
+            Assert.That(Vector3.Distance(wanted, ConversionTests.Find(prefab, "Proxied").position), Is.LessThan(1e-3f * 1.9f));
+            Assert.That(Vector3.Distance(wanted, ConversionTests.Find(prefab, "Free").position), Is.GreaterThan(0.01f * 1.9f));
+        }
+
+        private static Transform Empty(string name, Transform parent)
+        {
+            Transform made = new GameObject(name).transform;
+            made.SetParent(parent, false);
+            made.position = new Vector3(0.1f, 2.2f, 0.2f);
+            return made;
+        }
+
         private static MeshRenderer Hat(ConversionFigure figure, Transform parent, string name)
         {
             MeshRenderer hat = UnityEngine.Object.Instantiate(figure.Hat, parent);

@@ -18,6 +18,7 @@ namespace nadena.dev.ndmf.preview
     {
         static Scene s_Scene;
         public static Scene GetPreviewScene() { if (!s_Scene.IsValid()) s_Scene = EditorSceneManager.NewPreviewScene(); return s_Scene; }
+        internal static bool IsOpen { get { return s_Scene.IsValid(); } }
         internal static void Close() { if (s_Scene.IsValid()) EditorSceneManager.ClosePreviewScene(s_Scene); }
     }
 
@@ -194,6 +195,15 @@ namespace nadena.dev.ndmf.preview
         }
 
         public static void CloseScene() { NDMFPreviewSceneManager.Close(); }
-        public void Dispose() { Node.Dispose(); foreach (Renderer proxy in m_Proxies.Values) if (proxy != null) Object.DestroyImmediate(proxy.gameObject); }
+        public void Dispose()
+        {
+            bool open = NDMFPreviewSceneManager.IsOpen;
+            Node.Dispose();
+            foreach (Renderer proxy in m_Proxies.Values)
+            {
+                if (proxy == null && open) throw new InvalidOperationException("Proxy object was destroyed improperly!");
+                if (proxy != null) Object.DestroyImmediate(proxy.gameObject);
+            }
+        }
     }
 }
