@@ -366,7 +366,13 @@ namespace SuperDeform.Editor.Tests
             foreach (string ending in new[] { ".prefab", ".asset" })
             {
                 int writes = 0;
-                StubDisk.Refuse = file => file.EndsWith(ending) && writes++ == 0;
+                StubDisk.Refuse = delegate (string file)
+                {
+                    if (!file.EndsWith(ending) || writes++ > 0) return false;
+                    // What a disk does that is full: the file is begun.
+                    File.WriteAllText(file, "half");
+                    return true;
+                };
                 ConversionSettings other = Settings();
                 other.Heads = 4;
                 Assert.Throws<ConversionException>(() => Converter.Convert(figure.Root, other, null));
