@@ -157,15 +157,17 @@ namespace SuperDeform.Editor.Ndmf
                 return Task.FromResult<IRenderFilterNode>(null);
             this.context = context;
             if ((updatedAspects & RenderAspects.Shapes) != 0)
-                ReadWhenRested();
+                WhenRested(ReadAnew);
             ConversionSettings settings = Observed(component, context);
             try
             {
                 if (SettingsChanges.Between(figure.Shown, settings) == SettingsChange.Rig)
                     return Task.FromResult<IRenderFilterNode>(null);
-                if (figure.Update(settings))
-                    foreach (RendererResult renderer in figure.Result.Renderers)
-                        Write(meshes[renderer.Source.Renderer], renderer);
+                if (figure.Update(settings, true))
+                {
+                    WriteAll();
+                    WhenRested(Settle);
+                }
                 skeleton.Stand(figure.Result);
             }
             catch (ConversionException)
@@ -175,20 +177,48 @@ namespace SuperDeform.Editor.Ndmf
             return Task.FromResult<IRenderFilterNode>(this);
         }
 
-        private void ReadWhenRested()
+        private void WriteAll()
         {
-            changedAt = EditorApplication.timeSinceStartup;
-            EditorApplication.update -= Wait;
-            EditorApplication.update += Wait;
+            foreach (RendererResult renderer in figure.Result.Renderers)
+                Write(meshes[renderer.Source.Renderer], renderer);
         }
 
-        private void Wait()
+        /// <summary>Has a step tried in every round of the editor; it waits until nothing has changed for a while.</summary>
+        private void WhenRested(EditorApplication.CallbackFunction step)
         {
-            if (EditorApplication.timeSinceStartup - changedAt < ConverterController.Rest)
+            changedAt = EditorApplication.timeSinceStartup;
+            EditorApplication.update -= step;
+            EditorApplication.update += step;
+        }
+
+        private bool Moves { get { return EditorApplication.timeSinceStartup - changedAt < ConverterController.Rest; } }
+
+        private void ReadAnew()
+        {
+            if (Moves)
                 return;
-            EditorApplication.update -= Wait;
+            EditorApplication.update -= ReadAnew;
             hasRested = true;
             context.Invalidate();
+        }
+
+        /// <summary>Pushes clothes out of the body as it is now.</summary>
+        private void Settle()
+        {
+            if (Moves)
+                return;
+            EditorApplication.update -= Settle;
+            try
+            {
+                if (skeleton.Root == null || !figure.Settle())
+                    return;
+                WriteAll();
+                SceneView.RepaintAll();
+            }
+            catch (ConversionException)
+            {
+                // A build says why. What is shown stays.
+            }
         }
 
         public void OnFrameGroup()
@@ -241,7 +271,8 @@ namespace SuperDeform.Editor.Ndmf
 
         public void Dispose()
         {
-            EditorApplication.update -= Wait;
+            EditorApplication.update -= ReadAnew;
+            EditorApplication.update -= Settle;
             foreach (ShownMesh shown in meshes.Values)
             {
                 Release(shown.Holder);

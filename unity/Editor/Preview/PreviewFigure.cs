@@ -11,6 +11,7 @@ namespace SuperDeform.Editor
     {
         private readonly PreviewStyle style = new PreviewStyle();
         private Deformer deformer;
+        private bool pushedEarlier;
 
         internal AvatarData Avatar { get; private set; }
 
@@ -30,7 +31,7 @@ namespace SuperDeform.Editor
             try
             {
                 Avatar = CharacterReader.Read(avatar, reading);
-                Deform(settings, SettingsChange.Style, progress);
+                Deform(settings, SettingsChange.Style, false, progress);
                 Result = new AvatarResult(Avatar, atRest);
                 Result.Apply(deformer, null);
             }
@@ -42,18 +43,32 @@ namespace SuperDeform.Editor
         }
 
         /// <summary>Brings the result up to settings; only what depends on the change is done again.</summary>
+        /// <param name="moving">Whether a slider moves: clothes stay pushed as they were, until Settle.</param>
         /// <returns>Whether anything had changed.</returns>
         /// <exception cref="ConversionException">They cannot be; the result stays as it was.</exception>
-        internal bool Update(ConversionSettings settings)
+        internal bool Update(ConversionSettings settings, bool moving)
         {
             SettingsChange change = SettingsChanges.Between(Shown, settings);
             if (change == SettingsChange.None)
                 return false;
+            return Change(settings, change, moving);
+        }
+
+        /// <summary>Pushes clothes anew where they stayed as they were.</summary>
+        /// <returns>Whether they had.</returns>
+        /// <exception cref="ConversionException">They cannot be; the result stays as it was.</exception>
+        internal bool Settle()
+        {
+            return pushedEarlier && Change(Shown, SettingsChange.Options, false);
+        }
+
+        private bool Change(ConversionSettings settings, SettingsChange change, bool moving)
+        {
             if (change == SettingsChange.Rig)
                 throw new InvalidOperationException("Another rig needs the avatar to be read anew.");
             try
             {
-                Deform(settings, change, null);
+                Deform(settings, change, moving, null);
                 Result.Apply(deformer, null);
                 return true;
             }
@@ -63,10 +78,16 @@ namespace SuperDeform.Editor
             }
         }
 
-        private void Deform(ConversionSettings settings, SettingsChange change, ProgressHandler progress)
+        private void Deform(ConversionSettings settings, SettingsChange change, bool moving, ProgressHandler progress)
         {
+            bool asEarlier = moving && change == SettingsChange.Options && settings.Options.Repair == Repair.On;
             if (change == SettingsChange.Options)
-                deformer.SetOptions(settings.Options, null);
+            {
+                Options options = settings.Options.Clone();
+                if (asEarlier)
+                    options.Repair = Repair.Kept;
+                deformer.SetOptions(options, null);
+            }
             else
                 using (Style wanted = style.Make(settings))
                 {
@@ -75,6 +96,7 @@ namespace SuperDeform.Editor
                         deformer.Dispose();
                     deformer = made;
                 }
+            pushedEarlier = asEarlier;
             Shown = settings.Clone();
         }
 

@@ -77,10 +77,19 @@ namespace SuperDeform.Editor
         }
 
         /// <summary>Brings the proxy up to the settings; only what depends on the change is done again.</summary>
+        /// <param name="moving">Whether a slider moves: clothes stay pushed as they were, which is faster, until Settle.</param>
         /// <exception cref="ConversionException">They cannot be; the proxy stays as it was.</exception>
-        public void Update(ConversionSettings settings)
+        public void Update(ConversionSettings settings, bool moving = false)
         {
-            if (figure.Update(settings))
+            if (figure.Update(settings, moving))
+                Show();
+        }
+
+        /// <summary>After updates with moving: pushes clothes out of the body as it is now.</summary>
+        /// <exception cref="ConversionException">They cannot be; the proxy stays as it was.</exception>
+        public void Settle()
+        {
+            if (figure.Settle())
                 Show();
         }
 

@@ -99,7 +99,7 @@ namespace SuperDeform.Editor
                 if (preview != null && !preview.Fits(model.Avatar, model.Settings))
                     Drop();
                 if (preview != null)
-                    preview.Update(model.Settings);
+                    preview.Update(model.Settings, true);
                 else
                     using (var progress = new EditorProgress(model.Avatar.name, 1))
                         preview = new PreviewSession(model.Avatar, model.Settings, progress);
@@ -119,6 +119,7 @@ namespace SuperDeform.Editor
         {
             try
             {
+                preview.Settle();
                 model.SetNumbers(preview.Measure());
             }
             catch (Exception fault)

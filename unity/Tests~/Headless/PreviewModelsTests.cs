@@ -22,6 +22,42 @@ namespace SuperDeform.Editor.Tests
         public void godette() { Check("godette.vrm"); }
 
         [Test]
+        public void clothes_are_pushed_anew_when_a_slider_rests()
+        {
+            if (!Models.Has("kaykit_rogue.glb"))
+                return;
+            Model model = Models.Load("kaykit_rogue.glb");
+            var settings = new ConversionSettings { Source = StyleSource.BuiltIn };
+            using (var session = new PreviewSession(model.Root, settings))
+            {
+                GroupTunings.Change(settings, "torso", torso => torso.ThicknessScale = 1.3);
+                session.Update(settings, true);
+                using (var anew = new PreviewSession(model.Root, settings))
+                {
+                    Assert.That(Most(Shown(anew), Shown(session)), Is.GreaterThan(1e-3f), "pushed anew at every step of a slider");
+                    session.Settle();
+                    Assert.AreEqual(0, Most(Shown(anew), Shown(session)));
+                }
+                session.Settle();
+                Assert.AreEqual(Repair.On, settings.Options.Repair);
+            }
+        }
+
+        private static float Most(Vector3[][] one, Vector3[][] other)
+        {
+            float most = 0;
+            for (int mesh = 0; mesh < one.Length; mesh++)
+                for (int vertex = 0; vertex < one[mesh].Length; vertex++)
+                    most = Mathf.Max(most, (one[mesh][vertex] - other[mesh][vertex]).magnitude);
+            return most;
+        }
+
+        private static Vector3[][] Shown(PreviewSession session)
+        {
+            return Array.ConvertAll(session.Proxy.GetComponentsInChildren<SkinnedMeshRenderer>(true), shown => shown.sharedMesh.vertices);
+        }
+
+        [Test]
         public void makehuman() { Check("makehuman_female_rigged.glb"); }
 
         [Test]
