@@ -105,6 +105,43 @@ namespace SuperDeform.Editor.Tests
         }
 
         [Test]
+        public void clothes_are_pushed_anew_when_settings_rest()
+        {
+            if (!Models.Has("kaykit_rogue.glb"))
+                return;
+            GameObject root = Models.Load("kaykit_rogue.glb").Root;
+            UnityEngine.Object.DestroyImmediate(component);
+            component = root.AddComponent<SuperDeformAvatar>();
+            var settings = new ConversionSettings { Source = StyleSource.BuiltIn };
+            SettingsText.Give(component, settings);
+            Renderer[] parts = root.GetComponentsInChildren<Renderer>();
+            using (NdmfPreviewStub preview = NdmfPreviewStub.Of(filter))
+            {
+                preview.Frame();
+                GroupTunings.Change(settings, "torso", torso => torso.ThicknessScale = 1.3);
+                SettingsText.Give(component, settings);
+                Assert.AreEqual("refreshed", preview.Frame());
+                Vector3[][] moving = Array.ConvertAll(parts, part => Drawing.Drawn(preview.Proxy(part), Matrix4x4.identity));
+                StubEditor.Tick();
+                System.Threading.Thread.Sleep(300);
+                StubEditor.Tick();
+                Assert.AreEqual("", preview.Frame());
+                GameObject clone = UnityEngine.Object.Instantiate(root);
+                NdmfStub.Build<SuperDeformPlugin>(clone);
+                double between = 0;
+                for (int part = 0; part < parts.Length; part++)
+                {
+                    Vector3[] shown = Drawing.Drawn(preview.Proxy(parts[part]), Matrix4x4.identity);
+                    between = Math.Max(between, Drawing.Apart(moving[part], shown));
+                    Vector3[] built = Drawing.Drawn(ConversionTests.Find(clone, parts[part].name).GetComponent<Renderer>(), Matrix4x4.identity);
+                    Assert.That(Drawing.Apart(built, shown), Is.LessThan(1e-5 * Height), parts[part].name);
+                }
+                Assert.That(between, Is.GreaterThan(1e-3));
+            }
+            Assert.That(UnityEditor.EditorApplication.update, Is.Null, "nobody waits any more");
+        }
+
+        [Test]
         public void it_stands_as_the_avatar_stands()
         {
             using (NdmfPreviewStub preview = NdmfPreviewStub.Of(filter))

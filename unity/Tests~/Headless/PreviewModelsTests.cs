@@ -43,6 +43,34 @@ namespace SuperDeform.Editor.Tests
             }
         }
 
+        /// <summary>The window's preview and NDMF's do that by themselves.</summary>
+        [Test]
+        public void a_preview_that_rests_shows_what_is_converted()
+        {
+            if (!Models.Has("kaykit_rogue.glb"))
+                return;
+            Model model = Models.Load("kaykit_rogue.glb");
+            ConverterWindow window = ConverterWindow.Open(null);
+            try
+            {
+                window.Model.SetAvatar(model.Root);
+                window.Controller.Tick(1);
+                window.Model.Change("torso", () => GroupTunings.Change(window.Model.Settings, "torso", torso => torso.ThicknessScale = 1.3));
+                window.Controller.Tick(2);
+                Vector3[][] moving = Shown(window.Controller.Preview);
+                window.Controller.Tick(3);
+                using (var anew = new PreviewSession(model.Root, window.Model.Settings))
+                {
+                    Assert.That(Most(Shown(anew), moving), Is.GreaterThan(1e-3f));
+                    Assert.AreEqual(0, Most(Shown(anew), Shown(window.Controller.Preview)));
+                }
+            }
+            finally
+            {
+                window.Close();
+            }
+        }
+
         private static float Most(Vector3[][] one, Vector3[][] other)
         {
             float most = 0;

@@ -125,23 +125,31 @@ namespace SuperDeform.Editor.Tests
             Assert.That(yielded, Is.InRange(0.8f - 1e-4f, 0.99f));
         }
 
+        /// <summary>Radii are measured in the object that holds the springs, which is larger here.</summary>
+        private Component Dynamic(float reach, float ball)
+        {
+            var collider = figure.Bones[Carrier].gameObject.AddComponent<DynamicBoneCollider>();
+            collider.m_Center = Vector3.zero;
+            collider.m_Radius = reach;
+            collider.m_Radius2 = collider.m_Height = 0;
+            Transform holder = new GameObject("Chains").transform;
+            holder.SetParent(figure.Root.transform, false);
+            holder.localScale = new Vector3(4, 4, 4);
+            var bone = holder.gameObject.AddComponent<DynamicBone>();
+            bone.m_Roots.Add(root);
+            bone.m_Exclusions.Add(left);
+            bone.m_Radius = ball / 4;
+            bone.m_Colliders.Add(collider);
+            return collider;
+        }
+
         [Test]
         public void colliders_of_dynamic_bone_and_magica_cloth_yield_too()
         {
             Begin();
-            Yield(reach =>
-            {
-                var collider = figure.Bones[Carrier].gameObject.AddComponent<DynamicBoneCollider>();
-                collider.m_Center = Vector3.zero;
-                collider.m_Radius = reach;
-                collider.m_Radius2 = collider.m_Height = 0;
-                var bone = figure.Root.AddComponent<DynamicBone>();
-                bone.m_Roots.Add(root);
-                bone.m_Exclusions.Add(left);
-                bone.m_Radius = Ball;
-                bone.m_Colliders.Add(collider);
-                return collider;
-            }, collider => ((DynamicBoneCollider)collider).m_Radius, end.position);
+            Yield(reach => Dynamic(reach, Ball), collider => ((DynamicBoneCollider)collider).m_Radius, end.position);
+            Begin();
+            Assert.AreEqual(1, Yield(reach => Dynamic(reach, 3 * Ball), collider => ((DynamicBoneCollider)collider).m_Radius, end.position, false), 1e-4, "it was inside before");
 
             Begin();
             UnityEngine.Object.DestroyImmediate(left.gameObject);
