@@ -445,7 +445,8 @@ typedef struct SdefCharacterInfo {
 
 // Makes an empty character.
 //
-// up:        3 floats, from the feet to the head, any length but 0; NULL: (0, 1, 0)
+// up:        3 floats, from the feet to the head, any length but 0; NULL: (0, 1, 0), or for a character without a rig
+//            another axis along which it stands as people do
 // forward:   3 floats, the way the face looks, at any angle to up but 0; NULL: found from left and right limbs, as in
 //            right-handed axes, so a left-handed host gives it; without joints from feet and face
 // character: receives the handle

@@ -148,7 +148,7 @@ fn things_without_a_front_are_warned_of() {
     ];
     for (name, mesh) in things {
         for up in [Vec3::Y, Vec3::Z, Vec3::NEG_X, Vec3::new(1.0, -2.0, 0.3)] {
-            let axes = Axes { up, forward: None };
+            let axes = Axes { up, up_is_known: true, forward: None };
             let character = Character { meshes: vec![mesh.clone()], axes, ..Character::default() };
             let (found, warnings) = find_forward(&character);
             assert!((found.length() - 1.0).abs() < 1e-9, "{name}, up {up}: {found}");

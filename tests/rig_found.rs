@@ -373,6 +373,34 @@ fn stripped() -> Vec<Outcome> {
     })
 }
 
+#[test]
+fn a_person_is_found_with_any_axis_up() {
+    let person = people::Person { columns: 12, ..people::Person::adult() };
+    let half = std::f64::consts::FRAC_PI_2;
+    for (up, turn) in [
+        (DVec3::Y, DMat3::IDENTITY),
+        (DVec3::NEG_Y, DMat3::from_rotation_z(2.0 * half)),
+        (DVec3::X, DMat3::from_rotation_z(-half)),
+        (DVec3::Z, DMat3::from_rotation_x(half)),
+    ] {
+        let mut character = person.build();
+        for mesh in &mut character.meshes {
+            mesh.kind = None;
+            mesh.normals.clear();
+            mesh.positions.iter_mut().for_each(|p| *p = (turn * p.as_dvec3()).as_vec3());
+        }
+        let options = RigOptions { fingers: false, ..RigOptions::default() };
+        let placed = Placed::of(&character, &options, &mut Progress::none()).unwrap();
+        assert!(placed.up.distance(up) < 1e-6, "up is {}, and {up} was expected", placed.up);
+        let told = placed.warnings.iter().any(|warning| warning.code == "up_guessed");
+        assert_eq!(told, up != DVec3::Y, "{up}");
+        character.axes.up = up.as_vec3();
+        character.axes.up_is_known = true;
+        let given = Placed::of(&character, &options, &mut Progress::none()).unwrap();
+        assert_eq!(given.found.joints, placed.found.joints, "{up}");
+    }
+}
+
 /// Five bodies, each with its head along every axis, of which nobody is told.
 fn any_way_up() -> Vec<Outcome> {
     let names = [

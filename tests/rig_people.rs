@@ -109,7 +109,7 @@ fn someone_who_lies_down_is_found_too() {
     for joint in &mut truth.skeleton.joints {
         joint.rest.w_axis = (turn * joint.position()).extend(1.0);
     }
-    truth.axes = Axes { up: Vec3::NEG_X, forward: None };
+    truth.axes = Axes { up: Vec3::NEG_X, up_is_known: true, forward: None };
     let rig = rig(&bare(truth.clone()));
     for (role, bound) in LIMBS {
         let off = distance(&rig, &truth, role) / height(&person);

@@ -30,15 +30,18 @@ pub use weights::Weights;
 pub struct Axes {
     /// From the feet to the head; any length but 0.
     pub up: Vec3,
+    /// False where nobody said how the character stands: a rig is then made for the way in which it stands as people
+    /// do, and `up` is only what is tried first.
+    pub up_is_known: bool,
     /// The way the face looks; `None` finds it from the joints: at right angles to `up` and to the line
     /// from the right limbs to the left ones (right-handed axes).
     pub forward: Option<Vec3>,
 }
 
 impl Default for Axes {
-    /// Y up, forward found from the joints.
+    /// Y up unless an unrigged character stands another way, forward found from the joints.
     fn default() -> Self {
-        Self { up: Vec3::Y, forward: None }
+        Self { up: Vec3::Y, up_is_known: false, forward: None }
     }
 }
 

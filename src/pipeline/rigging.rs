@@ -28,6 +28,8 @@ pub struct Rig {
     /// How sure each joint is, 0..1, in the skeleton's order: 1 for given ones, below 0.5 where a ratio stands in for
     /// what was not seen.
     pub confidence: Vec<f64>,
+    /// From the feet to the head, model space: as given, or found.
+    pub up: DVec3,
     /// The way the character looks, model space.
     pub forward: DVec3,
     /// What each mesh depicts.
@@ -69,7 +71,7 @@ impl Rig {
         options.validate()?;
         progress.at(0.0)?;
         let clock = Instant::now();
-        let Placed { figure, forward, mut kinds, mut found, mut warnings } =
+        let Placed { figure, up, forward, mut kinds, mut found, mut warnings } =
             Placed::of(character, options, &mut progress.part(0.0, 0.25))?;
         warnings.extend(refine_kinds(&figure, &mut kinds, &found.joints));
         let eyes = find_eyes(&figure, &kinds, &found);
@@ -100,6 +102,7 @@ impl Rig {
             skeleton,
             humanoid,
             confidence: found.joints.values().map(|joint| joint.confidence).collect(),
+            up,
             forward,
             kinds,
             weights,
@@ -140,6 +143,8 @@ impl Rig {
                 mesh.kind = Some(*kind);
             }
         }
+        rigged.axes.up = self.up.as_vec3();
+        rigged.axes.up_is_known = true;
         rigged.axes.forward = Some(self.forward.as_vec3());
         rigged
     }

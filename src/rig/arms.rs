@@ -2,7 +2,7 @@
 
 use super::front_view::{FrontView, median};
 use super::silhouette::{GridFrame, RayGrid, lowest};
-use glam::{DVec2, DVec3};
+use glam::{DVec2, DVec3, Vec2Swizzles};
 
 /// An arm's column of cells that reaches lower than the arm by so many of its thicknesses belongs to the trunk. Seen:
 /// at +30 %, joints lie 0.0005 H further off.
@@ -44,6 +44,10 @@ const TRUNK_WIDENS: f64 = 1.7;
 /// A section this much deeper than the arm has something else in it. Seen: ±30 % changes no joint.
 const THING_DEEPENS: f64 = 4.0;
 
+/// An arm that hangs is seen beside the trunk over at least this height, ...
+const LEAST_HANGING: f64 = 0.08;
+/// ... and its shoulder joint lies so many of its radii over the armpit.
+const HANGING_OVER: f64 = 0.8;
 /// An arm is followed so many columns before its lower side is looked at for a drop (seen: ±30 % changes no joint), ...
 const LEAST_FOLLOWED: usize = 12;
 /// ... and has at least so many (seen: ±30 % changes no joint), ...
@@ -111,11 +115,31 @@ pub struct Arm {
     pub wrist_seen: bool,
 }
 
-/// Finds one arm above `floor` (height); `most` is how far from the axis it can reach. `None` where nothing sticks out.
-pub fn find_arm(view: &FrontView, left: bool, crotch: f64, floor: f64, most: f64) -> Option<Arm> {
+/// Where an arm is looked for.
+#[derive(Clone, Copy)]
+pub struct ArmSpace {
+    /// Height of the crotch.
+    pub crotch: f64,
+    /// Hands end above this height.
+    pub floor: f64,
+    /// What is above this height is head, hair and hat.
+    pub ceiling: f64,
+    /// How far from the axis an arm can reach.
+    pub most: f64,
+}
+
+/// Finds one arm that reaches aside. `None` where nothing sticks out.
+pub fn find_arm(view: &FrontView, left: bool, space: &ArmSpace) -> Option<Arm> {
     let half = view.half_columns();
     let cell = view.cell();
-    let runs = |steps: usize| column_runs(&view.grid, view.column(left, steps));
+    let &ArmSpace { crotch, floor, ceiling, most } = space;
+    let ceiling_row = (ceiling / cell).ceil() as usize;
+    let runs = |steps: usize| {
+        let mut runs = column_runs(&view.grid, view.column(left, steps));
+        runs.retain(|run| run.0 < ceiling_row);
+        runs.iter_mut().for_each(|run| run.1 = run.1.min(ceiling_row));
+        runs
+    };
     let floor_row = view.grid.row(floor);
     let outermost = (0..half.min(((most / cell).ceil() as usize).saturating_add(1)))
         .rev()
@@ -172,8 +196,61 @@ pub fn find_arm(view: &FrontView, left: bool, crotch: f64, floor: f64, most: f64
     let along = DVec2::new(1.0, slope).normalize();
     let pit_row = path.last().map_or(0, |&(_, run)| run.0);
     let pit = DVec2::new(pit_steps as f64 * cell, pit_row as f64 * cell);
-    let line = ArmLine { through, along, pit, reach: view.distance(outermost) };
-    joints(view, left, &line, pit_seen)
+    // The foot of the pit on the line, and of the tip.
+    let start = through + along * (pit - through).dot(along);
+    let length = (view.distance(outermost) - start.x) / along.x.max(STEEPEST_LINE);
+    joints(view, left, &ArmLine { along, pit, start, length, hangs: false }, pit_seen)
+}
+
+/// Finds one arm that hangs beside the trunk, with air between, up to where the two become one. `None` where none does.
+pub fn find_hanging_arm(view: &FrontView, left: bool, space: &ArmSpace) -> Option<Arm> {
+    let cell = view.cell();
+    let (first, last) = (view.grid.row(space.floor), view.grid.row(space.ceiling));
+    // The outermost run of each row that has another one inside of it, upwards, of which each goes on where the one
+    // before it was.
+    let mut path: Vec<(usize, (usize, usize))> = Vec::new();
+    let mut best: Vec<(usize, (usize, usize))> = Vec::new();
+    for row in first..=last {
+        let runs = view.side_runs(left, row);
+        let run = runs.last().copied().filter(|run| runs.len() >= 2 && run.0 > 0);
+        let goes_on =
+            |run: (usize, usize)| path.last().is_none_or(|&(_, before)| run.0 < before.1 && before.0 < run.1);
+        match run {
+            Some(run) if goes_on(run) => path.push((row, run)),
+            _ => {
+                if path.len() > best.len() {
+                    best = std::mem::take(&mut path);
+                }
+                path.clear();
+                path.extend(run.map(|run| (row, run)));
+            }
+        }
+    }
+    if path.len() > best.len() {
+        best = path;
+    }
+    let least = (LEAST_HANGING / cell) as usize;
+    // What reaches up to the ceiling is hair that hangs down.
+    if best.len() < least || best.last().is_none_or(|&(row, _)| row >= last) {
+        return None;
+    }
+    let middle = |&(row, run): &(usize, (usize, usize))| {
+        DVec2::new(0.5 * (run.0 + run.1) as f64 * cell, view.grid.y(row))
+    };
+    let (length, fitted) = (best.len(), |share: f64| (share * best.len() as f64) as usize);
+    // Fitted over the height: swapped, so that a plumb line has no slope.
+    let points: Vec<DVec2> = best[fitted(1.0 - LINE_RANGE.1)..fitted(1.0 - LINE_RANGE.0)]
+        .iter()
+        .map(|entry| middle(entry).yx())
+        .collect();
+    let (through, slope) = fit(&points);
+    let (through, along) = (through.yx(), DVec2::new(-slope, -1.0).normalize());
+    let (row, run) = best[length - 1];
+    let pit = DVec2::new(run.0 as f64 * cell, view.grid.y(row));
+    let start = through + along * (pit - through).dot(along);
+    let tip = middle(&best[0]);
+    let line = ArmLine { along, pit, start, length: (tip - start).dot(along), hangs: true };
+    joints(view, left, &line, true)
 }
 
 /// Where the lower side of the arm would be at `steps`, in rows, and how thick the arm is there.
@@ -233,14 +310,16 @@ impl Station {
 
 /// The line of an arm as seen from the front: distances from the axis, and heights.
 struct ArmLine {
-    /// A point of it.
-    through: DVec2,
-    /// Its way outwards, of length 1.
+    /// Its way to the hand, of length 1.
     along: DVec2,
     /// The armpit.
     pit: DVec2,
-    /// How far from the axis the arm reaches.
-    reach: f64,
+    /// The foot of the armpit on it.
+    start: DVec2,
+    /// From there to the tip.
+    length: f64,
+    /// True where the arm hangs down.
+    hangs: bool,
 }
 
 /// Rays at right angles to an arm's line, and what they meet.
@@ -259,9 +338,7 @@ impl ArmRays {
     fn cast(view: &FrontView, left: bool, line: &ArmLine) -> Option<Self> {
         let sign = if left { 1.0 } else { -1.0 };
         let place = |p: DVec2| DVec3::new(view.axis + sign * p.x, p.y, 0.0);
-        // The foot of the pit on the line, and of the tip.
-        let start = line.through + line.along * (line.pit - line.through).dot(line.along);
-        let length = ((line.reach - start.x) / line.along.x.max(STEEPEST_LINE)) * BEYOND_TIP;
+        let (start, length) = (line.start, line.length * BEYOND_TIP);
         if length.is_nan() || length <= LEAST_LENGTH {
             return None;
         }
@@ -437,7 +514,11 @@ fn joints(view: &FrontView, left: bool, line: &ArmLine, pit_seen: bool) -> Optio
     let upper = curve.upper();
     let right = rays.grid.frame.right;
     let out = line.pit.x + SHOULDER_OUT * radius;
-    let inwards = ((upper.x - view.axis).abs() - out) / line.along.x.max(STEEPEST_SHOULDER);
+    let inwards = if line.hangs {
+        (line.pit.y + HANGING_OVER * radius - upper.y) / -line.along.y
+    } else {
+        ((upper.x - view.axis).abs() - out) / line.along.x.max(STEEPEST_SHOULDER)
+    };
     let shoulder = upper - right * inwards + DVec3::Y * SHOULDER_OVER * radius;
     let begin = curve.middles[0];
     let shoulder_arc = -begin.distance(shoulder) * (shoulder - begin).dot(-right).signum();

@@ -4,7 +4,7 @@
 //! the arms from the fingertips inwards to the armpits, the middle line upwards from the shoulders; each joint is then
 //! centred by the depths of the rays around it. What is not seen is placed by ratio, and said so.
 
-use super::arms::{Arm, find_arm};
+use super::arms::{Arm, ArmSpace, find_arm, find_hanging_arm};
 use super::front_view::FrontView;
 use super::hand::{Hand, find_fingers};
 use super::head_line::{HeadLine, head_line, middle};
@@ -17,6 +17,7 @@ use crate::geometry::{PointTree, Surface};
 use crate::progress::Progress;
 use glam::DVec3;
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 /// Hands are looked for above this share of the crotch's height. Seen: ±30 % changes no joint.
 const HANDS_ABOVE: f64 = 0.75;
@@ -26,6 +27,12 @@ const LONGER_ARM: f64 = 1.15;
 /// A trunk that takes more than this share of an arm's reach is wider than its shoulders are. Seen: at -30 %, 18 more
 /// good joints doubted; at +30 %, 15 more bad joints trusted.
 const STOUT: f64 = 0.33;
+/// A neck lies above this share of the way from crotch to crown (the waist is below), ...
+const NECK_ABOVE: f64 = 0.3;
+/// ... and is narrower than this share of what is below and of what is above.
+const NECK_NARROWS: f64 = 0.75;
+/// Shoulders that are further from each other's mirror image than this, in heights, are not both shoulders.
+const APART_SHOULDERS: f64 = 0.06;
 /// An arm is longer than so many of its radii (seen: at +30 %, joints lie 0.020 H further off, 21 more by over 0.06 H,
 /// 21 more good joints doubted), ...
 const SLENDER: f64 = 4.0;
@@ -218,14 +225,45 @@ impl Search<'_> {
         self.found
     }
 
-    /// The arms over legs, as far as they are some.
+    /// The arms over `legs`: what reaches out furthest, where that ends at armpits below a neck; else what does so below
+    /// the neck, and then what hangs beside the trunk.
     fn arms(&self, legs: &Legs) -> [Option<Arm>; 2] {
         let view = self.view;
+        let neck = neck_height(view, legs.crotch);
+        let good = |arms: &[Option<Arm>; 2]| {
+            let below = |arm: &&Arm| arm.pit_seen && neck.is_none_or(|neck| arm.shoulder.y < neck);
+            let both = arms.iter().flatten().filter(below).count();
+            both - usize::from(both == 2 && !self.are_a_pair(arms))
+        };
+        let mut best = self.arms_by(legs, f64::INFINITY, find_arm);
+        let ways: [(f64, FindArm); 2] =
+            [(neck.unwrap_or(f64::INFINITY), find_arm), (neck.unwrap_or(view.high), find_hanging_arm)];
+        for (ceiling, find) in ways {
+            if good(&best) == 2 {
+                break;
+            }
+            let others = self.arms_by(legs, ceiling, find);
+            if good(&others) > good(&best) {
+                best = others;
+            }
+        }
+        best
+    }
+
+    /// True where two arms' shoulders are each other's mirror image, about.
+    fn are_a_pair(&self, arms: &[Option<Arm>; 2]) -> bool {
+        let [Some(one), Some(other)] = arms else { return false };
+        let image = DVec3::new(2.0 * self.view.axis - other.shoulder.x, other.shoulder.y, other.shoulder.z);
+        one.shoulder.distance(image) < APART_SHOULDERS
+    }
+
+    fn arms_by(&self, legs: &Legs, ceiling: f64, find: FindArm) -> [Option<Arm>; 2] {
+        let view = self.view;
         let floor = HANDS_ABOVE * legs.crotch;
-        let reach = [true, false].map(|left| reach(view, left, floor));
+        let reach = [true, false].map(|left| reach(view, left, floor..ceiling));
         let most = LONGER_ARM * reach[0].min(reach[1]);
         [true, false].map(|left| {
-            find_arm(view, left, legs.crotch, floor, most).filter(|arm| {
+            find(view, left, &ArmSpace { crotch: legs.crotch, floor, ceiling, most }).filter(|arm| {
                 let share = (arm.shoulder.y - legs.crotch) / (view.high - legs.crotch).max(1e-6);
                 let length = arm.shoulder.distance(arm.elbow) + arm.elbow.distance(arm.tip);
                 (SHOULDER_RANGE.0..=SHOULDER_RANGE.1).contains(&share) && length > SLENDER * arm.radius
@@ -424,9 +462,25 @@ fn limb(role: Role) -> &'static [Role] {
     if LEG.contains(&role) { &LEG } else { &ARM }
 }
 
-/// How far from the axis something reaches above `floor`.
-fn reach(view: &FrontView, left: bool, floor: f64) -> f64 {
-    (view.grid.row(floor)..view.grid.frame.rows)
+type FindArm = fn(&FrontView, bool, &ArmSpace) -> Option<Arm>;
+
+/// The narrowest place between trunk and head, where there is one: the row that is slimmest beside what is below and
+/// above it.
+fn neck_height(view: &FrontView, crotch: f64) -> Option<f64> {
+    let first = view.grid.row(crotch + NECK_ABOVE * (view.high - crotch));
+    let widths: Vec<f64> = (first..view.grid.row(view.high)).map(|row| view.half_width(row)).collect();
+    let most = |widths: &[f64]| widths.iter().copied().fold(0.0, f64::max);
+    let share =
+        |index: usize| widths[index] / most(&widths[..index]).min(most(&widths[index + 1..])).max(1e-6);
+    let slim = (0..widths.len()).filter(|&index| widths[index] > 0.0);
+    let slimmest = slim.min_by(|&a, &b| share(a).total_cmp(&share(b)))?;
+    (share(slimmest) < NECK_NARROWS).then(|| view.grid.y(first + slimmest))
+}
+
+/// How far from the axis something reaches within a range of heights.
+fn reach(view: &FrontView, left: bool, heights: Range<f64>) -> f64 {
+    let last = if heights.end.is_finite() { view.grid.row(heights.end) } else { view.grid.frame.rows };
+    (view.grid.row(heights.start)..last)
         .filter_map(|row| view.side_runs(left, row).last().map(|run| run.1))
         .max()
         .unwrap_or(0) as f64

@@ -1,19 +1,49 @@
-//! From a character to its joints: the way it looks, what its meshes depict, where its joints are.
+//! From a character to its joints: how it stands, the way it looks, what its meshes depict, where its joints are.
 
 use super::facing::find_forward;
 use super::joints::{FoundJoints, find_joints};
 use super::mesh_kinds::guess_kinds;
 use super::{RigOptions, UnitFigure};
-use crate::character::{Character, MeshKind};
-use crate::error::{Result, Warning};
+use crate::character::{Character, MeshKind, Role};
+use crate::error::{ErrorKind, Result, Warning};
 use crate::progress::Progress;
-use glam::DVec3;
+use glam::{DVec3, Vec3};
+use std::borrow::Cow;
+
+/// Limb joints by which it is judged whether a character stands.
+const LIMBS: [Role; 12] = {
+    use Role::*;
+    [
+        LeftUpperLeg,
+        RightUpperLeg,
+        LeftLowerLeg,
+        RightLowerLeg,
+        LeftFoot,
+        RightFoot,
+        LeftUpperArm,
+        RightUpperArm,
+        LeftLowerArm,
+        RightLowerArm,
+        LeftHand,
+        RightHand,
+    ]
+};
+/// A joint of at least this confidence was seen.
+const SEEN: f64 = 0.5;
+/// A character half of whose limb joints are seen stands: no other way is tried.
+const STANDS: usize = 6;
+/// Another way up has so many more limb joints to be taken: a leg and an arm.
+const MORE: usize = 6;
+/// Where nobody knows front from back, no joint is surer than this: left and right may be swapped.
+const DOUBTFUL: f64 = 0.4;
 
 /// A character that is laid out, with its joints.
 #[derive(Clone, Debug)]
 pub struct Placed {
     /// Its meshes in one space.
     pub figure: UnitFigure,
+    /// From the feet to the head, model space.
+    pub up: DVec3,
     /// The way it looks, model space.
     pub forward: DVec3,
     /// What each mesh depicts, guessed before joints were known.
@@ -27,9 +57,64 @@ pub struct Placed {
 impl Placed {
     /// Lays `character` out and finds its joints.
     ///
+    /// Where nobody said which way is up, and hardly a limb is seen, the character is turned with each axis up in turn,
+    /// and stands the way in which most limbs are seen: the warning `up_guessed` says so.
+    ///
     /// # Errors
     /// `NoGeometry` where nothing has an extent along up; `Cancelled`.
     pub fn of(character: &Character, options: &RigOptions, progress: &mut Progress) -> Result<Self> {
+        let first = Self::standing(character, options, &mut progress.part(0.0, 0.5));
+        let seen = first.as_ref().map_or(0, Self::seen_count);
+        let is_open =
+            !character.axes.up_is_known && character.axes.forward.is_none() && options.given.is_empty();
+        if !is_open || seen >= STANDS || matches!(&first, Err(error) if error.kind == ErrorKind::Cancelled) {
+            progress.at(1.0)?;
+            return first.map(Self::doubted);
+        }
+        let up = character.axes.up.normalize_or(Vec3::Y);
+        let mut best: Option<(usize, Self)> = None;
+        let mut turned = Cow::Borrowed(character);
+        for other in [Vec3::Z, Vec3::NEG_Z, Vec3::NEG_Y, Vec3::X, Vec3::NEG_X, Vec3::Y] {
+            progress.at(0.5)?;
+            if other.dot(up) > 0.99 {
+                continue;
+            }
+            turned.to_mut().axes.up = other;
+            let Ok(placed) = Self::standing(&turned, options, &mut Progress::none()) else { continue };
+            let count = placed.seen_count();
+            if count >= seen + MORE && best.as_ref().is_none_or(|(most, _)| count > *most) {
+                best = Some((count, placed));
+            }
+        }
+        progress.at(1.0)?;
+        let Some((_, mut best)) = best else { return first.map(Self::doubted) };
+        let message = format!(
+            "the character stands as people do with {} up, not {}: if that is wrong, say which way is up",
+            axis_name(best.up),
+            axis_name(up.as_dvec3())
+        );
+        best.warnings.push(Warning::new("up_guessed", message).about("up"));
+        Ok(best.doubted())
+    }
+
+    /// How many limb joints are seen.
+    fn seen_count(&self) -> usize {
+        let sure = |role: &&Role| self.found.joints.get(role).is_some_and(|joint| joint.confidence >= SEEN);
+        LIMBS.iter().filter(sure).count()
+    }
+
+    /// Doubts all joints that were not given where front and back may be swapped.
+    fn doubted(mut self) -> Self {
+        if self.warnings.iter().any(|warning| warning.code == "facing_guessed") {
+            for joint in self.found.joints.values_mut().filter(|joint| joint.confidence < 1.0) {
+                joint.confidence = joint.confidence.min(DOUBTFUL);
+            }
+        }
+        self
+    }
+
+    /// As [`Placed::of`], of a character that stands as its axes say.
+    fn standing(character: &Character, options: &RigOptions, progress: &mut Progress) -> Result<Self> {
         let (forward, mut warnings) = find_forward(character);
         progress.at(0.2)?;
         let figure = UnitFigure::in_axes(character, forward, options.left_handed)?;
@@ -48,6 +133,14 @@ impl Placed {
         )?;
         warnings.append(&mut found.warnings);
         progress.at(1.0)?;
-        Ok(Self { figure, forward, kinds, found, warnings })
+        let up = character.axes.up.as_dvec3().normalize_or(DVec3::Y);
+        Ok(Self { figure, up, forward, kinds, found, warnings })
     }
+}
+
+/// An axis as the command line names it.
+fn axis_name(up: DVec3) -> &'static str {
+    let names =
+        [("+X", DVec3::X), ("-X", DVec3::NEG_X), ("+Y", DVec3::Y), ("-Y", DVec3::NEG_Y), ("+Z", DVec3::Z)];
+    names.into_iter().find(|(_, axis)| axis.dot(up) > 0.99).map_or("-Z", |(name, _)| name)
 }

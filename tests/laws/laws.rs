@@ -176,7 +176,8 @@ fn laying_down(pair: &(Person, Person), turn: DQuat, mode: Mode) -> f64 {
     let (target, reference) = &built(pair);
     let place = |p: DVec3| turn * p;
     let mut turned = placed(target, place);
-    turned.axes = Axes { up: place(DVec3::Y).as_vec3(), forward: Some(place(DVec3::Z).as_vec3()) };
+    turned.axes =
+        Axes { up: place(DVec3::Y).as_vec3(), up_is_known: true, forward: Some(place(DVec3::Z).as_vec3()) };
     let plain = Outcome::of(target, reference, &options(mode));
     plain.off(&Outcome::of(&turned, reference, &options(mode)), place)
 }

@@ -60,7 +60,7 @@ fn bare(person: &Person) -> Character {
     let mut character = person.build();
     character.skeleton = Skeleton::default();
     character.humanoid = Humanoid::default();
-    character.axes = Axes { forward: Some(glam::Vec3::Z), ..Axes::default() };
+    character.axes = Axes { forward: Some(glam::Vec3::Z), up_is_known: true, ..Axes::default() };
     for mesh in &mut character.meshes {
         mesh.weights = Weights::default();
         mesh.normals.clear();
@@ -137,7 +137,7 @@ proptest! {
         let shift = DVec3::from_array(shift.map(|x| f64::from(x) / 64.0));
         let still = bare(&person);
         let mut moved = placed(&still, |p| turn * p + shift);
-        moved.axes = Axes { up: (turn * DVec3::Y).as_vec3(), forward: Some((turn * DVec3::Z).as_vec3()) };
+        moved.axes = Axes { up: (turn * DVec3::Y).as_vec3(), up_is_known: true, forward: Some((turn * DVec3::Z).as_vec3()) };
         let (one, other) = (rig(&still), rig(&moved));
         let off = off(&joints(&one), &joints(&other), person.crown(), |p| turn * p + shift);
         prop_assert!(off < CLOSE, "{off:.1e} H");

@@ -14,7 +14,8 @@ public sealed class Character : NativeObject
     private readonly List<int> vertexCounts = new List<int>();
 
     /// <summary>Makes an empty character.</summary>
-    /// <param name="up">3 floats, from the feet to the head, any length but 0; null: (0, 1, 0).</param>
+    /// <param name="up">3 floats, from the feet to the head, any length but 0; null: (0, 1, 0), or
+    /// for a character without a rig another axis along which it stands as people do.</param>
     /// <param name="forward">
     /// 3 floats, the way the face looks; null: found from left and right limbs, as in right-handed axes, so a
     /// left-handed host gives it.

@@ -123,7 +123,11 @@ fn refusal(error: clap::Error) -> Refusal {
 /// Fills in defaults and checks options against each other.
 fn command(single: Single) -> Result<Command, Refusal> {
     let arguments = single.settings;
-    let axes = Axes { up: arguments.up.unwrap_or(Axes::default().up), forward: arguments.forward };
+    let axes = Axes {
+        up: arguments.up.unwrap_or(Axes::default().up),
+        up_is_known: arguments.up.is_some(),
+        forward: arguments.forward,
+    };
     if axes.forward.is_some_and(|forward| axes.up.dot(forward) != 0.0) {
         return Err(Refusal::Usage(
             "--up (+Y where it is not given) and --forward lie on one line: give two different axes"

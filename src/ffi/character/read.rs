@@ -27,6 +27,7 @@ pub unsafe fn axes(up: *const f32, forward: *const f32) -> Outcome<Axes> {
     unsafe {
         if !up.is_null() {
             axes.up = up.cast::<Vec3>().read_unaligned();
+            axes.up_is_known = true;
         }
         if !forward.is_null() {
             axes.forward = Some(forward.cast::<Vec3>().read_unaligned());
