@@ -17,15 +17,15 @@
 //! | 15 | two morph targets at once | line_15 |
 //! | 16 | eyes, brows and teeth go with the face | `face.rs`: no_head_folds; `people.rs` |
 //! | 20, 21, 22 | springs' radius, stiffness, gravity | `files.rs`: springs_and_colliders_of_vrm_1, springs_and_the_viewpoint_of_vrm_0 |
-//! | 23, 24 | colliders as thick as the mesh; inside ones and planes | line_23; `files.rs`: springs_and_colliders_of_vrm_1 |
+//! | 23, 24 | colliders as thick as the mesh; inside ones and planes | line_23; line_24_28_32_and_38 |
 //! | 25 | last bones of VRM 0.x | line_25 |
 //! | 26 | no spring starts inside a collider | line_26 |
 //! | 27 | eye joints in their eyes; viewpoint | line_27; `files.rs`: springs_and_the_viewpoint_of_vrm_0 |
-//! | 28 | range maps | `files.rs`: springs_and_the_viewpoint_of_vrm_0 |
+//! | 28 | range maps | line_24_28_32_and_38; `files.rs`: springs_and_the_viewpoint_of_vrm_0 |
 //! | 29 | first-person flags | line_29 |
 //! | 30 | VRChat's viewpoint | not here: it is a component of Unity's, tested in `unity/Tests~` |
 //! | 31 | outlines in world units | `files.rs`: springs_and_the_viewpoint_of_vrm_0 |
-//! | 32, 38 | textures, and all that nobody knows | `files.rs`: a_changed_character_keeps_all_but_its_shape |
+//! | 32, 38 | textures, and all that nobody knows | line_24_28_32_and_38; `files.rs`: a_changed_character_keeps_all_but_its_shape |
 //! | 33 | aims | line_33 |
 //! | 34, 35 | soles on the ground; arms, symmetry | line_34; `laws`: mirroring_the_character_mirrors_the_result |
 //! | 36 | soles in a walk | line_36: the file's own clips; walks from elsewhere have a figure in the report |
@@ -39,6 +39,8 @@ mod common;
 mod made;
 #[path = "common/people.rs"]
 mod people;
+#[path = "common/rich.rs"]
+mod rich;
 
 use common::{check_all, in_parallel, loaded, models};
 use glam::DVec3;
@@ -578,4 +580,40 @@ fn line_36_the_lowest_sole_of_a_walk_stays_as_far_from_the_floor() {
         }
         wrong
     });
+}
+
+#[test]
+fn line_24_28_32_and_38_all_but_places_and_sizes_stays_in_a_file_that_holds_everything() {
+    for look_at in ["bone", "expression"] {
+        let loaded = loaded(GltfFile::parse("rich.vrm", &rich::rich(look_at).bytes()).unwrap());
+        let result = made::deformed(&loaded.character, Some(made::squash));
+        let written = rewrite(&loaded, &result, &squash_point).unwrap();
+        let mut found = Vec::new();
+        rich::changed(&loaded.file.json, &written.json, "", &mut found);
+        let may_change = |place: &str| {
+            let is_layout =
+                ["/accessors/", "/bufferViews/", "/buffers/"].iter().any(|list| place.starts_with(list));
+            let is_place = ["/translation", "/offset", "/tail", "/offsetFromHeadBone"]
+                .iter()
+                .any(|key| place.contains(key));
+            let is_size = ["/radius", "/hitRadius", "/stiffness", "/gravityPower"]
+                .iter()
+                .any(|key| place.ends_with(key));
+            is_layout || ((is_place || is_size) && !place.contains("/expressions/"))
+        };
+        let strange: Vec<&String> = found.iter().filter(|place| !may_change(place)).collect();
+        assert!(strange.is_empty(), "{look_at}: {strange:?}");
+        // Every collider has moved or grown, the viewpoint too.
+        for collider in 0..5 {
+            let place = format!("/extensions/VRMC_springBone/colliders/{collider}/");
+            assert!(found.iter().any(|changed| changed.starts_with(&place)), "{place} is as it was");
+        }
+        assert!(found.iter().any(|place| place.contains("/offsetFromHeadBone")), "{found:?}");
+        // A plane looks where it did.
+        let plane = &written.json["extensions"]["VRMC_springBone"]["colliders"][4]["extensions"];
+        assert_eq!(
+            plane["VRMC_springBone_extended_collider"]["shape"]["plane"]["normal"],
+            json!([0.0, 1.0, 0.0])
+        );
+    }
 }
