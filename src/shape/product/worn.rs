@@ -138,15 +138,18 @@ impl Worn {
         weld: &Weld,
         threads: usize,
     ) -> Self {
-        let mut index_of = vec![u32::MAX; weld.count];
-        let (mut places, mut vertices) = (Vec::new(), Vec::new());
+        // By number, so that the order of a triangle's corners, which a mirrored mesh may have turned, changes nothing.
+        let mut first = vec![u32::MAX; weld.count];
         for &vertex in cloth.iter().flatten() {
-            let place = weld.representative[vertex as usize];
-            if index_of[place as usize] == u32::MAX {
-                index_of[place as usize] = places.len() as u32;
-                places.push(place);
-                vertices.push(vertex);
-            }
+            let first = &mut first[weld.representative[vertex as usize] as usize];
+            *first = vertex.min(*first);
+        }
+        let places: Vec<u32> =
+            (0..weld.count as u32).filter(|&place| first[place as usize] != u32::MAX).collect();
+        let vertices: Vec<u32> = places.iter().map(|&place| first[place as usize]).collect();
+        let mut index_of = vec![u32::MAX; weld.count];
+        for (index, &place) in places.iter().enumerate() {
+            index_of[place as usize] = index as u32;
         }
         let triangles: Vec<[u32; 3]> = cloth
             .iter()
