@@ -22,7 +22,7 @@ pub use point_tree::PointTree;
 pub use profile::{StepSearch, deepest_step};
 pub use segment::foot;
 pub use slice::{Outline, Planes, slices};
-pub use smoothstep::smoothstep;
+pub use smoothstep::{smoothstep, smoothstep_slope};
 pub use surface::{Closest, Hit, Surface};
 pub use triangle::double_area;
 pub use weld::{Neighbours, SEAM, Weld, components, neighbours, weld};

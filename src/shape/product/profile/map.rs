@@ -9,8 +9,8 @@ use super::scales::Scales;
 use super::slab::slab;
 use super::{ARM_STATIONS, LEG_STATIONS, Profile, STATIONS, TORSO_STATIONS, station_at, stations};
 use crate::geometry::slice::Planes;
-use crate::geometry::smoothstep;
 use crate::geometry::{Moved, outer};
+use crate::geometry::{smoothstep, smoothstep_slope};
 use crate::shape::product::part::{Part, PartWeights};
 use glam::{DMat3, DVec2, DVec3};
 
@@ -214,7 +214,7 @@ impl BodyMap {
     fn leg_or_torso<M: Moved>(&self, side: usize, p: DVec3) -> M {
         let t = (self.crotch - p.y) / self.leg_length;
         let leg_fade = self.leg_fade;
-        let (share, slope) = fade((t - leg_fade.0) / (leg_fade.1 - leg_fade.0));
+        let (share, slope) = smoothstep_slope((t - leg_fade.0) / (leg_fade.1 - leg_fade.0));
         let slope = DVec3::NEG_Y * (slope / (leg_fade.1 - leg_fade.0) / self.leg_length);
         mix(share, slope, || self.torso(p), || self.leg(side, p))
     }
@@ -223,7 +223,7 @@ impl BodyMap {
         let Some(arm) = &self.arms[side] else { return self.torso(p) };
         let t = arm.planes.locate(p).0 / arm.length;
         let fade_ends = self.arm_fade;
-        let (share, slope) = fade((t - fade_ends.0) / (fade_ends.1 - fade_ends.0));
+        let (share, slope) = smoothstep_slope((t - fade_ends.0) / (fade_ends.1 - fade_ends.0));
         let slope = arm.planes.axis * (slope / (fade_ends.1 - fade_ends.0) / arm.length);
         mix(share, slope, || self.torso(p), || arm.map(p))
     }
@@ -347,9 +347,9 @@ impl FootMap {
     /// stays as flat as it was: from the sole to the toes' top what is added grows by a smooth step.
     fn map<M: Moved>(&self, p: DVec3) -> M {
         let arm = p - self.ankle;
-        let (share, slope) = fade((p.z - self.toe_box.0) / (self.toe_box.1 - self.toe_box.0));
+        let (share, slope) = smoothstep_slope((p.z - self.toe_box.0) / (self.toe_box.1 - self.toe_box.0));
         let slope = slope / (self.toe_box.1 - self.toe_box.0);
-        let (up, up_slope) = fade((p.y - self.sole) / self.toe_height);
+        let (up, up_slope) = smoothstep_slope((p.y - self.sole) / self.toe_height);
         let added = (self.toes - 1.0) * self.toe_height;
         let position = DVec3::new(
             self.to.x + self.breadth * arm.x,
@@ -380,12 +380,6 @@ fn palm_and_fingers(scale: f64) -> [f64; 2] {
     let shorter = scale.min(1.0).powf(FINGERS_SHORTER);
     let palm = scale / (PALM + (1.0 - PALM) * shorter);
     [palm, palm * shorter]
-}
-
-/// A smoothstep and its slope.
-fn fade(t: f64) -> (f64, f64) {
-    let inside = t.clamp(0.0, 1.0);
-    (smoothstep(t), 6.0 * inside * (1.0 - inside))
 }
 
 /// `share` of the second map and the rest of the first, where the share changes by `slope`.

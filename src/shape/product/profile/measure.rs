@@ -15,8 +15,9 @@ use crate::shape::product::anatomy::{Anatomy, Limb};
 use crate::shape::product::part::{Part, PartWeights};
 use glam::{DVec2, DVec3};
 
-/// Torso and legs are what arms and head move less than this: their joints' own rounding is too much of a thing to let go.
-pub(super) const ARM_SHARE: f32 = 0.35;
+/// Torso and legs are what arms and head move less than this. Made weights reach so far that less leaves no whole slice of a
+/// chest: a bust was then as steep as it had been.
+pub(super) const ARM_SHARE: f32 = 0.6;
 pub(super) const HEAD_SHARE: f32 = 0.5;
 /// An arm is what it moves more than this.
 const OWN_ARM_SHARE: f32 = 0.4;
@@ -198,19 +199,20 @@ pub(super) fn arm_share(row: &PartWeights, side: usize) -> f32 {
     row[first..first + 3].iter().sum()
 }
 
-struct Body<'a> {
-    figure: &'a Figure,
-    positions: &'a [DVec3],
-    parts: &'a [PartWeights],
-    weld: &'a Weld,
-    frame: &'a BodyFrame,
+/// A body to be measured, as it is now.
+pub(super) struct Body<'a> {
+    pub(super) figure: &'a Figure,
+    pub(super) positions: &'a [DVec3],
+    pub(super) parts: &'a [PartWeights],
+    pub(super) weld: &'a Weld,
+    pub(super) frame: &'a BodyFrame,
     /// L.
-    length: f64,
+    pub(super) length: f64,
 }
 
 impl Body<'_> {
     /// Triangles of the body and its clothes whose corners' weights `choose` accepts.
-    fn triangles(&self, choose: impl Fn(&PartWeights) -> bool) -> Vec<[u32; 3]> {
+    pub(super) fn triangles(&self, choose: impl Fn(&PartWeights) -> bool) -> Vec<[u32; 3]> {
         self.figure.triangles_where(|vertex| !self.figure.is_carried(vertex) && choose(&self.parts[vertex]))
     }
 

@@ -3,12 +3,12 @@
 //! A torso that is .4 as long and .8 as thick has twice the slopes: a bust is a spike, a hem a shelf, calves are balls. So the
 //! reach of the surface around torso and limbs is smoothed along them, and what lies on it moves along.
 
-use super::measure::{ARM_SHARE, BodyFrame, HEAD_SHARE, OVER_MIDDLE, arm_share, on_limb};
+use super::measure::{ARM_SHARE, Body, BodyFrame, HEAD_SHARE, OVER_MIDDLE, arm_share, on_limb};
 use super::radius_map::{RadiusMap, Ring, smoothed_rings};
 use crate::geometry::slice::{Outline, RAYS, slices};
-use crate::geometry::smoothstep;
 use crate::geometry::weld::Weld;
 use crate::geometry::{Moved, outer};
+use crate::geometry::{smoothstep, smoothstep_slope};
 use crate::shape::figure::Figure;
 use crate::shape::product::part::{Part, PartWeights};
 use glam::{DMat3, DVec2, DVec3};
@@ -39,6 +39,9 @@ const ARM_ROWS: (f64, f64) = (0.05, 1.02);
 /// middle.
 const BOTTOM_FADE: (f64, f64) = (0.04, 0.22);
 const TOP_FADE: (f64, f64) = (0.86, 1.0);
+/// What moves with an arm by the first of these still has all of the torso's relief smoothed, by the second none of it. Made
+/// weights give a bust beside the arm pits .2 of the arms; where that counted, it stayed a spike.
+const OF_ARM: (f64, f64) = (0.1, 0.5);
 /// Under the crotch, over this part of the torso's length, the torso's relief stops moving what it smooths sideways: legs stay where
 /// they stand.
 const LEGS_STAY: f64 = 0.05;
@@ -68,10 +71,10 @@ impl Relief {
         strength: [f64; 3],
     ) -> Self {
         let body = Body { figure, positions, parts, weld, frame, length: frame.head_length() };
-        let leg = |side: usize| (strength[1] > 0.0).then(|| body.leg(side, strength[1])).flatten();
-        let arm = |side: usize| (strength[2] > 0.0).then(|| body.arm(side, strength[2])).flatten();
+        let leg = |side: usize| (strength[1] > 0.0).then(|| body.leg_relief(side, strength[1])).flatten();
+        let arm = |side: usize| (strength[2] > 0.0).then(|| body.arm_relief(side, strength[2])).flatten();
         Self {
-            torso: (strength[0] > 0.0).then(|| body.torso(strength[0])).flatten(),
+            torso: (strength[0] > 0.0).then(|| body.torso_relief(strength[0])).flatten(),
             legs: [leg(0), leg(1)],
             arms: [arm(0), arm(1)],
             crotch: frame.heights.crotch,
@@ -94,8 +97,8 @@ impl Relief {
             let of_head = f64::from(
                 weights[Part::Head as usize] + weights[Part::Hair as usize] + weights[Part::Neck as usize],
             );
-            let bound =
-                (1.0 - smoothstep((arms[0] + arms[1] - 0.02) / 0.3)) * (1.0 - smoothstep(of_head / 0.5));
+            let bound = (1.0 - smoothstep((arms[0] + arms[1] - OF_ARM.0) / (OF_ARM.1 - OF_ARM.0)))
+                * (1.0 - smoothstep(of_head / 0.5));
             let (share, slope) = self.torso_share(p.y);
             if bound * share > 0.0 {
                 add(bound * share, DVec3::Y * (bound * slope), self.torso_shift(map, p));
@@ -108,7 +111,7 @@ impl Relief {
                 let first = [Part::LeftUpperLeg, Part::RightUpperLeg][side] as usize;
                 let bound = f64::from(weights[first] + weights[first + 1]);
                 let t = (self.crotch - p.y) / self.leg_length;
-                let (share, slope) = fade(t / 0.22);
+                let (share, slope) = smoothstep_slope(t / 0.22);
                 if bound * share > 0.0 {
                     add(bound * share, DVec3::NEG_Y * (bound * slope / 0.22 / self.leg_length), map.shift(p));
                 }
@@ -116,8 +119,8 @@ impl Relief {
             if let Some(map) = &self.arms[side] {
                 let bound = ((arms[side] - 0.1) / 0.8).clamp(0.0, 1.0);
                 let t = map.planes.locate(p).0 / self.arm_lengths[side];
-                let (start, start_slope) = fade((t - 0.05) / 0.2);
-                let (end, end_slope) = fade((t - 0.98) / 0.12);
+                let (start, start_slope) = smoothstep_slope((t - 0.05) / 0.2);
+                let (end, end_slope) = smoothstep_slope((t - 0.98) / 0.12);
                 let share = bound * start * (1.0 - end);
                 if share > 0.0 {
                     let slope = bound * (start_slope / 0.2 * (1.0 - end) - end_slope / 0.12 * start)
@@ -132,8 +135,8 @@ impl Relief {
     /// How much of the torso's relief is smoothed at height `y`, and the slope of that.
     fn torso_share(&self, y: f64) -> (f64, f64) {
         let t = (y - self.crotch) / self.torso_length;
-        let (top, top_slope) = fade((t - TOP_FADE.0) / (TOP_FADE.1 - TOP_FADE.0));
-        let (bottom, bottom_slope) = fade((-t - BOTTOM_FADE.0) / (BOTTOM_FADE.1 - BOTTOM_FADE.0));
+        let (top, top_slope) = smoothstep_slope((t - TOP_FADE.0) / (TOP_FADE.1 - TOP_FADE.0));
+        let (bottom, bottom_slope) = smoothstep_slope((-t - BOTTOM_FADE.0) / (BOTTOM_FADE.1 - BOTTOM_FADE.0));
         let slope = bottom_slope / (BOTTOM_FADE.1 - BOTTOM_FADE.0) * (1.0 - top)
             - top_slope / (TOP_FADE.1 - TOP_FADE.0) * (1.0 - bottom);
         ((1.0 - top) * (1.0 - bottom), slope / self.torso_length)
@@ -145,7 +148,7 @@ impl Relief {
         if p.y >= self.crotch {
             return shift;
         }
-        let (below, below_slope) = fade((self.crotch - p.y) / (LEGS_STAY * self.torso_length));
+        let (below, below_slope) = smoothstep_slope((self.crotch - p.y) / (LEGS_STAY * self.torso_length));
         let DVec3 { x, y, z } = shift.position();
         M::of(DVec3::new((1.0 - below) * x, y, z), || {
             let keep = DMat3::from_diagonal(DVec3::new(1.0 - below, 1.0, 1.0));
@@ -155,27 +158,8 @@ impl Relief {
     }
 }
 
-/// A smoothstep and its slope.
-fn fade(t: f64) -> (f64, f64) {
-    let inside = t.clamp(0.0, 1.0);
-    (smoothstep(t), 6.0 * inside * (1.0 - inside))
-}
-
-struct Body<'a> {
-    figure: &'a Figure,
-    positions: &'a [DVec3],
-    parts: &'a [PartWeights],
-    weld: &'a Weld,
-    frame: &'a BodyFrame,
-    length: f64,
-}
-
 impl Body<'_> {
-    fn triangles(&self, choose: impl Fn(&PartWeights) -> bool) -> Vec<[u32; 3]> {
-        self.figure.triangles_where(|vertex| !self.figure.is_carried(vertex) && choose(&self.parts[vertex]))
-    }
-
-    fn torso(&self, strength: f64) -> Option<RadiusMap> {
+    fn torso_relief(&self, strength: f64) -> Option<RadiusMap> {
         let triangles = self.triangles(|row| {
             arm_share(row, 0) + arm_share(row, 1) < ARM_SHARE && row[Part::Head as usize] < HEAD_SHARE
         });
@@ -197,7 +181,7 @@ impl Body<'_> {
         Some(map)
     }
 
-    fn leg(&self, side: usize, strength: f64) -> Option<RadiusMap> {
+    fn leg_relief(&self, side: usize, strength: f64) -> Option<RadiusMap> {
         let limb = &self.frame.limbs[2 + side];
         let [upper, lower, foot] = limb.parts;
         let triangles = self.triangles(|row| row[upper] + row[lower] + row[foot] > 0.3 && row[foot] < 0.6);
@@ -217,7 +201,7 @@ impl Body<'_> {
         self.limb(planes, (start, step), &cuts, &bones, strength)
     }
 
-    fn arm(&self, side: usize, strength: f64) -> Option<RadiusMap> {
+    fn arm_relief(&self, side: usize, strength: f64) -> Option<RadiusMap> {
         let limb = &self.frame.limbs[side];
         let planes = self.frame.arm_planes(side)?;
         let length = self.frame.arm_length(side);
