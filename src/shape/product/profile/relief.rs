@@ -4,7 +4,7 @@
 //! reach of the surface around torso and limbs is smoothed along them, and what lies on it moves along.
 
 use super::measure::{ARM_SHARE, Body, BodyFrame, HEAD_SHARE, OVER_MIDDLE, arm_share, on_limb};
-use super::radius_map::{RadiusMap, Ring, smoothed_rings};
+use super::radius_map::{RadiusMap, Ring, smoothed_rings, without_spikes};
 use crate::geometry::slice::{Outline, RAYS, slices};
 use crate::geometry::weld::Weld;
 use crate::geometry::{Moved, outer};
@@ -25,6 +25,10 @@ const MIDDLE_SIGMA: f64 = 0.20;
 /// What the reach may be scaled by.
 const TORSO_BOUNDS: (f64, f64) = (0.72, 1.10);
 const LIMB_BOUNDS: (f64, f64) = (0.70, 1.20);
+/// A row of the torso reaches at most this much further, or less far, than the usual one of so many above and below it: what
+/// is read of a layer that only some rows show makes folds of hems.
+const SPIKE: f64 = 1.15;
+const SPIKE_ROWS: usize = 5;
 /// The scales themselves are smoothed this wide, in head lengths, and over one direction to each side.
 const SCALE_SIGMA: f64 = 0.015;
 /// Beyond both ends of a limb its line goes on with this part of its slope over this much, in head lengths: a flare at a cuff
@@ -175,6 +179,7 @@ impl Body<'_> {
             .collect();
         let sigma = TORSO_SIGMA * self.length;
         let mut map = RadiusMap::of(planes, (start, step), &cuts, &bones, sigma, true)?;
+        without_spikes(&mut map.reaches, SPIKE_ROWS, SPIKE);
         mirror(&mut map.reaches);
         let smooth = smoothed_rings(&map.reaches, sigma / step);
         self.set_scales(&mut map, &smooth, TORSO_BOUNDS, strength);
