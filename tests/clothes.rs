@@ -144,7 +144,7 @@ fn nothing_but_clothes_moves_and_no_triangle_turns_over() {
 
 #[test]
 fn a_push_grows_with_the_amount_and_is_kept_while_a_slider_moves() {
-    let Some(loaded) = model("seedsan_vrm1.vrm").or_else(|| model("quaternius_female_dress.glb")) else {
+    let Some(loaded) = model("seedsan_vrm1.vrm") else {
         return;
     };
     let style = Style::heads(2.5).unwrap();

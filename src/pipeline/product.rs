@@ -142,8 +142,11 @@ struct Attempt {
     /// The head count that was aimed at, and the one measured on the result.
     aim: f64,
     measured: f64,
-    /// |ln| of how far that is from what can be reached.
+    /// |ln| of how far the head count is from what can be reached: of the one measured, or, for a target without a chin, of
+    /// that of its parts' lengths.
     error: f64,
+    /// The same of the one measured.
+    misread: f64,
 }
 
 /// What is asked for, of whom.
@@ -169,8 +172,8 @@ impl Request<'_> {
         if wants_profile(self.target, self.style, self.options) {
             best = self.best_of(SLICED_ATTEMPTS, asked, best.aim, true, &mut progress.part(0.5, 0.65))?;
         }
-        let Attempt { error, measured, .. } = best;
-        let heads_left = (error > HEADS_WARNED_ABOVE).then(|| {
+        let Attempt { misread, measured, .. } = best;
+        let heads_left = (misread > HEADS_WARNED_ABOVE).then(|| {
             let message = format!(
                 "{measured:.2} heads are measured on the result instead of {asked:.2}: its chin or crown reads differently from the target's"
             );
@@ -232,18 +235,16 @@ impl Request<'_> {
         };
         let mut warnings = limits.warnings(&replaced);
         warnings.extend(limited);
+        let measured =
+            product.heads(&product.placement(&target.measured.figure, &field, options.thread_count));
         let reached = heads_of(&anatomy.proportions, &scales);
-        // A chin that the target does not show is no more to be believed where the result shows one: a ball's underside
-        // steps back here or there, as last digits say.
-        let measured = if anatomy.landmarks.chin_seen {
-            product.heads(&product.placement(&target.measured.figure, &field, options.thread_count))
-        } else {
-            reached
-        };
         let is_limited = warnings.iter().any(|warning| warning.code == "heads_limited");
         let reach = if is_limited { reached } else { asked };
-        let error = (measured / reach).ln().abs();
-        Ok(Attempt { field, scales, warnings, aim, measured, error })
+        let off = |heads: f64| (heads / reach).ln().abs();
+        // A chin that the target does not show is no more to be believed where the result shows one: a ball's underside
+        // steps back here or there, as last digits say. So it corrects nothing, and is only warned of.
+        let error = off(if anatomy.landmarks.chin_seen { measured } else { reached });
+        Ok(Attempt { field, scales, warnings, aim, measured, error, misread: off(measured) })
     }
 }
 
