@@ -4,7 +4,7 @@
 //! the Jacobian is fitted to what happened to the triangles around each welded vertex; authored normals (faces of
 //! drawn characters have edited ones) keep what was edited, and vertices at one place turn alike.
 //!
-//! Vertices are taken in [`Piece`]s, as many as fit a processor's nearest memory with the triangles around them: four
+//! Vertices are taken in pieces, as many as fit a processor's nearest memory with the triangles around them: four
 //! triangles side by side, and nothing kept from piece to piece. A triangle at a border is looked at by each of its pieces,
 //! in the order of the mesh, so that the pieces do not show.
 

@@ -195,7 +195,7 @@ fn smoothed<T: Copy>(
         .collect()
 }
 
-/// As [`smoothed`], of rings.
+/// Weighted means along rings, by a Gaussian `sigma` rows wide.
 pub fn smoothed_rings(rings: &[Ring], sigma: f64) -> Vec<Ring> {
     smoothed(
         rings,
