@@ -64,10 +64,13 @@ impl Placed {
     /// `NoGeometry` where nothing has an extent along up; `Cancelled`.
     pub fn of(character: &Character, options: &RigOptions, progress: &mut Progress) -> Result<Self> {
         let first = Self::standing(character, options, &mut progress.part(0.0, 0.5));
+        if first.as_ref().is_err_and(|error| error.kind == ErrorKind::Cancelled) {
+            return first;
+        }
         let seen = first.as_ref().map_or(0, Self::seen_count);
         let is_open =
             !character.axes.up_is_known && character.axes.forward.is_none() && options.given.is_empty();
-        if !is_open || seen >= STANDS || matches!(&first, Err(error) if error.kind == ErrorKind::Cancelled) {
+        if !is_open || seen >= STANDS {
             progress.at(1.0)?;
             return first.map(Self::doubted);
         }
