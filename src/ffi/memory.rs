@@ -69,7 +69,7 @@ pub fn to_deform(character: &Character) -> usize {
 
 /// Deforming into the caller's arrays.
 pub fn to_apply(character: &Character) -> usize {
-    Size::of(character).bytes([350, 200, 120, 0])
+    Size::of(character).bytes([350, 500, 120, 0])
 }
 
 /// Deforming and measuring the result.

@@ -372,8 +372,16 @@ impl Builder<'_> {
             }
             rest.slots[vertex] = *slot;
         }
+        // Of triangles at one place (copies, both faces of a sheet) the first stands for all: with each in every piece that has
+        // one, copies would take memory by the square of their number.
+        let place = |triangle: u32| {
+            let mut corners = self.weld.triangle(self.triangles[triangle as usize]);
+            corners.sort_unstable();
+            corners
+        };
+        triangles.sort_unstable_by_key(|&triangle| (place(triangle), triangle));
+        triangles.dedup_by_key(|triangle| place(*triangle));
         triangles.sort_unstable();
-        triangles.dedup();
         let first = rest.batches.len() as u32;
         for batch in triangles.chunks(LANES * GROUPS) {
             self.add_batch(batch, rest);
