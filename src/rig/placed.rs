@@ -28,6 +28,8 @@ const LIMBS: [Role; 12] = {
         RightHand,
     ]
 };
+/// The first try is this much of the progress: it is nearly always the only one.
+const STANDING: f32 = 0.8;
 /// A joint of at least this confidence was seen.
 const SEEN: f64 = 0.5;
 /// A character half of whose limb joints are seen stands: no other way is tried.
@@ -63,7 +65,7 @@ impl Placed {
     /// # Errors
     /// `NoGeometry` where nothing has an extent along up; `Cancelled`.
     pub fn of(character: &Character, options: &RigOptions, progress: &mut Progress) -> Result<Self> {
-        let first = Self::standing(character, options, &mut progress.part(0.0, 0.5));
+        let first = Self::standing(character, options, &mut progress.part(0.0, STANDING));
         if first.as_ref().is_err_and(|error| error.kind == ErrorKind::Cancelled) {
             return first;
         }
@@ -77,8 +79,9 @@ impl Placed {
         let up = character.axes.up.normalize_or(Vec3::Y);
         let mut best: Option<(usize, Self)> = None;
         let mut turned = Cow::Borrowed(character);
-        for other in [Vec3::Z, Vec3::NEG_Z, Vec3::NEG_Y, Vec3::X, Vec3::NEG_X, Vec3::Y] {
-            progress.at(0.5)?;
+        let others = [Vec3::Z, Vec3::NEG_Z, Vec3::NEG_Y, Vec3::X, Vec3::NEG_X, Vec3::Y];
+        for (index, other) in others.into_iter().enumerate() {
+            progress.at(STANDING + (1.0 - STANDING) * index as f32 / others.len() as f32)?;
             if other.dot(up) > 0.99 {
                 continue;
             }
