@@ -1,12 +1,12 @@
 //! How the target hangs on a field, and where the field takes its points.
 
-use super::displacement::is_of_head;
 use crate::character::Character;
-use crate::face::stage::Ways;
+use crate::face::stage::{FaceBinding, Ways};
 use crate::geometry::range;
 use crate::parallel;
 use crate::shape::field::{Binding, Field};
 use crate::shape::figure::Figure;
+use crate::shape::product::part::Part;
 use glam::DVec3;
 use std::sync::Arc;
 
@@ -37,6 +37,19 @@ impl Bindings {
             ground: Arc::new(ground),
             of_head: Arc::new(of_head),
         }
+    }
+}
+
+/// True where the stages after the body's can move what is attached so.
+fn is_of_head(binding: &Binding) -> bool {
+    match binding {
+        Binding::Parts(binding) => {
+            let parts = [Part::Head, Part::Neck, Part::Hair];
+            binding.face != FaceBinding::None
+                || parts.iter().any(|&part| binding.weights[part as usize] > 0.0)
+        }
+        Binding::Bones(binding) => binding.head > 0.0,
+        Binding::Fixed => false,
     }
 }
 

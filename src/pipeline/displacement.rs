@@ -10,10 +10,9 @@ use super::hair::Laid;
 use crate::character::Frame;
 use crate::face::FaceShape;
 use crate::face::seat::{Seat, SeatAmount};
-use crate::face::stage::{FaceBinding, YoungFace};
+use crate::face::stage::YoungFace;
 use crate::parallel;
-use crate::shape::field::{Binding, Field, Finish};
-use crate::shape::product::part::Part;
+use crate::shape::field::{Field, Finish};
 use glam::{DVec3, Vec3};
 use std::sync::Arc;
 
@@ -68,19 +67,6 @@ impl HeadStages {
             && is_one(&self.seat, &other.seat)
             && self.seat_amount == other.seat_amount
             && is_one(&self.hair, &other.hair)
-    }
-}
-
-/// True where the stages after the body's can move what is attached so.
-pub fn is_of_head(binding: &Binding) -> bool {
-    match binding {
-        Binding::Parts(binding) => {
-            let parts = [Part::Head, Part::Neck, Part::Hair];
-            binding.face != FaceBinding::None
-                || parts.iter().any(|&part| binding.weights[part as usize] > 0.0)
-        }
-        Binding::Bones(binding) => binding.head > 0.0,
-        Binding::Fixed => false,
     }
 }
 

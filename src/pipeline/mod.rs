@@ -24,7 +24,7 @@ mod young;
 pub use result::{Deformed, DeformedMesh, MeshOutputs};
 pub use rigging::Rig;
 
-use crate::character::{Character, Humanoid, Role};
+use crate::character::{Character, Humanoid};
 use crate::error::{Result, Warning};
 use crate::face::FaceShape;
 pub use crate::geometry::Mapped;
@@ -35,16 +35,15 @@ use crate::report::{RigReport, Timing};
 use crate::shape::directions::RestTriangles;
 use crate::shape::field::{BodyField, Field};
 use crate::shape::figure::Figure;
-use crate::shape::group::group_shapes;
 use crate::shape::measured::Measured;
 use crate::shape::product::repair::Pushed;
 pub use crate::shape::style::Style;
-use crate::shape::{BodyShape, Coefficient, GroupShape};
+use crate::shape::{BodyShape, Coefficient};
 use attach::{Bindings, Placement};
 use displacement::Displacements;
 use glam::DVec3;
 use product_target::ProductTarget;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::sync::{Arc, OnceLock};
 use std::time::Instant;
 
@@ -338,20 +337,6 @@ impl Deformer {
             position += self.field.finish.share_of_offsets() * offset;
         }
         Mapped { position: frame.to_model(position), jacobian: frame.jacobian_to_model(jacobian) }
-    }
-
-    /// Roles that target and style share.
-    fn roles(&self) -> BTreeSet<Role> {
-        let own = self.target.measured.joints.keys().copied();
-        match &self.style {
-            Style::Shape(shape) => own.filter(|role| shape.roles().contains(role)).collect(),
-            Style::Heads(_) => own.collect(),
-        }
-    }
-
-    /// Length and radius of another body's bone groups, measured over the roles that target and style share.
-    pub fn group_shapes(&self, shape: &BodyShape) -> BTreeMap<String, GroupShape> {
-        group_shapes(shape, &self.roles(), &self.options)
     }
 
     /// The character that is deformed: with the rig in place, where one was made.

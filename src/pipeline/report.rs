@@ -1,19 +1,34 @@
 //! The numbers of a run.
 
 use super::{Deformed, Deformer};
-use crate::character::Humanoid;
+use crate::character::{Humanoid, Role};
 use crate::error::{Result, Warning};
 use crate::report::{
     Counts, FigureReport, NewlyInside, ProfileReport, RepairReport, Report, RigReport, SoleClearance,
 };
-use crate::shape::Measured;
+use crate::shape::group::group_shapes;
 use crate::shape::pose::{Pose, SIT, WALK, posed};
 use crate::shape::stride::clearance_of;
 use crate::shape::style::Style;
+use crate::shape::{BodyShape, GroupShape, Measured};
 use glam::DVec3;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 impl Deformer {
+    /// Roles that target and style share.
+    fn roles(&self) -> BTreeSet<Role> {
+        let own = self.target.measured.joints.keys().copied();
+        match &self.style {
+            Style::Shape(shape) => own.filter(|role| shape.roles().contains(role)).collect(),
+            Style::Heads(_) => own.collect(),
+        }
+    }
+
+    /// Length and radius of another body's bone groups, measured over the roles that target and style share.
+    pub fn group_shapes(&self, shape: &BodyShape) -> BTreeMap<String, GroupShape> {
+        group_shapes(shape, &self.roles(), &self.options)
+    }
+
     /// The numbers of the run; `result` is measured anew on `deformed`. The host adds its own times and warnings.
     ///
     /// # Errors
