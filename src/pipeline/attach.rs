@@ -13,6 +13,22 @@ use std::sync::Arc;
 /// Fewer vertices than this are not worth a thread.
 pub const LEAST_VERTICES: usize = 8000;
 
+/// `all`, with what `of` gives for these of them.
+pub fn renewed<T: Clone + Send>(
+    threads: usize,
+    mut all: Arc<Vec<T>>,
+    vertices: &[u32],
+    of: impl Fn(usize) -> T + Sync,
+) -> Arc<Vec<T>> {
+    let new =
+        parallel::collect(threads, vertices.len(), LEAST_VERTICES, |index| of(vertices[index] as usize));
+    let values = Arc::make_mut(&mut all);
+    for (&vertex, new) in vertices.iter().zip(new) {
+        values[vertex as usize] = new;
+    }
+    all
+}
+
 /// How a target is attached to a mode's field.
 #[derive(Clone, Debug)]
 pub struct Bindings {

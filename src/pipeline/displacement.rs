@@ -5,8 +5,9 @@
 //! and an apply reads a rest position and a displacement and writes a position: 36 bytes a vertex.
 
 use super::Deformer;
-use super::attach::Placement;
+use super::attach::{LEAST_VERTICES, Placement, renewed};
 use super::hair::Laid;
+use super::young::is_one;
 use crate::character::Frame;
 use crate::face::FaceShape;
 use crate::face::seat::{Seat, SeatAmount};
@@ -15,9 +16,6 @@ use crate::parallel;
 use crate::shape::field::{Field, Finish};
 use glam::{DVec3, Vec3};
 use std::sync::Arc;
-
-/// Fewer vertices than this are not worth a thread.
-const LEAST_VERTICES: usize = 8000;
 
 /// How far each vertex goes all the way, model space, before amount, ground and height.
 #[derive(Clone, Debug)]
@@ -58,9 +56,6 @@ impl HeadStages {
     }
 
     fn is_same(&self, other: &Self) -> bool {
-        fn is_one<T>(a: &Option<Arc<T>>, b: &Option<Arc<T>>) -> bool {
-            a.as_ref().map(Arc::as_ptr) == b.as_ref().map(Arc::as_ptr)
-        }
         self.squash == other.squash
             && is_one(&self.young, &other.young)
             && self.youth == other.youth
@@ -100,18 +95,7 @@ impl Deformer {
         let threads = self.options.thread_count;
         let of = match known {
             Some(known) if known.head.is_same(&head) => known.of,
-            Some(mut known) => {
-                let bindings = &self.deformation.bindings;
-                let moved = &bindings.of_head;
-                let new = parallel::collect(threads, moved.len(), LEAST_VERTICES, |index| {
-                    displacement(moved[index] as usize)
-                });
-                let all = Arc::make_mut(&mut known.of);
-                for (&vertex, new) in moved.iter().zip(new) {
-                    all[vertex as usize] = new;
-                }
-                known.of
-            }
+            Some(known) => renewed(threads, known.of, &placement.bindings.of_head, displacement),
             None => {
                 let count = figure.positions.len();
                 Arc::new(parallel::collect(threads, count, LEAST_VERTICES, displacement))

@@ -1,6 +1,6 @@
 //! Amount, ground, face and height: what is done last, in this order, and anew for every change of these alone.
 
-use super::attach::{LEAST_VERTICES, Placement};
+use super::attach::{Placement, renewed};
 use super::{Deformer, milliseconds, product};
 use crate::character::{MeshKind, Role};
 use crate::error::Result;
@@ -8,7 +8,6 @@ use crate::face::FaceShape;
 use crate::geometry::bounds;
 use crate::geometry::range;
 use crate::options::{Height, Mode, Stage};
-use crate::parallel;
 use crate::progress::Progress;
 use crate::shape::field::{BodyField, Finish};
 use crate::shape::measured::is_of_head;
@@ -86,15 +85,9 @@ impl Deformer {
         let mut placed = Arc::clone(&self.deformation.placed);
         if squash != FaceShape::None {
             let Placement { figure, bindings, threads, .. } = self.placement();
-            let of_head = Arc::clone(&bindings.of_head);
-            let new = parallel::collect(threads, of_head.len(), LEAST_VERTICES, |index| {
-                let vertex = of_head[index] as usize;
+            placed = renewed(threads, placed, &bindings.of_head, |vertex| {
                 self.field.place_body(figure.positions[vertex], &bindings.vertices[vertex])
             });
-            let all = Arc::make_mut(&mut placed);
-            for (&vertex, new) in of_head.iter().zip(new) {
-                all[vertex as usize] = new;
-            }
         }
         self.placed = Some((squash, placed));
     }

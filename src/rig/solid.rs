@@ -1,5 +1,6 @@
 //! A figure as cells that are filled, and how deep each of them lies: what limbs are found from where rays see too much.
 
+use crate::geometry::Groups;
 use glam::DVec3;
 use std::collections::VecDeque;
 use std::ops::Range;
@@ -226,16 +227,11 @@ impl Slice {
         let index = |at: (usize, usize)| at.1 * columns + at.0;
         let mut order: Vec<usize> = (0..self.depth.len()).filter(|&cell| self.depth[cell] > 0.0).collect();
         order.sort_unstable_by(|&a, &b| self.depth[b].total_cmp(&self.depth[a]).then(a.cmp(&b)));
-        let mut parent: Vec<u32> = vec![u32::MAX; self.depth.len()];
-        fn root(parent: &mut [u32], mut cell: usize) -> usize {
-            while parent[cell] as usize != cell {
-                parent[cell] = parent[parent[cell] as usize];
-                cell = parent[cell] as usize;
-            }
-            cell
-        }
+        let (a, b) = (index(one), index(other));
+        let mut groups = Groups::new(self.depth.len());
+        let mut is_in = vec![false; self.depth.len()];
         for cell in order {
-            parent[cell] = cell as u32;
+            is_in[cell] = true;
             let (x, z) = (cell % columns, cell / columns);
             let around = [
                 (x > 0, cell.wrapping_sub(1)),
@@ -244,14 +240,12 @@ impl Slice {
                 (z + 1 < self.depths, cell + columns),
             ];
             for (is_there, next) in around {
-                if is_there && parent[next] != u32::MAX {
-                    let (a, b) = (root(&mut parent, cell), root(&mut parent, next));
-                    parent[a.max(b)] = a.min(b) as u32;
+                if is_there && is_in[next] {
+                    groups.join(cell, next);
                 }
             }
-            let (a, b) = (index(one), index(other));
-            if parent[a] != u32::MAX && parent[b] != u32::MAX && root(&mut parent, a) == root(&mut parent, b)
-            {
+            // What is not in yet is in a group of its own.
+            if groups.least(a) == groups.least(b) {
                 return self.depth[cell];
             }
         }
