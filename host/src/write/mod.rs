@@ -91,10 +91,10 @@ pub fn write(loaded: &Loaded, deformed: &Deformed, map_point: &MapPoint) -> Resu
     rewrite(loaded, deformed, map_point)?.to_bytes()
 }
 
-/// As [`write`], but gives the file itself.
+/// As [`write()`], but gives the file itself.
 ///
 /// # Errors
-/// As [`write`].
+/// As [`write()`].
 pub fn rewrite(loaded: &Loaded, deformed: &Deformed, map_point: &MapPoint) -> Result<GltfFile> {
     check(loaded, deformed)?;
     let new_rest = new_rest(loaded, deformed);
