@@ -1,14 +1,14 @@
-//! Colliders of springs: as thick as the mesh around them, and what was outside of them stays outside.
+//! Colliders of springs: as thick as the mesh around them, and no nearer to their springs than they were.
 //!
 //! A collider stands for a limb. Its points go where the field takes them; its thickness is that of the mesh, which along a
 //! limb is another scale than across. Where the surroundings of a collider change more than it does, a spring may come to
-//! lie inside: it would be pushed out with a jerk when the simulation begins, so the collider yields.
+//! lie nearer, or inside: it would be pushed out with a jerk when the simulation begins, so the collider yields.
 
 use crate::geometry::Mapped;
 use glam::{DMat3, DVec3};
 
-/// How much of its radius a collider yields at most, so that a spring that newly starts inside is outside. A fifth is as
-/// much as the eye takes for the same limb; deeper ones are left, and told.
+/// How much of its radius a collider yields at most, so that a spring starts no nearer than it was. A fifth is as much as
+/// the eye takes for the same limb; springs that are inside all the same are told.
 pub const MOST_YIELD: f64 = 0.2;
 
 /// What a collider is.
@@ -124,30 +124,38 @@ fn across(jacobian: &DMat3, axis: DVec3) -> f64 {
 /// - `springs`: those that the collider is for.
 /// - `map`: where the field takes a point that moves with a joint.
 ///
-/// A spring that was outside and would be inside makes the collider thinner (one that springs are kept inside of,
-/// thicker), by [`MOST_YIELD`] of its radius at most; planes do not yield. A spring that was inside before stays so.
+/// A spring that would start nearer than it was, or deeper inside, makes the collider thinner (one that springs are kept
+/// inside of, thicker), by [`MOST_YIELD`] of its radius at most; planes do not yield. The distance that a spring had grows
+/// with the spring, and what is more than its radius is no concern.
 pub fn map_collider(
     collider: &Collider,
     springs: &[SpringBall],
     map: impl Fn(usize, DVec3) -> Mapped,
 ) -> MappedCollider {
     let mut moved = collider.moved(&map);
-    let free = springs.iter().filter(|ball| collider.distance(ball) >= 0.0);
-    let now: Vec<SpringBall> = free
+    // Each where it starts, and the distance to keep, at the size that it has now. What only touches swings inside.
+    let now: Vec<(SpringBall, f64)> = springs
+        .iter()
         .map(|ball| {
             let to = map(ball.joint, ball.centre);
-            SpringBall { centre: to.position, radius: ball.radius * to.local_scale(), ..*ball }
+            let scale = to.local_scale();
+            (
+                SpringBall { centre: to.position, radius: ball.radius * scale, ..*ball },
+                scale * collider.distance(ball).min(ball.radius),
+            )
         })
         .collect();
-    let deepest = |moved: &Collider| now.iter().map(|ball| moved.distance(ball)).fold(0.0, f64::min);
+    let deeper =
+        |moved: &Collider| now.iter().map(|(ball, had)| had - moved.distance(ball)).fold(0.0, f64::max);
+    // What is nearer by rounding alone is where it was.
+    let rounding = 1e-9 * moved.radius.abs().max(moved.offset.length());
     let mut yielded = 0.0;
-    if moved.shape != Shape::Plane && moved.radius > 0.0 {
-        yielded = (-deepest(&moved) / moved.radius).clamp(0.0, MOST_YIELD);
+    if moved.shape != Shape::Plane && moved.radius > 0.0 && deeper(&moved) > rounding {
+        yielded = (deeper(&moved) / moved.radius).clamp(0.0, MOST_YIELD);
         moved.radius *= if moved.inside { 1.0 + yielded } else { 1.0 - yielded };
     }
-    // What has been let out touches by rounding alone.
-    let rounding = 1e-9 * moved.radius.abs().max(moved.offset.length());
-    let newly_inside = now.iter().filter(|ball| moved.distance(ball) < -rounding).count();
+    let newly_inside =
+        now.iter().filter(|(ball, had)| *had >= 0.0 && moved.distance(ball) < -rounding).count();
     MappedCollider { collider: moved, yielded, newly_inside }
 }
 
@@ -205,17 +213,45 @@ mod tests {
     fn a_collider_yields_to_what_was_outside_and_no_further_than_a_fifth() {
         let thick = Collider { joint: 1, ..capsule() };
         let ball = |x: f64| SpringBall { joint: 0, centre: DVec3::new(x, 0.25, 0.0), radius: 0.02 };
-        // At 0.4 it comes to 0.2, its radius from 0.02 to 0.02 times the cube root of a half.
+        // At 0.4 it comes to 0.2, its radius from 0.02 to 0.02 times the cube root of a half, and it keeps as much room.
         let near = ball(0.4);
         let result = map_collider(&thick, &[near], map);
         let small = 0.02 * 0.5_f64.cbrt();
-        assert!((result.yielded - small / 0.2).abs() < 1e-9, "{result:?}");
+        assert!((result.yielded - 2.0 * small / 0.2).abs() < 1e-9, "{result:?}");
         assert_eq!(result.newly_inside, 0);
+        assert!(
+            (result.collider.distance(&SpringBall {
+                centre: DVec3::new(0.2, 0.5, 0.0),
+                radius: small,
+                ..near
+            }) - small)
+                .abs()
+                < 1e-9
+        );
         // At 0.3 it comes to 0.15: a fifth of 0.2 is not enough.
         let result = map_collider(&thick, &[near, ball(0.3)], map);
         assert_eq!((result.yielded, result.newly_inside), (MOST_YIELD, 1));
-        // What was inside before is no reason to yield.
-        assert_eq!(map_collider(&thick, &[ball(0.1)], map).yielded, 0.0);
+    }
+
+    #[test]
+    fn what_was_inside_before_gets_no_deeper_for_its_size() {
+        let thick = Collider { joint: 1, ..capsule() };
+        let ball = SpringBall { joint: 0, centre: DVec3::new(0.2, 0.25, 0.0), radius: 0.02 };
+        // Joint 0 moves by 0.03 towards the axis: from 0.02 deep to 0.05.
+        let nearer =
+            |joint: usize, p: DVec3| Mapped::unmoved(if joint == 1 { p } else { p - 0.03 * DVec3::X });
+        let result = map_collider(&thick, &[ball], nearer);
+        assert!((result.yielded - 0.03 / 0.2).abs() < 1e-9, "{result:?}");
+        assert_eq!(result.newly_inside, 0);
+        // Joint 0 grows to twice its size where it is, and so may the depth: from 0.02 to 0.04.
+        let larger = |joint: usize, p: DVec3| {
+            if joint == 1 {
+                Mapped::unmoved(p)
+            } else {
+                Mapped { position: p, jacobian: 2.0 * DMat3::IDENTITY }
+            }
+        };
+        assert!(map_collider(&thick, &[ball], larger).yielded < 1e-9);
     }
 
     #[test]

@@ -157,7 +157,8 @@ public sealed class Deformer : NativeObject
 
     /// <summary>
     /// Maps colliders of springs: their points go as MapPoints has it, and they are as thick as the mesh around them, a capsule
-    /// across its axis. One that a spring would newly start inside of yields, by a fifth of its radius at most.
+    /// across its axis. One that a spring would start nearer to than it was, or deeper in, yields by a fifth of its radius at
+    /// most. Distances count for the spring's size, and no further than its own radius.
     /// </summary>
     /// <param name="springs">What colliders may name; null for none.</param>
     /// <exception cref="InvalidInputException">With the collider, or the spring, as the element.</exception>

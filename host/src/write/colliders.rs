@@ -10,6 +10,9 @@ use std::collections::BTreeSet;
 use superdeform::internals::shape::collider::{Collider, MappedCollider, Shape, SpringBall, map_collider};
 use superdeform::{Deformed, Warning};
 
+/// The share of its radius from which on it is told that a collider yields: what is less would be told as none.
+const LEAST_TOLD: f64 = 0.005;
+
 /// Every viewer of VRM 0.x takes the last bone of a chain to be so long, in metres, whatever its scale.
 const LEAF_LENGTH: f64 = 0.07;
 
@@ -223,7 +226,7 @@ fn put_point(body: &mut Value, key: &str, before: DVec3, after: DVec3) {
 /// What a person should know of springs, colliders and aims after the deformation.
 ///
 /// - `spring_in_collider`: a spring starts inside a collider that it was outside of, though the collider yields.
-/// - `collider_yields`: colliders are thinner than the mesh around them, so that no spring starts inside.
+/// - `collider_yields`: colliders are thinner than the mesh around them, so that no spring starts nearer, or deeper.
 /// - `spring_leaf_length`: the last bones of VRM 0.x chains keep their 7 cm.
 /// - `aim_turned`: an aim constraint looks another way at rest, by more than a degree.
 pub fn findings(
@@ -247,12 +250,12 @@ pub fn findings(
         ));
     }
     let most = mapped.iter().map(|mapped| mapped.yielded).fold(0.0, f64::max);
-    if most > 0.0 {
-        let count = mapped.iter().filter(|mapped| mapped.yielded > 0.0).count();
+    if most >= LEAST_TOLD {
+        let count = mapped.iter().filter(|mapped| mapped.yielded >= LEAST_TOLD).count();
         warnings.push(Warning::new(
             "collider_yields",
             format!(
-                "{name}: {count} colliders yield by up to {:.0} % of their radius, so that springs that were outside start outside",
+                "{name}: {count} colliders yield by up to {:.0} % of their radius, so that springs start no nearer to them, and no deeper, than they were",
                 (100.0 * most).ceil()
             ),
         ));

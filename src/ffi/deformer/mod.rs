@@ -209,7 +209,8 @@ pub unsafe extern "C" fn sdef_deformer_map_points(
 }
 
 /// Maps colliders of springs: their points go as map_points has it, and they are as thick as the mesh around them, a
-/// capsule across its axis. One that a spring would newly start inside of yields, by a fifth of its radius at most.
+/// capsule across its axis. One that a spring would start nearer to than it was, or deeper in, yields by a fifth of its
+/// radius at most. Distances count for the spring's size, and no further than its own radius.
 ///
 /// colliders:    count structs, all of one struct_size
 /// springs:      spring_count structs, all of one struct_size: what colliders may name

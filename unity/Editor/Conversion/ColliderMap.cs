@@ -5,8 +5,8 @@ using UnityEngine;
 namespace SuperDeform.Editor
 {
     /// <summary>
-    /// What becomes of colliders of springs: each is as thick as the mesh around it, and yields to springs that would newly
-    /// start inside of it.
+    /// What becomes of colliders of springs: each is as thick as the mesh around it, and yields to springs that would
+    /// start nearer to it than they were, or deeper in.
     /// </summary>
     internal sealed class ColliderMap
     {
@@ -15,7 +15,10 @@ namespace SuperDeform.Editor
 
         internal readonly Springs Springs = new Springs();
 
-        /// <summary>How many colliders have yielded, and the largest share of a radius.</summary>
+        // Half a percent: what is less would be told as none.
+        const double LeastTold = 0.005;
+
+        /// <summary>How many colliders have yielded visibly, and the largest share of a radius.</summary>
         internal int YieldedCount { get; private set; }
         internal double MostYielded { get; private set; }
 
@@ -83,7 +86,7 @@ namespace SuperDeform.Editor
         void Tell(Transform joint, SpringCollider moved)
         {
             if (moved.NewlyInside > 0) Crowded.Add(new KeyValuePair<Transform, int>(map.Source(joint), (int)moved.NewlyInside));
-            if (moved.Yielded > 0) YieldedCount++;
+            if (moved.Yielded >= LeastTold) YieldedCount++;
             MostYielded = Math.Max(MostYielded, moved.Yielded);
         }
 

@@ -12,8 +12,8 @@ namespace SuperDeform.Editor
     }
 
     /// <summary>
-    /// The balls that springs keep out of colliders, one around the end of each bone: a collider that one of them would newly
-    /// start inside of yields.
+    /// The balls that springs keep out of colliders, one around the end of each bone: a collider that one of them would
+    /// start nearer to than it was, or deeper in, yields.
     /// </summary>
     public sealed class Springs
     {

@@ -363,45 +363,6 @@ namespace SuperDeform.Editor.Tests
             }
         }
 
-        // Measured by Tests~/Bench at 50,000 vertices with a release library: 0.7 ms, 2 % of deforming and showing.
-        [Test]
-        public void what_the_editor_does_itself_is_a_small_part_of_a_frame()
-        {
-            var figure = new WindowFigure("Large", 20000, 0, true);
-            using (AvatarData avatar = CharacterReader.Read(figure.Root, new ReadOptions()))
-            using (Style style = settings.MakeStyle())
-            using (var deformer = new Deformer(avatar.Character, style, settings.Options))
-            {
-                var skeleton = new ProxySkeleton(avatar);
-                var result = new AvatarResult(avatar, true);
-                List<ProxyRenderer> renderers = result.Renderers.ConvertAll(renderer => new ProxyRenderer(avatar, renderer, skeleton));
-                double all = double.MaxValue, own = double.MaxValue;
-                for (int round = 0; round < 10; round++)
-                {
-                    // The best of all rounds: what else the machine does only slows them.
-                    all = Math.Min(all, Milliseconds(() => result.Apply(deformer, null)));
-                    own = Math.Min(own, Milliseconds(() =>
-                    {
-                        result.Take(deformer);
-                        skeleton.Move(result);
-                        skeleton.Stand(result);
-                        renderers.ForEach(renderer => renderer.Show(skeleton));
-                    }));
-                }
-                Console.WriteLine("C# does " + own.ToString("0.00") + " of " + all.ToString("0.00") + " ms");
-                Assert.That(own, Is.LessThan(0.15 * all));
-                renderers.ForEach(renderer => renderer.Destroy());
-                skeleton.Destroy();
-            }
-        }
-
-        private static double Milliseconds(Action work)
-        {
-            var watch = System.Diagnostics.Stopwatch.StartNew();
-            work();
-            return watch.Elapsed.TotalMilliseconds;
-        }
-
         [Test]
         public void a_slider_leaves_next_to_no_garbage()
         {
