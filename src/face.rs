@@ -8,6 +8,7 @@ pub mod dual;
 pub mod eyes;
 pub mod flow;
 pub mod head;
+pub mod in_skin;
 pub mod iris;
 pub mod landmarks;
 pub mod raster;

@@ -4,6 +4,7 @@
 //! heads, and a wrong eye bends the face where it should not.
 
 use super::head::{Head, quantile_ends};
+use super::in_skin::{by_balls, by_paint};
 use super::iris::{Iris, iris};
 use crate::geometry::{bounds, components, weld};
 
@@ -22,6 +23,10 @@ pub enum EyeSource {
     Joints,
     /// Two mirrored pieces of the head.
     Twins,
+    /// Two mirrored balls whose rims are sewn to the skin.
+    Balls,
+    /// Two mirrored spots painted on it.
+    Paint,
 }
 
 impl EyeSource {
@@ -33,6 +38,8 @@ impl EyeSource {
             EyeSource::Blink => "blink",
             EyeSource::Joints => "joints",
             EyeSource::Twins => "twins",
+            EyeSource::Balls => "balls",
+            EyeSource::Paint => "paint",
         }
     }
 
@@ -43,7 +50,8 @@ impl EyeSource {
             EyeSource::Pieces => 0.95,
             EyeSource::Blink => 0.9,
             EyeSource::Twins => 0.7,
-            EyeSource::Joints => 0.6,
+            EyeSource::Balls => 0.7,
+            EyeSource::Joints | EyeSource::Paint => 0.6,
         }
     }
 }
@@ -176,6 +184,8 @@ fn found(head: &Head) -> Option<(EyeSource, Eyes)> {
     or(blink, EyeSource::Blink)
         .or_else(|| or(by_joints(head), EyeSource::Joints))
         .or_else(|| or(by_twins(head), EyeSource::Twins))
+        .or_else(|| or(by_balls(head), EyeSource::Balls))
+        .or_else(|| or(by_paint(head), EyeSource::Paint))
 }
 
 /// A connected piece of one side of the head.
@@ -286,7 +296,7 @@ fn by_pieces(head: &Head) -> Option<Eyes> {
 }
 
 /// Where the front shows `own` triangles, within the box from `low` to `high`.
-fn opening(head: &Head, own: &[[u32; 3]], low: DVec3, high: DVec3) -> Option<(DVec2, DVec2)> {
+pub(super) fn opening(head: &Head, own: &[[u32; 3]], low: DVec3, high: DVec3) -> Option<(DVec2, DVec2)> {
     let margin = DVec2::splat(FINE);
     let mut of_eye = own.to_vec();
     of_eye.sort_unstable();
@@ -432,7 +442,7 @@ fn by_hints(head: &Head) -> Option<Eyes> {
 }
 
 /// Two eyes stand side by side in the middle third of a head: what does not is no pair of eyes.
-fn are_plausible(eyes: &Eyes) -> bool {
+pub(super) fn are_plausible(eyes: &Eyes) -> bool {
     let [left, right] = eyes.each_ref().map(Eye::middle);
     let d = 0.5 * (left.x - right.x);
     TWIN_ASIDE.contains(&d)
@@ -445,15 +455,15 @@ fn are_plausible(eyes: &Eyes) -> bool {
 /// Twins are mirrored to this, in head lengths.
 const TWIN_MIRRORED: f64 = 0.03;
 /// Their widths; how flat and how high they may be; how far aside and how high up they are; in head lengths.
-const TWIN_WIDTH: std::ops::Range<f64> = 0.03..0.3;
+pub(super) const TWIN_WIDTH: std::ops::Range<f64> = 0.03..0.3;
 /// See [`TWIN_WIDTH`]. Painted eyes of figurines are dots or stand upright; brows, moustaches and tusks lie.
 const TWIN_FLATTEST: f64 = 0.8;
 /// See [`TWIN_WIDTH`].
-const TWIN_MOST: f64 = 0.4;
+pub(super) const TWIN_MOST: f64 = 0.4;
 /// See [`TWIN_WIDTH`].
-const TWIN_ASIDE: std::ops::Range<f64> = 0.07..0.36;
+pub(super) const TWIN_ASIDE: std::ops::Range<f64> = 0.07..0.36;
 /// See [`TWIN_WIDTH`].
-const TWIN_HEIGHT: std::ops::Range<f64> = 0.2..0.62;
+pub(super) const TWIN_HEIGHT: std::ops::Range<f64> = 0.2..0.62;
 /// Of a twin's box at least this share is seen from the front.
 const TWIN_SEEN: f64 = 0.5;
 

@@ -7,8 +7,10 @@ use superdeform::Progress;
 use superdeform::internals::geometry::weld::{Weld, weld};
 use superdeform::internals::shape::figure::Figure;
 use superdeform::internals::shape::product::part::{PART_COUNT, Part, PartWeights};
-use superdeform::internals::shape::product::smoothing::{smooth_across, smooth_along};
+use superdeform::internals::shape::product::smoothing::{Fork, smooth_across, smooth_along};
 
+/// Far below everything: nothing is a leg's.
+const NO_FORK: Fork = Fork { crotch: -1e9, apart: 1.0 };
 /// Vertices along each side of a grid.
 const SIDE: usize = 41;
 /// The width of the smoothing on a figure of height 1, and the grid's spacing.
@@ -148,7 +150,7 @@ fn layers_of_cloth_come_to_move_alike() {
     let mut rows = vec![skin; SIDE * SIDE];
     rows.resize(2 * SIDE * SIDE, cloth);
     let none = vec![false; rows.len()];
-    smooth_across(&figure, &weld, &none, &mut rows, 1, &mut Progress::none()).unwrap();
+    smooth_across(&figure, &weld, &none, NO_FORK, &mut rows, 1, &mut Progress::none()).unwrap();
     for vertex in 0..SIDE * SIDE {
         let (below, above) = (rows[vertex][0], rows[SIDE * SIDE + vertex][0]);
         // Half and half but for the kernel's difference between 0 and a tenth of its width, three times.
@@ -158,7 +160,7 @@ fn layers_of_cloth_come_to_move_alike() {
     let mut rows = vec![skin; SIDE * SIDE];
     rows.resize(2 * SIDE * SIDE, cloth);
     let frozen: Vec<bool> = (0..rows.len()).map(|vertex| vertex >= SIDE * SIDE).collect();
-    smooth_across(&figure, &weld, &frozen, &mut rows, 1, &mut Progress::none()).unwrap();
+    smooth_across(&figure, &weld, &frozen, NO_FORK, &mut rows, 1, &mut Progress::none()).unwrap();
     assert!(rows[..SIDE * SIDE].iter().all(|row| (row[0] - 0.8).abs() < 1e-5));
     assert!(rows[SIDE * SIDE..].iter().all(|row| (row[0] - 0.2).abs() < 1e-6));
 }
@@ -179,7 +181,7 @@ fn arms_do_not_draw_what_they_lie_on() {
         let mut rows = vec![arm.alone(); SIDE * SIDE];
         rows.resize(2 * SIDE * SIDE, other.alone());
         let none = vec![false; rows.len()];
-        smooth_across(&figure, &weld, &none, &mut rows, 1, &mut Progress::none()).unwrap();
+        smooth_across(&figure, &weld, &none, NO_FORK, &mut rows, 1, &mut Progress::none()).unwrap();
         assert!(rows[..SIDE * SIDE].iter().all(|row| (row[arm as usize] - 1.0).abs() < 1e-6), "{arm:?}");
         assert!(rows[SIDE * SIDE..].iter().all(|row| (row[other as usize] - 1.0).abs() < 1e-6), "{other:?}");
     }
@@ -199,7 +201,8 @@ fn threads_do_not_change_what_comes_out() {
     let smoothed = |threads: usize| {
         let mut rows = rows.clone();
         smooth_along(&tubes.figure, &weld, &frozen, &mut rows, threads);
-        smooth_across(&tubes.figure, &weld, &frozen, &mut rows, threads, &mut Progress::none()).unwrap();
+        smooth_across(&tubes.figure, &weld, &frozen, NO_FORK, &mut rows, threads, &mut Progress::none())
+            .unwrap();
         rows
     };
     assert!(smoothed(1) == smoothed(3));

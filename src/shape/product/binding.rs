@@ -101,8 +101,10 @@ pub fn part_bindings(
         DVec3::new(anatomy.middle_x, anatomy.landmarks.heights.chin, anatomy.head_joint.z),
     );
     let eye_turns = face.is_some_and(FaceLandmarks::eyes_turn);
-    let things = things_on_head(figure, &members, &attachments);
-    let face = face_bindings(figure, face, &weights, &attachments, &things);
+    let mut things = things_on_head(figure, &members, &attachments);
+    let mut face = face_bindings(figure, face, &weights, &attachments, &things);
+    let small = SMALL_ON_FACE * anatomy.landmarks.heights.head_length();
+    keep_small(figure, &members, small, &mut face, &mut things);
     let is_skirt = skirt_vertices(figure, anatomy, weld);
     let bind =
         |(((weights, attachment), face), is_skirt)| PartBinding { weights, attachment, face, is_skirt };
@@ -143,6 +145,30 @@ fn face_bindings(
         }
     }
     bindings
+}
+
+/// What is a piece of its own on the face and smaller than this, in head lengths, keeps its shape: tear glands, teeth.
+const SMALL_ON_FACE: f64 = 0.05;
+
+/// Adds to `things` the pieces of the face no larger than `small`: a flow turns the slivers of a thing of a few triangles
+/// over, and nobody sees what bends it.
+fn keep_small(
+    figure: &Figure,
+    members: &[Vec<u32>],
+    small: f64,
+    face: &mut [FaceBinding],
+    things: &mut Vec<Vec<u32>>,
+) {
+    for members in members {
+        let (low, high) = bounds(members.iter().map(|&vertex| figure.positions[vertex as usize]));
+        let is_small = (high - low).max_element() < small;
+        if is_small && members.iter().all(|&vertex| face[vertex as usize] == FaceBinding::Skin(1.0)) {
+            for &vertex in members {
+                face[vertex as usize] = FaceBinding::Piece(things.len() as u32);
+            }
+            things.push(members.clone());
+        }
+    }
 }
 
 /// Boxes nearer to each other than this share of H are of one thing: lenses in their frame.

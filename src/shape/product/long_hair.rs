@@ -273,7 +273,8 @@ impl LongHair {
                 envelope.rows[row][angle] = wanted.max(body + LEAST_GAP.1);
             }
         }
-        Hanging { before: Arc::clone(self), axis, body: now, envelope }
+        let tongue = Tongue::of(hair.iter().map(|&p| axis.polar(p)));
+        Hanging { before: Arc::clone(self), axis, body: now, envelope, tongue }
     }
 }
 
@@ -315,15 +316,77 @@ pub struct Hanging {
     axis: Axis,
     body: PolarMap,
     envelope: PolarMap,
+    tongue: Option<Tongue>,
+}
+
+/// A tongue hangs behind the head, where its direction from the front has less than this cosine; against what hangs from
+/// the sides on: below the second number.
+const BEHIND: (f64, f64) = (-0.2, 0.5);
+/// What hangs lower than the rest by less than the first is no tongue; by more than the second, and all of it by more than
+/// the third, it is meant so.
+const TONGUE: (f64, f64, f64) = (0.02, 0.2, 0.25);
+/// A tongue is drawn up within this above the rest's lower edge.
+const DRAWN_UP: f64 = 0.16;
+
+/// Hair whose lower edge is a little lower behind than beside: a child's head widens the rest, and the end stands out of it
+/// as a tongue. Lower edges are in head lengths above the chin.
+#[derive(Clone, Debug)]
+struct Tongue {
+    /// The edge of what is no tongue.
+    edge: f64,
+    /// How far it is drawn up, 0 to 1.
+    share: f64,
+    /// The edge at each angle.
+    lowest: [f64; ANGLES],
+}
+
+impl Tongue {
+    /// The tongue of hair at `points`; `None` where there is none, or the hair is meant to hang so.
+    fn of(points: impl Iterator<Item = Polar>) -> Option<Self> {
+        let mut lowest = [f64::NAN; ANGLES];
+        for Polar { angle, height, .. } in points {
+            let field = &mut lowest[angle as usize % ANGLES];
+            *field = field.min(height);
+        }
+        let lowest = filled_round(lowest);
+        let cosine = |field: usize| (field as f64 / ANGLES as f64 * TAU).cos();
+        let mut around: Vec<f64> =
+            (0..ANGLES).filter(|&field| cosine(field) < BEHIND.1).map(|field| lowest[field]).collect();
+        let edge = quantile(&mut around, 0.5).filter(|edge| !edge.is_nan())?;
+        let is_behind = |field: usize| cosine(field) < BEHIND.0;
+        let behind = (0..ANGLES).filter(|&field| is_behind(field)).map(|field| lowest[field]);
+        let lowest_behind = behind.fold(f64::INFINITY, f64::min);
+        let depth = edge - lowest_behind;
+        let share = 1.0 - smoothstep((depth - TONGUE.1) / (TONGUE.2 - TONGUE.1));
+        // Elsewhere nothing is shortened.
+        let of_field = |field: usize| if is_behind(field) { lowest[field] } else { edge };
+        (depth > TONGUE.0 && share > 0.0).then(|| Self { edge, share, lowest: std::array::from_fn(of_field) })
+    }
+
+    /// By how much a point rises.
+    fn rise(&self, p: Polar) -> f64 {
+        let angle = (p.angle - 0.5).rem_euclid(ANGLES as f64);
+        let (before, round) = (angle as usize % ANGLES, angle - angle.floor());
+        let (from, to) = (self.lowest[before], self.lowest[(before + 1) % ANGLES]);
+        let lowest = from + round * (to - from);
+        let (top, wanted) = (self.edge + DRAWN_UP, self.edge - TONGUE.0);
+        if p.height >= top || lowest >= wanted {
+            return 0.0;
+        }
+        self.share * (top - p.height) * (wanted - lowest) / (top - lowest)
+    }
 }
 
 impl Hanging {
     /// What must be added to a point of the hair that was at `rest` and is at `now`.
     pub fn offset(&self, rest: DVec3, now: DVec3) -> DVec3 {
-        let p = self.axis.polar(now);
+        let mut p = self.axis.polar(now);
+        let rise = self.tongue.as_ref().map_or(0.0, |tongue| tongue.rise(p));
+        p.height += rise;
+        let up = DVec3::Y * (rise * self.axis.frame.length);
         let over = smoothstep((GOES_OVER.0 - p.height) / (GOES_OVER.0 - GOES_OVER.1));
         if over == 0.0 || p.radius <= 0.0 {
-            return DVec3::ZERO;
+            return up;
         }
         let before = self.before.axis.polar(rest);
         let own = self.before.own.at(before);
@@ -332,6 +395,51 @@ impl Hanging {
         let body = self.body.at(p);
         let radius = body + share * (self.envelope.at(p) - body);
         let outwards = DVec3::new(now.x - self.axis.middle[0], 0.0, now.z - self.axis.middle[1]);
-        outwards * (over * (radius / p.radius - 1.0))
+        up + outwards * (over * (radius / p.radius - 1.0))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Hair around a head whose lower edge at so many turns from the front is what `edge` says.
+    fn hair(edge: impl Fn(f64) -> f64) -> impl Iterator<Item = Polar> {
+        (0..360).flat_map(move |degree| {
+            let angle = (f64::from(degree) / 360.0 * ANGLES as f64 + 0.5) % ANGLES as f64;
+            let turn = f64::from(degree.min(360 - degree)) / 360.0;
+            let lowest = edge(turn);
+            (0..20).map(move |row| Polar { angle, height: lowest + 0.05 * f64::from(row), radius: 0.5 })
+        })
+    }
+
+    fn behind(depth: f64) -> impl Iterator<Item = Polar> {
+        hair(move |turn| if turn > 0.4 { -0.1 - depth } else { -0.1 })
+    }
+
+    #[test]
+    fn a_tongue_ends_where_the_rest_of_the_hair_does() {
+        let tongue = Tongue::of(behind(0.15)).expect("there is one");
+        let back = |height: f64| Polar { angle: 0.5 + 0.5 * ANGLES as f64, height, radius: 0.5 };
+        // Its end comes to a fiftieth below the others', what lies above is drawn up less, nothing else moves.
+        assert!((tongue.rise(back(-0.25)) - 0.13).abs() < 1e-9);
+        let rises: Vec<f64> = (0..60).map(|row| tongue.rise(back(-0.25 + 0.01 * f64::from(row)))).collect();
+        assert!(rises.windows(2).all(|pair| pair[1] <= pair[0] && pair[0] - pair[1] < 0.01), "{rises:?}");
+        assert_eq!(tongue.rise(back(0.1)), 0.0);
+        for angle in [0.5, 6.5, 18.5] {
+            assert_eq!(tongue.rise(Polar { angle, height: -0.1, radius: 0.5 }), 0.0);
+        }
+    }
+
+    #[test]
+    fn hair_that_is_meant_to_hang_lower_behind_keeps_its_length() {
+        assert!(Tongue::of(behind(0.3)).is_none());
+        assert!(Tongue::of(behind(0.01)).is_none());
+        assert!(Tongue::of(hair(|_| -0.4)).is_none());
+        assert!(Tongue::of(std::iter::empty()).is_none());
+        // In between it is drawn up less and less.
+        let back = Polar { angle: 0.5 + 0.5 * ANGLES as f64, height: -0.33, radius: 0.5 };
+        let rise = Tongue::of(behind(0.23)).expect("there is one").rise(back);
+        assert!(rise > 0.0 && rise < 0.15, "{rise}");
     }
 }

@@ -1,9 +1,9 @@
 //! Smooths the weights of the parts along the mesh, then across layers of cloth (product mode).
 
-use super::part::{PART_COUNT, Part, PartWeights, add};
+use super::part::{PART_COUNT, Part, PartWeights, TINY, add};
 use crate::error::Result;
 use crate::geometry::point_tree::{Near, PointTree};
-use crate::geometry::{Neighbours, Weld, neighbours};
+use crate::geometry::{Neighbours, Weld, neighbours, smoothstep};
 use crate::parallel;
 use crate::progress::Progress;
 use crate::shape::figure::Figure;
@@ -158,8 +158,28 @@ fn umbrella_steps(
     rows
 }
 
+/// Where the legs part.
+#[derive(Clone, Copy, Debug)]
+pub struct Fork {
+    /// Height of the crotch.
+    pub crotch: f64,
+    /// How far below it left and right do not mix any more.
+    pub apart: f64,
+}
+
+impl Fork {
+    /// How far a point with weights `row` is the left leg's (above 0) or the right one's: below the crotch up to 1.
+    fn side(&self, p: DVec3, row: &PartWeights) -> f32 {
+        let leg = |first: Part| row[first as usize..first as usize + 3].iter().sum::<f32>();
+        let below = smoothstep((self.crotch - p.y) / self.apart.max(TINY)) as f32;
+        below * (leg(Part::LeftUpperLeg) - leg(Part::RightUpperLeg))
+    }
+}
+
 /// A Gaussian over near vertices of any mesh, so that cloth and body move together. Left arm,
-/// right arm and the rest do not mix: a hand on the hip must not carry the hip along.
+/// right arm and the rest do not mix: a hand on the hip must not carry the hip along. Left and right leg do not either,
+/// below the `fork`: trousers' insides lie nearer to each other than to their fronts, and what both legs move would stay
+/// in the middle while the legs step apart.
 ///
 /// # Errors
 /// `Cancelled`.
@@ -167,6 +187,7 @@ pub fn smooth_across(
     figure: &Figure,
     weld: &Weld,
     frozen: &[bool],
+    fork: Fork,
     parts: &mut [PartWeights],
     threads: usize,
     progress: &mut Progress,
@@ -204,7 +225,8 @@ pub fn smooth_across(
         let rows: Vec<PartWeights> = samples.iter().map(|&vertex| parts[vertex]).collect();
         let start = done;
         done += samples.len() as f32 / all;
-        *smoothed = layer_steps(&points, rows, sigma, threads, &mut progress.part(start, done))?;
+        let sides: Vec<f32> = points.iter().zip(&rows).map(|(&p, row)| fork.side(p, row)).collect();
+        *smoothed = layer_steps(&points, rows, &sides, sigma, threads, &mut progress.part(start, done))?;
     }
     for (vertex, &sample) in sample_of.iter().enumerate() {
         if sample != u32::MAX {
@@ -225,10 +247,11 @@ struct Layer {
     weights: [f32; LAYER_NEIGHBOURS],
 }
 
-/// `LAYER_PASSES` Gaussian means over the nearest points within [`LAYER_REACH`] standard deviations, `sigma` each.
+/// What `sides` has on opposite sides does not mix. `LAYER_PASSES` Gaussian means over the nearest points within [`LAYER_REACH`] standard deviations, `sigma` each.
 fn layer_steps(
     points: &[DVec3],
     rows: Vec<PartWeights>,
+    sides: &[f32],
     sigma: f64,
     threads: usize,
     progress: &mut Progress,
@@ -262,9 +285,12 @@ fn layer_steps(
             } else {
                 gaussian(reach)
             };
+            let side = |slot: u32| sides[tree.indices()[slot as usize] as usize];
+            let own_side = side(slot as u32);
             for (place, near) in found.iter().enumerate() {
                 layer.slots[place] = near.slot();
-                layer.weights[place] = (gaussian(near.distance()) - end).max(0.0) as f32;
+                let apart = 1.0 - (-own_side * side(near.slot())).max(0.0);
+                layer.weights[place] = (gaussian(near.distance()) - end).max(0.0) as f32 * apart;
             }
             layer
         },
@@ -290,4 +316,39 @@ fn layer_steps(
     }
     progress.at(1.0)?;
     Ok(smoothed)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A sheet of the left leg's points beside one of the right leg's, nearer to each other than the smoothing is wide.
+    fn legs(fork: &Fork) -> Vec<PartWeights> {
+        let mut points = Vec::new();
+        let mut rows = Vec::new();
+        for (x, part) in [(0.002, Part::LeftUpperLeg), (-0.002, Part::RightUpperLeg)] {
+            for row in 0..40 {
+                for column in 0..10 {
+                    points.push(DVec3::new(x, 0.01 * f64::from(row), 0.01 * f64::from(column)));
+                    rows.push(part.alone());
+                }
+            }
+        }
+        let sides: Vec<f32> = points.iter().zip(&rows).map(|(&p, row)| fork.side(p, row)).collect();
+        layer_steps(&points, rows, &sides, 0.012, 1, &mut Progress::none()).unwrap()
+    }
+
+    #[test]
+    fn legs_side_by_side_keep_to_themselves_below_the_fork() {
+        let rows = legs(&Fork { crotch: 0.4, apart: 0.1 });
+        let mixed = |row: usize| rows[10 * row + 5][Part::RightUpperLeg as usize];
+        // From the fork on down: nothing; at the crotch: all that layers share.
+        assert!((0..25).all(|row| mixed(row) == 0.0));
+        assert!(mixed(39) > 0.2, "{}", mixed(39));
+        // And no step in between: a tenth of the head's length is some ten rows.
+        assert!((0..39).all(|row| (mixed(row + 1) - mixed(row)).abs() < 0.2));
+        // Above the crotch they mix as any layers do.
+        let above = legs(&Fork { crotch: -1.0, apart: 0.1 });
+        assert!((above[5 * 40][Part::RightUpperLeg as usize] - 0.5).abs() < 0.05);
+    }
 }

@@ -7,7 +7,7 @@
 
 use super::anatomy::Anatomy;
 use super::part::{Part, PartWeights, TINY, fold_to_parts};
-use super::smoothing::{smooth_across, smooth_along};
+use super::smoothing::{Fork, smooth_across, smooth_along};
 use crate::character::{MeshKind, Role};
 use crate::error::Result;
 use crate::geometry::{Weld, bounds, smoothstep};
@@ -36,6 +36,9 @@ const SOLE_BAND: (f64, f64) = (0.15, 0.7);
 /// Between these distances from the neck's axis, to the side or behind, what the head moves is hair, as shares of L.
 /// D26, for hair that is one mesh with the body. Seen: nearer, necks count as hair.
 const HAIR_REACH: (f64, f64) = (0.36, 0.5);
+/// From this part of the legs' length under the crotch on, left and right leg have weights of their own. D26. Wide
+/// enough for some rows of triangles to lie in between.
+const FORK: f64 = 0.15;
 
 /// Each vertex's weights to the parts, and whether the head alone moves it.
 ///
@@ -74,7 +77,10 @@ pub fn part_weights(
     }
     let frozen: Vec<bool> =
         weld.representative.iter().map(|&welded| holds_head_only[welded as usize]).collect();
-    smooth_across(figure, weld, &frozen, &mut parts, threads, &mut progress.part(0.3, 1.0))?;
+    let crotch = anatomy.landmarks.heights.crotch;
+    let ankles = 0.5 * (anatomy.limbs[2].end.y + anatomy.limbs[3].end.y);
+    let fork = Fork { crotch, apart: FORK * (crotch - ankles) };
+    smooth_across(figure, weld, &frozen, fork, &mut parts, threads, &mut progress.part(0.3, 1.0))?;
     for (row, &p) in parts.iter_mut().zip(&figure.positions) {
         settle_soles(row, p, anatomy);
     }

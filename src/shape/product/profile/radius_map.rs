@@ -1,6 +1,6 @@
 //! How far a body reaches around an axis, by height and direction, and a scale for each: a map of its relief.
 
-use super::station::surface;
+use super::station::{outer_surface, surface};
 use crate::geometry::Moved;
 use crate::geometry::slice::{Outline, Planes, RAYS};
 use glam::{DMat2, DMat3, DVec2, DVec3};
@@ -73,7 +73,7 @@ impl RadiusMap {
         let mut reaches: Vec<Ring> = cuts
             .iter()
             .zip(&middles)
-            .map(|(outlines, &middle)| bounded(surface(&outlines.iter().collect::<Vec<_>>(), middle)))
+            .map(|(outlines, &middle)| bounded(outer_surface(&outlines.iter().collect::<Vec<_>>(), middle)))
             .collect();
         fill(&mut reaches)?;
         let scales = vec![[1.0; RAYS]; reaches.len()];

@@ -26,9 +26,10 @@ const MIDDLE_SIGMA: f64 = 0.20;
 const TORSO_BOUNDS: (f64, f64) = (0.72, 1.10);
 const LIMB_BOUNDS: (f64, f64) = (0.70, 1.20);
 /// A row of the torso reaches at most this much further, or less far, than the usual one of so many above and below it: what
-/// is read of a layer that only some rows show makes folds of hems.
+/// is read of a layer that only a row or two show makes folds of hems. Seen: of five rows, a bust is taken for such a layer
+/// where the torso has become short, and stays a ledge.
 const SPIKE: f64 = 1.15;
-const SPIKE_ROWS: usize = 5;
+const SPIKE_ROWS: usize = 2;
 /// The scales themselves are smoothed this wide, in head lengths, and over one direction to each side.
 const SCALE_SIGMA: f64 = 0.015;
 /// Beyond both ends of a limb its line goes on with this part of its slope over this much, in head lengths: a flare at a cuff
@@ -43,6 +44,8 @@ const ARM_ROWS: (f64, f64) = (0.05, 1.02);
 /// middle.
 const BOTTOM_FADE: (f64, f64) = (0.04, 0.22);
 const TOP_FADE: (f64, f64) = (0.86, 1.0);
+/// A skirt's relief ends further down, in parts of the leg: above that its hem is drawn in with what is above it.
+const SKIRT_FADE: (f64, f64) = (0.25, 0.45);
 /// What moves with an arm by the first of these still has all of the torso's relief smoothed, by the second none of it. Made
 /// weights give a bust beside the arm pits .2 of the arms; where that counted, it stayed a spike.
 const OF_ARM: (f64, f64) = (0.1, 0.5);
@@ -103,9 +106,10 @@ impl Relief {
             );
             let bound = (1.0 - smoothstep((arms[0] + arms[1] - OF_ARM.0) / (OF_ARM.1 - OF_ARM.0)))
                 * (1.0 - smoothstep(of_head / 0.5));
-            let (share, slope) = self.torso_share(p.y);
+            let (share, slope) = self.torso_share(p.y, is_skirt);
             if bound * share > 0.0 {
-                add(bound * share, DVec3::Y * (bound * slope), self.torso_shift(map, p));
+                let shift = if is_skirt { map.shift(p) } else { self.torso_shift(map, p) };
+                add(bound * share, DVec3::Y * (bound * slope), shift);
             }
         }
         for side in 0..2 {
@@ -137,11 +141,13 @@ impl Relief {
     }
 
     /// How much of the torso's relief is smoothed at height `y`, and the slope of that.
-    fn torso_share(&self, y: f64) -> (f64, f64) {
+    fn torso_share(&self, y: f64, is_skirt: bool) -> (f64, f64) {
         let t = (y - self.crotch) / self.torso_length;
+        let to_leg = self.leg_length / self.torso_length;
+        let fade = if is_skirt { (SKIRT_FADE.0 * to_leg, SKIRT_FADE.1 * to_leg) } else { BOTTOM_FADE };
         let (top, top_slope) = smoothstep_slope((t - TOP_FADE.0) / (TOP_FADE.1 - TOP_FADE.0));
-        let (bottom, bottom_slope) = smoothstep_slope((-t - BOTTOM_FADE.0) / (BOTTOM_FADE.1 - BOTTOM_FADE.0));
-        let slope = bottom_slope / (BOTTOM_FADE.1 - BOTTOM_FADE.0) * (1.0 - top)
+        let (bottom, bottom_slope) = smoothstep_slope((-t - fade.0) / (fade.1 - fade.0));
+        let slope = bottom_slope / (fade.1 - fade.0) * (1.0 - top)
             - top_slope / (TOP_FADE.1 - TOP_FADE.0) * (1.0 - bottom);
         ((1.0 - top) * (1.0 - bottom), slope / self.torso_length)
     }

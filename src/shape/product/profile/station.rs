@@ -70,6 +70,16 @@ fn extents(outlines: &[&Outline], middle: DVec2) -> [f64; 4] {
 
 /// The surface of the body that `outlines` make, on each ray from `middle`; NaN where there is none.
 pub fn surface(outlines: &[&Outline], middle: DVec2) -> [f64; RAYS] {
+    surface_within(outlines, middle, STANDS_OFF)
+}
+
+/// The same with layers that stand off the body: a skirt's relief is its own.
+pub fn outer_surface(outlines: &[&Outline], middle: DVec2) -> [f64; RAYS] {
+    surface_within(outlines, middle, f64::INFINITY)
+}
+
+/// The surface without what is further out than so many times the innermost layer.
+fn surface_within(outlines: &[&Outline], middle: DVec2, stands_off: f64) -> [f64; RAYS] {
     let reaches: Vec<[f64; RAYS]> = outlines.iter().map(|outline| outline.reaches(middle)).collect();
     let share =
         |reaches: &[f64; RAYS]| reaches.iter().filter(|reach| !reach.is_nan()).count() as f64 / RAYS as f64;
@@ -89,7 +99,7 @@ pub fn surface(outlines: &[&Outline], middle: DVec2) -> [f64; RAYS] {
         if nearest.is_nan() {
             return reaches.iter().map(|outline| outline[ray]).fold(f64::NAN, f64::min);
         }
-        let reach = furthest.min(STANDS_OFF * nearest);
+        let reach = furthest.min(stands_off * nearest);
         open.iter()
             .filter(|outline| share(outline) >= LIES_ON && SIDES.iter().any(|&side| !outline[side].is_nan()))
             .map(|outline| outline[ray])
