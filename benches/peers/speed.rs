@@ -3,10 +3,11 @@
 //! Names of models may follow; without them people of 46,848 and 484,218 vertices, and the files that are at hand. With
 //! `--only=TEXT` only lines that hold it.
 
+use glam::Vec3;
 use std::hint::black_box;
 use std::sync::Arc;
 use std::time::Instant;
-use superdeform::{Character, Deformer, MeshOutputs, Options, Progress};
+use superdeform::{Character, Deformer, MeshOutputs, MorphTarget, Options, Progress};
 use superdeform_benches::models;
 
 /// Columns of people's tubes.
@@ -80,6 +81,39 @@ fn measure(name: &str, character: Character, only: &str) {
     }
 }
 
+/// Morph targets, and the vertices that each touches: the highest of the largest mesh, as a face's do.
+const MORPHS: [usize; 2] = [50, 5000];
+
+fn measure_morphs(mut character: Character, only: &str) {
+    let what = format!("apply: {} morph targets of {} vertices", MORPHS[0], MORPHS[1]);
+    if !what.contains(only) {
+        return;
+    }
+    let mesh_count = character.meshes.len();
+    let largest = (0..mesh_count).max_by_key(|&mesh| character.meshes[mesh].positions.len()).unwrap_or(0);
+    let mesh = &mut character.meshes[largest];
+    let mut highest: Vec<usize> = (0..mesh.positions.len()).collect();
+    highest.sort_by(|&a, &b| mesh.positions[b].y.total_cmp(&mesh.positions[a].y));
+    mesh.morph_targets = (0..MORPHS[0])
+        .map(|target| {
+            let mut positions = vec![Vec3::ZERO; mesh.positions.len()];
+            for &vertex in highest.iter().take(MORPHS[1]) {
+                positions[vertex] = Vec3::splat(1e-4 * (target + 1) as f32);
+            }
+            MorphTarget { positions, ..MorphTarget::default() }
+        })
+        .collect();
+    let options = Options { thread_count: 1, ..Options::default() };
+    let deformer =
+        Deformer::new(Arc::new(character), &models::style(), &options).expect("the model is whole");
+    let only_positions = vec![MeshOutputs::default(); mesh_count];
+    let mut asked = only_positions.clone();
+    asked[largest].morph_targets = true;
+    let [with, without] = [asked, only_positions]
+        .map(|asked| least(20, |_| drop(black_box(deformer.apply_to(&asked, &mut Progress::none())))));
+    println!("  {what:36} {:9.3}", with - without);
+}
+
 fn main() {
     let (only, asked): (Vec<String>, Vec<String>) =
         std::env::args().skip(1).partition(|argument| argument.starts_with("--only="));
@@ -87,6 +121,7 @@ fn main() {
     if asked.is_empty() {
         for columns in COLUMNS {
             measure("capsules", models::capsules(columns), only);
+            measure_morphs(models::capsules(columns), only);
         }
         for model in models::models().into_iter().skip(1) {
             measure(&model.name, model.character, only);

@@ -1,16 +1,16 @@
-//! Takes a character through the field: vertices, their directions, morph targets, joints.
+//! Takes a character through the field: vertices, their directions, joints.
 
-use super::attach::LEAST_VERTICES;
-use super::displacement::{Displacements, Ending, single};
+use super::displacement::{Displacements, Ending};
 use super::places::{MeshPlaces, Place};
 use super::{Deformed, DeformedMesh, Deformer, MeshOutputs};
-use crate::character::{Mesh, MorphTarget};
+use crate::character::Mesh;
 use crate::error::Result;
 use crate::parallel;
 use crate::progress::Progress;
 use crate::shape::Measured;
-use crate::shape::directions::{Moved, PIECE, RestTriangles, Room, Turn};
+use crate::shape::directions::{Jacobians, Moved, PIECE, RestTriangles, Room};
 use crate::shape::field::Binding;
+use crate::shape::turn::{LANES, Turn, each_of, four_at, four_of, transposed};
 use glam::{DVec3, Vec3, Vec4};
 use std::ops::Range;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -20,7 +20,7 @@ const BLOCK: usize = 256;
 /// Fewer positions than this are not worth a thread: it takes longer to start than to write them.
 const LEAST_POSITIONS: usize = 100_000;
 /// Fewer pieces than this are not worth a thread.
-const LEAST_PIECES: usize = 40;
+const LEAST_PIECES: usize = 10;
 
 impl Deformer {
     /// The whole result.
@@ -85,6 +85,7 @@ impl Deformer {
     ) -> Result<()> {
         progress.at(0.0)?;
         let meshes = &self.target.character.meshes;
+        let mut room = None;
         for (index, mut places) in places.enumerate() {
             if self.field.finish.is_nothing() {
                 write_unchanged(&meshes[index], places);
@@ -94,7 +95,7 @@ impl Deformer {
                 self.write_positions(index, positions);
             }
             if places.normals.is_some() || places.tangents.is_some() {
-                self.write_directions(index, places);
+                self.write_directions(index, places, room.get_or_insert_default());
             }
         }
         // All is written: it is too late to stop.
@@ -160,7 +161,7 @@ impl Deformer {
     }
 
     /// The vertices of a mesh.
-    fn vertices(&self, mesh: usize) -> Range<usize> {
+    pub(super) fn vertices(&self, mesh: usize) -> Range<usize> {
         let starts = &self.target.measured.figure.mesh_starts;
         starts[mesh]..starts[mesh + 1]
     }
@@ -170,7 +171,7 @@ impl Deformer {
         let rest = &self.target.character.meshes[mesh].positions;
         let displacements = &self.displacements()[self.vertices(mesh)];
         let ending = self.ending();
-        let write = |first: usize, count: usize, mut place: V| {
+        let write = |(): &mut (), first: usize, count: usize, mut place: V| {
             let mut block = [Vec3::ZERO; BLOCK];
             for start in (first..first + count).step_by(BLOCK) {
                 let end = (start + BLOCK).min(first + count);
@@ -182,48 +183,47 @@ impl Deformer {
             }
         };
         let threads = self.options.thread_count;
-        in_shares(threads, rest.len(), LEAST_POSITIONS, place, Place::cut, write);
+        in_shares(threads, rest.len(), LEAST_POSITIONS, &mut (), place, Place::cut, write);
     }
 
     /// Writes what the directions of a mesh turn into.
-    fn write_directions<V: Place<Vec3>, W: Place<Vec4>>(&self, mesh: usize, places: MeshPlaces<V, W>) {
+    fn write_directions<V: Place<Vec3>, W: Place<Vec4>>(
+        &self,
+        mesh: usize,
+        places: MeshPlaces<V, W>,
+        room: &mut Room,
+    ) {
         let rest = self.rest_triangles();
         let Mesh { normals, tangents, .. } = &self.target.character.meshes[mesh];
         let pieces = rest.pieces(mesh);
         let start = self.vertices(mesh).start;
         let cut = |places: MeshPlaces<V, W>, count: usize| places.cut(count * PIECE);
-        let write = |first: usize, count: usize, mut places: MeshPlaces<V, W>| {
-            let mut room = Room::default();
-            let mut new_normals = [Vec3::ZERO; PIECE];
-            let mut new_tangents = [Vec4::ZERO; PIECE];
+        let write = |room: &mut Room, first: usize, count: usize, mut places: MeshPlaces<V, W>| {
+            let mut block = Directions::default();
             for (at, piece) in pieces.clone().skip(first).take(count).enumerate() {
-                let jacobians = rest.jacobians(piece, &self.moved(), &mut room);
+                let jacobians = rest.jacobians(piece, &self.moved(), room);
                 let vertices = rest.vertices(piece);
-                for (index, vertex) in vertices.clone().enumerate() {
-                    let turn = jacobians.of(index).unwrap_or_else(|| self.turn_of_field(vertex));
-                    let new_normal = normals.get(vertex - start).map(|&normal| turn.normal(normal));
-                    if let Some(normal) = new_normal {
-                        new_normals[index] = normal;
+                for from in (0..vertices.len()).step_by(BLOCK) {
+                    let count = BLOCK.min(vertices.len() - from);
+                    let of_mesh = vertices.start - start + from..vertices.start - start + from + count;
+                    let normals = normals.get(of_mesh.clone()).unwrap_or_default();
+                    let tangents = tangents.get(of_mesh).filter(|_| places.tangents.is_some());
+                    let of_field = |index| self.turn_of_field(vertices.start + from + index);
+                    block.turn(&jacobians, from, normals, tangents.unwrap_or_default(), of_field);
+                    if let Some(normals) = &mut places.normals {
+                        normals.write(at * PIECE + from, &block.normals[..count]);
                     }
-                    if places.tangents.is_some() {
-                        let tangent = tangents[vertex - start];
-                        let turned = turn.tangent(tangent.truncate(), new_normal);
-                        new_tangents[index] = turned.extend(tangent.w);
+                    if let Some(tangents) = &mut places.tangents {
+                        tangents.write(at * PIECE + from, &block.tangents[..count]);
                     }
-                }
-                if let Some(normals) = &mut places.normals {
-                    normals.write(at * PIECE, &new_normals[..vertices.len()]);
-                }
-                if let Some(tangents) = &mut places.tangents {
-                    tangents.write(at * PIECE, &new_tangents[..vertices.len()]);
                 }
             }
         };
         let threads = self.options.thread_count;
-        in_shares(threads, pieces.len(), LEAST_PIECES, places, cut, write);
+        in_shares(threads, pieces.len(), LEAST_PIECES, room, places, cut, write);
     }
 
-    fn rest_triangles(&self) -> &RestTriangles {
+    pub(super) fn rest_triangles(&self) -> &RestTriangles {
         let Measured { figure, weld, .. } = &*self.target.measured;
         self.target.rest_triangles.get_or_init(|| {
             let meshes = &self.target.character.meshes;
@@ -232,7 +232,7 @@ impl Deformer {
         })
     }
 
-    fn moved(&self) -> Moved<'_> {
+    pub(super) fn moved(&self) -> Moved<'_> {
         let finish = &self.field.finish;
         let (share, size) = ((finish.size * finish.amount) as f32, finish.size as f32);
         Moved { displacements: self.displacements(), share, size }
@@ -240,102 +240,85 @@ impl Deformer {
 
     /// The field's own Jacobian at a vertex around which no triangle has one; model space.
     #[cold]
-    fn turn_of_field(&self, vertex: usize) -> Turn {
+    pub(super) fn turn_of_field(&self, vertex: usize) -> Turn {
         let figure = &self.target.measured.figure;
         let binding = &self.deformation.bindings.vertices[vertex];
         let jacobian = self.field.map(figure.positions[vertex], binding).jacobian;
         Turn::of(figure.frame.jacobian_to_model(jacobian).as_mat3().into())
     }
+}
 
-    /// What the directions of all of a mesh's vertices turn by.
-    fn turns(&self, mesh: usize) -> Vec<Turn> {
-        let rest = self.rest_triangles();
-        let mut room = Room::default();
-        let mut turns = Vec::with_capacity(self.vertices(mesh).len());
-        for piece in rest.pieces(mesh) {
-            let jacobians = rest.jacobians(piece, &self.moved(), &mut room);
-            let of = |(index, vertex)| jacobians.of(index).unwrap_or_else(|| self.turn_of_field(vertex));
-            turns.extend(rest.vertices(piece).enumerate().map(of));
-        }
-        turns
+/// Directions that are written together.
+struct Directions {
+    normals: [Vec3; BLOCK],
+    tangents: [Vec4; BLOCK],
+}
+
+impl Default for Directions {
+    fn default() -> Self {
+        Self { normals: [Vec3::ZERO; BLOCK], tangents: [Vec4::ZERO; BLOCK] }
     }
+}
 
-    /// The morph targets of each mesh of which they are asked for.
+impl Directions {
+    /// Turns those of the vertices of a piece that follow `from`, none of a kind that is not there.
     ///
-    /// # Errors
-    /// `Cancelled`.
-    pub(crate) fn deformed_targets(
-        &self,
-        is_asked: impl Fn(usize) -> bool,
-        progress: &mut Progress,
-    ) -> Result<Vec<Vec<MorphTarget>>> {
-        let count = self.target.character.meshes.len();
-        let of_mesh = |mesh: usize| {
-            progress.at(mesh as f32 / count as f32)?;
-            Ok(if is_asked(mesh) { self.targets_of_mesh(mesh) } else { Vec::new() })
-        };
-        (0..count).map(of_mesh).collect()
-    }
-
-    fn targets_of_mesh(&self, mesh: usize) -> Vec<MorphTarget> {
-        let Mesh { morph_targets, normals, tangents, .. } = &self.target.character.meshes[mesh];
-        if self.field.finish.is_nothing() {
-            return morph_targets.clone();
+    /// `of_field`: for a vertex that has no Jacobian.
+    fn turn(
+        &mut self,
+        jacobians: &Jacobians,
+        from: usize,
+        normals: &[Vec3],
+        tangents: &[Vec4],
+        of_field: impl Fn(usize) -> Turn,
+    ) {
+        let count = normals.len().max(tangents.len());
+        for four in (0..count).step_by(LANES) {
+            let (turns, are_sound) = jacobians.of_four(from + four);
+            let new = (!normals.is_empty()).then(|| turns.normals(four_of(four_at(normals, four))));
+            if let Some(new) = new {
+                let to = each_of(new, Vec4::ZERO).map(Vec4::truncate);
+                self.normals[four..four + LANES].copy_from_slice(&to);
+            }
+            if !tangents.is_empty() {
+                let [x, y, z, sides] = transposed(four_at(tangents, four));
+                let to = each_of(turns.tangents([x, y, z], new), sides);
+                self.tangents[four..four + LANES].copy_from_slice(&to);
+            }
+            if !are_sound.all() {
+                for index in (four..count.min(four + LANES)).filter(|index| !are_sound.test(index - four)) {
+                    self.turn_one(index, &of_field(index), normals, tangents);
+                }
+            }
         }
-        let turn_normals =
-            !normals.is_empty() && morph_targets.iter().any(|target| !target.normals.is_empty());
-        let turn_tangents =
-            !tangents.is_empty() && morph_targets.iter().any(|target| !target.tangents.is_empty());
-        let turns = if turn_normals || turn_tangents { self.turns(mesh) } else { Vec::new() };
-        let new_normals: Vec<Vec3> =
-            turns.iter().zip(normals).map(|(turn, &normal)| turn.normal(normal)).collect();
-        let tangent =
-            |vertex: usize, tangent: Vec3| turns[vertex].tangent(tangent, new_normals.get(vertex).copied());
-        let directions: Vec<Vec3> = tangents.iter().map(|tangent| tangent.truncate()).collect();
-        let least = if self.vertices(mesh).len() < LEAST_VERTICES { usize::MAX } else { 1 };
-        parallel::collect(self.options.thread_count, morph_targets.len(), least, |index| {
-            let target = &morph_targets[index];
-            MorphTarget {
-                name: target.name.clone(),
-                positions: self.morph_positions(self.vertices(mesh).start, &target.positions),
-                normals: morph_turns(&target.normals, normals, &|vertex, normal| {
-                    turns[vertex].normal(normal)
-                }),
-                tangents: morph_turns(&target.tangents, &directions, &tangent),
-            }
-        })
     }
 
-    /// D(v + d) - D(v): exact, and zero where d is.
-    fn morph_positions(&self, start: usize, deltas: &[Vec3]) -> Vec<Vec3> {
-        let placement = self.placement();
-        let figure = placement.figure;
-        let moved = |(vertex, &delta): (usize, &Vec3)| {
-            if delta == Vec3::ZERO {
-                return Vec3::ZERO;
-            }
-            let whole = start + vertex;
-            let p = figure.positions[whole] + figure.frame.to_canonical(delta.as_dvec3());
-            single(figure.frame.to_model(placement.beside(whole, p) - placement.vertex(whole)))
-        };
-        deltas.iter().enumerate().map(moved).collect()
+    /// Turns those of one vertex.
+    fn turn_one(&mut self, index: usize, turn: &Turn, normals: &[Vec3], tangents: &[Vec4]) {
+        let normal = normals.get(index).map(|&normal| turn.normal(normal));
+        self.normals[index] = normal.unwrap_or_default();
+        if let Some(tangent) = tangents.get(index) {
+            self.tangents[index] = turn.tangent(tangent.truncate(), normal).extend(tangent.w);
+        }
     }
 }
 
 /// Does `write` of so many items from one of them on, in shares side by side where there is enough to do.
 ///
-/// `cut`: a place for the items before one of them, and for the rest.
-fn in_shares<P: Send>(
+/// - `room`: what it works in, where there is one share; each of several gets its own.
+/// - `cut`: a place for the items before one of them, and for the rest.
+fn in_shares<R: Default, P: Send>(
     threads: usize,
     count: usize,
     least: usize,
+    room: &mut R,
     place: P,
     cut: impl Fn(P, usize) -> (P, P),
-    write: impl Fn(usize, usize, P) + Sync,
+    write: impl Fn(&mut R, usize, usize, P) + Sync,
 ) {
     let share_count = parallel::share_count(threads, count, least);
     if share_count == 1 {
-        return write(0, count, place);
+        return write(room, 0, count, place);
     }
     let share = count.div_ceil(share_count);
     let mut shares = Vec::with_capacity(share_count);
@@ -349,7 +332,7 @@ fn in_shares<P: Send>(
     parallel::collect(threads, shares.len(), 1, |index| {
         if let Some(place) = shares[index].lock().unwrap_or_else(PoisonError::into_inner).take() {
             let first = index * share;
-            write(first, share.min(count - first), place);
+            write(&mut R::default(), first, share.min(count - first), place);
         }
     });
 }
@@ -365,25 +348,4 @@ fn write_unchanged<V: Place<Vec3>, W: Place<Vec4>>(mesh: &Mesh, mut places: Mesh
     if let Some(tangents) = &mut places.tangents {
         tangents.write(0, &mesh.tangents);
     }
-}
-
-/// Changes of unit vectors: what the changed vector turns into, less what the unchanged one does.
-fn morph_turns(deltas: &[Vec3], before: &[Vec3], turn: &dyn Fn(usize, Vec3) -> Vec3) -> Vec<Vec3> {
-    if before.len() != deltas.len() {
-        // Without base vectors there is nothing that the deltas change.
-        return deltas.to_vec();
-    }
-    deltas
-        .iter()
-        .enumerate()
-        .map(|(vertex, &delta)| {
-            if delta == Vec3::ZERO {
-                return Vec3::ZERO;
-            }
-            let changed = before[vertex] + delta;
-            // What comes out is of unit length, whatever came in.
-            let length = if before[vertex] == Vec3::ZERO { 1.0 } else { before[vertex].length() };
-            turn(vertex, changed) * (changed.length() / length) - turn(vertex, before[vertex])
-        })
-        .collect()
 }

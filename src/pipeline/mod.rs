@@ -9,6 +9,7 @@ mod attach;
 mod displacement;
 mod finish;
 mod hair;
+mod morphs;
 mod paper;
 pub mod places;
 mod product;
@@ -83,6 +84,8 @@ struct Target {
     measured: Arc<Measured>,
     /// Made when directions are first wanted.
     rest_triangles: OnceLock<Arc<RestTriangles>>,
+    /// Found when morph targets are first wanted: by mesh.
+    touched: OnceLock<Arc<Vec<morphs::Touched>>>,
 }
 
 /// What a mode makes of target, style and options, whatever amount and face are.
@@ -203,7 +206,8 @@ impl Deformer {
         let measured = Arc::new(Measured::of_figure(figure, &character, options, part)?);
         let timing = Timing { measure: milliseconds(clock), ..Timing::default() };
         progress.at(0.25)?;
-        let target = Target { character, measured, rest_triangles: OnceLock::new() };
+        let target =
+            Target { character, measured, rest_triangles: OnceLock::new(), touched: OnceLock::new() };
         let known = Known::default();
         Self::deform(target, rig, style.clone(), options.clone(), known, timing, &mut progress.part(0.3, 1.0))
     }

@@ -122,13 +122,13 @@ impl ProductTarget {
 
     /// What is added to each vertex so that locks which lay on the body still do; empty where nothing is.
     pub fn hair_offsets(&self, target: &Target, placement: &Placement) -> Vec<DVec3> {
-        let hair = self.hair.get_or_init(|| self.hair_on_body(target));
+        let hair = self.hair.get_or_init(|| self.hair_on_body(target, placement.threads));
         if hair.is_empty() {
             return placement.hair_offsets.to_vec();
         }
         let after = placement.all_vertices();
         let (low, high) = extent(&after);
-        let offsets = hair.kept_outside(&after, &target.measured.weld, high - low);
+        let offsets = hair.kept_outside(&after, &target.measured.weld, high - low, placement.threads);
         let mut all = placement.hair_offsets.to_vec();
         if offsets.is_empty() {
             return all;
@@ -168,7 +168,7 @@ impl ProductTarget {
         self.strands.get_or_init(|| Strands::of(target, &self.bindings))
     }
 
-    fn hair_on_body(&self, target: &Target) -> HairOnBody {
+    fn hair_on_body(&self, target: &Target, threads: usize) -> HairOnBody {
         let figure = &target.measured.figure;
         let chin = target.measured.anatomy.landmarks.heights.chin;
         let hair: Vec<usize> = (0..figure.positions.len())
@@ -177,7 +177,7 @@ impl ProductTarget {
         let of_head = |vertex: usize| self.weight(vertex, Part::Hair) + self.weight(vertex, Part::Head);
         let body =
             if hair.is_empty() { Vec::new() } else { figure.triangles_where(|vertex| of_head(vertex) < 0.5) };
-        HairOnBody::of(&figure.positions, &figure.triangles, body, hair, &target.measured.weld)
+        HairOnBody::of(&figure.positions, &figure.triangles, body, hair, &target.measured.weld, threads)
     }
 }
 

@@ -5,26 +5,25 @@
 //! drawn characters have edited ones) keep what was edited, and vertices at one place turn alike.
 //!
 //! Vertices are taken in pieces, as many as fit a processor's nearest memory with the triangles around them: four
-//! triangles side by side, and nothing kept from piece to piece. A triangle at a border is looked at by each of its pieces,
-//! in the order of the mesh, so that the pieces do not show.
+//! triangles side by side, then each vertex sums up what happens around it, and nothing is kept from piece to piece. A
+//! triangle at a border is looked at by each of its pieces, in the order of the mesh, so that the pieces do not show.
 
+use super::turn::{LANES, Turn, Turns, columns_of, four_at, root, transposed};
 use crate::geometry::bounds;
 use crate::geometry::weld::Weld;
-use glam::{DVec3, Mat3A, Mat4, Vec3, Vec3A, Vec4};
+use glam::{BVec4A, DVec3, Mat3A, Vec3, Vec3A, Vec4};
 use std::ops::Range;
 
 /// Triangles of less than this share of their longest edge's square have no direction: rounding to 32 bits alone would
 /// turn them.
 const LEAST_AREA: f64 = 1e-10;
 /// Vertices of a piece.
-pub const PIECE: usize = 256;
-/// Groups of four triangles that are looked at together, and so the corners that they have at most.
-const GROUPS: usize = 64;
+pub const PIECE: usize = 1024;
+/// Triangles that are looked at together, and so the corners that they have at most.
+const BATCH: usize = 256;
 const CORNERS: usize = 1024;
-const _: () = assert!(CORNERS >= 3 * LANES * GROUPS && CORNERS.is_power_of_two());
-/// Triangles of a group.
-const LANES: usize = 4;
-/// The slot of corners that are no vertex of the piece: sums that nobody reads.
+const _: () = assert!(CORNERS >= 3 * BATCH && CORNERS.is_power_of_two() && BATCH.is_power_of_two());
+/// The slot of corners that are no vertex of the piece.
 const NO_SLOT: u16 = PIECE as u16;
 
 /// What meshes are at rest, to fit Jacobians to what happens to them.
@@ -38,6 +37,10 @@ pub struct RestTriangles {
     batches: Vec<Batch>,
     corners: Vec<Corner>,
     groups: Vec<Group>,
+    runs: Vec<Run>,
+    /// Run after run, which of the batch's triangles are around the vertex, ascending; twice where it is two of a triangle's
+    /// corners.
+    around: Vec<u16>,
     /// From model units to edges of about 1, so that no unit is out of a float's range. A power of two, by which nothing is
     /// rounded: a mirrored mesh, wound the other way, may have another one.
     scale: f32,
@@ -55,6 +58,15 @@ struct Piece {
 struct Batch {
     corners: Range<u32>,
     groups: Range<u32>,
+    runs: Range<u32>,
+    around: Range<u32>,
+}
+
+/// How many of a batch's triangles are around the vertex of a slot.
+#[derive(Clone, Copy, Debug)]
+struct Run {
+    slot: u16,
+    count: u16,
 }
 
 /// A vertex of the figure, and where it is at rest: from the middle of all, so that nothing is lost far from the origin, scaled.
@@ -69,8 +81,6 @@ struct Corner {
 struct Group {
     /// Of each of the three corners, which of the batch's it is.
     corners: [[u16; LANES]; 3],
-    /// Of each of them, the sums of its piece that it adds to.
-    slots: [[u16; LANES]; 3],
     /// Rows by which the two edges after, and a normal, make up the gradient, by area; x, y and z of each. The normal's is by the
     /// root of the area, as it is multiplied by that of the area after.
     rows: [[Vec4; 3]; 3],
@@ -79,12 +89,7 @@ struct Group {
 }
 
 impl Group {
-    const NONE: Self = Self {
-        corners: [[0; LANES]; 3],
-        slots: [[NO_SLOT; LANES]; 3],
-        rows: [[Vec4::ZERO; 3]; 3],
-        areas: Vec4::ZERO,
-    };
+    const NONE: Self = Self { corners: [[0; LANES]; 3], rows: [[Vec4::ZERO; 3]; 3], areas: Vec4::ZERO };
 }
 
 /// Where vertices go: scale (p + stretch p + share d), up to a shift; a displacement d for each vertex.
@@ -102,74 +107,49 @@ pub struct Moved<'a> {
 pub struct Room {
     /// By corner: where it is after.
     points: [Vec4; CORNERS],
-    /// By slot: columns times the triangles' area, summed up, and that area as the first one's w.
-    sums: [[Vec4; 3]; PIECE + 1],
+    /// By triangle: the columns of its gradient times its area, and that area as the first one's w.
+    gradients: [[Vec4; 3]; BATCH],
+    /// By slot: the gradients around it, summed up.
+    sums: [[Vec4; 3]; PIECE],
 }
 
 impl Default for Room {
     fn default() -> Self {
-        Self { points: [Vec4::ZERO; CORNERS], sums: [[Vec4::ZERO; 3]; PIECE + 1] }
+        Self {
+            points: [Vec4::ZERO; CORNERS],
+            gradients: [[Vec4::ZERO; 3]; BATCH],
+            sums: [[Vec4::ZERO; 3]; PIECE],
+        }
     }
 }
 
-/// The Jacobians of a piece's vertices.
+/// The Jacobians of a piece's vertices: each fitted to the triangles around it, their mean by area.
 pub struct Jacobians<'a> {
-    sums: &'a [[Vec4; 3]; PIECE + 1],
+    sums: &'a [[Vec4; 3]; PIECE],
     slots: &'a [u16],
 }
 
 impl Jacobians<'_> {
-    /// The Jacobian fitted to the triangles around the piece's vertex number `index`, their mean by area; `None` where none
-    /// has an area, or the mean has lost its volume.
-    #[inline(always)]
+    /// What the piece's vertex number `index` turns by; `None` where no triangle around it has an area, or their mean has
+    /// lost its volume.
     pub fn of(&self, index: usize) -> Option<Turn> {
         let [x, y, z] = self.sums[usize::from(self.slots[index])];
         let by_area = x.w.recip();
         let column = |v: Vec4| Vec3A::from_vec4(v * by_area);
         let turn = Turn::of(Mat3A::from_cols(column(x), column(y), column(z)));
-        (x.w > 0.0 && turn.volume.abs() > LEAST_VOLUME).then_some(turn)
-    }
-}
-
-/// Below this determinant a Jacobian has no volume left, and turns nothing.
-const LEAST_VOLUME: f32 = 1e-12;
-
-/// What directions turn by.
-#[derive(Clone, Copy, Debug)]
-pub struct Turn {
-    jacobian: Mat3A,
-    /// Its inverse transpose, up to a factor.
-    cofactors: Mat3A,
-    /// Its determinant.
-    volume: f32,
-}
-
-impl Turn {
-    /// By a Jacobian.
-    #[inline(always)]
-    pub fn of(jacobian: Mat3A) -> Self {
-        let (x, y, z) = (jacobian.x_axis, jacobian.y_axis, jacobian.z_axis);
-        let cofactors = Mat3A::from_cols(y.cross(z), z.cross(x), x.cross(y));
-        Self { jacobian, cofactors, volume: cofactors.x_axis.dot(x) }
+        (x.w > 0.0 && turn.has_volume()).then_some(turn)
     }
 
-    /// What a normal becomes.
+    /// The same of four vertices from `first` on, the last one again for those that are not there; and of which there is one.
     #[inline(always)]
-    pub fn normal(&self, normal: Vec3) -> Vec3 {
-        let turned = self.cofactors * Vec3A::from(normal);
-        let turned = if self.volume < 0.0 { -turned } else { turned };
-        turned.normalize_or(normal.into()).into()
-    }
-
-    /// What a tangent becomes, at right angles to the new normal where there is one.
-    #[inline(always)]
-    pub fn tangent(&self, tangent: Vec3, new_normal: Option<Vec3>) -> Vec3 {
-        let turned = self.jacobian * Vec3A::from(tangent);
-        let flat = match new_normal {
-            Some(normal) => turned.reject_from_normalized(normal.into()),
-            None => turned,
-        };
-        flat.normalize_or(tangent.into()).into()
+    pub fn of_four(&self, first: usize) -> (Turns, BVec4A) {
+        let sums = four_at(self.slots, first).map(|slot| &self.sums[usize::from(slot) & (PIECE - 1)]);
+        let columns: [[Vec4; LANES]; 3] =
+            std::array::from_fn(|column| transposed(sums.map(|sum| sum[column])));
+        let area = columns[0][3];
+        let by_area = Vec4::ONE / area;
+        let turns = Turns::of(columns.map(|[x, y, z, _]| [x * by_area, y * by_area, z * by_area]));
+        (turns, area.cmpgt(Vec4::ZERO) & turns.have_volume())
     }
 }
 
@@ -212,6 +192,8 @@ impl RestTriangles {
         // Kept as long as the deformer.
         rest.groups.shrink_to_fit();
         rest.corners.shrink_to_fit();
+        rest.runs.shrink_to_fit();
+        rest.around.shrink_to_fit();
         rest
     }
 
@@ -237,10 +219,25 @@ impl RestTriangles {
         for batch in &self.batches[range(batches)] {
             for (point, corner) in room.points.iter_mut().zip(&self.corners[range(&batch.corners)]) {
                 let displacement = moved.displacements[corner.vertex as usize];
-                *point = (size * corner.at + share * displacement).extend(0.0);
+                *point = size * corner.at.extend(0.0) + share * displacement.extend(0.0);
             }
-            for group in &self.groups[range(&batch.groups)] {
-                group.add(&room.points, &mut room.sums);
+            let (fours, _) = room.gradients.as_chunks_mut();
+            for (group, gradients) in self.groups[range(&batch.groups)].iter().zip(fours) {
+                group.write_gradients(&room.points, gradients);
+            }
+            let mut around = &self.around[range(&batch.around)];
+            for run in &self.runs[range(&batch.runs)] {
+                let (of_run, rest) = around.split_at(run.count.into());
+                around = rest;
+                let sum = &mut room.sums[usize::from(run.slot) & (PIECE - 1)];
+                let [mut x, mut y, mut z] = *sum;
+                for &triangle in of_run {
+                    let gradient = &room.gradients[usize::from(triangle) & (BATCH - 1)];
+                    x += gradient[0];
+                    y += gradient[1];
+                    z += gradient[2];
+                }
+                *sum = [x, y, z];
             }
         }
         Jacobians { sums: &room.sums, slots: &self.slots[range(vertices)] }
@@ -248,15 +245,13 @@ impl RestTriangles {
 }
 
 impl Group {
-    /// Adds the triangles' gradients to the sums of their corners.
+    /// The triangles' gradients, as [`Room::gradients`] has them.
     #[inline(always)]
-    fn add(&self, points: &[Vec4; CORNERS], sums: &mut [[Vec4; 3]; PIECE + 1]) {
+    fn write_gradients(&self, points: &[Vec4; CORNERS], gradients: &mut [[Vec4; 3]; LANES]) {
         let point =
             |corner: usize, lane: usize| points[usize::from(self.corners[corner][lane]) & (CORNERS - 1)];
-        let edge = |corner: usize| {
-            let edges: [Vec4; LANES] = std::array::from_fn(|lane| point(corner, lane) - point(0, lane));
-            transposed(edges)
-        };
+        let first: [Vec4; LANES] = std::array::from_fn(|lane| point(0, lane));
+        let edge = |corner: usize| transposed(std::array::from_fn(|lane| point(corner, lane) - first[lane]));
         let (a, b) = (edge(1), edge(2));
         let [rows_a, rows_b, rows_n] = &self.rows;
         let cross = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
@@ -264,37 +259,21 @@ impl Group {
         // The normal, times the root of the area after.
         let factor = root(area_after) / area_after;
         let normal = cross.map(|v| v * factor);
-        // A triangle that has lost its area says nothing.
-        let counts = area_after.cmpgt(Vec4::ZERO) & area_after.is_finite_mask();
-        let select = |v: Vec4| if counts.all() { v } else { Vec4::select(counts, v, Vec4::ZERO) };
-        let [a, b, normal] = [[a[0], a[1], a[2]], [b[0], b[1], b[2]], normal].map(|v| v.map(select));
-        let columns: [[Vec4; LANES]; 3] = std::array::from_fn(|column| {
+        let columns: [[Vec4; 3]; 3] = std::array::from_fn(|column| {
             let of = |axis: usize| {
                 a[axis] * rows_a[column] + b[axis] * rows_b[column] + normal[axis] * rows_n[column]
             };
-            let last = if column == 0 { select(self.areas) } else { Vec4::ZERO };
-            transposed([of(0), of(1), of(2), last])
+            std::array::from_fn(of)
         });
-        for lane in 0..LANES {
-            for slots in &self.slots {
-                let sum = &mut sums[usize::from(slots[lane]).min(PIECE)];
-                for (sum, column) in sum.iter_mut().zip(&columns) {
-                    *sum += column[lane];
-                }
+        *gradients = columns_of(columns, self.areas);
+        // A triangle that has lost its area says nothing.
+        let counts = area_after.cmpgt(Vec4::ZERO) & area_after.cmplt(Vec4::INFINITY);
+        if !counts.all() {
+            for lane in (0..LANES).filter(|&lane| !counts.test(lane)) {
+                gradients[lane] = [Vec4::ZERO; 3];
             }
         }
     }
-}
-
-#[inline(always)]
-fn transposed([x, y, z, w]: [Vec4; 4]) -> [Vec4; 4] {
-    let Mat4 { x_axis, y_axis, z_axis, w_axis } = Mat4::from_cols(x, y, z, w).transpose();
-    [x_axis, y_axis, z_axis, w_axis]
-}
-
-#[inline(always)]
-fn root(v: Vec4) -> Vec4 {
-    Vec4::from_array(v.to_array().map(f32::sqrt))
 }
 
 fn range(of: &Range<u32>) -> Range<usize> {
@@ -383,7 +362,7 @@ impl Builder<'_> {
         triangles.dedup_by_key(|triangle| place(*triangle));
         triangles.sort_unstable();
         let first = rest.batches.len() as u32;
-        for batch in triangles.chunks(LANES * GROUPS) {
+        for batch in triangles.chunks(BATCH) {
             self.add_batch(batch, rest);
         }
         for vertex in vertices.clone() {
@@ -397,7 +376,9 @@ impl Builder<'_> {
 
     fn add_batch(&mut self, triangles: &[u32], rest: &mut RestTriangles) {
         let (first_corner, first_group) = (rest.corners.len(), rest.groups.len() as u32);
-        for four in triangles.chunks(LANES) {
+        // Slots and the triangles around them.
+        let mut around: Vec<(u16, u16)> = Vec::with_capacity(3 * triangles.len());
+        for (number, four) in triangles.chunks(LANES).enumerate() {
             let mut group = Group::NONE;
             for (lane, &triangle) in four.iter().enumerate() {
                 let corners = self.triangles[triangle as usize];
@@ -409,8 +390,10 @@ impl Builder<'_> {
                         rest.corners.push(Corner { vertex, at: (self.scale * at).as_vec3() });
                     }
                     group.corners[corner][lane] = *of_batch;
-                    group.slots[corner][lane] =
-                        self.slots[self.weld.representative[vertex as usize] as usize];
+                    let slot = self.slots[self.weld.representative[vertex as usize] as usize];
+                    if slot != NO_SLOT {
+                        around.push((slot, (LANES * number + lane) as u16));
+                    }
                 }
                 let (rows, area) = self.rows(corners);
                 group.areas[lane] = area;
@@ -425,9 +408,17 @@ impl Builder<'_> {
         for corner in &rest.corners[first_corner..] {
             self.corners[corner.vertex as usize] = u16::MAX;
         }
+        around.sort_unstable();
+        let (first_run, first_around) = (rest.runs.len() as u32, rest.around.len() as u32);
+        for of_slot in around.chunk_by(|a, b| a.0 == b.0) {
+            rest.runs.push(Run { slot: of_slot[0].0, count: of_slot.len() as u16 });
+            rest.around.extend(of_slot.iter().map(|&(_, triangle)| triangle));
+        }
         rest.batches.push(Batch {
             corners: first_corner as u32..rest.corners.len() as u32,
             groups: first_group..rest.groups.len() as u32,
+            runs: first_run..rest.runs.len() as u32,
+            around: first_around..rest.around.len() as u32,
         });
     }
 

@@ -14,6 +14,7 @@ pub mod pose;
 pub mod product;
 pub mod stride;
 pub mod style;
+pub mod turn;
 
 pub use body_shape::{BodyShape, BoneShape};
 pub use group::{Coefficient, GroupShape};

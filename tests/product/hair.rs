@@ -152,15 +152,15 @@ fn hair_that_would_sink_into_the_body_is_kept_outside() {
     for inwards in [false, true] {
         let (before, triangles, hair, body) = lock_on_ball([0.02; 5], inwards);
         let weld = weld(&before, 1e-9);
-        let on_body = HairOnBody::of(&before, &triangles, triangles[..body].to_vec(), hair.clone(), &weld);
+        let on_body = HairOnBody::of(&before, &triangles, triangles[..body].to_vec(), hair.clone(), &weld, 1);
         assert!(!on_body.is_empty());
         // Nothing to do where nothing moved.
-        assert_eq!(on_body.kept_outside(&before, &weld, 2.0), []);
+        assert_eq!(on_body.kept_outside(&before, &weld, 2.0, 1), []);
         let mut after = before.clone();
         for &vertex in &hair[1..4] {
             after[vertex] *= 0.99 / 1.02;
         }
-        let pushes = on_body.kept_outside(&after, &weld, 2.0);
+        let pushes = on_body.kept_outside(&after, &weld, 2.0, 1);
         assert_eq!(pushes.len(), 5);
         // Half of the 0.02 that it was away, and 0.008 of the height of 2 is more.
         for (vertex, push) in pushes {
@@ -175,23 +175,23 @@ fn hair_that_would_sink_into_the_body_is_kept_outside() {
 fn hair_far_from_the_body_and_hair_without_a_body_stay() {
     let (before, triangles, hair, body) = lock_on_ball([0.5; 5], false);
     let weld = weld(&before, 1e-9);
-    let on_body = HairOnBody::of(&before, &triangles, triangles[..body].to_vec(), hair.clone(), &weld);
+    let on_body = HairOnBody::of(&before, &triangles, triangles[..body].to_vec(), hair.clone(), &weld, 1);
     let mut after = before.clone();
     for &vertex in &hair {
         after[vertex] *= 1.3 / 1.5;
     }
     // 0.3 away where 0.008 of the height is enough.
-    assert_eq!(on_body.kept_outside(&after, &weld, 2.0), []);
-    let bald = HairOnBody::of(&before, &triangles, triangles[..body].to_vec(), Vec::new(), &weld);
-    assert!(bald.is_empty() && bald.kept_outside(&after, &weld, 2.0).is_empty());
-    let bodiless = HairOnBody::of(&before, &triangles, Vec::new(), hair, &weld);
-    assert!(bodiless.is_empty() && bodiless.kept_outside(&after, &weld, 2.0).is_empty());
+    assert_eq!(on_body.kept_outside(&after, &weld, 2.0, 1), []);
+    let bald = HairOnBody::of(&before, &triangles, triangles[..body].to_vec(), Vec::new(), &weld, 1);
+    assert!(bald.is_empty() && bald.kept_outside(&after, &weld, 2.0, 1).is_empty());
+    let bodiless = HairOnBody::of(&before, &triangles, Vec::new(), hair, &weld, 1);
+    assert!(bodiless.is_empty() && bodiless.kept_outside(&after, &weld, 2.0, 1).is_empty());
 }
 
 #[test]
 fn hair_that_was_inside_the_body_may_stay_there() {
     let (before, triangles, hair, body) = lock_on_ball([-0.05; 5], false);
     let weld = weld(&before, 1e-9);
-    let on_body = HairOnBody::of(&before, &triangles, triangles[..body].to_vec(), hair, &weld);
-    assert_eq!(on_body.kept_outside(&before, &weld, 2.0), []);
+    let on_body = HairOnBody::of(&before, &triangles, triangles[..body].to_vec(), hair, &weld, 1);
+    assert_eq!(on_body.kept_outside(&before, &weld, 2.0, 1), []);
 }

@@ -7,6 +7,7 @@
 
 use super::scales::HeadScale;
 use crate::geometry::{Mapped, Neighbours, Surface, Weld, double_area, neighbours, smoothstep};
+use crate::parallel;
 use glam::{DMat3, DVec3};
 
 /// The slope of the height's map at the chin, against the mean slope: 1 would be straight, 2 would come to rest at the
@@ -163,6 +164,8 @@ impl HairMap {
     }
 }
 
+/// Fewer vertices of hair than this are not worth a thread.
+const LEAST_HAIR: usize = 200;
 /// Steps that spread a push over the neighbouring hair. D15. Seen: ±30 % moves nothing by a thousandth of H.
 const SPREAD_PASSES: usize = 8;
 /// Hair keeps at least this share of its old distance from the body, up to `CLEARANCE` of the height. D15. Seen:
@@ -179,6 +182,8 @@ pub struct HairOnBody {
     /// The hair's vertices.
     hair: Vec<usize>,
     around: Neighbours,
+    /// See [`rims`].
+    rims: Vec<u32>,
     /// 1, or -1 for a body that is wound to look inwards, as mirrored ones are.
     outwards: f64,
     /// How far outside of the body each vertex of hair is, below 0 inside.
@@ -196,14 +201,16 @@ impl HairOnBody {
         body: Vec<[u32; 3]>,
         hair: Vec<usize>,
         weld: &Weld,
+        threads: usize,
     ) -> Self {
         let is_needed = !(body.is_empty() || hair.is_empty());
         let outwards = if volume(positions, &body) < 0.0 { -1.0 } else { 1.0 };
         let around = if is_needed { neighbours(triangles, weld) } else { Neighbours::default() };
-        let mut hair = Self { body, hair, around, outwards, distances: Vec::new() };
+        let rims = if is_needed { rims(&body, weld) } else { Vec::new() };
+        let mut hair = Self { body, hair, around, rims, outwards, distances: Vec::new() };
         if is_needed {
             hair.distances =
-                hair.to_body(positions, weld).into_iter().map(|(distance, _)| distance).collect();
+                hair.to_body(positions, weld, threads).into_iter().map(|(distance, _)| distance).collect();
         }
         hair
     }
@@ -214,30 +221,27 @@ impl HairOnBody {
     }
 
     /// How far outside of the body each vertex is, and which way out is there.
-    fn to_body(&self, points: &[DVec3], weld: &Weld) -> Vec<(f64, DVec3)> {
+    fn to_body(&self, points: &[DVec3], weld: &Weld, threads: usize) -> Vec<(f64, DVec3)> {
         let surface = Surface::new(points, &self.body);
-        let normals = vertex_normals(points, &self.body, weld);
-        self.hair
-            .iter()
-            .map(|&vertex| match surface.closest_point(points[vertex]) {
-                Some(closest) => {
-                    let corners = weld.triangle(self.body[closest.triangle]);
-                    let normal: DVec3 = corners
-                        .iter()
-                        .zip(closest.barycentric)
-                        .map(|(&corner, share)| self.outwards * share * normals[corner as usize])
-                        .sum();
-                    if normal == DVec3::ZERO {
-                        // Beside a rim there is no inside.
-                        return (f64::INFINITY, DVec3::ZERO);
-                    }
-                    let from = points[vertex] - closest.point;
-                    let sign = if from.dot(normal) < 0.0 { -1.0 } else { 1.0 };
-                    (sign * closest.distance, normal.normalize_or_zero())
-                }
-                None => (f64::INFINITY, DVec3::ZERO),
-            })
-            .collect()
+        let normals = vertex_normals(points, &self.body, &self.rims, weld);
+        let beside = (f64::INFINITY, DVec3::ZERO);
+        parallel::collect(threads, self.hair.len(), LEAST_HAIR, |index| {
+            let p = points[self.hair[index]];
+            let Some(closest) = surface.closest_point(p) else { return beside };
+            let corners = weld.triangle(self.body[closest.triangle]);
+            let normal: DVec3 = corners
+                .iter()
+                .zip(closest.barycentric)
+                .map(|(&corner, share)| self.outwards * share * normals[corner as usize])
+                .sum();
+            if normal == DVec3::ZERO {
+                // Beside a rim there is no inside.
+                return beside;
+            }
+            let from = p - closest.point;
+            let sign = if from.dot(normal) < 0.0 { -1.0 } else { 1.0 };
+            (sign * closest.distance, normal.normalize_or_zero())
+        })
     }
 
     /// The vertices of hair, and what must be added to each so that locks which lay on the body still do.
@@ -248,11 +252,17 @@ impl HairOnBody {
     ///
     /// - `after`: where all vertices are now; `height`: of the figure then.
     /// - Returns hair's vertices with their displacements; none where nothing is to do.
-    pub fn kept_outside(&self, after: &[DVec3], weld: &Weld, height: f64) -> Vec<(usize, DVec3)> {
+    pub fn kept_outside(
+        &self,
+        after: &[DVec3],
+        weld: &Weld,
+        height: f64,
+        threads: usize,
+    ) -> Vec<(usize, DVec3)> {
         let needs: Vec<DVec3> = self
             .distances
             .iter()
-            .zip(self.to_body(after, weld))
+            .zip(self.to_body(after, weld, threads))
             .map(|(&old, (new, normal))| {
                 let least = (KEPT_DISTANCE * old).min(CLEARANCE * height);
                 if old > 0.0 && new < least { normal * (least - new) } else { DVec3::ZERO }
@@ -310,15 +320,8 @@ pub fn volume(points: &[DVec3], triangles: &[[u32; 3]]) -> f64 {
         .sum()
 }
 
-/// Normals of the welded vertices that `triangles` use, by area; zero elsewhere and at rims, where a surface ends.
-pub fn vertex_normals(points: &[DVec3], triangles: &[[u32; 3]], weld: &Weld) -> Vec<DVec3> {
-    let mut normals = vec![DVec3::ZERO; weld.count];
-    for corners in triangles {
-        let normal = double_area(points, *corners);
-        for corner in weld.triangle(*corners) {
-            normals[corner as usize] += normal;
-        }
-    }
+/// The welded vertices at rims, where a surface ends: those of edges that one triangle has.
+pub fn rims(triangles: &[[u32; 3]], weld: &Weld) -> Vec<u32> {
     let mut edges: Vec<[u32; 2]> = triangles
         .iter()
         .flat_map(|corners| {
@@ -327,10 +330,24 @@ pub fn vertex_normals(points: &[DVec3], triangles: &[[u32; 3]], weld: &Weld) -> 
         })
         .collect();
     edges.sort_unstable();
-    for same in edges.chunk_by(|a, b| a == b).filter(|same| same.len() == 1) {
-        for &end in &same[0] {
-            normals[end as usize] = DVec3::ZERO;
+    let single = edges.chunk_by(|a, b| a == b).filter(|same| same.len() == 1);
+    let mut rims: Vec<u32> = single.flat_map(|same| same[0]).collect();
+    rims.sort_unstable();
+    rims.dedup();
+    rims
+}
+
+/// Normals of the welded vertices that `triangles` use, by area; zero elsewhere and at their [`rims`].
+pub fn vertex_normals(points: &[DVec3], triangles: &[[u32; 3]], rims: &[u32], weld: &Weld) -> Vec<DVec3> {
+    let mut normals = vec![DVec3::ZERO; weld.count];
+    for corners in triangles {
+        let normal = double_area(points, *corners);
+        for corner in weld.triangle(*corners) {
+            normals[corner as usize] += normal;
         }
+    }
+    for &vertex in rims {
+        normals[vertex as usize] = DVec3::ZERO;
     }
     normals.iter().map(|normal| normal.normalize_or_zero()).collect()
 }

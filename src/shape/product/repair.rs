@@ -82,7 +82,7 @@ impl Worn {
         if self.places.is_empty() || !(height > 0.0 && height.is_finite()) {
             return Pushed::default();
         }
-        let outside = Outside::new(after, &self.body, weld, self.outwards);
+        let outside = Outside::new(after, &self.body, &self.rims, weld, self.outwards);
         let points: Vec<DVec3> = self.vertices.iter().map(|&vertex| after[vertex as usize]).collect();
         let mut membrane = Membrane::new(self, points, SPREAD * height);
         let all: Vec<u32> = (0..self.places.len() as u32).collect();
@@ -228,6 +228,9 @@ impl<'a> Membrane<'a> {
         };
         let normal = |[a, b, c]: [DVec3; 3]| (b - a).cross(c - a);
         let is_flipped = |displaced: &[DVec3], corners: [u32; 3]| {
+            if corners.iter().all(|&corner| displaced[corner as usize] == DVec3::ZERO) {
+                return false;
+            }
             let before = double_area(&self.points, corners);
             let after = normal(moved(displaced, corners));
             before != DVec3::ZERO && after.dot(before) <= LEAST_TURN * after.length() * before.length()

@@ -1,6 +1,6 @@
 //! Clothes as they are worn: what lies over the body at rest, how far from it, and which sheet of cloth over which.
 
-use super::hair::{vertex_normals, volume};
+use super::hair::{rims, vertex_normals, volume};
 use crate::character::MeshKind;
 use crate::geometry::{Closest, Neighbours, Surface, Weld, components, neighbours};
 use crate::parallel;
@@ -30,8 +30,16 @@ pub struct Outside<'a> {
 
 impl<'a> Outside<'a> {
     /// Of `triangles` between `points`; `outwards`: 1, or -1 where they are wound to look inwards.
-    pub fn new(points: &[DVec3], triangles: &'a [[u32; 3]], weld: &'a Weld, outwards: f64) -> Self {
-        let normals = vertex_normals(points, triangles, weld);
+    ///
+    /// `rims`: the triangles' own.
+    pub fn new(
+        points: &[DVec3],
+        triangles: &'a [[u32; 3]],
+        rims: &[u32],
+        weld: &'a Weld,
+        outwards: f64,
+    ) -> Self {
+        let normals = vertex_normals(points, triangles, rims, weld);
         Self { surface: Surface::new(points, triangles), normals, triangles, weld, outwards }
     }
 
@@ -66,6 +74,8 @@ pub struct Under {
 pub struct Worn {
     /// Triangles of the body.
     pub body: Vec<[u32; 3]>,
+    /// Where the body's surface ends.
+    pub rims: Vec<u32>,
     /// 1, or -1 for a body that is wound to look inwards, as mirrored ones are.
     pub outwards: f64,
     /// The welded vertices of the clothes; what follows counts by their order.
@@ -123,7 +133,7 @@ impl Worn {
 
     /// For each place whether the body is around it, where all vertices are at `points`.
     pub fn inside(&self, points: &[DVec3], weld: &Weld, threads: usize) -> Vec<bool> {
-        let outside = Outside::new(points, &self.body, weld, self.outwards);
+        let outside = Outside::new(points, &self.body, &self.rims, weld, self.outwards);
         parallel::collect(threads, self.places.len(), LEAST_VERTICES, |place| {
             let p = points[self.vertices[place] as usize];
             outside.at(p).is_some_and(|(_, distance, _)| distance < 0.0)
@@ -164,7 +174,8 @@ impl Worn {
                 is_sewn[index as usize] = true;
             }
         }
-        let outside = Outside::new(&figure.positions, &body, weld, outwards);
+        let rims = rims(&body, weld);
+        let outside = Outside::new(&figure.positions, &body, &rims, weld, outwards);
         let points: Vec<DVec3> = vertices.iter().map(|&vertex| figure.positions[vertex as usize]).collect();
         let sheets = Surface::new(&points, &triangles);
         let reach = SHEET_REACH * figure.height();
@@ -186,7 +197,7 @@ impl Worn {
         };
         let (distances, under) =
             parallel::collect(threads, points.len(), LEAST_VERTICES, find).into_iter().unzip();
-        Self { body, outwards, places, vertices, triangles, around, distances, under, is_sewn }
+        Self { body, rims, outwards, places, vertices, triangles, around, distances, under, is_sewn }
     }
 }
 
@@ -208,7 +219,7 @@ fn lying_over(
     places.sort_unstable();
     places.dedup();
     let first = weld.first_vertices();
-    let outside = Outside::new(&figure.positions, body, weld, outwards);
+    let outside = Outside::new(&figure.positions, body, &rims(body, weld), weld, outwards);
     let reach = WORN_REACH * figure.height();
     let lies = parallel::collect(threads, places.len(), LEAST_VERTICES, |index| {
         let p = figure.positions[first[places[index] as usize] as usize];
