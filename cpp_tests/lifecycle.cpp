@@ -226,7 +226,7 @@ static void structs_may_be_older_or_newer() {
   SdefDeformer refused{};
   GIVES(SDEF_STATUS_BAD_ARGUMENT,
         sdef_deformer_create(made.get(), style.get(), &options, nullptr, nullptr, &refused, &error));
-  CHECK(std::string(error.message).find("groups 1") != std::string::npos);
+  CHECK(std::string(error.message).find("groups[1]") != std::string::npos);
   // A struct that was only zeroed changes nothing, and says so.
   groups[1] = superdeform::GroupSettings("hand");
   static_cast<SdefGroupSettings &>(groups[0]) = SdefGroupSettings{};

@@ -42,6 +42,8 @@ int main() {
     const superdeform::Deformer stopped(component.character, component.style, superdeform::Options(),
                                         [](float) { return true; });
     CHECK(!stopped && superdeform::last_error().status() == SDEF_STATUS_CANCELLED);
+    // A call on what is empty leaves the reason.
+    CHECK(stopped.joints().positions.empty() && superdeform::last_error().status() == SDEF_STATUS_CANCELLED);
     const superdeform::Deformer made_up(SdefDeformer{42});
     CHECK(made_up.joints().positions.empty() && superdeform::last_error().status() == SDEF_STATUS_BAD_HANDLE);
     CHECK(made_up.report_json().empty());

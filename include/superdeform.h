@@ -9,6 +9,7 @@
 //     sdef_character_rig                                    only where it has no skeleton
 //     sdef_style_from_heads, _from_text, _measure ...       what it should become
 //     sdef_deformer_create, _apply, _map_points ...         made once, applied as often as something changes
+//     sdef_get_warnings, sdef_deformer_get_report           what was found on the way, and in the result
 //     sdef_destroy                                          each handle, once
 //
 // Conventions, for all functions:
@@ -19,31 +20,34 @@
 // Matrices   16 doubles, column by column, for column vectors: the translation is numbers 12, 13 and 14, and numbers
 //            3, 7, 11 and 15 are 0, 0, 0 and 1.
 // Results    The feet stay on the ground. The height does not: a figure of fewer heads is shorter, one that has as few
-//            already keeps its size (SdefOptions.height asks for another). sdef_deformer_get_figure says how tall it
-//            was and is; scale what belongs to it (capsules, cameras, steps) by that.
+//            already keeps its size (SdefOptions.height and head_scale ask for another). sdef_deformer_get_figure says
+//            how tall it was and is; scale what belongs to it (capsules, cameras, steps) by that.
 // Handles    A handle is a number, not an address. 0 is none. One that is destroyed, made up or of another kind gives
-//            SDEF_STATUS_BAD_HANDLE and nothing worse. Styles and deformers keep what they need of a character, which
-//            may be changed or destroyed before them.
+//            SDEF_STATUS_BAD_HANDLE and nothing worse. In C each kind is a struct of that number, so that a compiler
+//            tells them apart; what takes any kind takes the number, its id. Where a language cannot pass structs,
+//            uint64_t is passed the same way on x86-64 and AArch64. Styles and deformers keep what they need:
+//            character and style may be changed or destroyed before them.
 // Threads    Any thread may call anything at any time. Calls that read may run beside each other on one handle; where a
 //            call that changes a handle meets another use of it, the later of the two gets SDEF_STATUS_BUSY (so does
 //            a progress callback that changes what it is called from). No thread outlives a call. Where the system
 //            starts no more threads, a call uses fewer; a host's own may do the work (sdef_set_jobs). Results are the
 //            same bits for any number of threads and on every run.
 // Arrays in  A pointer, a count, and for vertices a stride: the bytes from one element to the next, 0 for packed. They
-//            need no alignment, are read during the call and never kept. NULL is allowed where the count is 0, and for
-//            arrays that may be left out, which say so.
+//            need no alignment, are read during the call and never kept, texts in structs too. NULL is allowed where
+//            the count is 0, and for arrays that may be left out, which say so.
 // Arrays out The caller's, with the number of elements that they can hold (capacity). NULL: left out. One that is too
-//            small gives SDEF_STATUS_BUFFER_TOO_SMALL, and what is needed is written. On an error nothing else is
-//            written but the error, counts and sizes.
-// Text       UTF-8, NUL-terminated; names may be NULL, for none, but where they are asked for. Sentences show 64 bytes
-//            of a name, control characters escaped.
+//            small gives SDEF_STATUS_BUFFER_TOO_SMALL, and what is needed is written. On an error nothing is written
+//            but the error, counts and sizes. They may be arrays that were given in before.
+// Text       UTF-8, NUL-terminated. A name may be NULL, for none, unless the call needs it. Sentences show 64 bytes of
+//            a name, control characters escaped.
 // Structs    Zero a struct, set struct_size = sizeof(it), fill in what there is. SdefOptions is filled by
 //            sdef_options_init, SdefGroupSettings begins as SDEF_GROUP_SETTINGS_INIT. A struct may be newer or older
-//            than the library: what an older one lacks has its default. One smaller than it ever was is refused. In
-//            arrays all have the size of the first. Numbers that choose (kinds, modes) must be one of the constants; 0
-//            and 1 stand for no and yes.
+//            than the library: what an older one lacks has its default; in a newer one, what the library does not know
+//            must be 0 or NAN. One that is smaller than it was in version 1 of the ABI is refused, and so is a field
+//            called reserved that is not 0. In arrays all have the size of the first. Numbers that choose (kinds,
+//            modes) must be one of the constants; 0 and 1 stand for no and yes.
 // Errors     Every call that can fail returns a SdefStatus; its last argument, which may be NULL, receives a sentence
-//            that names the array, the element, the value and the remedy. Other results are then as they were.
+//            that names the array, the element, the value and the remedy.
 // Progress   A callback (NULL: none) that is called on the caller's thread alone, with a fraction that rises to 1: some
 //            twenty times by rig and deformer_create, a few times by other calls. What it returns, if not 0, ends the
 //            call with SDEF_STATUS_CANCELLED and leaves everything as it was. It may call the library, and must return:
@@ -120,7 +124,7 @@ typedef struct SdefError {
   char message[512];     // one sentence, UTF-8, always terminated, cut between characters; empty after SDEF_STATUS_OK
 } SdefError;
 
-#define SDEF_ERROR_INIT {(uint32_t)sizeof(SdefError), 0, 0, 0, 0, {0}}
+#define SDEF_ERROR_INIT {sizeof(SdefError), 0, 0, 0, 0, {0}}
 
 // Called now and then with what part of the work is done, 0 to 1; anything but 0 cancels.
 typedef int32_t (*SdefProgress)(void *user, float fraction);
@@ -211,20 +215,21 @@ SDEF_API SdefStatus sdef_set_jobs(SdefJobs jobs, void *user, SdefError *error);
 #define SDEF_GARMENTS_NEAREST 1         // The closest point of the body, whatever it is.
 #define SDEF_GARMENTS_HEAT 2            // Heat on the clothes themselves.
 
-// Settings of one bone group: SDEF_GROUP_SETTINGS_INIT, then what is to be set. NAN in any number leaves the measured
-// or the default value.
+// Settings of one bone group, left and right together: SDEF_GROUP_SETTINGS_INIT, then what is to be set. NAN in any
+// number leaves the measured or the default value. A scale is set against the character itself, a transfer against the
+// style; where both are given the scale counts. The other groups give way, within limits, to keep the number of heads.
 typedef struct SdefGroupSettings {
   uint32_t struct_size;      // sizeof(SdefGroupSettings)
   uint32_t reserved;         // 0
   const char *group;         // head, neck, torso, shoulder, upper_arm, lower_arm, hand, finger, hip, upper_leg,
                              // lower_leg, foot, or a name of your own from SdefBoneGroup
-  double length_scale;       // 1 keeps the length of the group's bones; 0.01 to 10
-  double thickness_scale;    // 1 keeps the thickness; 0.01 to 10
+  double length_scale;       // times the length of the character's own bones; 1 keeps it; 0.01 to 10
+  double thickness_scale;    // times the character's own thickness; 1 keeps it; 0.01 to 10
   double length_transfer;    // 0 keeps the target's length, 1 takes all of the reference's
   double thickness_transfer; // 0 keeps the target's thickness, 1 takes all of the reference's
 } SdefGroupSettings;
 
-#define SDEF_GROUP_SETTINGS_INIT {(uint32_t)sizeof(SdefGroupSettings), 0, NULL, NAN, NAN, NAN, NAN}
+#define SDEF_GROUP_SETTINGS_INIT {sizeof(SdefGroupSettings), 0, NULL, NAN, NAN, NAN, NAN}
 
 // A bone in a group of your own.
 typedef struct SdefBoneGroup {
@@ -250,7 +255,9 @@ typedef struct SdefOptions {
   uint32_t stage;                   // SDEF_STAGE_*: stop after it; default FACE, which is everything
   uint32_t rays;                    // rays around a sample of a bone, 3 to 4096; 0 (default): the mode's own, 48 or 12
   uint32_t limits;                  // 1 (default) bounds what product mode may do to a body, 0 does not
-  double head_scale;                // size of the head against what the style says, 0.1 to 10; default 1.5, the paper's
+  double head_scale;                // how large the head becomes, against itself in paper mode and the paper's size in
+                                    // the style, 0.1 to 10; default 1.5. The number of heads stays the style's, so all
+                                    // else grows or shrinks with it; without effect where height is set
   double amount;                    // 0 gives the original back, 1 (default) the style
   double profile;                   // 1 (default) makes every slice of the body as broad and deep as the style's, 0
                                     // gives each part one thickness
@@ -274,7 +281,7 @@ typedef struct SdefOptions {
                                     // default ON; product mode alone
   double height;                    // how tall the result is, in the character's units, grown or shrunk as a whole
                                     // about the ground; 0: as tall as the character was; NAN (default): as the style
-                                    // makes it, in product mode at most as tall as it was
+                                    // and head_scale make it, in product mode at most as tall as it was
   double youth;                     // the face from its own age (0) to a child's, or the reference's (1, default)
   double youth_eye;                 // of youth, 0 to 1 (default): eyes grow, lids open
   double youth_lower;               // of youth, 0 to 1 (default): eyes and all beside them sink
@@ -447,8 +454,9 @@ typedef struct SdefCharacterInfo {
 //
 // up:        3 floats, from the feet to the head, any length but 0; NULL: (0, 1, 0), or for a character without a rig
 //            another axis along which it stands as people do
-// forward:   3 floats, the way the face looks, at any angle to up but 0; NULL: found from left and right limbs, as in
-//            right-handed axes, so a left-handed host gives it; without joints from feet and face
+// forward:   3 floats, the way the face looks, at any angle to up but 0. NULL: found, from left and right limbs where
+//            there are joints, else from feet and face. Left and right are told as in right-handed axes: a host with
+//            left-handed ones gives forward, and rig_left_handed to sdef_character_rig
 // character: receives the handle
 //
 // Errors: BAD_ARGUMENT, BAD_INPUT.
@@ -530,7 +538,8 @@ SDEF_API SdefStatus sdef_character_rig(SdefCharacter character, const SdefOption
     void *user, SdefError *error);
 
 // Writes the warnings about the rig and roles of a character, or about a deformer and all before it: a line each,
-// "code: sentence\n", where code is a fixed word such as joint_by_ratio. Empty text where there are none.
+// "code: sentence\n", where code is a fixed word such as joint_by_ratio (README lists them). Empty text where there are
+// none. What only the result shows (clothes_pierced) is among them once sdef_deformer_get_report has measured it.
 //
 // handle:   the id of a character or deformer
 // text:     receives the lines
@@ -557,7 +566,7 @@ typedef struct SdefBone {
 typedef struct SdefStyleNumbers {
   uint32_t struct_size;    // sizeof(SdefStyleNumbers)
   uint32_t reserved;       // 0
-  double heads;            // how many heads tall; what is read of a style for N heads, else only given
+  double heads;            // how many heads tall: a style for N heads is made of it, of others it is only told
   double bone_head_length; // head joint to head top, above 0
   double crown;            // heights of landmarks along up, model space
   double chin;             // height
@@ -585,7 +594,8 @@ typedef struct SdefStyleNumbers {
 // A style of so many heads.
 //
 // heads: 1.8 to 6, crown to sole over crown to chin
-// like:  a style with everything below its head stretched or shortened; the handle 0: everything after the target
+// like:  the style whose body it takes, stretched or shortened below the head until that is so many heads; the handle
+//        0: the body follows from the number and from each target's own. The built-in ones ("sd2.5") are fixed bodies
 //
 // Errors: BAD_OPTION; BAD_STYLE where like has no proportions.
 SDEF_API SdefStatus sdef_style_from_heads(double heads, SdefStyle like, SdefStyle *style, SdefError *error);
@@ -733,7 +743,8 @@ typedef struct SdefFigure {
 typedef struct SdefReport {
   uint32_t struct_size;        // sizeof(SdefReport)
   uint32_t rig_made;           // 1 where the rig was made, 0 where it was the character's own
-  double head_ratio;           // head of the target over head of the style, times head_scale (product mode)
+  double head_ratio;           // the report's g: head length of the target over that of the style, times head_scale; 1
+                               // for a style of N heads that is like none
   uint64_t unreached_vertices; // vertices that the rig left without weights
   uint64_t fallback_vertices;  // vertices that were weighted by another rule than the chosen one
 } SdefReport;
@@ -826,7 +837,8 @@ SDEF_API SdefStatus sdef_deformer_get_figure(SdefDeformer deformer, uint32_t whi
 // measurement together; later ones are for free.
 //
 // report:   may be NULL
-// json:     receives everything as JSON text: numbers by group and role, times, warnings
+// json:     receives everything as JSON text, by the keys that README lists: figures, groups, joints, times, warnings.
+//           Heads and heights alone: sdef_deformer_get_figure
 // capacity: bytes that json can hold
 // size:     receives the bytes needed, the terminating NUL among them; may be NULL
 //

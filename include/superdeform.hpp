@@ -4,7 +4,7 @@
 //     character.set_skeleton(skeleton);                     // SdefSkeleton, see superdeform.h
 //     character.add_mesh(mesh);
 //     superdeform::Deformer deformer(character, superdeform::Style::from_heads(2.5));
-//     deformer.apply({results.data(), results.size()}, [&](float fraction) { return window.closed(); });
+//     deformer.apply(results, [&](float fraction) { return window.closed(); });   // a vector of SdefMeshResult
 //
 // What each call does, takes and refuses stands in superdeform.h. Every status but SDEF_STATUS_OK is thrown as an Error. A
 // progress function may return nothing, or true to cancel; what it throws comes out of the call that it was given to.
@@ -92,7 +92,8 @@ private:
 
 #if !SUPERDEFORM_EXCEPTIONS
 // Why the last call of this thread that failed did so; SDEF_STATUS_OK before there is one, or after it was taken back:
-// last_error() = {SDEF_STATUS_OK, ""}.
+// last_error() = {SDEF_STATUS_OK, ""}. Calls on an empty handle leave the reason why it is empty, so a chain of calls is
+// checked once, at its end.
 inline Error &last_error() {
   static thread_local Error error(SDEF_STATUS_OK, "");
   return error;
@@ -123,11 +124,23 @@ inline bool check_version() {
   return false;
 }
 
+// Is there a reason why this handle is empty? Then a call on it has nothing to add.
+template <class Argument> bool is_empty_since([[maybe_unused]] const Argument &argument) {
+#if !SUPERDEFORM_EXCEPTIONS
+  if constexpr (std::is_same_v<Argument, SdefCharacter> || std::is_same_v<Argument, SdefStyle> ||
+                std::is_same_v<Argument, SdefDeformer>)
+    return argument.id == 0 && last_error().status() != SDEF_STATUS_OK;
+#endif
+  return false;
+}
+
 // Calls a function of the ABI, which gets `arguments` and the error.
 template <class Function, class... Arguments> void call(Function function, Arguments... arguments) {
   if (!check_version()) return;
   SdefError error = SDEF_ERROR_INIT;
-  check(function(arguments..., &error), error);
+  const SdefStatus status = function(arguments..., &error);
+  if (status == SDEF_STATUS_BAD_HANDLE && (is_empty_since(arguments) || ...)) return;
+  check(status, error);
 }
 
 // What a progress function returns, as the library reads it.

@@ -1003,6 +1003,14 @@ fn a_made_rig_is_the_library_s() {
             let lines = |id| text(|t, c, s, e| unsafe { sdef_get_warnings(id, t.cast(), c, s, e) }).unwrap();
             assert_eq!(lines(handle.id).lines().count(), library.warnings.len());
             assert!(lines(made.id).starts_with(&lines(handle.id)));
+            // What the report has found is told too.
+            let found = wanted.report(&wanted.apply()).unwrap().warnings;
+            let codes: Vec<String> = found.iter().map(|warning| format!("{}:", warning.code)).collect();
+            let told = lines(made.id);
+            assert_eq!(
+                told.lines().map(|line| line.split_inclusive(':').next().unwrap()).collect::<Vec<_>>(),
+                codes
+            );
             destroy(made.id);
         }
         // A rig that is stopped leaves the one before; a new mesh is not in it.
@@ -1020,6 +1028,18 @@ fn a_made_rig_is_the_library_s() {
         let mesh = c_mesh(&statue().meshes[0]);
         ask(|error| unsafe { sdef_character_add_mesh(handle, &mesh.mesh, null_mut(), error) }).unwrap();
         assert_eq!(rig_made(), 0);
+        if character.skeleton.joints.is_empty() {
+            let mut none = SdefDeformer::default();
+            let refused = ask(|error| unsafe {
+                sdef_deformer_create(handle, style, null(), None, null_mut(), &mut none, error)
+            });
+            let refused = refused.unwrap_err();
+            assert_eq!(refused.status, SDEF_STATUS_NO_HUMANOID);
+            assert!(
+                refused.message.ends_with("went when the character changed: make it again"),
+                "{refused:?}"
+            );
+        }
         destroy(handle.id);
     }
     destroy(style.id);

@@ -173,14 +173,27 @@ pub unsafe trait HostStruct: Plain {
         // SAFETY: any bytes are a value.
         unsafe { core::mem::zeroed() }
     }
+
+    /// The fields that must be 0 in a struct that is read, so that they can get a meaning later.
+    fn reserved(&self) -> [u32; 2] {
+        [0; 2]
+    }
 }
 
-/// Structs of the caller that are all zero by default.
-macro_rules! host_structs { ($($name:ident),*) => { $(
+/// Words of 4 bytes in fields that are not set: 0, and the halves of NAN as a float or a double.
+const UNSET: [u32; 5] = [0, 0x7fc0_0000, 0xffc0_0000, 0x7ff8_0000, 0xfff8_0000];
+
+/// Structs of the caller that are all zero by default, and the field of each that must be.
+macro_rules! host_structs { ($($name:ident $(($reserved:ident))?),*) => { $(
     // SAFETY: `#[repr(C)]`, numbers and pointers alone, `struct_size` first.
     unsafe impl $crate::ffi::arrays::Plain for $name {}
     unsafe impl $crate::ffi::arrays::HostStruct for $name {
         const NAME: &'static str = stringify!($name);
+        $(
+            fn reserved(&self) -> [u32; 2] {
+                [self.$reserved, 0]
+            }
+        )?
     }
 )* } }
 pub(super) use host_structs;
@@ -191,13 +204,15 @@ pub fn check_size<T: HostStruct>(size: u32) -> Outcome<usize> {
     if !(T::FIRST_SIZE..=LARGEST_STRUCT).contains(&bytes) || !bytes.is_multiple_of(4) {
         let (name, first, own) = (T::NAME, T::FIRST_SIZE, size_of::<T>());
         return Err(Failure::argument(format!(
-            "struct_size of {name} is {size}: set it to sizeof({name}), which is {own} here and was {first} at first"
+            "struct_size of {name} is {size}: set it to sizeof({name}), {own} in this library's header, {first} at least"
         )));
     }
     Ok(bytes)
 }
 
 /// A copy of the caller's struct, which may be older (shorter) or newer (longer) than ours, over the defaults.
+///
+/// What a newer one has beyond ours must not be set: its field would do nothing.
 ///
 /// # Safety
 /// `from` is NULL or points to as many bytes as its first number says.
@@ -207,8 +222,23 @@ pub unsafe fn struct_in<T: HostStruct>(from: *const T) -> Outcome<T> {
     }
     unsafe {
         let size = check_size::<T>(from.cast::<u32>().read_unaligned())?;
+        let own = size_of::<T>();
+        let is_set = |at: usize| !UNSET.contains(&from.cast::<u8>().add(at).cast::<u32>().read_unaligned());
+        if let Some(at) = (own..size).step_by(4).find(|&at| is_set(at)) {
+            return Err(Failure::argument(format!(
+                "{} has a field set at byte {at}, but this library, version {}, knows {own} bytes of it: take the library of your header's release",
+                T::NAME,
+                env!("CARGO_PKG_VERSION")
+            )));
+        }
         let mut copy = T::defaults();
-        (&raw mut copy).cast::<u8>().copy_from_nonoverlapping(from.cast(), size.min(size_of::<T>()));
+        (&raw mut copy).cast::<u8>().copy_from_nonoverlapping(from.cast(), size.min(own));
+        if let Some(number) = copy.reserved().iter().find(|number| **number != 0) {
+            return Err(Failure::argument(format!(
+                "a reserved field of {} is {number}: set it to 0",
+                T::NAME
+            )));
+        }
         Ok(copy)
     }
 }
@@ -257,7 +287,7 @@ impl<T: HostStruct> Structs<T> {
             let own = unsafe { from.cast::<u8>().add(index * size).cast::<u32>().read_unaligned() };
             if own as usize != size {
                 return Err(Failure::argument(format!(
-                    "struct_size of {what} {index} is {own}, but of the first it is {size}: give all the same"
+                    "struct_size of {what}[{index}] is {own}, but of the first it is {size}: give all the same"
                 )));
             }
         }
@@ -486,6 +516,22 @@ mod tests {
         Grown { struct_size, first: 3, later: 4.0 }
     }
 
+    /// What only a newer header knows must not be set: 0 and NAN stand for that.
+    #[test]
+    fn what_a_newer_struct_has_set_is_refused() {
+        #[repr(C)]
+        struct Newer(Grown, f64);
+        let read = |newest| {
+            let newer = Newer(grown(24), newest);
+            unsafe { struct_in((&raw const newer).cast::<Grown>()) }
+        };
+        for unset in [0.0, f64::NAN, -f64::NAN] {
+            assert_eq!(read(unset).unwrap().later, 4.0);
+        }
+        let refused = read(0.5).unwrap_err();
+        assert!(refused.message.starts_with("Grown has a field set at byte 20"), "{}", refused.message);
+    }
+
     #[test]
     fn what_an_older_struct_lacks_has_its_default() {
         let read = |size| unsafe { struct_in(&grown(size)) };
@@ -499,7 +545,7 @@ mod tests {
             let failure = check_size::<Grown>(size).unwrap_err();
             assert_eq!(failure.status, SDEF_STATUS_BAD_ARGUMENT);
             let said = format!(
-                "struct_size of Grown is {size}: set it to sizeof(Grown), which is 16 here and was 8 at first"
+                "struct_size of Grown is {size}: set it to sizeof(Grown), 16 in this library's header, 8 at least"
             );
             assert_eq!(failure.message, said);
         }
@@ -516,7 +562,7 @@ mod tests {
     fn structs_of_an_array_have_one_size() {
         let mixed = [grown(16), grown(8)];
         let failure = unsafe { structs_in("them", mixed.as_ptr(), 2) }.unwrap_err();
-        assert!(failure.message.starts_with("struct_size of them 1 is 8, but of the first it is 16"));
+        assert!(failure.message.starts_with("struct_size of them[1] is 8, but of the first it is 16"));
         let mut to = [grown(16), Grown { struct_size: 0, ..grown(0) }];
         unsafe { structs_out("them", to.as_mut_ptr(), 2, &[grown(0), grown(0)]) }.unwrap();
         assert_eq!(to, [grown(16); 2]);

@@ -8,6 +8,7 @@
 //!     sdef_character_rig                                    only where it has no skeleton
 //!     sdef_style_from_heads, _from_text, _measure ...       what it should become
 //!     sdef_deformer_create, _apply, _map_points ...         made once, applied as often as something changes
+//!     sdef_get_warnings, sdef_deformer_get_report           what was found on the way, and in the result
 //!     sdef_destroy                                          each handle, once
 //! ```
 //!
@@ -20,31 +21,34 @@
 //! Matrices   16 doubles, column by column, for column vectors: the translation is numbers 12, 13 and 14, and numbers
 //!            3, 7, 11 and 15 are 0, 0, 0 and 1.
 //! Results    The feet stay on the ground. The height does not: a figure of fewer heads is shorter, one that has as few
-//!            already keeps its size (SdefOptions.height asks for another). sdef_deformer_get_figure says how tall it
-//!            was and is; scale what belongs to it (capsules, cameras, steps) by that.
+//!            already keeps its size (SdefOptions.height and head_scale ask for another). sdef_deformer_get_figure says
+//!            how tall it was and is; scale what belongs to it (capsules, cameras, steps) by that.
 //! Handles    A handle is a number, not an address. 0 is none. One that is destroyed, made up or of another kind gives
-//!            SDEF_STATUS_BAD_HANDLE and nothing worse. Styles and deformers keep what they need of a character, which
-//!            may be changed or destroyed before them.
+//!            SDEF_STATUS_BAD_HANDLE and nothing worse. In C each kind is a struct of that number, so that a compiler
+//!            tells them apart; what takes any kind takes the number, its id. Where a language cannot pass structs,
+//!            uint64_t is passed the same way on x86-64 and AArch64. Styles and deformers keep what they need:
+//!            character and style may be changed or destroyed before them.
 //! Threads    Any thread may call anything at any time. Calls that read may run beside each other on one handle; where a
 //!            call that changes a handle meets another use of it, the later of the two gets SDEF_STATUS_BUSY (so does
 //!            a progress callback that changes what it is called from). No thread outlives a call. Where the system
 //!            starts no more threads, a call uses fewer; a host's own may do the work (sdef_set_jobs). Results are the
 //!            same bits for any number of threads and on every run.
 //! Arrays in  A pointer, a count, and for vertices a stride: the bytes from one element to the next, 0 for packed. They
-//!            need no alignment, are read during the call and never kept. NULL is allowed where the count is 0, and for
-//!            arrays that may be left out, which say so.
+//!            need no alignment, are read during the call and never kept, texts in structs too. NULL is allowed where
+//!            the count is 0, and for arrays that may be left out, which say so.
 //! Arrays out The caller's, with the number of elements that they can hold (capacity). NULL: left out. One that is too
-//!            small gives SDEF_STATUS_BUFFER_TOO_SMALL, and what is needed is written. On an error nothing else is
-//!            written but the error, counts and sizes.
-//! Text       UTF-8, NUL-terminated; names may be NULL, for none, but where they are asked for. Sentences show 64 bytes
-//!            of a name, control characters escaped.
+//!            small gives SDEF_STATUS_BUFFER_TOO_SMALL, and what is needed is written. On an error nothing is written
+//!            but the error, counts and sizes. They may be arrays that were given in before.
+//! Text       UTF-8, NUL-terminated. A name may be NULL, for none, unless the call needs it. Sentences show 64 bytes of
+//!            a name, control characters escaped.
 //! Structs    Zero a struct, set struct_size = sizeof(it), fill in what there is. SdefOptions is filled by
 //!            sdef_options_init, SdefGroupSettings begins as SDEF_GROUP_SETTINGS_INIT. A struct may be newer or older
-//!            than the library: what an older one lacks has its default. One smaller than it ever was is refused. In
-//!            arrays all have the size of the first. Numbers that choose (kinds, modes) must be one of the constants; 0
-//!            and 1 stand for no and yes.
+//!            than the library: what an older one lacks has its default; in a newer one, what the library does not know
+//!            must be 0 or NAN. One that is smaller than it was in version 1 of the ABI is refused, and so is a field
+//!            called reserved that is not 0. In arrays all have the size of the first. Numbers that choose (kinds,
+//!            modes) must be one of the constants; 0 and 1 stand for no and yes.
 //! Errors     Every call that can fail returns a SdefStatus; its last argument, which may be NULL, receives a sentence
-//!            that names the array, the element, the value and the remedy. Other results are then as they were.
+//!            that names the array, the element, the value and the remedy.
 //! Progress   A callback (NULL: none) that is called on the caller's thread alone, with a fraction that rises to 1: some
 //!            twenty times by rig and deformer_create, a few times by other calls. What it returns, if not 0, ends the
 //!            call with SDEF_STATUS_CANCELLED and leaves everything as it was. It may call the library, and must return:

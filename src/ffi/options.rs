@@ -57,8 +57,9 @@ pub const SDEF_GARMENTS_NEAREST: u32 = 1;
 /// Heat on the clothes themselves.
 pub const SDEF_GARMENTS_HEAT: u32 = 2;
 
-/// Settings of one bone group: SDEF_GROUP_SETTINGS_INIT, then what is to be set. NAN in any number leaves the measured
-/// or the default value.
+/// Settings of one bone group, left and right together: SDEF_GROUP_SETTINGS_INIT, then what is to be set. NAN in any
+/// number leaves the measured or the default value. A scale is set against the character itself, a transfer against the
+/// style; where both are given the scale counts. The other groups give way, within limits, to keep the number of heads.
 #[derive_ReprC]
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
@@ -70,9 +71,9 @@ pub struct SdefGroupSettings {
     /// head, neck, torso, shoulder, upper_arm, lower_arm, hand, finger, hip, upper_leg, lower_leg, foot,
     /// or a name of your own from SdefBoneGroup
     pub group: *const c_char,
-    /// 1 keeps the length of the group's bones; 0.01 to 10
+    /// times the length of the character's own bones; 1 keeps it; 0.01 to 10
     pub length_scale: f64,
-    /// 1 keeps the thickness; 0.01 to 10
+    /// times the character's own thickness; 1 keeps it; 0.01 to 10
     pub thickness_scale: f64,
     /// 0 keeps the target's length, 1 takes all of the reference's
     pub length_transfer: f64,
@@ -85,6 +86,10 @@ unsafe impl HostStruct for SdefGroupSettings {
 
     fn defaults() -> Self {
         Self::default()
+    }
+
+    fn reserved(&self) -> [u32; 2] {
+        [self.reserved, 0]
     }
 }
 
@@ -151,7 +156,8 @@ pub struct SdefOptions {
     pub rays: u32,
     /// 1 (default) bounds what product mode may do to a body, 0 does not
     pub limits: u32,
-    /// size of the head against what the style says, 0.1 to 10; default 1.5, the paper's
+    /// how large the head becomes, against itself in paper mode and the paper's size in the style, 0.1 to 10; default
+    /// 1.5. The number of heads stays the style's, so all else grows or shrinks with it; without effect where height is set
     pub head_scale: f64,
     /// 0 gives the original back, 1 (default) the style
     pub amount: f64,
@@ -191,7 +197,7 @@ pub struct SdefOptions {
     /// SDEF_REPAIR_*: clothes that were outside of the body and would end inside; default ON; product mode alone
     pub repair: u32,
     /// how tall the result is, in the character's units, grown or shrunk as a whole about the ground; 0: as tall as the
-    /// character was; NAN (default): as the style makes it, in product mode at most as tall as it was
+    /// character was; NAN (default): as the style and head_scale make it, in product mode at most as tall as it was
     pub height: f64,
     /// the face from its own age (0) to a child's, or the reference's (1, default)
     pub youth: f64,
@@ -300,11 +306,20 @@ unsafe fn init(options: *mut SdefOptions, struct_size: u32) -> Outcome {
     Ok(())
 }
 
-/// One of several constants, which stand in the order of their numbers.
-pub(super) fn one_of<T: Copy>(what: &str, number: u32, values: &[T]) -> Outcome<T> {
+/// One of several constants, which stand in the order of their numbers. `constants`: how their names begin.
+pub(super) fn one_of<T: Copy>(what: &str, constants: &str, number: u32, values: &[T]) -> Outcome<T> {
     values.get(number as usize).copied().ok_or_else(|| {
-        Failure::argument(format!("{what} is {number}: give one of its constants, 0 to {}", values.len() - 1))
+        let last = values.len() - 1;
+        Failure::argument(format!("{what} is {number}: give one of {constants}*, from 0 to {last}"))
     })
+}
+
+/// 0 for no, 1 for yes.
+fn switch(what: &str, number: u32) -> Outcome<bool> {
+    match number {
+        0 | 1 => Ok(number == 1),
+        _ => Err(Failure::argument(format!("{what} is {number}: give 0 or 1"))),
+    }
 }
 
 /// The role with a number.
@@ -325,13 +340,13 @@ fn unless_nan(number: f64) -> Option<f64> {
 pub(super) unsafe fn read(options: *const SdefOptions) -> Outcome<(Options, RigOptions)> {
     let given = if options.is_null() { defaults() } else { unsafe { arrays::struct_in(options) }? };
     let mut options = Options {
-        mode: one_of("mode", given.mode, Mode::ALL)?,
+        mode: one_of("mode", "SDEF_MODE_", given.mode, Mode::ALL)?,
         rays: (given.rays != 0).then_some(given.rays as usize),
         head_scale: given.head_scale,
         face_squash: unless_nan(given.face_squash),
-        face_curve: one_of("face_curve", given.face_curve, FaceCurve::ALL)?,
+        face_curve: one_of("face_curve", "SDEF_FACE_CURVE_", given.face_curve, FaceCurve::ALL)?,
         amount: given.amount,
-        limits: one_of("limits", given.limits, &[false, true])?,
+        limits: switch("limits", given.limits)?,
         profile: given.profile,
         hair_length: given.hair_length,
         youth: given.youth,
@@ -347,20 +362,20 @@ pub(super) unsafe fn read(options: *const SdefOptions) -> Outcome<(Options, RigO
         smile: given.smile,
         seat: given.seat,
         hair_lay: given.hair_lay,
-        repair: one_of("repair", given.repair, Repair::ALL)?,
+        repair: one_of("repair", "SDEF_REPAIR_", given.repair, Repair::ALL)?,
         height: match unless_nan(given.height) {
             None => Height::Style,
             Some(0.0) => Height::Keep,
             Some(units) => Height::Units(units),
         },
-        stage: one_of("stage", given.stage, Stage::ALL)?,
+        stage: one_of("stage", "SDEF_STAGE_", given.stage, Stage::ALL)?,
         thread_count: given.thread_count as usize,
         ..Options::default()
     };
     let groups = unsafe { arrays::structs_in("groups", given.groups, given.group_count as usize) }?;
     for (index, settings) in groups.iter().enumerate() {
         let at = |failure: Failure| failure.at(SDEF_ELEMENT_GROUP, index);
-        let name = unsafe { arrays::needed_text(format!("group of groups {index}"), settings.group) };
+        let name = unsafe { arrays::needed_text(format!("groups[{index}].group"), settings.group) };
         let name = name.map_err(at)?;
         let settings = GroupSettings {
             length_scale: unless_nan(settings.length_scale),
@@ -369,7 +384,7 @@ pub(super) unsafe fn read(options: *const SdefOptions) -> Outcome<(Options, RigO
             thickness_transfer: unless_nan(settings.thickness_transfer),
         };
         if options.groups.insert(name.clone(), settings).is_some() {
-            let message = format!("groups {index} is {} again: set each group once", Named(&name));
+            let message = format!("groups[{index}] is {} again: set each group once", Named(&name));
             return Err(at(Failure::argument(message)));
         }
     }
@@ -377,24 +392,24 @@ pub(super) unsafe fn read(options: *const SdefOptions) -> Outcome<(Options, RigO
         unsafe { arrays::structs_in("bone_groups", given.bone_groups, given.bone_group_count as usize) }?;
     for (index, bone) in bones.iter().enumerate() {
         let at = |failure: Failure| failure.at(SDEF_ELEMENT_BONE_GROUP, index);
-        let role = role(&format!("bone_groups {index}"), bone.role).map_err(at)?;
-        let name = unsafe { arrays::needed_text(format!("group of bone_groups {index}"), bone.group) };
+        let role = role(&format!("bone_groups[{index}]"), bone.role).map_err(at)?;
+        let name = unsafe { arrays::needed_text(format!("bone_groups[{index}].group"), bone.group) };
         options.bone_groups.insert(role, name.map_err(at)?);
     }
     let mut rig = RigOptions {
-        method: one_of("rig_weights", given.rig_weights, WeightMethod::ALL)?,
-        garments: one_of("rig_garments", given.rig_garments, GarmentWeights::ALL)?,
+        method: one_of("rig_weights", "SDEF_WEIGHTS_", given.rig_weights, WeightMethod::ALL)?,
+        garments: one_of("rig_garments", "SDEF_GARMENTS_", given.rig_garments, GarmentWeights::ALL)?,
         heat: given.rig_heat,
         voxel_resolution: given.rig_voxel_resolution as usize,
-        fingers: one_of("rig_fingers", given.rig_fingers, &[false, true])?,
-        left_handed: one_of("rig_left_handed", given.rig_left_handed, &[false, true])?,
+        fingers: switch("rig_fingers", given.rig_fingers)?,
+        left_handed: switch("rig_left_handed", given.rig_left_handed)?,
         thread_count: given.thread_count as usize,
         ..RigOptions::default()
     };
     let joints =
         unsafe { arrays::structs_in("rig_joints", given.rig_joints, given.rig_joint_count as usize) }?;
     for (index, joint) in joints.iter().enumerate() {
-        let role = role(&format!("rig_joints {index}"), joint.role)
+        let role = role(&format!("rig_joints[{index}]"), joint.role)
             .map_err(|failure| failure.at(SDEF_ELEMENT_GIVEN_JOINT, index))?;
         rig.given.insert(role, DVec3::new(joint.x, joint.y, joint.z));
     }

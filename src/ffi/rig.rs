@@ -35,7 +35,8 @@ pub unsafe extern "C" fn sdef_character_rig(
 }
 
 /// Writes the warnings about the rig and roles of a character, or about a deformer and all before it: a line each,
-/// "code: sentence\n", where code is a fixed word such as joint_by_ratio. Empty text where there are none.
+/// "code: sentence\n", where code is a fixed word such as joint_by_ratio (README lists them). Empty text where there are
+/// none. What only the result shows (clothes_pierced) is among them once sdef_deformer_get_report has measured it.
 ///
 /// handle:   the id of a character or deformer
 /// text:     receives the lines
@@ -58,7 +59,7 @@ pub unsafe extern "C" fn sdef_get_warnings(
                     None => lines(ready.warnings.iter()),
                 }
             }
-            Some(Object::Deformer(state)) => lines(handles::read(&state, "deformer")?.warnings()),
+            Some(Object::Deformer(state)) => handles::read(&state, "deformer")?.warnings(),
             _ => return Err(handles::bad_handle(handle, "character or deformer")),
         };
         arrays::text_out(&lines, text, capacity, size)

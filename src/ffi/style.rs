@@ -50,7 +50,7 @@ pub struct SdefStyleNumbers {
     pub struct_size: u32,
     /// 0
     pub reserved: u32,
-    /// how many heads tall; what is read of a style for N heads, else only given
+    /// how many heads tall: a style for N heads is made of it, of others it is only told
     pub heads: f64,
     /// head joint to head top, above 0
     pub bone_head_length: f64,
@@ -104,12 +104,17 @@ unsafe impl HostStruct for SdefStyleNumbers {
     fn defaults() -> Self {
         UNKNOWN
     }
+
+    fn reserved(&self) -> [u32; 2] {
+        [self.reserved, 0]
+    }
 }
 
 /// A style of so many heads.
 ///
 /// heads: 1.8 to 6, crown to sole over crown to chin
-/// like:  a style with everything below its head stretched or shortened; the handle 0: everything after the target
+/// like:  the style whose body it takes, stretched or shortened below the head until that is so many heads; the handle
+///        0: the body follows from the number and from each target's own. The built-in ones ("sd2.5") are fixed bodies
 ///
 /// Errors: BAD_OPTION; BAD_STYLE where like has no proportions.
 #[ffi_export]
@@ -207,7 +212,8 @@ pub unsafe extern "C" fn sdef_style_measure(
         let character = ready.character();
         let study = memory::with(memory::to_measure(character), options.thread_count, || {
             Ok(Measured::of(character, &options)?)
-        })?;
+        });
+        let study = study.map_err(|failure| ready.explained(failure))?;
         give(shape(BodyShape { name: arrays::text(name), ..study.shape }), style)
     };
     unsafe { call(error, body) }

@@ -217,7 +217,7 @@ pub const TABLE: &[OptionInfo] = rows! {
     "limits", Plain, Values::Switch, "", Default::Switch(true), PRODUCT,
         "bounds what may be done to a body, where measured scales would fold it";
     "head_scale", Plain, number(0.1, 10.0), "", Default::Number(HEAD_SCALE), BOTH,
-        "size of the head: 1 keeps it, 1.5 is the paper's";
+        "size of the head, 1.5 is the paper's; the body follows, so the number of heads stays";
     "amount", Plain, SHARES, "", Default::Number(1.0), BOTH,
         "from the original (0) to the style (1)";
     "profile", Plain, SHARES, "", Default::Number(1.0), PRODUCT,

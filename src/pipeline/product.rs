@@ -13,7 +13,7 @@ use crate::shape::figure::extent;
 use crate::shape::heights::Heights;
 use crate::shape::product::anatomy::Proportions;
 use crate::shape::product::binding::PartBindings;
-use crate::shape::product::coefficients::{Goal, heads_of, part_coefficients};
+use crate::shape::product::coefficients::{Goal, Limits, heads_of, part_coefficients};
 use crate::shape::product::field::PartField;
 use crate::shape::product::groups::PartGroups;
 use crate::shape::product::part::{PartWeights, fold_to_parts};
@@ -70,8 +70,8 @@ pub fn deform(
     warnings.extend(hair_shortened(&product.parts, head_length));
     let request =
         Request { target, product: &product, style, options, groups: &groups, weights: OnceCell::new() };
-    let (attempt, heads_left) = request.best(progress)?;
-    warnings.extend(attempt.warnings);
+    let (attempt, of_attempt, heads_left) = request.best(progress)?;
+    warnings.extend(of_attempt);
     let field = attempt.field;
     progress.at(0.6)?;
     let placement = product.placement(&target.measured.figure, &field, options.thread_count);
@@ -138,7 +138,10 @@ fn hair_shortened(parts: &PartBindings, head_length: f64) -> Option<Warning> {
 struct Attempt {
     field: Field,
     scales: PartCoefficients,
-    warnings: Vec<Warning>,
+    /// The bounds that acted, the thicknesses that the profile replaces, and its own warning.
+    limits: Limits,
+    replaced: Vec<&'static str>,
+    limited: Option<Warning>,
     /// The head count that was aimed at, and the one measured on the result.
     aim: f64,
     measured: f64,
@@ -162,8 +165,8 @@ struct Request<'a> {
 
 impl Request<'_> {
     /// Fields until the head count measured on the result is right, first of the parts alone and then with the style's
-    /// profile: the best of them, and a warning of what is left.
-    fn best(&self, progress: &mut Progress) -> Result<(Attempt, Option<Warning>)> {
+    /// profile: the best of them, its warnings, and one of a head count that is not the one asked for.
+    fn best(&self, progress: &mut Progress) -> Result<(Attempt, Vec<Warning>, Option<Warning>)> {
         let asked = match self.style {
             Style::Heads(heads) => *heads,
             Style::Shape(shape) => proportions_of(shape)?.heads(),
@@ -173,13 +176,19 @@ impl Request<'_> {
             best = self.best_of(SLICED_ATTEMPTS, asked, best.aim, true, &mut progress.part(0.5, 0.65))?;
         }
         let Attempt { misread, measured, .. } = best;
-        let heads_left = (misread > HEADS_WARNED_ABOVE).then(|| {
-            let message = format!(
-                "{measured:.2} heads are measured on the result instead of {asked:.2}: its chin or crown reads differently from the target's"
-            );
+        let mut warnings = best.limits.warnings(measured, asked, &best.replaced);
+        warnings.extend(best.limited.take());
+        let heads_left = (misread > HEADS_WARNED_ABOVE && !best.limits.act_on_heads()).then(|| {
+            let why = if self.options.groups.values().any(|group| group.length_scale.is_some()) {
+                "the lengths set for groups leave no other"
+            } else {
+                "its chin or crown reads differently from the target's"
+            };
+            let message =
+                format!("{measured:.2} heads are measured on the result instead of {asked:.2}: {why}");
             Warning::new("heads_limited", message)
         });
-        Ok((best, heads_left))
+        Ok((best, warnings, heads_left))
     }
 
     /// The best of so many fields, the first of which aims at `aim` heads.
@@ -196,7 +205,7 @@ impl Request<'_> {
             progress.at(count as f32 / attempts as f32)?;
             let attempt = self.attempt(asked, aim, is_sliced)?;
             let (error, measured) = (attempt.error, attempt.measured);
-            let is_limited = attempt.warnings.iter().any(|warning| warning.code == "heads_limited");
+            let is_limited = attempt.limits.act_on_heads();
             if best.as_ref().is_none_or(|best| error < best.error) {
                 best = Some(attempt);
             }
@@ -233,18 +242,15 @@ impl Request<'_> {
         } else {
             Sliced { field, limited: None, replaced: Vec::new() }
         };
-        let mut warnings = limits.warnings(&replaced);
-        warnings.extend(limited);
         let measured =
             product.heads(&product.placement(&target.measured.figure, &field, options.thread_count));
         let reached = heads_of(&anatomy.proportions, &scales);
-        let is_limited = warnings.iter().any(|warning| warning.code == "heads_limited");
-        let reach = if is_limited { reached } else { asked };
+        let reach = if limits.act_on_heads() { reached } else { asked };
         let off = |heads: f64| (heads / reach).ln().abs();
         // A chin that the target does not show is no more to be believed where the result shows one: a ball's underside
         // steps back here or there, as last digits say. So it corrects nothing, and is only warned of.
         let error = off(if anatomy.landmarks.chin_seen { measured } else { reached });
-        Ok(Attempt { field, scales, warnings, aim, measured, error, misread: off(measured) })
+        Ok(Attempt { field, scales, limits, replaced, limited, aim, measured, error, misread: off(measured) })
     }
 }
 

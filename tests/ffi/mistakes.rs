@@ -181,6 +181,7 @@ const CASES: &[(&str, u32, &str, Call)] = &[
     ),
     ("a mesh of size 0", ARGUMENT, "SdefMesh is 0", Mesh(|_, mesh| mesh.struct_size = 0)),
     ("a mesh of a pointer's size", ARGUMENT, "SdefMesh is 8", Mesh(|_, mesh| mesh.struct_size = 8)),
+    ("a reserved field of 3", ARGUMENT, "SdefMesh is 3: set it to 0", Mesh(|_, mesh| mesh.reserved_2 = 3)),
     ("a mesh of size 7", ARGUMENT, "SdefMesh is 7", Mesh(|_, mesh| mesh.struct_size = 7)),
     ("a mesh of wild size", ARGUMENT, "3735928556", Mesh(|_, mesh| mesh.struct_size = 0xDEAD_BEEC)),
     ("an unknown kind", ARGUMENT, "kind is 7", Mesh(|_, mesh| mesh.kind = 7)),
@@ -393,13 +394,13 @@ const CASES: &[(&str, u32, &str, Call)] = &[
     (
         "a group without a name",
         ARGUMENT,
-        "group of groups 0 is NULL",
+        "groups[0].group is NULL",
         Deform(FULL, |host, options| (options.groups, options.group_count) = (&host.nameless, 1)),
     ),
     (
         "groups of mixed sizes",
         ARGUMENT,
-        "struct_size of groups 1",
+        "struct_size of groups[1]",
         Deform(FULL, |host, options| (options.groups, options.group_count) = (host.mixed.as_ptr(), 2)),
     ),
     ("text with its NUL", ARGUMENT, "NUL at byte 5", Text("sd2.5\0")),

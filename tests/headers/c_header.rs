@@ -71,7 +71,7 @@ const INITIALISED: [&str; 2] = ["SdefError", "SdefGroupSettings"];
 fn initialiser(name: &str, block: &str) -> String {
     let fields = block.lines().map(str::trim).filter(|line| line.ends_with(';') && !line.starts_with('}'));
     let values = fields.map(|field| match field {
-        "uint32_t struct_size;" => format!("(uint32_t)sizeof({name})"),
+        "uint32_t struct_size;" => format!("sizeof({name})"),
         _ if field.contains('*') => "NULL".to_string(),
         _ if field.contains('[') => "{0}".to_string(),
         _ if field.starts_with("double ") => "NAN".to_string(),

@@ -52,7 +52,8 @@ fn small() -> Proportions {
 
 fn solved(target: &Proportions, goal: Goal, options: &Options) -> (PartCoefficients, Vec<Warning>) {
     let (scales, limits) = part_coefficients(target, goal, options, &PartGroups::default()).unwrap();
-    (scales, limits.warnings(&[]))
+    let warnings = limits.warnings(heads_of(target, &scales), goal.heads(), &[]);
+    (scales, warnings)
 }
 
 /// Within the sixth digit, as the numbers below are written.

@@ -191,8 +191,9 @@ internal static unsafe partial class Native
     ///
     /// up:        3 floats, from the feet to the head, any length but 0; NULL: (0, 1, 0), or for a character without a rig
     /// another axis along which it stands as people do
-    /// forward:   3 floats, the way the face looks, at any angle to up but 0; NULL: found from left and right limbs, as in
-    /// right-handed axes, so a left-handed host gives it; without joints from feet and face
+    /// forward:   3 floats, the way the face looks, at any angle to up but 0. NULL: found, from left and right limbs where
+    /// there are joints, else from feet and face. Left and right are told as in right-handed axes: a host with
+    /// left-handed ones gives forward, and rig_left_handed to sdef_character_rig
     /// character: receives the handle
     ///
     /// Errors: BAD_ARGUMENT, BAD_INPUT.
@@ -391,7 +392,8 @@ internal static unsafe partial class Native
     /// measurement together; later ones are for free.
     ///
     /// report:   may be NULL
-    /// json:     receives everything as JSON text: numbers by group and role, times, warnings
+    /// json:     receives everything as JSON text, by the keys that README lists: figures, groups, joints, times, warnings.
+    /// Heads and heights alone: sdef_deformer_get_figure
     /// capacity: bytes that json can hold
     /// size:     receives the bytes needed, the terminating NUL among them; may be NULL
     ///
@@ -481,7 +483,8 @@ internal static unsafe partial class Native
 
     /// <summary>
     /// Writes the warnings about the rig and roles of a character, or about a deformer and all before it: a line each,
-    /// "code: sentence\n", where code is a fixed word such as joint_by_ratio. Empty text where there are none.
+    /// "code: sentence\n", where code is a fixed word such as joint_by_ratio (README lists them). Empty text where there are
+    /// none. What only the result shows (clothes_pierced) is among them once sdef_deformer_get_report has measured it.
     ///
     /// handle:   the id of a character or deformer
     /// text:     receives the lines
@@ -557,7 +560,8 @@ internal static unsafe partial class Native
     /// A style of so many heads.
     ///
     /// heads: 1.8 to 6, crown to sole over crown to chin
-    /// like:  a style with everything below its head stretched or shortened; the handle 0: everything after the target
+    /// like:  the style whose body it takes, stretched or shortened below the head until that is so many heads; the handle
+    /// 0: the body follows from the number and from each target's own. The built-in ones ("sd2.5") are fixed bodies
     ///
     /// Errors: BAD_OPTION; BAD_STYLE where like has no proportions.
     /// </summary>
@@ -1022,8 +1026,9 @@ internal unsafe struct SdefCharacterInfo {
 }
 
 /// <summary>
-/// Settings of one bone group: SDEF_GROUP_SETTINGS_INIT, then what is to be set. NAN in any number leaves the measured
-/// or the default value.
+/// Settings of one bone group, left and right together: SDEF_GROUP_SETTINGS_INIT, then what is to be set. NAN in any
+/// number leaves the measured or the default value. A scale is set against the character itself, a transfer against the
+/// style; where both are given the scale counts. The other groups give way, within limits, to keep the number of heads.
 /// </summary>
 [StructLayout(LayoutKind.Sequential)]
 internal unsafe struct SdefGroupSettings {
@@ -1044,12 +1049,12 @@ internal unsafe struct SdefGroupSettings {
     public sbyte* group;
 
     /// <summary>
-    /// 1 keeps the length of the group's bones; 0.01 to 10
+    /// times the length of the character's own bones; 1 keeps it; 0.01 to 10
     /// </summary>
     public double length_scale;
 
     /// <summary>
-    /// 1 keeps the thickness; 0.01 to 10
+    /// times the character's own thickness; 1 keeps it; 0.01 to 10
     /// </summary>
     public double thickness_scale;
 
@@ -1152,7 +1157,8 @@ internal unsafe struct SdefOptions {
     public UInt32 limits;
 
     /// <summary>
-    /// size of the head against what the style says, 0.1 to 10; default 1.5, the paper's
+    /// how large the head becomes, against itself in paper mode and the paper's size in the style, 0.1 to 10; default
+    /// 1.5. The number of heads stays the style's, so all else grows or shrinks with it; without effect where height is set
     /// </summary>
     public double head_scale;
 
@@ -1249,7 +1255,7 @@ internal unsafe struct SdefOptions {
 
     /// <summary>
     /// how tall the result is, in the character's units, grown or shrunk as a whole about the ground; 0: as tall as the
-    /// character was; NAN (default): as the style makes it, in product mode at most as tall as it was
+    /// character was; NAN (default): as the style and head_scale make it, in product mode at most as tall as it was
     /// </summary>
     public double height;
 
@@ -1609,7 +1615,8 @@ internal unsafe struct SdefReport {
     public UInt32 rig_made;
 
     /// <summary>
-    /// head of the target over head of the style, times head_scale (product mode)
+    /// the report's g: head length of the target over that of the style, times head_scale; 1 for a style of N heads that
+    /// is like none
     /// </summary>
     public double head_ratio;
 
@@ -1764,7 +1771,7 @@ internal unsafe struct SdefStyleNumbers {
     public UInt32 reserved;
 
     /// <summary>
-    /// how many heads tall; what is read of a style for N heads, else only given
+    /// how many heads tall: a style for N heads is made of it, of others it is only told
     /// </summary>
     public double heads;
 
@@ -1911,7 +1918,7 @@ public partial struct OptionRange
     /// <summary>Rays around each sample of a bone.</summary>
     public static readonly OptionRange Rays = new OptionRange(3, 4096);
 
-    /// <summary>Size of the head: 1 keeps it, 1.5 is the paper's.</summary>
+    /// <summary>Size of the head, 1.5 is the paper's; the body follows, so the number of heads stays.</summary>
     public static readonly OptionRange HeadScale = new OptionRange(0.1, 10);
 
     /// <summary>From the original (0) to the style (1).</summary>
@@ -1996,7 +2003,7 @@ public static class OptionDefaults
     /// <summary>Bounds what may be done to a body, where measured scales would fold it.</summary>
     public const bool Limits = true;
 
-    /// <summary>Size of the head: 1 keeps it, 1.5 is the paper's.</summary>
+    /// <summary>Size of the head, 1.5 is the paper's; the body follows, so the number of heads stays.</summary>
     public const double HeadScale = 1.5;
 
     /// <summary>From the original (0) to the style (1).</summary>

@@ -198,7 +198,7 @@ unsafe fn mesh(given: &SdefMesh, image: Option<Arc<GreyImage>>) -> Outcome<Mesh>
         Some(MeshKind::Accessory),
         Some(MeshKind::Eye),
     ];
-    let kind = one_of("kind", given.kind, &kinds)?;
+    let kind = one_of("kind", "SDEF_MESH_", given.kind, &kinds)?;
     let count = given.vertex_count;
     if count >= u32::MAX as usize {
         return Err(Failure::argument(format!("vertex_count is {count}: give at most 4294967294")));

@@ -5,7 +5,7 @@ use crate::character::mesh::place;
 use crate::character::roles::find_roles;
 use crate::character::{Axes, Character, GreyImage, Humanoid, Mesh, Skeleton};
 use crate::error::Warning;
-use crate::ffi::basics::SDEF_ELEMENT_VERTEX;
+use crate::ffi::basics::{SDEF_ELEMENT_VERTEX, SDEF_STATUS_NO_HUMANOID};
 use crate::ffi::guard::{Failure, Outcome};
 use crate::ffi::memory;
 use crate::pipeline::Rig;
@@ -23,6 +23,8 @@ pub struct CharacterState {
     /// What meshes show.
     images: Vec<Arc<GreyImage>>,
     rig: Option<MadeRig>,
+    /// True where a made rig went as the character changed.
+    rig_went: bool,
 }
 
 /// A character whose roles, and kinds of meshes, are found when they are first asked for: until then meshes may still
@@ -47,12 +49,21 @@ pub struct Ready {
     pub rigged: Option<(Arc<Rig>, Arc<Character>)>,
     /// Warnings about the roles.
     pub warnings: Vec<Warning>,
+    rig_went: bool,
 }
 
 impl Ready {
     /// The character to work with.
     pub fn character(&self) -> &Arc<Character> {
         self.rigged.as_ref().map_or(&self.own, |(_, rigged)| rigged)
+    }
+
+    /// Says of joints that are missing that a rig was made, and why it is none any more.
+    pub fn explained(&self, mut failure: Failure) -> Failure {
+        if failure.status == SDEF_STATUS_NO_HUMANOID && self.rigged.is_none() && self.rig_went {
+            failure.message += "; the rig that was made went when the character changed: make it again";
+        }
+        failure
     }
 }
 
@@ -67,6 +78,7 @@ impl CharacterState {
             kind_is_open: Vec::new(),
             images: Vec::new(),
             rig: None,
+            rig_went: false,
         }
     }
 
@@ -80,7 +92,7 @@ impl CharacterState {
         change(Arc::make_mut(&mut resolved.character));
         resolved.roles_found = false;
         resolved.warnings.clear();
-        self.rig = None;
+        self.rig_went |= self.rig.take().is_some();
     }
 
     /// The character with its own rig; its roles may not be found yet.
@@ -118,6 +130,7 @@ impl CharacterState {
             own: resolved.character.clone(),
             rigged: self.rig.as_ref().map(|made| (made.rig.clone(), made.rigged.clone())),
             warnings: resolved.warnings.clone(),
+            rig_went: self.rig_went,
         }
     }
 

@@ -320,7 +320,7 @@ pub unsafe extern "C" fn sdef_deformer_get_figure(
     let body = || unsafe {
         let state = handles::deformer(deformer)?;
         arrays::check_struct_out(figure)?;
-        let which = options::one_of("which", which, &[0, 1, 2])?;
+        let which = options::one_of("which", "SDEF_FIGURE_", which, &[0, 1, 2])?;
         let state = handles::read(&state, "deformer")?;
         let report = state.report()?;
         let value = match which {
@@ -337,7 +337,8 @@ pub unsafe extern "C" fn sdef_deformer_get_figure(
 /// measurement together; later ones are for free.
 ///
 /// report:   may be NULL
-/// json:     receives everything as JSON text: numbers by group and role, times, warnings
+/// json:     receives everything as JSON text, by the keys that README lists: figures, groups, joints, times, warnings.
+///           Heads and heights alone: sdef_deformer_get_figure
 /// capacity: bytes that json can hold
 /// size:     receives the bytes needed, the terminating NUL among them; may be NULL
 ///

@@ -36,7 +36,8 @@ impl DeformerState {
                 Ok(Deformer::with_rigged(rigged.clone(), &ready.own, rig, style, options, progress)?)
             }
             None => Ok(Deformer::with_progress(ready.own.clone(), style, options, progress)?),
-        })?;
+        });
+        let deformer = deformer.map_err(|failure| ready.explained(failure))?;
         let notes = if ready.rigged.is_some() { Vec::new() } else { ready.warnings.clone() };
         Ok(Self { deformer, notes, report: OnceLock::new() })
     }
@@ -54,9 +55,12 @@ impl DeformerState {
         Ok(())
     }
 
-    /// All warnings so far.
-    pub fn warnings(&self) -> impl Iterator<Item = &Warning> {
-        self.notes.iter().chain(self.deformer.warnings())
+    /// All warnings so far, a line each: those of the report once there is one.
+    pub fn warnings(&self) -> String {
+        match self.report.get() {
+            Some(report) => guard::lines(report.warnings.iter()),
+            None => guard::lines(self.notes.iter().chain(self.deformer.warnings())),
+        }
     }
 
     /// The numbers of the run.

@@ -171,11 +171,12 @@ pub struct SdefReport {
     pub struct_size: u32,
     /// 1 where the rig was made, 0 where it was the character's own
     pub rig_made: u32,
-    /// head of the target over head of the style, times head_scale (product mode)
+    /// the report's g: head length of the target over that of the style, times head_scale; 1 for a style of N heads that
+    /// is like none
     pub head_ratio: f64,
     /// vertices that the rig left without weights
     pub unreached_vertices: u64,
     /// vertices that were weighted by another rule than the chosen one
     pub fallback_vertices: u64,
 }
-host_structs!(SdefMeshResult, SdefCollider, SdefSpringBall, SdefGroup, SdefFigure, SdefReport);
+host_structs!(SdefMeshResult, SdefCollider(reserved), SdefSpringBall, SdefGroup, SdefFigure, SdefReport);

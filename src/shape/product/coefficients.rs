@@ -105,7 +105,7 @@ pub enum Goal<'a> {
 
 impl Goal<'_> {
     /// How many heads tall the result should be.
-    fn heads(&self) -> f64 {
+    pub fn heads(&self) -> f64 {
         match self {
             Goal::Heads(heads) => *heads,
             Goal::Reference(reference) => reference.heads(),
@@ -119,6 +119,13 @@ struct Bounded {
     what: &'static str,
     from: f64,
     to: f64,
+}
+
+impl Bounded {
+    /// True for lengths that make a figure taller or shorter.
+    fn is_of_height(&self) -> bool {
+        ["neck", "torso length", "leg length", "foot"].contains(&self.what)
+    }
 }
 
 /// The bounds, and those that acted.
@@ -227,21 +234,26 @@ pub struct Limits {
 }
 
 impl Limits {
+    /// True where bounds keep the figure from the number of heads.
+    pub fn act_on_heads(&self) -> bool {
+        (self.heads / self.asked - 1.0).abs() > HEADS_WARNED_ABOVE
+            && self.acted.iter().any(Bounded::is_of_height)
+    }
+
     /// Warnings that name every bound that acted: `heads_limited`, `coefficient_limited`.
     ///
+    /// - `heads`, `asked`: the head count that came out, and the one wanted.
     /// - `replaced`: thicknesses and sizes that something else sets afterwards, by their names in the warnings. Their bounds are
     ///   not warned of.
-    pub fn warnings(&self, replaced: &[&str]) -> Vec<Warning> {
+    pub fn warnings(&self, heads: f64, asked: f64, replaced: &[&str]) -> Vec<Warning> {
         let list = |chosen: &dyn Fn(&Bounded) -> bool| {
             let chosen = self.acted.iter().filter(|bounded| chosen(bounded));
             let item = |Bounded { what, from, to }: &Bounded| format!("{what} {from:.3} to {to:.3}");
             chosen.map(item).collect::<Vec<_>>().join(", ")
         };
         let mut warnings = Vec::new();
-        let Self { heads, asked, .. } = self;
-        let of_height =
-            list(&|bounded| ["neck", "torso length", "leg length", "foot"].contains(&bounded.what));
-        if (heads / asked - 1.0).abs() > HEADS_WARNED_ABOVE && !of_height.is_empty() {
+        if self.act_on_heads() && (heads / asked - 1.0).abs() > HEADS_WARNED_ABOVE {
+            let of_height = list(&Bounded::is_of_height);
             let message = format!("{heads:.2} heads instead of {asked:.2}: limited {of_height}");
             warnings.push(Warning::new("heads_limited", message));
         }
