@@ -220,32 +220,45 @@ fn random_people(count: usize) -> Vec<Outcome> {
 #[test]
 fn random_people_are_found() {
     let summary = summary("random people", &random_people(24));
-    assert!(summary.near >= 0.75, "{:.3} of the joints are near", summary.near);
-    assert!(summary.trusted_far <= 0.05, "{:.3} of the trusted joints are far off", summary.trusted_far);
+    assert!(summary.near >= 0.85, "{:.3} of the joints are near", summary.near);
+    assert!(summary.trusted_far <= 0.02, "{:.3} of the trusted joints are far off", summary.trusted_far);
 }
 
-/// Every table of this file, on many more figures; `FIGURES` says on how many random ones, `LINES` shows each, `ONLY`
+/// Every table of this file, on many more figures; `FIGURES` says on how many random ones, `PART` names some of the tables, `LINES` shows each, `ONLY`
 /// chooses by name, `PICTURES` names a folder for pictures.
 #[test]
 #[ignore = "minutes of measuring: run it with --ignored --nocapture"]
 fn survey() {
-    let outcomes = random_people(count("FIGURES", 500));
-    let all = summary("random people", &outcomes);
-    for pose in ["Arms", "Forward", "OneUp"] {
-        short_summary(pose, outcomes.iter().filter(|outcome| outcome.name.contains(pose)));
+    let part = std::env::var("PART").unwrap_or_default();
+    let wanted = |name: &str| part.is_empty() || part.split(',').any(|part| part == name);
+    let mut found = Vec::new();
+    if wanted("random") {
+        let outcomes = random_people(count("FIGURES", 500));
+        found.push(("random", summary("random people", &outcomes)));
+        for pose in ["Arms", "Forward", "OneUp"] {
+            short_summary(pose, outcomes.iter().filter(|outcome| outcome.name.contains(pose)));
+        }
+        short_summary("bare", outcomes.iter().filter(|outcome| outcome.name.ends_with("[]")));
+        for thing in figures::THINGS {
+            let name = format!("{thing:?}");
+            short_summary(&name, outcomes.iter().filter(|outcome| outcome.name.contains(&name)));
+        }
     }
-    short_summary("bare", outcomes.iter().filter(|outcome| outcome.name.ends_with("[]")));
-    for thing in figures::THINGS {
-        let name = format!("{thing:?}");
-        short_summary(&name, outcomes.iter().filter(|outcome| outcome.name.contains(&name)));
+    if wanted("sweep") {
+        found.push(("sweep", summary("arms by 5 degrees", &arms_by_angle(count("BODIES", 24)))));
     }
-    let sweep = summary("arms by 5 degrees", &arms_by_angle(count("BODIES", 24)));
-    let stripped = summary("stripped models", &stripped());
-    for cells in [160, 300] {
-        summary(&format!("solids of {cells} cells"), &solids(&real_people(), cells));
+    if wanted("stripped") {
+        found.push(("stripped", summary("stripped models", &stripped())));
     }
-    let ways = summary("any way up", &any_way_up());
-    for (what, found) in [("random", all), ("sweep", sweep), ("stripped", stripped), ("ways", ways)] {
+    if wanted("solids") {
+        for cells in [160, 300] {
+            summary(&format!("solids of {cells} cells"), &solids(&real_people(), cells));
+        }
+    }
+    if wanted("ways") {
+        found.push(("ways", summary("any way up", &any_way_up())));
+    }
+    for (what, found) in found {
         assert!(
             found.trusted_far <= 0.15,
             "{what}: {:.3} of the trusted joints are far off",

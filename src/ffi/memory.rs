@@ -80,9 +80,20 @@ pub fn to_report(character: &Character) -> usize {
 /// Making a rig, and the character with it.
 pub fn to_rig(character: &Character, options: &RigOptions) -> usize {
     let body = Size::of(character).bytes([1000, 600, 36, 8]);
-    let [all, within] = voxels(character, options.voxel_resolution);
-    body.saturating_add(all.saturating_mul(VOXEL)).saturating_add(within.saturating_mul(VOXEL_WITHIN))
+    let bytes = |resolution: usize, voxel: usize, more_within: usize| {
+        let [all, within] = voxels(character, resolution);
+        all.saturating_mul(voxel).saturating_add(within.saturating_mul(more_within))
+    };
+    let solid = bytes(SOLID, SOLID_CELL, SOLID_CELL_WITHIN);
+    body.saturating_add(solid.max(bytes(options.voxel_resolution, VOXEL, VOXEL_WITHIN)))
 }
+
+/// Cells along the longest side of a figure where its limbs are looked for, a quarter more for what is wider than high.
+const SOLID: usize = 200;
+/// Bytes a cell of the box around a figure takes there, 5 and half as much again.
+const SOLID_CELL: usize = 8;
+/// Bytes more a cell within the figure, 32 and half as much again.
+const SOLID_CELL_WITHIN: usize = 48;
 
 /// Bytes a voxel of the box around a figure, 4 and half as much again.
 const VOXEL: usize = 6;

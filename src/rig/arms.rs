@@ -96,6 +96,7 @@ const WRIST_MARGIN: f64 = 0.01;
 const BEND_RANGE: (f64, f64) = (0.35, 0.7);
 
 /// One arm.
+#[derive(Clone, Debug)]
 pub struct Arm {
     /// The shoulder joint.
     pub shoulder: DVec3,
@@ -113,6 +114,14 @@ pub struct Arm {
     pub pit_seen: bool,
     /// True where a wrist was seen.
     pub wrist_seen: bool,
+}
+
+impl Arm {
+    /// How far down the way from shoulder to wrist the elbow is.
+    pub fn elbow_share(&self) -> f64 {
+        let upper = self.shoulder.distance(self.elbow);
+        upper / (upper + self.elbow.distance(self.wrist)).max(1e-9)
+    }
 }
 
 /// Where an arm is looked for.
@@ -295,10 +304,13 @@ fn rows_off((begin, end): (usize, usize), middle: usize) -> usize {
 
 /// A section at right angles to the arm.
 #[derive(Clone, Copy)]
-struct Station {
-    centre: DVec3,
-    width: f64,
-    depth: f64,
+pub struct Station {
+    /// Its middle.
+    pub centre: DVec3,
+    /// How wide it is one way, ...
+    pub width: f64,
+    /// ... and the other way.
+    pub depth: f64,
 }
 
 impl Station {
@@ -407,7 +419,7 @@ impl ArmRays {
 }
 
 /// The middles of an arm's sections: arms may bend towards the front.
-struct ArmCurve {
+pub struct ArmCurve {
     stations: Vec<Station>,
     /// Smoothed middles.
     middles: Vec<DVec3>,
@@ -416,11 +428,11 @@ struct ArmCurve {
 }
 
 impl ArmCurve {
-    /// `stations`: at least two.
-    fn new(stations: Vec<Station>) -> Self {
+    /// `stations`: at least two, from the shoulder to the tip; each middle is a mean over so many of them to either side.
+    pub fn new(stations: Vec<Station>, smoothed: usize) -> Self {
         let middles: Vec<DVec3> = (0..stations.len())
             .map(|index| {
-                let (from, to) = (index.saturating_sub(SMOOTHED), (index + SMOOTHED + 1).min(stations.len()));
+                let (from, to) = (index.saturating_sub(smoothed), (index + smoothed + 1).min(stations.len()));
                 stations[from..to].iter().map(|s| s.centre).sum::<DVec3>() / (to - from) as f64
             })
             .collect();
@@ -454,7 +466,7 @@ impl ArmCurve {
     }
 
     /// The arm's radius near the shoulder.
-    fn radius(&self) -> f64 {
+    pub fn radius(&self) -> f64 {
         let near = &self.stations[self.len() / RADIUS_RANGE.0..self.len() / RADIUS_RANGE.1];
         0.25 * median(&mut near.iter().map(Station::girth).collect::<Vec<_>>())
     }
@@ -499,6 +511,39 @@ impl ArmCurve {
             .max_by(|&a, &b| off(self.middles[a]).total_cmp(&off(self.middles[b])).then(b.cmp(&a)))?;
         Some((self.middles[bend], off(self.middles[bend])))
     }
+
+    /// The joints beyond a `shoulder`, of an arm that begins along `outwards`.
+    pub fn arm(&self, shoulder: DVec3, outwards: DVec3, pit: DVec2, pit_seen: bool) -> Arm {
+        let (whole, radius) = (self.arc[self.len() - 1], self.radius());
+        let begin = self.middles[0];
+        let shoulder_arc = -begin.distance(shoulder) * (shoulder - begin).dot(-outwards).signum();
+        let way = |share: f64| shoulder_arc + share * (whole - shoulder_arc);
+        let wrist_seen = self.wrist(way);
+        let wrist_arc = wrist_seen.unwrap_or(way(WRIST_BY_RATIO));
+        let wrist = self.at(wrist_arc);
+        let near_elbow = |arc: f64| {
+            let share = (arc - shoulder_arc) / (wrist_arc - shoulder_arc);
+            (BEND_RANGE.0..=BEND_RANGE.1).contains(&share)
+        };
+        let length = (wrist - shoulder).length();
+        let elbow = self
+            .bend(shoulder, wrist, near_elbow)
+            .filter(|&(_, off)| length > 0.0 && off > BENT * length)
+            .map_or_else(
+                || self.at(shoulder_arc + ELBOW_SHARE * (wrist_arc - shoulder_arc)),
+                |(bend, _)| bend,
+            );
+        Arm {
+            shoulder,
+            elbow,
+            wrist,
+            tip: self.tip(),
+            pit,
+            radius,
+            pit_seen,
+            wrist_seen: wrist_seen.is_some(),
+        }
+    }
 }
 
 /// The joints that rays at right angles to the arm's line show.
@@ -508,8 +553,7 @@ fn joints(view: &FrontView, left: bool, line: &ArmLine, pit_seen: bool) -> Optio
     if stations.len() < LEAST_STATIONS {
         return None;
     }
-    let curve = ArmCurve::new(stations);
-    let whole = curve.arc[curve.len() - 1];
+    let curve = ArmCurve::new(stations, SMOOTHED);
     let radius = curve.radius();
     let upper = curve.upper();
     let right = rays.grid.frame.right;
@@ -520,29 +564,5 @@ fn joints(view: &FrontView, left: bool, line: &ArmLine, pit_seen: bool) -> Optio
         ((upper.x - view.axis).abs() - out) / line.along.x.max(STEEPEST_SHOULDER)
     };
     let shoulder = upper - right * inwards + DVec3::Y * SHOULDER_OVER * radius;
-    let begin = curve.middles[0];
-    let shoulder_arc = -begin.distance(shoulder) * (shoulder - begin).dot(-right).signum();
-    let way = |share: f64| shoulder_arc + share * (whole - shoulder_arc);
-    let wrist_seen = curve.wrist(way);
-    let wrist_arc = wrist_seen.unwrap_or(way(WRIST_BY_RATIO));
-    let wrist = curve.at(wrist_arc);
-    let near_elbow = |arc: f64| {
-        let share = (arc - shoulder_arc) / (wrist_arc - shoulder_arc);
-        (BEND_RANGE.0..=BEND_RANGE.1).contains(&share)
-    };
-    let length = (wrist - shoulder).length();
-    let elbow = curve
-        .bend(shoulder, wrist, near_elbow)
-        .filter(|&(_, off)| length > 0.0 && off > BENT * length)
-        .map_or_else(|| curve.at(shoulder_arc + ELBOW_SHARE * (wrist_arc - shoulder_arc)), |(bend, _)| bend);
-    Some(Arm {
-        shoulder,
-        elbow,
-        wrist,
-        tip: curve.tip(),
-        pit: line.pit,
-        radius,
-        pit_seen,
-        wrist_seen: wrist_seen.is_some(),
-    })
+    Some(curve.arm(shoulder, right, line.pit, pit_seen))
 }

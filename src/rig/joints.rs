@@ -2,9 +2,13 @@
 //!
 //! Rays from the front give the silhouette and its depth. The gap between the legs is followed upwards to the crotch,
 //! the arms from the fingertips inwards to the armpits, the middle line upwards from the shoulders; each joint is then
-//! centred by the depths of the rays around it. What is not seen is placed by ratio, and said so.
+//! centred by the depths of the rays around it. Arms that rays do not tell from what is behind or beside them are branches
+//! of the solid; of all that may be arms, the pair that is most like arms is taken. What is not seen is placed by ratio, and said so.
 
+use super::arm_branch::arms_of;
+use super::arm_choice::{Body, Candidate, FINER, IMAGE};
 use super::arms::{Arm, ArmSpace, find_arm, find_hanging_arm};
+use super::branches::branches;
 use super::front_view::FrontView;
 use super::hand::{Hand, find_fingers};
 use super::head_line::{HeadLine, head_line, middle};
@@ -17,7 +21,7 @@ use crate::geometry::{PointTree, Surface};
 use crate::progress::Progress;
 use glam::DVec3;
 use std::collections::BTreeMap;
-use std::ops::Range;
+use std::ops::{Range, RangeInclusive};
 
 /// Hands are looked for above this share of the crotch's height. Seen: ±30 % changes no joint.
 const HANDS_ABOVE: f64 = 0.75;
@@ -31,8 +35,12 @@ const STOUT: f64 = 0.33;
 const NECK_ABOVE: f64 = 0.3;
 /// ... and is narrower than this share of what is below and of what is above.
 const NECK_NARROWS: f64 = 0.75;
-/// Shoulders that are further from each other's mirror image than this, in heights, are not both shoulders.
-const APART_SHOULDERS: f64 = 0.06;
+/// The trunk's core, from which branches start: from this share of the way from crotch to neck, ...
+const CORE_FROM: f64 = 0.1;
+/// ... up to the neck, or this share of the way to the crown.
+const CORE_BY_RATIO: f64 = 0.45;
+/// A pair of arms is chosen before an earlier one that is this much worse.
+const BETTER: f64 = 1e-6;
 /// An arm is longer than so many of its radii (seen: at +30 %, joints lie 0.020 H further off, 21 more by over 0.06 H,
 /// 21 more good joints doubted), ...
 const SLENDER: f64 = 4.0;
@@ -57,6 +65,8 @@ const LEGS_BELOW: f64 = 0.8;
 const LEAST_LEGS: f64 = 0.38;
 /// One above this share of the same is no crotch either.
 const MOST_LEGS: f64 = 0.78;
+/// Beyond these shares hips and knees are doubted: between the two there, with room for stylised figures.
+const USUAL_LEGS: RangeInclusive<f64> = 0.42..=0.72;
 /// The arms' radius is taken to be no more than this, in heights, and this where no arm is seen. Seen: ±30 % changes no
 /// joint.
 const MOST_RADIUS: f64 = 0.02;
@@ -164,9 +174,8 @@ impl Search<'_> {
         let view = self.view;
         let solid = Solid::new(view.positions, &view.triangles, view.axis);
         let lobes = LegLobes::of(&solid, view.low, LEGS_BELOW * view.high);
-        drop(solid);
         let (mut legs, inside) = find_legs(view, &lobes, LEGS_BELOW * view.high);
-        let mut arms = self.arms(&legs);
+        let mut arms = self.arms(&legs, &solid);
         let shoulders = |arms: &[Option<Arm>; 2]| match arms {
             [Some(one), Some(other)] => {
                 Some((0.5 * (one.shoulder.y + other.shoulder.y), one.pit_seen && other.pit_seen))
@@ -181,7 +190,7 @@ impl Search<'_> {
             && is_low(&legs, &arms)
         {
             legs = inside;
-            arms = self.arms(&legs);
+            arms = self.arms(&legs, &solid);
         }
         if let Some((line, seen)) = shoulders(&arms)
             && (legs.seen == LegGap::Unseen
@@ -189,6 +198,8 @@ impl Search<'_> {
         {
             legs = Legs::below_shoulders(view, line);
         }
+        // Legs that are oddly short or long under their shoulders end at the hem of something, or above the crotch.
+        let odd = shoulders(&arms).is_some_and(|(line, _)| !USUAL_LEGS.contains(&share(&legs, line)));
         let pair = [true, false].map(|left| {
             let given = |role: Role| self.given.get(&role.on_side(left)).copied();
             leg(
@@ -200,7 +211,7 @@ impl Search<'_> {
                 given(Role::LeftFoot),
             )
         });
-        self.put_legs(&legs, pair);
+        self.put_legs(&legs, pair, odd);
 
         let radius = arms.iter().flatten().map(|arm| arm.radius).fold(MOST_RADIUS, f64::min);
         let armpits = arms.iter().all(|arm| arm.as_ref().is_some_and(|arm| arm.pit_seen));
@@ -225,36 +236,53 @@ impl Search<'_> {
         self.found
     }
 
-    /// The arms over `legs`: what reaches out furthest, where that ends at armpits below a neck; else what does so below
-    /// the neck, and then what hangs beside the trunk.
-    fn arms(&self, legs: &Legs) -> [Option<Arm>; 2] {
+    /// The arms over `legs`: of what reaches out furthest, all and below the neck, of what hangs beside the trunk, and of the
+    /// branches of the solid, the pair that is most like arms.
+    fn arms(&self, legs: &Legs, solid: &Solid) -> [Option<Arm>; 2] {
         let view = self.view;
         let neck = neck_height(view, legs.crotch);
-        let good = |arms: &[Option<Arm>; 2]| {
-            let below = |arm: &&Arm| arm.pit_seen && neck.is_none_or(|neck| arm.shoulder.y < neck);
-            let both = arms.iter().flatten().filter(below).count();
-            both - usize::from(both == 2 && !self.are_a_pair(arms))
-        };
-        let mut best = self.arms_by(legs, f64::INFINITY, find_arm);
-        let ways: [(f64, FindArm); 2] =
-            [(neck.unwrap_or(f64::INFINITY), find_arm), (neck.unwrap_or(view.high), find_hanging_arm)];
-        for (ceiling, find) in ways {
-            if good(&best) == 2 {
-                break;
-            }
-            let others = self.arms_by(legs, ceiling, find);
-            if good(&others) > good(&best) {
-                best = others;
+        let body = Body { solid, axis: view.axis, low: view.low, crotch: legs.crotch, neck };
+        let mut sides: [Vec<Candidate>; 2] = Default::default();
+        let ways: [(f64, FindArm, f64); 3] = [
+            (f64::INFINITY, find_arm, 0.0),
+            (neck.unwrap_or(f64::INFINITY), find_arm, 0.0),
+            (neck.unwrap_or(view.high), find_hanging_arm, FINER),
+        ];
+        for (ceiling, find, more) in ways {
+            for (side, arm) in sides.iter_mut().zip(self.arms_by(legs, ceiling, find)) {
+                side.extend(arm.map(|arm| body.candidate(arm, more)));
             }
         }
-        best
-    }
-
-    /// True where two arms' shoulders are each other's mirror image, about.
-    fn are_a_pair(&self, arms: &[Option<Arm>; 2]) -> bool {
-        let [Some(one), Some(other)] = arms else { return false };
-        let image = DVec3::new(2.0 * self.view.axis - other.shoulder.x, other.shoulder.y, other.shoulder.z);
-        one.shoulder.distance(image) < APART_SHOULDERS
+        let top = neck.unwrap_or(legs.crotch + CORE_BY_RATIO * (view.high - legs.crotch));
+        let core = legs.crotch + CORE_FROM * (top - legs.crotch)..top;
+        for branch in branches(solid, view.axis, core) {
+            for (left, arm) in arms_of(&branch, solid, view.axis, |y| middle(view, y).0) {
+                sides[usize::from(!left)].push(body.candidate(arm, FINER));
+            }
+        }
+        // Each with the other side's shoulder as well.
+        let [lefts, rights] = &sides;
+        let images = |side: &[Candidate], others: &[Candidate]| -> Vec<Candidate> {
+            let all = side.iter().flat_map(|one| others.iter().map(move |other| (one, other)));
+            all.map(|(one, other)| body.candidate(body.with_shoulder_of(&one.arm, &other.arm), IMAGE))
+                .collect()
+        };
+        let more = [images(lefts, rights), images(rights, lefts)];
+        let options = |side: usize, more: &[Candidate]| -> Vec<Option<Candidate>> {
+            let all = sides[side].iter().chain(more).cloned().map(Some);
+            std::iter::once(None).chain(all).collect()
+        };
+        let (lefts, rights) = (options(0, &more[0]), options(1, &more[1]));
+        let mut best = (f64::INFINITY, [None, None]);
+        for left in &lefts {
+            for right in &rights {
+                let cost = body.cost([left.as_ref(), right.as_ref()]);
+                if cost < best.0 - BETTER {
+                    best = (cost, [left, right].map(|one| one.as_ref().map(|one| one.arm.clone())));
+                }
+            }
+        }
+        best.1
     }
 
     fn arms_by(&self, legs: &Legs, ceiling: f64, find: FindArm) -> [Option<Arm>; 2] {
@@ -284,7 +312,7 @@ impl Search<'_> {
         self.found.warnings.push(Warning::new("joint_by_ratio", sentence));
     }
 
-    fn put_legs(&mut self, legs: &Legs, pair: [Leg; 2]) {
+    fn put_legs(&mut self, legs: &Legs, pair: [Leg; 2], odd: bool) {
         let confidence = match legs.seen {
             LegGap::Open => SEEN,
             LegGap::Inside => SEEN_INSIDE,
@@ -298,8 +326,9 @@ impl Search<'_> {
         }
         for (left, leg) in [true, false].into_iter().zip(pair) {
             let ankle = if leg.ankle_seen { confidence } else { confidence.min(ANKLE_BY_LEG) };
-            self.put(Role::LeftUpperLeg.on_side(left), leg.hip, confidence);
-            self.put(Role::LeftLowerLeg.on_side(left), leg.knee, confidence);
+            let upper = if odd { confidence.min(DOUBTFUL) } else { confidence };
+            self.put(Role::LeftUpperLeg.on_side(left), leg.hip, upper);
+            self.put(Role::LeftLowerLeg.on_side(left), leg.knee, upper);
             self.put(Role::LeftFoot.on_side(left), leg.ankle, ankle);
             self.put(Role::LeftToes.on_side(left), leg.toes, ankle);
             self.found.tips.insert(Role::LeftToes.on_side(left), leg.tip);
@@ -318,7 +347,8 @@ impl Search<'_> {
                 Some(arm) => {
                     let base = if arm.pit_seen { SEEN } else { RATIO };
                     let wrist = if arm.wrist_seen { base } else { base.min(DOUBTFUL) };
-                    let stout = arm.pit.x > STOUT * (arm.tip.x - view.axis).abs();
+                    let reach = arm.pit.x + arm.shoulder.distance(arm.elbow) + arm.elbow.distance(arm.tip);
+                    let stout = arm.pit.x > STOUT * reach;
                     let base = if stout { base.min(DOUBTFUL) } else { base };
                     (
                         [arm.shoulder, arm.elbow, arm.wrist, arm.tip],

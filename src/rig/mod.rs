@@ -11,7 +11,10 @@
 //! | `silhouette` | a grid of parallel rays and all that they meet |
 //! | `front_view` | the figure seen from the front: which meshes, its axis, its runs |
 //! | `legs` | crotch, hip joints, knees, ankles, toes |
-//! | `arms` | armpits, shoulder joints, elbows, wrists |
+//! | `solid` | the figure as filled cells |
+//! | `branches` | what sticks out of the solid, in whatever direction |
+//! | `arms` | armpits, shoulder joints, elbows, wrists of arms that rays see |
+//! | `arm_branch`, `arm_choice` | the same of branches; which of several arms a body has |
 //! | `head_line` | neck, chin, crown |
 //! | `hand` | fingers: the `section` at the wrist, the `region` beyond it |
 //! | `joints` | all of these put together, sides made alike, what is not seen by ratio |
@@ -26,7 +29,10 @@
 //! Constants say what was *seen* when they alone were changed by 30 %, on 23 rigged figures whose rigs were taken away,
 //! in the joints' distance from the artists' (`docs/constants.md`, `benches/constants.py`).
 
+pub mod arm_branch;
+pub mod arm_choice;
 pub mod arms;
+pub mod branches;
 pub mod eyes;
 pub mod facing;
 pub mod front_view;

@@ -114,6 +114,22 @@ impl Solid {
         self.state[self.index(at)] != OUTSIDE
     }
 
+    /// True where the cell of an index is filled.
+    pub fn holds(&self, index: usize) -> bool {
+        self.state[index] != OUTSIDE
+    }
+
+    /// The middle of the cell of an index.
+    pub fn middle_of(&self, index: usize) -> DVec3 {
+        let row = self.size[0];
+        self.middle([index % row, index / row % self.size[1], index / (row * self.size[1])])
+    }
+
+    /// True where a point lies in a filled cell.
+    pub fn is_in(&self, p: DVec3) -> bool {
+        self.index_at((p - self.low) / self.cell).is_some_and(|index| self.holds(index))
+    }
+
     /// The middle of a cell.
     pub fn middle(&self, [x, y, z]: [usize; 3]) -> DVec3 {
         self.low + (DVec3::new(x as f64, y as f64, z as f64) + 0.5) * self.cell

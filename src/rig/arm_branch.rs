@@ -1,0 +1,119 @@
+//! Arms in whatever direction they are held: branches of the solid that end beside the trunk.
+
+use super::arms::{Arm, ArmCurve, Station};
+use super::branches::{Branch, Rim};
+use super::front_view::median;
+use super::solid::Solid;
+use glam::{DVec2, DVec3};
+use std::ops::Range;
+
+/// A section this much thicker than the ones before it has trunk in it: two readings, for smooth arms and for others, ...
+const WIDENS: [f64; 2] = [1.35, 1.9];
+/// ... of which so many are looked at, ...
+const BEFORE: usize = 8;
+/// ... and than this share of the thickest one: a wrist is slimmer than the hand was.
+const OF_THICKEST: f64 = 1.05;
+/// A limb's tip, which grows thicker, has so many sections, ...
+const TIP: usize = 5;
+/// ... and all of it has at least so many.
+const LEAST_RIMS: usize = 10;
+/// The line of the upper arm is fitted to this share of the sections, ...
+const UPPER: f64 = 0.4;
+/// ... without the last ones, in which the shoulder begins.
+const LAST: usize = 2;
+/// An arm held forward at least so far begins in the depth of the trunk's middle, ...
+const FORWARD: f64 = 0.5;
+/// ... no further in than this, in heights.
+const FORWARD_IN: f64 = 0.12;
+/// The shoulder joint lies so many radii further in than the last section.
+const SHOULDER_IN: f64 = 0.3;
+/// An arm that runs down at least this steeply may lie on the trunk further up, ...
+const STEEP: f64 = 0.8;
+/// ... and its shoulder joint lies so many radii under where its line leaves the shoulder, ...
+const UNDER_TOP: f64 = 1.15;
+/// ... within this distance, in heights.
+const TOP_WITHIN: f64 = 0.35;
+
+/// The arms that a branch may be, each with whether it is a left one: from its tip, or without a thing in the hand.
+///
+/// `depth` gives how far forward the trunk's middle is at a height.
+pub fn arms_of(
+    branch: &Branch,
+    solid: &Solid,
+    axis: f64,
+    depth: impl Fn(f64) -> f64 + Copy,
+) -> Vec<(bool, Arm)> {
+    let mut ranges: Vec<Range<usize>> = WIDENS.iter().flat_map(|&by| limbs(&branch.rims, by)).collect();
+    ranges.sort_unstable_by_key(|range| (range.start, range.end));
+    ranges.dedup();
+    ranges.into_iter().filter_map(|limb| arm_of(&branch.rims[limb], solid, axis, depth)).collect()
+}
+
+/// Ranges of sections between jumps in thickness.
+fn limbs(rims: &[Rim], widens: f64) -> Vec<Range<usize>> {
+    let mut limbs = Vec::new();
+    let mut start = 0;
+    for index in 1..=rims.len() {
+        let ends = index == rims.len() || {
+            let from = index.saturating_sub(BEFORE).max(start);
+            let mut before: Vec<f64> = rims[from..index].iter().map(|rim| rim.radius).collect();
+            let thickest = rims[start..index].iter().map(|rim| rim.radius).fold(0.0, f64::max);
+            let radius = rims[index].radius;
+            index - start >= TIP && radius > widens * median(&mut before) && radius > OF_THICKEST * thickest
+        };
+        if ends {
+            if index - start >= LEAST_RIMS {
+                limbs.push(start..index);
+            }
+            start = index;
+        }
+    }
+    limbs
+}
+
+fn arm_of(rims: &[Rim], solid: &Solid, axis: f64, depth: impl Fn(f64) -> f64) -> Option<(bool, Arm)> {
+    let count = rims.len();
+    let first = (count - LAST).saturating_sub(((UPPER * count as f64) as usize).max(3));
+    let upper = &rims[first..count - LAST];
+    let middle = upper.iter().map(|rim| rim.middle).sum::<DVec3>() / upper.len() as f64;
+    let inwards = direction(upper, middle)?;
+    let mut radii: Vec<f64> = upper.iter().map(|rim| rim.radius).collect();
+    let radius = median(&mut radii);
+    let root = middle + inwards * (rims[count - 1].middle - middle).dot(inwards);
+    let mut shoulder = root + inwards * SHOULDER_IN * radius;
+    if inwards.z < -FORWARD {
+        let further = (depth(shoulder.y) - shoulder.z) / inwards.z;
+        shoulder += inwards * further.clamp(0.0, FORWARD_IN);
+    }
+    if inwards.y > STEEP
+        && let Some(top) = top(solid, shoulder, inwards)
+    {
+        shoulder += inwards * (top - UNDER_TOP * radius).max(0.0);
+    }
+    let stations = rims.iter().rev().map(|rim| Station {
+        centre: rim.middle,
+        width: 2.0 * rim.radius,
+        depth: 2.0 * rim.radius,
+    });
+    let curve = ArmCurve::new(stations.collect(), 1);
+    let pit = DVec2::new((root.x - axis).abs(), root.y - radius);
+    Some((shoulder.x > axis, curve.arm(shoulder, -inwards, pit, true)))
+}
+
+/// The line through middles, from the tip inwards: the mean of differences between halves.
+fn direction(rims: &[Rim], middle: DVec3) -> Option<DVec3> {
+    let mut sum = DVec3::ZERO;
+    let half = 0.5 * (rims.len() as f64 - 1.0);
+    for (index, rim) in rims.iter().enumerate() {
+        sum += (index as f64 - half) * (rim.middle - middle);
+    }
+    sum.try_normalize()
+}
+
+/// How far a line goes on in a solid.
+fn top(solid: &Solid, from: DVec3, way: DVec3) -> Option<f64> {
+    let step = 0.5 * solid.cell;
+    let steps = (TOP_WITHIN / step) as usize;
+    let last = (0..steps).take_while(|&index| solid.is_in(from + way * (index as f64 * step))).count();
+    (last < steps).then_some(last as f64 * step)
+}

@@ -1,0 +1,121 @@
+//! Which of several arms a body has: what all bodies obey, as a cost of a pair.
+
+use super::arms::Arm;
+use super::solid::Solid;
+use glam::DVec3;
+
+/// From shoulder to fingertips, as a share of the shoulder's height (Winter, table 4.1: .44 of .818 H; figures of two heads
+/// have the same share of what is below their chin), and what is no surprise, as a logarithm.
+const LENGTH: (f64, f64) = (0.54, 0.3);
+/// From the middle to the shoulder joint, as a share of the shoulder's height (the same table: .129 of .818 H).
+const HALF_WIDTH: (f64, f64) = (0.155, 0.4);
+/// The arm's radius as a share of its length (upper arms are .16 of their arm's length around: .026 of it, and stouter in
+/// stylised figures).
+const RADIUS: (f64, f64) = (0.07, 0.6);
+/// How far up from crotch to neck shoulders are (.818 - .48 of .87 - .48 H), and what is no surprise.
+const HEIGHT: (f64, f64) = (0.86, 0.15);
+/// Shoulders are each other's image to within this, in heights, ...
+const APART: f64 = 0.03;
+/// ... and arms as long to within this, as a logarithm.
+const UNEVEN: f64 = 0.15;
+/// No one surprise counts for more than this.
+const MOST: f64 = 9.0;
+/// What it costs where no armpit is seen, ...
+const NO_PIT: f64 = 4.0;
+/// ... where no wrist is, ...
+const NO_WRIST: f64 = 1.0;
+/// ... where all of the arm lies in the air, ...
+const IN_AIR: f64 = 20.0;
+/// ... and where there is no arm.
+const NO_ARM: f64 = 14.0;
+/// Rays are finer than cells: what they see goes before what costs less by no more than this.
+pub const FINER: f64 = 1.5;
+/// A shoulder that is the image of the other one is a guess, and agrees with it for that reason alone.
+pub const IMAGE: f64 = 2.0;
+/// An arm is looked at in so many places.
+const SAMPLES: usize = 12;
+
+/// The body that arms belong to.
+pub struct Body<'a> {
+    /// It, in cells.
+    pub solid: &'a Solid,
+    /// x of the plane of symmetry.
+    pub axis: f64,
+    /// Height of the soles.
+    pub low: f64,
+    /// Height of the crotch.
+    pub crotch: f64,
+    /// Height of the neck.
+    pub neck: Option<f64>,
+}
+
+/// An arm that may be, and what it costs by itself.
+#[derive(Clone)]
+pub struct Candidate {
+    /// The arm.
+    pub arm: Arm,
+    /// What is odd about it.
+    pub cost: f64,
+}
+
+impl Body<'_> {
+    fn image(&self, p: DVec3) -> DVec3 {
+        DVec3::new(2.0 * self.axis - p.x, p.y, p.z)
+    }
+
+    /// What is odd about an arm by itself, and `more` for the way it was found.
+    pub fn candidate(&self, arm: Arm, more: f64) -> Candidate {
+        let height = (arm.shoulder.y - self.low).max(1e-3);
+        let length = length(&arm).max(1e-3);
+        let log = |value: f64, (usual, spread): (f64, f64)| surprise((value.max(1e-6) / usual).ln() / spread);
+        let mut cost = log(length / height, LENGTH)
+            + log((arm.shoulder.x - self.axis).abs() / height, HALF_WIDTH)
+            + log(arm.radius / length, RADIUS)
+            + more;
+        if let Some(neck) = self.neck {
+            let share = (arm.shoulder.y - self.crotch) / (neck - self.crotch).max(1e-3);
+            cost += surprise((share - HEIGHT.0) / HEIGHT.1);
+        }
+        let chain = [arm.shoulder, arm.elbow, arm.wrist];
+        let outside = chain
+            .windows(2)
+            .flat_map(|pair| (0..SAMPLES).map(|i| pair[0].lerp(pair[1], i as f64 / SAMPLES as f64)))
+            .filter(|&p| !self.solid.is_in(p))
+            .count();
+        cost += IN_AIR * outside as f64 / (2 * SAMPLES) as f64;
+        if !arm.pit_seen {
+            cost += NO_PIT;
+        }
+        if !arm.wrist_seen {
+            cost += NO_WRIST;
+        }
+        Candidate { arm, cost }
+    }
+
+    /// What is odd about a left and a right arm.
+    pub fn cost(&self, pair: [Option<&Candidate>; 2]) -> f64 {
+        let own = |one: Option<&Candidate>| one.map_or(NO_ARM, |one| one.cost);
+        let mut cost = own(pair[0]) + own(pair[1]);
+        if let [Some(left), Some(right)] = pair {
+            cost += surprise(left.arm.shoulder.distance(self.image(right.arm.shoulder)) / APART);
+            cost += surprise((length(&left.arm) / length(&right.arm).max(1e-6)).max(1e-6).ln() / UNEVEN);
+        }
+        cost
+    }
+
+    /// The arm with the image of the other one's shoulder in place of its own.
+    pub fn with_shoulder_of(&self, arm: &Arm, other: &Arm) -> Arm {
+        let shoulder = self.image(other.shoulder);
+        let elbow = shoulder.lerp(arm.wrist, other.elbow_share());
+        Arm { shoulder, elbow, pit: other.pit, radius: other.radius, pit_seen: other.pit_seen, ..arm.clone() }
+    }
+}
+
+fn surprise(deviation: f64) -> f64 {
+    (deviation * deviation).min(MOST)
+}
+
+/// From the shoulder joint to the tip.
+fn length(arm: &Arm) -> f64 {
+    arm.shoulder.distance(arm.elbow) + arm.elbow.distance(arm.wrist) + arm.wrist.distance(arm.tip)
+}
