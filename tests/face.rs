@@ -351,6 +351,24 @@ fn a_stylised_face_stays() {
 }
 
 #[test]
+fn eyes_painted_on_the_skin_are_found() {
+    const KUN: &str = "tubbykun.vrm";
+    if model(KUN).is_none() {
+        println!("skipped: {KUN} is not there");
+        return;
+    }
+    let character = painted::painted(&all_models()[KUN]);
+    let face = Measured::of(&character, &Options::default()).unwrap().face.unwrap();
+    let (source, eyes) = face.eyes.expect("it has eyes");
+    let pair = Pair::of(&eyes);
+    assert_eq!(source, EyeSource::Paint);
+    // As its picture shows them: discs of a fifth of the head, .4 of it above the chin.
+    for (is, seen) in [(pair.height, 0.40), (pair.half_distance, 0.20), (pair.half_width, 0.10)] {
+        assert!((is - seen).abs() < 0.03, "{pair:?}");
+    }
+}
+
+#[test]
 fn eyes_sewn_to_the_skin_are_found() {
     const MAN: &str = "quaternius_man_2017.glb";
     if model(MAN).is_none() {

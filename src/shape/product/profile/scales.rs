@@ -6,7 +6,7 @@ use super::{LEG_STATIONS, LegProfile, Profile, Row, STATIONS, TORSO_STATIONS, st
 use crate::geometry::smoothstep;
 
 /// Soft limits of ln S: of slices, hands and feet.
-const MOST: f64 = 1.3;
+const MOST: f64 = 1.8;
 const MOST_OF_HAND: f64 = 1.5;
 const MOST_OF_FOOT: f64 = 0.6;
 /// The scales of a hand (a foot) along its axes stay within this of their mean, in logarithms.
