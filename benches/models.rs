@@ -62,8 +62,17 @@ pub struct Body {
     pub bones: Vec<WeightBone>,
 }
 
-/// All bodies that are at hand: one around capsules, and MakeHuman's.
-pub fn bodies() -> Vec<Body> {
+/// A closed body around capsules, of about 14,000 vertices.
+pub fn capsule_body() -> Body {
+    body_in_cells(75.0)
+}
+
+/// The same of fewer than 3,000.
+pub fn small_body() -> Body {
+    body_in_cells(30.0)
+}
+
+fn body_in_cells(cells: f64) -> Body {
     let joints = people::Person::default().joints();
     let bones = body_bones(&joints);
     let radius = |role: Role| match role {
@@ -76,8 +85,13 @@ pub fn bodies() -> Vec<Body> {
         .iter()
         .flat_map(|bone| bone.segments.iter().map(|&ends| (ends, radius(roles[bone.joint as usize]))))
         .collect();
-    let (positions, triangles) = crate::body_of_capsules(&capsules, 75.0);
-    let mut bodies = vec![Body { name: "capsules", positions, triangles, bones }];
+    let (positions, triangles) = crate::body_of_capsules(&capsules, cells);
+    Body { name: "capsules", positions, triangles, bones }
+}
+
+/// All bodies that are at hand: one around capsules, and MakeHuman's.
+pub fn bodies() -> Vec<Body> {
+    let mut bodies = vec![capsule_body()];
     let [target, rigged] = ["makehuman_female_target.glb", "makehuman_female_rigged.glb"]
         .map(|name| samples::folder().join(name));
     if target.is_file() && rigged.is_file() {

@@ -12,7 +12,7 @@ use people::Person;
 use std::collections::BTreeMap;
 use superdeform::internals::rig::mesh_kinds::{body_is_whole, guess_kinds, refine_kinds};
 use superdeform::internals::rig::{FoundJoint, UnitFigure};
-use superdeform::{Character, Mesh, MeshKind, Role};
+use superdeform::{Character, Mesh, MeshKind, Progress, Role};
 
 use superdeform::MeshKind::{Accessory, Body, FacePart, Garment, Hair};
 
@@ -29,10 +29,10 @@ fn guessed(
     joints: &BTreeMap<Role, DVec3>,
 ) -> (UnitFigure, Vec<MeshKind>, usize) {
     let figure = UnitFigure::of(&without_names(character), forward).unwrap();
-    let (mut kinds, warnings) = guess_kinds(&figure);
+    let (mut kinds, warnings, surroundings) = guess_kinds(&figure, 0, &mut Progress::none()).unwrap();
     let found = |&at: &DVec3| FoundJoint { position: figure.to_unit(at), confidence: 1.0 };
     let joints = joints.iter().map(|(&role, at)| (role, found(at))).collect();
-    let more = refine_kinds(&figure, &mut kinds, &joints);
+    let more = refine_kinds(&figure, &surroundings, &mut kinds, &joints);
     assert_eq!(kinds.len(), figure.mesh_count());
     (figure, kinds, warnings.len() + more.len())
 }
@@ -208,9 +208,9 @@ fn given_kinds_stay() {
             character.meshes[mesh].kind = Some(kind);
         }
         let figure = UnitFigure::of(&character, DVec3::Z).unwrap();
-        let (mut kinds, _) = guess_kinds(&figure);
+        let (mut kinds, _, surroundings) = guess_kinds(&figure, 0, &mut Progress::none()).unwrap();
         let head = FoundJoint { position: DVec3::Y * 0.85, confidence: 1.0 };
-        refine_kinds(&figure, &mut kinds, &BTreeMap::from([(Role::Head, head)]));
+        refine_kinds(&figure, &surroundings, &mut kinds, &BTreeMap::from([(Role::Head, head)]));
         assert_eq!([kinds[0], kinds[character.meshes.len() - 1]], [kind; 2]);
     }
 }
@@ -220,7 +220,7 @@ fn a_body_without_a_trunk_is_not_whole() {
     let person = Person { blended: true, columns: 24, ..Person::adult() };
     let mut character = person.build();
     let figure = UnitFigure::of(&character, DVec3::Z).unwrap();
-    assert!(body_is_whole(&figure, &guess_kinds(&figure).0));
+    assert!(body_is_whole(&figure, &guess_kinds(&figure, 0, &mut Progress::none()).unwrap().0));
     // The trunk becomes a shirt.
     let body = &mut character.meshes[0];
     let mut shirt = Mesh { name: "shirt".into(), kind: Some(Garment), ..body.clone() };
@@ -233,10 +233,10 @@ fn a_body_without_a_trunk_is_not_whole() {
     body.triangles = rest;
     character.meshes.push(shirt);
     let figure = UnitFigure::of(&character, DVec3::Z).unwrap();
-    assert!(!body_is_whole(&figure, &guess_kinds(&figure).0));
+    assert!(!body_is_whole(&figure, &guess_kinds(&figure, 0, &mut Progress::none()).unwrap().0));
     // Where nobody says that it is a shirt, it is what carries the arms and the head.
     let figure = UnitFigure::of(&without_names(&character), DVec3::Z).unwrap();
-    let kinds = guess_kinds(&figure).0;
+    let kinds = guess_kinds(&figure, 0, &mut Progress::none()).unwrap().0;
     assert_eq!(kinds.last(), Some(&Body));
     assert!(body_is_whole(&figure, &kinds));
 }
@@ -248,7 +248,12 @@ fn models_whose_clothes_carry_the_trunk_are_not_whole() {
         let dressed = case.name.starts_with("makehuman") || case.name.starts_with("seedsan");
         if hollow || dressed {
             let figure = UnitFigure::of(&case.character, case.forward).unwrap();
-            assert_eq!(body_is_whole(&figure, &guess_kinds(&figure).0), dressed, "{}", case.name);
+            assert_eq!(
+                body_is_whole(&figure, &guess_kinds(&figure, 0, &mut Progress::none()).unwrap().0),
+                dressed,
+                "{}",
+                case.name
+            );
         }
     }
 }
@@ -266,7 +271,7 @@ fn a_warning_names_what_was_guessed() {
         ..Mesh::default()
     });
     let figure = UnitFigure::of(&character, DVec3::Z).unwrap();
-    let (kinds, warnings) = guess_kinds(&figure);
+    let (kinds, warnings, _) = guess_kinds(&figure, 0, &mut Progress::none()).unwrap();
     assert_eq!(kinds.last(), Some(&Accessory));
     assert_eq!(warnings[0].code, "kind_guessed");
     assert!(warnings[0].message.contains("kite (accessory)"), "{}", warnings[0].message);
@@ -301,11 +306,11 @@ fn hostile_layouts_get_kinds_too() {
             let mut character = Character { meshes: meshes.clone(), ..Character::default() };
             character.meshes[0].kind = kind;
             let Ok(figure) = UnitFigure::of(&character, DVec3::Z) else { continue };
-            let (mut kinds, _) = guess_kinds(&figure);
+            let (mut kinds, _, surroundings) = guess_kinds(&figure, 0, &mut Progress::none()).unwrap();
             assert_eq!(kinds.len(), meshes.len());
             for at in [DVec3::ZERO, DVec3::Y * 5.0, DVec3::splat(f64::NAN), DVec3::splat(-1e300)] {
                 let head = FoundJoint { position: at, confidence: 0.1 };
-                refine_kinds(&figure, &mut kinds, &BTreeMap::from([(Role::Head, head)]));
+                refine_kinds(&figure, &surroundings, &mut kinds, &BTreeMap::from([(Role::Head, head)]));
                 body_is_whole(&figure, &kinds);
             }
             body_is_whole(&figure, &[]);

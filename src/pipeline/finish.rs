@@ -41,7 +41,7 @@ impl Deformer {
         progress.at(0.5)?;
         self.finish_seat();
         progress.at(0.7)?;
-        self.finish_hair();
+        self.finish_hair(&mut progress.part(0.7, 0.8))?;
         progress.at(0.8)?;
         self.finish_displacements();
         progress.at(0.9)?;

@@ -4,11 +4,13 @@ use super::attach::Placement;
 use super::strands::{Strands, torso_axis};
 use super::young::is_one;
 use super::{Deformer, Target};
+use crate::error::Result;
 use crate::face::FaceShape;
 use crate::face::eyes::Pair;
 use crate::face::seat::{Seat, SeatAmount};
 use crate::face::stage::YoungFace;
 use crate::options::Stage;
+use crate::progress::Progress;
 use crate::shape::field::{Binding, BodyField, Field, Finish};
 use crate::shape::product::binding::PartBinding;
 use crate::shape::product::curtain::{Curtain, Openings};
@@ -116,13 +118,16 @@ impl Laid {
 
 impl Deformer {
     /// Lays hair as the options ask for, and keeps it outside of the body.
-    pub(super) fn finish_hair(&mut self) {
+    ///
+    /// # Errors
+    /// `Cancelled`, with some of it done.
+    pub(super) fn finish_hair(&mut self, progress: &mut Progress) -> Result<()> {
         let known = self.hair.take();
         let amount = self.head_growth() * self.options.hair_lay;
         let lays = amount > 0.0 && self.options.stage == Stage::Face;
         let is_changed = lays || self.field.young.is_some() || self.field.seat.is_some();
         if !is_changed || self.deformation.product.is_none() {
-            return;
+            return Ok(());
         }
         let amount = if lays { amount } else { 0.0 };
         // While only youth changes, hair is between what was laid already.
@@ -142,7 +147,8 @@ impl Deformer {
         }
         for (end, is_seen) in [youth < 1.0, youth > 0.0].into_iter().enumerate() {
             if is_seen && ends.of[end].is_none() {
-                ends.of[end] = self.end(&ends, end as f64).map(Arc::new);
+                let part = &mut progress.part(0.5 * end as f32, 0.5 + 0.5 * end as f32);
+                ends.of[end] = self.end(&ends, end as f64, part)?.map(Arc::new);
             }
         }
         self.laid = Some(ends.clone());
@@ -154,13 +160,14 @@ impl Deformer {
             ends && laid.youth == youth
         };
         self.hair = known.filter(is_same).or_else(|| Some(Arc::new(Laid::new(ends, youth))));
+        Ok(())
     }
 
     /// Hair on the face as it was (`youth` 0) or on the youngest one (1).
-    fn end(&self, ends: &Ends, youth: f64) -> Option<End> {
+    fn end(&self, ends: &Ends, youth: f64, progress: &mut Progress) -> Result<Option<End>> {
         let (Some(product), BodyField::Parts(body)) = (&self.deformation.product, &*self.deformation.body)
         else {
-            return None;
+            return Ok(None);
         };
         let share = self.head_growth();
         // Before amount and ground, as all of the head's stages.
@@ -187,9 +194,11 @@ impl Deformer {
         if ends.amount > 0.0 && (strands.sides.is_some() || strands.long.is_some()) {
             self.lay(&mut end, strands, body, &placement);
         }
+        progress.at(0.5)?;
         let placement = Placement { hair_offsets: &end.offsets, ..placement };
         end.offsets = product.hair_offsets(&self.target, &placement);
-        Some(end)
+        progress.at(1.0)?;
+        Ok(Some(end))
     }
 
     /// Parts strands that hide the eyes, and lays long ones down on the body.

@@ -203,7 +203,9 @@ impl Request<'_> {
         let mut best: Option<Attempt> = None;
         for count in 0..attempts {
             progress.at(count as f32 / attempts as f32)?;
-            let attempt = self.attempt(asked, aim, is_sliced)?;
+            let part =
+                &mut progress.part(count as f32 / attempts as f32, (count + 1) as f32 / attempts as f32);
+            let attempt = self.attempt(asked, aim, is_sliced, part)?;
             let (error, measured) = (attempt.error, attempt.measured);
             let is_limited = attempt.limits.act_on_heads();
             if best.as_ref().is_none_or(|best| error < best.error) {
@@ -220,7 +222,7 @@ impl Request<'_> {
 
     /// One field, for a style with everything below the head stretched by what makes the result `aim` heads tall instead of
     /// `asked`.
-    fn attempt(&self, asked: f64, aim: f64, is_sliced: bool) -> Result<Attempt> {
+    fn attempt(&self, asked: f64, aim: f64, is_sliced: bool, progress: &mut Progress) -> Result<Attempt> {
         let &Self { target, product, style, options, groups, .. } = self;
         let anatomy = &target.measured.anatomy;
         let stretched;
@@ -238,7 +240,8 @@ impl Request<'_> {
         let Sliced { field, limited, replaced } = if is_sliced {
             let roles = &target.measured.figure.role_weights;
             let weights = self.weights.get_or_init(|| roles.iter().map(|row| fold_to_parts(row)).collect());
-            with_profile(target, product, weights, field, style, options, groups)
+            let part = &mut progress.part(0.0, 0.8);
+            with_profile(target, product, weights, field, style, options, groups, part)?
         } else {
             Sliced { field, limited: None, replaced: Vec::new() }
         };

@@ -2,8 +2,9 @@
 
 use super::Target;
 use super::product_target::ProductTarget;
-use crate::error::Warning;
+use crate::error::{Result, Warning};
 use crate::options::{Options, Stage};
+use crate::progress::Progress;
 use crate::shape::field::{Binding, BodyField, Field};
 use crate::shape::product::field::PartField;
 use crate::shape::product::groups::PartGroups;
@@ -32,6 +33,10 @@ pub struct Sliced {
 /// `field`, the parts' own, and then the profile that the style wants, as much of it as the options take.
 ///
 /// `weights`: what the rig's own weights give the parts of each vertex.
+///
+/// # Errors
+/// `Cancelled`.
+#[allow(clippy::too_many_arguments)]
 pub fn with_profile(
     target: &Target,
     product: &ProductTarget,
@@ -40,14 +45,16 @@ pub fn with_profile(
     style: &Style,
     options: &Options,
     groups: &PartGroups,
-) -> Sliced {
+    progress: &mut Progress,
+) -> Result<Sliced> {
     let measured = &target.measured;
     let wanted = wanted_of(style, measured.anatomy.landmarks.heights.heads());
     let (Some((wanted, share)), BodyField::Parts(parts)) = (wanted, &*field.body) else {
-        return Sliced { field, limited: None, replaced: Vec::new() };
+        return Ok(Sliced { field, limited: None, replaced: Vec::new() });
     };
     let share = share * options.profile;
     let positions = product.placement(&measured.figure, &field, options.thread_count).all_vertices();
+    progress.at(0.3)?;
     let source = Source {
         figure: &measured.figure,
         anatomy: &measured.anatomy,
@@ -63,9 +70,10 @@ pub fn with_profile(
     };
     let strengths = |frame: &_| strengths(share, options, groups, frame);
     let stage = ProfileStage::of(&source, parts, &positions, &wanted, strengths);
+    progress.at(1.0)?;
     let (limited, replaced) = (limited(&stage), stage.replaced().to_vec());
     let parts = PartField::clone(parts).with_profile(stage);
-    Sliced { field: Field::of(Arc::new(BodyField::Parts(Box::new(parts)))), limited, replaced }
+    Ok(Sliced { field: Field::of(Arc::new(BodyField::Parts(Box::new(parts)))), limited, replaced })
 }
 
 fn limited(stage: &ProfileStage) -> Option<Warning> {

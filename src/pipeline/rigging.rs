@@ -71,9 +71,9 @@ impl Rig {
         options.validate()?;
         progress.at(0.0)?;
         let clock = Instant::now();
-        let Placed { figure, up, forward, mut kinds, mut found, mut warnings } =
+        let Placed { figure, up, forward, mut kinds, surroundings, mut found, mut warnings } =
             Placed::of(character, options, &mut progress.part(0.0, 0.25))?;
-        warnings.extend(refine_kinds(&figure, &mut kinds, &found.joints));
+        warnings.extend(refine_kinds(&figure, &surroundings, &mut kinds, &found.joints));
         let eyes = find_eyes(&figure, &kinds, &found);
         for eye in &eyes {
             let joint = FoundJoint { position: eye.centre, confidence: eye.confidence };

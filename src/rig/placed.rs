@@ -2,7 +2,7 @@
 
 use super::facing::find_forward;
 use super::joints::{FoundJoints, find_joints};
-use super::mesh_kinds::guess_kinds;
+use super::mesh_kinds::{Surroundings, guess_kinds};
 use super::{RigOptions, UnitFigure};
 use crate::character::{Character, MeshKind, Role};
 use crate::error::{ErrorKind, Result, Warning};
@@ -50,6 +50,8 @@ pub struct Placed {
     pub forward: DVec3,
     /// What each mesh depicts, guessed before joints were known.
     pub kinds: Vec<MeshKind>,
+    /// What that was guessed from.
+    pub surroundings: Surroundings,
     /// Its joints, in the figure's space.
     pub found: FoundJoints,
     /// What a person should know.
@@ -125,7 +127,8 @@ impl Placed {
         progress.at(0.2)?;
         let figure = UnitFigure::in_axes(character, forward, options.left_handed)?;
         progress.at(0.4)?;
-        let (kinds, kind_warnings) = guess_kinds(&figure);
+        let (kinds, kind_warnings, surroundings) =
+            guess_kinds(&figure, options.thread_count, &mut progress.part(0.4, 0.6))?;
         warnings.extend(kind_warnings);
         let given = options.given.iter().map(|(&role, &at)| (role, figure.to_unit(at))).collect();
         let guessed: Vec<Option<MeshKind>> = kinds.iter().copied().map(Some).collect();
@@ -135,12 +138,12 @@ impl Placed {
             &given,
             options.fingers,
             options.thread_count,
-            &mut progress.part(0.4, 1.0),
+            &mut progress.part(0.6, 1.0),
         )?;
         warnings.append(&mut found.warnings);
         progress.at(1.0)?;
         let up = character.axes.up.as_dvec3().normalize_or(DVec3::Y);
-        Ok(Self { figure, up, forward, kinds, found, warnings })
+        Ok(Self { figure, up, forward, kinds, surroundings, found, warnings })
     }
 }
 

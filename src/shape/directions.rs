@@ -8,7 +8,7 @@
 //! triangles side by side, then each vertex sums up what happens around it, and nothing is kept from piece to piece. A
 //! triangle at a border is looked at by each of its pieces, in the order of the mesh, so that the pieces do not show.
 
-use super::turn::{LANES, Turn, Turns, columns_of, four_at, root, transposed};
+use super::turn::{Four, LANES, Turn, Turns, columns_of, cross, dot, four_at, root, transposed};
 use crate::geometry::bounds;
 use crate::geometry::weld::Weld;
 use glam::{BVec4A, DVec3, Mat3A, Vec3, Vec3A, Vec4};
@@ -92,6 +92,16 @@ impl Group {
     const NONE: Self = Self { corners: [[0; LANES]; 3], rows: [[Vec4::ZERO; 3]; 3], areas: Vec4::ZERO };
 }
 
+/// Four triangles after: edges from the first corner, their cross product, and what makes a normal of it that is as long as the
+/// root of the area.
+#[derive(Clone, Copy, Debug, Default)]
+struct Edges {
+    a: Four,
+    b: Four,
+    normal: Four,
+    factor: Vec4,
+}
+
 /// Where vertices go: scale (p + stretch p + share d), up to a shift; a displacement d for each vertex.
 #[derive(Clone, Copy, Debug)]
 pub struct Moved<'a> {
@@ -107,6 +117,8 @@ pub struct Moved<'a> {
 pub struct Room {
     /// By corner: where it is after.
     points: [Vec4; CORNERS],
+    /// By group.
+    edges: [Edges; BATCH / LANES],
     /// By triangle: the columns of its gradient times its area, and that area as the first one's w.
     gradients: [[Vec4; 3]; BATCH],
     /// By slot: the gradients around it, summed up.
@@ -117,6 +129,7 @@ impl Default for Room {
     fn default() -> Self {
         Self {
             points: [Vec4::ZERO; CORNERS],
+            edges: [Edges::default(); BATCH / LANES],
             gradients: [[Vec4::ZERO; 3]; BATCH],
             sums: [[Vec4::ZERO; 3]; PIECE],
         }
@@ -221,9 +234,18 @@ impl RestTriangles {
                 let displacement = moved.displacements[corner.vertex as usize];
                 *point = size * corner.at.extend(0.0) + share * displacement.extend(0.0);
             }
+            let groups = &self.groups[range(&batch.groups)];
+            for (group, edges) in groups.iter().zip(&mut room.edges) {
+                *edges = group.edges(&room.points);
+            }
+            // Roots take long, but many may be on their way.
+            for edges in &mut room.edges[..groups.len()] {
+                let area = root(edges.factor);
+                edges.factor = root(area) / area;
+            }
             let (fours, _) = room.gradients.as_chunks_mut();
-            for (group, gradients) in self.groups[range(&batch.groups)].iter().zip(fours) {
-                group.write_gradients(&room.points, gradients);
+            for ((group, edges), gradients) in groups.iter().zip(&room.edges).zip(fours) {
+                *gradients = group.gradients(edges);
             }
             let mut around = &self.around[range(&batch.around)];
             for run in &self.runs[range(&batch.runs)] {
@@ -245,34 +267,40 @@ impl RestTriangles {
 }
 
 impl Group {
-    /// The triangles' gradients, as [`Room::gradients`] has them.
+    /// Its triangles' edges after, `factor` the square of their cross product.
     #[inline(always)]
-    fn write_gradients(&self, points: &[Vec4; CORNERS], gradients: &mut [[Vec4; 3]; LANES]) {
+    fn edges(&self, points: &[Vec4; CORNERS]) -> Edges {
         let point =
             |corner: usize, lane: usize| points[usize::from(self.corners[corner][lane]) & (CORNERS - 1)];
         let first: [Vec4; LANES] = std::array::from_fn(|lane| point(0, lane));
-        let edge = |corner: usize| transposed(std::array::from_fn(|lane| point(corner, lane) - first[lane]));
+        let edge = |corner: usize| {
+            let [x, y, z, _] = transposed(std::array::from_fn(|lane| point(corner, lane) - first[lane]));
+            [x, y, z]
+        };
         let (a, b) = (edge(1), edge(2));
+        let normal = cross(a, b);
+        Edges { a, b, normal, factor: dot(normal, normal) }
+    }
+
+    /// The triangles' gradients, as [`Room::gradients`] has them.
+    #[inline(always)]
+    fn gradients(&self, Edges { a, b, normal, factor }: &Edges) -> [[Vec4; 3]; LANES] {
         let [rows_a, rows_b, rows_n] = &self.rows;
-        let cross = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
-        let area_after = root(cross[0] * cross[0] + cross[1] * cross[1] + cross[2] * cross[2]);
-        // The normal, times the root of the area after.
-        let factor = root(area_after) / area_after;
-        let normal = cross.map(|v| v * factor);
-        let columns: [[Vec4; 3]; 3] = std::array::from_fn(|column| {
-            let of = |axis: usize| {
+        let normal = normal.map(|v| v * *factor);
+        let columns: [Four; 3] = std::array::from_fn(|column| {
+            std::array::from_fn(|axis| {
                 a[axis] * rows_a[column] + b[axis] * rows_b[column] + normal[axis] * rows_n[column]
-            };
-            std::array::from_fn(of)
+            })
         });
-        *gradients = columns_of(columns, self.areas);
+        let mut gradients = columns_of(columns, self.areas);
         // A triangle that has lost its area says nothing.
-        let counts = area_after.cmpgt(Vec4::ZERO) & area_after.cmplt(Vec4::INFINITY);
+        let counts = factor.cmpgt(Vec4::ZERO) & factor.cmplt(Vec4::INFINITY);
         if !counts.all() {
             for lane in (0..LANES).filter(|&lane| !counts.test(lane)) {
                 gradients[lane] = [Vec4::ZERO; 3];
             }
         }
+        gradients
     }
 }
 

@@ -63,7 +63,13 @@ impl Measured {
         progress: &mut Progress,
     ) -> Result<Self> {
         let threads = if figure.triangles.len() < LEAST_TRIANGLES { 1 } else { options.thread_count };
-        let (surfaces, anatomy) = parallel::both(threads, || surfaces(&figure), || Anatomy::of(&figure));
+        let (surfaces, anatomy) = if parallel::thread_count(threads) == 1 {
+            let surfaces = surfaces(&figure);
+            progress.at(0.2)?;
+            (surfaces, Anatomy::of(&figure))
+        } else {
+            parallel::both(threads, || surfaces(&figure), || Anatomy::of(&figure))
+        };
         progress.at(0.4)?;
         let joints: BTreeMap<Role, DVec3> =
             figure.humanoid.iter().map(|(role, joint)| (role, figure.joints[joint])).collect();

@@ -121,13 +121,15 @@ impl Turns {
     }
 }
 
+/// Scalar products.
 #[inline(always)]
-fn dot(a: Four, b: Four) -> Vec4 {
+pub fn dot(a: Four, b: Four) -> Vec4 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
+/// Vector products.
 #[inline(always)]
-fn cross(a: Four, b: Four) -> Four {
+pub fn cross(a: Four, b: Four) -> Four {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 

@@ -53,7 +53,7 @@ fn a_point_spreads_over_the_mesh_as_far_as_ten_steps_go() {
     let middle = SIDE / 2 * SIDE + SIDE / 2;
     let mut rows = vec![Part::Torso.alone(); SIDE * SIDE];
     rows[middle] = Part::Neck.alone();
-    smooth_along(&figure, &weld, &vec![false; rows.len()], &mut rows, 1);
+    smooth_along(&figure, &weld, &vec![false; rows.len()], &mut rows, 1, &mut Progress::none()).unwrap();
     let neck = |vertex: usize| f64::from(rows[vertex][Part::Neck as usize]);
     let total: f64 = (0..rows.len()).map(neck).sum();
     assert!((total - 1.0).abs() < 1e-4, "{total}");
@@ -79,7 +79,7 @@ fn what_is_frozen_stays_and_draws_its_neighbours() {
     let is_left = |vertex: usize| vertex % SIDE < 10;
     (0..rows.len()).filter(|&vertex| is_left(vertex)).for_each(|vertex| rows[vertex] = Part::Head.alone());
     let frozen: Vec<bool> = (0..rows.len()).map(is_left).collect();
-    smooth_along(&figure, &weld, &frozen, &mut rows, 1);
+    smooth_along(&figure, &weld, &frozen, &mut rows, 1, &mut Progress::none()).unwrap();
     let head = |x: usize| rows[20 * SIDE + x][Part::Head as usize];
     assert!((0..10).all(|x| head(x) == 1.0));
     assert!(
@@ -104,7 +104,7 @@ fn copies_along_a_seam_share_one_row_and_loose_meshes_none() {
     let mut rows = vec![Part::Torso.alone(); SIDE * SIDE];
     rows.resize(2 * SIDE * SIDE, Part::Neck.alone());
     rows.resize(3 * SIDE * SIDE, Part::LeftFoot.alone());
-    smooth_along(&figure, &weld, &vec![false; rows.len()], &mut rows, 1);
+    smooth_along(&figure, &weld, &vec![false; rows.len()], &mut rows, 1, &mut Progress::none()).unwrap();
     for y in 0..SIDE {
         let (copy, other) = (y * SIDE + SIDE - 1, SIDE * SIDE + y * SIDE);
         assert_eq!(rows[copy], rows[other]);
@@ -129,7 +129,7 @@ fn where_hair_is_rooted_in_skin_the_skin_takes_its_weights() {
             .map(|vertex| if is_hair(vertex) { Part::Hair.alone() } else { Part::Torso.alone() })
             .collect();
         let frozen: Vec<bool> = (0..rows.len()).map(is_hair).collect();
-        smooth_along(&figure, &weld, &frozen, &mut rows, 1);
+        smooth_along(&figure, &weld, &frozen, &mut rows, 1, &mut Progress::none()).unwrap();
         for y in 0..SIDE {
             let seam = [y * SIDE + SIDE - 1, SIDE * SIDE + y * SIDE];
             assert!(seam.iter().all(|&vertex| rows[vertex] == Part::Hair.alone()), "{y}: {hair_first}");
@@ -200,7 +200,7 @@ fn threads_do_not_change_what_comes_out() {
         .collect();
     let smoothed = |threads: usize| {
         let mut rows = rows.clone();
-        smooth_along(&tubes.figure, &weld, &frozen, &mut rows, threads);
+        smooth_along(&tubes.figure, &weld, &frozen, &mut rows, threads, &mut Progress::none()).unwrap();
         smooth_across(&tubes.figure, &weld, &frozen, NO_FORK, &mut rows, threads, &mut Progress::none())
             .unwrap();
         rows

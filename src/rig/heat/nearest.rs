@@ -104,7 +104,7 @@ impl NearestBones {
     ) -> Result<Self> {
         let component_count = pieces.starts.len() - 1;
         let surfaces = parallel::collect(thread_count, component_count, 1, |component| {
-            Surface::new(points, pieces.triangles_of(component))
+            Surface::for_many(points, pieces.triangles_of(component))
         });
         progress.at(0.3)?;
         let chunks: Vec<&[DVec3]> = points.chunks(CHUNK).collect();

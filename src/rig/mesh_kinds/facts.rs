@@ -1,6 +1,8 @@
 //! What surrounds the meshes: samples with a ray inwards and one outwards.
 
+use crate::error::Result;
 use crate::geometry::{Hit, Surface, bounds, double_area};
+use crate::progress::Progress;
 use crate::rig::UnitFigure;
 use glam::DVec3;
 
@@ -29,12 +31,16 @@ const COVER_SHARE: f64 = 0.15;
 /// more mesh misjudged.
 const CRUMB: f64 = 0.1;
 
+/// Fewer points than this are not worth a thread.
+const LEAST_POINTS: usize = 200;
+
 /// How far points of a sequence step along both sides of a triangle: the golden ratio of the plane spreads them evenly,
 /// whatever triangles they fall on (Roberts, The unreasonable effectiveness of quasirandom sequences, 2018). Seen:
 /// ±30 % changes no mesh.
 const GOLDEN: (f64, f64) = (0.754_877_666_246_692_7, 0.569_840_290_998_053_3);
 
 /// A point on a mesh, and what is around it.
+#[derive(Clone, Debug)]
 pub(super) struct Sample {
     pub(super) point: DVec3,
     /// The mesh right below.
@@ -46,6 +52,7 @@ pub(super) struct Sample {
 }
 
 /// What is known of a mesh.
+#[derive(Clone, Debug)]
 pub(super) struct Facts {
     pub(super) samples: Vec<Sample>,
     pub(super) area: f64,
@@ -68,32 +75,39 @@ impl Facts {
     }
 }
 
+/// What surrounds each mesh of a figure, found once, whatever the kinds.
+#[derive(Clone, Debug, Default)]
+pub struct Surroundings(Vec<Facts>);
+
 pub(super) struct Scene<'a> {
     pub(super) figure: &'a UnitFigure,
-    pub(super) facts: Vec<Facts>,
+    pub(super) facts: &'a [Facts],
 }
 
-impl<'a> Scene<'a> {
-    pub(super) fn new(figure: &'a UnitFigure) -> Self {
-        let surface = Surface::new(&figure.positions, &figure.triangles);
+impl Surroundings {
+    pub(super) fn of(figure: &UnitFigure, threads: usize, progress: &mut Progress) -> Result<Self> {
+        let surface = Surface::for_many(&figure.positions, &figure.triangles);
         let mesh_of = |hit: &Hit| figure.triangle_starts.partition_point(|&start| start <= hit.triangle) - 1;
         let (all, least, most) = SAMPLES;
         let count = (all / figure.mesh_count().max(1)).clamp(least, most);
+        let points: Vec<Vec<(DVec3, DVec3)>> =
+            (0..figure.mesh_count()).map(|mesh| points_on(figure, mesh, count)).collect();
         // Points with both rays first: which side is out is known once a mesh's own hits are counted.
-        let shots: Vec<_> = (0..figure.mesh_count())
-            .map(|mesh| {
-                let points = points_on(figure, mesh, count);
-                let shots = points.into_iter().map(|(point, normal)| {
-                    let along = |direction: DVec3| {
-                        let mut hits = surface.all_hits(point, direction);
-                        hits.retain(|hit| hit.t > SAME_SPOT);
-                        hits
-                    };
-                    (point, along(normal), along(-normal))
-                });
-                shots.collect::<Vec<_>>()
-            })
-            .collect();
+        let all: Vec<(DVec3, DVec3)> = points.iter().flatten().copied().collect();
+        let shoot = |(): &mut (), index: usize| {
+            let (point, normal) = all[index];
+            let along = |direction: DVec3| {
+                let mut hits = surface.all_hits(point, direction);
+                hits.retain(|hit| hit.t > SAME_SPOT);
+                hits
+            };
+            (point, along(normal), along(-normal))
+        };
+        progress.at(0.1)?;
+        let part = &mut progress.part(0.1, 1.0);
+        let mut shot = part.collect_with(threads, all.len(), LEAST_POINTS, || (), shoot)?.into_iter();
+        let shots: Vec<Vec<_>> =
+            points.iter().map(|of_mesh| shot.by_ref().take(of_mesh.len()).collect()).collect();
         let turned: Vec<bool> = shots
             .iter()
             .enumerate()
@@ -126,10 +140,16 @@ impl<'a> Scene<'a> {
             let (low, high) = bounds(corners.map(|&vertex| figure.positions[vertex as usize]));
             Facts { samples: samples.collect(), area: mesh_area(figure, mesh), low, high }
         });
-        let facts = facts.collect();
-        Self { figure, facts }
+        Ok(Self(facts.collect()))
     }
 
+    /// The same with the figure.
+    pub(super) fn in_scene<'a>(&'a self, figure: &'a UnitFigure) -> Scene<'a> {
+        Scene { figure, facts: &self.0 }
+    }
+}
+
+impl Scene<'_> {
     /// The share of a mesh that lies over others that are no crumbs beside it.
     pub(super) fn layer_share(&self, mesh: usize) -> f64 {
         let facts = &self.facts[mesh];

@@ -8,8 +8,10 @@ mod reach;
 
 use super::{FoundJoint, UnitFigure};
 use crate::character::{MeshKind, Role};
-use crate::error::{Named, Warning};
+use crate::error::{Named, Result, Warning};
 use crate::geometry::{Surface, range, weld};
+use crate::progress::Progress;
+pub use facts::Surroundings;
 use facts::{Facts, Scene};
 use glam::DVec3;
 use reach::{SLICES, Slices, TRUNK_HALF_WIDTH, middle_plane, reaches_over, shown_count, slices};
@@ -121,25 +123,36 @@ const CHIN: f64 = 0.84;
 /// above the chin; what sits in or on the front of the head is part of the face; what hangs aside is an accessory. In
 /// doubt a mesh is body where it makes the body whole, else clothes. A single mesh is body.
 ///
-/// Runs before joints are known; [`refine_kinds`] looks again once they are.
-pub fn guess_kinds(figure: &UnitFigure) -> (Vec<MeshKind>, Vec<Warning>) {
+/// Runs before joints are known; [`refine_kinds`] looks again once they are, at the same surroundings.
+///
+/// `threads`: at most this many, 0 for all cores.
+///
+/// # Errors
+/// `Cancelled`.
+pub fn guess_kinds(
+    figure: &UnitFigure,
+    threads: usize,
+    progress: &mut Progress,
+) -> Result<(Vec<MeshKind>, Vec<Warning>, Surroundings)> {
     let unknown = figure.kinds.iter().filter(|kind| kind.is_none()).count();
     if unknown == 0 || figure.mesh_count() == 1 {
-        return (figure.kinds.iter().map(|kind| kind.unwrap_or_default()).collect(), Vec::new());
+        let kinds = figure.kinds.iter().map(|kind| kind.unwrap_or_default()).collect();
+        return Ok((kinds, Vec::new(), Surroundings::default()));
     }
-    let scene = Scene::new(figure);
-    let guesses = scene.guess(None);
+    let surroundings = Surroundings::of(figure, threads, progress)?;
+    let guesses = surroundings.in_scene(figure).guess(None);
     let doubtful: Vec<usize> = (0..guesses.len()).filter(|&mesh| !guesses[mesh].sure).collect();
     let kinds: Vec<MeshKind> = guesses.iter().map(|guess| guess.kind).collect();
     let warnings = warning(figure, &kinds, &doubtful);
-    (kinds, warnings)
+    Ok((kinds, warnings, surroundings))
 }
 
 /// Kinds once more, for the meshes that nobody has named, now that it is known where the head is.
 ///
-/// What is body stays body; the rest is told apart anew. The warning names the meshes whose kind is another one now.
+/// What is body stays body; the rest is told apart anew. `surroundings`: what [`guess_kinds`] found of this figure. The warning names the meshes whose kind is another one now.
 pub fn refine_kinds(
     figure: &UnitFigure,
+    surroundings: &Surroundings,
     kinds: &mut [MeshKind],
     joints: &BTreeMap<Role, FoundJoint>,
 ) -> Vec<Warning> {
@@ -150,7 +163,7 @@ pub fn refine_kinds(
     let Some(head) = head.filter(|_| (0..figure.mesh_count()).any(|mesh| open(mesh, kinds))) else {
         return Vec::new();
     };
-    let guesses = Scene::new(figure).guess(Some(head));
+    let guesses = surroundings.in_scene(figure).guess(Some(head));
     let mut changed = Vec::new();
     for (mesh, guess) in guesses.iter().enumerate() {
         if open(mesh, kinds) && guess.kind != kinds[mesh] {
@@ -217,7 +230,7 @@ impl Scene<'_> {
         let mut is_body: Vec<bool> = figure
             .kinds
             .iter()
-            .zip(&self.facts)
+            .zip(self.facts)
             .map(|(kind, facts)| *kind == Some(MeshKind::Body) && !facts.samples.is_empty())
             .collect();
         let is_volume = |mesh: usize| volumes.contains(&mesh) || figure.kinds[mesh] == Some(MeshKind::Body);

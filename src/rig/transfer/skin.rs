@@ -32,7 +32,7 @@ impl Skin {
         let corners: Vec<[u32; 3]> = triangles.iter().map(|&corners| welded.triangle(corners)).collect();
         let normals = normals(&points, &corners);
         Self {
-            surface: Surface::new(positions, triangles),
+            surface: Surface::for_many(positions, triangles),
             normals: welded.representative.iter().map(|&vertex| normals[vertex as usize]).collect(),
         }
     }

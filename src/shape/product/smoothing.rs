@@ -38,13 +38,17 @@ const LEAST_SAMPLES: usize = 4000;
 const ARM_MAJORITY: f32 = 0.503;
 
 /// Umbrella steps on the welded mesh; `frozen` vertices stay.
+///
+/// # Errors
+/// `Cancelled`.
 pub fn smooth_along(
     figure: &Figure,
     weld: &Weld,
     frozen: &[bool],
     parts: &mut [PartWeights],
     threads: usize,
-) {
+    progress: &mut Progress,
+) -> Result<()> {
     let around = neighbours(&figure.triangles, weld);
     let firsts = weld.first_vertices();
     let mut edges: Vec<f64> = Vec::new();
@@ -59,7 +63,7 @@ pub fn smooth_along(
         );
     }
     if edges.is_empty() {
-        return;
+        return Ok(());
     }
     let middle = edges.len() / 2;
     let median = *edges.select_nth_unstable_by(middle, f64::total_cmp).1;
@@ -89,11 +93,12 @@ pub fn smooth_along(
     }
     // Parts do not mix, so each thread takes some of them; parts of one limb touch the same vertices.
     let threads = if weld.count < LEAST_SAMPLES { 1 } else { threads };
-    let smoothed = parallel::collect(threads, SMOOTHED_TOGETHER.len(), 1, |group| {
+    let smooth = |(): &mut (), group: usize| {
         let columns: Vec<[f32; 4]> =
             rows.iter().map(|row| SMOOTHED_TOGETHER[group].map(|part| row[part as usize])).collect();
         umbrella_steps(columns, &around, &still, passes)
-    });
+    };
+    let smoothed = progress.collect_with(threads, SMOOTHED_TOGETHER.len(), 1, || (), smooth)?;
     for (vertex, row) in parts.iter_mut().enumerate() {
         let welded = weld.representative[vertex] as usize;
         for (group, columns) in SMOOTHED_TOGETHER.iter().zip(&smoothed) {
@@ -102,6 +107,7 @@ pub fn smooth_along(
             }
         }
     }
+    Ok(())
 }
 
 /// All parts, in groups that are smoothed together.

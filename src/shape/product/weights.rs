@@ -68,8 +68,7 @@ pub fn part_weights(
     }
     mark_hanging_hair(figure, anatomy, members, &head_only, &mut parts);
     progress.at(0.1)?;
-    smooth_along(figure, weld, &head_only, &mut parts, threads);
-    progress.at(0.3)?;
+    smooth_along(figure, weld, &head_only, &mut parts, threads, &mut progress.part(0.1, 0.3))?;
     // Skin at the root of hair has moved over to the hair's weights, and must stay there or the hair line opens.
     let mut holds_head_only = vec![false; weld.count];
     for (vertex, _) in head_only.iter().enumerate().filter(|&(_, &head_only)| head_only) {
