@@ -156,6 +156,43 @@ fn line_09_a_chain_stays_in_the_skirt_that_it_moves() {
     }
 }
 
+/// Half the breadth of the lowest ring of the skirt, and its height.
+fn hem(character: &Character, deformed: &Deformed) -> (f64, f64) {
+    let skirt = character.meshes.iter().position(|mesh| mesh.name == "skirt").unwrap();
+    let rest = &character.meshes[skirt].positions;
+    let lowest = rest.iter().map(|p| p.y).fold(f32::INFINITY, f32::min);
+    let ring = rest.iter().zip(&deformed.meshes[skirt].positions).filter(|(p, _)| p.y < lowest + 1e-4);
+    let ring: Vec<DVec3> = ring.map(|(_, to)| to.as_dvec3()).collect();
+    let breadth = ring.iter().map(|p| p.x.abs()).fold(0.0, f64::max);
+    (breadth, ring.iter().map(|p| p.y).sum::<f64>() / ring.len() as f64)
+}
+
+#[test]
+fn line_09_a_skirt_on_chains_hangs_like_one_with_weights_to_the_legs() {
+    let (on_chains, _) = avatars::skirted();
+    let mut on_legs = on_chains.clone();
+    let joint = |role| on_chains.humanoid.joint(role).unwrap();
+    let (left, right) = (joint(Role::LeftUpperLeg), joint(Role::RightUpperLeg));
+    let (hip, apart) = (on_chains.skeleton.joints[left].position(), on_chains.skeleton.joints[left].position().x.abs());
+    let skirt = on_legs.meshes.iter_mut().find(|mesh| mesh.name == "skirt").unwrap();
+    let rows = skirt.positions.iter().map(|p| {
+        let of_legs = ((hip.y as f32 - p.y) / 0.1).clamp(0.0, 1.0);
+        // Left is +x, as the left hip says.
+        let of_left = (0.5 + 0.5 * p.x * hip.x.signum() as f32 / apart as f32).clamp(0.0, 1.0);
+        vec![
+            (joint(Role::Hips) as u32, 1.0 - of_legs),
+            (left as u32, of_legs * of_left),
+            (right as u32, of_legs * (1.0 - of_left)),
+        ]
+    });
+    skirt.weights = Weights::from_rows(rows.collect::<Vec<_>>());
+    let (_, chained) = deformed_person(on_chains.clone());
+    let (_, legged) = deformed_person(on_legs.clone());
+    let ((breadth, height), (wanted, at)) = (hem(&on_chains, &chained), hem(&on_legs, &legged));
+    assert!((breadth / wanted - 1.0).abs() < 0.1, "the hem is {breadth:.4} to each side instead of {wanted:.4}");
+    assert!((height / at - 1.0).abs() < 0.1, "the hem is {height:.4} high instead of {at:.4}");
+}
+
 #[test]
 fn line_09_a_plug_stays_on_its_cord() {
     let (character, _) = avatars::plugged();

@@ -10,6 +10,7 @@ pub mod curtain;
 pub mod field;
 pub mod groups;
 pub mod hair;
+pub mod hanging;
 pub mod head;
 pub mod joints;
 pub mod landmarks;

@@ -6,6 +6,7 @@
 //! layers of cloth; the file's own weights stay as they are.
 
 use super::anatomy::Anatomy;
+use super::hanging::follow_legs;
 use super::part::{Part, PartWeights, TINY, fold_to_parts};
 use super::smoothing::{Fork, smooth_across, smooth_along};
 use crate::character::{MeshKind, Role};
@@ -67,6 +68,7 @@ pub fn part_weights(
         }
     }
     mark_hanging_hair(figure, anatomy, members, &head_only, &mut parts);
+    follow_legs(figure, anatomy, &mut parts);
     progress.at(0.1)?;
     smooth_along(figure, weld, &head_only, &mut parts, threads, &mut progress.part(0.1, 0.3))?;
     // Skin at the root of hair has moved over to the hair's weights, and must stay there or the hair line opens.
