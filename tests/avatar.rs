@@ -47,7 +47,7 @@ use glam::DVec3;
 use made::{figure, squash_point};
 use serde_json::{Value, json};
 use std::sync::{Arc, OnceLock};
-use superdeform::{Character, Deformed, Deformer, Options, Role, Style};
+use superdeform::{Character, Deformed, Deformer, Options, Role, Style, Weights};
 use superdeform_host::file::GltfFile;
 use superdeform_host::load::Loaded;
 use superdeform_host::write::colliders::{add_leaf_joints, aim_turn, findings};
@@ -173,7 +173,8 @@ fn line_09_a_skirt_on_chains_hangs_like_one_with_weights_to_the_legs() {
     let mut on_legs = on_chains.clone();
     let joint = |role| on_chains.humanoid.joint(role).unwrap();
     let (left, right) = (joint(Role::LeftUpperLeg), joint(Role::RightUpperLeg));
-    let (hip, apart) = (on_chains.skeleton.joints[left].position(), on_chains.skeleton.joints[left].position().x.abs());
+    let (hip, apart) =
+        (on_chains.skeleton.joints[left].position(), on_chains.skeleton.joints[left].position().x.abs());
     let skirt = on_legs.meshes.iter_mut().find(|mesh| mesh.name == "skirt").unwrap();
     let rows = skirt.positions.iter().map(|p| {
         let of_legs = ((hip.y as f32 - p.y) / 0.1).clamp(0.0, 1.0);
@@ -189,7 +190,10 @@ fn line_09_a_skirt_on_chains_hangs_like_one_with_weights_to_the_legs() {
     let (_, chained) = deformed_person(on_chains.clone());
     let (_, legged) = deformed_person(on_legs.clone());
     let ((breadth, height), (wanted, at)) = (hem(&on_chains, &chained), hem(&on_legs, &legged));
-    assert!((breadth / wanted - 1.0).abs() < 0.1, "the hem is {breadth:.4} to each side instead of {wanted:.4}");
+    assert!(
+        (breadth / wanted - 1.0).abs() < 0.1,
+        "the hem is {breadth:.4} to each side instead of {wanted:.4}"
+    );
     assert!((height / at - 1.0).abs() < 0.1, "the hem is {height:.4} high instead of {at:.4}");
 }
 

@@ -7,6 +7,9 @@ use std::ops::Range;
 
 /// Cells over the height of a figure: one is 0.006 H, a fifth of the least limb.
 const CELLS: f64 = 160.0;
+/// A figure as broad and deep as high takes larger cells, so that there are no more than this: time and memory. A person in
+/// T-pose takes 2 million, one with arms forward 3.
+const MOST_CELLS: f64 = 5e6;
 /// What lies further from the axis than this, in heights, is no limb: a bound for memory.
 const REACH: f64 = 1.0;
 /// Empty cells around the figure, so that all of them hang together.
@@ -40,7 +43,6 @@ impl Solid {
     ///
     /// O(area + cells).
     pub fn new(positions: &[DVec3], triangles: &[[u32; 3]], axis: f64) -> Self {
-        let cell = 1.0 / CELLS;
         let middle = DVec3::new(axis, 0.0, 0.0);
         let (mut low, mut high) = (DVec3::ZERO, DVec3::Y);
         for corners in triangles {
@@ -52,8 +54,9 @@ impl Solid {
         }
         // As far to one side as to the other: mirror images fall on cells that are mirror images.
         let reach = low.abs().max(high.abs()).min(DVec3::splat(REACH));
+        let cell = (4.0 * reach.x * reach.z / MOST_CELLS).cbrt().max(1.0 / CELLS);
         let count = |reach: f64| 2 * ((reach / cell).ceil() as usize + MARGIN);
-        let size = [count(reach.x), CELLS as usize + 2 * MARGIN, count(reach.z)];
+        let size = [count(reach.x), (1.0 / cell).ceil() as usize + 2 * MARGIN, count(reach.z)];
         let low = middle - cell * DVec3::new(0.5 * size[0] as f64, MARGIN as f64, 0.5 * size[2] as f64);
         let mut solid = Self { size, low, cell, state: Vec::new() };
         let mut state = vec![0u8; size[0] * size[1] * size[2]];
