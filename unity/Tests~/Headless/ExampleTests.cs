@@ -47,8 +47,8 @@ namespace SuperDeform.Editor.Tests
         static void Compare(string file) { Compare(file, "--heads 2.5", null); }
 
         /// arguments: the command line's; settings: makes the same of new settings
-        /// coarser: how many times the tolerance is allowed
-        static void Compare(string file, string arguments, Action<ConversionSettings> settings, int coarser = 1)
+        /// coarser, turned: how many times the tolerance is allowed, of places and of normals
+        static void Compare(string file, string arguments, Action<ConversionSettings> settings, int coarser = 1, int turned = 1)
         {
             if (!Models.Has(file)) return;
             string made = RunExample(file, arguments);
@@ -114,7 +114,7 @@ namespace SuperDeform.Editor.Tests
             Assert.That(joint, Is.LessThan(Tolerance), "joints");
             Assert.That(position, Is.LessThan(coarser * Tolerance), "positions");
             Assert.That(delta, Is.LessThan(Tolerance), "blend shapes");
-            Assert.That(normal, Is.LessThan(coarser * NormalTolerance), "normals");
+            Assert.That(normal, Is.LessThan(turned * NormalTolerance), "normals");
         }
 
         /// The corners of a primitive's triangles: of vertices that several primitives share, each draws its own.
@@ -140,17 +140,18 @@ namespace SuperDeform.Editor.Tests
 
         [Test] public void a_woman_in_a_dress_comes_out_as_the_command_line_makes_her() { Compare("quaternius_female_dress.glb"); }
         [Test] public void a_rogue_of_rigid_and_skinned_parts_comes_out_as_the_command_line_makes_him() { Compare("kaykit_rogue.glb", "--heads 4", delegate (ConversionSettings settings) { settings.Heads = 4f; }); }
+        // Slivers of her clothes, whose sides nearly cancel, turn by up to 4.9e-3 where places differ by last digits.
         [Test]
         public void a_vrm_1_avatar_comes_out_as_the_command_line_makes_it()
         {
-            Compare("seedsan_vrm1.vrm", "--heads 2.5 --repair 0", settings => settings.Options.Repair = Repair.Off);
+            Compare("seedsan_vrm1.vrm", "--heads 2.5 --repair 0", settings => settings.Options.Repair = Repair.Off, 1, 16);
         }
 
         // Whether a corner of her coat counts as inside turns on the last bits of its place: 1.2e-5 and 1.2e-3.
         [Test]
         public void clothes_are_pushed_out_as_the_command_line_does_it()
         {
-            Compare("seedsan_vrm1.vrm", "--heads 2.5", null, 4);
+            Compare("seedsan_vrm1.vrm", "--heads 2.5", null, 4, 16);
         }
 
         [Test] public void a_vrm_0_avatar_with_expressions_comes_out_as_the_command_line_makes_it() 
