@@ -29,7 +29,7 @@ pub fn follow_legs(figure: &Figure, anatomy: &Anatomy, parts: &mut [PartWeights]
             && figure.positions[vertex].y < crotch
     };
     let hanging: Vec<usize> = (0..parts.len()).filter(|&vertex| hangs(vertex)).collect();
-    if hanging.is_empty() || !(fade > 0.0) {
+    if hanging.is_empty() || fade <= 0.0 {
         return;
     }
     // The feet stand apart from the legs; a hem over them still follows the legs.
