@@ -3,8 +3,8 @@
 //! Such joints play no role, so what they move folds into the torso, whose map knows nothing of what lies below the crotch:
 //! a hem became a third wider than that of the same skirt with weights to the legs, and longer or shorter than the legs.
 
-use super::anatomy::Anatomy;
 use super::part::{Part, PartWeights, TINY, add};
+use super::smoothing::Fork;
 use crate::character::MeshKind;
 use crate::geometry::point_tree::PointTree;
 use crate::geometry::smoothstep;
@@ -13,23 +13,20 @@ use glam::DVec3;
 
 /// A vertex hangs where joints without a role have more than this weight. D26.
 const HANGS: f64 = 0.5;
-/// It goes over to the legs within this part of their length under the crotch. D26: as far as left and right leg take to part.
-const GOES_OVER: f64 = 0.15;
 /// Vertices under the cloth that it follows: as many as one step of smoothing takes.
 const UNDER: usize = 24;
 
-/// Gives cloth that hangs below the crotch the weights of the body under it, for the torso's.
-pub fn follow_legs(figure: &Figure, anatomy: &Anatomy, parts: &mut [PartWeights]) {
-    let crotch = anatomy.landmarks.heights.crotch;
-    let ankles = 0.5 * (anatomy.limbs[2].end.y + anatomy.limbs[3].end.y);
-    let fade = GOES_OVER * (crotch - ankles);
+/// Gives cloth that hangs below the crotch the weights of the body under it, for the torso's: by and by, as far down as left
+/// and right leg take to part.
+pub fn follow_legs(figure: &Figure, fork: Fork, parts: &mut [PartWeights]) {
+    let Fork { crotch, apart } = fork;
     let hangs = |vertex: usize| {
         figure.kind(vertex) == MeshKind::Garment
             && figure.extra_weight[vertex] > HANGS
             && figure.positions[vertex].y < crotch
     };
     let hanging: Vec<usize> = (0..parts.len()).filter(|&vertex| hangs(vertex)).collect();
-    if hanging.is_empty() || fade <= 0.0 {
+    if hanging.is_empty() || apart <= 0.0 {
         return;
     }
     // The feet stand apart from the legs; a hem over them still follows the legs.
@@ -64,7 +61,7 @@ pub fn follow_legs(figure: &Figure, anatomy: &Anatomy, parts: &mut [PartWeights]
             add(&mut legs, &rows[near.index() as usize], (-0.5 * off * off).exp() as f32);
         }
         let total: f32 = legs.iter().sum();
-        let share = smoothstep((crotch - p.y) / fade) as f32 * parts[vertex][Part::Torso as usize];
+        let share = smoothstep((crotch - p.y) / apart) as f32 * parts[vertex][Part::Torso as usize];
         if total > 0.0 && share > 0.0 {
             parts[vertex][Part::Torso as usize] -= share;
             add(&mut parts[vertex], &legs, share / total);

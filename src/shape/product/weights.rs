@@ -68,7 +68,10 @@ pub fn part_weights(
         }
     }
     mark_hanging_hair(figure, anatomy, members, &head_only, &mut parts);
-    follow_legs(figure, anatomy, &mut parts);
+    let crotch = anatomy.landmarks.heights.crotch;
+    let ankles = 0.5 * (anatomy.limbs[2].end.y + anatomy.limbs[3].end.y);
+    let fork = Fork { crotch, apart: FORK * (crotch - ankles) };
+    follow_legs(figure, fork, &mut parts);
     progress.at(0.1)?;
     smooth_along(figure, weld, &head_only, &mut parts, threads, &mut progress.part(0.1, 0.3))?;
     // Skin at the root of hair has moved over to the hair's weights, and must stay there or the hair line opens.
@@ -78,9 +81,6 @@ pub fn part_weights(
     }
     let frozen: Vec<bool> =
         weld.representative.iter().map(|&welded| holds_head_only[welded as usize]).collect();
-    let crotch = anatomy.landmarks.heights.crotch;
-    let ankles = 0.5 * (anatomy.limbs[2].end.y + anatomy.limbs[3].end.y);
-    let fork = Fork { crotch, apart: FORK * (crotch - ankles) };
     smooth_across(figure, weld, &frozen, fork, &mut parts, threads, &mut progress.part(0.3, 1.0))?;
     for (row, &p) in parts.iter_mut().zip(&figure.positions) {
         settle_soles(row, p, anatomy);
