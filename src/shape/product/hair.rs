@@ -5,8 +5,9 @@
 //! body's, and nowhere becomes broader than it is on the head: hair that spreads over the shoulders of an adult would
 //! stand out like a skirt from a child's.
 
+use super::outside::{Outside, rims, volume};
 use super::scales::HeadScale;
-use crate::geometry::{Mapped, Neighbours, Surface, Weld, double_area, neighbours, smoothstep};
+use crate::geometry::{Mapped, Neighbours, Weld, neighbours, smoothstep};
 use crate::parallel;
 use glam::{DMat3, DVec3};
 
@@ -222,25 +223,10 @@ impl HairOnBody {
 
     /// How far outside of the body each vertex is, and which way out is there.
     fn to_body(&self, points: &[DVec3], weld: &Weld, threads: usize) -> Vec<(f64, DVec3)> {
-        let surface = Surface::new(points, &self.body);
-        let normals = vertex_normals(points, &self.body, &self.rims, weld);
-        let beside = (f64::INFINITY, DVec3::ZERO);
+        let outside = Outside::new(points, &self.body, &self.rims, weld, self.outwards);
         parallel::collect(threads, self.hair.len(), LEAST_HAIR, |index| {
-            let p = points[self.hair[index]];
-            let Some(closest) = surface.closest_point(p) else { return beside };
-            let corners = weld.triangle(self.body[closest.triangle]);
-            let normal: DVec3 = corners
-                .iter()
-                .zip(closest.barycentric)
-                .map(|(&corner, share)| self.outwards * share * normals[corner as usize])
-                .sum();
-            if normal == DVec3::ZERO {
-                // Beside a rim there is no inside.
-                return beside;
-            }
-            let from = p - closest.point;
-            let sign = if from.dot(normal) < 0.0 { -1.0 } else { 1.0 };
-            (sign * closest.distance, normal.normalize_or_zero())
+            let found = outside.towards_rims(points[self.hair[index]]);
+            found.map_or((f64::INFINITY, DVec3::ZERO), |(_, distance, way)| (distance, way))
         })
     }
 
@@ -304,50 +290,4 @@ impl HairOnBody {
         }
         self.hair.iter().map(|&vertex| (vertex, push[weld.representative[vertex] as usize])).collect()
     }
-}
-
-/// Six times the volume within `triangles`, below 0 where they are wound to look inwards.
-pub fn volume(points: &[DVec3], triangles: &[[u32; 3]]) -> f64 {
-    let corners = || triangles.iter().flatten().map(|&vertex| points[vertex as usize]);
-    // About its own middle, or the holes of an open body would count.
-    let middle = corners().sum::<DVec3>() / (3 * triangles.len()) as f64;
-    triangles
-        .iter()
-        .map(|corners| {
-            let [a, b, c] = corners.map(|vertex| points[vertex as usize] - middle);
-            a.dot(b.cross(c))
-        })
-        .sum()
-}
-
-/// The welded vertices at rims, where a surface ends: those of edges that one triangle has.
-pub fn rims(triangles: &[[u32; 3]], weld: &Weld) -> Vec<u32> {
-    let mut edges: Vec<[u32; 2]> = triangles
-        .iter()
-        .flat_map(|corners| {
-            let [a, b, c] = weld.triangle(*corners);
-            [[a, b], [b, c], [c, a]].map(|[a, b]| [a.min(b), a.max(b)])
-        })
-        .collect();
-    edges.sort_unstable();
-    let single = edges.chunk_by(|a, b| a == b).filter(|same| same.len() == 1);
-    let mut rims: Vec<u32> = single.flat_map(|same| same[0]).collect();
-    rims.sort_unstable();
-    rims.dedup();
-    rims
-}
-
-/// Normals of the welded vertices that `triangles` use, by area; zero elsewhere and at their [`rims`].
-pub fn vertex_normals(points: &[DVec3], triangles: &[[u32; 3]], rims: &[u32], weld: &Weld) -> Vec<DVec3> {
-    let mut normals = vec![DVec3::ZERO; weld.count];
-    for corners in triangles {
-        let normal = double_area(points, *corners);
-        for corner in weld.triangle(*corners) {
-            normals[corner as usize] += normal;
-        }
-    }
-    for &vertex in rims {
-        normals[vertex as usize] = DVec3::ZERO;
-    }
-    normals.iter().map(|normal| normal.normalize_or_zero()).collect()
 }

@@ -15,6 +15,7 @@ pub mod head;
 pub mod joints;
 pub mod landmarks;
 pub mod long_hair;
+pub mod outside;
 pub mod part;
 pub mod pieces;
 pub mod profile;

@@ -3,7 +3,8 @@
 //! Cloth is a membrane on a bed: its displacement is as smooth along its edges as what pushes it allows, and dies away
 //! beside it. What pushes are the body, and the sheet of cloth below. Solved by projected Gauss-Seidel sweeps.
 
-use super::worn::{Outside, Worn};
+use super::outside::Outside;
+use super::worn::Worn;
 use crate::geometry::{Weld, double_area};
 use crate::parallel;
 use glam::DVec3;

@@ -1,8 +1,8 @@
 //! Clothes as they are worn: what lies over the body at rest, how far from it, and which sheet of cloth over which.
 
-use super::hair::{rims, vertex_normals, volume};
+use super::outside::{Outside, rims, volume};
 use crate::character::MeshKind;
-use crate::geometry::{Closest, Neighbours, Surface, Weld, components, neighbours};
+use crate::geometry::{Neighbours, Surface, Weld, components, neighbours};
 use crate::parallel;
 use crate::shape::figure::Figure;
 use glam::DVec3;
@@ -17,48 +17,6 @@ const SHEET_REACH: f64 = 0.02;
 const OWN_SHEET: f64 = 1e-4;
 /// Fewer vertices than this are not worth a thread.
 const LEAST_VERTICES: usize = 200;
-
-/// The outside of a body.
-pub struct Outside<'a> {
-    surface: Surface,
-    normals: Vec<DVec3>,
-    triangles: &'a [[u32; 3]],
-    weld: &'a Weld,
-    /// 1, or -1 for a body that is wound to look inwards, as mirrored ones are.
-    outwards: f64,
-}
-
-impl<'a> Outside<'a> {
-    /// Of `triangles` between `points`; `outwards`: 1, or -1 where they are wound to look inwards.
-    ///
-    /// `rims`: the triangles' own.
-    pub fn new(
-        points: &[DVec3],
-        triangles: &'a [[u32; 3]],
-        rims: &[u32],
-        weld: &'a Weld,
-        outwards: f64,
-    ) -> Self {
-        let normals = vertex_normals(points, triangles, rims, weld);
-        Self { surface: Surface::new(points, triangles), normals, triangles, weld, outwards }
-    }
-
-    /// The closest point to `p`, how far outside of the body `p` is, below 0 inside, and the way out; `None` where there is
-    /// no inside: beside a rim, where a surface ends, and where there is no surface.
-    pub fn at(&self, p: DVec3) -> Option<(Closest, f64, DVec3)> {
-        let closest = self.surface.closest_point(p)?;
-        let corners = self.weld.triangle(self.triangles[closest.triangle]);
-        let normals = corners.map(|corner| self.normals[corner as usize]);
-        if normals.contains(&DVec3::ZERO) {
-            return None;
-        }
-        let blend: DVec3 =
-            normals.iter().zip(closest.barycentric).map(|(&normal, share)| share * normal).sum();
-        let normal = self.outwards * blend.normalize_or_zero();
-        let sign = if (p - closest.point).dot(normal) < 0.0 { -1.0 } else { 1.0 };
-        Some((closest, sign * closest.distance, normal))
-    }
-}
 
 /// A place on a sheet of cloth that lies under a vertex.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -117,18 +75,12 @@ impl Worn {
         let of_class = |wanted: u8| -> Vec<[u32; 3]> {
             figure.triangles.iter().filter(|corners| class(corners) == wanted).copied().collect()
         };
-        let (mut body, mut cloth, perhaps) = (of_class(1), of_class(2), of_class(3));
+        let (body, cloth, perhaps) = (of_class(1), of_class(2), of_class(3));
         if body.is_empty() || (cloth.is_empty() && perhaps.is_empty()) {
             return Self::default();
         }
         let outwards = if volume(&figure.positions, &body) < 0.0 { -1.0 } else { 1.0 };
-        for (triangles, is_worn) in lying_over(figure, &body, outwards, perhaps, weld, threads) {
-            if is_worn { cloth.extend(triangles) } else { body.extend(triangles) }
-        }
-        if cloth.is_empty() {
-            return Self::default();
-        }
-        Self::between(figure, body, outwards, &cloth, weld, threads)
+        Self::between(figure, body, outwards, cloth, perhaps, weld, threads)
     }
 
     /// For each place whether the body is around it, where all vertices are at `points`.
@@ -140,14 +92,27 @@ impl Worn {
         })
     }
 
+    /// `body` and what is worn over it: `cloth`, and of `perhaps` what lies over it; the rest of that is body too.
     fn between(
         figure: &Figure,
-        body: Vec<[u32; 3]>,
+        mut body: Vec<[u32; 3]>,
         outwards: f64,
-        cloth: &[[u32; 3]],
+        mut cloth: Vec<[u32; 3]>,
+        perhaps: Vec<[u32; 3]>,
         weld: &Weld,
         threads: usize,
     ) -> Self {
+        let rims = rims(&body, weld);
+        let outside = Outside::new(&figure.positions, &body, &rims, weld, outwards);
+        let (over, beside) = lying_over(figure, &outside, perhaps, weld, threads);
+        cloth.extend(over);
+        if cloth.is_empty() {
+            return Self::default();
+        }
+        if !beside.is_empty() {
+            body.extend(beside);
+            return Self::between(figure, body, outwards, cloth, Vec::new(), weld, threads);
+        }
         // By number, so that the order of a triangle's corners, which a mirrored mesh may have turned, changes nothing.
         let mut first = vec![u32::MAX; weld.count];
         for &vertex in cloth.iter().flatten() {
@@ -174,8 +139,6 @@ impl Worn {
                 is_sewn[index as usize] = true;
             }
         }
-        let rims = rims(&body, weld);
-        let outside = Outside::new(&figure.positions, &body, &rims, weld, outwards);
         let points: Vec<DVec3> = vertices.iter().map(|&vertex| figure.positions[vertex as usize]).collect();
         let sheets = Surface::new(&points, &triangles);
         let reach = SHEET_REACH * figure.height();
@@ -201,17 +164,17 @@ impl Worn {
     }
 }
 
-/// The components of `triangles`, and whether each lies over the body: over half of its places have body under them.
+/// `triangles` by component: those of components that lie over the body, with body under over half of their places, and the
+/// others.
 fn lying_over(
     figure: &Figure,
-    body: &[[u32; 3]],
-    outwards: f64,
+    outside: &Outside,
     triangles: Vec<[u32; 3]>,
     weld: &Weld,
     threads: usize,
-) -> Vec<(Vec<[u32; 3]>, bool)> {
+) -> (Vec<[u32; 3]>, Vec<[u32; 3]>) {
     if triangles.is_empty() {
-        return Vec::new();
+        return (Vec::new(), Vec::new());
     }
     let component = components(&triangles, weld);
     let of = |corners: &[u32; 3]| component[weld.representative[corners[0] as usize] as usize];
@@ -219,7 +182,6 @@ fn lying_over(
     places.sort_unstable();
     places.dedup();
     let first = weld.first_vertices();
-    let outside = Outside::new(&figure.positions, body, &rims(body, weld), weld, outwards);
     let reach = WORN_REACH * figure.height();
     let lies = parallel::collect(threads, places.len(), LEAST_VERTICES, |index| {
         let p = figure.positions[first[places[index] as usize] as usize];
@@ -236,13 +198,10 @@ fn lying_over(
     for corners in triangles {
         by_component[of(&corners) as usize].push(corners);
     }
-    by_component
-        .into_iter()
-        .enumerate()
-        .filter(|(_, triangles)| !triangles.is_empty())
-        .map(|(component, triangles)| {
-            let is_worn = f64::from(over[component]) > WORN_SHARE * f64::from(all[component]);
-            (triangles, is_worn)
-        })
-        .collect()
+    let (mut worn, mut beside) = (Vec::new(), Vec::new());
+    for (component, triangles) in by_component.into_iter().enumerate() {
+        let is_worn = f64::from(over[component]) > WORN_SHARE * f64::from(all[component]);
+        if is_worn { &mut worn } else { &mut beside }.extend(triangles);
+    }
+    (worn, beside)
 }

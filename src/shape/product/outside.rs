@@ -1,0 +1,107 @@
+//! What is outside of a body and what inside, and where its surface ends.
+
+use crate::geometry::{Closest, Surface, Weld, double_area};
+use glam::DVec3;
+
+/// The outside of a body.
+pub struct Outside<'a> {
+    surface: Surface,
+    normals: Vec<DVec3>,
+    triangles: &'a [[u32; 3]],
+    weld: &'a Weld,
+    /// 1, or -1 for a body that is wound to look inwards, as mirrored ones are.
+    outwards: f64,
+}
+
+impl<'a> Outside<'a> {
+    /// Of `triangles` between `points`; `outwards`: 1, or -1 where they are wound to look inwards.
+    ///
+    /// `rims`: the triangles' own.
+    pub fn new(
+        points: &[DVec3],
+        triangles: &'a [[u32; 3]],
+        rims: &[u32],
+        weld: &'a Weld,
+        outwards: f64,
+    ) -> Self {
+        let normals = vertex_normals(points, triangles, rims, weld);
+        Self { surface: Surface::new(points, triangles), normals, triangles, weld, outwards }
+    }
+
+    /// The closest point to `p`, how far outside of the body `p` is, below 0 inside, and the way out; `None` where there is
+    /// no inside: beside a rim, where a surface ends, and where there is no surface.
+    pub fn at(&self, p: DVec3) -> Option<(Closest, f64, DVec3)> {
+        let (closest, normals) = self.near(p)?;
+        if normals.contains(&DVec3::ZERO) { None } else { self.from(p, closest, normals) }
+    }
+
+    /// As [`Self::at`], up to the rims: beside one, the corners that are not on it say where outside is.
+    pub fn towards_rims(&self, p: DVec3) -> Option<(Closest, f64, DVec3)> {
+        let (closest, normals) = self.near(p)?;
+        self.from(p, closest, normals)
+    }
+
+    /// The closest point, and the normals of its triangle's corners.
+    fn near(&self, p: DVec3) -> Option<(Closest, [DVec3; 3])> {
+        let closest = self.surface.closest_point(p)?;
+        let corners = self.weld.triangle(self.triangles[closest.triangle]);
+        Some((closest, corners.map(|corner| self.normals[corner as usize])))
+    }
+
+    fn from(&self, p: DVec3, closest: Closest, normals: [DVec3; 3]) -> Option<(Closest, f64, DVec3)> {
+        let blend: DVec3 =
+            normals.iter().zip(closest.barycentric).map(|(&normal, share)| share * normal).sum();
+        if blend == DVec3::ZERO {
+            return None;
+        }
+        let normal = self.outwards * blend.normalize_or_zero();
+        let sign = if (p - closest.point).dot(normal) < 0.0 { -1.0 } else { 1.0 };
+        Some((closest, sign * closest.distance, normal))
+    }
+}
+
+/// Six times the volume within `triangles`, below 0 where they are wound to look inwards.
+pub fn volume(points: &[DVec3], triangles: &[[u32; 3]]) -> f64 {
+    let corners = || triangles.iter().flatten().map(|&vertex| points[vertex as usize]);
+    // About its own middle, or the holes of an open body would count.
+    let middle = corners().sum::<DVec3>() / (3 * triangles.len()) as f64;
+    triangles
+        .iter()
+        .map(|corners| {
+            let [a, b, c] = corners.map(|vertex| points[vertex as usize] - middle);
+            a.dot(b.cross(c))
+        })
+        .sum()
+}
+
+/// The welded vertices at rims, where a surface ends: those of edges that one triangle has.
+pub fn rims(triangles: &[[u32; 3]], weld: &Weld) -> Vec<u32> {
+    let mut edges: Vec<[u32; 2]> = triangles
+        .iter()
+        .flat_map(|corners| {
+            let [a, b, c] = weld.triangle(*corners);
+            [[a, b], [b, c], [c, a]].map(|[a, b]| [a.min(b), a.max(b)])
+        })
+        .collect();
+    edges.sort_unstable();
+    let single = edges.chunk_by(|a, b| a == b).filter(|same| same.len() == 1);
+    let mut rims: Vec<u32> = single.flat_map(|same| same[0]).collect();
+    rims.sort_unstable();
+    rims.dedup();
+    rims
+}
+
+/// Normals of the welded vertices that `triangles` use, by area; zero elsewhere and at their [`rims`].
+pub fn vertex_normals(points: &[DVec3], triangles: &[[u32; 3]], rims: &[u32], weld: &Weld) -> Vec<DVec3> {
+    let mut normals = vec![DVec3::ZERO; weld.count];
+    for corners in triangles {
+        let normal = double_area(points, *corners);
+        for corner in weld.triangle(*corners) {
+            normals[corner as usize] += normal;
+        }
+    }
+    for &vertex in rims {
+        normals[vertex as usize] = DVec3::ZERO;
+    }
+    normals.iter().map(|normal| normal.normalize_or_zero()).collect()
+}
