@@ -135,9 +135,9 @@ fn ball(head: &Head, triangles: &[[u32; 3]]) -> Option<Spot> {
     }
     let firsts = weld(&points, head.parts.seam / head.frame.length).first_vertices();
     let points: Vec<DVec3> = firsts.iter().map(|&first| points[first as usize]).collect();
-    let foremost = points.iter().copied().max_by(|a, b| a.z.total_cmp(&b.z))?.truncate();
+    let foremost = points.iter().copied().max_by(|a, b| a.z.total_cmp(&b.z))?;
     let width = spot.extent().x;
-    let off = (foremost - spot.middle()).abs().max_element();
+    let off = (foremost.truncate() - spot.middle()).abs().max_element();
     let stands_out = high.z - low.z > STANDS_OUT.0 * width && off < STANDS_OUT.1 * width;
     if points.len() < SPHERE.1 || !stands_out {
         return None;
@@ -145,18 +145,11 @@ fn ball(head: &Head, triangles: &[[u32; 3]]) -> Option<Spot> {
     let (centre, radius) = sphere(&points, spot.middle())?;
     let square_error: f64 = points.iter().map(|p| (p.distance(centre) - radius).powi(2)).sum();
     let error = (square_error / points.len() as f64).sqrt();
-    if error > SPHERE.0 * radius
-        || !SPHERE_RADIUS.contains(&(radius / width))
-        || centre.z > foremost_z(&points)
-    {
+    if error > SPHERE.0 * radius || !SPHERE_RADIUS.contains(&(radius / width)) || centre.z > foremost.z {
         return None;
     }
     let (low, high) = opening(head, triangles, low, high)?;
     Some(Spot { low, high, ..spot }).filter(|spot| spot.fits(&ROUND))
-}
-
-fn foremost_z(points: &[DVec3]) -> f64 {
-    points.iter().map(|p| p.z).fold(f64::NEG_INFINITY, f64::max)
 }
 
 /// The sphere nearest to `points` whose middle is seen at `middle`: |p - middle|^2 + z^2 = 2 z c + k, least squares.

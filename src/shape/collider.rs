@@ -145,13 +145,12 @@ pub fn map_collider(
             )
         })
         .collect();
-    let deeper =
-        |moved: &Collider| now.iter().map(|(ball, had)| had - moved.distance(ball)).fold(0.0, f64::max);
+    let deeper = now.iter().map(|(ball, had)| had - moved.distance(ball)).fold(0.0, f64::max);
     // What is nearer by rounding alone is where it was.
     let rounding = 1e-9 * moved.radius.abs().max(moved.offset.length());
     let mut yielded = 0.0;
-    if moved.shape != Shape::Plane && moved.radius > 0.0 && deeper(&moved) > rounding {
-        yielded = (deeper(&moved) / moved.radius).clamp(0.0, MOST_YIELD);
+    if moved.shape != Shape::Plane && moved.radius > 0.0 && deeper > rounding {
+        yielded = (deeper / moved.radius).clamp(0.0, MOST_YIELD);
         moved.radius *= if moved.inside { 1.0 + yielded } else { 1.0 - yielded };
     }
     let newly_inside =
