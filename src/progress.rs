@@ -32,7 +32,7 @@ impl<'a> Progress<'a> {
     /// # Errors
     /// `ErrorKind::Cancelled` where the answer is to stop.
     pub fn at(&mut self, fraction: f32) -> Result<()> {
-        let fraction = self.from + fraction * (self.to - self.from);
+        let fraction = self.share(fraction);
         let goes_on = self.callback.as_mut().is_none_or(|callback| callback(fraction));
         if goes_on {
             return Ok(());
@@ -66,10 +66,15 @@ impl<'a> Progress<'a> {
         Ok(all)
     }
 
+    /// What `fraction` of this work is of the whole.
+    fn share(&self, fraction: f32) -> f32 {
+        // A last digit beyond the end would make the next stage begin before it.
+        (self.from + fraction * (self.to - self.from)).min(self.to)
+    }
+
     /// The progress of a stage of the work, which takes this one from `from` to `to`.
     pub fn part(&mut self, from: f32, to: f32) -> Progress<'_> {
-        let span = self.to - self.from;
-        let (from, to) = (self.from + from * span, self.from + to * span);
+        let (from, to) = (self.share(from), self.share(to));
         match &mut self.callback {
             Some(callback) => Progress { callback: Some(&mut **callback), from, to },
             None => Progress { callback: None, from, to },

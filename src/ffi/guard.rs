@@ -94,14 +94,9 @@ pub fn lines<'a>(warnings: impl Iterator<Item = &'a Warning>) -> String {
 
 /// What reports progress to the host; it gives true to go on.
 pub fn progress_of(callback: SdefProgress, user: *mut c_void) -> impl FnMut(f32) -> bool {
-    // Work that is tried again begins again; to the host it never goes back.
-    let mut last = 0.0f32;
     move |fraction| match callback {
-        Some(callback) => {
-            last = fraction.clamp(last, 1.0);
-            // SAFETY: the host's own function with its own pointer.
-            unsafe { callback(user, last) == 0 }
-        }
+        // SAFETY: the host's own function with its own pointer.
+        Some(callback) => unsafe { callback(user, fraction) == 0 },
         None => true,
     }
 }

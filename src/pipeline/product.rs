@@ -73,7 +73,7 @@ pub fn deform(
     let (attempt, of_attempt, heads_left) = request.best(progress)?;
     warnings.extend(of_attempt);
     let field = attempt.field;
-    progress.at(0.6)?;
+    progress.at(0.65)?;
     let placement = product.placement(&target.measured.figure, &field, options.thread_count);
     let placed = placement.all_placed();
     let placement = Placement { placed: Some(&placed), ..placement };
