@@ -350,6 +350,16 @@ fn a_stylised_face_stays() {
     }
 }
 
+/// Eyes of this source, whose height, half distance and half width are within .03 of the head of what a person sees.
+fn check_eyes(face: &FaceLandmarks, from: EyeSource, seen: [f64; 3]) {
+    let (source, eyes) = face.eyes.as_ref().expect("it has eyes");
+    let pair = Pair::of(eyes);
+    assert_eq!(*source, from);
+    for (is, seen) in [pair.height, pair.half_distance, pair.half_width].into_iter().zip(seen) {
+        assert!((is - seen).abs() < 0.03, "{pair:?}");
+    }
+}
+
 #[test]
 fn eyes_painted_on_the_skin_are_found() {
     const KUN: &str = "tubbykun.vrm";
@@ -359,13 +369,8 @@ fn eyes_painted_on_the_skin_are_found() {
     }
     let character = painted::painted(&all_models()[KUN]);
     let face = Measured::of(&character, &Options::default()).unwrap().face.unwrap();
-    let (source, eyes) = face.eyes.expect("it has eyes");
-    let pair = Pair::of(&eyes);
-    assert_eq!(source, EyeSource::Paint);
     // As its picture shows them: discs of a fifth of the head, .4 of it above the chin.
-    for (is, seen) in [(pair.height, 0.40), (pair.half_distance, 0.20), (pair.half_width, 0.10)] {
-        assert!((is - seen).abs() < 0.03, "{pair:?}");
-    }
+    check_eyes(&face, EyeSource::Paint, [0.40, 0.20, 0.10]);
 }
 
 #[test]
@@ -375,13 +380,8 @@ fn eyes_sewn_to_the_skin_are_found() {
         println!("skipped: {MAN} is not there");
         return;
     }
-    let (source, eyes) = measured(MAN).face.unwrap().eyes.expect("it has eyes");
-    let pair = Pair::of(&eyes);
-    assert_eq!(source, EyeSource::Balls);
     // As its picture shows them: balls of .045 of the head, a quarter of it apart, a little above its middle.
-    for (is, seen) in [(pair.height, 0.53), (pair.half_distance, 0.13), (pair.half_width, 0.022)] {
-        assert!((is - seen).abs() < 0.03, "{pair:?}");
-    }
+    check_eyes(&measured(MAN).face.unwrap(), EyeSource::Balls, [0.53, 0.13, 0.022]);
 }
 
 #[test]

@@ -149,7 +149,8 @@ pub fn guess_kinds(
 
 /// Kinds once more, for the meshes that nobody has named, now that it is known where the head is.
 ///
-/// What is body stays body; the rest is told apart anew. `surroundings`: what [`guess_kinds`] found of this figure. The warning names the meshes whose kind is another one now.
+/// What is body stays body; the rest is told apart anew. `surroundings`: what [`guess_kinds`] found of this figure.
+/// The warning names the meshes whose kind is another one now.
 pub fn refine_kinds(
     figure: &UnitFigure,
     surroundings: &Surroundings,

@@ -148,7 +148,8 @@ struct Match {
 }
 
 impl Match {
-    /// What `body` says about a vertex at `p`: the row of those places of `touch` that match the vertex at `p`, how well they do (0 to 1), and how far they are.
+    /// What `body` says about a vertex at `p`: the row of those places of `touch` that match the vertex at `p`, how
+    /// well they do (0 to 1), and how far they are.
     /// Where none matches the row is that of the closest place all the same.
     fn of(body: &Body, p: DVec3, touch: &Touch) -> Self {
         let Touch { places, fits } = touch;

@@ -253,7 +253,8 @@ struct Layer {
     weights: [f32; LAYER_NEIGHBOURS],
 }
 
-/// What `sides` has on opposite sides does not mix. `LAYER_PASSES` Gaussian means over the nearest points within [`LAYER_REACH`] standard deviations, `sigma` each.
+/// What `sides` has on opposite sides does not mix. `LAYER_PASSES` Gaussian means over the nearest points within
+/// [`LAYER_REACH`] standard deviations, `sigma` each.
 fn layer_steps(
     points: &[DVec3],
     rows: Vec<PartWeights>,
