@@ -53,7 +53,7 @@ impl<'a> Progress<'a> {
         make: impl Fn(&mut S, usize) -> T + Sync,
     ) -> Result<Vec<T>> {
         // A part has work for every thread.
-        let part = count.div_ceil(PARTS).max(least * parallel::thread_count(threads));
+        let part = count.div_ceil(PARTS).max(least.saturating_mul(parallel::thread_count(threads)));
         let mut all = Vec::with_capacity(count);
         while all.len() < count {
             let (first, size) = (all.len(), part.min(count - all.len()));

@@ -9,7 +9,7 @@ use clothes::{BY_KIND, Pose, REST, SEEDSAN, SIT, Sorting, WALK, inside, posed};
 use common::{Run, check_all, in_parallel, model, style_of};
 use glam::DVec3;
 use std::sync::OnceLock;
-use superdeform::{BodyShape, Character, MeshKind, Options, Progress, Repair, Style};
+use superdeform::{BodyShape, Character, Height, MeshKind, Options, Progress, Repair, Style};
 
 /// A dressed model like a style, as it comes out with and without the repair.
 struct Pair {
@@ -205,4 +205,61 @@ fn the_report_tells_what_winding_numbers_tell() {
         println!("{}: {repair:?}", pair.name);
         wrong
     });
+}
+
+/// What a slider may set, at a place of 0 to 1.
+const SLIDERS: [fn(&mut Options, f64); 9] = [
+    |options, share| set_length(options, "upper_arm", 0.6 + 0.5 * share),
+    |options, share| set_length(options, "lower_leg", 0.4 + 0.5 * share),
+    |options, share| options.head_scale = 1.2 + 0.9 * share,
+    |options, share| options.youth = share,
+    |options, share| options.amount = 0.4 + 0.6 * share,
+    |options, share| options.face_squash = Some(0.5 * share),
+    |options, share| options.profile = share,
+    |options, share| options.hair_lay = share,
+    |options, share| options.height = Height::Units(1.0 + share),
+];
+
+fn set_length(options: &mut Options, group: &str, scale: f64) {
+    options.groups.entry(group.to_string()).or_default().length_scale = Some(scale);
+}
+
+#[test]
+fn options_changed_at_random_give_what_a_new_deformer_gives() {
+    let Some(loaded) = model("seedsan_vrm1.vrm") else {
+        return;
+    };
+    let style = Style::heads(2.5).unwrap();
+    let character = std::sync::Arc::new(loaded.character.clone());
+    let of = |options: &Options| superdeform::Deformer::new(character.clone(), &style, options).unwrap();
+    // The order of sliders and their places follow from a number, the same on every run.
+    let mut state = 7_u64;
+    let mut next = || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 33) as f64 / (1_u64 << 31) as f64
+    };
+    let mut options = Options::default();
+    let mut changed = of(&options);
+    for step in 0..24 {
+        let slider = (next() * SLIDERS.len() as f64) as usize;
+        SLIDERS[slider](&mut options, next());
+        changed.set_options(&options, &mut Progress::none()).unwrap();
+        // What is kept of morph targets is asked for in between, too.
+        let applied = changed.apply();
+        if step % 6 == 5 {
+            let new = of(&options).apply();
+            assert_eq!(applied.joints, new.joints, "step {step}: {options:?}");
+            for (mesh, (one, other)) in applied.meshes.iter().zip(&new.meshes).enumerate() {
+                assert!(
+                    one.positions == other.positions,
+                    "step {step}, positions of mesh {mesh}: {options:?}"
+                );
+                assert!(one.normals == other.normals, "step {step}, normals of mesh {mesh}: {options:?}");
+                assert!(
+                    one.morph_targets == other.morph_targets,
+                    "step {step}, morph targets of mesh {mesh}: {options:?}"
+                );
+            }
+        }
+    }
 }

@@ -30,7 +30,15 @@ pub struct YoungFace {
     skin: Follower,
     hair: Follower,
     /// What hats, glasses and earrings do after each piece of the way: one row for each thing.
-    pieces: Vec<[Similarity; STEPS]>,
+    pieces: Vec<Piece>,
+}
+
+/// A thing that keeps its shape.
+#[derive(Clone, Debug)]
+struct Piece {
+    /// Where its points were.
+    from: Vec<Vec3>,
+    after: [Similarity; STEPS],
 }
 
 /// Moved and scaled as one: p -> shift + scale p, in head lengths.
@@ -43,40 +51,56 @@ struct Similarity {
 /// The ways of vertices, from where the stages before put them, in head lengths.
 #[derive(Clone, Debug, Default)]
 pub struct Ways {
-    /// For each vertex its row in `ways`; `NO_WAY` where it is not kept.
+    /// For each vertex its row in `from` and `ways`; `NO_WAY` where it is not kept.
     rows: Vec<u32>,
+    /// Where they begin.
+    from: Vec<Vec3>,
     ways: Vec<[Vec3; STEPS]>,
 }
 
 const NO_WAY: u32 = u32::MAX;
 
+/// Where a way that is kept begins: in single precision, 3e-8 head lengths. So a head that is only moved or made larger gives the
+/// same to the bit, and its ways need not be followed again.
+fn beginning(frame: &HeadFrame, p: DVec3) -> Vec3 {
+    frame.to_unit(p).as_vec3()
+}
+
 impl YoungFace {
     /// The step that moves a head at `frame` by `flow`.
     ///
-    /// `things`: where the stages before put the vertices of each thing that keeps its shape.
-    pub fn new(frame: HeadFrame, flow: Flow, things: &[Vec<DVec3>]) -> Self {
+    /// - `things`: where the stages before put the vertices of each thing that keeps its shape.
+    /// - `known`: a step for the same things, which may have made the same already.
+    pub fn new(frame: HeadFrame, flow: Flow, things: &[Vec<DVec3>], known: Option<&Self>) -> Self {
+        let known = known.filter(|known| *known.flow() == flow);
         let hair = Follower::new(flow.of_hair());
         let mut face = Self { frame, skin: Follower::new(flow), hair, pieces: Vec::new() };
-        face.pieces = things.iter().map(|points| face.piece(points)).collect();
+        let piece = |(index, points): (usize, &Vec<DVec3>)| {
+            let from: Vec<Vec3> = points.iter().map(|&p| beginning(&frame, p)).collect();
+            let known = known.and_then(|known| known.pieces.get(index)).filter(|known| known.from == from);
+            known.cloned().unwrap_or_else(|| face.piece(from))
+        };
+        face.pieces = things.iter().enumerate().map(piece).collect();
         face
     }
 
     /// The similarities that take a thing nearest to where the flow takes its points: glasses grow with the eyes that they
     /// stand before, hats with the skull.
-    fn piece(&self, points: &[DVec3]) -> [Similarity; STEPS] {
-        let from: Vec<DVec3> = points.iter().map(|&p| self.frame.to_unit(p)).collect();
+    fn piece(&self, beginnings: Vec<Vec3>) -> Piece {
+        let from: Vec<DVec3> = beginnings.iter().map(|p| p.as_dvec3()).collect();
         let ways: Vec<_> = from.iter().map(|&p| self.skin.way(p)).collect();
         let mean =
             |of: &dyn Fn(usize) -> DVec3| (0..from.len()).map(of).sum::<DVec3>() / from.len().max(1) as f64;
         let middle = mean(&|point| from[point]);
         let spread: f64 = from.iter().map(|p| p.distance_squared(middle)).sum();
-        std::array::from_fn(|step| {
+        let after = std::array::from_fn(|step| {
             let moved = mean(&|point| ways[point][step]);
             let along: f64 =
                 (0..from.len()).map(|point| (from[point] - middle).dot(ways[point][step] - moved)).sum();
             let scale = if spread > 0.0 { along / spread } else { 1.0 };
             Similarity { scale, shift: moved - scale * middle }
-        })
+        });
+        Piece { from: beginnings, after }
     }
 
     /// What the points follow.
@@ -113,8 +137,9 @@ impl YoungFace {
             }
             FaceBinding::Piece(piece) => {
                 let from = self.frame.to_unit(p);
-                let way = self.pieces[piece as usize].map(|after| after.shift + after.scale * from);
-                let scales = self.pieces[piece as usize].map(|after| DVec3::splat(after.scale));
+                let after = self.pieces[piece as usize].after;
+                let way = after.map(|after| after.shift + after.scale * from);
+                let scales = after.map(|after| DVec3::splat(after.scale));
                 let scale = along(DVec3::ONE, &scales, youth).x;
                 let position = self.frame.from_unit(along(from, &way, youth));
                 return Mapped { position, jacobian: DMat3::IDENTITY * scale };
@@ -131,8 +156,16 @@ impl YoungFace {
     /// The ways of vertices that the stages before put at `points`.
     ///
     /// - `bindings`: one for each.
+    /// - `known`: a step and the ways of the same vertices through it, of which those are taken that are the same.
     /// - `threads`: at most this many, 0 for all cores.
-    pub fn ways(&self, points: &[DVec3], bindings: &[FaceBinding], threads: usize) -> Ways {
+    pub fn ways(
+        &self,
+        points: &[DVec3],
+        bindings: &[FaceBinding],
+        known: Option<(&Self, &Ways)>,
+        threads: usize,
+    ) -> Ways {
+        let known = known.filter(|(face, _)| face.flow() == self.flow()).map(|(_, ways)| ways);
         let follower = |vertex: usize| match bindings[vertex] {
             FaceBinding::Skin(share) if share > 0.0 => Some(&self.skin),
             FaceBinding::Hair(share) if share > 0.0 => Some(&self.hair),
@@ -143,15 +176,19 @@ impl YoungFace {
         for (row, &vertex) in moved.iter().enumerate() {
             rows[vertex] = row as u32;
         }
+        let from: Vec<Vec3> = moved.iter().map(|&vertex| beginning(&self.frame, points[vertex])).collect();
+        let known = known.filter(|known| known.rows == rows);
         let ways = parallel::collect(threads, moved.len(), LEAST_WAYS, |row| {
-            let vertex = moved[row];
-            let from = self.frame.to_unit(points[vertex]);
-            match follower(vertex) {
+            if let Some(known) = known.filter(|known| known.from[row] == from[row]) {
+                return known.ways[row];
+            }
+            let from = from[row].as_dvec3();
+            match follower(moved[row]) {
                 Some(follower) => follower.way(from).map(|p| (p - from).as_vec3()),
                 None => [Vec3::ZERO; STEPS],
             }
         });
-        Ways { rows, ways }
+        Ways { rows, from, ways }
     }
 
     /// As [`Self::place`], for a vertex whose way is kept.

@@ -23,6 +23,6 @@ pub use profile::{StepSearch, deepest_step};
 pub use segment::foot;
 pub use slice::{Outline, Planes, slices};
 pub use smoothstep::{smoothstep, smoothstep_slope};
-pub use surface::{Closest, Hit, Surface};
+pub use surface::{Closest, Hit, Surface, Tree};
 pub use triangle::double_area;
 pub use weld::{Neighbours, SEAM, Weld, components, neighbours, weld};

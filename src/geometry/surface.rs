@@ -1,4 +1,4 @@
-//! Rays and closest points on a mesh. The only file that knows obvhs, which builds the tree of boxes.
+//! Rays and closest points on a mesh. The only files that know obvhs, which builds the tree of boxes.
 //!
 //! Woop, Benthin and Wald. Watertight ray/triangle intersection. JCGT 2(1), 2013.
 //! Ericson. Real-time collision detection. 2005, §5.1.5 (closest point on a triangle).
@@ -6,6 +6,10 @@
 //! A character is symmetric, and the rays of §V-A start in its plane of symmetry, so they run exactly along
 //! edges and through vertices. Such rays must not slip between triangles: the triangle test is watertight, and
 //! the boxes are padded, because the tree keeps them in single precision.
+
+mod tree;
+
+pub use tree::Tree;
 
 use super::bounds;
 use glam::{DVec3, Vec3A};
@@ -95,30 +99,15 @@ impl Surface {
     }
 
     fn with(positions: &[DVec3], triangles: &[[u32; 3]], parameters: BvhBuildParams) -> Self {
-        let corners_of = |triangle: &[u32; 3]| triangle.map(|vertex| positions[vertex as usize]);
-        let is_finite = |[a, b, c]: &[DVec3; 3]| a.is_finite() && b.is_finite() && c.is_finite();
-        let (low, high) = bounds(triangles.iter().map(corners_of).filter(is_finite).flatten());
-        let extent = (high - low).max_element();
-        if !(extent.is_finite() && extent > 0.0) {
-            return Self::default();
-        }
-        let (centre, scale) = (0.5 * (low + high), 1.0 / extent);
-
+        let Some((centre, scale)) = unit_box(positions, triangles) else { return Self::default() };
         let mut kept = Vec::with_capacity(triangles.len());
         let mut boxes = Vec::with_capacity(triangles.len());
-        for (triangle, corners) in triangles.iter().map(corners_of).enumerate() {
-            let corners = corners.map(|p| (p - centre) * scale);
-            let [a, b, c] = corners;
-            let longest = (b - a).length().max((c - a).length()).max((c - b).length());
-            let double_area = (b - a).cross(c - a).length();
-            if !is_finite(&corners) || double_area <= LEAST_HEIGHT * longest {
-                continue;
+        for (triangle, corners) in triangles.iter().enumerate() {
+            let corners = corners.map(|vertex| (positions[vertex as usize] - centre) * scale);
+            if has_area(&corners) {
+                boxes.push(Box32(padded_box(&corners)));
+                kept.push((triangle as u32, corners));
             }
-            let single = |p: DVec3| Vec3A::new(p.x as f32, p.y as f32, p.z as f32);
-            let padding = Vec3A::splat(BOX_PADDING);
-            boxes
-                .push(Box32(Aabb::new(single(a.min(b).min(c)) - padding, single(a.max(b).max(c)) + padding)));
-            kept.push((triangle as u32, corners));
         }
         if kept.is_empty() {
             return Self::default();
@@ -181,11 +170,19 @@ impl Surface {
     /// The point of the surface closest to `p`, and its triangle (the first one where several are equally near).
     /// `None` for an empty surface.
     pub fn closest_point(&self, p: DVec3) -> Option<Closest> {
+        self.closest_from(p, None)
+    }
+
+    fn closest_from(&self, p: DVec3, guess: Option<u32>) -> Option<Closest> {
         if self.is_empty() || !p.is_finite() {
             return None;
         }
         let p = (p - self.centre) * self.scale;
-        let mut best = (f64::INFINITY, u32::MAX, DVec3::ZERO, [0.0; 3]);
+        let at_slot = |slot: u32| {
+            let (point, barycentric) = closest_on_triangle(p, &self.corners[slot as usize]);
+            (p.distance_squared(point), self.triangles[slot as usize], point, barycentric)
+        };
+        let mut best = guess.map_or((f64::INFINITY, u32::MAX, DVec3::ZERO, [0.0; 3]), at_slot);
         let distance_to_box = |node: &Bvh2Node| {
             let (low, high) = node_box(node);
             p.distance_squared(p.clamp(low, high))
@@ -200,11 +197,9 @@ impl Surface {
             let first = node.first_index;
             if node.is_leaf() {
                 for slot in first..first + node.prim_count {
-                    let (point, barycentric) = closest_on_triangle(p, &self.corners[slot as usize]);
-                    let triangle = self.triangles[slot as usize];
-                    let distance = p.distance_squared(point);
-                    if (distance, triangle) < (best.0, best.1) {
-                        best = (distance, triangle, point, barycentric);
+                    let found = at_slot(slot);
+                    if (found.0, found.1) < (best.0, best.1) {
+                        best = found;
                     }
                 }
             } else {
@@ -213,8 +208,8 @@ impl Surface {
                 if pair[0].1 < pair[1].1 {
                     pair.swap(0, 1);
                 }
-                stack.push(pair[0]);
-                stack.push(pair[1]);
+                // What is further away than the best is not even put down.
+                pair.into_iter().filter(|child| child.1 <= best.0).for_each(|child| stack.push(child));
             }
         }
         Some(Closest {
@@ -325,6 +320,33 @@ impl Surface {
             }
         }
     }
+}
+
+/// Middle of the box around `triangles`, and what takes its longest side to 1; `None` where they have no extent.
+fn unit_box(positions: &[DVec3], triangles: &[[u32; 3]]) -> Option<(DVec3, f64)> {
+    let corners_of = |triangle: &[u32; 3]| triangle.map(|vertex| positions[vertex as usize]);
+    let (low, high) = bounds(triangles.iter().map(corners_of).filter(is_finite).flatten());
+    let extent = (high - low).max_element();
+    (extent.is_finite() && extent > 0.0).then(|| (0.5 * (low + high), 1.0 / extent))
+}
+
+fn is_finite([a, b, c]: &[DVec3; 3]) -> bool {
+    a.is_finite() && b.is_finite() && c.is_finite()
+}
+
+/// True where normalised corners make a triangle.
+fn has_area(corners: &[DVec3; 3]) -> bool {
+    let [a, b, c] = *corners;
+    let longest = (b - a).length().max((c - a).length()).max((c - b).length());
+    let double_area = (b - a).cross(c - a).length();
+    is_finite(corners) && double_area > LEAST_HEIGHT * longest
+}
+
+/// The box around normalised corners.
+fn padded_box(&[a, b, c]: &[DVec3; 3]) -> Aabb {
+    let single = |p: DVec3| Vec3A::new(p.x as f32, p.y as f32, p.z as f32);
+    let padding = Vec3A::splat(BOX_PADDING);
+    Aabb::new(single(a.min(b).min(c)) - padding, single(a.max(b).max(c)) + padding)
 }
 
 /// A ray made ready: the axes permuted so that z is the direction's largest one, sheared to look along z.

@@ -7,6 +7,7 @@
 use super::Deformer;
 use super::attach::{LEAST_VERTICES, Placement, renewed};
 use super::hair::Laid;
+use super::morphs::Shifts;
 use super::young::is_one;
 use crate::character::Frame;
 use crate::face::FaceShape;
@@ -77,16 +78,10 @@ impl Deformer {
     pub(super) fn finish_displacements(&mut self) {
         let head = HeadStages::of(self);
         let known = self.displacements.take();
-        let finish = self.field.finish;
-        let field = Field {
-            finish: Finish {
-                face: finish.face,
-                whole: finish.whole,
-                about: finish.about,
-                ..Finish::default()
-            },
-            ..self.field.clone()
-        };
+        if !known.as_ref().is_some_and(|known| known.head.is_same(&head)) {
+            self.morph_shifts = Shifts::default();
+        }
+        let field = Field { finish: self.field.finish.all_the_way(), ..self.field.clone() };
         let placement = Placement { field: &field, ..self.placement() };
         let figure = placement.figure;
         let displacement = |vertex: usize| {

@@ -191,6 +191,7 @@ impl Deformer {
             amount: ends.amount,
         };
         let strands = product.strands(&self.target);
+        progress.at(0.2)?;
         if ends.amount > 0.0 && (strands.sides.is_some() || strands.long.is_some()) {
             self.lay(&mut end, strands, body, &placement);
         }

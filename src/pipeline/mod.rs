@@ -33,13 +33,13 @@ use crate::options::Repair;
 pub use crate::options::{FaceCurve, GroupSettings, Mode, Options, Stage};
 use crate::progress::Progress;
 use crate::report::{RigReport, Timing};
+use crate::shape::Coefficient;
 use crate::shape::directions::RestTriangles;
 use crate::shape::field::{BodyField, Field};
 use crate::shape::figure::Figure;
 use crate::shape::measured::Measured;
 use crate::shape::product::repair::Pushed;
 pub use crate::shape::style::Style;
-use crate::shape::{BodyShape, Coefficient};
 use attach::{Bindings, Placement};
 use displacement::Displacements;
 use glam::DVec3;
@@ -65,6 +65,8 @@ pub struct Deformer {
     placed: Option<(FaceShape, Arc<Vec<DVec3>>)>,
     /// What the face step was last made of, and its ways.
     young: Option<young::Made>,
+    /// The same of the options before, until it is made again.
+    young_before: Option<young::Made>,
     /// How the head sits on it.
     sat: Option<young::Sat>,
     /// What hair does after the head's stages; without these the deformation's offsets are all.
@@ -73,6 +75,8 @@ pub struct Deformer {
     laid: Option<hair::Ends>,
     /// Where all of that takes the vertices; there once the options are done.
     displacements: Option<Displacements>,
+    /// What morph targets add to that.
+    morph_shifts: morphs::Shifts,
     warnings: Vec<Warning>,
     timing: Timing,
 }
@@ -118,6 +122,7 @@ struct Deformation {
 struct Known {
     product: Option<Arc<ProductTarget>>,
     pushed: Option<Pushed>,
+    young: Option<young::Made>,
 }
 
 /// What the report says of a rig that was made.
@@ -255,6 +260,7 @@ impl Deformer {
         let known = Known {
             product: self.deformation.product.clone().filter(|_| !measures_anew),
             pushed: (options.repair == Repair::Kept).then(|| self.deformation.pushed.clone()),
+            young: self.young.clone().or_else(|| self.young_before.clone()).filter(|_| !measures_anew),
         };
         let (rig, style) = (self.rig.clone(), self.style.clone());
         let progress = &mut progress.part(0.4, 1.0);
@@ -268,10 +274,11 @@ impl Deformer {
         rig: Option<AutoRig>,
         style: Style,
         options: Options,
-        known: Known,
+        mut known: Known,
         timing: Timing,
         progress: &mut Progress,
     ) -> Result<Self> {
+        let young_before = known.young.take();
         progress.at(0.0)?;
         let clock = Instant::now();
         let mut deformation = match options.mode {
@@ -280,7 +287,7 @@ impl Deformer {
         };
         let mut warnings = rig.as_ref().map(|rig| rig.warnings.clone()).unwrap_or_default();
         warnings.extend(target.measured.anatomy.landmarks.warnings("target"));
-        warnings.extend(already_super_deformed(&target.measured.shape, &style));
+        warnings.extend(report::already_super_deformed(&target.measured.shape, &style));
         warnings.append(&mut deformation.warnings);
         deformation.warnings = warnings;
         let field = Field::of(Arc::clone(&deformation.body));
@@ -292,10 +299,12 @@ impl Deformer {
             deformation,
             field,
             young: None,
+            young_before,
             sat: None,
             hair: None,
             laid: None,
             displacements: None,
+            morph_shifts: morphs::Shifts::default(),
             placed: None,
             warnings: Vec::new(),
             timing,
@@ -373,22 +382,6 @@ impl Deformer {
     pub fn warnings(&self) -> &[Warning] {
         &self.warnings
     }
-}
-
-/// A warning where the style has hardly fewer heads than the target.
-fn already_super_deformed(target: &BodyShape, style: &Style) -> Option<Warning> {
-    let (Style::Shape(shape), Some(proportions)) = (style, &target.proportions) else {
-        return None;
-    };
-    let heads = shape.heads()?;
-    let is_near = proportions.heads() <= ALREADY_SD * heads && shape.proportions != target.proportions;
-    is_near.then(|| {
-        let message = format!(
-            "the target is {:.1} heads tall and the style {heads:.1}: little is left to deform",
-            proportions.heads()
-        );
-        Warning::new("already_super_deformed", message)
-    })
 }
 
 fn milliseconds(since: Instant) -> f64 {

@@ -1,17 +1,17 @@
 //! Morph targets after a deformation: each is made anew at the vertices that it touches, and is zero at the others.
 
 use super::Deformer;
-use super::attach::LEAST_VERTICES;
+use super::attach::{LEAST_VERTICES, Placement};
 use super::displacement::single;
 use crate::character::{Mesh, MorphTarget};
 use crate::error::Result;
-use crate::parallel;
 use crate::progress::Progress;
 use crate::shape::directions::Room;
+use crate::shape::field::Field;
 use crate::shape::turn::Turn;
 use glam::{DVec3, Vec3};
 use std::ops::Range;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// The vertices of a mesh that its morph targets touch.
 #[derive(Clone, Debug, Default)]
@@ -38,6 +38,36 @@ impl Touched {
             targets: mesh.morph_targets.iter().map(touched).collect(),
             moved: vertices.clone().filter(is_moved).map(|vertex| vertex as u32).collect(),
         }
+    }
+}
+
+/// How far morph targets go all the way beyond their own deltas, model space: of each mesh, once it is asked for, by target and
+/// by the vertices that it moves. As [`super::displacement::Displacements`], they stay while amount and height change.
+#[derive(Debug, Default)]
+pub struct Shifts {
+    of: Mutex<Vec<Option<ShiftsOfMesh>>>,
+}
+
+/// By target, then by the vertices that it touches.
+type ShiftsOfMesh = Arc<Vec<Vec<Vec3>>>;
+
+impl Clone for Shifts {
+    fn clone(&self) -> Self {
+        Self { of: Mutex::new(self.of.lock().unwrap_or_else(PoisonError::into_inner).clone()) }
+    }
+}
+
+impl Shifts {
+    fn get(&self, mesh: usize) -> Option<ShiftsOfMesh> {
+        self.of.lock().unwrap_or_else(PoisonError::into_inner).get(mesh)?.clone()
+    }
+
+    fn keep(&self, mesh: usize, shifts: &ShiftsOfMesh) {
+        let mut of = self.of.lock().unwrap_or_else(PoisonError::into_inner);
+        if of.len() <= mesh {
+            of.resize(mesh + 1, None);
+        }
+        of[mesh] = Some(Arc::clone(shifts));
     }
 }
 
@@ -71,16 +101,18 @@ impl Deformer {
     ) -> Result<Vec<Vec<MorphTarget>>> {
         let count = self.target.character.meshes.len();
         let of_mesh = |mesh: usize| {
-            progress.at(mesh as f32 / count as f32)?;
-            Ok(if is_asked(mesh) { self.targets_of_mesh(mesh) } else { Vec::new() })
+            let at = |mesh: usize| mesh as f32 / count as f32;
+            progress.at(at(mesh))?;
+            let part = &mut progress.part(at(mesh), at(mesh + 1));
+            if is_asked(mesh) { self.targets_of_mesh(mesh, part) } else { Ok(Vec::new()) }
         };
         (0..count).map(of_mesh).collect()
     }
 
-    fn targets_of_mesh(&self, mesh: usize) -> Vec<MorphTarget> {
+    fn targets_of_mesh(&self, mesh: usize, progress: &mut Progress) -> Result<Vec<MorphTarget>> {
         let Mesh { morph_targets, normals, tangents, .. } = &self.target.character.meshes[mesh];
         if self.field.finish.is_nothing() || morph_targets.is_empty() {
-            return morph_targets.clone();
+            return Ok(morph_targets.clone());
         }
         let turn_normals =
             !normals.is_empty() && morph_targets.iter().any(|target| !target.normals.is_empty());
@@ -92,28 +124,86 @@ impl Deformer {
         let tangent =
             |vertex: usize, tangent: Vec3| turns[vertex].tangent(tangent, new_normals.get(vertex).copied());
         let directions: Vec<Vec3> = tangents.iter().map(|tangent| tangent.truncate()).collect();
-        let Touched { targets: touched, moved } = &self.touched()[mesh];
-        let placed = self.placed_of(mesh, moved);
-        let least = if self.vertices(mesh).len() < LEAST_VERTICES { usize::MAX } else { 1 };
-        parallel::collect(self.options.thread_count, morph_targets.len(), least, |index| {
+        let touched = &self.touched()[mesh].targets;
+        let shifts = self.morph_shifts(mesh, &mut progress.part(0.0, 0.7))?;
+        let made = |index: usize| {
             let (target, touched) = (&morph_targets[index], &touched[index]);
             MorphTarget {
                 name: target.name.clone(),
-                positions: self.morph_positions(mesh, &target.positions, touched, &placed),
+                positions: self.morph_positions(&target.positions, touched, &shifts[index]),
                 normals: morph_turns(&target.normals, normals, touched, &|vertex, normal| {
                     turns[vertex].normal(normal)
                 }),
                 tangents: morph_turns(&target.tangents, &directions, touched, &tangent),
             }
-        })
+        };
+        let least = if self.vertices(mesh).len() < LEAST_VERTICES { morph_targets.len() } else { 1 };
+        let threads = self.options.thread_count;
+        progress.part(0.7, 1.0).collect_with(
+            threads,
+            morph_targets.len(),
+            least,
+            || (),
+            |(), index| made(index),
+        )
     }
 
-    /// Where the vertices of a mesh go, canonical frame: those that are `moved`.
-    fn placed_of(&self, mesh: usize, moved: &[u32]) -> Vec<DVec3> {
+    /// D(v + d) - D(v) - d of all vertices that a mesh's targets move, all the way, before amount, ground and height.
+    ///
+    /// # Errors
+    /// `Cancelled`.
+    fn morph_shifts(&self, mesh: usize, progress: &mut Progress) -> Result<ShiftsOfMesh> {
+        if let Some(known) = self.morph_shifts.get(mesh) {
+            return Ok(known);
+        }
+        let morph_targets = &self.target.character.meshes[mesh].morph_targets;
+        let Touched { targets: touched, moved } = &self.touched()[mesh];
+        let field = Field { finish: self.field.finish.all_the_way(), ..self.field.clone() };
+        let placement = Placement { field: &field, ..self.placement() };
+        let figure = placement.figure;
+        let placed = self.placed_of(mesh, moved, &placement);
+        let start = self.vertices(mesh).start;
+        let shift = |target: usize, vertex: usize| {
+            let delta = match morph_targets[target].positions.get(vertex) {
+                Some(&delta) if delta != Vec3::ZERO => figure.frame.to_canonical(delta.as_dvec3()),
+                _ => return Vec3::ZERO,
+            };
+            let to = placement.beside(start + vertex, figure.positions[start + vertex] + delta);
+            single(figure.frame.to_model(to - placed[vertex] - delta))
+        };
+        // Cut where there are as many of all targets together, whatever each touches.
+        let ends: Vec<usize> = touched
+            .iter()
+            .scan(0, |end, touched| {
+                *end += touched.len();
+                Some(*end)
+            })
+            .collect();
+        let all = ends.last().copied().unwrap_or(0);
+        let threads = self.options.thread_count;
+        let shift = |_: &mut (), index: usize| {
+            let target = ends.partition_point(|&end| end <= index);
+            let first = ends[target] - touched[target].len();
+            shift(target, touched[target][index - first] as usize)
+        };
+        let flat = progress.collect_with(threads, all, LEAST_SHIFTS, || (), shift)?;
+        let mut rest = &flat[..];
+        let by_target = |touched: &Vec<u32>| {
+            let (own, others) = rest.split_at(touched.len());
+            rest = others;
+            own.to_vec()
+        };
+        let shifts = Arc::new(touched.iter().map(by_target).collect());
+        self.morph_shifts.keep(mesh, &shifts);
+        Ok(shifts)
+    }
+
+    /// Where `placement` puts the vertices of a mesh, canonical frame: those that are `moved`.
+    fn placed_of(&self, mesh: usize, moved: &[u32], placement: &Placement) -> Vec<DVec3> {
         let Range { start, end } = self.vertices(mesh);
         let all: Vec<u32> = moved.iter().map(|&vertex| start as u32 + vertex).collect();
         let mut placed = vec![DVec3::ZERO; end - start];
-        for (&vertex, to) in moved.iter().zip(self.placement().vertices(&all)) {
+        for (&vertex, to) in moved.iter().zip(placement.vertices(&all)) {
             placed[vertex as usize] = to;
         }
         placed
@@ -121,23 +211,23 @@ impl Deformer {
 
     /// D(v + d) - D(v): exact, and zero where d is.
     ///
-    /// `placed`: D(v) of each vertex that moves.
-    fn morph_positions(&self, mesh: usize, deltas: &[Vec3], touched: &[u32], placed: &[DVec3]) -> Vec<Vec3> {
-        let start = self.vertices(mesh).start;
-        let placement = self.placement();
-        let figure = placement.figure;
+    /// `shifts`: as [`Self::morph_shifts`] gives them.
+    fn morph_positions(&self, deltas: &[Vec3], touched: &[u32], shifts: &[Vec3]) -> Vec<Vec3> {
+        let finish = &self.field.finish;
+        let (size, amount) = (finish.size as f32, finish.amount as f32);
         let mut moved = vec![Vec3::ZERO; deltas.len()];
-        for &vertex in touched {
-            let vertex = vertex as usize;
-            if let Some(&delta) = deltas.get(vertex).filter(|&&delta| delta != Vec3::ZERO) {
-                let p = figure.positions[start + vertex] + figure.frame.to_canonical(delta.as_dvec3());
-                let to = placement.beside(start + vertex, p);
-                moved[vertex] = single(figure.frame.to_model(to - placed[vertex]));
+        for (&vertex, &shift) in touched.iter().zip(shifts) {
+            if let Some(&delta) = deltas.get(vertex as usize) {
+                let to = size * (delta + amount * shift);
+                moved[vertex as usize] = to.clamp(Vec3::splat(f32::MIN), Vec3::splat(f32::MAX));
             }
         }
         moved
     }
 }
+
+/// Fewer vertices of morph targets than this are not worth a thread.
+const LEAST_SHIFTS: usize = 2000;
 
 /// Changes of unit vectors: what the changed vector turns into, less what the unchanged one does.
 fn morph_turns(

@@ -75,7 +75,7 @@ pub fn deform(
     let field = attempt.field;
     progress.at(0.65)?;
     let placement = product.placement(&target.measured.figure, &field, options.thread_count);
-    let placed = placement.all_placed();
+    let placed = attempt.placed.unwrap_or_else(|| placement.all_placed());
     let placement = Placement { placed: Some(&placed), ..placement };
     let pushed = match (options.repair, known.pushed) {
         (Repair::Off, _) => Pushed::default(),
@@ -137,6 +137,8 @@ fn hair_shortened(parts: &PartBindings, head_length: f64) -> Option<Warning> {
 /// A field that was tried.
 struct Attempt {
     field: Field,
+    /// Where it takes all vertices, where that had to be found.
+    placed: Option<Vec<DVec3>>,
     scales: PartCoefficients,
     /// The bounds that acted, the thicknesses that the profile replaces, and its own warning.
     limits: Limits,
@@ -237,23 +239,24 @@ impl Request<'_> {
         let (scales, limits) = part_coefficients(&anatomy.proportions, goal, options, groups)?;
         let field = PartField::new(anatomy, scales, &product.parts, options.hair_length);
         let field = Field::of(Arc::new(BodyField::Parts(Box::new(field))));
-        let Sliced { field, limited, replaced } = if is_sliced {
+        let Sliced { field, placed, limited, replaced } = if is_sliced {
             let roles = &target.measured.figure.role_weights;
             let weights = self.weights.get_or_init(|| roles.iter().map(|row| fold_to_parts(row)).collect());
             let part = &mut progress.part(0.0, 0.8);
             with_profile(target, product, weights, field, style, options, groups, part)?
         } else {
-            Sliced { field, limited: None, replaced: Vec::new() }
+            Sliced::unchanged(field)
         };
-        let measured =
-            product.heads(&product.placement(&target.measured.figure, &field, options.thread_count));
+        let placement = product.placement(&target.measured.figure, &field, options.thread_count);
+        let measured = product.heads(&Placement { placed: placed.as_deref(), ..placement });
         let reached = heads_of(&anatomy.proportions, &scales);
         let reach = if limits.act_on_heads() { reached } else { asked };
         let off = |heads: f64| (heads / reach).ln().abs();
         // A chin that the target does not show is no more to be believed where the result shows one: a ball's underside
         // steps back here or there, as last digits say. So it corrects nothing, and is only warned of.
         let error = off(if anatomy.landmarks.chin_seen { measured } else { reached });
-        Ok(Attempt { field, scales, limits, replaced, limited, aim, measured, error, misread: off(measured) })
+        let misread = off(measured);
+        Ok(Attempt { field, placed, scales, limits, replaced, limited, aim, measured, error, misread })
     }
 }
 

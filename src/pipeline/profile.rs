@@ -1,9 +1,11 @@
 //! The stage after the parts: the body that the style wants, slice by slice.
 
 use super::Target;
+use super::attach::LEAST_VERTICES;
 use super::product_target::ProductTarget;
 use crate::error::{Result, Warning};
 use crate::options::{Options, Stage};
+use crate::parallel;
 use crate::progress::Progress;
 use crate::shape::field::{Binding, BodyField, Field};
 use crate::shape::product::field::PartField;
@@ -11,6 +13,7 @@ use crate::shape::product::groups::PartGroups;
 use crate::shape::product::part::PartWeights;
 use crate::shape::product::profile::{ProfileStage, Source, strengths, wanted_of};
 use crate::shape::style::Style;
+use glam::DVec3;
 use std::sync::Arc;
 
 /// True where `style` and `options` ask for a profile of this target.
@@ -24,10 +27,19 @@ pub fn wants_profile(target: &Target, style: &Style, options: &Options) -> bool 
 pub struct Sliced {
     /// The field.
     pub field: Field,
+    /// Where it takes all vertices; `None` where it is the parts' own.
+    pub placed: Option<Vec<DVec3>>,
     /// What soft limits took.
     pub limited: Option<Warning>,
     /// As [`ProfileStage::replaced`].
     pub replaced: Vec<&'static str>,
+}
+
+impl Sliced {
+    /// The parts' own field.
+    pub fn unchanged(field: Field) -> Self {
+        Self { field, placed: None, limited: None, replaced: Vec::new() }
+    }
 }
 
 /// `field`, the parts' own, and then the profile that the style wants, as much of it as the options take.
@@ -50,10 +62,10 @@ pub fn with_profile(
     let measured = &target.measured;
     let wanted = wanted_of(style, measured.anatomy.landmarks.heights.heads());
     let (Some((wanted, share)), BodyField::Parts(parts)) = (wanted, &*field.body) else {
-        return Ok(Sliced { field, limited: None, replaced: Vec::new() });
+        return Ok(Sliced::unchanged(field));
     };
     let share = share * options.profile;
-    let positions = product.placement(&measured.figure, &field, options.thread_count).all_vertices();
+    let positions = product.placement(&measured.figure, &field, options.thread_count).all_placed();
     progress.at(0.3)?;
     let source = Source {
         figure: &measured.figure,
@@ -69,11 +81,20 @@ pub fn with_profile(
         threads: options.thread_count,
     };
     let strengths = |frame: &_| strengths(share, options, groups, frame);
-    let stage = ProfileStage::of(&source, parts, &positions, &wanted, strengths);
+    let (stage, smooth) =
+        ProfileStage::of(&source, parts, &positions, &wanted, strengths, &mut progress.part(0.3, 0.8))?;
     progress.at(1.0)?;
     let (limited, replaced) = (limited(&stage), stage.replaced().to_vec());
     let parts = PartField::clone(parts).with_profile(stage);
-    Ok(Sliced { field: Field::of(Arc::new(BodyField::Parts(Box::new(parts)))), limited, replaced })
+    let place = |vertex: usize| match &product.bindings.vertices[vertex] {
+        Binding::Parts(binding) => {
+            parts.place_smooth(measured.figure.positions[vertex], positions[vertex], smooth[vertex], binding)
+        }
+        _ => positions[vertex],
+    };
+    let placed = parallel::collect(options.thread_count, positions.len(), LEAST_VERTICES, place);
+    let field = Field::of(Arc::new(BodyField::Parts(Box::new(parts))));
+    Ok(Sliced { field, placed: Some(placed), limited, replaced })
 }
 
 fn limited(stage: &ProfileStage) -> Option<Warning> {

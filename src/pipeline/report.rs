@@ -1,6 +1,6 @@
 //! The numbers of a run.
 
-use super::{Deformed, Deformer};
+use super::{ALREADY_SD, Deformed, Deformer};
 use crate::character::{Humanoid, Role};
 use crate::error::{Result, Warning};
 use crate::report::{
@@ -13,6 +13,22 @@ use crate::shape::style::Style;
 use crate::shape::{BodyShape, GroupShape, Measured};
 use glam::DVec3;
 use std::collections::{BTreeMap, BTreeSet};
+
+/// A warning where the style has hardly fewer heads than the target.
+pub(super) fn already_super_deformed(target: &BodyShape, style: &Style) -> Option<Warning> {
+    let (Style::Shape(shape), Some(proportions)) = (style, &target.proportions) else {
+        return None;
+    };
+    let heads = shape.heads()?;
+    let is_near = proportions.heads() <= ALREADY_SD * heads && shape.proportions != target.proportions;
+    is_near.then(|| {
+        let message = format!(
+            "the target is {:.1} heads tall and the style {heads:.1}: little is left to deform",
+            proportions.heads()
+        );
+        Warning::new("already_super_deformed", message)
+    })
+}
 
 impl Deformer {
     /// Roles that target and style share.

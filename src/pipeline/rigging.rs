@@ -74,6 +74,7 @@ impl Rig {
         let Placed { figure, up, forward, mut kinds, surroundings, mut found, mut warnings } =
             Placed::of(character, options, &mut progress.part(0.0, 0.25))?;
         warnings.extend(refine_kinds(&figure, &surroundings, &mut kinds, &found.joints));
+        progress.at(0.28)?;
         let eyes = find_eyes(&figure, &kinds, &found);
         for eye in &eyes {
             let joint = FoundJoint { position: eye.centre, confidence: eye.confidence };

@@ -103,11 +103,15 @@ impl Strands {
         let skeleton = &target.character.skeleton;
         let figure = &target.measured.figure;
         let mut moved: Vec<BTreeMap<u32, f32>> = vec![BTreeMap::new(); skeleton.joints.len()];
+        let mut hair = self.vertices.iter().zip(&self.of_vertices).peekable();
         for (mesh, &start) in target.character.meshes.iter().zip(&figure.mesh_starts) {
             for (vertex, row) in mesh.weights.rows().enumerate() {
-                if let Ok(index) = self.vertices.binary_search(&((start + vertex) as u32)) {
+                let here = (start + vertex) as u32;
+                // Past what no weights are of.
+                while hair.next_if(|(hair, _)| **hair < here).is_some() {}
+                if let Some((_, &strand)) = hair.next_if(|(hair, _)| **hair == here) {
                     for &(joint, weight) in row {
-                        *moved[joint as usize].entry(self.of_vertices[index]).or_default() += weight;
+                        *moved[joint as usize].entry(strand).or_default() += weight;
                     }
                 }
             }

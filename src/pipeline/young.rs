@@ -58,6 +58,9 @@ pub fn is_one<T>(a: &Option<Arc<T>>, b: &Option<Arc<T>>) -> bool {
     }
 }
 
+/// Steps of a head length that a face's landmarks are rounded to, after the stages before: 1e-9.
+const LANDMARK_STEPS: f64 = (1u64 << 30) as f64;
+
 /// All of the head's stages are done where a figure had this much more heads than it gets.
 const HEADS_LOST: f64 = 0.2;
 
@@ -76,7 +79,8 @@ impl Deformer {
             made.squash == squash && made.features == options.features && made.smile == options.smile
         };
         if !self.young.as_ref().is_some_and(is_same) {
-            self.young = self.make_young(squash);
+            let known = self.young.take().or_else(|| self.young_before.take());
+            self.young = self.make_young(squash, known);
         }
         self.field.youth = share * self.options.youth;
         if self.field.youth > 0.0 {
@@ -161,7 +165,7 @@ impl Deformer {
         HeadFrame { origin, length: body.after().head_length() }
     }
 
-    fn make_young(&self, squash: FaceShape) -> Option<Made> {
+    fn make_young(&self, squash: FaceShape, known: Option<Made>) -> Option<Made> {
         let measured = &self.target.measured;
         let face = measured.face.as_ref()?;
         let BodyField::Parts(body) = &*self.deformation.body else { return None };
@@ -170,7 +174,9 @@ impl Deformer {
         let before = head_frame(&measured.anatomy);
         let heights = body.after();
         let frame = self.head_after(body, &field);
-        let face = face.mapped(|p| frame.to_unit(field.place(before.from_unit(p), &on_head)));
+        // A head that is only moved or made larger has the same face, to the bit.
+        let rounded = |p: DVec3| (p * LANDMARK_STEPS).round() / LANDMARK_STEPS;
+        let face = face.mapped(|p| rounded(frame.to_unit(field.place(before.from_unit(p), &on_head))));
         let reference = match &self.style {
             Style::Shape(shape) => shape.face.map(|face| (face.eye_size, face.eye_height)),
             Style::Heads(_) => None,
@@ -180,7 +186,7 @@ impl Deformer {
         if flow.is_identity() {
             return None;
         }
-        let (young, ways) = self.ways(&field, frame, flow);
+        let (young, ways) = self.ways(&field, frame, flow, known.as_ref());
         let (features, smile) = (self.options.features, self.options.smile);
         Some(Made {
             squash,
@@ -193,22 +199,25 @@ impl Deformer {
     }
 
     /// The step that moves the head by `flow` after `field`, and what it does to the vertices.
-    fn ways(&self, field: &Field, frame: HeadFrame, flow: Flow) -> (YoungFace, Ways) {
+    ///
+    /// `known`: what was made before, of which what is the same is taken.
+    fn ways(&self, field: &Field, frame: HeadFrame, flow: Flow, known: Option<&Made>) -> (YoungFace, Ways) {
         let placement =
             Placement { field, ways: None, hair_offsets: &[], joint_offsets: &[], ..self.placement() };
         let things: Vec<Vec<DVec3>> = match &self.deformation.product {
             Some(product) => product.things().iter().map(|vertices| placement.vertices(vertices)).collect(),
             None => Vec::new(),
         };
-        let young = YoungFace::new(frame, flow, &things);
+        let young = YoungFace::new(frame, flow, &things, known.map(|known| &*known.young));
+        let known = known.map(|known| (&*known.young, &*known.ways));
         let binding = |binding: &Binding| match binding {
             Binding::Parts(binding) => binding.face,
             _ => FaceBinding::None,
         };
         let bindings: Vec<FaceBinding> = self.deformation.bindings.vertices.iter().map(binding).collect();
         let ways = match &self.placed {
-            Some((_, placed)) => young.ways(placed, &bindings, self.options.thread_count),
-            None => young.ways(&placement.all_placed(), &bindings, self.options.thread_count),
+            Some((_, placed)) => young.ways(placed, &bindings, known, self.options.thread_count),
+            None => young.ways(&placement.all_placed(), &bindings, known, self.options.thread_count),
         };
         (young, ways)
     }

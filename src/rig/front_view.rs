@@ -3,7 +3,9 @@
 use super::UnitFigure;
 use super::silhouette::{GridFrame, RayGrid};
 use crate::character::MeshKind;
+use crate::error::Result;
 use crate::geometry::cells::CellMap;
+use crate::progress::Progress;
 use glam::DVec3;
 
 /// Rows of rays over the height of a figure. Seen: at +30 %, joints lie 0.0005 H further off.
@@ -68,7 +70,15 @@ pub struct FrontView<'a> {
 
 impl<'a> FrontView<'a> {
     /// Looks at `figure`, whose meshes are of these `kinds`, as far as known.
-    pub fn of(figure: &'a UnitFigure, kinds: &[Option<MeshKind>], threads: usize) -> Self {
+    ///
+    /// # Errors
+    /// `Cancelled`.
+    pub fn of(
+        figure: &'a UnitFigure,
+        kinds: &[Option<MeshKind>],
+        threads: usize,
+        progress: &mut Progress,
+    ) -> Result<Self> {
         let is = |mesh: usize, wanted: &[Option<MeshKind>]| wanted.contains(&kinds[mesh]);
         use MeshKind::*;
         let sets: [&[Option<MeshKind>]; 5] = [
@@ -82,6 +92,7 @@ impl<'a> FrontView<'a> {
         let clothed = triangles_of(sets[2]);
         let mut reference = if clothed.is_empty() { figure.triangles.clone() } else { clothed };
         let mut reference_grid = front(&figure.positions, &reference, 0.0, threads);
+        progress.at(0.3)?;
         // Of a figure in pieces whose kinds were guessed wrong, all pieces are looked at.
         let guessed = figure.kinds.iter().all(Option::is_none);
         let some = reference.len() < figure.triangles.len();
@@ -100,13 +111,16 @@ impl<'a> FrontView<'a> {
                 continue;
             }
             let grid = front(&figure.positions, &triangles, 0.0, threads);
+            progress.at(0.6)?;
             if is_whole(&grid, &whole) && shows_the_front(&grid, &reference_grid) {
                 chosen = Some((triangles, grid));
                 break;
             }
         }
         let (triangles, grid) = chosen.unwrap_or((reference, reference_grid));
-        Self::seen(&figure.positions, triangles, grid, threads)
+        let view = Self::seen(&figure.positions, triangles, grid, threads);
+        progress.at(1.0)?;
+        Ok(view)
     }
 
     fn seen(positions: &'a [DVec3], triangles: Vec<[u32; 3]>, grid: RayGrid, threads: usize) -> Self {

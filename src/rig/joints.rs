@@ -152,9 +152,9 @@ pub fn find_joints(
 ) -> Result<FoundJoints> {
     let given: BTreeMap<Role, DVec3> =
         given.iter().filter(|(_, at)| at.is_finite()).map(|(&role, &at)| (role, at)).collect();
-    let view = FrontView::of(figure, kinds, thread_count);
-    progress.at(0.5)?;
-    let mut found = Search { view: &view, given: &given, found: FoundJoints::default() }.run();
+    let view = FrontView::of(figure, kinds, thread_count, &mut progress.part(0.0, 0.5))?;
+    let search = Search { view: &view, given: &given, found: FoundJoints::default() };
+    let mut found = search.run(&mut progress.part(0.5, 0.7))?;
     progress.at(0.7)?;
     if fingers {
         add_fingers(figure, &view, &mut found);
@@ -170,9 +170,10 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    fn run(mut self) -> FoundJoints {
+    fn run(mut self, progress: &mut Progress) -> Result<FoundJoints> {
         let view = self.view;
         let solid = Solid::new(view.positions, &view.triangles, view.axis);
+        progress.at(0.5)?;
         let lobes = LegLobes::of(&solid, view.low, LEGS_BELOW * view.high);
         let (mut legs, inside) = find_legs(view, &lobes, LEGS_BELOW * view.high);
         let mut arms = self.arms(&legs, &solid);
@@ -233,7 +234,7 @@ impl Search<'_> {
                 self.found.joints.insert(role, FoundJoint { position, confidence: 1.0 });
             }
         }
-        self.found
+        Ok(self.found)
     }
 
     /// The arms over `legs`: of what reaches out furthest, all and below the neck, of what hangs beside the trunk, and of the

@@ -79,6 +79,11 @@ impl Finish {
         Mapped { position: self.about + size * (to.position - self.about), jacobian: to.jacobian * size }
     }
 
+    /// The same before amount, ground and height.
+    pub fn all_the_way(&self) -> Self {
+        Self { face: self.face, whole: self.whole, about: self.about, ..Self::default() }
+    }
+
     /// How much of an offset is left that is added to where the body's field takes a point.
     pub fn share_of_offsets(&self) -> f64 {
         self.size * self.amount * self.whole

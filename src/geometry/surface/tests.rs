@@ -298,3 +298,40 @@ fn an_empty_or_degenerate_surface_meets_nothing() {
     assert_eq!(hit.map(|hit| (hit.triangle, hit.t)), Some((1, 1.0)));
     assert_eq!(surface.first_hit(DVec3::new(0.25, 0.25, 1.0), DVec3::ZERO, 10.0), None);
 }
+
+#[test]
+fn a_tree_that_stays_finds_what_a_new_one_finds() {
+    let mut random = Random(5);
+    let (mut positions, triangles) = turned(-1.0, &[(0.5, -0.6), (0.8, 0.0), (0.4, 0.7)], 1.0, 24);
+    let tree = Tree::of(&Surface::for_many(&positions, &triangles), triangles.len());
+    for _ in 0..4 {
+        for p in &mut positions {
+            *p = 1.3 * *p + 0.1 * random.point();
+        }
+        let new = Surface::new(&positions, &triangles);
+        let moved = Surface::with_tree(&positions, &triangles, &tree);
+        assert_eq!(moved.triangle_count(), new.triangle_count());
+        for index in 0..300 {
+            let (p, direction) = (3.0 * random.point(), random.point());
+            assert_eq!(moved.all_hits(p, direction), new.all_hits(p, direction));
+            let wanted = new.closest_point(p);
+            for guess in [None, Some(index % triangles.len() as u32), Some(u32::MAX)] {
+                assert_eq!(moved.closest_point_near(p, guess, &tree), wanted);
+            }
+        }
+    }
+    // A triangle without area, and one that has some again.
+    positions[1] = positions[2];
+    for (from, to) in [(0, 1), (1, 0)] {
+        let mut other = positions.clone();
+        other[1] += DVec3::Y * f64::from(from);
+        let tree = Tree::of(&Surface::new(&other, &triangles), triangles.len());
+        other[1] = positions[1] + DVec3::Y * f64::from(to);
+        let (new, moved) = (Surface::new(&other, &triangles), Surface::with_tree(&other, &triangles, &tree));
+        assert_eq!(moved.triangle_count(), new.triangle_count());
+        let p = DVec3::new(0.3, -2.0, 0.1);
+        assert_eq!(moved.closest_point_near(p, Some(3), &tree), new.closest_point(p));
+    }
+    let nothing = Tree::of(&Surface::default(), 0);
+    assert!(Surface::with_tree(&[], &[], &nothing).is_empty());
+}

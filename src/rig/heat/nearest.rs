@@ -102,6 +102,7 @@ impl NearestBones {
         thread_count: usize,
         progress: &mut Progress,
     ) -> Result<Self> {
+        progress.at(0.0)?;
         let component_count = pieces.starts.len() - 1;
         let surfaces = parallel::collect(thread_count, component_count, 1, |component| {
             Surface::for_many(points, pieces.triangles_of(component))

@@ -169,6 +169,17 @@ impl PartField {
         }
     }
 
+    /// As [`Self::place`] without a younger face, where the parts take `p` to `by_parts` and the profile's relief goes on from there
+    /// to `smooth`.
+    pub fn place_smooth(&self, p: DVec3, by_parts: DVec3, smooth: DVec3, binding: &PartBinding) -> DVec3 {
+        match (binding.attachment, &self.profile) {
+            (Attachment::Plain | Attachment::OnFace(_), Some(profile)) => {
+                profile.place_smooth(by_parts, smooth, binding)
+            }
+            _ => self.place(p, binding, &FaceShape::None),
+        }
+    }
+
     /// Where `p` goes, and the Jacobian there at fixed binding.
     pub fn map(&self, p: DVec3, binding: &PartBinding, face: &FaceShape) -> Mapped {
         let by_parts = |attachment| self.blend(p, &binding.weights, attachment, face);

@@ -7,7 +7,7 @@
 
 use super::outside::{Outside, rims, volume};
 use super::scales::HeadScale;
-use crate::geometry::{Mapped, Neighbours, Weld, neighbours, smoothstep};
+use crate::geometry::{Mapped, Neighbours, Tree, Weld, neighbours, smoothstep};
 use crate::parallel;
 use glam::{DMat3, DVec3};
 
@@ -189,6 +189,10 @@ pub struct HairOnBody {
     outwards: f64,
     /// How far outside of the body each vertex of hair is, below 0 inside.
     distances: Vec<f64>,
+    /// The triangle that each is nearest to, and is near to when all has moved.
+    nearest: Vec<u32>,
+    /// The body's.
+    tree: Tree,
 }
 
 impl HairOnBody {
@@ -208,12 +212,19 @@ impl HairOnBody {
         let outwards = if volume(positions, &body) < 0.0 { -1.0 } else { 1.0 };
         let around = if is_needed { neighbours(triangles, weld) } else { Neighbours::default() };
         let rims = if is_needed { rims(&body, weld) } else { Vec::new() };
-        let mut hair = Self { body, hair, around, rims, outwards, distances: Vec::new() };
+        let (mut distances, mut nearest, mut tree) = (Vec::new(), Vec::new(), Tree::default());
         if is_needed {
-            hair.distances =
-                hair.to_body(positions, weld, threads).into_iter().map(|(distance, _)| distance).collect();
+            let outside = Outside::new(positions, &body, &rims, weld, outwards);
+            let found = parallel::collect(threads, hair.len(), LEAST_HAIR, |index| {
+                let found = outside.towards_rims(positions[hair[index]], None);
+                found.map_or((f64::INFINITY, u32::MAX), |(closest, distance, _)| {
+                    (distance, closest.triangle as u32)
+                })
+            });
+            (distances, nearest) = found.into_iter().unzip();
+            tree = outside.tree();
         }
-        hair
+        Self { body, hair, around, rims, outwards, distances, nearest, tree }
     }
 
     /// True where there is no hair to look at, or no body.
@@ -223,9 +234,9 @@ impl HairOnBody {
 
     /// How far outside of the body each vertex is, and which way out is there.
     fn to_body(&self, points: &[DVec3], weld: &Weld, threads: usize) -> Vec<(f64, DVec3)> {
-        let outside = Outside::new(points, &self.body, &self.rims, weld, self.outwards);
+        let outside = Outside::moved(points, &self.body, &self.rims, weld, self.outwards, &self.tree);
         parallel::collect(threads, self.hair.len(), LEAST_HAIR, |index| {
-            let found = outside.towards_rims(points[self.hair[index]]);
+            let found = outside.towards_rims(points[self.hair[index]], self.nearest.get(index).copied());
             found.map_or((f64::INFINITY, DVec3::ZERO), |(_, distance, way)| (distance, way))
         })
     }

@@ -208,11 +208,15 @@ impl LongHair {
             return None;
         }
         let outline = PolarMap::of(vertices.iter().map(|&vertex| axis.polar(positions[vertex as usize])));
-        let mut body_vertices: Vec<u32> = body.iter().flatten().copied().collect();
-        body_vertices.sort_unstable();
-        body_vertices.dedup();
-        let number = |vertex: u32| body_vertices.binary_search(&vertex).expect("all are listed") as u32;
-        let body = body.iter().map(|corners| corners.map(number)).collect();
+        let mut is_body = vec![false; positions.len()];
+        body.iter().flatten().for_each(|&vertex| is_body[vertex as usize] = true);
+        let body_vertices: Vec<u32> =
+            (0..positions.len() as u32).filter(|&vertex| is_body[vertex as usize]).collect();
+        let mut numbers = vec![u32::MAX; positions.len()];
+        for (number, &vertex) in (0..).zip(&body_vertices) {
+            numbers[vertex as usize] = number;
+        }
+        let body = body.iter().map(|corners| corners.map(|vertex| numbers[vertex as usize])).collect();
         let (places, around) = places(&vertices, triangles, weld);
         Some(Self { vertices, lies, body_vertices, body, axis, own, outline, places, around })
     }

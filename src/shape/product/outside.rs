@@ -1,6 +1,6 @@
 //! What is outside of a body and what inside, and where its surface ends.
 
-use crate::geometry::{Closest, Surface, Weld, double_area};
+use crate::geometry::{Closest, Surface, Tree, Weld, double_area};
 use glam::DVec3;
 
 /// The outside of a body.
@@ -11,6 +11,8 @@ pub struct Outside<'a> {
     weld: &'a Weld,
     /// 1, or -1 for a body that is wound to look inwards, as mirrored ones are.
     outwards: f64,
+    /// That of the same body at rest, for one that has moved.
+    tree: Option<&'a Tree>,
 }
 
 impl<'a> Outside<'a> {
@@ -25,25 +27,50 @@ impl<'a> Outside<'a> {
         outwards: f64,
     ) -> Self {
         let normals = vertex_normals(points, triangles, rims, weld);
-        Self { surface: Surface::new(points, triangles), normals, triangles, weld, outwards }
+        let surface = Surface::for_many(points, triangles);
+        Self { surface, normals, triangles, weld, outwards, tree: None }
+    }
+
+    /// The tree of the body's surface, for when it has moved.
+    pub fn tree(&self) -> Tree {
+        Tree::of(&self.surface, self.triangles.len())
+    }
+
+    /// As [`Outside::new`], of a body of the same triangles that had this `tree` at rest.
+    pub fn moved(
+        points: &[DVec3],
+        triangles: &'a [[u32; 3]],
+        rims: &[u32],
+        weld: &'a Weld,
+        outwards: f64,
+        tree: &'a Tree,
+    ) -> Self {
+        let normals = vertex_normals(points, triangles, rims, weld);
+        let surface = Surface::with_tree(points, triangles, tree);
+        Self { surface, normals, triangles, weld, outwards, tree: Some(tree) }
     }
 
     /// The closest point to `p`, how far outside of the body `p` is, below 0 inside, and the way out; `None` where there is
     /// no inside: beside a rim, where a surface ends, and where there is no surface.
-    pub fn at(&self, p: DVec3) -> Option<(Closest, f64, DVec3)> {
-        let (closest, normals) = self.near(p)?;
+    ///
+    /// `guess`: a triangle that may be near, which saves time.
+    pub fn at(&self, p: DVec3, guess: Option<u32>) -> Option<(Closest, f64, DVec3)> {
+        let (closest, normals) = self.near(p, guess)?;
         if normals.contains(&DVec3::ZERO) { None } else { self.from(p, closest, normals) }
     }
 
     /// As [`Self::at`], up to the rims: beside one, the corners that are not on it say where outside is.
-    pub fn towards_rims(&self, p: DVec3) -> Option<(Closest, f64, DVec3)> {
-        let (closest, normals) = self.near(p)?;
+    pub fn towards_rims(&self, p: DVec3, guess: Option<u32>) -> Option<(Closest, f64, DVec3)> {
+        let (closest, normals) = self.near(p, guess)?;
         self.from(p, closest, normals)
     }
 
     /// The closest point, and the normals of its triangle's corners.
-    fn near(&self, p: DVec3) -> Option<(Closest, [DVec3; 3])> {
-        let closest = self.surface.closest_point(p)?;
+    fn near(&self, p: DVec3, guess: Option<u32>) -> Option<(Closest, [DVec3; 3])> {
+        let closest = match self.tree {
+            Some(tree) => self.surface.closest_point_near(p, guess, tree)?,
+            None => self.surface.closest_point(p)?,
+        };
         let corners = self.weld.triangle(self.triangles[closest.triangle]);
         Some((closest, corners.map(|corner| self.normals[corner as usize])))
     }

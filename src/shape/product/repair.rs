@@ -83,7 +83,7 @@ impl Worn {
         if self.places.is_empty() || !(height > 0.0 && height.is_finite()) {
             return Pushed::default();
         }
-        let outside = Outside::new(after, &self.body, &self.rims, weld, self.outwards);
+        let outside = self.outside(after, weld);
         let points: Vec<DVec3> = self.vertices.iter().map(|&vertex| after[vertex as usize]).collect();
         let mut membrane = Membrane::new(self, points, SPREAD * height);
         let all: Vec<u32> = (0..self.places.len() as u32).collect();
@@ -142,7 +142,8 @@ impl<'a> Membrane<'a> {
                 return None;
             }
             let displaced = self.displaced[place];
-            let (_, distance, way) = outside.at(self.points[place] + displaced)?;
+            let guess = Some(self.worn.nearest[place]);
+            let (_, distance, way) = outside.at(self.points[place] + displaced, guess)?;
             let kept = (KEPT_DISTANCE * old).min(clearance);
             if distance >= kept || distance < -furthest {
                 return None;

@@ -2,7 +2,7 @@
 
 use super::outside::{Outside, rims, volume};
 use crate::character::MeshKind;
-use crate::geometry::{Neighbours, Surface, Weld, components, neighbours};
+use crate::geometry::{Neighbours, Surface, Tree, Weld, components, neighbours};
 use crate::parallel;
 use crate::shape::figure::Figure;
 use glam::DVec3;
@@ -50,6 +50,10 @@ pub struct Worn {
     pub under: Vec<Option<Under>>,
     /// True for places where cloth and body are one: they stay.
     pub is_sewn: Vec<bool>,
+    /// The body's triangle that each place is nearest to at rest, and is near to when all has moved.
+    pub nearest: Vec<u32>,
+    /// The body's.
+    tree: Tree,
 }
 
 impl Worn {
@@ -83,12 +87,17 @@ impl Worn {
         Self::between(figure, body, outwards, cloth, perhaps, weld, threads)
     }
 
+    /// The outside of the body where all vertices are at `points`.
+    pub fn outside<'a>(&'a self, points: &[DVec3], weld: &'a Weld) -> Outside<'a> {
+        Outside::moved(points, &self.body, &self.rims, weld, self.outwards, &self.tree)
+    }
+
     /// For each place whether the body is around it, where all vertices are at `points`.
     pub fn inside(&self, points: &[DVec3], weld: &Weld, threads: usize) -> Vec<bool> {
-        let outside = Outside::new(points, &self.body, &self.rims, weld, self.outwards);
+        let outside = self.outside(points, weld);
         parallel::collect(threads, self.places.len(), LEAST_VERTICES, |place| {
             let p = points[self.vertices[place] as usize];
-            outside.at(p).is_some_and(|(_, distance, _)| distance < 0.0)
+            outside.at(p, Some(self.nearest[place])).is_some_and(|(_, distance, _)| distance < 0.0)
         })
     }
 
@@ -144,9 +153,12 @@ impl Worn {
         let reach = SHEET_REACH * figure.height();
         let find = |index: usize| {
             let p = points[index];
-            let Some((closest, distance, _)) = outside.at(p) else { return (f64::NAN, None) };
+            let Some((closest, distance, _)) = outside.at(p, None) else {
+                return (f64::NAN, None, u32::MAX);
+            };
+            let nearest = closest.triangle as u32;
             if distance <= 0.0 {
-                return (distance, None);
+                return (distance, None, nearest);
             }
             let way = closest.point - p;
             let hit = sheets.all_hits(p, way).into_iter().find(|hit| {
@@ -156,11 +168,27 @@ impl Worn {
                 corners: triangles[hit.triangle],
                 barycentric: [1.0 - hit.u - hit.v, hit.u, hit.v],
             });
-            (distance, under)
+            (distance, under, nearest)
         };
-        let (distances, under) =
-            parallel::collect(threads, points.len(), LEAST_VERTICES, find).into_iter().unzip();
-        Self { body, rims, outwards, places, vertices, triangles, around, distances, under, is_sewn }
+        let found = parallel::collect(threads, points.len(), LEAST_VERTICES, find);
+        let distances = found.iter().map(|found| found.0).collect();
+        let under = found.iter().map(|found| found.1).collect();
+        let nearest = found.iter().map(|found| found.2).collect();
+        let tree = outside.tree();
+        Self {
+            body,
+            rims,
+            outwards,
+            places,
+            vertices,
+            triangles,
+            around,
+            distances,
+            under,
+            is_sewn,
+            nearest,
+            tree,
+        }
     }
 }
 
@@ -185,7 +213,7 @@ fn lying_over(
     let reach = WORN_REACH * figure.height();
     let lies = parallel::collect(threads, places.len(), LEAST_VERTICES, |index| {
         let p = figure.positions[first[places[index] as usize] as usize];
-        outside.at(p).is_some_and(|(_, distance, _)| distance > 0.0 && distance < reach)
+        outside.at(p, None).is_some_and(|(_, distance, _)| distance > 0.0 && distance < reach)
     });
     let count = component.iter().max().map_or(0, |&last| last as usize + 1);
     let (mut all, mut over) = (vec![0u32; count], vec![0u32; count]);

@@ -4,13 +4,15 @@ use super::measure::{BodyFrame, measure_profile};
 use super::relief::Relief;
 use super::scales::{Scales, Strengths, scales};
 use super::{BodyMap, Profile, Row, STATIONS};
+use crate::error::Result;
 use crate::geometry::{Mapped, Weld, smoothstep};
 use crate::parallel;
+use crate::progress::Progress;
 use crate::shape::figure::Figure;
 use crate::shape::product::anatomy::Anatomy;
 use crate::shape::product::binding::PartBinding;
 use crate::shape::product::field::PartField;
-use crate::shape::product::part::PartWeights;
+use crate::shape::product::part::{Part, PartWeights};
 use crate::shape::product::pieces::Piece;
 use glam::{DMat3, DVec3};
 
@@ -89,14 +91,19 @@ fn stubbiness(
 impl ProfileStage {
     /// The stage that gives a body whose vertices `field` takes to `positions` the profile `wanted`.
     ///
-    /// `strengths`: how much of it each chain takes, given where the field puts the body.
+    /// - `strengths`: how much of it each chain takes, given where the field puts the body.
+    /// - Returns, beside it, where its relief alone takes the vertices.
+    ///
+    /// # Errors
+    /// `Cancelled`.
     pub fn of(
         source: &Source,
         field: &PartField,
         positions: &[DVec3],
         wanted: &Profile,
         strengths: impl Fn(&BodyFrame) -> Strengths,
-    ) -> Self {
+        progress: &mut Progress,
+    ) -> Result<(Self, Vec<DVec3>)> {
         let Source { figure, anatomy, weld, parts, .. } = *source;
         let place_limb = |limb| field.place_limb(limb);
         let place_torso = |p| field.place_torso(p);
@@ -111,10 +118,17 @@ impl ProfileStage {
         let relief_strength =
             std::array::from_fn(|chain| of_chains[chain] * smoothstep((1.0 - stubbier[chain]) / SMOOTH_FROM));
         let relief = Relief::of(figure, positions, parts, weld, &frame, relief_strength);
+        progress.at(0.5)?;
         let smooth = parallel::collect(source.threads, positions.len(), LEAST_VERTICES, |vertex| {
             let p = positions[vertex];
-            (source.binding)(vertex).map_or(p, |binding| relief.map(p, &binding.weights, binding.is_skirt))
+            match (source.binding)(vertex) {
+                Some(binding) if !is_of_head(&binding.weights) => {
+                    relief.map(p, &binding.weights, binding.is_skirt)
+                }
+                _ => p,
+            }
         });
+        progress.at(0.7)?;
         let (own, lines) = measure_profile(figure, &smooth, parts, weld, &frame);
         let scales = scales(&own, wanted, &strengths);
         let slices = BodyMap::new(&own, &lines, &frame, &scales);
@@ -129,12 +143,22 @@ impl ProfileStage {
                 stage.placed(at, &piece.weights, false) - at
             })
             .collect();
-        stage
+        progress.at(1.0)?;
+        Ok((stage, smooth))
     }
 
     /// Where `p`, as the parts leave it, goes. It stays where a body of next to no length gives no number.
     pub fn place(&self, p: DVec3, binding: &PartBinding) -> DVec3 {
         self.placed(p, &binding.weights, binding.is_skirt)
+    }
+
+    /// The same, where the relief alone takes `p` to `smooth`.
+    pub fn place_smooth(&self, p: DVec3, smooth: DVec3, binding: &PartBinding) -> DVec3 {
+        if is_of_head(&binding.weights) {
+            return p;
+        }
+        let to: DVec3 = self.slices.map(smooth, &binding.weights, binding.is_skirt);
+        if to.is_finite() { to } else { p }
     }
 
     /// The same and the Jacobian there.
@@ -161,7 +185,16 @@ impl ProfileStage {
     }
 
     fn placed(&self, p: DVec3, weights: &PartWeights, is_skirt: bool) -> DVec3 {
+        if is_of_head(weights) {
+            return p;
+        }
         let to: DVec3 = self.slices.map(self.relief.map(p, weights, is_skirt), weights, is_skirt);
         if to.is_finite() { to } else { p }
     }
+}
+
+/// True for what head and hair alone move: no slice of the body does.
+fn is_of_head(weights: &PartWeights) -> bool {
+    let head = [Part::Head as usize, Part::Hair as usize];
+    weights.iter().enumerate().all(|(part, &weight)| weight == 0.0 || head.contains(&part))
 }

@@ -87,12 +87,15 @@ fn surface_within(outlines: &[&Outline], middle: DVec2, stands_off: f64) -> [f64
         let mut hits: Vec<f64> = reaches.iter().copied().filter(|reach| !reach.is_nan()).collect();
         median(&mut hits)
     };
-    let (mut layers, open): (Vec<_>, Vec<_>) =
+    let (layers, mut open): (Vec<_>, Vec<_>) =
         reaches.iter().partition(|reaches| share(reaches) >= GOES_AROUND);
-    let biggest = layers.iter().map(&typical).fold(0.0, f64::max);
-    layers.retain(|layer| typical(layer) >= HIDDEN * biggest);
+    let mut layers: Vec<(f64, &[f64; RAYS])> =
+        layers.into_iter().map(|layer| (typical(layer), layer)).collect();
+    let biggest = layers.iter().map(|layer| layer.0).fold(0.0, f64::max);
+    layers.retain(|layer| layer.0 >= HIDDEN * biggest);
+    open.retain(|outline| share(outline) >= LIES_ON && SIDES.iter().any(|&side| !outline[side].is_nan()));
     std::array::from_fn(|ray| {
-        let hits = layers.iter().map(|layer| layer[ray]);
+        let hits = layers.iter().map(|layer| layer.1[ray]);
         // NaN is neither greater nor less than any hit.
         let (nearest, furthest) =
             hits.fold((f64::NAN, f64::NAN), |(low, high), hit| (low.min(hit), high.max(hit)));
@@ -100,16 +103,12 @@ fn surface_within(outlines: &[&Outline], middle: DVec2, stands_off: f64) -> [f64
             return reaches.iter().map(|outline| outline[ray]).fold(f64::NAN, f64::min);
         }
         let reach = furthest.min(stands_off * nearest);
-        open.iter()
-            .filter(|outline| share(outline) >= LIES_ON && SIDES.iter().any(|&side| !outline[side].is_nan()))
-            .map(|outline| outline[ray])
-            .filter(|&hit| hit <= STANDS_OFF * reach)
-            .fold(reach, f64::max)
+        open.iter().map(|outline| outline[ray]).filter(|&hit| hit <= STANDS_OFF * reach).fold(reach, f64::max)
     })
 }
 
 pub(super) fn median(values: &mut [f64]) -> f64 {
-    values.sort_by(f64::total_cmp);
+    values.sort_unstable_by(f64::total_cmp);
     0.5 * (values[(values.len() - 1) / 2] + values[values.len() / 2])
 }
 
