@@ -14,7 +14,9 @@ use crate::face::FaceShape;
 use crate::face::seat::{Seat, SeatAmount};
 use crate::face::stage::YoungFace;
 use crate::parallel;
+use crate::shape::Measured;
 use crate::shape::field::{Field, Finish};
+use crate::shape::product::turned::Triangles;
 use glam::{DVec3, Vec3};
 use std::sync::Arc;
 
@@ -23,6 +25,18 @@ use std::sync::Arc;
 pub struct Displacements {
     of: Arc<Vec<Vec3>>,
     head: HeadStages,
+    righted: Arc<Righted>,
+}
+
+/// Vertices that were moved on so that triangles which the field turns over, but nearly not, look where they looked.
+#[derive(Debug, Default)]
+struct Righted {
+    /// Ascending; what was added to each, canonical frame, before amount and size.
+    offsets: Vec<(u32, DVec3)>,
+    /// What their displacements were without it.
+    plain: Vec<Vec3>,
+    /// The triangles that ask for it of which no vertex is of the head.
+    below_head: Vec<u32>,
 }
 
 impl Displacements {
@@ -71,7 +85,12 @@ impl Deformer {
     #[doc(hidden)]
     pub fn field_positions(&self) -> Vec<DVec3> {
         let placement = self.placement();
-        placement.all_vertices().into_iter().map(|p| placement.figure.frame.to_model(p)).collect()
+        let mut positions = placement.all_vertices();
+        let finish = self.field.finish;
+        for &(vertex, offset) in self.displacements.iter().flat_map(|all| &all.righted.offsets) {
+            positions[vertex as usize] += finish.size * finish.amount * offset;
+        }
+        positions.into_iter().map(|p| placement.figure.frame.to_model(p)).collect()
     }
 
     /// Asks the field where the vertices go that this change of options can move.
@@ -88,15 +107,77 @@ impl Deformer {
             single(figure.frame.to_model(placement.vertex(vertex) - figure.positions[vertex]))
         };
         let threads = self.options.thread_count;
-        let of = match known {
-            Some(known) if known.head.is_same(&head) => known.of,
-            Some(known) => renewed(threads, known.of, &placement.bindings.of_head, displacement),
+        let (mut of, below_head) = match known {
+            Some(known) if known.head.is_same(&head) => {
+                self.displacements = Some(known);
+                return;
+            }
+            Some(Displacements { mut of, righted, .. }) => {
+                if !righted.offsets.is_empty() {
+                    let of = Arc::make_mut(&mut of);
+                    for (&(vertex, _), &plain) in righted.offsets.iter().zip(&righted.plain) {
+                        of[vertex as usize] = plain;
+                    }
+                }
+                let of = renewed(threads, of, &placement.bindings.of_head, displacement);
+                (of, Some(righted.below_head.clone()))
+            }
             None => {
                 let count = figure.positions.len();
-                Arc::new(parallel::collect(threads, count, LEAST_VERTICES, displacement))
+                (Arc::new(parallel::collect(threads, count, LEAST_VERTICES, displacement)), None)
             }
         };
-        self.displacements = Some(Displacements { of, head });
+        let righted = self.righted(&mut of, below_head);
+        self.displacements = Some(Displacements { of, head, righted: Arc::new(righted) });
+    }
+
+    /// Puts right, in the displacements `of`, triangles that are nearly right.
+    ///
+    /// `below_head`: those that the head's stages do not move, where they are known.
+    fn righted(&self, of: &mut Arc<Vec<Vec3>>, below_head: Option<Vec<u32>>) -> Righted {
+        // The paper's equations stay to the letter.
+        if self.deformation.product.is_none() {
+            return Righted::default();
+        }
+        let threads = self.options.thread_count;
+        let Measured { figure, weld, .. } = &*self.target.measured;
+        let mut is_of_head = vec![false; figure.positions.len()];
+        for &vertex in &*self.deformation.bindings.of_head {
+            is_of_head[vertex as usize] = true;
+        }
+        let touches_head = |corners: [u32; 3]| corners.iter().any(|&corner| is_of_head[corner as usize]);
+        let (offsets, below_head) = {
+            let of = &**of;
+            let after =
+                |vertex: usize| figure.positions[vertex] + figure.frame.to_canonical(of[vertex].as_dvec3());
+            let triangles = Triangles {
+                rest: &figure.positions,
+                after,
+                corners: &figure.triangles,
+                weld,
+                height: figure.height(),
+            };
+            let below_head = below_head
+                .unwrap_or_else(|| triangles.nearly_right(|corners| !touches_head(corners), threads));
+            let mut wrong = triangles.nearly_right(touches_head, threads);
+            wrong.extend(&below_head);
+            wrong.sort_unstable();
+            (triangles.righted(&wrong), below_head)
+        };
+        if offsets.is_empty() {
+            return Righted { below_head, ..Righted::default() };
+        }
+        let of = Arc::make_mut(of);
+        let plain = offsets
+            .iter()
+            .map(|&(vertex, offset)| {
+                let displacement = &mut of[vertex as usize];
+                let plain = *displacement;
+                *displacement = single(plain.as_dvec3() + figure.frame.to_model(offset));
+                plain
+            })
+            .collect();
+        Righted { offsets, plain, below_head }
     }
 }
 

@@ -23,5 +23,6 @@ pub mod repair;
 pub mod scales;
 pub mod smoothing;
 pub mod strand;
+pub mod turned;
 pub mod weights;
 pub mod worn;
