@@ -274,16 +274,20 @@ const CHEEK_ROWS: (f64, f64) = (0.29, 0.37);
 /// See [`CHEEK_ROWS`].
 const CROWN_ROWS: (f64, f64) = (0.71, 0.79);
 
-/// How far aside the share `q` of the vertices of `triangles` between two heights is.
+/// How far aside the share `q` of the vertices of `triangles` between two heights is: between the two next to it, as low-poly
+/// heads have few.
 fn half_width_between(head: &Head, triangles: &[[u32; 3]], rows: (f64, f64), q: f64) -> Option<f64> {
-    let mut aside: Vec<f64> = triangles
-        .iter()
-        .flatten()
-        .map(|&vertex| head.points[vertex as usize])
-        .filter(|p| p.y > rows.0 && p.y < rows.1)
-        .map(|p| p.x.abs())
-        .collect();
-    quantile(&mut aside, q)
+    let mut is_used = vec![false; head.points.len()];
+    for &vertex in triangles.iter().flatten() {
+        is_used[vertex as usize] = true;
+    }
+    let used =
+        head.points.iter().zip(is_used).filter(|&(p, is_used)| is_used && p.y > rows.0 && p.y < rows.1);
+    let mut aside: Vec<f64> = used.map(|(p, _)| p.x.abs()).collect();
+    aside.sort_unstable_by(f64::total_cmp);
+    let place = q * aside.len().checked_sub(1)? as f64;
+    let (below, above) = (aside[place.floor() as usize], aside[place.ceil() as usize]);
+    Some(below + (above - below) * place.fract())
 }
 
 /// Rows that ears are looked for in: their height, and the lowest and the highest against the eyes'.
