@@ -185,7 +185,8 @@ impl Figure {
     }
 }
 
-/// Triangles of `after` that look the other way than in `before`, and those that the head moves among them.
+/// Triangles of `after` that look the other way than in `before`, and those that the head moves among them; slivers a
+/// thousand times as long as they are wide face no way.
 fn flips(before: &Figure, after: &Figure) -> [usize; 2] {
     let (old, new) = (&before.measured.figure, &after.measured.figure);
     let normal = |positions: &[DVec3], [a, b, c]: [u32; 3]| {
@@ -196,7 +197,12 @@ fn flips(before: &Figure, after: &Figure) -> [usize; 2] {
         .triangles
         .iter()
         .copied()
-        .filter(|&corners| normal(&old.positions, corners).dot(normal(&new.positions, corners)) < 0.0)
+        .filter(|&corners| {
+            let before = normal(&old.positions, corners);
+            let [a, b, c] = corners.map(|vertex| old.positions[vertex as usize]);
+            let longest = a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a));
+            before.length() > 1e-3 * longest && before.dot(normal(&new.positions, corners)) < 0.0
+        })
         .collect();
     let of_head = |vertex: u32| old.weight_of(vertex as usize, |role| role == Role::Head) > 0.5;
     let on_face = |corners: &&[u32; 3]| {
