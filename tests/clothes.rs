@@ -170,9 +170,14 @@ fn a_push_grows_with_the_amount_and_is_kept_while_a_slider_moves() {
     let moved = Options { profile: 0.5, ..options.clone() };
     with.set_options(&Options { repair: Repair::Kept, ..moved.clone() }, none).unwrap();
     let plain = of(&Options { repair: Repair::Off, ..moved.clone() });
+    // But for corners of slivers, which are put right on one body and not on the other.
+    let mut others = 0;
     for (part, whole) in offsets(&with, &plain).iter().zip(&whole) {
-        assert!(part.distance(*whole) < 2e-6, "{part} instead of {whole}");
+        let off = part.distance(*whole);
+        assert!(off < 1e-4, "{part} instead of {whole}");
+        others += usize::from(off >= 2e-6);
     }
+    assert!(1000 * others < whole.len(), "{others} of {} vertices", whole.len());
     with.set_options(&moved, none).unwrap();
     assert_eq!(positions(&with), positions(&of(&moved)));
     // Kept where nothing was pushed yet.
