@@ -321,9 +321,9 @@ pub fn rest(bytes: &mut Bytes) -> DMat4 {
 }
 
 /// What one input may cost, in seconds of the processor: on a machine that does other things too, the clock tells less.
-/// A rig of a random figure in a build that is hardly optimised has taken 10, most of it in volumes of cells for each way
-/// up that is tried; under AddressSanitizer fresh memory costs several times as much.
-const MOST_SECONDS: f64 = if cfg!(fuzzing) { 60.0 } else { 30.0 };
+/// A rig of a random figure in a build that is hardly optimised takes seconds, most of it in volumes of cells; under
+/// AddressSanitizer fresh memory costs several times as much.
+const MOST_SECONDS: f64 = if cfg!(fuzzing) { 60.0 } else { 10.0 };
 
 /// Runs `work` and ends the process where that took too long. What never ends is left to the fuzzer's own clock.
 pub fn in_time(work: impl FnOnce()) {

@@ -13,6 +13,7 @@ use std::collections::BTreeMap;
 use superdeform::internals::rig::UnitFigure;
 use superdeform::internals::rig::joints::{FoundJoints, find_joints};
 use superdeform::internals::rig::silhouette::{GridFrame, RayGrid};
+use superdeform::internals::rig::solid::CELLS;
 use superdeform::{Character, Mesh, Progress, Role};
 use truth::{Case, cases};
 
@@ -45,8 +46,8 @@ fn outcome(case: &Case) -> Outcome {
     let figure = UnitFigure::of(&case.character, case.forward).unwrap();
     let truth = case.joints.iter().map(|(&role, &at)| (role, figure.to_unit(at))).collect();
     let start = std::time::Instant::now();
-    let found =
-        find_joints(&figure, &figure.kinds, &BTreeMap::new(), false, 2, &mut Progress::none()).unwrap();
+    let found = find_joints(&figure, &figure.kinds, &BTreeMap::new(), false, CELLS, 2, &mut Progress::none())
+        .unwrap();
     if std::env::var_os("PICTURES").is_some() {
         println!("{}: {} triangles, {:?}", case.name, figure.triangles.len(), start.elapsed());
     }
@@ -238,8 +239,8 @@ fn report(unnamed: bool) {
 
 fn found_of(character: &Character, forward: DVec3) -> (UnitFigure, FoundJoints) {
     let figure = UnitFigure::of(character, forward).unwrap();
-    let found =
-        find_joints(&figure, &figure.kinds, &BTreeMap::new(), false, 1, &mut Progress::none()).unwrap();
+    let found = find_joints(&figure, &figure.kinds, &BTreeMap::new(), false, CELLS, 1, &mut Progress::none())
+        .unwrap();
     (figure, found)
 }
 
@@ -386,7 +387,8 @@ fn what_is_no_figure_is_doubted() {
     ] {
         let Ok(figure) = UnitFigure::of(&character, DVec3::Z) else { continue };
         let found =
-            find_joints(&figure, &figure.kinds, &BTreeMap::new(), false, 1, &mut Progress::none()).unwrap();
+            find_joints(&figure, &figure.kinds, &BTreeMap::new(), false, CELLS, 1, &mut Progress::none())
+                .unwrap();
         for (role, joint) in &found.joints {
             assert!(joint.position.is_finite(), "{name}: {role}");
             if joint.confidence >= 0.5 {
@@ -465,6 +467,7 @@ fn things_worn_are_survived() {
             &outcome.figure.kinds,
             &BTreeMap::new(),
             false,
+            CELLS,
             2,
             &mut Progress::none(),
         )
@@ -507,7 +510,7 @@ fn things_worn_are_survived() {
 }
 
 fn joints_of(figure: &UnitFigure, given: &BTreeMap<Role, DVec3>, threads: usize) -> FoundJoints {
-    find_joints(figure, &figure.kinds, given, false, threads, &mut Progress::none()).unwrap()
+    find_joints(figure, &figure.kinds, given, false, CELLS, threads, &mut Progress::none()).unwrap()
 }
 
 #[test]

@@ -6,9 +6,11 @@ mod people;
 use glam::{DMat3, DVec3, Vec3};
 use people::Person;
 use std::sync::Arc;
+use superdeform::internals::rig::placed::Placed;
+use superdeform::internals::rig::solid::{CELLS, Solid};
 use superdeform::{
-    Axes, Character, Deformer, ErrorKind, GarmentWeights, Humanoid, Mesh, MeshKind, Options, Rig, RigOptions,
-    Role, Skeleton, Style, WeightMethod, Weights,
+    Axes, Character, Deformer, ErrorKind, GarmentWeights, Humanoid, Mesh, MeshKind, Options, Progress, Rig,
+    RigOptions, Role, Skeleton, Style, WeightMethod, Weights,
 };
 
 /// `character` as a modelling program without a rig would give it.
@@ -327,6 +329,63 @@ fn any_shape_is_rigged_or_refused_in_a_sentence() {
         let error = Rig::of(&soup(positions, triangles), &RigOptions::default()).unwrap_err();
         assert_eq!(error.kind, ErrorKind::NoGeometry, "{name}: {error}");
         assert!(!error.message.is_empty());
+    }
+}
+
+#[test]
+fn a_vertex_that_is_flung_far_away_moves_no_joint_and_takes_no_more_cells() {
+    let person = Person { columns: 24, ..Person::adult() };
+    let placed = |character: &Character| {
+        let options = RigOptions { fingers: false, ..RigOptions::default() };
+        Placed::of(character, &options, &mut Progress::none()).unwrap()
+    };
+    let cells = |placed: &Placed| {
+        let size = Solid::new(&placed.figure.positions, &placed.figure.triangles, 0.0, CELLS).size;
+        size[0] * size[1] * size[2]
+    };
+    let mut as_it_is = bare(person.build());
+    as_it_is.axes.forward = Some(Vec3::Z);
+    let usual = placed(&as_it_is);
+    let count = as_it_is.meshes[0].positions.len();
+    for (step, way) in [Vec3::X, Vec3::NEG_X, Vec3::Y, Vec3::NEG_Y, Vec3::Z, Vec3::new(0.5, 1.0, -0.5)]
+        .into_iter()
+        .enumerate()
+    {
+        let mut flung = as_it_is.clone();
+        let vertex = (2 * step + 1) * count / 12;
+        flung.meshes[0].positions[vertex] += 1000.0 * person.crown() as f32 * way;
+        let found = placed(&flung);
+        let grown = cells(&found) as f64 / cells(&usual) as f64;
+        assert!(grown < 1.05, "{grown} times as many cells with vertex {vertex} along {way}");
+        for (role, joint) in &usual.found.joints {
+            let p = found.figure.to_model(found.found.joints[role].position);
+            let off = p.distance(usual.figure.to_model(joint.position)) / person.crown();
+            assert!(off <= 1e-3, "{role} moves by {off} heights with vertex {vertex} along {way}");
+        }
+    }
+}
+
+/// Hands that are stumps do not show: a wrist is off by 0.04 H without help. One that is given stays, its elbow lies
+/// between (`ELBOW_SHARE` is .53 of the way, a person's elbow .5 or so), and the other arm is found as well as without.
+#[test]
+fn one_given_wrist_stays_and_the_rest_of_its_arm_is_found_around_it() {
+    for person in [Person::adult(), Person { arm_angle: 40.0, ..Person::adult() }] {
+        let person = Person { columns: 24, ..person };
+        let truth = person.build();
+        let at = |role: Role| truth.skeleton.joints[truth.humanoid.joint(role).unwrap()].position();
+        let given = [(Role::LeftHand, at(Role::LeftHand))].into();
+        let options = RigOptions { given, fingers: false, ..RigOptions::default() };
+        let helped = Rig::of(&bare(person.build()), &options).unwrap();
+        let alone = Rig::of(&bare(person.build()), &RigOptions { fingers: false, ..RigOptions::default() });
+        let alone = alone.unwrap();
+        assert!(distance(&helped, &truth, Role::LeftHand) < 1e-6);
+        let sure = helped.confidence[helped.humanoid.joint(Role::LeftHand).unwrap()];
+        assert_eq!(sure, 1.0);
+        let off = |rig: &Rig, role: Role| distance(rig, &truth, role) / height(&person);
+        assert!(off(&helped, Role::LeftLowerArm) < 0.03, "{} of 0.03", off(&helped, Role::LeftLowerArm));
+        for role in [Role::RightUpperArm, Role::RightLowerArm, Role::RightHand] {
+            assert!(off(&helped, role) <= off(&alone, role) + 0.01, "{role}: {}", off(&helped, role));
+        }
     }
 }
 

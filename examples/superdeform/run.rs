@@ -112,7 +112,9 @@ fn stages(command: &Command, in_batch: Option<(&Source, &str)>, progress: &Progr
     progress.stage("drawing");
     let draw_start = Instant::now();
     let picture = match &command.picture {
-        Some(path) => Some((path, sheet::png(&target, reference.as_ref(), &deformed, &report)?)),
+        Some(path) => {
+            Some((path, sheet::png(&target, reference.as_ref(), rig.as_ref(), &deformed, &report)?))
+        }
         None => None,
     };
     let thumbnail = command.thumbnail.then(|| sheet::thumbnail(&target, &deformed, &report)).transpose()?;

@@ -1,26 +1,31 @@
 //! The picture of a run: target, reference and result side by side, each with its heads.
 
-use crate::picture::{self, Appearance, Heads, Material, PictureMesh, View};
+use crate::picture::{self, Appearance, Bone, Heads, Material, PictureMesh, View};
 use glam::{DVec3, Vec3};
 use std::sync::LazyLock;
 use superdeform::report::FigureReport;
-use superdeform::{Character, Deformed, Report};
+use superdeform::{Character, Deformed, Report, Rig};
 use superdeform_host::accessor::Reader;
 use superdeform_host::load::Loaded;
 
-/// Draws the picture, as PNG. The reference, which may be in another unit, is drawn as tall as the result.
+/// A joint that is less sure than this is in doubt, as for the report's warnings.
+const SURE: f64 = 0.5;
+
+/// Draws the picture, as PNG, the bones of a rig that was found over the target. The reference, which may be in another unit, is drawn as tall as the result.
 ///
 /// # Errors
 /// One sentence where it cannot be encoded.
 pub fn png(
     target: &Loaded,
     reference: Option<&Loaded>,
+    rig: Option<&Rig>,
     deformed: &Deformed,
     report: &Report,
 ) -> Result<Vec<u8>, String> {
     let of_target = appearance(target);
     let of_reference = reference.map(appearance);
-    let mut views = vec![view("target", &report.target, target, &of_target, None)];
+    let of_rig = rig.map(bones).unwrap_or_default();
+    let mut views = vec![View { bones: of_rig, ..view("target", &report.target, target, &of_target, None) }];
     if let (Some(reference), Some(appearance), Some(figure)) = (reference, &of_reference, &report.reference) {
         // The result comes after it.
         let as_tall_as = Some(views.len() + 1);
@@ -99,7 +104,19 @@ fn view<'a>(
         }),
         as_tall_as: None,
         marks,
+        bones: Vec::new(),
     }
+}
+
+/// The bones of a rig, each joint without a parent by itself.
+fn bones(rig: &Rig) -> Vec<Bone> {
+    let joints = &rig.skeleton.joints;
+    let bone = |(index, joint): (usize, &superdeform::Joint)| {
+        let above = joint.parent.unwrap_or(index);
+        let ends = [above, index].map(|joint| joints[joint].position().as_vec3());
+        Bone { ends, doubted: rig.confidence[above].min(rig.confidence[index]) < SURE }
+    };
+    joints.iter().enumerate().map(bone).collect()
 }
 
 /// The way a character looks: as its axes say, else at right angles to up and to the line from its right limbs to

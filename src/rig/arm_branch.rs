@@ -1,6 +1,6 @@
 //! Arms in whatever direction they are held: branches of the solid that end beside the trunk.
 
-use super::arms::{Arm, ArmCurve, Station};
+use super::arm_curve::{Arm, ArmCurve, Station};
 use super::branches::{Branch, Rim};
 use super::front_view::median;
 use super::solid::Solid;

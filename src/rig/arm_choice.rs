@@ -1,6 +1,6 @@
 //! Which of several arms a body has: what all bodies obey, as a cost of a pair.
 
-use super::arms::Arm;
+use super::arm_curve::{Arm, is_usual, wrist_of_both};
 use super::solid::Solid;
 use glam::DVec3;
 
@@ -14,10 +14,19 @@ const HALF_WIDTH: (f64, f64) = (0.155, 0.4);
 const RADIUS: (f64, f64) = (0.07, 0.6);
 /// How far up from crotch to neck shoulders are (.818 - .48 of .87 - .48 H), and what is no surprise.
 const HEIGHT: (f64, f64) = (0.86, 0.15);
+/// How far beside the way from shoulder to wrist an elbow is no surprise, as a share of the arm's length: an arm bent by 60
+/// degrees.
+const BENT: f64 = 0.2;
 /// Shoulders are each other's image to within this, in heights, ...
 const APART: f64 = 0.03;
 /// ... and arms as long to within this, as a logarithm.
 const UNEVEN: f64 = 0.15;
+/// Hands as long to within this, as a logarithm, are alike.
+const UNEVEN_HANDS: f64 = 0.25;
+/// Arms pass a joint that is given by this, in heights, ...
+const PASSES: f64 = 0.02;
+/// ... and what it costs where one passes it by further.
+const PASSES_BY: f64 = 20.0;
 /// No one surprise counts for more than this.
 const MOST: f64 = 9.0;
 /// What it costs where no armpit is seen, ...
@@ -47,6 +56,8 @@ pub struct Body<'a> {
     pub crotch: f64,
     /// Height of the neck.
     pub neck: Option<f64>,
+    /// Joints of the left and the right arm that are given: shoulder, elbow, wrist.
+    pub given: [[Option<DVec3>; 3]; 2],
 }
 
 /// An arm that may be, and what it costs by itself.
@@ -64,7 +75,11 @@ impl Body<'_> {
     }
 
     /// What is odd about an arm by itself, and `more` for the way it was found.
-    pub fn candidate(&self, arm: Arm, more: f64) -> Candidate {
+    pub fn candidate(&self, arm: Arm, left: bool, more: f64) -> Candidate {
+        let given = self.given[usize::from(!left)];
+        let passes = given.into_iter().flatten().map(|p| arm.curve.nearest(p).1 / PASSES);
+        let more = more + passes.map(|off| (off * off).min(PASSES_BY)).sum::<f64>();
+        let arm = arm.with_given(given);
         let height = (arm.shoulder.y - self.low).max(1e-3);
         let length = length(&arm).max(1e-3);
         let log = |value: f64, (usual, spread): (f64, f64)| surprise((value.max(1e-6) / usual).ln() / spread);
@@ -82,6 +97,10 @@ impl Body<'_> {
             .flat_map(|pair| (0..SAMPLES).map(|i| pair[0].lerp(pair[1], i as f64 / SAMPLES as f64)))
             .filter(|&p| !self.solid.is_in(p))
             .count();
+        // Arms are held straight enough for a rig, or bent at the elbow, not beside it.
+        let off =
+            (arm.elbow - arm.shoulder).reject_from((arm.wrist - arm.shoulder).normalize_or_zero()).length();
+        cost += surprise(off / (BENT * length));
         cost += IN_AIR * outside as f64 / (2 * SAMPLES) as f64;
         if !arm.pit_seen {
             cost += NO_PIT;
@@ -94,8 +113,9 @@ impl Body<'_> {
 
     /// What is odd about a left and a right arm.
     pub fn cost(&self, pair: [Option<&Candidate>; 2]) -> f64 {
-        let own = |one: Option<&Candidate>| one.map_or(NO_ARM, |one| one.cost);
-        let mut cost = own(pair[0]) + own(pair[1]);
+        let none = |side: usize| NO_ARM + PASSES_BY * self.given[side].iter().flatten().count() as f64;
+        let own = |side: usize| pair[side].map_or_else(|| none(side), |one| one.cost);
+        let mut cost = own(0) + own(1);
         if let [Some(left), Some(right)] = pair {
             cost += surprise(left.arm.shoulder.distance(self.image(right.arm.shoulder)) / APART);
             cost += surprise((length(&left.arm) / length(&right.arm).max(1e-6)).max(1e-6).ln() / UNEVEN);
@@ -109,6 +129,55 @@ impl Body<'_> {
         let elbow = shoulder.lerp(arm.wrist, other.elbow_share());
         Arm { shoulder, elbow, pit: other.pit, radius: other.radius, pit_seen: other.pit_seen, ..arm.clone() }
     }
+}
+
+/// Gives both arms hands of one length, as far as they are not `given`.
+///
+/// Where a wrist does not show, or hands are uneven, both arms are read together; a wrist that they show together
+/// elsewhere than each by itself is in doubt.
+pub fn even_hands(arms: [Option<Arm>; 2], given: [bool; 2]) -> [Option<Arm>; 2] {
+    let [Some(left), Some(right)] = &arms else { return arms };
+    let both = [left, right];
+    let is_even = |one: f64, other: f64| (one / other.max(1e-9)).max(1e-9).ln().abs() <= UNEVEN_HANDS;
+    let seen = both.map(|arm| arm.wrist_seen);
+    // A hand beside one that is given is as long as that.
+    let beside = |arm: &Arm, other: &Arm| {
+        if arm.wrist_seen && is_even(hand(arm), hand(other)) { arm.clone() } else { with_hand_of(arm, other) }
+    };
+    match given {
+        [true, true] => return arms,
+        [true, false] => return [Some(left.clone()), Some(beside(right, left))],
+        [false, true] => return [Some(beside(left, right)), Some(right.clone())],
+        [false, false] => {}
+    }
+    let together = wrist_of_both(both);
+    let even = is_even(hand(left), hand(right));
+    if seen == [true, true] && even {
+        let agrees =
+            together.is_none_or(|share| both.iter().any(|arm| is_even(1.0 - share, 1.0 - arm.wrist_share())));
+        return both.map(|arm| Some(Arm { wrist_seen: agrees, ..arm.clone() }));
+    }
+    if let Some(share) = together {
+        return both.map(|arm| Some(Arm { wrist_seen: is_usual(share), ..arm.with_wrist_at(share) }));
+    }
+    match seen {
+        [true, false] => [arms[0].clone(), Some(with_hand_of(right, left))],
+        [false, true] => [Some(with_hand_of(left, right)), arms[1].clone()],
+        _ => both.map(|arm| Some(Arm { wrist_seen: false, ..arm.clone() })),
+    }
+}
+
+/// How long a hand is.
+fn hand(arm: &Arm) -> f64 {
+    arm.tip.distance(arm.wrist)
+}
+
+/// The arm with a hand as long as the other one's.
+fn with_hand_of(arm: &Arm, other: &Arm) -> Arm {
+    let wrist = arm.tip + (arm.elbow - arm.tip).clamp_length(hand(other), hand(other));
+    // Halfway: the elbow was found between shoulder and wrist.
+    let elbow = arm.elbow + 0.5 * (wrist - arm.wrist);
+    Arm { wrist, elbow, wrist_seen: true, ..arm.clone() }
 }
 
 fn surprise(deviation: f64) -> f64 {

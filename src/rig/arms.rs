@@ -1,7 +1,8 @@
 //! Arms: followed from the fingertips inwards to the armpit.
 
+use super::arm_curve::{Arm, ArmCurve, Station};
 use super::front_view::{FrontView, median};
-use super::silhouette::{GridFrame, RayGrid, lowest};
+use super::silhouette::{GridFrame, RayGrid};
 use glam::{DVec2, DVec3, Vec2Swizzles};
 
 /// An arm's column of cells that reaches lower than the arm by so many of its thicknesses belongs to the trunk. Seen:
@@ -18,19 +19,6 @@ const TRUNK_WITHIN: f64 = 0.04;
 const LINE_RANGE: (f64, f64) = (0.25, 0.9);
 /// Sections along an arm. One is 0.8 % of an arm, some 0.003 H: a tenth of what joints are off in the mean.
 const STATIONS: usize = 120;
-/// The wrist is looked for between these shares of the way from shoulder to tip. Seen: at -30 %, joints lie 0.001 H
-/// further off, three more by over 0.06 H, 70 more good joints doubted; at +30 %, joints lie 0.0007 H further off, 74
-/// more good joints doubted.
-const WRIST_RANGE: (f64, f64) = (0.55, 0.88);
-/// The wrist where none is seen. Seen: at -30 %, four more good joints doubted; at +30 %, joints lie 0.0006 H further
-/// off, four more by over 0.06 H.
-const WRIST_BY_RATIO: f64 = 0.74;
-/// The elbow lies at this share of the way from shoulder to wrist. Seen: at -30 %, joints lie 0.002 H further off, five
-/// fewer by over 0.06 H; at +30 %, joints lie 0.003 H further off, seven more by over 0.06 H.
-const ELBOW_SHARE: f64 = 0.53;
-/// The elbow of an arm that is bent by more than this share of its length lies where the bend is. Seen: ±30 % moves
-/// joints by under 0.0005 H.
-const BENT: f64 = 0.05;
 /// The shoulder joint lies straight over a point this many arm radii outside of the armpit (seen: at -30 %, four fewer
 /// joints off by over 0.06 H), ...
 const SHOULDER_OUT: f64 = 0.4;
@@ -76,53 +64,6 @@ const STATION_OFF: f64 = 0.12;
 const LEAST_STATIONS: usize = 12;
 /// Middles are means over so many sections to either side. Seen: ±30 % moves joints by under 0.0005 H.
 const SMOOTHED: usize = 3;
-/// Which sections tell the way the arm begins: the first one and the one after this fraction of all. Seen: ±30 %
-/// changes no joint.
-const ARM_BEGINNING: usize = 6;
-/// The sections of the radius near the shoulder: from one in so many to one in so many. Seen: ±30 % moves joints by
-/// under 0.0005 H.
-const RADIUS_RANGE: (usize, usize) = (10, 3);
-/// The sections of the arm's upper piece, likewise. Seen: at -30 %, three fewer joints off by over 0.06 H.
-const UPPER_RANGE: (usize, usize) = (20, 4);
-/// A wrist is slimmer than the hand and than the arm by these factors (seen: at -30 %, three fewer good joints doubted;
-/// at +30 %, twelve more good joints doubted; of the second, ±30 % moves joints by under 0.0005 H), ...
-const HAND_WIDENS: f64 = 1.12;
-const ARM_WIDENS: f64 = 1.05;
-/// ... and not at the end of its range, where the slimmest section only shows that the arm grows thinner still. Seen:
-/// ±30 % changes no joint.
-const WRIST_MARGIN: f64 = 0.01;
-/// A bend is looked for between these shares of the way from shoulder to wrist. Seen: at -30 %, joints lie 0.0005 H
-/// nearer, three fewer by over 0.06 H, four more good joints doubted.
-const BEND_RANGE: (f64, f64) = (0.35, 0.7);
-
-/// One arm.
-#[derive(Clone, Debug)]
-pub struct Arm {
-    /// The shoulder joint.
-    pub shoulder: DVec3,
-    /// The elbow.
-    pub elbow: DVec3,
-    /// The wrist.
-    pub wrist: DVec3,
-    /// The end of the hand.
-    pub tip: DVec3,
-    /// The armpit: where the arm's lower side meets the trunk.
-    pub pit: DVec2,
-    /// The arm's radius near the shoulder.
-    pub radius: f64,
-    /// True where an arm was seen to end at a trunk.
-    pub pit_seen: bool,
-    /// True where a wrist was seen.
-    pub wrist_seen: bool,
-}
-
-impl Arm {
-    /// How far down the way from shoulder to wrist the elbow is.
-    pub fn elbow_share(&self) -> f64 {
-        let upper = self.shoulder.distance(self.elbow);
-        upper / (upper + self.elbow.distance(self.wrist)).max(1e-9)
-    }
-}
 
 /// Where an arm is looked for.
 #[derive(Clone, Copy)]
@@ -302,24 +243,6 @@ fn rows_off((begin, end): (usize, usize), middle: usize) -> usize {
     begin.saturating_sub(middle).max((middle + 1).saturating_sub(end))
 }
 
-/// A section at right angles to the arm.
-#[derive(Clone, Copy)]
-pub struct Station {
-    /// Its middle.
-    pub centre: DVec3,
-    /// How wide it is one way, ...
-    pub width: f64,
-    /// ... and the other way.
-    pub depth: f64,
-}
-
-impl Station {
-    /// About twice its diameter.
-    fn girth(&self) -> f64 {
-        self.width + self.depth
-    }
-}
-
 /// The line of an arm as seen from the front: distances from the axis, and heights.
 struct ArmLine {
     /// Its way to the hand, of length 1.
@@ -415,134 +338,6 @@ impl ArmRays {
         let depths = || stations.iter().flatten().map(|s| s.depth).collect::<Vec<_>>();
         let deepest = THING_DEEPENS * median(&mut depths());
         stations.drain(first..).flatten().filter(|station| station.depth <= deepest).collect()
-    }
-}
-
-/// The middles of an arm's sections: arms may bend towards the front.
-pub struct ArmCurve {
-    stations: Vec<Station>,
-    /// Smoothed middles.
-    middles: Vec<DVec3>,
-    /// How far along the curve each of them is.
-    arc: Vec<f64>,
-}
-
-impl ArmCurve {
-    /// `stations`: at least two, from the shoulder to the tip; each middle is a mean over so many of them to either side.
-    pub fn new(stations: Vec<Station>, smoothed: usize) -> Self {
-        let middles: Vec<DVec3> = (0..stations.len())
-            .map(|index| {
-                let (from, to) = (index.saturating_sub(smoothed), (index + smoothed + 1).min(stations.len()));
-                stations[from..to].iter().map(|s| s.centre).sum::<DVec3>() / (to - from) as f64
-            })
-            .collect();
-        let mut arc = vec![0.0];
-        for pair in middles.windows(2) {
-            arc.push(arc[arc.len() - 1] + pair[0].distance(pair[1]));
-        }
-        Self { stations, middles, arc }
-    }
-
-    fn len(&self) -> usize {
-        self.stations.len()
-    }
-
-    fn tip(&self) -> DVec3 {
-        self.middles[self.len() - 1]
-    }
-
-    /// The point `wanted` along the curve.
-    fn at(&self, wanted: f64) -> DVec3 {
-        let Self { middles, arc, .. } = self;
-        if wanted <= 0.0 {
-            // Inside of the pit the arm goes on as it begins.
-            let next = (self.len() / ARM_BEGINNING).max(1);
-            let way = (middles[0] - middles[next]).normalize_or_zero();
-            return middles[0] + way * -wanted;
-        }
-        let index = arc.partition_point(|&a| a < wanted).clamp(1, arc.len() - 1);
-        let share = (wanted - arc[index - 1]) / (arc[index] - arc[index - 1]).max(1e-12);
-        middles[index - 1].lerp(middles[index], share.clamp(0.0, 1.0))
-    }
-
-    /// The arm's radius near the shoulder.
-    pub fn radius(&self) -> f64 {
-        let near = &self.stations[self.len() / RADIUS_RANGE.0..self.len() / RADIUS_RANGE.1];
-        0.25 * median(&mut near.iter().map(Station::girth).collect::<Vec<_>>())
-    }
-
-    /// The middle of its upper piece, whose line leads over the armpit.
-    fn upper(&self) -> DVec3 {
-        let upper = &self.middles[self.len() / UPPER_RANGE.0..(self.len() / UPPER_RANGE.1).max(1)];
-        upper.iter().sum::<DVec3>() / upper.len().max(1) as f64
-    }
-
-    /// How far along the curve the wrist is, where it shows: the slimmest section before the hand. `way` gives how far a
-    /// share of the way from shoulder to tip is.
-    fn wrist(&self, way: impl Fn(f64) -> f64) -> Option<f64> {
-        let girth: Vec<f64> = (0..self.len())
-            .map(|index| {
-                let (from, to) = (index.saturating_sub(1), (index + 2).min(self.len()));
-                self.stations[from..to].iter().map(Station::girth).sum::<f64>() / (to - from) as f64
-            })
-            .collect();
-        let range = way(WRIST_RANGE.0)..=way(WRIST_RANGE.1);
-        let girths: Vec<(f64, f64)> = self
-            .arc
-            .iter()
-            .copied()
-            .zip(girth.iter().copied())
-            .filter(|(at, _)| range.contains(at))
-            .collect();
-        let at = lowest(&girths)?;
-        let slim = self.arc.partition_point(|&a| a < at).min(self.len() - 1);
-        let hand = girth[slim..].iter().copied().fold(0.0, f64::max);
-        let arm = girth[..slim].iter().copied().fold(0.0, f64::max);
-        let is_slim = hand > HAND_WIDENS * girth[slim] && arm > ARM_WIDENS * girth[slim];
-        (is_slim && at < way(WRIST_RANGE.1) - WRIST_MARGIN).then_some(at)
-    }
-
-    /// The middle that is furthest from the line between two points, of those whose way along the curve `near` accepts,
-    /// and how far it is.
-    fn bend(&self, from: DVec3, to: DVec3, near: impl Fn(f64) -> bool) -> Option<(DVec3, f64)> {
-        let off = |p: DVec3| (p - from).reject_from(to - from).length();
-        let bend = (0..self.len())
-            .filter(|&index| near(self.arc[index]))
-            .max_by(|&a, &b| off(self.middles[a]).total_cmp(&off(self.middles[b])).then(b.cmp(&a)))?;
-        Some((self.middles[bend], off(self.middles[bend])))
-    }
-
-    /// The joints beyond a `shoulder`, of an arm that begins along `outwards`.
-    pub fn arm(&self, shoulder: DVec3, outwards: DVec3, pit: DVec2, pit_seen: bool) -> Arm {
-        let (whole, radius) = (self.arc[self.len() - 1], self.radius());
-        let begin = self.middles[0];
-        let shoulder_arc = -begin.distance(shoulder) * (shoulder - begin).dot(-outwards).signum();
-        let way = |share: f64| shoulder_arc + share * (whole - shoulder_arc);
-        let wrist_seen = self.wrist(way);
-        let wrist_arc = wrist_seen.unwrap_or(way(WRIST_BY_RATIO));
-        let wrist = self.at(wrist_arc);
-        let near_elbow = |arc: f64| {
-            let share = (arc - shoulder_arc) / (wrist_arc - shoulder_arc);
-            (BEND_RANGE.0..=BEND_RANGE.1).contains(&share)
-        };
-        let length = (wrist - shoulder).length();
-        let elbow = self
-            .bend(shoulder, wrist, near_elbow)
-            .filter(|&(_, off)| length > 0.0 && off > BENT * length)
-            .map_or_else(
-                || self.at(shoulder_arc + ELBOW_SHARE * (wrist_arc - shoulder_arc)),
-                |(bend, _)| bend,
-            );
-        Arm {
-            shoulder,
-            elbow,
-            wrist,
-            tip: self.tip(),
-            pit,
-            radius,
-            pit_seen,
-            wrist_seen: wrist_seen.is_some(),
-        }
     }
 }
 

@@ -17,6 +17,8 @@ const STEPS: [u32; 3] = [3, 4, 5];
 const BAND: u32 = 6;
 /// What is shorter than this, in heights, is no limb but a finger or a fold.
 const LEAST_BRANCH: f64 = 0.1;
+/// What fills more than this, in cubed heights, has no limbs: people fill .013, a ball of two heads .3.
+const MOST_FILLED: f64 = 0.4;
 /// No branch.
 const NONE: u32 = u32::MAX;
 
@@ -27,8 +29,6 @@ pub struct Rim {
     pub middle: DVec3,
     /// The mean distance of its outer cells from that.
     pub radius: f64,
-    /// How many cells it has, of one layer.
-    pub area: f64,
 }
 
 /// Something that sticks out.
@@ -36,21 +36,19 @@ pub struct Rim {
 pub struct Branch {
     /// Its sections from the tip inwards, down to where it meets another branch.
     pub rims: Vec<Rim>,
-    /// How far its tip is from the core.
-    pub far: f64,
 }
 
 /// The branches of `solid` around a core: the filled cells next to the plane at `axis` in a range of heights. Longest
-/// first; empty where no cell is there.
+/// first; empty where no cell is there, or where the solid is no figure's.
 pub fn branches(solid: &Solid, axis: f64, heights: Range<f64>) -> Vec<Branch> {
     let cells = Cells::of(solid);
+    if cells.index.len() as f64 * solid.cell.powi(3) > MOST_FILLED {
+        return Vec::new();
+    }
     let distances = cells.distances(solid, axis, heights);
     let mut branches = cells.merge(&distances);
     branches.retain_mut(|branch| cells.measure(solid, &distances, branch));
-    let mut found: Vec<Branch> = branches
-        .into_iter()
-        .map(|piece| Branch { far: f64::from(piece.far) / 3.0 * solid.cell, rims: piece.rims })
-        .collect();
+    let mut found: Vec<Branch> = branches.into_iter().map(|piece| Branch { rims: piece.rims }).collect();
     found.sort_by_key(|branch| std::cmp::Reverse(branch.rims.len()));
     found
 }
@@ -71,6 +69,24 @@ struct Piece {
     /// Its cells, from the tip inwards.
     cells: Vec<u32>,
     rims: Vec<Rim>,
+}
+
+/// Slots by how far they are, the furthest first, those that are as far in their order; without what no way leads to.
+fn furthest_first(far: &[u32]) -> Vec<u32> {
+    let reached = || far.iter().copied().filter(|&far| far != NONE);
+    let most = reached().max().unwrap_or(0);
+    let mut starts = vec![0usize; most as usize + 2];
+    reached().for_each(|far| starts[(most - far) as usize + 1] += 1);
+    for at in 1..starts.len() {
+        starts[at] += starts[at - 1];
+    }
+    let mut order = vec![0u32; starts[most as usize + 1]];
+    for (slot, &far) in far.iter().enumerate().filter(|&(_, &far)| far != NONE) {
+        let next = &mut starts[(most - far) as usize];
+        order[*next] = slot as u32;
+        *next += 1;
+    }
+    order
 }
 
 impl Cells {
@@ -141,8 +157,7 @@ impl Cells {
 
     /// The pieces of the merge tree that are long enough.
     fn merge(&self, far: &[u32]) -> Vec<Piece> {
-        let mut order: Vec<u32> = (0..far.len() as u32).filter(|&slot| far[slot as usize] != NONE).collect();
-        order.sort_unstable_by_key(|&slot| (std::cmp::Reverse(far[slot as usize]), slot));
+        let order = furthest_first(far);
         let mut groups = Groups::new(far.len());
         // Of each group's least slot the piece that goes on there.
         let mut owner = vec![NONE; far.len()];
@@ -193,7 +208,7 @@ impl Cells {
                 .map(|&slot| at(slot).distance(middle))
                 .collect();
             let radius = outer.iter().sum::<f64>() / outer.len().max(1) as f64;
-            piece.rims.push(Rim { middle, radius, area: count * f64::from(3) / f64::from(BAND) });
+            piece.rims.push(Rim { middle, radius });
         }
         true
     }

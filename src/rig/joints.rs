@@ -6,8 +6,9 @@
 //! of the solid; of all that may be arms, the pair that is most like arms is taken. What is not seen is placed by ratio, and said so.
 
 use super::arm_branch::arms_of;
-use super::arm_choice::{Body, Candidate, FINER, IMAGE};
-use super::arms::{Arm, ArmSpace, find_arm, find_hanging_arm};
+use super::arm_choice::{Body, Candidate, FINER, IMAGE, even_hands};
+use super::arm_curve::Arm;
+use super::arms::{ArmSpace, find_arm, find_hanging_arm};
 use super::branches::branches;
 use super::front_view::FrontView;
 use super::hand::{Hand, find_fingers};
@@ -94,6 +95,8 @@ const BELOW_CROWN: f64 = 0.02;
 /// Joints whose sides agree to within this, after mirroring, are made each other's image. Seen: ±30 % moves joints by
 /// under 0.0005 H.
 const AGREE: f64 = 0.012;
+/// Upper arms, and forearms, whose lengths differ by less are alike, whatever way each is held.
+const ALIKE: f64 = 0.025;
 /// Sides that differ by more than this are doubtful. Seen: ±30 % moves joints by under 0.0005 H.
 const DIFFER: f64 = 0.04;
 
@@ -120,6 +123,15 @@ const RATIO: f64 = 0.2;
 /// An elbow is found from shoulder and wrist: it is hardly surer than the wrist. Seen: ±30 % changes no joint.
 const UNSURE_ELBOW: f64 = 0.05;
 
+/// A hand with this many fingers but no thumb is looked at again ...
+const FINGERS_BESIDE_THUMB: usize = 3;
+/// ... from this share of the forearm before its wrist, which may lie beyond the thumb's root: a wrist that is found is off by
+/// 0.01 H or so.
+const BEFORE_WRIST: f64 = 0.1;
+
+/// Joints of an arm.
+const ARM: [Role; 3] = [Role::LeftUpperArm, Role::LeftLowerArm, Role::LeftHand];
+
 /// What the rays found.
 #[derive(Clone, Debug, Default)]
 pub struct FoundJoints {
@@ -138,7 +150,7 @@ pub struct FoundJoints {
 /// Finds the joints of `figure`; what is not seen is placed by ratio.
 ///
 /// `kinds` are those of the unit figure's meshes, `None` where nobody knows. `given` joints (its space) stay where they are,
-/// with confidence 1, and the rest is found around them.
+/// with confidence 1, and the rest is found around them. `cells`: of the solid, over the height.
 ///
 /// # Errors
 /// `Cancelled`.
@@ -147,13 +159,14 @@ pub fn find_joints(
     kinds: &[Option<MeshKind>],
     given: &BTreeMap<Role, DVec3>,
     fingers: bool,
+    cells: f64,
     thread_count: usize,
     progress: &mut Progress,
 ) -> Result<FoundJoints> {
     let given: BTreeMap<Role, DVec3> =
         given.iter().filter(|(_, at)| at.is_finite()).map(|(&role, &at)| (role, at)).collect();
     let view = FrontView::of(figure, kinds, thread_count, &mut progress.part(0.0, 0.5))?;
-    let search = Search { view: &view, given: &given, found: FoundJoints::default() };
+    let search = Search { view: &view, given: &given, cells, found: FoundJoints::default() };
     let mut found = search.run(&mut progress.part(0.5, 0.7))?;
     progress.at(0.7)?;
     if fingers {
@@ -166,13 +179,14 @@ pub fn find_joints(
 struct Search<'a> {
     view: &'a FrontView<'a>,
     given: &'a BTreeMap<Role, DVec3>,
+    cells: f64,
     found: FoundJoints,
 }
 
 impl Search<'_> {
     fn run(mut self, progress: &mut Progress) -> Result<FoundJoints> {
         let view = self.view;
-        let solid = Solid::new(view.positions, &view.triangles, view.axis);
+        let solid = Solid::new(view.positions, &view.triangles, view.axis, self.cells);
         progress.at(0.5)?;
         let lobes = LegLobes::of(&solid, view.low, LEGS_BELOW * view.high);
         let (mut legs, inside) = find_legs(view, &lobes, LEGS_BELOW * view.high);
@@ -242,33 +256,32 @@ impl Search<'_> {
     fn arms(&self, legs: &Legs, solid: &Solid) -> [Option<Arm>; 2] {
         let view = self.view;
         let neck = neck_height(view, legs.crotch);
-        let body = Body { solid, axis: view.axis, low: view.low, crotch: legs.crotch, neck };
+        let given = [true, false].map(|left| ARM.map(|role| self.given.get(&role.on_side(left)).copied()));
+        let body = Body { solid, axis: view.axis, low: view.low, crotch: legs.crotch, neck, given };
         let mut sides: [Vec<Candidate>; 2] = Default::default();
-        let ways: [(f64, FindArm, f64); 3] = [
-            (f64::INFINITY, find_arm, 0.0),
-            (neck.unwrap_or(f64::INFINITY), find_arm, 0.0),
-            (neck.unwrap_or(view.high), find_hanging_arm, FINER),
-        ];
+        let mut ways: Vec<(f64, FindArm, f64)> = vec![(f64::INFINITY, find_arm, 0.0)];
+        ways.extend(neck.map(|neck| (neck, find_arm as FindArm, 0.0)));
+        ways.push((neck.unwrap_or(view.high), find_hanging_arm, FINER));
         for (ceiling, find, more) in ways {
-            for (side, arm) in sides.iter_mut().zip(self.arms_by(legs, ceiling, find)) {
-                side.extend(arm.map(|arm| body.candidate(arm, more)));
+            for (left, arm) in [true, false].into_iter().zip(self.arms_by(legs, ceiling, find)) {
+                sides[usize::from(!left)].extend(arm.map(|arm| body.candidate(arm, left, more)));
             }
         }
         let top = neck.unwrap_or(legs.crotch + CORE_BY_RATIO * (view.high - legs.crotch));
         let core = legs.crotch + CORE_FROM * (top - legs.crotch)..top;
         for branch in branches(solid, view.axis, core) {
             for (left, arm) in arms_of(&branch, solid, view.axis, |y| middle(view, y).0) {
-                sides[usize::from(!left)].push(body.candidate(arm, FINER));
+                sides[usize::from(!left)].push(body.candidate(arm, left, FINER));
             }
         }
         // Each with the other side's shoulder as well.
         let [lefts, rights] = &sides;
-        let images = |side: &[Candidate], others: &[Candidate]| -> Vec<Candidate> {
+        let images = |left: bool, side: &[Candidate], others: &[Candidate]| -> Vec<Candidate> {
             let all = side.iter().flat_map(|one| others.iter().map(move |other| (one, other)));
-            all.map(|(one, other)| body.candidate(body.with_shoulder_of(&one.arm, &other.arm), IMAGE))
+            all.map(|(one, other)| body.candidate(body.with_shoulder_of(&one.arm, &other.arm), left, IMAGE))
                 .collect()
         };
-        let more = [images(lefts, rights), images(rights, lefts)];
+        let more = [images(true, lefts, rights), images(false, rights, lefts)];
         let options = |side: usize, more: &[Candidate]| -> Vec<Option<Candidate>> {
             let all = sides[side].iter().chain(more).cloned().map(Some);
             std::iter::once(None).chain(all).collect()
@@ -283,7 +296,7 @@ impl Search<'_> {
                 }
             }
         }
-        best.1
+        even_hands(best.1, given.map(|joints| joints[2].is_some()))
     }
 
     fn arms_by(&self, legs: &Legs, ceiling: f64, find: FindArm) -> [Option<Arm>; 2] {
@@ -364,9 +377,7 @@ impl Search<'_> {
                 }
             };
             let joints = self.around_given(left, joints);
-            for (index, role) in
-                [Role::LeftUpperArm, Role::LeftLowerArm, Role::LeftHand].into_iter().enumerate()
-            {
+            for (index, role) in ARM.into_iter().enumerate() {
                 self.put(role.on_side(left), joints[index], confidences[index]);
             }
             self.found.tips.insert(Role::LeftHand.on_side(left), joints[3]);
@@ -376,7 +387,7 @@ impl Search<'_> {
     /// Shoulder, elbow, wrist and tip of an arm some of whose joints are given.
     fn around_given(&self, left: bool, found: [DVec3; 4]) -> [DVec3; 4] {
         let given = |role: Role| self.given.get(&role.on_side(left)).copied();
-        let [shoulder, elbow, wrist] = [Role::LeftUpperArm, Role::LeftLowerArm, Role::LeftHand].map(given);
+        let [shoulder, elbow, wrist] = ARM.map(given);
         let mut arm = found;
         arm[0] = shoulder.unwrap_or(found[0]);
         arm[2] = wrist.unwrap_or(found[2]);
@@ -441,6 +452,19 @@ impl Search<'_> {
         self.found.tips.insert(Role::Head, top);
     }
 
+    /// True of an arm that is held another way than the other one, but begins at the same shoulder and is as long.
+    fn poses_apart(&self, role: Role) -> bool {
+        if !ARM.contains(&role) {
+            return false;
+        }
+        let [left, right] = [true, false].map(|left| ARM.map(|role| self.at(role.on_side(left))));
+        let image = DVec3::new(2.0 * self.view.axis - right[0].x, right[0].y, right[0].z);
+        let differ = |index: usize| {
+            (left[index].distance(left[index - 1]) - right[index].distance(right[index - 1])).abs()
+        };
+        left[0].distance(image) <= DIFFER && differ(1).max(differ(2)) <= ALIKE
+    }
+
     /// Sides that agree become each other's image; sides that do not are doubtful.
     fn settle_sides(&mut self) {
         let view = self.view;
@@ -467,7 +491,7 @@ impl Search<'_> {
                 let confidence = one.confidence.min(two.confidence);
                 self.put(role, middle, confidence);
                 self.put(other, image(middle), confidence);
-            } else if apart > DIFFER {
+            } else if apart > DIFFER && !self.poses_apart(role) {
                 self.put(role, one.position, one.confidence.min(DOUBTFUL));
                 self.put(other, two.position, two.confidence.min(DOUBTFUL));
             }
@@ -523,7 +547,13 @@ fn add_fingers(figure: &UnitFigure, view: &FrontView, found: &mut FoundJoints) {
     let place = |role: Role, left: bool| found.joints[&role.on_side(left)].position;
     let mut hands = [true, false].map(|left| {
         let (elbow, wrist) = (place(Role::LeftLowerArm, left), place(Role::LeftHand, left));
-        find_fingers(&surface, &figure.positions, &view.triangles, elbow, wrist, left)
+        let look = |wrist| find_fingers(&surface, &figure.positions, &view.triangles, elbow, wrist, left);
+        let has_thumb = |hand: &Hand| hand.joints.contains_key(&Role::LeftThumbProximal.on_side(left));
+        let hand = look(wrist);
+        if hand.finger_count < FINGERS_BESIDE_THUMB || has_thumb(&hand) {
+            return hand;
+        }
+        Some(look(wrist.lerp(elbow, BEFORE_WRIST))).filter(has_thumb).unwrap_or(hand)
     });
     let wrists = [true, false].map(|left| place(Role::LeftHand, left));
     if let Some(middle) = mirror_of_hands(view, wrists) {

@@ -5,6 +5,7 @@
 //!
 //! | File | What it gives |
 //! | --- | --- |
+//! | `far` | vertices that say nothing |
 //! | `facing` | the way the figure looks |
 //! | `unit_figure` | all meshes in one space, 1 high |
 //! | `mesh_kinds` | what each mesh depicts, from where it lies: `facts` about samples on it, `reach` over the figure |
@@ -14,6 +15,7 @@
 //! | `solid` | the figure as filled cells |
 //! | `branches` | what sticks out of the solid, in whatever direction |
 //! | `arms` | armpits, shoulder joints, elbows, wrists of arms that rays see |
+//! | `arm_curve` | the joints that an arm's sections show |
 //! | `arm_branch`, `arm_choice` | the same of branches; which of several arms a body has |
 //! | `head_line` | neck, chin, crown |
 //! | `hand` | fingers: the `section` at the wrist, the `region` beyond it |
@@ -31,10 +33,12 @@
 
 pub mod arm_branch;
 pub mod arm_choice;
+pub mod arm_curve;
 pub mod arms;
 pub mod branches;
 pub mod eyes;
 pub mod facing;
+pub mod far;
 pub mod front_view;
 pub mod geodesic;
 pub mod hand;

@@ -1,8 +1,10 @@
 //! From a character to its joints: how it stands, the way it looks, what its meshes depict, where its joints are.
 
 use super::facing::find_forward;
+use super::far::gathered;
 use super::joints::{FoundJoints, find_joints};
 use super::mesh_kinds::{Surroundings, guess_kinds};
+use super::solid::{CELLS, FEW_CELLS};
 use super::{RigOptions, UnitFigure};
 use crate::character::{Character, MeshKind, Role};
 use crate::error::{ErrorKind, Result, Warning};
@@ -67,7 +69,9 @@ impl Placed {
     /// # Errors
     /// `NoGeometry` where nothing has an extent along up; `Cancelled`.
     pub fn of(character: &Character, options: &RigOptions, progress: &mut Progress) -> Result<Self> {
-        let first = Self::standing(character, options, &mut progress.part(0.0, STANDING));
+        let gathered = gathered(character);
+        let character = gathered.as_ref();
+        let first = Self::standing(character, options, CELLS, &mut progress.part(0.0, STANDING));
         if first.as_ref().is_err_and(|error| error.kind == ErrorKind::Cancelled) {
             return first;
         }
@@ -79,7 +83,7 @@ impl Placed {
             return first.map(Self::doubted);
         }
         let up = character.axes.up.normalize_or(Vec3::Y);
-        let mut best: Option<(usize, Self)> = None;
+        let mut best: Option<(usize, Vec3)> = None;
         let mut turned = Cow::Borrowed(character);
         let others = [Vec3::Z, Vec3::NEG_Z, Vec3::NEG_Y, Vec3::X, Vec3::NEG_X, Vec3::Y];
         for (index, other) in others.into_iter().enumerate() {
@@ -88,14 +92,22 @@ impl Placed {
                 continue;
             }
             turned.to_mut().axes.up = other;
-            let Ok(placed) = Self::standing(&turned, options, &mut Progress::none()) else { continue };
+            let Ok(placed) = Self::standing(&turned, options, FEW_CELLS, &mut Progress::none()) else {
+                continue;
+            };
             let count = placed.seen_count();
-            if count >= seen + MORE && best.as_ref().is_none_or(|(most, _)| count > *most) {
-                best = Some((count, placed));
+            if count >= seen + MORE && best.is_none_or(|(most, _)| count > most) {
+                best = Some((count, other));
             }
         }
+        // Looked at closely, limbs must show as well.
+        let best = best.and_then(|(_, other)| {
+            turned.to_mut().axes.up = other;
+            let placed = Self::standing(&turned, options, CELLS, &mut Progress::none()).ok()?;
+            (placed.seen_count() >= seen + MORE).then_some(placed)
+        });
         progress.at(1.0)?;
-        let Some((_, mut best)) = best else { return first.map(Self::doubted) };
+        let Some(mut best) = best else { return first.map(Self::doubted) };
         let message = format!(
             "the character stands as people do with {} up, not {}: if that is wrong, say which way is up",
             axis_name(best.up),
@@ -121,8 +133,13 @@ impl Placed {
         self
     }
 
-    /// As [`Placed::of`], of a character that stands as its axes say.
-    fn standing(character: &Character, options: &RigOptions, progress: &mut Progress) -> Result<Self> {
+    /// As [`Placed::of`], of a character that stands as its axes say; `cells` of the solid are as high as it is.
+    fn standing(
+        character: &Character,
+        options: &RigOptions,
+        cells: f64,
+        progress: &mut Progress,
+    ) -> Result<Self> {
         let (forward, mut warnings) = find_forward(character);
         progress.at(0.2)?;
         let figure = UnitFigure::in_axes(character, forward, options.left_handed)?;
@@ -137,6 +154,7 @@ impl Placed {
             &guessed,
             &given,
             options.fingers,
+            cells,
             options.thread_count,
             &mut progress.part(0.6, 1.0),
         )?;

@@ -6,8 +6,10 @@ use std::collections::VecDeque;
 use std::ops::Range;
 
 /// Cells over the height of a figure: one is 0.006 H, a fifth of the least limb.
-const CELLS: f64 = 160.0;
-/// A figure as broad and deep as high takes larger cells, so that there are no more than this: time and memory. A person in
+pub const CELLS: f64 = 160.0;
+/// The same where it is only asked whether limbs show at all.
+pub const FEW_CELLS: f64 = 80.0;
+/// A figure as broad and deep as high takes larger cells, so that there are no more than this, of 160 a height: time and memory. A person in
 /// T-pose takes 2 million, one with arms forward 3.
 const MOST_CELLS: f64 = 5e6;
 /// What lies further from the axis than this, in heights, is no limb: a bound for memory.
@@ -41,8 +43,10 @@ impl Solid {
     ///
     /// A cell is filled that a triangle touches, and one that is enclosed; what is open to one side is not.
     ///
+    /// `cells`: over the height.
+    ///
     /// O(area + cells).
-    pub fn new(positions: &[DVec3], triangles: &[[u32; 3]], axis: f64) -> Self {
+    pub fn new(positions: &[DVec3], triangles: &[[u32; 3]], axis: f64, cells: f64) -> Self {
         let middle = DVec3::new(axis, 0.0, 0.0);
         let (mut low, mut high) = (DVec3::ZERO, DVec3::Y);
         for corners in triangles {
@@ -54,7 +58,8 @@ impl Solid {
         }
         // As far to one side as to the other: mirror images fall on cells that are mirror images.
         let reach = low.abs().max(high.abs()).min(DVec3::splat(REACH));
-        let cell = (4.0 * reach.x * reach.z / MOST_CELLS).cbrt().max(1.0 / CELLS);
+        let most = MOST_CELLS * (cells / CELLS).powi(3);
+        let cell = (4.0 * reach.x * reach.z / most).cbrt().max(1.0 / cells);
         let count = |reach: f64| 2 * ((reach / cell).ceil() as usize + MARGIN);
         let size = [count(reach.x), (1.0 / cell).ceil() as usize + 2 * MARGIN, count(reach.z)];
         let low = middle - cell * DVec3::new(0.5 * size[0] as f64, MARGIN as f64, 0.5 * size[2] as f64);
@@ -114,7 +119,7 @@ impl Solid {
 
     /// True where a cell is filled.
     pub fn is_filled(&self, at: [usize; 3]) -> bool {
-        self.state[self.index(at)] != OUTSIDE
+        self.holds(self.index(at))
     }
 
     /// True where the cell of an index is filled.

@@ -48,6 +48,12 @@ const PORTRAIT_MARGIN: f32 = 1.2;
 /// Rings around what was found of a face: their colour, and their radius in pixels.
 const MARK_COLOUR: [u8; 3] = [230, 60, 60];
 const MARK_RADIUS: f32 = 4.0;
+/// Bones of a rig that was found: their colour, that of the doubted ones, and half the width of a bone and the radius of a
+/// joint in pixels.
+const BONE_COLOUR: [u8; 3] = [40, 96, 220];
+const DOUBTED_COLOUR: [u8; 3] = [240, 130, 20];
+const BONE_HALF_WIDTH: f32 = 1.2;
+const JOINT_RADIUS: f32 = 3.2;
 const TITLE_COLOUR: [u8; 3] = [58, 64, 78];
 const NOTE_COLOUR: [u8; 3] = [124, 132, 148];
 const RULER_COLOUR: [u8; 3] = [150, 158, 174];
@@ -72,6 +78,17 @@ pub struct View<'a> {
     pub as_tall_as: Option<usize>,
     /// Points of the face that were found, ringed in the view from the front.
     pub marks: Vec<Vec3>,
+    /// Bones that were found, drawn over both views.
+    pub bones: Vec<Bone>,
+}
+
+/// A bone of a rig that was found, or a joint alone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bone {
+    /// From the joint above to the joint, model space.
+    pub ends: [Vec3; 2],
+    /// True where one of the joints is in doubt.
+    pub doubted: bool,
 }
 
 /// What a ruler of heads is made from: heights along up, model units.
@@ -129,6 +146,10 @@ pub fn draw(views: &[View]) -> RgbImage {
                 camera.foot_width() * pixels,
             );
             draw_figure(&mut sheet, view, figure, camera, pixels, origin);
+            draw_bones(&mut sheet, &view.bones, |p| {
+                let seen = [p.dot(camera.right) - camera.low.x, p.dot(camera.up) - camera.low.y];
+                [left + seen[0] * pixels, ground - seen[1] * pixels]
+            });
             left += camera.width() * pixels + VIEW_GAP;
         }
         let front = &figure.cameras[0];
@@ -233,17 +254,46 @@ fn scale(figures: &[Figure]) -> f32 {
 }
 
 /// A small ring around a point of the sheet.
-fn ring(sheet: &mut RgbImage, [x, y]: [f32; 2]) {
-    let reach = MARK_RADIUS + 1.0;
-    let pixels =
-        |at: f32, end: u32| (at - reach).max(0.0) as u32..((at + reach + 1.0).max(0.0) as u32).min(end);
-    for row in pixels(y, sheet.height()) {
-        for column in pixels(x, sheet.width()) {
-            let away = (column as f32 + 0.5 - x).hypot(row as f32 + 0.5 - y);
-            let ink = (1.0 - (away - MARK_RADIUS).abs()).max(0.0);
+fn ring(sheet: &mut RgbImage, at: [f32; 2]) {
+    ink(sheet, [at, at], MARK_RADIUS + 1.0, MARK_COLOUR, |away| 1.0 - (away - MARK_RADIUS).abs());
+}
+
+/// Bones with a dot at their joints; `place` gives where a point is on the sheet. Doubted ones lie over the others.
+fn draw_bones(sheet: &mut RgbImage, bones: &[Bone], place: impl Fn(Vec3) -> [f32; 2]) {
+    for doubted in [false, true] {
+        let colour = if doubted { DOUBTED_COLOUR } else { BONE_COLOUR };
+        for bone in bones.iter().filter(|bone| bone.doubted == doubted) {
+            let [from, to] = bone.ends.map(&place);
+            if from.iter().chain(&to).all(|value| value.is_finite()) {
+                ink(sheet, [from, to], BONE_HALF_WIDTH + 0.5, colour, |away| BONE_HALF_WIDTH + 0.5 - away);
+                ink(sheet, [to, to], JOINT_RADIUS + 0.5, colour, |away| JOINT_RADIUS + 0.5 - away);
+            }
+        }
+    }
+}
+
+/// Inks what lies within `reach` pixels of a line on the sheet, as much as `share` says of how far away it is, 0..1.
+fn ink(
+    sheet: &mut RgbImage,
+    [from, to]: [[f32; 2]; 2],
+    reach: f32,
+    colour: [u8; 3],
+    share: impl Fn(f32) -> f32,
+) {
+    let pixels = |a: f32, b: f32, end: u32| {
+        (a.min(b) - reach).max(0.0) as u32..((a.max(b) + reach + 1.0).max(0.0) as u32).min(end)
+    };
+    let along = [to[0] - from[0], to[1] - from[1]];
+    let length = (along[0] * along[0] + along[1] * along[1]).max(f32::MIN_POSITIVE);
+    for row in pixels(from[1], to[1], sheet.height()) {
+        for column in pixels(from[0], to[0], sheet.width()) {
+            let off = [column as f32 + 0.5 - from[0], row as f32 + 0.5 - from[1]];
+            let way = ((off[0] * along[0] + off[1] * along[1]) / length).clamp(0.0, 1.0);
+            let away = (off[0] - way * along[0]).hypot(off[1] - way * along[1]);
+            let share = share(away).clamp(0.0, 1.0);
             let Rgb(under) = sheet.get_pixel_mut(column, row);
             for (channel, value) in under.iter_mut().enumerate() {
-                *value = (f32::from(*value) * (1.0 - ink) + f32::from(MARK_COLOUR[channel]) * ink) as u8;
+                *value = (f32::from(*value) * (1.0 - share) + f32::from(colour[channel]) * share) as u8;
             }
         }
     }
@@ -363,6 +413,7 @@ mod tests {
         View {
             title: "target".to_string(),
             marks: Vec::new(),
+            bones: Vec::new(),
             note: String::new(),
             meshes: meshes
                 .iter()
@@ -421,6 +472,26 @@ mod tests {
         let (near, far) = (square(0.5), square(-0.5));
         let [red, _, blue] = middle(&drawn(&[(&near, &FRONT, &glass), (&far, &FRONT, &red)]));
         assert!(red > 100 && blue > 100, "{red} {blue}");
+    }
+
+    #[test]
+    fn bones_are_drawn_in_both_views_and_doubted_ones_in_another_colour() {
+        let white = coloured([1.0; 4]);
+        let (near, up) = (square(0.0), [Vec3::new(0.0, 0.5, 0.0), Vec3::new(0.0, 1.5, 0.0)]);
+        let count = |bones: Vec<Bone>, colour: [u8; 3]| {
+            let sheet = draw(&[View { bones, ..view(&[(&near, &FRONT, &white)]) }]);
+            let columns: Vec<u32> = (0..sheet.width())
+                .filter(|&x| (0..sheet.height()).filter(|&y| sheet.get_pixel(x, y).0 == colour).count() > 50)
+                .collect();
+            // Neighbouring columns are one line.
+            columns.iter().enumerate().filter(|&(i, x)| i == 0 || columns[i - 1] + 1 != *x).count()
+        };
+        let bone = |doubted| vec![Bone { ends: up, doubted }];
+        assert_eq!([count(bone(false), BONE_COLOUR), count(bone(false), DOUBTED_COLOUR)], [2, 0]);
+        assert_eq!([count(bone(true), BONE_COLOUR), count(bone(true), DOUBTED_COLOUR)], [0, 2]);
+        assert_eq!(count(Vec::new(), BONE_COLOUR), 0);
+        let nowhere = vec![Bone { ends: [Vec3::NAN; 2], doubted: false }];
+        assert_eq!(count(nowhere, BONE_COLOUR), 0);
     }
 
     #[test]

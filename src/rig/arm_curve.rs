@@ -1,0 +1,325 @@
+//! The middles of an arm's sections, and the joints that they show.
+
+use super::front_view::median;
+use super::silhouette::lowest;
+use crate::geometry::foot;
+use glam::{DVec2, DVec3};
+use std::rc::Rc;
+
+/// The wrist is looked for between these shares of the way from shoulder to tip. Seen: at -30 %, joints lie 0.001 H
+/// further off, three more by over 0.06 H, 70 more good joints doubted; at +30 %, joints lie 0.0007 H further off, 74
+/// more good joints doubted.
+const WRIST_RANGE: (f64, f64) = (0.55, 0.88);
+/// One further than this from where wrists are is in doubt.
+const WRIST_USUAL: f64 = 0.13;
+/// The wrist where none is seen. Seen: at -30 %, four more good joints doubted; at +30 %, joints lie 0.0006 H further
+/// off, four more by over 0.06 H.
+const WRIST_BY_RATIO: f64 = 0.74;
+/// That far from there, as a share of the same, a section counts as wider than it is by the second share: what is slim by
+/// chance lies anywhere.
+const WRIST_PRIOR: (f64, f64) = (0.15, 0.3);
+/// The elbow lies at this share of the way from shoulder to wrist. Seen: at -30 %, joints lie 0.002 H further off, five
+/// fewer by over 0.06 H; at +30 %, joints lie 0.003 H further off, seven more by over 0.06 H.
+const ELBOW_SHARE: f64 = 0.53;
+/// The elbow of an arm that is bent by more than this share of its length lies where the bend is. Seen: ±30 % moves
+/// joints by under 0.0005 H.
+const BENT: f64 = 0.05;
+/// Which sections tell the way the arm begins: the first one and the one after this fraction of all. Seen: ±30 %
+/// changes no joint.
+const ARM_BEGINNING: usize = 6;
+/// The sections of the radius near the shoulder: from one in so many to one in so many. Seen: ±30 % moves joints by
+/// under 0.0005 H.
+const RADIUS_RANGE: (usize, usize) = (10, 3);
+/// The sections of the arm's upper piece, likewise. Seen: at -30 %, three fewer joints off by over 0.06 H.
+const UPPER_RANGE: (usize, usize) = (20, 4);
+/// A wrist is slimmer than the hand and than the arm by these factors (seen: at -30 %, three fewer good joints doubted;
+/// at +30 %, twelve more good joints doubted; of the second, ±30 % moves joints by under 0.0005 H), ...
+const HAND_WIDENS: f64 = 1.12;
+const ARM_WIDENS: f64 = 1.05;
+/// ... and not within this of the end of its range, where the slimmest section only shows that the arm grows thinner still. Seen:
+/// ±30 % changes no joint.
+const WRIST_MARGIN: f64 = 0.02;
+/// A bend is looked for between these shares of the way from shoulder to wrist: elbows are at .56 of it (Winter: .186 of
+/// .332 H).
+const BEND_RANGE: (f64, f64) = (0.42, 0.68);
+/// It lies further beside the line than both ends of that range by this factor: the bend of an arm whose elbow is halfway
+/// is 1.4 times as far off as what is at a third of the way, while the line from a shoulder that is a little off passes
+/// by all of the arm.
+const BEND_STANDS_OUT: f64 = 1.1;
+/// A joint further than this from a curve, in heights, is another arm's, or lies in the air.
+const PASSES_BY: f64 = 0.08;
+/// Two arms are laid over each other at so many shares of their ways.
+const STATIONS: usize = 120;
+
+/// One arm.
+#[derive(Clone, Debug)]
+pub struct Arm {
+    /// The shoulder joint.
+    pub shoulder: DVec3,
+    /// The elbow.
+    pub elbow: DVec3,
+    /// The wrist.
+    pub wrist: DVec3,
+    /// The end of the hand.
+    pub tip: DVec3,
+    /// The armpit: where the arm's lower side meets the trunk.
+    pub pit: DVec2,
+    /// The arm's radius near the shoulder.
+    pub radius: f64,
+    /// True where an arm was seen to end at a trunk.
+    pub pit_seen: bool,
+    /// True where a wrist was seen, about where wrists are.
+    pub wrist_seen: bool,
+    /// The sections that it was read from.
+    pub curve: Rc<ArmCurve>,
+}
+
+impl Arm {
+    /// The same arm with its wrist at a share of the way from shoulder to tip, and the elbow between.
+    pub fn with_wrist_at(&self, share: f64) -> Self {
+        let begins = self.begins();
+        let wrist_arc = begins + share * (self.curve.whole() - begins);
+        let wrist = self.curve.at(wrist_arc);
+        Self { wrist, elbow: self.curve.elbow(self.shoulder, begins, wrist, wrist_arc), ..self.clone() }
+    }
+
+    /// The same arm with some of its joints given, and the elbow between them where it is not. As it is where its
+    /// curve passes by any of them.
+    pub fn with_given(mut self, [shoulder, elbow, wrist]: [Option<DVec3>; 3]) -> Self {
+        let given = || [shoulder, elbow, wrist].into_iter().flatten();
+        if given().count() == 0 || given().any(|p| self.curve.nearest(p).1 > PASSES_BY) {
+            return self;
+        }
+        self.shoulder = shoulder.unwrap_or(self.shoulder);
+        if let Some(wrist) = wrist {
+            self.tip += wrist - self.wrist;
+            (self.wrist, self.wrist_seen) = (wrist, true);
+        }
+        let (begins, wrist_arc) = (self.begins(), self.curve.nearest(self.wrist).0);
+        self.elbow = elbow.unwrap_or_else(|| {
+            // Half of the way along, the arm lies half as far beside its curve as its wrist does.
+            let beside = self.wrist - self.curve.at(wrist_arc);
+            let found = self.curve.elbow(self.shoulder, begins, self.wrist - beside, wrist_arc);
+            found + self.elbow_share() * beside
+        });
+        self
+    }
+
+    /// Where along its curve the wrist is, as a share of the way from shoulder to tip.
+    pub fn wrist_share(&self) -> f64 {
+        let begins = self.begins();
+        (self.curve.nearest(self.wrist).0 - begins) / (self.curve.whole() - begins).max(1e-9)
+    }
+
+    /// Where along its curve the shoulder is; below 0 inside of the pit.
+    fn begins(&self) -> f64 {
+        self.curve.before(self.shoulder, (self.elbow - self.shoulder).normalize_or_zero())
+    }
+
+    /// How far down the way from shoulder to wrist the elbow is.
+    pub fn elbow_share(&self) -> f64 {
+        let upper = self.shoulder.distance(self.elbow);
+        upper / (upper + self.elbow.distance(self.wrist)).max(1e-9)
+    }
+}
+
+/// A section at right angles to the arm.
+#[derive(Clone, Copy, Debug)]
+pub struct Station {
+    /// Its middle.
+    pub centre: DVec3,
+    /// How wide it is one way, ...
+    pub width: f64,
+    /// ... and the other way.
+    pub depth: f64,
+}
+
+impl Station {
+    /// About twice its diameter.
+    fn girth(&self) -> f64 {
+        self.width + self.depth
+    }
+}
+
+/// The middles of an arm's sections: arms may bend towards the front.
+#[derive(Debug)]
+pub struct ArmCurve {
+    stations: Vec<Station>,
+    /// Smoothed middles.
+    middles: Vec<DVec3>,
+    /// How far along the curve each of them is.
+    arc: Vec<f64>,
+}
+
+impl ArmCurve {
+    /// `stations`: at least two, from the shoulder to the tip; each middle is a mean over so many of them to either side.
+    pub fn new(stations: Vec<Station>, smoothed: usize) -> Self {
+        let middles: Vec<DVec3> = (0..stations.len())
+            .map(|index| {
+                let (from, to) = (index.saturating_sub(smoothed), (index + smoothed + 1).min(stations.len()));
+                stations[from..to].iter().map(|s| s.centre).sum::<DVec3>() / (to - from) as f64
+            })
+            .collect();
+        let mut arc = vec![0.0];
+        for pair in middles.windows(2) {
+            arc.push(arc[arc.len() - 1] + pair[0].distance(pair[1]));
+        }
+        Self { stations, middles, arc }
+    }
+
+    fn len(&self) -> usize {
+        self.stations.len()
+    }
+
+    fn tip(&self) -> DVec3 {
+        self.middles[self.len() - 1]
+    }
+
+    /// The point `wanted` along the curve.
+    fn at(&self, wanted: f64) -> DVec3 {
+        let Self { middles, arc, .. } = self;
+        if wanted <= 0.0 {
+            // Inside of the pit the arm goes on as it begins.
+            let next = (self.len() / ARM_BEGINNING).max(1);
+            let way = (middles[0] - middles[next]).normalize_or_zero();
+            return middles[0] + way * -wanted;
+        }
+        let index = arc.partition_point(|&a| a < wanted).clamp(1, arc.len() - 1);
+        let share = (wanted - arc[index - 1]) / (arc[index] - arc[index - 1]).max(1e-12);
+        middles[index - 1].lerp(middles[index], share.clamp(0.0, 1.0))
+    }
+
+    /// The arm's radius near the shoulder.
+    pub fn radius(&self) -> f64 {
+        let near = &self.stations[self.len() / RADIUS_RANGE.0..self.len() / RADIUS_RANGE.1];
+        0.25 * median(&mut near.iter().map(Station::girth).collect::<Vec<_>>())
+    }
+
+    /// The middle of its upper piece, whose line leads over the armpit.
+    pub fn upper(&self) -> DVec3 {
+        let upper = &self.middles[self.len() / UPPER_RANGE.0..(self.len() / UPPER_RANGE.1).max(1)];
+        upper.iter().sum::<DVec3>() / upper.len().max(1) as f64
+    }
+
+    /// How long it is.
+    fn whole(&self) -> f64 {
+        self.arc[self.len() - 1]
+    }
+
+    /// How far along the curve a `shoulder` is from which the arm begins along `outwards`.
+    fn before(&self, shoulder: DVec3, outwards: DVec3) -> f64 {
+        let begin = self.middles[0];
+        -begin.distance(shoulder) * (shoulder - begin).dot(-outwards).signum()
+    }
+
+    /// How far along the curve its nearest point to `p` is, and how far that is from it.
+    pub fn nearest(&self, p: DVec3) -> (f64, f64) {
+        let mut best = (0.0, f64::INFINITY);
+        for (middles, arc) in self.middles.windows(2).zip(self.arc.windows(2)) {
+            let (at, share) = foot(p, middles[0], middles[1]);
+            let off = at.distance(p);
+            if off < best.1 {
+                best = (arc[0] + share * (arc[1] - arc[0]), off);
+            }
+        }
+        best
+    }
+
+    /// Means of girths over neighbours, each with its share of the way to the tip from where the arm `begins`.
+    pub fn girths(&self, begins: f64) -> Vec<(f64, f64)> {
+        let whole = (self.whole() - begins).max(1e-9);
+        (0..self.len())
+            .map(|index| {
+                let (from, to) = (index.saturating_sub(1), (index + 2).min(self.len()));
+                let girth =
+                    self.stations[from..to].iter().map(Station::girth).sum::<f64>() / (to - from) as f64;
+                ((self.arc[index] - begins) / whole, girth)
+            })
+            .collect()
+    }
+
+    /// The middle that is furthest from the line between two points, of those whose way along the curve `near` accepts,
+    /// and how far it is. `None` where the first or the last of these is about as far: an arm bends at its elbow.
+    fn bend(&self, from: DVec3, to: DVec3, near: impl Fn(f64) -> bool) -> Option<(DVec3, f64)> {
+        let range: Vec<(DVec3, f64)> = (0..self.len())
+            .filter(|&index| near(self.arc[index]))
+            .map(|index| (self.middles[index], (self.middles[index] - from).reject_from(to - from).length()))
+            .collect();
+        let ends = range.first()?.1.max(range.last()?.1);
+        let bend = range.into_iter().rev().max_by(|a, b| a.1.total_cmp(&b.1))?;
+        (bend.1 > BEND_STANDS_OUT * ends).then_some(bend)
+    }
+
+    /// The elbow of an arm whose shoulder and wrist are that far along.
+    fn elbow(&self, shoulder: DVec3, begins: f64, wrist: DVec3, wrist_arc: f64) -> DVec3 {
+        let near_elbow = |arc: f64| {
+            let share = (arc - begins) / (wrist_arc - begins);
+            (BEND_RANGE.0..=BEND_RANGE.1).contains(&share)
+        };
+        let length = (wrist - shoulder).length();
+        self.bend(shoulder, wrist, near_elbow)
+            .filter(|&(_, off)| length > 0.0 && off > BENT * length)
+            .map_or_else(|| self.at(begins + ELBOW_SHARE * (wrist_arc - begins)), |(bend, _)| bend)
+    }
+
+    /// The joints beyond a `shoulder`, of an arm that begins along `outwards`.
+    pub fn arm(self, shoulder: DVec3, outwards: DVec3, pit: DVec2, pit_seen: bool) -> Arm {
+        let begins = self.before(shoulder, outwards);
+        let seen = slimmest(&self.girths(begins));
+        let wrist_arc = begins + seen.unwrap_or(WRIST_BY_RATIO) * (self.whole() - begins);
+        let wrist = self.at(wrist_arc);
+        let elbow = self.elbow(shoulder, begins, wrist, wrist_arc);
+        let (tip, radius) = (self.tip(), self.radius());
+        let curve = Rc::new(self);
+        Arm {
+            shoulder,
+            elbow,
+            wrist,
+            tip,
+            pit,
+            radius,
+            pit_seen,
+            wrist_seen: seen.is_some_and(is_usual),
+            curve,
+        }
+    }
+}
+
+/// Where the wrist shows: the slimmest of some girths before the hand, each with its share of the way from shoulder to
+/// tip. `None` where none is slimmer than both what is before it and what is beyond.
+fn slimmest(girths: &[(f64, f64)]) -> Option<f64> {
+    let in_range = |&&(share, _): &&(f64, f64)| (WRIST_RANGE.0..=WRIST_RANGE.1).contains(&share);
+    let usual = |share: f64| 1.0 + WRIST_PRIOR.1 * ((share - WRIST_BY_RATIO) / WRIST_PRIOR.0).powi(2);
+    let weighed: Vec<(f64, f64)> =
+        girths.iter().filter(in_range).map(|&(share, girth)| (share, girth * usual(share))).collect();
+    let at = lowest(&weighed)?;
+    let slim = girths.partition_point(|&(share, _)| share < at).min(girths.len() - 1);
+    let most = |girths: &[(f64, f64)]| girths.iter().map(|&(_, girth)| girth).fold(0.0, f64::max);
+    let is_slim = most(&girths[slim..]) > HAND_WIDENS * girths[slim].1
+        && most(&girths[..slim]) > ARM_WIDENS * girths[slim].1;
+    (is_slim && at < WRIST_RANGE.1 - WRIST_MARGIN).then_some(at)
+}
+
+/// True of a share of the way from shoulder to tip at which wrists are.
+pub fn is_usual(share: f64) -> bool {
+    (share - WRIST_BY_RATIO).abs() <= WRIST_USUAL
+}
+
+/// Where the wrist of two arms shows that are taken to be alike, as a share of the way from shoulder to tip: what is
+/// uneven about one of them counts half.
+pub fn wrist_of_both(arms: [&Arm; 2]) -> Option<f64> {
+    let mut sums: Vec<(f64, f64)> =
+        (0..=STATIONS).map(|index| (index as f64 / STATIONS as f64, 0.0)).collect();
+    for arm in arms {
+        let girths = arm.curve.girths(arm.begins());
+        let mut all: Vec<f64> = girths.iter().map(|&(_, girth)| girth).collect();
+        let usual = median(&mut all).max(1e-9);
+        for (share, sum) in &mut sums {
+            let after = girths.partition_point(|&(at, _)| at < *share).clamp(1, girths.len() - 1);
+            let (one, other) = (girths[after - 1], girths[after]);
+            let way = ((*share - one.0) / (other.0 - one.0).max(1e-9)).clamp(0.0, 1.0);
+            *sum += (one.1 + way * (other.1 - one.1)) / usual;
+        }
+    }
+    slimmest(&sums)
+}
