@@ -8,16 +8,17 @@
 //! the boxes are padded, because the tree keeps them in single precision.
 
 mod tree;
+mod wide;
 
 pub use tree::Tree;
 
 use super::bounds;
-use glam::{DVec3, Vec3A};
+use glam::{BVec4A, DVec3, Vec3A, Vec4};
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::builder::build_bvh2;
-use obvhs::bvh2::node::Bvh2Node;
 use obvhs::{Boundable, BvhBuildParams};
 use std::time::Duration;
+use wide::{Child, LANES, Node, Slopes};
 
 /// Padding of the boxes, in units of the scene's largest extent: above the rounding of single precision. Seen: ±30 %
 /// moves no vertex.
@@ -60,7 +61,7 @@ pub struct Closest {
 /// Coordinates are normalised to the unit box inside, so that nothing depends on the model's unit.
 #[derive(Clone, Debug, Default)]
 pub struct Surface {
-    nodes: Vec<Bvh2Node>,
+    nodes: Vec<Node>,
     /// Normalised corners, in the order of the tree's leaves.
     corners: Vec<[DVec3; 3]>,
     /// The triangle's index as given, in the same order.
@@ -114,10 +115,11 @@ impl Surface {
         }
         let mut build_time = Duration::ZERO;
         let tree = build_bvh2(&boxes, parameters, &mut build_time);
+        drop(boxes);
         let order = || tree.primitive_indices.iter().map(|&index| &kept[index as usize]);
         let triangles = order().map(|&(triangle, _)| triangle).collect();
         let corners = order().map(|&(_, corners)| corners).collect();
-        Self { nodes: tree.nodes, corners, triangles, centre, scale }
+        Self { nodes: wide::widened(&tree.nodes), corners, triangles, centre, scale }
     }
 
     /// True where there is nothing to meet.
@@ -183,33 +185,25 @@ impl Surface {
             (p.distance_squared(point), self.triangles[slot as usize], point, barycentric)
         };
         let mut best = guess.map_or((f64::INFINITY, u32::MAX, DVec3::ZERO, [0.0; 3]), at_slot);
-        let distance_to_box = |node: &Bvh2Node| {
-            let (low, high) = node_box(node);
-            p.distance_squared(p.clamp(low, high))
-        };
         let mut stack = Stack::new();
-        stack.push((0, distance_to_box(&self.nodes[0])));
-        while let Some((index, distance)) = stack.pop() {
-            if distance > best.0 {
+        stack.push(ROOT, 0.0);
+        while let Some((child, square)) = stack.pop() {
+            if f64::from(square) > best.0 {
                 continue;
             }
-            let node = &self.nodes[index as usize];
-            let first = node.first_index;
-            if node.is_leaf() {
-                for slot in first..first + node.prim_count {
+            if child.count > 0 {
+                for slot in child.first..child.first + child.count {
                     let found = at_slot(slot);
                     if (found.0, found.1) < (best.0, best.1) {
                         best = found;
                     }
                 }
             } else {
-                let mut pair =
-                    [first, first + 1].map(|child| (child, distance_to_box(&self.nodes[child as usize])));
-                if pair[0].1 < pair[1].1 {
-                    pair.swap(0, 1);
-                }
+                let node = &self.nodes[child.first as usize];
+                let squares = node.squares(p);
                 // What is further away than the best is not even put down.
-                pair.into_iter().filter(|child| child.1 <= best.0).for_each(|child| stack.push(child));
+                let least = (best.0 as f32).next_up();
+                stack.push_all(&node.children, squares, node.is_there() & squares.cmple(Vec4::splat(least)));
             }
         }
         Some(Closest {
@@ -230,20 +224,16 @@ impl Surface {
         let p = (p - self.centre) * self.scale;
         let limit = reach * self.scale;
         let mut stack = Stack::new();
-        stack.push((0, 0.0));
-        while let Some((index, _)) = stack.pop() {
-            let node = &self.nodes[index as usize];
-            let (low, high) = node_box(node);
-            if p.distance_squared(p.clamp(low, high)) > limit * limit {
+        stack.push(ROOT, 0.0);
+        while let Some((child, _)) = stack.pop() {
+            if child.count == 0 {
+                let node = &self.nodes[child.first as usize];
+                let squares = node.squares(p);
+                let near = squares.cmple(Vec4::splat(((limit * limit) as f32).next_up()));
+                stack.push_all(&node.children, squares, node.is_there() & near);
                 continue;
             }
-            let first = node.first_index;
-            if !node.is_leaf() {
-                stack.push((first, 0.0));
-                stack.push((first + 1, 0.0));
-                continue;
-            }
-            for slot in first..first + node.prim_count {
+            for slot in child.first..child.first + child.count {
                 let (point, barycentric) = closest_on_triangle(p, &self.corners[slot as usize]);
                 let distance = p.distance(point);
                 if distance <= limit {
@@ -281,46 +271,31 @@ impl Surface {
         };
         let mut way = line.way_to(t_max);
         let mut stack = Stack::new();
-        if let Some(t) = line.enters(&self.nodes[0]) {
-            stack.push((0, t));
-        }
-        while let Some((index, t)) = stack.pop() {
-            if t > way {
+        stack.push(ROOT, 0.0);
+        while let Some((child, enters)) = stack.pop() {
+            if enters > way {
                 continue;
             }
-            let node = &self.nodes[index as usize];
-            let first = node.first_index;
-            if node.is_leaf() {
-                for slot in first..first + node.prim_count {
-                    let hit = ray.meets(
-                        &self.corners[slot as usize],
-                        self.triangles[slot as usize],
-                        every_crossing,
-                    );
-                    if let Some(hit) = hit.filter(|hit| hit.t <= t_max) {
-                        t_max = visit(hit);
-                        way = line.way_to(t_max);
-                    }
-                }
-            } else {
-                let [one, two] = [first, first + 1].map(|child| {
-                    let t = line.enters(&self.nodes[child as usize]);
-                    t.filter(|&t| t <= way).map(|t| (child, t))
-                });
-                match (one, two) {
-                    (Some(one), Some(two)) => {
-                        let one_goes_last = one.1 > two.1;
-                        let (first, second) = if one_goes_last { (two, one) } else { (one, two) };
-                        stack.push(second);
-                        stack.push(first);
-                    }
-                    (Some(only), None) | (None, Some(only)) => stack.push(only),
-                    (None, None) => {}
+            if child.count == 0 {
+                let node = &self.nodes[child.first as usize];
+                let (enters, is_met) = node.enters(&line.slopes, way);
+                stack.push_all(&node.children, enters, is_met);
+                continue;
+            }
+            for slot in child.first..child.first + child.count {
+                let hit =
+                    ray.meets(&self.corners[slot as usize], self.triangles[slot as usize], every_crossing);
+                if let Some(hit) = hit.filter(|hit| hit.t <= t_max) {
+                    t_max = visit(hit);
+                    way = line.way_to(t_max);
                 }
             }
         }
     }
 }
+
+/// What all boxes are in.
+const ROOT: Child = Child { first: 0, count: 0 };
 
 /// Middle of the box around `triangles`, and what takes its longest side to 1; `None` where they have no extent.
 fn unit_box(positions: &[DVec3], triangles: &[[u32; 3]]) -> Option<(DVec3, f64)> {
@@ -421,9 +396,7 @@ impl Ray {
 /// Within [`NEAR`] of the unit box, what rounding moves a side by is a fraction of the boxes' padding, so no box is passed by
 /// that holds a triangle which the ray meets, and none is entered later than that.
 struct Line {
-    origin: Vec3A,
-    /// Of the direction; large where that is 0, so that a ray within a slab meets it and 0 times infinity is nowhere.
-    inverse: Vec3A,
+    slopes: Slopes,
     /// How far along the ray it begins, and how many of its own lengths the ray's direction has.
     start: f64,
     length: f64,
@@ -431,12 +404,12 @@ struct Line {
 
 /// Rays that begin further away, in units of the scene's largest extent, are moved to the box first.
 const NEAR: f64 = 2.0;
-/// Instead of the inverse of 0.
+/// Instead of the inverse of 0: a ray within a slab meets it, and 0 times infinity is nowhere.
 const INFINITE: f32 = 1e30;
 
 impl Line {
     /// `None` where the ray begins far away and passes by all boxes.
-    fn new(ray: &Ray, root: &Bvh2Node) -> Option<Self> {
+    fn new(ray: &Ray, root: &Node) -> Option<Self> {
         // By the largest number first: a direction may have any length.
         let largest = ray.direction.abs().max_element();
         let direction = ray.direction / largest;
@@ -448,7 +421,7 @@ impl Line {
         }
         let inverse = direction.as_vec3a().recip().clamp(Vec3A::splat(-INFINITE), Vec3A::splat(INFINITE));
         let origin = (ray.origin + start * direction).as_vec3a();
-        Some(Self { origin, inverse, start, length })
+        Some(Self { slopes: Slopes::new(origin, inverse), start, length })
     }
 
     /// How far the ray's parameter `t` is along the line, or a little further.
@@ -459,22 +432,13 @@ impl Line {
         }
         if way.is_finite() { (way + f64::from(BOX_PADDING) * way.abs()) as f32 } else { way as f32 }
     }
-
-    /// Where the line enters the node's box, at least 0; `None` where it passes by.
-    #[inline(always)]
-    fn enters(&self, node: &Bvh2Node) -> Option<f32> {
-        let Aabb { min, max } = *node.aabb();
-        let (one, two) = ((min - self.origin) * self.inverse, (max - self.origin) * self.inverse);
-        let enter = one.min(two).max_element().max(0.0);
-        let leave = one.max(two).min_element();
-        (enter <= leave).then_some(enter)
-    }
 }
 
 /// Where a ray from far away enters the root's box, a little before; `None` where it passes by.
 #[cold]
-fn enters_far(origin: DVec3, direction: DVec3, root: &Bvh2Node) -> Option<f64> {
-    let (low, high) = node_box(root);
+fn enters_far(origin: DVec3, direction: DVec3, root: &Node) -> Option<f64> {
+    let around = root.around();
+    let (low, high) = (around.min.as_dvec3(), around.max.as_dvec3());
     let (mut enter, mut leave) = (0.0_f64, f64::INFINITY);
     for axis in 0..3 {
         let one = (low[axis] - origin[axis]) / direction[axis];
@@ -484,14 +448,6 @@ fn enters_far(origin: DVec3, direction: DVec3, root: &Bvh2Node) -> Option<f64> {
         leave = leave.min(one.max(two));
     }
     (enter <= leave).then_some(enter)
-}
-
-fn node_box(node: &Bvh2Node) -> (DVec3, DVec3) {
-    let Aabb { min, max } = *node.aabb();
-    (
-        DVec3::new(min.x.into(), min.y.into(), min.z.into()),
-        DVec3::new(max.x.into(), max.y.into(), max.z.into()),
-    )
 }
 
 /// The closest point of a triangle with area, and its barycentric coordinates.
@@ -531,28 +487,51 @@ fn closest_on_triangle(p: DVec3, &[a, b, c]: &[DVec3; 3]) -> (DVec3, [f64; 3]) {
     (a + v * ab + w * ac, [1.0 - v - w, v, w])
 }
 
-/// Nodes still to visit; only a tree of unusual depth needs memory of its own.
-struct Stack<T> {
-    near: [(u32, T); 64],
+/// What is still to be visited, and how far away it is; only a tree of unusual depth needs memory of its own.
+struct Stack {
+    near: [(Child, f32); 48],
     count: usize,
-    deep: Vec<(u32, T)>,
+    deep: Vec<(Child, f32)>,
 }
 
-impl<T: Copy + Default> Stack<T> {
+impl Stack {
     fn new() -> Self {
-        Self { near: [(0, T::default()); 64], count: 0, deep: Vec::new() }
+        Self { near: [(ROOT, 0.0); 48], count: 0, deep: Vec::new() }
     }
 
-    fn push(&mut self, item: (u32, T)) {
-        if self.count < self.near.len() {
-            self.near[self.count] = item;
-            self.count += 1;
-        } else {
-            self.deep.push(item);
+    #[inline(always)]
+    fn push(&mut self, child: Child, distance: f32) {
+        match self.near.get_mut(self.count) {
+            Some(place) => {
+                *place = (child, distance);
+                self.count += 1;
+            }
+            None => self.deep.push((child, distance)),
         }
     }
 
-    fn pop(&mut self) -> Option<(u32, T)> {
+    /// These of a node's children, the nearest one last.
+    #[inline(always)]
+    fn push_all(&mut self, children: &[Child; LANES], distances: Vec4, these: BVec4A) {
+        let distances = distances.to_array();
+        let mut left = these.bitmask();
+        while left != 0 {
+            let mut furthest = left.trailing_zeros() as usize;
+            let mut others = left & (left - 1);
+            while others != 0 {
+                let lane = others.trailing_zeros() as usize;
+                if distances[lane & (LANES - 1)] > distances[furthest & (LANES - 1)] {
+                    furthest = lane;
+                }
+                others &= others - 1;
+            }
+            left &= !(1 << furthest);
+            self.push(children[furthest & (LANES - 1)], distances[furthest & (LANES - 1)]);
+        }
+    }
+
+    #[inline(always)]
+    fn pop(&mut self) -> Option<(Child, f32)> {
         if let Some(item) = self.deep.pop() {
             return Some(item);
         }

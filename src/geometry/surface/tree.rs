@@ -1,16 +1,16 @@
 //! The tree of boxes over triangles that stay while their corners move: made once, and its boxes anew for each place.
 
+use super::wide::{Child, LANES, refitted};
 use super::{Closest, Surface, has_area, padded_box, unit_box};
 use glam::DVec3;
 use obvhs::aabb::Aabb;
-use obvhs::bvh2::node::Bvh2Node;
 
 /// The tree over a surface's triangles, without their boxes: what is left to do for the same triangles between other positions is
 /// to put boxes around them.
 #[derive(Clone, Debug, Default)]
 pub struct Tree {
-    /// Where each node's children or triangles begin, and how many triangles: none for what has children.
-    nodes: Vec<(u32, u32)>,
+    /// What each node's boxes hold.
+    nodes: Vec<[Child; LANES]>,
     /// The triangles' indices as given, in the order of the leaves.
     triangles: Vec<u32>,
     /// Where each triangle as given is in that order; `u32::MAX` for what was left out.
@@ -24,7 +24,7 @@ impl Tree {
         for (slot, &triangle) in (0..).zip(&surface.triangles) {
             slots[triangle as usize] = slot;
         }
-        let nodes = surface.nodes.iter().map(|node| (node.first_index, node.prim_count)).collect();
+        let nodes = surface.nodes.iter().map(|node| node.children).collect();
         Self { nodes, triangles: surface.triangles.clone(), slots }
     }
 }
@@ -47,29 +47,10 @@ impl Surface {
                 _ => return Self::new(positions, triangles),
             }
         }
-        let mut nodes = vec![Bvh2Node::default(); tree.nodes.len()];
-        // Parents before their children, so backwards from leaf to root.
-        let mut order = Vec::with_capacity(nodes.len());
-        order.push(0);
-        for at in 0..tree.nodes.len() {
-            let Some(&node) = order.get(at) else { break };
-            let (first, count) = tree.nodes[node];
-            if count == 0 {
-                order.extend([first as usize, first as usize + 1]);
-            }
-        }
-        for node in order.into_iter().rev() {
-            let (first, count) = tree.nodes[node];
-            let around = match first as usize {
-                first if count == 0 => nodes[first].aabb().union(nodes[first + 1].aabb()),
-                first => corners[first..first + count as usize]
-                    .iter()
-                    .map(padded_box)
-                    .reduce(|one, other| one.union(&other))
-                    .unwrap_or(Aabb::empty()),
-            };
-            nodes[node] = Bvh2Node::new(around, count, first);
-        }
+        let nodes = refitted(&tree.nodes, |first, count| {
+            let boxes = corners[first..first + count].iter().map(padded_box);
+            boxes.reduce(|one, other| one.union(&other)).unwrap_or(Aabb::empty())
+        });
         Self { nodes, corners, triangles: tree.triangles.clone(), centre, scale }
     }
 

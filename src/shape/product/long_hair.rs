@@ -65,6 +65,11 @@ pub struct Axis {
 }
 
 impl Axis {
+    /// Above the chin.
+    fn height(&self, p: DVec3) -> f64 {
+        (p.y - self.frame.origin.y) / self.frame.length
+    }
+
     pub(super) fn polar(&self, p: DVec3) -> Polar {
         let (x, z) = (p.x - self.middle[0], p.z - self.middle[1]);
         // 0 in front, growing towards the left.
@@ -72,7 +77,7 @@ impl Axis {
         Polar {
             // The first field's middle is in front, so that the fields of a mirrored figure are the mirrored ones.
             angle: (turn * ANGLES as f64 + 0.5) % ANGLES as f64,
-            height: (p.y - self.frame.origin.y) / self.frame.length,
+            height: self.height(p),
             radius: x.hypot(z) / self.frame.length,
         }
     }
@@ -144,17 +149,24 @@ fn filled_round(values: [f64; ANGLES]) -> [f64; ANGLES] {
     })
 }
 
-/// Points on `triangles`, no further apart than about a third of a row.
-fn samples(points: &[DVec3], triangles: &[[u32; 3]], spacing: f64) -> Vec<DVec3> {
-    let mut all = Vec::new();
-    for corners in triangles {
-        let [a, b, c] = corners.map(|corner| points[corner as usize]);
-        let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
+/// The points on `triangles` about `axis`, no further apart than about a third of a row.
+fn samples(points: &[DVec3], triangles: &[[u32; 3]], axis: Axis) -> Vec<Polar> {
+    let spacing = ROW * axis.frame.length / 3.0;
+    // Most triangles are so small that their corners are all of it.
+    let corners: Vec<Polar> = points.iter().map(|&p| axis.polar(p)).collect();
+    let mut all = Vec::with_capacity(3 * triangles.len());
+    for triangle in triangles {
+        let [a, b, c] = triangle.map(|corner| points[corner as usize]);
+        let longest = a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a)).sqrt();
         let steps = ((longest / spacing).ceil() as usize).clamp(1, MOST_STEPS);
+        if steps == 1 {
+            all.extend(triangle.map(|corner| corners[corner as usize]));
+            continue;
+        }
         for i in 0..=steps {
             for j in 0..=steps - i {
                 let (u, v) = (i as f64 / steps as f64, j as f64 / steps as f64);
-                all.push(a + u * (b - a) + v * (c - a));
+                all.push(axis.polar(a + u * (b - a) + v * (c - a)));
             }
         }
     }
@@ -195,12 +207,16 @@ impl LongHair {
         body: &[[u32; 3]],
         axis: Axis,
     ) -> Option<Self> {
-        if body.is_empty() {
+        let is_long: Vec<bool> = strands.iter().map(|strand| is_long(positions, strand, axis)).collect();
+        if body.is_empty() || !is_long.contains(&true) {
             return None;
         }
-        let spacing = ROW * axis.frame.length / 3.0;
-        let own = PolarMap::of(samples(positions, body, spacing).into_iter().map(|p| axis.polar(p)));
-        let lies: Vec<bool> = strands.iter().map(|strand| lies(positions, strand, &own, axis)).collect();
+        let own = PolarMap::of(samples(positions, body, axis).into_iter());
+        let lies: Vec<bool> = strands
+            .iter()
+            .zip(is_long)
+            .map(|(strand, is_long)| is_long && lies(positions, strand, &own, axis))
+            .collect();
         let lying = strands.iter().zip(&lies).filter(|&(_, &lies)| lies);
         let mut vertices: Vec<u32> = lying.flat_map(|(strand, _)| strand).copied().collect();
         vertices.sort_unstable();
@@ -250,8 +266,7 @@ impl LongHair {
         body: &[DVec3],
         axis: Axis,
     ) -> Hanging {
-        let spacing = ROW * axis.frame.length / 3.0;
-        let now = PolarMap::of(samples(body, &self.body, spacing).into_iter().map(|p| axis.polar(p)));
+        let now = PolarMap::of(samples(body, &self.body, axis).into_iter());
         let outline = PolarMap::of(hair.iter().map(|&p| axis.polar(p)));
         // In the lengths of the head that it hangs from now.
         let growth = axis.frame.length / self.axis.frame.length;
@@ -305,12 +320,16 @@ fn places(vertices: &[u32], triangles: &[[u32; 3]], weld: &Weld) -> (Vec<u32>, V
     (all.into_iter().filter_map(place).collect(), around)
 }
 
-/// True for a strand that reaches below the chin and lies on the body there.
+/// True for a strand that reaches below the chin.
+fn is_long(positions: &[DVec3], strand: &[u32], axis: Axis) -> bool {
+    strand.iter().any(|&vertex| axis.height(positions[vertex as usize]) < -LONG)
+}
+
+/// True for a long strand that lies on the body.
 fn lies(positions: &[DVec3], strand: &[u32], body: &PolarMap, axis: Axis) -> bool {
     let points = strand.iter().map(|&vertex| axis.polar(positions[vertex as usize]));
-    let lowest = points.clone().map(|p| p.height).fold(f64::INFINITY, f64::min);
     let mut gaps: Vec<f64> = points.filter(|p| p.height < 0.0).map(|p| p.radius - body.at(p)).collect();
-    lowest < -LONG && quantile(&mut gaps, 0.5).is_some_and(|gap| gap >= LYING.0 && gap <= LYING.1)
+    quantile(&mut gaps, 0.5).is_some_and(|gap| gap >= LYING.0 && gap <= LYING.1)
 }
 
 /// Hair on the body as it is now.
