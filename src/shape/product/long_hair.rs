@@ -87,16 +87,67 @@ fn row_of(height: f64) -> f64 {
     ((TOP - height) / ROW).clamp(0.0, (ROWS - 1) as f64)
 }
 
+/// The distances of points from the axis, by field of a map.
+struct Fields(Vec<Vec<f64>>);
+
+impl Fields {
+    fn new() -> Self {
+        Self(vec![Vec::new(); ROWS * ANGLES])
+    }
+
+    fn add(&mut self, height: f64, angle: usize, radius: f64) {
+        if height <= TOP + 0.5 * ROW {
+            self.0[row_of(height).round() as usize * ANGLES + angle].push(radius);
+        }
+    }
+}
+
+/// The tangents of the angles at which the fields of an eighth of a map end: of 7.5, 22.5 and 37.5 degrees.
+const FIELD_ENDS: [f64; 3] = [0.131_652_497_587_395_85, 0.414_213_562_373_095_05, 0.767_326_987_978_960_3];
+const _: () = assert!(ANGLES == 24);
+
+/// The field that is nearest to the direction of x and z: as the angle of [`Axis::polar`], without one.
+fn field_towards(x: f64, z: f64) -> usize {
+    let (across, along) = (x.abs(), z.abs());
+    let (less, more) = (across.min(along), across.max(along));
+    let eighth = FIELD_ENDS.iter().filter(|&&end| less >= end * more).count();
+    let quarter = if across > along { 6 - eighth } else { eighth };
+    let half = if z < 0.0 { 12 - quarter } else { quarter };
+    if x < 0.0 { (ANGLES - half) % ANGLES } else { half }
+}
+
 impl PolarMap {
-    /// The map of `points`; fields without a point are filled from those beside them, then from the rows above.
+    /// The map of `points`.
     pub(super) fn of(points: impl Iterator<Item = Polar>) -> Self {
-        let mut fields: Vec<Vec<f64>> = vec![Vec::new(); ROWS * ANGLES];
-        for Polar { angle, height, radius } in points {
-            if height <= TOP + 0.5 * ROW {
-                let row = row_of(height).round() as usize;
-                fields[row * ANGLES + angle as usize % ANGLES].push(radius);
+        let mut fields = Fields::new();
+        points.for_each(|p| fields.add(p.height, p.angle as usize % ANGLES, p.radius));
+        Self::filled(fields)
+    }
+
+    /// The map of points on `triangles`, no further apart than about a third of a row.
+    fn of_surface(points: &[DVec3], triangles: &[[u32; 3]], axis: Axis) -> Self {
+        let to_unit = |p: DVec3| {
+            let from = DVec3::new(axis.middle[0], axis.frame.origin.y, axis.middle[1]);
+            (p - from) / axis.frame.length
+        };
+        let mut fields = Fields::new();
+        for triangle in triangles {
+            let [a, b, c] = triangle.map(|corner| to_unit(points[corner as usize]));
+            let longest = a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a)).sqrt();
+            let steps = ((3.0 * longest / ROW).ceil() as usize).clamp(1, MOST_STEPS);
+            for i in 0..=steps {
+                for j in 0..=steps - i {
+                    let (u, v) = (i as f64 / steps as f64, j as f64 / steps as f64);
+                    let p = a + u * (b - a) + v * (c - a);
+                    fields.add(p.y, field_towards(p.x, p.z), (p.x * p.x + p.z * p.z).sqrt());
+                }
             }
         }
+        Self::filled(fields)
+    }
+
+    /// Fields without a point are filled from those beside them, then from the rows above.
+    fn filled(Fields(mut fields): Fields) -> Self {
         let rows = fields.chunks_mut(ANGLES).map(|row| {
             let mut values = [f64::NAN; ANGLES];
             for (value, field) in values.iter_mut().zip(row) {
@@ -149,30 +200,6 @@ fn filled_round(values: [f64; ANGLES]) -> [f64; ANGLES] {
     })
 }
 
-/// The points on `triangles` about `axis`, no further apart than about a third of a row.
-fn samples(points: &[DVec3], triangles: &[[u32; 3]], axis: Axis) -> Vec<Polar> {
-    let spacing = ROW * axis.frame.length / 3.0;
-    // Most triangles are so small that their corners are all of it.
-    let corners: Vec<Polar> = points.iter().map(|&p| axis.polar(p)).collect();
-    let mut all = Vec::with_capacity(3 * triangles.len());
-    for triangle in triangles {
-        let [a, b, c] = triangle.map(|corner| points[corner as usize]);
-        let longest = a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a)).sqrt();
-        let steps = ((longest / spacing).ceil() as usize).clamp(1, MOST_STEPS);
-        if steps == 1 {
-            all.extend(triangle.map(|corner| corners[corner as usize]));
-            continue;
-        }
-        for i in 0..=steps {
-            for j in 0..=steps - i {
-                let (u, v) = (i as f64 / steps as f64, j as f64 / steps as f64);
-                all.push(axis.polar(a + u * (b - a) + v * (c - a)));
-            }
-        }
-    }
-    all
-}
-
 /// A triangle is cut no finer than this along an edge.
 const MOST_STEPS: usize = 12;
 
@@ -211,7 +238,7 @@ impl LongHair {
         if body.is_empty() || !is_long.contains(&true) {
             return None;
         }
-        let own = PolarMap::of(samples(positions, body, axis).into_iter());
+        let own = PolarMap::of_surface(positions, body, axis);
         let lies: Vec<bool> = strands
             .iter()
             .zip(is_long)
@@ -266,7 +293,7 @@ impl LongHair {
         body: &[DVec3],
         axis: Axis,
     ) -> Hanging {
-        let now = PolarMap::of(samples(body, &self.body, axis).into_iter());
+        let now = PolarMap::of_surface(body, &self.body, axis);
         let outline = PolarMap::of(hair.iter().map(|&p| axis.polar(p)));
         // In the lengths of the head that it hangs from now.
         let growth = axis.frame.length / self.axis.frame.length;
@@ -425,6 +452,16 @@ impl Hanging {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_field_of_a_direction_is_the_one_of_its_angle() {
+        for step in 0..720 {
+            let turn = (f64::from(step) + 0.5) / 720.0;
+            let (x, z) = (TAU * turn).sin_cos();
+            let of_angle = (turn * ANGLES as f64 + 0.5) as usize % ANGLES;
+            assert_eq!(field_towards(3.0 * x, 3.0 * z), of_angle, "{turn} turns");
+        }
+    }
 
     /// Hair around a head whose lower edge at so many turns from the front is what `edge` says.
     fn hair(edge: impl Fn(f64) -> f64) -> impl Iterator<Item = Polar> {
