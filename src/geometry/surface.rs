@@ -214,10 +214,30 @@ impl Surface {
         })
     }
 
+    /// Whether any point of the surface is within `reach` of `p`; false for an empty surface.
+    pub fn is_within(&self, p: DVec3, reach: f64) -> bool {
+        let mut is_within = false;
+        self.visit_within(p, reach, |_| {
+            is_within = true;
+            false
+        });
+        is_within
+    }
+
     /// Fills `found` with the closest point of every triangle within `reach` of `p`, nearest first, by triangle where
     /// they are equally near; empty for an empty surface.
     pub fn points_within(&self, p: DVec3, reach: f64, found: &mut Vec<Closest>) {
         found.clear();
+        self.visit_within(p, reach, |closest| {
+            found.push(closest);
+            true
+        });
+        found.sort_unstable_by(|a, b| a.distance.total_cmp(&b.distance).then(a.triangle.cmp(&b.triangle)));
+    }
+
+    /// Calls `visit` for the closest point of every triangle within `reach` of `p`, the nearest boxes first, until it says
+    /// false.
+    fn visit_within(&self, p: DVec3, reach: f64, mut visit: impl FnMut(Closest) -> bool) {
         if self.is_empty() || !p.is_finite() {
             return;
         }
@@ -236,17 +256,20 @@ impl Surface {
             for slot in child.first..child.first + child.count {
                 let (point, barycentric) = closest_on_triangle(p, &self.corners[slot as usize]);
                 let distance = p.distance(point);
-                if distance <= limit {
-                    found.push(Closest {
-                        point: point / self.scale + self.centre,
-                        distance: distance / self.scale,
-                        triangle: self.triangles[slot as usize] as usize,
-                        barycentric,
-                    });
+                if distance > limit {
+                    continue;
+                }
+                let closest = Closest {
+                    point: point / self.scale + self.centre,
+                    distance: distance / self.scale,
+                    triangle: self.triangles[slot as usize] as usize,
+                    barycentric,
+                };
+                if !visit(closest) {
+                    return;
                 }
             }
         }
-        found.sort_unstable_by(|a, b| a.distance.total_cmp(&b.distance).then(a.triangle.cmp(&b.triangle)));
     }
 
     /// Calls `visit` for every hit with `0 <= t <= t_max`, where `visit` returns the new `t_max`; nearer boxes first.

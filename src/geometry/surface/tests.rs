@@ -242,6 +242,11 @@ fn closest_points_agree_with_a_test_of_every_triangle() {
             let [u, v, w] = closest.barycentric;
             assert!((a * u + b * v + c * w).distance(closest.point) < 1e-12 * scale);
             assert!((closest.point.distance(p) - closest.distance).abs() < 1e-12 * scale);
+            assert!(surface.is_within(p, 1.001 * expected) && !surface.is_within(p, 0.999 * expected));
+            let mut found = Vec::new();
+            surface.points_within(p, 1.5 * expected, &mut found);
+            let distances = triangles.iter().map(|t| p.distance(closest_on_triangle(p, &corners(t)).0));
+            assert_eq!(found.len(), distances.filter(|&distance| distance <= 1.5 * expected).count());
             assert!(u.min(v).min(w) >= -1e-15 && (u + v + w - 1.0).abs() < 1e-12);
         }
     }

@@ -5,6 +5,7 @@ use crate::geometry::{Hit, Surface, bounds, double_area};
 use crate::progress::Progress;
 use crate::rig::UnitFigure;
 use glam::DVec3;
+use std::sync::OnceLock;
 
 /// Points on all meshes together, and least and most on one. Seen: ±30 % changes no mesh.
 const SAMPLES: (usize, usize, usize) = (12_000, 24, 400);
@@ -77,11 +78,19 @@ impl Facts {
 
 /// What surrounds each mesh of a figure, found once, whatever the kinds.
 #[derive(Clone, Debug, Default)]
-pub struct Surroundings(Vec<Facts>);
+pub struct Surroundings {
+    facts: Vec<Facts>,
+    middle: OnceLock<f64>,
+    seams: OnceLock<Vec<Vec<usize>>>,
+}
 
 pub(super) struct Scene<'a> {
     pub(super) figure: &'a UnitFigure,
     pub(super) facts: &'a [Facts],
+    /// The plane in which the volumes mirror best, once it is found.
+    pub(super) middle: &'a OnceLock<f64>,
+    /// Which meshes go on where others end, once it is found.
+    pub(super) seams: &'a OnceLock<Vec<Vec<usize>>>,
 }
 
 impl Surroundings {
@@ -140,12 +149,12 @@ impl Surroundings {
             let (low, high) = bounds(corners.map(|&vertex| figure.positions[vertex as usize]));
             Facts { samples: samples.collect(), area: mesh_area(figure, mesh), low, high }
         });
-        Ok(Self(facts.collect()))
+        Ok(Self { facts: facts.collect(), ..Self::default() })
     }
 
     /// The same with the figure.
     pub(super) fn in_scene<'a>(&'a self, figure: &'a UnitFigure) -> Scene<'a> {
-        Scene { figure, facts: &self.0 }
+        Scene { figure, facts: &self.facts, middle: &self.middle, seams: &self.seams }
     }
 }
 

@@ -139,8 +139,9 @@ pub fn guess_kinds(
         let kinds = figure.kinds.iter().map(|kind| kind.unwrap_or_default()).collect();
         return Ok((kinds, Vec::new(), Surroundings::default()));
     }
-    let surroundings = Surroundings::of(figure, threads, progress)?;
+    let surroundings = Surroundings::of(figure, threads, &mut progress.part(0.0, 0.7))?;
     let guesses = surroundings.in_scene(figure).guess(None);
+    progress.at(1.0)?;
     let doubtful: Vec<usize> = (0..guesses.len()).filter(|&mesh| !guesses[mesh].sure).collect();
     let kinds: Vec<MeshKind> = guesses.iter().map(|guess| guess.kind).collect();
     let warnings = warning(figure, &kinds, &doubtful);
@@ -235,7 +236,7 @@ impl Scene<'_> {
             .map(|(kind, facts)| *kind == Some(MeshKind::Body) && !facts.samples.is_empty())
             .collect();
         let is_volume = |mesh: usize| volumes.contains(&mesh) || figure.kinds[mesh] == Some(MeshKind::Body);
-        let middle = middle_plane(figure, &is_volume);
+        let middle = *self.middle.get_or_init(|| middle_plane(figure, &is_volume));
         if !is_body.contains(&true) {
             // Where everything lies over something, the one that reaches furthest carries the rest.
             let open: Vec<usize> = (0..count).filter(|&mesh| guesses[mesh].is_none()).collect();
@@ -251,13 +252,13 @@ impl Scene<'_> {
             }
         }
         let first = is_body.clone();
-        let seams = self.seams();
-        self.join_seams(&mut is_body, &seams);
+        let seams = self.seams.get_or_init(|| self.find_seams());
+        self.join_seams(&mut is_body, seams);
         let chin = self.chin(&is_body, &volumes, middle);
         let chin = head
             .map_or(chin, |head| chin.min(head.y).max(head.y - JOINT_OVER_CHIN * (1.0 - head.y).max(0.0)));
         let region = self.head_region(chin, head, &is_body, middle);
-        self.grow_body(&mut is_body, &volumes, &region, &seams);
+        self.grow_body(&mut is_body, &volumes, &region, seams);
         for mesh in (0..count).filter(|&mesh| is_body[mesh]) {
             guesses[mesh].get_or_insert(Guess { kind: MeshKind::Body, sure: first[mesh] });
         }
@@ -274,7 +275,7 @@ impl Scene<'_> {
     }
 
     /// For each mesh those whose border a good share of its own border is.
-    fn seams(&self) -> Vec<Vec<usize>> {
+    fn find_seams(&self) -> Vec<Vec<usize>> {
         let figure = self.figure;
         let welded = weld(&figure.positions, SEAM);
         // Edges that one triangle of a mesh has.

@@ -88,7 +88,7 @@ pub(super) fn middle_plane(figure: &UnitFigure, choose: &dyn Fn(usize) -> bool) 
         let shares = points.iter().zip(&areas).map(|(points, area)| {
             let mirrored = points.iter().filter(|(p, _)| {
                 let mirrored = DVec3::new(2.0 * middle - p.x, p.y, p.z);
-                surface.closest_point(mirrored).is_some_and(|near| near.distance <= PART_GAP / 2.0)
+                surface.is_within(mirrored, PART_GAP / 2.0)
             });
             area * mirrored.count() as f64 / points.len().max(1) as f64
         });
