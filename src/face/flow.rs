@@ -207,8 +207,8 @@ pub(super) struct BrowFlow {
     pub lines: [(f64, f64); 2],
     /// d, before and after.
     pub half_distances: [f64; 2],
-    /// How far below the line the eyes' openings are, at least a twentieth of the head length.
-    pub below: f64,
+    /// The height of the upper lids' edges, before and after: these stay.
+    pub lids: [f64; 2],
 }
 
 /// The neck: nothing moves below the first height, all of the head above the second.
@@ -378,6 +378,12 @@ impl Follower {
         &self.flow
     }
 
+    /// How much `p` takes part where lids open, 0 to 1.
+    pub(super) fn opens_lids(&self, p: DVec3) -> f64 {
+        let eyes = self.moments[0][0].eyes.iter().flatten();
+        eyes.filter_map(|eye| eye.lids).map(|(window, _)| window.at(p.to_array())).fold(0.0, f64::max)
+    }
+
     /// The way of `p`.
     pub fn way(&self, p: DVec3) -> Way {
         let mut place = p.to_array();
@@ -503,7 +509,7 @@ impl Flow {
         [0, 1, 2].map(|axis| of_eyes[axis] + rest * v[axis])
     }
 
-    /// The whole brow takes part, and less and less above it; at the eyes below it nothing does.
+    /// The whole brow takes part, and less and less above it; the lids below it do not.
     fn move_brows<N: Number>(&self, time: f64, [x, y, z]: [N; 3], neck: N, v: &mut [N; 3]) {
         let Some(brows) = &self.brows else { return };
         let between = |[before, after]: [f64; 2]| before + time * (after - before);
@@ -513,12 +519,11 @@ impl Flow {
         }
         let [before, after] = brows.lines;
         let line = x.distance() * between([before.1, after.1]) + between([before.0, after.0]);
-        let over = y - line;
-        let fades = if over.value() > 0.0 {
-            step(over * (-1.0 / BROW_FADES) + 1.25)
-        } else {
-            step((over * (1.0 / brows.below) + 1.0) * SOFT)
-        };
+        let lids = between(brows.lids);
+        let gap = line - lids;
+        let reach = if gap.value() > LEAST_BELOW { gap } else { N::constant(LEAST_BELOW) };
+        let rises = step((y - lids) * reach.recip() * SOFT);
+        let fades = rises * step((y - line) * (-1.0 / BROW_FADES) + 1.25);
         if fades.value() <= 0.0 {
             return;
         }
@@ -548,6 +553,8 @@ impl Flow {
 /// How far aside brows rise, in half distances of the eyes, and what is left of it at their inner ends (at 0.5).
 const BROW_REACH: f64 = 1.6;
 const BROW_INNER: f64 = 1.0 - 0.5 / BROW_REACH;
+/// The rise of brows fades towards the lids within at least this.
+const LEAST_BELOW: f64 = 0.05;
 /// Above the brows the rise fades within this.
 const BROW_FADES: f64 = 0.16;
 /// A mouth's corner, from the middle; beyond so many squares of that it rises no more.

@@ -153,6 +153,12 @@ impl YoungFace {
         }
     }
 
+    /// How much `p`, which the stages before have put there, takes part where lids open more than the ball between them
+    /// grows, 0 to 1.
+    pub fn opens_lids(&self, p: DVec3) -> f64 {
+        self.skin.opens_lids(self.frame.to_unit(p))
+    }
+
     /// The ways of vertices that the stages before put at `points`.
     ///
     /// - `bindings`: one for each.

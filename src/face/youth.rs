@@ -283,17 +283,13 @@ impl Flow {
             let slope = (outer.y - inner.y) / (outer.x - inner.x);
             (inner.y - slope * inner.x, slope)
         };
-        let after = {
-            let follower = Follower::new(self.clone());
-            let end = |p: DVec2| follower.place(p.extend(self.front), 1.0).truncate();
-            line(end(brows.inner), end(brows.outer))
-        };
-        let before = line(brows.inner, brows.outer);
+        let follower = Follower::new(self.clone());
+        let after = |p: DVec2| follower.place(p.extend(self.front), 1.0).truncate();
+        let lines = [line(brows.inner, brows.outer), line(after(brows.inner), after(brows.outer))];
         let d = pair.half_distance;
         let d2 = self.eyes.map_or(d, |eyes| 0.5 * (eyes[0].to.x - eyes[1].to.x));
-        let below = before.0 + before.1 * d - pair.height - 0.5 * pair.half_height;
-        let below = below.max(LEAST_BELOW);
-        self.brows = Some(BrowFlow { rises, lines: [before, after], half_distances: [d, d2], below });
+        let lid = DVec2::new(d, pair.height + pair.half_height);
+        self.brows = Some(BrowFlow { rises, lines, half_distances: [d, d2], lids: [lid.y, after(lid).y] });
     }
 
     fn add_ears(&mut self, ears: &Ears, k: f64) {
@@ -327,8 +323,6 @@ const MOST_YAW: f64 = 0.14;
 const LEAST_FROWN: f64 = 0.012;
 /// See [`LEAST_FROWN`].
 const MOST_FROWN: f64 = 0.06;
-/// The rise of brows fades downwards within at least this.
-const LEAST_BELOW: f64 = 0.05;
 /// Half the size of the smallest ear.
 const LEAST_EAR: f64 = 0.05;
 /// The part of its widening that a ball of radius 1 goes back by, so that it stays behind its lids when it turns by 20

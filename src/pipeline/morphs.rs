@@ -150,6 +150,11 @@ impl Deformer {
 
     /// D(v + d) - D(v) - d of all vertices that a mesh's targets move, all the way, before amount, ground and height.
     ///
+    /// Lids that the face step opens are mapped as deep as they begin: before the ball, the field opens less than on it,
+    /// and a lid that shuts beyond the other one's edge would be half-way too early. They go on along the ball, so the
+    /// straight way between two places leads through it: ends are put forward until half of the way is where the field
+    /// takes half of the way.
+    ///
     /// # Errors
     /// `Cancelled`.
     fn morph_shifts(&self, mesh: usize, progress: &mut Progress) -> Result<ShiftsOfMesh> {
@@ -168,7 +173,14 @@ impl Deformer {
                 Some(&delta) if delta != Vec3::ZERO => figure.frame.to_canonical(delta.as_dvec3()),
                 _ => return Vec3::ZERO,
             };
-            let to = placement.beside(start + vertex, figure.positions[start + vertex] + delta);
+            let from = figure.positions[start + vertex];
+            let mut to = placement.beside(start + vertex, from + delta);
+            let share = field.opens_lids(from, &placement.bindings.vertices[start + vertex]);
+            if share > 0.0 {
+                let half = placement.beside(start + vertex, from + 0.5 * delta);
+                let z = to.z + 2.0 * (half.z - 0.5 * (placed[vertex].z + to.z)).max(0.0);
+                to = to.lerp(placement.beside(start + vertex, from + delta.with_z(0.0)).with_z(z), share);
+            }
             single(figure.frame.to_model(to - placed[vertex] - delta))
         };
         // Cut where there are as many of all targets together, whatever each touches.

@@ -165,6 +165,16 @@ impl Field {
         }
     }
 
+    /// How much `p` takes part where the face step opens lids more than the ball between them grows, 0 to 1.
+    pub fn opens_lids(&self, p: DVec3, binding: &Binding) -> f64 {
+        match (&self.young, binding) {
+            (Some(young), Binding::Parts(parts)) if matches!(parts.face, FaceBinding::Skin(_)) => {
+                young.opens_lids(self.place_body(p, binding))
+            }
+            _ => 0.0,
+        }
+    }
+
     /// Where the head's own stages take a point that the body's field takes `to`.
     #[inline(always)]
     fn place_head(
