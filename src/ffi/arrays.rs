@@ -445,6 +445,24 @@ impl<T: Plain> Output<T> {
             unsafe { self.start.add(index * self.stride).cast::<T>().write_unaligned(value) };
         }
     }
+
+    /// Writes `values` at these of the elements that were checked, and `other` everywhere else.
+    pub fn write_sparse(self, indices: &[u32], values: &[T], other: T) {
+        let others = [other; 512];
+        for first in (0..self.count).step_by(others.len()) {
+            self.from(first).write_all(&others);
+        }
+        for (&index, &value) in indices.iter().zip(values) {
+            self.from(index as usize).write_all(&[value]);
+        }
+    }
+
+    /// What begins at `index`.
+    fn from(self, index: usize) -> Self {
+        let index = index.min(self.count);
+        let start = self.start.wrapping_add(index * self.stride);
+        Self { start, count: self.count - index, ..self }
+    }
 }
 
 // SAFETY: a host's array that one call writes to, each element from one thread.
@@ -452,13 +470,11 @@ unsafe impl<T: Send> Send for Output<T> {}
 
 impl<T: Plain + Send> Place<T> for Output<T> {
     fn cut(self, index: usize) -> (Self, Self) {
-        let index = index.min(self.count);
-        let start = self.start.wrapping_add(index * self.stride);
-        (Self { count: index, ..self }, Self { start, count: self.count - index, ..self })
+        (Self { count: index.min(self.count), ..self }, self.from(index))
     }
 
     fn write(&mut self, first: usize, values: &[T]) {
-        self.cut(first).1.write_all(values);
+        self.from(first).write_all(values);
     }
 }
 

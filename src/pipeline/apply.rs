@@ -1,9 +1,10 @@
 //! Takes a character through the field: vertices, their directions, joints.
 
 use super::displacement::{Displacements, Ending};
+use super::morphs::SparseTarget;
 use super::places::{MeshPlaces, Place};
 use super::{Deformed, DeformedMesh, Deformer, MeshOutputs};
-use crate::character::Mesh;
+use crate::character::{Mesh, MorphTarget};
 use crate::error::Result;
 use crate::parallel;
 use crate::progress::Progress;
@@ -62,8 +63,11 @@ impl Deformer {
             tangents: (!mesh.tangents.is_empty()).then_some(&mut mesh.tangents[..]),
         });
         self.apply_into(places, &mut progress.part(0.8, 1.0))?;
-        for (mesh, targets) in targets.into_iter().enumerate() {
-            deformed[mesh].morph_targets = targets;
+        for ((mesh, of), targets) in meshes.iter().zip(&mut deformed).zip(targets) {
+            let dense = |(target, sparse): (&MorphTarget, SparseTarget)| {
+                sparse.dense(&target.name, mesh.positions.len())
+            };
+            of.morph_targets = mesh.morph_targets.iter().zip(targets).map(dense).collect();
         }
         Ok(Deformed { meshes: deformed, joints: self.deformed_joints() })
     }

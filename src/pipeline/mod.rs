@@ -9,7 +9,7 @@ mod attach;
 mod displacement;
 mod finish;
 mod hair;
-mod morphs;
+pub mod morphs;
 mod paper;
 pub mod places;
 mod product;

@@ -41,6 +41,29 @@ impl Touched {
     }
 }
 
+/// A morph target where it changes something, of one mesh.
+pub struct SparseTarget<'a> {
+    /// The vertices, ascending.
+    pub vertices: &'a [u32],
+    /// Positions, normals and tangents there; `None` where the target has none.
+    pub deltas: [Option<Vec<Vec3>>; 3],
+}
+
+impl SparseTarget<'_> {
+    /// The same with a delta for each of `count` vertices.
+    pub fn dense(&self, name: &str, count: usize) -> MorphTarget {
+        let [positions, normals, tangents] = self.deltas.each_ref().map(|deltas| {
+            let Some(deltas) = deltas else { return Vec::new() };
+            let mut dense = vec![Vec3::ZERO; count];
+            for (&vertex, &delta) in self.vertices.iter().zip(deltas) {
+                dense[vertex as usize] = delta;
+            }
+            dense
+        });
+        MorphTarget { name: name.to_string(), positions, normals, tangents }
+    }
+}
+
 /// How far morph targets go all the way beyond their own deltas, model space: of each mesh, once it is asked for, by target and
 /// by the vertices that it moves. As [`super::displacement::Displacements`], they stay while amount and height change.
 #[derive(Debug, Default)]
@@ -90,7 +113,7 @@ impl Deformer {
         turns
     }
 
-    /// The morph targets of each mesh of which they are asked for.
+    /// The morph targets of each mesh of which they are asked for, where they change something.
     ///
     /// # Errors
     /// `Cancelled`.
@@ -98,7 +121,7 @@ impl Deformer {
         &self,
         is_asked: impl Fn(usize) -> bool,
         progress: &mut Progress,
-    ) -> Result<Vec<Vec<MorphTarget>>> {
+    ) -> Result<Vec<Vec<SparseTarget<'_>>>> {
         let count = self.target.character.meshes.len();
         let of_mesh = |mesh: usize| {
             let at = |mesh: usize| mesh as f32 / count as f32;
@@ -109,10 +132,18 @@ impl Deformer {
         (0..count).map(of_mesh).collect()
     }
 
-    fn targets_of_mesh(&self, mesh: usize, progress: &mut Progress) -> Result<Vec<MorphTarget>> {
+    fn targets_of_mesh(&self, mesh: usize, progress: &mut Progress) -> Result<Vec<SparseTarget<'_>>> {
         let Mesh { morph_targets, normals, tangents, .. } = &self.target.character.meshes[mesh];
+        let touched = &self.touched()[mesh].targets;
         if self.field.finish.is_nothing() || morph_targets.is_empty() {
-            return Ok(morph_targets.clone());
+            let same = |(target, vertices): (&MorphTarget, &'_ Vec<u32>)| {
+                [&target.positions, &target.normals, &target.tangents].map(|deltas| {
+                    let of = |&vertex: &u32| deltas[vertex as usize];
+                    (!deltas.is_empty()).then(|| vertices.iter().map(of).collect())
+                })
+            };
+            let all = morph_targets.iter().zip(touched);
+            return Ok(all.map(|of| SparseTarget { vertices: of.1, deltas: same(of) }).collect());
         }
         let turn_normals =
             !normals.is_empty() && morph_targets.iter().any(|target| !target.normals.is_empty());
@@ -124,17 +155,17 @@ impl Deformer {
         let tangent =
             |vertex: usize, tangent: Vec3| turns[vertex].tangent(tangent, new_normals.get(vertex).copied());
         let directions: Vec<Vec3> = tangents.iter().map(|tangent| tangent.truncate()).collect();
-        let touched = &self.touched()[mesh].targets;
         let shifts = self.morph_shifts(mesh, &mut progress.part(0.0, 0.7))?;
         let made = |index: usize| {
-            let (target, touched) = (&morph_targets[index], &touched[index]);
-            MorphTarget {
-                name: target.name.clone(),
-                positions: self.morph_positions(&target.positions, touched, &shifts[index]),
-                normals: morph_turns(&target.normals, normals, touched, &|vertex, normal| {
-                    turns[vertex].normal(normal)
-                }),
-                tangents: morph_turns(&target.tangents, &directions, touched, &tangent),
+            let (target, vertices) = (&morph_targets[index], &touched[index]);
+            let turn_normal = |vertex: usize, normal| turns[vertex].normal(normal);
+            SparseTarget {
+                vertices,
+                deltas: [
+                    self.morph_positions(&target.positions, vertices, &shifts[index]),
+                    morph_turns(&target.normals, normals, vertices, &turn_normal),
+                    morph_turns(&target.tangents, &directions, vertices, &tangent),
+                ],
             }
         };
         let least = if self.vertices(mesh).len() < LEAST_VERTICES { morph_targets.len() } else { 1 };
@@ -221,47 +252,42 @@ impl Deformer {
         placed
     }
 
-    /// D(v + d) - D(v): exact, and zero where d is.
+    /// D(v + d) - D(v) of the `touched` vertices: exact, and zero where d is.
     ///
     /// `shifts`: as [`Self::morph_shifts`] gives them.
-    fn morph_positions(&self, deltas: &[Vec3], touched: &[u32], shifts: &[Vec3]) -> Vec<Vec3> {
+    fn morph_positions(&self, deltas: &[Vec3], touched: &[u32], shifts: &[Vec3]) -> Option<Vec<Vec3>> {
         let finish = &self.field.finish;
         let (size, amount) = (finish.size as f32, finish.amount as f32);
-        let mut moved = vec![Vec3::ZERO; deltas.len()];
-        for (&vertex, &shift) in touched.iter().zip(shifts) {
-            if let Some(&delta) = deltas.get(vertex as usize) {
-                let to = size * (delta + amount * shift);
-                moved[vertex as usize] = to.clamp(Vec3::splat(f32::MIN), Vec3::splat(f32::MAX));
-            }
-        }
-        moved
+        let moved = |(&vertex, &shift): (&u32, &Vec3)| {
+            let to = size * (deltas[vertex as usize] + amount * shift);
+            to.clamp(Vec3::splat(f32::MIN), Vec3::splat(f32::MAX))
+        };
+        (!deltas.is_empty()).then(|| touched.iter().zip(shifts).map(moved).collect())
     }
 }
 
 /// Fewer vertices of morph targets than this are not worth a thread.
 const LEAST_SHIFTS: usize = 2000;
 
-/// Changes of unit vectors: what the changed vector turns into, less what the unchanged one does.
+/// Changes of unit vectors at the `touched` vertices: what the changed vector turns into, less what the unchanged one does.
 fn morph_turns(
     deltas: &[Vec3],
     before: &[Vec3],
     touched: &[u32],
     turn: &dyn Fn(usize, Vec3) -> Vec3,
-) -> Vec<Vec3> {
-    if deltas.is_empty() || before.len() != deltas.len() {
+) -> Option<Vec<Vec3>> {
+    let turned = |&vertex: &u32| {
+        let vertex = vertex as usize;
+        let delta = deltas[vertex];
         // Without base vectors there is nothing that the deltas change.
-        return deltas.to_vec();
-    }
-    let mut turned = vec![Vec3::ZERO; deltas.len()];
-    for vertex in touched.iter().map(|&vertex| vertex as usize) {
-        let (delta, before) = (deltas[vertex], before[vertex]);
-        if delta == Vec3::ZERO {
-            continue;
+        if delta == Vec3::ZERO || before.len() != deltas.len() {
+            return delta;
         }
+        let before = before[vertex];
         let changed = before + delta;
         // What comes out is of unit length, whatever came in.
         let length = if before == Vec3::ZERO { 1.0 } else { before.length() };
-        turned[vertex] = turn(vertex, changed) * (changed.length() / length) - turn(vertex, before);
-    }
-    turned
+        turn(vertex, changed) * (changed.length() / length) - turn(vertex, before)
+    };
+    (!deltas.is_empty()).then(|| touched.iter().map(turned).collect())
 }

@@ -1,8 +1,8 @@
 //! What stands behind a handle of a deformer, and where its results go.
 
 use super::types::SdefMeshResult;
+use crate::character::Character;
 use crate::character::mesh::place;
-use crate::character::{Character, MorphTarget};
 use crate::error::Warning;
 use crate::ffi::arrays::{Output, Structs};
 use crate::ffi::basics::SDEF_STATUS_BUFFER_TOO_SMALL;
@@ -10,6 +10,7 @@ use crate::ffi::character::state::Ready;
 use crate::ffi::guard::{self, Failure, Outcome};
 use crate::ffi::memory;
 use crate::options::Options;
+use crate::pipeline::morphs::SparseTarget;
 use crate::pipeline::places::MeshPlaces;
 use crate::pipeline::{Deformer, MeshOutputs, Style};
 use crate::progress::Progress;
@@ -221,15 +222,10 @@ impl Places {
         }
     }
 
-    fn write_targets(&self, targets: &[MorphTarget]) {
+    fn write_targets(&self, targets: &[SparseTarget]) {
         for (target, places) in targets.iter().zip(&self.morphs) {
-            let count = target.positions.len();
-            for (place, deltas) in places.iter().zip([&target.positions, &target.normals, &target.tangents]) {
-                if deltas.is_empty() {
-                    place.write_each(std::iter::repeat_n(Vec3::ZERO, count));
-                } else {
-                    place.write_all(deltas);
-                }
+            for (place, deltas) in places.iter().zip(&target.deltas) {
+                place.write_sparse(target.vertices, deltas.as_deref().unwrap_or_default(), Vec3::ZERO);
             }
         }
     }
