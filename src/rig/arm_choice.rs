@@ -35,6 +35,8 @@ const NO_PIT: f64 = 4.0;
 const NO_WRIST: f64 = 1.0;
 /// ... where all of the arm lies in the air, ...
 const IN_AIR: f64 = 20.0;
+/// ... where an elbow or a wrist lies in something this many times as thick as the arm, all around, ...
+const DEEP: (f64, f64) = (2.2, 10.0);
 /// ... and where there is no arm.
 const NO_ARM: f64 = 14.0;
 /// Rays are finer than cells: what they see goes before what costs less by no more than this.
@@ -102,6 +104,8 @@ impl Body<'_> {
             (arm.elbow - arm.shoulder).reject_from((arm.wrist - arm.shoulder).normalize_or_zero()).length();
         cost += surprise(off / (BENT * length));
         cost += IN_AIR * outside as f64 / (2 * SAMPLES) as f64;
+        let deep = [arm.elbow, arm.wrist].into_iter().filter(|&p| self.is_deep(p, DEEP.0 * arm.radius));
+        cost += DEEP.1 * deep.count() as f64;
         if !arm.pit_seen {
             cost += NO_PIT;
         }
@@ -109,6 +113,16 @@ impl Body<'_> {
             cost += NO_WRIST;
         }
         Candidate { arm, cost }
+    }
+
+    /// True where all is filled around a point, at a distance.
+    fn is_deep(&self, p: DVec3, distance: f64) -> bool {
+        let corners = (0..8).map(|corner| {
+            let sign = |bit: usize| if corner >> bit & 1 == 0 { -1.0 } else { 1.0 };
+            DVec3::new(sign(0), sign(1), sign(2)) / 3.0f64.sqrt()
+        });
+        let faces = DVec3::AXES.into_iter().flat_map(|axis| [axis, -axis]);
+        corners.chain(faces).all(|way| self.solid.is_in(p + distance * way))
     }
 
     /// What is odd about a left and a right arm.

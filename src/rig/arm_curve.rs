@@ -201,6 +201,12 @@ impl ArmCurve {
         upper.iter().sum::<DVec3>() / upper.len().max(1) as f64
     }
 
+    /// How far forward its beginning runs on a step along `right`.
+    pub fn ahead(&self, right: DVec3) -> f64 {
+        let way = self.middles[self.len() / RADIUS_RANGE.1] - self.middles[self.len() / RADIUS_RANGE.0];
+        way.z / way.dot(right).max(1e-9)
+    }
+
     /// How long it is.
     fn whole(&self) -> f64 {
         self.arc[self.len() - 1]

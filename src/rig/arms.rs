@@ -2,6 +2,7 @@
 
 use super::arm_curve::{Arm, ArmCurve, Station};
 use super::front_view::{FrontView, median};
+use super::head_line::middle;
 use super::silhouette::{GridFrame, RayGrid};
 use glam::{DVec2, DVec3, Vec2Swizzles};
 
@@ -31,6 +32,9 @@ const CLEAR: f64 = 0.25;
 const TRUNK_WIDENS: f64 = 1.7;
 /// A section this much deeper than the arm has something else in it. Seen: ±30 % changes no joint.
 const THING_DEEPENS: f64 = 4.0;
+
+/// An arm that runs forward by more than this, of what it runs aside, is held forward.
+const FORWARD: f64 = 0.4;
 
 /// An arm that hangs is seen beside the trunk over at least this height, ...
 const LEAST_HANGING: f64 = 0.08;
@@ -358,6 +362,11 @@ fn joints(view: &FrontView, left: bool, line: &ArmLine, pit_seen: bool) -> Optio
     } else {
         ((upper.x - view.axis).abs() - out) / line.along.x.max(STEEPEST_SHOULDER)
     };
-    let shoulder = upper - right * inwards + DVec3::Y * SHOULDER_OVER * radius;
+    let mut shoulder = upper - right * inwards + DVec3::Y * SHOULDER_OVER * radius;
+    let (ahead, trunk) = (curve.ahead(right), middle(view, shoulder.y).0);
+    if ahead > FORWARD {
+        // An arm held forward begins in the depth of the trunk's middle.
+        shoulder.z = (upper.z - ahead * inwards).max(trunk.min(upper.z));
+    }
     Some(curve.arm(shoulder, right, line.pit, pit_seen))
 }

@@ -4,6 +4,7 @@
 //! left is at right angles to the plane through up in which the figure mirrors best, the wider the better. Which of the
 //! two ways along that plane is forward, feet and face tell.
 
+use super::front_votes::{Vote, front_vote};
 use crate::character::kinds::{MeshNames, kinds_from_names};
 use crate::character::{Character, Mesh, MeshKind};
 use crate::error::Warning;
@@ -50,46 +51,15 @@ const APART_ANGLE: f64 = 30.0;
 /// ... that scores this near to it could as well be the right one. Seen: ±30 % changes no direction.
 const LEAST_MARGIN: f64 = 0.03;
 
+/// One that scores this near is looked at as well: in a figure that is turned a quarter no limbs show.
+const TRIED_MARGIN: f64 = 0.12;
+
 /// Votes that add up to less than this leave a doubt which way is front (seen: at -30 %, five fewer of 115 poses warned
 /// of) ...
 const SURE_VOTE: f64 = 0.25;
 
 /// ... and to less than this say nothing. Seen: at -30 %, three fewer of 115 poses wrong by over 5 degrees.
 const LEAST_VOTE: f64 = 0.1;
-
-/// How much eyes, brows and teeth count beside the feet, where meshes of them are. Seen: ±30 % changes no direction.
-const FACE_VOTE: f64 = 0.5;
-
-/// How much the chin counts beside the feet: hair and hoods hide it, and hang over the neck behind. Seen: ±30 % changes
-/// no direction.
-const CHIN_VOTE: f64 = 0.2;
-
-/// Feet stand within this distance of the middle, in heights; hands and swords may be further out. Seen: ±30 % changes
-/// no direction.
-const FEET_REACH: f64 = 0.3;
-
-/// Heel and tip of a foot are looked for up to this height (seen: at -30 %, five fewer of 115 poses warned of; at
-/// +30 %, 20 more of 115 poses warned of), ...
-const SOLE_UP_TO: f64 = 0.04;
-
-/// ... and back and front of the shin between these. Seen: at -30 %, three fewer of 115 poses wrong by over 5 degrees;
-/// at +30 %, two more of 115 poses wrong by over 5 degrees.
-const SHIN_RANGE: (f64, f64) = (0.06, 0.12);
-
-/// Rows of the profile in which the chin is looked for (a row is 0.017 H, less than the least chin), ...
-const PROFILE_ROWS: usize = 60;
-
-/// ... between these, which hold head and neck, be the head large or small (chins of 2.2 to 20 heads lie within), ...
-const HEAD_ROWS: (usize, usize) = (PROFILE_ROWS * 11 / 20, PROFILE_ROWS * 19 / 20);
-
-/// ... as means over so many (seen: at -30 %, five fewer of 115 poses warned of), ...
-const STEP_ROWS: usize = 3;
-
-/// ... within this distance of the middle, in heights. Seen: ±30 % changes no direction.
-const PROFILE_REACH: f64 = 0.03;
-
-/// A step of the profile below this, in heights, is no chin. Seen: ±30 % changes no direction.
-const LEAST_CHIN: f64 = 0.02;
 
 /// Points of the surface are no further apart than this share of a cell (seen: ±30 % turns directions by under half a
 /// degree), ...
@@ -105,18 +75,19 @@ const SAMPLE_COUNT: f64 = 2e6;
 /// Cells of nothing around the figure. Seen: ±30 % turns directions by under half a degree.
 const MARGIN: f64 = 4.0;
 
-/// The way `character` looks, model space, at right angles to up, of length 1, and what a person should know.
+/// The way `character` looks, model space, at right angles to up, of length 1, and what a person should know; where its
+/// left and right may be another, the second likeliest way after it.
 ///
 /// Given by the character's axes, else found: a figure may look any way, and lie down as long as `axes.up` says so.
 /// Meshes of hair and accessories are left out where there are others. The warning `facing_guessed` says that the
 /// geometry does not tell, of a sphere, of no triangles; the answer is then the likelier way, or +Z (-Y where up is Z).
 ///
 /// O(triangles).
-pub fn find_forward(character: &Character) -> (DVec3, Vec<Warning>) {
+pub fn find_forward(character: &Character) -> Vec<(DVec3, Vec<Warning>)> {
     let up = character.axes.up.as_dvec3().normalize_or(DVec3::Y);
     let across = |v: DVec3| v.reject_from_normalized(up).try_normalize();
     if let Some(forward) = character.axes.forward.and_then(|forward| across(forward.as_dvec3())) {
-        return (forward, Vec::new());
+        return vec![(forward, Vec::new())];
     }
     // What exporters do by default: glTF looks along +Z, programs in which Z is up along -Y.
     let usual = [DVec3::Z, DVec3::NEG_Y].into_iter().find(|v| v.reject_from_normalized(up).length() > 0.5);
@@ -129,30 +100,31 @@ pub fn find_forward(character: &Character) -> (DVec3, Vec<Warning>) {
     let side = up.cross(usual);
     let kinds = known_kinds(character);
     let Some(cells) = Cells::new(character, &kinds, [side, up, usual]) else {
-        return (
-            usual,
-            vec![guessed("nothing tells which way the character looks: it has no extent along up")],
-        );
+        let message = "nothing tells which way the character looks: it has no extent along up";
+        return vec![(usual, vec![guessed(message)])];
     };
     let axes = [DVec3::X, DVec3::Y, DVec3::Z]
         .into_iter()
         .filter(|axis| axis.reject_from_normalized(up).length() > 0.5)
         .map(|axis| DVec2::new(axis.dot(side), axis.dot(usual)).normalize());
-    let (mirror, sure_of_sides) = cells.mirror(&axes.collect::<Vec<_>>());
-    let left = mirror.normal;
-    let forward = DVec2::new(-left.y, left.x);
-    let vote = cells.front_vote(character, &kinds, mirror, forward);
-    // Without a vote the usual way, or what is nearer to it.
-    let turned = if vote.abs() >= LEAST_VOTE { vote < 0.0 } else { forward.y < -1e-9 };
-    let forward = if turned { -forward } else { forward };
-    let found = (forward.x * side + forward.y * usual).normalize();
-    let mut warnings = Vec::new();
-    if !sure_of_sides {
-        warnings.push(guessed("the character's left and right are not clearly told by its shape"));
-    } else if vote.abs() < SURE_VOTE {
-        warnings.push(guessed("neither feet nor face tell the character's front from its back for sure"));
-    }
-    (found, warnings)
+    let mirrors = cells.mirrors(&axes.collect::<Vec<_>>());
+    let ways = mirrors.into_iter().map(|(mirror, sure_of_sides)| {
+        let left = mirror.normal;
+        let forward = DVec2::new(-left.y, left.x);
+        let Vote { vote, is_divided } = cells.front_vote(character, &kinds, mirror, forward);
+        // Without a vote the usual way, or what is nearer to it.
+        let turned = if vote.abs() >= LEAST_VOTE { vote < 0.0 } else { forward.y < -1e-9 };
+        let forward = if turned { -forward } else { forward };
+        let found = (forward.x * side + forward.y * usual).normalize();
+        let mut warnings = Vec::new();
+        if !sure_of_sides {
+            warnings.push(guessed("the character's left and right are not clearly told by its shape"));
+        } else if is_divided || vote.abs() < SURE_VOTE {
+            warnings.push(guessed("neither feet nor face tell the character's front from its back for sure"));
+        }
+        (found, warnings)
+    });
+    ways.collect()
 }
 
 /// A plane through up: ground points p with `normal . p = offset`.
@@ -323,9 +295,9 @@ impl Cells {
         self.likeness(mirror, step) + WIDTH_WEIGHT * self.width_share(mirror.normal)
     }
 
-    /// The plane between left and right, and whether it is clearly that one; `axes` are ground directions along which
-    /// files stand.
-    fn mirror(&self, axes: &[DVec2]) -> (Mirror, bool) {
+    /// The plane between left and right, whether it is clearly that one, and after it the second best one where that may be
+    /// it as well; `axes` are ground directions along which files stand.
+    fn mirrors(&self, axes: &[DVec2]) -> Vec<(Mirror, bool)> {
         let step = self.points.len().div_ceil(SWEEP_CELL_COUNT).max(1);
         let sweep: Vec<(f64, f64, Mirror)> = (0..180)
             .step_by(SWEEP_STEP)
@@ -344,12 +316,24 @@ impl Cells {
             let between = (angle - degrees).abs();
             between.min(180.0 - between)
         };
-        let second =
-            sweep.iter().filter(|(_, angle, _)| away(*angle) > APART_ANGLE).map(|(score, ..)| *score);
-        let margin = rough - second.fold(0.0, f64::max);
+        let second = better_of(sweep.iter().copied().filter(|(_, angle, _)| away(*angle) > APART_ANGLE));
+        let best = self.refined(degrees, mirror, axes);
+        let margin = rough - second.0;
+        let sure = self.likeness(best, self.fine_step()) >= LEAST_LIKENESS && margin >= LEAST_MARGIN;
+        if sure && margin >= TRIED_MARGIN {
+            return vec![(best, true)];
+        }
+        vec![(best, sure), (self.refined(second.1, second.2, axes), false)]
+    }
 
-        let (mut degrees, mut mirror) = (degrees, mirror);
-        let step = self.points.len().div_ceil(FINE_CELL_COUNT).max(1);
+    /// Every so many cells are compared around a plane that is about right.
+    fn fine_step(&self) -> usize {
+        self.points.len().div_ceil(FINE_CELL_COUNT).max(1)
+    }
+
+    /// The best plane near one.
+    fn refined(&self, mut degrees: f64, mut mirror: Mirror, axes: &[DVec2]) -> Mirror {
+        let step = self.fine_step();
         let mut best = self.score(mirror, step);
         let (mut turn, mut shift) = (SWEEP_STEP as f64 / 2.0, 1.0);
         while turn > LEAST_TURN {
@@ -387,17 +371,17 @@ impl Cells {
                 break;
             }
         }
-        (mirror, self.likeness(mirror, step) >= LEAST_LIKENESS && margin >= LEAST_MARGIN)
+        mirror
     }
 
-    /// Above 0 for `forward`, below 0 against it: feet, then eyes and the like where meshes of them are, then the chin.
+    /// Above 0 for `forward`, below 0 against it.
     fn front_vote(
         &self,
         character: &Character,
         kinds: &[Option<MeshKind>],
         mirror: Mirror,
         forward: DVec2,
-    ) -> f64 {
+    ) -> Vote {
         let (low, high) = range(self.samples.iter().map(|p| p.y.into()));
         let height = (high - low).max(1e-9);
         // Sideways, up and ahead in heights of the figure.
@@ -412,58 +396,8 @@ impl Cells {
             .flat_map(|mesh| character.meshes[mesh].positions.iter())
             .map(|&p| place(self.to_cells(p)))
             .collect();
-        feet_vote(&points) + FACE_VOTE * face_vote(&points, &face_parts) + CHIN_VOTE * chin_vote(&points)
+        front_vote(&points, SAMPLE_STEP / height, &face_parts)
     }
-}
-
-/// Feet reach further forward from the shins than back, -1..1; each side by itself, since one may be ahead of the other.
-fn feet_vote(points: &[DVec3]) -> f64 {
-    let mut vote = 0.0;
-    for sign in [-1.0, 1.0] {
-        let reach = |from: f64, to: f64| {
-            let near = points
-                .iter()
-                .filter(|p| (from..=to).contains(&p.y) && p.x * sign >= 0.0 && p.x.abs() < FEET_REACH);
-            range(near.map(|p| p.z))
-        };
-        let (heel, tip) = reach(0.0, SOLE_UP_TO);
-        let (back, shin) = reach(SHIN_RANGE.0, SHIN_RANGE.1);
-        let more = (tip + heel - back - shin) / (tip - heel);
-        if more.is_finite() {
-            vote += 0.5 * more.clamp(-1.0, 1.0);
-        }
-    }
-    vote
-}
-
-/// Eyes, brows and teeth lie on the front of the head, -1..1.
-fn face_vote(points: &[DVec3], face_parts: &[DVec3]) -> f64 {
-    let (low, high) = bounds(face_parts.iter().copied());
-    let sum: f64 = face_parts.iter().map(|p| p.z).sum();
-    let beside = |p: &&DVec3| (low.y..=high.y).contains(&p.y) && (low.x..=high.x).contains(&p.x);
-    let (back, front) = range(points.iter().filter(beside).map(|p| p.z));
-    let vote = (2.0 * sum / face_parts.len() as f64 - back - front) / (front - back);
-    if vote.is_finite() { vote.clamp(-1.0, 1.0) } else { 0.0 }
-}
-
-/// The face hangs further over the neck in front than the skull does behind, -1..1.
-fn chin_vote(points: &[DVec3]) -> f64 {
-    let overhang = |sign: f64| {
-        let mut profile = [f64::NAN; PROFILE_ROWS];
-        for p in points.iter().filter(|p| p.x.abs() < PROFILE_REACH) {
-            let row = ((p.y.max(0.0) * PROFILE_ROWS as f64) as usize).min(PROFILE_ROWS - 1);
-            profile[row] = profile[row].max(sign * p.z);
-        }
-        let mean = |rows: &[f64]| {
-            let seen = rows.iter().filter(|z| z.is_finite());
-            seen.clone().sum::<f64>() / seen.count() as f64
-        };
-        (HEAD_ROWS.0..HEAD_ROWS.1)
-            .map(|row| mean(&profile[row..row + STEP_ROWS]) - mean(&profile[row - STEP_ROWS..row]))
-            .fold(0.0, f64::max)
-    };
-    let (front, back) = (overhang(1.0), overhang(-1.0));
-    (front - back) / (front + back).max(LEAST_CHIN)
 }
 
 /// The first of those with the highest score.

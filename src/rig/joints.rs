@@ -208,10 +208,15 @@ impl Search<'_> {
             arms = self.arms(&legs, &solid);
         }
         if let Some((line, seen)) = shoulders(&arms)
-            && (legs.seen == LegGap::Unseen
+            && (matches!(legs.seen, LegGap::Unseen | LegGap::Hem)
                 || (seen && !(LEAST_LEGS..=MOST_LEGS).contains(&share(&legs, line))))
         {
-            legs = Legs::below_shoulders(view, line);
+            let ends_at_hem = legs.seen == LegGap::Hem;
+            legs = legs.below_shoulders(view, line);
+            if ends_at_hem {
+                // The trunk begins further up than the hem does.
+                arms = self.arms(&legs, &solid);
+            }
         }
         // Legs that are oddly short or long under their shoulders end at the hem of something, or above the crotch.
         let odd = shoulders(&arms).is_some_and(|(line, _)| !USUAL_LEGS.contains(&share(&legs, line)));
@@ -328,19 +333,23 @@ impl Search<'_> {
 
     fn put_legs(&mut self, legs: &Legs, pair: [Leg; 2], odd: bool) {
         let confidence = match legs.seen {
-            LegGap::Open => SEEN,
+            LegGap::Open | LegGap::Hem => SEEN,
             LegGap::Inside => SEEN_INSIDE,
             LegGap::Unseen => RATIO,
         };
-        if legs.seen == LegGap::Unseen {
-            self.warn("the legs were not seen apart: hip joints and knees placed by ratio");
+        match legs.seen {
+            LegGap::Unseen => {
+                self.warn("the legs were not seen apart: hip joints and knees placed by ratio");
+            }
+            LegGap::Hem => self.warn("the legs were seen up to a hem: hip joints and knees placed by ratio"),
+            LegGap::Open | LegGap::Inside => {}
         }
         if pair.iter().any(|leg| !leg.ankle_seen) {
             self.warn("no slim place was seen above the feet: ankles placed by ratio");
         }
         for (left, leg) in [true, false].into_iter().zip(pair) {
             let ankle = if leg.ankle_seen { confidence } else { confidence.min(ANKLE_BY_LEG) };
-            let upper = if odd { confidence.min(DOUBTFUL) } else { confidence };
+            let upper = if odd || legs.seen == LegGap::Hem { confidence.min(DOUBTFUL) } else { confidence };
             self.put(Role::LeftUpperLeg.on_side(left), leg.hip, upper);
             self.put(Role::LeftLowerLeg.on_side(left), leg.knee, upper);
             self.put(Role::LeftFoot.on_side(left), leg.ankle, ankle);
@@ -421,7 +430,8 @@ impl Search<'_> {
         let chest = given(Role::Chest).unwrap_or(chest.min(shoulder_line - APART).max(hips + 2.0 * APART));
         let spine = given(Role::Spine).unwrap_or(hips + SPINE_OF_CHEST * (chest - hips));
         let confidence = if line.neck_seen { DERIVED } else { DOUBTFUL };
-        let trunk = if legs.seen == LegGap::Unseen { DOUBTFUL } else { DERIVED };
+        let is_apart = matches!(legs.seen, LegGap::Open | LegGap::Inside);
+        let trunk = if is_apart { DERIVED } else { DOUBTFUL };
         if !line.neck_seen {
             self.warn("no neck was seen between shoulders and head: neck and head placed by ratio");
         }

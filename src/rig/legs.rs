@@ -3,6 +3,7 @@
 use super::front_view::{FrontView, median};
 use super::silhouette::lowest;
 use super::solid::{Lobes, Solid};
+use crate::geometry::range;
 use glam::DVec3;
 
 /// Filled rows between two legs of up to this height do not end the gap between them: shoes, knees, a ribbon. Seen:
@@ -33,6 +34,14 @@ const LEAST_LEG_INSIDE: f64 = 0.02;
 /// Two lobes of a slice are one where the neck between them is this share of their radius: thighs that touch are still
 /// two.
 const ONE: f64 = 0.8;
+/// Right above a hem a slice fills more than this times what it does so many slices below: above a crotch the thighs go on,
+/// and grow together.
+const HEM_WIDENS: f64 = 2.0;
+const HEM_ROWS: usize = 2;
+/// What is between two legs inside of something is a trunk, not another layer of that, where it is no deeper than so many legs.
+const TRUNK_DEPTH: f64 = 2.5;
+/// Above a hem legs go on as they run below it, but lean no more than this.
+const MOST_LEAN: f64 = 0.35;
 /// Rays and slices that differ by less than this, in heights, see the same crotch; rays are finer.
 const SAME_CROTCH: f64 = 0.012;
 /// Where lobes are thinner than this share of what rays see, they are the walls of something open.
@@ -118,6 +127,8 @@ pub enum LegGap {
     Open,
     /// Two legs inside of something.
     Inside,
+    /// Air between the legs up to the hem of something.
+    Hem,
     /// Neither.
     Unseen,
 }
@@ -132,6 +143,8 @@ pub struct Legs {
     pub sections: [Vec<Section>; 2],
     /// Where rays see the legs in each row, from the lowest.
     pairs: Vec<Option<[Limb; 2]>>,
+    /// True where legs inside of something were seen to end at a trunk.
+    at_trunk: bool,
 }
 
 /// One leg's joints.
@@ -163,20 +176,28 @@ pub struct LegLobes {
     rows: Vec<(f64, Option<Lobes>)>,
     /// The height at which the two become one, where they do within the range of crotches.
     pub crotch: Option<f64>,
+    /// True where that is the hem of something.
+    is_hem: bool,
 }
 
 impl LegLobes {
     /// Slices `solid` up to the highest crotch.
     pub fn of(solid: &Solid, low: f64, top: f64) -> Self {
         let (first, last) = (solid.row(low + SOLE_AT), solid.row(CROTCH_RANGE.1.min(top)));
-        let rows: Vec<(f64, Option<Lobes>)> = (first..=last)
-            .map(|row| (solid.middle([0, row, 0]).y, solid.slice(row, LEG_REACH).lobes()))
-            .collect();
+        let (rows, areas): (Vec<(f64, Option<Lobes>)>, Vec<f64>) = (first..=last)
+            .map(|row| {
+                let slice = solid.slice(row, LEG_REACH);
+                ((solid.middle([0, row, 0]).y, slice.lobes()), slice.area())
+            })
+            .unzip();
         let are_one = |(_, lobes): &(f64, Option<Lobes>)| lobes.is_none_or(|lobes| lobes.neck >= ONE);
         let bridge = (BRIDGE / solid.cell) as usize;
-        let crotch = rows.windows(bridge.max(1)).find(|rows| rows.iter().all(are_one));
-        let crotch = crotch.map(|rows| rows[0].0 - 0.5 * solid.cell).filter(|&y| y >= CROTCH_RANGE.0);
-        Self { rows, crotch }
+        let at = rows.windows(bridge.max(1)).position(|rows| rows.iter().all(are_one));
+        let crotch = at.map(|at| rows[at].0 - 0.5 * solid.cell).filter(|&y| y >= CROTCH_RANGE.0);
+        let area = |at: usize| areas.get(at).copied().unwrap_or(0.0);
+        let is_hem = crotch.is_some()
+            && at.is_some_and(|at| area(at + 1) > HEM_WIDENS * area(at.saturating_sub(HEM_ROWS)));
+        Self { rows, crotch, is_hem }
     }
 
     /// True where the solid has not the thickness that rays see: surfaces are open, and what they enclose is empty.
@@ -211,13 +232,16 @@ pub fn find_legs(view: &FrontView, lobes: &LegLobes, top: f64) -> (Legs, Option<
         return (legs, None);
     }
     let mut inside = None;
+    let goes_on = |legs: &Legs, crotch| legs.seen == LegGap::Inside && legs.crotch > crotch + SAME_CROTCH;
     if let Some(crotch) = lobes.crotch
-        && (legs.seen == LegGap::Unseen || (legs.crotch - crotch).abs() > SAME_CROTCH)
+        && (legs.seen == LegGap::Unseen || lobes.is_hem || (legs.crotch - crotch).abs() > SAME_CROTCH)
+        && !(lobes.is_hem && legs.at_trunk && goes_on(&legs, crotch))
     {
         let first = view.grid.row(view.low);
         let sections = sections(view, crotch, first, &legs.pairs);
-        let told = Legs { crotch, seen: LegGap::Open, sections, pairs: legs.pairs.clone() };
-        if legs.seen == LegGap::Inside && legs.crotch > crotch {
+        let seen = if lobes.is_hem { LegGap::Hem } else { LegGap::Open };
+        let told = Legs { crotch, seen, sections, pairs: legs.pairs.clone(), at_trunk: false };
+        if goes_on(&legs, crotch) {
             inside = Some(legs);
         }
         legs = told;
@@ -234,9 +258,27 @@ fn seen_legs(view: &FrontView, top: f64) -> Legs {
     let bridge = (BRIDGE / view.cell()) as usize;
     let mut missed = 0;
     let (mut outside_rows, mut inside_rows) = (0usize, 0usize);
+    // How many layers there are between the legs, and how many rows ago a trunk came in.
+    let (mut layers, mut trunk_rows) = (usize::MAX, 0usize);
     for row in first..=last {
         let apart = apart(view, row);
         let inner = if apart.is_none() { inside(view, row) } else { None };
+        layers = layers.min(inner.as_ref().map_or(usize::MAX, |inner| inner.layers));
+        let is_trunk = inner.as_ref().is_some_and(|inner| {
+            inner.layers > layers && inner.layers < usize::MAX && inner.is_trunk(view, row)
+        });
+        trunk_rows = match &inner {
+            Some(_) if !is_trunk => 0,
+            None if trunk_rows == 0 => 0,
+            _ => trunk_rows + 1,
+        };
+        if trunk_rows > bridge {
+            pairs.truncate(row - bridge - first);
+            crotch = Some(view.grid.y(row - bridge) - 0.5 * view.cell());
+            inside_rows = inside_rows.saturating_sub(bridge);
+            break;
+        }
+        let inner = inner.map(|inner| inner.limbs);
         let pair = apart.or(inner).or_else(|| touching(view, row));
         pairs.push(pair);
         if pair.is_none() {
@@ -269,15 +311,49 @@ fn seen_legs(view: &FrontView, top: f64) -> Legs {
         (_, Some(y)) => y,
     };
     let sections = sections(view, crotch, first, &pairs);
-    Legs { crotch, seen, sections, pairs }
+    Legs { crotch, seen, sections, pairs, at_trunk: trunk_rows > bridge }
 }
 
 impl Legs {
-    /// Legs that nobody saw, under shoulders at height `shoulder_line`.
-    pub fn below_shoulders(view: &FrontView, shoulder_line: f64) -> Self {
+    /// The same legs with a crotch as bodies have it, under shoulders at height `shoulder_line`.
+    pub fn below_shoulders(&self, view: &FrontView, shoulder_line: f64) -> Self {
         let first = view.grid.row(view.low);
         let crotch = view.low + CROTCH_OF_SHOULDERS * (shoulder_line - view.low).max(0.0);
-        Self { crotch, seen: LegGap::Unseen, sections: sections(view, crotch, first, &[]), pairs: Vec::new() }
+        if self.seen == LegGap::Hem {
+            let (seen, crotch, sections) = if crotch > self.crotch {
+                (LegGap::Hem, crotch, [0, 1].map(|side| self.beyond_hem(view, side, crotch)))
+            } else {
+                // What widens there is a jacket's or a trunk's: the legs divide no higher.
+                (LegGap::Open, self.crotch, self.sections.clone())
+            };
+            return Self { crotch, seen, sections, pairs: Vec::new(), at_trunk: false };
+        }
+        let sections = sections(view, crotch, first, &[]);
+        Self { crotch, seen: LegGap::Unseen, sections, pairs: Vec::new(), at_trunk: false }
+    }
+
+    /// Sections of a leg up to its crotch: those below a hem, and above it as if the leg went on.
+    fn beyond_hem(&self, view: &FrontView, side: usize, crotch: f64) -> Vec<Section> {
+        let foot = view.low + ANKLE_RANGE.1 * (self.crotch - view.low);
+        let (mut all, top) = (self.sections[side].clone(), self.crotch - HEM_ROWS as f64 * view.cell());
+        all.retain(|section| section.y <= top);
+        let seen: Vec<Section> = all.iter().copied().filter(|section| section.y >= foot).collect();
+        let Some(middle) = mean_section(&seen, foot, top).filter(|_| !seen.is_empty()) else {
+            return self.sections[side].clone();
+        };
+        let lean = |of: fn(&Section) -> f64| {
+            let spread: f64 = seen.iter().map(|s| (s.y - middle.y).powi(2)).sum();
+            let along: f64 = seen.iter().map(|s| (s.y - middle.y) * (of(s) - of(&middle))).sum();
+            (along / spread.max(1e-9)).clamp(-MOST_LEAN, MOST_LEAN)
+        };
+        let (aside, ahead) = (lean(|s| s.x), lean(Section::z));
+        for row in view.grid.row(top) + 1..=view.grid.row(crotch) {
+            let y = view.grid.y(row);
+            let (x, z) = (middle.x + aside * (y - middle.y), ahead * (y - middle.y));
+            let x = x.max(LEAST_LEG);
+            all.push(Section { y, x, front: middle.front + z, back: middle.back + z, ..middle });
+        }
+        all
     }
 
     /// Takes the lobes' word where a section holds something beside the leg: a tail, a cape, hair.
@@ -365,8 +441,45 @@ fn touching(view: &FrontView, row: usize) -> Option<[Limb; 2]> {
     (between < TOUCHING_THIN * leg).then_some([left, right].map(|run| Limb { steps: (0, run.1.min(reach)) }))
 }
 
+/// Two legs inside of something.
+struct Inner {
+    limbs: [Limb; 2],
+    /// How many surfaces there are between them, from front to back; countless where nothing is around both.
+    layers: usize,
+}
+
+impl Inner {
+    /// True where what is between the legs is also before and behind them: a skirt is, a cape is not.
+    fn is_enclosed(&self, view: &FrontView, row: usize) -> bool {
+        let depth = |left: bool, steps: usize| view.grid.depth(view.column(left, steps), row);
+        let (back, front) =
+            range([true, false].iter().filter_map(|&left| depth(left, 0)).flat_map(|(a, b)| [a, b]));
+        [true, false].into_iter().all(|left| {
+            let (from, to) = self.limbs[usize::from(!left)].steps;
+            let hits = view.grid.hits(view.column(left, (from + to) / 2), row);
+            let half = hits.len() / 2;
+            half > 0 && back < f64::from(hits[half - 1].0) && front > f64::from(hits[half].0)
+        })
+    }
+
+    /// True where what is innermost between the legs is about as deep as they are.
+    fn is_trunk(&self, view: &FrontView, row: usize) -> bool {
+        let innermost = |column: usize| {
+            let hits = view.grid.hits(column, row);
+            let half = hits.len() / 2;
+            if half == 0 { 0.0 } else { f64::from(hits[half].0 - hits[half - 1].0) }
+        };
+        let of_leg = |left: bool| {
+            let (from, to) = self.limbs[usize::from(!left)].steps;
+            (from..to).map(|steps| innermost(view.column(left, steps))).fold(0.0, f64::max)
+        };
+        let between = innermost(view.column(true, 0)).max(innermost(view.column(false, 0)));
+        between < TRUNK_DEPTH * of_leg(true).max(of_leg(false))
+    }
+}
+
 /// Two legs inside of a skirt: on either side of the axis there are columns whose rays meet more than those between.
-fn inside(view: &FrontView, row: usize) -> Option<[Limb; 2]> {
+fn inside(view: &FrontView, row: usize) -> Option<Inner> {
     let half = view.half_columns();
     let off = (0.5 * GAP_OFF_AXIS / view.cell()) as usize;
     let count = |column: usize| view.grid.hits(column, row).len();
@@ -396,8 +509,12 @@ fn inside(view: &FrontView, row: usize) -> Option<[Limb; 2]> {
     let least = (LEAST_LEG_INSIDE / view.cell()) as usize;
     let gap = left.steps.0 + right.steps.0;
     let near = left.steps.0.abs_diff(right.steps.0) <= 2 * off;
-    (gap >= 2 && near && left.steps.1 - left.steps.0 >= least && right.steps.1 - right.steps.0 >= least)
-        .then_some([left, right])
+    (gap >= 2 && near && left.steps.1 - left.steps.0 >= least && right.steps.1 - right.steps.0 >= least).then(
+        || {
+            let inner = Inner { limbs: [left, right], layers: between };
+            Inner { layers: if inner.is_enclosed(view, row) { between } else { usize::MAX }, ..inner }
+        },
+    )
 }
 
 fn section(view: &FrontView, left: bool, row: usize, limb: Limb) -> Option<Section> {
@@ -500,7 +617,14 @@ fn ankle_height(sections: &[Section], low: f64, length: f64) -> Ankle {
         let least = calf.iter().map(|&(_, girth)| girth).fold(f64::INFINITY, f64::min);
         let below = sections.iter().filter(|s| s.y < slim).map(girth).fold(0.0, f64::max);
         if below > FOOT_WIDENS * least && slim > low + SLIM_MARGIN * SLIM_RANGE.0 * length {
-            return Ankle { y: believed(low + ANKLE_OF_SLIM * (slim - low)), slim, seen: true };
+            // Two witnesses: the slim place over the ankle bones, and where the foot ends under it, if it does.
+            let by_slim = low + ANKLE_OF_SLIM * (slim - low);
+            let is_foot = |s: &&Section| girth(s) > FOOT_WIDENS * least;
+            let under: Vec<&Section> =
+                sections.iter().take_while(|s| s.y < slim).skip_while(|s| !is_foot(s)).collect();
+            let end = under.iter().position(|s| !is_foot(s)).filter(|&end| end > 0);
+            let y = end.map_or(by_slim, |end| 0.5 * (by_slim + under[end - 1].y));
+            return Ankle { y: believed(y), slim, seen: true };
         }
     }
     let y = low + ANKLE_BY_RATIO * length;

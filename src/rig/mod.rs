@@ -6,7 +6,7 @@
 //! | File | What it gives |
 //! | --- | --- |
 //! | `far` | vertices that say nothing |
-//! | `facing` | the way the figure looks |
+//! | `facing` | the way the figure looks; `front_votes`: what tells front from back |
 //! | `unit_figure` | all meshes in one space, 1 high |
 //! | `mesh_kinds` | what each mesh depicts, from where it lies: `facts` about samples on it, `reach` over the figure |
 //! | `silhouette` | a grid of parallel rays and all that they meet |
@@ -40,6 +40,7 @@ pub mod eyes;
 pub mod facing;
 pub mod far;
 pub mod front_view;
+pub mod front_votes;
 pub mod geodesic;
 pub mod hand;
 pub mod head_line;

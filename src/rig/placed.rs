@@ -6,6 +6,7 @@ use super::joints::{FoundJoints, find_joints};
 use super::mesh_kinds::{Surroundings, guess_kinds};
 use super::solid::{CELLS, FEW_CELLS};
 use super::{RigOptions, UnitFigure};
+use crate::character::mesh_list::MeshList;
 use crate::character::{Character, MeshKind, Role};
 use crate::error::{ErrorKind, Result, Warning};
 use crate::progress::Progress;
@@ -134,18 +135,41 @@ impl Placed {
     }
 
     /// As [`Placed::of`], of a character that stands as its axes say; `cells` of the solid are as high as it is.
+    ///
+    /// Where it may look one of two ways, it is the one in which more limbs are seen.
     fn standing(
         character: &Character,
         options: &RigOptions,
         cells: f64,
         progress: &mut Progress,
     ) -> Result<Self> {
-        let (forward, mut warnings) = find_forward(character);
+        let ways = find_forward(character);
         progress.at(0.2)?;
+        let count = ways.len() as f32;
+        let mut best: Option<Self> = None;
+        for (index, (forward, warnings)) in ways.into_iter().enumerate() {
+            let part = |index: usize| 0.2 + 0.8 * index as f32 / count;
+            let mut progress = progress.part(part(index), part(index + 1));
+            let placed = Self::looking(character, forward, warnings, options, cells, &mut progress)?;
+            if best.as_ref().is_none_or(|best| placed.seen_count() > best.seen_count()) {
+                best = Some(placed);
+            }
+        }
+        best.ok_or_else(MeshList::no_extent)
+    }
+
+    fn looking(
+        character: &Character,
+        forward: DVec3,
+        mut warnings: Vec<Warning>,
+        options: &RigOptions,
+        cells: f64,
+        progress: &mut Progress,
+    ) -> Result<Self> {
         let figure = UnitFigure::in_axes(character, forward, options.left_handed)?;
-        progress.at(0.4)?;
+        progress.at(0.25)?;
         let (kinds, kind_warnings, surroundings) =
-            guess_kinds(&figure, options.thread_count, &mut progress.part(0.4, 0.6))?;
+            guess_kinds(&figure, options.thread_count, &mut progress.part(0.25, 0.5))?;
         warnings.extend(kind_warnings);
         let given = options.given.iter().map(|(&role, &at)| (role, figure.to_unit(at))).collect();
         let guessed: Vec<Option<MeshKind>> = kinds.iter().copied().map(Some).collect();
@@ -156,7 +180,7 @@ impl Placed {
             options.fingers,
             cells,
             options.thread_count,
-            &mut progress.part(0.6, 1.0),
+            &mut progress.part(0.5, 1.0),
         )?;
         warnings.append(&mut found.warnings);
         progress.at(1.0)?;

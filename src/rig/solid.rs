@@ -211,6 +211,11 @@ impl Slice {
         Some(Lobes { sides, neck: self.neck(left, right) / radius })
     }
 
+    /// How much of it is filled, in squared heights.
+    pub fn area(&self) -> f64 {
+        self.depth.iter().filter(|&&depth| depth > 0.0).count() as f64 * self.cell * self.cell
+    }
+
     fn depth_at(&self, (x, z): (usize, usize)) -> f64 {
         self.depth[z * self.columns + x]
     }
