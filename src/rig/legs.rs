@@ -37,6 +37,7 @@ const ONE: f64 = 0.8;
 /// Right above a hem a slice fills more than this times what it does so many slices below: above a crotch the thighs go on,
 /// and grow together.
 const HEM_WIDENS: f64 = 2.0;
+/// See [`HEM_WIDENS`].
 const HEM_ROWS: usize = 2;
 /// What is between two legs inside of something is a trunk, not another layer of that, where it is no deeper than so many legs.
 const TRUNK_DEPTH: f64 = 2.5;
