@@ -65,7 +65,7 @@ impl SparseTarget<'_> {
 }
 
 /// How far morph targets go all the way beyond their own deltas, model space: of each mesh, once it is asked for, by target and
-/// by the vertices that it moves. As [`Deformer`](super::Deformer)'s displacements they stay while amount and height change.
+/// by the vertices that it moves. As a deformer's displacements they stay while amount and height change.
 #[derive(Debug, Default)]
 pub struct Shifts {
     of: Mutex<Vec<Option<ShiftsOfMesh>>>,
