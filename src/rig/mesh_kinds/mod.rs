@@ -140,7 +140,10 @@ pub fn guess_kinds(
         return Ok((kinds, Vec::new(), Surroundings::default()));
     }
     let surroundings = Surroundings::of(figure, threads, &mut progress.part(0.0, 0.7))?;
-    let guesses = surroundings.in_scene(figure).guess(None);
+    let scene = surroundings.in_scene(figure);
+    scene.seams.get_or_init(|| scene.find_seams());
+    progress.at(0.85)?;
+    let guesses = scene.guess(None);
     progress.at(1.0)?;
     let doubtful: Vec<usize> = (0..guesses.len()).filter(|&mesh| !guesses[mesh].sure).collect();
     let kinds: Vec<MeshKind> = guesses.iter().map(|guess| guess.kind).collect();
