@@ -144,7 +144,7 @@ fn grid(spacing: f64) -> Vec<DVec3> {
     points
 }
 
-const AIM: FaceAim = FaceAim { eye_size: 0.067, eye_height: 0.40 };
+const AIM: FaceAim = FaceAim { eye_size: 0.067, eye_height: 0.40, skull_half_width: 0.46 };
 
 fn follower(face: &FaceLandmarks) -> Follower {
     Follower::new(Flow::new(face, &AIM, &Features::default(), 0.0))

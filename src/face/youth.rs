@@ -16,13 +16,15 @@ pub struct FaceAim {
     pub eye_size: f64,
     /// ye: their height above the chin.
     pub eye_height: f64,
+    /// Half the skull's width.
+    pub skull_half_width: f64,
 }
 
 /// Eyes of a figurine (KayKit's): what a style without eyes of its own aims at.
 const AIM_SIZE: f64 = 0.067;
 /// A reference's eyes are no larger than this for others (godette's .084 leave a realistic face no cheeks), and no
-/// smaller (a toddler's .039 are no child's of a drawing).
-const AIM_SIZES: (f64, f64) = (0.055, 0.08);
+/// smaller (a toddler's .039 are no child's of a drawing; .055 left two of four adults grown up).
+const AIM_SIZES: (f64, f64) = (0.06, 0.08);
 /// Eye heights that artists draw at 2.5 heads, for each head more, and bounds.
 const AIM_HEIGHT: f64 = 0.40;
 /// See [`AIM_HEIGHT`].
@@ -31,17 +33,19 @@ const AIM_HEIGHT_PER_HEAD: f64 = 0.025;
 const AIM_HEIGHTS: (f64, f64) = (0.37, 0.46);
 
 impl FaceAim {
-    /// What a figure of so many heads aims at, after a reference's eyes where it has some (size and height).
-    pub fn new(heads: f64, reference: Option<(f64, f64)>) -> Self {
-        match reference {
-            Some((size, height)) => {
-                Self { eye_size: size.clamp(AIM_SIZES.0, AIM_SIZES.1), eye_height: height }
-            }
+    /// What a figure of so many heads aims at, after a reference's eyes (size and height) and half its head's width where
+    /// these are known.
+    pub fn new(heads: f64, eyes: Option<(f64, f64)>, head_half_width: Option<f64>) -> Self {
+        let (eye_size, eye_height) = match eyes {
+            Some((size, height)) => (size.clamp(AIM_SIZES.0, AIM_SIZES.1), height),
             None => {
                 let height = AIM_HEIGHT + AIM_HEIGHT_PER_HEAD * (heads - 2.5);
-                Self { eye_size: AIM_SIZE, eye_height: height.clamp(AIM_HEIGHTS.0, AIM_HEIGHTS.1) }
+                (AIM_SIZE, height.clamp(AIM_HEIGHTS.0, AIM_HEIGHTS.1))
             }
-        }
+        };
+        let skull_half_width =
+            head_half_width.map_or(CHILD_SKULL, |half| half.clamp(AIM_SKULLS.0, AIM_SKULLS.1));
+        Self { eye_size, eye_height, skull_half_width }
     }
 }
 
@@ -60,9 +64,14 @@ const MOST_GROWTH: f64 = 1.65;
 const ROOM: f64 = 0.84;
 /// The bridge of the nose keeps this part of its width.
 const BRIDGE: f64 = 0.9;
-/// The half width of a child's skull, and by how much a skull widens towards it at most.
-const CHILD_SKULL: f64 = 0.46;
-/// See [`CHILD_SKULL`].
+/// The half width of a drawn child's skull: what a style without a head of its own aims at.
+pub const CHILD_SKULL: f64 = 0.46;
+/// Half its depth: figurines and toddlers have .48 to .50.
+pub const CHILD_SKULL_DEPTH: f64 = 0.49;
+/// A reference's head is no narrower than this for others (a toddler's .41 is no child's of a drawing), and no wider
+/// (KayKit's, with its hair, has .54).
+const AIM_SKULLS: (f64, f64) = (0.44, 0.52);
+/// A skull widens by at most this.
 const MOST_WIDENING: f64 = 0.16;
 
 /// How adult a face is, 0 (eyes as large as wanted) to 1.
@@ -97,7 +106,7 @@ impl Flow {
         if q == 0.0 && !grows && smile == 0.0 {
             return Self::default();
         }
-        let wider = (CHILD_SKULL / face.skull_half_width - 1.0).clamp(0.0, MOST_WIDENING);
+        let wider = (aim.skull_half_width / face.skull_half_width - 1.0).clamp(0.0, MOST_WIDENING);
         let mut flow = Self { widening: (q * features.skull * wider).ln_1p(), ..Self::default() };
         if let (Some(pair), Some((_, eyes))) = (pair, &face.eyes) {
             flow.eye_height = pair.height;
@@ -107,7 +116,9 @@ impl Flow {
         flow.front = front(face);
         flow.add_head(face, features, q);
         if let Some(nose) = &face.nose {
-            flow.add_nose(nose, pair, features.nose * q);
+            // Of a face without eyes the nose is all that tells its age.
+            let adult = if pair.is_some() { q } else { q / ADULT_WITHOUT_EYES };
+            flow.add_nose(nose, pair, features.nose * adult);
             flow.add_mouth(nose, features.jaw * q, smile);
         }
         if let Some(ears) = &face.ears {
@@ -319,8 +330,9 @@ const IRIS_FILLS: f64 = 1.12;
 const GAZE: f64 = 0.06;
 /// Eyes turn outwards by at most 8 degrees.
 const MOST_YAW: f64 = 0.14;
-/// Brows that rise outwards by less than this do not frown; nothing is lifted by more than the second number.
-const LEAST_FROWN: f64 = 0.012;
+/// Brows that rise outwards by less than this do not frown; nothing is lifted by more than the second number. Level
+/// ones look worried.
+const LEAST_FROWN: f64 = 0.006;
 /// See [`LEAST_FROWN`].
 const MOST_FROWN: f64 = 0.06;
 /// Half the size of the smallest ear.

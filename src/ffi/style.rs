@@ -255,6 +255,7 @@ pub unsafe extern "C" fn sdef_style_from_numbers(
             proportions: known(given.head_length).map(|head_length| Proportions {
                 head_length,
                 head_half_width: given.head_half_width,
+                head_half_depth: None,
                 neck: given.neck,
                 torso: given.torso,
                 arm: given.arm,

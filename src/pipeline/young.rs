@@ -11,6 +11,7 @@ use crate::face::stage::{FaceBinding, Ways, YoungFace};
 use crate::face::youth::{FaceAim, adultness};
 use crate::options::{Features, Stage};
 use crate::shape::field::{Binding, BodyField, Field, Finish};
+use crate::shape::product::anatomy::Proportions;
 use crate::shape::product::binding::PartBinding;
 use crate::shape::product::field::PartField;
 use crate::shape::product::head::head_frame;
@@ -177,11 +178,14 @@ impl Deformer {
         // A head that is only moved or made larger has the same face, to the bit.
         let rounded = |p: DVec3| (p * LANDMARK_STEPS).round() / LANDMARK_STEPS;
         let face = face.mapped(|p| rounded(frame.to_unit(field.place(before.from_unit(p), &on_head))));
-        let reference = match &self.style {
-            Style::Shape(shape) => shape.face.map(|face| (face.eye_size, face.eye_height)),
-            Style::Heads(_) => None,
+        let (eyes, head) = match &self.style {
+            Style::Shape(shape) => (
+                shape.face.map(|face| (face.eye_size, face.eye_height)),
+                shape.proportions.as_ref().map(Proportions::head_width),
+            ),
+            Style::Heads(_) => (None, None),
         };
-        let aim = FaceAim::new(heights.heads(), reference);
+        let aim = FaceAim::new(heights.heads(), eyes, head);
         let flow = Flow::new(&face, &aim, &self.options.features, self.options.smile);
         if flow.is_identity() {
             return None;

@@ -233,10 +233,21 @@ impl Proportions {
         1.0 + (self.neck + self.torso + self.leg) / self.head_length
     }
 
+    /// Half the head's width, in head lengths.
+    pub(crate) fn head_width(&self) -> f64 {
+        self.head_half_width / self.head_length
+    }
+
+    /// Half its depth, in head lengths, where that is known.
+    pub(crate) fn head_depth(&self) -> Option<f64> {
+        self.head_half_depth.map(|half| half / self.head_length)
+    }
+
     fn validate(&self) -> Result<()> {
         let positive = [
             ("head_length", Some(self.head_length)),
             ("head_half_width", Some(self.head_half_width)),
+            ("head_half_depth", self.head_half_depth),
             ("torso", Some(self.torso)),
             ("arm", Some(self.arm)),
             ("leg", Some(self.leg)),
@@ -276,6 +287,7 @@ impl Proportions {
         Self {
             head_length: self.head_length,
             head_half_width: mix(self.head_half_width, other.head_half_width),
+            head_half_depth: mix_some(self.head_half_depth, other.head_half_depth),
             neck: mix(self.neck, other.neck),
             torso: mix(self.torso, other.torso),
             arm: mix(self.arm, other.arm),

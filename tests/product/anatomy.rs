@@ -4,9 +4,9 @@ use crate::people::{ADULT, Person};
 use crate::tubes::{Tubes, blended};
 use glam::{DVec3, Vec3};
 use std::f64::consts::PI;
-use superdeform::Role;
 use superdeform::internals::shape::product::anatomy::Anatomy;
 use superdeform::internals::shape::product::part::Part;
+use superdeform::{MeshKind, Role};
 
 fn assert_near(what: &str, found: f64, expected: f64, tolerance: f64) {
     assert!((found - expected).abs() <= tolerance, "{what}: {found} instead of {expected} +- {tolerance}");
@@ -84,6 +84,49 @@ fn widths_are_those_of_the_tubes() {
     ] {
         assert_near(what, found.unwrap(), out * radius, 1e-3 * radius);
     }
+}
+
+#[test]
+fn a_heads_depth_is_that_of_its_skin_and_of_its_hair_where_the_skin_ends_under_it() {
+    let half = ADULT.head_half_width;
+    let depth = |without_back: bool, hair: Option<f64>| {
+        let Tubes { person, character, anatomy, .. } = blended();
+        let mut character = character.clone();
+        let chin = anatomy.landmarks.heights.chin;
+        let skin = &mut character.meshes[0];
+        let head: Vec<bool> = skin.positions.iter().map(|p| f64::from(p.y) > chin).collect();
+        let shell: Vec<_> = skin
+            .triangles
+            .iter()
+            .filter(|corners| corners.iter().all(|&vertex| head[vertex as usize]))
+            .copied()
+            .collect();
+        if let Some(scale) = hair {
+            let mut hair = skin.clone();
+            hair.kind = Some(MeshKind::Hair);
+            hair.triangles = shell;
+            for (p, _) in hair.positions.iter_mut().zip(&head).filter(|(_, of_head)| **of_head) {
+                p.z *= scale as f32;
+            }
+            character.meshes.push(hair);
+        }
+        if without_back {
+            let skin = &mut character.meshes[0];
+            let positions = skin.positions.clone();
+            let is_back = |vertex: u32| head[vertex as usize] && positions[vertex as usize].z < 0.0;
+            skin.triangles.retain(|corners| !corners.iter().any(|&vertex| is_back(vertex)));
+        }
+        Tubes::of_character(person.clone(), character).anatomy.proportions.head_half_depth
+    };
+    let is_near = |what: &str, found: Option<f64>, expected: f64| {
+        // As far out as on a circle, 55 % up an ellipsoid; a nose begins below.
+        let inner = (0.03 * PI).cos() * (1.0 - 0.1_f64.powi(2)).sqrt();
+        assert_near(what, found.unwrap(), inner * expected, 0.03 * half);
+    };
+    is_near("skin", depth(false, None), half);
+    is_near("skin under hair", depth(false, Some(1.2)), half);
+    is_near("skin that ends under hair", depth(true, Some(1.2)), 1.2 * half);
+    assert_eq!(depth(true, None), None, "half a head");
 }
 
 /// The person of [`blended`] with its points moved by `map`, joints too.

@@ -15,6 +15,7 @@ fn tall() -> Proportions {
     Proportions {
         head_length: 0.2,
         head_half_width: 0.08,
+        head_half_depth: Some(0.09),
         neck: 0.06,
         torso: 0.5,
         arm: 0.5,
@@ -35,6 +36,7 @@ fn small() -> Proportions {
     Proportions {
         head_length: 0.4,
         head_half_width: 0.2,
+        head_half_depth: Some(0.2),
         neck: 0.04,
         torso: 0.3,
         arm: 0.28,

@@ -6,7 +6,7 @@
 
 use super::landmarks::{Landmarks, landmarks};
 use super::part::{Part, PartWeights, TINY, fold_to_parts};
-use crate::character::Role;
+use crate::character::{MeshKind, Role};
 use crate::error::Warning;
 use crate::geometry::{bounds, foot, range};
 use crate::shape::figure::Figure;
@@ -20,6 +20,12 @@ const SHORTEST_NECK: f64 = 0.02;
 /// The head's half width is taken this far above the chin, as a share of L (D27). Seen: 0.25 meets jaws and moves
 /// vertices by up to 0.05 H, 0.46 meets the widest skulls and limits more heads.
 const HEAD_WIDTH_AT: f64 = 0.35;
+/// Half its depth is taken this far above the chin, as a share of L: above nose and brows, where a skull is deepest.
+const HEAD_DEPTH_AT: f64 = 0.55;
+/// Deeper than this is what hangs behind a head: a toddler's half depth is .49, a figurine's .50.
+const MOST_HEAD_DEPTH: f64 = 0.55;
+/// A line around a head is looked for in this many directions: a skin that ends under the hair is missing in some.
+const SECTORS: usize = 8;
 /// A head is at least this wide to either side, as a share of L: less is a hole in it. Seen: 30 % either way moves no
 /// vertex of 14 models.
 const LEAST_HEAD_WIDTH: f64 = 0.05;
@@ -104,6 +110,9 @@ pub struct Proportions {
     pub head_length: f64,
     /// Half the head's width, 35 % of L above the chin.
     pub head_half_width: f64,
+    /// Half the head's depth, 55 % of L above the chin.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub head_half_depth: Option<f64>,
     /// Shoulder line to chin.
     pub neck: f64,
     /// Crotch to shoulder line.
@@ -198,6 +207,8 @@ impl Anatomy {
             .map(|slice| slice.half_width)
             .filter(|&half| half > LEAST_HEAD_WIDTH * length)
             .unwrap_or(HEAD_WIDTH_BY_RATIO * length);
+        let head_half_depth = head_half_depth(figure, &head, heights.chin + HEAD_DEPTH_AT * length)
+            .filter(|half| (LEAST_HEAD_WIDTH..MOST_HEAD_DEPTH).contains(&(half / length)));
         let (bottom, top) = (heights.crotch, heights.shoulder_line);
         let mut widths: Vec<f64> = (1..=TORSO_SLICES)
             .filter_map(|step| {
@@ -229,6 +240,7 @@ impl Anatomy {
         let proportions = Proportions {
             head_length: length,
             head_half_width,
+            head_half_depth,
             neck: (heights.chin - heights.shoulder_line).max(SHORTEST_NECK * length),
             torso: (top - bottom).max(least),
             arm: (arms.iter().map(Limb::length).sum::<f64>() / 2.0).max(least),
@@ -354,41 +366,61 @@ struct Slice {
     middle_z: f64,
 }
 
+/// Half the depth of the head at height `y`: of its skin (`bare`), and where that ends under the hair, of both.
+fn head_half_depth(figure: &Figure, bare: &[[u32; 3]], y: f64) -> Option<f64> {
+    let is_head = |vertex: usize| {
+        figure.weight_of(vertex, Role::is_head) > 0.5 && figure.kind(vertex) != MeshKind::Accessory
+    };
+    let whole = outline(figure, &figure.triangles_where(is_head), y)?;
+    let middle = whole.middle();
+    let mut outline = outline(figure, bare, y).filter(|bare| bare.surrounds(middle)).unwrap_or(whole);
+    let (back, front) = outline.between(|p| p.z, WIDTH_QUANTILES);
+    outline.surrounds(middle).then_some((front - back) / 2.0)
+}
+
 /// Cuts `triangles` at height `y`; extents are quantiles of the outline by its length.
 fn slice(figure: &Figure, triangles: &[[u32; 3]], y: f64) -> Option<Slice> {
-    let mut outline: Vec<(DVec3, f64)> = Vec::new();
-    for corners in triangles {
-        let p = corners.map(|vertex| figure.positions[vertex as usize]);
-        let mut cut = [DVec3::ZERO; 2];
-        let mut count = 0;
-        for (a, b) in [(p[0], p[1]), (p[1], p[2]), (p[2], p[0])] {
-            if (a.y > y) != (b.y > y) && count < 2 {
-                cut[count] = a.lerp(b, (y - a.y) / (b.y - a.y));
-                count += 1;
-            }
-        }
-        if count == 2 {
-            // A long edge counts along its whole length, not at its middle alone.
-            let length = cut[0].distance(cut[1]);
-            let count = f64::from(EDGE_POINTS);
-            for step in 0..EDGE_POINTS {
-                outline.push((cut[0].lerp(cut[1], (f64::from(step) + 0.5) / count), length / count));
-            }
-        }
+    let mut outline = outline(figure, triangles, y)?;
+    let (left, right) = outline.between(|p| p.x, WIDTH_QUANTILES);
+    let (back, front) = outline.between(|p| p.z, DEPTH_QUANTILES);
+    Some(Slice { half_width: (right - left) / 2.0, middle_z: (back + front) / 2.0 })
+}
+
+/// The line in which a plane cuts a surface: points, and how much of its length each stands for.
+struct Outline {
+    points: Vec<(DVec3, f64)>,
+    /// Of all of it.
+    length: f64,
+}
+
+impl Outline {
+    /// Middle of its extents.
+    fn middle(&self) -> DVec3 {
+        let (low, high) = bounds(self.points.iter().map(|&(p, _)| p));
+        0.5 * (low + high)
     }
-    let total: f64 = outline.iter().map(|&(_, length)| length).sum();
-    if total <= 0.0 {
-        return None;
+
+    /// Whether it is seen in each of [`SECTORS`] around `middle`, as a closed line around it is.
+    fn surrounds(&self, middle: DVec3) -> bool {
+        let mut is_seen = [false; SECTORS];
+        for (p, _) in &self.points {
+            let turn = (p.x - middle.x).atan2(p.z - middle.z) / std::f64::consts::TAU + 0.5;
+            is_seen[((turn * SECTORS as f64) as usize).min(SECTORS - 1)] = true;
+        }
+        is_seen.iter().all(|&is_seen| is_seen)
     }
-    // Interpolated between the outline's points: else the order of the triangles, which changes the last digits of the
-    // sums, could move a quantile to the next point.
-    let mut quantiles = |axis: fn(&DVec3) -> f64, (low, high): (f64, f64)| {
-        outline.sort_by(|a, b| axis(&a.0).total_cmp(&axis(&b.0)));
+
+    /// Where these shares of its length are passed along an axis.
+    ///
+    /// Interpolated between the points: else the order of the triangles, which changes the last digits of the sums, could
+    /// move a quantile to the next point.
+    fn between(&mut self, axis: fn(&DVec3) -> f64, (low, high): (f64, f64)) -> (f64, f64) {
+        self.points.sort_by(|a, b| axis(&a.0).total_cmp(&axis(&b.0)));
         let at = |share: f64| {
-            let wanted = share * total;
+            let wanted = share * self.length;
             let mut sum = 0.0;
             let mut last: Option<(f64, f64)> = None;
-            for (p, length) in &outline {
+            for (p, length) in &self.points {
                 let (middle, x) = (sum + length / 2.0, axis(p));
                 sum += length;
                 if middle >= wanted {
@@ -404,10 +436,33 @@ fn slice(figure: &Figure, triangles: &[[u32; 3]], y: f64) -> Option<Slice> {
             last.map_or(0.0, |(_, x)| x)
         };
         (at(low), at(high))
-    };
-    let (left, right) = quantiles(|p| p.x, WIDTH_QUANTILES);
-    let (back, front) = quantiles(|p| p.z, DEPTH_QUANTILES);
-    Some(Slice { half_width: (right - left) / 2.0, middle_z: (back + front) / 2.0 })
+    }
+}
+
+/// Where `triangles` pass the height `y`; `None` where they do not.
+fn outline(figure: &Figure, triangles: &[[u32; 3]], y: f64) -> Option<Outline> {
+    let mut points: Vec<(DVec3, f64)> = Vec::new();
+    for corners in triangles {
+        let p = corners.map(|vertex| figure.positions[vertex as usize]);
+        let mut cut = [DVec3::ZERO; 2];
+        let mut count = 0;
+        for (a, b) in [(p[0], p[1]), (p[1], p[2]), (p[2], p[0])] {
+            if (a.y > y) != (b.y > y) && count < 2 {
+                cut[count] = a.lerp(b, (y - a.y) / (b.y - a.y));
+                count += 1;
+            }
+        }
+        if count == 2 {
+            // A long edge counts along its whole length, not at its middle alone.
+            let length = cut[0].distance(cut[1]);
+            let count = f64::from(EDGE_POINTS);
+            for step in 0..EDGE_POINTS {
+                points.push((cut[0].lerp(cut[1], (f64::from(step) + 0.5) / count), length / count));
+            }
+        }
+    }
+    let length: f64 = points.iter().map(|&(_, length)| length).sum();
+    (length > 0.0).then_some(Outline { points, length })
 }
 
 /// Area-weighted mean distance of `triangles` to the line a-b, over the middle of it.

@@ -8,13 +8,15 @@ use super::anatomy::Proportions;
 use super::groups::PartGroups;
 use super::scales::{HeadScale, PartCoefficients, Scale};
 use crate::error::{Result, Warning};
+use crate::face::youth::{CHILD_SKULL, CHILD_SKULL_DEPTH};
 use crate::options::table::HEAD_SCALE;
 use crate::options::{Options, Stage};
 
-/// The head grows this much more in width than in height. D28. Seen: even so heads are .76 as wide, by their height, as
-/// the KayKit rogue's; less turns fewer triangles over.
+/// The head grows at most this much more in width than in height: as far as the style's head is wider. D28. Seen: even so
+/// heads are .76 as wide, by their height, as the KayKit rogue's; less turns fewer triangles over.
 pub const HEAD_WIDTH: f64 = 1.12;
-/// As [`HEAD_WIDTH`], in depth. D28. Seen: 30 % more folds collars (228 triangles).
+/// As [`HEAD_WIDTH`], in depth; a style that does not know its depth gets all of it. D28. Seen: 30 % more folds collars
+/// (228 triangles).
 pub const HEAD_DEPTH: f64 = 1.05;
 /// The neck keeps this much more thickness than the torso. D27. Seen: a thinner neck folds at its border.
 const NECK_THICKNESS: f64 = 1.1;
@@ -297,6 +299,27 @@ pub fn part_coefficients(
     Ok((scales, limits))
 }
 
+/// How much more a head grows in width than in height: as the style's is wider for its length, up to [`HEAD_WIDTH`].
+fn wider(target: &Proportions, goal: Goal) -> f64 {
+    let wanted = match goal {
+        Goal::Reference(reference) => reference.head_width(),
+        Goal::Heads(_) => CHILD_SKULL,
+    };
+    (wanted / target.head_width()).clamp(1.0, HEAD_WIDTH)
+}
+
+/// The same in depth, up to [`HEAD_DEPTH`].
+fn deeper(target: &Proportions, goal: Goal) -> f64 {
+    let wanted = match goal {
+        Goal::Reference(reference) => reference.head_depth(),
+        Goal::Heads(_) => Some(CHILD_SKULL_DEPTH),
+    };
+    match (wanted, target.head_depth()) {
+        (Some(wanted), Some(own)) => (wanted / own).clamp(1.0, HEAD_DEPTH),
+        _ => HEAD_DEPTH,
+    }
+}
+
 /// The scales found so far, part after part; the order is that of the warnings.
 struct Solver<'a> {
     target: &'a Proportions,
@@ -316,8 +339,8 @@ impl<'a> Solver<'a> {
         let growth = ((head_scale - 1.0) / (FULL_HEAD_SCALE - 1.0)).clamp(0.0, 1.0);
         let head = HeadScale {
             height: head_scale,
-            width: (1.0 + (HEAD_WIDTH - 1.0) * growth) * head_scale,
-            depth: (1.0 + (HEAD_DEPTH - 1.0) * growth) * head_scale,
+            width: (1.0 + (wider(target, goal) - 1.0) * growth) * head_scale,
+            depth: (1.0 + (deeper(target, goal) - 1.0) * growth) * head_scale,
         };
         Self {
             target,
@@ -333,7 +356,7 @@ impl<'a> Solver<'a> {
     fn asked(&self) -> Asked {
         match self.goal {
             Goal::Reference(reference) => {
-                let width_factor = 1.0 + (HEAD_WIDTH - 1.0) * self.growth;
+                let width_factor = self.scales.head.width / self.head_scale;
                 Asked::of_reference(self.target, reference, self.head, width_factor, self.bounds.strictness)
             }
             Goal::Heads(heads) => Asked::of_heads(self.target, heads, self.head, self.head_scale),
