@@ -6,6 +6,7 @@ use superdeform::Progress;
 use superdeform::internals::geometry::{Weld, weld};
 use superdeform::internals::rig::heat::{HeatOptions, HeatSystem, heat_weights};
 use superdeform::internals::rig::skeleton::weight_bones;
+use superdeform::internals::rig::solid::{CELLS, Solid};
 use superdeform::internals::rig::{UnitFigure, WeightBone, WeightSet};
 
 #[path = "common/models.rs"]
@@ -345,6 +346,61 @@ fn a_hidden_bone_gives_no_heat() {
         let right: f32 =
             hidden.weights.row(vertex).iter().filter(|entry| entry.0 == 1).map(|entry| entry.1).sum();
         assert!(right > 0.9, "{}: {right}", mesh.0[vertex]);
+    }
+}
+
+/// A figure's head of radius 0.25, and arms held out 0.05 below it, in capsules' stead one bone each.
+fn head_over_arms() -> (Mesh, Vec<WeightBone>) {
+    let head = ball(0.72 * DVec3::Y, 0.25, 16);
+    let arm = |side: f64| (DVec3::new(0.1 * side, 0.42, 0.0), DVec3::new(0.5 * side, 0.42, 0.0));
+    let bones = vec![
+        bone(0, DVec3::new(0.0, 0.55, 0.0), DVec3::new(0.0, 0.95, 0.0)),
+        bone(1, arm(1.0).0, arm(1.0).1),
+        bone(2, arm(-1.0).0, arm(-1.0).1),
+    ];
+    (head, bones)
+}
+
+/// The share of vertices of which arms have more than 0.3.
+fn stuck_to_arms(weighted: &WeightSet) -> f64 {
+    let arms = column(weighted, 1).into_iter().zip(column(weighted, 2));
+    let count = weighted.weights.row_count() as f64;
+    arms.filter(|(left, right)| left + right > 0.3).count() as f64 / count
+}
+
+#[test]
+fn a_head_does_not_stick_to_the_arms_below_it() {
+    let (head, bones) = head_over_arms();
+    // All of the head is around its own bone, and the arms are outside.
+    let stuck = stuck_to_arms(&heat(&head, &bones, 1.0));
+    assert!(stuck < 0.02, "{stuck:.3}");
+    // Every triangle there twice, once either way round: nothing tells the outside, but air lies below the head.
+    let mut doubled = head.clone();
+    doubled.1.extend(head.1.iter().map(|&[a, b, c]| [a, c, b]));
+    let solid = Solid::new(&head.0, &head.1, 0.0, CELLS);
+    let none = &mut Progress::none();
+    let system = HeatSystem::in_body(&doubled.0, &doubled.1, &bones, Some(&solid), 1, none).unwrap();
+    let stuck = stuck_to_arms(&system.weights(1.0, none).unwrap());
+    assert!(stuck < 0.02, "{stuck:.3}");
+}
+
+#[test]
+fn the_end_of_an_arm_within_the_trunk_moves_with_the_arm() {
+    // A closed tube along y whose lower end is nearer to the trunk's bone, across its way, than to its own.
+    let (mut positions, mut triangles) = tube(0.1, 0.5, 24, 40);
+    let last = positions.len() as u32 - 24;
+    for (y, ring) in [(-0.5, 0), (0.5, last)] {
+        let middle = positions.len() as u32;
+        assert!((positions[ring as usize].y - y).abs() < 1e-12, "{y}");
+        positions.push(y * DVec3::Y);
+        triangles.extend((0..24).map(|side| [ring + side, ring + (side + 1) % 24, middle]));
+    }
+    let arm = bone(0, DVec3::new(0.0, -0.3, 0.0), DVec3::new(0.0, 0.5, 0.0));
+    let trunk = bone(1, DVec3::new(-0.3, -0.55, 0.0), DVec3::new(0.3, -0.55, 0.0));
+    let weighted = heat(&(positions.clone(), triangles), &[arm, trunk], 1.0);
+    check(&weighted, positions.len());
+    for (p, weight) in positions.iter().zip(column(&weighted, 0)) {
+        assert!(weight > 0.9, "{p}: {weight}");
     }
 }
 

@@ -44,6 +44,19 @@ impl Weights {
         }))
     }
 
+    /// Each row lowered by the `share` of its largest weight (0 to less than 1), without what is below it, and scaled to sum
+    /// 1: what is dropped leaves no step behind. A row without weights stays empty.
+    pub fn trimmed(&self, share: f32) -> Self {
+        Self::from_rows(self.rows().map(|row| {
+            let least = share * row.iter().fold(0.0, |most: f32, &(_, weight)| most.max(weight));
+            let rest = move |weight: f32| f64::from((weight - least).max(0.0));
+            let sum: f64 = row.iter().map(|&(_, weight)| rest(weight)).sum();
+            row.iter().map(move |&(joint, weight)| {
+                (joint, if sum > 0.0 { (rest(weight) / sum) as f32 } else { 0.0 })
+            })
+        }))
+    }
+
     /// The same weights to joints whose numbers are `by` higher.
     pub fn shifted(&self, by: u32) -> Self {
         let entries = self.entries.iter().map(|&(joint, weight)| (joint + by, weight)).collect();
@@ -109,5 +122,22 @@ impl Weights {
             }
         }
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_trimmed_leaves_no_step() {
+        let weights = Weights::from_rows([vec![(0, 0.8), (1, 0.16), (2, 0.04)], vec![(3, 1.0)], vec![]]);
+        // A tenth of 0.8 goes off each: 0.72, 0.08 and nothing.
+        let trimmed = weights.trimmed(0.1);
+        assert_eq!(trimmed.row(0).iter().map(|entry| entry.0).collect::<Vec<_>>(), [0, 1]);
+        assert!((trimmed.row(0)[0].1 - 0.9).abs() < 1e-6 && (trimmed.row(0)[1].1 - 0.1).abs() < 1e-6);
+        assert_eq!(trimmed.row(1), [(3, 1.0)]);
+        assert!(trimmed.row(2).is_empty());
+        assert_eq!(weights.trimmed(0.0).row(0).len(), 3);
     }
 }

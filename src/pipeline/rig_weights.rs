@@ -7,6 +7,7 @@ use crate::progress::Progress;
 use crate::rig::eyes::Eye;
 use crate::rig::heat::HeatSystem;
 use crate::rig::mesh_kinds::body_is_whole;
+use crate::rig::solid::Solid;
 use crate::rig::transfer::{GarmentOnSkin, Skin, Source, rigid_weights};
 use crate::rig::voxel::{FALLOFF, VoxelOptions, heat_would_be_poor, voxel_weights};
 use crate::rig::{GarmentWeights, RigOptions, UnitFigure, WeightBone, WeightMethod, WeightSet};
@@ -76,7 +77,7 @@ impl<'a> Binder<'a> {
     pub fn new(
         figure: &'a UnitFigure,
         kinds: &[MeshKind],
-        bones: &[WeightBone],
+        (bones, solid): (&[WeightBone], &Solid),
         humanoid: &Humanoid,
         eyes: &'a [Eye],
         options: &'a RigOptions,
@@ -131,7 +132,9 @@ impl<'a> Binder<'a> {
                 };
                 BodyRule::Volume(voxel_weights(points, triangles, bones, &options, progress)?)
             }
-            _ => BodyRule::Heat(HeatSystem::new(points, triangles, bones, threads, progress)?),
+            _ => {
+                BodyRule::Heat(HeatSystem::in_body(points, triangles, bones, Some(solid), threads, progress)?)
+            }
         };
         let separate = |meshes: Vec<usize>| -> Vec<Group> {
             meshes.into_iter().map(|mesh| Group::new(figure, vec![mesh])).collect()

@@ -18,6 +18,9 @@ use std::time::Instant;
 /// c of the heat equation for the weights that animate: sharper than those that deform (D23).
 const SKIN_HEAT: f64 = 3.0;
 
+/// Of the same, what is less than this share of a vertex's largest is none, and the rest is lowered by it (D23).
+const SKIN_TAIL: f32 = 0.05;
+
 /// A rig that was made for a character.
 #[derive(Clone, Debug)]
 pub struct Rig {
@@ -87,14 +90,22 @@ impl Rig {
             found.joints.iter().map(|(&role, joint)| (role, joint.position)).collect();
         let bones = weight_bones(&at, &found.tips, Some(found.chin));
         let (_, humanoid) = skeleton_of(&at);
-        let mut binder =
-            Binder::new(&figure, &kinds, &bones, &humanoid, &eyes, options, &mut progress.part(0.3, 0.72))?;
+        let mut binder = Binder::new(
+            &figure,
+            &kinds,
+            (&bones, &found.solid),
+            &humanoid,
+            &eyes,
+            options,
+            &mut progress.part(0.3, 0.72),
+        )?;
         warnings.append(&mut binder.warnings);
         let (weights, fallback) = binder.weights(options.heat, &mut progress.part(0.72, 0.9))?;
         let skin_weights = match binder.rule {
             BodyRule::Heat(_) => binder.weights(SKIN_HEAT.max(options.heat), &mut progress.part(0.9, 1.0))?.0,
             BodyRule::Volume(_) => weights.clone(),
         };
+        let skin_weights = skin_weights.iter().map(|weights| weights.trimmed(SKIN_TAIL)).collect();
         progress.at(1.0)?;
 
         let in_model = at.iter().map(|(&role, &p)| (role, figure.to_model(p))).collect();

@@ -23,6 +23,7 @@ use crate::progress::Progress;
 use glam::DVec3;
 use std::collections::BTreeMap;
 use std::ops::{Range, RangeInclusive};
+use std::sync::Arc;
 
 /// Hands are looked for above this share of the crotch's height. Seen: ±30 % changes no joint.
 const HANDS_ABOVE: f64 = 0.75;
@@ -143,6 +144,8 @@ pub struct FoundJoints {
     pub tips: BTreeMap<Role, DVec3>,
     /// The chin, on the front of the face.
     pub chin: DVec3,
+    /// The figure as cells, of which some joints were found.
+    pub solid: Arc<Solid>,
     /// What a person should know.
     pub warnings: Vec<Warning>,
 }
@@ -253,6 +256,7 @@ impl Search<'_> {
                 self.found.joints.insert(role, FoundJoint { position, confidence: 1.0 });
             }
         }
+        self.found.solid = Arc::new(solid);
         Ok(self.found)
     }
 

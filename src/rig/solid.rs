@@ -23,10 +23,14 @@ const CORE: f64 = 0.7;
 /// More steps along a side than this go beyond the grid.
 const MOST_STEPS: f64 = 1500.0;
 
+/// Points on a way are no further apart than this share of a cell: air that is two cells wide has two of them at least.
+const AIR_STEP: f64 = 0.7;
+
 /// The state of a cell that can be reached from outside.
 const OUTSIDE: u8 = 2;
 
 /// Cells of a grid, filled where nothing from outside gets to.
+#[derive(Debug, Default)]
 pub struct Solid {
     /// Cells along x, y and z.
     pub size: [usize; 3],
@@ -136,6 +140,15 @@ impl Solid {
     /// True where a point lies in a filled cell.
     pub fn is_in(&self, p: DVec3) -> bool {
         self.index_at((p - self.low) / self.cell).is_some_and(|index| self.holds(index))
+    }
+
+    /// How much of the way from one point to another lies outside, in its units.
+    pub fn air(&self, from: DVec3, to: DVec3) -> f64 {
+        let length = from.distance(to);
+        let steps = (length / (AIR_STEP * self.cell)).ceil().clamp(1.0, MOST_STEPS);
+        let is_air = |step: f64| !self.is_in(from.lerp(to, (step + 0.5) / steps));
+        let count = (0..steps as usize).filter(|&step| is_air(step as f64)).count();
+        length * count as f64 / steps
     }
 
     /// The middle of a cell.

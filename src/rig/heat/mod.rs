@@ -8,7 +8,9 @@
 //! 1 - exp(-√c s / r) / 2 at a distance s from their joint, on its own side.
 
 mod nearest;
+mod sides;
 
+use super::solid::Solid;
 use super::{WeightBone, WeightSet};
 use crate::character::Weights;
 use crate::error::Result;
@@ -17,7 +19,7 @@ use crate::geometry::{SEAM, Weld, bounds, components, weld};
 use crate::parallel;
 use crate::progress::Progress;
 use glam::DVec3;
-use nearest::{NearestBones, Segments};
+use nearest::{Body, NearestBones, Segments};
 use std::collections::BTreeMap;
 
 /// What lies further than this from the mesh's middle, in units of the figure, counts as this far, so that squares of
@@ -71,8 +73,9 @@ pub fn heat_weights(
 
 /// The heat equation of a mesh and its bones, for any c.
 ///
-/// Vertices at one position are one. What hides a bone from a vertex is the vertex's own connected component alone, so
-/// teeth see through lips; which way triangles face does not matter. Every vertex gets weights, by other rules where the
+/// Vertices at one position are one. What hides a bone from a vertex is the vertex's own connected component, so teeth see
+/// through lips, and air between the two, where the body is known. A bone counts as the farther away the more the way to it
+/// leaves the surface's inside, which `sides` finds: which way triangles face does not matter. Every vertex gets weights, by other rules where the
 /// equation has no answer; the report counts these vertices:
 ///
 /// - `component_without_visible_bone`: no vertex of the component sees its nearest bone: all are taken to see it.
@@ -132,6 +135,22 @@ impl HeatSystem {
         thread_count: usize,
         progress: &mut Progress,
     ) -> Result<Self> {
+        Self::in_body(positions, triangles, bones, None, thread_count, progress)
+    }
+
+    /// As [`HeatSystem::new`], of vertices that are part of the body `solid`, in whose space they are: bones are hidden by
+    /// the air around it as well.
+    ///
+    /// # Errors
+    /// `Cancelled`.
+    pub fn in_body(
+        positions: &[DVec3],
+        triangles: &[[u32; 3]],
+        bones: &[WeightBone],
+        solid: Option<&Solid>,
+        thread_count: usize,
+        progress: &mut Progress,
+    ) -> Result<Self> {
         let is_there =
             |corners: &&[u32; 3]| corners.iter().all(|&vertex| (vertex as usize) < positions.len());
         let triangles = || triangles.iter().filter(is_there);
@@ -142,6 +161,7 @@ impl HeatSystem {
         arrange(&mut weld, &mut points);
         let pieces = Components::of(&points, triangles().map(|&corners| weld.triangle(corners)));
         let segments = Segments::of(bones, &frame);
+        let body = solid.map(|solid| Body { solid, frame });
         progress.at(0.2)?;
         let ((laplacian, symbolic), nearest) = parallel::both(
             thread_count,
@@ -151,7 +171,16 @@ impl HeatSystem {
                 laplacian.off_diagonal = Vec::new();
                 (laplacian, symbolic)
             },
-            || NearestBones::of(&points, &pieces, &segments, thread_count, &mut progress.part(0.2, 0.9)),
+            || {
+                NearestBones::of(
+                    &points,
+                    &pieces,
+                    &segments,
+                    body,
+                    thread_count,
+                    &mut progress.part(0.2, 0.9),
+                )
+            },
         );
         let nearest = nearest?;
         let mut system = Self {
@@ -420,6 +449,11 @@ impl Frame {
         let (low, high) = bounds(points.filter(|p| p.is_finite()));
         let (centre, scale) = (0.5 * low + 0.5 * high, (high - low).max_element().recip());
         (centre.is_finite() && scale.is_finite() && scale > 0.0).then_some(Self { centre, scale })
+    }
+
+    /// The point that was placed at `p`.
+    fn original(&self, p: DVec3) -> DVec3 {
+        p / self.scale + self.centre
     }
 
     fn place(&self, p: DVec3) -> DVec3 {

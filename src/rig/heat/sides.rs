@@ -1,0 +1,179 @@
+//! Which side of a surface is its outside, whatever way its triangles face.
+
+use crate::geometry::double_area;
+use glam::DVec3;
+
+/// The volume of a thing over its area to the power of 1.5 up to which it is a sheet without an outside (a coat 0.005 H
+/// thick has 0.004), and from which on it has one (a person has 0.027, a limb as long as 60 radii 0.026, a ball 0.094).
+const FULLNESS: [f64; 2] = [0.004, 0.008];
+
+/// Outward unit normals of the vertices, shorter where it is in doubt which side is the outside, 0 where nothing tells.
+///
+/// Triangles are turned alike where two of them share an edge; what hangs together so has its outside where that makes
+/// its volume positive, holes closed from its middle.
+///
+/// O(triangles).
+pub(super) fn outward(points: &[DVec3], triangles: &[[u32; 3]]) -> Vec<DVec3> {
+    let mut patches = Patches::of(points.len(), triangles);
+    let patch_of: Vec<(u32, bool)> =
+        (0..triangles.len() as u32).map(|triangle| patches.find(triangle)).collect();
+    let mut sums = vec![(0.0, DVec3::ZERO); triangles.len()];
+    let doubles: Vec<DVec3> = triangles.iter().map(|&corners| double_area(points, corners)).collect();
+    let middle =
+        |corners: &[u32; 3]| corners.iter().map(|&vertex| points[vertex as usize]).sum::<DVec3>() / 3.0;
+    for ((corners, &(patch, _)), double) in triangles.iter().zip(&patch_of).zip(&doubles) {
+        let (area, moment) = &mut sums[patch as usize];
+        *area += double.length();
+        *moment += double.length() * middle(corners);
+    }
+    let mut volumes = vec![0.0; triangles.len()];
+    for ((corners, &(patch, is_turned)), double) in triangles.iter().zip(&patch_of).zip(&doubles) {
+        let (area, moment) = sums[patch as usize];
+        let cone = (middle(corners) - moment / area).dot(*double) / 6.0;
+        volumes[patch as usize] += if is_turned { -cone } else { cone };
+    }
+    let mut normals = vec![DVec3::ZERO; points.len()];
+    let mut totals = vec![(0.0, 0.0); points.len()];
+    for ((corners, &(patch, is_turned)), &double) in triangles.iter().zip(&patch_of).zip(&doubles) {
+        let volume: f64 = volumes[patch as usize];
+        let fullness = volume.abs() / (0.5 * sums[patch as usize].0).powf(1.5);
+        let sure = ((fullness - FULLNESS[0]) / (FULLNESS[1] - FULLNESS[0])).clamp(0.0, 1.0);
+        let outward = if is_turned == (volume > 0.0) { -double } else { double };
+        for &vertex in corners {
+            normals[vertex as usize] += sure * outward;
+            let (known, all) = &mut totals[vertex as usize];
+            *known += sure * double.length();
+            *all += double.length();
+        }
+    }
+    let share = |(known, all): (f64, f64)| if all > 0.0 { known / all } else { 0.0 };
+    normals.into_iter().zip(totals).map(|(normal, sums)| share(sums) * normal.normalize_or_zero()).collect()
+}
+
+/// Triangles that hang together over edges of two, and how each faces against the first of its patch.
+struct Patches {
+    /// Each triangle's way to the first of its patch: a triangle before it, and whether that one faces another way.
+    above: Vec<(u32, bool)>,
+}
+
+impl Patches {
+    fn of(vertex_count: usize, triangles: &[[u32; 3]]) -> Self {
+        // Edges by their lesser end.
+        let edges = || {
+            (0u32..).zip(triangles).flat_map(|(triangle, &[a, b, c])| {
+                [(a, b), (b, c), (c, a)]
+                    .map(|(one, other)| (one.min(other), one.max(other), triangle, one < other))
+            })
+        };
+        let mut ends = vec![0u32; vertex_count + 1];
+        edges().for_each(|(least, ..)| ends[least as usize + 1] += 1);
+        for vertex in 0..vertex_count {
+            ends[vertex + 1] += ends[vertex];
+        }
+        let mut sorted = vec![(0u32, 0u32, false); 3 * triangles.len()];
+        let mut next = ends.clone();
+        for (least, most, triangle, rises) in edges() {
+            let at = &mut next[least as usize];
+            sorted[*at as usize] = (most, triangle, rises);
+            *at += 1;
+        }
+        let mut patches =
+            Self { above: (0..triangles.len() as u32).map(|triangle| (triangle, false)).collect() };
+        for vertex in 0..vertex_count {
+            let around = &mut sorted[ends[vertex] as usize..ends[vertex + 1] as usize];
+            around.sort_unstable();
+            for edge in around.chunk_by(|one, other| one.0 == other.0) {
+                if let &[(_, one, rises), (_, other, rises_too)] = edge {
+                    patches.join(one, other, rises == rises_too);
+                }
+            }
+        }
+        patches
+    }
+
+    /// The first triangle of a triangle's patch, and whether the triangle faces another way.
+    fn find(&mut self, triangle: u32) -> (u32, bool) {
+        let (mut first, mut is_turned) = (triangle, false);
+        while self.above[first as usize].0 != first {
+            let (above, other) = self.above[first as usize];
+            first = above;
+            is_turned ^= other;
+        }
+        // Everything on the way leads there at once from now on.
+        let (mut at, mut turned) = (triangle, is_turned);
+        while self.above[at as usize].0 != at {
+            let (above, other) = self.above[at as usize];
+            self.above[at as usize] = (first, turned);
+            at = above;
+            turned ^= other;
+        }
+        (first, is_turned)
+    }
+
+    fn join(&mut self, one: u32, other: u32, differ: bool) {
+        let ((one, turned), (other, turned_too)) = (self.find(one), self.find(other));
+        if one != other {
+            let differ = differ ^ turned ^ turned_too;
+            self.above[one.max(other) as usize] = (one.min(other), differ);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A ball of `sides` columns and rows around `middle`.
+    fn ball(middle: DVec3, radius: f64, sides: u32) -> (Vec<DVec3>, Vec<[u32; 3]>) {
+        let mut positions = Vec::new();
+        let mut triangles = Vec::new();
+        for row in 0..=sides {
+            for column in 0..sides {
+                let (across, up) = (std::f64::consts::PI * f64::from(row) / f64::from(sides)).sin_cos();
+                let (sin, cos) = (std::f64::consts::TAU * f64::from(column) / f64::from(sides)).sin_cos();
+                positions.push(middle + radius * DVec3::new(across * cos, up, across * sin));
+            }
+        }
+        for row in 1..sides - 1 {
+            for column in 0..sides {
+                let [a, b] = [column, (column + 1) % sides].map(|column| row * sides + column);
+                triangles.extend([[a, b, b + sides], [a, b + sides, a + sides]]);
+            }
+        }
+        (positions, triangles)
+    }
+
+    #[test]
+    fn the_outside_of_a_ball_is_away_from_its_middle_whatever_way_triangles_face() {
+        let middle = DVec3::new(0.3, -0.2, 0.1);
+        let (positions, mut triangles) = ball(middle, 0.2, 24);
+        // Open at both ends; every third triangle turned over.
+        triangles.iter_mut().step_by(3).for_each(|corners| corners.swap(0, 1));
+        let mut seen = 0;
+        for (normal, p) in outward(&positions, &triangles).into_iter().zip(&positions) {
+            if normal != DVec3::ZERO {
+                assert!((normal.length() - 1.0).abs() < 1e-12);
+                assert!(normal.dot((p - middle).normalize()) > 0.95, "{p} {normal}");
+                seen += 1;
+            }
+        }
+        assert_eq!(seen, 24 * 23);
+    }
+
+    #[test]
+    fn a_sheet_has_no_outside() {
+        // A box 1 by 1 by 0.005: 0.005 / (2.02)^1.5 = 0.0017.
+        let corner =
+            |i: u32| DVec3::new(f64::from(i & 1), f64::from(i >> 1 & 1), 0.005 * f64::from(i >> 2 & 1));
+        let faces = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]];
+        let triangles: Vec<[u32; 3]> =
+            faces.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
+        let thin: Vec<DVec3> = (0..8).map(corner).collect();
+        assert!(outward(&thin, &triangles).iter().all(|&normal| normal == DVec3::ZERO));
+        let thick: Vec<DVec3> = thin.iter().map(|&p| p * DVec3::new(1.0, 1.0, 100.0)).collect();
+        let middle = DVec3::new(0.5, 0.5, 0.25);
+        for (normal, p) in outward(&thick, &triangles).into_iter().zip(&thick) {
+            assert!(normal.dot(p - middle) > 0.0, "{p} {normal}");
+        }
+    }
+}
