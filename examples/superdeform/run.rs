@@ -11,6 +11,7 @@ use serde_json::json;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
+use superdeform::internals::parallel;
 use superdeform::internals::shape::measured::Measured;
 use superdeform::internals::shape::style::BUILT_IN;
 use superdeform::report::FigureReport;
@@ -69,22 +70,21 @@ impl Source {
 
 fn stages(command: &Command, in_batch: Option<(&Source, &str)>, progress: &Progress) -> Result<Done, String> {
     let start = Instant::now();
+    let threads = command.options.thread_count;
+
     progress.stage("reading");
-    let mut target = input::target(command)?;
-    check_licence(&target, command)?;
-    let seen = sheet::appearance(&target);
-    shades::shade(&mut target.character, &seen);
-    target.character.face_hints = command.face_hints;
-    let load_time = start.elapsed();
+    let (own, (target, load_time)) = parallel::both(
+        threads,
+        || if in_batch.is_some() { None } else { Some(Source::of(command)) },
+        || (read_target(command), start.elapsed()),
+    );
+    let mut target = target?;
 
     progress.stage("measuring");
-    let own;
-    let Source { reference, measured, style } = match in_batch {
-        Some((source, _)) => source,
-        None => {
-            own = Source::of(command)?;
-            &own
-        }
+    let own = own.transpose()?;
+    let Source { reference, measured, style } = match (in_batch, &own) {
+        (Some((source, _)), _) | (None, Some(source)) => source,
+        (None, None) => unreachable!("a reference is read where there is no batch"),
     };
 
     progress.stage("rigging");
@@ -97,7 +97,16 @@ fn stages(command: &Command, in_batch: Option<(&Source, &str)>, progress: &Progr
     };
     let deformer = deformer.map_err(sentence)?;
     let deformed = deformer.apply();
-    let mut report = deformer.report(&deformed).map_err(sentence)?;
+    let map_point = |joint: usize, point: DVec3| deformer.map(joint, point);
+    let (made, report) = parallel::both(
+        threads,
+        || {
+            let start = Instant::now();
+            (model(&target, &deformer, &deformed, rig.as_ref()), start.elapsed())
+        },
+        || deformer.report(&deformed),
+    );
+    let mut report = report.map_err(sentence)?;
     if let Some(measured) = measured {
         // Measured over the roles of both, so that the two figures can be compared group by group.
         let of_target = &deformer.target().joints;
@@ -105,7 +114,6 @@ fn stages(command: &Command, in_batch: Option<(&Source, &str)>, progress: &Progr
         report.reference = Some(FigureReport::of(measured, &roles, &command.options));
     }
     report.warnings.splice(0..0, warnings_of_files(&target, reference.as_ref()));
-    let map_point = |joint: usize, point: DVec3| deformer.map(joint, point);
     report.warnings.extend(write::colliders::findings(&target, &deformed, &map_point, command.leaf_joints));
     report.warnings.iter_mut().for_each(words::name_flag);
 
@@ -122,7 +130,8 @@ fn stages(command: &Command, in_batch: Option<(&Source, &str)>, progress: &Progr
 
     progress.stage("writing");
     let write_start = Instant::now();
-    let mut model = model(&target, &deformer, &deformed, rig.as_ref()).map_err(sentence)?;
+    let (model, model_time) = made;
+    let mut model = model.map_err(sentence)?;
     if command.leaf_joints {
         write::colliders::add_leaf_joints(&mut model, &target, &deformed, &map_point);
     }
@@ -146,7 +155,7 @@ fn stages(command: &Command, in_batch: Option<(&Source, &str)>, progress: &Progr
     }
     let mut files: Vec<_> = results.iter().map(|&(name, path, _)| (name, path.clone())).collect();
     report.timing_ms.load = milliseconds(load_time);
-    report.timing_ms.write = milliseconds(write_start.elapsed());
+    report.timing_ms.write = milliseconds(model_time + write_start.elapsed());
     // The picture is made beside the result.
     report.timing_ms.total = milliseconds(start.elapsed() - draw_time);
     if let Some(path) = &command.report {
@@ -157,6 +166,16 @@ fn stages(command: &Command, in_batch: Option<(&Source, &str)>, progress: &Progr
         files.push(("report", path.clone()));
     }
     Ok(Done { report, files })
+}
+
+/// The target, its paint and what is said of its face.
+fn read_target(command: &Command) -> Result<Loaded, String> {
+    let mut target = input::target(command)?;
+    check_licence(&target, command)?;
+    let seen = sheet::appearance(&target);
+    shades::shade(&mut target.character, &seen);
+    target.character.face_hints = command.face_hints;
+    Ok(target)
 }
 
 /// Refuses a target that may not be changed.

@@ -7,6 +7,7 @@ use super::{Deformation, Known, Target};
 use crate::error::{Error, ErrorKind, Named, Result, Warning};
 use crate::options::table::PRODUCT_FACE_SQUASH;
 use crate::options::{Options, Repair};
+use crate::parallel;
 use crate::progress::Progress;
 use crate::shape::field::{BodyField, Field};
 use crate::shape::figure::extent;
@@ -55,7 +56,10 @@ pub fn deform(
 ) -> Result<Deformation> {
     let product = match known.product {
         Some(product) => product,
-        None => Arc::new(ProductTarget::of(target, options.thread_count, &mut progress.part(0.0, 0.4))?),
+        None => {
+            let part = &mut progress.part(0.0, 0.4);
+            Arc::new(ProductTarget::of(target, options.thread_count, options.repair != Repair::Off, part)?)
+        }
     };
     let anatomy = &target.measured.anatomy;
     let head_length = anatomy.proportions.head_length;
@@ -70,7 +74,14 @@ pub fn deform(
     warnings.extend(hair_shortened(&product.parts, head_length));
     let request =
         Request { target, product: &product, style, options, groups: &groups, weights: OnceCell::new() };
-    let (attempt, of_attempt, heads_left) = request.best(progress)?;
+    let threads = options.thread_count;
+    let best = if parallel::thread_count(threads) == 1 {
+        request.best(progress)
+    } else {
+        // Hair is found once, beside the first fields.
+        parallel::both(threads, || product.find_hair(target, options), || request.best(progress)).1
+    };
+    let (attempt, of_attempt, heads_left) = best?;
     warnings.extend(of_attempt);
     let field = attempt.field;
     progress.at(0.65)?;

@@ -6,6 +6,8 @@ use super::strands::Strands;
 use crate::character::Role;
 use crate::error::Result;
 use crate::face::seat::SeatSources;
+use crate::options::{Options, Stage};
+use crate::parallel;
 use crate::progress::Progress;
 use crate::shape::Measured;
 use crate::shape::field::{Binding, Field};
@@ -37,8 +39,24 @@ pub struct ProductTarget {
 }
 
 impl ProductTarget {
-    /// Binds vertices and joints to parts.
-    pub(super) fn of(target: &Target, threads: usize, progress: &mut Progress) -> Result<Self> {
+    /// Binds vertices and joints to parts; finds what is worn meanwhile, where clothes will be pushed.
+    pub(super) fn of(
+        target: &Target,
+        threads: usize,
+        will_push: bool,
+        progress: &mut Progress,
+    ) -> Result<Self> {
+        if !will_push || parallel::thread_count(threads) == 1 {
+            return Self::bound(target, threads, progress);
+        }
+        let bind = || Self::bound(target, threads, progress);
+        let (worn, bound) = parallel::both(threads, || worn_of(target, threads), bind);
+        let bound = bound?;
+        bound.worn.get_or_init(|| worn);
+        Ok(bound)
+    }
+
+    fn bound(target: &Target, threads: usize, progress: &mut Progress) -> Result<Self> {
         let measured = &target.measured;
         let figure = &measured.figure;
         let skeleton = &target.character.skeleton;
@@ -153,19 +171,20 @@ impl ProductTarget {
 
     /// The clothes, and how they lie over the body.
     pub fn worn(&self, target: &Target, threads: usize) -> &Worn {
-        self.worn.get_or_init(|| {
-            let figure = &target.measured.figure;
-            let meshes = &target.character.meshes;
-            let is_known = |vertex: usize| {
-                meshes[figure.mesh_starts.partition_point(|&start| start <= vertex) - 1].kind.is_some()
-            };
-            Worn::of(figure, is_known, &target.measured.weld, threads)
-        })
+        self.worn.get_or_init(|| worn_of(target, threads))
     }
 
     /// The hair's strands, and how they hang.
     pub fn strands(&self, target: &Target) -> &Strands {
         self.strands.get_or_init(|| Strands::of(target, &self.bindings))
+    }
+
+    /// Finds what the hair is made of, as far as `options` ask for it.
+    pub fn find_hair(&self, target: &Target, options: &Options) {
+        self.hair.get_or_init(|| self.hair_on_body(target, options.thread_count));
+        if options.stage == Stage::Face && options.hair_lay > 0.0 {
+            self.strands(target);
+        }
     }
 
     fn hair_on_body(&self, target: &Target, threads: usize) -> HairOnBody {
@@ -179,6 +198,15 @@ impl ProductTarget {
             if hair.is_empty() { Vec::new() } else { figure.triangles_where(|vertex| of_head(vertex) < 0.5) };
         HairOnBody::of(&figure.positions, &figure.triangles, body, hair, &target.measured.weld, threads)
     }
+}
+
+fn worn_of(target: &Target, threads: usize) -> Worn {
+    let figure = &target.measured.figure;
+    let meshes = &target.character.meshes;
+    let is_known = |vertex: usize| {
+        meshes[figure.mesh_starts.partition_point(|&start| start <= vertex) - 1].kind.is_some()
+    };
+    Worn::of(figure, is_known, &target.measured.weld, threads)
 }
 
 /// Fewer vertices than this have no middle to speak of.

@@ -3,9 +3,12 @@
 use super::{ALREADY_SD, Deformed, Deformer};
 use crate::character::{Humanoid, Role};
 use crate::error::{Result, Warning};
+use crate::parallel;
+use crate::progress::Progress;
 use crate::report::{
     Counts, FigureReport, NewlyInside, ProfileReport, RepairReport, Report, RigReport, SoleClearance,
 };
+use crate::shape::figure::Figure;
 use crate::shape::group::group_shapes;
 use crate::shape::pose::{Pose, SIT, WALK, posed};
 use crate::shape::stride::clearance_of;
@@ -51,7 +54,16 @@ impl Deformer {
     /// As [`Measured::of`] on the result.
     pub fn report(&self, deformed: &Deformed) -> Result<Report> {
         let character = &self.target.character;
-        let measured = Measured::of(&character.with(deformed), &self.options)?;
+        let result = character.with(deformed);
+        let figure = Figure::of(&result)?;
+        // What became of the clothes needs its positions alone.
+        let placed = figure.clone();
+        let (repair, measured) = parallel::both(
+            self.options.thread_count,
+            || self.clothes(&placed),
+            || Measured::of_figure(figure, &result, &self.options, &mut Progress::none()),
+        );
+        let measured = measured?;
         let roles = self.roles();
         let mut target = FigureReport::of(&self.target.measured, &roles, &self.options);
         let mut result = FigureReport::of(&measured, &roles, &self.options);
@@ -64,7 +76,6 @@ impl Deformer {
                 joint_count = rig.own_count;
             }
         }
-        let repair = self.clothes(&measured);
         let mut warnings = self.warnings.clone();
         warnings.extend(repair.and_then(pierced));
         Ok(Report {
@@ -95,14 +106,14 @@ impl Deformer {
     }
 
     /// What became of the clothes in `result`.
-    fn clothes(&self, result: &Measured) -> Option<RepairReport> {
+    fn clothes(&self, result: &Figure) -> Option<RepairReport> {
         let (measured, threads) = (&self.target.measured, self.options.thread_count);
         let worn = self.deformation.product.as_ref()?.worn(&self.target, threads);
         if worn.places.is_empty() {
             return None;
         }
         let newly_inside = |pose: Pose| {
-            let [before, after] = [&measured.figure, &result.figure]
+            let [before, after] = [&measured.figure, result]
                 .map(|figure| worn.inside(&posed(figure, pose), &measured.weld, threads));
             let count = before.iter().zip(&after).filter(|&(&before, &after)| after && !before).count();
             count as f64 / before.len() as f64
@@ -111,7 +122,7 @@ impl Deformer {
         let furthest = offsets.iter().map(|(_, offset)| offset.length()).fold(0.0, f64::max);
         Some(RepairReport {
             pushed: offsets.len(),
-            furthest: self.field.finish.share_of_offsets() * furthest / result.figure.height(),
+            furthest: self.field.finish.share_of_offsets() * furthest / result.height(),
             newly_inside: NewlyInside {
                 rest: newly_inside(&[]),
                 walk: newly_inside(WALK),

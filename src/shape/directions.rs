@@ -191,6 +191,8 @@ impl RestTriangles {
             positions,
             middle: bounds_middle(positions),
             triangles: &triangles,
+            firsts: around.firsts(&triangles, weld),
+            seen: vec![u32::MAX; triangles.len()],
             scale,
             weld,
             slots: vec![NO_SLOT; weld.count],
@@ -351,6 +353,27 @@ impl Around {
         let welded = welded as usize;
         &self.triangles[self.starts[welded] as usize..self.starts[welded + 1] as usize]
     }
+
+    /// For each of the same triangles the first one between the same three welded vertices.
+    fn firsts(&self, triangles: &[[u32; 3]], weld: &Weld) -> Vec<u32> {
+        let mut firsts: Vec<u32> = (0..triangles.len() as u32).collect();
+        let mut of_least = Vec::new();
+        for least in 0..weld.count as u32 {
+            of_least.clear();
+            of_least.extend(self.of_vertex(least).iter().filter_map(|&triangle| {
+                let mut corners = weld.triangle(triangles[triangle as usize]);
+                corners.sort_unstable();
+                (corners[0] == least).then_some((corners[1], corners[2], triangle))
+            }));
+            of_least.sort_unstable();
+            for alike in of_least.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
+                for &(.., triangle) in alike {
+                    firsts[triangle as usize] = alike[0].2;
+                }
+            }
+        }
+        firsts
+    }
 }
 
 /// What pieces are made of.
@@ -358,6 +381,10 @@ struct Builder<'a> {
     positions: &'a [Vec3],
     middle: DVec3,
     triangles: &'a [[u32; 3]],
+    /// By triangle, the first one at its place.
+    firsts: Vec<u32>,
+    /// By triangle, the last piece that has it.
+    seen: Vec<u32>,
     scale: f64,
     weld: &'a Weld,
     /// By welded vertex its slot in the piece, by vertex its corner in the batch, while these are made.
@@ -368,6 +395,7 @@ struct Builder<'a> {
 impl Builder<'_> {
     fn add(&mut self, vertices: Range<usize>, around: &Around, rest: &mut RestTriangles) {
         let mut count = 0;
+        let piece = rest.pieces.len() as u32;
         let mut triangles = Vec::new();
         for vertex in vertices.clone() {
             let welded = self.weld.representative[vertex];
@@ -375,19 +403,17 @@ impl Builder<'_> {
             if *slot == NO_SLOT {
                 *slot = count;
                 count += 1;
-                triangles.extend_from_slice(around.of_vertex(welded));
+                for &triangle in around.of_vertex(welded) {
+                    // Of triangles at one place (copies, both faces of a sheet) the first stands for all: with each in every
+                    // piece that has one, copies would take memory by the square of their number.
+                    let first = self.firsts[triangle as usize];
+                    if std::mem::replace(&mut self.seen[first as usize], piece) != piece {
+                        triangles.push(first);
+                    }
+                }
             }
             rest.slots[vertex] = *slot;
         }
-        // Of triangles at one place (copies, both faces of a sheet) the first stands for all: with each in every piece that has
-        // one, copies would take memory by the square of their number.
-        let place = |triangle: u32| {
-            let mut corners = self.weld.triangle(self.triangles[triangle as usize]);
-            corners.sort_unstable();
-            corners
-        };
-        triangles.sort_unstable_by_key(|&triangle| (place(triangle), triangle));
-        triangles.dedup_by_key(|triangle| place(*triangle));
         triangles.sort_unstable();
         let first = rest.batches.len() as u32;
         for batch in triangles.chunks(BATCH) {
@@ -404,8 +430,8 @@ impl Builder<'_> {
 
     fn add_batch(&mut self, triangles: &[u32], rest: &mut RestTriangles) {
         let (first_corner, first_group) = (rest.corners.len(), rest.groups.len() as u32);
-        // Slots and the triangles around them.
-        let mut around: Vec<(u16, u16)> = Vec::with_capacity(3 * triangles.len());
+        // Slots and the triangles around them, as one number each, which is sorted faster than two.
+        let mut around: Vec<u32> = Vec::with_capacity(3 * triangles.len());
         for (number, four) in triangles.chunks(LANES).enumerate() {
             let mut group = Group::NONE;
             for (lane, &triangle) in four.iter().enumerate() {
@@ -420,7 +446,7 @@ impl Builder<'_> {
                     group.corners[corner][lane] = *of_batch;
                     let slot = self.slots[self.weld.representative[vertex as usize] as usize];
                     if slot != NO_SLOT {
-                        around.push((slot, (LANES * number + lane) as u16));
+                        around.push((u32::from(slot) << 16) | (LANES * number + lane) as u32);
                     }
                 }
                 let (rows, area) = self.rows(corners);
@@ -438,9 +464,9 @@ impl Builder<'_> {
         }
         around.sort_unstable();
         let (first_run, first_around) = (rest.runs.len() as u32, rest.around.len() as u32);
-        for of_slot in around.chunk_by(|a, b| a.0 == b.0) {
-            rest.runs.push(Run { slot: of_slot[0].0, count: of_slot.len() as u16 });
-            rest.around.extend(of_slot.iter().map(|&(_, triangle)| triangle));
+        for of_slot in around.chunk_by(|a, b| a >> 16 == b >> 16) {
+            rest.runs.push(Run { slot: (of_slot[0] >> 16) as u16, count: of_slot.len() as u16 });
+            rest.around.extend(of_slot.iter().map(|&at| at as u16));
         }
         rest.batches.push(Batch {
             corners: first_corner as u32..rest.corners.len() as u32,

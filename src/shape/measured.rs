@@ -78,19 +78,25 @@ impl Measured {
         let roles: BTreeSet<Role> = joints.keys().copied().collect();
         let bones = bones(&roles, &options.bone_groups);
         let surfaces: Vec<&Surface> = surfaces.iter().collect();
-        let mut shape = measure(&bones, &joints, head_top, &surfaces, options.ray_count())?;
-        progress.at(0.55)?;
+        let chin_seen = anatomy.landmarks.chin_seen;
+        let face = || chin_seen.then(|| FaceLandmarks::of(&head(character, &figure, &anatomy)));
+        let radii_and_face = || (measure(&bones, &joints, head_top, &surfaces, options.ray_count()), face());
+        let weld_and_profile = |progress: &mut Progress| {
+            progress.at(0.7)?;
+            let weld = weld(&figure.positions, SEAM * figure.height());
+            progress.at(0.8)?;
+            let parts: Vec<PartWeights> = figure.role_weights.iter().map(|row| fold_to_parts(row)).collect();
+            let frame = BodyFrame::of(&figure, &anatomy);
+            let profile = measure_profile(&figure, &figure.positions, &parts, &weld, &frame).0;
+            Ok((Arc::new(weld), profile))
+        };
+        let ((shape, face), made) = parallel::both(threads, radii_and_face, || weld_and_profile(progress));
+        let (weld, profile) = made?;
+        let mut shape = shape?;
         shape.landmarks = Some(anatomy.landmarks.heights);
         shape.proportions = Some(anatomy.proportions.clone());
-        let has_chin = anatomy.landmarks.chin_seen;
-        let face = has_chin.then(|| FaceLandmarks::of(&head(character, &figure, &anatomy)));
-        progress.at(0.7)?;
         shape.face = face.as_ref().and_then(FaceStyle::of);
-        let weld = Arc::new(weld(&figure.positions, SEAM * figure.height()));
-        progress.at(0.8)?;
-        let parts: Vec<PartWeights> = figure.role_weights.iter().map(|row| fold_to_parts(row)).collect();
-        let frame = BodyFrame::of(&figure, &anatomy);
-        shape.profile = Some(measure_profile(&figure, &figure.positions, &parts, &weld, &frame).0);
+        shape.profile = Some(profile);
         progress.at(1.0)?;
         Ok(Self { figure, anatomy, face, joints, head_top, weld, shape })
     }
