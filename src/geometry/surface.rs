@@ -351,7 +351,8 @@ fn padded_box(&[a, b, c]: &[DVec3; 3]) -> Aabb {
 struct Ray {
     origin: DVec3,
     direction: DVec3,
-    axes: [usize; 3],
+    /// Which axis comes to be z.
+    largest: usize,
     shear: DVec3,
 }
 
@@ -366,7 +367,7 @@ impl Ray {
         Some(Self {
             origin,
             direction,
-            axes,
+            largest,
             shear: DVec3::new(direction[axes[0]] / z, direction[axes[1]] / z, 1.0 / z),
         })
     }
@@ -374,15 +375,27 @@ impl Ray {
     /// Woop et al.: each edge function has exactly the opposite sign in the neighbour, and 0 counts as inside, so no
     /// ray passes between two triangles that share an edge. With `once`, a ray on an edge is moved beside it by a step
     /// along x and a much smaller one along y, both below any number, so that just one of the two has it.
+    #[inline(always)]
     fn meets(&self, corners: &[DVec3; 3], triangle: u32, once: bool) -> Option<Hit> {
+        // Three copies of the test, so that each knows where its numbers are.
+        match self.largest {
+            0 => self.meets_along(corners, triangle, once, |p| DVec3::new(p.y, p.z, p.x)),
+            1 => self.meets_along(corners, triangle, once, |p| DVec3::new(p.z, p.x, p.y)),
+            _ => self.meets_along(corners, triangle, once, |p| p),
+        }
+    }
+
+    #[inline(always)]
+    fn meets_along(
+        &self,
+        corners: &[DVec3; 3],
+        triangle: u32,
+        once: bool,
+        permuted: impl Fn(DVec3) -> DVec3,
+    ) -> Option<Hit> {
         let [a, b, c] = corners.map(|p| {
-            let q = p - self.origin;
-            let z = q[self.axes[2]];
-            DVec3::new(
-                q[self.axes[0]] - self.shear.x * z,
-                q[self.axes[1]] - self.shear.y * z,
-                self.shear.z * z,
-            )
+            let q = permuted(p - self.origin);
+            DVec3::new(q.x - self.shear.x * q.z, q.y - self.shear.y * q.z, self.shear.z * q.z)
         });
         let edge = |p: DVec3, q: DVec3| p.x * q.y - p.y * q.x;
         let (u, v, w) = (edge(c, b), edge(a, c), edge(b, a));
@@ -391,8 +404,11 @@ impl Ray {
             0.0 if once => p.x - q.x,
             _ => value,
         };
-        let sides = [side(u, c, b), side(v, a, c), side(w, b, a)];
-        if sides.iter().any(|&side| side < 0.0) && sides.iter().any(|&side| side > 0.0) {
+        let (of_u, of_v, of_w) = (side(u, c, b), side(v, a, c), side(w, b, a));
+        // Not one after the other: which of them is outside no processor guesses.
+        let is_below = (of_u < 0.0) | (of_v < 0.0) | (of_w < 0.0);
+        let is_above = (of_u > 0.0) | (of_v > 0.0) | (of_w > 0.0);
+        if is_below & is_above {
             return None;
         }
         let determinant = u + v + w;
