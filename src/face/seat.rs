@@ -19,6 +19,8 @@ const ROW_COUNT: usize = 96;
 const MIDDLE: f64 = 0.09;
 /// See [`MIDDLE`].
 const BESIDE: (f64, f64) = (0.14, 0.22);
+/// How many columns of it are told apart.
+const BESIDE_COLUMNS: usize = 4;
 /// Where the chin's front, the skull's back and the chest are looked at; the chest against the shoulder line, half a row off
 /// the rows of a neck of whole hundredths: those are common, and the last digit would choose the rows.
 const CHIN: (f64, f64) = (0.02, 0.12);
@@ -27,7 +29,7 @@ const SKULL: (f64, f64) = (0.40, 0.62);
 /// See [`CHIN`].
 const CHEST: (f64, f64) = (-0.305, -0.025);
 /// A chin may hang so far before the chest, a skull so far behind the back; artists: .08 to .10, .06 to .20.
-const CHIN_BEFORE: f64 = 0.12;
+const CHIN_BEFORE: f64 = 0.10;
 /// See [`CHIN_BEFORE`].
 const SKULL_BEHIND: f64 = 0.42;
 /// A head goes back by at most this.
@@ -129,6 +131,17 @@ fn furthest(map: &DepthMap, rows: (f64, f64), aside: (f64, f64)) -> Option<f64> 
         .max_by(f64::total_cmp)
 }
 
+/// How far back the skull is: of columns beside the middle the one that is least deep, for a tail hides some of it.
+fn skull_back(map: &DepthMap) -> Option<f64> {
+    let width = (BESIDE.1 - BESIDE.0) / BESIDE_COLUMNS as f64;
+    (0..BESIDE_COLUMNS)
+        .filter_map(|column| {
+            let aside = BESIDE.0 + width * column as f64;
+            furthest(map, SKULL, (aside, aside + width))
+        })
+        .min_by(f64::total_cmp)
+}
+
 impl Seat {
     /// Measures how the head at `frame` sits; `None` where it sits well or nothing can be seen.
     ///
@@ -151,7 +164,7 @@ impl Seat {
         let chest_front = furthest(&seen.front, chest, middle)?;
         let trunk_back = furthest(&seen.back, chest, middle)?;
         let before = furthest(&seen.front, CHIN, middle)? - chest_front;
-        let behind = furthest(&seen.hair_back, SKULL, BESIDE)? - trunk_back;
+        let behind = skull_back(&seen.hair_back)? - trunk_back;
         let most = MOST_BACK.min(MOST_LEAN * (WHOLE - shoulder_line).max(0.0));
         let back = (before - CHIN_BEFORE).min(SKULL_BEHIND - behind).clamp(0.0, most);
         let axis = frame.to_unit(head_joint).z.min(0.5 * (chest_front - trunk_back));
