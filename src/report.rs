@@ -177,10 +177,21 @@ pub struct RigReport {
     pub source: &'static str,
     /// By role; 1 for kept joints.
     pub confidence: BTreeMap<String, f64>,
+    /// By role, for doubted joints with more than one place: at most four, the one that was taken first.
+    pub candidates: BTreeMap<String, Vec<JointCandidate>>,
     /// Vertices left without weights: always 0.
     pub unreached_vertices: usize,
     /// Vertices weighted by another rule than heat or volume, by rule.
     pub fallback_vertices: BTreeMap<String, usize>,
+}
+
+/// A place where a joint may be.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct JointCandidate {
+    /// It, model space.
+    pub position: [f64; 3],
+    /// How likely it is beside the one that was taken, 0..1.
+    pub score: f64,
 }
 
 /// How far the lowest sole is above the floor in a walk that was made for ordinary legs, as a share of the figure's height; below

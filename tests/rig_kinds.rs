@@ -10,9 +10,14 @@ mod truth;
 use glam::{DVec3, Vec3};
 use people::Person;
 use std::collections::BTreeMap;
+use std::sync::Arc;
+use superdeform::internals::character::kinds::{MeshNames, kinds_from_names};
 use superdeform::internals::rig::mesh_kinds::{body_is_whole, guess_kinds, refine_kinds};
+use superdeform::internals::rig::placed::Placed;
 use superdeform::internals::rig::{FoundJoint, UnitFigure};
-use superdeform::{Character, Mesh, MeshKind, Progress, Role};
+use superdeform::{
+    Character, Deformer, Mesh, MeshKind, Options, Progress, Rig, RigOptions, Role, Style, Weights,
+};
 
 use superdeform::MeshKind::{Accessory, Body, FacePart, Garment, Hair};
 
@@ -316,4 +321,128 @@ fn hostile_layouts_get_kinds_too() {
             body_is_whole(&figure, &[]);
         }
     }
+}
+
+/// A mesh of some triangles of others, by mesh, with the vertices that they have.
+fn part(meshes: &[Mesh], kept: impl Fn(usize, usize) -> bool, name: &str) -> Mesh {
+    let mut made = Mesh { name: name.to_string(), ..Mesh::default() };
+    let mut rows: Vec<Vec<(u32, f32)>> = Vec::new();
+    for (index, mesh) in meshes.iter().enumerate() {
+        let mut new = BTreeMap::new();
+        for corners in &mesh.triangles {
+            if !corners.iter().all(|&vertex| kept(index, vertex as usize)) {
+                continue;
+            }
+            made.triangles.push(corners.map(|vertex| {
+                *new.entry(vertex).or_insert_with(|| {
+                    made.positions.push(mesh.positions[vertex as usize]);
+                    rows.push(mesh.weights.row(vertex as usize).to_vec());
+                    made.positions.len() as u32 - 1
+                })
+            }));
+        }
+    }
+    made.weights = Weights::from_rows(rows);
+    made
+}
+
+/// Eyes and feet of one material called Eyes: what of it the head does not carry is no face, in a rig that is there and in
+/// one that is made.
+#[test]
+fn eyes_and_shoes_of_one_material_leave_the_feet_on_the_legs() {
+    let person = Person { columns: 24, ..Person::adult() };
+    let built = person.build();
+    let is_foot = |joint: usize| {
+        let feet = [Role::LeftFoot, Role::LeftToes, Role::RightFoot, Role::RightToes];
+        feet.iter().any(|&role| built.humanoid.joint(role) == Some(joint))
+    };
+    let of_foot = |mesh: usize, vertex: usize| is_foot(built.meshes[mesh].weights.row(vertex)[0].0 as usize);
+    let feet = part(&built.meshes, of_foot, "Shoes");
+    let body = part(&built.meshes, |mesh, vertex| mesh == 0 && !of_foot(mesh, vertex), "Body");
+    let eyes = part(&built.meshes, |mesh, _| mesh > 0, "Eyes");
+    let both = part(&built.meshes, |mesh, vertex| of_foot(mesh, vertex) || mesh > 0, "Eyes");
+    assert_eq!(both.positions.len(), feet.positions.len() + eyes.positions.len());
+    let named = |meshes: Vec<Mesh>, rigged: bool| {
+        let mut character = Character { meshes, ..built.clone() };
+        if !rigged {
+            character.meshes.iter_mut().for_each(|mesh| mesh.weights = Weights::default());
+            character = Character { meshes: character.meshes, ..Character::default() };
+        }
+        let names: Vec<MeshNames> =
+            character.meshes.iter().map(|mesh| MeshNames::of_path(&mesh.name)).collect();
+        let kinds = kinds_from_names(&character, &names);
+        character.meshes.iter_mut().zip(kinds).for_each(|(mesh, kind)| mesh.kind = kind);
+        character
+    };
+    let apart = || vec![body.clone(), feet.clone(), eyes.clone()];
+    let joined = || vec![body.clone(), both.clone()];
+    // The rig that is there: feet become what they become by themselves.
+    let style = Style::heads(3.0).unwrap();
+    let deformed = |meshes| {
+        let character = Arc::new(named(meshes, true));
+        Deformer::new(character, &style, &Options::default()).unwrap().apply()
+    };
+    let (one, other) = (deformed(apart()), deformed(joined()));
+    for (index, (a, b)) in one.meshes[1].positions.iter().zip(&other.meshes[1].positions).enumerate() {
+        let off = f64::from(a.distance(*b)) / person.crown();
+        assert!(off < 0.005, "vertex {index} of the feet lies {off:.3} H off where eyes share their mesh");
+    }
+    // A rig that is made: legs move the feet, and the head does not.
+    let character = named(joined(), false);
+    let rig = Rig::of(&character, &RigOptions { fingers: false, ..RigOptions::default() }).unwrap();
+    let head = rig.humanoid.joint(Role::Head).unwrap() as u32;
+    for vertex in 0..feet.positions.len() {
+        let of_head: f32 = rig.weights[1]
+            .row(vertex)
+            .iter()
+            .filter(|(joint, _)| *joint == head)
+            .map(|(_, weight)| weight)
+            .sum();
+        assert!(of_head < 0.01, "the head moves {of_head} of vertex {vertex} of the feet");
+    }
+    let truth = person.joints();
+    for role in [Role::LeftFoot, Role::RightFoot, Role::LeftLowerLeg, Role::RightLowerLeg] {
+        let at = rig.skeleton.joints[rig.humanoid.joint(role).unwrap()].rest.w_axis.truncate();
+        let off = at.distance(truth[&role]) / person.crown();
+        assert!(off <= 0.06, "{role} lies {off:.3} H off");
+    }
+}
+
+/// A mouth that is cut out of the face, a mesh of its own without a name: taken for hair, it would leave a hole that the
+/// chin is read beside.
+#[test]
+fn a_mouth_of_its_own_is_no_hair_and_moves_no_chin() {
+    let person = Person { columns: 48, eyes: false, ..Person::adult() };
+    let p = &person.proportions;
+    let body = person.build().meshes[0].clone();
+    let is_mouth = |vertex: usize| {
+        let at = body.positions[vertex].as_dvec3();
+        let over_chin = (at.y - person.chin()) / p.head;
+        at.z > 0.0 && at.x.abs() < 0.6 * p.head_half_width && (-0.01..0.35).contains(&over_chin)
+    };
+    let all = [body.clone()];
+    let mouth = part(&all, |_, vertex| is_mouth(vertex), "");
+    // Triangles across the rim go with the face.
+    let mut face = body.clone();
+    face.triangles.retain(|corners| !corners.iter().all(|&vertex| is_mouth(vertex as usize)));
+    assert!(
+        mouth.triangles.len() > 20 && face.triangles.len() + mouth.triangles.len() == body.triangles.len()
+    );
+    let chin = |meshes: Vec<Mesh>, kind: Option<MeshKind>| {
+        let mut character = without_names(&Character { meshes, ..Character::default() });
+        character.meshes.iter_mut().for_each(|mesh| mesh.weights = Weights::default());
+        if let Some(last) = character.meshes.last_mut() {
+            last.kind = kind;
+        }
+        character.axes.forward = Some(Vec3::Z);
+        let options = RigOptions { fingers: false, ..RigOptions::default() };
+        let placed = Placed::of(&character, &options, &mut Progress::none()).unwrap();
+        (placed.figure.to_model(placed.found.chin).y / person.crown(), placed.kinds)
+    };
+    let (whole, _) = chin(vec![body.clone()], None);
+    let (cut, kinds) = chin(vec![face.clone(), mouth.clone()], None);
+    assert_ne!(kinds[1], Hair);
+    assert!((cut - whole).abs() < 0.005, "the chin moves from {whole:.3} to {cut:.3} H");
+    let (hairy, _) = chin(vec![face, mouth], Some(Hair));
+    assert!((hairy - whole).abs() > 0.02, "{hairy:.3} and {whole:.3} H: this mouth makes no difference");
 }

@@ -5,7 +5,7 @@ use super::rig_weights::{Binder, BodyRule};
 use crate::character::{Character, Humanoid, MeshKind, Role, Skeleton, Weights};
 use crate::error::{Result, Warning};
 use crate::progress::Progress;
-use crate::report::RigReport;
+use crate::report::{JointCandidate, RigReport};
 use crate::rig::eyes::find_eyes;
 use crate::rig::mesh_kinds::refine_kinds;
 use crate::rig::placed::Placed;
@@ -31,6 +31,9 @@ pub struct Rig {
     /// How sure each joint is, 0..1, in the skeleton's order: 1 for given ones, below 0.5 where a ratio stands in for
     /// what was not seen.
     pub confidence: Vec<f64>,
+    /// Where else each joint may be that is doubted: places in model space, each with how likely it is beside the one
+    /// that was taken, 0..1; that one first, then the likeliest.
+    pub candidates: BTreeMap<Role, Vec<(DVec3, f64)>>,
     /// From the feet to the head, model space: as given, or found.
     pub up: DVec3,
     /// The way the character looks, model space.
@@ -74,7 +77,7 @@ impl Rig {
         options.validate()?;
         progress.at(0.0)?;
         let clock = Instant::now();
-        let Placed { figure, up, forward, mut kinds, surroundings, mut found, mut warnings } =
+        let Placed { figure, up, forward, mut kinds, surroundings, mut found, candidates, mut warnings } =
             Placed::of(character, options, &mut progress.part(0.0, 0.25))?;
         warnings.extend(refine_kinds(&figure, &surroundings, &mut kinds, &found.joints));
         progress.at(0.28)?;
@@ -114,6 +117,15 @@ impl Rig {
             skeleton,
             humanoid,
             confidence: found.joints.values().map(|joint| joint.confidence).collect(),
+            candidates: candidates
+                .into_iter()
+                .map(|(role, places)| {
+                    (
+                        role,
+                        places.iter().map(|place| (figure.to_model(place.position), place.score)).collect(),
+                    )
+                })
+                .collect(),
             up,
             forward,
             kinds,
@@ -200,6 +212,17 @@ impl Rig {
                 .humanoid
                 .iter()
                 .map(|(role, joint)| (role.name().to_string(), self.confidence[joint]))
+                .collect(),
+            candidates: self
+                .candidates
+                .iter()
+                .map(|(role, places)| {
+                    let place = |&(position, score): &(DVec3, f64)| JointCandidate {
+                        position: position.to_array(),
+                        score,
+                    };
+                    (role.name().to_string(), places.iter().map(place).collect())
+                })
                 .collect(),
             unreached_vertices: self
                 .weights

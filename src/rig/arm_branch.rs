@@ -90,7 +90,11 @@ fn arm_of(rims: &[Rim], solid: &Solid, axis: f64, depth: impl Fn(f64) -> f64) ->
     {
         shoulder += inwards * (top - UNDER_TOP * radius).max(0.0);
     }
-    let stations = rims.iter().rev().map(|rim| Station {
+    // Where the last sections lie in the trunk, the arm begins at its shoulder.
+    let off = |rim: &Rim| rim.middle.distance(shoulder);
+    let begin = (count / 2..count).min_by(|&a, &b| off(&rims[a]).total_cmp(&off(&rims[b])))?;
+    let within = if off(&rims[begin]) < radius { begin + 1 } else { count };
+    let stations = rims[..within].iter().rev().map(|rim| Station {
         centre: rim.middle,
         width: 2.0 * rim.radius,
         depth: 2.0 * rim.radius,
@@ -108,6 +112,14 @@ fn direction(rims: &[Rim], middle: DVec3) -> Option<DVec3> {
         sum += (index as f64 - half) * (rim.middle - middle);
     }
     sum.try_normalize()
+}
+
+/// An arm that hangs along the trunk with its shoulder joint under the top of the shoulder; `None` where it is there, or the
+/// arm does not hang.
+pub fn raised(arm: &Arm, solid: &Solid) -> Option<Arm> {
+    let inwards = (arm.shoulder - arm.elbow).try_normalize().filter(|way| way.y > STEEP)?;
+    let further = top(solid, arm.shoulder, inwards)? - UNDER_TOP * arm.radius;
+    (further > 0.0).then(|| arm.with_shoulder(arm.shoulder + further * inwards))
 }
 
 /// How far a line goes on in a solid.

@@ -36,6 +36,9 @@ const UPPER_RANGE: (usize, usize) = (20, 4);
 /// at +30 %, twelve more good joints doubted; of the second, ±30 % moves joints by under 0.0005 H), ...
 const HAND_WIDENS: f64 = 1.12;
 const ARM_WIDENS: f64 = 1.05;
+/// Of places that are about as slim, which differ by less than the hand does, the last one is where the hand begins, if what
+/// is slim before it is so by chance: the wrist lies this share of the way to it.
+const TO_HAND: f64 = 0.5;
 /// ... and not within this of the end of its range, where the slimmest section only shows that the arm grows thinner still. Seen:
 /// ±30 % changes no joint.
 const WRIST_MARGIN: f64 = 0.02;
@@ -81,6 +84,12 @@ impl Arm {
         let wrist_arc = begins + share * (self.curve.whole() - begins);
         let wrist = self.curve.at(wrist_arc);
         Self { wrist, elbow: self.curve.elbow(self.shoulder, begins, wrist, wrist_arc), ..self.clone() }
+    }
+
+    /// The same arm with another shoulder joint, and the others as they show from there.
+    pub fn with_shoulder(&self, shoulder: DVec3) -> Self {
+        let outwards = (self.elbow - shoulder).normalize_or_zero();
+        self.curve.joints(shoulder, outwards, self.pit, self.pit_seen)
     }
 
     /// The same arm with some of its joints given, and the elbow between them where it is not. As it is where its
@@ -270,13 +279,17 @@ impl ArmCurve {
 
     /// The joints beyond a `shoulder`, of an arm that begins along `outwards`.
     pub fn arm(self, shoulder: DVec3, outwards: DVec3, pit: DVec2, pit_seen: bool) -> Arm {
+        Rc::new(self).joints(shoulder, outwards, pit, pit_seen)
+    }
+
+    fn joints(self: &Rc<Self>, shoulder: DVec3, outwards: DVec3, pit: DVec2, pit_seen: bool) -> Arm {
         let begins = self.before(shoulder, outwards);
         let seen = slimmest(&self.girths(begins));
         let wrist_arc = begins + seen.unwrap_or(WRIST_BY_RATIO) * (self.whole() - begins);
         let wrist = self.at(wrist_arc);
         let elbow = self.elbow(shoulder, begins, wrist, wrist_arc);
         let (tip, radius) = (self.tip(), self.radius());
-        let curve = Rc::new(self);
+        let curve = Rc::clone(self);
         Arm {
             shoulder,
             elbow,
@@ -303,7 +316,12 @@ fn slimmest(girths: &[(f64, f64)]) -> Option<f64> {
     let most = |girths: &[(f64, f64)]| girths.iter().map(|&(_, girth)| girth).fold(0.0, f64::max);
     let is_slim = most(&girths[slim..]) > HAND_WIDENS * girths[slim].1
         && most(&girths[..slim]) > ARM_WIDENS * girths[slim].1;
-    (is_slim && at < WRIST_RANGE.1 - WRIST_MARGIN).then_some(at)
+    let last = WRIST_RANGE.1 - WRIST_MARGIN;
+    (is_slim && at < last).then(|| {
+        let least = weighed.iter().map(|&(_, girth)| girth).fold(f64::INFINITY, f64::min);
+        let as_slim = weighed.iter().rev().find(|&&(_, girth)| girth <= HAND_WIDENS * least);
+        (at + TO_HAND * as_slim.map_or(0.0, |&(share, _)| (share - at).max(0.0))).min(last)
+    })
 }
 
 /// True of a share of the way from shoulder to tip at which wrists are.

@@ -38,6 +38,8 @@ const FORWARD: f64 = 0.4;
 
 /// An arm that hangs is seen beside the trunk over at least this height, ...
 const LEAST_HANGING: f64 = 0.08;
+/// ... touches it over no more than this height, ...
+const MOST_TOUCHING: f64 = 0.15;
 /// ... and its shoulder joint lies so many of its radii over the armpit.
 const HANGING_OVER: f64 = 0.8;
 /// An arm is followed so many columns before its lower side is looked at for a drop (seen: ±30 % changes no joint), ...
@@ -162,27 +164,23 @@ pub fn find_hanging_arm(view: &FrontView, left: bool, space: &ArmSpace) -> Optio
     let (first, last) = (view.grid.row(space.floor), view.grid.row(space.ceiling));
     // The outermost run of each row that has another one inside of it, upwards, of which each goes on where the one
     // before it was.
-    let mut path: Vec<(usize, (usize, usize))> = Vec::new();
-    let mut best: Vec<(usize, (usize, usize))> = Vec::new();
+    let mut paths: Vec<Path> = vec![Path::new()];
     for row in first..=last {
         let runs = view.side_runs(left, row);
         let run = runs.last().copied().filter(|run| runs.len() >= 2 && run.0 > 0);
-        let goes_on =
-            |run: (usize, usize)| path.last().is_none_or(|&(_, before)| run.0 < before.1 && before.0 < run.1);
-        match run {
-            Some(run) if goes_on(run) => path.push((row, run)),
-            _ => {
-                if path.len() > best.len() {
-                    best = std::mem::take(&mut path);
-                }
-                path.clear();
-                path.extend(run.map(|run| (row, run)));
-            }
+        let goes_on = |run: (usize, usize), path: &Path| {
+            path.last().is_none_or(|&(at, before)| at + 1 == row && run.0 < before.1 && before.0 < run.1)
+        };
+        let Some(run) = run else { continue };
+        match paths.last_mut() {
+            Some(path) if goes_on(run, path) => path.push((row, run)),
+            _ => paths.push(vec![(row, run)]),
         }
     }
-    if path.len() > best.len() {
-        best = path;
-    }
+    let best = joined(view, left, paths)
+        .into_iter()
+        .reduce(|best, path| if path.len() > best.len() { path } else { best })
+        .unwrap_or_default();
     let least = (LEAST_HANGING / cell) as usize;
     // What reaches up to the ceiling is hair that hangs down.
     if best.len() < least || best.last().is_none_or(|&(row, _)| row >= last) {
@@ -205,6 +203,41 @@ pub fn find_hanging_arm(view: &FrontView, left: bool, space: &ArmSpace) -> Optio
     let tip = middle(&best[0]);
     let line = ArmLine { along, pit, start, length: (tip - start).dot(along), hangs: true };
     joints(view, left, &line, true)
+}
+
+/// Rows, each with the steps from the axis between which something is arm, upwards.
+type Path = Vec<(usize, (usize, usize))>;
+
+/// Paths that are one arm, which touches the trunk or a leg between them: its outer side goes on there.
+fn joined(view: &FrontView, left: bool, paths: Vec<Path>) -> Vec<Path> {
+    let most = (MOST_TOUCHING / view.cell()) as usize;
+    let mut arms: Vec<Path> = Vec::new();
+    for path in paths {
+        let (Some(below), Some(&(to, above))) = (arms.last_mut(), path.first()) else {
+            arms.push(path);
+            continue;
+        };
+        let Some(&(from, run)) = below.last() else {
+            arms.push(path);
+            continue;
+        };
+        let thickness = (run.1 - run.0).min(above.1 - above.0);
+        let between = (from + 1..to).map(|row| {
+            let share = (row - from) as f64 / (to - from) as f64;
+            let side = run.1 as f64 + share * (above.1 as f64 - run.1 as f64);
+            let outer = view.side_runs(left, row).last()?.1;
+            ((outer as f64 - side).abs() <= thickness as f64 && outer > thickness)
+                .then(|| (row, (outer - thickness, outer)))
+        });
+        match between.collect::<Option<Path>>() {
+            Some(between) if to - from <= most => {
+                below.extend(between);
+                below.extend(path);
+            }
+            _ => arms.push(path),
+        }
+    }
+    arms
 }
 
 /// Where the lower side of the arm would be at `steps`, in rows, and how thick the arm is there.
@@ -270,6 +303,8 @@ struct ArmRays {
     first: usize,
     /// 1 or -1: depths of the grid along z.
     depth_sign: f64,
+    /// True where the arm hangs down.
+    hangs: bool,
 }
 
 impl ArmRays {
@@ -294,6 +329,7 @@ impl ArmRays {
             length,
             first: (inside / cell).round() as usize,
             depth_sign: right.cross(up).z.signum(),
+            hangs: line.hangs,
         })
     }
 
@@ -321,8 +357,17 @@ impl ArmRays {
         let mut stations: Vec<Option<Station>> = vec![None; STATIONS];
         let clear = first + (CLEAR * (STATIONS - first) as f64) as usize;
         let mut middle = self.grid.frame.rows / 2;
+        // Where an arm that hangs touches the trunk, sections have both in them.
+        let most = if self.hangs {
+            let along = (clear..STATIONS).filter_map(|column| Some(self.station(column, middle)?.1.width));
+            TRUNK_WIDENS * median(&mut along.collect::<Vec<_>>())
+        } else {
+            f64::INFINITY
+        };
         for (column, slot) in stations.iter_mut().enumerate().skip(clear) {
-            if let Some((next, station)) = self.station(column, middle) {
+            if let Some((next, station)) = self.station(column, middle)
+                && station.width <= most
+            {
                 middle = next;
                 *slot = Some(station);
             }

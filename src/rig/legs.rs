@@ -361,9 +361,11 @@ impl Legs {
     fn heed(&mut self, lobes: &LegLobes, low: f64) {
         let foot = low + ANKLE_RANGE.1 * (self.crotch - low);
         for (left, sections) in [true, false].into_iter().zip(&mut self.sections) {
-            for section in sections.iter_mut().filter(|section| section.y > foot) {
+            for section in sections {
                 let Some(lobe) = lobes.section(left, section.y) else { continue };
-                let off = (section.x - lobe.x).abs().max((section.z() - lobe.z()).abs());
+                // A foot reaches forward from its leg, but not aside.
+                let ahead = if section.y > foot { (section.z() - lobe.z()).abs() } else { 0.0 };
+                let off = (section.x - lobe.x).abs().max(ahead);
                 if off > ASTRAY * lobe.half_width {
                     *section = lobe;
                 }
@@ -544,15 +546,9 @@ pub fn mean_section(sections: &[Section], low: f64, high: f64) -> Option<Section
     })
 }
 
-/// One leg's joints; what is `given` stays.
-pub fn leg(
-    view: &FrontView,
-    legs: &Legs,
-    left: bool,
-    given_hip: Option<DVec3>,
-    given_knee: Option<DVec3>,
-    given_ankle: Option<DVec3>,
-) -> Leg {
+/// One leg's joints; what is `given` of hip joint, knee and ankle stays.
+pub fn leg(view: &FrontView, legs: &Legs, left: bool, given: [Option<DVec3>; 3]) -> Leg {
+    let [given_hip, given_knee, given_ankle] = given;
     let sections = &legs.sections[usize::from(!left)];
     let length = (legs.crotch - view.low).max(1e-3);
     let at = |share: f64| view.low + share * length;

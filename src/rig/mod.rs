@@ -20,6 +20,7 @@
 //! | `head_line` | neck, chin, crown |
 //! | `hand` | fingers: the `section` at the wrist, the `region` beyond it |
 //! | `joints` | all of these put together, sides made alike, what is not seen by ratio |
+//! | `candidates` | where else a doubted joint may be |
 //! | `placed` | the above in order: the way a character looks, kinds, joints |
 //! | `eyes` | eyeballs |
 //! | `skeleton` | joints as a tree, and the bones that weights start from |
@@ -36,6 +37,7 @@ pub mod arm_choice;
 pub mod arm_curve;
 pub mod arms;
 pub mod branches;
+pub mod candidates;
 pub mod eyes;
 pub mod facing;
 pub mod far;

@@ -1,5 +1,6 @@
 //! From a character to its joints: how it stands, the way it looks, what its meshes depict, where its joints are.
 
+use super::candidates::Place;
 use super::facing::find_forward;
 use super::far::gathered;
 use super::joints::{FoundJoints, find_joints};
@@ -12,6 +13,7 @@ use crate::error::{ErrorKind, Result, Warning};
 use crate::progress::Progress;
 use glam::{DVec3, Vec3};
 use std::borrow::Cow;
+use std::collections::BTreeMap;
 
 /// Limb joints by which it is judged whether a character stands.
 const LIMBS: [Role; 12] = {
@@ -57,6 +59,8 @@ pub struct Placed {
     pub surroundings: Surroundings,
     /// Its joints, in the figure's space.
     pub found: FoundJoints,
+    /// Where else each joint may be that is doubted, the figure's space: the place that was taken, then the likeliest.
+    pub candidates: BTreeMap<Role, Vec<Place>>,
     /// What a person should know.
     pub warnings: Vec<Warning>,
 }
@@ -127,10 +131,12 @@ impl Placed {
     /// Doubts all joints that were not given where front and back may be swapped.
     fn doubted(mut self) -> Self {
         if self.warnings.iter().any(|warning| warning.code == "facing_guessed") {
+            self.found.candidates.swap_sides(&self.found.joints);
             for joint in self.found.joints.values_mut().filter(|joint| joint.confidence < 1.0) {
                 joint.confidence = joint.confidence.min(DOUBTFUL);
             }
         }
+        self.candidates = self.found.candidates.of_doubted(&self.found.joints, SEEN);
         self
     }
 
@@ -151,11 +157,24 @@ impl Placed {
             let part = |index: usize| 0.2 + 0.8 * index as f32 / count;
             let mut progress = progress.part(part(index), part(index + 1));
             let placed = Self::looking(character, forward, warnings, options, cells, &mut progress)?;
-            if best.as_ref().is_none_or(|best| placed.seen_count() > best.seen_count()) {
-                best = Some(placed);
-            }
+            best = Some(match best {
+                Some(best) => best.or_turned(placed),
+                None => placed,
+            });
         }
         best.ok_or_else(MeshList::no_extent)
+    }
+
+    /// The one of two ways to look in which more limbs are seen, with the joints of the other one as candidates.
+    fn or_turned(self, other: Self) -> Self {
+        let (mut best, other) =
+            if other.seen_count() > self.seen_count() { (other, self) } else { (self, other) };
+        let score = (1 + other.seen_count()) as f64 / (1 + best.seen_count()) as f64;
+        for (&role, joint) in &other.found.joints {
+            let position = best.figure.to_unit(other.figure.to_model(joint.position));
+            best.found.candidates.add(role, position, score);
+        }
+        best
     }
 
     fn looking(
@@ -185,7 +204,8 @@ impl Placed {
         warnings.append(&mut found.warnings);
         progress.at(1.0)?;
         let up = character.axes.up.as_dvec3().normalize_or(DVec3::Y);
-        Ok(Self { figure, up, forward, kinds, surroundings, found, warnings })
+        let candidates = BTreeMap::new();
+        Ok(Self { figure, up, forward, kinds, surroundings, found, candidates, warnings })
     }
 }
 

@@ -1,5 +1,6 @@
 //! The fingers of a hand: tips and roots from distances along its surface, joints in the middle of their sections.
 
+pub mod pair;
 mod region;
 mod section;
 
