@@ -80,8 +80,8 @@ extern "C" {
 // ---- Version, status, errors, handles -------------------------------------------------------------------------------
 
 #define SDEF_ABI_VERSION 1              // Compared with sdef_abi_version() before anything else.
-#define SDEF_VERSION_MAJOR 0            // Of the release that this header belongs to.
-#define SDEF_VERSION_MINOR 2            // Likewise.
+#define SDEF_VERSION_MAJOR 1            // Of the release that this header belongs to.
+#define SDEF_VERSION_MINOR 0            // Likewise.
 #define SDEF_VERSION_PATCH 0            // Likewise.
 
 #define SDEF_NONE UINT32_MAX            // No mesh, no element, no role.
@@ -143,7 +143,7 @@ typedef struct SdefDeformer { uint64_t id; } SdefDeformer; // 0: none
 // What is only added (functions, fields at the end of structs with struct_size, constants) raises SDEF_VERSION_MINOR.
 SDEF_API uint32_t sdef_abi_version(void);
 
-// The library's release, such as "0.2.0". Static text.
+// The library's release, such as "1.0.0-rc.1". Static text.
 SDEF_API const char *sdef_version(void);
 
 // The name of a status, such as "SDEF_STATUS_BUSY"; "unknown status" for other numbers. Static text.
@@ -589,6 +589,7 @@ typedef struct SdefStyleNumbers {
   double lower_leg_radius; // likewise
   double eye_height;       // the eyes' height above the chin over head_length, 0 to 1
   double eye_size;         // square root of half an eye's width by half its height, over head_length, 0 to 0.5
+  double head_half_depth;  // half the head's depth; product mode transfers it too
 } SdefStyleNumbers;
 
 // A style of so many heads.

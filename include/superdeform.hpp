@@ -261,7 +261,7 @@ struct GroupSettings : SdefGroupSettings {
   explicit GroupSettings(const char *name) : SdefGroupSettings(SDEF_GROUP_SETTINGS_INIT) { group = name; }
 };
 
-// The library's release, such as "0.2.0".
+// The library's release, such as "1.0.0-rc.1".
 inline const char *version() {
   detail::check_version();
   return sdef_version();

@@ -1396,7 +1396,9 @@ fn no_handle_is_left() {
 #[test]
 fn the_version_and_the_names_of_all_statuses() {
     assert_eq!(sdef_abi_version(), SDEF_ABI_VERSION);
-    let version = format!("{SDEF_VERSION_MAJOR}.{SDEF_VERSION_MINOR}.{SDEF_VERSION_PATCH}");
+    let before = env!("CARGO_PKG_VERSION_PRE");
+    let before = if before.is_empty() { String::new() } else { format!("-{before}") };
+    let version = format!("{SDEF_VERSION_MAJOR}.{SDEF_VERSION_MINOR}.{SDEF_VERSION_PATCH}{before}");
     assert_eq!(unsafe { CStr::from_ptr(sdef_version()) }.to_str(), Ok(version.as_str()));
     assert_eq!(env!("CARGO_PKG_VERSION"), version);
     let name = |status| unsafe { CStr::from_ptr(sdef_status_name(status)) }.to_str().unwrap();

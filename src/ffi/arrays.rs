@@ -164,8 +164,8 @@ pub unsafe fn needed_text(what: impl Display, from: *const c_char) -> Outcome<St
 pub unsafe trait HostStruct: Plain {
     /// Its name in C.
     const NAME: &'static str;
-    /// Its size in version 1 of the ABI, which no host falls below. Until that version is frozen, the size of the day;
-    /// then `offset_of!` of the first field that came later.
+    /// Its size in version 1 of the ABI, which no host falls below: for a struct that has grown since, `offset_of!` of the
+    /// first field that came later.
     const FIRST_SIZE: usize = size_of::<Self>();
 
     /// What the fields are that a host's older struct does not have.
@@ -546,6 +546,32 @@ mod tests {
         }
         let refused = read(0.5).unwrap_err();
         assert!(refused.message.starts_with("Grown has a field set at byte 20"), "{}", refused.message);
+    }
+
+    /// Hosts that were built with version 1 of the ABI are never told that their structs are too small.
+    #[test]
+    #[cfg(target_pointer_width = "64")]
+    fn no_struct_must_be_larger_than_in_the_frozen_version() {
+        use crate::ffi::{character::*, deformer::*, options::*, style::*};
+        let file = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/headers/abi_1.txt");
+        let Ok(frozen) = std::fs::read_to_string(file) else {
+            println!("skipped: there is no {file}, as in a package from a registry");
+            return;
+        };
+        let sizes: Vec<(&str, usize)> = frozen
+            .lines()
+            .filter_map(|line| line.strip_prefix("SIZE(")?.strip_suffix(");")?.split_once(", "))
+            .map(|(name, size)| (name, size.parse().unwrap()))
+            .collect();
+        macro_rules! asked { ($($name:ident)*) => { [$((<$name as HostStruct>::NAME, <$name as HostStruct>::FIRST_SIZE)),*] } }
+        let asked = asked!(SdefGroupSettings SdefBoneGroup SdefGivenJoint SdefOptions SdefMesh SdefImage SdefFaceHints
+            SdefMorphTarget SdefSkeleton SdefCharacterInfo SdefBone SdefStyleNumbers SdefMeshResult SdefCollider SdefSpringBall
+            SdefGroup SdefFigure SdefReport);
+        for own in asked {
+            assert!(sizes.contains(&own), "{own:?}");
+        }
+        // Beside them: a status, three handles, and the error, which knows its own size.
+        assert_eq!(sizes.len(), asked.len() + 5, "{sizes:?}");
     }
 
     #[test]

@@ -6,9 +6,9 @@ use safer_ffi::prelude::*;
 /// Compared with sdef_abi_version() before anything else.
 pub const SDEF_ABI_VERSION: u32 = 1;
 /// Of the release that this header belongs to.
-pub const SDEF_VERSION_MAJOR: u32 = 0;
+pub const SDEF_VERSION_MAJOR: u32 = 1;
 /// Likewise.
-pub const SDEF_VERSION_MINOR: u32 = 2;
+pub const SDEF_VERSION_MINOR: u32 = 0;
 /// Likewise.
 pub const SDEF_VERSION_PATCH: u32 = 0;
 
@@ -121,7 +121,7 @@ pub extern "C" fn sdef_abi_version() -> u32 {
     SDEF_ABI_VERSION
 }
 
-/// The library's release, such as "0.2.0". Static text.
+/// The library's release, such as "1.0.0-rc.1". Static text.
 #[ffi_export]
 pub extern "C" fn sdef_version() -> *const c_char {
     const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), "\0");

@@ -96,6 +96,8 @@ pub struct SdefStyleNumbers {
     pub eye_height: f64,
     /// square root of half an eye's width by half its height, over head_length, 0 to 0.5
     pub eye_size: f64,
+    /// half the head's depth; product mode transfers it too
+    pub head_half_depth: f64,
 }
 unsafe impl Plain for SdefStyleNumbers {}
 unsafe impl HostStruct for SdefStyleNumbers {
@@ -255,7 +257,7 @@ pub unsafe extern "C" fn sdef_style_from_numbers(
             proportions: known(given.head_length).map(|head_length| Proportions {
                 head_length,
                 head_half_width: given.head_half_width,
-                head_half_depth: None,
+                head_half_depth: known(given.head_half_depth),
                 neck: given.neck,
                 torso: given.torso,
                 arm: given.arm,
@@ -422,6 +424,7 @@ const UNKNOWN: SdefStyleNumbers = SdefStyleNumbers {
     lower_leg_radius: f64::NAN,
     eye_height: f64::NAN,
     eye_size: f64::NAN,
+    head_half_depth: f64::NAN,
 };
 
 fn numbers_of(style: &Style) -> SdefStyleNumbers {
@@ -452,6 +455,7 @@ fn numbers_of(style: &Style) -> SdefStyleNumbers {
         numbers = SdefStyleNumbers {
             head_length: p.head_length,
             head_half_width: p.head_half_width,
+            head_half_depth: or_nan(p.head_half_depth),
             neck: p.neck,
             torso: p.torso,
             arm: p.arm,

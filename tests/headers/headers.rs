@@ -6,7 +6,7 @@ use std::process::Command;
 use superdeform::options::table::Default;
 use superdeform::options::{OptionInfo, Scope, TABLE, Values, find};
 use superdeform_headers::csharp::{constants_of, pascal, printed};
-use superdeform_headers::{SECTIONS, c_header, csharp, layout, root, source};
+use superdeform_headers::{SECTIONS, abi, broken, c_header, csharp, layout, root, source};
 
 /// Compares a generated text with the committed file, or writes it where `SUPERDEFORM_BLESS` is set.
 fn check(path: &str, text: &str) {
@@ -38,6 +38,53 @@ fn the_committed_imports_are_generated() {
 #[test]
 fn the_committed_layout_is_generated() {
     check("cpp_tests/layout.inc", &layout(&c_header()));
+}
+
+/// What hosts that were built with version 1 need: functions and constants may be added, fields at the end of structs. The
+/// file is written once for each version of the ABI, with `SUPERDEFORM_FREEZE`.
+#[test]
+fn the_frozen_abi_is_kept() {
+    let now = abi(&c_header());
+    let version = now.iter().find_map(|line| line.strip_prefix("constant SDEF_ABI_VERSION ")).unwrap();
+    let file = root().join(format!("tests/headers/abi_{version}.txt"));
+    if std::env::var_os("SUPERDEFORM_FREEZE").is_some() {
+        std::fs::write(&file, now.join("\n") + "\n").unwrap();
+    }
+    let frozen: Vec<String> =
+        std::fs::read_to_string(&file).expect("the version is frozen").lines().map(str::to_string).collect();
+    assert!(frozen.len() > 300, "{} lines", frozen.len());
+    let broken = broken(&frozen, &now);
+    assert!(broken.is_empty(), "hosts of this version of the ABI would break: {}", broken.join("; "));
+}
+
+#[test]
+fn what_would_break_hosts_is_found() {
+    let before = "#define SDEF_A 1\ntypedef uint32_t SdefStatus;\ntypedef struct SdefS {\n  uint32_t struct_size;\n  uint32_t a;\n  \
+                  double b;\n  uint32_t c;\n} SdefS;\nSDEF_API SdefStatus sdef_f(SdefS *s,\n    uint32_t n);\n";
+    let frozen = abi(before);
+    let found = |from: &str, to: &str| broken(&frozen, &abi(&before.replace(from, to)));
+    assert_eq!(found("", ""), Vec::<String>::new());
+    // What is added at the end, or beside it, breaks nobody.
+    for (from, to) in [
+        ("  uint32_t c;\n", "  uint32_t c;\n  double d;\n"),
+        ("#define", "#define SDEF_B 2\n#define"),
+        ("SDEF_API", "SDEF_API SdefStatus sdef_g(void);\nSDEF_API"),
+    ] {
+        assert_eq!(found(from, to), Vec::<String>::new(), "{to}");
+    }
+    for (from, to) in [
+        ("SDEF_A 1", "SDEF_A 2"),
+        ("  double b;\n", ""),
+        ("double b", "size_t b"),
+        ("  uint32_t a;\n  double b;\n", "  double b;\n  uint32_t a;\n"),
+        // In the padding that an older host left.
+        ("  uint32_t c;\n", "  uint32_t c;\n  uint32_t d;\n"),
+        ("uint32_t n", "uint64_t n"),
+        ("sdef_f", "sdef_h"),
+        ("typedef uint32_t SdefStatus", "typedef int32_t SdefStatus"),
+    ] {
+        assert!(!found(from, to).is_empty(), "{from} to {to}");
+    }
 }
 
 #[test]

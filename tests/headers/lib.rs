@@ -2,10 +2,12 @@
 
 mod c_header;
 pub mod csharp;
+mod frozen;
 mod layout;
 
 pub use c_header::c_header;
 pub use csharp::csharp;
+pub use frozen::{abi, broken};
 pub use layout::layout;
 
 use std::path::{Path, PathBuf};

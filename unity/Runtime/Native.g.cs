@@ -16,8 +16,8 @@ internal static unsafe partial class Native
     private const string Library = "superdeform";
 #endif
     internal const UInt32 SDEF_ABI_VERSION = 1;
-    internal const UInt32 SDEF_VERSION_MAJOR = 0;
-    internal const UInt32 SDEF_VERSION_MINOR = 2;
+    internal const UInt32 SDEF_VERSION_MAJOR = 1;
+    internal const UInt32 SDEF_VERSION_MINOR = 0;
     internal const UInt32 SDEF_VERSION_PATCH = 0;
     internal const UInt32 SDEF_NONE = 0xFFFFFFFF;
     internal const UInt32 SDEF_STATUS_OK = 0;
@@ -682,7 +682,7 @@ internal static unsafe partial class Native
         SdefError* error);
 
     /// <summary>
-    /// The library's release, such as "0.2.0". Static text.
+    /// The library's release, such as "1.0.0-rc.1". Static text.
     /// </summary>
     [DllImport(Library, ExactSpelling = true, CallingConvention = CallingConvention.Cdecl)]
     internal static extern sbyte* sdef_version ();
@@ -1884,6 +1884,11 @@ internal unsafe struct SdefStyleNumbers {
     /// square root of half an eye's width by half its height, over head_length, 0 to 0.5
     /// </summary>
     public double eye_size;
+
+    /// <summary>
+    /// half the head's depth; product mode transfers it too
+    /// </summary>
+    public double head_half_depth;
 }
 
 /// <summary>

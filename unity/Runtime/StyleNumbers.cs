@@ -75,6 +75,9 @@ public sealed class StyleNumbers
     /// <summary>Square root of half an eye's width by half its height, over HeadLength, 0 to 0.5.</summary>
     public double EyeSize = double.NaN;
 
+    /// <summary>Half the head's depth.</summary>
+    public double HeadHalfDepth = double.NaN;
+
     public StyleNumbers() { }
 
     internal StyleNumbers(SdefStyleNumbers native)
@@ -102,6 +105,7 @@ public sealed class StyleNumbers
         LowerLegRadius = native.lower_leg_radius;
         EyeHeight = native.eye_height;
         EyeSize = native.eye_size;
+        HeadHalfDepth = native.head_half_depth;
     }
 
     internal unsafe SdefStyleNumbers ToNative()
@@ -131,6 +135,7 @@ public sealed class StyleNumbers
         native.lower_leg_radius = LowerLegRadius;
         native.eye_height = EyeHeight;
         native.eye_size = EyeSize;
+        native.head_half_depth = HeadHalfDepth;
         return native;
     }
 }

@@ -6,7 +6,7 @@ namespace SuperDeform
 public static class SuperDeformLibrary
 {
     /// <summary>The version of this package, which is the version of the native library that belongs to it.</summary>
-    public const string Version = "0.2.0";
+    public const string Version = "1.0.0-rc.1";
 
     /// <summary>The command that builds the native library into the package, in a checkout of the repository.</summary>
     public const string BuildCommand = "bash .ci/unity_package --plugins";
@@ -53,7 +53,7 @@ public static class SuperDeformLibrary
         found = true;
     }
 
-    /// <summary>The release of the native library that is loaded, such as 0.2.0.</summary>
+    /// <summary>The release of the native library that is loaded, such as 1.0.0-rc.1.</summary>
     public static unsafe string NativeVersion
     {
         get
