@@ -678,6 +678,39 @@ fn a_map_names_roles_in_three_spellings() {
     assert!(load(file, &options).unwrap_err().message.contains("\"pelvi\""));
 }
 
+/// Nodes that are called like joints, where nothing hangs from most of them, are no rig; pieces that hang from them are moved by
+/// it.
+#[test]
+fn without_skins_a_rig_is_what_moves_something() {
+    let mut file = GltfFile::read(&samples::data().join("kaykit_rogue.glb")).unwrap();
+    let options = LoadOptions { find_roles: Some(&superdeform::find_roles), ..LoadOptions::default() };
+    assert!(load(file.clone(), &options).unwrap().rigged);
+    file.json.as_object_mut().unwrap().remove("skins");
+    let nodes = file.json["nodes"].as_array_mut().unwrap();
+    nodes.iter_mut().for_each(|node| drop(node.as_object_mut().unwrap().remove("skin")));
+    let loaded = load(file.clone(), &options).unwrap();
+    assert!(!loaded.rigged && loaded.character.skeleton.joints.is_empty());
+    // The same meshes, now children of joints, two here and two there.
+    let nodes = file.json["nodes"].as_array_mut().unwrap();
+    let named = |nodes: &[Value], name: &str| nodes.iter().position(|node| node["name"] == name).unwrap();
+    let shown: Vec<usize> = (0..nodes.len()).filter(|&node| nodes[node].get("mesh").is_some()).collect();
+    for node in nodes.iter_mut() {
+        if let Some(children) = node["children"].as_array_mut() {
+            children.retain(|child| !shown.contains(&(child.as_u64().unwrap() as usize)));
+        }
+        if node["children"].as_array().is_none_or(|children| children.is_empty()) {
+            node.as_object_mut().unwrap().remove("children");
+        }
+    }
+    for (index, shown) in shown.iter().enumerate() {
+        let joint = named(nodes, ["upperarm.l", "head"][index % 2]);
+        let mut children = nodes[joint]["children"].as_array().cloned().unwrap_or_default();
+        children.push(json!(shown));
+        nodes[joint]["children"] = json!(children);
+    }
+    assert!(load(file, &options).unwrap().rigged);
+}
+
 #[test]
 fn a_map_may_number_nodes_of_one_name() {
     let mut made = figure();

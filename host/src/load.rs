@@ -11,6 +11,7 @@ use super::{array_at, bad_input, index_at, roles, text_at};
 use glam::{DMat4, Vec3};
 use regex::Regex;
 use serde_json::Value;
+use std::collections::BTreeSet;
 use superdeform::{
     Axes, Character, Element, Error, ErrorKind, Humanoid, Joint, Mesh, MeshKind, Result, Skeleton, Warning,
     Weights,
@@ -240,17 +241,41 @@ fn find_humanoid(
         }
         warnings.extend(found_warnings);
     }
-    let Some(&role) = humanoid.missing().first() else {
-        return Ok(Some(humanoid));
-    };
     // Without a skin the nodes may be nothing but places for meshes, called like joints: a figure that has yet to get
     // a rig.
     let rigged = !file.list("skins").is_empty() || options.humanoid_map.is_some() || is_vrm(file);
+    let Some(&role) = humanoid.missing().first() else {
+        return Ok((rigged || hangs_from(&humanoid, skeleton, meshes)).then_some(humanoid));
+    };
     if rigged && !options.incomplete_rig {
         let message = format!("{} shows no joint for the role {role}: name one", file.name);
         return Err(Error::new(ErrorKind::NoHumanoid, message).about("humanoid"));
     }
     Ok(rigged.then_some(humanoid))
+}
+
+/// True where most vertices hang from joints of `humanoid`, and not all from one: a figure of rigid pieces.
+fn hangs_from(humanoid: &Humanoid, skeleton: &Skeleton, meshes: &[Mesh]) -> bool {
+    let mut has_role = vec![false; skeleton.joints.len()];
+    humanoid.iter().for_each(|(_, joint)| has_role[joint] = true);
+    // A joint without a role hangs from the next one above it that has one.
+    let hung: Vec<Option<usize>> = (0..skeleton.joints.len())
+        .map(|joint| {
+            std::iter::successors(Some(joint), |&joint| skeleton.joints[joint].parent)
+                .take(skeleton.joints.len())
+                .find(|&joint| has_role[joint])
+        })
+        .collect();
+    let (mut moved, mut from) = (0, BTreeSet::new());
+    for row in meshes.iter().flat_map(|mesh| mesh.weights.rows()) {
+        let largest = row.iter().max_by(|a, b| a.1.total_cmp(&b.1));
+        if let Some(joint) = largest.and_then(|&(joint, _)| hung[joint as usize]) {
+            moved += 1;
+            from.insert(joint);
+        }
+    }
+    let all: usize = meshes.iter().map(|mesh| mesh.positions.len()).sum();
+    2 * moved > all && from.len() > 1
 }
 
 /// True for files with a VRM header of either version.
