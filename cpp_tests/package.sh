@@ -24,7 +24,7 @@ END
 cat >"$scratch/project/CMakeLists.txt" <<'END'
 cmake_minimum_required(VERSION 3.20)
 project(consumer LANGUAGES C CXX)
-find_package(superdeform 0.2 REQUIRED)
+find_package(superdeform 1.0 REQUIRED)
 foreach(kind superdeform static)
   add_executable(minimal_${kind} minimal.c)
   target_link_libraries(minimal_${kind} PRIVATE superdeform::${kind})

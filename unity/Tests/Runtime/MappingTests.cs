@@ -13,8 +13,8 @@ public sealed class MappingTests
     {
         object native = Filled(typeof(SdefStyleNumbers));
         StyleNumbers numbers = new StyleNumbers((SdefStyleNumbers)native);
-        Assert.AreEqual(23, AssertNames(native, numbers));
-        Assert.AreEqual(23, AssertNames(numbers.ToNative(), numbers));
+        Assert.AreEqual(24, AssertNames(native, numbers));
+        Assert.AreEqual(24, AssertNames(numbers.ToNative(), numbers));
     }
 
     [Test]

@@ -101,7 +101,7 @@ public sealed class StyleTests
     private static void AssertNumbers(StyleNumbers expected, StyleNumbers given)
     {
         System.Reflection.FieldInfo[] fields = typeof(StyleNumbers).GetFields();
-        Assert.AreEqual(23, fields.Length);
+        Assert.AreEqual(24, fields.Length);
         foreach (System.Reflection.FieldInfo field in fields)
             Assert.AreEqual(field.GetValue(expected), field.GetValue(given), field.Name);
     }
