@@ -35,7 +35,15 @@ struct Righted {
     offsets: Vec<(u32, DVec3)>,
     /// What their displacements were without it.
     plain: Vec<Vec3>,
-    /// The triangles that ask for it of which no vertex is of the head.
+    asked: Arc<Asked>,
+}
+
+/// Triangles by what can turn them.
+#[derive(Debug, Default)]
+struct Asked {
+    /// With a vertex of the head.
+    of_head: Vec<u32>,
+    /// Without one: those that the body's field turns over, but nearly not.
     below_head: Vec<u32>,
 }
 
@@ -107,7 +115,7 @@ impl Deformer {
             single(figure.frame.to_model(placement.vertex(vertex) - figure.positions[vertex]))
         };
         let threads = self.options.thread_count;
-        let (mut of, below_head) = match known {
+        let (mut of, asked) = match known {
             Some(known) if known.head.is_same(&head) => {
                 self.displacements = Some(known);
                 return;
@@ -120,33 +128,28 @@ impl Deformer {
                     }
                 }
                 let of = renewed(threads, of, &placement.bindings.of_head, displacement);
-                (of, Some(righted.below_head.clone()))
+                (of, Some(Arc::clone(&righted.asked)))
             }
             None => {
                 let count = figure.positions.len();
                 (Arc::new(parallel::collect(threads, count, LEAST_VERTICES, displacement)), None)
             }
         };
-        let righted = self.righted(&mut of, below_head);
+        let righted = self.righted(&mut of, asked);
         self.displacements = Some(Displacements { of, head, righted: Arc::new(righted) });
     }
 
     /// Puts right, in the displacements `of`, triangles that are nearly right.
     ///
-    /// `below_head`: those that the head's stages do not move, where they are known.
-    fn righted(&self, of: &mut Arc<Vec<Vec3>>, below_head: Option<Vec<u32>>) -> Righted {
+    /// `asked`: what the head's stages do not change, where it is known.
+    fn righted(&self, of: &mut Arc<Vec<Vec3>>, asked: Option<Arc<Asked>>) -> Righted {
         // The paper's equations stay to the letter.
         if self.deformation.product.is_none() {
             return Righted::default();
         }
         let threads = self.options.thread_count;
         let Measured { figure, weld, .. } = &*self.target.measured;
-        let mut is_of_head = vec![false; figure.positions.len()];
-        for &vertex in &*self.deformation.bindings.of_head {
-            is_of_head[vertex as usize] = true;
-        }
-        let touches_head = |corners: [u32; 3]| corners.iter().any(|&corner| is_of_head[corner as usize]);
-        let (offsets, below_head) = {
+        let (offsets, asked) = {
             let of = &**of;
             let after =
                 |vertex: usize| figure.positions[vertex] + figure.frame.to_canonical(of[vertex].as_dvec3());
@@ -157,15 +160,17 @@ impl Deformer {
                 weld,
                 height: figure.height(),
             };
-            let below_head = below_head
-                .unwrap_or_else(|| triangles.nearly_right(|corners| !touches_head(corners), threads));
-            let mut wrong = triangles.nearly_right(touches_head, threads);
-            wrong.extend(&below_head);
+            let asked = asked.unwrap_or_else(|| {
+                let (of_head, below) = self.triangles_of_head();
+                Arc::new(Asked { of_head, below_head: triangles.nearly_right(&below, threads) })
+            });
+            let mut wrong = triangles.nearly_right(&asked.of_head, threads);
+            wrong.extend(&asked.below_head);
             wrong.sort_unstable();
-            (triangles.righted(&wrong), below_head)
+            (triangles.righted(&wrong), asked)
         };
         if offsets.is_empty() {
-            return Righted { below_head, ..Righted::default() };
+            return Righted { asked, ..Righted::default() };
         }
         let of = Arc::make_mut(of);
         let plain = offsets
@@ -177,7 +182,20 @@ impl Deformer {
                 plain
             })
             .collect();
-        Righted { offsets, plain, below_head }
+        Righted { offsets, plain, asked }
+    }
+
+    /// The triangles with a vertex of the head, and those without.
+    fn triangles_of_head(&self) -> (Vec<u32>, Vec<u32>) {
+        let figure = &self.target.measured.figure;
+        let mut is_of_head = vec![false; figure.positions.len()];
+        for &vertex in &*self.deformation.bindings.of_head {
+            is_of_head[vertex as usize] = true;
+        }
+        let touches = |&triangle: &u32| {
+            figure.triangles[triangle as usize].iter().any(|&corner| is_of_head[corner as usize])
+        };
+        (0..figure.triangles.len() as u32).partition(touches)
     }
 }
 

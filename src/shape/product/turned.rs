@@ -60,6 +60,19 @@ impl Seen {
         Some(Self { normal, short, longest })
     }
 
+    /// True for one that is not short, as nearly all are: what [`Seen::of`] says, told without a root.
+    #[inline(always)]
+    fn is_clear(&[p, q, r]: &[DVec3; 3], &[a, b, c]: &[DVec3; 3], height: f64) -> bool {
+        /// Above what rounding makes of squares.
+        const MORE: f64 = 1.0 + 1e-9;
+        let normal = (q - p).cross(r - p);
+        let (ab, ac, bc) = (b - a, c - a, c - b);
+        let longest = ab.length_squared().max(bc.length_squared()).max(ac.length_squared());
+        let along = normal.dot(ab.cross(ac));
+        let least = LEAST_HEIGHT * height;
+        along > 0.0 && along * along > MORE * least * least * longest * normal.length_squared()
+    }
+
     /// How much of it is put right: all where it is nearly right, 0 where it is far from it.
     fn share(&self) -> f64 {
         (2.0 + self.short / (NEARLY * self.longest)).clamp(0.0, 1.0)
@@ -84,20 +97,19 @@ impl<F: Fn(usize) -> DVec3 + Sync> Triangles<'_, F> {
         self.corners[triangle].map(|corner| self.rest[corner as usize])
     }
 
-    /// Those of the triangles that `is_asked` names that are turned over, but nearly not: ascending.
-    pub fn nearly_right(&self, is_asked: impl Fn([u32; 3]) -> bool + Sync, threads: usize) -> Vec<u32> {
-        let pieces = self.corners.len().div_ceil(PIECE);
+    /// Those of the triangles `asked` that are turned over, but nearly not, in their order.
+    pub fn nearly_right(&self, asked: &[u32], threads: usize) -> Vec<u32> {
+        let pieces = asked.len().div_ceil(PIECE);
         let found = parallel::collect(threads, pieces, LEAST_PIECES, |piece| {
-            let triangles = piece * PIECE..self.corners.len().min((piece + 1) * PIECE);
-            let is_nearly = |&triangle: &usize| {
-                let corners = self.corners[triangle];
-                is_asked(corners) && {
-                    let after = corners.map(|corner| (self.after)(corner as usize));
-                    Seen::of(self.at_rest(triangle), after, self.height)
+            let is_nearly = |&triangle: &u32| {
+                let rest = self.at_rest(triangle as usize);
+                let after = self.corners[triangle as usize].map(|corner| (self.after)(corner as usize));
+                !Seen::is_clear(&rest, &after, self.height)
+                    && Seen::of(rest, after, self.height)
                         .is_some_and(|seen| seen.short < 0.0 && seen.share() > 0.0)
-                }
             };
-            triangles.filter(is_nearly).map(|triangle| triangle as u32).collect::<Vec<u32>>()
+            let triangles = &asked[piece * PIECE..asked.len().min((piece + 1) * PIECE)];
+            triangles.iter().copied().filter(is_nearly).collect::<Vec<u32>>()
         });
         found.concat()
     }
@@ -237,7 +249,8 @@ mod tests {
         let weld = weld(rest, 0.0);
         let triangles =
             Triangles { rest, after: |vertex: usize| after[vertex], corners, weld: &weld, height: 1.0 };
-        triangles.righted(&triangles.nearly_right(|_| true, 1))
+        let all: Vec<u32> = (0..corners.len() as u32).collect();
+        triangles.righted(&triangles.nearly_right(&all, 1))
     }
 
     fn looks_up(points: &[DVec3], corners: [u32; 3]) -> bool {
