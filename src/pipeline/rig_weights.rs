@@ -88,9 +88,9 @@ impl<'a> Binder<'a> {
             |kind: MeshKind| -> Vec<usize> { (0..kinds.len()).filter(|&mesh| kinds[mesh] == kind).collect() };
         let mut body = of(MeshKind::Body);
         let mut garments = of(MeshKind::Garment);
-        let whole = body_is_whole(figure, kinds);
         // Clothes in place of a body, or the naive case: both take their weights as one.
-        if !whole || options.garments == GarmentWeights::Heat {
+        if !garments.is_empty() && (options.garments == GarmentWeights::Heat || !body_is_whole(figure, kinds))
+        {
             body.append(&mut garments);
             body.sort_unstable();
         }

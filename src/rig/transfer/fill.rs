@@ -78,12 +78,17 @@ impl EdgeWeights {
     }
 }
 
-/// The system of the vertices that are filled in.
-pub(super) struct Fill<'a> {
-    around: &'a Neighbours,
-    weights: &'a EdgeWeights,
+/// What joins the vertices of a cloth, and what holds them.
+#[derive(Clone, Copy)]
+pub(super) struct Held<'a> {
+    pub(super) around: &'a Neighbours,
+    pub(super) weights: &'a EdgeWeights,
     /// How much each vertex is held to the row of its match, 0 to 1; `None` where it is not asked about.
-    pulls: &'a [Option<f64>],
+    pub(super) pulls: &'a [Option<f64>],
+}
+
+/// The system of the vertices that are filled in.
+pub(super) struct Fill {
     /// The vertices that are solved for, ...
     free: Vec<u32>,
     /// ... and for each vertex its place among them, or `u32::MAX`.
@@ -91,13 +96,9 @@ pub(super) struct Fill<'a> {
     factor: Cholesky,
 }
 
-impl<'a> Fill<'a> {
+impl Fill {
     /// `None` where there is nothing to do or the system cannot be solved.
-    pub(super) fn new(
-        around: &'a Neighbours,
-        weights: &'a EdgeWeights,
-        pulls: &'a [Option<f64>],
-    ) -> Option<Self> {
+    pub(super) fn new(Held { around, weights, pulls }: Held) -> Option<Self> {
         let free: Vec<u32> =
             (0..pulls.len()).filter(|&vertex| is_free(pulls[vertex])).map(|vertex| vertex as u32).collect();
         if free.is_empty() {
@@ -120,27 +121,28 @@ impl<'a> Fill<'a> {
             }
         }
         let factor = Cholesky::new(&diagonal, &lower)?;
-        Some(Self { around, weights, pulls, free, slots, factor })
+        Some(Self { free, slots, factor })
     }
 
     /// Rows of all vertices that have a pull and of a few around them, in order of the vertices.
     ///
     /// A vertex of pull 1 keeps the row of its match, one of pull 0 is the mean of its neighbours, one in between a blend
     /// of both; then all is smoothed a little.
-    pub(super) fn rows(&self, matches: &[Match], threads: usize) -> Vec<(u32, Row)> {
+    /// - `held`: what it was made of.
+    pub(super) fn rows(&self, held: Held, matches: &[Match], threads: usize) -> Vec<(u32, Row)> {
         // The matches' weights by joint.
         let mut columns: BTreeMap<u32, Vec<(u32, f64)>> = BTreeMap::new();
-        for (vertex, found) in matches.iter().enumerate().filter(|&(vertex, _)| self.pulls[vertex].is_some())
+        for (vertex, found) in matches.iter().enumerate().filter(|&(vertex, _)| held.pulls[vertex].is_some())
         {
             for &(joint, weight) in &found.row {
                 columns.entry(joint).or_default().push((vertex as u32, weight));
             }
         }
         let columns: Vec<(u32, Vec<(u32, f64)>)> = columns.into_iter().collect();
-        let region = self.region();
+        let region = region(held);
         let batches: Vec<_> = columns.chunks(BATCH).collect();
         let solved =
-            parallel::collect(threads, batches.len(), 1, |batch| self.solve(batches[batch], &region));
+            parallel::collect(threads, batches.len(), 1, |batch| self.solve(held, batches[batch], &region));
         let solved: Vec<Vec<f64>> = solved.into_iter().flatten().collect();
         let rows = region.iter().enumerate().filter_map(|(slot, &vertex)| {
             let entries = columns.iter().zip(&solved).map(|((joint, _), values)| (*joint, values[slot]));
@@ -150,26 +152,15 @@ impl<'a> Fill<'a> {
         rows.collect()
     }
 
-    /// What is smoothed: the free vertices and a few rings.
-    fn region(&self) -> Vec<u32> {
-        let mut smoothed: Vec<bool> = self.pulls.iter().map(|&pull| is_free(pull)).collect();
-        for _ in 0..SMOOTHING_RINGS {
-            let is_near = |&vertex: &u32| smoothed[vertex as usize];
-            let wider = |vertex: usize| smoothed[vertex] || self.around.of(vertex).iter().any(is_near);
-            smoothed = (0..smoothed.len()).map(wider).collect();
-        }
-        (0..smoothed.len()).filter(|&vertex| smoothed[vertex]).map(|vertex| vertex as u32).collect()
-    }
-
     /// For each joint of a batch the weights of the vertices of `region`, from those of the matches.
-    fn solve(&self, batch: &[(u32, Vec<(u32, f64)>)], region: &[u32]) -> Vec<Vec<f64>> {
+    fn solve(&self, held: Held, batch: &[(u32, Vec<(u32, f64)>)], region: &[u32]) -> Vec<Vec<f64>> {
         let size = self.free.len();
         let mut sides = vec![0.0; size * batch.len()];
         for ((_, column), side) in batch.iter().zip(sides.chunks_mut(size)) {
-            self.add_known(column, side);
+            self.add_known(held, column, side);
         }
         self.factor.solve(&mut sides, batch.len());
-        let mut values = vec![0.0; self.pulls.len()];
+        let mut values = vec![0.0; self.slots.len()];
         let mut next = vec![0.0; region.len()];
         let mut solved = Vec::with_capacity(batch.len());
         for ((_, column), side) in batch.iter().zip(sides.chunks(size)) {
@@ -182,7 +173,7 @@ impl<'a> Fill<'a> {
             }
             for _ in 0..SMOOTHING_STEPS {
                 for (&vertex, next) in region.iter().zip(&mut next) {
-                    let around = self.around.of(vertex as usize);
+                    let around = held.around.of(vertex as usize);
                     let sum: f64 = around.iter().map(|&other| values[other as usize]).sum();
                     let mean = sum / around.len().max(1) as f64;
                     *next = (1.0 - SMOOTHING_SHARE) * values[vertex as usize] + SMOOTHING_SHARE * mean;
@@ -197,14 +188,14 @@ impl<'a> Fill<'a> {
     }
 
     /// Adds what the known weights of one joint say to the right-hand side.
-    fn add_known(&self, column: &[(u32, f64)], side: &mut [f64]) {
+    fn add_known(&self, Held { around, weights, pulls }: Held, column: &[(u32, f64)], side: &mut [f64]) {
         for &(vertex, weight) in column {
             let vertex = vertex as usize;
             if self.slots[vertex] != u32::MAX {
-                side[self.slots[vertex] as usize] += pull_weight(self.pulls, self.weights, vertex) * weight;
+                side[self.slots[vertex] as usize] += pull_weight(pulls, weights, vertex) * weight;
                 continue;
             }
-            for (other, edge) in self.weights.of(self.around, vertex) {
+            for (other, edge) in weights.of(around, vertex) {
                 let slot = self.slots[other as usize];
                 if slot != u32::MAX {
                     side[slot as usize] += edge * weight;
@@ -212,6 +203,17 @@ impl<'a> Fill<'a> {
             }
         }
     }
+}
+
+/// What is smoothed: the free vertices and a few rings.
+fn region(Held { around, pulls, .. }: Held) -> Vec<u32> {
+    let mut smoothed: Vec<bool> = pulls.iter().map(|&pull| is_free(pull)).collect();
+    for _ in 0..SMOOTHING_RINGS {
+        let is_near = |&vertex: &u32| smoothed[vertex as usize];
+        let wider = |vertex: usize| smoothed[vertex] || around.of(vertex).iter().any(is_near);
+        smoothed = (0..smoothed.len()).map(wider).collect();
+    }
+    (0..smoothed.len()).filter(|&vertex| smoothed[vertex]).map(|vertex| vertex as u32).collect()
 }
 
 fn is_free(pull: Option<f64>) -> bool {

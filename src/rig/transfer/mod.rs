@@ -15,7 +15,7 @@ use crate::geometry::{
     Closest, Neighbours, SEAM, Surface, Weld, bounds, bounds_by_group, components, neighbours, weld,
 };
 use crate::parallel;
-use fill::{EdgeWeights, Fill};
+use fill::{EdgeWeights, Fill, Held};
 use glam::DVec3;
 pub use rigid::rigid_weights;
 use skin::{Body, normals};
@@ -52,13 +52,13 @@ const LEAST_WEIGHT: f64 = 1e-5;
 /// Weights by joint, ascending; they sum to 1.
 type Row = Vec<(u32, f64)>;
 
-/// A garment on a skin: where its vertices touch it, which no weights change.
+/// A garment on a skin: where its vertices touch it and how what does not is filled in, which no weights change.
 pub struct GarmentOnSkin {
     welded: Weld,
     points: Vec<DVec3>,
-    corners: Vec<[u32; 3]>,
     touches: Vec<Touch>,
-    method: GarmentWeights,
+    /// For `Robust` alone.
+    cloth: Option<Cloth>,
 }
 
 /// The places of a skin that are closest to a vertex.
@@ -69,12 +69,20 @@ struct Touch {
     fits: Vec<f64>,
 }
 
+impl Touch {
+    /// How well the places match, 0 to 1: 0, not to be trusted; 1, to be kept.
+    fn fit(&self) -> f64 {
+        let fit: f64 = self.fits.iter().sum();
+        if fit > 0.0 { fit / self.places.iter().map(|(_, share)| share).sum::<f64>() } else { 0.0 }
+    }
+}
+
 impl GarmentOnSkin {
     /// Looks where a garment's `positions` touch the skin of `positions` and `triangles`.
     ///
     /// All in one space in which the figure is about 1 high. `method` is `Robust` (which `Heat` falls to) or `Nearest`.
     ///
-    /// O(vertices · log triangles).
+    /// O(vertices · log triangles), and sparse factorisations of the vertices without a match.
     pub fn new(
         skin: &Skin,
         skin_triangles: &[[u32; 3]],
@@ -84,13 +92,15 @@ impl GarmentOnSkin {
     ) -> Self {
         let welded = weld(positions, SEAM);
         let points = places(&welded, positions);
-        let corners: Vec<[u32; 3]> = triangles.iter().map(|&corners| welded.triangle(corners)).collect();
-        let touches = if method == GarmentWeights::Nearest {
-            parallel::collect(thread_count, welded.count, 256, |vertex| Touch {
+        if method == GarmentWeights::Nearest {
+            let touches = parallel::collect(thread_count, welded.count, 256, |vertex| Touch {
                 places: skin.places(points[vertex]),
                 fits: Vec::new(),
-            })
-        } else {
+            });
+            return Self { welded, points, touches, cloth: None };
+        }
+        let corners: Vec<[u32; 3]> = triangles.iter().map(|&corners| welded.triangle(corners)).collect();
+        let touch = || {
             let normals = normals(&points, &corners);
             let reach = reach(&points);
             parallel::collect(thread_count, welded.count, 256, |vertex| {
@@ -105,7 +115,9 @@ impl GarmentOnSkin {
                 Touch { fits: places.iter().map(fit).collect(), places }
             })
         };
-        Self { welded, points, corners, touches, method }
+        let (joined, touches) = parallel::both(thread_count, || Joined::new(&points, &corners), touch);
+        let cloth = Some(Cloth::new(joined, corners, &touches));
+        Self { welded, points, touches, cloth }
     }
 
     /// Weights of the garment after those of the skin under it, which is the one that it was made with.
@@ -119,21 +131,19 @@ impl GarmentOnSkin {
     ///
     /// A vertex in no triangle takes the closest point's weights (`loose_vertex`); without any source everything goes to
     /// joint 0 (`no_source`); `unsolved` counts what a failed solve left to the closest point.
-    ///
-    /// One sparse factorisation of the vertices without a match.
     pub fn weights(&self, source: &Source, thread_count: usize) -> WeightSet {
         let body = Body::new(source);
         let count = self.welded.count;
         let mut rules: Vec<Option<&'static str>> = vec![None; count];
-        let rows = if body.is_empty() {
-            rules.fill(Some("no_source"));
-            vec![body.anything(); count]
-        } else if self.method == GarmentWeights::Nearest {
-            parallel::collect(thread_count, count, 256, |vertex| {
+        let rows = match &self.cloth {
+            _ if body.is_empty() => {
+                rules.fill(Some("no_source"));
+                vec![body.anything(); count]
+            }
+            None => parallel::collect(thread_count, count, 256, |vertex| {
                 body.mixed(self.points[vertex], &self.touches[vertex].places)
-            })
-        } else {
-            Cloth::new(&self.points, &self.corners).robust(&body, &self.touches, &mut rules, thread_count)
+            }),
+            Some(cloth) => cloth.rows(&self.points, &body, &self.touches, &mut rules, thread_count),
         };
         finish(&self.welded, rows, &rules)
     }
@@ -154,13 +164,12 @@ impl Match {
     fn of(body: &Body, p: DVec3, touch: &Touch) -> Self {
         let Touch { places, fits } = touch;
         let distance = places.first().map_or(f64::INFINITY, |(at, _)| at.distance);
-        let fit: f64 = fits.iter().sum();
+        let fit = touch.fit();
         if fit > 0.0 {
-            let all: f64 = places.iter().map(|(_, share)| share).sum();
             let fitting: Vec<_> = places.iter().zip(fits).map(|(&(at, _), &share)| (at, share)).collect();
-            return Match { row: body.mixed(p, &fitting), fit: fit / all, distance };
+            return Match { row: body.mixed(p, &fitting), fit, distance };
         }
-        Match { row: body.mixed(p, places), fit: 0.0, distance }
+        Match { row: body.mixed(p, places), fit, distance }
     }
 }
 
@@ -171,84 +180,125 @@ fn reach(points: &[DVec3]) -> f64 {
     (MATCH_DISTANCE * (high - low).length()).clamp(least, most)
 }
 
-/// A garment between welded vertices.
-struct Cloth<'a> {
-    points: &'a [DVec3],
-    triangles: &'a [[u32; 3]],
+/// How the welded vertices of a garment hang together.
+struct Joined {
     around: Neighbours,
+    weights: EdgeWeights,
     /// The component of each vertex, and the greatest extent of each component.
     component: Vec<u32>,
     extents: Vec<f64>,
 }
 
-impl<'a> Cloth<'a> {
-    fn new(points: &'a [DVec3], triangles: &'a [[u32; 3]]) -> Self {
+impl Joined {
+    fn new(points: &[DVec3], triangles: &[[u32; 3]]) -> Self {
         let single = Weld { representative: (0..points.len() as u32).collect(), count: points.len() };
         let component = components(triangles, &single);
         let count = component.iter().max().map_or(0, |&last| last as usize + 1);
         let boxes = bounds_by_group(count, component.iter().map(|&c| c as usize).zip(points.iter().copied()));
+        let around = neighbours(triangles, &single);
         Self {
-            points,
-            triangles,
-            around: neighbours(triangles, &single),
+            weights: EdgeWeights::new(points, triangles, &around),
+            around,
             component,
             extents: boxes.iter().map(|(low, high)| (*high - *low).max_element()).collect(),
         }
     }
 
-    fn robust(
+    fn is_loose(&self, vertex: usize) -> bool {
+        self.around.of(vertex).is_empty()
+    }
+
+    fn is_small(&self, vertex: usize) -> bool {
+        self.extents[self.component[vertex] as usize] < RIGID_EXTENT
+    }
+}
+
+/// A garment between welded vertices, and what is to be filled in of it.
+struct Cloth {
+    triangles: Vec<[u32; 3]>,
+    joined: Joined,
+    /// Vertices of pieces with a match, and how much each is held to it.
+    matched: Filled,
+    /// Of pieces without one.
+    unmatched: Filled,
+}
+
+/// Vertices that are filled in together.
+struct Filled {
+    /// How much each vertex is held to its match; `None` for others.
+    pulls: Vec<Option<f64>>,
+    /// `None` where there is nothing to do or it cannot be solved.
+    fill: Option<Fill>,
+}
+
+impl Filled {
+    fn new(joined: &Joined, pull: impl Fn(usize) -> Option<f64>) -> Self {
+        let pulls: Vec<Option<f64>> = (0..joined.component.len()).map(pull).collect();
+        Self { fill: Fill::new(Self::held(joined, &pulls)), pulls }
+    }
+
+    fn held<'a>(joined: &'a Joined, pulls: &'a [Option<f64>]) -> Held<'a> {
+        Held { around: &joined.around, weights: &joined.weights, pulls }
+    }
+
+    /// Gives the vertices what is filled in between the `matches`.
+    fn fill_in(&self, joined: &Joined, matches: &mut [Match], threads: usize) {
+        if let Some(fill) = &self.fill {
+            for (vertex, row) in fill.rows(Self::held(joined, &self.pulls), matches, threads) {
+                matches[vertex as usize].row = row;
+            }
+        }
+    }
+}
+
+impl Cloth {
+    fn new(joined: Joined, triangles: Vec<[u32; 3]>, touches: &[Touch]) -> Self {
+        let fits: Vec<f64> = touches.iter().map(Touch::fit).collect();
+        let mut best = vec![0.0f64; joined.extents.len()];
+        for (&fit, &component) in fits.iter().zip(&joined.component) {
+            let best = &mut best[component as usize];
+            *best = best.max(fit);
+        }
+        let is_large = |vertex: usize| !joined.is_loose(vertex) && !joined.is_small(vertex);
+        let is_matched = |vertex: usize| best[joined.component[vertex] as usize] >= 0.5;
+        let matched =
+            Filled::new(&joined, |vertex| (is_large(vertex) && is_matched(vertex)).then_some(fits[vertex]));
+        let unmatched = Filled::new(&joined, |vertex| {
+            let loose = joined.weights.areas[vertex] / LOOSE_SMOOTHING.powi(2);
+            // As a share of what the neighbours say, which is what a fit is.
+            let share = || loose / (loose + joined.weights.sum(vertex));
+            (is_large(vertex) && !is_matched(vertex)).then(share)
+        });
+        Self { triangles, joined, matched, unmatched }
+    }
+
+    /// The rows of all vertices at `points`.
+    fn rows(
         &self,
+        points: &[DVec3],
         body: &Body,
         touches: &[Touch],
         rules: &mut [Option<&'static str>],
         threads: usize,
     ) -> Vec<Row> {
-        let mut matches = parallel::collect(threads, self.points.len(), 256, |vertex| {
-            Match::of(body, self.points[vertex], &touches[vertex])
+        let mut matches = parallel::collect(threads, points.len(), 256, |vertex| {
+            Match::of(body, points[vertex], &touches[vertex])
         });
-        let is_loose = |vertex: usize| self.around.of(vertex).is_empty();
-        let is_small = |vertex: usize| self.extents[self.component[vertex] as usize] < RIGID_EXTENT;
-        let mut best = vec![0.0f64; self.extents.len()];
-        for (found, &component) in matches.iter().zip(&self.component) {
-            let best = &mut best[component as usize];
-            *best = best.max(found.fit);
-        }
-        let is_matched = |vertex: usize| best[self.component[vertex] as usize] >= 0.5;
-
         // Pieces with a match first: what hangs from them can follow them then.
-        let weights = EdgeWeights::new(self.points, self.triangles, &self.around);
-        let large: Vec<bool> =
-            (0..matches.len()).map(|vertex| !is_loose(vertex) && !is_small(vertex)).collect();
-        let pull = |vertex: usize| matches[vertex].fit;
-        let pulls: Vec<Option<f64>> = (0..matches.len())
-            .map(|vertex| (large[vertex] && is_matched(vertex)).then(|| pull(vertex)))
-            .collect();
-        let filled = Fill::new(&self.around, &weights, &pulls).map(|fill| fill.rows(&matches, threads));
-        for (vertex, pull) in pulls.iter().enumerate() {
+        let Self { joined, matched, unmatched, .. } = self;
+        for (vertex, pull) in matched.pulls.iter().enumerate() {
             if pull.is_some_and(|pull| pull < 1.0) {
-                rules[vertex] = Some(if filled.is_some() { "inpainted" } else { "unsolved" });
+                rules[vertex] = Some(if matched.fill.is_some() { "inpainted" } else { "unsolved" });
             }
         }
-        let mut done: Vec<bool> = pulls.iter().map(Option::is_some).collect();
-        for (vertex, row) in filled.into_iter().flatten() {
-            matches[vertex as usize].row = row;
-        }
+        matched.fill_in(joined, &mut matches, threads);
+        let mut done: Vec<bool> = matched.pulls.iter().map(Option::is_some).collect();
 
         // Pieces without a match: after the body or after the cloth that has its weights, whichever is nearer.
-        if (0..matches.len()).any(|vertex| large[vertex] && !is_matched(vertex)) {
-            self.follow_cloth(&mut matches, &done, |vertex| large[vertex] && !is_matched(vertex), threads);
-            let pulls: Vec<Option<f64>> = (0..matches.len())
-                .map(|vertex| {
-                    let loose = weights.areas[vertex] / LOOSE_SMOOTHING.powi(2);
-                    let around = weights.sum(vertex);
-                    // As a share of what the neighbours say, which is what a fit is.
-                    (large[vertex] && !is_matched(vertex)).then_some(loose / (loose + around))
-                })
-                .collect();
-            let filled = Fill::new(&self.around, &weights, &pulls).map(|fill| fill.rows(&matches, threads));
-            for (vertex, row) in filled.into_iter().flatten() {
-                matches[vertex as usize].row = row;
-            }
+        let pulls = &unmatched.pulls;
+        if pulls.iter().any(Option::is_some) {
+            self.follow_cloth(points, &mut matches, &done, |vertex| pulls[vertex].is_some(), threads);
+            unmatched.fill_in(joined, &mut matches, threads);
             for (vertex, pull) in pulls.iter().enumerate() {
                 if pull.is_some() {
                     rules[vertex] = Some("component_without_match");
@@ -257,9 +307,9 @@ impl<'a> Cloth<'a> {
             }
         }
 
-        self.rigid_pieces(body, &mut matches, rules, &done, &is_small);
+        self.rigid_pieces(points, body, &mut matches, rules, &done);
         for (vertex, rule) in rules.iter_mut().enumerate() {
-            if is_loose(vertex) {
+            if joined.is_loose(vertex) {
                 *rule = Some("loose_vertex");
             }
         }
@@ -267,10 +317,10 @@ impl<'a> Cloth<'a> {
     }
 
     /// The triangles between vertices that are `done`, and their surface.
-    fn made_of(&self, done: &[bool]) -> (Vec<[u32; 3]>, Surface) {
+    fn made_of(&self, points: &[DVec3], done: &[bool]) -> (Vec<[u32; 3]>, Surface) {
         let is_done = |corners: &&[u32; 3]| corners.iter().all(|&vertex| done[vertex as usize]);
         let triangles: Vec<[u32; 3]> = self.triangles.iter().filter(is_done).copied().collect();
-        let surface = Surface::new(self.points, &triangles);
+        let surface = Surface::new(points, &triangles);
         (triangles, surface)
     }
 
@@ -278,18 +328,19 @@ impl<'a> Cloth<'a> {
     /// the body.
     fn follow_cloth(
         &self,
+        points: &[DVec3],
         matches: &mut [Match],
         done: &[bool],
         choose: impl Fn(usize) -> bool + Sync,
         threads: usize,
     ) {
-        let (triangles, surface) = self.made_of(done);
+        let (triangles, surface) = self.made_of(points, done);
         if surface.is_empty() {
             return;
         }
         let known: &[Match] = matches;
         let rows = parallel::collect(threads, known.len(), 256, |vertex| {
-            let near = choose(vertex).then(|| surface.closest_point(self.points[vertex])).flatten()?;
+            let near = choose(vertex).then(|| surface.closest_point(points[vertex])).flatten()?;
             (near.distance < known[vertex].distance).then(|| blend_rows(known, &triangles, &near))
         });
         for (found, row) in matches.iter_mut().zip(rows) {
@@ -303,24 +354,24 @@ impl<'a> Cloth<'a> {
     /// `done` or the body.
     fn rigid_pieces(
         &self,
+        points: &[DVec3],
         body: &Body,
         matches: &mut [Match],
         rules: &mut [Option<&'static str>],
         done: &[bool],
-        is_small: &dyn Fn(usize) -> bool,
     ) {
         let mut pieces: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
         for vertex in 0..matches.len() {
-            if is_small(vertex) && !self.around.of(vertex).is_empty() {
-                pieces.entry(self.component[vertex]).or_default().push(vertex);
+            if self.joined.is_small(vertex) && !self.joined.is_loose(vertex) {
+                pieces.entry(self.joined.component[vertex]).or_default().push(vertex);
             }
         }
         if pieces.is_empty() {
             return;
         }
-        let (triangles, surface) = self.made_of(done);
+        let (triangles, surface) = self.made_of(points, done);
         for piece in pieces.into_values() {
-            let middle = piece.iter().map(|&vertex| self.points[vertex]).sum::<DVec3>() / piece.len() as f64;
+            let middle = piece.iter().map(|&vertex| points[vertex]).sum::<DVec3>() / piece.len() as f64;
             let to_body = piece.iter().map(|&vertex| matches[vertex].distance).fold(f64::INFINITY, f64::min);
             let cloth = surface.closest_point(middle).filter(|near| near.distance < to_body);
             let row = cloth.map(|near| blend_rows(matches, &triangles, &near)).unwrap_or_else(|| {
