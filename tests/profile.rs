@@ -7,28 +7,28 @@ mod models;
 mod people;
 
 use glam::{DMat3, DVec3};
-use models::{Run, furthest, model, positions, rest_positions, style_of};
+use models::{Run, furthest, loaded, model, positions, rest_positions, style_of};
 use people::Person;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use superdeform::internals::geometry::{SEAM, weld};
 use superdeform::internals::shape::Measured;
-use superdeform::internals::shape::product::part::{PartWeights, fold_to_parts};
 use superdeform::internals::shape::product::profile::{BodyFrame, CHAINS, Profile, Row, measure_profile};
 use superdeform::{BodyShape, Deformer, GroupSettings, Options, Rig, RigOptions, Stage, Style};
+use superdeform_host::file::GltfFile;
+use superdeform_host::samples;
 
 /// The profile of a model of `shared/models` and its head length; `None` where it is not there. `head`: how long the head is
 /// from the crown down, where another program says so.
 fn profile_of(name: &str, head: Option<f64>) -> Option<(Profile, f64)> {
     let measured = Measured::of(&model(name)?.character, &Options::default()).unwrap();
     let figure = &measured.figure;
-    let parts: Vec<PartWeights> = figure.role_weights.iter().map(|row| fold_to_parts(row)).collect();
     let welded = weld(&figure.positions, SEAM * figure.height());
     let mut frame = BodyFrame::of(figure, &measured.anatomy);
     if let Some(head) = head {
         frame.heights.chin = frame.heights.crown - head;
     }
-    let (profile, _) = measure_profile(figure, &figure.positions, &parts, &welded, &frame);
+    let (profile, _) = measure_profile(figure, &figure.positions, &measured.chains, &welded, &frame, 1);
     Some((profile, frame.head_length()))
 }
 
@@ -326,7 +326,8 @@ fn bounds_on_what_the_slices_set_are_not_warned_of() {
 #[test]
 fn a_reference_without_a_rig_has_the_body_that_it_has_with_one() {
     let name = "quaternius_female_dress_unrigged.glb";
-    let (Some(bare), Some(twin)) = (model(name), model(TARGET)) else { return };
+    let (Some(path), Some(twin)) = (samples::path(name), model(TARGET)) else { return };
+    let bare = loaded(GltfFile::read(&path).unwrap());
     let rig = Rig::of(&bare.character, &RigOptions::default()).unwrap();
     let rigged = rig.applied_to(&bare.character);
     let profile =

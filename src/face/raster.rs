@@ -1,5 +1,6 @@
 //! Depth maps: the foremost surface seen along an axis, on a regular grid.
 
+use crate::geometry::whole::{ceil, floor};
 use glam::{DVec2, DVec3};
 
 /// No triangle is seen.
@@ -56,8 +57,8 @@ impl DepthMap {
         let (least, most) = (a.min(b).min(c), a.max(b).max(c));
         // Squares whose middle lies within, at least.
         let range = |least: f64, most: f64, low: f64, count: usize| {
-            let first = ((least - low) / self.step - 0.5).ceil().max(0.0) as usize;
-            let end = ((most - low) / self.step - 0.5).floor() + 1.0;
+            let first = ceil((least - low) / self.step - 0.5).max(0.0) as usize;
+            let end = floor((most - low) / self.step - 0.5) + 1.0;
             first..(end.max(0.0) as usize).min(count)
         };
         let columns = range(least.x, most.x, self.low.x, self.columns);

@@ -13,6 +13,7 @@ pub mod smoothstep;
 pub mod surface;
 pub mod triangle;
 pub mod weld;
+pub mod whole;
 
 pub use bounds::{Bounds, bounds, bounds_by_group, clusters, grown_clusters, range};
 pub use cells::CellMap;

@@ -2,6 +2,7 @@
 
 use super::groups::Groups;
 use super::weld::Weld;
+use super::whole::{floor, round};
 use glam::{DVec2, DVec3};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::sync::LazyLock;
@@ -27,6 +28,11 @@ pub struct Planes {
 }
 
 impl Planes {
+    /// Height of `p`.
+    pub fn height(&self, p: DVec3) -> f64 {
+        (p - self.origin).dot(self.axis)
+    }
+
     /// Height of `p`, and its place within the plane there.
     pub fn locate(&self, p: DVec3) -> (f64, DVec2) {
         let arm = p - self.origin;
@@ -60,6 +66,10 @@ impl Outline {
         let rays = ray_directions();
         for &[a, b] in &self.segments {
             let (a, b) = (a - centre, b - centre);
+            if are_between_two_rays(a, b) {
+                // As most segments are.
+                continue;
+            }
             let turn = a.perp_dot(b);
             // Counter-clockwise from the first to the last point; a segment that points at the centre meets no ray.
             let (first, last) = if turn > 0.0 { (a, b) } else { (b, a) };
@@ -70,9 +80,8 @@ impl Outline {
             // By each point's own angle, and without the first one: a ray through a corner meets one of the segments that share
             // it, whatever the last digits are.
             let [from, to] = [first, last].map(turns_of);
-            let mut ray = from.floor() + 1.0;
-            if ray == to.floor() + 1.0 {
-                // Between two rays: most segments are.
+            let mut ray = floor(from) + 1.0;
+            if ray == floor(to) + 1.0 {
                 continue;
             }
             let to = if to < from { to + RAYS as f64 } else { to };
@@ -97,19 +106,34 @@ pub fn ray_directions() -> &'static [DVec2; RAYS] {
     &DIRECTIONS
 }
 
+const PER_RADIAN: f64 = RAYS as f64 / TAU;
+/// Far more than [`nearly_atan2`] is off, in rays.
+const NEAR_A_RAY: f64 = 1e-3;
+
+/// True for most segments of which both ends lie between the same two rays from the origin, and for no other one.
+#[inline(always)]
+fn are_between_two_rays(a: DVec2, b: DVec2) -> bool {
+    // From 0 on, where what comes after the point is cut off by what is no call.
+    let turns = [a, b].map(|p| nearly_atan2(p.y, p.x) * PER_RADIAN + RAYS as f64 / 2.0);
+    let rays = turns.map(|turns| turns as i32);
+    let is_clear = |end: usize| {
+        let beyond = turns[end] - f64::from(rays[end]);
+        beyond > NEAR_A_RAY && beyond < 1.0 - NEAR_A_RAY
+    };
+    rays[0] == rays[1] && is_clear(0) && is_clear(1)
+}
+
 /// The angle of `point`, in rays, from -18 to 18: to the last digit near a ray, elsewhere good enough to tell the two rays
 /// beside it.
 fn turns_of(point: DVec2) -> f64 {
-    const PER_RADIAN: f64 = RAYS as f64 / TAU;
-    /// Far more than [`nearly_atan2`] is off.
-    const NEAR_A_RAY: f64 = 1e-3;
     let turns = nearly_atan2(point.y, point.x) * PER_RADIAN;
-    let is_between = (turns - turns.round()).abs() > NEAR_A_RAY;
+    let is_between = (turns - round(turns)).abs() > NEAR_A_RAY;
     // Not a number is near everything.
     if is_between { turns } else { point.y.atan2(point.x) / (TAU / RAYS as f64) }
 }
 
 /// As `atan2`, within 1.2e-5, in a few multiplications: Abramowitz and Stegun 4.4.49.
+#[inline(always)]
 fn nearly_atan2(y: f64, x: f64) -> f64 {
     let (less, more) = if x.abs() < y.abs() { (x.abs(), y.abs()) } else { (y.abs(), x.abs()) };
     let t = less / more;
@@ -136,34 +160,69 @@ pub fn slices(
     heights: &[f64],
 ) -> Vec<Vec<Outline>> {
     let mut cuts: Vec<Cut> = heights.iter().map(|_| Cut::default()).collect();
+    let steps = Steps::new(heights);
     for &corners in triangles {
+        let [a, b, c] = corners.map(|vertex| planes.height(positions[vertex as usize]));
+        let (low, high) = (a.min(b).min(c), a.max(b).max(c));
+        // A corner counts as above a plane where it is higher than it: so a plane is met from `low` on, below `high`.
+        let first = steps.below(low);
+        if heights.get(first).is_none_or(|&height| height >= high) {
+            continue;
+        }
         let welded = weld.triangle(corners);
         let places = corners.map(|vertex| planes.locate(positions[vertex as usize]));
-        let above = places.map(|(height, _)| height);
-        let (low, high) = (above[0].min(above[1]).min(above[2]), above[0].max(above[1]).max(above[2]));
-        // A corner counts as above a plane where it is higher than it: so a plane is met from `low` on, below `high`.
-        let first = heights.partition_point(|&height| height < low);
-        let end = heights.partition_point(|&height| height < high);
-        for (cut, &height) in cuts[first..end.max(first)].iter_mut().zip(&heights[first..]) {
+        for (cut, &height) in cuts[first..].iter_mut().zip(&heights[first..]) {
+            if height >= high {
+                break;
+            }
             cut.add(welded, &places, height);
         }
     }
     cuts.into_iter().map(Cut::outlines).collect()
 }
 
+/// Heights that rise, most often by even steps, which tell where to look for one.
+struct Steps<'a> {
+    heights: &'a [f64],
+    /// How many steps there are in one unit.
+    per_unit: f64,
+}
+
+impl<'a> Steps<'a> {
+    fn new(heights: &'a [f64]) -> Self {
+        let ends = heights.first().zip(heights.last());
+        let per_unit = ends.map_or(0.0, |(first, last)| (heights.len() - 1) as f64 / (last - first));
+        Self { heights, per_unit: if per_unit.is_finite() { per_unit } else { 0.0 } }
+    }
+
+    /// How many heights lie below `height`.
+    fn below(&self, height: f64) -> usize {
+        let Some(&lowest) = self.heights.first() else { return 0 };
+        // As a number that is none stands for 0, and what is too large for the last one.
+        let mut count = (((height - lowest) * self.per_unit) as usize).min(self.heights.len());
+        while count > 0 && self.heights[count - 1] >= height {
+            count -= 1;
+        }
+        while count < self.heights.len() && self.heights[count] < height {
+            count += 1;
+        }
+        count
+    }
+}
+
 /// One cut in the making.
 #[derive(Default)]
 struct Cut {
     segments: Vec<[DVec2; 2]>,
-    /// Edges that the segments end on, with the segment.
-    ends: Vec<([u32; 2], u32)>,
+    /// Edges that the segments end on, with the segment: in one number, which is sorted faster than three.
+    ends: Vec<u128>,
 }
 
 impl Cut {
     /// Where the triangle of welded `corners` at `places` meets the plane at `height`.
     fn add(&mut self, corners: [u32; 3], places: &[(f64, DVec2); 3], height: f64) {
         let mut points = [DVec2::ZERO; 2];
-        let mut edges = [[0; 2]; 2];
+        let mut edges = [0; 2];
         let mut count = 0;
         for (one, other) in [(0, 1), (1, 2), (2, 0)] {
             if (places[one].0 > height) != (places[other].0 > height) && count < 2 {
@@ -171,14 +230,14 @@ impl Cut {
                 let (one, other) = if corners[one] < corners[other] { (one, other) } else { (other, one) };
                 let ((from, a), (to, b)) = (places[one], places[other]);
                 points[count] = a + (b - a) * ((height - from) / (to - from));
-                edges[count] = [corners[one], corners[other]];
+                edges[count] = u64::from(corners[one]) << 32 | u64::from(corners[other]);
                 count += 1;
             }
         }
         if count == 2 {
             let segment = self.segments.len() as u32;
             self.segments.push(points);
-            self.ends.extend(edges.map(|edge| (edge, segment)));
+            self.ends.extend(edges.map(|edge| u128::from(edge) << 32 | u128::from(segment)));
         }
     }
 
@@ -186,8 +245,8 @@ impl Cut {
         let mut groups = Groups::new(self.segments.len());
         self.ends.sort_unstable();
         for pair in self.ends.windows(2) {
-            if pair[0].0 == pair[1].0 {
-                groups.join(pair[0].1 as usize, pair[1].1 as usize);
+            if pair[0] >> 32 == pair[1] >> 32 {
+                groups.join(pair[0] as u32 as usize, pair[1] as u32 as usize);
             }
         }
         let mut outlines: Vec<Outline> = Vec::new();
@@ -252,8 +311,14 @@ mod tests {
                 let wanted = point.y.atan2(point.x);
                 assert!((nearly_atan2(point.y, point.x) - wanted).abs() < 1.2e-5, "{angle}");
                 assert_eq!(turns_of(point).floor(), (wanted / (TAU / RAYS as f64)).floor(), "{angle}");
+                for beside in [0.01, -0.05, 0.3, PI] {
+                    let other = DVec2::from_angle(angle + off + beside);
+                    let is_between = turns_of(point).floor() == turns_of(other).floor();
+                    assert!(is_between || !are_between_two_rays(point, other), "{angle} {beside}");
+                }
             }
         }
+        assert!(are_between_two_rays(DVec2::from_angle(0.05), DVec2::from_angle(0.1)));
         for ray in ray_directions() {
             for point in [*ray, 0.3 * *ray, -*ray] {
                 assert_eq!(turns_of(point), point.y.atan2(point.x) / (TAU / RAYS as f64));

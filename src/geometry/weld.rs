@@ -2,6 +2,7 @@
 
 use super::cells::CellMap;
 use super::groups::Groups;
+use super::whole::floor;
 use glam::DVec3;
 
 /// Vertices this near are one, as a part of the figure's height: exporters split vertices along seams, and rounding to
@@ -47,7 +48,7 @@ pub fn weld(positions: &[DVec3], tolerance: f64) -> Weld {
     let cell_size = 2.0 * tolerance;
     let cell_of = |p: DVec3| -> [i64; 3] {
         if tolerance > 0.0 {
-            (p / cell_size).to_array().map(|x| x.floor() as i64)
+            (p / cell_size).to_array().map(|x| floor(x) as i64)
         } else {
             // + 0.0 makes -0 equal to 0.
             p.to_array().map(|x| (x + 0.0).to_bits() as i64)

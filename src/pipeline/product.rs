@@ -17,13 +17,11 @@ use crate::shape::product::binding::PartBindings;
 use crate::shape::product::coefficients::{Goal, Limits, heads_of, part_coefficients};
 use crate::shape::product::field::PartField;
 use crate::shape::product::groups::PartGroups;
-use crate::shape::product::part::{PartWeights, fold_to_parts};
 use crate::shape::product::repair::Pushed;
 use crate::shape::product::scales::PartCoefficients;
 use crate::shape::style::Style;
 use crate::shape::{BodyShape, Measured};
 use glam::DVec3;
-use std::cell::OnceCell;
 use std::sync::{Arc, OnceLock};
 
 /// A head count as near as this to the one asked for needs no correction. D27. Seen: ±30 % moves vertices by up to .004
@@ -72,8 +70,7 @@ pub fn deform(
     let mut warnings = anatomy.warnings();
     warnings.extend(split);
     warnings.extend(hair_shortened(&product.parts, head_length));
-    let request =
-        Request { target, product: &product, style, options, groups: &groups, weights: OnceCell::new() };
+    let request = Request { target, product: &product, style, options, groups: &groups };
     let threads = options.thread_count;
     let best = if parallel::thread_count(threads) == 1 {
         request.best(progress)
@@ -172,8 +169,6 @@ struct Request<'a> {
     style: &'a Style,
     options: &'a Options,
     groups: &'a PartGroups,
-    /// What the rig's own weights give the parts of each vertex, once it is needed.
-    weights: OnceCell<Vec<PartWeights>>,
 }
 
 impl Request<'_> {
@@ -251,10 +246,8 @@ impl Request<'_> {
         let field = PartField::new(anatomy, scales, &product.parts, options.hair_length);
         let field = Field::of(Arc::new(BodyField::Parts(Box::new(field))));
         let Sliced { field, placed, limited, replaced } = if is_sliced {
-            let roles = &target.measured.figure.role_weights;
-            let weights = self.weights.get_or_init(|| roles.iter().map(|row| fold_to_parts(row)).collect());
             let part = &mut progress.part(0.0, 0.8);
-            with_profile(target, product, weights, field, style, options, groups, part)?
+            with_profile(target, product, field, style, options, groups, part)?
         } else {
             Sliced::unchanged(field)
         };

@@ -10,7 +10,6 @@ use crate::progress::Progress;
 use crate::shape::field::{Binding, BodyField, Field};
 use crate::shape::product::field::PartField;
 use crate::shape::product::groups::PartGroups;
-use crate::shape::product::part::PartWeights;
 use crate::shape::product::profile::{ProfileStage, Source, strengths, wanted_of};
 use crate::shape::style::Style;
 use glam::DVec3;
@@ -44,15 +43,12 @@ impl Sliced {
 
 /// `field`, the parts' own, and then the profile that the style wants, as much of it as the options take.
 ///
-/// `weights`: what the rig's own weights give the parts of each vertex.
-///
 /// # Errors
 /// `Cancelled`.
 #[allow(clippy::too_many_arguments)]
 pub fn with_profile(
     target: &Target,
     product: &ProductTarget,
-    weights: &[PartWeights],
     field: Field,
     style: &Style,
     options: &Options,
@@ -70,7 +66,7 @@ pub fn with_profile(
     let source = Source {
         figure: &measured.figure,
         anatomy: &measured.anatomy,
-        parts: weights,
+        chains: &measured.chains,
         weld: &measured.weld,
         rest: measured.shape.profile.as_ref(),
         pieces: &product.parts.pieces,

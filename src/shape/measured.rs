@@ -5,7 +5,7 @@ use super::figure::Figure;
 use super::measure::measure;
 use super::product::anatomy::Anatomy;
 use super::product::head::head;
-use super::product::part::{PartWeights, fold_to_parts};
+use super::product::profile::chains::Chains;
 use super::product::profile::{BodyFrame, measure_profile};
 use crate::character::bones::{Bone, bones};
 use crate::character::{Character, MeshKind, Role};
@@ -39,6 +39,8 @@ pub struct Measured {
     pub head_top: DVec3,
     /// The figure's vertices by position.
     pub weld: Arc<Weld>,
+    /// Which of its body's chains each of them belongs to.
+    pub chains: Arc<Chains>,
     /// Lengths and radii, and the proportions: all that a style keeps.
     pub shape: BodyShape,
 }
@@ -85,20 +87,20 @@ impl Measured {
             progress.at(0.7)?;
             let weld = weld(&figure.positions, SEAM * figure.height());
             progress.at(0.8)?;
-            let parts: Vec<PartWeights> = figure.role_weights.iter().map(|row| fold_to_parts(row)).collect();
+            let chains = Chains::of(&figure);
             let frame = BodyFrame::of(&figure, &anatomy);
-            let profile = measure_profile(&figure, &figure.positions, &parts, &weld, &frame).0;
-            Ok((Arc::new(weld), profile))
+            let profile = measure_profile(&figure, &figure.positions, &chains, &weld, &frame, threads).0;
+            Ok((Arc::new(weld), Arc::new(chains), profile))
         };
         let ((shape, face), made) = parallel::both(threads, radii_and_face, || weld_and_profile(progress));
-        let (weld, profile) = made?;
+        let (weld, chains, profile) = made?;
         let mut shape = shape?;
         shape.landmarks = Some(anatomy.landmarks.heights);
         shape.proportions = Some(anatomy.proportions.clone());
         shape.face = face.as_ref().and_then(FaceStyle::of);
         shape.profile = Some(profile);
         progress.at(1.0)?;
-        Ok(Self { figure, anatomy, face, joints, head_top, weld, shape })
+        Ok(Self { figure, anatomy, face, joints, head_top, weld, chains, shape })
     }
 
     /// The bones between those roles of the figure that are in `roles` too.

@@ -355,18 +355,25 @@ fn chin(sources: &HeadSources, placed: &HeadPlacement, crown: f64, height: f64) 
     let front =
         triangles.iter().flatten().map(|&v| positions[v as usize].z).fold(f64::NEG_INFINITY, f64::max)
             + HAIRBREADTH * span;
-    let reach = CHIN_COLUMNS.iter().fold(0.0, |reach: f64, column| reach.max(column.abs())) * 2.0 * half.x;
-    let around = |sign: f64| face + DVec3::splat(sign * reach);
-    let near = within(positions, triangles, [around(-1.0), around(1.0)], &[0], SLIVER * height);
-    let surface = Surface::new(positions, &near);
     let row_height = (CHIN_RANGE.1 - CHIN_RANGE.0) * span / CHIN_ROWS as f64;
     let row_y = |row: usize| shoulder_line + CHIN_RANGE.0 * span + (row as f64 + 0.5) * row_height;
+    let columns = CHIN_COLUMNS.map(|column| face.x + column * 2.0 * half.x);
+    // No ray meets anything else, and a tree of few triangles is made soon.
+    let sliver = SLIVER * height;
+    let near = triangles.iter().filter(|corners| {
+        let [a, b, c] = corners.map(|vertex| positions[vertex as usize]);
+        let (least, most) = (a.min(b).min(c) - sliver, a.max(b).max(c) + sliver);
+        least.y <= row_y(CHIN_ROWS)
+            && most.y >= row_y(0)
+            && columns.iter().any(|&column| least.x <= column && most.x >= column)
+    });
+    let surface = Surface::new(positions, &near.copied().collect::<Vec<_>>());
     let depths: Vec<Option<f64>> = (0..CHIN_ROWS)
         .map(|row| {
-            let mut hits: Vec<f64> = CHIN_COLUMNS
+            let mut hits: Vec<f64> = columns
                 .iter()
-                .filter_map(|column| {
-                    let origin = DVec3::new(face.x + column * 2.0 * half.x, row_y(row), front);
+                .filter_map(|&column| {
+                    let origin = DVec3::new(column, row_y(row), front);
                     surface.first_hit(origin, DVec3::NEG_Z, f64::INFINITY).map(|hit| front - hit.t)
                 })
                 .collect();

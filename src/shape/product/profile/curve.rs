@@ -1,5 +1,7 @@
 //! Curves through slices, and tables of curves that are read together.
 
+use crate::geometry::whole::floor;
+
 /// The monotone cubic through `knots` at `places`, which rise, at `x`; constant beyond the ends.
 ///
 /// Fritsch and Carlson. Monotone piecewise cubic interpolation. SIAM Journal on Numerical Analysis 17(2), 1980; slopes as
@@ -103,7 +105,7 @@ impl<const N: usize> Table<N> {
         } else if place >= last as f64 {
             (last - 1, 1.0)
         } else {
-            (place as usize, place - place.floor())
+            (place as usize, place - floor(place))
         };
         // At the ends the slope is 0, as beyond them.
         let before = if row == 0 { 1 } else { row - 1 };

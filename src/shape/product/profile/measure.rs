@@ -1,5 +1,6 @@
 //! Measures a profile: some seventy cuts, each read around the bones.
 
+use super::chains::{Chain, Chains};
 use super::smooth::{smooth, smooth_lengths};
 use super::station::{Slice, slice_around};
 use super::{
@@ -9,24 +10,18 @@ use super::{
 use crate::character::Role;
 use crate::geometry::slice::{Outline, Planes, slices};
 use crate::geometry::weld::Weld;
+use crate::parallel;
 use crate::shape::figure::Figure;
 use crate::shape::heights::Heights;
 use crate::shape::product::anatomy::{Anatomy, Limb};
-use crate::shape::product::part::{Part, PartWeights};
 use glam::{DVec2, DVec3};
 
-/// Torso and legs are what arms and head move less than this. Made weights reach so far that less leaves no whole slice of a
-/// chest: a bust was then as steep as it had been.
-pub(super) const ARM_SHARE: f32 = 0.6;
-pub(super) const HEAD_SHARE: f32 = 0.5;
-/// An arm is what it moves more than this.
-const OWN_ARM_SHARE: f32 = 0.4;
+/// A body of fewer vertices than this is not worth a thread.
+const LEAST_VERTICES: usize = 8000;
 /// What reaches further than this over the middle is no leg, in head lengths.
 pub(super) const OVER_MIDDLE: f64 = 0.012;
 /// What reaches as far as this over it on both sides is a skirt.
 const SKIRT_OVER_MIDDLE: f64 = 0.05;
-/// Hands and feet are what they move more than this.
-const EXTREMITY_SHARE: f32 = 0.5;
 /// Beyond a wrist and under an ankle is what lies this much further, in head lengths: a ring of vertices at the joint itself is
 /// not, whatever its last digits are.
 const BEYOND: f64 = 1e-3;
@@ -161,31 +156,39 @@ pub struct BodyLines {
 
 /// Measures the profile of a figure whose vertices are at `positions`.
 ///
-/// - `parts`: each vertex's weights by part. `weld`: the vertices by position.
+/// - `weld`: the vertices by position.
+/// - `threads`: at most this many, 0 for all cores.
 ///
 /// O(triangles), some seventy cuts.
 pub fn measure_profile(
     figure: &Figure,
     positions: &[DVec3],
-    parts: &[PartWeights],
+    chains: &Chains,
     weld: &Weld,
     frame: &BodyFrame,
+    threads: usize,
 ) -> (Profile, BodyLines) {
-    let body = Body { figure, positions, parts, weld, frame, length: frame.head_length() };
-    let trunk = body.triangles(|row| {
-        arm_share(row, 0) + arm_share(row, 1) < ARM_SHARE && row[Part::Head as usize] < HEAD_SHARE
-    });
-    let (leg, skirt) = body.legs(&trunk);
-    let (arm, arm_middles) = body.arms();
+    let body = Body { figure, positions, chains, weld, frame, length: frame.head_length() };
+    let trunk = || {
+        let triangles = body.triangles(Chain::Trunk);
+        (body.torso(&triangles), body.legs(&triangles), body.neck(&triangles))
+    };
+    let limbs = || {
+        // One vertex at each place: quantiles must not depend on how often seams repeat it.
+        let places = weld.first_vertices();
+        (body.arms(), body.hand(&places), body.foot(&places))
+    };
+    let ((torso, (leg, skirt), neck), ((arm, arm_middles), hand, foot)) =
+        parallel::both(body.worth(threads), trunk, limbs);
     let length = body.length;
     let profile = Profile {
-        torso: body.torso(&trunk),
+        torso,
         leg,
         arm,
         skirt,
-        hand: body.hand(),
-        foot: body.foot(),
-        neck: body.neck(&trunk),
+        hand,
+        foot,
+        neck,
         shoulder: (0..2).map(|side| (frame.limbs[side].root.x - frame.middle_x).abs()).sum::<f64>()
             / (2.0 * length),
         arm_length: (frame.arm_length(0) + frame.arm_length(1)) / (2.0 * length),
@@ -193,17 +196,11 @@ pub fn measure_profile(
     (profile.sound(), BodyLines { arm_middles })
 }
 
-/// What arm number `side` moves of a vertex: upper and lower arm, hand.
-pub(super) fn arm_share(row: &PartWeights, side: usize) -> f32 {
-    let first = if side == 0 { Part::LeftUpperArm } else { Part::RightUpperArm } as usize;
-    row[first..first + 3].iter().sum()
-}
-
 /// A body to be measured, as it is now.
 pub(super) struct Body<'a> {
     pub(super) figure: &'a Figure,
     pub(super) positions: &'a [DVec3],
-    pub(super) parts: &'a [PartWeights],
+    pub(super) chains: &'a Chains,
     pub(super) weld: &'a Weld,
     pub(super) frame: &'a BodyFrame,
     /// L.
@@ -211,14 +208,14 @@ pub(super) struct Body<'a> {
 }
 
 impl Body<'_> {
-    /// Triangles of the body and its clothes whose corners' weights `choose` accepts.
-    pub(super) fn triangles(&self, choose: impl Fn(&PartWeights) -> bool) -> Vec<[u32; 3]> {
-        self.figure.triangles_where(|vertex| !self.figure.is_carried(vertex) && choose(&self.parts[vertex]))
+    /// As many of these threads as are worth it.
+    pub(super) fn worth(&self, threads: usize) -> usize {
+        if self.positions.len() < LEAST_VERTICES { 1 } else { threads }
     }
 
-    /// One vertex at each place: quantiles must not depend on how often seams repeat it.
-    fn places(&self) -> impl Iterator<Item = usize> {
-        self.weld.first_vertices().into_iter().map(|vertex| vertex as usize)
+    /// Triangles of the body and its clothes that are of `chain`.
+    pub(super) fn triangles(&self, chain: Chain) -> Vec<[u32; 3]> {
+        self.chains.triangles(self.figure, chain)
     }
 
     fn cut(&self, triangles: &[[u32; 3]], planes: &Planes, heights: &[f64]) -> Vec<Vec<Outline>> {
@@ -316,7 +313,7 @@ impl Body<'_> {
         for (side, middle) in middles.iter_mut().enumerate() {
             let Some(planes) = self.frame.arm_planes(side) else { continue };
             let limb = &self.frame.limbs[side];
-            let triangles = self.triangles(|row| arm_share(row, side) > OWN_ARM_SHARE);
+            let triangles = self.triangles(Chain::Arm(side));
             let length = self.frame.arm_length(side);
             let heights = stations(ARM_STATIONS).map(|t| t * length);
             let elbow = planes.locate(limb.middle);
@@ -348,16 +345,15 @@ impl Body<'_> {
     }
 
     /// Length, half breadth, half thickness.
-    fn hand(&self) -> Option<[f64; 3]> {
+    fn hand(&self, places: &[u32]) -> Option<[f64; 3]> {
         let sides: Vec<[f64; 3]> = (0..2)
             .filter_map(|side| {
                 let limb = &self.frame.limbs[side];
                 let planes = Planes { origin: limb.end, ..self.frame.arm_planes(side)? };
-                let points: Vec<(f64, DVec2)> = self
-                    .places()
-                    .filter(|&vertex| {
-                        self.parts[vertex][limb.parts[2]] > EXTREMITY_SHARE && !self.figure.is_carried(vertex)
-                    })
+                let points: Vec<(f64, DVec2)> = places
+                    .iter()
+                    .map(|&vertex| vertex as usize)
+                    .filter(|&vertex| self.chains.hold(vertex, Chain::Hand(side)))
                     .map(|vertex| planes.locate(self.positions[vertex]))
                     .filter(|point| point.0 > BEYOND * self.length)
                     .collect();
@@ -379,21 +375,19 @@ impl Body<'_> {
     }
 
     /// To the toes, to the heel, half breadth, how far outward, height of the toes.
-    fn foot(&self) -> Option<[f64; 5]> {
+    fn foot(&self, places: &[u32]) -> Option<[f64; 5]> {
         let sides: Vec<[f64; 5]> = (2..4)
             .filter_map(|side| {
                 let limb = &self.frame.limbs[side];
                 let sign = self.frame.sign(side);
                 let under = limb.end.y - BEYOND * self.length;
-                let points: Vec<DVec3> = self
-                    .places()
+                let points: Vec<DVec3> = places
+                    .iter()
+                    .map(|&vertex| vertex as usize)
                     .filter(|&vertex| {
-                        let row = &self.parts[vertex];
-                        let leg = row[limb.parts[0]] + row[limb.parts[1]];
-                        let is_foot = row[limb.parts[2]] > EXTREMITY_SHARE
-                            || (leg + row[limb.parts[2]] > EXTREMITY_SHARE
-                                && self.positions[vertex].y < under);
-                        is_foot && !self.figure.is_carried(vertex)
+                        let is_of = |chain: Chain| self.chains.hold(vertex, chain);
+                        is_of(Chain::Foot(side - 2))
+                            || (is_of(Chain::Boot(side - 2)) && self.positions[vertex].y < under)
                     })
                     .map(|vertex| self.positions[vertex])
                     .collect();

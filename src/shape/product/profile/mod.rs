@@ -5,6 +5,7 @@
 //! one is given the breadth and the depth of the other.
 
 pub mod canonical;
+pub mod chains;
 pub mod curve;
 pub mod map;
 pub mod radius_map;

@@ -3,6 +3,7 @@
 use super::station::{outer_surface, surface};
 use crate::geometry::Moved;
 use crate::geometry::slice::{Outline, Planes, RAYS};
+use crate::geometry::whole::round;
 use glam::{DMat2, DMat3, DVec2, DVec3};
 
 /// Of the rays of a cut, so many have to meet something, or the cut is taken from those beside it.
@@ -155,7 +156,7 @@ struct Taps {
 
 impl Taps {
     fn new(place: f64) -> Self {
-        let nearest = place.round();
+        let nearest = round(place);
         let t = place - nearest;
         let nearest = nearest as i64;
         Self {

@@ -3,12 +3,14 @@
 //! A torso that is .4 as long and .8 as thick has twice the slopes: a bust is a spike, a hem a shelf, calves are balls. So the
 //! reach of the surface around torso and limbs is smoothed along them, and what lies on it moves along.
 
-use super::measure::{ARM_SHARE, Body, BodyFrame, HEAD_SHARE, OVER_MIDDLE, arm_share, on_limb};
+use super::chains::{Chain, Chains, arm_share};
+use super::measure::{Body, BodyFrame, OVER_MIDDLE, on_limb};
 use super::radius_map::{RadiusMap, Ring, smoothed_rings, without_spikes};
 use crate::geometry::slice::{Outline, RAYS, slices};
 use crate::geometry::weld::Weld;
 use crate::geometry::{Moved, outer};
 use crate::geometry::{smoothstep, smoothstep_slope};
+use crate::parallel;
 use crate::shape::figure::Figure;
 use crate::shape::product::part::{Part, PartWeights};
 use glam::{DMat3, DVec2, DVec3};
@@ -69,21 +71,29 @@ impl Relief {
     /// Measures the relief of a figure whose vertices are at `positions`, and what is to become of it.
     ///
     /// - `strength`: 0 leaves the torso's, the legs' and the arms' relief, 1 smooths all of it.
+    /// - `threads`: at most this many, 0 for all cores.
     pub fn of(
         figure: &Figure,
         positions: &[DVec3],
-        parts: &[PartWeights],
+        chains: &Chains,
         weld: &Weld,
         frame: &BodyFrame,
         strength: [f64; 3],
+        threads: usize,
     ) -> Self {
-        let body = Body { figure, positions, parts, weld, frame, length: frame.head_length() };
-        let leg = |side: usize| (strength[1] > 0.0).then(|| body.leg_relief(side, strength[1])).flatten();
-        let arm = |side: usize| (strength[2] > 0.0).then(|| body.arm_relief(side, strength[2])).flatten();
+        let body = Body { figure, positions, chains, weld, frame, length: frame.head_length() };
+        let threads = body.worth(threads);
+        let mut maps = parallel::collect(threads, 5, 1, |map| match map {
+            0 => (strength[0] > 0.0).then(|| body.torso_relief(strength[0])).flatten(),
+            1 | 2 => (strength[1] > 0.0).then(|| body.leg_relief(map - 1, strength[1])).flatten(),
+            _ => (strength[2] > 0.0).then(|| body.arm_relief(map - 3, strength[2])).flatten(),
+        })
+        .into_iter();
+        let mut next = || maps.next().flatten();
         Self {
-            torso: (strength[0] > 0.0).then(|| body.torso_relief(strength[0])).flatten(),
-            legs: [leg(0), leg(1)],
-            arms: [arm(0), arm(1)],
+            torso: next(),
+            legs: [next(), next()],
+            arms: [next(), next()],
             crotch: frame.heights.crotch,
             torso_length: frame.torso_length(),
             leg_length: frame.leg_length(),
@@ -170,9 +180,7 @@ impl Relief {
 
 impl Body<'_> {
     fn torso_relief(&self, strength: f64) -> Option<RadiusMap> {
-        let triangles = self.triangles(|row| {
-            arm_share(row, 0) + arm_share(row, 1) < ARM_SHARE && row[Part::Head as usize] < HEAD_SHARE
-        });
+        let triangles = self.triangles(Chain::Trunk);
         let planes = self.frame.torso_planes();
         let start = -TORSO_BOTTOM * self.frame.leg_length();
         let step = TORSO_STEP * self.length;
@@ -194,8 +202,7 @@ impl Body<'_> {
 
     fn leg_relief(&self, side: usize, strength: f64) -> Option<RadiusMap> {
         let limb = &self.frame.limbs[2 + side];
-        let [upper, lower, foot] = limb.parts;
-        let triangles = self.triangles(|row| row[upper] + row[lower] + row[foot] > 0.3 && row[foot] < 0.6);
+        let triangles = self.triangles(Chain::Leg(side));
         let planes = self.frame.leg_planes();
         let length = self.frame.leg_length();
         let step = LIMB_STEP * self.length;
@@ -216,7 +223,7 @@ impl Body<'_> {
         let limb = &self.frame.limbs[side];
         let planes = self.frame.arm_planes(side)?;
         let length = self.frame.arm_length(side);
-        let triangles = self.triangles(|row| arm_share(row, side) > 0.4 && row[limb.parts[2]] < 0.7);
+        let triangles = self.triangles(Chain::Forearm(side));
         let step = LIMB_STEP * self.length;
         let start = ARM_ROWS.0 * length;
         let (heights, step) = even_heights(start, ARM_ROWS.1 * length, step);

@@ -1,5 +1,6 @@
 //! The stage of product mode that comes after the parts' maps: relief, and then the slices of the wanted profile.
 
+use super::chains::Chains;
 use super::measure::{BodyFrame, measure_profile};
 use super::relief::Relief;
 use super::scales::{Scales, Strengths, scales};
@@ -39,8 +40,8 @@ pub struct Source<'a> {
     pub figure: &'a Figure,
     #[allow(missing_docs)]
     pub anatomy: &'a Anatomy,
-    /// What the rig's own weights give the parts of each vertex.
-    pub parts: &'a [PartWeights],
+    /// Which chains each vertex belongs to.
+    pub chains: &'a Chains,
     /// The figure's vertices by position.
     pub weld: &'a Weld,
     /// The figure's own profile as it stands.
@@ -104,7 +105,7 @@ impl ProfileStage {
         strengths: impl Fn(&BodyFrame) -> Strengths,
         progress: &mut Progress,
     ) -> Result<(Self, Vec<DVec3>)> {
-        let Source { figure, anatomy, weld, parts, .. } = *source;
+        let Source { figure, anatomy, weld, chains, .. } = *source;
         let place_limb = |limb| field.place_limb(limb);
         let place_torso = |p| field.place_torso(p);
         let frame = BodyFrame::placed(figure, anatomy, *field.after(), place_limb, place_torso);
@@ -117,7 +118,7 @@ impl ProfileStage {
         let of_chains = [strengths.torso, mean(&strengths.leg), mean(&strengths.arm)];
         let relief_strength =
             std::array::from_fn(|chain| of_chains[chain] * smoothstep((1.0 - stubbier[chain]) / SMOOTH_FROM));
-        let relief = Relief::of(figure, positions, parts, weld, &frame, relief_strength);
+        let relief = Relief::of(figure, positions, chains, weld, &frame, relief_strength, source.threads);
         progress.at(0.5)?;
         let smooth = parallel::collect(source.threads, positions.len(), LEAST_VERTICES, |vertex| {
             let p = positions[vertex];
@@ -129,7 +130,7 @@ impl ProfileStage {
             }
         });
         progress.at(0.7)?;
-        let (own, lines) = measure_profile(figure, &smooth, parts, weld, &frame);
+        let (own, lines) = measure_profile(figure, &smooth, chains, weld, &frame, source.threads);
         let scales = scales(&own, wanted, &strengths);
         let slices = BodyMap::new(&own, &lines, &frame, &scales);
         let Scales { limited, replaced, .. } = scales;

@@ -1,0 +1,135 @@
+//! Which chains each vertex belongs to: what a body's slices are cut from and its ends are read from. Weights say so, not
+//! places, so it is found once for all fields that are tried.
+
+use crate::shape::figure::Figure;
+use crate::shape::product::part::{Part, PartWeights, fold_to_parts};
+
+/// Torso and legs are what arms and head move less than this. Made weights reach so far that less leaves no whole slice of a
+/// chest: a bust was then as steep as it had been.
+const ARM_SHARE: f32 = 0.6;
+const HEAD_SHARE: f32 = 0.5;
+/// An arm is what it moves more than this; its relief is that of what the hand moves less than this.
+const OWN_ARM_SHARE: f32 = 0.4;
+const LESS_OF_HAND: f32 = 0.7;
+/// A leg's relief is that of what it moves more than this, and the foot less than this.
+const OWN_LEG_SHARE: f32 = 0.3;
+const LESS_OF_FOOT: f32 = 0.6;
+/// Hands and feet are what they move more than this.
+const EXTREMITY_SHARE: f32 = 0.5;
+
+/// What is measured together; left is side 0, right side 1.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Chain {
+    /// Torso and legs.
+    Trunk,
+    /// A leg without the foot, for its relief.
+    Leg(usize),
+    /// An arm with its hand.
+    Arm(usize),
+    /// An arm without the hand, for its relief.
+    Forearm(usize),
+    #[allow(missing_docs)]
+    Hand(usize),
+    #[allow(missing_docs)]
+    Foot(usize),
+    /// Leg and foot: what lies below the ankle of a boot that the shin moves is a foot all the same.
+    Boot(usize),
+}
+
+impl Chain {
+    /// Those of both sides follow each other.
+    const ALL: [Self; 13] = [
+        Self::Trunk,
+        Self::Leg(0),
+        Self::Leg(1),
+        Self::Arm(0),
+        Self::Arm(1),
+        Self::Forearm(0),
+        Self::Forearm(1),
+        Self::Hand(0),
+        Self::Hand(1),
+        Self::Foot(0),
+        Self::Foot(1),
+        Self::Boot(0),
+        Self::Boot(1),
+    ];
+
+    fn bit(self) -> u16 {
+        let number = match self {
+            Self::Trunk => 0,
+            Self::Leg(side) => 1 + side,
+            Self::Arm(side) => 3 + side,
+            Self::Forearm(side) => 5 + side,
+            Self::Hand(side) => 7 + side,
+            Self::Foot(side) => 9 + side,
+            Self::Boot(side) => 11 + side,
+        };
+        1 << number
+    }
+
+    /// True for what these weights move.
+    fn holds(self, row: &PartWeights) -> bool {
+        let leg_sum = |side: usize, parts: usize| {
+            let first = [Part::LeftUpperLeg, Part::RightUpperLeg][side] as usize;
+            row[first..first + parts].iter().sum::<f32>()
+        };
+        let foot = |side: usize| row[[Part::LeftFoot, Part::RightFoot][side] as usize];
+        let hand = |side: usize| row[[Part::LeftHand, Part::RightHand][side] as usize];
+        match self {
+            Self::Trunk => {
+                arm_share(row, 0) + arm_share(row, 1) < ARM_SHARE && row[Part::Head as usize] < HEAD_SHARE
+            }
+            Self::Leg(side) => leg_sum(side, 3) > OWN_LEG_SHARE && foot(side) < LESS_OF_FOOT,
+            Self::Arm(side) => arm_share(row, side) > OWN_ARM_SHARE,
+            Self::Forearm(side) => arm_share(row, side) > OWN_ARM_SHARE && hand(side) < LESS_OF_HAND,
+            Self::Hand(side) => hand(side) > EXTREMITY_SHARE,
+            Self::Foot(side) => foot(side) > EXTREMITY_SHARE,
+            Self::Boot(side) => leg_sum(side, 2) + foot(side) > EXTREMITY_SHARE,
+        }
+    }
+}
+
+/// The chains of each vertex, none for what is carried, and of each triangle: those of all of its corners.
+#[derive(Clone, Debug)]
+pub struct Chains {
+    of_vertex: Vec<u16>,
+    of_triangle: Vec<u16>,
+}
+
+impl Chains {
+    /// As the rig's own weights say.
+    pub fn of(figure: &Figure) -> Self {
+        let of_vertex = |vertex: usize| {
+            if figure.is_carried(vertex) {
+                return 0;
+            }
+            let row = fold_to_parts(&figure.role_weights[vertex]);
+            Chain::ALL.into_iter().filter(|chain| chain.holds(&row)).map(Chain::bit).sum()
+        };
+        let of_vertex: Vec<u16> = (0..figure.positions.len()).map(of_vertex).collect();
+        let of_triangle = |corners: &[u32; 3]| {
+            let [a, b, c] = corners.map(|vertex| of_vertex[vertex as usize]);
+            a & b & c
+        };
+        Self { of_triangle: figure.triangles.iter().map(of_triangle).collect(), of_vertex }
+    }
+
+    /// Whether `vertex` is of `chain`.
+    pub fn hold(&self, vertex: usize, chain: Chain) -> bool {
+        self.of_vertex[vertex] & chain.bit() != 0
+    }
+
+    /// The triangles of the figure with all corners in `chain`.
+    pub fn triangles(&self, figure: &Figure, chain: Chain) -> Vec<[u32; 3]> {
+        let bit = chain.bit();
+        let of_chain =
+            figure.triangles.iter().zip(&self.of_triangle).filter(|&(_, chains)| chains & bit != 0);
+        of_chain.map(|(&corners, _)| corners).collect()
+    }
+}
+
+/// What arm number `side` moves of a vertex: upper and lower arm, hand.
+pub(super) fn arm_share(row: &PartWeights, side: usize) -> f32 {
+    let first = if side == 0 { Part::LeftUpperArm } else { Part::RightUpperArm } as usize;
+    row[first..first + 3].iter().sum()
+}
