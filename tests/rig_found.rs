@@ -58,6 +58,9 @@ impl Outcome {
                 let joint = placed.found.joints[&role];
                 let off = placed.figure.to_model(joint.position).distance(truth) / height;
                 outcome.joints.entry(label).or_default().push((off, joint.confidence));
+                if off > 0.03 && std::env::var_os("MISSES").is_some() {
+                    println!("{}", miss(name, &placed, role, truth, off));
+                }
                 if off > 0.06 && joint.confidence < 0.5 {
                     let places = placed.candidates.get(&role).into_iter().flatten();
                     let offs =
@@ -98,6 +101,22 @@ impl Outcome {
         }
         line
     }
+}
+
+/// One joint that is off: where it is in the unit figure, where it was found, and what else was considered.
+fn miss(name: &str, placed: &Placed, role: Role, truth: DVec3, off: f64) -> String {
+    let joint = placed.found.joints[&role];
+    let to = |p: DVec3| format!("({:+.3} {:+.3} {:+.3})", p.x, p.y, p.z);
+    let mut line = format!(
+        "miss {off:.3} {:.2} {role:14} {name:60} is {} found {}",
+        joint.confidence,
+        to(placed.figure.to_unit(truth)),
+        to(joint.position)
+    );
+    for place in placed.candidates.get(&role).into_iter().flatten().skip(1) {
+        write!(line, " or {} {:.3}", to(place.position), place.score).unwrap();
+    }
+    line
 }
 
 /// Front and side view with true (red) and found (blue, pale where doubtful) joints, where `PICTURES` names a folder.
@@ -256,7 +275,7 @@ fn random_people_are_found() {
     assert!(summary.sure_near >= 0.9, "{:.3} of the joints called 0.9 are near", summary.sure_near);
 }
 
-/// Every table of this file, on many more figures; `FIGURES` says on how many random ones, from the seed `FIRST`, `PART` names some of the tables, `LINES` shows each, `ONLY`
+/// Every table of this file, on many more figures; `FIGURES` says on how many random ones, from the seed `FIRST`, `PART` names some of the tables, `LINES` shows each, `MISSES` each joint that is off, `ONLY`
 /// chooses by name, `PICTURES` names a folder for pictures.
 #[test]
 #[ignore = "minutes of measuring: run it with --ignored --nocapture"]
