@@ -92,6 +92,14 @@ impl Arm {
         self.curve.joints(shoulder, outwards, self.pit, self.pit_seen)
     }
 
+    /// The same arm from another shoulder joint to the same wrist.
+    pub fn from_shoulder(&self, shoulder: DVec3) -> Self {
+        let begins = self.curve.before(shoulder, (self.wrist - shoulder).normalize_or_zero());
+        let wrist_arc = self.curve.nearest(self.wrist).0;
+        let elbow = self.curve.elbow(shoulder, begins, self.wrist, wrist_arc);
+        Self { shoulder, elbow, ..self.clone() }
+    }
+
     /// The same arm with some of its joints given, and the elbow between them where it is not. As it is where its
     /// curve passes by any of them.
     pub fn with_given(mut self, [shoulder, elbow, wrist]: [Option<DVec3>; 3]) -> Self {

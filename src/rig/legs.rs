@@ -571,7 +571,10 @@ pub fn leg(view: &FrontView, legs: &Legs, left: bool, given: [Option<DVec3>; 3])
         let top = mean_section(sections, at(THIGH_RANGE.0), at(THIGH_RANGE.1)).unwrap_or(shin);
         let steps = (top.x / view.cell()) as usize;
         let z = view.grid.thickest(view.column(left, steps), view.grid.row(y));
-        view.point(left, top.x, y, z.map_or(top.z(), |(back, front)| 0.5 * (back + front)))
+        // What lies outside of the thigh is no hip: a tail, hair.
+        let z =
+            z.map(|(back, front)| 0.5 * (back + front)).filter(|z| (z - top.z()).abs() < top.half_depth());
+        view.point(left, top.x, y, z.unwrap_or(top.z()))
     });
     let knee = given_knee.unwrap_or_else(|| {
         let y = ankle.y + KNEE_SHARE * (hip.y - ankle.y);
@@ -604,6 +607,7 @@ struct Ankle {
 
 fn ankle_height(sections: &[Section], low: f64, length: f64) -> Ankle {
     let girth = |s: &Section| s.half_width + s.half_depth();
+    let by_ratio = low + ANKLE_BY_RATIO * length;
     let believed = |y: f64| y.clamp(low + ANKLE_RANGE.0 * length, low + ANKLE_RANGE.1 * length);
     let calf: Vec<(f64, f64)> = sections
         .iter()
@@ -614,16 +618,16 @@ fn ankle_height(sections: &[Section], low: f64, length: f64) -> Ankle {
         let least = calf.iter().map(|&(_, girth)| girth).fold(f64::INFINITY, f64::min);
         let below = sections.iter().filter(|s| s.y < slim).map(girth).fold(0.0, f64::max);
         if below > FOOT_WIDENS * least && slim > low + SLIM_MARGIN * SLIM_RANGE.0 * length {
-            // Two witnesses: the slim place over the ankle bones, and where the foot ends under it, if it does.
-            let by_slim = low + ANKLE_OF_SLIM * (slim - low);
+            // Three witnesses: the slim place over the ankle bones, where the foot ends under it, if it does, and
+            // how bodies are made.
+            let mut told = vec![low + ANKLE_OF_SLIM * (slim - low), by_ratio];
             let is_foot = |s: &&Section| girth(s) > FOOT_WIDENS * least;
-            let under: Vec<&Section> =
-                sections.iter().take_while(|s| s.y < slim).skip_while(|s| !is_foot(s)).collect();
-            let end = under.iter().position(|s| !is_foot(s)).filter(|&end| end > 0);
-            let y = end.map_or(by_slim, |end| 0.5 * (by_slim + under[end - 1].y));
+            let under: Vec<&Section> = sections.iter().take_while(|s| s.y < slim).collect();
+            let end = under.iter().rposition(is_foot).filter(|&end| end + 1 < under.len());
+            told.extend(end.map(|end| under[end].y));
+            let y = told.iter().sum::<f64>() / told.len() as f64;
             return Ankle { y: believed(y), slim, seen: true };
         }
     }
-    let y = low + ANKLE_BY_RATIO * length;
-    Ankle { y, slim: low + ANKLE_READ_AT * length, seen: false }
+    Ankle { y: by_ratio, slim: low + ANKLE_READ_AT * length, seen: false }
 }

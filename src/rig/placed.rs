@@ -83,7 +83,7 @@ impl Placed {
         let seen = first.as_ref().map_or(0, Self::seen_count);
         let is_open =
             !character.axes.up_is_known && character.axes.forward.is_none() && options.given.is_empty();
-        if !is_open || seen >= STANDS {
+        if !is_open || first.as_ref().is_ok_and(Self::stands) {
             progress.at(1.0)?;
             return first.map(Self::doubted);
         }
@@ -124,8 +124,18 @@ impl Placed {
 
     /// How many limb joints are seen.
     fn seen_count(&self) -> usize {
-        let sure = |role: &&Role| self.found.joints.get(role).is_some_and(|joint| joint.confidence >= SEEN);
-        LIMBS.iter().filter(sure).count()
+        LIMBS.iter().filter(|role| self.sees(role)).count()
+    }
+
+    fn sees(&self, role: &Role) -> bool {
+        self.found.joints.get(role).is_some_and(|joint| joint.confidence >= SEEN)
+    }
+
+    /// True where half of its limb joints are seen, and ankles among them: what seem to be arms of someone who lies may be
+    /// legs, or locks of hair.
+    fn stands(&self) -> bool {
+        let feet = [Role::LeftFoot, Role::RightFoot];
+        self.seen_count() >= STANDS && feet.iter().any(|role| self.sees(role))
     }
 
     /// Doubts all joints that were not given where front and back may be swapped.
