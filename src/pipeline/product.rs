@@ -72,27 +72,18 @@ pub fn deform(
     warnings.extend(hair_shortened(&product.parts, head_length));
     let request = Request { target, product: &product, style, options, groups: &groups };
     let threads = options.thread_count;
-    let best = if parallel::thread_count(threads) == 1 {
-        request.best(progress)
+    let dressed = if parallel::thread_count(threads) == 1 {
+        request.dressed(known.pushed, progress)
     } else {
-        // Hair is found once, beside the first fields.
-        parallel::both(threads, || product.find_hair(target, options), || request.best(progress)).1
+        // Hair is found once, beside all that does not need it.
+        let find_hair = || product.find_hair(target, options);
+        parallel::both(threads, find_hair, || request.dressed(known.pushed, progress)).1
     };
-    let (attempt, of_attempt, heads_left) = best?;
-    warnings.extend(of_attempt);
-    let field = attempt.field;
-    progress.at(0.65)?;
-    let placement = product.placement(&target.measured.figure, &field, options.thread_count);
-    let placed = attempt.placed.unwrap_or_else(|| placement.all_placed());
-    let placement = Placement { placed: Some(&placed), ..placement };
-    let pushed = match (options.repair, known.pushed) {
-        (Repair::Off, _) => Pushed::default(),
-        (Repair::Kept, Some(pushed)) => pushed,
-        (Repair::On | Repair::Kept, _) => product.push_clothes(target, &placement),
-    };
+    let Dressed { field, scales, placed, pushed, warnings: of_field, heads_left } = dressed?;
+    warnings.extend(of_field);
     let repaired = pushed.dense(target.measured.figure.positions.len());
-    progress.at(0.7)?;
-    let placement = Placement { hair_offsets: &repaired, ..placement };
+    let placement = product.placement(&target.measured.figure, &field, threads);
+    let placement = Placement { placed: Some(&placed), hair_offsets: &repaired, ..placement };
     let hair_offsets = product.hair_offsets(target, &placement);
     progress.at(0.75)?;
     let whole = not_taller(&Placement { hair_offsets: &hair_offsets, ..placement });
@@ -105,7 +96,7 @@ pub fn deform(
         pushed,
         whole,
         head_ratio,
-        coefficients: attempt.scales.by_group(&groups),
+        coefficients: scales.by_group(&groups),
         warnings,
         heads_left,
         product: Some(product),
@@ -162,6 +153,17 @@ struct Attempt {
     misread: f64,
 }
 
+/// The body that is wanted, and its clothes around it.
+struct Dressed {
+    field: Field,
+    scales: PartCoefficients,
+    /// Where the field takes all vertices.
+    placed: Vec<DVec3>,
+    pushed: Pushed,
+    warnings: Vec<Warning>,
+    heads_left: Option<Warning>,
+}
+
 /// What is asked for, of whom.
 struct Request<'a> {
     target: &'a Target,
@@ -172,6 +174,24 @@ struct Request<'a> {
 }
 
 impl Request<'_> {
+    /// The best field, and what keeps clothes outside of the body that it makes; `known`: what did before.
+    fn dressed(&self, known: Option<Pushed>, progress: &mut Progress) -> Result<Dressed> {
+        let &Self { target, product, options, .. } = self;
+        let (attempt, warnings, heads_left) = self.best(progress)?;
+        let Attempt { field, placed, scales, .. } = attempt;
+        progress.at(0.65)?;
+        let placement = product.placement(&target.measured.figure, &field, options.thread_count);
+        let placed = placed.unwrap_or_else(|| placement.all_placed());
+        let placement = Placement { placed: Some(&placed), ..placement };
+        let pushed = match (options.repair, known) {
+            (Repair::Off, _) => Pushed::default(),
+            (Repair::Kept, Some(pushed)) => pushed,
+            (Repair::On | Repair::Kept, _) => product.push_clothes(target, &placement),
+        };
+        progress.at(0.7)?;
+        Ok(Dressed { field, scales, placed, pushed, warnings, heads_left })
+    }
+
     /// Fields until the head count measured on the result is right, first of the parts alone and then with the style's
     /// profile: the best of them, its warnings, and one of a head count that is not the one asked for.
     fn best(&self, progress: &mut Progress) -> Result<(Attempt, Vec<Warning>, Option<Warning>)> {
