@@ -82,6 +82,7 @@ pub struct Surroundings {
     facts: Vec<Facts>,
     middle: OnceLock<f64>,
     seams: OnceLock<Vec<Vec<usize>>>,
+    mirrored: OnceLock<Vec<f64>>,
 }
 
 pub(super) struct Scene<'a> {
@@ -91,6 +92,8 @@ pub(super) struct Scene<'a> {
     pub(super) middle: &'a OnceLock<f64>,
     /// Which meshes go on where others end, once it is found.
     pub(super) seams: &'a OnceLock<Vec<Vec<usize>>>,
+    /// Of each volume the share that has its like on the other side, once it is found.
+    pub(super) mirrored: &'a OnceLock<Vec<f64>>,
 }
 
 impl Surroundings {
@@ -154,7 +157,8 @@ impl Surroundings {
 
     /// The same with the figure.
     pub(super) fn in_scene<'a>(&'a self, figure: &'a UnitFigure) -> Scene<'a> {
-        Scene { figure, facts: &self.facts, middle: &self.middle, seams: &self.seams }
+        let Self { facts, middle, seams, mirrored } = self;
+        Scene { figure, facts, middle, seams, mirrored }
     }
 }
 

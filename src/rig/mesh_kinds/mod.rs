@@ -342,24 +342,19 @@ impl Scene<'_> {
                 || matches!(figure.kinds[mesh], Some(MeshKind::Body | MeshKind::Garment))
                 || (figure.kinds[mesh].is_none() && self.layer_share(mesh) >= LAYER_SHARE)
         };
-        let like = |mesh: usize| volumes.contains(&mesh) || figure.kinds[mesh] == Some(MeshKind::Body);
-        let all = Surface::new(&figure.positions, &figure.triangles_where(like));
         let middle = region.plane;
+        let shares = self.mirrored.get_or_init(|| self.mirrored_shares(volumes, middle));
         let axis = self.trunk_axis(is_body, middle);
         let mut candidates: Vec<(usize, Slices)> = volumes
             .iter()
             .copied()
             .filter(|&mesh| {
                 let facts = &self.facts[mesh];
-                let mirrored = facts.share(|sample| {
-                    let mirrored = DVec3::new(2.0 * middle - sample.point.x, sample.point.y, sample.point.z);
-                    all.closest_point(mirrored).is_some_and(|near| near.distance <= PART_GAP)
-                });
                 let on_axis = facts.low.x > middle
                     || facts.high.x < middle
                     || (facts.low.z <= axis && facts.high.z >= axis);
                 let has_volume = facts.share(|sample| sample.volume) >= VOLUME_SHARE;
-                facts.extent() >= LIMB && mirrored >= MIRRORED_SHARE && on_axis && has_volume
+                facts.extent() >= LIMB && shares[mesh] >= MIRRORED_SHARE && on_axis && has_volume
             })
             .filter(|&mesh| !region.is_on_face(&self.facts[mesh]))
             .map(|mesh| (mesh, slices(figure, middle, &|other| other == mesh)))
@@ -384,6 +379,22 @@ impl Scene<'_> {
             is_body[mesh] = true;
             self.join_seams(is_body, seams);
         }
+    }
+
+    /// Of each of `volumes` the share that has another one, or a named body, on the other side of the plane at `middle`; 0
+    /// of other meshes.
+    fn mirrored_shares(&self, volumes: &[usize], middle: f64) -> Vec<f64> {
+        let figure = self.figure;
+        let like = |mesh: usize| volumes.contains(&mesh) || figure.kinds[mesh] == Some(MeshKind::Body);
+        let all = Surface::new(&figure.positions, &figure.triangles_where(like));
+        let mut shares = vec![0.0; figure.mesh_count()];
+        for &mesh in volumes {
+            shares[mesh] = self.facts[mesh].share(|sample| {
+                let mirrored = DVec3::new(2.0 * middle - sample.point.x, sample.point.y, sample.point.z);
+                all.closest_point(mirrored).is_some_and(|near| near.distance <= PART_GAP)
+            });
+        }
+        shares
     }
 
     /// Where the trunk's middle is along z.

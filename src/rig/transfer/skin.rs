@@ -4,6 +4,7 @@ use super::{Row, normalised, places};
 use crate::character::Weights;
 use crate::geometry::{Closest, PointTree, SEAM, Surface, double_area, weld};
 use glam::DVec3;
+use std::sync::OnceLock;
 
 /// Closest points this much further than the closest one, relatively, still have a share, which falls to 0 there: where
 /// two legs are equally far, neither is the closest by chance (D20). Seen: ±30 % moves no vertex.
@@ -86,32 +87,40 @@ pub struct Source<'a> {
 /// A source made ready.
 pub(super) struct Body<'a> {
     source: Source<'a>,
-    /// Vertices that have weights, and where they are.
-    weighted: (PointTree, Vec<u32>),
+    /// Vertices that have weights.
+    weighted: Vec<u32>,
+    /// Where they are: made where a vertex has none, which few bodies have.
+    places: OnceLock<PointTree>,
 }
 
 impl<'a> Body<'a> {
     pub(super) fn new(source: &Source<'a>) -> Self {
-        let vertices: Vec<u32> = (0..source.positions.len().min(source.weights.row_count()))
+        let weighted: Vec<u32> = (0..source.positions.len().min(source.weights.row_count()))
             .filter(|&vertex| {
                 source.positions[vertex].is_finite()
                     && source.weights.row(vertex).iter().any(|&(_, weight)| weight > 0.0)
             })
             .map(|vertex| vertex as u32)
             .collect();
-        let places: Vec<DVec3> = vertices.iter().map(|&vertex| source.positions[vertex as usize]).collect();
-        Self { source: *source, weighted: (PointTree::new(&places), vertices) }
+        Self { source: *source, weighted, places: OnceLock::new() }
     }
 
     /// True where there is nothing to take weights from.
     pub(super) fn is_empty(&self) -> bool {
-        self.weighted.1.is_empty()
+        self.weighted.is_empty()
     }
 
     /// Some row that is never empty.
     pub(super) fn anything(&self) -> Row {
-        let first = self.weighted.1.first().map(|&vertex| self.row(vertex)).unwrap_or_default();
+        let first = self.weighted.first().map(|&vertex| self.row(vertex)).unwrap_or_default();
         if first.is_empty() { vec![(0, 1.0)] } else { first }
+    }
+
+    fn places(&self) -> &PointTree {
+        self.places.get_or_init(|| {
+            let at = |&vertex: &u32| self.source.positions[vertex as usize];
+            PointTree::new(&self.weighted.iter().map(at).collect::<Vec<DVec3>>())
+        })
     }
 
     fn row(&self, vertex: u32) -> Row {
@@ -154,9 +163,9 @@ impl<'a> Body<'a> {
         // Bare vertices: the nearest one that has weights.
         let mut found = Vec::new();
         if p.is_finite() {
-            self.weighted.0.nearest(p, 1, f64::INFINITY, &mut found);
+            self.places().nearest(p, 1, f64::INFINITY, &mut found);
         }
-        found.first().map_or_else(|| self.anything(), |near| self.row(self.weighted.1[near.index() as usize]))
+        found.first().map_or_else(|| self.anything(), |near| self.row(self.weighted[near.index() as usize]))
     }
 }
 
