@@ -5,8 +5,9 @@ use crate::character::{Humanoid, MeshKind, Role, Weights};
 use crate::error::{Result, Warning};
 use crate::progress::Progress;
 use crate::rig::eyes::Eye;
-use crate::rig::heat::HeatSystem;
+use crate::rig::heat::{HeatSystem, Held};
 use crate::rig::mesh_kinds::body_is_whole;
+use crate::rig::parts::hangs_from_head;
 use crate::rig::solid::Solid;
 use crate::rig::transfer::{GarmentOnSkin, Skin, Source, rigid_weights};
 use crate::rig::voxel::{FALLOFF, VoxelOptions, heat_would_be_poor, voxel_weights};
@@ -44,6 +45,14 @@ impl Group {
             start = end;
         }
     }
+}
+
+/// By vertex the bones that hold it in place of the nearest ones: hair hangs from the head.
+fn held(points: &[DVec3], triangles: &[[u32; 3]], bones: &[WeightBone], humanoid: &Humanoid) -> Vec<Held> {
+    let head = humanoid.joint(Role::Head);
+    let head = bones.iter().position(|bone| Some(bone.joint as usize) == head).unwrap_or(0) as u32;
+    let by_head = |hangs: bool| if hangs { vec![(head, 1.0)] } else { Vec::new() };
+    hangs_from_head(points, triangles, bones, humanoid).into_iter().map(by_head).collect()
 }
 
 /// What gives the body its weights.
@@ -133,7 +142,9 @@ impl<'a> Binder<'a> {
                 BodyRule::Volume(voxel_weights(points, triangles, bones, &options, progress)?)
             }
             _ => {
-                BodyRule::Heat(HeatSystem::in_body(points, triangles, bones, Some(solid), threads, progress)?)
+                let held = held(points, triangles, bones, humanoid);
+                let body = (Some(solid), &held[..]);
+                BodyRule::Heat(HeatSystem::in_body(points, triangles, bones, body, threads, progress)?)
             }
         };
         let separate = |meshes: Vec<usize>| -> Vec<Group> {

@@ -25,6 +25,7 @@
 //! | `eyes` | eyeballs |
 //! | `skeleton` | joints as a tree, and the bones that weights start from |
 //! | `wholeness` | whether the surface is whole enough for heat |
+//! | `parts` | what is one skin with the body and moves otherwise: long hair |
 //! | `heat` | weights of a whole body; `nearest` bones and whether they are seen |
 //! | `volume`, `geodesic`, `voxel` | voxels of an open body, distances through them, weights by those |
 //! | `transfer` | weights of clothes from the `skin` below, a `fill` where it says nothing, `rigid` things |
@@ -50,6 +51,7 @@ pub mod heat;
 pub mod joints;
 pub mod legs;
 pub mod mesh_kinds;
+pub mod parts;
 pub mod placed;
 pub mod silhouette;
 pub mod skeleton;

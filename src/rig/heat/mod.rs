@@ -20,6 +20,7 @@ use crate::parallel;
 use crate::progress::Progress;
 use glam::DVec3;
 use nearest::{Body, NearestBones, Segments};
+pub(super) use sides::outward;
 use std::collections::BTreeMap;
 
 /// What lies further than this from the mesh's middle, in units of the figure, counts as this far, so that squares of
@@ -102,6 +103,9 @@ pub struct HeatSystem {
     symbolic: Option<Symbolic>,
 }
 
+/// The bones that hold a vertex in place of the nearest ones, with shares of 1; none where the nearest do.
+pub type Held = Vec<(u32, f64)>;
+
 /// (vertex, bone, weight) of some bones, by vertices.
 type Solution = Vec<(u32, u32, f64)>;
 
@@ -135,11 +139,11 @@ impl HeatSystem {
         thread_count: usize,
         progress: &mut Progress,
     ) -> Result<Self> {
-        Self::in_body(positions, triangles, bones, None, thread_count, progress)
+        Self::in_body(positions, triangles, bones, (None, &[]), thread_count, progress)
     }
 
     /// As [`HeatSystem::new`], of vertices that are part of the body `solid`, in whose space they are: bones are hidden by
-    /// the air around it as well.
+    /// the air around it as well. `held`: by vertex, as indices into `bones`; may be empty.
     ///
     /// # Errors
     /// `Cancelled`.
@@ -147,7 +151,7 @@ impl HeatSystem {
         positions: &[DVec3],
         triangles: &[[u32; 3]],
         bones: &[WeightBone],
-        solid: Option<&Solid>,
+        (solid, held): (Option<&Solid>, &[Held]),
         thread_count: usize,
         progress: &mut Progress,
     ) -> Result<Self> {
@@ -182,7 +186,7 @@ impl HeatSystem {
                 )
             },
         );
-        let nearest = nearest?;
+        let nearest = nearest?.held(held, &weld);
         let mut system = Self {
             thread_count,
             weld,

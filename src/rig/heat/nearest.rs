@@ -1,9 +1,9 @@
 //! The bones that are nearest to each vertex, and whether it sees them.
 
 use super::sides::outward;
-use super::{Components, Frame};
+use super::{Components, Frame, Held};
 use crate::error::Result;
-use crate::geometry::{Surface, foot};
+use crate::geometry::{Surface, Weld, foot};
 use crate::parallel;
 use crate::progress::Progress;
 use crate::rig::WeightBone;
@@ -32,6 +32,10 @@ const LEAST_AIR: f64 = 2.0;
 /// The body lies behind a vertex where it is found so many of its cells behind it: cloth is thinner. Seen: at ±30 %,
 /// posed vertices lie as far from the artists', to 1 %.
 const BEHIND: f64 = 2.0;
+
+/// What is held counts as this far from what holds it, in units of the figure: its weights go over into those of the skin
+/// around it within about as much, some cells of a coarse grid. Found by looking.
+const HELD_DISTANCE: f64 = 0.02;
 
 /// A ray to a bone leaves out this share of the way at either end: it starts on the surface, and a bone may end there.
 /// Seen: ±30 % moves vertices by under 0.0005 H.
@@ -207,6 +211,29 @@ impl NearestBones {
         self.starts.push(self.shares.len() as u32);
         self.heat.push(if near.is_empty() { 0.0 } else { k / (least * least) });
         self.seen.push(any_seen);
+    }
+
+    /// The same with `held` bones for the vertices that have any: as if these were near and seen.
+    pub(super) fn held(self, held: &[Held], weld: &Weld) -> Self {
+        if held.iter().all(Vec::is_empty) {
+            return self;
+        }
+        let mut of_welded: Vec<&[(u32, f64)]> = vec![&[]; self.heat.len()];
+        for (held, &welded) in held.iter().zip(&weld.representative) {
+            of_welded[welded as usize] = held;
+        }
+        let mut all = Self { starts: vec![0], ..Self::default() };
+        for (vertex, &held) in of_welded.iter().enumerate() {
+            if held.is_empty() {
+                all.shares.extend_from_slice(self.shares_of(vertex));
+            } else {
+                all.shares.extend_from_slice(held);
+            }
+            all.starts.push(all.shares.len() as u32);
+            all.heat.push(if held.is_empty() { self.heat[vertex] } else { HELD_DISTANCE.powi(-2) });
+            all.seen.push(!held.is_empty() || self.seen[vertex]);
+        }
+        all
     }
 
     pub(super) fn shares_of(&self, vertex: usize) -> &[(u32, f64)] {

@@ -13,7 +13,7 @@ const FULLNESS: [f64; 2] = [0.004, 0.008];
 /// its volume positive, holes closed from its middle.
 ///
 /// O(triangles).
-pub(super) fn outward(points: &[DVec3], triangles: &[[u32; 3]]) -> Vec<DVec3> {
+pub(in crate::rig) fn outward(points: &[DVec3], triangles: &[[u32; 3]]) -> Vec<DVec3> {
     let mut patches = Patches::of(points.len(), triangles);
     let patch_of: Vec<(u32, bool)> =
         (0..triangles.len() as u32).map(|triangle| patches.find(triangle)).collect();
