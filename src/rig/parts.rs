@@ -137,7 +137,7 @@ impl<'a> Skin<'a> {
         let count = self.points.len();
         let is_skull = |&v: &usize| self.nearest[v].0 == Role::Head && self.points[v].y > self.head.y;
         let skull = self.surest((0..count).filter(is_skull).collect());
-        let radius = self.neck_radius();
+        let ([low, high], radius) = self.throat();
         let body = self.sure_body(radius);
         if skull.is_empty() || body.is_empty() {
             return vec![false; count];
@@ -147,7 +147,7 @@ impl<'a> Skin<'a> {
         let mut hanging: Vec<bool> = (0..count)
             .map(|v| {
                 let p = self.points[v];
-                let beside = foot(p, self.neck, self.head).0.distance(p) > radius;
+                let beside = foot(p, low, high).0.distance(p) > radius;
                 beside && of_body[v].is_finite() && of_skull[v] + MARGIN < of_body[v]
             })
             .collect();
@@ -187,20 +187,24 @@ impl<'a> Skin<'a> {
         vertices
     }
 
-    /// Half the neck's width in front where it is slimmest: shoulders are wider, and so is the jaw.
-    fn neck_radius(&self) -> f64 {
-        let mut widths = vec![Vec::new(); NECK_ROWS];
+    /// The neck's axis and half width where it is slimmest in front: shoulders are wider, and so is the jaw. Joints lie
+    /// between a neck and the hair behind it.
+    fn throat(&self) -> ([DVec3; 2], f64) {
+        let mut rows = vec![Vec::new(); NECK_ROWS];
         for (p, near) in self.points.iter().zip(&self.nearest) {
             let row = (p.y - self.neck.y) / (self.head.y - self.neck.y) * NECK_ROWS as f64;
             if near.0 == Role::Neck && p.z > self.neck.z && row >= 0.0 && row < NECK_ROWS as f64 {
-                widths[row as usize].push((p.x - self.neck.x).abs());
+                rows[row as usize].push(((p.x - self.neck.x).abs(), p.z));
             }
         }
-        let widest = |row: &mut Vec<f64>| {
-            row.sort_by(f64::total_cmp);
-            row.get((NECK_WIDTH * row.len() as f64) as usize).copied()
+        let half = |row: &mut Vec<(f64, f64)>| {
+            row.sort_by(|one, other| one.0.total_cmp(&other.0));
+            let width = row.get((NECK_WIDTH * row.len() as f64) as usize)?.0;
+            Some((width, row.iter().map(|of| of.1).fold(f64::NEG_INFINITY, f64::max)))
         };
-        widths.iter_mut().filter_map(widest).min_by(f64::total_cmp).unwrap_or(0.0)
+        let slimmest = rows.iter_mut().filter_map(half).min_by(|one, other| one.0.total_cmp(&other.0));
+        let ends = [self.neck, self.head];
+        slimmest.map_or((ends, 0.0), |(width, front)| (ends.map(|end| end.with_z(front - width)), width))
     }
 
     /// What each vertex costs to reach from `seeds`.
