@@ -15,6 +15,8 @@ const HEAT: [usize; 6] = [13_000, 20_000, 50_000, 100_000, 200_000, 400_000];
 /// Vertices of a coat, and how far it is from the skin, model units.
 const COAT: usize = 42_000;
 const GAP: f64 = 0.01;
+/// Vertices of bodies that a whole rig is made for, of twice as many triangles.
+const RIGS: [usize; 2] = [50_000, 375_000];
 /// Columns of the tubes of people of 13,000 to a million vertices.
 const COLUMNS: [usize; 4] = [32, 60, 189, 272];
 /// Meshes that one person is cut into, and morph targets of each vertex of its largest one.
@@ -81,6 +83,14 @@ fn rig() {
     let bare = Character { meshes: vec![skin.clone()], ..Character::default() };
     let alone = least(5, || Rig::of(&bare, &options).expect("it can be rigged"));
     println!("rig, {} vertices: {alone:.3}", skin.positions.len());
+    for count in RIGS {
+        let (positions, triangles) = refined(&body.positions, &body.triangles, count);
+        let skin = mesh("skin", MeshKind::Body, &positions, triangles);
+        let fine = Character { meshes: vec![skin.clone()], ..Character::default() };
+        let runs = if count > 100_000 { 1 } else { 3 };
+        let time = least(runs, || Rig::of(&fine, &options).expect("it can be rigged"));
+        println!("rig, {} vertices, {} triangles: {time:.3}", skin.positions.len(), skin.triangles.len());
+    }
     let dressed = Character { meshes: vec![skin, coat.clone()], ..Character::default() };
     let with = least(5, || Rig::of(&dressed, &options).expect("it can be rigged"));
     println!("the same with a coat of {} vertices: {:.3} more", coat.positions.len(), with - alone);

@@ -446,3 +446,48 @@ fn a_mouth_of_its_own_is_no_hair_and_moves_no_chin() {
     let (hairy, _) = chin(vec![face, mouth], Some(Hair));
     assert!((hairy - whole).abs() > 0.02, "{hairy:.3} and {whole:.3} H: this mouth makes no difference");
 }
+
+/// Eyes and shoes of one material are one mesh, and a name or an earlier rig may have called it eyes.
+#[test]
+fn eyes_and_shoes_of_one_mesh_follow_head_and_feet() {
+    let mut character = Person::adult().build();
+    let points: Vec<Vec3> = character.meshes.iter().flat_map(|mesh| &mesh.positions).copied().collect();
+    let ends = |of: fn(&Vec3) -> f32| {
+        let values = points.iter().map(of);
+        values.fold((f32::INFINITY, f32::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)))
+    };
+    let ((bottom, top), height) = (ends(|p| p.y), ends(|p| p.y).1 - ends(|p| p.y).0);
+    // Around what lies at these heights, a hair's breadth further out.
+    let mut mesh = Mesh { name: "eyes".to_string(), kind: Some(MeshKind::Eye), ..Mesh::default() };
+    let is_shoe = |p: &Vec3| p.y < bottom + 0.03 * height;
+    let is_eye = |p: &Vec3| p.y > top - 0.06 * height;
+    for part in &character.meshes {
+        for corners in &part.triangles {
+            let corners = corners.map(|corner| part.positions[corner as usize]);
+            if corners.iter().all(is_shoe) || corners.iter().all(is_eye) {
+                let first = mesh.positions.len() as u32;
+                mesh.positions.extend(corners.map(|p| p + Vec3::Z * 0.002 * height));
+                mesh.triangles.push([first, first + 1, first + 2]);
+            }
+        }
+    }
+    let (shoes, eyes) = mesh.positions.iter().partition::<Vec<&Vec3>, _>(|p| p.y < bottom + 0.5 * height);
+    assert!(shoes.len() > 50 && eyes.len() > 50, "{} {}", shoes.len(), eyes.len());
+    mesh.weights = Weights::rigid(0, mesh.positions.len());
+    character.meshes.push(mesh);
+    let rig = Rig::of(&character, &RigOptions::default()).unwrap();
+    let (mesh, weights) = (character.meshes.last().unwrap(), rig.weights.last().unwrap());
+    use Role::*;
+    let legs = [LeftFoot, RightFoot, LeftToes, RightToes, LeftLowerLeg, RightLowerLeg];
+    for (p, row) in mesh.positions.iter().zip(weights.rows()) {
+        let of = |roles: &[Role]| -> f32 {
+            let joints: Vec<_> = roles.iter().filter_map(|&role| rig.humanoid.joint(role)).collect();
+            row.iter()
+                .filter(|(joint, _)| joints.contains(&(*joint as usize)))
+                .map(|&(_, weight)| weight)
+                .sum()
+        };
+        let held = if is_shoe(&(*p - Vec3::Z * 0.002 * height)) { of(&legs) } else { of(&[Role::Head]) };
+        assert!(held > 0.9, "{p}: {held}");
+    }
+}

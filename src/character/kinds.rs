@@ -72,7 +72,7 @@ const MOST_OF_A_VERTEX: f64 = 0.5;
 
 /// Without a head joint: what is part of a face or hair reaches above this height of the figure, and the face nowhere
 /// below it. A figure of 1.7 heads, smaller than the smallest style, has its chin there. 1 - 1 / 1.7.
-const LOWEST_CHIN: f64 = 0.41;
+pub(crate) const LOWEST_CHIN: f64 = 0.41;
 
 impl MeshKind {
     /// True for hair and for things that are worn or carried: no part of a body's girth.

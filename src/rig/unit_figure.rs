@@ -1,8 +1,9 @@
 //! The meshes to rig, laid out in one space: x towards the character's left, y up, z forward, the lowest vertex at y = 0,
 //! the highest at y = 1, the middle of the bounding box at x = z = 0.
 
+use crate::character::kinds::LOWEST_CHIN;
 use crate::character::mesh_list::MeshList;
-use crate::character::{Character, Frame, MeshKind};
+use crate::character::{Character, Frame, Mesh, MeshKind};
 use crate::error::Result;
 use crate::geometry::bounds;
 use glam::DVec3;
@@ -62,7 +63,13 @@ impl UnitFigure {
         for p in &mut positions {
             *p = (*p - origin) / height;
         }
-        let kinds = character.meshes.iter().map(|mesh| mesh.kind.map(MeshKind::without_eyes)).collect();
+        let kind_of = |(mesh, range): (&Mesh, &[usize])| {
+            // A mesh of eyes may hold shoes too. Which of its vertices are which, weights say that are still to be found.
+            let is_low = || positions[range[0]..range[1]].iter().any(|p| p.y < LOWEST_CHIN);
+            let is_mixed = mesh.kind == Some(MeshKind::Eye) && is_low();
+            mesh.kind.filter(|_| !is_mixed).map(MeshKind::without_eyes)
+        };
+        let kinds = character.meshes.iter().zip(mesh_starts.windows(2)).map(kind_of).collect();
         let names = character.meshes.iter().map(|mesh| mesh.name.clone()).collect();
         Ok(Self { positions, triangles, mesh_starts, triangle_starts, kinds, names, frame, origin, height })
     }
