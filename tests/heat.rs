@@ -379,7 +379,8 @@ fn a_head_does_not_stick_to_the_arms_below_it() {
     doubled.1.extend(head.1.iter().map(|&[a, b, c]| [a, c, b]));
     let solid = Solid::new(&head.0, &head.1, 0.0, CELLS);
     let none = &mut Progress::none();
-    let system = HeatSystem::in_body(&doubled.0, &doubled.1, &bones, (Some(&solid), &[]), 1, none).unwrap();
+    let system =
+        HeatSystem::in_body(&doubled.0, &doubled.1, &bones, (Some(&solid), &Vec::new), 1, none).unwrap();
     let stuck = stuck_to_arms(&system.weights(1.0, none).unwrap());
     assert!(stuck < 0.02, "{stuck:.3}");
 }

@@ -142,8 +142,8 @@ impl<'a> Binder<'a> {
                 BodyRule::Volume(voxel_weights(points, triangles, bones, &options, progress)?)
             }
             _ => {
-                let held = held(points, triangles, bones, humanoid);
-                let body = (Some(solid), &held[..]);
+                let held = || held(points, triangles, bones, humanoid);
+                let body: (_, &(dyn Fn() -> _ + Sync)) = (Some(solid), &held);
                 BodyRule::Heat(HeatSystem::in_body(points, triangles, bones, body, threads, progress)?)
             }
         };

@@ -139,11 +139,11 @@ impl HeatSystem {
         thread_count: usize,
         progress: &mut Progress,
     ) -> Result<Self> {
-        Self::in_body(positions, triangles, bones, (None, &[]), thread_count, progress)
+        Self::in_body(positions, triangles, bones, (None, &Vec::new), thread_count, progress)
     }
 
     /// As [`HeatSystem::new`], of vertices that are part of the body `solid`, in whose space they are: bones are hidden by
-    /// the air around it as well. `held`: by vertex, as indices into `bones`; may be empty.
+    /// the air around it as well. `held` makes, beside all else: by vertex, as indices into `bones`; may be empty.
     ///
     /// # Errors
     /// `Cancelled`.
@@ -151,7 +151,7 @@ impl HeatSystem {
         positions: &[DVec3],
         triangles: &[[u32; 3]],
         bones: &[WeightBone],
-        (solid, held): (Option<&Solid>, &[Held]),
+        (solid, held): (Option<&Solid>, &(dyn Fn() -> Vec<Held> + Sync)),
         thread_count: usize,
         progress: &mut Progress,
     ) -> Result<Self> {
@@ -167,13 +167,13 @@ impl HeatSystem {
         let segments = Segments::of(bones, &frame);
         let body = solid.map(|solid| Body { solid, frame });
         progress.at(0.2)?;
-        let ((laplacian, symbolic), nearest) = parallel::both(
+        let ((laplacian, symbolic, held), nearest) = parallel::both(
             thread_count,
             || {
                 let mut laplacian = cotangent_laplacian(&points, &pieces.triangles);
                 let symbolic = Symbolic::new(points.len(), &laplacian.off_diagonal);
                 laplacian.off_diagonal = Vec::new();
-                (laplacian, symbolic)
+                (laplacian, symbolic, held())
             },
             || {
                 NearestBones::of(
@@ -186,7 +186,7 @@ impl HeatSystem {
                 )
             },
         );
-        let nearest = nearest?.held(held, &weld);
+        let nearest = nearest?.held(&held, &weld);
         let mut system = Self {
             thread_count,
             weld,
