@@ -13,8 +13,12 @@ import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-EXAMPLE = ["cargo", "run", "--quiet", "--release", "--workspace", "--example"]
 HOT_PATHS = ["cargo", "build", "--quiet", "--workspace", "--example", "hot_paths"]
+
+
+def example(name):
+    """Builds an example, as part of the workspace like all else, and runs it."""
+    return [["cargo", "build", "--quiet", "--release", "--workspace", "--example", name], [f"target/release/examples/{name}"]]
 
 
 def embree():
@@ -29,8 +33,8 @@ def valgrind():
 PARTS = {
     "speed": ([["python3", "benches/peers/speed.py"]], None),
     "rays": ([["python3", "benches/peers/rays.py"]], embree),
-    "growth": ([[*EXAMPLE, "growth"]], None),
-    "silences": ([[*EXAMPLE, "silences"]], None),
+    "growth": (example("growth"), None),
+    "silences": (example("silences"), None),
     "instructions": ([HOT_PATHS, ["python3", "benches/instructions.py", "target/debug/examples/hot_paths"]], valgrind),
     "memory": ([["cargo", "bench", "--quiet", "--workspace", "--bench", "memory"]], None),
 }
