@@ -1,5 +1,7 @@
 //! Hair, hats, skirts and capes that are one skin with the body move with what carries them.
 
+#[path = "made/container.rs"]
+mod container;
 #[path = "common/figures.rs"]
 mod figures;
 #[path = "common/models.rs"]
@@ -9,6 +11,7 @@ mod solid;
 #[path = "common/truth.rs"]
 mod truth;
 
+use container::container;
 use figures::{Figure, Pose, Thing};
 use glam::DVec3;
 use std::path::Path;
@@ -319,16 +322,5 @@ fn coloured(worn: &Worn) -> Vec<u8> {
             {"bufferView": 1, "componentType": 5126, "count": count, "type": "VEC3"},
             {"bufferView": 2, "componentType": 5125, "count": 3 * mesh.triangles.len(), "type": "SCALAR"}],
     });
-    let mut text = json.to_string().into_bytes();
-    text.resize(text.len().next_multiple_of(4), b' ');
-    let mut file = b"glTF".to_vec();
-    file.extend(2u32.to_le_bytes());
-    file.extend((12 + 8 + text.len() as u32 + 8 + data.len() as u32).to_le_bytes());
-    file.extend((text.len() as u32).to_le_bytes());
-    file.extend(b"JSON");
-    file.extend(&text);
-    file.extend((data.len() as u32).to_le_bytes());
-    file.extend(b"BIN\0");
-    file.extend(&data);
-    file
+    container(json.to_string().as_bytes(), &data)
 }

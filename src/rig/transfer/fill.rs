@@ -128,6 +128,7 @@ impl Fill {
     ///
     /// A vertex of pull 1 keeps the row of its match, one of pull 0 is the mean of its neighbours, one in between a blend
     /// of both; then all is smoothed a little.
+    ///
     /// - `held`: what it was made of.
     pub(super) fn rows(&self, held: Held, matches: &[Match], threads: usize) -> Vec<(u32, Row)> {
         // The matches' weights by joint.

@@ -268,18 +268,17 @@ fn middle(positions: &[DVec3], triangles: &[[u32; 3]]) -> Option<(DVec3, DVec3)>
     (low.x <= high.x).then(|| ((low + high) / 2.0, (high - low) / 2.0))
 }
 
-/// Those of `triangles` that share a point with the box from `low` to `high` along the `axes` asked for, `sliver` more.
+/// Those of `triangles` that, seen from above, share a point with the box from `low` to `high`, `sliver` more.
 fn within(
     positions: &[DVec3],
     triangles: &[[u32; 3]],
     [low, high]: [DVec3; 2],
-    axes: &[usize],
     sliver: f64,
 ) -> Vec<[u32; 3]> {
     let is_near = |corners: &&[u32; 3]| {
         let [a, b, c] = corners.map(|vertex| positions[vertex as usize]);
         let (least, most) = (a.min(b).min(c), a.max(b).max(c));
-        axes.iter().all(|&axis| least[axis] <= high[axis] + sliver && most[axis] >= low[axis] - sliver)
+        [0, 2].iter().all(|&axis| least[axis] <= high[axis] + sliver && most[axis] >= low[axis] - sliver)
     };
     triangles.iter().filter(is_near).copied().collect()
 }
@@ -338,7 +337,7 @@ fn top(
     let reach = DVec3::splat(half.x / 4.0);
     // No ray meets anything else, and a tree of few triangles is made soon.
     let around = [centre - reach, centre + reach];
-    let near = within(positions, &triangles.all, around, &[0, 2], SLIVER * (high - low));
+    let near = within(positions, &triangles.all, around, SLIVER * (high - low));
     let above = high + HAIRBREADTH * (high - low);
     head_top(&Surface::new(positions, &near), centre.with_y(joint.y), half.x, above)
 }

@@ -156,7 +156,7 @@ pub struct BodyLines {
 
 /// Measures the profile of a figure whose vertices are at `positions`.
 ///
-/// - `weld`: the vertices by position.
+/// - `chains`: which of them each vertex belongs to. `weld`: the vertices by position.
 /// - `threads`: at most this many, 0 for all cores.
 ///
 /// O(triangles), some seventy cuts.
