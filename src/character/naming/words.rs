@@ -118,13 +118,17 @@ fn part_of(core: &str) -> Option<(Part, u8)> {
 
 /// Words that name the rig or the kind of node, not a part of the body.
 const RIG_WORDS: &str = "adj anim armature b base bend bind bip biped bn bone bones c cc character def deform f human \
-    humanoid j jnt joint joints jt mixamo mixamorig org player rig sk skel skeleton skin valve \
-    valvebiped";
+    humanoid j jnt joint joints jt mixamo mixamorig org player rig sk skel skeleton skin stretch valve \
+    valvebiped x";
 
 /// Words of joints that help a rig along or end a chain, and of things worn: none of them plays a role.
 const HELPER_WORDS: &str = "aim attach breast bust cape cloth collider control corrective ctl ctrl dummy ear eff effector \
     end fk hair handslot hat helper hlp holder ik item jiggle leaf locator mch nub null offset pole \
     prop ribbon roll sec share skirt slot socket tail target tweak twist twst weapon wing";
+
+/// So many names that say of a joint that it deforms make it a rule of their rig: two arms and two legs have eight, of which
+/// Auto-Rig Pro marks all, Rigify fingers and spine as well.
+const DEFORMING: usize = 8;
 
 fn has_word(list: &str, word: &str) -> bool {
     list.split_whitespace().any(|listed| listed == word)
@@ -249,10 +253,18 @@ fn read(words: &[String]) -> Reading {
 /// Reads all names; first words that most of them share are taken for the rig's name.
 pub(super) fn read_all(skeleton: &Skeleton) -> Vec<Reading> {
     let mut names: Vec<Vec<String>> = skeleton.joints.iter().map(|joint| words(&joint.name)).collect();
-    // Rigify keeps the joints that deform (DEF-) beside their originals (ORG-) and controls (no prefix).
+    // Rigify keeps the joints that deform (DEF-) beside their originals (ORG-) and controls (no prefix), Auto-Rig Pro what
+    // stretches beside what does not.
     let deforming = |words: &[String]| words.first().is_some_and(|word| word == "def");
-    let any_deforming = names.iter().filter(|words| deforming(words)).count() >= 8;
-    let demoted: Vec<bool> = names.iter().map(|words| any_deforming && !deforming(words)).collect();
+    let stretching = |words: &[String]| words.iter().any(|word| word == "stretch");
+    let many = |of: &dyn Fn(&[String]) -> bool| names.iter().filter(|words| of(words)).count() >= DEFORMING;
+    let (any_deforming, any_stretching) = (many(&deforming), many(&stretching));
+    let is_limb =
+        |part: Part| matches!(part, Part::UpperArm | Part::Arm | Part::LowerArm | Part::UpperLeg | Part::Leg);
+    let is_control: Vec<[bool; 2]> = names
+        .iter()
+        .map(|words| [any_deforming && !deforming(words), any_stretching && !stretching(words)])
+        .collect();
     loop {
         let mut counts: BTreeMap<String, usize> = BTreeMap::new();
         for first in names.iter().filter_map(|words| words.first()) {
@@ -288,14 +300,13 @@ pub(super) fn read_all(skeleton: &Skeleton) -> Vec<Reading> {
     }
     names
         .iter()
-        .zip(demoted)
-        .map(|(words, demoted)| {
+        .zip(is_control)
+        .map(|(words, [beside_def, beside_stretch])| {
             let mut reading = read(words);
-            if let Some((_, rank)) = &mut reading.part
-                && demoted
-            {
-                *rank += 4;
-            }
+            reading.part = reading.part.filter(|&(part, _)| {
+                // No DEF- joint is an eye's or a jaw's for certain; what does not stretch may be a hand's.
+                !(beside_def && !matches!(part, Part::Eye | Part::Jaw) || beside_stretch && is_limb(part))
+            });
             reading
         })
         .collect()
