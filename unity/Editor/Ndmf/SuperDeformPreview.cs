@@ -71,6 +71,7 @@ namespace SuperDeform.Editor.Ndmf
         /// <summary>One renderer's mesh and bones.</summary>
         private sealed class ShownMesh
         {
+            /// <summary>Null where the proxy's own is shown.</summary>
             internal Mesh Mesh;
 
             /// <summary>Of a skinned renderer; null for one that hangs from one joint.</summary>
@@ -123,14 +124,20 @@ namespace SuperDeform.Editor.Ndmf
         private ShownMesh Made(RendererResult renderer)
         {
             RendererData source = renderer.Source;
-            Mesh mesh = UnityEngine.Object.Instantiate(source.Mesh);
-            mesh.name = source.Mesh.name;
-            // Those that are on are in the vertices.
-            mesh.ClearBlendShapes();
-            Transform holder = source.Renderer.transform;
-            var shown = new ShownMesh { Mesh = mesh, Holder = skeleton.Of(figure.Avatar.IndexOf(holder)) };
-            Write(shown, renderer);
             var skinned = source.Renderer as SkinnedMeshRenderer;
+            Transform holder = source.Renderer.transform;
+            var shown = new ShownMesh { Holder = skeleton.Of(figure.Avatar.IndexOf(holder)) };
+            // A pet's mesh stays as it is.
+            if (source.Rides)
+                shown.Bounds = skinned == null ? new Bounds() : skinned.localBounds;
+            else
+            {
+                shown.Mesh = UnityEngine.Object.Instantiate(source.Mesh);
+                shown.Mesh.name = source.Mesh.name;
+                // Those that are on are in the vertices.
+                shown.Mesh.ClearBlendShapes();
+                Write(shown, renderer);
+            }
             if (skinned == null)
                 return shown;
             shown.Bones = Array.ConvertAll(skinned.bones, bone => bone == null ? null : skeleton.Of(figure.Avatar.IndexOf(bone)));
@@ -180,7 +187,8 @@ namespace SuperDeform.Editor.Ndmf
         private void WriteAll()
         {
             foreach (RendererResult renderer in figure.Result.Renderers)
-                Write(meshes[renderer.Source.Renderer], renderer);
+                if (!renderer.Source.Rides)
+                    Write(meshes[renderer.Source.Renderer], renderer);
         }
 
         /// <summary>Has a step tried in every round of the editor; it waits until nothing has changed for a while.</summary>
@@ -244,7 +252,8 @@ namespace SuperDeform.Editor.Ndmf
             var skinned = proxy as SkinnedMeshRenderer;
             if (skinned == null)
             {
-                proxy.GetComponent<MeshFilter>().sharedMesh = shown.Mesh;
+                if (shown.Mesh != null)
+                    proxy.GetComponent<MeshFilter>().sharedMesh = shown.Mesh;
                 Transform place = proxy.transform;
                 place.SetParent(shown.Holder, false);
                 place.localPosition = Vector3.zero;
@@ -252,7 +261,8 @@ namespace SuperDeform.Editor.Ndmf
                 place.localScale = Vector3.one;
                 return;
             }
-            skinned.sharedMesh = shown.Mesh;
+            if (shown.Mesh != null)
+                skinned.sharedMesh = shown.Mesh;
             skinned.bones = shown.Bones;
             skinned.rootBone = shown.RootBone;
             skinned.localBounds = shown.Bounds;
@@ -276,7 +286,8 @@ namespace SuperDeform.Editor.Ndmf
             foreach (ShownMesh shown in meshes.Values)
             {
                 Release(shown.Holder);
-                UnityEngine.Object.DestroyImmediate(shown.Mesh);
+                if (shown.Mesh != null)
+                    UnityEngine.Object.DestroyImmediate(shown.Mesh);
             }
             if (skeleton != null)
                 skeleton.Destroy();

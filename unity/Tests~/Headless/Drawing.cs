@@ -36,5 +36,41 @@ namespace SuperDeform.Editor.Tests
                 most = Math.Max(most, Vector3.Distance(one[i], other[i]));
             return most;
         }
+
+        /// <summary>How far points lie from where a scale and a shift take others, at most: 0 where both have one shape.</summary>
+        internal static double OffSimilarity(Vector3[] before, Vector3[] after, out double size)
+        {
+            Vector3 from = Middle(before), to = Middle(after);
+            double product = 0, square = 0, most = 0;
+            for (int i = 0; i < before.Length; i++)
+            {
+                product += Vector3.Dot(before[i] - from, after[i] - to);
+                square += (before[i] - from).sqrMagnitude;
+            }
+            size = product / square;
+            for (int i = 0; i < before.Length; i++)
+                most = Math.Max(most, (after[i] - to - (before[i] - from) * (float)size).magnitude);
+            return most;
+        }
+
+        private static Vector3 Middle(Vector3[] points)
+        {
+            Vector3 sum = Vector3.zero;
+            foreach (Vector3 point in points)
+                sum += point;
+            return sum / points.Length;
+        }
+
+        /// <summary>How tall points are together.</summary>
+        internal static double Extent(Vector3[] points)
+        {
+            double low = double.PositiveInfinity, high = double.NegativeInfinity;
+            foreach (Vector3 point in points)
+            {
+                low = Math.Min(low, point.y);
+                high = Math.Max(high, point.y);
+            }
+            return high - low;
+        }
     }
 }

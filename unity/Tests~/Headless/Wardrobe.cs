@@ -2,30 +2,6 @@ using System;
 using System.Collections.Generic;
 using UnityEngine;
 
-namespace nadena.dev.modular_avatar.core
-{
-    /// <summary>The serialized fields of Modular Avatar's components, as its 1.18 has them.</summary>
-    [Serializable]
-    public class AvatarObjectReference
-    {
-        public string referencePath = "";
-        public GameObject targetObject;
-    }
-
-    public class ModularAvatarMergeArmature : MonoBehaviour
-    {
-        public AvatarObjectReference mergeTarget = new AvatarObjectReference();
-        public string prefix = "", suffix = "";
-    }
-
-    public class ModularAvatarBoneProxy : MonoBehaviour
-    {
-        public HumanBodyBones boneReference = HumanBodyBones.LastBone;
-        public string subPath = "";
-        public int attachmentMode;
-    }
-}
-
 namespace SuperDeform.Editor.Tests
 {
     /// <summary>Dresses an avatar as artists do: the outfit below its root, with a copy of its armature.</summary>

@@ -86,8 +86,6 @@ namespace UnityEngine
         public static T[] FindObjectsOfTypeAll<T>() where T : Object { return UnityStubs.Registry.All().FindAll(delegate (Object value) { return value is T; }).ConvertAll(delegate (Object value) { return (T)value; }).ToArray(); }
         public static Object[] FindObjectsOfTypeAll(Type type) { return UnityStubs.Registry.All().FindAll(type.IsInstanceOfType).ToArray(); }
     }
-    public class RuntimeAnimatorController : Object { }
-    public sealed class AnimationClip : Object { public float length { get { return 1f; } } public bool legacy { get; set; } }
     public sealed class AvatarMask : Object { }
 
     public class Renderer : Component
