@@ -75,6 +75,7 @@ namespace SuperDeform.Editor.Tests
         }
 
         /// <summary>Makes an outfit a humanoid of its own, as a model's importer does.</summary>
+        /// <param name="twins">By bone, the outfit's; null: the bones themselves.</param>
         internal static void MakeHumanoid(GameObject outfit, Dictionary<HumanBodyBones, Transform> bones, Dictionary<Transform, Transform> twins)
         {
             var skeleton = new List<SkeletonBone>();
@@ -82,7 +83,7 @@ namespace SuperDeform.Editor.Tests
                 skeleton.Add(new SkeletonBone { name = at.name, position = at.localPosition, rotation = at.localRotation, scale = at.localScale });
             var human = new List<HumanBone>();
             foreach (KeyValuePair<HumanBodyBones, Transform> bone in bones)
-                human.Add(new HumanBone { humanName = HumanTrait.BoneName[(int)bone.Key], boneName = twins[bone.Value].name, limit = new HumanLimit { useDefaultValues = true } });
+                human.Add(new HumanBone { humanName = HumanTrait.BoneName[(int)bone.Key], boneName = (twins == null ? bone.Value : twins[bone.Value]).name, limit = new HumanLimit { useDefaultValues = true } });
             outfit.AddComponent<Animator>().avatar = AvatarBuilder.BuildHumanAvatar(outfit, new HumanDescription { human = human.ToArray(), skeleton = skeleton.ToArray() });
         }
     }
