@@ -267,6 +267,7 @@ namespace SuperDeform.Editor
             Vector3 aside = new Vector3((float)box.Size.X * original.localScale.x, 0, 0);
             placed.localRotation = original.localRotation;
             placed.localPosition = original.localPosition + original.localRotation * aside;
+            if (placed.parent != null && placed.parent.lossyScale != Vector3.one) VrChatRows.Hang(instance);
             return instance;
         }
     }
