@@ -84,7 +84,9 @@ fn characters() -> Vec<(&'static str, Arc<Character>)> {
         ("dress", models::models()["quaternius_female_dress.glb"].character.clone()),
     ];
     if let Some(loaded) = models::model("makehuman_female_rigged.glb") {
-        characters.push(("MakeHuman", loaded.character.clone()));
+        let mut character = loaded.character.clone();
+        character.meshes.iter_mut().for_each(|mesh| mesh.morph_targets.truncate(2));
+        characters.push(("MakeHuman", character));
     }
     characters.into_iter().map(|(name, character)| (name, Arc::new(character))).collect()
 }

@@ -221,9 +221,11 @@ impl<'a> View<'a> {
         assert!(stage < self.stage, "a stage reads those above it: {}", STAGES[stage].name);
         let clock = Instant::now();
         let value = self.value(stage)?;
-        let mut looked_at = self.looked_at.borrow_mut();
-        looked_at.stages.push((stage, Arc::clone(&value)));
-        looked_at.waited += super::milliseconds(clock);
+        if self.stage < STAGES.len() {
+            let mut looked_at = self.looked_at.borrow_mut();
+            looked_at.stages.push((stage, Arc::clone(&value)));
+            looked_at.waited += super::milliseconds(clock);
+        }
         Ok(value.downcast().expect("the list gives each stage its type"))
     }
 

@@ -266,7 +266,7 @@ fn make(inputs: &Inputs, memo: &Memo, progress: &mut Progress) -> Result<Made> {
     };
     let progress = RefCell::new(Progress::new(&mut never_back));
     let view = View::of_all(inputs, memo, Some(&progress));
-    view.part(0.0, 0.0, |progress| progress.at(0.0))?;
+    progress.borrow_mut().at(0.0)?;
     let Options { mode, repair, hair_lay, stage, thread_count, .. } = inputs.options;
     let is_first = memo.is_empty();
     view.measured()?;
