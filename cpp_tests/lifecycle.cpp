@@ -258,7 +258,7 @@ static void statuses() {
         sdef_deformer_create(made.get(), style.get(), &options, nullptr, nullptr, &deformer, &error));
   GIVES(SDEF_STATUS_BAD_STYLE, sdef_style_from_text("{", 1, &other, &error));
 
-  superdeform::Character empty;
+  const auto empty = superdeform::Character::create();
   GIVES(SDEF_STATUS_NO_HUMANOID,
         sdef_deformer_create(empty.get(), style.get(), nullptr, nullptr, nullptr, &deformer, &error));
   GIVES(SDEF_STATUS_NO_GEOMETRY, sdef_character_rig(empty.get(), nullptr, nullptr, nullptr, &error));
