@@ -483,7 +483,9 @@ fn dressed_people(count: usize, way: Way) -> Vec<Outcome> {
 
 #[test]
 fn people_with_names_and_clothes_are_found_however_a_file_holds_them() {
-    for way in WAYS {
+    // As a solid, whose surface has two sides where nothing closes it, an open head is a hollow one; a closed one is that of
+    // the random people.
+    for way in [Way::Named, Way::Nameless, Way::Welded] {
         let found = summary(&format!("dressed people, {way:?}"), &dressed_people(6, way));
         assert!(found.near >= 0.9, "{way:?}: {:.3} of the joints are near", found.near);
         assert!(

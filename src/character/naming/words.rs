@@ -126,10 +126,6 @@ const HELPER_WORDS: &str = "aim attach breast bust cape cloth collider control c
     end fk hair handslot hat helper hlp holder ik item jiggle leaf locator mch nub null offset pole \
     prop ribbon roll sec share skirt slot socket tail target tweak twist twst weapon wing";
 
-/// So many names that say of a joint that it deforms make it a rule of their rig: two arms and two legs have eight, of which
-/// Auto-Rig Pro marks all, Rigify fingers and spine as well.
-const DEFORMING: usize = 8;
-
 fn has_word(list: &str, word: &str) -> bool {
     list.split_whitespace().any(|listed| listed == word)
 }
@@ -255,16 +251,14 @@ pub(super) fn read_all(skeleton: &Skeleton) -> Vec<Reading> {
     let mut names: Vec<Vec<String>> = skeleton.joints.iter().map(|joint| words(&joint.name)).collect();
     // Rigify keeps the joints that deform (DEF-) beside their originals (ORG-) and controls (no prefix), Auto-Rig Pro what
     // stretches beside what does not.
-    let deforming = |words: &[String]| words.first().is_some_and(|word| word == "def");
-    let stretching = |words: &[String]| words.iter().any(|word| word == "stretch");
-    let many = |of: &dyn Fn(&[String]) -> bool| names.iter().filter(|words| of(words)).count() >= DEFORMING;
-    let (any_deforming, any_stretching) = (many(&deforming), many(&stretching));
-    let is_limb =
-        |part: Part| matches!(part, Part::UpperArm | Part::Arm | Part::LowerArm | Part::UpperLeg | Part::Leg);
-    let is_control: Vec<[bool; 2]> = names
-        .iter()
-        .map(|words| [any_deforming && !deforming(words), any_stretching && !stretching(words)])
-        .collect();
+    let marks: [fn(&[String]) -> bool; 2] = [
+        |words| words.first().is_some_and(|word| word == "def"),
+        |words| words.iter().any(|word| word == "stretch"),
+    ];
+    // Two arms and two legs have eight joints: so many make a rule of it.
+    let is_rule = marks.map(|mark| names.iter().filter(|words| mark(words)).count() >= 8);
+    let lacks = |words: &Vec<String>| [0, 1].map(|index| is_rule[index] && !marks[index](words));
+    let lacking: Vec<[bool; 2]> = names.iter().map(lacks).collect();
     loop {
         let mut counts: BTreeMap<String, usize> = BTreeMap::new();
         for first in names.iter().filter_map(|words| words.first()) {
@@ -300,12 +294,14 @@ pub(super) fn read_all(skeleton: &Skeleton) -> Vec<Reading> {
     }
     names
         .iter()
-        .zip(is_control)
-        .map(|(words, [beside_def, beside_stretch])| {
+        .zip(lacking)
+        .map(|(words, [def, stretch])| {
             let mut reading = read(words);
-            reading.part = reading.part.filter(|&(part, _)| {
+            reading.part = reading.part.filter(|(part, _)| match part {
                 // No DEF- joint is an eye's or a jaw's for certain; what does not stretch may be a hand's.
-                !(beside_def && !matches!(part, Part::Eye | Part::Jaw) || beside_stretch && is_limb(part))
+                Part::Eye | Part::Jaw => true,
+                Part::UpperArm | Part::Arm | Part::LowerArm | Part::UpperLeg | Part::Leg => !def && !stretch,
+                _ => !def,
             });
             reading
         })

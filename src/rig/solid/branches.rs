@@ -5,7 +5,6 @@
 //! the two ends: the merge tree of the distance (Carr, Snoeyink and Axen, Computing contour trees in all dimensions, 2003).
 //! The rims of a piece, one after the other, are the sections of a limb, whatever way it bends.
 
-use super::Solid;
 use super::voxels::{Queue, Voxels};
 use crate::geometry::Groups;
 use glam::DVec3;

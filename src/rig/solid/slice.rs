@@ -182,6 +182,9 @@ fn distances(squares: &mut [f32], columns: usize, rows: usize) {
 
 /// The least of the parabolas over all places of a line.
 fn lower_envelope(line: &[f32], mut put: impl FnMut(usize, f32)) {
+    if line.iter().all(|&value| value == 0.0) {
+        return;
+    }
     // Where each parabola begins to be the least.
     let mut least: Vec<(usize, f32)> = Vec::with_capacity(line.len());
     for (at, &value) in line.iter().enumerate() {
