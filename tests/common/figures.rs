@@ -474,7 +474,7 @@ impl Figure {
         let (hidden, doubled) = (random.chance(0.5), random.chance(0.33));
         triangles.retain(|corners| {
             let p = middle_of(&positions, corners);
-            !is_covered(p) && !(hidden && is_shirt(p, ends - 0.15) && p.y > hem + 0.03)
+            !(is_covered(p) || hidden && is_shirt(p, ends - 0.15) && p.y > hem + 0.03)
         });
         if doubled {
             triangles.extend(triangles.clone().into_iter().map(|[a, b, c]| [a, c, b]));
