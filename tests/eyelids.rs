@@ -101,7 +101,7 @@ fn eyes_that_look_aside_stay_in_their_sockets() {
     check_all(&names, |&name| {
         let character = &painted(&all_models()[name]);
         let measured = Measured::of(character, &Options::default()).unwrap();
-        let (before, of_eyes) = (&measured.figure, eyes(&measured));
+        let (before, of_eyes) = (&*measured.figure, eyes(&measured));
         let mut wrong = Vec::new();
         for (style_name, style) in &styles {
             let after = Figure::of(&character.with(&deformed(character, style))).unwrap();

@@ -273,21 +273,17 @@ fn comments_say_the_ranges_and_defaults_of_the_table() {
     assert!(source("style").contains(&format!("heads: {heads}")), "{heads}");
 }
 
-/// The shared library that cargo built beside this test, or else builds now.
+/// The shared library, which cargo links beside this test.
 fn library() -> Option<PathBuf> {
     let name = format!("{}superdeform{}", std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX);
-    let deps = std::env::current_exe().ok()?.parent()?.to_path_buf();
-    let built = deps.join(&name);
-    if !built.exists() {
-        let mut cargo = Command::new(env!("CARGO"));
-        cargo.args(["build", "--quiet", "--package", "superdeform", "--lib"]).current_dir(root());
-        if !cfg!(debug_assertions) {
-            cargo.arg("--release");
-        }
-        assert!(cargo.status().ok()?.success(), "cargo build failed");
-        return Some(deps.parent()?.join(&name));
+    // With the workspace's features, so that nothing is compiled anew where all tests run.
+    let mut cargo = Command::new(env!("CARGO"));
+    cargo.args(["build", "--quiet", "--workspace", "--lib"]).current_dir(root());
+    if !cfg!(debug_assertions) {
+        cargo.arg("--release");
     }
-    Some(built)
+    assert!(cargo.status().ok()?.success(), "cargo build failed");
+    Some(std::env::current_exe().ok()?.parent()?.parent()?.join(&name))
 }
 
 fn output(program: &str, arguments: &[&str]) -> Option<String> {
