@@ -3,7 +3,7 @@
 use super::leg::Bones;
 use super::plan::{Limb, Plan};
 use super::smooth;
-use super::track::Posed;
+use super::track::{Local, Posed};
 use crate::load::Loaded;
 use glam::{DMat4, DQuat, DVec3};
 
@@ -25,7 +25,7 @@ pub(super) struct Stance {
     /// The turn about up from the way that the body faces at rest to the way that it faced.
     facing: DQuat,
     /// 1 near the floor, 0 in the air.
-    pub(super) near: f64,
+    near: f64,
     /// 1 where it stood, 0 where it stepped.
     stands: f64,
 }
@@ -109,6 +109,12 @@ pub(super) struct Frame {
 }
 
 impl Frame {
+    /// Sets nodes, each in its parent's space.
+    pub(super) fn put(&self, local: &mut [Local]) {
+        self.places.iter().for_each(|&(node, place)| local[node].2 = place);
+        self.turns.iter().for_each(|&(node, turn)| local[node].1 = turn);
+    }
+
     pub(super) fn of(loaded: &Loaded, plan: &Plan, after: &Posed, shift: DVec3, feet: &[Foot]) -> Self {
         let mut frame = Self { places: Vec::new(), turns: Vec::new(), change: shift.length() };
         let parents = &loaded.tree.parents;
@@ -132,9 +138,6 @@ impl Frame {
             } else {
                 let ankle = turned(reached.shin, leg.foot).inverse() * after.turn[leg.foot];
                 frame.turns.push((leg.foot, ankle.normalize()));
-            }
-            if let Some(toes) = leg.toes {
-                frame.turns.push((toes, after.turned_in_parent(loaded, toes, DQuat::IDENTITY)));
             }
         }
         frame

@@ -26,7 +26,7 @@ use crate::accessor::Reader;
 use crate::load::Loaded;
 use foot::{Foot, Frame, Stance};
 use glam::{DMat4, DQuat, DVec3};
-use plan::Plan;
+use plan::{Limb, Plan};
 use std::collections::BTreeMap;
 use superdeform::{Deformed, Result};
 use track::{Clip, Local, Posed};
@@ -36,6 +36,9 @@ const NOTHING: f64 = 1e-4;
 
 /// How often soles are looked at and set right. Seen: with none feet are off by 1 % of the height, with one by .3, with two by .1.
 const CORRECTIONS: usize = 2;
+
+/// How often the share of a turn is halved: down to a thousandth.
+const HALVINGS: usize = 10;
 
 /// The trunk rests on the floor below the first of these heights, in legs' lengths, and is free above the second. A chair's seat
 /// is at .5.
@@ -152,28 +155,19 @@ impl<'a> Retarget<'a> {
         [before, after]
     }
 
-    /// The new body at a moment as the clip has it, but for loose feet and for feet that tip less; and where its feet are to be.
+    /// The new body at a moment as the clip has it, but for loose feet; and where its feet are to be.
     fn moment(&self, plan: &Plan, clip: &Clip, time: f32) -> Moment {
         let [before, mut local] = self.plain(clip, plan, time);
         let before = Posed::of(self.loaded, &before);
         let moves_before = moves(&before, &plan.rest_inverse);
         let stances: Vec<Stance> =
             plan.legs.iter().map(|leg| Stance::of(plan, leg, &before, &moves_before)).collect();
-        let mut after = Posed::of(self.loaded, &local);
+        let after = Posed::of(self.loaded, &local);
         let mut change: f64 = 0.0;
-        for (leg, stance) in plan.legs.iter().zip(&stances) {
-            if leg.loose {
-                // Where its shin takes it, whatever its keys say, which are of another leg.
-                local[leg.foot].2 =
-                    after.in_parent(self.loaded, leg.foot, leg.carried_to(plan, &before, &after));
-                change = f64::INFINITY;
-            }
-            for (node, turn) in leg.tips_less(plan, &after, stance.near) {
-                change = change.max(leg.foot_length * turn.to_axis_angle().1.abs());
-                local[node].1 = after.turned_in_parent(self.loaded, node, turn);
-                // Its children stay as they are in model space but for what is said of them.
-                after.turn[node] = turn * after.turn[node];
-            }
+        for leg in plan.legs.iter().filter(|leg| leg.loose) {
+            // Where its shin takes it, whatever its keys say, which are of another leg.
+            local[leg.foot].2 = after.in_parent(self.loaded, leg.foot, leg.carried_to(plan, &before, &after));
+            change = f64::INFINITY;
         }
         let posed = Posed::of(self.loaded, &local);
         let moves_after = moves(&posed, &plan.new_inverse);
@@ -214,19 +208,44 @@ impl Moment {
         let mut frame = Frame::of(loaded, plan, &self.posed, shift, &self.feet);
         for _ in 0..CORRECTIONS {
             // What hangs between shin and foot moves with both: how high that has left the soles is seen.
-            for &(node, place) in &frame.places {
-                self.local[node].2 = place;
-            }
-            for &(node, turn) in &frame.turns {
-                self.local[node].1 = turn;
-            }
+            frame.put(&mut self.local);
             let moves = moves(&Posed::of(loaded, &self.local), &plan.new_inverse);
             for (foot, leg) in self.feet.iter_mut().zip(&plan.legs) {
                 foot.goal += (foot.height - leg.lowest(plan, 1, &moves)) * plan.up;
             }
             frame = Frame::of(loaded, plan, &self.posed, shift, &self.feet);
         }
+        frame.put(&mut self.local);
+        for (foot, leg) in self.feet.iter().zip(&plan.legs) {
+            if let Some(turn) = self.levelled(loaded, plan, leg, foot.height) {
+                frame.turns.iter_mut().filter(|(node, _)| *node == leg.foot).for_each(|set| set.1 = turn);
+                frame.change = f64::INFINITY;
+            }
+        }
         Frame { change: frame.change.max(self.change), ..frame }
+    }
+
+    /// The turn of a foot in its parent's space that is too low where its knee bends no further: as little towards level as lifts its
+    /// lowest point to `height`. `None` where it is high enough.
+    fn levelled(&self, loaded: &Loaded, plan: &Plan, leg: &Limb, height: f64) -> Option<DQuat> {
+        let posed = Posed::of(loaded, &self.local);
+        let turn =
+            |share: f64| posed.turned_in_parent(loaded, leg.foot, leg.towards_level(plan, &posed, share));
+        let is_low = |share: f64| {
+            let mut local = self.local.clone();
+            local[leg.foot].1 = turn(share);
+            let lowest = leg.lowest(plan, 1, &moves(&Posed::of(loaded, &local), &plan.new_inverse));
+            lowest < height - NOTHING * plan.height
+        };
+        if !is_low(0.0) {
+            return None;
+        }
+        let (mut low, mut high) = (0.0, 1.0);
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (low + high);
+            if is_low(middle) { low = middle } else { high = middle }
+        }
+        Some(turn(high))
     }
 
     /// How far the hips go up from where the scaled clip has them: with the feet that stand, so that knees bend as they did; with

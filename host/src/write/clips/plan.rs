@@ -16,12 +16,6 @@ const HEM: f64 = 0.25;
 /// The way that a body faces, over the ground, is this long where it lies and where it stands.
 const UPRIGHT: [f64; 2] = [0.3, 0.7];
 
-/// Soles that are tipped by less than this angle may stand on their toes or heels; beyond the second they do not.
-const TIPPED: [f64; 2] = [1.2, 1.9];
-
-/// A foot never tips less by this angle or more, since its ankle would bend too far: its knee does the rest.
-const LESS: f64 = 0.6;
-
 /// A leg.
 #[derive(Clone, Debug)]
 pub(super) struct Limb {
@@ -40,14 +34,8 @@ pub(super) struct Limb {
     on_shin: [DVec3; 2],
     /// Undoes the thigh's turn at rest.
     upper_rest: DQuat,
-    /// What bends at the ball of the foot, where there is such a joint.
-    pub(super) toes: Option<usize>,
-    /// How far the foot reaches from its ankle over the ground, after; and by how much that is more, in legs' lengths, than before.
-    pub(super) foot_length: f64,
-    larger: f64,
-    /// Undo the turns at rest of the foot and what bends at its ball.
+    /// Undoes the foot's turn at rest.
     foot_rest: DQuat,
-    toes_rest: DQuat,
 }
 
 impl Limb {
@@ -58,32 +46,10 @@ impl Limb {
         Bones { hip, knee, ankle, side }
     }
 
-    /// What turns the foot in model space, and its toes, so that a foot that is larger against its leg tips less: its heel keeps its
-    /// height in legs' lengths. Nothing where it is not larger; as much as `near` says.
-    pub(super) fn tips_less(&self, plan: &Plan, posed: &Posed, near: f64) -> Vec<(usize, DQuat)> {
-        if self.larger <= 1.0 || near <= 0.0 {
-            return Vec::new();
-        }
-        let turn = |node: usize, undo: DQuat| {
-            let normal = (posed.turn[node] * undo * plan.up).normalize_or(plan.up);
-            let angle = normal.dot(plan.up).clamp(-1.0, 1.0).acos();
-            let axis = plan.up.cross(normal).normalize_or_zero();
-            // What is tipped further lies on its back.
-            let share = near * (1.0 - smooth(angle, TIPPED));
-            let less = angle - (angle.sin() / self.larger).asin();
-            let less = less / (1.0 + less / LESS);
-            (
-                node,
-                if axis == DVec3::ZERO {
-                    DQuat::IDENTITY
-                } else {
-                    DQuat::from_axis_angle(axis, -share * less)
-                },
-            )
-        };
-        std::iter::once(turn(self.foot, self.foot_rest))
-            .chain(self.toes.map(|toes| turn(toes, self.toes_rest)))
-            .collect()
+    /// What turns the foot in model space by a share of the way to where its sole is level.
+    pub(super) fn towards_level(&self, plan: &Plan, posed: &Posed, share: f64) -> DQuat {
+        let normal = (posed.turn[self.foot] * self.foot_rest * plan.up).normalize_or(plan.up);
+        DQuat::IDENTITY.slerp(DQuat::from_rotation_arc(normal, plan.up), share)
     }
 
     /// How high the foot's lowest point is above the floor; `moves` takes nodes' surroundings from rest to a pose, before (side 0)
@@ -221,8 +187,7 @@ impl Plan {
         let shins = points.split_off(2);
         let feet =
             points.into_iter().zip(shins).map(|(foot, shin)| if foot.is_empty() { shin } else { foot });
-        let toes = [Role::LeftToes, Role::RightToes].map(node);
-        let legs = nodes.iter().zip(feet).zip(toes).map(|((&[upper, lower, foot], foot_points), toes)| {
+        let legs = nodes.iter().zip(feet).map(|(&[upper, lower, foot], foot_points)| {
             let lowest = |side: usize| {
                 let heights = foot_points.iter().map(|point| point.rest[side].dot(up));
                 heights.fold(f64::INFINITY, f64::min) - floor[side]
@@ -230,15 +195,6 @@ impl Plan {
             let on_shin =
                 |side: usize| [rest, new_rest][side][lower].inverse().transform_point3(place(side, foot));
             let rest_height = [lowest(0), lowest(1)];
-            let reach = |side: usize| {
-                let ankle = place(side, foot);
-                let away = foot_points
-                    .iter()
-                    .map(|point| (point.rest[side] - ankle).reject_from_normalized(up).length());
-                away.fold(0.0, f64::max)
-            };
-            let (reached, foot_length) = (reach(0), reach(1));
-            let toes = toes.filter(|&toes| loaded.tree.parents[toes] == Some(foot));
             let undo = |node: usize| turn_of(&rest[node]).inverse();
             (!foot_points.is_empty() && is_within(loaded, lower, upper)).then(|| Limb {
                 upper,
@@ -250,10 +206,6 @@ impl Plan {
                 on_shin: [on_shin(0), on_shin(1)],
                 upper_rest: undo(upper),
                 foot_rest: undo(foot),
-                toes_rest: toes.map_or(DQuat::IDENTITY, undo),
-                toes,
-                foot_length,
-                larger: foot_length / (stride * reached).max(f64::MIN_POSITIVE),
                 foot_points,
             })
         });
