@@ -53,6 +53,14 @@ impl Deformer {
     /// # Errors
     /// As [`Measured::of`] on the result.
     pub fn report(&self, deformed: &Deformed) -> Result<Report> {
+        self.report_with(deformed, &mut Progress::none())
+    }
+
+    /// As [`Deformer::report`], and reports how far it is.
+    ///
+    /// # Errors
+    /// `Cancelled` too.
+    pub fn report_with(&self, deformed: &Deformed, progress: &mut Progress) -> Result<Report> {
         let character = &self.target.character;
         let result = character.with(deformed);
         let figure = Figure::of(&result)?;
@@ -61,7 +69,7 @@ impl Deformer {
         let (repair, measured) = parallel::both(
             self.options.thread_count,
             || self.clothes(&placed),
-            || Measured::of_figure(figure, &result, &self.options, &mut Progress::none()),
+            || Measured::of_figure(figure, &result, &self.options, progress),
         );
         let measured = measured?;
         let roles = self.roles();
