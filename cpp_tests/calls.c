@@ -251,6 +251,13 @@ static void a_deformer_is_applied(void) {
   for (int vertex = 0; vertex < FIGURE_VERTICES; vertex++)
     for (int i = 0; i < 3; i++)
       CHECK(fabsf(results[vertex].position[i] - figure.vertices[vertex].position[i]) < 1e-5f);
+  OK(sdef_options_init(&options, sizeof options, &error));
+  OK(sdef_deformer_set_options(deformer, &options, NULL, NULL, &error));
+  OK(sdef_style_from_heads(4, (SdefStyle){0}, &style, &error));
+  OK(sdef_deformer_set_style(deformer, style, count_calls, &calls, &error));
+  OK(sdef_destroy(style.id, &error));
+  OK(sdef_deformer_get_figure(deformer, SDEF_FIGURE_RESULT, &after, &error));
+  CHECK(fabs(after.heads - 4) < 0.3);
   OK(sdef_destroy(deformer.id, &error));
 }
 

@@ -135,6 +135,10 @@ static void deformers() {
   CHECK(deformed(deformer) != positions);
   deformer.set_options(Options());
   CHECK(deformed(deformer) == positions);
+  deformer.set_style(Style::from_heads(4));
+  CHECK(deformed(deformer) == deformed(Deformer(character(), Style::from_heads(4))));
+  deformer.set_style(Style::from_heads(2.5));
+  CHECK(deformed(deformer) == positions);
 
   Positions once;
   superdeform::super_deform(&figure().skeleton, {&figure().mesh, 1}, Style::from_heads(2.5), {&once.result, 1});

@@ -63,8 +63,8 @@
 //            1 MiB is left, or where other threads take what was there in the meantime.
 // Cost       Cheap, microseconds: create, destroy, get_info, get_joints, map_points, styles but _measure. A pass over
 //            the vertices, some 0.1 microseconds each: add_mesh, apply, and set_options where only amount, face_squash,
-//            face_curve or thread_count change. Ten times that: set_options otherwise. Slow, seconds at 100,000
-//            vertices: rig, deformer_create, style_measure, deformer_measure (else get_report or get_figure after a
+//            face_curve or thread_count change. Ten times that: set_options otherwise, and set_style. Slow, seconds at
+//            100,000 vertices: rig, deformer_create, style_measure, deformer_measure (else get_report or get_figure after a
 //            change, without progress).
 
 #ifndef SUPERDEFORM_H
@@ -776,6 +776,12 @@ SDEF_API SdefStatus sdef_deformer_create(SdefCharacter character, SdefStyle styl
 // Errors: as sdef_deformer_create, after which the deformer is as it was; BUSY.
 SDEF_API SdefStatus sdef_deformer_set_options(SdefDeformer deformer, const SdefOptions *options, SdefProgress progress,
     void *user, SdefError *error);
+
+// Changes the style of a deformer, with the same results as a new one and for less: the character is not measured again.
+//
+// Errors: as sdef_deformer_create, after which the deformer is as it was; BUSY.
+SDEF_API SdefStatus sdef_deformer_set_style(SdefDeformer deformer, SdefStyle style, SdefProgress progress, void *user,
+    SdefError *error);
 
 // Deforms the meshes, into the caller's arrays.
 //

@@ -457,6 +457,11 @@ public:
     detail::call_with_progress(std::forward<Progress>(progress), sdef_deformer_set_options, raw_, &options);
   }
 
+  template <class Progress = std::nullptr_t>
+  void set_style(const Style &style, Progress &&progress = Progress()) {
+    detail::call_with_progress(std::forward<Progress>(progress), sdef_deformer_set_style, raw_, style.get());
+  }
+
   // results: one for each mesh of the character
   template <class Progress = std::nullptr_t>
   void apply(View<const SdefMeshResult> results, Progress &&progress = Progress()) const {

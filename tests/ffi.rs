@@ -403,6 +403,22 @@ fn options_that_are_set_later_give_what_a_new_deformer_gives() {
     }
 }
 
+#[test]
+fn a_style_set_later_gives_what_a_style_set_first_gives() {
+    let (character, options) = (person(), options());
+    let (handle, first, second) = (given(character), from_text("sd2.5").unwrap(), from_text("sd4").unwrap());
+    let (later, wanted) = (deformer(handle, first, &options), deformer(handle, second, &options));
+    let set = |style| ask(|error| unsafe { sdef_deformer_set_style(later, style, None, null_mut(), error) });
+    set(second).unwrap();
+    assert!(deformed(later, character) == deformed(wanted, character));
+    let refused = set(SdefStyle { id: later.id }).unwrap_err();
+    assert_eq!(refused.status, SDEF_STATUS_BAD_HANDLE);
+    assert!(deformed(later, character) == deformed(wanted, character));
+    for id in [handle.id, first.id, second.id, later.id, wanted.id] {
+        destroy(id);
+    }
+}
+
 /// The same mesh in every shape that arrays can come in.
 /// All numbers of a result, in order.
 fn numbers(character: &Character) -> Vec<f32> {

@@ -1,13 +1,13 @@
 //! Morph targets after a deformation: each is made anew at the vertices that it touches, and is zero at the others.
 
 use super::Deformer;
-use super::attach::{LEAST_VERTICES, Placement};
 use super::displacement::single;
+use super::memo::View;
 use crate::character::{Mesh, MorphTarget};
 use crate::error::Result;
 use crate::progress::Progress;
-use crate::shape::directions::Room;
-use crate::shape::field::Field;
+use crate::shape::directions::{RestTriangles, Room};
+use crate::shape::placement::{LEAST_VERTICES, Placement};
 use crate::shape::turn::Turn;
 use glam::{DVec3, Vec3};
 use std::ops::Range;
@@ -17,20 +17,21 @@ use std::sync::{Arc, Mutex, PoisonError};
 #[derive(Clone, Debug, Default)]
 pub struct Touched {
     /// Of each target, ascending.
-    targets: Vec<Vec<u32>>,
+    targets: Vec<Arc<Vec<u32>>>,
     /// Of all that move something, ascending.
     moved: Vec<u32>,
 }
 
 impl Touched {
-    fn of(mesh: &Mesh) -> Self {
+    /// Of `mesh`.
+    pub fn of(mesh: &Mesh) -> Self {
         let is_changed =
             |deltas: &[Vec3], vertex: usize| deltas.get(vertex).is_some_and(|&d| d != Vec3::ZERO);
         let vertices = 0..mesh.positions.len();
         let touched = |target: &MorphTarget| {
             let arrays = [&target.positions, &target.normals, &target.tangents];
             let is_touched = |&vertex: &usize| arrays.iter().any(|deltas| is_changed(deltas, vertex));
-            vertices.clone().filter(is_touched).map(|vertex| vertex as u32).collect()
+            Arc::new(vertices.clone().filter(is_touched).map(|vertex| vertex as u32).collect())
         };
         let is_moved =
             |vertex: &usize| mesh.morph_targets.iter().any(|target| is_changed(&target.positions, *vertex));
@@ -42,14 +43,14 @@ impl Touched {
 }
 
 /// A morph target where it changes something, of one mesh.
-pub struct SparseTarget<'a> {
+pub struct SparseTarget {
     /// The vertices, ascending.
-    pub vertices: &'a [u32],
+    pub vertices: Arc<Vec<u32>>,
     /// Positions, normals and tangents there; `None` where the target has none.
     pub deltas: [Option<Vec<Vec3>>; 3],
 }
 
-impl SparseTarget<'_> {
+impl SparseTarget {
     /// The same with a delta for each of `count` vertices.
     pub fn dense(&self, name: &str, count: usize) -> MorphTarget {
         let [positions, normals, tangents] = self.deltas.each_ref().map(|deltas| {
@@ -74,12 +75,6 @@ pub struct Shifts {
 /// By target, then by the vertices that it touches.
 type ShiftsOfMesh = Arc<Vec<Vec<Vec3>>>;
 
-impl Clone for Shifts {
-    fn clone(&self) -> Self {
-        Self { of: Mutex::new(self.of.lock().unwrap_or_else(PoisonError::into_inner).clone()) }
-    }
-}
-
 impl Shifts {
     fn get(&self, mesh: usize) -> Option<ShiftsOfMesh> {
         self.of.lock().unwrap_or_else(PoisonError::into_inner).get(mesh)?.clone()
@@ -94,15 +89,14 @@ impl Shifts {
     }
 }
 
-impl Deformer {
-    fn touched(&self) -> &[Touched] {
-        let meshes = &self.target.character.meshes;
-        self.target.touched.get_or_init(|| Arc::new(meshes.iter().map(Touched::of).collect()))
-    }
+/// What is filled in mesh by mesh: none while what it is made of is the same.
+pub fn shifts(view: &View) -> Result<Shifts> {
+    view.deformation().map(|_| Shifts::default())
+}
 
+impl Deformer {
     /// What the directions of all of a mesh's vertices turn by.
-    fn turns(&self, mesh: usize) -> Vec<Turn> {
-        let rest = self.rest_triangles();
+    fn turns(&self, mesh: usize, rest: &RestTriangles) -> Vec<Turn> {
         let mut room = Room::default();
         let mut turns = Vec::with_capacity(self.vertices(mesh).len());
         for piece in rest.pieces(mesh) {
@@ -121,8 +115,8 @@ impl Deformer {
         &self,
         is_asked: impl Fn(usize) -> bool,
         progress: &mut Progress,
-    ) -> Result<Vec<Vec<SparseTarget<'_>>>> {
-        let count = self.target.character.meshes.len();
+    ) -> Result<Vec<Vec<SparseTarget>>> {
+        let count = self.inputs.character.meshes.len();
         let of_mesh = |mesh: usize| {
             let at = |mesh: usize| mesh as f32 / count as f32;
             progress.at(at(mesh))?;
@@ -132,24 +126,30 @@ impl Deformer {
         (0..count).map(of_mesh).collect()
     }
 
-    fn targets_of_mesh(&self, mesh: usize, progress: &mut Progress) -> Result<Vec<SparseTarget<'_>>> {
-        let Mesh { morph_targets, normals, tangents, .. } = &self.target.character.meshes[mesh];
-        let touched = &self.touched()[mesh].targets;
-        if self.field.finish.is_nothing() || morph_targets.is_empty() {
-            let same = |(target, vertices): (&MorphTarget, &'_ Vec<u32>)| {
+    fn targets_of_mesh(&self, mesh: usize, progress: &mut Progress) -> Result<Vec<SparseTarget>> {
+        let Mesh { morph_targets, normals, tangents, .. } = &self.inputs.character.meshes[mesh];
+        let touched = &self.view().touched()?[mesh].targets;
+        if self.made.field.finish.is_nothing() || morph_targets.is_empty() {
+            let same = |target: &MorphTarget, vertices: &[u32]| {
                 [&target.positions, &target.normals, &target.tangents].map(|deltas| {
                     let of = |&vertex: &u32| deltas[vertex as usize];
                     (!deltas.is_empty()).then(|| vertices.iter().map(of).collect())
                 })
             };
-            let all = morph_targets.iter().zip(touched);
-            return Ok(all.map(|of| SparseTarget { vertices: of.1, deltas: same(of) }).collect());
+            let sparse = |(target, vertices): (&MorphTarget, &Arc<Vec<u32>>)| SparseTarget {
+                vertices: Arc::clone(vertices),
+                deltas: same(target, vertices),
+            };
+            return Ok(morph_targets.iter().zip(touched).map(sparse).collect());
         }
         let turn_normals =
             !normals.is_empty() && morph_targets.iter().any(|target| !target.normals.is_empty());
         let turn_tangents =
             !tangents.is_empty() && morph_targets.iter().any(|target| !target.tangents.is_empty());
-        let turns = if turn_normals || turn_tangents { self.turns(mesh) } else { Vec::new() };
+        let turns = match turn_normals || turn_tangents {
+            true => self.turns(mesh, &*self.view().rest_triangles()?),
+            false => Vec::new(),
+        };
         let new_normals: Vec<Vec3> =
             turns.iter().zip(normals).map(|(turn, &normal)| turn.normal(normal)).collect();
         let tangent =
@@ -160,7 +160,7 @@ impl Deformer {
             let (target, vertices) = (&morph_targets[index], &touched[index]);
             let turn_normal = |vertex: usize, normal| turns[vertex].normal(normal);
             SparseTarget {
-                vertices,
+                vertices: Arc::clone(vertices),
                 deltas: [
                     self.morph_positions(&target.positions, vertices, &shifts[index]),
                     morph_turns(&target.normals, normals, vertices, &turn_normal),
@@ -169,7 +169,7 @@ impl Deformer {
             }
         };
         let least = if self.vertices(mesh).len() < LEAST_VERTICES { morph_targets.len() } else { 1 };
-        let threads = self.options.thread_count;
+        let threads = self.inputs.options.thread_count;
         progress.part(0.7, 1.0).collect_with(
             threads,
             morph_targets.len(),
@@ -189,13 +189,15 @@ impl Deformer {
     /// # Errors
     /// `Cancelled`.
     fn morph_shifts(&self, mesh: usize, progress: &mut Progress) -> Result<ShiftsOfMesh> {
-        if let Some(known) = self.morph_shifts.get(mesh) {
+        let kept = self.view().shifts()?;
+        if let Some(known) = kept.get(mesh) {
             return Ok(known);
         }
-        let morph_targets = &self.target.character.meshes[mesh].morph_targets;
-        let Touched { targets: touched, moved } = &self.touched()[mesh];
-        let field = Field { finish: self.field.finish.all_the_way(), ..self.field.clone() };
-        let placement = Placement { field: &field, ..self.placement() };
+        let morph_targets = &self.inputs.character.meshes[mesh].morph_targets;
+        let Touched { targets: touched, moved } = &self.view().touched()?[mesh];
+        let (deformation, threads) = (&self.made.deformation, self.inputs.options.thread_count);
+        let field = &deformation.field;
+        let placement = deformation.placement(field, threads);
         let figure = placement.figure;
         let placed = self.placed_of(mesh, moved, &placement);
         let start = self.vertices(mesh).start;
@@ -223,7 +225,6 @@ impl Deformer {
             })
             .collect();
         let all = ends.last().copied().unwrap_or(0);
-        let threads = self.options.thread_count;
         let shift = |_: &mut (), index: usize| {
             let target = ends.partition_point(|&end| end <= index);
             let first = ends[target] - touched[target].len();
@@ -231,13 +232,13 @@ impl Deformer {
         };
         let flat = progress.collect_with(threads, all, LEAST_SHIFTS, || (), shift)?;
         let mut rest = &flat[..];
-        let by_target = |touched: &Vec<u32>| {
+        let by_target = |touched: &Arc<Vec<u32>>| {
             let (own, others) = rest.split_at(touched.len());
             rest = others;
             own.to_vec()
         };
         let shifts = Arc::new(touched.iter().map(by_target).collect());
-        self.morph_shifts.keep(mesh, &shifts);
+        kept.keep(mesh, &shifts);
         Ok(shifts)
     }
 
@@ -256,7 +257,7 @@ impl Deformer {
     ///
     /// `shifts`: as [`Self::morph_shifts`] gives them.
     fn morph_positions(&self, deltas: &[Vec3], touched: &[u32], shifts: &[Vec3]) -> Option<Vec<Vec3>> {
-        let finish = &self.field.finish;
+        let finish = &self.made.field.finish;
         let (size, amount) = (finish.size as f32, finish.amount as f32);
         let moved = |(&vertex, &shift): (&u32, &Vec3)| {
             let to = size * (deltas[vertex as usize] + amount * shift);

@@ -61,6 +61,23 @@ public sealed class Deformer : NativeObject
     }
 
     /// <summary>
+    /// Changes the style, with the same results as a new deformer and for less: the character is not measured again. After an
+    /// exception everything is as it was.
+    /// </summary>
+    public unsafe void SetStyle(Style style, ProgressHandler progress = null)
+    {
+        if (style == null) throw new ArgumentNullException("style");
+        using (ProgressCall call = ProgressCall.Of(progress))
+        {
+            SdefError error = Failure.None();
+            uint status = Native.sdef_deformer_set_style(Raw, style.Raw, call.Callback, call.User, &error);
+            GC.KeepAlive(style);
+            GC.KeepAlive(this);
+            call.Check(status, &error);
+        }
+    }
+
+    /// <summary>
     /// Deforms the meshes into the given arrays, in place and without garbage. Nothing is written where it throws.
     /// </summary>
     /// <param name="outputs">One for each mesh of the character, in their order.</param>

@@ -482,6 +482,19 @@ internal static unsafe partial class Native
         SdefError* error);
 
     /// <summary>
+    /// Changes the style of a deformer, with the same results as a new one and for less: the character is not measured again.
+    ///
+    /// Errors: as sdef_deformer_create, after which the deformer is as it was; BUSY.
+    /// </summary>
+    [DllImport(Library, ExactSpelling = true, CallingConvention = CallingConvention.Cdecl)]
+    internal static extern UInt32 sdef_deformer_set_style(
+        SdefDeformer deformer,
+        SdefStyle style,
+        SdefProgress progress,
+        void* user,
+        SdefError* error);
+
+    /// <summary>
     /// Destroys what a handle stands for. One call for all kinds, so that an owner of handles needs no more than the id.
     ///
     /// handle: the id of a character, style or deformer; 0 is allowed and does nothing

@@ -72,14 +72,14 @@ namespace SuperDeform.Editor
     /// <summary>VRChat's SDK 3 (com.vrchat.avatars 3.7 to 3.10) and the same things of NDMF.</summary>
     internal static class VrChatRows
     {
-        const string Dynamics = "VRC.SDK3.Dynamics.";
+        const string Dynamics = "VRC.SDK3.Dynamics.", AvatarDescriptor = "VRC.SDK3.Avatars.Components.VRCAvatarDescriptor", View = "ViewPosition";
 
         // VRCPhysBoneColliderBase.ShapeType, PortableDynamicColliderType; a contact's third shape is a box.
         static readonly int[] IsBall = { 0 }, IsCapsule = { 1 }, IsPlane = { 2 }, IsBox = { 2 };
 
         internal static void Add(Dictionary<string, Rule[]> rows)
         {
-            rows["VRC.SDK3.Avatars.Components.VRCAvatarDescriptor"] = Descriptor();
+            rows[AvatarDescriptor] = Descriptor();
             rows["VRC.SDK3.Avatars.Components.VRCStation"] = new Rule[0];
             rows["VRC.SDK3.Avatars.Components.VRCHeadChop"] = new Rule[0];
             rows["VRC.Core.PipelineManager"] = new[] { Identity("blueprintId") };
@@ -118,9 +118,26 @@ namespace SuperDeform.Editor
             };
         }
 
+        /// <summary>Brings an instance that hangs below a scaled object to the world's measure, in which an avatar's viewpoint is given.</summary>
+        internal static void Hang(GameObject instance)
+        {
+            Vector3 above = instance.transform.parent.lossyScale;
+            foreach (Component component in instance.GetComponents<Component>())
+            {
+                if (component == null || component.GetType().FullName != AvatarDescriptor) continue;
+                using (SerializedObject properties = new SerializedObject(component))
+                {
+                    SerializedProperty view = properties.FindProperty(View);
+                    if (view == null) continue;
+                    view.vector3Value = Vector3.Scale(view.vector3Value, above);
+                    properties.ApplyModifiedPropertiesWithoutUndo();
+                }
+            }
+        }
+
         static Rule[] Descriptor()
         {
-            List<Rule> rules = new List<Rule> { Viewpoint("ViewPosition"), Length("portraitCameraPositionOffset") };
+            List<Rule> rules = new List<Rule> { Viewpoint(View), Length("portraitCameraPositionOffset") };
             List<string> parts = new List<string> { "head", "torso", "footL", "footR", "handL", "handR" };
             foreach (string finger in new[] { "Index", "Middle", "Ring", "Little" })
             {

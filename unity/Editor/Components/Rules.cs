@@ -197,9 +197,11 @@ namespace SuperDeform.Editor
             return scope =>
             {
                 if (scope.At(path) == null) return;
-                Vector3 size = scope.Component.transform.lossyScale, view = scope.VectorAt(path, Vector3.zero);
+                // A copy does not hang where its source hangs.
+                Transform copy = scope.Component.transform, source = scope.Map.Source(copy) ?? copy;
+                Vector3 size = source.lossyScale, view = scope.VectorAt(path, Vector3.zero);
                 Vector3 moved = scope.Map.HeadPoint(new Vector3(view.x / size.x, view.y / size.y, view.z / size.z));
-                scope.SetVector(path, new Vector3(moved.x * size.x, moved.y * size.y, moved.z * size.z));
+                scope.SetVector(path, Vector3.Scale(moved, copy.lossyScale));
             };
         }
 

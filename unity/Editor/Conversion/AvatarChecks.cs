@@ -69,9 +69,9 @@ namespace SuperDeform.Editor
         static void CheckAvatars(GameObject avatar, List<Finding> findings)
         {
             bool ownIsOne = HumanoidRoles.IsHumanoid(avatar.GetComponent<Animator>());
-            Animator[] humanoids = Array.FindAll(avatar.GetComponentsInChildren<Animator>(true), HumanoidRoles.IsHumanoid);
-            // Below a humanoid they may be outfits: see CheckOutfits.
-            if (!ownIsOne && humanoids.Length > 1)
+            List<Animator> humanoids = HumanoidRoles.Bodies(avatar);
+            // Below a humanoid they may be outfits: see OutfitChecks.
+            if (!ownIsOne && humanoids.Count > 1)
             {
                 findings.Add(new Finding("two_avatars", Severity.Error, humanoids[1], avatar.name, humanoids[0].name).WithChoice(humanoids[0].gameObject));
             }
@@ -139,7 +139,7 @@ namespace SuperDeform.Editor
             if (!HumanoidRoles.IsHumanoid(data.Animator)) CheckHumanoid(data, skinned, rigAuto, missing, findings);
             if (missing != null) return;
             Outfits.Find(data, roles);
-            CheckOutfits(data, findings);
+            OutfitChecks.Check(data, roles, findings);
             CheckBody(data, roles, findings);
             CheckPose(data, roles, findings);
         }
@@ -190,19 +190,6 @@ namespace SuperDeform.Editor
         {
             string path = AssetDatabase.GetAssetPath(asset);
             return string.IsNullOrEmpty(path) ? null : AssetImporter.GetAtPath(path) as ModelImporter;
-        }
-
-        /// <summary>Humanoid Animators below the avatar's own: outfits, as long as their bones are twins of its bones.</summary>
-        static void CheckOutfits(AvatarData data, List<Finding> findings)
-        {
-            if (!HumanoidRoles.IsHumanoid(data.Animator)) return;
-            foreach (Animator animator in data.Root.GetComponentsInChildren<Animator>(true))
-            {
-                if (animator == data.Animator || !HumanoidRoles.IsHumanoid(animator)) continue;
-                bool outfit = Array.Exists(data.Joints, joint => joint.IsChildOf(animator.transform) && data.Twins[data.IndexOf(joint)] != data.IndexOf(joint));
-                if (outfit) findings.Add(new Finding("outfit", Severity.Info, animator, animator.name, data.Root.name));
-                else findings.Add(new Finding("two_avatars", Severity.Error, animator, data.Root.name, animator.name).WithChoice(animator.gameObject));
-            }
         }
 
         /// <summary>Is there a mesh that hips or limbs move?</summary>

@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using UnityEditor;
+using UnityEditor.SceneManagement;
 using UnityEngine;
 
 namespace SuperDeform.Editor
@@ -18,18 +19,41 @@ namespace SuperDeform.Editor
         /// <exception cref="ConversionException">It cannot be done, and why; nothing is left behind.</exception>
         public static ConversionResult Convert(GameObject avatar, ConversionSettings settings, IConversionProgress progress)
         {
-            return Run(avatar, settings, new StageProgress(progress), Finish);
+            return Convert(avatar, settings, progress, false);
+        }
+
+        /// <summary>The same.</summary>
+        /// <param name="replaceDoubtful">
+        /// A result that may be another avatar's, which stood in the same place, is brought up to date too: a person has said so. Else
+        /// there is a new one.
+        /// </param>
+        internal static ConversionResult Convert(GameObject avatar, ConversionSettings settings, IConversionProgress progress, bool replaceDoubtful)
+        {
+            return Run(avatar, settings, new StageProgress(progress),
+                (source, deformer, given, findings, stages) => Finish(source, deformer, given, findings, stages, replaceDoubtful));
+        }
+
+        /// <summary>The earlier result that a conversion would bring up to date; null where it makes a new one.</summary>
+        internal static ResultUpdate Earlier(GameObject avatar, ConversionSettings settings)
+        {
+            return avatar == null || settings.NewCopy ? null : ResultUpdate.Find(new SourceIdentity(avatar), FolderOf(settings));
         }
 
         /// <summary>Converts an avatar itself, which a build step may do to its own copy: nothing is saved.</summary>
         /// <param name="avatar">The root of an object of a scene that nobody else needs as it was.</param>
         /// <returns>Assets and Replaced say what was made and what it stands for; there is no prefab.</returns>
-        /// <exception cref="ConversionException">
-        /// It cannot be done, and why. Until new meshes are made the avatar stays as it was.
-        /// </exception>
+        /// <exception cref="ConversionException">It cannot be done, and why. The avatar is as it was.</exception>
         public static ConversionResult ConvertInPlace(GameObject avatar, ConversionSettings settings, IConversionProgress progress)
         {
-            return Run(avatar, settings, new StageProgress(progress), FinishInPlace);
+            return ConvertInPlace(avatar, settings, progress, done => { });
+        }
+
+        /// <summary>The same.</summary>
+        /// <param name="keep">What is to be done with the result before it counts: what that throws undoes all.</param>
+        internal static ConversionResult ConvertInPlace(GameObject avatar, ConversionSettings settings, IConversionProgress progress, Action<ConversionResult> keep)
+        {
+            return Run(avatar, settings, new StageProgress(progress),
+                (source, deformer, given, findings, stages) => FinishInPlace(source, deformer, findings, stages, keep));
         }
 
         delegate ConversionResult Ending(AvatarData source, Deformer deformer, ConversionSettings settings, List<Finding> findings, StageProgress stages);
@@ -65,11 +89,13 @@ namespace SuperDeform.Editor
             }
         }
 
-        static ConversionResult Finish(AvatarData source, Deformer deformer, ConversionSettings settings, List<Finding> findings, StageProgress stages)
+        static ConversionResult Finish(AvatarData source, Deformer deformer, ConversionSettings settings, List<Finding> findings, StageProgress stages,
+            bool replaceDoubtful)
         {
             AvatarResult result;
             ConversionResult done = Deform(source, deformer, findings, stages, out result);
-            ResultUpdate update = settings.NewCopy ? null : ResultUpdate.Find(ResultUpdate.IdentityOf(source.Root), FolderOf(settings));
+            ResultUpdate update = Earlier(source.Root, settings);
+            if (update != null && update.Match != SourceMatch.Same && !replaceDoubtful) update = null;
             if (update != null)
             {
                 Save(source, result, deformer, settings, update.Save, done, stages);
@@ -82,19 +108,33 @@ namespace SuperDeform.Editor
                 }
             }
             done.Updated = update != null;
-            if (settings.PlaceInScene && !EditorUtility.IsPersistent(source.Root)) done.Instance = InstanceOf(done.Prefab, source.Root) ?? PlaceBeside(source, done.Prefab, result);
+            if (settings.PlaceInScene && !EditorUtility.IsPersistent(source.Root)) Place(source, result, done);
             stages.End();
             return done;
         }
 
-        static ConversionResult FinishInPlace(AvatarData source, Deformer deformer, ConversionSettings settings, List<Finding> findings, StageProgress stages)
+        static ConversionResult FinishInPlace(AvatarData source, Deformer deformer, List<Finding> findings, StageProgress stages, Action<ConversionResult> keep)
         {
             AvatarResult result;
             ConversionResult done = Deform(source, deformer, findings, stages, out result);
             PointMap map = new PointMap(source, result, deformer, source.Root.transform) { SameAvatar = true };
-            CharacterWriter.Write(source.Root, map, source, result, done.Findings);
-            done.Assets.AddRange(map.Assets);
-            done.Replaced.AddRange(map.Replaced);
+            AvatarSnapshot before = new AvatarSnapshot(source.Root);
+            try
+            {
+                CharacterWriter.Write(source.Root, map, source, result, done.Findings);
+                done.Assets.AddRange(map.Assets);
+                done.Replaced.AddRange(map.Replaced);
+                keep(done);
+            }
+            catch
+            {
+                before.Restore();
+                foreach (UnityEngine.Object asset in map.Assets)
+                {
+                    if (asset != null && !EditorUtility.IsPersistent(asset)) UnityEngine.Object.DestroyImmediate(asset);
+                }
+                throw;
+            }
             stages.End();
             return done;
         }
@@ -125,7 +165,8 @@ namespace SuperDeform.Editor
 
         static void Save(AvatarData source, AvatarResult result, Deformer deformer, ConversionSettings settings, Saving save, ConversionResult done, StageProgress stages)
         {
-            GameObject copy = UnityEngine.Object.Instantiate(source.Root);
+            ScratchScene scratch = new ScratchScene();
+            GameObject copy = scratch.Copy(source.Root);
             PointMap map = new PointMap(source, result, deformer, copy.transform);
             SuperDeformPreset preset = ScriptableObject.CreateInstance<SuperDeformPreset>();
             bool saved = false;
@@ -138,19 +179,25 @@ namespace SuperDeform.Editor
                     copy.transform.localRotation = Quaternion.identity;
                 }
                 CharacterWriter.Write(copy, map, source, result, done.Findings);
+                // A build would deform the result once more.
+                foreach (SuperDeformAvatar component in copy.GetComponentsInChildren<SuperDeformAvatar>(true))
+                {
+                    UnityEngine.Object.DestroyImmediate(component);
+                }
                 preset.Settings = settings.Clone();
                 // An asset cannot name objects of a scene.
                 if (preset.Settings.ReferenceAvatar != null && !EditorUtility.IsPersistent(preset.Settings.ReferenceAvatar)) preset.Settings.ReferenceAvatar = null;
                 stages.Begin(ConversionStage.Saving);
-                preset.Avatar = ResultUpdate.IdentityOf(source.Root);
-                preset.Made.AddRange(new HierarchyPaths(copy).Names);
+                SourceIdentity identity = new SourceIdentity(source.Root);
+                preset.Avatar = identity.ToString();
+                preset.MadeFrom = identity.Where;
                 done.PrefabPath = save(copy, preset, map.Assets);
                 done.Prefab = AssetDatabase.LoadAssetAtPath<GameObject>(done.PrefabPath);
                 saved = true;
             }
             finally
             {
-                UnityEngine.Object.DestroyImmediate(copy);
+                scratch.Dispose();
                 map.Assets.Add(preset);
                 foreach (UnityEngine.Object asset in map.Assets)
                 {
@@ -194,6 +241,15 @@ namespace SuperDeform.Editor
             return null;
         }
 
+        static void Place(AvatarData source, AvatarResult result, ConversionResult done)
+        {
+            done.Instance = InstanceOf(done.Prefab, source.Root);
+            if (done.Instance != null) return;
+            // A prefab that is edited has one root: beside it nothing is shown or saved, and below it all becomes a part of it.
+            if (PrefabStageUtility.GetPrefabStage(source.Root) == null) done.Instance = PlaceBeside(source, done.Prefab, result);
+            else done.Findings.Add(new Finding("not_placed", Severity.Info, done.Prefab, done.PrefabPath));
+        }
+
         /// <summary>An instance of the result, to the right of the source, as a child of the same object.</summary>
         static GameObject PlaceBeside(AvatarData source, GameObject prefab, AvatarResult result)
         {
@@ -211,6 +267,7 @@ namespace SuperDeform.Editor
             Vector3 aside = new Vector3((float)box.Size.X * original.localScale.x, 0, 0);
             placed.localRotation = original.localRotation;
             placed.localPosition = original.localPosition + original.localRotation * aside;
+            if (placed.parent != null && placed.parent.lossyScale != Vector3.one) VrChatRows.Hang(instance);
             return instance;
         }
     }

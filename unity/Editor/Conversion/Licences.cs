@@ -104,7 +104,7 @@ namespace SuperDeform.Editor
         static string KeyOf(UnityEngine.Object asset, GameObject avatar)
         {
             string path = AssetDatabase.GetAssetPath(asset);
-            return string.IsNullOrEmpty(path) ? ResultUpdate.IdentityOf(avatar) : AssetDatabase.AssetPathToGUID(path);
+            return string.IsNullOrEmpty(path) ? new SourceIdentity(avatar).ToString() : AssetDatabase.AssetPathToGUID(path);
         }
 
         static void Hear(Statement said, SerializedObject meta, string words, params string[] addresses)

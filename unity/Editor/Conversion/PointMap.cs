@@ -208,14 +208,14 @@ namespace SuperDeform.Editor
             get { return assets; }
         }
 
-        /// <summary>What was replaced, and what it was replaced with.</summary>
+        /// <summary>What was replaced, and what it was replaced with: each new one once, however many renderers show it.</summary>
         internal readonly List<KeyValuePair<UnityEngine.Object, UnityEngine.Object>> Replaced = new List<KeyValuePair<UnityEngine.Object, UnityEngine.Object>>();
 
         /// <summary>Keeps an asset that stands for an old one.</summary>
         internal void Replace(UnityEngine.Object old, UnityEngine.Object made)
         {
             AddAsset(made);
-            Replaced.Add(new KeyValuePair<UnityEngine.Object, UnityEngine.Object>(old, made));
+            if (!Replaced.Exists(pair => pair.Value == made)) Replaced.Add(new KeyValuePair<UnityEngine.Object, UnityEngine.Object>(old, made));
         }
 
         internal void Remember(Renderer original, Mesh made)
@@ -239,7 +239,12 @@ namespace SuperDeform.Editor
         internal int IndexOf(Transform joint)
         {
             int index = source.Rigged ? source.IndexOf(Source(joint)) : -1;
-            return index == 0 && source.HoldsRoot ? -1 : index;
+            return index == 0 && source.HoldsRoot || IsOfPet(index) ? -1 : index;
+        }
+
+        bool IsOfPet(int index)
+        {
+            return index >= 0 && source.PetOf[index] >= 0;
         }
 
         internal Affine OldRest(Transform joint)
@@ -259,6 +264,18 @@ namespace SuperDeform.Editor
         {
             Double3 model = OldRest(joint).Point(local);
             int index = IndexOf(joint);
+            if (source.Rigged && IsOfPet(source.IndexOf(Source(joint))))
+            {
+                // It grows by its transform, and in its own space nothing changes.
+                Double3 place = NewRest(joint).Point(local);
+                positions[0] = place.X;
+                positions[1] = place.Y;
+                positions[2] = place.Z;
+                scales[0] = 1;
+                Array.Clear(jacobian, 0, 9);
+                jacobian[0] = jacobian[4] = jacobian[8] = 1;
+                return;
+            }
             if (index < 0)
             {
                 bool outside = Source(joint) == null;

@@ -11,10 +11,13 @@ namespace SuperDeform.Editor
     {
         public ConversionSettings Settings = new ConversionSettings();
 
-        /// <summary>Of a result: the avatar that it was made of, so that it is found again.</summary>
+        /// <summary>Of a result: what the avatar that it was made of is known by, so that it is found again.</summary>
         [HideInInspector] public string Avatar = "";
 
-        /// <summary>Of a result: the names of all objects and components that were made; others are a person's own.</summary>
-        [HideInInspector] public List<string> Made = new List<string>();
+        /// <summary>Of a result: where that avatar is, for a person to read.</summary>
+        [HideInInspector] public string MadeFrom = "";
+
+        /// <summary>Of a result: all objects and components as they were made; others, and other values, are a person's own.</summary>
+        [HideInInspector] public List<MadeThing> Made = new List<MadeThing>();
     }
 }

@@ -49,24 +49,34 @@ namespace SuperDeform.Editor.Ndmf
                     Say(new Finding("component_not_on_root", Severity.Error, found[0], found[0].name, avatar.name));
                     return;
                 }
-                ConversionResult done = Converter.ConvertInPlace(avatar, SettingsText.Of(component), null);
-                foreach (UnityEngine.Object asset in done.Assets)
-                    context.AssetSaver.SaveAsset(asset);
-                foreach (KeyValuePair<UnityEngine.Object, UnityEngine.Object> pair in done.Replaced)
-                    ObjectRegistry.RegisterReplacedObject(pair.Key, pair.Value);
+                ConversionResult done;
+                using (var progress = new EditorProgress(avatar.name, cancelable: false))
+                    done = Converter.ConvertInPlace(avatar, SettingsText.Of(component), progress, result => Keep(context, result));
                 foreach (Finding finding in done.Findings)
                     if (finding.Severity != Severity.Info)
                         Say(finding);
             }
-            catch (ConversionException refused)
+            catch (Exception cause)
             {
-                Say(refused.Finding);
+                // Whatever it is, it is one sentence in the report: an exception would say less, and as much of the avatar is left.
+                Finding finding = ConversionException.From(cause, avatar).Finding;
+                Say(finding.Key == "failed" ? new Finding("in_place_failed", Severity.Error, finding.Where, finding.Values) : finding);
             }
             finally
             {
                 foreach (SuperDeformAvatar one in found)
                     UnityEngine.Object.DestroyImmediate(one);
             }
+        }
+
+        private static void Keep(BuildContext context, ConversionResult done)
+        {
+            foreach (UnityEngine.Object asset in done.Assets)
+                context.AssetSaver.SaveAsset(asset);
+            foreach (KeyValuePair<UnityEngine.Object, UnityEngine.Object> pair in done.Replaced)
+                // One that is known already, through somebody else's report, stays known as that.
+                if (pair.Key != null && pair.Value != null)
+                    ObjectRegistry.TryRegisterReplacedObject(ObjectRegistry.GetReference(pair.Key), pair.Value);
         }
 
         private static void Say(Finding finding)

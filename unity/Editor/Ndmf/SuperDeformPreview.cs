@@ -71,10 +71,17 @@ namespace SuperDeform.Editor.Ndmf
         /// <summary>One renderer's mesh and bones.</summary>
         private sealed class ShownMesh
         {
+            /// <summary>Null where the proxy's own is shown.</summary>
             internal Mesh Mesh;
 
             /// <summary>Of a skinned renderer; null for one that hangs from one joint.</summary>
             internal Transform[] Bones;
+
+            /// <summary>The bones that the proxy comes with: the renderer's own, or those of a filter before this one.</summary>
+            internal Transform[] Given;
+
+            /// <summary>Bones of a filter before this one.</summary>
+            internal readonly List<CarriedBone> Carried = new List<CarriedBone>();
 
             /// <summary>The transform that stands for the renderer's own.</summary>
             internal Transform Holder;
@@ -82,6 +89,15 @@ namespace SuperDeform.Editor.Ndmf
             internal Transform RootBone;
             internal Bounds Bounds;
         }
+
+        /// <summary>A bone of another filter, which stands beside the avatar's own: scaled, for instance.</summary>
+        private struct CarriedBone
+        {
+            internal Transform Original, Given, Shown;
+        }
+
+        // Proxies without a skin whose place was changed: NDMF sets it again only where it hangs them elsewhere.
+        private readonly HashSet<Transform> placed = new HashSet<Transform>();
 
         public RenderAspects WhatChanged { get { return RenderAspects.Mesh | RenderAspects.Shapes; } }
 
@@ -100,7 +116,7 @@ namespace SuperDeform.Editor.Ndmf
                 if (scene.IsValid())
                     SceneManager.MoveGameObjectToScene(skeleton.Root.gameObject, scene);
                 foreach (RendererResult renderer in figure.Result.Renderers)
-                    meshes.Add(renderer.Source.Renderer, Made(renderer));
+                    meshes.Add(renderer.Source.Renderer, Made(renderer, BonesOf(reading.Shown, renderer.Source.Renderer)));
                 Follow();
             }
             catch (ConversionException)
@@ -120,22 +136,51 @@ namespace SuperDeform.Editor.Ndmf
             return SettingsText.Of(component);
         }
 
-        private ShownMesh Made(RendererResult renderer)
+        private static Transform[] BonesOf(Dictionary<Renderer, Renderer> proxies, Renderer original)
+        {
+            Renderer proxy;
+            var skinned = (proxies.TryGetValue(original, out proxy) ? proxy : original) as SkinnedMeshRenderer;
+            return skinned == null ? null : skinned.bones;
+        }
+
+        private ShownMesh Made(RendererResult renderer, Transform[] given)
         {
             RendererData source = renderer.Source;
-            Mesh mesh = UnityEngine.Object.Instantiate(source.Mesh);
-            mesh.name = source.Mesh.name;
-            // Those that are on are in the vertices.
-            mesh.ClearBlendShapes();
-            Transform holder = source.Renderer.transform;
-            var shown = new ShownMesh { Mesh = mesh, Holder = skeleton.Of(figure.Avatar.IndexOf(holder)) };
-            Write(shown, renderer);
             var skinned = source.Renderer as SkinnedMeshRenderer;
+            Transform holder = source.Renderer.transform;
+            var shown = new ShownMesh { Holder = skeleton.Of(figure.Avatar.IndexOf(holder)) };
+            // A pet's mesh stays as it is.
+            if (source.Rides)
+                shown.Bounds = skinned == null ? new Bounds() : skinned.localBounds;
+            else
+            {
+                shown.Mesh = UnityEngine.Object.Instantiate(source.Mesh);
+                shown.Mesh.name = source.Mesh.name;
+                // Those that are on are in the vertices.
+                shown.Mesh.ClearBlendShapes();
+                Write(shown, renderer);
+            }
             if (skinned == null)
                 return shown;
-            shown.Bones = Array.ConvertAll(skinned.bones, bone => bone == null ? null : skeleton.Of(figure.Avatar.IndexOf(bone)));
+            Transform[] bones = skinned.bones;
+            shown.Given = given;
+            shown.Bones = new Transform[bones.Length];
+            for (int bone = 0; bone < bones.Length; bone++)
+            {
+                Transform other = given.Length == bones.Length ? given[bone] : bones[bone];
+                Transform joint = bones[bone] == null ? null : skeleton.Of(figure.Avatar.IndexOf(bones[bone]));
+                shown.Bones[bone] = joint == null || other == null || other == bones[bone] ? joint : Carried(shown, bones[bone], other, joint);
+            }
             shown.RootBone = skinned.rootBone == null ? shown.Holder : skeleton.Of(figure.Avatar.IndexOf(skinned.rootBone));
             return shown;
+        }
+
+        private static Transform Carried(ShownMesh shown, Transform original, Transform given, Transform joint)
+        {
+            Transform made = EditorUtility.CreateGameObjectWithHideFlags(given.name, HideFlags.HideAndDontSave).transform;
+            made.SetParent(joint, false);
+            shown.Carried.Add(new CarriedBone { Original = original, Given = given, Shown = made });
+            return made;
         }
 
         private static void Write(ShownMesh shown, RendererResult renderer)
@@ -153,7 +198,7 @@ namespace SuperDeform.Editor.Ndmf
         public Task<IRenderFilterNode> Refresh(IEnumerable<(Renderer, Renderer)> proxyPairs, ComputeContext context, RenderAspects updatedAspects)
         {
             bool same = (updatedAspects & RenderAspects.Mesh) == 0 && !hasRested;
-            if (!same || figure == null || component == null || skeleton.Root == null)
+            if (!same || !HaveSameBones(proxyPairs) || figure == null || component == null || skeleton.Root == null)
                 return Task.FromResult<IRenderFilterNode>(null);
             this.context = context;
             if ((updatedAspects & RenderAspects.Shapes) != 0)
@@ -177,10 +222,24 @@ namespace SuperDeform.Editor.Ndmf
             return Task.FromResult<IRenderFilterNode>(this);
         }
 
+        /// <summary>Whether filters before this one give the bones that they gave.</summary>
+        private bool HaveSameBones(IEnumerable<(Renderer, Renderer)> proxyPairs)
+        {
+            foreach ((Renderer, Renderer) pair in proxyPairs)
+            {
+                ShownMesh shown;
+                var skinned = pair.Item2 as SkinnedMeshRenderer;
+                if (skinned != null && meshes.TryGetValue(pair.Item1, out shown) && !skinned.bones.SequenceEqual(shown.Given))
+                    return false;
+            }
+            return true;
+        }
+
         private void WriteAll()
         {
             foreach (RendererResult renderer in figure.Result.Renderers)
-                Write(meshes[renderer.Source.Renderer], renderer);
+                if (!renderer.Source.Rides)
+                    Write(meshes[renderer.Source.Renderer], renderer);
         }
 
         /// <summary>Has a step tried in every round of the editor; it waits until nothing has changed for a while.</summary>
@@ -232,9 +291,25 @@ namespace SuperDeform.Editor.Ndmf
             skeleton.Place(figure.Avatar.Root.transform, Vector3.zero);
             if (skeleton.HasMoved())
                 skeleton.Stand(figure.Result);
+            foreach (ShownMesh shown in meshes.Values)
+                foreach (CarriedBone bone in shown.Carried)
+                    if (bone.Original != null && bone.Given != null)
+                        Stand(bone);
         }
 
-        /// <summary>Each frame begins with the original's mesh and bones.</summary>
+        /// <summary>A bone of another filter stands beside the moved joint as it stands beside the avatar's.</summary>
+        private static void Stand(CarriedBone bone)
+        {
+            Matrix4x4 beside = bone.Original.worldToLocalMatrix * bone.Given.localToWorldMatrix;
+            bone.Shown.localPosition = new Vector3(beside.m03, beside.m13, beside.m23);
+            bone.Shown.localRotation = beside.rotation;
+            bone.Shown.localScale = beside.lossyScale;
+        }
+
+        /// <summary>
+        /// Each frame begins with the original's mesh and bones. Nothing is hung elsewhere: that would be a change of the hierarchy, of
+        /// which the whole editor hears.
+        /// </summary>
         public void OnFrame(Renderer original, Renderer proxy)
         {
             ShownMesh shown;
@@ -244,40 +319,50 @@ namespace SuperDeform.Editor.Ndmf
             var skinned = proxy as SkinnedMeshRenderer;
             if (skinned == null)
             {
-                proxy.GetComponent<MeshFilter>().sharedMesh = shown.Mesh;
-                Transform place = proxy.transform;
-                place.SetParent(shown.Holder, false);
-                place.localPosition = Vector3.zero;
-                place.localRotation = Quaternion.identity;
-                place.localScale = Vector3.one;
+                if (shown.Mesh != null)
+                    proxy.GetComponent<MeshFilter>().sharedMesh = shown.Mesh;
+                Place(proxy.transform, shown.Holder);
                 return;
             }
-            skinned.sharedMesh = shown.Mesh;
+            if (shown.Mesh != null)
+                skinned.sharedMesh = shown.Mesh;
             skinned.bones = shown.Bones;
             skinned.rootBone = shown.RootBone;
             skinned.localBounds = shown.Bounds;
         }
 
-        /// <summary>Gives NDMF its proxies back, which would go with the skeleton.</summary>
-        private static void Release(Transform holder)
+        /// <summary>Puts a proxy where a joint is, whatever it hangs from.</summary>
+        private void Place(Transform proxy, Transform joint)
         {
-            for (int child = holder == null ? -1 : holder.childCount - 1; child >= 0; child--)
+            Vector3 size = joint.lossyScale, above = proxy.parent == null ? Vector3.one : proxy.parent.lossyScale;
+            proxy.position = joint.position;
+            proxy.rotation = joint.rotation;
+            proxy.localScale = new Vector3(size.x / above.x, size.y / above.y, size.z / above.z);
+            placed.Add(proxy);
+        }
+
+        /// <summary>Gives NDMF its proxies back where it had put them.</summary>
+        private void Release()
+        {
+            foreach (Transform proxy in placed)
             {
-                Transform hung = holder.GetChild(child);
-                if (hung.GetComponent<Renderer>() != null)
-                    hung.SetParent(null, false);
+                if (proxy == null)
+                    continue;
+                proxy.localPosition = Vector3.zero;
+                proxy.localRotation = Quaternion.identity;
+                proxy.localScale = Vector3.one;
             }
+            placed.Clear();
         }
 
         public void Dispose()
         {
             EditorApplication.update -= ReadAnew;
             EditorApplication.update -= Settle;
+            Release();
             foreach (ShownMesh shown in meshes.Values)
-            {
-                Release(shown.Holder);
-                UnityEngine.Object.DestroyImmediate(shown.Mesh);
-            }
+                if (shown.Mesh != null)
+                    UnityEngine.Object.DestroyImmediate(shown.Mesh);
             if (skeleton != null)
                 skeleton.Destroy();
             if (figure != null)

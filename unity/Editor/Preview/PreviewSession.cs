@@ -47,7 +47,7 @@ namespace SuperDeform.Editor
                 Weights(worn);
                 skeleton = new ProxySkeleton(Avatar);
                 foreach (RendererResult renderer in figure.Result.Renderers)
-                    if (renderer.Source.Parts.Count > 0)
+                    if (IsShown(renderer.Source))
                         renderers.Add(new ProxyRenderer(Avatar, renderer, skeleton));
                 Show();
                 Place();
@@ -62,6 +62,11 @@ namespace SuperDeform.Editor
                 Dispose();
                 throw ConversionException.From(cause, avatar);
             }
+        }
+
+        private static bool IsShown(RendererData data)
+        {
+            return data.Parts.Count > 0 || data.Rides;
         }
 
         /// <summary>The root of what is shown.</summary>
@@ -288,7 +293,7 @@ namespace SuperDeform.Editor
         private void Hide()
         {
             foreach (RendererData data in Avatar.Renderers)
-                if (data.Renderer != null && data.Parts.Count > 0 && !data.Renderer.forceRenderingOff)
+                if (data.Renderer != null && IsShown(data) && !data.Renderer.forceRenderingOff)
                 {
                     data.Renderer.forceRenderingOff = true;
                     hidden.Add(data.Renderer);

@@ -38,7 +38,7 @@ namespace SuperDeform.Editor
                 mesh.bindposes = bindPoses;
             }
 
-            var holder = new GameObject(source.Renderer.name) { hideFlags = HideFlags.HideAndDontSave };
+            GameObject holder = EditorUtility.CreateGameObjectWithHideFlags(source.Renderer.name, HideFlags.HideAndDontSave);
             holder.layer = source.Renderer.gameObject.layer;
             holder.transform.SetParent(skeleton.Root, false);
             renderer = holder.AddComponent<SkinnedMeshRenderer>();

@@ -1,3 +1,4 @@
+using UnityEditor;
 using UnityEngine;
 using UnityEngine.SceneManagement;
 
@@ -17,7 +18,8 @@ namespace SuperDeform.Editor
         internal ProxySkeleton(AvatarData avatar)
         {
             this.avatar = avatar;
-            Root = new GameObject(avatar.Root.name + " (preview)") { hideFlags = HideFlags.HideAndDontSave }.transform;
+            // Hidden from the start: what is hidden later has changed the scene by then.
+            Root = EditorUtility.CreateGameObjectWithHideFlags(avatar.Root.name + " (preview)", HideFlags.HideAndDontSave).transform;
             // The scene of the avatar, which need not be the active one; the view of a prefab shows its own alone.
             if (avatar.Root.scene.IsValid())
                 SceneManager.MoveGameObjectToScene(Root.gameObject, avatar.Root.scene);
@@ -33,7 +35,7 @@ namespace SuperDeform.Editor
                     joints[joint] = Root;
                     continue;
                 }
-                joints[joint] = new GameObject(source.name) { hideFlags = HideFlags.HideAndDontSave }.transform;
+                joints[joint] = EditorUtility.CreateGameObjectWithHideFlags(source.name, HideFlags.HideAndDontSave).transform;
                 joints[joint].SetParent(Of(avatar.Parents[joint]), false);
                 joints[joint].localScale = source.localScale;
             }
@@ -92,6 +94,7 @@ namespace SuperDeform.Editor
                 turns[joint] = source.localRotation;
                 joints[joint].localPosition = places[joint] + result.LocalShifts[joint];
                 joints[joint].localRotation = turns[joint];
+                joints[joint].localScale = source.localScale * result.LocalScale(joint);
             }
         }
 

@@ -31,6 +31,12 @@ namespace SuperDeform.Editor
         /// </summary>
         public int[] MergedParents;
 
+        /// <summary>
+        /// By joint: the joint that holds the pet that it is of, a humanoid that is neither the avatar nor an outfit; else -1. A pet
+        /// keeps its shape, and grows with the avatar's height.
+        /// </summary>
+        public int[] PetOf;
+
         /// <summary>By joint: its transform to its parent's space, as it stands.</summary>
         public Affine[] Local;
 

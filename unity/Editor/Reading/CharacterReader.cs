@@ -72,6 +72,12 @@ namespace SuperDeform.Editor
                 if (shown == null || !shown.TryGetValue(renderer, out instead) || instead == null) instead = renderer;
                 Mesh mesh = RendererReader.MeshOf(instead);
                 if (mesh == null) continue;
+                Transform outside = RendererReader.MoverOutside(renderer, data.Root.transform);
+                if (outside != null)
+                {
+                    data.Findings.Add(new Finding("bone_outside", Severity.Warning, renderer, renderer.name, outside.name, data.Root.name));
+                    continue;
+                }
                 if (!mesh.isReadable) throw new ConversionException(Readability.NotReadable(mesh, renderer));
                 data.Renderers.Add(new RendererData { Renderer = renderer, Shown = instead, Mesh = mesh, Vertices = mesh.vertices });
             }
@@ -161,6 +167,13 @@ namespace SuperDeform.Editor
             Double3 forward = data.Rigged ? Facing.Of(roles, data.Rest) : new Double3(0, 0, 1);
             data.Character = new Character(Up, new[] { (float)forward.X, (float)forward.Y, (float)forward.Z });
             Outfits.Find(data, roles);
+            Pets.Find(data);
+            foreach (RendererData renderer in data.Renderers)
+            {
+                renderer.Rides = Pets.Moves(data, renderer);
+                if (renderer.Rides) renderer.Parts.Clear();
+            }
+            data.Parts.RemoveAll(part => part.Renderer.Rides);
             if (data.Rigged) data.Character.SetSkeleton(Skeleton(data, EyeBones.Added(data, roles)));
             AddMeshes(data);
             AddMorphTargets(data);

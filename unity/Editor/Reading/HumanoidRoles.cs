@@ -30,8 +30,30 @@ namespace SuperDeform.Editor
         {
             Animator own = root.GetComponent<Animator>();
             if (IsHumanoid(own)) return own;
-            Animator[] below = Array.FindAll(root.GetComponentsInChildren<Animator>(true), IsHumanoid);
-            return below.Length == 1 ? below[0] : own;
+            List<Animator> below = Bodies(root);
+            return below.Count == 1 ? below[0] : own;
+        }
+
+        /// <summary>
+        /// The humanoid animators of an object and below it whose bones move a mesh. One whose bones are gone, as a build leaves it
+        /// on an outfit that it has merged, moves nothing and is none.
+        /// </summary>
+        internal static List<Animator> Bodies(GameObject root)
+        {
+            HashSet<Transform> moving = new HashSet<Transform>();
+            foreach (Renderer renderer in root.GetComponentsInChildren<Renderer>(true))
+            {
+                SkinnedMeshRenderer skinned = renderer as SkinnedMeshRenderer;
+                if (RendererReader.MeshOf(renderer) != null) moving.UnionWith(skinned == null ? new[] { renderer.transform } : skinned.bones);
+            }
+            Animator[] humanoids = Array.FindAll(root.GetComponentsInChildren<Animator>(true), IsHumanoid);
+            return new List<Animator>(humanoids).FindAll(animator => Moves(animator, moving));
+        }
+
+        static bool Moves(Animator animator, HashSet<Transform> moving)
+        {
+            Transform hips = Of(animator)[(int)HumanBodyBones.Hips];
+            return hips != null && Array.Exists(hips.GetComponentsInChildren<Transform>(true), moving.Contains);
         }
 
         /// <summary>
@@ -45,7 +67,9 @@ namespace SuperDeform.Editor
             HumanBone[] human = animator.avatar.humanDescription.human ?? new HumanBone[0];
             for (int role = 0; role < Count; role++)
             {
-                roles[role] = animator.GetBoneTransform((HumanBodyBones)role);
+                Transform known = animator.GetBoneTransform((HumanBodyBones)role);
+                // An Animator goes on naming bones that a build has hung elsewhere.
+                if (known != null && known.IsChildOf(animator.transform)) roles[role] = known;
                 // Animators of prefabs and of inactive objects may not know their bones yet.
                 if (roles[role] != null) continue;
                 string humanName = HumanTrait.BoneName[role];

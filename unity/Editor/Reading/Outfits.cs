@@ -10,21 +10,15 @@ namespace SuperDeform.Editor
     /// joints are twins of the avatar's, and objects that a component puts under a bone.
     /// </summary>
     /// <remarks>
-    /// Twins are found as Modular Avatar's Merge Armature maps them where that component is there, else by roles of the
-    /// outfit's own humanoid Animator, else by name and place: prefix + name + suffix, at the same place.
+    /// Twins are found as Modular Avatar's Merge Armature or VRCFury's Armature Link maps them where such a component is there, else
+    /// by roles of the outfit's own humanoid Animator, else by name: prefix + name + suffix. An armature is judged as a whole: where
+    /// most of it lies as the avatar's does, but for its size, all its joints are twins, wherever each lies.
     /// </remarks>
     internal static class Outfits
     {
-        const string MergeArmature = "nadena.dev.modular_avatar.core.ModularAvatarMergeArmature";
         const string BoneProxy = "nadena.dev.modular_avatar.core.ModularAvatarBoneProxy";
         const string ParentConstraint = "UnityEngine.Animations.ParentConstraint";
         const string VrcParentConstraint = "VRC.SDK3.Dynamics.Constraint.Components.VRCParentConstraint";
-
-        /// <summary>
-        /// "The same place", as a share of the way from hips to head: 3 cm on a grown-up, about what garments made for one
-        /// body differ by. Other joints of the same name are farther away.
-        /// </summary>
-        const double SamePlace = 0.05;
 
         /// <summary>Fills in Twins and MergedParents.</summary>
         /// <param name="roles">By HumanBodyBones: the avatar's joint, or -1.</param>
@@ -39,7 +33,8 @@ namespace SuperDeform.Editor
             data.MergedParents = (int[])data.Parents.Clone();
             if (HumanoidRoles.Missing(role => roles[role] >= 0) != null) return;
             Pairing pairing = new Pairing(data, roles);
-            pairing.MergeArmatures();
+            List<OutfitLink> links = OutfitLinks.Of(data.Root, role => role >= 0 && role < HumanoidRoles.Count && roles[role] >= 0 ? data.Joints[roles[role]] : null);
+            pairing.Linked(links);
             pairing.Animators();
             pairing.Names();
             for (int joint = 0; joint < count; joint++)
@@ -47,32 +42,23 @@ namespace SuperDeform.Editor
                 // A twin hangs from its base, at no distance; whatever else hangs from the twin goes with it.
                 if (data.Twins[joint] != joint) data.MergedParents[joint] = data.Twins[joint];
             }
-            pairing.Attached();
+            pairing.Attached(links);
         }
 
         sealed class Pairing
         {
             readonly AvatarData data;
             readonly int[] roles;
-            readonly bool[] ofBody, carries;
-            readonly double near;
+            readonly bool[] ofBody, carries, linked;
+            readonly ArmatureFit fit;
 
             internal Pairing(AvatarData data, int[] roles)
             {
                 this.data = data;
                 this.roles = roles;
-                int hips = roles[(int)HumanBodyBones.Hips];
-                near = SamePlace * (Place(roles[(int)HumanBodyBones.Head]) - Place(hips)).Length;
-                // The body: joints with roles, what hangs from them, and what they hang from.
-                ofBody = new bool[data.Joints.Length];
-                for (int joint = 0; joint < ofBody.Length; joint++)
-                {
-                    ofBody[joint] = Array.IndexOf(roles, joint) >= 0 || data.Parents[joint] >= 0 && ofBody[data.Parents[joint]];
-                }
-                for (int joint = hips; joint >= 0; joint = data.Parents[joint])
-                {
-                    ofBody[joint] = true;
-                }
+                fit = new ArmatureFit(data, roles);
+                ofBody = OfBody(data, roles);
+                linked = new bool[data.Joints.Length];
                 // Joints that move a mesh, and what those hang from; controls of a rig move none.
                 carries = new bool[data.Joints.Length];
                 foreach (RendererData renderer in data.Renderers)
@@ -85,41 +71,33 @@ namespace SuperDeform.Editor
                 }
             }
 
-            Double3 Place(int joint)
+            /// <summary>What components say, wherever it stands.</summary>
+            internal void Linked(List<OutfitLink> links)
             {
-                return data.Rest[joint].Position;
-            }
-
-            bool IsNear(int one, int other)
-            {
-                return (Place(one) - Place(other)).Length <= near;
-            }
-
-            /// <summary>What Modular Avatar will merge, wherever it stands: its own rule.</summary>
-            internal void MergeArmatures()
-            {
-                foreach (Component component in All(MergeArmature))
+                foreach (OutfitLink link in links)
                 {
-                    using (SerializedObject properties = new SerializedObject(component))
-                    {
-                        Transform target = Target(properties);
-                        int from = data.IndexOf(component.transform), to = data.IndexOf(target);
-                        if (from < 0 || target == null || to < 0 && target != data.Root.transform) continue;
-                        string prefix = Serialized.TextAt(properties, "prefix") ?? "", suffix = Serialized.TextAt(properties, "suffix") ?? "";
-                        // The component's own object stands for the target, which is often no bone.
-                        if (to >= 0 && ofBody[to]) data.Twins[from] = to;
-                        Walk(component.transform, target, prefix, suffix, false);
-                    }
+                    int from = data.IndexOf(link.From), to = data.IndexOf(link.To);
+                    if (from < 0 || to < 0 && link.To != data.Root.transform || !link.Recursive) continue;
+                    // The first object stands for its target, which is often no bone.
+                    Pair(from, to);
+                    linked[from] = true;
+                    WalkLinked(link.From, link.To, link.NameOf);
                 }
             }
 
-            Transform Target(SerializedObject properties)
+            void WalkLinked(Transform outfit, Transform avatar, Func<string, string> nameOf)
             {
-                Transform direct = Serialized.TransformAt(properties, "mergeTarget.targetObject");
-                if (direct != null) return direct;
-                string path = Serialized.TextAt(properties, "mergeTarget.referencePath");
-                if (string.IsNullOrEmpty(path)) return null;
-                return path == "$$$AVATAR_ROOT$$$" ? data.Root.transform : data.Root.transform.Find(path);
+                for (int index = 0; index < outfit.childCount; index++)
+                {
+                    Transform child = outfit.GetChild(index);
+                    int joint = data.IndexOf(child);
+                    // An armature within has a target of its own; the body's joints are nobody's twins.
+                    if (joint < 0 || ofBody[joint] || Has(child, OutfitLinks.MergeArmature)) continue;
+                    linked[joint] = true;
+                    string name = nameOf(child.name);
+                    Transform twin = string.IsNullOrEmpty(name) ? null : avatar.Find(name);
+                    if (twin != null && Pair(joint, data.IndexOf(twin))) WalkLinked(child, twin, nameOf);
+                }
             }
 
             /// <summary>Outfits that are humanoids themselves, as many are sold: their Avatar names their bones.</summary>
@@ -129,79 +107,82 @@ namespace SuperDeform.Editor
                 {
                     if (animator == data.Animator || !HumanoidRoles.IsHumanoid(animator)) continue;
                     Transform[] own = HumanoidRoles.Of(animator);
+                    List<KeyValuePair<int, int>> pairs = new List<KeyValuePair<int, int>>();
                     for (int role = 0; role < own.Length; role++)
                     {
                         int joint = data.IndexOf(own[role]);
-                        if (joint >= 0 && roles[role] >= 0) Pair(joint, roles[role], true);
+                        if (joint >= 0 && roles[role] >= 0 && IsFree(joint)) pairs.Add(new KeyValuePair<int, int>(joint, roles[role]));
                     }
+                    if (fit.Lies(pairs)) PairAll(pairs);
                 }
             }
 
-            /// <summary>Joints that are called like the avatar's and lie where those lie, and what hangs from them.</summary>
+            /// <summary>Joints that are called like the avatar's, armature by armature, and what hangs from twins.</summary>
             internal void Names()
             {
+                foreach (List<KeyValuePair<int, int>> armature in NamedArmatures.Of(data, roles, joint => carries[joint] && IsFree(joint)))
+                {
+                    if (fit.Lies(armature)) PairAll(armature);
+                }
                 for (int joint = 0; joint < data.Joints.Length; joint++)
                 {
-                    if (ofBody[joint] || !carries[joint]) continue;
-                    int twin = data.Twins[joint];
-                    if (twin == joint) twin = Namesake(joint);
-                    if (twin < 0) continue;
-                    string name = data.Joints[joint].name, of = data.Joints[twin].name;
-                    int at = name.IndexOf(of, StringComparison.Ordinal);
-                    Pair(joint, twin, true);
-                    if (at < 0) Walk(data.Joints[joint], data.Joints[twin], "", "", true);
-                    else Walk(data.Joints[joint], data.Joints[twin], name.Substring(0, at), name.Substring(at + of.Length), true);
+                    // What a component says of an armature is all that a build merges of it.
+                    if (data.Twins[joint] != joint && !linked[joint]) WalkNames(joint);
                 }
             }
 
-            /// <summary>The joint with a role whose name is in this one's, at its place; -1: none.</summary>
-            int Namesake(int joint)
+            /// <summary>Pairs the children of a twin that are called as the avatar's joint's are, such as a twist bone's or a toe's.</summary>
+            void WalkNames(int joint)
             {
-                int best = -1;
-                foreach (int role in roles)
-                {
-                    if (role < 0 || !IsNear(joint, role) || data.Joints[joint].name.IndexOf(data.Joints[role].name, StringComparison.Ordinal) < 0) continue;
-                    if (best < 0 || data.Joints[role].name.Length > data.Joints[best].name.Length) best = role;
-                }
-                return best;
-            }
-
-            /// <summary>Pairs children with children, down both hierarchies.</summary>
-            void Walk(Transform outfit, Transform avatar, string prefix, string suffix, bool placed)
-            {
+                Transform outfit = data.Joints[joint], avatar = data.Joints[data.Twins[joint]];
+                int at = outfit.name.IndexOf(avatar.name, StringComparison.Ordinal);
+                string prefix = at < 0 ? "" : outfit.name.Substring(0, at), suffix = at < 0 ? "" : outfit.name.Substring(at + avatar.name.Length);
                 for (int index = 0; index < outfit.childCount; index++)
                 {
-                    Transform child = outfit.GetChild(index);
-                    int joint = data.IndexOf(child);
-                    // An armature within has a target of its own; the body's joints are nobody's twins.
-                    if (joint < 0 || ofBody[joint] || Has(child, MergeArmature)) continue;
-                    string name = child.name;
-                    bool fits = name.Length > prefix.Length + suffix.Length && name.StartsWith(prefix, StringComparison.Ordinal)
-                        && name.EndsWith(suffix, StringComparison.Ordinal);
-                    if (!fits) continue;
-                    Transform twin = avatar.Find(name.Substring(prefix.Length, name.Length - prefix.Length - suffix.Length));
-                    if (twin != null && Pair(joint, data.IndexOf(twin), placed)) Walk(child, twin, prefix, suffix, placed);
+                    int child = data.IndexOf(outfit.GetChild(index));
+                    string name = child < 0 || !IsFree(child) ? null : OutfitLinks.Between(data.Joints[child].name, prefix, suffix);
+                    Transform twin = name == null ? null : avatar.Find(name);
+                    if (twin != null) Pair(child, data.IndexOf(twin));
+                }
+            }
+
+            bool IsFree(int joint)
+            {
+                return !ofBody[joint] && !linked[joint] && data.Twins[joint] == joint;
+            }
+
+            void PairAll(List<KeyValuePair<int, int>> pairs)
+            {
+                foreach (KeyValuePair<int, int> pair in pairs)
+                {
+                    Pair(pair.Key, pair.Value);
                 }
             }
 
             /// <summary>True where they are paired, now or before.</summary>
-            bool Pair(int joint, int twin, bool placed)
+            bool Pair(int joint, int twin)
             {
-                if (twin < 0 || ofBody[joint] || !ofBody[twin] || placed && !IsNear(joint, twin)) return data.Twins[joint] == twin && twin != joint;
-                if (data.Twins[joint] == joint) data.Twins[joint] = twin;
-                return data.Twins[joint] == twin;
+                if (twin >= 0 && !ofBody[joint] && ofBody[twin] && data.Twins[joint] == joint) data.Twins[joint] = twin;
+                return data.Twins[joint] == twin && twin != joint;
             }
 
             /// <summary>Objects that a component carries along with a bone hang from that bone.</summary>
-            internal void Attached()
+            internal void Attached(List<OutfitLink> links)
             {
+                foreach (OutfitLink link in links)
+                {
+                    if (!link.Recursive) Attach(data.IndexOf(link.From), data.IndexOf(link.To));
+                }
                 foreach (Component component in data.Root.GetComponentsInChildren<Component>(true))
                 {
-                    if (component == null) continue;
-                    int joint = data.IndexOf(component.transform), bone = Bone(component);
-                    if (joint < 0 || bone < 0 || ofBody[joint] || data.Twins[joint] != joint || IsBelow(bone, joint)) continue;
-                    data.MergedParents[joint] = bone;
+                    if (component != null) Attach(data.IndexOf(component.transform), Bone(component));
                 }
+            }
+
+            void Attach(int joint, int bone)
+            {
+                if (joint < 0 || bone < 0 || ofBody[joint] || data.Twins[joint] != joint || IsBelow(bone, joint)) return;
+                data.MergedParents[joint] = bone;
             }
 
             /// <summary>The joint that a component puts its object under; -1: none.</summary>
@@ -231,20 +212,25 @@ namespace SuperDeform.Editor
                 return false;
             }
 
-            List<Component> All(string type)
-            {
-                List<Component> found = new List<Component>();
-                foreach (Component component in data.Root.GetComponentsInChildren<Component>(true))
-                {
-                    if (component != null && Serialized.TypeOf(component) == type) found.Add(component);
-                }
-                return found;
-            }
-
             static bool Has(Transform transform, string type)
             {
                 return Array.Exists(transform.GetComponents<Component>(), component => component != null && Serialized.TypeOf(component) == type);
             }
+        }
+
+        /// <summary>By joint, whether it is the body's: one with a role, what hangs from those, and what they hang from.</summary>
+        internal static bool[] OfBody(AvatarData data, int[] roles)
+        {
+            bool[] ofBody = new bool[data.Joints.Length];
+            for (int joint = 0; joint < ofBody.Length; joint++)
+            {
+                ofBody[joint] = Array.IndexOf(roles, joint) >= 0 || data.Parents[joint] >= 0 && ofBody[data.Parents[joint]];
+            }
+            for (int joint = roles[(int)HumanBodyBones.Hips]; joint >= 0; joint = data.Parents[joint])
+            {
+                ofBody[joint] = true;
+            }
+            return ofBody;
         }
     }
 }

@@ -47,6 +47,9 @@ namespace SuperDeform.Editor
 
         public readonly List<PartData> Parts = new List<PartData>();
 
+        /// <summary>True for a pet's mesh: it stays as it is, and goes where its bones go.</summary>
+        public bool Rides;
+
         /// <summary>The joint in whose space Unity keeps the renderer's bounds; -1: the avatar's root.</summary>
         public int BoundsJoint;
     }

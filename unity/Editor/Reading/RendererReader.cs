@@ -41,7 +41,7 @@ namespace SuperDeform.Editor
         {
             SkinnedMeshRenderer skinned = renderer.Renderer as SkinnedMeshRenderer;
             Transform carrier = Carrier(renderer.Renderer);
-            renderer.Joint = carrier == data.Root.transform ? data.IndexOf(carrier) : Inside(carrier, renderer, data);
+            renderer.Joint = data.IndexOf(carrier);
             renderer.BoundsJoint = data.IndexOf(skinned != null && skinned.rootBone != null ? skinned.rootBone : renderer.Renderer.transform);
             if (skinned == null || skinned.bones.Length == 0) return;
             Transform[] bones = skinned.bones;
@@ -56,17 +56,18 @@ namespace SuperDeform.Editor
             skin.MeshToModel = own < 0 ? Affine.Identity : world[own];
             for (int bone = 0; bone < bones.Length; bone++)
             {
-                skin.Joints[bone] = bones[bone] == null ? -1 : Inside(bones[bone], renderer, data);
+                skin.Joints[bone] = data.IndexOf(bones[bone]);
                 skin.InverseBinds[bone] = bone < binds.Length ? Affine.Of(binds[bone]) : Affine.Identity;
             }
             if (ReadWeights(renderer, skin)) renderer.Skin = skin;
         }
 
-        static int Inside(Transform bone, RendererData renderer, AvatarData data)
+        /// <summary>A transform that moves a renderer's mesh from outside of the avatar; null where none does.</summary>
+        internal static Transform MoverOutside(Renderer renderer, Transform root)
         {
-            int joint = data.IndexOf(bone);
-            if (joint >= 0) return joint;
-            throw new ConversionException(new Finding("bone_outside", Severity.Error, renderer.Renderer, renderer.Renderer.name, bone.name, data.Root.name));
+            SkinnedMeshRenderer skinned = renderer as SkinnedMeshRenderer;
+            Transform[] movers = skinned == null || skinned.bones.Length == 0 ? new[] { Carrier(renderer) } : skinned.bones;
+            return Array.Find(movers, mover => mover != null && !mover.IsChildOf(root));
         }
 
         /// <summary>

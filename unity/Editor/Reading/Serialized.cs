@@ -31,6 +31,13 @@ namespace SuperDeform.Editor
             return property == null ? other : property.intValue;
         }
 
+        /// <summary>Whether the switch at a path is on; other where there is none.</summary>
+        internal static bool BoolAt(SerializedObject component, string path, bool other)
+        {
+            SerializedProperty property = component.FindProperty(path);
+            return property == null ? other : property.boolValue;
+        }
+
         /// <summary>The transform that the object at a path is or hangs on; null where there is none.</summary>
         internal static Transform TransformAt(SerializedObject component, string path)
         {

@@ -137,7 +137,11 @@ namespace SuperDeform.Editor
             stale = true;
             try
             {
-                model.SetResult(Converter.Convert(model.Avatar, model.Settings, progress));
+                bool replace;
+                ConversionSettings settings = model.Settings;
+                if (!MayReplace(ref settings, out replace))
+                    return false;
+                model.SetResult(Converter.Convert(model.Avatar, settings, progress, replace));
                 return true;
             }
             catch (Exception fault)
@@ -145,6 +149,26 @@ namespace SuperDeform.Editor
                 model.SetFailure(Reason(fault));
                 return false;
             }
+        }
+
+        /// <summary>Asks where a result may be another avatar's, that stood in the same place.</summary>
+        /// <param name="settings">Those for a new copy, where that is what the person wants.</param>
+        /// <returns>Whether to go on.</returns>
+        private bool MayReplace(ref ConversionSettings settings, out bool replace)
+        {
+            replace = false;
+            ResultUpdate earlier = Converter.Earlier(model.Avatar, settings);
+            if (earlier == null || earlier.Match == SourceMatch.Same || Application.isBatchMode)
+                return true;
+            int answer = EditorUtility.DisplayDialogComplex(Strings.Get("window.title"),
+                Strings.Get("ask_replace", earlier.PrefabPath, earlier.MadeFrom, model.Avatar.name),
+                Strings.Get("ask_replace.replace"), Strings.Get("ask_replace.cancel"), Strings.Get("report.new_copy"));
+            replace = answer == 0;
+            if (answer != 2)
+                return replace;
+            settings = settings.Clone();
+            settings.NewCopy = true;
+            return true;
         }
 
         /// <summary>Saves the style as a file that can be chosen as a saved style.</summary>

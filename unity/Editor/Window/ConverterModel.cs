@@ -31,6 +31,8 @@ namespace SuperDeform.Editor
         [NonSerialized] private Finding failure, previewFailure;
         [NonSerialized] private PreviewNumbers numbers;
         [NonSerialized] private ConversionResult result;
+        [NonSerialized] private ResultUpdate earlier;
+        [NonSerialized] private bool earlierKnown;
         [NonSerialized] private string language;
 
         /// <summary>Comes before a change, with words for the Undo menu.</summary>
@@ -68,6 +70,25 @@ namespace SuperDeform.Editor
                     findings = Avatar == null ? new List<Finding>() : AvatarChecks.Of(Avatar, Settings.RigAuto);
                 return findings;
             }
+        }
+
+        /// <summary>The result that a conversion would bring up to date; null where it would make a new one.</summary>
+        internal ResultUpdate Earlier
+        {
+            get
+            {
+                if (!earlierKnown)
+                    earlier = Converter.Earlier(Avatar, Settings);
+                earlierKnown = true;
+                return earlier;
+            }
+        }
+
+        /// <summary>Looks for the earlier result anew.</summary>
+        internal void ForgetEarlier()
+        {
+            earlierKnown = false;
+            Touched();
         }
 
         /// <summary>Why the last conversion failed; null where it did not, and after a change.</summary>
@@ -137,6 +158,7 @@ namespace SuperDeform.Editor
         public void Recheck()
         {
             findings = null;
+            earlierKnown = false;
             Touch();
         }
 
@@ -168,7 +190,7 @@ namespace SuperDeform.Editor
         {
             result = made;
             failure = null;
-            sections = null;
+            ForgetEarlier();
         }
 
         /// <summary>The scale of a bone group that the style asks for; 1 before there is a preview.</summary>

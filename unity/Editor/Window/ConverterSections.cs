@@ -239,16 +239,26 @@ namespace SuperDeform.Editor
             {
                 Label = Strings.Get("report.folder"), Tooltip = Strings.Get("report.folder.tooltip"),
                 Get = () => model.Settings.OutputFolder ?? "",
-                Set = value => model.Change("undo.folder", () => model.Settings.OutputFolder = value)
+                Set = value =>
+                {
+                    model.Change("undo.folder", () => model.Settings.OutputFolder = value);
+                    model.ForgetEarlier();
+                }
             });
             section.Rows.Add(Toggle("report.new_copy", true, () => model.Settings.NewCopy,
-                value => model.Change("undo.folder", () => model.Settings.NewCopy = value)));
+                value =>
+                {
+                    model.Change("undo.folder", () => model.Settings.NewCopy = value);
+                    model.ForgetEarlier();
+                }));
             section.Rows.Add(Toggle("report.place", true, () => model.Settings.PlaceInScene,
                 value => model.Change("undo.folder", () => model.Settings.PlaceInScene = value)));
             section.Rows.Add(new ActionRow
             {
                 Label = Strings.Get("style.keep"), Tooltip = Strings.Get("style.keep.tooltip"), Do = model.SavePreset
             });
+            if (model.Earlier != null)
+                section.Rows.Add(Replaces(model.Earlier));
             section.Rows.Add(new ActionRow
             {
                 Label = Strings.Get("report.convert"), Tooltip = Strings.Get("report.convert.tooltip"), Main = true,
@@ -268,6 +278,18 @@ namespace SuperDeform.Editor
                         section.Rows.Add(Check(model, finding));
             }
             return section;
+        }
+
+        // What will be no more as it is, before the button is pressed.
+        internal static CheckRow Replaces(ResultUpdate earlier)
+        {
+            bool same = earlier.Match == SourceMatch.Same;
+            return new CheckRow
+            {
+                Severity = same ? Severity.Info : Severity.Warning,
+                Label = Strings.Get(same ? "report.replaces" : "report.replaces_perhaps", earlier.PrefabPath, earlier.MadeFrom),
+                Where = UnityEditor.AssetDatabase.LoadAssetAtPath<GameObject>(earlier.PrefabPath)
+            };
         }
 
         // What the checks of the avatar or the preview say already is not said again.

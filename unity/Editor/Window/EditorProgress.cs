@@ -4,16 +4,19 @@ using UnityEngine;
 
 namespace SuperDeform.Editor
 {
-    /// <summary>A progress bar of the editor with a button to cancel; none in batch mode. Dispose takes it away.</summary>
+    /// <summary>A progress bar of the editor, mostly with a button to cancel; none in batch mode. Dispose takes it away.</summary>
     internal sealed class EditorProgress : IConversionProgress, IDisposable
     {
         private readonly string title;
         private readonly double from;
+        private readonly bool cancelable;
         private bool shown;
 
         /// <param name="patience">Seconds without a bar: what takes less shows none.</param>
-        internal EditorProgress(string name, double patience = 0)
+        /// <param name="cancelable">False where there is no way but on, as in a build.</param>
+        internal EditorProgress(string name, double patience = 0, bool cancelable = true)
         {
+            this.cancelable = cancelable;
             title = Strings.Get("progress.title", name);
             from = EditorApplication.timeSinceStartup + patience;
         }
@@ -23,7 +26,10 @@ namespace SuperDeform.Editor
             if (Application.isBatchMode || EditorApplication.timeSinceStartup < from)
                 return true;
             shown = true;
-            return !EditorUtility.DisplayCancelableProgressBar(title, Strings.Get(stageKey), fraction);
+            if (cancelable)
+                return !EditorUtility.DisplayCancelableProgressBar(title, Strings.Get(stageKey), fraction);
+            EditorUtility.DisplayProgressBar(title, Strings.Get(stageKey), fraction);
+            return true;
         }
 
         public void Dispose()

@@ -97,6 +97,8 @@ namespace SuperDeform.Editor
                     RowDrawer.Draw(section, model);
             if (model.Failure != null)
                 RowDrawer.Draw(ConverterSections.Check(model, model.Failure));
+            if (model.Earlier != null)
+                RowDrawer.Draw(ConverterSections.Replaces(model.Earlier));
             EditorGUI.BeginDisabledGroup(!model.CanConvert);
             if (GUILayout.Button(new GUIContent(Strings.Get("component.convert"), Strings.Get("report.convert.tooltip")), GUILayout.Height(32)))
                 EditorApplication.delayCall += Convert;

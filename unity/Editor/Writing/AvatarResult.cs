@@ -75,16 +75,21 @@ namespace SuperDeform.Editor
             int joints = deformer.JointCount;
             if (JointPositions == null || JointPositions.Length != 3 * joints) JointPositions = new double[3 * joints];
             deformer.GetJoints(JointPositions, null);
-            MoveJoints();
             foreach (RendererResult renderer in Renderers)
             {
                 renderer.Spread();
                 if (Source.AsWorn) renderer.Wear();
             }
-            if (atRest) return;
             MeasureHeight();
+            MoveJoints();
             foreach (RendererResult renderer in Renderers)
             {
+                if (renderer.Source.Rides) renderer.Ride(Source, Rest);
+            }
+            if (atRest) return;
+            foreach (RendererResult renderer in Renderers)
+            {
+                if (renderer.Source.Rides) continue;
                 int bounds = renderer.Source.BoundsJoint;
                 if (bounds < 0) renderer.Measure(Affine.Identity, Affine.Identity);
                 else renderer.Measure(Source.Rest[bounds], Rest[bounds]);
@@ -100,14 +105,39 @@ namespace SuperDeform.Editor
             {
                 bool fixedRoot = joint == 0 && Source.HoldsRoot;
                 if (fixedRoot) continue;
-                Rest[joint] = Source.Rest[joint].At(new Double3(JointPositions[3 * joint], JointPositions[3 * joint + 1], JointPositions[3 * joint + 2]));
+                int pet = Source.PetOf[joint];
+                // Parents come first, so that the holder is in its place.
+                if (pet >= 0 && pet != joint) Rest[joint] = Rest[pet] * Source.Rest[pet].Inverse * Source.Rest[joint];
+                else if (pet == joint) Rest[joint] = PetHolder(joint);
+                else Rest[joint] = Source.Rest[joint].At(new Double3(JointPositions[3 * joint], JointPositions[3 * joint + 1], JointPositions[3 * joint + 2]));
             }
             for (int joint = 0; joint < Rest.Length; joint++)
             {
-                Double3 shift = Shift(joint);
+                bool inPet = Source.PetOf[joint] >= 0 && Source.PetOf[joint] != joint;
+                Double3 shift = inPet ? new Double3(0, 0, 0) : Shift(joint);
                 LocalShifts[joint] = shift.ToVector3();
                 LocalPositions[joint] = (Double3.Of(Source.Joints[joint].localPosition) + shift).ToVector3();
             }
+        }
+
+        /// <summary>
+        /// Where a pet's holder comes to rest, smaller as the avatar is: at the joint that carries it, or in its place on the ground.
+        /// </summary>
+        Affine PetHolder(int joint)
+        {
+            Affine scale = new Affine { M00 = HeightRatio, M11 = HeightRatio, M22 = HeightRatio };
+            Double3 old = Source.Rest[joint].Position;
+            bool carried = Source.MergedParents[joint] >= 0;
+            Double3 place = carried
+                ? new Double3(JointPositions[3 * joint], JointPositions[3 * joint + 1], JointPositions[3 * joint + 2])
+                : new Double3(old.X * HeightRatio, NewLow + (old.Y - OldLow) * HeightRatio, old.Z * HeightRatio);
+            return (scale * Source.Rest[joint]).At(place);
+        }
+
+        /// <summary>By how much a joint's transform grows: a pet's holder with the avatar, no other.</summary>
+        internal float LocalScale(int joint)
+        {
+            return Source.Rigged && Source.PetOf[joint] == joint ? (float)HeightRatio : 1;
         }
 
         /// <summary>How far a joint moves in its parent's space; 0 where that cannot be told.</summary>
@@ -132,7 +162,7 @@ namespace SuperDeform.Editor
             OldLow = NewLow = double.PositiveInfinity;
             foreach (RendererResult renderer in Renderers)
             {
-                for (int vertex = 0; vertex < renderer.Positions.Length; vertex++)
+                for (int vertex = 0; vertex < renderer.Positions.Length && !renderer.Source.Rides; vertex++)
                 {
                     double old = renderer.Source.ModelVertices[vertex].y, now = renderer.Positions[vertex].y;
                     OldLow = Math.Min(OldLow, old);

@@ -17,8 +17,9 @@ namespace SuperDeform.Editor
         internal static void Write(GameObject copy, PointMap map, AvatarData source, AvatarResult result, List<Finding> findings)
         {
             RemoveMissingScripts(copy, source, findings);
+            List<RendererResult> renderers = result.Renderers.FindAll(renderer => !renderer.Source.Rides);
             Dictionary<RendererResult, Mesh> made = new Dictionary<RendererResult, Mesh>();
-            foreach (RendererResult renderer in result.Renderers)
+            foreach (RendererResult renderer in renderers)
             {
                 Mesh mesh = source.Rigged ? Shared(renderer, made) : null;
                 if (mesh == null)
@@ -36,10 +37,14 @@ namespace SuperDeform.Editor
                 if (shift.x == 0 && shift.y == 0 && shift.z == 0) continue;
                 map.CopyOf(source.Joints[joint]).localPosition = result.LocalPositions[joint];
             }
+            for (int joint = 0; joint < source.Joints.Length; joint++)
+            {
+                if (result.LocalScale(joint) != 1) map.CopyOf(source.Joints[joint]).localScale *= result.LocalScale(joint);
+            }
             Outlines.Scale(copy, map, findings);
             if (source.Rigged)
             {
-                foreach (RendererResult renderer in result.Renderers)
+                foreach (RendererResult renderer in renderers)
                 {
                     Show(renderer, map);
                 }

@@ -50,9 +50,9 @@ namespace SuperDeform.Editor
             byObject[thing] = name;
         }
 
-        internal IEnumerable<string> Names
+        internal IEnumerable<KeyValuePair<string, Object>> All
         {
-            get { return byName.Keys; }
+            get { return byName; }
         }
 
         /// <summary>The object or component of a name; null where there is none.</summary>
@@ -69,20 +69,20 @@ namespace SuperDeform.Editor
             return thing != null && byObject.TryGetValue(thing, out name) ? name : null;
         }
 
-        /// <summary>Puts others in the place of objects that a component refers to.</summary>
+        /// <summary>Puts others in the place of objects that a thing refers to.</summary>
         /// <param name="other">What to refer to instead; null leaves the reference as it is.</param>
-        internal static void Redirect(Component component, System.Func<Object, Object> other)
+        internal static void Redirect(Object thing, System.Func<Object, Object> other)
         {
-            using (SerializedObject properties = new SerializedObject(component))
+            // Where a transform hangs is no reference of its own, and it has no others.
+            if (thing is Transform || thing is GameObject) return;
+            using (SerializedObject properties = new SerializedObject(thing))
             {
-                SerializedProperty property = properties.GetIterator();
-                while (property.Next(property.propertyPath.Length == 0 || property.propertyType == SerializedPropertyType.Generic))
+                PropertyWalk.Each(properties, property => property.propertyPath != "m_GameObject" && property.propertyPath != "m_Script", property =>
                 {
-                    // Where a component hangs is no reference of its own.
-                    if (property.propertyType != SerializedPropertyType.ObjectReference || property.name == "m_GameObject" || property.name == "m_Script") continue;
+                    if (property.propertyType != SerializedPropertyType.ObjectReference) return;
                     Object now = property.objectReferenceValue, then = now == null ? null : other(now);
                     if (then != null && then != now) property.objectReferenceValue = then;
-                }
+                });
                 properties.ApplyModifiedPropertiesWithoutUndo();
             }
         }

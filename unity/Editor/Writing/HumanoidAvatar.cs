@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using UnityEditor;
 using UnityEngine;
 
 namespace SuperDeform.Editor
@@ -107,14 +108,14 @@ namespace SuperDeform.Editor
             {
                 new SkeletonBone { name = rootName, position = new Vector3(0, 0, 0), rotation = Quaternion.identity, scale = new Vector3(1, 1, 1) }
             };
-            // Unity builds an Avatar for a hierarchy; this one holds nothing but the body.
-            GameObject body = new GameObject(rootName);
+            // Unity builds an Avatar for a hierarchy; this one holds nothing but the body, and belongs to no scene that would be saved.
+            GameObject body = EditorUtility.CreateGameObjectWithHideFlags(rootName, HideFlags.HideAndDontSave);
             try
             {
                 List<Transform> transforms = new List<Transform>();
                 foreach (AvatarNode node in nodes)
                 {
-                    Transform transform = new GameObject(node.Name).transform;
+                    Transform transform = EditorUtility.CreateGameObjectWithHideFlags(node.Name, HideFlags.HideAndDontSave).transform;
                     transform.SetParent(node.Parent < 0 ? body.transform : transforms[node.Parent], false);
                     transform.localPosition = node.Position;
                     transform.localRotation = node.Rotation;

@@ -80,6 +80,19 @@ namespace SuperDeform.Editor
             }
         }
 
+        /// <summary>Brings a mesh that rides along to where its pet is, in the avatar's space.</summary>
+        internal void Ride(AvatarData avatar, Affine[] newRest)
+        {
+            int pet = avatar.PetOf[Source.Skin == null ? Source.Joint : Array.Find(Source.Skin.Joints, joint => joint >= 0 && avatar.PetOf[joint] >= 0)];
+            Affine way = newRest[pet] * avatar.Rest[pet].Inverse;
+            for (int vertex = 0; vertex < Positions.Length; vertex++)
+            {
+                Positions[vertex] = way.Point(Double3.Of(Source.ModelVertices[vertex])).ToVector3();
+            }
+            if (Normals != null) Array.Copy(Source.ModelNormals, Normals, Normals.Length);
+            if (Tangents != null) Array.Copy(Source.ModelTangents, Tangents, Tangents.Length);
+        }
+
         /// <summary>Measures the boxes before and after.</summary>
         /// <param name="oldJoint">The joint that the bounds are kept in, at rest, before.</param>
         /// <param name="newJoint">The same, after.</param>

@@ -75,11 +75,13 @@ namespace SuperDeform.Editor
 
         /// <summary>Writes both files and gives the folder its name.</summary>
         /// <returns>The prefab's path.</returns>
-        internal string Save(GameObject copy, UnityEngine.Object container, IList<UnityEngine.Object> assets)
+        internal string Save(GameObject copy, SuperDeformPreset container, IList<UnityEngine.Object> assets)
         {
             string containerPath = unfinished + "/" + name + ".asset", prefabPath = unfinished + "/" + name + ".prefab";
             SaveAssets(container, assets, containerPath);
             SavePrefab(copy, prefabPath);
+            MadeRecord.Keep(container, new HierarchyPaths(copy), copy, prefabPath, null);
+            SaveContainer(container, containerPath);
             string final = AssetDatabase.GenerateUniqueAssetPath(parent + "/" + name);
             string refusal = AssetDatabase.MoveAsset(unfinished, final);
             if (!string.IsNullOrEmpty(refusal)) throw Refused(final, new IOException(refusal));

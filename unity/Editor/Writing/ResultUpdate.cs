@@ -2,47 +2,56 @@ using System;
 using System.Collections.Generic;
 using System.IO;
 using UnityEditor;
-using UnityEditorInternal;
 using UnityEngine;
 
 namespace SuperDeform.Editor
 {
     /// <summary>
     /// An earlier result of the same avatar, which a conversion brings up to date: the same files with the same GUIDs, so that
-    /// whatever refers to it still does. Objects and components that a person has added to it stay.
+    /// whatever refers to it still does. What a person has added to it, renamed, deleted or set stays.
     /// </summary>
     internal sealed class ResultUpdate
     {
-        readonly string containerPath, prefabPath;
+        readonly string containerPath;
 
-        ResultUpdate(string containerPath)
+        /// <summary>The prefab's path.</summary>
+        internal readonly string PrefabPath;
+
+        /// <summary>Where the avatar that it was made of is, or was.</summary>
+        internal readonly string MadeFrom;
+
+        /// <summary>Whether it is surely of the same avatar, or of one that stood in the same place.</summary>
+        internal readonly SourceMatch Match;
+
+        ResultUpdate(string containerPath, string madeFrom, SourceMatch match)
         {
             this.containerPath = containerPath;
-            prefabPath = Path.ChangeExtension(containerPath, ".prefab");
+            PrefabPath = Path.ChangeExtension(containerPath, ".prefab");
+            MadeFrom = madeFrom;
+            Match = match;
         }
 
-        /// <summary>What an avatar is known by: its asset, the prefab that it is an instance of, or its place in a scene.</summary>
-        internal static string IdentityOf(GameObject avatar)
-        {
-            UnityEngine.Object asset = EditorUtility.IsPersistent(avatar) ? avatar : PrefabUtility.GetCorrespondingObjectFromOriginalSource(avatar);
-            if (asset != null) return AssetDatabase.AssetPathToGUID(AssetDatabase.GetAssetPath(asset)) + "/" + avatar.name;
-            return GlobalObjectId.GetGlobalObjectIdSlow(avatar).ToString();
-        }
-
-        /// <summary>The last result of an avatar; null where there is none.</summary>
+        /// <summary>The last result of an avatar, a sure one rather than a doubtful; null where there is none.</summary>
         /// <param name="folder">Only results in this folder; empty: wherever they were moved to.</param>
-        internal static ResultUpdate Find(string identity, string folder)
+        internal static ResultUpdate Find(SourceIdentity avatar, string folder)
         {
+            ResultUpdate best = null;
+            DateTime newest = DateTime.MinValue;
             foreach (string guid in AssetDatabase.FindAssets("t:SuperDeformPreset"))
             {
                 string path = AssetDatabase.GUIDToAssetPath(guid);
                 SuperDeformPreset preset = AssetDatabase.LoadAssetAtPath<SuperDeformPreset>(path);
-                if (preset == null || preset.Made.Count == 0 || preset.Avatar != identity) continue;
-                if (folder.Length > 0 && Above(Above(path)) != folder) continue;
-                ResultUpdate update = new ResultUpdate(path);
-                if (AssetDatabase.LoadAssetAtPath<GameObject>(update.prefabPath) != null) return update;
+                if (preset == null || preset.Made.Count == 0 || folder.Length > 0 && Above(Above(path)) != folder) continue;
+                SourceMatch match = avatar.Matches(preset.Avatar);
+                if (match == SourceMatch.None || best != null && match < best.Match) continue;
+                ResultUpdate update = new ResultUpdate(path, preset.MadeFrom, match);
+                DateTime written = File.GetLastWriteTimeUtc(Path.GetFullPath(path));
+                bool later = best == null || match > best.Match || written > newest;
+                if (!later || AssetDatabase.LoadAssetAtPath<GameObject>(update.PrefabPath) == null) continue;
+                best = update;
+                newest = written;
             }
-            return null;
+            return best;
         }
 
         static string Above(string path)
@@ -56,11 +65,10 @@ namespace SuperDeform.Editor
         /// <returns>The prefab's path.</returns>
         internal string Save(GameObject copy, SuperDeformPreset preset, IList<UnityEngine.Object> assets)
         {
-            byte[] container = Bytes(containerPath), prefab = Bytes(prefabPath);
+            byte[] container = Bytes(containerPath), prefab = Bytes(PrefabPath);
             try
             {
                 SuperDeformPreset old = AssetDatabase.LoadAssetAtPath<SuperDeformPreset>(containerPath);
-                Additions(copy, old.Made);
                 Dictionary<UnityEngine.Object, UnityEngine.Object> kept = Exchange(old, assets);
                 foreach (Component component in copy.GetComponentsInChildren<Component>(true))
                 {
@@ -70,17 +78,22 @@ namespace SuperDeform.Editor
                 {
                     UnityEngine.Object.DestroyImmediate(asset);
                 }
+                PersonsChanges changes = new PersonsChanges(old.Made, copy);
+                changes.Apply(AssetDatabase.LoadAssetAtPath<GameObject>(PrefabPath));
                 old.Settings = preset.Settings;
-                old.Made = preset.Made;
+                old.Avatar = preset.Avatar;
+                old.MadeFrom = preset.MadeFrom;
                 EditorUtility.SetDirty(old);
                 ResultFolder.SaveContainer(old, containerPath);
-                ResultFolder.SavePrefab(copy, prefabPath);
-                return prefabPath;
+                ResultFolder.SavePrefab(copy, PrefabPath);
+                MadeRecord.Keep(old, changes.MadePaths, copy, PrefabPath, changes);
+                ResultFolder.SaveContainer(old, containerPath);
+                return PrefabPath;
             }
             catch
             {
                 Restore(containerPath, container);
-                Restore(prefabPath, prefab);
+                Restore(PrefabPath, prefab);
                 throw;
             }
         }
@@ -129,55 +142,6 @@ namespace SuperDeform.Editor
                 if (gone != null) UnityEngine.Object.DestroyImmediate(gone, true);
             }
             return kept;
-        }
-
-        /// <summary>Brings over what the old prefab holds beyond what was made then.</summary>
-        void Additions(GameObject copy, IList<string> made)
-        {
-            GameObject contents = PrefabUtility.LoadPrefabContents(prefabPath);
-            try
-            {
-                HashSet<string> known = new HashSet<string>(made);
-                HierarchyPaths before = new HierarchyPaths(contents), now = new HierarchyPaths(copy);
-                List<Component> brought = new List<Component>();
-                Bring(contents.transform, known, before, now, brought);
-                HierarchyPaths after = new HierarchyPaths(copy);
-                foreach (Component component in brought)
-                {
-                    HierarchyPaths.Redirect(component, thing => after.Find(before.NameOf(thing)));
-                }
-            }
-            finally
-            {
-                PrefabUtility.UnloadPrefabContents(contents);
-            }
-        }
-
-        static void Bring(Transform from, HashSet<string> known, HierarchyPaths before, HierarchyPaths now, List<Component> brought)
-        {
-            GameObject place = now.Find(before.NameOf(from.gameObject)) as GameObject;
-            // What was made then and is no more had its reason in the source.
-            if (place == null) return;
-            foreach (Component component in from.GetComponents<Component>())
-            {
-                string name = before.NameOf(component);
-                if (name == null || known.Contains(name) || !ComponentUtility.CopyComponent(component)) continue;
-                if (!ComponentUtility.PasteComponentAsNew(place)) continue;
-                Component[] all = place.GetComponents<Component>();
-                brought.Add(all[all.Length - 1]);
-            }
-            for (int child = 0; child < from.childCount; child++)
-            {
-                Transform one = from.GetChild(child);
-                if (known.Contains(before.NameOf(one.gameObject)))
-                {
-                    Bring(one, known, before, now, brought);
-                    continue;
-                }
-                GameObject added = UnityEngine.Object.Instantiate(one.gameObject, place.transform);
-                added.name = one.name;
-                brought.AddRange(added.GetComponentsInChildren<Component>(true));
-            }
         }
     }
 }

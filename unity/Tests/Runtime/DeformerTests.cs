@@ -103,6 +103,20 @@ public sealed class DeformerTests
     }
 
     [Test]
+    public void A_style_set_later_gives_what_a_new_deformer_gives()
+    {
+        MeshOutput expected = Mannequin.Output(figure.VertexCount), output = Mannequin.Output(figure.VertexCount);
+        using (Style taller = Style.FromHeads(4))
+        {
+            using (Deformer other = new Deformer(character, taller, null)) other.Apply(new[] { expected });
+            deformer.SetStyle(taller);
+        }
+        deformer.Apply(new[] { output });
+        Assert.AreEqual(Bits((Triple[])expected.Positions), Bits((Triple[])output.Positions));
+        Assert.Throws<ArgumentNullException>(() => deformer.SetStyle(null));
+    }
+
+    [Test]
     public void It_keeps_what_it_needs()
     {
         MeshOutput expected = Mannequin.Output(figure.VertexCount), output = Mannequin.Output(figure.VertexCount);

@@ -347,28 +347,36 @@ namespace SuperDeform.Editor.Tests
             Assert.That(ConversionTests.Find(prefab, figure.Bones[Leg].name).GetComponent<MeshCollider>().sharedMesh, Is.Null);
         }
 
-        [Test]
-        public void the_viewpoint_stays_between_the_eyes()
+        [TestCase(1f, 1f)]
+        [TestCase(2f, 1f)]
+        [TestCase(1f, 0.5f)]
+        [TestCase(1.5f, 2f)]
+        public void the_viewpoint_stays_between_the_eyes(float size, float above)
         {
-            foreach (float size in new[] { 1f, 2f })
+            Begin();
+            Transform left = new GameObject("LeftEye").transform, right = new GameObject("RightEye").transform, parent = new GameObject("Above").transform;
+            left.SetParent(figure.Bones[HumanBodyBones.Head], false);
+            right.SetParent(figure.Bones[HumanBodyBones.Head], false);
+            left.position = new Vector3(-0.03f, 1.7f, 0.08f);
+            right.position = new Vector3(0.03f, 1.7f, 0.08f);
+            var descriptor = figure.Root.AddComponent<VRC.SDK3.Avatars.Components.VRCAvatarDescriptor>();
+            parent.localScale = Vector3.one * above;
+            figure.Root.transform.SetParent(parent, false);
+            figure.Root.transform.localScale = Vector3.one * size;
+            figure.Root.transform.position = new Vector3(3, 0, 1);
+            descriptor.ViewPosition = (left.position + right.position) * 0.5f - figure.Root.transform.position;
+            ConversionSettings settings = Settings();
+            settings.PlaceInScene = true;
+            ConversionResult done = Converter.Convert(figure.Root, settings, null);
+            foreach (GameObject made in new[] { done.Prefab, done.Instance })
             {
-                Models.NewProject();
-                figure = new ConversionFigure().Make();
-                Transform left = new GameObject("LeftEye").transform, right = new GameObject("RightEye").transform;
-                left.SetParent(figure.Bones[HumanBodyBones.Head], false);
-                right.SetParent(figure.Bones[HumanBodyBones.Head], false);
-                left.position = new Vector3(-0.03f, 1.7f, 0.08f);
-                right.position = new Vector3(0.03f, 1.7f, 0.08f);
-                var descriptor = figure.Root.AddComponent<VRC.SDK3.Avatars.Components.VRCAvatarDescriptor>();
-                figure.Root.transform.localScale = Vector3.one * size;
-                figure.Root.transform.position = new Vector3(3, 0, 1);
-                descriptor.ViewPosition = (left.position + right.position) * 0.5f - figure.Root.transform.position;
-                GameObject prefab = Converter.Convert(figure.Root, Settings(), null).Prefab;
-                Vector3 between = (ConversionTests.Find(prefab, "LeftEye").position + ConversionTests.Find(prefab, "RightEye").position) * 0.5f;
-                Vector3 view = prefab.GetComponent<VRC.SDK3.Avatars.Components.VRCAvatarDescriptor>().ViewPosition;
-                Assert.That(Vector3.Distance(between, view), Is.LessThan(2e-3f * 1.9f * size), "size " + size);
-                Assert.That(view.y, Is.LessThan(0.9f * descriptor.ViewPosition.y));
+                Vector3 between = (ConversionTests.Find(made, "LeftEye").position + ConversionTests.Find(made, "RightEye").position) * 0.5f - made.transform.position;
+                Vector3 view = made.GetComponent<VRC.SDK3.Avatars.Components.VRCAvatarDescriptor>().ViewPosition;
+                Assert.That(Vector3.Distance(between, view), Is.LessThan(2e-3f * 1.9f * size), made.name);
             }
+            Assert.AreSame(parent, done.Instance.transform.parent);
+            Converter.ConvertInPlace(figure.Root, Settings(), null);
+            Assert.That(Vector3.Distance((left.position + right.position) * 0.5f - figure.Root.transform.position, descriptor.ViewPosition), Is.LessThan(2e-3f * 1.9f * size * above));
         }
 
         [Test]

@@ -178,12 +178,16 @@ namespace SuperDeform.Editor.Tests
             Assert.AreEqual(guid, AssetDatabase.AssetPathToGUID(path), "the same prefab to whatever refers to it");
             IsDressed(report.Entries[0].Result.Prefab, "batch, a third time");
 
-            GameObject clone = UnityEngine.Object.Instantiate(figure.Root);
-            SettingsText.Give(clone.AddComponent<SuperDeformAvatar>(), Settings());
-            NdmfStub.Build<SuperDeformPlugin>(clone);
-            Assert.That(NdmfStub.Report.FindAll(line => line.StartsWith("Error") || line.StartsWith("Internal")), Is.Empty);
-            IsDressed(clone, "NDMF");
-            Assert.AreEqual("avtr_1", clone.GetComponent<VRC.Core.PipelineManager>().blueprintId);
+            // Before outfits are merged, as where another tool merges them later, and after.
+            foreach (Action<BuildContext> merge in new Action<BuildContext>[] { null, ModularAvatarStub.Process })
+            {
+                GameObject clone = UnityEngine.Object.Instantiate(figure.Root);
+                SettingsText.Give(clone.AddComponent<SuperDeformAvatar>(), Settings());
+                NdmfStub.Build<SuperDeformPlugin>(clone, merge);
+                Assert.That(NdmfStub.Uploads, string.Join("\n", NdmfStub.Report));
+                IsDressed(clone, merge == null ? "NDMF" : "NDMF, after Modular Avatar");
+                Assert.AreEqual("avtr_1", clone.GetComponent<VRC.Core.PipelineManager>().blueprintId);
+            }
             Assert.AreEqual(source, Fingerprint.Of(figure.Root), "the source");
 
             SettingsText.Give(figure.Root.AddComponent<SuperDeformAvatar>(), Settings());

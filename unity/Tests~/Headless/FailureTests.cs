@@ -207,13 +207,20 @@ namespace SuperDeform.Editor.Tests
         }
 
         [Test]
-        public void a_second_avatar_inside_is_said()
+        public void a_second_avatar_inside_rides_along_and_is_none_to_convert_there()
         {
             Model model = Models.Load("kaykit_rogue.glb"), other = Models.Add("kaykit_rogue.glb");
             other.Root.name = "Guest";
             other.Root.transform.SetParent(model.Root.transform, false);
             other.Root.transform.localPosition = new Vector3(1, 0, 0);
-            Fails(model.Root, "two_avatars", model.Root.name, other.Root.name);
+            Says(AvatarChecks.Of(model.Root).Find(finding => finding.Key == "pet"), "pet", other.Root.name, model.Root.name);
+            // An object that holds two, and is neither.
+            GameObject both = new GameObject("Both");
+            Model third = Models.Add("kaykit_rogue.glb");
+            third.Root.transform.SetParent(both.transform, false);
+            Model fourth = Models.Add("kaykit_rogue.glb");
+            fourth.Root.transform.SetParent(both.transform, false);
+            Fails(both, "two_avatars", "Both", third.Root.name);
             ConversionException fault = Assert.Throws<ConversionException>(delegate { Converter.Convert(other.Root, Models.Settings(), null); });
             Says(fault.Finding, "inside_avatar", other.Root.name, model.Root.name);
         }

@@ -44,18 +44,18 @@ namespace SuperDeform.Editor.Tests
         }
 
         /// <summary>What a build draws of each part.</summary>
-        private Dictionary<Renderer, Vector3[]> Built()
+        private Dictionary<Renderer, Vector3[]> Built(Action<BuildContext> earlier = null)
         {
             GameObject clone = UnityEngine.Object.Instantiate(figure.Root);
-            NdmfStub.Build<SuperDeformPlugin>(clone);
+            NdmfStub.Build<SuperDeformPlugin>(clone, earlier);
             var drawn = Parts().ToDictionary(part => part, part => Drawing.Drawn(ConversionTests.Find(clone, part.name).GetComponent<Renderer>(), Matrix4x4.identity));
             UnityEngine.Object.DestroyImmediate(clone);
             return drawn;
         }
 
-        private void ShowsWhatIsBuilt(NdmfPreviewStub preview, string when)
+        private void ShowsWhatIsBuilt(NdmfPreviewStub preview, string when, Action<BuildContext> earlier = null)
         {
-            foreach (KeyValuePair<Renderer, Vector3[]> built in Built())
+            foreach (KeyValuePair<Renderer, Vector3[]> built in Built(earlier))
                 Assert.That(Drawing.Apart(built.Value, Drawing.Drawn(preview.Proxy(built.Key), Matrix4x4.identity)), Is.LessThan(1e-5 * Height), when + ": " + built.Key.name);
         }
 
@@ -208,6 +208,108 @@ namespace SuperDeform.Editor.Tests
                 figure.Body.sharedMesh = before(own);
                 ShowsWhatIsBuilt(preview, "cut");
                 figure.Body.sharedMesh = own;
+            }
+        }
+
+        [Test]
+        public void a_mesh_that_another_plugin_shows_by_and_by_is_deformed_too()
+        {
+            Mesh instead = null;
+            using (NdmfPreviewStub preview = NdmfPreviewStub.Of(filter, mesh => instead != null && mesh == figure.Body.sharedMesh ? instead : mesh))
+            {
+                preview.Frame();
+                Assert.AreEqual("", preview.Frame());
+                // A shape is switched on that hides what clothes cover.
+                instead = UnityEngine.Object.Instantiate(figure.Body.sharedMesh);
+                instead.vertices = Array.ConvertAll(instead.vertices, p => p * 0.98f);
+                Assert.AreEqual("instantiated", preview.Frame());
+                Mesh own = figure.Body.sharedMesh;
+                figure.Body.sharedMesh = instead;
+                ShowsWhatIsBuilt(preview, "shown since");
+                figure.Body.sharedMesh = own;
+            }
+        }
+
+        [Test]
+        public void bones_of_another_plugin_are_taken_along()
+        {
+            // Modular Avatar's Scale Adjuster: in a build a scaled child of the bone, in its preview a bone of its own for each.
+            Transform head = figure.Bones[HumanBodyBones.Head];
+            var adjuster = head.gameObject.AddComponent<nadena.dev.modular_avatar.core.ModularAvatarScaleAdjuster>();
+            adjuster.m_Scale = new Vector3(1.2f, 1.1f, 1.3f);
+            var shadows = new Dictionary<Transform, Transform>();
+            bool on = true;
+            Action<Renderer, Renderer> earlier = (original, proxy) =>
+            {
+                var skinned = proxy as SkinnedMeshRenderer;
+                if (skinned == null || !on)
+                    return;
+                skinned.bones = Array.ConvertAll(((SkinnedMeshRenderer)original).bones, bone =>
+                {
+                    Transform shadow;
+                    if (!shadows.TryGetValue(bone, out shadow))
+                        shadows.Add(bone, shadow = UnityEditor.EditorUtility.CreateGameObjectWithHideFlags(bone.name, HideFlags.DontSave).transform);
+                    shadow.position = bone.position;
+                    shadow.rotation = bone.rotation;
+                    Vector3 size = bone.lossyScale;
+                    shadow.localScale = bone == head ? Vector3.Scale(size, adjuster.m_Scale) : size;
+                    return shadow;
+                });
+            };
+            using (NdmfPreviewStub preview = NdmfPreviewStub.Of(filter, null, earlier))
+            {
+                preview.Frame();
+                ShowsWhatIsBuilt(preview, "scaled", nadena.dev.modular_avatar.core.ModularAvatarStub.Process);
+                // It is adjusted while it is looked at, and the avatar moves.
+                adjuster.m_Scale = Vector3.one * 0.8f;
+                figure.Root.transform.position = new Vector3(1, 0, 2);
+                figure.Bones[HumanBodyBones.Neck].localRotation *= Quaternion.Euler(0, 20, 0);
+                Assert.AreEqual("", preview.Frame());
+                ShowsWhatIsBuilt(preview, "scaled otherwise", nadena.dev.modular_avatar.core.ModularAvatarStub.Process);
+                on = false;
+                component.Settings += "\n";
+                Assert.AreEqual("instantiated", preview.Frame());
+            }
+            foreach (Transform shadow in shadows.Values)
+                UnityEngine.Object.DestroyImmediate(shadow.gameObject);
+        }
+
+        [Test]
+        public void a_thousand_frames_leave_no_garbage_and_change_no_hierarchy()
+        {
+            using (NdmfPreviewStub preview = NdmfPreviewStub.Of(filter))
+            {
+                preview.Frame();
+                preview.Frame();
+                int changes = Changes.Hierarchy;
+                for (int frame = 0; frame < 1000; frame++)
+                    preview.Frame();
+                Assert.AreEqual(changes, Changes.Hierarchy, "with what NDMF itself does");
+                // This package's share of a frame alone, with an avatar that moves.
+                Renderer[] originals = Parts(), proxies = Array.ConvertAll(Parts(), preview.Proxy);
+                IRenderFilterNode node = preview.Node;
+                Transform arm = figure.Bones[HumanBodyBones.LeftUpperArm];
+                for (int warm = 0; warm < 2; warm++)
+                {
+                    long before = GC.GetTotalMemory(true);
+                    int collections = GC.CollectionCount(0);
+                    for (int frame = 0; frame < 1000; frame++)
+                    {
+                        figure.Root.transform.localPosition = new Vector3(0.001f * frame, 0, 0);
+                        arm.localRotation = new Quaternion(0, 0, 0.001f * frame, 1);
+                        node.OnFrameGroup();
+                        for (int part = 0; part < originals.Length; part++)
+                            node.OnFrame(originals[part], proxies[part]);
+                    }
+                    long grown = GC.GetTotalMemory(false) - before;
+                    Console.WriteLine(grown + " bytes in 1000 frames");
+                    if (warm > 0)
+                    {
+                        Assert.That(grown, Is.LessThan(20000), "20 bytes a frame are less than any object");
+                        Assert.AreEqual(collections, GC.CollectionCount(0));
+                    }
+                }
+                Assert.AreEqual(changes, Changes.Hierarchy);
             }
         }
 

@@ -90,6 +90,8 @@ namespace SuperDeform.Editor.Tests
         {
             UnityEngine.Object.DestroyImmediate(component);
             GameObject clone = Clone(figure.Root);
+            // NDMF marks what it builds.
+            clone.AddComponent<nadena.dev.ndmf.runtime.components.NDMFAvatarRoot>();
             string before = Fingerprint.Of(clone);
             NdmfStub.Build<SuperDeformPlugin>(clone);
             Assert.AreEqual(before, Fingerprint.Of(clone));

@@ -2,30 +2,6 @@ using System;
 using System.Collections.Generic;
 using UnityEngine;
 
-namespace nadena.dev.modular_avatar.core
-{
-    /// <summary>The serialized fields of Modular Avatar's components, as its 1.18 has them.</summary>
-    [Serializable]
-    public class AvatarObjectReference
-    {
-        public string referencePath = "";
-        public GameObject targetObject;
-    }
-
-    public class ModularAvatarMergeArmature : MonoBehaviour
-    {
-        public AvatarObjectReference mergeTarget = new AvatarObjectReference();
-        public string prefix = "", suffix = "";
-    }
-
-    public class ModularAvatarBoneProxy : MonoBehaviour
-    {
-        public HumanBodyBones boneReference = HumanBodyBones.LastBone;
-        public string subPath = "";
-        public int attachmentMode;
-    }
-}
-
 namespace SuperDeform.Editor.Tests
 {
     /// <summary>Dresses an avatar as artists do: the outfit below its root, with a copy of its armature.</summary>
@@ -99,6 +75,7 @@ namespace SuperDeform.Editor.Tests
         }
 
         /// <summary>Makes an outfit a humanoid of its own, as a model's importer does.</summary>
+        /// <param name="twins">By bone, the outfit's; null: the bones themselves.</param>
         internal static void MakeHumanoid(GameObject outfit, Dictionary<HumanBodyBones, Transform> bones, Dictionary<Transform, Transform> twins)
         {
             var skeleton = new List<SkeletonBone>();
@@ -106,7 +83,7 @@ namespace SuperDeform.Editor.Tests
                 skeleton.Add(new SkeletonBone { name = at.name, position = at.localPosition, rotation = at.localRotation, scale = at.localScale });
             var human = new List<HumanBone>();
             foreach (KeyValuePair<HumanBodyBones, Transform> bone in bones)
-                human.Add(new HumanBone { humanName = HumanTrait.BoneName[(int)bone.Key], boneName = twins[bone.Value].name, limit = new HumanLimit { useDefaultValues = true } });
+                human.Add(new HumanBone { humanName = HumanTrait.BoneName[(int)bone.Key], boneName = (twins == null ? bone.Value : twins[bone.Value]).name, limit = new HumanLimit { useDefaultValues = true } });
             outfit.AddComponent<Animator>().avatar = AvatarBuilder.BuildHumanAvatar(outfit, new HumanDescription { human = human.ToArray(), skeleton = skeleton.ToArray() });
         }
     }

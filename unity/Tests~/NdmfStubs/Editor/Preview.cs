@@ -111,6 +111,9 @@ namespace nadena.dev.ndmf.preview
     {
         readonly IRenderFilter m_Filter;
         readonly Func<Mesh, Mesh> m_Before;
+        readonly Action<Renderer, Renderer> m_Earlier;
+        readonly Dictionary<Transform, Transform> m_Shadows = new Dictionary<Transform, Transform>();
+        readonly Dictionary<Renderer, Mesh> m_Meshes = new Dictionary<Renderer, Mesh>();
         readonly Dictionary<Renderer, Renderer> m_Proxies = new Dictionary<Renderer, Renderer>();
         readonly RenderGroup m_Group;
         readonly Dictionary<Renderer, float[]> m_Weights = new Dictionary<Renderer, float[]>();
@@ -118,20 +121,22 @@ namespace nadena.dev.ndmf.preview
         public IRenderFilterNode Node { get; private set; }
 
         /// Null where the filter is for no avatar, or off.
-        public static NdmfPreviewStub Of(IRenderFilter filter, Func<Mesh, Mesh> before = null)
+        /// <param name="before">What another filter, before this one, makes of a mesh.</param>
+        /// <param name="earlier">What it does to an original's proxy in each frame.</param>
+        public static NdmfPreviewStub Of(IRenderFilter filter, Func<Mesh, Mesh> before = null, Action<Renderer, Renderer> earlier = null)
         {
             ComputeContext context = new ComputeContext("groups");
             if (!filter.IsEnabled(context)) return null;
             ImmutableList<RenderGroup> groups = filter.GetTargetGroups(context);
-            return groups.Count == 0 ? null : new NdmfPreviewStub(filter, groups[0], before ?? (mesh => mesh));
+            return groups.Count == 0 ? null : new NdmfPreviewStub(filter, groups[0], before ?? (mesh => mesh), earlier ?? ((original, proxy) => { }));
         }
 
-        NdmfPreviewStub(IRenderFilter filter, RenderGroup group, Func<Mesh, Mesh> before)
+        NdmfPreviewStub(IRenderFilter filter, RenderGroup group, Func<Mesh, Mesh> before, Action<Renderer, Renderer> earlier)
         {
-            m_Filter = filter; m_Group = group; m_Before = before;
+            m_Filter = filter; m_Group = group; m_Before = before; m_Earlier = earlier;
             foreach (Renderer original in group.Renderers)
             {
-                GameObject holder = new GameObject("Proxy renderer for " + original.gameObject.name) { hideFlags = HideFlags.DontSave };
+                GameObject holder = UnityEditor.EditorUtility.CreateGameObjectWithHideFlags("Proxy renderer for " + original.gameObject.name, HideFlags.DontSave);
                 SceneManager.MoveGameObjectToScene(holder, NDMFPreviewSceneManager.GetPreviewScene());
                 if (original is MeshRenderer) holder.AddComponent<MeshFilter>();
                 m_Proxies[original] = original is SkinnedMeshRenderer ? (Renderer)holder.AddComponent<SkinnedMeshRenderer>() : holder.AddComponent<MeshRenderer>();
@@ -144,10 +149,34 @@ namespace nadena.dev.ndmf.preview
         IEnumerable<(Renderer, Renderer)> Pairs { get { return m_Group.Renderers.Select(original => (original, m_Proxies[original])); } }
         void Make() { m_Context = new ComputeContext("node"); Node = m_Filter.Instantiate(m_Group, Pairs, m_Context).Result; }
 
+        // What stands for a transform and those above it in the preview's scene, as ShadowBoneManager has it.
+        Transform Shadow(Transform original)
+        {
+            Transform shadow;
+            if (!m_Shadows.TryGetValue(original, out shadow) || shadow == null)
+            {
+                m_Shadows[original] = shadow = UnityEditor.EditorUtility.CreateGameObjectWithHideFlags(original.name, HideFlags.DontSave).transform;
+                SceneManager.MoveGameObjectToScene(shadow.gameObject, NDMFPreviewSceneManager.GetPreviewScene());
+                if (original.parent != null) shadow.SetParent(Shadow(original.parent), false);
+            }
+            else if (original.parent != null) Shadow(original.parent);
+            shadow.localPosition = original.localPosition;
+            shadow.localRotation = original.localRotation;
+            shadow.localScale = original.localScale;
+            return shadow;
+        }
+
         // What ProxyObjectController.OnPreFrame does: each frame begins with the original's state.
         RenderAspects Reset()
         {
             RenderAspects changed = 0;
+            foreach (KeyValuePair<Renderer, Renderer> pair in m_Proxies)
+            {
+                MeshFilter filter = pair.Key.GetComponent<MeshFilter>();
+                Mesh mesh = m_Before(pair.Key is SkinnedMeshRenderer ? ((SkinnedMeshRenderer)pair.Key).sharedMesh : filter.sharedMesh), known;
+                if (m_Meshes.TryGetValue(pair.Key, out known) && known != mesh) changed |= RenderAspects.Mesh;
+                m_Meshes[pair.Key] = mesh;
+            }
             foreach (KeyValuePair<Renderer, Renderer> pair in m_Proxies)
             {
                 SkinnedMeshRenderer original = pair.Key as SkinnedMeshRenderer, proxy = pair.Value as SkinnedMeshRenderer;
@@ -155,16 +184,21 @@ namespace nadena.dev.ndmf.preview
                 pair.Value.enabled = pair.Key.enabled && pair.Key.gameObject.activeInHierarchy;
                 if (original == null)
                 {
-                    pair.Value.GetComponent<MeshFilter>().sharedMesh = m_Before(pair.Key.GetComponent<MeshFilter>().sharedMesh);
-                    pair.Value.transform.SetParent(null, false);
-                    pair.Value.transform.position = pair.Key.transform.position;
-                    pair.Value.transform.rotation = pair.Key.transform.rotation;
-                    pair.Value.transform.localScale = pair.Key.transform.lossyScale;
+                    pair.Value.GetComponent<MeshFilter>().sharedMesh = m_Meshes[pair.Key];
+                    Transform shadow = Shadow(pair.Key.transform), hung = pair.Value.transform;
+                    if (hung.parent != shadow)
+                    {
+                        hung.SetParent(shadow, false);
+                        hung.localPosition = Vector3.zero;
+                        hung.localRotation = Quaternion.identity;
+                        hung.localScale = Vector3.one;
+                    }
+                    m_Earlier(pair.Key, pair.Value);
                     continue;
                 }
-                proxy.sharedMesh = m_Before(original.sharedMesh);
+                proxy.sharedMesh = m_Meshes[pair.Key];
                 proxy.bones = original.bones;
-                proxy.rootBone = original.rootBone;
+                proxy.rootBone = original.rootBone != null ? original.rootBone : original.transform;
                 proxy.localBounds = original.localBounds;
                 proxy.transform.position = original.transform.position;
                 proxy.transform.rotation = original.transform.rotation;
@@ -172,6 +206,7 @@ namespace nadena.dev.ndmf.preview
                 for (int shape = 0; shape < weights.Length; shape++) proxy.SetBlendShapeWeight(shape, weights[shape] = original.GetBlendShapeWeight(shape));
                 if (m_Weights.TryGetValue(original, out old) && !old.SequenceEqual(weights)) changed |= RenderAspects.Shapes;
                 m_Weights[original] = weights;
+                m_Earlier(pair.Key, pair.Value);
             }
             return changed;
         }
@@ -204,6 +239,7 @@ namespace nadena.dev.ndmf.preview
                 if (proxy == null && open) throw new InvalidOperationException("Proxy object was destroyed improperly!");
                 if (proxy != null) Object.DestroyImmediate(proxy.gameObject);
             }
+            foreach (Transform shadow in m_Shadows.Values) if (shadow != null) Object.DestroyImmediate(shadow.gameObject);
         }
     }
 }

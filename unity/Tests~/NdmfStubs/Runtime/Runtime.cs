@@ -2,3 +2,8 @@ namespace nadena.dev.ndmf
 {
     public interface INDMFEditorOnly { }
 }
+
+namespace nadena.dev.ndmf.runtime.components
+{
+    public sealed class NDMFAvatarRoot : UnityEngine.MonoBehaviour { }
+}

@@ -22,7 +22,8 @@ namespace UnityEditor
             public Object Main;
             public readonly List<Object> Subs = new List<Object>();
             public bool Dirty;
-            public IEnumerable<Object> All { get { yield return Main; foreach (Object sub in Subs) yield return sub; } }
+            // What was destroyed is in the file no more.
+            public IEnumerable<Object> All { get { Subs.RemoveAll(delegate (Object sub) { return sub == null; }); yield return Main; foreach (Object sub in Subs) yield return sub; } }
         }
         internal static readonly Dictionary<string, File> Files = new Dictionary<string, File>();
         static readonly HashSet<Object> s_Dirty = new HashSet<Object>();
@@ -249,7 +250,7 @@ namespace UnityEditor
         public static bool TryGetGUIDAndLocalFileIdentifier(Object obj, out string guid, out long localId)
         {
             guid = Contains(obj) ? AssetPathToGUID(obj.assetPath) : "";
-            localId = Contains(obj) ? obj.id : 0;
+            localId = Contains(obj) ? obj.fileNumber != 0 ? obj.fileNumber : obj.id : 0;
             return guid != "";
         }
 
@@ -282,7 +283,7 @@ namespace UnityEditor
                 foreach (Transform at in top.GetComponentsInChildren<Transform>(true)) { if (at.gameObject != top) all.Add(at.gameObject); foreach (Component component in at.gameObject.components) all.Add(component); }
             return all.ToArray();
         }
-        public static Object[] LoadAllAssetRepresentationsAtPath(string assetPath) { File file; return Files.TryGetValue(assetPath, out file) ? file.Subs.ToArray() : new Object[0]; }
+        public static Object[] LoadAllAssetRepresentationsAtPath(string assetPath) { File file; return Files.TryGetValue(assetPath, out file) ? file.Subs.FindAll(delegate (Object sub) { return sub != null; }).ToArray() : new Object[0]; }
         public static Type GetMainAssetTypeAtPath(string assetPath) { Object main = LoadMainAssetAtPath(assetPath); return main == null ? null : main.GetType(); }
         // "t:Type" and words of the name.
         public static string[] FindAssets(string filter) { return FindAssets(filter, null); }
@@ -318,8 +319,6 @@ namespace UnityEditor
         internal static int Editing { get { return s_Editing; } set { s_Editing = value; } }
         public static bool IsOpenForEdit(Object assetObject) { return true; }
         public static bool IsOpenForEdit(string assetOrMetaFilePath) { return true; }
-        public static void SetLabels(Object obj, string[] labels) { }
-        public static string[] GetLabels(Object obj) { return new string[0]; }
     }
 
     public struct GUID
@@ -375,6 +374,7 @@ namespace UnityStubs
         public static void Reset()
         {
             EditorWindow.CloseAll();
+            StubStage.Close();
             EditorApplication.delayCall = null;
             EditorPrefs.DeleteAll();
             AssetImporter.All.Clear();
@@ -392,6 +392,7 @@ namespace UnityStubs
             Selection.objects = new Object[0];
             Dialogs.Reset();
             Log.Clear();
+            StubScenes.Reset();
             Settings.BatchMode = true;
             Settings.AnimatorsKnowTheirBones = true;
             Settings.Language = SystemLanguage.English;

@@ -48,15 +48,27 @@ namespace UnityEditor
         public static void FocusProjectWindow() { }
         public static void UnloadUnusedAssetsImmediate() { }
         public static string FormatBytes(long bytes) { return bytes + " B"; }
-        public static GameObject CreateGameObjectWithHideFlags(string name, HideFlags flags, params Type[] components) { GameObject made = new GameObject(name, components); made.hideFlags = flags; return made; }
+        public static GameObject CreateGameObjectWithHideFlags(string name, HideFlags flags, params Type[] components) { return new GameObject(name, flags, components ?? new Type[0]); }
     }
 
-    /// Kind 1: an object of a file, 2: an object of a scene.
+    /// Kind 0: null, what cannot be referred to lastingly, such as an object of a scene that was never saved or of a prefab that is
+    /// edited; 1: an object of a file, 2: an object of a scene.
     public struct GlobalObjectId
     {
-        string m_Text;
-        public static GlobalObjectId GetGlobalObjectIdSlow(Object targetObject) { return new GlobalObjectId { m_Text = "GlobalObjectId_V1-" + (EditorUtility.IsPersistent(targetObject) ? 1 : 2) + "-0-" + targetObject.GetInstanceID() + "-0" }; }
-        public override string ToString() { return m_Text; }
+        public int identifierType { get; private set; }
+        public GUID assetGUID { get; private set; }
+        public ulong targetObjectId { get; private set; }
+        public ulong targetPrefabId { get { return 0; } }
+        public static GlobalObjectId GetGlobalObjectIdSlow(Object targetObject)
+        {
+            if (targetObject == null) return new GlobalObjectId();
+            ulong own = (ulong)targetObject.GetInstanceID();
+            if (EditorUtility.IsPersistent(targetObject)) return new GlobalObjectId { identifierType = 1, assetGUID = new GUID(AssetDatabase.AssetPathToGUID(targetObject.assetPath)), targetObjectId = own };
+            GameObject owner = targetObject as GameObject ?? (targetObject as Component == null ? null : ((Component)targetObject).gameObject);
+            string scene = owner == null ? "" : owner.scene.path;
+            return scene.Length == 0 ? new GlobalObjectId() : new GlobalObjectId { identifierType = 2, assetGUID = new GUID(AssetDatabase.AssetPathToGUID(scene)), targetObjectId = own };
+        }
+        public override string ToString() { return "GlobalObjectId_V1-" + identifierType + "-" + (assetGUID.Empty() ? new string('0', 32) : assetGUID.ToString()) + "-" + targetObjectId + "-0"; }
     }
 
     public sealed class GameObjectUtility

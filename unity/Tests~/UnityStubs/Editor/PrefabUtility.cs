@@ -50,7 +50,9 @@ namespace UnityEditor
                 return null;
             }
             AssetDatabase.File old;
-            if (AssetDatabase.Files.TryGetValue(assetPath, out old))
+            AssetDatabase.Files.TryGetValue(assetPath, out old);
+            Number(asset, old == null ? null : old.Main as GameObject);
+            if (old != null)
             {
                 // Instances stay instances; what they look like changes in Unity alone.
                 foreach (GameObject instance in s_Roots) { Object source; if (instance != null && s_Sources.TryGetValue(instance, out source) && ReferenceEquals(source, old.Main)) Link(instance, asset); }
@@ -60,6 +62,26 @@ namespace UnityEditor
             AssetDatabase.Files[assetPath] = file;
             success = true;
             return asset;
+        }
+        // Objects and components keep their numbers in the file where names are the same; others get new ones.
+        static long s_LastNumber = 100;
+        static void Number(GameObject made, GameObject old)
+        {
+            made.fileNumber = old == null ? ++s_LastNumber : old.fileNumber;
+            List<Component> known = old == null ? new List<Component>() : new List<Component>(old.components);
+            foreach (Component component in made.components)
+            {
+                Component twin = known.Find(delegate (Component other) { return other.GetType() == component.GetType(); });
+                known.Remove(twin);
+                component.fileNumber = twin == null ? ++s_LastNumber : twin.fileNumber;
+            }
+            List<Transform> rows = old == null ? new List<Transform>() : new List<Transform>(old.transform.children);
+            foreach (Transform child in made.transform.children)
+            {
+                Transform twin = rows.Find(delegate (Transform other) { return other.name == child.name; });
+                rows.Remove(twin);
+                Number(child.gameObject, twin == null ? null : twin.gameObject);
+            }
         }
         public static GameObject SaveAsPrefabAssetAndConnect(GameObject instanceRoot, string assetPath, InteractionMode action) { bool success; return SaveAsPrefabAssetAndConnect(instanceRoot, assetPath, action, out success); }
         public static GameObject SaveAsPrefabAssetAndConnect(GameObject instanceRoot, string assetPath, InteractionMode action, out bool success)
@@ -146,7 +168,11 @@ namespace UnityEditor
             UnityEngine.SceneManagement.SceneManager.MoveGameObjectToScene(copy, SceneManagement.EditorSceneManager.NewPreviewScene());
             return copy;
         }
-        public static void UnloadPrefabContents(GameObject contentsRoot) { if (contentsRoot == null) throw new ArgumentNullException("contentsRoot"); Object.DestroyImmediate(contentsRoot); }
+        public static void UnloadPrefabContents(GameObject contentsRoot)
+        {
+            if (contentsRoot == null) throw new ArgumentNullException("contentsRoot");
+            if (!SceneManagement.EditorSceneManager.ClosePreviewScene(contentsRoot.scene)) throw new ArgumentException("'" + contentsRoot.name + "' was not loaded by LoadPrefabContents", "contentsRoot");
+        }
     }
 }
 
@@ -156,21 +182,90 @@ namespace UnityEditor.SceneManagement
 
     public sealed class EditorSceneManager : SceneManager
     {
-        public static Scene NewPreviewScene() { Scene made = new Scene(); made.m_Handle = ++s_Last; s_Open.Add(made.m_Handle); return made; }
+        public static Scene NewPreviewScene() { Scene made = new Scene(); made.m_Handle = ++s_Last; s_Open.Add(made.m_Handle); s_Preview.Add(made.m_Handle); return made; }
         public static bool ClosePreviewScene(Scene scene)
         {
-            if (!s_Open.Remove(scene.m_Handle)) return false;
+            if (!s_Preview.Contains(scene.m_Handle) || !s_Open.Contains(scene.m_Handle)) return false;
             foreach (GameObject root in scene.GetRootGameObjects()) Object.DestroyImmediate(root);
+            s_Open.Remove(scene.m_Handle);
+            s_Preview.Remove(scene.m_Handle);
             return true;
         }
-        public static bool IsPreviewScene(Scene scene) { return scene.m_Handle > 1; }
-        public static bool MarkSceneDirty(Scene scene) { if (!scene.IsValid()) return false; s_Dirty.Add(scene.m_Handle); return true; }
-        public static void MarkAllScenesDirty() { s_Dirty.Add(1); }
+        public static bool IsPreviewScene(Scene scene) { return s_Preview.Contains(scene.m_Handle); }
+        public static bool MarkSceneDirty(Scene scene) { if (!scene.IsValid()) return false; if (!s_Preview.Contains(scene.m_Handle)) s_Dirty.Add(scene.m_Handle); return true; }
+        public static void MarkAllScenesDirty() { foreach (int scene in s_Open) if (!s_Preview.Contains(scene)) s_Dirty.Add(scene); }
+        public static bool SaveScene(Scene scene, string dstScenePath = "", bool saveAsCopy = false)
+        {
+            string path = dstScenePath.Length > 0 ? dstScenePath : scene.path;
+            if (!scene.IsValid() || path.Length == 0 || s_Preview.Contains(scene.m_Handle)) return false;
+            StubDisk.Write(System.IO.Path.Combine(Settings.ProjectFolder, path), new byte[] { 1 });
+            s_Paths[scene.m_Handle] = path;
+            s_Dirty.Remove(scene.m_Handle);
+            return true;
+        }
     }
-    public sealed class PrefabStage { public GameObject prefabContentsRoot { get { return null; } } public string assetPath { get { return ""; } } }
+
+    /// A prefab that is edited by itself. Its scene shows and saves what hangs from one root, and nothing beside that.
+    public sealed class PrefabStage
+    {
+        internal static PrefabStage s_Current;
+        internal GameObject m_Root;
+        public GameObject prefabContentsRoot { get { return m_Root; } }
+        public string assetPath { get; internal set; }
+        public Scene scene { get { return m_Root.scene; } }
+        public bool IsPartOfPrefabContents(GameObject gameObject) { return gameObject != null && gameObject.transform.IsChildOf(m_Root.transform); }
+    }
     public sealed class PrefabStageUtility
     {
-        public static PrefabStage GetCurrentPrefabStage() { return null; }
-        public static PrefabStage GetPrefabStage(GameObject gameObject) { return null; }
+        public static PrefabStage GetCurrentPrefabStage() { return PrefabStage.s_Current; }
+        public static PrefabStage GetPrefabStage(GameObject gameObject)
+        {
+            PrefabStage stage = PrefabStage.s_Current;
+            return stage != null && stage.m_Root != null && gameObject.scene == stage.scene ? stage : null;
+        }
+        public static PrefabStage OpenPrefab(string prefabAssetPath)
+        {
+            StubStage.Close();
+            GameObject contents = PrefabUtility.LoadPrefabContents(prefabAssetPath);
+            return PrefabStage.s_Current = new PrefabStage { m_Root = contents, assetPath = prefabAssetPath };
+        }
+    }
+}
+
+namespace UnityStubs
+{
+    using UnityEditor.SceneManagement;
+
+    /// Prefab Mode as a person uses it.
+    public static class StubStage
+    {
+        /// Saves the prefab: what hangs from its root.
+        public static void Save() { UnityEditor.PrefabUtility.SaveAsPrefabAsset(PrefabStage.s_Current.m_Root, PrefabStage.s_Current.assetPath); }
+        public static void Close()
+        {
+            PrefabStage stage = PrefabStage.s_Current;
+            PrefabStage.s_Current = null;
+            if (stage != null && stage.m_Root != null) EditorSceneManager.ClosePreviewScene(stage.scene);
+        }
+    }
+
+    public static class StubScenes
+    {
+        public static bool IsDirty { get { return UnityEngine.SceneManagement.SceneManager.GetActiveScene().isDirty; } }
+        /// Gives the active scene a file.
+        public static void Save(string path) { EditorSceneManager.SaveScene(UnityEngine.SceneManagement.SceneManager.GetActiveScene(), path); }
+        internal static void Reset()
+        {
+            StubStage.Close();
+            EditorSceneManagerStub.Reset();
+        }
+    }
+}
+
+namespace UnityEditor.SceneManagement
+{
+    internal sealed class EditorSceneManagerStub : UnityEngine.SceneManagement.SceneManager
+    {
+        internal static void Reset() { s_Dirty.Clear(); s_Paths.Clear(); s_Active = 1; UnityStubs.Changes.Hierarchy = 0; }
     }
 }

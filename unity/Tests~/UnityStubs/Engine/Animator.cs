@@ -135,6 +135,8 @@ namespace UnityEngine
     {
         internal bool m_Valid, m_Human;
         internal HumanDescription m_Description;
+        // By name of a bone, the way to it from the animator when the Avatar was built: that is what it is found by.
+        internal Dictionary<string, string> m_Paths = new Dictionary<string, string>();
         internal Avatar() { }
         public bool isValid { get { Alive(); return m_Valid; } }
         public bool isHuman { get { Alive(); return m_Valid && m_Human; } }
@@ -163,9 +165,12 @@ namespace UnityEngine
             made.m_Description.skeleton = humanDescription.skeleton == null ? new SkeletonBone[0] : (SkeletonBone[])humanDescription.skeleton.Clone();
             string fault = Fault(go, made.m_Description);
             if (fault != null) { Debug.LogError("AvatarBuilder '" + go.name + "': " + fault); return made; }
+            foreach (HumanBone bone in made.m_Description.human)
+                foreach (Transform at in go.GetComponentsInChildren<Transform>(true)) if (at.name == bone.boneName && !made.m_Paths.ContainsKey(bone.boneName)) made.m_Paths.Add(bone.boneName, PathOf(at, go.transform));
             made.m_Valid = made.m_Human = true;
             return made;
         }
+        static string PathOf(Transform at, Transform root) { return at.parent == root ? at.name : PathOf(at.parent, root) + "/" + at.name; }
         public static Avatar BuildGenericAvatar(GameObject go, string rootMotionTransformName)
         {
             if (go == null) throw new NullReferenceException("AvatarBuilder: the game object is null");
@@ -239,7 +244,9 @@ namespace UnityEngine
         bool m_RootMotion, m_Optimized;
         AnimatorCullingMode m_Culling = AnimatorCullingMode.CullUpdateTransforms;
         AnimatorUpdateMode m_Update;
-        public Avatar avatar { get { Alive(); return m_Avatar; } set { Alive(); m_Avatar = value; } }
+        // Bones that were asked for stay known until the next Avatar, wherever they hang by then.
+        [UnityStubs.Transient] Dictionary<HumanBodyBones, Transform> m_Bound;
+        public Avatar avatar { get { Alive(); return m_Avatar; } set { Alive(); m_Avatar = value; m_Bound = null; } }
         public RuntimeAnimatorController runtimeAnimatorController { get { return m_Controller; } set { m_Controller = value; } }
         public bool isHuman { get { Alive(); return m_Avatar != null && m_Avatar.isHuman; } }
         public bool applyRootMotion { get { return m_RootMotion; } set { m_RootMotion = value; } }
@@ -249,7 +256,7 @@ namespace UnityEngine
         public bool hasTransformHierarchy { get { Alive(); return !m_Optimized; } internal set { m_Optimized = !value; } }
         public bool isInitialized { get { return gameObject.activeInHierarchy; } }
         public float humanScale { get { return 1f; } }
-        public void Rebind() { Alive(); }
+        public void Rebind() { Alive(); m_Bound = null; }
         public void Update(float deltaTime) { Alive(); }
         public Transform GetBoneTransform(HumanBodyBones humanBoneId)
         {
@@ -259,11 +266,16 @@ namespace UnityEngine
             if (!m_Avatar.isValid) throw new InvalidOperationException("The Avatar of '" + name + "' is not valid");
             if (!m_Avatar.isHuman) throw new InvalidOperationException("The Avatar of '" + name + "' is not humanoid");
             if (!UnityStubs.Settings.AnimatorsKnowTheirBones) return null;
+            Transform bound;
+            if (m_Bound != null && m_Bound.TryGetValue(humanBoneId, out bound) && bound != null) return bound;
             string human = HumanTrait.BoneName[(int)humanBoneId];
             foreach (HumanBone bone in m_Avatar.m_Description.human)
             {
                 if (bone.humanName != human) continue;
-                foreach (Transform at in GetComponentsInChildren<Transform>(true)) if (at.name == bone.boneName) return at;
+                Transform found = transform.Find(m_Avatar.m_Paths[bone.boneName]);
+                if (found == null) return null;
+                if (m_Bound == null) m_Bound = new Dictionary<HumanBodyBones, Transform>();
+                return m_Bound[humanBoneId] = found;
             }
             return null;
         }

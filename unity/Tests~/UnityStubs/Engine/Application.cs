@@ -70,8 +70,9 @@ namespace UnityEngine.SceneManagement
     {
         internal int m_Handle;
         public int handle { get { return m_Handle; } }
-        public string name { get { return m_Handle == 1 ? "Untitled" : m_Handle == 0 ? null : "Scene " + m_Handle; } }
-        public string path { get { return ""; } }
+        public string name { get { return m_Handle == 0 ? null : path.Length > 0 ? System.IO.Path.GetFileNameWithoutExtension(path) : m_Handle == 1 ? "" : "Scene " + m_Handle; } }
+        // Empty until the scene is saved.
+        public string path { get { string path; return SceneManager.s_Paths.TryGetValue(m_Handle, out path) ? path : ""; } }
         public bool IsValid() { return m_Handle != 0 && SceneManager.s_Open.Contains(m_Handle); }
         public bool isLoaded { get { return IsValid(); } }
         public bool isDirty { get { return SceneManager.s_Dirty.Contains(m_Handle); } }
@@ -97,14 +98,22 @@ namespace UnityEngine.SceneManagement
     {
         internal static readonly HashSet<int> s_Open = new HashSet<int> { 1 };
         internal static readonly HashSet<int> s_Dirty = new HashSet<int>();
-        internal static int s_Last = 1;
-        public static int sceneCount { get { return 1; } }
-        public static Scene GetActiveScene() { Scene scene = new Scene(); scene.m_Handle = 1; return scene; }
-        public static Scene GetSceneAt(int index) { return GetActiveScene(); }
+        // Scenes of the editor's own, such as those of prefabs that are edited: never saved, never dirty for the user.
+        internal static readonly HashSet<int> s_Preview = new HashSet<int>();
+        internal static readonly Dictionary<int, string> s_Paths = new Dictionary<int, string>();
+        internal static int s_Last = 1, s_Active = 1;
+        static List<int> Loaded { get { List<int> all = new List<int>(s_Open); all.RemoveAll(s_Preview.Contains); all.Sort(); return all; } }
+        public static int sceneCount { get { return Loaded.Count; } }
+        public static Scene GetActiveScene() { Scene scene = new Scene(); scene.m_Handle = s_Active; return scene; }
+        public static bool SetActiveScene(Scene scene) { if (!scene.IsValid()) throw new ArgumentException("The scene is not loaded"); s_Active = scene.m_Handle; return true; }
+        public static Scene GetSceneAt(int index) { Scene scene = new Scene(); scene.m_Handle = Loaded[index]; return scene; }
         public static void MoveGameObjectToScene(GameObject value, Scene scene)
         {
             if (value.transform.parent != null) throw new ArgumentException("Gameobject is not a root in a scene");
+            if (!scene.IsValid()) throw new ArgumentException("The scene is not valid");
+            UnityStubs.Changes.Of(value);
             value.m_Scene = scene;
+            UnityStubs.Changes.Of(value);
         }
     }
 }
@@ -121,6 +130,22 @@ namespace UnityStubs
         public static bool AnimatorsKnowTheirBones = true;
         public static SystemLanguage Language = SystemLanguage.English;
         public static string ProjectFolder = System.IO.Directory.GetCurrentDirectory();
+    }
+
+    /// What EditorApplication.hierarchyChanged hears of, and what makes a scene ask to be saved: objects made, destroyed, hung elsewhere,
+    /// components added. Where the reference is silent it counts: an object that is marked not to be saved dirties no scene only if it
+    /// was marked when it was made (EditorUtility.CreateGameObjectWithHideFlags).
+    public static class Changes
+    {
+        public static int Hierarchy;
+
+        internal static void Of(GameObject changed)
+        {
+            Hierarchy++;
+            if ((changed.transform.root.gameObject.hideFlags & HideFlags.DontSaveInEditor) != 0) return;
+            int scene = changed.scene.m_Handle;
+            if (scene != 0 && !UnityEngine.SceneManagement.SceneManager.s_Preview.Contains(scene)) UnityEngine.SceneManagement.SceneManager.s_Dirty.Add(scene);
+        }
     }
 
     /// What was logged, oldest first.

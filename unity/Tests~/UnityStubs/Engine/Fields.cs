@@ -42,6 +42,8 @@ namespace UnityStubs
             if (field.IsDefined(typeof(TransientAttribute), false) || typeof(Delegate).IsAssignableFrom(field.FieldType)) return false;
             if (IsEngine(owner)) return true;
             if (field.IsInitOnly || field.IsNotSerialized) return false;
+            // "Script serialization": a managed reference may be of any class that is none of Unity's objects, null or shared.
+            if (field.IsDefined(typeof(SerializeReference), false)) return !typeof(Object).IsAssignableFrom(field.FieldType);
             return (field.IsPublic || field.IsDefined(typeof(SerializeField), false)) && Serializable(field.FieldType, true);
         }
 
@@ -87,6 +89,7 @@ namespace UnityStubs
             foreach (KeyValuePair<Object, Object> pair in new List<KeyValuePair<Object, Object>>(made)) CopyFields(pair.Key, pair.Value, made, outside);
             top.transform.m_Parent = null;
             top.m_Name = owner.m_Name + suffix;
+            Changes.Of(top);
             return made[original];
         }
 

@@ -20,13 +20,16 @@ namespace UnityEngine
 
         public GameObject() : this("New Game Object") { }
         public GameObject(string name) : this(name, new Type[0]) { }
-        public GameObject(string name, params Type[] types)
+        public GameObject(string name, params Type[] types) : this(name, HideFlags.None, types) { }
+        internal GameObject(string name, HideFlags flags, Type[] types)
         {
             m_Name = name ?? "";
             m_Scene = SceneManager.GetActiveScene();
             Transform made = new Transform();
             made.m_GameObject = this;
             components.Add(made);
+            hideFlags = flags;
+            Changes.Of(this);
             foreach (Type type in types) AddComponent(type);
         }
 
@@ -62,6 +65,7 @@ namespace UnityEngine
             made.m_GameObject = this;
             made.m_Name = "";
             components.Add(made);
+            if (assetPath == null) Changes.Of(this);
             return made;
         }
         static bool OnlyOne(Type type) { return type.IsDefined(typeof(DisallowMultipleComponent), true); }
@@ -125,6 +129,7 @@ namespace UnityEngine
         internal override void OnDestroyed()
         {
             Transform own = transform;
+            if (assetPath == null) Changes.Of(this);
             foreach (Transform child in own.children.ToArray()) child.gameObject.OnDestroyed();
             foreach (Component component in components.ToArray()) { if (component is MonoBehaviour) Messages.Send(component, "OnDestroy"); component.Mark(); }
             if (!ReferenceEquals(own.m_Parent, null)) own.m_Parent.children.Remove(own);
@@ -278,6 +283,7 @@ namespace UnityEngine
             Matrix4x4 world = localToWorldMatrix;
             Quaternion turned = rotation;
             Scene scene = gameObject.scene;
+            if (!ReferenceEquals(m_Parent, parent == null ? null : parent)) Changes.Of(gameObject);
             if (!ReferenceEquals(m_Parent, null)) m_Parent.children.Remove(this);
             m_Parent = parent == null ? null : parent;
             if (!ReferenceEquals(m_Parent, null)) m_Parent.children.Add(this); else gameObject.m_Scene = scene;

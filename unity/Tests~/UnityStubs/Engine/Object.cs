@@ -43,6 +43,7 @@ namespace UnityEngine
         [Transient] internal int id;
         [Transient] internal bool destroyed;
         [Transient] internal string assetPath; // null: in memory or in a scene
+        [Transient] internal long fileNumber; // in the file of a prefab
         internal string m_Name = "";
         HideFlags m_HideFlags;
 
@@ -76,10 +77,17 @@ namespace UnityEngine
         public static Object Instantiate(Object original, Transform parent) { return Instantiate(original, parent, false); }
         public static Object Instantiate(Object original, Transform parent, bool instantiateInWorldSpace)
         {
-            Object copy = Instantiate(original);
-            Transform top = copy is GameObject ? ((GameObject)copy).transform : copy is Component ? ((Component)copy).transform : null;
-            if (!ReferenceEquals(top, null)) top.SetParent(parent, instantiateInWorldSpace);
-            return copy;
+            // What gets a parent is made in that one's scene.
+            int active = SceneManagement.SceneManager.s_Active;
+            if (parent != null) SceneManagement.SceneManager.s_Active = parent.gameObject.scene.m_Handle;
+            try
+            {
+                Object copy = Instantiate(original);
+                Transform top = copy is GameObject ? ((GameObject)copy).transform : copy is Component ? ((Component)copy).transform : null;
+                if (!ReferenceEquals(top, null)) top.SetParent(parent, instantiateInWorldSpace);
+                return copy;
+            }
+            finally { SceneManagement.SceneManager.s_Active = active; }
         }
         public static Object Instantiate(Object original, Vector3 position, Quaternion rotation) { return Instantiate(original, position, rotation, null); }
         public static Object Instantiate(Object original, Vector3 position, Quaternion rotation, Transform parent)

@@ -86,8 +86,6 @@ namespace UnityEngine
         public static T[] FindObjectsOfTypeAll<T>() where T : Object { return UnityStubs.Registry.All().FindAll(delegate (Object value) { return value is T; }).ConvertAll(delegate (Object value) { return (T)value; }).ToArray(); }
         public static Object[] FindObjectsOfTypeAll(Type type) { return UnityStubs.Registry.All().FindAll(type.IsInstanceOfType).ToArray(); }
     }
-    public class RuntimeAnimatorController : Object { }
-    public sealed class AnimationClip : Object { public float length { get { return 1f; } } public bool legacy { get; set; } }
     public sealed class AvatarMask : Object { }
 
     public class Renderer : Component
@@ -159,7 +157,7 @@ namespace UnityEngine
         SkinQuality m_Quality;
         bool m_UpdateOffscreen, m_MotionVectors = true;
         public Mesh sharedMesh { get { Alive(); return m_Mesh; } set { Alive(); m_Mesh = value; } }
-        public Transform[] bones { get { Alive(); return (Transform[])m_Bones.Clone(); } set { Alive(); m_Bones = value == null ? new Transform[0] : (Transform[])value.Clone(); } }
+        public Transform[] bones { get { Alive(); return (Transform[])m_Bones.Clone(); } set { Alive(); if (value == null || value.Length != m_Bones.Length) m_Bones = new Transform[value == null ? 0 : value.Length]; if (value != null) Array.Copy(value, m_Bones, value.Length); } }
         public Transform rootBone { get { Alive(); return m_RootBone; } set { Alive(); m_RootBone = value; } }
         public Bounds localBounds { get { Alive(); return m_LocalBounds; } set { Alive(); m_LocalBounds = value; } }
         public SkinQuality quality { get { return m_Quality; } set { m_Quality = value; } }

@@ -147,10 +147,12 @@ namespace UnityEngine
     [Serializable]
     public class AnimationCurve
     {
-        public Keyframe[] keys;
+        Keyframe[] m_Keys = new Keyframe[0];
+        // A copy: what is changed in it is only taken when it is set again.
+        public Keyframe[] keys { get { return (Keyframe[])m_Keys.Clone(); } set { m_Keys = value == null ? new Keyframe[0] : (Keyframe[])value.Clone(); } }
         public AnimationCurve(params Keyframe[] keys) { this.keys = keys; }
-        public AnimationCurve() { keys = new Keyframe[0]; }
-        public int length { get { return keys.Length; } }
+        public AnimationCurve() { }
+        public int length { get { return m_Keys.Length; } }
         public static AnimationCurve Linear(float timeStart, float valueStart, float timeEnd, float valueEnd)
         {
             float slope = timeStart == timeEnd ? 0f : (valueEnd - valueStart) / (timeEnd - timeStart);
@@ -159,16 +161,16 @@ namespace UnityEngine
         // Cubic Hermite between keys, constant outside.
         public float Evaluate(float time)
         {
-            if (keys.Length == 0) return 0f;
-            if (time <= keys[0].time) return keys[0].value;
-            for (int at = 1; at < keys.Length; at++)
+            if (m_Keys.Length == 0) return 0f;
+            if (time <= m_Keys[0].time) return m_Keys[0].value;
+            for (int at = 1; at < m_Keys.Length; at++)
             {
-                Keyframe p = keys[at - 1], q = keys[at];
+                Keyframe p = m_Keys[at - 1], q = m_Keys[at];
                 if (time > q.time) continue;
                 float span = q.time - p.time, t = span == 0f ? 1f : (time - p.time) / span, t2 = t * t, t3 = t2 * t;
                 return (2 * t3 - 3 * t2 + 1) * p.value + (t3 - 2 * t2 + t) * span * p.outTangent + (-2 * t3 + 3 * t2) * q.value + (t3 - t2) * span * q.inTangent;
             }
-            return keys[keys.Length - 1].value;
+            return m_Keys[m_Keys.Length - 1].value;
         }
     }
 }
