@@ -64,8 +64,8 @@
 // Cost       Cheap, microseconds: create, destroy, get_info, get_joints, map_points, styles but _measure. A pass over
 //            the vertices, some 0.1 microseconds each: add_mesh, apply, and set_options where only amount, face_squash,
 //            face_curve or thread_count change. Ten times that: set_options otherwise, and set_style. Slow, seconds at
-//            100,000 vertices: rig, deformer_create, style_measure, deformer_measure (else get_report or get_figure after a
-//            change, without progress).
+//            100,000 vertices: rig, deformer_create, style_measure, deformer_measure (else get_report or get_figure
+//            after a change, without progress).
 
 #ifndef SUPERDEFORM_H
 #define SUPERDEFORM_H
