@@ -262,13 +262,14 @@ typedef struct SdefOptions {
   uint32_t stage;                   // SDEF_STAGE_*: stop after it; default FACE, which is everything
   uint32_t rays;                    // rays around a sample of a bone, 3 to 4096; 0 (default): the mode's own, 48 or 12
   uint32_t limits;                  // 1 (default) bounds what product mode may do to a body, 0 does not
-  double head_scale;                // how many times as large as the character's own the head becomes, 0.1 to 10;
-                                    // default 1.5, the paper's. The number of heads is the style's, so the whole figure
-                                    // grows and shrinks with the head; where height is set, that counts
-  double amount;                    // 0 gives the original back, 1 (default) the style
-  double profile;                   // 1 (default) makes every slice of the body as broad and deep as the style's, 0
-                                    // gives each part one thickness
-  double hair_length;               // hair below the chin: 1 (default) ends where it ended on the body, 0 at the chin
+  double head_scale;                // how many times as large as the character's own the head becomes; 1.5 is the
+                                    // paper's. The number of heads is the style's, so the whole figure grows and
+                                    // shrinks with the head; where height is set, that counts; 0.1 to 10, default 1.5
+  double amount;                    // from the original (0) to the style (1); 0 to 1, default 1
+  double profile;                   // 1 makes every slice of the body as broad and deep as the style's, 0 gives each
+                                    // part one thickness; 0 to 1, default 1
+  double hair_length;               // hair below the chin: 1 ends it where it ended on the body, 0 at the chin; 0 to 1,
+                                    // default 1
   double face_squash;               // how much younger the face gets, -10 to 10 (bounded where it would fold); 0 leaves
                                     // it; NAN (default): 0.8 in product mode where a face is found, 0 in paper mode
   uint32_t face_curve;              // SDEF_FACE_CURVE_*; default F4
@@ -289,17 +290,19 @@ typedef struct SdefOptions {
   double height;                    // how tall the result is, in the character's units, grown or shrunk as a whole
                                     // about the ground; 0: as tall as the character was; NAN (default): as the style
                                     // and head_scale make it, in product mode at most as tall as it was
-  double youth;                     // the face from its own age (0) to a child's, or the reference's (1, default)
-  double youth_eye;                 // of youth, 0 to 1 (default): eyes grow, lids open
-  double youth_lower;               // of youth, 0 to 1 (default): eyes and all beside them sink
-  double youth_nose;                // of youth, 0 to 1 (default): the nose shrinks
-  double youth_cheek;               // of youth, 0 to 1 (default): cheeks fill
-  double youth_jaw;                 // of youth, 0 to 1 (default): chin and mouth become smaller and rounder
-  double youth_skull;               // of youth, 0 to 1 (default): the skull becomes as wide and deep as the reference's
-  double youth_ear;                 // of youth, 0 to 1 (default): ears come closer and become smaller
-  double smile;                     // lifts the corners of the mouth, 0 (default) to 1
-  double seat;                      // moves the head back over the chest and fills the nape, 0 to 1 (default)
-  double hair_lay;                  // lays long hair on the body instead of letting it flare, 0 to 1 (default)
+  double youth;                     // from the face's own age (0) to a child's, or the reference's (1); 0 to 1, default
+                                    // 1
+  double youth_eye;                 // of youth: eyes grow, lids open; 0 to 1, default 1
+  double youth_lower;               // of youth: eyes and all beside them sink; 0 to 1, default 1
+  double youth_nose;                // of youth: the nose shrinks; 0 to 1, default 1
+  double youth_cheek;               // of youth: cheeks fill; 0 to 1, default 1
+  double youth_jaw;                 // of youth: chin and mouth become smaller and rounder; 0 to 1, default 1
+  double youth_skull;               // of youth: the skull becomes as wide and deep as the reference's; 0 to 1, default
+                                    // 1
+  double youth_ear;                 // of youth: ears come closer and become smaller; 0 to 1, default 1
+  double smile;                     // lifts the corners of the mouth; 0 to 1, default 0
+  double seat;                      // moves the head back over the chest and fills the nape; 0 to 1, default 1
+  double hair_lay;                  // lays long hair on the body instead of letting it flare; 0 to 1, default 1
 } SdefOptions;
 
 // Fills *options with the defaults.

@@ -69,7 +69,7 @@
 //! Either way the deformation is a field, from a point and its weights to a place and a Jacobian (`src/shape/field.rs`), and
 //! everything goes through it: vertices, morph targets, joints, and any point that hangs from a joint.
 //!
-//! Where the paper's text can be read in two ways, or is silent, a decision has a number (D1 to D28) that the source cites;
+//! Where the paper's text can be read in two ways, or is silent, a decision has a number (D1 to D33) that the source cites;
 //! `docs/method.md` of the repository says what was decided and what was seen, `docs/constants.md` what each number does.
 //!
 //! # Units, axes, determinism

@@ -120,50 +120,62 @@ fn decisions_that_the_source_cites_are_written_down() {
     assert!(count > 15, "only {count} citations were found");
 }
 
-/// The constants of `source` that are numbers, with their values as they are written.
-fn constants(source: &str) -> BTreeMap<String, String> {
-    let source = source.split("#[cfg(test)]").next().unwrap();
-    let constant =
-        Regex::new(r"(?ms)^ *(?:pub(?:\([a-z]+\))? )?const ([A-Z][A-Z_0-9]*): ([^=]+?) =\s*(.*?);$").unwrap();
-    let of_numbers = Regex::new(r"^[(\[]?(f32|f64|usize|u32|i32)[, )\];f0-9a-z]*$").unwrap();
-    constant
-        .captures_iter(source)
-        .filter(|found| of_numbers.is_match(&found[2]) && !found[3].contains(" as "))
-        .map(|found| (found[1].to_string(), found[3].trim_matches(['(', ')', '[', ']']).to_string()))
-        .collect()
+#[test]
+fn the_readme_names_every_folder_of_the_source() {
+    let readme = text("README.md");
+    let folders: BTreeSet<String> =
+        sources("src").into_keys().filter_map(|path| Some(path.rsplit_once('/')?.0.to_string())).collect();
+    let missing: Vec<&String> = folders
+        .iter()
+        .filter(|folder| *folder != "src" && !readme.contains(&format!("`{folder}`")))
+        .collect();
+    assert!(folders.len() > 15 && missing.is_empty(), "README.md does not name {missing:?}");
 }
 
+/// CONTRIBUTING tells, by the example of `hair_lay`, which files an option that is one number takes by hand.
 #[test]
-fn the_table_of_constants_has_all_of_them_with_their_values() {
-    let document = text("docs/constants.md");
-    let section = Regex::new(r"(?m)^### `(src/[^`]+)`$").unwrap();
-    let row = Regex::new(r"(?m)^\| `([A-Z][A-Z_0-9]*)` \| ([^|]+?) \|").unwrap();
-    let starts: Vec<(String, usize, usize)> = section
-        .captures_iter(&document)
-        .map(|found| (found[1].to_string(), found.get(0).unwrap().start(), found.get(0).unwrap().end()))
-        .collect();
-    assert!(starts.len() > 10, "only {} files have a section", starts.len());
-    let mut wrong = Vec::new();
-    for (index, (path, _, start)) in starts.iter().enumerate() {
-        let end = starts.get(index + 1).map_or(document.len(), |next| next.1);
-        let table: BTreeMap<String, String> = row
-            .captures_iter(&document[*start..end])
-            .map(|found| (found[1].to_string(), found[2].to_string()))
-            .collect();
-        let of_file = constants(&text(path));
-        assert!(!of_file.is_empty(), "{path} has no constants");
-        for (name, value) in &of_file {
-            match table.get(name) {
-                None => wrong.push(format!("{path}: no row for {name} ({value})")),
-                Some(told) if told != value => {
-                    wrong.push(format!("{path}: {name} is {value}, the table says {told}"));
-                }
-                Some(_) => {}
+fn an_option_takes_the_files_that_contributing_lists() {
+    let contributing = text("CONTRIBUTING.md");
+    let (_, told) = contributing.split_once("**An option that is one number**").expect("how to add one");
+    let (told, _) = told.split_once("\n**").expect("an end");
+    let rows: String = told.lines().filter(|line| line.starts_with("| `")).collect();
+    let path = Regex::new("`([A-Za-z/_.]+)`").unwrap();
+    let mut folder = String::new();
+    let by_hand: BTreeSet<String> = path
+        .captures_iter(&rows)
+        .map(|found| found.get(1).unwrap().as_str())
+        .filter(|path| path.contains('.'))
+        .map(|path| match path.rsplit_once('/') {
+            Some((of, _)) => {
+                folder = of.to_string();
+                path.to_string()
             }
-        }
-        for name in table.keys().filter(|name| !of_file.contains_key(*name)) {
-            wrong.push(format!("{path}: the table has {name}, the source has not"));
+            None => format!("{folder}/{path}"),
+        })
+        .collect();
+    let generated = ["include/superdeform.h", "cpp_tests/layout.inc", "unity/Runtime/Native.g.cs"];
+    assert!(generated.iter().all(|path| told.contains(path)), "{told}");
+
+    let named = Regex::new(r"hair_lay|hair-lay|HairLay").unwrap();
+    let folders = ["src", "capi", "host", "examples/superdeform", "include", "unity/Runtime", "unity/Editor"];
+    let found: BTreeSet<String> = folders
+        .iter()
+        .flat_map(|folder| files(folder))
+        .filter(|path| !generated.contains(&path.as_str()) && named.is_match(&text(path)))
+        .collect();
+    assert_eq!(found, by_hand);
+}
+
+/// The paths of all files of text below a folder.
+fn files(folder: &str) -> Vec<String> {
+    let mut found = Vec::new();
+    for entry in fs::read_dir(root().join(folder)).unwrap().flatten() {
+        let path = format!("{folder}/{}", entry.file_name().into_string().unwrap());
+        if entry.path().is_dir() {
+            found.extend(files(&path));
+        } else if fs::read_to_string(entry.path()).is_ok() {
+            found.push(path);
         }
     }
-    assert!(wrong.is_empty(), "docs/constants.md: {wrong:#?}");
+    found
 }

@@ -28,7 +28,6 @@ use superdeform::internals::ffi::options::*;
 use superdeform::internals::ffi::rig::*;
 use superdeform::internals::ffi::style::*;
 use superdeform::internals::shape::Measured;
-use superdeform::options::Features;
 use superdeform::{
     BodyShape, Character, Deformer, FaceCurve, GroupSettings, Height, Humanoid, Mode, MorphTarget, Options,
     Repair, Rig, RigOptions, Role, Stage, Style, find_roles,
@@ -295,7 +294,7 @@ fn options_that_are_set_later_give_what_a_new_deformer_gives() {
             SdefOptions { youth: 0.4, youth_nose: 0.2, smile: 0.3, seat: 0.6, hair_lay: 0.1, ..plain },
             Options {
                 youth: 0.4,
-                features: Features { nose: 0.2, ..Features::default() },
+                youth_nose: 0.2,
                 smile: 0.3,
                 seat: 0.6,
                 hair_lay: 0.1,
@@ -314,15 +313,12 @@ fn options_that_are_set_later_give_what_a_new_deformer_gives() {
                 ..plain
             },
             Options {
-                features: Features {
-                    eye: 0.1,
-                    lower: 0.2,
-                    cheek: 0.3,
-                    jaw: 0.4,
-                    skull: 0.5,
-                    ear: 0.6,
-                    nose: 1.0,
-                },
+                youth_eye: 0.1,
+                youth_lower: 0.2,
+                youth_cheek: 0.3,
+                youth_jaw: 0.4,
+                youth_skull: 0.5,
+                youth_ear: 0.6,
                 ..Options::default()
             },
         ),

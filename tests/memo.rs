@@ -17,30 +17,27 @@ use superdeform::{
 
 type Change = fn(&mut Options);
 
-/// For each option of the table a value that is not its default.
-const CHANGES: [(&str, Change); 31] = [
+macro_rules! numbers {
+    ($($_block:ident { $(
+        $(#[doc = $_text:literal])+
+        $name:ident: $low:literal..=$high:literal = $_default:expr, $_modes:ident, $_heading:ident;
+    )+ })+) => {
+        /// For each option that is one number a value that is not its default.
+        const NUMBERS: &[(&str, Change)] =
+            &[$($((stringify!($name), |options| options.$name = $low + 0.2 * ($high - $low)),)+)+];
+    };
+}
+superdeform::number_options!(numbers);
+
+/// The same for all others.
+const OTHERS: &[(&str, Change)] = &[
     ("mode", |options| options.mode = Mode::Paper),
     ("stage", |options| options.stage = Stage::Thickness),
     ("rays", |options| options.rays = Some(9)),
     ("limits", |options| options.limits = false),
-    ("head_scale", |options| options.head_scale = 1.9),
-    ("amount", |options| options.amount = 0.6),
-    ("profile", |options| options.profile = 0.4),
-    ("hair_length", |options| options.hair_length = 0.3),
     ("height", |options| options.height = Height::Keep),
     ("face_squash", |options| options.face_squash = Some(0.4)),
     ("face_curve", |options| options.face_curve = FaceCurve::F2),
-    ("youth", |options| options.youth = 0.45),
-    ("youth_eye", |options| options.features.eye = 0.2),
-    ("youth_lower", |options| options.features.lower = 0.2),
-    ("youth_nose", |options| options.features.nose = 0.2),
-    ("youth_cheek", |options| options.features.cheek = 0.2),
-    ("youth_jaw", |options| options.features.jaw = 0.2),
-    ("youth_skull", |options| options.features.skull = 0.2),
-    ("youth_ear", |options| options.features.ear = 0.2),
-    ("smile", |options| options.smile = 0.7),
-    ("seat", |options| options.seat = 0.3),
-    ("hair_lay", |options| options.hair_lay = 0.2),
     ("repair", |options| options.repair = Repair::Off),
     ("thread_count", |options| options.thread_count = 1),
     ("groups", |options| set(options, |group| group.length_scale = Some(0.7))),
@@ -54,6 +51,10 @@ const CHANGES: [(&str, Change); 31] = [
     ("thickness_transfer", |options| set(options, |group| group.thickness_transfer = Some(0.5))),
     ("repair", |options| options.repair = Repair::Kept),
 ];
+
+fn changes() -> impl Iterator<Item = (&'static str, Change)> {
+    NUMBERS.iter().chain(OTHERS).copied()
+}
 
 fn set(options: &mut Options, change: fn(&mut GroupSettings)) {
     change(options.groups.entry("upper_leg".to_string()).or_default());
@@ -97,7 +98,7 @@ fn new(character: &Arc<Character>, style: &Style, options: &Options) -> Deformer
 
 #[test]
 fn every_option_of_the_table_changed_in_turn_gives_what_a_new_deformer_gives() {
-    let listed: BTreeSet<&str> = CHANGES.iter().map(|(name, _)| *name).collect();
+    let listed: BTreeSet<&str> = changes().map(|(name, _)| name).collect();
     let settable = TABLE.iter().filter(|info| matches!(info.scope, Scope::Plain | Scope::Group));
     assert_eq!(listed, settable.map(|info| info.name).collect());
 
@@ -107,7 +108,7 @@ fn every_option_of_the_table_changed_in_turn_gives_what_a_new_deformer_gives() {
         let plain = Options::default();
         let mut live = new(&character, &style, &plain);
         let before = outcome(&live);
-        for (name, change) in CHANGES {
+        for (name, change) in changes() {
             let mut options = plain.clone();
             change(&mut options);
             // It gives what was pushed last: of the same body.

@@ -8,8 +8,7 @@ use super::guard::{Failure, Outcome, call};
 use crate::character::Role;
 use crate::error::Named;
 use crate::options::{
-    FaceCurve, Features, GarmentWeights, GroupSettings, Height, Mode, Options, Repair, RigOptions, Stage,
-    WeightMethod,
+    FaceCurve, GarmentWeights, GroupSettings, Height, Mode, Options, Repair, RigOptions, Stage, WeightMethod,
 };
 use core::ffi::c_char;
 use glam::DVec3;
@@ -139,89 +138,78 @@ pub struct SdefGivenJoint {
 }
 host_structs!(SdefBoneGroup, SdefGivenJoint);
 
-/// Everything that can be set. Filled by sdef_options_init; NULL stands for the defaults wherever options are asked for.
-#[derive_ReprC]
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct SdefOptions {
-    /// sizeof(SdefOptions)
-    pub struct_size: u32,
-    /// threads to use, up to 1024; 0 (default): all cores
-    pub thread_count: u32,
-    /// SDEF_MODE_*; default PRODUCT
-    pub mode: u32,
-    /// SDEF_STAGE_*: stop after it; default FACE, which is everything
-    pub stage: u32,
-    /// rays around a sample of a bone, 3 to 4096; 0 (default): the mode's own, 48 or 12
-    pub rays: u32,
-    /// 1 (default) bounds what product mode may do to a body, 0 does not
-    pub limits: u32,
-    /// how many times as large as the character's own the head becomes, 0.1 to 10; default 1.5, the paper's. The number of
-    /// heads is the style's, so the whole figure grows and shrinks with the head; where height is set, that counts
-    pub head_scale: f64,
-    /// 0 gives the original back, 1 (default) the style
-    pub amount: f64,
-    /// 1 (default) makes every slice of the body as broad and deep as the style's, 0 gives each part one thickness
-    pub profile: f64,
-    /// hair below the chin: 1 (default) ends where it ended on the body, 0 at the chin
-    pub hair_length: f64,
-    /// how much younger the face gets, -10 to 10 (bounded where it would fold); 0 leaves it;
-    /// NAN (default): 0.8 in product mode where a face is found, 0 in paper mode
-    pub face_squash: f64,
-    /// SDEF_FACE_CURVE_*; default F4
-    pub face_curve: u32,
-    /// elements of groups
-    pub group_count: u32,
-    /// settings by bone group
-    pub groups: *const SdefGroupSettings,
-    /// bone groups of your own
-    pub bone_groups: *const SdefBoneGroup,
-    /// elements of bone_groups
-    pub bone_group_count: u32,
-    /// rig: SDEF_WEIGHTS_* for the body; default AUTO
-    pub rig_weights: u32,
-    /// rig: SDEF_GARMENTS_* for clothes; default ROBUST
-    pub rig_garments: u32,
-    /// rig: voxels along the longest side of the volume, 16 to 512; default 128
-    pub rig_voxel_resolution: u32,
-    /// rig: 1 (default) looks for fingers, 0 does not
-    pub rig_fingers: u32,
-    /// rig: 1 tells left from right in left-handed axes (Unity's); default 0
-    pub rig_left_handed: u32,
-    /// rig: how sharp weights by heat are, 0.01 to 1000; default 1
-    pub rig_heat: f64,
-    /// rig: joints that are known; the rest is found
-    pub rig_joints: *const SdefGivenJoint,
-    /// elements of rig_joints
-    pub rig_joint_count: u32,
-    /// SDEF_REPAIR_*: clothes that were outside of the body and would end inside; default ON; product mode alone
-    pub repair: u32,
-    /// how tall the result is, in the character's units, grown or shrunk as a whole about the ground; 0: as tall as the
-    /// character was; NAN (default): as the style and head_scale make it, in product mode at most as tall as it was
-    pub height: f64,
-    /// the face from its own age (0) to a child's, or the reference's (1, default)
-    pub youth: f64,
-    /// of youth, 0 to 1 (default): eyes grow, lids open
-    pub youth_eye: f64,
-    /// of youth, 0 to 1 (default): eyes and all beside them sink
-    pub youth_lower: f64,
-    /// of youth, 0 to 1 (default): the nose shrinks
-    pub youth_nose: f64,
-    /// of youth, 0 to 1 (default): cheeks fill
-    pub youth_cheek: f64,
-    /// of youth, 0 to 1 (default): chin and mouth become smaller and rounder
-    pub youth_jaw: f64,
-    /// of youth, 0 to 1 (default): the skull becomes as wide and deep as the reference's
-    pub youth_skull: f64,
-    /// of youth, 0 to 1 (default): ears come closer and become smaller
-    pub youth_ear: f64,
-    /// lifts the corners of the mouth, 0 (default) to 1
-    pub smile: f64,
-    /// moves the head back over the chest and fills the nape, 0 to 1 (default)
-    pub seat: f64,
-    /// lays long hair on the body instead of letting it flare, 0 to 1 (default)
-    pub hair_lay: f64,
+// The texts of its numbers, their ranges and defaults come from the list of options, options::table: tests/headers writes them
+// into the header, for what says that they are there as well.
+macro_rules! sdef_options {
+    (first $_first:tt later { $(
+        $(#[doc = $text:literal])+
+        $name:ident: $_low:literal..=$_high:literal = $_default:expr, $_modes:ident, $_heading:ident;
+    )+ }) => {
+        /// Everything that can be set. Filled by sdef_options_init; NULL stands for the defaults wherever options are asked for.
+        #[derive_ReprC]
+        #[repr(C)]
+        #[derive(Clone, Copy, Debug)]
+        pub struct SdefOptions {
+            /// sizeof(SdefOptions)
+            pub struct_size: u32,
+            /// threads to use, up to 1024; 0 (default): all cores
+            pub thread_count: u32,
+            /// SDEF_MODE_*; default PRODUCT
+            pub mode: u32,
+            /// SDEF_STAGE_*: stop after it; default FACE, which is everything
+            pub stage: u32,
+            /// rays around a sample of a bone, 3 to 4096; 0 (default): the mode's own, 48 or 12
+            pub rays: u32,
+            /// 1 (default) bounds what product mode may do to a body, 0 does not
+            pub limits: u32,
+            /// see the list
+            pub head_scale: f64,
+            /// see the list
+            pub amount: f64,
+            /// see the list
+            pub profile: f64,
+            /// see the list
+            pub hair_length: f64,
+            /// how much younger the face gets, -10 to 10 (bounded where it would fold); 0 leaves it;
+            /// NAN (default): 0.8 in product mode where a face is found, 0 in paper mode
+            pub face_squash: f64,
+            /// SDEF_FACE_CURVE_*; default F4
+            pub face_curve: u32,
+            /// elements of groups
+            pub group_count: u32,
+            /// settings by bone group
+            pub groups: *const SdefGroupSettings,
+            /// bone groups of your own
+            pub bone_groups: *const SdefBoneGroup,
+            /// elements of bone_groups
+            pub bone_group_count: u32,
+            /// rig: SDEF_WEIGHTS_* for the body; default AUTO
+            pub rig_weights: u32,
+            /// rig: SDEF_GARMENTS_* for clothes; default ROBUST
+            pub rig_garments: u32,
+            /// rig: voxels along the longest side of the volume, 16 to 512; default 128
+            pub rig_voxel_resolution: u32,
+            /// rig: 1 (default) looks for fingers, 0 does not
+            pub rig_fingers: u32,
+            /// rig: 1 tells left from right in left-handed axes (Unity's); default 0
+            pub rig_left_handed: u32,
+            /// rig: how sharp weights by heat are, 0.01 to 1000; default 1
+            pub rig_heat: f64,
+            /// rig: joints that are known; the rest is found
+            pub rig_joints: *const SdefGivenJoint,
+            /// elements of rig_joints
+            pub rig_joint_count: u32,
+            /// SDEF_REPAIR_*: clothes that were outside of the body and would end inside; default ON; product mode alone
+            pub repair: u32,
+            /// how tall the result is, in the character's units, grown or shrunk as a whole about the ground; 0: as tall as the
+            /// character was; NAN (default): as the style and head_scale make it, in product mode at most as tall as it was
+            pub height: f64,
+            $($(#[doc = $text])+ pub $name: f64,)+
+        }
+    };
 }
+crate::number_options!(sdef_options);
+
 unsafe impl Plain for SdefOptions {}
 unsafe impl HostStruct for SdefOptions {
     const NAME: &'static str = "SdefOptions";
@@ -246,49 +234,48 @@ pub unsafe extern "C" fn sdef_options_init(
     unsafe { call(error, || init(options, struct_size)) }
 }
 
-/// The defaults, as C sees them.
-fn defaults() -> SdefOptions {
-    let (options, rig) = (Options::default(), RigOptions::default());
-    SdefOptions {
-        struct_size: size_of::<SdefOptions>() as u32,
-        thread_count: 0,
-        mode: options.mode as u32,
-        stage: options.stage as u32,
-        rays: 0,
-        limits: u32::from(options.limits),
-        head_scale: options.head_scale,
-        amount: options.amount,
-        profile: options.profile,
-        hair_length: options.hair_length,
-        face_squash: f64::NAN,
-        youth: options.youth,
-        youth_eye: options.features.eye,
-        youth_lower: options.features.lower,
-        youth_nose: options.features.nose,
-        youth_cheek: options.features.cheek,
-        youth_jaw: options.features.jaw,
-        youth_skull: options.features.skull,
-        youth_ear: options.features.ear,
-        smile: options.smile,
-        seat: options.seat,
-        hair_lay: options.hair_lay,
-        face_curve: options.face_curve as u32,
-        group_count: 0,
-        groups: null(),
-        bone_groups: null(),
-        bone_group_count: 0,
-        rig_weights: rig.method as u32,
-        rig_garments: rig.garments as u32,
-        rig_voxel_resolution: rig.voxel_resolution as u32,
-        rig_fingers: u32::from(rig.fingers),
-        rig_left_handed: u32::from(rig.left_handed),
-        rig_heat: rig.heat,
-        rig_joints: null(),
-        rig_joint_count: 0,
-        repair: options.repair as u32,
-        height: f64::NAN,
-    }
+macro_rules! numbers {
+    ($($_block:ident { $(
+        $(#[doc = $_text:literal])+
+        $name:ident: $_low:literal..=$_high:literal = $_default:expr, $_modes:ident, $_heading:ident;
+    )+ })+) => {
+        /// The defaults, as C sees them.
+        fn defaults() -> SdefOptions {
+            let (options, rig) = (Options::default(), RigOptions::default());
+            SdefOptions {
+                $($($name: options.$name,)+)+
+                struct_size: size_of::<SdefOptions>() as u32,
+                thread_count: 0,
+                mode: options.mode as u32,
+                stage: options.stage as u32,
+                rays: 0,
+                limits: u32::from(options.limits),
+                face_squash: f64::NAN,
+                face_curve: options.face_curve as u32,
+                group_count: 0,
+                groups: null(),
+                bone_groups: null(),
+                bone_group_count: 0,
+                rig_weights: rig.method as u32,
+                rig_garments: rig.garments as u32,
+                rig_voxel_resolution: rig.voxel_resolution as u32,
+                rig_fingers: u32::from(rig.fingers),
+                rig_left_handed: u32::from(rig.left_handed),
+                rig_heat: rig.heat,
+                rig_joints: null(),
+                rig_joint_count: 0,
+                repair: options.repair as u32,
+                height: f64::NAN,
+            }
+        }
+
+        /// The defaults, and the numbers that are given.
+        fn numbers_of(given: SdefOptions) -> Options {
+            Options { $($($name: given.$name,)+)+ ..Options::default() }
+        }
+    };
 }
+crate::number_options!(numbers);
 
 /// Writes the defaults, as far as the caller's struct reaches.
 ///
@@ -342,26 +329,9 @@ pub(super) unsafe fn read(options: *const SdefOptions) -> Outcome<(Options, RigO
     let mut options = Options {
         mode: one_of("mode", "SDEF_MODE_", given.mode, Mode::ALL)?,
         rays: (given.rays != 0).then_some(given.rays as usize),
-        head_scale: given.head_scale,
         face_squash: unless_nan(given.face_squash),
         face_curve: one_of("face_curve", "SDEF_FACE_CURVE_", given.face_curve, FaceCurve::ALL)?,
-        amount: given.amount,
         limits: switch("limits", given.limits)?,
-        profile: given.profile,
-        hair_length: given.hair_length,
-        youth: given.youth,
-        features: Features {
-            eye: given.youth_eye,
-            lower: given.youth_lower,
-            nose: given.youth_nose,
-            cheek: given.youth_cheek,
-            jaw: given.youth_jaw,
-            skull: given.youth_skull,
-            ear: given.youth_ear,
-        },
-        smile: given.smile,
-        seat: given.seat,
-        hair_lay: given.hair_lay,
         repair: one_of("repair", "SDEF_REPAIR_", given.repair, Repair::ALL)?,
         height: match unless_nan(given.height) {
             None => Height::Style,
@@ -370,7 +340,7 @@ pub(super) unsafe fn read(options: *const SdefOptions) -> Outcome<(Options, RigO
         },
         stage: one_of("stage", "SDEF_STAGE_", given.stage, Stage::ALL)?,
         thread_count: given.thread_count as usize,
-        ..Options::default()
+        ..numbers_of(given)
     };
     let groups = unsafe { arrays::structs_in("groups", given.groups, given.group_count as usize) }?;
     for (index, settings) in groups.iter().enumerate() {

@@ -2,7 +2,7 @@
 
 pub mod table;
 
-pub use table::{HEADS, OptionInfo, Scope, TABLE, Values, find};
+pub use table::{HEADS, NUMBERS, OptionInfo, Scope, TABLE, Values, find};
 
 use crate::character::Role;
 use crate::error::{Error, ErrorKind, Result};
@@ -123,7 +123,7 @@ pub enum Repair {
     #[default]
     On,
     /// As they were pushed last, whatever else has changed since; where nothing was pushed yet, as [`Repair::On`]. For while a
-    /// slider moves: it saves the time to find out anew, which [`Repair::On`] takes once the slider is let go.
+    /// slider moves: it saves the time to find out again, which [`Repair::On`] takes once the slider is let go.
     Kept,
 }
 
@@ -195,51 +195,72 @@ impl GroupSettings {
     }
 }
 
-/// Everything a user can set.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Options {
-    /// Which field deforms.
-    pub mode: Mode,
-    /// Rays around each sample of a bone (§V-A); `None`: the mode's own.
-    pub rays: Option<usize>,
-    /// alpha_head (Eq. 4).
-    pub head_scale: f64,
-    /// How much of the style's profile is taken: each slice of torso, legs and arms as broad and deep as the style's; 0 leaves
-    /// each part one thickness.
-    pub profile: f64,
-    /// gamma (Eqs. 12, 13); `None`: the mode's own.
-    pub face_squash: Option<f64>,
-    /// Which curve `face_squash` is for.
-    pub face_curve: FaceCurve,
-    /// Settings by the name of the bone group.
-    pub groups: BTreeMap<String, GroupSettings>,
-    /// The user's own bone groups (§IV-A, Fig. 3): the role at a bone's end to a group name.
-    pub bone_groups: BTreeMap<Role, String>,
-    /// 0 gives the original back, 1 the style.
-    pub amount: f64,
-    /// Product mode's bounds on coefficients.
-    pub limits: bool,
-    /// Length of hair below the chin: 1 ends it at the part of the body where it ended, 0 at the chin.
-    pub hair_length: f64,
-    /// How far the face goes from the target's own age (0) to a child's or the reference's (1).
-    pub youth: f64,
-    /// How much of that each feature does.
-    pub features: Features,
-    /// How far the mouth's corners rise, 0 to 1: a look of its own.
-    pub smile: f64,
-    /// How far the head goes back over the chest and the nape fills, 0 to 1.
-    pub seat: f64,
-    /// How far long hair lies down on the body, 0 to 1.
-    pub hair_lay: f64,
-    /// Whether clothes that the body would pierce are pushed out of it; product mode alone.
-    pub repair: Repair,
-    /// How tall the result is.
-    pub height: Height,
-    /// Stop after this stage.
-    pub stage: Stage,
-    /// Threads to use; 0 means all cores.
-    pub thread_count: usize,
+macro_rules! options {
+    ($($_block:ident { $(
+        $(#[doc = $text:literal])+
+        $name:ident: $_low:literal..=$_high:literal = $default:expr, $_modes:ident, $_heading:ident;
+    )+ })+) => {
+        /// Everything a user can set.
+        #[derive(Clone, Debug, PartialEq)]
+        pub struct Options {
+            $($($(#[doc = $text])+ pub $name: f64,)+)+
+            /// Which field deforms.
+            pub mode: Mode,
+            /// Rays around each sample of a bone (§V-A); `None`: the mode's own.
+            pub rays: Option<usize>,
+            /// gamma (Eqs. 12, 13); `None`: the mode's own.
+            pub face_squash: Option<f64>,
+            /// Which curve `face_squash` is for.
+            pub face_curve: FaceCurve,
+            /// Settings by the name of the bone group.
+            pub groups: BTreeMap<String, GroupSettings>,
+            /// The user's own bone groups (§IV-A, Fig. 3): the role at a bone's end to a group name.
+            pub bone_groups: BTreeMap<Role, String>,
+            /// Product mode's bounds on coefficients.
+            pub limits: bool,
+            /// Whether clothes that the body would pierce are pushed out of it; product mode alone.
+            pub repair: Repair,
+            /// How tall the result is.
+            pub height: Height,
+            /// Stop after this stage.
+            pub stage: Stage,
+            /// Threads to use; 0 means all cores.
+            pub thread_count: usize,
+        }
+
+        impl Default for Options {
+            fn default() -> Self {
+                Self {
+                    $($($name: $default,)+)+
+                    mode: Mode::Product,
+                    rays: None,
+                    face_squash: None,
+                    face_curve: FaceCurve::F4,
+                    groups: BTreeMap::new(),
+                    bone_groups: BTreeMap::new(),
+                    limits: true,
+                    repair: Repair::On,
+                    height: Height::Style,
+                    stage: Stage::Face,
+                    thread_count: 0,
+                }
+            }
+        }
+
+        impl Options {
+            /// What is set of the options that are numbers, with their names.
+            pub fn numbers(&self) -> Vec<(&'static str, Option<f64>)> {
+                vec![
+                    $($((stringify!($name), Some(self.$name)),)+)+
+                    ("rays", self.rays.map(|rays| rays as f64)),
+                    ("face_squash", self.face_squash),
+                    ("thread_count", Some(self.thread_count as f64)),
+                ]
+            }
+        }
+    };
 }
+crate::number_options!(options);
 
 /// How much of youth each feature of a face takes, 0 to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -267,33 +288,6 @@ impl Default for Features {
     }
 }
 
-impl Default for Options {
-    fn default() -> Self {
-        Self {
-            mode: Mode::Product,
-            rays: None,
-            head_scale: table::HEAD_SCALE,
-            profile: 1.0,
-            face_squash: None,
-            face_curve: FaceCurve::F4,
-            groups: BTreeMap::new(),
-            bone_groups: BTreeMap::new(),
-            amount: 1.0,
-            limits: true,
-            hair_length: 1.0,
-            youth: 1.0,
-            features: Features::default(),
-            smile: 0.0,
-            seat: 1.0,
-            hair_lay: 1.0,
-            repair: Repair::On,
-            height: Height::Style,
-            stage: Stage::Face,
-            thread_count: 0,
-        }
-    }
-}
-
 impl Options {
     /// Rays around each sample of a bone: as set, else the mode's own.
     pub fn ray_count(&self) -> usize {
@@ -303,28 +297,17 @@ impl Options {
         })
     }
 
-    /// What is set of the options that are numbers, with their names.
-    pub fn numbers(&self) -> [(&'static str, Option<f64>); 18] {
-        [
-            ("rays", self.rays.map(|rays| rays as f64)),
-            ("head_scale", Some(self.head_scale)),
-            ("profile", Some(self.profile)),
-            ("amount", Some(self.amount)),
-            ("hair_length", Some(self.hair_length)),
-            ("face_squash", self.face_squash),
-            ("youth", Some(self.youth)),
-            ("youth_eye", Some(self.features.eye)),
-            ("youth_lower", Some(self.features.lower)),
-            ("youth_nose", Some(self.features.nose)),
-            ("youth_cheek", Some(self.features.cheek)),
-            ("youth_jaw", Some(self.features.jaw)),
-            ("youth_skull", Some(self.features.skull)),
-            ("youth_ear", Some(self.features.ear)),
-            ("smile", Some(self.smile)),
-            ("seat", Some(self.seat)),
-            ("hair_lay", Some(self.hair_lay)),
-            ("thread_count", Some(self.thread_count as f64)),
-        ]
+    /// How much of youth each feature of the face takes.
+    pub fn features(&self) -> Features {
+        Features {
+            eye: self.youth_eye,
+            lower: self.youth_lower,
+            nose: self.youth_nose,
+            cheek: self.youth_cheek,
+            jaw: self.youth_jaw,
+            skull: self.youth_skull,
+            ear: self.youth_ear,
+        }
     }
 
     /// Checks every number against its range in the table.
@@ -428,7 +411,7 @@ mod tests {
 
     #[test]
     fn every_number_of_the_table_is_checked() {
-        let plain = Options::default().numbers().map(|(name, _)| name);
+        let plain: Vec<&str> = Options::default().numbers().iter().map(|(name, _)| *name).collect();
         let group = GroupSettings::default().numbers().map(|(name, _)| name);
         let rig = RigOptions::default().numbers().map(|(name, _)| name);
         for (scope, checked) in [(Scope::Plain, &plain[..]), (Scope::Group, &group), (Scope::Rig, &rig)] {

@@ -186,10 +186,89 @@ const SCALES: Values = number(0.01, 10.0);
 /// eta and phi of the paper, which knows no other range. Beyond 1 the transfer is a straight line that soon runs through
 /// 0 and turns a limb inside out (a leg of .4 ends at -.2 with 2); who wants more than the reference sets the scale.
 const TRANSFERS: Values = number(0.0, 1.0);
-/// From nothing to all.
-const SHARES: Values = number(0.0, 1.0);
 /// The curves fold long before the ends and are bounded there, with a warning; below 0 a face gets older.
 const SQUASHES: Values = number(-10.0, 10.0);
+
+/// The options that are one number, each with its text, range and default, the modes that honour it and the command line's heading:
+/// what a host, a check or a file needs to know of an option of this kind is made from its row here.
+///
+/// `$then`: a macro that gets all rows. New ones go to the end, which is the end of the C interface's struct; its `first`
+/// stand among others there.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! number_options {
+    ($then:ident) => {
+        $then! {
+            first {
+                /// how many times as large as the character's own the head becomes; 1.5 is the paper's. The number of heads is the
+                /// style's, so the whole figure grows and shrinks with the head; where height is set, that counts
+                head_scale: 0.1..=10.0 = $crate::options::table::HEAD_SCALE, BOTH, STYLE;
+                /// from the original (0) to the style (1)
+                amount: 0.0..=1.0 = 1.0, BOTH, STYLE;
+                /// 1 makes every slice of the body as broad and deep as the style's, 0 gives each part one thickness
+                profile: 0.0..=1.0 = 1.0, PRODUCT, STYLE;
+                /// hair below the chin: 1 ends it where it ended on the body, 0 at the chin
+                hair_length: 0.0..=1.0 = 1.0, PRODUCT, STYLE;
+            }
+            later {
+                /// from the face's own age (0) to a child's, or the reference's (1)
+                youth: 0.0..=1.0 = 1.0, PRODUCT, FACE;
+                /// of youth: eyes grow, lids open
+                youth_eye: 0.0..=1.0 = 1.0, PRODUCT, FACE;
+                /// of youth: eyes and all beside them sink
+                youth_lower: 0.0..=1.0 = 1.0, PRODUCT, FACE;
+                /// of youth: the nose shrinks
+                youth_nose: 0.0..=1.0 = 1.0, PRODUCT, FACE;
+                /// of youth: cheeks fill
+                youth_cheek: 0.0..=1.0 = 1.0, PRODUCT, FACE;
+                /// of youth: chin and mouth become smaller and rounder
+                youth_jaw: 0.0..=1.0 = 1.0, PRODUCT, FACE;
+                /// of youth: the skull becomes as wide and deep as the reference's
+                youth_skull: 0.0..=1.0 = 1.0, PRODUCT, FACE;
+                /// of youth: ears come closer and become smaller
+                youth_ear: 0.0..=1.0 = 1.0, PRODUCT, FACE;
+                /// lifts the corners of the mouth
+                smile: 0.0..=1.0 = 0.0, PRODUCT, FACE;
+                /// moves the head back over the chest and fills the nape
+                seat: 0.0..=1.0 = 1.0, PRODUCT, FACE;
+                /// lays long hair on the body instead of letting it flare
+                hair_lay: 0.0..=1.0 = 1.0, PRODUCT, FACE;
+            }
+        }
+    };
+}
+
+macro_rules! numbers {
+    ($($_block:ident { $(
+        $(#[doc = $text:literal])+
+        $name:ident: $low:literal..=$high:literal = $default:expr, $modes:ident, $_heading:ident;
+    )+ })+) => {
+        /// The options that are one number.
+        pub const NUMBERS: &[OptionInfo] = &[$($(OptionInfo {
+            name: stringify!($name),
+            scope: Scope::Plain,
+            values: number($low, $high),
+            unit: "",
+            default: Default::Number($default),
+            modes: $modes,
+            text: concat!($($text),+).trim_ascii(),
+        },)+)+];
+    };
+}
+number_options!(numbers);
+
+/// All options.
+pub const TABLE: &[OptionInfo] = &joined::<{ NUMBERS.len() + OTHERS.len() }>(NUMBERS, OTHERS);
+
+const fn joined<const COUNT: usize>(first: &[OptionInfo], then: &[OptionInfo]) -> [OptionInfo; COUNT] {
+    let mut all = [first[0]; COUNT];
+    let mut index = 1;
+    while index < COUNT {
+        all[index] = if index < first.len() { first[index] } else { then[index - first.len()] };
+        index += 1;
+    }
+    all
+}
 
 macro_rules! rows {
     ($($name:literal, $scope:ident, $values:expr, $unit:literal, $default:expr, $modes:ident, $text:literal;)+) => {
@@ -205,9 +284,9 @@ macro_rules! rows {
     };
 }
 
-/// All options.
+/// The options that are something else.
 #[rustfmt::skip]
-pub const TABLE: &[OptionInfo] = rows! {
+const OTHERS: &[OptionInfo] = rows! {
     "mode", Plain, Values::Choice(Mode::NAMES), "", Default::Choice(Mode::Product.name()), BOTH,
         "what deforms: parts that meet at landmarks (product), or the paper's chain of bones (paper)";
     "stage", Plain, Values::Choice(Stage::NAMES), "", Default::Choice(Stage::Face.name()), BOTH,
@@ -216,42 +295,12 @@ pub const TABLE: &[OptionInfo] = rows! {
         "rays around each sample of a bone";
     "limits", Plain, Values::Switch, "", Default::Switch(true), PRODUCT,
         "bounds what may be done to a body, where measured scales would fold it";
-    "head_scale", Plain, number(0.1, 10.0), "", Default::Number(HEAD_SCALE), BOTH,
-        "size of the head, 1.5 is the paper's; the body follows, so the number of heads stays";
-    "amount", Plain, SHARES, "", Default::Number(1.0), BOTH,
-        "from the original (0) to the style (1)";
-    "profile", Plain, SHARES, "", Default::Number(1.0), PRODUCT,
-        "1 makes every slice of the body as broad and deep as the style's, 0 gives each part one thickness";
-    "hair_length", Plain, SHARES, "", Default::Number(1.0), PRODUCT,
-        "hair below the chin: 1 ends it where it ended on the body, 0 at the chin";
     "height", Plain, Values::Other, "", Default::Choice("style"), BOTH,
         "how tall the result is: as the style makes it, at most as before (style), as tall as before (keep), or a number in the character's units";
     "face_squash", Plain, SQUASHES, "", by_mode(PRODUCT_FACE_SQUASH, 0.0), BOTH,
         "how much younger the face gets; 0 leaves it";
     "face_curve", Plain, Values::Choice(FaceCurve::NAMES), "", Default::Choice(FaceCurve::F4.name()), BOTH,
         "the curve that makes the face younger: the paper's f4 or f2, or a sphere";
-    "youth", Plain, SHARES, "", Default::Number(1.0), PRODUCT,
-        "from the face's own age (0) to a child's, or the reference's (1)";
-    "youth_eye", Plain, SHARES, "", Default::Number(1.0), PRODUCT,
-        "of youth: eyes grow, lids open";
-    "youth_lower", Plain, SHARES, "", Default::Number(1.0), PRODUCT,
-        "of youth: eyes and all beside them sink";
-    "youth_nose", Plain, SHARES, "", Default::Number(1.0), PRODUCT,
-        "of youth: the nose shrinks";
-    "youth_cheek", Plain, SHARES, "", Default::Number(1.0), PRODUCT,
-        "of youth: cheeks fill";
-    "youth_jaw", Plain, SHARES, "", Default::Number(1.0), PRODUCT,
-        "of youth: chin and mouth become smaller and rounder";
-    "youth_skull", Plain, SHARES, "", Default::Number(1.0), PRODUCT,
-        "of youth: the skull becomes as wide and deep as the reference's";
-    "youth_ear", Plain, SHARES, "", Default::Number(1.0), PRODUCT,
-        "of youth: ears come closer and become smaller";
-    "smile", Plain, SHARES, "", Default::Number(0.0), PRODUCT,
-        "lifts the corners of the mouth";
-    "seat", Plain, SHARES, "", Default::Number(1.0), PRODUCT,
-        "moves the head back over the chest and fills the nape";
-    "hair_lay", Plain, SHARES, "", Default::Number(1.0), PRODUCT,
-        "lays long hair on the body instead of letting it flare";
     "repair", Plain, Values::Choice(Repair::NAMES), "", Default::Choice(Repair::On.name()), PRODUCT,
         "pushes clothes out of the body that were outside of it before; kept: as it did last, for while a slider moves";
     "thread_count", Plain, count(0, MOST_THREADS), "threads", Default::Number(0.0), BOTH,
@@ -284,7 +333,7 @@ pub const TABLE: &[OptionInfo] = rows! {
         "the axes are left-handed: which of two sides is the left one depends on it";
     "heads", Style, number(HEADS.0, HEADS.1), "heads", Default::Found, BOTH,
         "a style for this many heads instead of a reference";
-    "blend", Style, SHARES, "", Default::Number(0.0), BOTH,
+    "blend", Style, TRANSFERS, "", Default::Number(0.0), BOTH,
         "how much of a second style there is";
     "up", Character, Values::Other, "", Default::Found, BOTH,
         "from the feet to the head";

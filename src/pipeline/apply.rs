@@ -150,7 +150,7 @@ impl Deformer {
     }
 
     fn displacements(&self) -> &[Vec3] {
-        &self.made.displacements.all
+        &self.made.displacements
     }
 
     fn ending(&self) -> Ending {

@@ -9,31 +9,10 @@ use super::memo::View;
 use crate::character::{Character, Frame};
 use crate::error::Result;
 use crate::parallel;
-use crate::shape::Measured;
 use crate::shape::field::{Field, Finish};
 use crate::shape::placement::{LEAST_VERTICES, Placement, renewed};
-use crate::shape::product::turned::Triangles;
 use glam::{DVec3, Vec3};
 use std::sync::Arc;
-
-/// How far each vertex goes all the way, model space, before amount, ground and height.
-#[derive(Debug)]
-pub struct Displacements {
-    /// One for each vertex of the figure.
-    pub all: Arc<Vec<Vec3>>,
-    /// Those of vertices that were moved on so that triangles which the field turns over, but nearly not, look where they
-    /// looked: ascending, canonical frame.
-    pub righted: Vec<(u32, DVec3)>,
-}
-
-/// Triangles by what can turn them over.
-#[derive(Debug, Default)]
-pub struct ThinTriangles {
-    /// With a vertex of the head.
-    of_head: Vec<u32>,
-    /// Without one: those that the body's field turns over, but nearly not.
-    below_head: Vec<u32>,
-}
 
 /// How far the vertices go that the head's stages do not change; 0 for the others.
 pub fn below_head(view: &View) -> Result<Vec<Vec3>> {
@@ -48,43 +27,12 @@ pub fn below_head(view: &View) -> Result<Vec<Vec3>> {
     }))
 }
 
-/// The triangles that may have to be put right. The paper's equations stay to the letter.
-pub fn thin_triangles(view: &View) -> Result<ThinTriangles> {
-    let (measured, body, below_head) = (view.measured()?, view.body()?, view.below_head()?);
-    if !body.is_of_parts() {
-        return Ok(ThinTriangles::default());
-    }
-    let (is_of_head, corners) = (body.bindings.is_of_head(), &measured.figure.triangles);
-    let touches_head =
-        |&triangle: &u32| corners[triangle as usize].iter().any(|&corner| is_of_head[corner as usize]);
-    let (of_head, below) = (0..corners.len() as u32).partition::<Vec<u32>, _>(touches_head);
-    let below_head = triangles(&measured, &below_head).nearly_right(&below, view.threads());
-    Ok(ThinTriangles { of_head, below_head })
-}
-
-/// How far every vertex goes; those of triangles that are nearly right so that they are.
-pub fn all(view: &View) -> Result<Displacements> {
-    let (deformation, thin) = (view.deformation()?, view.thin_triangles()?);
-    let measured = &deformation.measured;
+/// How far every vertex goes.
+pub fn all(view: &View) -> Result<Arc<Vec<Vec3>>> {
+    let deformation = view.deformation()?;
     let placement = deformation.placement(&deformation.field, view.threads());
     let of_head = &placement.bindings.of_head;
-    let mut all =
-        renewed(view.threads(), view.below_head()?, of_head, |vertex| displacement(&placement, vertex));
-    let righted = {
-        let triangles = triangles(measured, &all);
-        let mut wrong = triangles.nearly_right(&thin.of_head, view.threads());
-        wrong.extend(&thin.below_head);
-        wrong.sort_unstable();
-        triangles.righted(&wrong)
-    };
-    if !righted.is_empty() {
-        let all = Arc::make_mut(&mut all);
-        for &(vertex, offset) in &righted {
-            let moved = &mut all[vertex as usize];
-            *moved = single(moved.as_dvec3() + measured.figure.frame.to_model(offset));
-        }
-    }
-    Ok(Displacements { all, righted })
+    Ok(renewed(view.threads(), view.below_head()?, of_head, |vertex| displacement(&placement, vertex)))
 }
 
 fn displacement(placement: &Placement, vertex: usize) -> Vec3 {
@@ -92,26 +40,14 @@ fn displacement(placement: &Placement, vertex: usize) -> Vec3 {
     single(figure.frame.to_model(placement.vertex(vertex) - figure.positions[vertex]))
 }
 
-/// The figure's triangles, before and after `displacements`.
-fn triangles<'a>(
-    measured: &'a Measured,
-    displacements: &'a [Vec3],
-) -> Triangles<'a, impl Fn(usize) -> DVec3 + Sync + 'a> {
-    let Measured { figure, weld, .. } = measured;
-    let after = |vertex: usize| {
-        figure.positions[vertex] + figure.frame.to_canonical(displacements[vertex].as_dvec3())
-    };
-    Triangles { rest: &figure.positions, after, corners: &figure.triangles, weld, height: figure.height() }
-}
-
 /// Where the vertices of `character` go, model space, mesh after mesh.
 pub fn positions<'a>(
     character: &'a Character,
-    displacements: &'a Displacements,
+    displacements: &'a [Vec3],
     ending: Ending,
 ) -> impl Iterator<Item = Vec3> + 'a {
     let rest = character.meshes.iter().flat_map(|mesh| &mesh.positions);
-    rest.zip(&*displacements.all).map(move |(&p, &displacement)| ending.place(p, displacement))
+    rest.zip(displacements).map(move |(&p, &displacement)| ending.place(p, displacement))
 }
 
 /// What is done last, for a vertex at `p` whose displacement is `d`: p + ((size - 1) (p - about) + size (amount d + ground)).
@@ -158,11 +94,6 @@ impl Deformer {
     #[doc(hidden)]
     pub fn field_positions(&self) -> Vec<DVec3> {
         let placement = self.placement();
-        let mut positions = placement.all_vertices();
-        let finish = self.made.field.finish;
-        for &(vertex, offset) in &self.made.displacements.righted {
-            positions[vertex as usize] += finish.size * finish.amount * offset;
-        }
-        positions.into_iter().map(|p| placement.figure.frame.to_model(p)).collect()
+        placement.all_vertices().into_iter().map(|p| placement.figure.frame.to_model(p)).collect()
     }
 }

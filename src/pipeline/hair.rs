@@ -6,7 +6,7 @@ use crate::error::Result;
 use crate::face::eyes::Pair;
 use crate::face::head::HeadFrame;
 use crate::face::seat::SeatAmount;
-use crate::options::Stage;
+use crate::options::{Options, Stage};
 use crate::shape::Measured;
 use crate::shape::field::{Binding, Field};
 use crate::shape::figure::extent;
@@ -119,10 +119,14 @@ pub fn between(view: &View) -> Result<Option<Hair>> {
     Ok(Some(Hair { offsets, joint_offsets, between, youth }))
 }
 
+/// True where long hair lies down.
+pub fn is_laid(options: &Options) -> bool {
+    options.stage == Stage::Face && options.hair_lay > 0.0
+}
+
 /// How far long hair lies down.
 fn lay_amount(view: &View, body: &Body) -> Result<f64> {
-    let lays = view.options.stage == Stage::Face;
-    Ok(if lays { growth(body, &*view.measured()?) * view.options.hair_lay } else { 0.0 })
+    Ok(if is_laid(&view.options) { growth(body, &*view.measured()?) * view.options.hair_lay } else { 0.0 })
 }
 
 fn keyframe(view: &View, youth: f64) -> Result<Keyframe> {

@@ -111,7 +111,7 @@ pub fn make_young(view: &View) -> Result<Option<Young>> {
         Style::Heads(_) => (None, None),
     };
     let aim = FaceAim::new(parts.after().heads(), eyes, head);
-    let flow = Flow::new(&face, &aim, &view.options.features, view.options.smile);
+    let flow = Flow::new(&face, &aim, &view.options.features(), view.options.smile);
     if flow.is_identity() {
         return Ok(None);
     }
@@ -180,7 +180,7 @@ pub fn eyes_not_found(view: &View) -> Result<Option<Warning>> {
     let (measured, options) = (view.measured()?, &view.options);
     let is_done = options.stage == Stage::Face && growth(&*view.body()?, &measured) > 0.0;
     let are_found = measured.face.as_ref().is_none_or(|face| face.eyes.is_some());
-    if !is_done || are_found || options.youth * options.features.eye == 0.0 {
+    if !is_done || are_found || options.youth * options.youth_eye == 0.0 {
         return Ok(None);
     }
     let message = if view.character().face_hints.is_empty() {

@@ -33,8 +33,7 @@ use crate::shape::measured::Measured;
 use crate::shape::placement::Placement;
 use crate::shape::product::target::on_head;
 pub use crate::shape::style::Style;
-use displacement::Displacements;
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 use memo::{Inputs, Memo, Phase, View};
 use stages::Deformation;
 use std::cell::RefCell;
@@ -57,7 +56,8 @@ pub struct Deformer {
 #[derive(Clone, Debug)]
 struct Made {
     deformation: Arc<Deformation>,
-    displacements: Arc<Displacements>,
+    /// How far each vertex goes all the way, model space, before amount, ground and height.
+    displacements: Arc<Vec<Vec3>>,
     /// The deformation's field with what is done last.
     field: Field,
     warnings: Arc<Vec<Warning>>,
@@ -145,7 +145,7 @@ impl Deformer {
         Ok(Self { inputs, rig, memo, made, rig_times })
     }
 
-    /// Changes the options, with the same result as a deformer made anew; only what depends on the change is done
+    /// Changes the options, with the same result as a new deformer gives; only what depends on the change is done
     /// again. Where it fails the deformer is as it was.
     ///
     /// # Errors
@@ -154,7 +154,7 @@ impl Deformer {
         self.change(Inputs { options: options.clone(), ..self.inputs.clone() }, progress)
     }
 
-    /// Changes the style, with the same result as a deformer made anew; the target is not measured again. Where it fails
+    /// Changes the style, with the same result as a new deformer gives; the target is not measured again. Where it fails
     /// the deformer is as it was.
     ///
     /// # Errors
@@ -267,7 +267,7 @@ fn make(inputs: &Inputs, memo: &Memo, progress: &mut Progress) -> Result<Made> {
     let progress = RefCell::new(Progress::new(&mut never_back));
     let view = View::of_all(inputs, memo, Some(&progress));
     progress.borrow_mut().at(0.0)?;
-    let Options { mode, repair, hair_lay, stage, thread_count, .. } = inputs.options;
+    let Options { mode, repair, thread_count, .. } = inputs.options;
     let is_first = memo.is_empty();
     view.measured()?;
     if is_first && mode == Mode::Product && parallel::thread_count(thread_count) > 1 {
@@ -276,7 +276,7 @@ fn make(inputs: &Inputs, memo: &Memo, progress: &mut Progress) -> Result<Made> {
         parallel::both(thread_count, worn, || view.parts()).1?;
         let hair = || {
             let view = beside();
-            view.hair_on_body().is_ok() && stage == Stage::Face && hair_lay > 0.0 && view.strands().is_ok()
+            view.hair_on_body().is_ok() && hair::is_laid(&inputs.options) && view.strands().is_ok()
         };
         parallel::both(thread_count, hair, || view.pushed()).1?;
     }

@@ -1,4 +1,4 @@
-//! Morph targets after a deformation: each is made anew at the vertices that it touches, and is zero at the others.
+//! Morph targets after a deformation: each is made again at the vertices that it touches, and is zero at the others.
 
 use super::Deformer;
 use super::displacement::single;

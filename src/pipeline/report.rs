@@ -23,7 +23,7 @@ use std::sync::Arc;
 /// A target may be this many times as tall, in heads, as its style before it is called super-deformed already.
 const ALREADY_SD: f64 = 1.2;
 
-/// What a person should know of a run before it is measured anew.
+/// What a person should know of a run before it is measured again.
 pub fn warnings(view: &View) -> Result<Vec<Warning>> {
     let (measured, body) = (view.measured()?, view.body()?);
     let mut warnings = view.notes().to_vec();
@@ -69,7 +69,7 @@ impl Deformer {
         group_shapes(shape, &self.roles(), &self.inputs.options)
     }
 
-    /// The numbers of the run; `result` is measured anew on `deformed`. The host adds its own times and warnings.
+    /// The numbers of the run; `result` is measured again on `deformed`. The host adds its own times and warnings.
     ///
     /// # Errors
     /// As [`Measured::of`] on the result.

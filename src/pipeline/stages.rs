@@ -5,7 +5,7 @@
 //! what comes out here is in [`Placement`] and [`Field`]; what is done last, for every vertex alike,
 //! in [`Ending`](super::displacement::Ending).
 
-use super::displacement::{self, Displacements, Ending};
+use super::displacement::{self, Ending};
 use super::memo::{Phase, Stage, Value, View};
 use super::morphs::{self, Shifts, Touched};
 use super::{hair, head, report};
@@ -103,7 +103,9 @@ stages! {
     /// Where the body takes each vertex with that face.
     placed: Vec<DVec3> = head::place_face, Face 1, [];
     /// The flow of the face beyond it (D30), and each vertex's way through it.
-    young: Option<head::Young> = head::make_young, Face 8, [features, smile];
+    young: Option<head::Young> = head::make_young, Face 8, [
+        youth_eye, youth_lower, youth_nose, youth_cheek, youth_jaw, youth_skull, youth_ear, smile
+    ];
     /// How far the head goes back over the chest, and how the nape fills (D30).
     seat: Option<Seat> = head::seat, Deform 3, [];
     /// Body, face, flow and seat: the field of the head's vertices, all the way.
@@ -124,14 +126,12 @@ stages! {
     deformation: Deformation = put_together, Deform 0, [];
     /// How far each vertex below the head goes all the way, as a float.
     below_head: Vec<Vec3> = displacement::below_head, Deform 1, [];
-    /// The triangles that may turn over and look nearly as they looked (D33).
-    thin_triangles: displacement::ThinTriangles = displacement::thin_triangles, Deform 1, [];
-    /// How far every vertex goes all the way, triangles put right.
-    displacements: Displacements = displacement::all, Deform 3, [];
+    /// How far every vertex goes all the way.
+    displacements: Vec<Vec3> = displacement::all, Deform 4, [];
     /// Amount, ground and height: what is left to do for all alike.
     finish: Finish = finish, Deform 1, [amount, height];
     /// What a person should know.
-    warnings: Vec<Warning> = report::warnings, Deform 0, [amount, stage, youth, features, seat];
+    warnings: Vec<Warning> = report::warnings, Deform 0, [amount, stage, youth, youth_eye, seat];
 
     // Asked for when results are written.
 

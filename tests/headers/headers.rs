@@ -4,9 +4,27 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use superdeform::options::table::Default;
-use superdeform::options::{OptionInfo, Scope, TABLE, Values, find};
+use superdeform::options::{NUMBERS, OptionInfo, Scope, TABLE, Values, find};
 use superdeform_headers::csharp::{constants_of, pascal, printed};
 use superdeform_headers::{SECTIONS, abi, broken, c_header, csharp, layout, root, source};
+
+#[test]
+fn the_readme_lists_the_options_that_are_one_number() {
+    let readme = std::fs::read_to_string(root().join("README.md")).unwrap().replace("\r\n", "\n");
+    let start = |info: &OptionInfo| format!("| `--{} ", info.name.replace('_', "-"));
+    let row = |info: &OptionInfo| {
+        let (Values::Number { low, high }, Default::Number(usual)) = (info.values, info.default) else {
+            panic!("{} is not one number", info.name)
+        };
+        format!("{}{low}..{high}` | {}; {usual} unless set |", start(info), info.text)
+    };
+    let lines: Vec<&str> = readme.lines().collect();
+    let place = |info: &OptionInfo| lines.iter().position(|line| line.starts_with(&start(info)));
+    let [first, last] = [&NUMBERS[0], &NUMBERS[NUMBERS.len() - 1]].map(|info| place(info).expect(info.name));
+    let rows: Vec<String> = NUMBERS.iter().map(row).collect();
+    let parts = [lines[..first].join("\n"), rows.join("\n"), lines[last + 1..].join("\n")];
+    check("README.md", &(parts.join("\n") + "\n"));
+}
 
 /// Compares a generated text with the committed file, or writes it where `SUPERDEFORM_BLESS` is set.
 fn check(path: &str, text: &str) {
@@ -252,7 +270,9 @@ fn missing(info: &OptionInfo, comment: &str) -> Vec<String> {
 #[test]
 fn comments_say_the_ranges_and_defaults_of_the_table() {
     let c = comments(&source("options"));
-    let cs = comments(&std::fs::read_to_string(root().join("unity/Runtime/Options.cs")).unwrap());
+    // What is generated of Options stands last in its file.
+    let of = |file: &str| std::fs::read_to_string(root().join("unity/Runtime").join(file)).unwrap();
+    let cs = comments(&(of("Native.g.cs") + &of("Options.cs")));
     let mut wrong = Vec::new();
     let mut seen = 0;
     for info in TABLE.iter().filter(|info| matches!(info.scope, Scope::Plain | Scope::Group | Scope::Rig)) {

@@ -11,6 +11,8 @@ pub use frozen::{abi, broken};
 pub use layout::layout;
 
 use std::path::{Path, PathBuf};
+use superdeform::options::table::Default;
+use superdeform::options::{NUMBERS, OptionInfo, Values};
 
 /// The root of the repository.
 pub fn root() -> PathBuf {
@@ -31,6 +33,10 @@ fn read(path: &str) -> Option<String> {
 
 /// The source of a section: of a module that is a folder, what hosts see of it.
 pub fn source(section: &str) -> String {
+    expanded(&text_of(section))
+}
+
+fn text_of(section: &str) -> String {
     if let Some(source) = read(&format!("{section}.rs")) {
         return source;
     }
@@ -40,6 +46,40 @@ pub fn source(section: &str) -> String {
     let (comment, rest) = source.split_once("\n\n").expect("a comment and items");
     let types = types.split_once("\n\n").expect("a comment and items").1;
     format!("{comment}\n\n{types}\n{rest}")
+}
+
+/// What an option that is one number does, its range and its default.
+pub fn described(info: &OptionInfo) -> String {
+    let (Values::Number { low, high }, Default::Number(usual)) = (info.values, info.default) else {
+        panic!("{} is not one number", info.name)
+    };
+    format!("{}; {low} to {high}, default {usual}", info.text)
+}
+
+/// A source with the struct that a macro makes as it comes out of it: the options that are one number have their comments, and those
+/// that no line declares stand where the macro has them.
+fn expanded(source: &str) -> String {
+    let Some((before, rest)) = source.split_once("macro_rules! sdef_options {\n") else {
+        return source.to_string();
+    };
+    let (_, rest) = rest.split_once("=> {\n").expect("what the macro makes");
+    let (made, rest) = rest.split_once("\n    };\n}\n").expect("the end of the macro");
+    let (_, after) = rest.split_once('\n').expect("the macro's call");
+    let declared = |info: &&OptionInfo| made.contains(&format!(" pub {}: f64,", info.name));
+    let field = |info: &OptionInfo| format!("    /// {}\n    pub {}: f64,", described(info), info.name);
+    let mut lines = Vec::new();
+    for line in made.lines().map(|line| line.strip_prefix("        ").unwrap_or(line)) {
+        if line == "    /// see the list" {
+            continue;
+        }
+        let of = NUMBERS.iter().find(|info| line == format!("    pub {}: f64,", info.name));
+        if line.contains("pub $name") {
+            lines.extend(NUMBERS.iter().filter(|info| !declared(info)).map(field));
+        } else {
+            lines.push(of.map_or_else(|| line.to_string(), field));
+        }
+    }
+    format!("{before}{}\n{after}", lines.join("\n"))
 }
 
 /// The header's first comment.

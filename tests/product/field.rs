@@ -258,7 +258,6 @@ fn no_part_jumps_anywhere() {
     let Tubes { anatomy, .. } = blended();
     let mut bindings = PartBindings { hair: long_hair(anatomy), ..PartBindings::default() };
     bindings.pieces.push(Piece {
-        reach: 0.1,
         anchor: DVec3::new(0.1, 1.0, 0.1),
         lowest: 0.9,
         weights: Part::Torso.alone(),
@@ -303,7 +302,7 @@ fn jacobians_are_those_of_central_differences() {
     anatomy.head_centre.z = 0.03;
     let mut bindings = PartBindings { hair: long_hair(&anatomy), ..PartBindings::default() };
     let anchor = DVec3::new(0.1, 1.1, 0.1);
-    bindings.pieces.push(Piece { anchor, lowest: 0.9, reach: 0.1, weights: Part::Torso.alone() });
+    bindings.pieces.push(Piece { anchor, lowest: 0.9, weights: Part::Torso.alone() });
     let field = PartField::new(&anatomy, SCALES, &bindings, 0.7);
     let chin = field.after().chin;
     let curve = FaceMap { bottom: chin, top: chin + 0.3, squash: 0.8, curve: FaceCurve::F4 };
@@ -362,8 +361,7 @@ fn the_other_side_moves_like_this_one() {
 fn a_piece_is_moved_and_scaled_as_one_and_does_not_sink_into_the_ground() {
     let Tubes { anatomy, .. } = blended();
     let before = anatomy.landmarks.heights;
-    let piece =
-        |anchor: DVec3, lowest: f64| Piece { anchor, lowest, reach: 0.1, weights: Part::Torso.alone() };
+    let piece = |anchor: DVec3, lowest: f64| Piece { anchor, lowest, weights: Part::Torso.alone() };
     let anchors = [DVec3::new(0.2, before.crotch + 0.2, 0.1), DVec3::new(0.2, 0.5 * before.crotch, 0.1)];
     let pieces = vec![
         piece(anchors[0], anchors[0].y - 0.1),
@@ -399,46 +397,6 @@ fn a_piece_is_moved_and_scaled_as_one_and_does_not_sink_into_the_ground() {
     };
     let lowest = field.place(anchors[1].with_y(before.sole), &on_ground, &NO_FACE);
     assert!(lowest.y > -1e-9, "{lowest}");
-}
-
-#[test]
-fn a_tool_that_reaches_further_than_an_arm_becomes_shorter_as_arms_do() {
-    let Tubes { anatomy, .. } = blended();
-    let before = anatomy.landmarks.heights;
-    let [upper, lower] = {
-        let arm = &anatomy.limbs[0];
-        [arm.root.distance(arm.middle), arm.middle.distance(arm.end)]
-    };
-    // Arms to a third, everything else as it is.
-    let scales = PartCoefficients {
-        upper_arm: Scale { length: 0.4, ..PartCoefficients::IDENTITY.upper_arm },
-        lower_arm: Scale { length: 0.2, ..PartCoefficients::IDENTITY.lower_arm },
-        ..PartCoefficients::IDENTITY
-    };
-    let arms = (0.4 * upper + 0.2 * lower) / (upper + lower);
-    let anchor = DVec3::new(0.2, before.crotch + 0.2, 0.1);
-    let reaches = [0.5, 1.0, 1.25, 1.5, 4.0];
-    let pieces = reaches.map(|arms| Piece {
-        anchor,
-        lowest: before.sole + 0.1,
-        reach: arms * (upper + lower),
-        weights: Part::Torso.alone(),
-    });
-    let bindings = PartBindings { pieces: pieces.to_vec(), ..PartBindings::default() };
-    let field = PartField::new(anatomy, scales, &bindings, 1.0);
-    let away = DVec3::new(0.01, -0.02, 0.03);
-    // Half of the way at the middle, by the mean of the logarithms.
-    for (index, wanted) in [1.0, 1.0, arms.sqrt(), arms, arms].into_iter().enumerate() {
-        let binding = PartBinding {
-            weights: Part::Head.alone(),
-            attachment: Attachment::Piece(index),
-            face: FaceBinding::None,
-            is_skirt: false,
-        };
-        let place = |p: DVec3| field.place(p, &binding, &NO_FACE);
-        let scale = (place(anchor + away) - place(anchor)).length() / away.length();
-        assert!((scale - wanted).abs() < 1e-3, "{}: {scale} instead of {wanted}", reaches[index]);
-    }
 }
 
 #[test]

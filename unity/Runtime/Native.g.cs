@@ -1187,23 +1187,22 @@ internal unsafe struct SdefOptions {
     public UInt32 limits;
 
     /// <summary>
-    /// how many times as large as the character's own the head becomes, 0.1 to 10; default 1.5, the paper's. The number of
-    /// heads is the style's, so the whole figure grows and shrinks with the head; where height is set, that counts
+    /// see the list
     /// </summary>
     public double head_scale;
 
     /// <summary>
-    /// 0 gives the original back, 1 (default) the style
+    /// see the list
     /// </summary>
     public double amount;
 
     /// <summary>
-    /// 1 (default) makes every slice of the body as broad and deep as the style's, 0 gives each part one thickness
+    /// see the list
     /// </summary>
     public double profile;
 
     /// <summary>
-    /// hair below the chin: 1 (default) ends where it ended on the body, 0 at the chin
+    /// see the list
     /// </summary>
     public double hair_length;
 
@@ -1290,57 +1289,57 @@ internal unsafe struct SdefOptions {
     public double height;
 
     /// <summary>
-    /// the face from its own age (0) to a child's, or the reference's (1, default)
+    /// from the face's own age (0) to a child's, or the reference's (1)
     /// </summary>
     public double youth;
 
     /// <summary>
-    /// of youth, 0 to 1 (default): eyes grow, lids open
+    /// of youth: eyes grow, lids open
     /// </summary>
     public double youth_eye;
 
     /// <summary>
-    /// of youth, 0 to 1 (default): eyes and all beside them sink
+    /// of youth: eyes and all beside them sink
     /// </summary>
     public double youth_lower;
 
     /// <summary>
-    /// of youth, 0 to 1 (default): the nose shrinks
+    /// of youth: the nose shrinks
     /// </summary>
     public double youth_nose;
 
     /// <summary>
-    /// of youth, 0 to 1 (default): cheeks fill
+    /// of youth: cheeks fill
     /// </summary>
     public double youth_cheek;
 
     /// <summary>
-    /// of youth, 0 to 1 (default): chin and mouth become smaller and rounder
+    /// of youth: chin and mouth become smaller and rounder
     /// </summary>
     public double youth_jaw;
 
     /// <summary>
-    /// of youth, 0 to 1 (default): the skull becomes as wide and deep as the reference's
+    /// of youth: the skull becomes as wide and deep as the reference's
     /// </summary>
     public double youth_skull;
 
     /// <summary>
-    /// of youth, 0 to 1 (default): ears come closer and become smaller
+    /// of youth: ears come closer and become smaller
     /// </summary>
     public double youth_ear;
 
     /// <summary>
-    /// lifts the corners of the mouth, 0 (default) to 1
+    /// lifts the corners of the mouth
     /// </summary>
     public double smile;
 
     /// <summary>
-    /// moves the head back over the chest and fills the nape, 0 to 1 (default)
+    /// moves the head back over the chest and fills the nape
     /// </summary>
     public double seat;
 
     /// <summary>
-    /// lays long hair on the body instead of letting it flare, 0 to 1 (default)
+    /// lays long hair on the body instead of letting it flare
     /// </summary>
     public double hair_lay;
 }
@@ -1950,10 +1949,7 @@ internal unsafe struct SdefBone {
 /// <summary>The least and the greatest value of each option that is a number.</summary>
 public partial struct OptionRange
 {
-    /// <summary>Rays around each sample of a bone.</summary>
-    public static readonly OptionRange Rays = new OptionRange(3, 4096);
-
-    /// <summary>Size of the head, 1.5 is the paper's; the body follows, so the number of heads stays.</summary>
+    /// <summary>How many times as large as the character's own the head becomes; 1.5 is the paper's. The number of heads is the style's, so the whole figure grows and shrinks with the head; where height is set, that counts.</summary>
     public static readonly OptionRange HeadScale = new OptionRange(0.1, 10);
 
     /// <summary>From the original (0) to the style (1).</summary>
@@ -1964,9 +1960,6 @@ public partial struct OptionRange
 
     /// <summary>Hair below the chin: 1 ends it where it ended on the body, 0 at the chin.</summary>
     public static readonly OptionRange HairLength = new OptionRange(0, 1);
-
-    /// <summary>How much younger the face gets; 0 leaves it.</summary>
-    public static readonly OptionRange FaceSquash = new OptionRange(-10, 10);
 
     /// <summary>From the face's own age (0) to a child's, or the reference's (1).</summary>
     public static readonly OptionRange Youth = new OptionRange(0, 1);
@@ -2001,6 +1994,12 @@ public partial struct OptionRange
     /// <summary>Lays long hair on the body instead of letting it flare.</summary>
     public static readonly OptionRange HairLay = new OptionRange(0, 1);
 
+    /// <summary>Rays around each sample of a bone.</summary>
+    public static readonly OptionRange Rays = new OptionRange(3, 4096);
+
+    /// <summary>How much younger the face gets; 0 leaves it.</summary>
+    public static readonly OptionRange FaceSquash = new OptionRange(-10, 10);
+
     /// <summary>Threads to use; 0 means all cores.</summary>
     public static readonly OptionRange ThreadCount = new OptionRange(0, 1024);
 
@@ -2032,13 +2031,7 @@ public partial struct OptionRange
 /// <summary>What an option is unless it is set; where each mode has its own, product mode's.</summary>
 public static class OptionDefaults
 {
-    /// <summary>Rays around each sample of a bone.</summary>
-    public const uint Rays = 48;
-
-    /// <summary>Bounds what may be done to a body, where measured scales would fold it.</summary>
-    public const bool Limits = true;
-
-    /// <summary>Size of the head, 1.5 is the paper's; the body follows, so the number of heads stays.</summary>
+    /// <summary>How many times as large as the character's own the head becomes; 1.5 is the paper's. The number of heads is the style's, so the whole figure grows and shrinks with the head; where height is set, that counts.</summary>
     public const double HeadScale = 1.5;
 
     /// <summary>From the original (0) to the style (1).</summary>
@@ -2049,9 +2042,6 @@ public static class OptionDefaults
 
     /// <summary>Hair below the chin: 1 ends it where it ended on the body, 0 at the chin.</summary>
     public const double HairLength = 1;
-
-    /// <summary>How much younger the face gets; 0 leaves it.</summary>
-    public const double FaceSquash = 0.8;
 
     /// <summary>From the face's own age (0) to a child's, or the reference's (1).</summary>
     public const double Youth = 1;
@@ -2086,6 +2076,15 @@ public static class OptionDefaults
     /// <summary>Lays long hair on the body instead of letting it flare.</summary>
     public const double HairLay = 1;
 
+    /// <summary>Rays around each sample of a bone.</summary>
+    public const uint Rays = 48;
+
+    /// <summary>Bounds what may be done to a body, where measured scales would fold it.</summary>
+    public const bool Limits = true;
+
+    /// <summary>How much younger the face gets; 0 leaves it.</summary>
+    public const double FaceSquash = 0.8;
+
     /// <summary>Threads to use; 0 means all cores.</summary>
     public const uint ThreadCount = 0;
 
@@ -2103,5 +2102,92 @@ public static class OptionDefaults
 
     /// <summary>How much of a second style there is.</summary>
     public const double Blend = 0;
+}
+
+public sealed partial class Options
+{
+    /// <summary>How many times as large as the character's own the head becomes; 1.5 is the paper's. The number of heads is the style's, so the whole figure grows and shrinks with the head; where height is set, that counts; 0.1 to 10, default 1.5.</summary>
+    public double HeadScale = OptionDefaults.HeadScale;
+
+    /// <summary>From the original (0) to the style (1); 0 to 1, default 1.</summary>
+    public double Amount = OptionDefaults.Amount;
+
+    /// <summary>1 makes every slice of the body as broad and deep as the style's, 0 gives each part one thickness; 0 to 1, default 1.</summary>
+    public double Profile = OptionDefaults.Profile;
+
+    /// <summary>Hair below the chin: 1 ends it where it ended on the body, 0 at the chin; 0 to 1, default 1.</summary>
+    public double HairLength = OptionDefaults.HairLength;
+
+    /// <summary>From the face's own age (0) to a child's, or the reference's (1); 0 to 1, default 1.</summary>
+    public double Youth = OptionDefaults.Youth;
+
+    /// <summary>Of youth: eyes grow, lids open; 0 to 1, default 1.</summary>
+    public double YouthEye = OptionDefaults.YouthEye;
+
+    /// <summary>Of youth: eyes and all beside them sink; 0 to 1, default 1.</summary>
+    public double YouthLower = OptionDefaults.YouthLower;
+
+    /// <summary>Of youth: the nose shrinks; 0 to 1, default 1.</summary>
+    public double YouthNose = OptionDefaults.YouthNose;
+
+    /// <summary>Of youth: cheeks fill; 0 to 1, default 1.</summary>
+    public double YouthCheek = OptionDefaults.YouthCheek;
+
+    /// <summary>Of youth: chin and mouth become smaller and rounder; 0 to 1, default 1.</summary>
+    public double YouthJaw = OptionDefaults.YouthJaw;
+
+    /// <summary>Of youth: the skull becomes as wide and deep as the reference's; 0 to 1, default 1.</summary>
+    public double YouthSkull = OptionDefaults.YouthSkull;
+
+    /// <summary>Of youth: ears come closer and become smaller; 0 to 1, default 1.</summary>
+    public double YouthEar = OptionDefaults.YouthEar;
+
+    /// <summary>Lifts the corners of the mouth; 0 to 1, default 0.</summary>
+    public double Smile = OptionDefaults.Smile;
+
+    /// <summary>Moves the head back over the chest and fills the nape; 0 to 1, default 1.</summary>
+    public double Seat = OptionDefaults.Seat;
+
+    /// <summary>Lays long hair on the body instead of letting it flare; 0 to 1, default 1.</summary>
+    public double HairLay = OptionDefaults.HairLay;
+
+    /// <summary>Gives the fields above their defaults.</summary>
+    public void ResetNumbers()
+    {
+        HeadScale = OptionDefaults.HeadScale;
+        Amount = OptionDefaults.Amount;
+        Profile = OptionDefaults.Profile;
+        HairLength = OptionDefaults.HairLength;
+        Youth = OptionDefaults.Youth;
+        YouthEye = OptionDefaults.YouthEye;
+        YouthLower = OptionDefaults.YouthLower;
+        YouthNose = OptionDefaults.YouthNose;
+        YouthCheek = OptionDefaults.YouthCheek;
+        YouthJaw = OptionDefaults.YouthJaw;
+        YouthSkull = OptionDefaults.YouthSkull;
+        YouthEar = OptionDefaults.YouthEar;
+        Smile = OptionDefaults.Smile;
+        Seat = OptionDefaults.Seat;
+        HairLay = OptionDefaults.HairLay;
+    }
+
+    internal unsafe void WriteNumbers(SdefOptions* native)
+    {
+        native->head_scale = HeadScale;
+        native->amount = Amount;
+        native->profile = Profile;
+        native->hair_length = HairLength;
+        native->youth = Youth;
+        native->youth_eye = YouthEye;
+        native->youth_lower = YouthLower;
+        native->youth_nose = YouthNose;
+        native->youth_cheek = YouthCheek;
+        native->youth_jaw = YouthJaw;
+        native->youth_skull = YouthSkull;
+        native->youth_ear = YouthEar;
+        native->smile = Smile;
+        native->seat = Seat;
+        native->hair_lay = HairLay;
+    }
 }
 }

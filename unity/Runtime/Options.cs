@@ -3,9 +3,12 @@ using System.Collections.Generic;
 
 namespace SuperDeform
 {
-/// <summary>Everything that can be set; each call reads what concerns it. Null stands for the defaults.</summary>
+/// <summary>
+/// Everything that can be set; each call reads what concerns it. Null stands for the defaults. What is one number stands in
+/// Native.g.cs.
+/// </summary>
 [Serializable]
-public sealed class Options
+public sealed partial class Options
 {
     /// <summary>Threads to use, up to 1024; 0 (default): all cores.</summary>
     public uint ThreadCount;
@@ -22,20 +25,6 @@ public sealed class Options
     /// <summary>Bounds what product mode may do to a body (default).</summary>
     public bool Limits = OptionDefaults.Limits;
 
-    /// <summary>Size of the head against what the style says, 0.1 to 10; default 1.5, the paper's.</summary>
-    public double HeadScale = OptionDefaults.HeadScale;
-
-    /// <summary>0 gives the original back, 1 (default) the style.</summary>
-    public double Amount = OptionDefaults.Amount;
-
-    /// <summary>
-    /// 1 (default) makes every slice of the body as broad and deep as the style's, 0 gives each part one thickness.
-    /// </summary>
-    public double Profile = OptionDefaults.Profile;
-
-    /// <summary>Hair below the chin: 1 (default) ends where it ended on the body, 0 at the chin.</summary>
-    public double HairLength = OptionDefaults.HairLength;
-
     /// <summary>
     /// How much younger the face gets, -10 to 10 (bounded where it would fold); 0 leaves it; NaN (default): 0.8 in
     /// product mode where a face is found, 0 in paper mode.
@@ -47,39 +36,6 @@ public sealed class Options
     /// character was; NaN (default): as the style makes it.
     /// </summary>
     public double Height = double.NaN;
-
-    /// <summary>The face from its own age (0) to a child's, or the reference's (1, default).</summary>
-    public double Youth = OptionDefaults.Youth;
-
-    /// <summary>Of youth, 0 to 1 (default): eyes grow, lids open.</summary>
-    public double YouthEye = OptionDefaults.YouthEye;
-
-    /// <summary>Of youth, 0 to 1 (default): eyes and all beside them sink.</summary>
-    public double YouthLower = OptionDefaults.YouthLower;
-
-    /// <summary>Of youth, 0 to 1 (default): the nose shrinks.</summary>
-    public double YouthNose = OptionDefaults.YouthNose;
-
-    /// <summary>Of youth, 0 to 1 (default): cheeks fill.</summary>
-    public double YouthCheek = OptionDefaults.YouthCheek;
-
-    /// <summary>Of youth, 0 to 1 (default): chin and mouth become smaller and rounder.</summary>
-    public double YouthJaw = OptionDefaults.YouthJaw;
-
-    /// <summary>Of youth, 0 to 1 (default): the skull becomes as wide and deep as the reference's.</summary>
-    public double YouthSkull = OptionDefaults.YouthSkull;
-
-    /// <summary>Of youth, 0 to 1 (default): ears come closer and become smaller.</summary>
-    public double YouthEar = OptionDefaults.YouthEar;
-
-    /// <summary>Lifts the corners of the mouth, 0 (default) to 1.</summary>
-    public double Smile = OptionDefaults.Smile;
-
-    /// <summary>Moves the head back over the chest and fills the nape, 0 to 1 (default).</summary>
-    public double Seat = OptionDefaults.Seat;
-
-    /// <summary>Lays long hair on the body instead of letting it flare, 0 to 1 (default).</summary>
-    public double HairLay = OptionDefaults.HairLay;
 
     /// <summary>Clothes that were outside of the body and would end inside; default On; product mode alone.</summary>
     public Repair Repair = Repair.On;
@@ -127,28 +83,14 @@ public sealed class Options
     /// <summary>Fills the library's struct in, but for the lists.</summary>
     internal unsafe void Write(SdefOptions* native)
     {
+        WriteNumbers(native);
         native->thread_count = ThreadCount;
         native->mode = (uint)Mode;
         native->stage = (uint)Stage;
         native->rays = Rays;
         native->limits = Limits ? 1u : 0u;
-        native->head_scale = HeadScale;
-        native->amount = Amount;
-        native->profile = Profile;
-        native->hair_length = HairLength;
         native->face_squash = FaceSquash;
         native->height = Height;
-        native->youth = Youth;
-        native->youth_eye = YouthEye;
-        native->youth_lower = YouthLower;
-        native->youth_nose = YouthNose;
-        native->youth_cheek = YouthCheek;
-        native->youth_jaw = YouthJaw;
-        native->youth_skull = YouthSkull;
-        native->youth_ear = YouthEar;
-        native->smile = Smile;
-        native->seat = Seat;
-        native->hair_lay = HairLay;
         native->repair = (uint)Repair;
         native->face_curve = (uint)FaceCurve;
         native->rig_weights = (uint)RigWeights;

@@ -7,7 +7,6 @@ use clap::{Args, Parser};
 use glam::Vec3;
 use regex_lite::Regex;
 use std::path::PathBuf;
-use superdeform::options::Features;
 use superdeform::{FaceCurve, FaceHints, GarmentWeights, Height, Mode, Options, Repair, Stage, WeightMethod};
 use values::{choice, count, help, number};
 
@@ -54,21 +53,15 @@ pub struct Single {
 /// How to convert, whatever is converted.
 #[derive(Clone, Debug, Args)]
 pub struct Arguments {
+    #[command(flatten)]
+    pub numbers: Numbers,
+
     #[arg(long, value_name = "N", value_parser = number("heads"), help = help("heads"), help_heading = STYLE)]
     pub heads: Option<f64>,
-
-    #[arg(long, value_name = "X", value_parser = number("amount"), help = help("amount"), help_heading = STYLE)]
-    pub amount: Option<f64>,
 
     /// Mix in a second saved style, 0 to 1 of it
     #[arg(long, value_name = "STYLE.json:0.5", value_parser = ValueParser::new(values::blend), help_heading = STYLE)]
     pub blend: Option<(PathBuf, f64)>,
-
-    #[arg(long, value_name = "X", value_parser = number("head_scale"), help = help("head_scale"), help_heading = STYLE)]
-    pub head_scale: Option<f64>,
-
-    #[arg(long, value_name = "X", value_parser = number("profile"), help = help("profile"), help_heading = STYLE)]
-    pub profile: Option<f64>,
 
     #[arg(long, value_name = "X", allow_negative_numbers = true, value_parser = number("face_squash"),
         help = help("face_squash"), help_heading = STYLE)]
@@ -78,44 +71,8 @@ pub struct Arguments {
         help = help("face_curve"), help_heading = STYLE)]
     pub face_curve: Option<FaceCurve>,
 
-    #[arg(long, value_name = "X", value_parser = number("hair_length"), help = help("hair_length"), help_heading = STYLE)]
-    pub hair_length: Option<f64>,
-
     #[arg(long, value_name = "X", value_parser = ValueParser::new(values::height), help = help("height"), help_heading = STYLE)]
     pub height: Option<Height>,
-
-    #[arg(long, value_name = "X", value_parser = number("youth"), help = help("youth"), help_heading = FACE)]
-    pub youth: Option<f64>,
-
-    #[arg(long, value_name = "X", value_parser = number("youth_eye"), help = help("youth_eye"), help_heading = FACE)]
-    pub youth_eye: Option<f64>,
-
-    #[arg(long, value_name = "X", value_parser = number("youth_lower"), help = help("youth_lower"), help_heading = FACE)]
-    pub youth_lower: Option<f64>,
-
-    #[arg(long, value_name = "X", value_parser = number("youth_nose"), help = help("youth_nose"), help_heading = FACE)]
-    pub youth_nose: Option<f64>,
-
-    #[arg(long, value_name = "X", value_parser = number("youth_cheek"), help = help("youth_cheek"), help_heading = FACE)]
-    pub youth_cheek: Option<f64>,
-
-    #[arg(long, value_name = "X", value_parser = number("youth_jaw"), help = help("youth_jaw"), help_heading = FACE)]
-    pub youth_jaw: Option<f64>,
-
-    #[arg(long, value_name = "X", value_parser = number("youth_skull"), help = help("youth_skull"), help_heading = FACE)]
-    pub youth_skull: Option<f64>,
-
-    #[arg(long, value_name = "X", value_parser = number("youth_ear"), help = help("youth_ear"), help_heading = FACE)]
-    pub youth_ear: Option<f64>,
-
-    #[arg(long, value_name = "X", value_parser = number("smile"), help = help("smile"), help_heading = FACE)]
-    pub smile: Option<f64>,
-
-    #[arg(long, value_name = "X", value_parser = number("seat"), help = help("seat"), help_heading = FACE)]
-    pub seat: Option<f64>,
-
-    #[arg(long, value_name = "X", value_parser = number("hair_lay"), help = help("hair_lay"), help_heading = FACE)]
-    pub hair_lay: Option<f64>,
 
     /// Push clothes out of the body that were outside of it before: 1, or 0 to leave them [default: 1]
     #[arg(long, value_name = "0|1", value_parser = ValueParser::new(values::repair), help_heading = FACE)]
@@ -242,34 +199,43 @@ impl Arguments {
         Options {
             mode: if self.paper { Mode::Paper } else { Mode::Product },
             rays: self.rays,
-            head_scale: self.head_scale.unwrap_or(unset.head_scale),
-            profile: self.profile.unwrap_or(unset.profile),
             face_squash: self.face_squash,
             face_curve: self.face_curve.unwrap_or(unset.face_curve),
-            amount: self.amount.unwrap_or(unset.amount),
             limits: !self.no_limits && !self.paper,
-            hair_length: self.hair_length.unwrap_or(unset.hair_length),
-            youth: self.youth.unwrap_or(unset.youth),
-            features: Features {
-                eye: self.youth_eye.unwrap_or(unset.features.eye),
-                lower: self.youth_lower.unwrap_or(unset.features.lower),
-                nose: self.youth_nose.unwrap_or(unset.features.nose),
-                cheek: self.youth_cheek.unwrap_or(unset.features.cheek),
-                jaw: self.youth_jaw.unwrap_or(unset.features.jaw),
-                skull: self.youth_skull.unwrap_or(unset.features.skull),
-                ear: self.youth_ear.unwrap_or(unset.features.ear),
-            },
-            smile: self.smile.unwrap_or(unset.smile),
-            seat: self.seat.unwrap_or(unset.seat),
-            hair_lay: self.hair_lay.unwrap_or(unset.hair_lay),
             repair: self.repair.unwrap_or(unset.repair),
             height: self.height.unwrap_or(unset.height),
             stage: self.stage.unwrap_or(unset.stage),
             thread_count: self.threads.unwrap_or(unset.thread_count),
-            ..unset
+            ..self.numbers.options()
         }
     }
 }
+
+macro_rules! numbers {
+    ($($_block:ident { $(
+        $(#[doc = $_text:literal])+
+        $name:ident: $_low:literal..=$_high:literal = $_default:expr, $_modes:ident, $heading:ident;
+    )+ })+) => {
+        /// The options that are one number.
+        #[derive(Clone, Debug, Args)]
+        pub struct Numbers {
+            $($(
+                #[arg(long, value_name = "X", value_parser = number(stringify!($name)),
+                    help = help(stringify!($name)), help_heading = $heading)]
+                pub $name: Option<f64>,
+            )+)+
+        }
+
+        impl Numbers {
+            /// The defaults, and the numbers that are given.
+            fn options(&self) -> Options {
+                let unset = Options::default();
+                Options { $($($name: self.$name.unwrap_or(unset.$name),)+)+ ..unset }
+            }
+        }
+    };
+}
+superdeform::number_options!(numbers);
 
 const STYLE: &str = "Style";
 const FACE: &str = "Face, hair and clothes";

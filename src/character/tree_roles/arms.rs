@@ -14,40 +14,41 @@ const LEAST_ARM: f64 = 0.06;
 /// changes no role.
 const LEAST_HEAD: f64 = 0.01;
 
-/// Points of a pair of arms: the share of weights that it carries, up to this (seen: ±30 % changes no role); ...
+/// A pair of arms has the points of the share of weights that it carries, up to this. Seen: ±30 % changes no role.
 const ARMS_CARRY: f64 = 0.3;
-/// ... for a head between them (seen: ±30 % changes no role); ...
+/// Points of a pair of arms for a head between them. Seen: ±30 % changes no role.
 const POINTS_OF_HEAD: f64 = 0.5;
-/// ... against it, times how unlike their ends are (seen: ±30 % changes no role); ...
+/// Points against a pair of arms, times how unlike their ends are. Seen: ±30 % changes no role.
 const POINTS_OF_ENDS: f64 = 0.5;
-/// ... and for each joint above it: of two pairs the one nearer to the root. Seen: ±30 % changes no role.
+/// Points against a pair of arms for each joint above it: of two pairs the one nearer to the root wins. Seen: ±30 %
+/// changes no role.
 const POINTS_OF_DEPTH: f64 = 0.05;
 
-/// A collarbone begins nearer to the middle than this share of the next joint's distance (seen: at -30 %, 52 fewer
-/// roles), ...
+/// A collarbone begins nearer to the middle than this share of the next joint's distance. Seen: at -30 %, 52 fewer
+/// roles.
 const COLLAR_ASIDE: f64 = 0.65;
-/// ... and is shorter than this share of the upper arm. Seen: at -30 %, 20 fewer roles.
+/// A collarbone is shorter than this share of the upper arm. Seen: at -30 %, 20 fewer roles.
 const COLLAR_LENGTH: f64 = 0.65;
 
 /// A forearm whose hand has no joint reaches further than this share of the upper arm. Seen: ±30 % changes no role.
 const FOREARM_REACH: f64 = 0.6;
 
-/// Points against an upper arm that begins with a collarbone (seen: ±30 % changes no role), ...
+/// Points against an upper arm that begins with a collarbone. Seen: ±30 % changes no role.
 const POINTS_OF_COLLAR: f64 = 0.4;
-/// ... without one but a joint later (seen: ±30 % changes no role), ...
+/// Points against an upper arm that begins without one, but a joint later. Seen: ±30 % changes no role.
 const POINTS_OF_SECOND: f64 = 0.3;
-/// ... or later still. Seen: ±30 % changes no role.
+/// Points against an upper arm that begins later still. Seen: ±30 % changes no role.
 const POINTS_OF_THIRD: f64 = 0.5;
 
-/// What hangs from the wrist reaches between these shares of the arm (seen: at -30 %, four fewer roles; at +30 %, 16
-/// fewer roles); ...
+/// What hangs from the wrist reaches between these shares of the arm. Seen: at -30 %, four fewer roles; at +30 %, 16
+/// fewer roles.
 const HAND_RANGE: (f64, f64) = (0.12, 0.6);
-/// ... points against it, times how far it is beyond. Seen: ±30 % changes no role.
+/// Points against a wrist, times how far what hangs from it reaches beyond. Seen: ±30 % changes no role.
 const POINTS_OF_HAND: f64 = 2.0;
 
-/// Points for a wrist from which fingers fork (seen: ±30 % changes no role), ...
+/// Points for a wrist from which fingers fork. Seen: ±30 % changes no role.
 const POINTS_OF_FINGERS: f64 = 0.2;
-/// ... and against each fork before it. Seen: ±30 % changes no role.
+/// Points against a wrist for each fork before it. Seen: ±30 % changes no role.
 const POINTS_OF_FORK: f64 = 0.3;
 
 /// A hand that moves nothing lies between these lengths of the upper arm beyond the elbow. Seen: ±30 % changes no role.

@@ -3,38 +3,38 @@
 use super::tree::{POINTS_OF_HALVES, POINTS_OF_STUMP, STUMP, TINY, Tree};
 use glam::DVec3;
 
-/// A leg begins above this height (seen: ±30 % changes no role), ...
+/// A leg begins above this height, in heights of the figure. Seen: ±30 % changes no role.
 const LEG_BEGINS_ABOVE: f64 = 0.08;
-/// ... reaches below this one (seen: ±30 % changes no role), ...
+/// A leg reaches below this height, in heights of the figure. Seen: ±30 % changes no role.
 const LEG_ENDS_BELOW: f64 = 0.3;
-/// ... and its lower end is at least this far from the other's; all in heights of the figure. Seen: ±30 % changes no
-/// role.
+/// The lower ends of two legs are at least this far apart, in heights of the figure. Seen: ±30 % changes no role.
 const LEGS_APART: f64 = 0.02;
 
-/// Points of a pair of legs: the share of weights that it carries, up to this (seen: ±30 % changes no role); ...
+/// A pair of legs has the points of the share of weights that it carries, up to this. Seen: ±30 % changes no role.
 const LEGS_CARRY: f64 = 0.4;
-/// ... for each leg with a joint below the first (seen: ±30 % changes no role); ...
+/// Points of a pair of legs for each leg with a joint below the first. Seen: ±30 % changes no role.
 const POINTS_OF_KNEE: f64 = 0.1;
-/// ... against it, times how far both end over the ground, how unlike their beginnings and how unlike their ends are
-/// (seen: ±30 % changes no role); ...
+/// Points against a pair of legs, times how far both end over the ground, how unlike their beginnings and how unlike
+/// their ends are. Seen: ±30 % changes no role.
 const POINTS_OF_GROUND: f64 = 2.0;
-/// ... and times how far the first begins above half of the figure: capes and long hair reach the ground from above.
+/// Points against a pair of legs, times how far the first begins above half of the figure: capes and long hair reach
+/// the ground from above.
 /// Seen: ±30 % changes no role.
 const POINTS_OF_HEIGHT: f64 = 0.5;
 
-/// A first joint of a leg that is nearer to the middle than this share of the next one's distance (seen: ±30 % changes
-/// no role), ...
+/// A joint of the pelvis, not of the leg, is a first joint nearer to the middle than this share of the next one's
+/// distance. Seen: ±30 % changes no role.
 const PELVIS_ASIDE: f64 = 0.4;
-/// ... and to that one than this, in heights, is a joint of the pelvis. Seen: ±30 % changes no role.
+/// A joint of the pelvis is nearer to the next joint than this, in heights of the figure. Seen: ±30 % changes no role.
 const PELVIS_REACH: f64 = 0.12;
 /// Points against a leg for each joint between hip joint, knee and ankle that is left out. Seen: ±30 % changes no role.
 const POINTS_OF_LEG_GAP: f64 = 0.25;
 
-/// An ankle lies at this share of the hip joint's height, give or take (seen: ±30 % changes no role) ...
+/// An ankle lies at this share of the hip joint's height, give or take [`ANKLE_SLACK`]. Seen: ±30 % changes no role.
 const ANKLE_LEVEL: f64 = 0.15;
-/// ... this much (seen: ±30 % changes no role); ...
+/// An ankle may lie this much higher or lower. Seen: ±30 % changes no role.
 const ANKLE_SLACK: f64 = 0.1;
-/// ... points against it, times how far it lies beyond. Seen: ±30 % changes no role.
+/// Points against an ankle, times how far it lies beyond. Seen: ±30 % changes no role.
 const POINTS_OF_ANKLE: f64 = 2.0;
 
 /// Points against a hip joint that is a joint of the pelvis, or is not beside one. Seen: ±30 % changes no role.

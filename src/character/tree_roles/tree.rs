@@ -11,9 +11,9 @@ const LEAST_CARRIED: f64 = 1e-7;
 /// changes no role.
 pub(super) const STUMP: f64 = 0.15;
 
-/// Points against a limb with such a stump (seen: ±30 % changes no role), ...
+/// Points against a limb with such a stump. Seen: ±30 % changes no role.
 pub(super) const POINTS_OF_STUMP: f64 = 1.0;
-/// ... and against one whose halves differ, times how much. Seen: ±30 % changes no role.
+/// Points against a limb whose halves differ, times how much. Seen: ±30 % changes no role.
 pub(super) const POINTS_OF_HALVES: f64 = 1.5;
 
 /// Nothing is divided by less than this. Seen: ±30 % changes no role.

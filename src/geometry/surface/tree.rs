@@ -1,4 +1,4 @@
-//! The tree of boxes over triangles that stay while their corners move: made once, and its boxes anew for each place.
+//! The tree of boxes over triangles that stay while their corners move: made once, and its boxes again for each place.
 
 use super::wide::{Child, LANES, refitted};
 use super::{Closest, Surface, has_area, padded_box, unit_box};

@@ -61,7 +61,7 @@ pub struct Coefficients {
 /// - `bone_groups`: the user's own groups, as for [`bones`]; such a group has the constants of its first bone.
 ///
 /// A group that the reference lacks takes the coefficients of the group whose bone stands for it there (neck: torso),
-/// else it keeps its shape; one without radii keeps its girth. Both are warned of, and so is an alpha above 1, where the
+/// else it keeps its shape; one without radii keeps its girth. A warning tells of both, and of an alpha above 1, where the
 /// paper expects shortening; nothing is limited here.
 ///
 /// # Errors

@@ -31,9 +31,9 @@ const SECTORS: usize = 8;
 const LEAST_HEAD_WIDTH: f64 = 0.05;
 /// Its half width where none is measured, as a share of L. Seen: 30 % either way moves no vertex of 14 models.
 const HEAD_WIDTH_BY_RATIO: f64 = 0.4;
-/// The torso's width is the median of so many slices, ...
+/// The torso's width is the median of so many slices.
 const TORSO_SLICES: u32 = 5;
-/// ... so far apart, as a share of the way from crotch to shoulder line (D27). Seen: 30 % closer, and hips count for
+/// The slices of the torso's width are so far apart, as a share of the way from crotch to shoulder line (D27). Seen: 30 % closer, and hips count for
 /// more: vertices move by up to 0.03 H.
 const TORSO_SLICE_STEP: f64 = 0.15;
 /// Outlines count between these quantiles, so that a strap or a pouch is no width (D27). Seen: at 0.68 above, vertices

@@ -29,9 +29,9 @@ const SLICED_ATTEMPTS: usize = 3;
 /// One correction changes what is asked for below the head by no more than these factors. D27. Seen: tighter ones reach
 /// fewer head counts.
 const HEADS_CORRECTION: (f64, f64) = (0.8, 1.25);
-/// What is left after that is warned of above this: a hundredth of a head count is not seen.
+/// A warning tells of what is left after that above this: a hundredth of a head count is not seen.
 const HEADS_WARNED_ABOVE: f64 = 0.01;
-/// Hair that reaches further below the chin than this, in heads, is warned of.
+/// A warning tells of hair that reaches further below the chin than this, in heads.
 const HAIR_WARNED_ABOVE: f64 = 0.1;
 
 /// The product's way to give a target the style.

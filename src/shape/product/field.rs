@@ -13,7 +13,7 @@ use super::pieces::{Attachment, Piece};
 use super::profile::ProfileStage;
 use super::scales::{HeadScale, PartCoefficients, Scale};
 use crate::face::FaceShape;
-use crate::geometry::{Mapped, outer, smoothstep};
+use crate::geometry::{Mapped, outer};
 use crate::shape::heights::Heights;
 use glam::{DMat3, DVec3};
 
@@ -34,9 +34,6 @@ const CHEST_HEIGHT: f64 = 0.85;
 /// Above the shoulder line the torso's heights change at most this many times as much as the neck's. D28. Seen: less
 /// sinks collars by up to .013 H.
 const YOKE_PER_NECK: f64 = 1.5;
-/// A tool that reaches as far as the first number of arms is as large as what carries it, from the second on as an arm.
-/// Seen: a machine's arm on a back stayed as long beside the child as it was beside the adult.
-const TOOL: (f64, f64) = (1.0, 1.5);
 /// A piece that is kept from reaching below the ground keeps at least this share of its size: for things as long as the
 /// figure is tall, of which none was seen.
 const SMALLEST_PIECE: f64 = 0.05;
@@ -377,10 +374,6 @@ impl PartField {
     fn piece_map(&self, piece: &Piece) -> Affine {
         let to = self.blend(piece.anchor, &piece.weights, Attachment::Plain, &FaceShape::None);
         let mut scale = to.local_scale();
-        // What reaches further than the arms that it serves becomes shorter as they do.
-        let (own, new) = self.arm_lengths();
-        let share = smoothstep((piece.reach / own - TOOL.0) / (TOOL.1 - TOOL.0));
-        scale *= (new / own / scale).min(1.0).powf(share);
         if piece.lowest >= self.before.sole && piece.anchor.y > piece.lowest {
             // What did not reach the ground does not reach below it.
             scale = scale
@@ -388,15 +381,6 @@ impl PartField {
                 .max(SMALLEST_PIECE * scale);
         }
         Affine { from: piece.anchor, to: to.position, linear: DMat3::IDENTITY * scale }
-    }
-
-    /// How long the arms are from shoulder to wrist, on average, before and after.
-    fn arm_lengths(&self) -> (f64, f64) {
-        let arms = &self.anatomy.limbs[..2];
-        let upper = arms.iter().map(|arm| arm.root.distance(arm.middle)).sum::<f64>() / 2.0;
-        let lower = arms.iter().map(|arm| arm.middle.distance(arm.end)).sum::<f64>() / 2.0;
-        let scales = &self.coefficients;
-        (upper + lower, scales.upper_arm.length * upper + scales.lower_arm.length * lower)
     }
 
     /// Where the body's heights go, piecewise between the landmarks: what hair follows.

@@ -43,8 +43,6 @@ pub struct Piece {
     pub anchor: DVec3,
     /// The height of its lowest vertex.
     pub lowest: f64,
-    /// How far its vertices reach from the anchor.
-    pub reach: f64,
     /// The parts that move the anchor.
     pub weights: PartWeights,
 }
@@ -161,7 +159,6 @@ impl Pieces {
             let piece = Piece {
                 anchor: figure.joints[joint],
                 lowest: lowest(figure, &carried[joint]),
-                reach: reach(figure, &carried[joint], figure.joints[joint]),
                 weights: Part::of(role).alone(),
             };
             self.add(&carried[joint], piece);
@@ -219,12 +216,8 @@ impl Pieces {
                 .map(|(&vertex, _)| vertex)
                 .collect();
             let anchor = held.iter().map(|&vertex| place(vertex)).sum::<DVec3>() / held.len() as f64;
-            let piece = Piece {
-                anchor,
-                lowest: lowest(figure, &whole),
-                reach: reach(figure, &whole, anchor),
-                weights: mean_weights(weights, &held),
-            };
+            let piece =
+                Piece { anchor, lowest: lowest(figure, &whole), weights: mean_weights(weights, &held) };
             self.add(&whole, piece);
         }
     }
@@ -274,8 +267,7 @@ impl Pieces {
                 continue;
             }
             let weights = mean_weights(weights, members);
-            let reach = (high - low).length() / 2.0;
-            self.add(members, Piece { anchor: (low + high) / 2.0, lowest: low.y, reach, weights });
+            self.add(members, Piece { anchor: (low + high) / 2.0, lowest: low.y, weights });
         }
     }
 }
@@ -320,11 +312,6 @@ fn uppermost_without_role(figure: &Figure, skeleton: &Skeleton) -> Vec<Option<us
             skeleton.ancestors(joint).take_while(|&above| !has_role[above]).last()
         })
         .collect()
-}
-
-/// How far the furthest of `vertices` is from `anchor`.
-fn reach(figure: &Figure, vertices: &[u32], anchor: DVec3) -> f64 {
-    vertices.iter().map(|&vertex| figure.positions[vertex as usize].distance(anchor)).fold(0.0, f64::max)
 }
 
 fn lowest(figure: &Figure, members: &[u32]) -> f64 {

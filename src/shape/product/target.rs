@@ -2,7 +2,7 @@
 
 use super::binding::{PartBinding, PartBindings, joint_binding, part_bindings};
 use super::hair::HairOnBody;
-use super::joints::mean_bindings;
+use super::joint_bindings::mean_bindings;
 use super::part::Part;
 use super::worn::Worn;
 use crate::character::{Character, Role};

@@ -6,8 +6,8 @@
 //! layers of cloth; the file's own weights stay as they are.
 
 use super::anatomy::Anatomy;
-use super::hanging::follow_legs;
 use super::part::{Part, PartWeights, TINY, fold_to_parts};
+use super::skirt_weights::follow_legs;
 use super::smoothing::{Fork, smooth_across, smooth_along};
 use crate::character::{MeshKind, Role};
 use crate::error::Result;
@@ -16,9 +16,10 @@ use crate::progress::Progress;
 use crate::shape::figure::Figure;
 use glam::DVec3;
 
-/// A component whose mean head weight is above this moves with the head alone, ... D26.
+/// A component whose mean head weight is above this moves with the head alone, unless [`BODY_DUST`] speaks against it. D26.
 const HEAD_ONLY: f32 = 0.6;
-/// ... unless a vertex of it has this much weight of torso or limbs: what rounding leaves is less.
+/// A component with a vertex that has this much weight of torso or limbs is not the head's alone: what rounding leaves is
+/// less.
 const BODY_DUST: f32 = 0.01;
 /// Where hands (feet) without a joint begin, the weights go over from the lower arm (leg) within this share of the
 /// distance on both sides. D26.

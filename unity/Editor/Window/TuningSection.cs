@@ -41,15 +41,12 @@ namespace SuperDeform.Editor
         private static void Clear(ConversionSettings settings)
         {
             GroupTunings.Clear(settings);
-            foreach (string name in new[]
-            {
-                "Amount", "HeadScale", "Profile", "HairLength", "FaceSquash", "Height", "Youth", "YouthEye", "YouthLower", "YouthNose",
-                "YouthCheek", "YouthJaw", "YouthSkull", "YouthEar", "Smile", "Seat", "HairLay", "Repair", "FaceCurve"
-            })
-            {
-                System.Reflection.FieldInfo field = typeof(Options).GetField(name);
-                field.SetValue(settings.Options, field.GetValue(usual));
-            }
+            Options options = settings.Options;
+            options.ResetNumbers();
+            options.FaceSquash = usual.FaceSquash;
+            options.Height = usual.Height;
+            options.Repair = usual.Repair;
+            options.FaceCurve = usual.FaceCurve;
         }
 
         /// <summary>A slider of the library's options, which goes back to the usual number.</summary>
