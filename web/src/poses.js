@@ -28,6 +28,8 @@ export const POSES = {
   sit: () => both({ UpperLeg: [0.12, -0.1, 1], LowerLeg: [0.02, -1, 0.05], UpperArm: [0.3, -0.9, 0.25], LowerArm: [0.05, -0.6, 0.8] }),
 };
 
+const isWithin = (node, above) => !!node && (node.parent === above || isWithin(node.parent, above));
+
 /** The bones of one shown character, as it rests. */
 export class Figure {
   /** `bones`: the node of each humanoid role; `root`: what they are in. */
@@ -39,7 +41,7 @@ export class Figure {
     for (const [role, node] of Object.entries(bones)) {
       const matrix = new Matrix4().multiplyMatrices(toRoot, node.matrixWorld);
       const turn = new Quaternion().setFromRotationMatrix(new Matrix4().extractRotation(matrix));
-      this.bones.set(role, { node, local: node.quaternion.clone(), turn, at: new Vector3().setFromMatrixPosition(matrix) });
+      this.bones.set(role, { node, local: node.quaternion.clone(), place: node.position.clone(), matrix, turn, at: new Vector3().setFromMatrixPosition(matrix) });
     }
     this.axes = this.#axes();
   }
@@ -57,7 +59,10 @@ export class Figure {
   /** Takes a pose; feet stay on the ground. */
   take(pose, time) {
     const wanted = POSES[pose](time);
-    for (const { node, local } of this.bones.values()) node.quaternion.copy(local);
+    for (const { node, local, place } of this.bones.values()) {
+      node.quaternion.copy(local);
+      node.position.copy(place);
+    }
     for (const side of ['left', 'right']) {
       // What the bones above have turned, in the root's directions.
       let above = new Quaternion();
@@ -75,7 +80,18 @@ export class Figure {
       }
     }
     this.root.position.y = 0;
+    if (pose !== 'rest') for (const side of ['left', 'right']) this.#carryFoot(side);
     if (pose === 'walk' || pose === 'sit') this.root.position.y = this.#lift();
+  }
+
+  /** Rigs that are animated by targets hang feet elsewhere than on the leg: there they go where the leg goes. */
+  #carryFoot(side) {
+    const [leg, foot] = ['LowerLeg', 'Foot'].map((bone) => this.bones.get(side + bone));
+    if (!leg || !foot || isWithin(foot.node, leg.node)) return;
+    this.root.updateMatrixWorld(true);
+    const carried = new Matrix4().copy(leg.node.matrixWorld).multiply(leg.matrix.clone().invert()).multiply(foot.matrix);
+    carried.premultiply(foot.node.parent.matrixWorld.clone().invert());
+    carried.decompose(foot.node.position, foot.node.quaternion, new Vector3());
   }
 
   /** How far the figure must rise for its lower foot to be where it rests. */
