@@ -79,6 +79,7 @@
 //! every run.
 
 mod character;
+mod clock;
 mod error;
 mod face;
 // Its comments are the header's too, where brackets are indices of arrays.

@@ -22,8 +22,8 @@ use superdeform::internals::parallel;
 use superdeform::internals::shape::measured::Measured;
 use superdeform::report::FigureReport;
 use superdeform::{
-    Axes, BodyShape, Character, Deformed, Deformer, Error, ErrorKind, FaceHints, MeshKind, Options, Progress,
-    Report, Result, Rig, RigOptions, Style, Warning, Weights, find_roles,
+    Axes, BodyShape, Character, Deformed, Deformer, Error, ErrorKind, FaceHints, MeshKind, MeshOutputs,
+    Options, Progress, Report, Result, Rig, RigOptions, Style, Warning, Weights, find_roles,
 };
 
 /// Milliseconds since some moment, for the times of a report.
@@ -202,13 +202,17 @@ impl Conversion {
         self.deformer.as_ref()
     }
 
-    /// Gives the character a style; where only options change, what depends on them alone is made again.
+    fn styled(&self) -> Result<&Deformer> {
+        self.deformer.as_ref().ok_or_else(|| bad_input("no style is set yet: set one first"))
+    }
+
+    /// Gives the character a style; only what depends on the change is made again, and the target is measured once.
     ///
     /// # Errors
     /// As [`Deformer::with_progress`]; what was set before stays then.
     pub fn set(&mut self, style: &Style, options: &Options, progress: &mut Progress) -> Result<()> {
-        if let Some(deformer) = self.deformer.as_mut().filter(|deformer| deformer.style() == style) {
-            return deformer.set_options(options, progress);
+        if let Some(deformer) = &mut self.deformer {
+            return deformer.set(style, options, progress);
         }
         let character = Arc::clone(&self.character);
         self.deformer = Some(match &self.rig {
@@ -227,8 +231,7 @@ impl Conversion {
     /// # Errors
     /// Before the first [`Conversion::set`]; a result that is no number, or of 2 GB or more.
     pub fn write(&self, reference: Option<&Reference>, options: &WriteOptions) -> Result<Converted<'_>> {
-        let deformer =
-            self.deformer.as_ref().ok_or_else(|| bad_input("no style is set yet: set one first"))?;
+        let deformer = self.styled()?;
         let deformed = deformer.apply();
         let map_point = |joint: usize, point: DVec3| deformer.map(joint, point);
         let model = || {
@@ -265,18 +268,38 @@ impl Conversion {
         Ok(Converted { target: &self.target, file, deformed, report, aim_degrees })
     }
 
+    /// The file as it looks at once, for while a slider moves: its vertices and nodes are where [`Conversion::write`] puts them,
+    /// while morph targets, springs and animations are still those of the target, and nothing is measured.
+    ///
+    /// # Errors
+    /// As [`Conversion::write`].
+    pub fn glimpse(&self) -> Result<GltfFile> {
+        let deformer = self.styled()?;
+        let asked = MeshOutputs { morph_targets: false, ..MeshOutputs::ALL };
+        let asked = vec![asked; self.character.meshes.len()];
+        let deformed = deformer.apply_to(&asked, &mut Progress::none())?;
+        let mut file = write::at_rest(&self.target, &deformed)?;
+        self.add_joints(&mut file, &deformed)?;
+        Ok(file)
+    }
+
     /// The deformed target as a file; what came without joints goes out with those of its new rig.
     fn reshaped(&self, deformer: &Deformer, deformed: &Deformed) -> Result<GltfFile> {
         let target = &self.target;
         let mut file = write::rewrite(target, deformed, &|joint, point: DVec3| deformer.map(joint, point))?;
-        if let Some(rig) = self.rig.as_ref().filter(|_| !target.rigged) {
-            let mut skeleton = rig.skeleton.clone();
-            for (joint, &at) in skeleton.joints.iter_mut().zip(&deformed.joints) {
-                joint.rest.w_axis = at.extend(1.0);
-            }
-            add_rig(&mut file, target, &skeleton, &limited(rig))?;
-        }
+        self.add_joints(&mut file, deformed)?;
         Ok(file)
+    }
+
+    /// Gives a file that came without joints those of its new rig.
+    fn add_joints(&self, file: &mut GltfFile, deformed: &Deformed) -> Result<()> {
+        let target = &self.target;
+        let Some(rig) = self.rig.as_ref().filter(|_| !target.rigged) else { return Ok(()) };
+        let mut skeleton = rig.skeleton.clone();
+        for (joint, &at) in skeleton.joints.iter_mut().zip(&deformed.joints) {
+            joint.rest.w_axis = at.extend(1.0);
+        }
+        add_rig(file, target, &skeleton, &limited(rig))
     }
 
     /// The target with the rig that it is deformed by, not deformed.

@@ -24,7 +24,8 @@ use safer_ffi::prelude::*;
 /// progress, user: see Progress above
 ///
 /// Errors: those of sdef_character_create to sdef_deformer_apply.
-#[ffi_export]
+#[cfg_attr(not(target_arch = "wasm32"), ffi_export)]
+#[cfg_attr(target_arch = "wasm32", unsafe(no_mangle))]
 pub unsafe extern "C" fn sdef_super_deform(
     up: *const f32,
     forward: *const f32,

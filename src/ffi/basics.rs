@@ -116,20 +116,23 @@ pub struct SdefDeformer {
 /// The version of the library's ABI, to compare with SDEF_ABI_VERSION before anything else: another number is another
 /// ABI, with which nothing else may be called. It rises when a function, field or constant goes or changes its meaning.
 /// What is only added (functions, fields at the end of structs with struct_size, constants) raises SDEF_VERSION_MINOR.
-#[ffi_export]
+#[cfg_attr(not(target_arch = "wasm32"), ffi_export)]
+#[cfg_attr(target_arch = "wasm32", unsafe(no_mangle))]
 pub extern "C" fn sdef_abi_version() -> u32 {
     SDEF_ABI_VERSION
 }
 
 /// The library's release, such as "1.0.0-rc.1". Static text.
-#[ffi_export]
+#[cfg_attr(not(target_arch = "wasm32"), ffi_export)]
+#[cfg_attr(target_arch = "wasm32", unsafe(no_mangle))]
 pub extern "C" fn sdef_version() -> *const c_char {
     const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), "\0");
     VERSION.as_ptr().cast()
 }
 
 /// The name of a status, such as "SDEF_STATUS_BUSY"; "unknown status" for other numbers. Static text.
-#[ffi_export]
+#[cfg_attr(not(target_arch = "wasm32"), ffi_export)]
+#[cfg_attr(target_arch = "wasm32", unsafe(no_mangle))]
 pub extern "C" fn sdef_status_name(status: SdefStatus) -> *const c_char {
     name_of(status).as_ptr()
 }

@@ -26,7 +26,8 @@ pub type SdefJobs =
 ///
 /// jobs: NULL: threads of the library's own again
 /// user: handed on; must live until jobs is set anew, or this thread ends
-#[ffi_export]
+#[cfg_attr(not(target_arch = "wasm32"), ffi_export)]
+#[cfg_attr(target_arch = "wasm32", unsafe(no_mangle))]
 pub unsafe extern "C" fn sdef_set_jobs(
     jobs: SdefJobs,
     user: *mut c_void,

@@ -6,7 +6,8 @@ use super::handles;
 use safer_ffi::prelude::*;
 
 /// How many handles there are that nobody has destroyed, of all kinds and all threads; 0 where nothing leaks.
-#[ffi_export]
+#[cfg_attr(not(target_arch = "wasm32"), ffi_export)]
+#[cfg_attr(target_arch = "wasm32", unsafe(no_mangle))]
 pub extern "C" fn sdef_live_handles() -> u64 {
     handles::live()
 }
@@ -19,7 +20,8 @@ pub extern "C" fn sdef_live_handles() -> u64 {
 /// its arrays, so wait for it before they go. The memory goes with the last such call.
 ///
 /// Errors: BAD_HANDLE.
-#[ffi_export]
+#[cfg_attr(not(target_arch = "wasm32"), ffi_export)]
+#[cfg_attr(target_arch = "wasm32", unsafe(no_mangle))]
 pub unsafe extern "C" fn sdef_destroy(handle: u64, error: *mut SdefError) -> SdefStatus {
     unsafe { call(error, || handles::remove(handle)) }
 }

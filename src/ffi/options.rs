@@ -225,7 +225,8 @@ unsafe impl HostStruct for SdefOptions {
 /// struct_size: sizeof(SdefOptions) as the host was built
 ///
 /// Errors: BAD_ARGUMENT.
-#[ffi_export]
+#[cfg_attr(not(target_arch = "wasm32"), ffi_export)]
+#[cfg_attr(target_arch = "wasm32", unsafe(no_mangle))]
 pub unsafe extern "C" fn sdef_options_init(
     options: *mut SdefOptions,
     struct_size: u32,

@@ -17,7 +17,8 @@ use safer_ffi::prelude::*;
 ///
 /// Read the result with sdef_character_get_joints and sdef_character_get_weights. Errors: BAD_OPTION, NO_GEOMETRY, BUSY,
 /// CANCELLED.
-#[ffi_export]
+#[cfg_attr(not(target_arch = "wasm32"), ffi_export)]
+#[cfg_attr(target_arch = "wasm32", unsafe(no_mangle))]
 pub unsafe extern "C" fn sdef_character_rig(
     character: SdefCharacter,
     options: *const SdefOptions,
@@ -42,7 +43,8 @@ pub unsafe extern "C" fn sdef_character_rig(
 /// text:     receives the lines
 /// capacity: bytes that text can hold
 /// size:     receives the bytes needed, the terminating NUL among them; may be NULL
-#[ffi_export]
+#[cfg_attr(not(target_arch = "wasm32"), ffi_export)]
+#[cfg_attr(target_arch = "wasm32", unsafe(no_mangle))]
 pub unsafe extern "C" fn sdef_get_warnings(
     handle: u64,
     text: *mut c_char,

@@ -119,7 +119,8 @@ unsafe impl HostStruct for SdefStyleNumbers {
 ///        0: the body follows from the number and from each target's own. The built-in ones ("sd2.5") are fixed bodies
 ///
 /// Errors: BAD_OPTION; BAD_STYLE where like has no proportions.
-#[ffi_export]
+#[cfg_attr(not(target_arch = "wasm32"), ffi_export)]
+#[cfg_attr(target_arch = "wasm32", unsafe(no_mangle))]
 pub unsafe extern "C" fn sdef_style_from_heads(
     heads: f64,
     like: SdefStyle,
@@ -157,7 +158,8 @@ pub unsafe extern "C" fn sdef_style_from_heads(
 /// size: bytes of text, without a NUL at its end: strlen(text)
 ///
 /// Errors: BAD_STYLE.
-#[ffi_export]
+#[cfg_attr(not(target_arch = "wasm32"), ffi_export)]
+#[cfg_attr(target_arch = "wasm32", unsafe(no_mangle))]
 pub unsafe extern "C" fn sdef_style_from_text(
     text: *const c_char,
     size: usize,
@@ -197,7 +199,8 @@ pub unsafe extern "C" fn sdef_style_from_text(
 /// options: NULL for the defaults; mode, rays, bone_groups and thread_count are read
 ///
 /// Errors: BAD_OPTION, NO_HUMANOID, NO_GEOMETRY.
-#[ffi_export]
+#[cfg_attr(not(target_arch = "wasm32"), ffi_export)]
+#[cfg_attr(target_arch = "wasm32", unsafe(no_mangle))]
 pub unsafe extern "C" fn sdef_style_measure(
     character: SdefCharacter,
     name: *const c_char,
@@ -227,7 +230,8 @@ pub unsafe extern "C" fn sdef_style_measure(
 /// name: of the style; may be NULL
 ///
 /// Errors: BAD_STYLE for numbers out of their range.
-#[ffi_export]
+#[cfg_attr(not(target_arch = "wasm32"), ffi_export)]
+#[cfg_attr(target_arch = "wasm32", unsafe(no_mangle))]
 pub unsafe extern "C" fn sdef_style_from_numbers(
     name: *const c_char,
     numbers: *const SdefStyleNumbers,
@@ -299,7 +303,8 @@ pub unsafe extern "C" fn sdef_style_from_numbers(
 ///
 /// Errors: BAD_STYLE where one of the two is nothing but a number of heads and the other is not, or where the result
 /// would be no body; BAD_OPTION.
-#[ffi_export]
+#[cfg_attr(not(target_arch = "wasm32"), ffi_export)]
+#[cfg_attr(target_arch = "wasm32", unsafe(no_mangle))]
 pub unsafe extern "C" fn sdef_style_blend(
     first: SdefStyle,
     second: SdefStyle,
@@ -335,7 +340,8 @@ pub unsafe extern "C" fn sdef_style_blend(
 /// bones:      in the order of their ends, the head's last; struct_size of the first is set before; may be NULL
 /// capacity:   bones that the array can hold
 /// bone_count: receives how many there are; may be NULL
-#[ffi_export]
+#[cfg_attr(not(target_arch = "wasm32"), ffi_export)]
+#[cfg_attr(target_arch = "wasm32", unsafe(no_mangle))]
 pub unsafe extern "C" fn sdef_style_get_numbers(
     style: SdefStyle,
     numbers: *mut SdefStyleNumbers,
@@ -365,7 +371,8 @@ pub unsafe extern "C" fn sdef_style_get_numbers(
 /// size:     receives the bytes needed, the terminating NUL among them; may be NULL
 ///
 /// Errors: BAD_STYLE for a style that is nothing but a number of heads: save the number.
-#[ffi_export]
+#[cfg_attr(not(target_arch = "wasm32"), ffi_export)]
+#[cfg_attr(target_arch = "wasm32", unsafe(no_mangle))]
 pub unsafe extern "C" fn sdef_style_to_json(
     style: SdefStyle,
     text: *mut c_char,

@@ -15,9 +15,11 @@ pub use tree::Tree;
 use super::bounds;
 use glam::{BVec4A, DVec3, Vec3A, Vec4};
 use obvhs::aabb::Aabb;
-use obvhs::bvh2::builder::build_bvh2;
+use obvhs::bvh2::Bvh2;
+use obvhs::bvh2::leaf_collapser::collapse;
+use obvhs::bvh2::reinsertion::ReinsertionOptimizer;
+use obvhs::ploc::PlocBuilder;
 use obvhs::{Boundable, BvhBuildParams};
-use std::time::Duration;
 use wide::{Child, LANES, Node, Slopes};
 
 /// Padding of the boxes, in units of the scene's largest extent: above the rounding of single precision. Seen: ±30 %
@@ -79,6 +81,20 @@ impl Boundable for Box32 {
     }
 }
 
+/// The tree of boxes: the steps of obvhs' `build_bvh2`, which also looks at a clock that not every system has.
+fn tree_over(boxes: &[Box32], how: &BvhBuildParams) -> Bvh2 {
+    let (count, depth) = (boxes.len(), how.search_depth_threshold);
+    let order = (0..count as u32).collect();
+    let mut builder = PlocBuilder::with_capacity(count);
+    let mut tree = builder.build(how.ploc_search_distance, boxes, order, how.sort_precision, depth);
+    let mut optimizer = ReinsertionOptimizer::default();
+    let share = how.reinsertion_batch_ratio;
+    optimizer.run(&mut tree, share, None);
+    collapse(&mut tree, how.max_prims_per_leaf.clamp(1, 255), how.collapse_traversal_cost);
+    optimizer.run(&mut tree, share * how.post_collapse_reinsertion_batch_ratio_multiplier, None);
+    tree
+}
+
 impl Surface {
     /// As [`Surface::new`], for more queries than there are triangles: takes twice as long to make, and a fifth less to ask. What
     /// is found is the same.
@@ -113,8 +129,7 @@ impl Surface {
         if kept.is_empty() {
             return Self::default();
         }
-        let mut build_time = Duration::ZERO;
-        let tree = build_bvh2(&boxes, parameters, &mut build_time);
+        let tree = tree_over(&boxes, &parameters);
         drop(boxes);
         let order = || tree.primitive_indices.iter().map(|&index| &kept[index as usize]);
         let triangles = order().map(|&(triangle, _)| triangle).collect();

@@ -7,6 +7,7 @@
 
 use super::stages::STAGES;
 use crate::character::Character;
+use crate::clock::Moment;
 use crate::error::{Result, Warning};
 use crate::options::Options;
 use crate::progress::Progress;
@@ -15,7 +16,6 @@ use std::any::Any;
 use std::cell::RefCell;
 use std::fmt;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use std::time::Instant;
 
 /// What a stage makes.
 pub type Value = Arc<dyn Any + Send + Sync>;
@@ -219,12 +219,12 @@ impl<'a> View<'a> {
     /// As the stage.
     pub fn stage<T: Send + Sync + 'static>(&self, stage: usize) -> Result<Arc<T>> {
         assert!(stage < self.stage, "a stage reads those above it: {}", STAGES[stage].name);
-        let clock = Instant::now();
+        let clock = Moment::now();
         let value = self.value(stage)?;
         if self.stage < STAGES.len() {
             let mut looked_at = self.looked_at.borrow_mut();
             looked_at.stages.push((stage, Arc::clone(&value)));
-            looked_at.waited += super::milliseconds(clock);
+            looked_at.waited += clock.milliseconds();
         }
         Ok(value.downcast().expect("the list gives each stage its type"))
     }
@@ -241,11 +241,11 @@ impl<'a> View<'a> {
         let before = slot.made.as_ref().map(|made| Arc::clone(&made.value));
         let options = (STAGES[stage].options)(&self.inputs.options);
         let view = self.of_stage(stage, &options, before);
-        let clock = Instant::now();
+        let clock = Moment::now();
         let value = (STAGES[stage].make)(&view)?;
         view.part(1.0, 1.0, |_| Ok(()))?;
         let Looks { style, stages, waited } = view.looked_at.into_inner();
-        let milliseconds = super::milliseconds(clock) - waited;
+        let milliseconds = clock.milliseconds() - waited;
         let style = style.then(|| Arc::clone(&self.inputs.style));
         let made = Made { value: Arc::clone(&value), options, style, stages, milliseconds };
         *slot = Slot { made: Some(Arc::new(made)), holds_at: self.memo.change };

@@ -39,7 +39,6 @@ use stages::Deformation;
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::sync::Arc;
-use std::time::Instant;
 
 /// A character and a field made for it: made once, applied as often as something changes.
 #[derive(Clone, Debug)]
@@ -152,6 +151,15 @@ impl Deformer {
     /// As [`Deformer::with_progress`].
     pub fn set_options(&mut self, options: &Options, progress: &mut Progress) -> Result<()> {
         self.change(Inputs { options: options.clone(), ..self.inputs.clone() }, progress)
+    }
+
+    /// [`Deformer::set_style`] and [`Deformer::set_options`] at once: both are changed, or where it fails neither.
+    ///
+    /// # Errors
+    /// As [`Deformer::with_progress`].
+    pub fn set(&mut self, style: &Style, options: &Options, progress: &mut Progress) -> Result<()> {
+        let (style, options) = (Arc::new(style.clone()), options.clone());
+        self.change(Inputs { style, options, ..self.inputs.clone() }, progress)
     }
 
     /// Changes the style, with the same result as a new deformer gives; the target is not measured again. Where it fails
@@ -285,8 +293,4 @@ fn make(inputs: &Inputs, memo: &Memo, progress: &mut Progress) -> Result<Made> {
     let made = Made { displacements: view.displacements()?, field, warnings: view.warnings()?, deformation };
     progress.borrow_mut().at(1.0)?;
     Ok(made)
-}
-
-fn milliseconds(since: Instant) -> f64 {
-    since.elapsed().as_secs_f64() * 1e3
 }

@@ -1,7 +1,7 @@
 //! Weights of every mesh in order (§IV-B): of the body, of what it wears, of what the head carries.
 
-use super::milliseconds;
 use crate::character::{Humanoid, MeshKind, Role, Weights};
+use crate::clock::Moment;
 use crate::error::{Result, Warning};
 use crate::progress::Progress;
 use crate::rig::eyes::Eye;
@@ -14,7 +14,6 @@ use crate::rig::voxel::{FALLOFF, VoxelOptions, heat_would_be_poor, voxel_weights
 use crate::rig::{GarmentWeights, RigOptions, UnitFigure, WeightBone, WeightMethod, WeightSet};
 use glam::DVec3;
 use std::collections::BTreeMap;
-use std::time::Instant;
 
 /// Meshes that take their weights together, as one list of vertices.
 struct Group {
@@ -92,7 +91,7 @@ impl<'a> Binder<'a> {
         options: &'a RigOptions,
         progress: &mut Progress,
     ) -> Result<Self> {
-        let clock = Instant::now();
+        let clock = Moment::now();
         let of =
             |kind: MeshKind| -> Vec<usize> { (0..kinds.len()).filter(|&mesh| kinds[mesh] == kind).collect() };
         let mut body = of(MeshKind::Body);
@@ -165,7 +164,7 @@ impl<'a> Binder<'a> {
             worn: None,
             rule,
             warnings,
-            body_time: milliseconds(clock),
+            body_time: clock.milliseconds(),
             garment_time: 0.0,
         })
     }
@@ -180,7 +179,7 @@ impl<'a> Binder<'a> {
         progress: &mut Progress,
     ) -> Result<(Vec<Weights>, BTreeMap<String, usize>)> {
         let threads = self.options.thread_count;
-        let clock = Instant::now();
+        let clock = Moment::now();
         let mut fallback = BTreeMap::new();
         let mut count = |weighted: &WeightSet| {
             for (rule, vertices) in &weighted.fallback {
@@ -199,10 +198,10 @@ impl<'a> Binder<'a> {
         count(of_body);
         let mut weights = vec![Weights::default(); self.figure.mesh_count()];
         body.share(self.figure, &of_body.weights, &mut weights);
-        self.body_time += milliseconds(clock);
+        self.body_time += clock.milliseconds();
         progress.at(0.5)?;
 
-        let clock = Instant::now();
+        let clock = Moment::now();
         if !self.garments.is_empty() || !self.accessories.meshes.is_empty() {
             let (skin, worn) = self.worn.get_or_insert_with(|| {
                 let skin = Skin::new(&body.positions, &body.triangles);
@@ -238,7 +237,7 @@ impl<'a> Binder<'a> {
                 [(eye.and_then(|eye| self.eye_joints[eye]).unwrap_or(head), 1.0)]
             }));
         }
-        self.garment_time += milliseconds(clock);
+        self.garment_time += clock.milliseconds();
         progress.at(1.0)?;
         Ok((weights, fallback))
     }

@@ -1,8 +1,8 @@
 //! §IV-B in order: facing, kinds, joints, weights of the body, weights of what it wears.
 
-use super::milliseconds;
 use super::rig_weights::{Binder, BodyRule};
 use crate::character::{Character, Humanoid, MeshKind, Role, Skeleton, Weights};
+use crate::clock::Moment;
 use crate::error::{Result, Warning};
 use crate::progress::Progress;
 use crate::report::{JointCandidate, RigReport};
@@ -13,7 +13,6 @@ use crate::rig::skeleton::{skeleton_of, weight_bones};
 use crate::rig::{FoundJoint, RigOptions, WeightMethod};
 use glam::DVec3;
 use std::collections::BTreeMap;
-use std::time::Instant;
 
 /// c of the heat equation for the weights that animate: sharper than those that deform (D23).
 const SKIN_HEAT: f64 = 3.0;
@@ -76,7 +75,7 @@ impl Rig {
         character.validate()?;
         options.validate()?;
         progress.at(0.0)?;
-        let clock = Instant::now();
+        let clock = Moment::now();
         let Placed { figure, up, forward, mut kinds, surroundings, mut found, candidates, mut warnings } =
             Placed::of(character, options, &mut progress.part(0.0, 0.25))?;
         warnings.extend(refine_kinds(&figure, &surroundings, &mut kinds, &found.joints));
@@ -86,7 +85,7 @@ impl Rig {
             let joint = FoundJoint { position: eye.centre, confidence: eye.confidence };
             found.joints.entry(eye.role).or_insert(joint);
         }
-        let joint_time = milliseconds(clock);
+        let joint_time = clock.milliseconds();
         progress.at(0.3)?;
 
         let at: BTreeMap<Role, DVec3> =

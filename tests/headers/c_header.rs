@@ -1,6 +1,6 @@
 //! `superdeform.h`: cbindgen prints every item; the sections and their order are those of the sources.
 
-use crate::{SECTIONS, conventions, module_comment, source};
+use crate::{EXPORT, SECTIONS, conventions, module_comment, source};
 
 /// Humanoid roles, which nobody wants to read line by line.
 const ROLE_COUNT: u8 = 55;
@@ -83,15 +83,15 @@ fn initialiser(name: &str, block: &str) -> String {
     format!("\n#define {}_INIT {{{}}}\n", upper.trim_start_matches('_'), values.join(", "))
 }
 
-/// What cbindgen prints for all sources in one. It does not see `#[ffi_export]`, whose shim stands inside the function,
-/// so it is given the attribute that it knows.
+/// What cbindgen prints for all sources in one. It sees neither `ffi_export`, whose shim stands inside the function,
+/// nor what stands beside it, so it is given the attribute that it knows.
 fn printed() -> String {
     let mut all = String::new();
     let mut exports = 0;
     for section in SECTIONS {
         let source = source(section);
-        exports += source.matches("#[ffi_export]").count();
-        all.push_str(&source.replace("#[ffi_export]", "#[unsafe(no_mangle)]"));
+        exports += source.matches(EXPORT).count();
+        all.push_str(&source.replace(EXPORT, "#[unsafe(no_mangle)]"));
     }
     let without_inner: String =
         all.lines().filter(|line| !line.starts_with("//!")).flat_map(|line| [line, "\n"]).collect();

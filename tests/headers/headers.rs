@@ -6,7 +6,7 @@ use std::process::Command;
 use superdeform::options::table::Default;
 use superdeform::options::{NUMBERS, OptionInfo, Scope, TABLE, Values, find};
 use superdeform_headers::csharp::{constants_of, pascal, printed};
-use superdeform_headers::{SECTIONS, abi, broken, c_header, csharp, layout, root, source};
+use superdeform_headers::{EXPORT, SECTIONS, abi, broken, c_header, csharp, layout, root, source};
 
 #[test]
 fn the_readme_lists_the_options_that_are_one_number() {
@@ -195,8 +195,7 @@ fn shape(declared: &str) -> String {
 fn both_generators_see_the_same_functions() {
     // What stands before each says nothing of a type.
     let ours = functions_of(&c_header().replace("SDEF_API ", ""));
-    let exports: usize =
-        SECTIONS.iter().map(|section| source(section).matches("#[ffi_export]").count()).sum();
+    let exports: usize = SECTIONS.iter().map(|section| source(section).matches(EXPORT).count()).sum();
     assert_eq!(ours.len(), exports);
     assert_eq!(ours, functions_of(&printed(safer_ffi::headers::Language::C)));
     assert_eq!(ours, functions_of(&csharp()));

@@ -26,6 +26,9 @@ pub fn root() -> PathBuf {
 pub const SECTIONS: [&str; 9] =
     ["basics", "lifetime", "jobs", "options", "character", "rig", "style", "deformer", "all_at_once"];
 
+/// What stands before each exported function.
+pub const EXPORT: &str = "#[cfg_attr(not(target_arch = \"wasm32\"), ffi_export)]\n#[cfg_attr(target_arch = \"wasm32\", unsafe(no_mangle))]";
+
 /// The text of a file of `src/ffi`.
 fn read(path: &str) -> Option<String> {
     std::fs::read_to_string(root().join("src/ffi").join(path)).ok()

@@ -121,6 +121,24 @@ pub fn rewrite(loaded: &Loaded, deformed: &Deformed, map_point: &MapPoint) -> Re
     Ok(file)
 }
 
+/// As [`rewrite()`], of vertices and nodes alone: animations, springs and colliders stay as they were, and so do morph targets
+/// that `deformed` lacks.
+///
+/// # Errors
+/// As [`write()`].
+pub fn at_rest(loaded: &Loaded, deformed: &Deformed) -> Result<GltfFile> {
+    check(loaded, deformed)?;
+    let new_rest = new_rest(loaded, deformed);
+    let mut file = loaded.file.clone();
+    let reader = || Reader::new(&loaded.file);
+    let mut slots = Vec::new();
+    mesh_slots(loaded, deformed, &new_rest, &reader(), &mut file.json, &mut slots)?;
+    skin_slots(loaded, &new_rest, &reader(), &mut slots)?;
+    move_nodes(loaded, &new_rest, &mut file.json);
+    store(&reader(), &mut file, slots)?;
+    Ok(file)
+}
+
 fn check(loaded: &Loaded, deformed: &Deformed) -> Result<()> {
     let name = &loaded.file.name;
     let meshes = &loaded.character.meshes;

@@ -29,7 +29,8 @@ pub use types::*;
 /// character: receives the handle
 ///
 /// Errors: BAD_ARGUMENT, BAD_INPUT.
-#[ffi_export]
+#[cfg_attr(not(target_arch = "wasm32"), ffi_export)]
+#[cfg_attr(target_arch = "wasm32", unsafe(no_mangle))]
 pub unsafe extern "C" fn sdef_character_create(
     up: *const f32,
     forward: *const f32,
@@ -51,7 +52,8 @@ pub unsafe extern "C" fn sdef_character_create(
 /// Errors: BAD_ARGUMENT; BAD_INPUT with the joint as the element: a parent that is none, a circle of parents, a number
 /// that is not finite, a matrix row by row, a role for a joint that is none or has one; or weights of a mesh for a joint
 /// that is no more.
-#[ffi_export]
+#[cfg_attr(not(target_arch = "wasm32"), ffi_export)]
+#[cfg_attr(target_arch = "wasm32", unsafe(no_mangle))]
 pub unsafe extern "C" fn sdef_character_set_skeleton(
     character: SdefCharacter,
     skeleton: *const SdefSkeleton,
@@ -70,7 +72,8 @@ pub unsafe extern "C" fn sdef_character_set_skeleton(
 /// index: receives the mesh's index, counted from 0; may be NULL
 ///
 /// Errors: BAD_ARGUMENT; BAD_INPUT with the vertex or triangle as the element; OUT_OF_MEMORY.
-#[ffi_export]
+#[cfg_attr(not(target_arch = "wasm32"), ffi_export)]
+#[cfg_attr(target_arch = "wasm32", unsafe(no_mangle))]
 pub unsafe extern "C" fn sdef_character_add_mesh(
     character: SdefCharacter,
     mesh: *const SdefMesh,
@@ -97,7 +100,8 @@ pub unsafe extern "C" fn sdef_character_add_mesh(
 /// number: receives what SdefMesh's image names it by, counted from 1
 ///
 /// Errors: BAD_ARGUMENT; OUT_OF_MEMORY.
-#[ffi_export]
+#[cfg_attr(not(target_arch = "wasm32"), ffi_export)]
+#[cfg_attr(target_arch = "wasm32", unsafe(no_mangle))]
 pub unsafe extern "C" fn sdef_character_add_image(
     character: SdefCharacter,
     image: *const SdefImage,
@@ -118,7 +122,8 @@ pub unsafe extern "C" fn sdef_character_add_image(
 /// Says what the host knows of the face, in place of what was said before.
 ///
 /// Errors: BAD_ARGUMENT; BAD_INPUT for numbers that are not finite, and sizes below 0; OUT_OF_MEMORY.
-#[ffi_export]
+#[cfg_attr(not(target_arch = "wasm32"), ffi_export)]
+#[cfg_attr(target_arch = "wasm32", unsafe(no_mangle))]
 pub unsafe extern "C" fn sdef_character_set_face_hints(
     character: SdefCharacter,
     hints: *const SdefFaceHints,
@@ -138,7 +143,8 @@ pub unsafe extern "C" fn sdef_character_set_face_hints(
 /// Adds a morph target to a mesh, after those that it has.
 ///
 /// Errors: BAD_ARGUMENT also for a mesh that is none; BAD_INPUT with the vertex as the element; OUT_OF_MEMORY.
-#[ffi_export]
+#[cfg_attr(not(target_arch = "wasm32"), ffi_export)]
+#[cfg_attr(target_arch = "wasm32", unsafe(no_mangle))]
 pub unsafe extern "C" fn sdef_character_add_morph_target(
     character: SdefCharacter,
     mesh: u32,
@@ -178,7 +184,8 @@ pub unsafe extern "C" fn sdef_character_add_morph_target(
 }
 
 /// Counts what a character holds.
-#[ffi_export]
+#[cfg_attr(not(target_arch = "wasm32"), ffi_export)]
+#[cfg_attr(target_arch = "wasm32", unsafe(no_mangle))]
 pub unsafe extern "C" fn sdef_character_get_info(
     character: SdefCharacter,
     info: *mut SdefCharacterInfo,
@@ -212,7 +219,8 @@ pub unsafe extern "C" fn sdef_character_get_info(
 /// confidence:    0 to 1; below 0.5 a made joint was placed by ratio or is doubtful; 1 for given and own joints
 /// capacity:      joints that each array can hold
 /// joint_count:   receives how many joints there are; may be NULL
-#[ffi_export]
+#[cfg_attr(not(target_arch = "wasm32"), ffi_export)]
+#[cfg_attr(target_arch = "wasm32", unsafe(no_mangle))]
 pub unsafe extern "C" fn sdef_character_get_joints(
     character: SdefCharacter,
     parents: *mut i32,
@@ -262,7 +270,8 @@ pub unsafe extern "C" fn sdef_character_get_joints(
 /// capacity:        vertices that each array can hold
 ///
 /// Errors: BAD_ARGUMENT also for a mesh that is none; BAD_INPUT for a mesh without weights.
-#[ffi_export]
+#[cfg_attr(not(target_arch = "wasm32"), ffi_export)]
+#[cfg_attr(target_arch = "wasm32", unsafe(no_mangle))]
 pub unsafe extern "C" fn sdef_character_get_weights(
     character: SdefCharacter,
     mesh: u32,

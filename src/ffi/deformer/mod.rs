@@ -31,7 +31,8 @@ pub use types::*;
 /// deformer:       receives the handle
 ///
 /// Errors: BAD_OPTION, BAD_STYLE, NO_HUMANOID, NO_GEOMETRY, CANCELLED.
-#[ffi_export]
+#[cfg_attr(not(target_arch = "wasm32"), ffi_export)]
+#[cfg_attr(target_arch = "wasm32", unsafe(no_mangle))]
 pub unsafe extern "C" fn sdef_deformer_create(
     character: SdefCharacter,
     style: SdefStyle,
@@ -61,7 +62,8 @@ pub unsafe extern "C" fn sdef_deformer_create(
 /// is done again. For sliders.
 ///
 /// Errors: as sdef_deformer_create, after which the deformer is as it was; BUSY.
-#[ffi_export]
+#[cfg_attr(not(target_arch = "wasm32"), ffi_export)]
+#[cfg_attr(target_arch = "wasm32", unsafe(no_mangle))]
 pub unsafe extern "C" fn sdef_deformer_set_options(
     deformer: SdefDeformer,
     options: *const SdefOptions,
@@ -81,7 +83,8 @@ pub unsafe extern "C" fn sdef_deformer_set_options(
 /// Changes the style of a deformer, with the same results as a new one and for less: the character is not measured again.
 ///
 /// Errors: as sdef_deformer_create, after which the deformer is as it was; BUSY.
-#[ffi_export]
+#[cfg_attr(not(target_arch = "wasm32"), ffi_export)]
+#[cfg_attr(target_arch = "wasm32", unsafe(no_mangle))]
 pub unsafe extern "C" fn sdef_deformer_set_style(
     deformer: SdefDeformer,
     style: SdefStyle,
@@ -105,7 +108,8 @@ pub unsafe extern "C" fn sdef_deformer_set_style(
 /// progress, user: see Progress above
 ///
 /// Errors: BAD_ARGUMENT, BUFFER_TOO_SMALL with the mesh, OUT_OF_MEMORY, CANCELLED.
-#[ffi_export]
+#[cfg_attr(not(target_arch = "wasm32"), ffi_export)]
+#[cfg_attr(target_arch = "wasm32", unsafe(no_mangle))]
 pub unsafe extern "C" fn sdef_deformer_apply(
     deformer: SdefDeformer,
     results: *const SdefMeshResult,
@@ -134,7 +138,8 @@ pub unsafe extern "C" fn sdef_deformer_apply(
 /// joint_count:   receives how many there are; may be NULL
 ///
 /// Errors: BAD_INPUT where inverse_binds is asked for and a rest matrix has no inverse.
-#[ffi_export]
+#[cfg_attr(not(target_arch = "wasm32"), ffi_export)]
+#[cfg_attr(target_arch = "wasm32", unsafe(no_mangle))]
 pub unsafe extern "C" fn sdef_deformer_get_joints(
     deformer: SdefDeformer,
     positions: *mut f64,
@@ -185,7 +190,8 @@ pub unsafe extern "C" fn sdef_deformer_get_joints(
 /// jacobians: receives 9 doubles a point, column by column: how directions and lengths there change
 ///
 /// Errors: BAD_INPUT with the point as the element.
-#[ffi_export]
+#[cfg_attr(not(target_arch = "wasm32"), ffi_export)]
+#[cfg_attr(target_arch = "wasm32", unsafe(no_mangle))]
 pub unsafe extern "C" fn sdef_deformer_map_points(
     deformer: SdefDeformer,
     joints: *const u32,
@@ -237,7 +243,8 @@ pub unsafe extern "C" fn sdef_deformer_map_points(
 /// results:      receives count structs, struct_size of the first is set before; may be colliders
 ///
 /// Errors: BAD_INPUT with the collider as the element (SDEF_ELEMENT_COLLIDER), or the spring (SDEF_ELEMENT_POINT).
-#[ffi_export]
+#[cfg_attr(not(target_arch = "wasm32"), ffi_export)]
+#[cfg_attr(target_arch = "wasm32", unsafe(no_mangle))]
 pub unsafe extern "C" fn sdef_deformer_map_colliders(
     deformer: SdefDeformer,
     colliders: *const SdefCollider,
@@ -270,7 +277,8 @@ pub unsafe extern "C" fn sdef_deformer_map_colliders(
 /// groups:      struct_size of the first is set before; may be NULL
 /// capacity:    groups that the array can hold
 /// group_count: receives how many there are; may be NULL
-#[ffi_export]
+#[cfg_attr(not(target_arch = "wasm32"), ffi_export)]
+#[cfg_attr(target_arch = "wasm32", unsafe(no_mangle))]
 pub unsafe extern "C" fn sdef_deformer_get_groups(
     deformer: SdefDeformer,
     groups: *mut SdefGroup,
@@ -328,7 +336,8 @@ pub unsafe extern "C" fn sdef_deformer_get_groups(
 /// progress, user: see Progress above
 ///
 /// Errors: NO_GEOMETRY where the result is too flat to be measured; OUT_OF_MEMORY; CANCELLED.
-#[ffi_export]
+#[cfg_attr(not(target_arch = "wasm32"), ffi_export)]
+#[cfg_attr(target_arch = "wasm32", unsafe(no_mangle))]
 pub unsafe extern "C" fn sdef_deformer_measure(
     deformer: SdefDeformer,
     progress: SdefProgress,
@@ -351,7 +360,8 @@ pub unsafe extern "C" fn sdef_deformer_measure(
 /// The first call after a change measures the result: sdef_deformer_measure says how far that is.
 ///
 /// Errors: BAD_ARGUMENT; NO_GEOMETRY where the result is too flat to be measured.
-#[ffi_export]
+#[cfg_attr(not(target_arch = "wasm32"), ffi_export)]
+#[cfg_attr(target_arch = "wasm32", unsafe(no_mangle))]
 pub unsafe extern "C" fn sdef_deformer_get_figure(
     deformer: SdefDeformer,
     which: u32,
@@ -384,7 +394,8 @@ pub unsafe extern "C" fn sdef_deformer_get_figure(
 /// size:     receives the bytes needed, the terminating NUL among them; may be NULL
 ///
 /// Errors: NO_GEOMETRY where the result is too flat to be measured; BUFFER_TOO_SMALL.
-#[ffi_export]
+#[cfg_attr(not(target_arch = "wasm32"), ffi_export)]
+#[cfg_attr(target_arch = "wasm32", unsafe(no_mangle))]
 pub unsafe extern "C" fn sdef_deformer_get_report(
     deformer: SdefDeformer,
     report: *mut SdefReport,

@@ -1,0 +1,319 @@
+// Drives the page as a person does, in headless Chromium: node page.mjs FOLDER [--command SUPERDEFORM] [--shots FOLDER] [--quick]
+//
+// FOLDER holds the built page. Ends with `N passed, N failed`; exit code 77 where there is no Chromium.
+import { execFileSync } from 'node:child_process';
+import fs from 'node:fs';
+import http from 'node:http';
+import os from 'node:os';
+import path from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { chromium } from 'playwright-core';
+
+const here = path.dirname(fileURLToPath(import.meta.url));
+const [folder, ...flags] = process.argv.slice(2);
+const flag = (name) => (flags.includes(name) ? (flags[flags.indexOf(name) + 1] ?? true) : null);
+const [command, shots, quick] = [flag('--command'), flag('--shots'), flags.includes('--quick')];
+const DATA = path.join(here, '../../tests/data');
+const DRESS = path.join(DATA, 'quaternius_female_dress.glb');
+const ROGUE = path.join(DATA, 'kaykit_rogue.glb');
+/** How long anything may take: a loaded machine draws without a graphics card. */
+const PATIENCE = 240e3;
+
+const executable = process.env.CHROMIUM ?? ['chromium', 'chromium-browser', 'google-chrome'].map((name) => `/usr/bin/${name}`).find((at) => fs.existsSync(at));
+if (!executable) {
+  console.log('there is no Chromium: CHROMIUM names one');
+  process.exit(77);
+}
+const scratch = fs.mkdtempSync(path.join(os.tmpdir(), 'superdeform-page-'));
+const TYPES = { '.html': 'text/html', '.js': 'text/javascript', '.wasm': 'application/wasm' };
+const server = http.createServer((request, answer) => {
+  const name = request.url === '/' ? 'index.html' : request.url.slice(1);
+  const at = path.join(folder, path.basename(name));
+  if (!fs.existsSync(at)) return answer.writeHead(404).end();
+  answer.writeHead(200, { 'content-type': TYPES[path.extname(at)] ?? 'application/octet-stream' });
+  answer.end(fs.readFileSync(at));
+});
+await new Promise((done) => server.listen(0, '127.0.0.1', done));
+const address = `http://127.0.0.1:${server.address().port}/`;
+
+let [passed, failed] = [0, 0];
+async function check(name, work) {
+  const start = performance.now();
+  try {
+    const said = await work();
+    passed++;
+    console.log(`ok   ${name}${said ? `: ${said}` : ''} (${((performance.now() - start) / 1000).toFixed(1)} s)`);
+  } catch (error) {
+    failed++;
+    console.log(`FAIL ${name}: ${error.message}`);
+  }
+}
+function that(holds, what) {
+  if (!holds) throw new Error(what);
+}
+
+const browser = await chromium.launchPersistentContext(path.join(scratch, 'profile'), {
+  executablePath: executable, headless: true, viewport: { width: 1280, height: 800 }, acceptDownloads: true, locale: 'en-GB',
+  args: ['--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist', '--disable-dev-shm-usage', '--disable-background-networking', '--disable-component-update'],
+});
+browser.setDefaultTimeout(PATIENCE);
+const complaints = [];
+const requests = [];
+async function opened(url, size) {
+  const page = await browser.newPage();
+  if (size) await page.setViewportSize(size);
+  page.on('console', (message) => message.type() === 'error' && complaints.push(message.text()));
+  page.on('pageerror', (error) => complaints.push(error.message));
+  page.on('request', (request) => requests.push(request.url()));
+  await page.goto(url);
+  await page.waitForSelector('body[data-ready=yes]');
+  return page;
+}
+const heads = (page) => page.textContent('#heads-after');
+/** Waits until nothing is being made. */
+async function rested(page) {
+  await page.waitForFunction(() => document.getElementById('busy').hidden && !document.getElementById('download').disabled);
+  await page.waitForFunction(() => document.getElementById('heads-after').textContent);
+  await page.waitForTimeout(400);
+  await page.waitForFunction(() => document.getElementById('busy').hidden);
+}
+const choose = (page, files) => page.setInputFiles('#file', files);
+async function slide(page, name, value) {
+  await page.evaluate(([id, to]) => {
+    const input = document.getElementById(id);
+    input.value = to;
+    input.dispatchEvent(new Event('input'));
+    input.dispatchEvent(new Event('change'));
+  }, [`slider-${name}`, value]);
+}
+async function downloaded(page, button) {
+  const [download] = await Promise.all([page.waitForEvent('download'), page.click(button)]);
+  const at = path.join(scratch, download.suggestedFilename());
+  await download.saveAs(at);
+  return at;
+}
+const shot = (page, name) => shots && page.screenshot({ path: path.join(shots, `${name}.png`) });
+const pixels = (page) => page.evaluate(() => {
+  const canvas = document.getElementById('canvas');
+  const copy = Object.assign(document.createElement('canvas'), { width: 96, height: 64 });
+  copy.getContext('2d').drawImage(canvas, 0, 0, 96, 64);
+  return [...copy.getContext('2d').getImageData(0, 0, 96, 64).data];
+});
+const differs = (one, two) => one.reduce((sum, value, index) => sum + (Math.abs(value - two[index]) > 8), 0);
+
+if (shots) fs.mkdirSync(shots, { recursive: true });
+let page;
+await check('the page starts', async () => {
+  page = await opened(address);
+  await shot(page, 'empty');
+});
+const loaded = requests.length;
+await check('a file that is chosen becomes super-deformed', async () => {
+  const start = performance.now();
+  await choose(page, DRESS);
+  await rested(page);
+  const took = performance.now() - start;
+  that(/^2\.[3-7] heads$/.test(await heads(page)), `it has ${await heads(page)}`);
+  const seen = await pixels(page);
+  that(differs(seen, seen.map((_, i) => seen[i % 4])) > 200, 'the picture is one colour');
+  await shot(page, 'desktop');
+  return `drop to shown ${(took / 1000).toFixed(1)} s, ${await heads(page)}`;
+});
+await check('what is downloaded is what the command line writes', async () => {
+  await slide(page, 'heads', 2.5);
+  await rested(page);
+  const ours = fs.readFileSync(await downloaded(page, '#download'));
+  that(ours.subarray(0, 4).toString() === 'glTF', 'it is no GLB');
+  if (!command) return 'no command line to compare with';
+  const theirs = path.join(scratch, 'theirs.glb');
+  execFileSync(command, ['-q', DRESS, '--heads', '2.5', '-o', theirs]);
+  that(ours.equals(fs.readFileSync(theirs)), 'the bytes differ');
+  return `${ours.length} bytes, the same`;
+});
+if (!quick) {
+  await check('sliders move the figure and are undone by keys', async () => {
+    const before = await heads(page);
+    const still = await pixels(page);
+    await slide(page, 'heads', 4);
+    await rested(page);
+    that(/^(3\.[7-9]|4\.[0-3])/.test(await heads(page)), `4 heads came out as ${await heads(page)}`);
+    that(differs(still, await pixels(page)) > 60, 'the picture stayed as it was');
+    await page.keyboard.press('Control+z');
+    await rested(page);
+    that((await heads(page)) === before, `undone it has ${await heads(page)}`);
+    await page.keyboard.press('Control+Shift+z');
+    await rested(page);
+    await page.keyboard.press('Control+z');
+    await rested(page);
+  });
+  await check('a slider is followed while it moves', async () => {
+    const frames = {};
+    for (const [name, from, to] of [['amount', 0.3, 1], ['heads', 2.2, 3]]) {
+      frames[name] = await page.evaluate(async ([id, low, high]) => {
+        const times = [];
+        const input = document.getElementById(id);
+        const { ask } = globalThis.superdeform;
+        for (let i = 0; i < 7; i++) {
+          const value = low + ((high - low) * i) / 6;
+          const start = performance.now();
+          const style = id === 'slider-heads' ? { heads: value } : { heads: 2.5 };
+          await ask({ do: 'set', style, options: { amount: id === 'slider-amount' ? value : 1, repair: 'kept' } });
+          await ask({ do: 'glimpse' });
+          times.push(performance.now() - start);
+        }
+        return times.sort((a, b) => a - b)[3];
+      }, [`slider-${name}`, from, to]);
+    }
+    await slide(page, 'heads', 2.6);
+    await rested(page);
+    return `the worker needs ${frames.amount.toFixed(0)} ms for a frame of Amount, ${frames.heads.toFixed(0)} ms for one of Heads`;
+  });
+  await check('poses move both', async () => {
+    const still = await pixels(page);
+    for (const pose of ['t', 'sit', 'walk']) {
+      await page.click(`#poses [value=${pose}]`);
+      await page.waitForTimeout(700);
+      that(differs(still, await pixels(page)) > 60, `${pose} looks like before`);
+      await shot(page, `pose-${pose}`);
+    }
+    await page.click('#poses [value=a]');
+  });
+  await check('a style is taken from a model', async () => {
+    await page.setInputFiles('#reference-file', ROGUE);
+    await page.waitForFunction(() => document.getElementById('like').getAttribute('aria-pressed') === 'true');
+    await rested(page);
+    that((await page.textContent('#like')).includes('kaykit_rogue.glb'), 'the button does not say whose');
+  });
+  await check('bad files get a sentence, and the page goes on', async () => {
+    const good = fs.readFileSync(DRESS);
+    const large = path.join(scratch, 'large.glb');
+    fs.closeSync(fs.openSync(large, 'w'));
+    fs.truncateSync(large, 600e6);
+    const draco = Buffer.from('{"asset":{"version":"2.0"},"extensionsRequired":["KHR_draco_mesh_compression"],"extensionsUsed":["KHR_draco_mesh_compression"],"meshes":[{"primitives":[{"attributes":{"POSITION":0},"extensions":{"KHR_draco_mesh_compression":{"bufferView":0,"attributes":{"POSITION":0}}}}]}]}');
+    const bad = [
+      { name: 'notes.txt', mimeType: 'text/plain', buffer: Buffer.from('hello') },
+      { name: 'text.vrm', mimeType: '', buffer: Buffer.from('hello') },
+      { name: 'cut.glb', mimeType: '', buffer: good.subarray(0, 5000) },
+      { name: 'draco.gltf', mimeType: '', buffer: draco },
+      large,
+    ];
+    const said = [];
+    for (const file of bad) {
+      await choose(page, file);
+      await page.waitForSelector('#alert:not([hidden])');
+      const sentence = await page.textContent('#alert span');
+      that(sentence.includes(path.basename(file.name ?? file)), `${file.name ?? file}: ${sentence}`);
+      said.push(sentence);
+      await shot(page, 'bad');
+      await page.click('#alert-close');
+    }
+    await slide(page, 'youth', 0.4);
+    await rested(page);
+    that((await page.textContent('#file-name')) === 'quaternius_female_dress.glb', 'the good file is gone');
+    return `\n       ${said.join('\n       ')}`;
+  });
+  await check('a fault of the library costs its instance alone', async () => {
+    const fault = await page.evaluate(() => globalThis.superdeform.ask({ do: 'fault' }).catch((error) => `${error.name}: ${error.message}`));
+    that(/^Fault: .*a fault was asked for/s.test(fault), fault);
+    await slide(page, 'youth', 0.6);
+    await page.waitForSelector('#alert:not([hidden])');
+    await page.click('#alert-close');
+    await slide(page, 'youth', 0.7);
+    await rested(page);
+  });
+  await check('a licence that forbids changes is asked about', async () => {
+    const file = fs.readFileSync(ROGUE);
+    const size = file.readUInt32LE(12);
+    const json = JSON.parse(file.subarray(20, 20 + size));
+    json.asset.extras = { license: 'CC-BY-ND-4.0 (http://creativecommons.org/licenses/by-nd/4.0/)' };
+    let text = JSON.stringify(json);
+    text += ' '.repeat((4 - (text.length % 4)) % 4);
+    const head = Buffer.alloc(20);
+    file.copy(head, 0, 0, 20);
+    head.writeUInt32LE(20 + text.length + file.length - 20 - size, 8);
+    head.writeUInt32LE(text.length, 12);
+    await choose(page, { name: 'forbidden.glb', mimeType: '', buffer: Buffer.concat([head, Buffer.from(text), file.subarray(20 + size)]) });
+    await page.waitForSelector('#licence[open]');
+    await shot(page, 'licence');
+    that(await page.isDisabled('#licence-go'), 'one may go on without saying anything');
+    await page.keyboard.press('Escape');
+    await rested(page);
+    that((await page.textContent('#file-name')) === 'quaternius_female_dress.glb', 'refused, the old file is gone');
+    await choose(page, { name: 'forbidden.glb', mimeType: '', buffer: Buffer.concat([head, Buffer.from(text), file.subarray(20 + size)]) });
+    await page.waitForSelector('#licence[open]');
+    await page.check('#licence-mine');
+    await page.click('#licence-go');
+    await page.waitForFunction(() => document.getElementById('file-name').textContent === 'forbidden.glb');
+    await rested(page);
+  });
+  await check('everything works by keys', async () => {
+    await page.focus('#another');
+    const [chooser] = await Promise.all([page.waitForEvent('filechooser'), page.keyboard.press('Enter')]);
+    await chooser.setFiles(DRESS);
+    await page.waitForFunction(() => document.getElementById('file-name').textContent === 'quaternius_female_dress.glb');
+    await rested(page);
+    await page.focus('#slider-head_scale');
+    const before = await page.inputValue('#slider-head_scale');
+    for (let i = 0; i < 5; i++) await page.keyboard.press('ArrowRight');
+    await rested(page);
+    that(Number(await page.inputValue('#slider-head_scale')) > Number(before), 'the slider stays');
+    await page.focus('#canvas');
+    const still = await pixels(page);
+    for (let i = 0; i < 6; i++) await page.keyboard.press('ArrowRight');
+    await page.waitForTimeout(600);
+    that(differs(still, await pixels(page)) > 60, 'the figures do not turn');
+    const unnamed = await page.evaluate(() => [...document.querySelectorAll('button, input:not([type=file]), select, progress')]
+      .filter((element) => !(element.getAttribute('aria-label') || element.labels?.length || element.textContent.trim()))
+      .map((element) => element.outerHTML.slice(0, 80)));
+    that(!unnamed.length, `without a name: ${unnamed.join(', ')}`);
+    const stops = await page.evaluate(() => [...document.querySelectorAll('[tabindex]')].filter((element) => element.tabIndex > 0).length);
+    that(!stops, 'the order of keys is not that of the page');
+  });
+  await check('picture and report are saved', async () => {
+    const picture = fs.readFileSync(await downloaded(page, '#picture'));
+    that(picture.subarray(1, 4).toString() === 'PNG', 'it is no PNG');
+    const report = JSON.parse(fs.readFileSync(await downloaded(page, '#report'), 'utf8'));
+    that(report.result.heads > 1, 'the report has no heads');
+  });
+  await check('four languages have all words', async () => {
+    for (const code of ['ja', 'ko', 'zh', 'en']) {
+      await page.selectOption('#language', code);
+      const empty = await page.evaluate(() => [...document.querySelectorAll('[data-t], .row label')].filter((element) => !element.textContent).length);
+      that(!empty, `${empty} empty words in ${code}`);
+      await shot(page, `language-${code}`);
+    }
+  });
+}
+await check('no request leaves the page after it is loaded, and without a network it goes on', async () => {
+  const later = requests.slice(loaded).filter((url) => !/^(blob|data):/.test(url));
+  that(!later.length, later.join(', '));
+  await browser.setOffline(true);
+  await choose(page, ROGUE);
+  await page.waitForFunction(() => document.getElementById('file-name').textContent === 'kaykit_rogue.glb');
+  await rested(page);
+  await browser.setOffline(false);
+  return `${loaded} requests to load it`;
+});
+await check('on a phone it is usable', async () => {
+  const phone = await opened(address, { width: 390, height: 844 });
+  await shot(phone, 'phone-empty');
+  await phone.click('#sample');
+  await rested(phone);
+  await shot(phone, 'phone');
+  const wide = await phone.evaluate(() => document.documentElement.scrollWidth);
+  that(wide <= 390, `it is ${wide} wide`);
+  await phone.close();
+});
+await check('one file works without a server', async () => {
+  const single = await opened(`file://${path.resolve(folder, 'superdeform.html')}`);
+  await single.click('#sample');
+  await rested(single);
+  await shot(single, 'sample');
+  await single.close();
+});
+await check('nothing was complained about in the console', () => that(!complaints.length, complaints.join(' | ')));
+await browser.close();
+server.close();
+fs.rmSync(scratch, { recursive: true, force: true });
+console.log(`${passed} passed, ${failed} failed`);
+process.exit(failed ? 1 : 0);
