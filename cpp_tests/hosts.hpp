@@ -20,7 +20,7 @@ inline const Figure &figure() {
 }
 
 inline superdeform::Character character() {
-  superdeform::Character character;
+  superdeform::Character character = superdeform::Character::create();
   character.set_skeleton(figure().skeleton);
   character.add_mesh(figure().mesh);
   character.add_morph_target(0, figure().target);

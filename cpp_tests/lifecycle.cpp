@@ -80,6 +80,7 @@ static void handles_of_another_kind_are_refused() {
   for (const std::uint64_t id : {made.id(), style.id(), std::uint64_t(0)}) {
     const SdefDeformer wrong{id};
     GIVES(SDEF_STATUS_BAD_HANDLE, sdef_deformer_set_options(wrong, nullptr, nullptr, nullptr, &error));
+    GIVES(SDEF_STATUS_BAD_HANDLE, sdef_deformer_set_style(wrong, style.get(), nullptr, nullptr, &error));
     GIVES(SDEF_STATUS_BAD_HANDLE, sdef_deformer_apply(wrong, &positions.result, 1, nullptr, nullptr, &error));
     GIVES(SDEF_STATUS_BAD_HANDLE, sdef_deformer_get_joints(wrong, nullptr, nullptr, 0, &size, &error));
     GIVES(SDEF_STATUS_BAD_HANDLE,
@@ -257,7 +258,7 @@ static void statuses() {
         sdef_deformer_create(made.get(), style.get(), &options, nullptr, nullptr, &deformer, &error));
   GIVES(SDEF_STATUS_BAD_STYLE, sdef_style_from_text("{", 1, &other, &error));
 
-  superdeform::Character empty;
+  const auto empty = superdeform::Character::create();
   GIVES(SDEF_STATUS_NO_HUMANOID,
         sdef_deformer_create(empty.get(), style.get(), nullptr, nullptr, nullptr, &deformer, &error));
   GIVES(SDEF_STATUS_NO_GEOMETRY, sdef_character_rig(empty.get(), nullptr, nullptr, nullptr, &error));

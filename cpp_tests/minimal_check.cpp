@@ -29,7 +29,7 @@ static Figure read(const std::string &path) {
 }
 
 static double heads(const Figure &figure) {
-  superdeform::Character character;
+  auto character = superdeform::Character::create();
   SdefMesh mesh = superdeform::make<SdefMesh>();
   mesh.vertex_count = figure.positions.size() / 3;
   mesh.positions = figure.positions.data();

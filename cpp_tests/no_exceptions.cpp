@@ -15,7 +15,7 @@ static void check(bool holds, int line) {
 
 // What an engine's component has: empty until it is set up.
 struct Component {
-  superdeform::Character character{SdefCharacter{}};
+  superdeform::Character character;
   superdeform::Style style;
   superdeform::Deformer deformer;
 };
@@ -25,7 +25,7 @@ int main() {
   {
     Component component;
     CHECK(!component.character && !component.style && !component.deformer && superdeform::live_handles() == 0);
-    component.character = superdeform::Character();
+    component.character = superdeform::Character::create();
     component.character.set_skeleton(figure.skeleton);
     CHECK(component.character.add_mesh(figure.mesh) == 0);
     component.style = superdeform::Style::from_heads(2.5);

@@ -190,7 +190,7 @@ static void a_hosts_own_threads_do_the_work() {
     is_here = is_here && std::this_thread::get_id() == here;
   });
   CHECK(deformed(deformer) == same && is_here);
-  superdeform::Character bare;
+  auto bare = superdeform::Character::create();
   SdefMesh mesh = figure().mesh;
   mesh.influence_count = 0;
   mesh.joints = mesh.weights = nullptr;

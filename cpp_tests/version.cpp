@@ -11,7 +11,7 @@ static void another_version_is_refused_every_time() {
   for (int time = 0; time < 2; time++) {
     std::string said;
     try {
-      superdeform::Character made;
+      superdeform::Character::create();
     } catch (const superdeform::Error &error) {
       said = error.what();
     }

@@ -10,13 +10,19 @@ using superdeform::Options;
 using superdeform::Style;
 using superdeform::View;
 
+static void made_of_nothing_is_empty() {
+  const Character none;
+  CHECK(!none && !Style() && !Deformer() && none.id() == 0 && superdeform::live_handles() == 0);
+  CHECK(thrown([&] { none.info(); }).status() == SDEF_STATUS_BAD_HANDLE);
+}
+
 static void handles_are_destroyed_and_moved() {
   Character first = character();
   const std::uint64_t id = first.id();
   CHECK(superdeform::live_handles() == 1);
   Character second = std::move(first);
   CHECK(second.id() == id && !first && second);
-  second = Character();
+  second = Character::create();
   CHECK(superdeform::live_handles() == 1 && second.id() != id);
   second = std::move(second);
   CHECK(second && superdeform::live_handles() == 1);
@@ -80,7 +86,7 @@ static void characters() {
   hints.eye = eye;
   made.set_face_hints(hints);
   const float up[3] = {0, 0, 1}, forward[3] = {0, -1, 0};
-  CHECK(Character(up, forward).info().mesh_count == 0);
+  CHECK(Character::create(up, forward).info().mesh_count == 0);
 }
 
 static void styles() {
@@ -124,6 +130,10 @@ static void deformers() {
   deformer.set_options(options);
   CHECK(deformed(deformer) != positions);
   deformer.set_options(Options());
+  CHECK(deformed(deformer) == positions);
+  deformer.set_style(Style::from_heads(4));
+  CHECK(deformed(deformer) == deformed(Deformer(character(), Style::from_heads(4))));
+  deformer.set_style(Style::from_heads(2.5));
   CHECK(deformed(deformer) == positions);
 
   Positions once;
@@ -187,6 +197,7 @@ static void progress_is_a_lambda() {
 }
 
 int main() {
+  RUN(made_of_nothing_is_empty);
   RUN(handles_are_destroyed_and_moved);
   RUN(views_are_made_of_what_holds_elements);
   RUN(characters);

@@ -1165,7 +1165,20 @@ impl Host<'_> {
                 }
                 ("deformer_create", status)
             }
-            28 | 29 => {
+            28 => {
+                let (id, style) = (self.handle(2), self.handle(1));
+                if id != 0 && (self.is_lasting(id) || !self.may_work(DEFORM)) {
+                    return;
+                }
+                let (progress, watcher) = self.progress();
+                let user = (&raw const watcher).cast_mut().cast();
+                let status = ask(&mut self.bytes, |error| unsafe {
+                    let style = SdefStyle { id: style };
+                    sdef_deformer_set_style(SdefDeformer { id }, style, progress, user, error)
+                });
+                ("set_style", status)
+            }
+            29 => {
                 let id = self.handle(2);
                 if id != 0 && (self.is_lasting(id) || !self.may_work(DEFORM)) {
                     return;

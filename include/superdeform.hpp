@@ -1,6 +1,6 @@
 // superdeform for C++17: superdeform.h with handles that destroy themselves, exceptions, views and lambdas.
 //
-//     superdeform::Character character;
+//     auto character = superdeform::Character::create();
 //     character.set_skeleton(skeleton);                     // SdefSkeleton, see superdeform.h
 //     character.add_mesh(mesh);
 //     superdeform::Deformer deformer(character, superdeform::Style::from_heads(2.5));
@@ -10,8 +10,10 @@
 // progress function may return nothing, or true to cancel; what it throws comes out of the call that it was given to.
 //
 // Without exceptions (-fno-exceptions) nothing is thrown: a call that fails gives an empty handle, zeros or nothing, and
-// superdeform::last_error() says why. A Style or Deformer may be empty and given another later, so it can be a member of a
-// class; an empty Character is Character(SdefCharacter{}).
+// superdeform::last_error() says why.
+//
+// A Character, Style or Deformer that is made of nothing is empty: it can be a member of a class and be given another later.
+// The names of this file are not those of macros that engines and systems are known for (check, verify, near, min).
 
 #ifndef SUPERDEFORM_HPP
 #define SUPERDEFORM_HPP
@@ -110,7 +112,7 @@ inline void fail(Error error) {
 #endif
 }
 
-inline void check(SdefStatus status, const SdefError &error) {
+inline void expect_ok(SdefStatus status, const SdefError &error) {
   if (status != SDEF_STATUS_OK) fail({status, error.message, error.mesh, error.element, error.element_kind});
 }
 
@@ -140,7 +142,7 @@ template <class Function, class... Arguments> void call(Function function, Argum
   SdefError error = SDEF_ERROR_INIT;
   const SdefStatus status = function(arguments..., &error);
   if (status == SDEF_STATUS_BAD_HANDLE && (is_empty_since(arguments) || ...)) return;
-  check(status, error);
+  expect_ok(status, error);
 }
 
 // What a progress function returns, as the library reads it.
@@ -177,7 +179,7 @@ void call_with_progress(Progress &&progress, Function function, Arguments... arg
     SdefError error = SDEF_ERROR_INIT;
     const SdefStatus status = function(arguments..., SdefProgress(trampoline), static_cast<void *>(&state), &error);
     if (state.thrown) std::rethrow_exception(state.thrown);
-    check(status, error);
+    expect_ok(status, error);
 #else
     using Called = std::remove_reference_t<Progress>;
     const auto trampoline = [](void *user, float fraction) -> std::int32_t {
@@ -198,7 +200,7 @@ template <class Function> std::string text(Function function) {
     SdefError error = SDEF_ERROR_INIT;
     const SdefStatus status = function(text.data(), text.size(), &size, &error);
     if (status == SDEF_STATUS_BUFFER_TOO_SMALL && size > text.size()) continue;
-    check(status, error);
+    expect_ok(status, error);
     text.resize(size == 0 ? 0 : size - 1);
     return text;
   }
@@ -297,12 +299,16 @@ public:
     std::vector<double> confidence;
   };
 
-  // up, forward: 3 floats each; NULL as in sdef_character_create.
-  explicit Character(const float *up = nullptr, const float *forward = nullptr) {
-    detail::call(sdef_character_create, up, forward, &raw_);
-  }
+  Character() noexcept = default;
   // Takes a handle over.
   explicit Character(SdefCharacter raw) noexcept : Handle(raw) {}
+
+  // One without meshes and joints. up, forward: 3 floats each; NULL as in sdef_character_create.
+  static Character create(const float *up = nullptr, const float *forward = nullptr) {
+    Character character;
+    detail::call(sdef_character_create, up, forward, &character.raw_);
+    return character;
+  }
 
   void set_skeleton(const SdefSkeleton &skeleton) { detail::call(sdef_character_set_skeleton, raw_, &skeleton); }
 
@@ -451,6 +457,11 @@ public:
     detail::call_with_progress(std::forward<Progress>(progress), sdef_deformer_set_options, raw_, &options);
   }
 
+  template <class Progress = std::nullptr_t>
+  void set_style(const Style &style, Progress &&progress = Progress()) {
+    detail::call_with_progress(std::forward<Progress>(progress), sdef_deformer_set_style, raw_, style.get());
+  }
+
   // results: one for each mesh of the character
   template <class Progress = std::nullptr_t>
   void apply(View<const SdefMeshResult> results, Progress &&progress = Progress()) const {
@@ -484,6 +495,21 @@ public:
   void map_colliders(std::vector<SdefCollider> &colliders, const std::vector<SdefSpringBall> &springs = {}) const {
     detail::call(sdef_deformer_map_colliders, raw_, colliders.data(), colliders.size(), springs.data(), springs.size(),
                  colliders.data());
+  }
+
+  // In place: how many vertices each target changes, these vertices, and 3 numbers for each of them.
+  void map_morph_targets(std::uint32_t mesh, View<const std::uint32_t> vertex_counts,
+                         View<const std::uint32_t> vertices, View<float> positions, View<float> normals = {},
+                         View<float> tangents = {}) const {
+    std::size_t changes = 0;
+    for (std::size_t target = 0; target < vertex_counts.size(); ++target) changes += vertex_counts.data()[target];
+    const bool fits = detail::check_size("vertices", vertices.size(), changes) &&
+                      detail::check_size("positions", positions.size(), 3 * changes) &&
+                      (normals.empty() || detail::check_size("normals", normals.size(), 3 * changes)) &&
+                      (tangents.empty() || detail::check_size("tangents", tangents.size(), 3 * changes));
+    if (!fits) return;
+    detail::call(sdef_deformer_map_morph_targets, raw_, mesh, vertex_counts.data(), vertex_counts.size(),
+                 vertices.data(), positions.data(), normals.data(), tangents.data());
   }
 
   std::vector<SdefGroup> groups() const {

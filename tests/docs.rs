@@ -1,6 +1,6 @@
 //! The documents speak of files, decisions and numbers that are there.
 
-use regex::Regex;
+use regex_lite::Regex;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -4,8 +4,6 @@
 mod lids;
 #[path = "common/models.rs"]
 mod models;
-#[path = "common/painted.rs"]
-mod painted;
 
 use lids::{View, closed, eyes, turned, with_blink};
 use models::{check_all, models as all_models, present};
@@ -13,6 +11,7 @@ use std::sync::Arc;
 use superdeform::internals::shape::Measured;
 use superdeform::internals::shape::figure::Figure;
 use superdeform::{Character, Deformed, Deformer, Options, Style};
+use superdeform_host::shades::painted;
 
 /// Heads whose eyes are pieces behind lids. They come without a blink: one is made for them.
 const ADULTS: [&str; 4] = [
@@ -55,7 +54,7 @@ fn made_blinks_close_as_far_as_before() {
     }
     let styles = styles();
     check_all(&names, |&name| {
-        let plain = painted::painted(&all_models()[name]);
+        let plain = painted(&all_models()[name]);
         let measured = Measured::of(&plain, &Options::default()).unwrap();
         let character = with_blink(&plain, &measured);
         let (before, of_eyes) = (&measured.figure, eyes(&measured));
@@ -100,9 +99,9 @@ fn eyes_that_look_aside_stay_in_their_sockets() {
     }
     let styles = styles();
     check_all(&names, |&name| {
-        let character = &painted::painted(&all_models()[name]);
+        let character = &painted(&all_models()[name]);
         let measured = Measured::of(character, &Options::default()).unwrap();
-        let (before, of_eyes) = (&measured.figure, eyes(&measured));
+        let (before, of_eyes) = (&*measured.figure, eyes(&measured));
         let mut wrong = Vec::new();
         for (style_name, style) in &styles {
             let after = Figure::of(&character.with(&deformed(character, style))).unwrap();

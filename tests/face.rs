@@ -2,8 +2,6 @@
 
 #[path = "common/models.rs"]
 mod models;
-#[path = "common/painted.rs"]
-mod painted;
 
 use glam::{DMat3, DVec3};
 use models::{Run, check_all, in_parallel, model, models as all_models, present};
@@ -16,6 +14,7 @@ use superdeform::internals::shape::Measured;
 use superdeform::internals::shape::figure::Figure;
 use superdeform::options::Features;
 use superdeform::{Deformer, EyeHint, FaceHints, Options, Progress, Role, Style};
+use superdeform_host::shades::painted;
 
 /// What was measured on these heads by another program, by rays, from the same definitions: eyes' height, half distance,
 /// half width and height of an opening, ball; nose's height and protrusion; half width of face and skull. NaN: no figure.
@@ -250,7 +249,7 @@ fn adult_options() -> Options {
 /// Each head before and after the stages of the head alone, 2.5 heads tall.
 fn head_runs(names: &[&'static str]) -> Vec<[Run; 2]> {
     in_parallel(&present(names), |&name| {
-        let character = painted::painted(&all_models()[name]);
+        let character = painted(&all_models()[name]);
         [adult_options(), Options { hair_lay: 0.0, ..Options::default() }]
             .map(|options| Run::of(character.clone(), name, "2.5 heads", &Style::Heads(2.5), &options))
     })
@@ -366,7 +365,7 @@ fn eyes_painted_on_the_skin_are_found() {
         println!("skipped: {KUN} is not there");
         return;
     }
-    let character = painted::painted(&all_models()[KUN]);
+    let character = painted(&all_models()[KUN]);
     let face = Measured::of(&character, &Options::default()).unwrap().face.unwrap();
     // As its picture shows them: discs of a fifth of the head, .4 of it above the chin.
     check_eyes(&face, EyeSource::Paint, [0.40, 0.20, 0.10]);
@@ -392,7 +391,7 @@ fn no_head_gets_painted_eyes_where_it_has_none() {
         return;
     }
     check_all(&others, |name| {
-        let character = painted::painted(&all_models()[*name]);
+        let character = painted(&all_models()[*name]);
         match Measured::of(&character, &Options::default()).unwrap().face.and_then(|face| face.eyes) {
             Some((source, _)) => vec![format!("{name}: eyes by {source:?}")],
             None => Vec::new(),

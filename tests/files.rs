@@ -734,7 +734,7 @@ fn kinds_come_from_patterns_first_and_hair_hangs_from_the_head() {
     let joints = made.accessor(&[3u8, 0, 0, 0].repeat(count), 5121, "VEC4", count);
     made.json["meshes"][0]["primitives"][0]["attributes"]["JOINTS_0"] = json!(joints);
     assert_eq!(loaded(&made).character.meshes[0].kind, Some(MeshKind::Hair));
-    let patterns = [(MeshKind::Accessory, regex::Regex::new("(?i)^figure\\|hair").unwrap())];
+    let patterns = [(MeshKind::Accessory, regex_lite::Regex::new("(?i)^figure\\|hair").unwrap())];
     let options = LoadOptions { kinds: &patterns, ..LoadOptions::default() };
     let file = GltfFile::parse("made.glb", &made.bytes()).unwrap();
     assert_eq!(load(file, &options).unwrap().character.meshes[0].kind, Some(MeshKind::Accessory));

@@ -131,7 +131,7 @@ fn pairs() -> &'static [Pair] {
                 artist: to_artist.into_iter().map(|vertex| by_artist[vertex]).collect(),
                 auto: positions(&auto.apply()),
                 height: height(&target.character),
-                figure: auto.target().figure.clone(),
+                figure: Figure::clone(&auto.target().figure),
                 character: target.character,
             });
         }

@@ -18,6 +18,7 @@ use std::fmt::Write;
 use superdeform::internals::rig::UnitFigure;
 use superdeform::internals::rig::placed::Placed;
 use superdeform::{Character, Progress, Rig, RigOptions, Role};
+use superdeform_host::image::Sheet;
 
 use Role::*;
 
@@ -125,7 +126,7 @@ fn picture(name: &str, placed: &Placed, truth: &BTreeMap<Role, DVec3>) {
     let Some(folder) = std::env::var_os("PICTURES") else { return };
     let cell = 1.0 / 300.0;
     let columns = 360;
-    let mut image = image::RgbImage::from_pixel(2 * columns as u32, 300, image::Rgb([255; 3]));
+    let mut image = Sheet::of(2 * columns as u32, 300, |_, _| [255; 3]);
     for (view, right) in [DVec3::X, DVec3::Z].into_iter().enumerate() {
         let origin = right * (-0.5 * columns as f64 * cell);
         let frame = GridFrame { origin, right, up: DVec3::Y, cell, columns, rows: 300 };
@@ -134,7 +135,7 @@ fn picture(name: &str, placed: &Placed, truth: &BTreeMap<Role, DVec3>) {
             for column in 0..columns {
                 let count = grid.hits(column, row).len() as i32;
                 let shade = if count == 0 { 255 } else { 215 - 15 * (count / 2).min(7) } as u8;
-                image.put_pixel((view * columns + column) as u32, 299 - row as u32, image::Rgb([shade; 3]));
+                *image.at_mut((view * columns + column) as u32, 299 - row as u32) = [shade; 3];
             }
         }
         let mut mark = |p: DVec3, colour: [u8; 3]| {
@@ -142,7 +143,7 @@ fn picture(name: &str, placed: &Placed, truth: &BTreeMap<Role, DVec3>) {
             for d in -3..=3i32 {
                 for (x, y) in [(x + d, y + d), (x + d, y - d)] {
                     if (0..columns as i32).contains(&x) && (0..300).contains(&y) {
-                        image.put_pixel((view * columns) as u32 + x as u32, y as u32, image::Rgb(colour));
+                        *image.at_mut((view * columns) as u32 + x as u32, y as u32) = colour;
                     }
                 }
             }
@@ -155,7 +156,8 @@ fn picture(name: &str, placed: &Placed, truth: &BTreeMap<Role, DVec3>) {
         }
     }
     let name: String = name.chars().map(|c| if c.is_alphanumeric() { c } else { '_' }).collect();
-    image.save(std::path::Path::new(&folder).join(format!("{name}.png"))).unwrap();
+    std::fs::write(std::path::Path::new(&folder).join(format!("{name}.png")), image.to_png().unwrap())
+        .unwrap();
 }
 
 /// Figures over all joints of many outcomes.

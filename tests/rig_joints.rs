@@ -15,6 +15,7 @@ use superdeform::internals::rig::joints::{FoundJoints, find_joints};
 use superdeform::internals::rig::silhouette::{GridFrame, RayGrid};
 use superdeform::internals::rig::solid::CELLS;
 use superdeform::{Character, Mesh, Progress, Role};
+use superdeform_host::image::Sheet;
 use truth::{Case, cases};
 
 use Role::*;
@@ -71,7 +72,7 @@ fn picture(outcome: &Outcome) {
     let Some(folder) = std::env::var_os("PICTURES") else { return };
     let cell = 1.0 / 500.0;
     let columns = 600;
-    let mut image = image::RgbImage::from_pixel(2 * columns as u32, 500, image::Rgb([255; 3]));
+    let mut image = Sheet::of(2 * columns as u32, 500, |_, _| [255; 3]);
     for (view, right) in [DVec3::X, DVec3::Z].into_iter().enumerate() {
         let frame = GridFrame {
             origin: right * (-0.5 * columns as f64 * cell),
@@ -86,7 +87,7 @@ fn picture(outcome: &Outcome) {
             for column in 0..columns {
                 let count = grid.hits(column, row).len() as i32;
                 let shade = if count == 0 { 255 } else { 215 - 15 * (count / 2).min(7) } as u8;
-                image.put_pixel((view * columns + column) as u32, 499 - row as u32, image::Rgb([shade; 3]));
+                *image.at_mut((view * columns + column) as u32, 499 - row as u32) = [shade; 3];
             }
         }
         let mut mark = |p: DVec3, colour: [u8; 3], diagonal: bool| {
@@ -96,7 +97,7 @@ fn picture(outcome: &Outcome) {
                     if diagonal { [(x + d, y + d), (x + d, y - d)] } else { [(x + d, y), (x, y + d)] }
                 {
                     if (0..columns as i32).contains(&x) && (0..500).contains(&y) {
-                        image.put_pixel((view * columns) as u32 + x as u32, y as u32, image::Rgb(colour));
+                        *image.at_mut((view * columns) as u32 + x as u32, y as u32) = colour;
                     }
                 }
             }
@@ -113,7 +114,8 @@ fn picture(outcome: &Outcome) {
         }
         mark(outcome.found.chin, [0, 160, 160], true);
     }
-    image.save(std::path::Path::new(&folder).join(format!("{}.png", outcome.name))).unwrap();
+    let path = std::path::Path::new(&folder).join(format!("{}.png", outcome.name));
+    std::fs::write(path, image.to_png().unwrap()).unwrap();
 }
 
 #[test]

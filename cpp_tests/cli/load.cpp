@@ -491,7 +491,7 @@ void load(const std::string &path, Loaded &loaded) {
   if (loaded.model.skins.empty() && extensions.count("VRM") == 0 && extensions.count("VRMC_vrm") == 0) {
     // The nodes are nothing but places for meshes.
     loaded.rigged = false;
-    loaded.character = superdeform::Character();
+    loaded.character = superdeform::Character::create();
     add_meshes(loaded);
   }
   loaded.character.rig();

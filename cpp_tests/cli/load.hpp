@@ -40,7 +40,8 @@ struct Loaded {
   std::vector<int> joint_of_node, node_of_joint;
   bool rigged = false; // whether the file's own joints are the character's
 
-  superdeform::Character character; // with a rig that was made where the file has none that can be used
+  // With a rig that was made where the file has none that can be used.
+  superdeform::Character character = superdeform::Character::create();
 
   std::map<int, std::uint32_t> images; // the file's images to the character's
 

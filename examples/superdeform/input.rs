@@ -1,71 +1,71 @@
 //! The files that a command names, read.
 
-use crate::cli::{self, Command, Reference};
+use crate::cli::{Command, Reference};
 use crate::words;
 use glam::DVec3;
-use regex::Regex;
 use serde_json::{Map, Value};
 use std::collections::BTreeMap;
-use std::path::Path;
-use superdeform::{Axes, BodyShape, Error, MeshKind, Role, find_roles};
+use std::path::{Path, PathBuf};
+use superdeform::{BodyShape, Progress, RigOptions, Role};
+use superdeform_host::beside;
+use superdeform_host::conversion::{self as host, Clock, Conversion, OpenOptions, Source};
 use superdeform_host::file::GltfFile;
-use superdeform_host::load::{LoadOptions, Loaded, load};
 
-/// How a model is to be read where it does not say itself.
-struct Reading<'a> {
-    /// Role to node name.
-    humanoid_map: Option<Value>,
-    kinds: &'a [(MeshKind, Regex)],
-    axes: Axes,
-    /// How the command line says what is wrong with it.
-    sentence: fn(Error) -> String,
-    /// Whether a rig will do in which roles are missing.
-    incomplete_rig: bool,
+/// A model's bytes.
+pub struct File {
+    name: String,
+    bytes: Vec<u8>,
+    path: PathBuf,
 }
 
-/// The character to change.
+impl File {
+    /// Reads the file at `path`, not yet the ones that it names.
+    ///
+    /// # Errors
+    /// One sentence that begins with the file's name.
+    pub fn read(path: &Path) -> Result<Self, String> {
+        let (name, bytes) = GltfFile::read_bytes(path).map_err(|error| error.to_string())?;
+        Ok(Self { name, bytes, path: path.to_path_buf() })
+    }
+
+    /// Gives it to `work`, with what lies beside it.
+    pub fn with<T>(&self, work: impl FnOnce(Source) -> T) -> T {
+        work(Source { name: &self.name, bytes: &self.bytes, beside: &beside::folder_of(&self.path) })
+    }
+}
+
+/// The target of `command`, open.
 ///
 /// # Errors
 /// One sentence that begins with the file's name.
-pub fn target(command: &Command) -> Result<Loaded, String> {
-    let reading = Reading {
-        humanoid_map: humanoid_map(command.humanoid.as_deref())?,
-        kinds: &command.kinds,
+pub fn target(command: &Command, clock: Clock) -> Result<Conversion, String> {
+    let options = OpenOptions {
         axes: command.axes,
-        sentence: words::sentence,
-        incomplete_rig: command.rig != Some(cli::Rig::Keep),
+        humanoid_map: humanoid_map(command.humanoid.as_deref())?,
+        kinds: command.kinds.clone(),
+        face_hints: command.face_hints,
+        rig: command.rig,
+        rig_options: RigOptions { given: joints(command.joints.as_deref())?, ..command.rig_options.clone() },
+        allow_prohibited: command.allow_prohibited,
+        clock,
     };
-    model(&command.target, &reading)
+    let file = File::read(&command.target)?;
+    file.with(|source| Conversion::open(source, &options, &mut Progress::none())).map_err(words::sentence)
 }
 
 /// The reference, where it is a model.
 ///
 /// # Errors
 /// One sentence that begins with the file's name.
-pub fn reference(command: &Command) -> Result<Option<Loaded>, String> {
+pub fn reference(command: &Command) -> Result<Option<host::Reference>, String> {
     let Reference::Model(path) = &command.reference else {
         return Ok(None);
     };
-    let reading = Reading {
-        humanoid_map: humanoid_map(command.reference_humanoid.as_deref())?,
-        kinds: &[],
-        axes: Axes::default(),
-        sentence: words::sentence_of_reference,
-        incomplete_rig: false,
-    };
-    model(path, &reading).map(Some)
-}
-
-fn model(path: &Path, reading: &Reading) -> Result<Loaded, String> {
-    let options = LoadOptions {
-        axes: reading.axes,
-        humanoid_map: reading.humanoid_map.as_ref(),
-        kinds: reading.kinds,
-        find_roles: Some(&find_roles),
-        without_rig: false,
-        incomplete_rig: reading.incomplete_rig,
-    };
-    GltfFile::read(path).and_then(|file| load(file, &options)).map_err(reading.sentence)
+    let map = humanoid_map(command.reference_humanoid.as_deref())?;
+    let file = File::read(path)?;
+    let (options, rig_options) = (&command.options, &command.rig_options);
+    let opened = file.with(|source| host::Reference::open(source, map.as_ref(), options, rig_options));
+    opened.map(Some).map_err(words::sentence_of_reference)
 }
 
 /// A humanoid map; whether its roles and nodes exist is for the loader to say.
@@ -81,7 +81,7 @@ fn humanoid_map(path: Option<&Path>) -> Result<Option<Value>, String> {
 ///
 /// # Errors
 /// One sentence that begins with the path.
-pub fn joints(path: Option<&Path>) -> Result<BTreeMap<Role, DVec3>, String> {
+fn joints(path: Option<&Path>) -> Result<BTreeMap<Role, DVec3>, String> {
     let Some(path) = path else {
         return Ok(BTreeMap::new());
     };

@@ -13,7 +13,6 @@ mod picture;
 mod progress;
 mod report;
 mod run;
-mod shades;
 mod sheet;
 mod words;
 

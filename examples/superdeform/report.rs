@@ -1,43 +1,8 @@
-//! The report as a file, and as a few lines for a person.
+//! The report as a few lines for a person.
 
-use serde::Serialize;
-use serde_json::Value;
 use std::fmt::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use superdeform::Report;
-use superdeform_host::licence::Licence;
-
-/// What stands in the file: the library's report, and what the host knows of the target's file.
-#[derive(Serialize)]
-struct FileReport<'a> {
-    #[serde(flatten)]
-    report: &'a Report,
-    licence: Value,
-    /// By how many degrees the aim constraint that turns most does at rest.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    aim_degrees: Option<f64>,
-    /// What a batch knows a finished run by.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    batch: Option<Value>,
-}
-
-/// Writes `report` as indented JSON, with the licence of the target, its aim that turns most, and what a batch knows the run by.
-///
-/// # Errors
-/// One sentence with the path and the reason.
-pub fn write(
-    report: &Report,
-    licence: &Licence,
-    aim_degrees: Option<f64>,
-    batch: Option<Value>,
-    path: &Path,
-) -> Result<(), String> {
-    let report = FileReport { report, licence: licence.to_json(), aim_degrees, batch };
-    let mut text =
-        serde_json::to_string_pretty(&report).map_err(|error| format!("{}: {error}", path.display()))?;
-    text.push('\n');
-    crate::output::write(path, text.as_bytes())
-}
 
 /// What a person wants to know: heads before and after, warnings, where the files are, how long it took.
 ///

@@ -2,27 +2,21 @@
 //!
 //! Everything is made in memory before the first file is written, so that bad input leaves no files.
 
-use crate::cli::{self, Command, Reference};
+use crate::cli::{Command, Reference};
 use crate::progress::Progress;
-use crate::words::{self, sentence, sentence_of_reference};
-use crate::{input, output, report, shades, sheet};
-use glam::DVec3;
+use crate::words::{self, sentence};
+use crate::{input, output, sheet};
 use serde_json::json;
 use std::path::PathBuf;
-use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::sync::LazyLock;
+use std::time::Instant;
 use superdeform::internals::parallel;
-use superdeform::internals::shape::measured::Measured;
 use superdeform::internals::shape::style::BUILT_IN;
-use superdeform::report::FigureReport;
-use superdeform::{BodyShape, Deformed, Deformer, Error, Report, Rig, RigOptions, Style, Warning, Weights};
-use superdeform_host::file::GltfFile;
-use superdeform_host::load::Loaded;
-use superdeform_host::rig::{INFLUENCES, add_rig, rerigged};
-use superdeform_host::write;
+use superdeform::{BodyShape, Report, Style};
+use superdeform_host::conversion::{self as host, WriteOptions};
 
 /// Stages that the progress bar counts.
-const STAGE_COUNT: u64 = 7;
+const STAGE_COUNT: u64 = 5;
 
 /// What a run leaves behind.
 pub struct Done {
@@ -50,8 +44,7 @@ pub fn run_with(command: &Command, source: &Source, key: &str) -> Result<Done, S
 
 /// Where proportions come from: the same for every target.
 pub struct Source {
-    reference: Option<Loaded>,
-    measured: Option<Measured>,
+    reference: Option<host::Reference>,
     style: Style,
 }
 
@@ -62,226 +55,93 @@ impl Source {
     /// One sentence that begins with the reference's name.
     pub fn of(command: &Command) -> Result<Self, String> {
         let reference = input::reference(command)?;
-        let measured = reference.as_ref().map(|reference| measure(reference, command)).transpose()?;
-        let style = style(command, measured.as_ref())?;
-        Ok(Self { reference, measured, style })
+        let style = style(command, reference.as_ref())?;
+        Ok(Self { reference, style })
     }
 }
 
+/// Milliseconds since it was first asked.
+fn clock() -> f64 {
+    static START: LazyLock<Instant> = LazyLock::new(Instant::now);
+    1000.0 * START.elapsed().as_secs_f64()
+}
+
 fn stages(command: &Command, in_batch: Option<(&Source, &str)>, progress: &Progress) -> Result<Done, String> {
-    let start = Instant::now();
-    let threads = command.options.thread_count;
-
+    let start = clock();
     progress.stage("reading");
-    let (own, (target, load_time)) = parallel::both(
-        threads,
+    let (own, target) = parallel::both(
+        command.options.thread_count,
         || if in_batch.is_some() { None } else { Some(Source::of(command)) },
-        || (read_target(command), start.elapsed()),
+        || input::target(command, clock),
     );
-    let mut target = target?;
-
-    progress.stage("measuring");
-    let own = own.transpose()?;
-    let Source { reference, measured, style } = match (in_batch, &own) {
+    let (mut conversion, own) = (target?, own.transpose()?);
+    let Source { reference, style } = match (in_batch, &own) {
         (Some((source, _)), _) | (None, Some(source)) => source,
         (None, None) => unreachable!("a reference is read where there is no batch"),
     };
 
-    progress.stage("rigging");
-    let rig = rig(&mut target, command)?;
-
     progress.stage("deforming");
-    let deformer = match &rig {
-        Some(rig) => Deformer::with_rig(&target.character, rig, style, &command.options),
-        None => Deformer::new(Arc::new(target.character.clone()), style, &command.options),
-    };
-    let deformer = deformer.map_err(sentence)?;
-    let deformed = deformer.apply();
-    let map_point = |joint: usize, point: DVec3| deformer.map(joint, point);
-    let (made, report) = parallel::both(
-        threads,
-        || {
-            let start = Instant::now();
-            (model(&target, &deformer, &deformed, rig.as_ref()), start.elapsed())
-        },
-        || deformer.report(&deformed),
-    );
-    let mut report = report.map_err(sentence)?;
-    if let Some(measured) = measured {
-        // Measured over the roles of both, so that the two figures can be compared group by group.
-        let of_target = &deformer.target().joints;
-        let roles = measured.joints.keys().copied().filter(|role| of_target.contains_key(role)).collect();
-        report.reference = Some(FigureReport::of(measured, &roles, &command.options));
-    }
-    report.warnings.splice(0..0, warnings_of_files(&target, reference.as_ref()));
-    report.warnings.extend(write::colliders::findings(&target, &deformed, &map_point, command.leaf_joints));
-    report.warnings.iter_mut().for_each(words::name_flag);
+    conversion.set(style, &command.options, &mut superdeform::Progress::none()).map_err(sentence)?;
+    let options = WriteOptions { leaf_joints: command.leaf_joints };
+    let mut converted = conversion.write(reference.as_ref(), &options).map_err(sentence)?;
+    converted.report.warnings.iter_mut().for_each(words::name_flag);
 
     progress.stage("drawing");
-    let draw_start = Instant::now();
+    let draw_start = clock();
     let picture = match &command.picture {
-        Some(path) => {
-            Some((path, sheet::png(&target, reference.as_ref(), rig.as_ref(), &deformed, &report)?))
-        }
+        Some(path) => Some((path, sheet::png(&conversion, reference.as_ref(), &converted)?)),
         None => None,
     };
-    let thumbnail = command.thumbnail.then(|| sheet::thumbnail(&target, &deformed, &report)).transpose()?;
-    let draw_time = draw_start.elapsed();
+    if command.thumbnail {
+        converted.set_thumbnail(&sheet::thumbnail(&conversion, &converted)?);
+    }
+    let draw_time = clock() - draw_start;
 
     progress.stage("writing");
-    let write_start = Instant::now();
-    let (model, model_time) = made;
-    let mut model = model.map_err(sentence)?;
-    if command.leaf_joints {
-        write::colliders::add_leaf_joints(&mut model, &target, &deformed, &map_point);
+    let write_start = clock();
+    let name = command.output.file_name().unwrap_or_default().to_string_lossy();
+    let mut results = Vec::new();
+    for (index, (part, bytes)) in converted.files(&name).map_err(sentence)?.into_iter().enumerate() {
+        let path = if index == 0 { command.output.clone() } else { command.output.with_file_name(part) };
+        results.push(("model", path, bytes));
     }
-    if let Some(png) = thumbnail {
-        // What is no VRM has no thumbnail.
-        write::set_thumbnail(&mut model, &png);
-    }
-    let model = model.to_bytes().map_err(sentence)?;
-    let mut results = vec![("model", &command.output, model)];
     if let Some(path) = &command.save_rigged {
-        results.push(("rigged target", path, rigged_target(&target, rig.as_ref()).map_err(sentence)?));
+        let rigged = conversion.rigged().and_then(|file| file.to_bytes()).map_err(sentence)?;
+        results.push(("rigged target", path.clone(), rigged));
     }
-    results.extend(picture.map(|(path, bytes)| ("picture", path, bytes)));
+    results.extend(picture.map(|(path, bytes)| ("picture", path.clone(), bytes)));
     if let (Some(path), Style::Shape(shape)) = (&command.save_style, style) {
-        results.push(("style", path, shape.to_json().into_bytes()));
+        results.push(("style", path.clone(), shape.to_json().into_bytes()));
     }
 
     progress.stage("saving");
     for (_, path, bytes) in &results {
         output::write(path, bytes)?;
     }
-    let mut files: Vec<_> = results.iter().map(|&(name, path, _)| (name, path.clone())).collect();
-    report.timing_ms.load = milliseconds(load_time);
-    report.timing_ms.write = milliseconds(model_time + write_start.elapsed());
+    let size = results[0].2.len();
+    let mut files: Vec<_> = results.into_iter().map(|(name, path, _)| (name, path)).collect();
+    let timing = &mut converted.report.timing_ms;
+    timing.write += clock() - write_start;
     // The picture is made beside the result.
-    report.timing_ms.total = milliseconds(start.elapsed() - draw_time);
+    timing.total = clock() - start - draw_time;
     if let Some(path) = &command.report {
-        let bytes = results[0].2.len();
-        let batch = in_batch.map(|(_, key)| json!({"key": key, "bytes": bytes}));
-        let aim = write::colliders::aim_turn(&target, &deformed).map(|(degrees, _)| degrees);
-        report::write(&report, &target.licence, aim, batch, path)?;
+        let batch = in_batch.map(|(_, key)| json!({"key": key, "bytes": size}));
+        let text = converted.report_text(batch).map_err(sentence)?;
+        output::write(path, text.as_bytes())?;
         files.push(("report", path.clone()));
     }
-    Ok(Done { report, files })
-}
-
-/// The target, its paint and what is said of its face.
-fn read_target(command: &Command) -> Result<Loaded, String> {
-    let mut target = input::target(command)?;
-    check_licence(&target, command)?;
-    let seen = sheet::appearance(&target);
-    shades::shade(&mut target.character, &seen);
-    target.character.face_hints = command.face_hints;
-    Ok(target)
-}
-
-/// Refuses a target that may not be changed.
-fn check_licence(target: &Loaded, command: &Command) -> Result<(), String> {
-    let licence = &target.licence;
-    if licence.is_prohibited() && !command.allow_prohibited {
-        return Err(format!(
-            "{}'s licence does not allow changes ({}): ask its author, or add --allow-prohibited if you are the author or may change it",
-            target.file.name, licence.because
-        ));
-    }
-    Ok(())
-}
-
-/// What was found while the files were read.
-fn warnings_of_files(target: &Loaded, reference: Option<&Loaded>) -> Vec<Warning> {
-    // To take a reference's proportions is no change of it.
-    let about_licence = |code: &str| matches!(code, "modification_prohibited" | "redistribution_prohibited");
-    let of_reference = reference.iter().flat_map(|reference| &reference.warnings);
-    let of_reference = of_reference
-        .filter(|warning| !about_licence(warning.code))
-        .map(|warning| Warning::new(warning.code, format!("in the reference, {}", warning.message)));
-    target.warnings.iter().cloned().chain(of_reference).collect()
-}
-
-/// The rig to deform by where the target's own is not kept: it has none, it is not wanted, or it does not say which
-/// joint is which.
-fn rig(target: &mut Loaded, command: &Command) -> Result<Option<Rig>, String> {
-    let given = input::joints(command.joints.as_deref())?;
-    let missing = target.character.humanoid.missing();
-    let keep = target.rigged && command.rig != Some(cli::Rig::Auto);
-    if keep && missing.is_empty() {
-        if command.joints.is_some() {
-            return Err("--joints is about a new rig, and the target has one: add --rig auto".to_string());
-        }
-        return Ok(None);
-    }
-    if keep {
-        let message = format!(
-            "{} shows no joint for the role {}, so a new rig was found for the deformation and the file's own joints ride along: name roles to use the file's rig",
-            target.file.name, missing[0]
-        );
-        target.warnings.push(Warning::new("rig_fallback_auto", message).about("humanoid"));
-    }
-    let options = RigOptions { given, ..command.rig_options.clone() };
-    let rig = Rig::of(&target.character, &options).map_err(sentence)?;
-    target.character.axes.forward = Some(rig.forward.as_vec3());
-    Ok(Some(rig))
-}
-
-/// The weights that a file holds.
-fn limited(rig: &Rig) -> Vec<Weights> {
-    rig.skin_weights.iter().map(|weights| weights.limited(INFLUENCES)).collect()
-}
-
-/// The deformed target as a file; what came without joints goes out with those of its new rig.
-fn model(
-    target: &Loaded,
-    deformer: &Deformer,
-    deformed: &Deformed,
-    rig: Option<&Rig>,
-) -> superdeform::Result<GltfFile> {
-    let mut file = write::rewrite(target, deformed, &|joint, point: DVec3| deformer.map(joint, point))?;
-    if let Some(rig) = rig.filter(|_| !target.rigged) {
-        let mut skeleton = rig.skeleton.clone();
-        for (joint, &at) in skeleton.joints.iter_mut().zip(&deformed.joints) {
-            joint.rest.w_axis = at.extend(1.0);
-        }
-        add_rig(&mut file, target, &skeleton, &limited(rig))?;
-    }
-    Ok(file)
-}
-
-/// The target with the rig that it was deformed by, not deformed.
-fn rigged_target(target: &Loaded, rig: Option<&Rig>) -> superdeform::Result<Vec<u8>> {
-    match rig {
-        Some(rig) => rerigged(target, &rig.skeleton, &limited(rig))?.to_bytes(),
-        None => target.file.to_bytes(),
-    }
-}
-
-/// Measures a reference; its errors begin with the file's name.
-fn measure(reference: &Loaded, command: &Command) -> Result<Measured, String> {
-    let name = &reference.file.name;
-    let failed = |error: Error| format!("{name}: {}", sentence_of_reference(error));
-    let rigged = if reference.rigged {
-        None
-    } else {
-        let rig = Rig::of(&reference.character, &command.rig_options).map_err(failed)?;
-        Some(rig.applied_to(&reference.character))
-    };
-    let character = rigged.as_ref().unwrap_or(&reference.character);
-    let mut measured = Measured::of(character, &command.options).map_err(failed)?;
-    measured.shape.name = name.rsplit_once('.').map_or(name.as_str(), |(stem, _)| stem).to_string();
-    Ok(measured)
+    Ok(Done { report: converted.report, files })
 }
 
 /// The style that the command line asks for, mixed with a second one where it says so.
-fn style(command: &Command, measured: Option<&Measured>) -> Result<Style, String> {
-    let shape = match (&command.reference, measured) {
+fn style(command: &Command, reference: Option<&host::Reference>) -> Result<Style, String> {
+    let shape = match (&command.reference, reference) {
         (Reference::Heads(heads), _) => return Style::heads(*heads).map_err(sentence),
         (Reference::Style(path), _) => input::style(path)?,
         (Reference::BuiltIn(name), _) => BodyShape::built_in(name).ok_or_else(|| {
             format!("there is no built-in style {name}: name one of {}", BUILT_IN.join(", "))
         })?,
-        (Reference::Model(_), Some(measured)) => measured.shape.clone(),
+        (Reference::Model(_), Some(reference)) => reference.shape().clone(),
         (Reference::Model(path), None) => return Err(format!("{}: was not measured", path.display())),
     };
     let shape = match &command.blend {
@@ -291,17 +151,17 @@ fn style(command: &Command, measured: Option<&Measured>) -> Result<Style, String
     Ok(Style::Shape(Box::new(shape)))
 }
 
-fn milliseconds(duration: Duration) -> f64 {
-    1000.0 * duration.as_secs_f64()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cli;
+    use glam::DVec3;
     use serde_json::Value;
     use std::path::Path;
+    use superdeform_host::file::GltfFile;
     use superdeform_host::samples;
     use superdeform_host::verify::closure;
+    use superdeform_host::write::rewrite;
 
     #[test]
     fn what_may_not_be_changed_is_converted_for_its_author_alone() {
@@ -332,16 +192,15 @@ mod tests {
         let Ok(command) = crate::cli::parse(["superdeform", "--threads", "1"]) else {
             panic!("the sample pair was refused");
         };
-        let target = input::target(&command).unwrap();
-        let reference = input::reference(&command).unwrap().unwrap();
-        let measured = measure(&reference, &command).unwrap();
-        let style = style(&command, Some(&measured)).unwrap();
-        let rig = Rig::of(&target.character, &command.rig_options).unwrap();
-        let deformer = Deformer::with_rig(&target.character, &rig, &style, &command.options).unwrap();
-        let deformed = deformer.apply();
+        let mut conversion = input::target(&command, clock).unwrap();
+        let source = Source::of(&command).unwrap();
+        conversion.set(&source.style, &command.options, &mut superdeform::Progress::none()).unwrap();
+        let converted = conversion.write(None, &WriteOptions::default()).unwrap();
+        let deformer = conversion.deformer().unwrap();
         let map = |joint: usize, point: DVec3| deformer.map(joint, point);
-        let written = write::rewrite(&target, &deformed, &map).unwrap();
-        let closure = closure(&written, &target, &deformed).unwrap();
+        // As the file is but for its new joints, which `closure` does not know.
+        let written = rewrite(conversion.target(), &converted.deformed, &map).unwrap();
+        let closure = closure(&written, conversion.target(), &converted.deformed).unwrap();
         assert!(closure.rest < 1e-5, "{closure:?}");
         assert!(closure.nodes.is_none_or(|share| share < 1e-5), "{closure:?}");
     }

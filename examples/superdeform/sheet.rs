@@ -1,38 +1,41 @@
 //! The picture of a run: target, reference and result side by side, each with its heads.
 
-use crate::picture::{self, Appearance, Bone, Heads, Material, PictureMesh, View};
+use crate::picture::{self, Bone, Heads, PictureMesh, View};
 use glam::{DVec3, Vec3};
 use std::sync::LazyLock;
 use superdeform::report::FigureReport;
-use superdeform::{Character, Deformed, Report, Rig};
-use superdeform_host::accessor::Reader;
+use superdeform::{Character, Deformed, Rig};
+use superdeform_host::appearance::Appearance;
+use superdeform_host::conversion::{Conversion, Converted, Reference};
 use superdeform_host::load::Loaded;
+use superdeform_host::materials::Material;
 
 /// A joint that is less sure than this is in doubt, as for the report's warnings.
 const SURE: f64 = 0.5;
 
-/// Draws the picture, as PNG, the bones of a rig that was found over the target. The reference, which may be in another unit, is drawn as tall as the result.
+/// Draws the picture, as PNG, the bones of a rig that was found over the target. The reference, which may be in another unit,
+/// is drawn as tall as the result.
 ///
 /// # Errors
 /// One sentence where it cannot be encoded.
 pub fn png(
-    target: &Loaded,
-    reference: Option<&Loaded>,
-    rig: Option<&Rig>,
-    deformed: &Deformed,
-    report: &Report,
+    conversion: &Conversion,
+    reference: Option<&Reference>,
+    converted: &Converted,
 ) -> Result<Vec<u8>, String> {
-    let of_target = appearance(target);
-    let of_reference = reference.map(appearance);
-    let of_rig = rig.map(bones).unwrap_or_default();
+    let (target, report) = (conversion.target(), &converted.report);
+    let reference = reference.map(|reference| &reference.loaded);
+    let of_target = Appearance::of(target, 0);
+    let of_reference = reference.map(|reference| Appearance::of(reference, 0));
+    let of_rig = conversion.rig().map(bones).unwrap_or_default();
     let mut views = vec![View { bones: of_rig, ..view("target", &report.target, target, &of_target, None) }];
     if let (Some(reference), Some(appearance), Some(figure)) = (reference, &of_reference, &report.reference) {
         // The result comes after it.
         let as_tall_as = Some(views.len() + 1);
         views.push(View { as_tall_as, ..view("reference", figure, reference, appearance, None) });
     }
-    views.push(view("result", &report.result, target, &of_target, Some(deformed)));
-    picture::png(&picture::draw(&views))
+    views.push(view("result", &report.result, target, &of_target, Some(&converted.deformed)));
+    picture::draw(&views).to_png()
 }
 
 /// Pixels along each side of a thumbnail.
@@ -42,20 +45,11 @@ const THUMBNAIL: u32 = 512;
 ///
 /// # Errors
 /// One sentence where it cannot be encoded.
-pub fn thumbnail(target: &Loaded, deformed: &Deformed, report: &Report) -> Result<Vec<u8>, String> {
-    let appearance = appearance(target);
-    let view = view("", &report.result, target, &appearance, Some(deformed));
-    let chin = report.result.landmarks.chin as f32;
-    picture::png(&picture::portrait(&view, chin, THUMBNAIL))
-}
-
-/// What the picture needs beside the shape.
-pub fn appearance(loaded: &Loaded) -> Appearance {
-    let primitives = loaded.bindings.iter().map(|binding| (binding.mesh, binding.primitive));
-    let reader = Reader::new(&loaded.file);
-    picture::read_appearance(&loaded.file.json, &loaded.file.binary, primitives, |accessor, components| {
-        reader.floats(accessor, components, None).ok()
-    })
+pub fn thumbnail(conversion: &Conversion, converted: &Converted) -> Result<Vec<u8>, String> {
+    let (target, figure) = (conversion.target(), &converted.report.result);
+    let appearance = Appearance::of(target, 0);
+    let view = view("", figure, target, &appearance, Some(&converted.deformed));
+    picture::portrait(&view, figure.landmarks.chin as f32, THUMBNAIL).to_png()
 }
 
 /// A figure for the picture; where `deformed` is given, with its shape in place of the file's.

@@ -16,6 +16,7 @@ pub fn flag(option: &str) -> String {
         "rig_weights" => "--body-weights".to_string(),
         "rig_garments" => "--garment-weights".to_string(),
         "rig_joints" => "--joints".to_string(),
+        "rig" => "--rig auto".to_string(),
         "rig_fingers" => "--no-rig-fingers".to_string(),
         "kinds" => "--body, --garment, --hair, --face-part, --eye, --accessory".to_string(),
         option if find(option).is_some_and(|info| info.scope == Scope::Group) => {

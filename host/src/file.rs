@@ -1,4 +1,4 @@
-//! The GLB container: raw JSON and one binary chunk.
+//! glTF files: raw JSON and one buffer, from GLB, VRM or `.gltf` with what lies beside it, to GLB or `.gltf` again.
 //!
 //! The `gltf` crate has a typed tree for this, which is used to check a file and for nothing else. A round trip through it
 //! would lose what it does not know: extensions such as VRM's, members that glTF does not define, the spelling of numbers,
@@ -6,12 +6,16 @@
 //! went in, so the JSON is kept raw and changed in place; and since every number is written back over the one that was
 //! read, accessors are read here by the layout that the writer needs too (`accessor.rs`).
 
+use super::beside::{self, Beside};
 use super::{array_at, bad_input, index_at, text_at};
 use gltf::json::validation::Validate;
 use serde_json::{Value, json};
+use std::borrow::Cow;
+use std::collections::BTreeMap;
 use std::fs;
 use std::io::Write;
 use std::path::Path;
+use std::sync::Arc;
 use superdeform::Result;
 
 const MAGIC: &[u8; 4] = b"glTF";
@@ -33,24 +37,35 @@ const HARMLESS: [&str; 7] = [
     "MSFT_packing_occlusionRoughnessMetallic",
 ];
 
-/// A glTF file with everything embedded.
-#[derive(Clone, Debug)]
+/// A glTF file with everything that it names.
+#[derive(Clone, Debug, Default)]
 pub struct GltfFile {
     /// The file's name, for messages.
     pub name: String,
-    /// The JSON as it stands in the file.
+    /// The JSON as it stands in the file, but for its buffers, which are one.
     pub json: Value,
     /// The one buffer.
     pub binary: Vec<u8>,
+    /// The images that lie beside the file, by their address as the JSON spells it.
+    pub images: BTreeMap<String, Arc<Vec<u8>>>,
 }
 
 impl GltfFile {
-    /// Reads a GLB, a VRM, or a .gltf whose buffers are embedded as base64.
+    /// Reads a GLB, a VRM, or a `.gltf` with the buffers and images beside it.
     ///
     /// # Errors
-    /// One sentence that begins with the file's name: not readable, not glTF 2.0, damaged, or an extension is
-    /// required that compresses the geometry.
+    /// One sentence that begins with the file's name: not readable, not glTF 2.0, damaged, a buffer is not there, or an
+    /// extension is required that compresses the geometry.
     pub fn read(path: &Path) -> Result<Self> {
+        let (name, bytes) = Self::read_bytes(path)?;
+        Self::parse_with(&name, &bytes, &beside::folder_of(path))
+    }
+
+    /// The name of the file at `path`, and its bytes.
+    ///
+    /// # Errors
+    /// One sentence that begins with the name: not readable, a folder, 2 GB or more.
+    pub fn read_bytes(path: &Path) -> Result<(String, Vec<u8>)> {
         let name = path
             .file_name()
             .map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned());
@@ -63,14 +78,22 @@ impl GltfFile {
             return Err(bad_input(format!("{name} has {} bytes: files must be below 2 GB", about.len())));
         }
         let bytes = fs::read(path).map_err(|error| bad_input(format!("{name} cannot be read: {error}")))?;
-        Self::parse(&name, &bytes)
+        Ok((name, bytes))
     }
 
-    /// The same from memory; `name` is for messages.
+    /// The same from memory, of a file that has everything within; `name` is for messages.
     ///
     /// # Errors
     /// As [`GltfFile::read`].
     pub fn parse(name: &str, bytes: &[u8]) -> Result<Self> {
+        Self::parse_with(name, bytes, &|_| None)
+    }
+
+    /// The same of a file that names others, which `beside` gives.
+    ///
+    /// # Errors
+    /// As [`GltfFile::read`].
+    pub fn parse_with(name: &str, bytes: &[u8], beside: &Beside) -> Result<Self> {
         if bytes.is_empty() {
             return Err(bad_input(format!("{name} is empty: give a GLB or VRM file")));
         }
@@ -80,7 +103,7 @@ impl GltfFile {
             (bytes, &[][..])
         } else {
             return Err(bad_input(format!(
-                "{name} is neither GLB nor VRM, because it does not begin with glTF: export it as glTF 2.0 binary"
+                "{name} is neither GLB nor VRM, because it does not begin with glTF: export it as glTF 2.0 (Blender: File, Export, glTF)"
             )));
         };
         #[cfg_attr(not(feature = "meshopt"), allow(unused_mut))]
@@ -104,13 +127,17 @@ impl GltfFile {
         let binary = unpacked.as_deref().unwrap_or(binary);
         check_extensions(name, &json)?;
         check_types_and_indices(name, &json)?;
-        let mut file = Self { name: name.to_string(), json, binary: Vec::new() };
-        file.binary = file.embed_buffers(binary)?;
+        let mut file = Self { name: name.to_string(), json, ..Self::default() };
+        file.binary = file.embed_buffers(binary, beside)?;
+        let addresses = array_at(&file.json, "images").iter().map(|image| text_at(image, "uri"));
+        let found = addresses
+            .filter_map(|address| Some((address.to_string(), Arc::new(beside(&beside::path_of(address)?)?))));
+        file.images = found.collect();
         Ok(file)
     }
 
     /// Takes all buffers together into one, and moves the buffer views along.
-    fn embed_buffers(&mut self, chunk: &[u8]) -> Result<Vec<u8>> {
+    fn embed_buffers(&mut self, chunk: &[u8], beside: &Beside) -> Result<Vec<u8>> {
         let name = self.name.clone();
         let buffers = array_at(&self.json, "buffers").to_vec();
         let mut binary = Vec::new();
@@ -126,7 +153,7 @@ impl GltfFile {
                     )));
                 }
                 Some(uri) if uri.starts_with("data:") => {
-                    decoded = decode_base64(uri).ok_or_else(|| {
+                    decoded = beside::decode_base64(uri).ok_or_else(|| {
                         bad_input(format!(
                             "{name}: buffer {index} holds no valid base64: export the file anew"
                         ))
@@ -134,10 +161,13 @@ impl GltfFile {
                     &decoded
                 }
                 Some(uri) => {
-                    let uri: String = uri.chars().take(80).collect();
-                    return Err(bad_input(format!(
-                        "{name} keeps its buffer {index} in another file ({uri}): export it as GLB with everything embedded"
-                    )));
+                    decoded = beside::path_of(uri).and_then(|path| beside(&path)).ok_or_else(|| {
+                        let uri: String = uri.chars().take(80).collect();
+                        bad_input(format!(
+                            "{name} keeps its buffer {index} in another file ({uri}), which was not found beside it: give the two together, or export a GLB"
+                        ))
+                    })?;
+                    &decoded
                 }
             };
             let length = index_at(buffer, "byteLength").unwrap_or(0);
@@ -180,13 +210,15 @@ impl GltfFile {
         Ok(binary)
     }
 
-    /// The file as GLB.
+    /// The file as GLB, with the images from beside it.
     ///
     /// # Errors
     /// When it would be 2 GB or more.
     pub fn to_bytes(&self) -> Result<Vec<u8>> {
-        let mut text = serde_json::to_vec(&self.json)
-            .map_err(|error| bad_input(format!("{} cannot be written as JSON: {error}", self.name)))?;
+        if !self.images.is_empty() {
+            return self.with_images_within().to_bytes();
+        }
+        let mut text = self.text(serde_json::to_vec)?;
         text.resize(text.len().next_multiple_of(4), b' ');
         let padded = self.binary.len().next_multiple_of(4);
         let total = 12 + 8 + text.len() + if self.binary.is_empty() { 0 } else { 8 + padded };
@@ -210,6 +242,80 @@ impl GltfFile {
             bytes.resize(total, 0);
         }
         Ok(bytes)
+    }
+
+    fn text(&self, write: impl Fn(&Value) -> serde_json::Result<Vec<u8>>) -> Result<Vec<u8>> {
+        write(&self.json)
+            .map_err(|error| bad_input(format!("{} cannot be written as JSON: {error}", self.name)))
+    }
+
+    /// The file with the images from beside it in its buffer.
+    fn with_images_within(&self) -> Self {
+        let mut file = self.clone();
+        let images = std::mem::take(&mut file.images);
+        for index in 0..file.list("images").len() {
+            let Some(bytes) = images.get(text_at(&file.json["images"][index], "uri")) else { continue };
+            file.binary.resize(file.binary.len().next_multiple_of(4), 0);
+            let view = json!({"buffer": 0, "byteOffset": file.binary.len(), "byteLength": bytes.len()});
+            file.binary.extend_from_slice(bytes);
+            if !file.json["bufferViews"].is_array() {
+                file.json["bufferViews"] = json!([]);
+            }
+            if file.list("buffers").is_empty() {
+                file.json["buffers"] = json!([{}]);
+            }
+            file.json["buffers"][0]["byteLength"] = json!(file.binary.len());
+            let Some(views) = file.json["bufferViews"].as_array_mut() else { continue };
+            views.push(view);
+            let view = views.len() - 1;
+            let image = &mut file.json["images"][index];
+            let kind = beside::kind_of_image(bytes, text_at(image, "mimeType")).to_string();
+            image["bufferView"] = json!(view);
+            image["mimeType"] = json!(kind);
+            image.as_object_mut().map(|image| image.remove("uri"));
+        }
+        file
+    }
+
+    /// The file as `.gltf`: its JSON, its buffer as `NAME.bin` and its images, each with its path beside the JSON.
+    ///
+    /// - `name`: the file's own, `hero.gltf` for instance.
+    ///
+    /// # Errors
+    /// As [`GltfFile::to_bytes`].
+    pub fn to_parts(&self, name: &str) -> Result<Vec<(String, Vec<u8>)>> {
+        let stem = name.rsplit_once('.').map_or(name, |(stem, _)| stem);
+        let binary = format!("{stem}.bin");
+        let mut file = Self { json: self.json.clone(), name: self.name.clone(), ..Self::default() };
+        if !self.binary.is_empty() {
+            file.json["buffers"][0]["uri"] = json!(beside::address_of(&binary));
+        }
+        let mut text = file.text(serde_json::to_vec_pretty)?;
+        text.push(b'\n');
+        let mut parts = vec![(name.to_string(), text)];
+        if !self.binary.is_empty() {
+            parts.push((binary, self.binary.clone()));
+        }
+        for (address, bytes) in &self.images {
+            parts.extend(beside::path_of(address).map(|path| (path, bytes.to_vec())));
+        }
+        Ok(parts)
+    }
+
+    /// The bytes of an image, wherever they are; `None` where they are not.
+    pub fn image(&self, index: usize) -> Option<Cow<'_, [u8]>> {
+        let image = self.list("images").get(index)?;
+        if let Some(view) = index_at(image, "bufferView") {
+            let view = self.list("bufferViews").get(view)?;
+            let start = index_at(view, "byteOffset").unwrap_or(0);
+            let end = start.checked_add(index_at(view, "byteLength")?)?;
+            return self.binary.get(start..end).map(Cow::Borrowed);
+        }
+        let address = text_at(image, "uri");
+        match self.images.get(address) {
+            Some(bytes) => Some(Cow::Borrowed(bytes.as_slice())),
+            None => beside::decode_base64(address).map(Cow::Owned),
+        }
     }
 
     /// The array of the JSON called `name`; empty where there is none.
@@ -385,29 +491,4 @@ fn filled(json: &Value) -> Value {
 /// The entries of the array at `key`; none where there is none.
 fn array_at_mut<'a>(value: &'a mut Value, key: &str) -> impl Iterator<Item = &'a mut Value> + use<'a> {
     value.get_mut(key).and_then(Value::as_array_mut).into_iter().flatten()
-}
-
-/// The bytes of a `data:` address in base64; `None` where it is not that.
-fn decode_base64(uri: &str) -> Option<Vec<u8>> {
-    let (_, text) = uri.split_once(";base64,")?;
-    let text = text.trim_end_matches('=').as_bytes();
-    let mut bytes = Vec::with_capacity(text.len() / 4 * 3 + 2);
-    let (mut bits, mut bit_count) = (0u32, 0);
-    for &letter in text {
-        let six = match letter {
-            b'A'..=b'Z' => letter - b'A',
-            b'a'..=b'z' => letter - b'a' + 26,
-            b'0'..=b'9' => letter - b'0' + 52,
-            b'+' | b'-' => 62,
-            b'/' | b'_' => 63,
-            _ => return None,
-        };
-        bits = (bits << 6 | u32::from(six)) & 0xFFFF;
-        bit_count += 6;
-        if bit_count >= 8 {
-            bit_count -= 8;
-            bytes.push((bits >> bit_count) as u8);
-        }
-    }
-    Some(bytes)
 }

@@ -1,6 +1,6 @@
 //! What meshes are: by the patterns of the command line, else by names.
 
-use regex::Regex;
+use regex_lite::Regex;
 use superdeform::internals::character::kinds::{MeshNames, kinds_from_names};
 use superdeform::{Character, MeshKind, Warning};
 

@@ -1,23 +1,33 @@
-//! Characters as files: GLB and VRM (0.x and 1.0) in, the same file with a new shape out.
+//! Characters as files: GLB, VRM (0.x and 1.0) and `.gltf` in, the same file with a new shape out. [`conversion`] is the whole
+//! way, for any host.
 //!
 //! A file is kept as raw JSON beside its binary chunk, so that all that is not reshaped comes out as it went in:
 //! materials, textures, texture coordinates, names, extensions, extras, animations, accessor sharing.
 
 pub mod accessor;
+pub mod appearance;
+pub mod beside;
 pub mod bind;
+pub mod conversion;
 pub mod file;
 mod frame;
+pub mod image;
 mod kinds;
 pub mod licence;
 pub mod load;
+pub mod materials;
 #[cfg(feature = "meshopt")]
 mod meshopt;
 mod primitive;
 pub mod rig;
 pub mod roles;
 pub mod samples;
+pub mod shades;
 pub mod verify;
 pub mod write;
+
+/// A pattern of [`load::LoadOptions::kinds`].
+pub use regex_lite::Regex;
 
 use serde_json::Value;
 use superdeform::{Error, ErrorKind};

@@ -230,7 +230,7 @@ mod tests {
     use super::*;
 
     fn licence(header: &Value) -> Licence {
-        let file = GltfFile { name: "a.vrm".to_string(), json: header.clone(), binary: Vec::new() };
+        let file = GltfFile { name: "a.vrm".to_string(), json: header.clone(), ..GltfFile::default() };
         Licence::of(&file)
     }
 

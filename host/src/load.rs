@@ -9,7 +9,7 @@ use super::licence::Licence;
 use super::primitive::{RawMesh, read_primitive};
 use super::{array_at, bad_input, index_at, roles, text_at};
 use glam::{DMat4, Vec3};
-use regex::Regex;
+use regex_lite::Regex;
 use serde_json::Value;
 use std::collections::BTreeSet;
 use superdeform::{

@@ -58,8 +58,8 @@
 //!            1 MiB is left, or where other threads take what was there in the meantime.
 //! Cost       Cheap, microseconds: create, destroy, get_info, get_joints, map_points, styles but _measure. A pass over
 //!            the vertices, some 0.1 microseconds each: add_mesh, apply, and set_options where only amount, face_squash,
-//!            face_curve or thread_count change. Ten times that: set_options otherwise. Slow, seconds at 100,000
-//!            vertices: rig, deformer_create, style_measure, get_report and get_figure after a change.
+//!            face_curve or thread_count change. Ten times that: set_options otherwise, and set_style. Slow, seconds at
+//!            100,000 vertices: rig, deformer_create, style_measure, get_report and get_figure after a change.
 //! ```
 
 // The C ABI, and the only unsafe code. Each module is a section of the header `include/superdeform.h`, which is generated

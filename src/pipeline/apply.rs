@@ -1,20 +1,20 @@
 //! Takes a character through the field: vertices, their directions, joints.
 
-use super::displacement::{Displacements, Ending};
+use super::displacement::Ending;
 use super::morphs::SparseTarget;
 use super::places::{MeshPlaces, Place};
+use super::stages::Number;
 use super::{Deformed, DeformedMesh, Deformer, MeshOutputs};
 use crate::character::{Mesh, MorphTarget};
 use crate::error::Result;
 use crate::parallel;
 use crate::progress::Progress;
-use crate::shape::Measured;
 use crate::shape::directions::{Jacobians, Moved, PIECE, RestTriangles, Room};
 use crate::shape::field::Binding;
 use crate::shape::turn::{LANES, Turn, each_of, four_at, four_of, transposed};
 use glam::{DVec3, Vec3, Vec4};
 use std::ops::Range;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Mutex, PoisonError};
 
 /// Positions that are written together.
 const BLOCK: usize = 256;
@@ -34,7 +34,7 @@ impl Deformer {
     /// # Errors
     /// `Cancelled`.
     pub fn apply_with(&self, progress: &mut Progress) -> Result<Deformed> {
-        self.apply_to(&vec![MeshOutputs::ALL; self.target.character.meshes.len()], progress)
+        self.apply_to(&vec![MeshOutputs::ALL; self.inputs.character.meshes.len()], progress)
     }
 
     /// As [`Deformer::apply_with`], for what is asked of each mesh.
@@ -45,7 +45,7 @@ impl Deformer {
     /// # Panics
     /// `outputs` is not as long as the character has meshes.
     pub fn apply_to(&self, outputs: &[MeshOutputs], progress: &mut Progress) -> Result<Deformed> {
-        let meshes = &self.target.character.meshes;
+        let meshes = &self.inputs.character.meshes;
         assert_eq!(outputs.len(), meshes.len(), "one for each mesh");
         let made = |mesh: &Mesh, asked: &MeshOutputs| DeformedMesh {
             positions: vec![Vec3::ZERO; mesh.positions.len()],
@@ -75,7 +75,7 @@ impl Deformer {
     /// Whether writing this allocates memory: morph targets do each time, directions the first time.
     pub(crate) fn apply_allocates(&self, asked: MeshOutputs) -> bool {
         let directions = asked.normals || asked.tangents;
-        asked.morph_targets || directions && self.target.rest_triangles.get().is_none()
+        asked.morph_targets || directions && !self.view().is_made(Number::REST_TRIANGLES)
     }
 
     /// Writes the vertices of each mesh, and what else there is a place for.
@@ -88,10 +88,10 @@ impl Deformer {
         progress: &mut Progress,
     ) -> Result<()> {
         progress.at(0.0)?;
-        let meshes = &self.target.character.meshes;
+        let meshes = &self.inputs.character.meshes;
         let mut room = None;
         for (index, mut places) in places.enumerate() {
-            if self.field.finish.is_nothing() {
+            if self.made.field.finish.is_nothing() {
                 write_unchanged(&meshes[index], places);
                 continue;
             }
@@ -99,7 +99,8 @@ impl Deformer {
                 self.write_positions(index, positions);
             }
             if places.normals.is_some() || places.tangents.is_some() {
-                self.write_directions(index, places, room.get_or_insert_default());
+                let rest = self.view().rest_triangles()?;
+                self.write_directions(index, places, &rest, room.get_or_insert_default());
             }
         }
         // All is written: it is too late to stop.
@@ -109,8 +110,8 @@ impl Deformer {
 
     /// Where each joint is now, as in [`Deformed::joints`].
     pub fn deformed_joints(&self) -> Vec<DVec3> {
-        let joints = &self.target.character.skeleton.joints;
-        if self.field.finish.is_nothing() {
+        let joints = &self.inputs.character.skeleton.joints;
+        if self.made.field.finish.is_nothing() {
             return joints.iter().map(|joint| joint.position()).collect();
         }
         let placement = self.placement();
@@ -131,7 +132,6 @@ impl Deformer {
     /// Joints that play eyes, and where they are now, canonical frame: at the same place in the eye that they turn, which the
     /// field moves as it moves the face before it.
     fn eye_joints(&self) -> Vec<(usize, DVec3)> {
-        let Some(product) = &self.deformation.product else { return Vec::new() };
         let placement = self.placement();
         let figure = placement.figure;
         let place = |(joint, vertices): &(usize, Vec<u32>)| {
@@ -146,33 +146,26 @@ impl Deformer {
             let scale = size(&after, to) / size(&before, from);
             scale.is_finite().then(|| (*joint, to + scale * (figure.joints[*joint] - from)))
         };
-        product.eyes.iter().filter_map(place).collect()
-    }
-
-    /// Where the vertices go, model space, mesh after mesh.
-    pub(super) fn deformed_positions(&self) -> impl Iterator<Item = Vec3> + '_ {
-        let ending = self.ending();
-        let rest = self.target.character.meshes.iter().flat_map(|mesh| &mesh.positions);
-        rest.zip(self.displacements()).map(move |(&p, &displacement)| ending.place(p, displacement))
+        placement.bindings.eyes.iter().filter_map(place).collect()
     }
 
     fn displacements(&self) -> &[Vec3] {
-        self.displacements.as_ref().map_or(&[], Displacements::all)
+        &self.made.displacements.all
     }
 
     fn ending(&self) -> Ending {
-        Ending::of(&self.field.finish, &self.target.measured.figure.frame)
+        Ending::of(&self.made.field.finish, &self.target().figure.frame)
     }
 
     /// The vertices of a mesh.
     pub(super) fn vertices(&self, mesh: usize) -> Range<usize> {
-        let starts = &self.target.measured.figure.mesh_starts;
+        let starts = &self.target().figure.mesh_starts;
         starts[mesh]..starts[mesh + 1]
     }
 
     /// Writes where the vertices of a mesh go.
     fn write_positions<V: Place<Vec3>>(&self, mesh: usize, place: V) {
-        let rest = &self.target.character.meshes[mesh].positions;
+        let rest = &self.inputs.character.meshes[mesh].positions;
         let displacements = &self.displacements()[self.vertices(mesh)];
         let ending = self.ending();
         let write = |(): &mut (), first: usize, count: usize, mut place: V| {
@@ -186,7 +179,7 @@ impl Deformer {
                 place.write(start - first, &block[..end - start]);
             }
         };
-        let threads = self.options.thread_count;
+        let threads = self.inputs.options.thread_count;
         in_shares(threads, rest.len(), LEAST_POSITIONS, &mut (), place, Place::cut, write);
     }
 
@@ -195,10 +188,10 @@ impl Deformer {
         &self,
         mesh: usize,
         places: MeshPlaces<V, W>,
+        rest: &RestTriangles,
         room: &mut Room,
     ) {
-        let rest = self.rest_triangles();
-        let Mesh { normals, tangents, .. } = &self.target.character.meshes[mesh];
+        let Mesh { normals, tangents, .. } = &self.inputs.character.meshes[mesh];
         let pieces = rest.pieces(mesh);
         let start = self.vertices(mesh).start;
         let cut = |places: MeshPlaces<V, W>, count: usize| places.cut(count * PIECE);
@@ -223,21 +216,12 @@ impl Deformer {
                 }
             }
         };
-        let threads = self.options.thread_count;
+        let threads = self.inputs.options.thread_count;
         in_shares(threads, pieces.len(), LEAST_PIECES, room, places, cut, write);
     }
 
-    pub(super) fn rest_triangles(&self) -> &RestTriangles {
-        let Measured { figure, weld, .. } = &*self.target.measured;
-        self.target.rest_triangles.get_or_init(|| {
-            let meshes = &self.target.character.meshes;
-            let positions: Vec<Vec3> = meshes.iter().flat_map(|mesh| &mesh.positions).copied().collect();
-            Arc::new(RestTriangles::of(&positions, &figure.triangles, &figure.mesh_starts, weld))
-        })
-    }
-
     pub(super) fn moved(&self) -> Moved<'_> {
-        let finish = &self.field.finish;
+        let finish = &self.made.field.finish;
         let (share, size) = ((finish.size * finish.amount) as f32, finish.size as f32);
         Moved { displacements: self.displacements(), share, size }
     }
@@ -245,9 +229,9 @@ impl Deformer {
     /// The field's own Jacobian at a vertex around which no triangle has one; model space.
     #[cold]
     pub(super) fn turn_of_field(&self, vertex: usize) -> Turn {
-        let figure = &self.target.measured.figure;
-        let binding = &self.deformation.bindings.vertices[vertex];
-        let jacobian = self.field.map(figure.positions[vertex], binding).jacobian;
+        let figure = &self.target().figure;
+        let binding = &self.made.deformation.body.bindings.vertices[vertex];
+        let jacobian = self.made.field.map(figure.positions[vertex], binding).jacobian;
         Turn::of(figure.frame.jacobian_to_model(jacobian).as_mat3().into())
     }
 }

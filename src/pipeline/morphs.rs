@@ -1,13 +1,13 @@
 //! Morph targets after a deformation: each is made anew at the vertices that it touches, and is zero at the others.
 
 use super::Deformer;
-use super::attach::{LEAST_VERTICES, Placement};
 use super::displacement::single;
+use super::memo::View;
 use crate::character::{Mesh, MorphTarget};
 use crate::error::Result;
 use crate::progress::Progress;
-use crate::shape::directions::Room;
-use crate::shape::field::Field;
+use crate::shape::directions::{RestTriangles, Room};
+use crate::shape::placement::{LEAST_VERTICES, Placement};
 use crate::shape::turn::Turn;
 use glam::{DVec3, Vec3};
 use std::ops::Range;
@@ -17,20 +17,21 @@ use std::sync::{Arc, Mutex, PoisonError};
 #[derive(Clone, Debug, Default)]
 pub struct Touched {
     /// Of each target, ascending.
-    targets: Vec<Vec<u32>>,
+    targets: Vec<Arc<Vec<u32>>>,
     /// Of all that move something, ascending.
     moved: Vec<u32>,
 }
 
 impl Touched {
-    fn of(mesh: &Mesh) -> Self {
+    /// Of `mesh`.
+    pub fn of(mesh: &Mesh) -> Self {
         let is_changed =
             |deltas: &[Vec3], vertex: usize| deltas.get(vertex).is_some_and(|&d| d != Vec3::ZERO);
         let vertices = 0..mesh.positions.len();
         let touched = |target: &MorphTarget| {
             let arrays = [&target.positions, &target.normals, &target.tangents];
             let is_touched = |&vertex: &usize| arrays.iter().any(|deltas| is_changed(deltas, vertex));
-            vertices.clone().filter(is_touched).map(|vertex| vertex as u32).collect()
+            Arc::new(vertices.clone().filter(is_touched).map(|vertex| vertex as u32).collect())
         };
         let is_moved =
             |vertex: &usize| mesh.morph_targets.iter().any(|target| is_changed(&target.positions, *vertex));
@@ -42,14 +43,14 @@ impl Touched {
 }
 
 /// A morph target where it changes something, of one mesh.
-pub struct SparseTarget<'a> {
+pub struct SparseTarget {
     /// The vertices, ascending.
-    pub vertices: &'a [u32],
+    pub vertices: Arc<Vec<u32>>,
     /// Positions, normals and tangents there; `None` where the target has none.
     pub deltas: [Option<Vec<Vec3>>; 3],
 }
 
-impl SparseTarget<'_> {
+impl SparseTarget {
     /// The same with a delta for each of `count` vertices.
     pub fn dense(&self, name: &str, count: usize) -> MorphTarget {
         let [positions, normals, tangents] = self.deltas.each_ref().map(|deltas| {
@@ -65,10 +66,9 @@ impl SparseTarget<'_> {
 }
 
 /// A morph target before a deformation, where it changes something.
-#[derive(Clone, Copy)]
 pub struct GivenTarget<'a> {
     /// The vertices, ascending.
-    pub vertices: &'a [u32],
+    pub vertices: Arc<Vec<u32>>,
     /// Positions, normals and tangents; empty where it has none.
     pub deltas: [&'a [Vec3]; 3],
     /// Whether these are of all vertices of the mesh, else of `vertices` alone.
@@ -76,8 +76,9 @@ pub struct GivenTarget<'a> {
 }
 
 impl<'a> GivenTarget<'a> {
-    fn of((target, vertices): (&'a MorphTarget, &'a Vec<u32>)) -> Self {
-        Self { vertices, deltas: [&target.positions, &target.normals, &target.tangents], is_dense: true }
+    fn of((target, vertices): (&'a MorphTarget, &Arc<Vec<u32>>)) -> Self {
+        let deltas = [&target.positions[..], &target.normals, &target.tangents];
+        Self { vertices: Arc::clone(vertices), deltas, is_dense: true }
     }
 
     /// One of `vertices` with what is added to it.
@@ -87,14 +88,18 @@ impl<'a> GivenTarget<'a> {
     }
 
     /// All of them; `None` where the target has no such changes.
-    fn each(self, which: usize) -> Option<impl Iterator<Item = (usize, Vec3)>> {
+    fn each(&self, which: usize) -> Option<impl Iterator<Item = (usize, Vec3)>> {
         let of = move |index: usize| self.at(which, index);
         (!self.deltas[which].is_empty()).then(|| (0..self.vertices.len()).filter_map(of))
     }
 
-    fn same(self) -> SparseTarget<'a> {
-        let deltas = [0, 1, 2].map(|which| Some(self.each(which)?.map(|(_, delta)| delta).collect()));
-        SparseTarget { vertices: self.vertices, deltas }
+    /// With other deltas.
+    fn with(&self, deltas: [Option<Vec<Vec3>>; 3]) -> SparseTarget {
+        SparseTarget { vertices: Arc::clone(&self.vertices), deltas }
+    }
+
+    fn same(&self) -> SparseTarget {
+        self.with([0, 1, 2].map(|which| Some(self.each(which)?.map(|(_, delta)| delta).collect())))
     }
 }
 
@@ -107,12 +112,6 @@ pub struct Shifts {
 
 /// By target, then by the vertices that it touches.
 type ShiftsOfMesh = Arc<Vec<Vec<Vec3>>>;
-
-impl Clone for Shifts {
-    fn clone(&self) -> Self {
-        Self { of: Mutex::new(self.of.lock().unwrap_or_else(PoisonError::into_inner).clone()) }
-    }
-}
 
 impl Shifts {
     fn get(&self, mesh: usize) -> Option<ShiftsOfMesh> {
@@ -128,15 +127,14 @@ impl Shifts {
     }
 }
 
-impl Deformer {
-    fn touched(&self) -> &[Touched] {
-        let meshes = &self.target.character.meshes;
-        self.target.touched.get_or_init(|| Arc::new(meshes.iter().map(Touched::of).collect()))
-    }
+/// What is filled in mesh by mesh: none while what it is made of is the same.
+pub fn shifts(view: &View) -> Result<Shifts> {
+    view.deformation().map(|_| Shifts::default())
+}
 
+impl Deformer {
     /// What the directions of all of a mesh's vertices turn by.
-    fn turns(&self, mesh: usize) -> Vec<Turn> {
-        let rest = self.rest_triangles();
+    fn turns(&self, mesh: usize, rest: &RestTriangles) -> Vec<Turn> {
         let mut room = Room::default();
         let mut turns = Vec::with_capacity(self.vertices(mesh).len());
         for piece in rest.pieces(mesh) {
@@ -155,8 +153,8 @@ impl Deformer {
         &self,
         is_asked: impl Fn(usize) -> bool,
         progress: &mut Progress,
-    ) -> Result<Vec<Vec<SparseTarget<'_>>>> {
-        let count = self.target.character.meshes.len();
+    ) -> Result<Vec<Vec<SparseTarget>>> {
+        let count = self.inputs.character.meshes.len();
         let of_mesh = |mesh: usize| {
             let at = |mesh: usize| mesh as f32 / count as f32;
             progress.at(at(mesh))?;
@@ -166,16 +164,19 @@ impl Deformer {
         (0..count).map(of_mesh).collect()
     }
 
-    fn targets_of_mesh(&self, mesh: usize, progress: &mut Progress) -> Result<Vec<SparseTarget<'_>>> {
-        let Touched { targets, moved } = &self.touched()[mesh];
-        let of_mesh = &self.target.character.meshes[mesh].morph_targets;
-        let given: Vec<GivenTarget> = of_mesh.iter().zip(targets).map(GivenTarget::of).collect();
-        let shifts = match self.morph_shifts.get(mesh) {
+    fn targets_of_mesh(&self, mesh: usize, progress: &mut Progress) -> Result<Vec<SparseTarget>> {
+        let touched = self.view().touched()?;
+        let of_mesh = &self.inputs.character.meshes[mesh].morph_targets;
+        let given: Vec<GivenTarget> =
+            of_mesh.iter().zip(&touched[mesh].targets).map(GivenTarget::of).collect();
+        let kept = self.view().shifts()?;
+        let shifts = match kept.get(mesh) {
             Some(known) => known,
-            None if self.field.finish.is_nothing() => Arc::default(),
+            None if self.made.field.finish.is_nothing() => Arc::default(),
             None => {
-                let shifts = Arc::new(self.shifts_of(mesh, &given, moved, &mut progress.part(0.0, 0.7))?);
-                self.morph_shifts.keep(mesh, &shifts);
+                let part = &mut progress.part(0.0, 0.7);
+                let shifts = Arc::new(self.shifts_of(mesh, &given, &touched[mesh].moved, part)?);
+                kept.keep(mesh, &shifts);
                 shifts
             }
         };
@@ -183,61 +184,57 @@ impl Deformer {
     }
 
     /// Morph targets of a mesh, those of the character or others, as [`Self::deformed_targets`] has them.
-    pub(crate) fn map_targets<'a>(
-        &self,
-        mesh: usize,
-        given: &[GivenTarget<'a>],
-    ) -> Result<Vec<SparseTarget<'a>>> {
-        let moved_by = |target: &GivenTarget<'a>| {
-            target.each(0).into_iter().flatten().filter(|(_, delta)| *delta != Vec3::ZERO)
-        };
-        let mut moved: Vec<u32> = given.iter().flat_map(moved_by).map(|(vertex, _)| vertex as u32).collect();
+    pub(crate) fn map_targets(&self, mesh: usize, given: &[GivenTarget]) -> Result<Vec<SparseTarget>> {
+        let progress = &mut Progress::none();
+        if self.made.field.finish.is_nothing() {
+            return self.shifted(mesh, given, &[], progress);
+        }
+        let is_moved = |(_, delta): &(usize, Vec3)| *delta != Vec3::ZERO;
+        let of = |target| GivenTarget::each(target, 0).into_iter().flatten().filter(is_moved);
+        let mut moved: Vec<u32> = given.iter().flat_map(of).map(|(vertex, _)| vertex as u32).collect();
         moved.sort_unstable();
         moved.dedup();
-        let progress = &mut Progress::none();
-        let shifts = if self.field.finish.is_nothing() {
-            Vec::new()
-        } else {
-            self.shifts_of(mesh, given, &moved, progress)?
-        };
+        let shifts = self.shifts_of(mesh, given, &moved, progress)?;
         self.shifted(mesh, given, &shifts, progress)
     }
 
     /// The targets after the deformation.
     ///
     /// `shifts`: as [`Self::shifts_of`] gives them.
-    fn shifted<'a>(
+    fn shifted(
         &self,
         mesh: usize,
-        given: &[GivenTarget<'a>],
+        given: &[GivenTarget],
         shifts: &[Vec<Vec3>],
         progress: &mut Progress,
-    ) -> Result<Vec<SparseTarget<'a>>> {
-        if self.field.finish.is_nothing() || given.is_empty() {
-            return Ok(given.iter().map(|target| target.same()).collect());
+    ) -> Result<Vec<SparseTarget>> {
+        if self.made.field.finish.is_nothing() || given.is_empty() {
+            return Ok(given.iter().map(GivenTarget::same).collect());
         }
-        let Mesh { normals, tangents, .. } = &self.target.character.meshes[mesh];
+        let Mesh { normals, tangents, .. } = &self.inputs.character.meshes[mesh];
         let changes = |which: usize| given.iter().any(|target| !target.deltas[which].is_empty());
         let turn_normals = !normals.is_empty() && changes(1);
         let turn_tangents = !tangents.is_empty() && changes(2);
-        let turns = if turn_normals || turn_tangents { self.turns(mesh) } else { Vec::new() };
+        let turns = match turn_normals || turn_tangents {
+            true => self.turns(mesh, &*self.view().rest_triangles()?),
+            false => Vec::new(),
+        };
         let new_normals: Vec<Vec3> =
             turns.iter().zip(normals).map(|(turn, &normal)| turn.normal(normal)).collect();
+        let turn_normal = |vertex: usize, normal| turns[vertex].normal(normal);
         let tangent =
             |vertex: usize, tangent: Vec3| turns[vertex].tangent(tangent, new_normals.get(vertex).copied());
-        let turn_normal = |vertex: usize, normal| turns[vertex].normal(normal);
         let directions: Vec<Vec3> = tangents.iter().map(|tangent| tangent.truncate()).collect();
         let made = |index: usize| {
-            let target = given[index];
-            let deltas = [
+            let target = &given[index];
+            target.with([
                 self.morph_positions(target, &shifts[index]),
                 morph_turns(target, 1, normals, &turn_normal),
                 morph_turns(target, 2, &directions, &tangent),
-            ];
-            SparseTarget { vertices: target.vertices, deltas }
+            ])
         };
         let least = if self.vertices(mesh).len() < LEAST_VERTICES { given.len() } else { 1 };
-        let threads = self.options.thread_count;
+        let threads = self.inputs.options.thread_count;
         progress.collect_with(threads, given.len(), least, || (), |(), index| made(index))
     }
 
@@ -259,8 +256,9 @@ impl Deformer {
         moved: &[u32],
         progress: &mut Progress,
     ) -> Result<Vec<Vec<Vec3>>> {
-        let field = Field { finish: self.field.finish.all_the_way(), ..self.field.clone() };
-        let placement = Placement { field: &field, ..self.placement() };
+        let (deformation, threads) = (&self.made.deformation, self.inputs.options.thread_count);
+        let field = &deformation.field;
+        let placement = deformation.placement(field, threads);
         let figure = placement.figure;
         let placed = self.placed_of(mesh, moved, &placement);
         let start = self.vertices(mesh).start;
@@ -288,7 +286,6 @@ impl Deformer {
             })
             .collect();
         let all = ends.last().copied().unwrap_or(0);
-        let threads = self.options.thread_count;
         let shift = |_: &mut (), index: usize| {
             let target = ends.partition_point(|&end| end <= index);
             let first = ends[target] - given[target].vertices.len();
@@ -318,8 +315,8 @@ impl Deformer {
     /// D(v + d) - D(v) of the vertices of a target: exact, and zero where d is.
     ///
     /// `shifts`: as [`Self::shifts_of`] gives them.
-    fn morph_positions(&self, target: GivenTarget, shifts: &[Vec3]) -> Option<Vec<Vec3>> {
-        let finish = &self.field.finish;
+    fn morph_positions(&self, target: &GivenTarget, shifts: &[Vec3]) -> Option<Vec<Vec3>> {
+        let finish = &self.made.field.finish;
         let (size, amount) = (finish.size as f32, finish.amount as f32);
         let moved = |((_, delta), &shift): ((usize, Vec3), &Vec3)| {
             let to = size * (delta + amount * shift);
@@ -336,7 +333,7 @@ const LEAST_SHIFTS: usize = 2000;
 ///
 /// `before`: of all vertices of the mesh; without them there is nothing that a target changes.
 fn morph_turns(
-    target: GivenTarget,
+    target: &GivenTarget,
     which: usize,
     before: &[Vec3],
     turn: &dyn Fn(usize, Vec3) -> Vec3,

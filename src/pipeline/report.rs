@@ -1,8 +1,10 @@
 //! The numbers of a run.
 
-use super::{ALREADY_SD, Deformed, Deformer};
+use super::memo::View;
+use super::{Deformed, Deformer, head};
 use crate::character::{Humanoid, Role};
 use crate::error::{Result, Warning};
+use crate::options::Mode;
 use crate::parallel;
 use crate::progress::Progress;
 use crate::report::{
@@ -16,9 +18,28 @@ use crate::shape::style::Style;
 use crate::shape::{BodyShape, GroupShape, Measured};
 use glam::DVec3;
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+/// A target may be this many times as tall, in heads, as its style before it is called super-deformed already.
+const ALREADY_SD: f64 = 1.2;
+
+/// What a person should know of a run before it is measured anew.
+pub fn warnings(view: &View) -> Result<Vec<Warning>> {
+    let (measured, body) = (view.measured()?, view.body()?);
+    let mut warnings = view.notes().to_vec();
+    warnings.extend(measured.anatomy.landmarks.warnings("target"));
+    warnings.extend(already_super_deformed(&measured.shape, view.style()));
+    warnings.extend_from_slice(&body.warnings);
+    if view.options.amount == 1.0 {
+        warnings.extend(body.heads_left.clone());
+    }
+    warnings.extend(view.face()?.warning.clone());
+    warnings.extend(head::eyes_not_found(view)?);
+    Ok(warnings)
+}
 
 /// A warning where the style has hardly fewer heads than the target.
-pub(super) fn already_super_deformed(target: &BodyShape, style: &Style) -> Option<Warning> {
+fn already_super_deformed(target: &BodyShape, style: &Style) -> Option<Warning> {
     let (Style::Shape(shape), Some(proportions)) = (style, &target.proportions) else {
         return None;
     };
@@ -36,8 +57,8 @@ pub(super) fn already_super_deformed(target: &BodyShape, style: &Style) -> Optio
 impl Deformer {
     /// Roles that target and style share.
     fn roles(&self) -> BTreeSet<Role> {
-        let own = self.target.measured.joints.keys().copied();
-        match &self.style {
+        let own = self.target().joints.keys().copied();
+        match &*self.inputs.style {
             Style::Shape(shape) => own.filter(|role| shape.roles().contains(role)).collect(),
             Style::Heads(_) => own.collect(),
         }
@@ -45,7 +66,7 @@ impl Deformer {
 
     /// Length and radius of another body's bone groups, measured over the roles that target and style share.
     pub fn group_shapes(&self, shape: &BodyShape) -> BTreeMap<String, GroupShape> {
-        group_shapes(shape, &self.roles(), &self.options)
+        group_shapes(shape, &self.roles(), &self.inputs.options)
     }
 
     /// The numbers of the run; `result` is measured anew on `deformed`. The host adds its own times and warnings.
@@ -53,20 +74,19 @@ impl Deformer {
     /// # Errors
     /// As [`Measured::of`] on the result.
     pub fn report(&self, deformed: &Deformed) -> Result<Report> {
-        let character = &self.target.character;
+        let character = &self.inputs.character;
         let result = character.with(deformed);
-        let figure = Figure::of(&result)?;
-        // What became of the clothes needs its positions alone.
-        let placed = figure.clone();
+        let figure = Arc::new(Figure::of(&result)?);
+        let placed = Arc::clone(&figure);
         let (repair, measured) = parallel::both(
-            self.options.thread_count,
+            self.inputs.options.thread_count,
             || self.clothes(&placed),
-            || Measured::of_figure(figure, &result, &self.options, &mut Progress::none()),
+            || Measured::of_figure(figure, &result, &self.inputs.options, &mut Progress::none()),
         );
         let measured = measured?;
         let roles = self.roles();
-        let mut target = FigureReport::of(&self.target.measured, &roles, &self.options);
-        let mut result = FigureReport::of(&measured, &roles, &self.options);
+        let mut target = FigureReport::of(self.target(), &roles, &self.inputs.options);
+        let mut result = FigureReport::of(&measured, &roles, &self.inputs.options);
         let mut joint_count = character.skeleton.joints.len();
         if let Some(rig) = &self.rig {
             let at_rest = |joint: usize| character.skeleton.joints[joint].position();
@@ -76,22 +96,22 @@ impl Deformer {
                 joint_count = rig.own_count;
             }
         }
-        let mut warnings = self.warnings.clone();
+        let mut warnings = self.made.warnings.to_vec();
         warnings.extend(repair.and_then(pierced));
         Ok(Report {
             target,
-            reference: match &self.style {
-                Style::Shape(shape) => Some(FigureReport::of_style(shape, &roles, &self.options)),
+            reference: match &*self.inputs.style {
+                Style::Shape(shape) => Some(FigureReport::of_style(shape, &roles, &self.inputs.options)),
                 Style::Heads(_) => None,
             },
             result,
-            mode: self.options.mode.name(),
-            g: self.deformation.head_ratio,
-            coefficients: self.deformation.coefficients.clone(),
-            profile: ProfileReport::of(&self.target.measured, &self.style, &measured),
+            mode: self.inputs.options.mode.name(),
+            g: self.made.deformation.body.head_ratio,
+            coefficients: self.made.deformation.body.coefficients.clone(),
+            profile: ProfileReport::of(self.target(), &self.inputs.style, &measured),
             rig: self.rig.as_ref().map_or_else(|| self.kept_rig(), |rig| rig.report.clone()),
             repair,
-            sole_clearance: SoleClearance { target: soles(&self.target.measured), result: soles(&measured) },
+            sole_clearance: SoleClearance { target: soles(self.target()), result: soles(&measured) },
             morph_pair_error: self.morph_pair_error() / measured.figure.height(),
             counts: Counts {
                 vertices: character.vertex_count(),
@@ -100,29 +120,33 @@ impl Deformer {
                 morph_targets: character.meshes.iter().map(|mesh| mesh.morph_targets.len()).sum(),
                 joints: joint_count,
             },
-            timing_ms: self.timing,
+            timing_ms: self.timing(),
             warnings,
         })
     }
 
     /// What became of the clothes in `result`.
     fn clothes(&self, result: &Figure) -> Option<RepairReport> {
-        let (measured, threads) = (&self.target.measured, self.options.thread_count);
-        let worn = self.deformation.product.as_ref()?.worn(&self.target, threads);
+        let (measured, threads) = (self.target(), self.inputs.options.thread_count);
+        let view = self.view();
+        if self.inputs.options.mode == Mode::Paper {
+            return None;
+        }
+        let (worn, pushed) = (view.worn().ok()?, view.pushed().ok()?);
         if worn.places.is_empty() {
             return None;
         }
         let newly_inside = |pose: Pose| {
-            let [before, after] = [&measured.figure, result]
+            let [before, after] = [&*measured.figure, result]
                 .map(|figure| worn.inside(&posed(figure, pose), &measured.weld, threads));
             let count = before.iter().zip(&after).filter(|&(&before, &after)| after && !before).count();
             count as f64 / before.len() as f64
         };
-        let offsets = &self.deformation.pushed.offsets;
+        let offsets = &pushed.offsets;
         let furthest = offsets.iter().map(|(_, offset)| offset.length()).fold(0.0, f64::max);
         Some(RepairReport {
             pushed: offsets.len(),
-            furthest: self.field.finish.share_of_offsets() * furthest / result.height(),
+            furthest: self.made.field.finish.share_of_offsets() * furthest / result.height(),
             newly_inside: NewlyInside {
                 rest: newly_inside(&[]),
                 walk: newly_inside(WALK),
@@ -133,13 +157,13 @@ impl Deformer {
 
     /// How far a vertex is at most from where the field takes it when its two largest morph targets are on at once, model units.
     fn morph_pair_error(&self) -> f64 {
-        if self.field.finish.is_nothing() {
+        if self.made.field.finish.is_nothing() {
             return 0.0;
         }
         let placement = self.placement();
         let figure = placement.figure;
         let mut worst: f64 = 0.0;
-        for (mesh, &start) in self.target.character.meshes.iter().zip(&figure.mesh_starts) {
+        for (mesh, &start) in self.inputs.character.meshes.iter().zip(&figure.mesh_starts) {
             for vertex in 0..mesh.positions.len() {
                 let mut largest = [DVec3::ZERO; 2];
                 for delta in mesh.morph_targets.iter().map(|target| target.positions[vertex].as_dvec3()) {
@@ -165,7 +189,7 @@ impl Deformer {
 
     /// The character's own rig, of which every joint is sure.
     fn kept_rig(&self) -> RigReport {
-        let roles = self.target.measured.joints.keys();
+        let roles = self.target().joints.keys();
         RigReport {
             source: "kept",
             confidence: roles.map(|role| (role.name().to_string(), 1.0)).collect(),

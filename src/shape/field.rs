@@ -7,6 +7,7 @@
 use super::paper::field::{BoneBinding, PaperField};
 use super::product::binding::PartBinding;
 use super::product::field::PartField;
+use super::product::part::Part;
 use crate::face::FaceShape;
 use crate::face::seat::{Seat, SeatAmount};
 use crate::face::stage::{FaceBinding, Ways, YoungFace};
@@ -23,6 +24,37 @@ pub enum Binding {
     Bones(BoneBinding),
     /// Not at all: the point stays (the nodes above the hips).
     Fixed,
+}
+
+impl Binding {
+    /// To one part alone.
+    pub fn to(part: Part) -> Self {
+        Self::Parts(PartBinding::to(part))
+    }
+
+    /// The weight of `part`.
+    pub fn weight(&self, part: Part) -> f32 {
+        match self {
+            Self::Parts(binding) => binding.weights[part as usize],
+            _ => 0.0,
+        }
+    }
+
+    /// The weight of both arms and hands.
+    pub fn arms_weight(&self) -> f32 {
+        match self {
+            Self::Parts(binding) => binding.weights[Part::LeftUpperArm as usize..].iter().take(6).sum(),
+            _ => 0.0,
+        }
+    }
+
+    /// See [`PartBinding::of_head_and_neck`].
+    pub fn of_head_and_neck(&self) -> f64 {
+        match self {
+            Self::Parts(binding) => binding.of_head_and_neck(),
+            _ => 0.0,
+        }
+    }
 }
 
 /// What gives the body its shape, all the way and with the face that is asked for.

@@ -28,7 +28,7 @@ const LEAST_TRIANGLES: usize = 10_000;
 #[derive(Clone, Debug)]
 pub struct Measured {
     /// The character in one space.
-    pub figure: Figure,
+    pub figure: Arc<Figure>,
     /// Landmarks and proportions.
     pub anatomy: Anatomy,
     /// The face in head lengths, where there is a chin to measure from.
@@ -51,7 +51,7 @@ impl Measured {
     /// # Errors
     /// As [`Figure::of`] and [`measure`].
     pub fn of(character: &Character, options: &Options) -> Result<Self> {
-        Self::of_figure(Figure::of(character)?, character, options, &mut Progress::none())
+        Self::of_figure(Arc::new(Figure::of(character)?), character, options, &mut Progress::none())
     }
 
     /// Measures a character that is laid out already, as `figure`.
@@ -59,7 +59,7 @@ impl Measured {
     /// # Errors
     /// As [`measure`]; `Cancelled`.
     pub fn of_figure(
-        figure: Figure,
+        figure: Arc<Figure>,
         character: &Character,
         options: &Options,
         progress: &mut Progress,

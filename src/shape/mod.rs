@@ -10,6 +10,7 @@ pub mod heights;
 pub mod measure;
 pub mod measured;
 pub mod paper;
+pub mod placement;
 pub mod pose;
 pub mod product;
 pub mod stride;

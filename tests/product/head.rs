@@ -2,6 +2,7 @@
 
 use crate::people::Person;
 use crate::tubes::{Tubes, add_mesh, crowd, ellipsoid};
+use superdeform::internals::shape::field::Binding;
 use superdeform::internals::shape::product::head::{head, head_frame, seat_sources};
 use superdeform::internals::shape::product::part::Part;
 use superdeform::{MeshKind, Role};
@@ -72,7 +73,8 @@ fn eyes_are_told_by_their_side_not_by_their_names() {
 fn a_seat_is_measured_on_head_neck_and_chest_without_arms() {
     for tubes in crowd() {
         let (figure, frame) = (&tubes.figure, head_frame(&tubes.anatomy));
-        let sources = seat_sources(figure, &tubes.anatomy, &tubes.bindings.vertices);
+        let bindings: Vec<Binding> = tubes.bindings.vertices.iter().copied().map(Binding::Parts).collect();
+        let sources = seat_sources(figure, &tubes.anatomy, &bindings);
         assert_eq!(sources.vertices.len(), sources.shares.len());
         assert!(sources.bare.len() > 100 && sources.with_hair.len() >= sources.bare.len());
         let count = sources.vertices.len() as u32;

@@ -5,7 +5,7 @@ use super::{Rig, values};
 use clap::builder::ValueParser;
 use clap::{Args, Parser};
 use glam::Vec3;
-use regex::Regex;
+use regex_lite::Regex;
 use std::path::PathBuf;
 use superdeform::options::Features;
 use superdeform::{FaceCurve, FaceHints, GarmentWeights, Height, Mode, Options, Repair, Stage, WeightMethod};

@@ -8,13 +8,14 @@ use crate::input;
 use arguments::{Arguments, Single};
 use clap::error::ErrorKind;
 use clap::{Parser, ValueEnum};
-use regex::Regex;
+use regex_lite::Regex;
 use std::collections::BTreeMap;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use superdeform::internals::character::bones::Group as BoneGroup;
 use superdeform::internals::shape::style::BUILT_IN;
 use superdeform::{Axes, FaceHints, GroupSettings, MeshKind, Options, RigOptions};
+use superdeform_host::conversion::RigChoice;
 use values::Group;
 
 /// The folder for results when no output path is given.
@@ -62,8 +63,8 @@ pub struct Command {
     pub axes: Axes,
     /// Where the target's eyes are, as far as it is said.
     pub face_hints: FaceHints,
-    /// Keep the target's rig or make one; `None` keeps one that can be used.
-    pub rig: Option<Rig>,
+    /// Keep the target's rig or make one.
+    pub rig: RigChoice,
     /// What the auto-rig is told, but for known joints.
     pub rig_options: RigOptions,
     /// Where joints of the target are known: role to position, in the file's units.
@@ -210,7 +211,11 @@ fn command(single: Single) -> Result<Command, Refusal> {
         humanoid: arguments.humanoid,
         reference_humanoid: arguments.reference_humanoid,
         axes,
-        rig: arguments.rig,
+        rig: match arguments.rig {
+            None => RigChoice::Found,
+            Some(Rig::Keep) => RigChoice::Keep,
+            Some(Rig::Auto) => RigChoice::New,
+        },
         rig_options,
         joints: single.joints,
         save_rigged: single.save_rigged,
@@ -421,14 +426,14 @@ mod tests {
             "--joints",
             "joints.json",
         ]);
-        assert_eq!(command.rig, Some(Rig::Auto));
+        assert_eq!(command.rig, RigChoice::New);
         assert_eq!(command.rig_options.method, WeightMethod::Volume);
         assert_eq!(command.rig_options.garments, GarmentWeights::Nearest);
         assert_eq!(command.rig_options.thread_count, 2);
         assert_eq!(command.save_rigged.unwrap(), Path::new("x.glb"));
         assert_eq!(command.joints.unwrap(), Path::new("joints.json"));
         let plain = parsed(&[]);
-        assert_eq!((plain.rig, plain.rig_options), (None, RigOptions::default()));
+        assert_eq!((plain.rig, plain.rig_options), (RigChoice::Found, RigOptions::default()));
         assert_eq!(refused(&["--rig", "keep", "--joints", "joints.json"]).0, 2);
         assert!(refused(&["--save-rigged", "x.vrm"]).1.contains("x.vrm"));
         assert_eq!(refused(&["--body-weights", "wool"]).0, 2);

@@ -2,7 +2,7 @@
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use glam::{DVec3, Vec3};
-use regex::Regex;
+use regex_lite::Regex;
 use std::path::PathBuf;
 use std::str::FromStr;
 use superdeform::options::{OptionInfo, TABLE, Values, find};

@@ -1,10 +1,10 @@
 //! Triangles into samples: depth, light, shade in folds; samples into pixels.
 
 use super::light::{Light, to_display};
-use super::materials::Alpha;
 use super::surface::{PictureMesh, Surface};
 use glam::{Vec2, Vec3, Vec4};
-use image::{Rgb, RgbImage};
+use superdeform_host::image::Sheet;
+use superdeform_host::materials::Alpha;
 
 /// Samples along each side of a pixel.
 pub const SAMPLES: usize = 2;
@@ -153,7 +153,7 @@ impl Canvas {
     }
 
     /// Averages the samples of each pixel and lays them over the sheet.
-    pub fn lay_on(&self, sheet: &mut RgbImage, left: u32, top: u32) {
+    pub fn lay_on(&self, sheet: &mut Sheet, left: u32, top: u32) {
         for y in 0..self.height / SAMPLES {
             for x in 0..self.width / SAMPLES {
                 let mut sum = Vec4::ZERO;
@@ -170,7 +170,7 @@ impl Canvas {
                     continue;
                 }
                 let sum = sum / (SAMPLES * SAMPLES) as f32;
-                let Rgb(under) = sheet.get_pixel_mut(column, row);
+                let under = sheet.at_mut(column, row);
                 for (channel, value) in under.iter_mut().enumerate() {
                     let below = f32::from(*value) * (1.0 - sum.w);
                     *value = (255.0 * sum[channel] + below).round().clamp(0.0, 255.0) as u8;

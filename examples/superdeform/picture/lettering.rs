@@ -1,6 +1,6 @@
 //! A small alphabet for captions: dots on a grid, joined to strokes and drawn smooth at any size.
 
-use image::{Rgb, RgbImage};
+use superdeform_host::image::Sheet;
 
 /// Dots across a letter.
 const COLUMNS: usize = 5;
@@ -40,7 +40,7 @@ const SPACE: usize = 3;
 
 /// Draws `text` with its middle at `centre` and its foot on `line`, `dot` pixels from dot to dot; capitals come out
 /// small, unknown letters as spaces.
-pub fn draw(image: &mut RgbImage, text: &str, centre: f32, line: f32, dot: f32, colour: [u8; 3]) {
+pub fn draw(image: &mut Sheet, text: &str, centre: f32, line: f32, dot: f32, colour: [u8; 3]) {
     let letters: Vec<&[u8; ROWS]> = text
         .chars()
         .map(|letter| {
@@ -99,7 +99,7 @@ fn strokes(rows: &[u8; ROWS]) -> Vec<Stroke> {
     strokes
 }
 
-fn draw_strokes(image: &mut RgbImage, strokes: &[Stroke], corner: [f32; 2], dot: f32, colour: [u8; 3]) {
+fn draw_strokes(image: &mut Sheet, strokes: &[Stroke], corner: [f32; 2], dot: f32, colour: [u8; 3]) {
     let half_width = 0.42 * dot;
     let last_row = corner[1] + ROWS as f32 * dot;
     let last_column = corner[0] + COLUMNS as f32 * dot;
@@ -109,12 +109,12 @@ fn draw_strokes(image: &mut RgbImage, strokes: &[Stroke], corner: [f32; 2], dot:
             let nearest = strokes.iter().map(|stroke| distance(point, stroke)).fold(f32::INFINITY, f32::min);
             let cover = (half_width - nearest * dot + 0.5).clamp(0.0, 1.0);
             if cover > 0.0 {
-                let Rgb(under) = *image.get_pixel(x, y);
+                let under = image.at(x, y);
                 let mixed = [0, 1, 2].map(|channel| {
                     let below = f32::from(under[channel]);
                     (below + (f32::from(colour[channel]) - below) * cover).round() as u8
                 });
-                image.put_pixel(x, y, Rgb(mixed));
+                *image.at_mut(x, y) = mixed;
             }
         }
     }

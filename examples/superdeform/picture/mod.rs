@@ -3,25 +3,20 @@
 //! Orthographic, depth buffer, 2 by 2 samples a pixel. All figures stand on one line at one scale, but for those that
 //! are drawn as tall as another; beside each stands a ruler of heads.
 
-mod appearance;
 mod camera;
 mod canvas;
 mod lettering;
 mod light;
-mod materials;
 mod surface;
 
-pub use appearance::{Appearance, read as read_appearance};
-pub use materials::Material;
 pub use surface::PictureMesh;
 
 use camera::Camera;
 use canvas::{Canvas, Pass, SAMPLES};
 use glam::Vec3;
-use image::{Rgb, RgbImage};
 use light::Light;
-use materials::Alpha;
-use std::io::Cursor;
+use superdeform_host::image::Sheet;
+use superdeform_host::materials::Alpha;
 use surface::Surface;
 
 /// The tallest figure's height in pixels.
@@ -120,7 +115,7 @@ impl Heads {
 }
 
 /// Draws `views` from left to right, each from the front and from its left side, on one ground line.
-pub fn draw(views: &[View]) -> RgbImage {
+pub fn draw(views: &[View]) -> Sheet {
     let mut figures: Vec<Figure> = views.iter().map(Figure::new).collect();
     for (index, view) in views.iter().enumerate() {
         if let Some(other) = view.as_tall_as {
@@ -174,7 +169,7 @@ pub fn draw(views: &[View]) -> RgbImage {
 /// Draws the head of `view` from the front, square, as large as fits into `size` pixels.
 ///
 /// `chin`: its height along up; what is above it is the head, with hair and hat.
-pub fn portrait(view: &View, chin: f32, size: u32) -> RgbImage {
+pub fn portrait(view: &View, chin: f32, size: u32) -> Sheet {
     let figure = Figure::new(view);
     let camera = &figure.cameras[0];
     let seen = |point: &Vec3| [point.dot(camera.right), point.dot(camera.up)];
@@ -196,19 +191,7 @@ pub fn portrait(view: &View, chin: f32, size: u32) -> RgbImage {
     draw_figure(&mut sheet, view, &figure, camera, pixels, [origin[0] + border, origin[1] + border]);
     let column = border + origin[0] + 0.5 * (left + right) * pixels - 0.5 * border;
     let row = border + origin[1] - 0.5 * (camera.high.y + chin) * pixels - 0.5 * border;
-    image::imageops::crop_imm(&sheet, column.max(0.0) as u32, row.max(0.0) as u32, size, size).to_image()
-}
-
-/// A sheet as PNG.
-///
-/// # Errors
-/// One sentence with the encoder's reason.
-pub fn png(sheet: &RgbImage) -> Result<Vec<u8>, String> {
-    let mut bytes = Cursor::new(Vec::new());
-    sheet
-        .write_to(&mut bytes, image::ImageFormat::Png)
-        .map_err(|error| format!("the picture cannot be encoded: {error}"))?;
-    Ok(bytes.into_inner())
+    sheet.part(column.max(0.0) as u32, row.max(0.0) as u32, size, size)
 }
 
 struct Figure {
@@ -254,12 +237,12 @@ fn scale(figures: &[Figure]) -> f32 {
 }
 
 /// A small ring around a point of the sheet.
-fn ring(sheet: &mut RgbImage, at: [f32; 2]) {
+fn ring(sheet: &mut Sheet, at: [f32; 2]) {
     ink(sheet, [at, at], MARK_RADIUS + 1.0, MARK_COLOUR, |away| 1.0 - (away - MARK_RADIUS).abs());
 }
 
 /// Bones with a dot at their joints; `place` gives where a point is on the sheet. Doubted ones lie over the others.
-fn draw_bones(sheet: &mut RgbImage, bones: &[Bone], place: impl Fn(Vec3) -> [f32; 2]) {
+fn draw_bones(sheet: &mut Sheet, bones: &[Bone], place: impl Fn(Vec3) -> [f32; 2]) {
     for doubted in [false, true] {
         let colour = if doubted { DOUBTED_COLOUR } else { BONE_COLOUR };
         for bone in bones.iter().filter(|bone| bone.doubted == doubted) {
@@ -274,7 +257,7 @@ fn draw_bones(sheet: &mut RgbImage, bones: &[Bone], place: impl Fn(Vec3) -> [f32
 
 /// Inks what lies within `reach` pixels of a line on the sheet, as much as `share` says of how far away it is, 0..1.
 fn ink(
-    sheet: &mut RgbImage,
+    sheet: &mut Sheet,
     [from, to]: [[f32; 2]; 2],
     reach: f32,
     colour: [u8; 3],
@@ -291,7 +274,7 @@ fn ink(
             let way = ((off[0] * along[0] + off[1] * along[1]) / length).clamp(0.0, 1.0);
             let away = (off[0] - way * along[0]).hypot(off[1] - way * along[1]);
             let share = share(away).clamp(0.0, 1.0);
-            let Rgb(under) = sheet.get_pixel_mut(column, row);
+            let under = sheet.at_mut(column, row);
             for (channel, value) in under.iter_mut().enumerate() {
                 *value = (f32::from(*value) * (1.0 - share) + f32::from(colour[channel]) * share) as u8;
             }
@@ -299,13 +282,13 @@ fn ink(
     }
 }
 
-fn background(width: u32, height: u32, ground: f32) -> RgbImage {
-    let mut sheet = RgbImage::from_fn(width, height, |_, y| {
+fn background(width: u32, height: u32, ground: f32) -> Sheet {
+    let mut sheet = Sheet::of(width, height, |_, y| {
         let share = y as f32 / height as f32;
-        Rgb([0, 1, 2].map(|channel| {
+        [0, 1, 2].map(|channel| {
             let (from, to) = (BACKGROUND_TOP[channel], BACKGROUND_BOTTOM[channel]);
             (from + (to - from) * share).round() as u8
-        }))
+        })
     });
     let margin = FIGURE_GAP / 2.0;
     fill(&mut sheet, [margin, width as f32 - margin], [ground, ground + 2.0], GROUND_COLOUR);
@@ -313,19 +296,19 @@ fn background(width: u32, height: u32, ground: f32) -> RgbImage {
 }
 
 /// Fills a rectangle, from and to along each side in pixels; what is outside the sheet is left out.
-fn fill(sheet: &mut RgbImage, columns: [f32; 2], rows: [f32; 2], colour: [u8; 3]) {
+fn fill(sheet: &mut Sheet, columns: [f32; 2], rows: [f32; 2], colour: [u8; 3]) {
     let range = |[from, to]: [f32; 2], size: u32| {
         (from.round().max(0.0) as u32)..(to.round().max(0.0) as u32).min(size)
     };
     for y in range(rows, sheet.height()) {
         for x in range(columns, sheet.width()) {
-            sheet.put_pixel(x, y, Rgb(colour));
+            *sheet.at_mut(x, y) = colour;
         }
     }
 }
 
 /// A line down from the first of `rows` to the last with a tick at each, and the number of every whole head.
-fn ruler(sheet: &mut RgbImage, column: f32, rows: &[f32]) {
+fn ruler(sheet: &mut Sheet, column: f32, rows: &[f32]) {
     let [first, .., last] = rows else { return };
     fill(sheet, [column, column + 1.0], [*first, *last], RULER_COLOUR);
     for (index, &row) in rows.iter().enumerate() {
@@ -338,7 +321,7 @@ fn ruler(sheet: &mut RgbImage, column: f32, rows: &[f32]) {
 }
 
 /// A soft patch under the feet.
-fn shadow(sheet: &mut RgbImage, centre: f32, ground: f32, foot_width: f32) {
+fn shadow(sheet: &mut Sheet, centre: f32, ground: f32, foot_width: f32) {
     let (half_width, half_height) = (0.62 * foot_width + 14.0, 9.0);
     for y in (ground - half_height).max(0.0) as u32..((ground + half_height) as u32).min(sheet.height()) {
         let last = ((centre + half_width).max(0.0) as u32).min(sheet.width());
@@ -347,14 +330,14 @@ fn shadow(sheet: &mut RgbImage, centre: f32, ground: f32, foot_width: f32) {
             let down = (y as f32 - ground) / half_height;
             let depth = (1.0 - across * across - down * down).max(0.0);
             let keep = 1.0 - 0.32 * depth * depth;
-            let Rgb(under) = sheet.get_pixel_mut(x, y);
+            let under = sheet.at_mut(x, y);
             *under = under.map(|channel| (f32::from(channel) * keep) as u8);
         }
     }
 }
 
 fn draw_figure(
-    sheet: &mut RgbImage,
+    sheet: &mut Sheet,
     view: &View,
     figure: &Figure,
     camera: &Camera,
@@ -395,6 +378,7 @@ fn draw_figure(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use superdeform_host::materials::Material;
 
     const FRONT: [[u32; 3]; 2] = [[0, 1, 2], [0, 2, 3]];
 
@@ -433,14 +417,14 @@ mod tests {
         }
     }
 
-    fn drawn(meshes: &[Part]) -> RgbImage {
+    fn drawn(meshes: &[Part]) -> Sheet {
         draw(&[view(meshes)])
     }
 
     /// The middle of the front view.
-    fn middle(sheet: &RgbImage) -> [u8; 3] {
+    fn middle(sheet: &Sheet) -> [u8; 3] {
         let half = FIGURE_HEIGHT / 2.0;
-        sheet.get_pixel((FIGURE_GAP + half) as u32, (TOP + half) as u32).0
+        sheet.at((FIGURE_GAP + half) as u32, (TOP + half) as u32)
     }
 
     #[test]
@@ -481,7 +465,7 @@ mod tests {
         let count = |bones: Vec<Bone>, colour: [u8; 3]| {
             let sheet = draw(&[View { bones, ..view(&[(&near, &FRONT, &white)]) }]);
             let columns: Vec<u32> = (0..sheet.width())
-                .filter(|&x| (0..sheet.height()).filter(|&y| sheet.get_pixel(x, y).0 == colour).count() > 50)
+                .filter(|&x| (0..sheet.height()).filter(|&y| sheet.at(x, y) == colour).count() > 50)
                 .collect();
             // Neighbouring columns are one line.
             columns.iter().enumerate().filter(|&(i, x)| i == 0 || columns[i - 1] + 1 != *x).count()

@@ -1,9 +1,9 @@
 //! The surface of a mesh: normals, and its colour at any point before light.
 
 use super::light::TO_LINEAR;
-use super::materials::{Material, Texture, Wrap};
 use glam::{Vec2, Vec3, Vec4};
-use image::RgbaImage;
+use superdeform_host::image::Image;
+use superdeform_host::materials::{Material, Texture, Wrap};
 
 /// One mesh: vertices in model space and what they look like. Lists that are empty are not there.
 #[derive(Clone, Debug)]
@@ -77,26 +77,26 @@ impl PictureMesh<'_> {
 
 /// The texture's linear colour and alpha at `uv`, mixed from the four texels around it.
 fn look_up(texture: &Texture, uv: Vec2) -> Vec4 {
-    let image: &RgbaImage = &texture.image;
+    let image: &Image = &texture.image;
     let [u, v] = texture.transform.map(|[by_u, by_v, offset]| by_u * uv.x + by_v * uv.y + offset);
-    if image.is_empty() || !u.is_finite() || !v.is_finite() {
+    if image.pixels.is_empty() || !u.is_finite() || !v.is_finite() {
         return Vec4::ONE;
     }
-    let (x, y) = (u * image.width() as f32 - 0.5, v * image.height() as f32 - 0.5);
+    let (x, y) = (u * image.width as f32 - 0.5, v * image.height() as f32 - 0.5);
     let (left, top) = (x.floor(), y.floor());
     let mut mixed = Vec4::ZERO;
     for (right, down) in [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)] {
-        let column = texel(left + right, image.width(), texture.wrap[0]);
+        let column = texel(left + right, image.width, texture.wrap[0]);
         let row = texel(top + down, image.height(), texture.wrap[1]);
         let share = (1.0 - (left + right - x).abs()) * (1.0 - (top + down - y).abs());
-        let [red, green, blue, alpha] = image.get_pixel(column, row).0;
+        let [red, green, blue, alpha] = image.at(column, row);
         let linear = [red, green, blue].map(|channel| TO_LINEAR[channel as usize]);
         mixed += share * Vec3::from(linear).extend(f32::from(alpha) / 255.0);
     }
     mixed
 }
 
-fn texel(position: f32, size: u32, wrap: Wrap) -> u32 {
+fn texel(position: f32, size: usize, wrap: Wrap) -> usize {
     let count = size as f32;
     let inside = match wrap {
         Wrap::Clamp => position,
@@ -106,7 +106,7 @@ fn texel(position: f32, size: u32, wrap: Wrap) -> u32 {
             if there < count { there } else { 2.0 * count - 1.0 - there }
         }
     };
-    (inside.max(0.0) as u32).min(size - 1)
+    (inside.max(0.0) as usize).min(size - 1)
 }
 
 #[cfg(test)]

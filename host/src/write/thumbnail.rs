@@ -136,7 +136,12 @@ mod tests {
             "materials": materials,
             "extensions": extensions,
         });
-        GltfFile { name: "a.vrm".to_string(), json, binary: b"skin....face........".to_vec() }
+        GltfFile {
+            name: "a.vrm".to_string(),
+            json,
+            binary: b"skin....face........".to_vec(),
+            ..GltfFile::default()
+        }
     }
 
     fn bytes(file: &GltfFile, image: usize) -> &[u8] {

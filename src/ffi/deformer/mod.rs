@@ -82,6 +82,26 @@ pub unsafe extern "C" fn sdef_deformer_set_options(
     unsafe { call(error, body) }
 }
 
+/// Changes the style of a deformer, with the same results as a new one and for less: the character is not measured again.
+///
+/// Errors: as sdef_deformer_create, after which the deformer is as it was; BUSY.
+#[ffi_export]
+pub unsafe extern "C" fn sdef_deformer_set_style(
+    deformer: SdefDeformer,
+    style: SdefStyle,
+    progress: SdefProgress,
+    user: *mut c_void,
+    error: *mut SdefError,
+) -> SdefStatus {
+    let body = || {
+        let state = handles::deformer(deformer)?;
+        let style = handles::style(style)?;
+        let mut callback = progress_of(progress, user);
+        handles::write(&state, "deformer")?.set_style(&style, &mut Progress::new(&mut callback))
+    };
+    unsafe { call(error, body) }
+}
+
 /// Deforms the meshes, into the caller's arrays.
 ///
 /// results:        mesh_count structs in the order of the character's meshes, all of one struct_size

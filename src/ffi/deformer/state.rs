@@ -50,8 +50,18 @@ impl DeformerState {
 
     /// Changes its options; after an error it is as it was.
     pub fn set_options(&mut self, options: &Options, progress: &mut Progress) -> Outcome {
+        self.change(options.thread_count, |deformer| deformer.set_options(options, progress))
+    }
+
+    /// Changes its style; after an error it is as it was.
+    pub fn set_style(&mut self, style: &Style, progress: &mut Progress) -> Outcome {
+        let threads = self.deformer.options().thread_count;
+        self.change(threads, |deformer| deformer.set_style(style, progress))
+    }
+
+    fn change(&mut self, threads: usize, change: impl FnOnce(&mut Deformer) -> crate::Result<()>) -> Outcome {
         let bytes = memory::to_deform(self.deformer.character());
-        memory::with(bytes, options.thread_count, || Ok(self.deformer.set_options(options, progress)?))?;
+        memory::with(bytes, threads, || Ok(change(&mut self.deformer)?))?;
         self.report = OnceLock::new();
         Ok(())
     }
@@ -225,7 +235,7 @@ impl Places {
     fn write_targets(&self, targets: &[SparseTarget]) {
         for (target, places) in targets.iter().zip(&self.morphs) {
             for (place, deltas) in places.iter().zip(&target.deltas) {
-                place.write_sparse(target.vertices, deltas.as_deref().unwrap_or_default(), Vec3::ZERO);
+                place.write_sparse(&target.vertices, deltas.as_deref().unwrap_or_default(), Vec3::ZERO);
             }
         }
     }

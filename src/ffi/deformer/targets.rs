@@ -9,6 +9,7 @@ use crate::ffi::guard::{Failure, Outcome};
 use crate::pipeline::Deformer;
 use crate::pipeline::morphs::GivenTarget;
 use glam::Vec3;
+use std::sync::Arc;
 
 /// Positions, normals and tangents of all targets, which are read and written.
 pub struct Deltas {
@@ -75,7 +76,7 @@ impl Deltas {
             let range = end..end + count as usize;
             end = range.end;
             let deltas = self.given.each_ref().map(|deltas| deltas.get(range.clone()).unwrap_or_default());
-            GivenTarget { vertices: &vertices[range], deltas, is_dense: false }
+            GivenTarget { vertices: Arc::new(vertices[range].to_vec()), deltas, is_dense: false }
         };
         let given: Vec<GivenTarget> = counts.iter().map(target).collect();
         let mut first = 0;

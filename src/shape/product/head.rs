@@ -1,12 +1,11 @@
 //! What the face step needs of a figure's head.
 
 use super::anatomy::Anatomy;
-use super::binding::PartBinding;
-use super::part::Part;
 use crate::character::{Character, MeshKind, Role};
 use crate::face::head::{Head, HeadFrame, HeadParts};
 use crate::face::seat::SeatSources;
 use crate::geometry::SEAM;
+use crate::shape::field::Binding;
 use crate::shape::figure::Figure;
 use glam::{DVec2, DVec3};
 
@@ -50,11 +49,11 @@ pub fn head_frame(anatomy: &Anatomy) -> HeadFrame {
 const SEAT_REACH: (f64, f64) = (0.4, 1.2);
 
 /// What the seat of a figure's head is measured on: the middle of what is not an arm.
-pub fn seat_sources(figure: &Figure, anatomy: &Anatomy, bindings: &[PartBinding]) -> SeatSources {
+pub fn seat_sources(figure: &Figure, anatomy: &Anatomy, bindings: &[Binding]) -> SeatSources {
     let frame = head_frame(anatomy);
     let is_near = |vertex: usize| {
         let p = frame.to_unit(figure.positions[vertex]);
-        let arms: f32 = bindings[vertex].weights[Part::LeftUpperArm as usize..].iter().take(6).sum();
+        let arms = bindings[vertex].arms_weight();
         p.x.abs() < SEAT_REACH.0 && p.y > -SEAT_REACH.1 && arms < 0.5
     };
     let is_near: Vec<bool> = (0..figure.positions.len()).map(is_near).collect();

@@ -5,6 +5,7 @@
 
 pub mod anatomy;
 pub mod binding;
+pub mod body;
 pub mod coefficients;
 pub mod curtain;
 pub mod field;
@@ -21,8 +22,11 @@ pub mod pieces;
 pub mod profile;
 pub mod repair;
 pub mod scales;
+pub mod sliced;
 pub mod smoothing;
 pub mod strand;
+pub mod strands;
+pub mod target;
 pub mod turned;
 pub mod weights;
 pub mod worn;

@@ -1,16 +1,17 @@
 //! Strands of hair: connected pieces, which of them part before the eyes and which lie on the body, and what moves them.
 
-use super::Target;
-use super::attach::Bindings;
+use super::anatomy::Anatomy;
+use super::curtain::sides;
+use super::head::head_frame;
+use super::long_hair::{Axis, LongHair};
+use super::part::Part;
+use super::pieces::Attachment;
+use crate::character::Character;
 use crate::geometry::components;
+use crate::shape::Measured;
 use crate::shape::field::Binding;
+use crate::shape::figure::Figure;
 use crate::shape::heights::Heights;
-use crate::shape::product::anatomy::Anatomy;
-use crate::shape::product::curtain::sides;
-use crate::shape::product::head::head_frame;
-use crate::shape::product::long_hair::{Axis, LongHair};
-use crate::shape::product::part::Part;
-use crate::shape::product::pieces::Attachment;
 use glam::DVec3;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -19,41 +20,37 @@ use std::sync::Arc;
 #[derive(Debug)]
 pub struct Strands {
     /// The hair's vertices, ascending, and the strand of each.
-    pub(super) vertices: Vec<u32>,
-    pub(super) of_vertices: Vec<u32>,
+    pub vertices: Vec<u32>,
+    /// See `vertices`.
+    pub of_vertices: Vec<u32>,
     /// The strand that a joint moves, or hangs from.
-    pub(super) of_joints: Vec<Option<u32>>,
+    pub of_joints: Vec<Option<u32>>,
     /// To which side each strand parts, where they do.
-    pub(super) sides: Option<Vec<f64>>,
+    pub sides: Option<Vec<f64>>,
     /// What lies on the body.
-    pub(super) long: Option<Arc<LongHair>>,
+    pub long: Option<Arc<LongHair>>,
 }
 
 /// Where on the torso's axis long hair is measured about, from the crotch (0) to the shoulder line (1).
 const AXIS_HEIGHT: f64 = 0.7;
 
 /// A point of the torso's axis.
-pub(super) fn torso_axis(anatomy: &Anatomy) -> DVec3 {
+pub fn torso_axis(anatomy: &Anatomy) -> DVec3 {
     let Heights { crotch, shoulder_line, .. } = anatomy.landmarks.heights;
     let y = crotch + AXIS_HEIGHT * (shoulder_line - crotch);
     DVec3::new(anatomy.middle_x, y, anatomy.centre_z(y).0)
 }
 
 impl Strands {
-    /// The hair of `target`, attached to parts by `bindings`.
-    pub fn of(target: &Target, bindings: &Bindings) -> Self {
-        let measured = &target.measured;
+    /// The hair of `character`, whose vertices are attached to parts by `bindings`.
+    pub fn of(character: &Character, measured: &Measured, bindings: &[Binding]) -> Self {
         let figure = &measured.figure;
-        let weight = |vertex: usize, part: Part| match &bindings.vertices[vertex] {
-            Binding::Parts(binding) => binding.weights[part as usize],
-            _ => 0.0,
-        };
-        let is_hair = |vertex: usize| weight(vertex, Part::Hair) > 0.5;
+        let is_hair = |vertex: usize| bindings[vertex].weight(Part::Hair) > 0.5;
         let triangles = figure.triangles_where(is_hair);
-        let component = components(&triangles, &target.measured.weld);
+        let component = components(&triangles, &measured.weld);
         let mut strands: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
         for vertex in (0..figure.positions.len()).filter(|&vertex| is_hair(vertex)) {
-            let welded = target.measured.weld.representative[vertex] as usize;
+            let welded = measured.weld.representative[vertex] as usize;
             strands.entry(component[welded]).or_default().push(vertex as u32);
         }
         let strands: Vec<Vec<u32>> = strands.into_values().collect();
@@ -74,8 +71,8 @@ impl Strands {
             .collect();
         let covered = measured.face.as_ref().map_or(0.0, |face| face.covered);
         let is_body = |vertex: usize| {
-            let Binding::Parts(binding) = &bindings.vertices[vertex] else { return false };
-            let arms: f32 = binding.weights[Part::LeftUpperArm as usize..].iter().take(6).sum();
+            let Binding::Parts(binding) = &bindings[vertex] else { return false };
+            let arms = bindings[vertex].arms_weight();
             let is_plain = binding.attachment == Attachment::Plain && !figure.is_carried(vertex);
             is_plain && arms < 0.5 && !is_hair(vertex)
         };
@@ -85,7 +82,7 @@ impl Strands {
             None
         } else {
             let body = figure.triangles_where(is_body);
-            LongHair::of(&figure.positions, &figure.triangles, &target.measured.weld, &strands, &body, axis)
+            LongHair::of(&figure.positions, &figure.triangles, &measured.weld, &strands, &body, axis)
         };
         let mut hair = Self {
             vertices,
@@ -94,17 +91,16 @@ impl Strands {
             sides: sides(&points, covered),
             long: long.map(Arc::new),
         };
-        hair.of_joints = hair.of_joints(target);
+        hair.of_joints = hair.of_joints(character, figure);
         hair
     }
 
     /// The strand of each joint that no role is of: the one that it moves most of, else its parent's.
-    fn of_joints(&self, target: &Target) -> Vec<Option<u32>> {
-        let skeleton = &target.character.skeleton;
-        let figure = &target.measured.figure;
+    fn of_joints(&self, character: &Character, figure: &Figure) -> Vec<Option<u32>> {
+        let skeleton = &character.skeleton;
         let mut moved: Vec<BTreeMap<u32, f32>> = vec![BTreeMap::new(); skeleton.joints.len()];
         let mut hair = self.vertices.iter().zip(&self.of_vertices).peekable();
-        for (mesh, &start) in target.character.meshes.iter().zip(&figure.mesh_starts) {
+        for (mesh, &start) in character.meshes.iter().zip(&figure.mesh_starts) {
             for (vertex, row) in mesh.weights.rows().enumerate() {
                 let here = (start + vertex) as u32;
                 // Past what no weights are of.
@@ -126,11 +122,13 @@ impl Strands {
         of
     }
 
-    pub(super) fn side(&self, strand: u32) -> Option<f64> {
+    /// The side that a strand parts to.
+    pub fn side(&self, strand: u32) -> Option<f64> {
         self.sides.as_ref().map(|sides| sides[strand as usize])
     }
 
-    pub(super) fn lies(&self, strand: u32) -> bool {
+    /// True for a strand that lies on the body.
+    pub fn lies(&self, strand: u32) -> bool {
         self.long.as_ref().is_some_and(|long| long.lies[strand as usize])
     }
 }

@@ -1,9 +1,17 @@
 //! How bright meshes are, told to the library: by it the face step sees painted irises and brows.
 
-use crate::picture::Appearance;
+use crate::appearance::Appearance;
+use crate::load::Loaded;
 use glam::Vec2;
 use std::sync::Arc;
 use superdeform::{Character, Shade};
+
+/// The character of `loaded` with the shades of its textures.
+pub fn painted(loaded: &Loaded) -> Character {
+    let mut character = loaded.character.clone();
+    shade(&mut character, &Appearance::of(loaded, 1));
+    character
+}
 
 /// Gives textured meshes of `character` the shade of their base colour; others keep none.
 pub fn shade(character: &mut Character, seen: &Appearance) {

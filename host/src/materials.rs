@@ -1,17 +1,19 @@
-//! Base colours and their textures out of a glTF document: what a picture needs of a material, and no more.
+//! Base colours and their textures out of a glTF document: what the face step and a picture need of a material.
 //!
 //! VRM's MToon keeps its lit colour and texture where core glTF has them; an old VRM 0.x may have them only in its
 //! own list, and an old exporter only in the specular-glossiness extension, so these are read too.
 
-use image::RgbaImage;
-use image::imageops::thumbnail;
+use crate::file::GltfFile;
+use crate::image::Image;
+use crate::{array_at, index_at};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use superdeform::GreyImage;
+use superdeform::internals::parallel;
 
 /// Longest side of a decoded texture: a figure in a picture is about this many pixels tall.
-const TEXTURE_SIZE: u32 = 512;
+const TEXTURE_SIZE: usize = 512;
 
 /// How alpha is used.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -41,7 +43,7 @@ pub enum Wrap {
 #[derive(Clone, Debug)]
 pub struct Texture {
     /// sRGB colours and alpha.
-    pub image: Arc<RgbaImage>,
+    pub image: Arc<Image>,
     /// How bright the whole image is, for the face step.
     pub grey: Arc<GreyImage>,
     /// Along u and along v.
@@ -81,11 +83,12 @@ impl Default for Material {
     }
 }
 
-/// The materials of `document` (a glTF file's JSON) in its order; `blob` is the binary chunk.
+/// The materials of `file` in its order; its images are decoded by at most `threads` threads, 0 for all cores.
 ///
-/// An image that is not PNG or JPEG inside the file, or is damaged, is left out: its material is then plain.
-pub fn materials(document: &Value, blob: &[u8]) -> Vec<Material> {
-    let mut read: Vec<(Material, Option<usize>)> = list(document, "materials")
+/// An image that is neither PNG nor JPEG, is damaged or not there, is left out: its material is then plain.
+pub fn materials(file: &GltfFile, threads: usize) -> Vec<Material> {
+    let document = &file.json;
+    let mut read: Vec<(Material, Option<usize>)> = array_at(document, "materials")
         .iter()
         .enumerate()
         .map(|(index, material)| one_material(document, material, index))
@@ -94,7 +97,10 @@ pub fn materials(document: &Value, blob: &[u8]) -> Vec<Material> {
         read.iter().filter_map(|(_, texture)| image_index(document, (*texture)?)).collect();
     sources.sort_unstable();
     sources.dedup();
-    let images = decode(document, blob, &sources);
+    // This is most of what a picture costs.
+    let images = parallel::collect(threads, sources.len(), 1, |index| decode(file, sources[index]));
+    let images: BTreeMap<usize, Decoded> =
+        sources.iter().zip(images).filter_map(|(&source, image)| Some((source, image?))).collect();
     for (material, texture) in &mut read {
         let Some(texture) = *texture else { continue };
         let image = image_index(document, texture).and_then(|image| images.get(&image));
@@ -121,9 +127,9 @@ fn one_material(document: &Value, material: &Value, index: usize) -> (Material, 
         info = &glossy["diffuseTexture"];
     }
     let old = &document["extensions"]["VRM"]["materialProperties"][index];
-    let mut texture = whole(&info["index"]);
+    let mut texture = index_at(info, "index");
     if info.is_null() {
-        texture = whole(&old["textureProperties"]["_MainTex"]);
+        texture = index_at(&old["textureProperties"], "_MainTex");
     }
     let mut base_colour = [1.0; 4];
     for (channel, value) in base_colour.iter_mut().enumerate() {
@@ -140,7 +146,7 @@ fn one_material(document: &Value, material: &Value, index: usize) -> (Material, 
         || shader.contains("MToon")
         || shader.contains("Unlit");
     let move_by = &info["extensions"]["KHR_texture_transform"];
-    let uv_set = whole(&move_by["texCoord"]).or(whole(&info["texCoord"])).unwrap_or(0);
+    let uv_set = index_at(move_by, "texCoord").or(index_at(info, "texCoord")).unwrap_or(0);
     let material = Material {
         base_colour,
         texture: texture.map(|texture| Texture {
@@ -169,7 +175,7 @@ fn transform(extension: &Value) -> [[f32; 3]; 2] {
 
 fn wrap(document: &Value, texture: usize) -> [Wrap; 2] {
     let texture = &document["textures"][texture];
-    let Some(sampler) = whole(&texture["sampler"]) else {
+    let Some(sampler) = index_at(texture, "sampler") else {
         return [Wrap::Repeat; 2];
     };
     ["wrapS", "wrapT"].map(|key| match document["samplers"][sampler][key].as_u64() {
@@ -180,67 +186,34 @@ fn wrap(document: &Value, texture: usize) -> [Wrap; 2] {
 }
 
 fn image_index(document: &Value, texture: usize) -> Option<usize> {
-    whole(&document["textures"][texture]["source"])
+    index_at(&document["textures"][texture], "source")
 }
 
 /// A decoded image, small, and how bright it is.
-type Decoded = (Arc<RgbaImage>, Arc<GreyImage>);
+type Decoded = (Arc<Image>, Arc<GreyImage>);
 
-/// Decodes the images with these indices, several at a time: this is most of what a picture costs.
-fn decode(document: &Value, blob: &[u8], sources: &[usize]) -> BTreeMap<usize, Decoded> {
-    let thread_count = std::thread::available_parallelism().map_or(1, usize::from);
-    let chunk = sources.len().div_ceil(thread_count).max(1);
-    std::thread::scope(|scope| {
-        let workers: Vec<_> = sources
-            .chunks(chunk)
-            .map(|part| {
-                scope.spawn(move || {
-                    part.iter()
-                        .filter_map(|&source| Some((source, one_image(document, blob, source)?)))
-                        .collect::<Vec<_>>()
-                })
-            })
-            .collect();
-        // A decoder that panics costs its images, not the run.
-        workers.into_iter().filter_map(|worker| worker.join().ok()).flatten().collect()
-    })
-}
-
-fn one_image(document: &Value, blob: &[u8], source: usize) -> Option<Decoded> {
-    let view = &document["bufferViews"][whole(&document["images"][source]["bufferView"])?];
-    let start = whole(&view["byteOffset"]).unwrap_or(0);
-    let end = start.checked_add(whole(&view["byteLength"])?)?;
-    let image = image::load_from_memory(blob.get(start..end)?).ok()?.into_rgba8();
+fn decode(file: &GltfFile, source: usize) -> Option<Decoded> {
+    let image = Image::decode(&file.image(source)?)?;
     let grey = Arc::new(grey(&image));
-    let longest = image.width().max(image.height());
-    if longest <= TEXTURE_SIZE {
-        return Some((Arc::new(image), grey));
-    }
-    let side = |length: u32| (u64::from(length) * u64::from(TEXTURE_SIZE) / u64::from(longest)).max(1) as u32;
-    Some((Arc::new(thumbnail(&image, side(image.width()), side(image.height()))), grey))
+    Some((Arc::new(image.shrunk(TEXTURE_SIZE)), grey))
 }
 
 /// Luma of Rec. 709, of sRGB values.
-fn grey(image: &RgbaImage) -> GreyImage {
+fn grey(image: &Image) -> GreyImage {
     let luma = |row: usize, column: usize| {
-        let [red, green, blue, _] = image.get_pixel(column as u32, row as u32).0.map(u32::from);
+        let [red, green, blue, _] = image.at(column, row).map(u32::from);
         ((54 * red + 183 * green + 19 * blue) / 256) as u8
     };
-    GreyImage::new(image.width() as usize, image.height() as usize, luma)
+    GreyImage::new(image.width, image.height(), luma)
 }
-
-fn list<'a>(document: &'a Value, key: &str) -> &'a [Value] {
-    document[key].as_array().map_or(&[], Vec::as_slice)
-}
-
-fn whole(value: &Value) -> Option<usize> {
-    value.as_u64().map(|number| number as usize)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use serde_json::json;
+
+    fn file(json: Value, binary: &[u8]) -> GltfFile {
+        GltfFile { json, binary: binary.to_vec(), ..GltfFile::default() }
+    }
 
     #[test]
     fn a_plain_material_has_its_factor_and_alpha() {
@@ -248,7 +221,7 @@ mod tests {
             {"pbrMetallicRoughness": {"baseColorFactor": [0.5, 0.25, 0, 1]}, "alphaMode": "MASK", "alphaCutoff": 0.3},
             {"doubleSided": true, "alphaMode": "BLEND", "extensions": {"KHR_materials_unlit": {}}},
         ]});
-        let read = materials(&document, &[]);
+        let read = materials(&file(document, &[]), 1);
         assert_eq!(read[0].base_colour, [0.5, 0.25, 0.0, 1.0]);
         assert_eq!(read[0].alpha, Alpha::Mask(0.3));
         assert!(!read[0].double_sided && !read[0].unlit && read[0].texture.is_none());
@@ -264,7 +237,8 @@ mod tests {
             "images": [{"bufferView": 0}],
             "bufferViews": [{"byteOffset": 2, "byteLength": 100}],
         });
-        assert!(materials(&document, &[1, 2, 3])[0].texture.is_none());
-        assert!(materials(&document, &[7; 200])[0].texture.is_none());
+        for bytes in [&[1, 2, 3][..], &[7; 200]] {
+            assert!(materials(&file(document.clone(), bytes), 1)[0].texture.is_none());
+        }
     }
 }

@@ -1,34 +1,32 @@
-//! The paper's own way in order: coefficients (Eqs. 9-11), skeleton (Eqs. 1-4), mesh (Eqs. 5-8).
+//! The body of paper mode: coefficients (Eqs. 9-11), skeleton (Eqs. 1-4), mesh (Eqs. 5-8).
 
-use super::attach::{Bindings, GroundContact, Placement, joint_bindings};
-use super::{Deformation, Target};
+use super::coefficients::coefficients;
+use super::field::{BoneBinding, BoneField, PaperField};
+use super::shorten::shorten;
 use crate::character::bones::Bone;
-use crate::character::{MeshKind, Role};
+use crate::character::{Character, MeshKind, Role};
 use crate::error::{Error, ErrorKind, Result};
 use crate::geometry::{Weld, bounds, components};
 use crate::options::Options;
+use crate::shape::Measured;
 use crate::shape::field::{Binding, BodyField, Field};
 use crate::shape::figure::Figure;
 use crate::shape::measured::is_of_head;
-use crate::shape::paper::coefficients::coefficients;
-use crate::shape::paper::field::{BoneBinding, BoneField, PaperField};
-use crate::shape::paper::shorten::shorten;
-use crate::shape::product::repair::Pushed;
+use crate::shape::placement::{Bindings, Body, GroundContact, Placement, joint_bindings};
 use crate::shape::style::Style;
 use glam::DVec3;
 use std::collections::{BTreeMap, BTreeSet};
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 
-/// The paper's way to give `target` the style.
+/// The paper's way to give `character` the style.
 ///
 /// # Errors
 /// `BadOption` for a style of N heads; as [`coefficients`].
-pub fn deform(target: &Target, style: &Style, options: &Options) -> Result<Deformation> {
+pub fn body(character: &Character, measured: &Measured, style: &Style, options: &Options) -> Result<Body> {
     let Style::Shape(reference) = style else {
         let message = "the paper's mode needs a reference, and a style for N heads has none: give one, or choose product mode";
         return Err(Error::new(ErrorKind::BadOption, message).about("mode"));
     };
-    let measured = &target.measured;
     let (groups, bone_groups) = (&options.groups, &options.bone_groups);
     let found = coefficients(&measured.shape, reference, options.head_scale, groups, bone_groups)?;
     let all: BTreeSet<Role> = measured.joints.keys().copied().collect();
@@ -36,29 +34,24 @@ pub fn deform(target: &Target, style: &Style, options: &Options) -> Result<Defor
     let (joints, head_top) = (&measured.joints, measured.head_top);
     let shortened = shorten(&bones, joints, head_top, &found.groups);
     let field = BoneField::new(&bones, joints, head_top, &shortened, &found.groups);
-    let bindings = bindings(target, &field);
+    let bindings = bindings(character, measured, &field);
     let field = Field::of(Arc::new(BodyField::Bones(PaperField { bones: field, stage: options.stage })));
     let figure = &measured.figure;
     let placed = Placement::new(figure, &bindings, &field, options.thread_count).all_placed();
-    Ok(Deformation {
-        bindings,
-        body: field.body,
+    Ok(Body {
+        bindings: Arc::new(bindings),
+        field: field.body,
         placed: Arc::new(placed),
-        hair_offsets: Vec::new(),
-        pushed: Pushed::default(),
-        whole: 1.0,
         head_ratio: found.head_ratio,
         coefficients: found.groups,
         warnings: found.warnings,
         heads_left: None,
-        product: None,
-        face_box: OnceLock::new(),
     })
 }
 
 /// Everything by its weights, hats and glasses with the face as a whole; it stands on what is no hair.
-fn bindings(target: &Target, field: &BoneField) -> Bindings {
-    let figure = &target.measured.figure;
+fn bindings(character: &Character, measured: &Measured, field: &BoneField) -> Bindings {
+    let figure = &measured.figure;
     let bind = |p: DVec3, weights: &[(Role, f64)]| BoneBinding {
         weights: field.bone_weights(p, weights),
         head: weights.iter().filter(|&&(role, _)| role.is_head()).map(|&(_, weight)| weight).sum(),
@@ -67,12 +60,12 @@ fn bindings(target: &Target, field: &BoneField) -> Bindings {
     let weights = figure.role_weights.iter();
     let mut vertices: Vec<BoneBinding> =
         figure.positions.iter().zip(weights).map(|(&p, weights)| bind(p, weights)).collect();
-    for (members, centre) in head_accessories(figure, &target.measured.weld) {
+    for (members, centre) in head_accessories(figure, &measured.weld) {
         for vertex in members {
             vertices[vertex].on_face = Some(centre);
         }
     }
-    let joints = joint_bindings(&target.character, figure, |joint| {
+    let joints = joint_bindings(character, figure, |joint| {
         let role = figure.joint_roles[joint].unwrap_or(Role::Hips);
         Binding::Bones(bind(figure.joints[joint], &[(role, 1.0)]))
     });

@@ -1,13 +1,17 @@
 //! How the target hangs on a field, and where the field takes its points.
 
-use crate::character::Character;
+use super::Coefficient;
+use super::field::{Binding, BodyField, Field, Finish};
+use super::figure::Figure;
+use super::product::part::Part;
+use crate::character::{Character, Role};
+use crate::error::Warning;
+use crate::face::FaceShape;
 use crate::face::stage::{FaceBinding, Ways};
 use crate::geometry::range;
 use crate::parallel;
-use crate::shape::field::{Binding, Field};
-use crate::shape::figure::Figure;
-use crate::shape::product::part::Part;
 use glam::DVec3;
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// Fewer vertices than this are not worth a thread.
@@ -29,17 +33,72 @@ pub fn renewed<T: Clone + Send>(
     all
 }
 
+/// What a mode makes of target, style and options, before the head's own stages.
+#[derive(Debug)]
+pub struct Body {
+    /// What gives it its shape.
+    pub field: Arc<BodyField>,
+    /// How the target hangs on that.
+    pub bindings: Arc<Bindings>,
+    /// Where it takes the vertices, canonical frame.
+    pub placed: Arc<Vec<DVec3>>,
+    /// g of Eq. 9.
+    pub head_ratio: f64,
+    /// alpha and beta by group.
+    pub coefficients: BTreeMap<String, Coefficient>,
+    /// What a person should know.
+    pub warnings: Vec<Warning>,
+    /// What is left of a head count that could not be reached.
+    pub heads_left: Option<Warning>,
+}
+
+impl Body {
+    /// Its field alone.
+    pub fn field(&self) -> Field {
+        Field::of(Arc::clone(&self.field))
+    }
+
+    /// Its field with a face of this shape.
+    pub fn with_face(&self, face: FaceShape) -> Field {
+        Field { finish: Finish { face, ..Finish::default() }, ..self.field() }
+    }
+
+    /// True in product mode.
+    pub fn is_of_parts(&self) -> bool {
+        matches!(*self.field, BodyField::Parts(_))
+    }
+
+    /// What is done last, all the way and without a younger face, for a figure that shrinks by `whole`.
+    pub fn finish(&self, figure: &Figure, whole: f64) -> Finish {
+        let hips = figure.role_position(Role::Hips).unwrap_or_default();
+        Finish { whole, about: hips.with_y(self.bindings.ground.height), ..Finish::default() }
+    }
+
+    /// Where `field` takes the points of `figure`, whose vertices this body, with the field's face, takes to `placed`.
+    pub fn placement<'a>(
+        &'a self,
+        figure: &'a Figure,
+        field: &'a Field,
+        placed: &'a [DVec3],
+        threads: usize,
+    ) -> Placement<'a> {
+        Placement { placed: Some(placed), ..Placement::new(figure, &self.bindings, field, threads) }
+    }
+}
+
 /// How a target is attached to a mode's field.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct Bindings {
     /// One for each vertex.
-    pub vertices: Arc<Vec<Binding>>,
+    pub vertices: Vec<Binding>,
     /// One for each joint.
-    pub joints: Arc<Vec<Binding>>,
+    pub joints: Vec<Binding>,
     /// Where it stands.
-    pub ground: Arc<GroundContact>,
+    pub ground: GroundContact,
     /// The vertices that the stages after the body's can move, ascending.
-    pub of_head: Arc<Vec<u32>>,
+    pub of_head: Vec<u32>,
+    /// Joints that play eyes, and the vertices that each moves most; none in paper mode.
+    pub eyes: Vec<(usize, Vec<u32>)>,
 }
 
 impl Bindings {
@@ -47,12 +106,16 @@ impl Bindings {
     pub fn new(vertices: Vec<Binding>, joints: Vec<Binding>, ground: GroundContact) -> Self {
         let of_head =
             (0..vertices.len() as u32).filter(|&vertex| is_of_head(&vertices[vertex as usize])).collect();
-        Self {
-            vertices: Arc::new(vertices),
-            joints: Arc::new(joints),
-            ground: Arc::new(ground),
-            of_head: Arc::new(of_head),
+        Self { vertices, joints, ground, of_head, eyes: Vec::new() }
+    }
+
+    /// For each vertex whether the stages after the body's can move it.
+    pub fn is_of_head(&self) -> Vec<bool> {
+        let mut is_of_head = vec![false; self.vertices.len()];
+        for &vertex in &self.of_head {
+            is_of_head[vertex as usize] = true;
         }
+        is_of_head
     }
 }
 
@@ -70,7 +133,7 @@ fn is_of_head(binding: &Binding) -> bool {
 }
 
 /// Vertices of which the lowest stays where it is, and its height.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct GroundContact {
     /// The vertices.
     pub vertices: Vec<u32>,

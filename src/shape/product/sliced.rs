@@ -1,23 +1,23 @@
-//! The stage after the parts: the body that the style wants, slice by slice.
+//! What comes after the parts: the body that the style wants, slice by slice.
 
-use super::Target;
-use super::attach::LEAST_VERTICES;
-use super::product_target::ProductTarget;
+use super::field::PartField;
+use super::groups::PartGroups;
+use super::profile::{ProfileStage, Source, strengths, wanted_of};
+use super::target::ProductTarget;
 use crate::error::{Result, Warning};
 use crate::options::{Options, Stage};
 use crate::parallel;
 use crate::progress::Progress;
+use crate::shape::Measured;
 use crate::shape::field::{Binding, BodyField, Field};
-use crate::shape::product::field::PartField;
-use crate::shape::product::groups::PartGroups;
-use crate::shape::product::profile::{ProfileStage, Source, strengths, wanted_of};
+use crate::shape::placement::{LEAST_VERTICES, Placement};
 use crate::shape::style::Style;
 use glam::DVec3;
 use std::sync::Arc;
 
 /// True where `style` and `options` ask for a profile of this target.
-pub fn wants_profile(target: &Target, style: &Style, options: &Options) -> bool {
-    let heads = target.measured.anatomy.landmarks.heights.heads();
+pub fn wants_profile(target: &Measured, style: &Style, options: &Options) -> bool {
+    let heads = target.anatomy.landmarks.heights.heads();
     let share = wanted_of(style, heads).map_or(0.0, |(_, share)| share);
     share * options.profile > 0.0 && options.stage != Stage::Length
 }
@@ -47,7 +47,7 @@ impl Sliced {
 /// `Cancelled`.
 #[allow(clippy::too_many_arguments)]
 pub fn with_profile(
-    target: &Target,
+    measured: &Measured,
     product: &ProductTarget,
     field: Field,
     style: &Style,
@@ -55,13 +55,13 @@ pub fn with_profile(
     groups: &PartGroups,
     progress: &mut Progress,
 ) -> Result<Sliced> {
-    let measured = &target.measured;
     let wanted = wanted_of(style, measured.anatomy.landmarks.heights.heads());
     let (Some((wanted, share)), BodyField::Parts(parts)) = (wanted, &*field.body) else {
         return Ok(Sliced::unchanged(field));
     };
     let share = share * options.profile;
-    let positions = product.placement(&measured.figure, &field, options.thread_count).all_placed();
+    let positions =
+        Placement::new(&measured.figure, &product.bindings, &field, options.thread_count).all_placed();
     progress.at(0.3)?;
     let source = Source {
         figure: &measured.figure,

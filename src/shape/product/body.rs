@@ -1,28 +1,23 @@
-//! Product mode in order: parts, coefficients until the number of heads is right, and hair outside of the body.
+//! The body of product mode: coefficients until the number of heads is right.
 
-use super::attach::Placement;
-use super::product_target::ProductTarget;
-use super::profile::{Sliced, wants_profile, with_profile};
-use super::{Deformation, Known, Target};
+use super::anatomy::Proportions;
+use super::binding::PartBindings;
+use super::coefficients::{Goal, Limits, heads_of, part_coefficients};
+use super::field::PartField;
+use super::groups::PartGroups;
+use super::landmarks::{HeadPlacement, HeadSources};
+use super::scales::PartCoefficients;
+use super::sliced::{Sliced, wants_profile, with_profile};
+use super::target::ProductTarget;
 use crate::error::{Error, ErrorKind, Named, Result, Warning};
-use crate::options::table::PRODUCT_FACE_SQUASH;
-use crate::options::{Options, Repair};
-use crate::parallel;
+use crate::options::Options;
 use crate::progress::Progress;
 use crate::shape::field::{BodyField, Field};
-use crate::shape::figure::extent;
-use crate::shape::heights::Heights;
-use crate::shape::product::anatomy::Proportions;
-use crate::shape::product::binding::PartBindings;
-use crate::shape::product::coefficients::{Goal, Limits, heads_of, part_coefficients};
-use crate::shape::product::field::PartField;
-use crate::shape::product::groups::PartGroups;
-use crate::shape::product::repair::Pushed;
-use crate::shape::product::scales::PartCoefficients;
+use crate::shape::placement::{Body, Placement};
 use crate::shape::style::Style;
 use crate::shape::{BodyShape, Measured};
 use glam::DVec3;
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 
 /// A head count as near as this to the one asked for needs no correction. D27. Seen: ±30 % moves vertices by up to .004
 /// H.
@@ -39,77 +34,46 @@ const HEADS_WARNED_ABOVE: f64 = 0.01;
 /// Hair that reaches further below the chin than this, in heads, is warned of.
 const HAIR_WARNED_ABOVE: f64 = 0.1;
 
-/// The product's way to give `target` the style.
+/// The product's way to give a target the style.
 ///
-/// `known`: what is known of the target already.
+/// - `heads`: what its head count is read from.
 ///
 /// # Errors
 /// `BadStyle` for a style without proportions; as [`part_coefficients`]; `Cancelled`.
-pub fn deform(
-    target: &Target,
-    known: Known,
+pub fn body(
+    measured: &Measured,
+    product: &ProductTarget,
+    heads: &HeadSources,
     style: &Style,
     options: &Options,
     progress: &mut Progress,
-) -> Result<Deformation> {
-    let product = match known.product {
-        Some(product) => product,
-        None => {
-            let part = &mut progress.part(0.0, 0.4);
-            Arc::new(ProductTarget::of(target, options.thread_count, options.repair != Repair::Off, part)?)
-        }
-    };
-    let anatomy = &target.measured.anatomy;
+) -> Result<Body> {
+    let anatomy = &measured.anatomy;
     let head_length = anatomy.proportions.head_length;
     let head_ratio = match style {
         Style::Heads(_) => 1.0,
         Style::Shape(shape) => options.head_scale * head_length / proportions_of(shape)?.head_length,
     };
-    let roles = target.measured.joints.keys().copied().collect();
+    let roles = measured.joints.keys().copied().collect();
     let (groups, split) = PartGroups::of(&roles, &options.bone_groups);
     let mut warnings = anatomy.warnings();
     warnings.extend(split);
     warnings.extend(hair_shortened(&product.parts, head_length));
-    let request = Request { target, product: &product, style, options, groups: &groups };
-    let threads = options.thread_count;
-    let dressed = if parallel::thread_count(threads) == 1 {
-        request.dressed(known.pushed, progress)
-    } else {
-        // Hair is found once, beside all that does not need it.
-        let find_hair = || product.find_hair(target, options);
-        parallel::both(threads, find_hair, || request.dressed(known.pushed, progress)).1
-    };
-    let Dressed { field, scales, placed, pushed, warnings: of_field, heads_left } = dressed?;
+    let request = Request { measured, product, heads, style, options, groups: &groups };
+    let (Attempt { field, placed, scales, .. }, of_field, heads_left) =
+        request.best(&mut progress.part(0.0, 0.9))?;
     warnings.extend(of_field);
-    let repaired = pushed.dense(target.measured.figure.positions.len());
-    let placement = product.placement(&target.measured.figure, &field, threads);
-    let placement = Placement { placed: Some(&placed), hair_offsets: &repaired, ..placement };
-    let hair_offsets = product.hair_offsets(target, &placement);
-    progress.at(0.75)?;
-    let whole = not_taller(&Placement { hair_offsets: &hair_offsets, ..placement });
-    progress.at(0.9)?;
-    Ok(Deformation {
-        body: field.body,
-        bindings: product.bindings.clone(),
+    let placement = Placement::new(&measured.figure, &product.bindings, &field, options.thread_count);
+    let placed = placed.unwrap_or_else(|| placement.all_placed());
+    Ok(Body {
+        field: field.body,
+        bindings: Arc::clone(&product.bindings),
         placed: Arc::new(placed),
-        hair_offsets,
-        pushed,
-        whole,
         head_ratio,
         coefficients: scales.by_group(&groups),
         warnings,
         heads_left,
-        product: Some(product),
-        face_box: OnceLock::new(),
     })
-}
-
-/// What a whole figure is to shrink by, so that it becomes no taller than it was (D31): 1 where it does not.
-///
-/// Seen: tubbykun, 2.2 heads, came out of a style of 2.5 heads at 1.42 m instead of .94.
-fn not_taller(placement: &Placement) -> f64 {
-    let (low, high) = extent(&placement.all_vertices());
-    if low < high { (placement.figure.height() / (high - low)).min(1.0) } else { 1.0 }
 }
 
 /// What the mode transfers of a style's body.
@@ -153,45 +117,17 @@ struct Attempt {
     misread: f64,
 }
 
-/// The body that is wanted, and its clothes around it.
-struct Dressed {
-    field: Field,
-    scales: PartCoefficients,
-    /// Where the field takes all vertices.
-    placed: Vec<DVec3>,
-    pushed: Pushed,
-    warnings: Vec<Warning>,
-    heads_left: Option<Warning>,
-}
-
 /// What is asked for, of whom.
 struct Request<'a> {
-    target: &'a Target,
+    measured: &'a Measured,
     product: &'a ProductTarget,
+    heads: &'a HeadSources,
     style: &'a Style,
     options: &'a Options,
     groups: &'a PartGroups,
 }
 
 impl Request<'_> {
-    /// The best field, and what keeps clothes outside of the body that it makes; `known`: what did before.
-    fn dressed(&self, known: Option<Pushed>, progress: &mut Progress) -> Result<Dressed> {
-        let &Self { target, product, options, .. } = self;
-        let (attempt, warnings, heads_left) = self.best(progress)?;
-        let Attempt { field, placed, scales, .. } = attempt;
-        progress.at(0.65)?;
-        let placement = product.placement(&target.measured.figure, &field, options.thread_count);
-        let placed = placed.unwrap_or_else(|| placement.all_placed());
-        let placement = Placement { placed: Some(&placed), ..placement };
-        let pushed = match (options.repair, known) {
-            (Repair::Off, _) => Pushed::default(),
-            (Repair::Kept, Some(pushed)) => pushed,
-            (Repair::On | Repair::Kept, _) => product.push_clothes(target, &placement),
-        };
-        progress.at(0.7)?;
-        Ok(Dressed { field, scales, placed, pushed, warnings, heads_left })
-    }
-
     /// Fields until the head count measured on the result is right, first of the parts alone and then with the style's
     /// profile: the best of them, its warnings, and one of a head count that is not the one asked for.
     fn best(&self, progress: &mut Progress) -> Result<(Attempt, Vec<Warning>, Option<Warning>)> {
@@ -199,9 +135,9 @@ impl Request<'_> {
             Style::Heads(heads) => *heads,
             Style::Shape(shape) => proportions_of(shape)?.heads(),
         };
-        let mut best = self.best_of(HEADS_ATTEMPTS, asked, asked, false, &mut progress.part(0.4, 0.5))?;
-        if wants_profile(self.target, self.style, self.options) {
-            best = self.best_of(SLICED_ATTEMPTS, asked, best.aim, true, &mut progress.part(0.5, 0.65))?;
+        let mut best = self.best_of(HEADS_ATTEMPTS, asked, asked, false, &mut progress.part(0.0, 0.4))?;
+        if wants_profile(self.measured, self.style, self.options) {
+            best = self.best_of(SLICED_ATTEMPTS, asked, best.aim, true, &mut progress.part(0.4, 1.0))?;
         }
         let Attempt { misread, measured, .. } = best;
         let mut warnings = best.limits.warnings(measured, asked, &best.replaced);
@@ -251,8 +187,8 @@ impl Request<'_> {
     /// One field, for a style with everything below the head stretched by what makes the result `aim` heads tall instead of
     /// `asked`.
     fn attempt(&self, asked: f64, aim: f64, is_sliced: bool, progress: &mut Progress) -> Result<Attempt> {
-        let &Self { target, product, style, options, groups, .. } = self;
-        let anatomy = &target.measured.anatomy;
+        let &Self { measured: target, product, heads, style, options, groups } = self;
+        let anatomy = &target.anatomy;
         let stretched;
         let goal = match style {
             Style::Heads(_) => Goal::Heads(aim),
@@ -271,8 +207,13 @@ impl Request<'_> {
         } else {
             Sliced::unchanged(field)
         };
-        let placement = product.placement(&target.measured.figure, &field, options.thread_count);
-        let measured = product.heads(&Placement { placed: placed.as_deref(), ..placement });
+        let placement = Placement {
+            placed: placed.as_deref(),
+            ..Placement::new(&target.figure, &product.bindings, &field, options.thread_count)
+        };
+        let positions = placement.vertices(&heads.vertices);
+        let joint = |joint| placement.joint(joint);
+        let measured = heads.heads(&HeadPlacement::of(&target.figure, positions, joint));
         let reached = heads_of(&anatomy.proportions, &scales);
         let reach = if limits.act_on_heads() { reached } else { asked };
         let off = |heads: f64| (heads / reach).ln().abs();
@@ -282,17 +223,4 @@ impl Request<'_> {
         let misread = off(measured);
         Ok(Attempt { field, placed, scales, limits, replaced, limited, aim, measured, error, misread })
     }
-}
-
-/// gamma where the user does not say: a head without a chin has no face to make younger.
-pub fn face_squash(measured: &Measured) -> f64 {
-    if measured.anatomy.landmarks.chin_seen { PRODUCT_FACE_SQUASH } else { 0.0 }
-}
-
-/// The face map's box: as wide as what is `around` the face, from chin to crown.
-pub fn face_box(field: &PartField, around: Option<(DVec3, DVec3)>) -> (DVec3, DVec3) {
-    let Heights { chin, crown, .. } = *field.after();
-    let reach = 0.5 * (crown - chin);
-    let (low, high) = around.unwrap_or((DVec3::splat(-reach), DVec3::splat(reach)));
-    (low.with_y(chin), high.with_y(crown))
 }

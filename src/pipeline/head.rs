@@ -1,0 +1,192 @@
+//! The head's own stages: the younger face (VI), and how the head sits over the chest (D30).
+
+use super::memo::View;
+use crate::character::MeshKind;
+use crate::error::{Result, Warning};
+use crate::face::FaceShape;
+use crate::face::flow::Flow;
+use crate::face::head::HeadFrame;
+use crate::face::seat::{Seat, SeatAmount};
+use crate::face::stage::{FaceBinding, Ways, YoungFace};
+use crate::face::youth::{FaceAim, adultness};
+use crate::geometry::bounds;
+use crate::options::Stage;
+use crate::shape::Measured;
+use crate::shape::field::{Binding, BodyField, Field, Finish};
+use crate::shape::heights::Heights;
+use crate::shape::measured::is_of_head;
+use crate::shape::placement::{Body, Placement, renewed};
+use crate::shape::product::anatomy::Proportions;
+use crate::shape::product::head::head_frame;
+use crate::shape::product::part::Part;
+use crate::shape::style::Style;
+use glam::DVec3;
+use std::sync::Arc;
+
+/// Steps of a head length that a face's landmarks are rounded to, after the stages before: 1e-9.
+const LANDMARK_STEPS: f64 = (1u64 << 30) as f64;
+
+/// All of the head's stages are done where a figure had this much more heads than it gets.
+const HEADS_LOST: f64 = 0.2;
+
+/// A face step, and the vertices' ways through it.
+#[derive(Debug)]
+pub struct Young {
+    /// The step.
+    pub face: Arc<YoungFace>,
+    /// The ways.
+    pub ways: Ways,
+    /// q: how adult the face was.
+    pub adultness: f64,
+}
+
+/// How much of the head's own stages is done, 0 where the figure keeps its number of heads, which leaves a character made
+/// like itself as it is, to 1.
+pub fn growth(body: &Body, measured: &Measured) -> f64 {
+    let BodyField::Parts(field) = &*body.field else { return 0.0 };
+    let before = measured.anatomy.landmarks.heights.heads();
+    ((before / field.after().heads() - 1.0) / HEADS_LOST).clamp(0.0, 1.0)
+}
+
+/// Where `body` with a face of this shape puts the head; `None` in paper mode.
+pub fn frame_after(body: &Body, measured: &Measured, face: FaceShape) -> Option<HeadFrame> {
+    let BodyField::Parts(parts) = &*body.field else { return None };
+    let chin = head_frame(&measured.anatomy).origin;
+    let origin = body.with_face(face).place(chin, &Binding::to(Part::Head));
+    Some(HeadFrame { origin, length: parts.after().head_length() })
+}
+
+/// The box of the face map: around what the head moves, in body or face meshes, as the body leaves it; in product mode as
+/// high as from chin to crown.
+pub fn face_box(view: &View) -> Result<Option<(DVec3, DVec3)>> {
+    let (body, measured, offsets) = (view.body()?, view.measured()?, view.offsets()?);
+    let (figure, field) = (&*measured.figure, body.field());
+    let placement = body.placement(figure, &field, &body.placed, view.threads());
+    let placement = Placement { hair_offsets: &offsets, ..placement };
+    let is_of_face = |&vertex: &usize| {
+        let kind = figure.kind(vertex);
+        (kind == MeshKind::Body || kind.is_of_face()) && is_of_head(figure, vertex)
+    };
+    let vertices = (0..figure.positions.len()).filter(is_of_face);
+    let (low, high) = bounds(vertices.map(|vertex| placement.vertex(vertex)));
+    let around = (low.x <= high.x).then_some((low, high));
+    let BodyField::Parts(parts) = &*body.field else { return Ok(around) };
+    let Heights { chin, crown, .. } = *parts.after();
+    let reach = 0.5 * (crown - chin);
+    let (low, high) = around.unwrap_or((DVec3::splat(-reach), DVec3::splat(reach)));
+    Ok(Some((low.with_y(chin), high.with_y(crown))))
+}
+
+/// Asks the body's field where it takes the vertices that the face moves.
+pub fn place_face(view: &View) -> Result<Arc<Vec<DVec3>>> {
+    let (body, measured, face) = (view.body()?, view.measured()?, view.face()?);
+    let placed = Arc::clone(&body.placed);
+    if face.shape == FaceShape::None {
+        return Ok(placed);
+    }
+    let (field, bindings, positions) =
+        (body.with_face(face.shape), &body.bindings, &measured.figure.positions);
+    let place = |vertex: usize| field.place_body(positions[vertex], &bindings.vertices[vertex]);
+    Ok(renewed(view.threads(), placed, &bindings.of_head, place))
+}
+
+/// The face step beyond Eqs. 12 and 13: of the target's face as they leave it.
+pub fn make_young(view: &View) -> Result<Option<Young>> {
+    let (measured, body, shape) = (view.measured()?, view.body()?, view.face()?.shape);
+    let frame = frame_after(&body, &measured, shape);
+    let (Some(face), Some(frame), BodyField::Parts(parts)) = (&measured.face, frame, &*body.field) else {
+        return Ok(None);
+    };
+    let field = body.with_face(shape);
+    let before = head_frame(&measured.anatomy);
+    // A head that is only moved or made larger has the same face, to the bit.
+    let rounded = |p: DVec3| (p * LANDMARK_STEPS).round() / LANDMARK_STEPS;
+    let place = |p: DVec3| frame.to_unit(field.place(before.from_unit(p), &Binding::to(Part::Head)));
+    let face = face.mapped(|p| rounded(place(p)));
+    let (eyes, head) = match view.style() {
+        Style::Shape(shape) => (
+            shape.face.map(|face| (face.eye_size, face.eye_height)),
+            shape.proportions.as_ref().map(Proportions::head_width),
+        ),
+        Style::Heads(_) => (None, None),
+    };
+    let aim = FaceAim::new(parts.after().heads(), eyes, head);
+    let flow = Flow::new(&face, &aim, &view.options.features, view.options.smile);
+    if flow.is_identity() {
+        return Ok(None);
+    }
+    let placed = view.placed()?;
+    let placement = body.placement(&measured.figure, &field, &placed, view.threads());
+    let things: Vec<Vec<DVec3>> =
+        view.parts()?.parts.things.iter().map(|vertices| placement.vertices(vertices)).collect();
+    // What is the same as last time is taken from there.
+    let known = view.before::<Option<Young>>();
+    let known = known.as_deref().and_then(Option::as_ref);
+    let young = YoungFace::new(frame, flow, &things, known.map(|known| &*known.face));
+    let binding = |binding: &Binding| match binding {
+        Binding::Parts(binding) => binding.face,
+        _ => FaceBinding::None,
+    };
+    let bindings: Vec<FaceBinding> = body.bindings.vertices.iter().map(binding).collect();
+    let known = known.map(|known| (&*known.face, &known.ways));
+    let ways = young.ways(&placed, &bindings, known, view.threads());
+    Ok(Some(Young { face: Arc::new(young), ways, adultness: adultness(&face, &aim) }))
+}
+
+/// How the youngest head sits over the chest, whose nape fills most: measured before amount and ground.
+pub fn seat(view: &View) -> Result<Option<Seat>> {
+    let (measured, body, shape) = (view.measured()?, view.body()?, view.face()?.shape);
+    let (Some(frame), BodyField::Parts(parts)) = (frame_after(&body, &measured, shape), &*body.field) else {
+        return Ok(None);
+    };
+    let (young, placed, sources) = (view.young()?, view.placed()?, view.seat_sources()?);
+    let young = (*young).as_ref();
+    let field = Field {
+        youth: growth(&body, &measured),
+        young: young.map(|young| Arc::clone(&young.face)),
+        ..body.with_face(shape)
+    };
+    let placement = body.placement(&measured.figure, &field, &placed, view.threads());
+    let placement = Placement { ways: young.map(|young| &young.ways), ..placement };
+    let points = placement.vertices(&sources.vertices);
+    let joint = field.place(measured.anatomy.head_joint, &Binding::to(Part::Head));
+    let fill = young.map_or(0.0, |young| young.adultness);
+    Ok(Seat::new(&sources, &points, frame, parts.after().shoulder_line, joint, fill))
+}
+
+/// The field all the way: body, face, flow and seat, as much of each as the options ask for.
+pub fn field(view: &View) -> Result<Field> {
+    let (measured, body, options) = (view.measured()?, view.body()?, &view.options);
+    let finish = Finish { face: view.face()?.shape, ..body.finish(&measured.figure, *view.whole()?) };
+    let mut field = Field { finish, ..body.field() };
+    let growth = growth(&body, &measured);
+    if growth == 0.0 || options.stage < Stage::Face {
+        return Ok(field);
+    }
+    if growth * options.youth > 0.0 {
+        field.young = view.young()?.as_ref().as_ref().map(|young| Arc::clone(&young.face));
+        field.youth = growth * options.youth;
+    }
+    if options.seat * growth != 0.0 {
+        field.seat = view.seat()?.as_ref().clone().map(Arc::new);
+        field.seat_amount =
+            SeatAmount { back: growth * options.seat, nape: growth * options.seat * options.youth };
+    }
+    Ok(field)
+}
+
+/// A warning where a face is there, and no eyes are known that could grow.
+pub fn eyes_not_found(view: &View) -> Result<Option<Warning>> {
+    let (measured, options) = (view.measured()?, &view.options);
+    let is_done = options.stage == Stage::Face && growth(&*view.body()?, &measured) > 0.0;
+    let are_found = measured.face.as_ref().is_none_or(|face| face.eyes.is_some());
+    if !is_done || are_found || options.youth * options.features.eye == 0.0 {
+        return Ok(None);
+    }
+    let message = if view.character().face_hints.is_empty() {
+        "no eyes were found on the face, so they keep their size: say where they are, or that their meshes are eyes"
+    } else {
+        "no eyes are where they are said to be, so they keep their size: give places on the face, left and right of its middle"
+    };
+    Ok(Some(Warning::new("face_eyes_not_found", message).about("eyes")))
+}

@@ -1,0 +1,339 @@
+//! The life of a vertex: every stage between a character and its result, from top to bottom.
+//!
+//! A row says what a stage makes, the function that makes it, and the options that it reads. Which stages above it a function
+//! reads stands in it, at its beginning. [`memo`](super::memo) calls it where what it reads has changed. Where a point goes by
+//! what comes out here is in [`Placement`] and [`Field`]; what is done last, for every vertex alike,
+//! in [`Ending`](super::displacement::Ending).
+
+use super::displacement::{self, Displacements, Ending};
+use super::memo::{Phase, Stage, Value, View};
+use super::morphs::{self, Shifts, Touched};
+use super::{hair, head, report};
+use crate::error::{Result, Warning};
+use crate::face::FaceShape;
+use crate::face::seat::{Seat, SeatSources};
+use crate::geometry::range;
+use crate::options::table::PRODUCT_FACE_SQUASH;
+use crate::options::{Height, Mode, Options, Repair, Stage as LastStage};
+use crate::shape::Measured;
+use crate::shape::directions::RestTriangles;
+use crate::shape::field::{Field, Finish};
+use crate::shape::figure::{Figure, extent};
+use crate::shape::paper;
+use crate::shape::placement::{Body, Placement};
+use crate::shape::product;
+use crate::shape::product::hair::HairOnBody;
+use crate::shape::product::head::seat_sources;
+use crate::shape::product::landmarks::HeadSources;
+use crate::shape::product::repair::Pushed;
+use crate::shape::product::strands::Strands;
+use crate::shape::product::target::{self, ProductTarget};
+use crate::shape::product::worn::Worn;
+use glam::{DVec3, Vec3};
+use std::sync::Arc;
+
+macro_rules! stages {
+    ($($(#[$text:meta])* $name:ident: $value:ty = $make:path, $phase:ident $work:literal, [$($option:ident),*];)+) => {
+        /// The stages by number.
+        #[allow(non_camel_case_types)]
+        pub enum Number { $($name),+ }
+
+        impl Number {
+            /// See [`View::is_made`].
+            pub const REST_TRIANGLES: usize = Self::rest_triangles as usize;
+        }
+
+        /// All stages, in their order.
+        pub static STAGES: &[Stage] = &[$(Stage {
+            name: stringify!($name),
+            phase: Phase::$phase,
+            work: $work,
+            options: |_all| Options { $($option: _all.$option.clone(),)* ..Options::default() },
+            make: |view| Ok(Arc::<$value>::from($make(view)?) as Value),
+        }),+];
+
+        impl View<'_> {
+            $($(#[$text])*
+            pub fn $name(&self) -> Result<Arc<$value>> {
+                self.stage(Number::$name as usize)
+            })+
+        }
+    };
+}
+
+stages! {
+    // The target, read once.
+
+    /// The character in one space: its meshes in one list of vertices, each with its weights by humanoid role.
+    figure: Figure = lay_out, Measure 4, [];
+    /// Landmarks, lengths, radii and slices of its body, and its face (V-A).
+    measured: Measured = measure, Measure 21, [mode, rays, bone_groups];
+    /// Product mode: the parts that each vertex and joint hangs on (D26).
+    parts: ProductTarget = bind, Deform 17, [];
+    /// Which cloth lies how far over what (D32).
+    worn: Worn = worn, Deform 0, [];
+    /// What crown, chin and soles are read from.
+    head_sources: HeadSources = head_sources, Deform 0, [];
+    /// Hair below the chin, and how far outside of the body it is (D15).
+    hair_on_body: HairOnBody = hair_on_body, Deform 0, [];
+    /// Strands of hair: which part before the eyes, which lie on the body (D30).
+    strands: Strands = strands, Deform 0, [];
+    /// The middle of head, neck and trunk, seen from the side (D30).
+    seat_sources: SeatSources = middle_of_head, Deform 0, [];
+
+    // The body.
+
+    /// Where trunk and limbs go: Eqs. 1-11, or parts and slices (D27, D29) until the number of heads is right.
+    body: Body = shape_body, Deform 18, [
+        mode, head_scale, groups, bone_groups, limits, profile, hair_length, stage
+    ];
+    /// What keeps clothes outside of that body (D32).
+    pushed: Pushed = push_clothes, Deform 6, [repair];
+    /// These, and what keeps hair outside of it (D15): added to each vertex in the end; empty where nothing is.
+    offsets: Vec<DVec3> = keep_hair_outside, Deform 6, [];
+    /// What the whole shrinks by, so that nobody becomes taller (D31): at most 1.
+    whole: f64 = not_taller, Deform 1, [];
+
+    // The head.
+
+    /// The box of the face map, around what the head moves.
+    face_box: Option<(DVec3, DVec3)> = head::face_box, Face 1, [];
+    /// The younger face of Eqs. 12 and 13, as far as it does not fold.
+    face: Face = squash_face, Face 0, [mode, stage, face_squash, face_curve];
+    /// Where the body takes each vertex with that face.
+    placed: Vec<DVec3> = head::place_face, Face 1, [];
+    /// The flow of the face beyond it (D30), and each vertex's way through it.
+    young: Option<head::Young> = head::make_young, Face 8, [features, smile];
+    /// How far the head goes back over the chest, and how the nape fills (D30).
+    seat: Option<Seat> = head::seat, Deform 3, [];
+    /// Body, face, flow and seat: the field of the head's vertices, all the way.
+    field: Field = head::field, Deform 0, [stage, youth, seat];
+
+    // Hair.
+
+    /// Hair as it lies on the head before it became younger (D30).
+    hair_before: hair::Keyframe = hair::before, Deform 4, [stage, seat, hair_lay];
+    /// Hair as it lies on the youngest head.
+    hair_after: hair::Keyframe = hair::after, Deform 4, [stage, seat, hair_lay];
+    /// Hair between the two.
+    hair: Option<hair::Hair> = hair::between, Deform 0, [stage, youth, hair_lay];
+
+    // All together.
+
+    /// The field, and what is known of where it takes vertices.
+    deformation: Deformation = put_together, Deform 0, [];
+    /// How far each vertex below the head goes all the way, as a float.
+    below_head: Vec<Vec3> = displacement::below_head, Deform 1, [];
+    /// The triangles that may turn over and look nearly as they looked (D33).
+    thin_triangles: displacement::ThinTriangles = displacement::thin_triangles, Deform 1, [];
+    /// How far every vertex goes all the way, triangles put right.
+    displacements: Displacements = displacement::all, Deform 3, [];
+    /// Amount, ground and height: what is left to do for all alike.
+    finish: Finish = finish, Deform 1, [amount, height];
+    /// What a person should know.
+    warnings: Vec<Warning> = report::warnings, Deform 0, [amount, stage, youth, features, seat];
+
+    // Asked for when results are written.
+
+    /// Triangles at rest, of which directions turn as the displacements say (D22).
+    rest_triangles: RestTriangles = rest_triangles, Deform 0, [];
+    /// The vertices that morph targets touch.
+    touched: Vec<Touched> = touched, Deform 0, [];
+    /// How far morph targets go beyond their own deltas: filled in mesh by mesh.
+    shifts: Shifts = morphs::shifts, Deform 0, [];
+}
+
+/// The face map, and a warning where it was bounded.
+#[derive(Debug)]
+pub struct Face {
+    /// The map.
+    pub shape: FaceShape,
+    /// `face_squash_clamped`.
+    pub warning: Option<Warning>,
+}
+
+/// The field all the way, and what is known of where it takes vertices.
+#[derive(Debug)]
+pub struct Deformation {
+    /// The target.
+    pub measured: Arc<Measured>,
+    /// What the body's mode made.
+    pub body: Arc<Body>,
+    /// All of it.
+    pub field: Arc<Field>,
+    /// See the stage `placed`.
+    pub placed: Arc<Vec<DVec3>>,
+    /// See the stage `young`: there where the field has a face step.
+    pub young: Option<Arc<Option<head::Young>>>,
+    /// See the stage `offsets`.
+    pub offsets: Arc<Vec<DVec3>>,
+    /// Hair, where the head's stages change how it lies.
+    pub hair: Arc<Option<hair::Hair>>,
+}
+
+impl Deformation {
+    /// Where `field`, this one up to what is done last, takes the target's points.
+    pub fn placement<'a>(&'a self, field: &'a Field, threads: usize) -> Placement<'a> {
+        let hair = self.hair.as_ref().as_ref();
+        Placement {
+            hair_offsets: hair.map_or(&self.offsets, |hair| &hair.offsets),
+            joint_offsets: hair.map_or(&[], |hair| &hair.joint_offsets),
+            ways: self.young.as_ref().and_then(|young| Option::as_ref(young)).map(|young| &young.ways),
+            ..self.body.placement(&self.measured.figure, field, &self.placed, threads)
+        }
+    }
+}
+
+fn lay_out(view: &View) -> Result<Figure> {
+    Figure::of(view.character())
+}
+
+fn measure(view: &View) -> Result<Measured> {
+    let figure = view.figure()?;
+    view.part(0.0, 1.0, |progress| Measured::of_figure(figure, view.character(), &view.options, progress))
+}
+
+fn bind(view: &View) -> Result<ProductTarget> {
+    let measured = view.measured()?;
+    view.part(0.0, 1.0, |progress| ProductTarget::of(view.character(), &measured, view.threads(), progress))
+}
+
+fn head_sources(view: &View) -> Result<HeadSources> {
+    Ok(HeadSources::of(&*view.figure()?))
+}
+
+fn worn(view: &View) -> Result<Worn> {
+    let measured = view.measured()?;
+    Ok(target::worn(view.character(), &measured.figure, &measured.weld, view.threads()))
+}
+
+fn hair_on_body(view: &View) -> Result<HairOnBody> {
+    Ok(target::hair_on_body(&*view.measured()?, &view.parts()?.bindings, view.threads()))
+}
+
+fn strands(view: &View) -> Result<Strands> {
+    Ok(Strands::of(view.character(), &*view.measured()?, &view.parts()?.bindings.vertices))
+}
+
+fn middle_of_head(view: &View) -> Result<SeatSources> {
+    let (measured, parts) = (view.measured()?, view.parts()?);
+    Ok(seat_sources(&measured.figure, &measured.anatomy, &parts.bindings.vertices))
+}
+
+fn shape_body(view: &View) -> Result<Body> {
+    let (measured, style, options) = (view.measured()?, view.style(), &view.options);
+    match options.mode {
+        Mode::Paper => paper::body::body(view.character(), &measured, style, options),
+        Mode::Product => {
+            let (parts, heads) = (view.parts()?, view.head_sources()?);
+            view.part(0.0, 1.0, |progress| {
+                product::body::body(&measured, &parts, &heads, style, options, progress)
+            })
+        }
+    }
+}
+
+fn push_clothes(view: &View) -> Result<Arc<Pushed>> {
+    let (body, measured) = (view.body()?, view.measured()?);
+    match (view.options.repair, view.before()) {
+        (Repair::Off, _) => return Ok(Arc::default()),
+        (Repair::Kept, Some(pushed)) => return Ok(pushed),
+        _ if !body.is_of_parts() => return Ok(Arc::default()),
+        _ => {}
+    }
+    let worn = view.worn()?;
+    if worn.places.is_empty() {
+        return Ok(Arc::default());
+    }
+    let field = body.field();
+    let after = body.placement(&measured.figure, &field, &body.placed, view.threads()).all_vertices();
+    let (low, high) = extent(&after);
+    Ok(Arc::new(worn.pushed(&after, &measured.weld, high - low, view.threads())))
+}
+
+fn keep_hair_outside(view: &View) -> Result<Vec<DVec3>> {
+    let (body, measured, pushed) = (view.body()?, view.measured()?, view.pushed()?);
+    let pushed = pushed.dense(measured.figure.positions.len());
+    if !body.is_of_parts() {
+        return Ok(pushed);
+    }
+    let field = body.field();
+    let placement = body.placement(&measured.figure, &field, &body.placed, view.threads());
+    let placement = Placement { hair_offsets: &pushed, ..placement };
+    Ok(hair::kept_outside(&*view.hair_on_body()?, &measured, &placement))
+}
+
+/// Seen: tubbykun, 2.2 heads, came out of a style of 2.5 heads at 1.42 m instead of .94.
+fn not_taller(view: &View) -> Result<f64> {
+    let (body, measured, offsets) = (view.body()?, view.measured()?, view.offsets()?);
+    if !body.is_of_parts() {
+        return Ok(1.0);
+    }
+    let field = body.field();
+    let placement = body.placement(&measured.figure, &field, &body.placed, view.threads());
+    let (low, high) = extent(&Placement { hair_offsets: &offsets, ..placement }.all_vertices());
+    Ok(if low < high { (measured.figure.height() / (high - low)).min(1.0) } else { 1.0 })
+}
+
+fn squash_face(view: &View) -> Result<Face> {
+    // A head without a chin has no face to make younger.
+    let has_face = view.options.mode == Mode::Product && view.measured()?.anatomy.landmarks.chin_seen;
+    let by_mode = if has_face { PRODUCT_FACE_SQUASH } else { 0.0 };
+    let squash = view.options.face_squash.unwrap_or(by_mode);
+    if view.options.stage == LastStage::Face
+        && squash != 0.0
+        && let Some((low, high)) = *view.face_box()?
+    {
+        let (shape, warning) = FaceShape::in_box(low, high, view.options.face_curve, squash);
+        return Ok(Face { shape, warning });
+    }
+    Ok(Face { shape: FaceShape::None, warning: None })
+}
+
+fn put_together(view: &View) -> Result<Deformation> {
+    let field = view.field()?;
+    Ok(Deformation {
+        measured: view.measured()?,
+        body: view.body()?,
+        placed: view.placed()?,
+        young: field.young.as_ref().map(|_| view.young()).transpose()?,
+        offsets: view.offsets()?,
+        hair: view.hair()?,
+        field,
+    })
+}
+
+/// The feet stand where they stood: the lowest vertex that touches the ground keeps its height. Then everything becomes as
+/// tall as the options say, about the ground below the hips.
+fn finish(view: &View) -> Result<Finish> {
+    let (deformation, offsets) = (view.deformation()?, view.offsets()?);
+    let Deformation { measured, body, .. } = &*deformation;
+    let finish = Finish { amount: view.options.amount, ..deformation.field.finish };
+    let field = Field { finish: Finish { face: FaceShape::None, ..finish }, ..body.field() };
+    let placement = body.placement(&measured.figure, &field, &body.placed, view.threads());
+    let placement = Placement { hair_offsets: &offsets, ..placement };
+    let ground = &body.bindings.ground;
+    let lowest = placement.vertices(&ground.vertices).iter().map(|p| p.y).min_by(f64::total_cmp);
+    let finish = Finish { ground: lowest.map_or(0.0, |lowest| ground.height - lowest), ..finish };
+    let height = match view.options.height {
+        Height::Style => return Ok(finish),
+        Height::Keep => measured.figure.height(),
+        Height::Units(units) => units,
+    };
+    let (frame, displacements) = (&measured.figure.frame, view.displacements()?);
+    let up = frame.to_model(DVec3::Y);
+    let positions = displacement::positions(view.character(), &displacements, Ending::of(&finish, frame));
+    let (low, high) = range(positions.map(|p| p.as_dvec3().dot(up)));
+    Ok(Finish { size: if low < high { height / (high - low) } else { 1.0 }, ..finish })
+}
+
+fn rest_triangles(view: &View) -> Result<RestTriangles> {
+    let Measured { figure, weld, .. } = &*view.measured()?;
+    let meshes = &view.character().meshes;
+    let positions: Vec<Vec3> = meshes.iter().flat_map(|mesh| &mesh.positions).copied().collect();
+    Ok(RestTriangles::of(&positions, &figure.triangles, &figure.mesh_starts, weld))
+}
+
+fn touched(view: &View) -> Result<Vec<Touched>> {
+    Ok(view.character().meshes.iter().map(Touched::of).collect())
+}

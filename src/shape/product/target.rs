@@ -1,0 +1,118 @@
+//! What product mode finds of a target once, whatever style and options are: how it hangs on the parts, what it wears.
+
+use super::binding::{PartBinding, PartBindings, joint_binding, part_bindings};
+use super::hair::HairOnBody;
+use super::joints::mean_bindings;
+use super::part::Part;
+use super::worn::Worn;
+use crate::character::{Character, Role};
+use crate::error::Result;
+use crate::geometry::Weld;
+use crate::progress::Progress;
+use crate::shape::Measured;
+use crate::shape::field::Binding;
+use crate::shape::figure::Figure;
+use crate::shape::placement::{Bindings, GroundContact, joint_bindings};
+use glam::DVec3;
+use std::sync::Arc;
+
+/// How a measured target hangs on the parts: no style and no option changes it.
+#[derive(Debug)]
+pub struct ProductTarget {
+    /// All that hangs on them.
+    pub bindings: Arc<Bindings>,
+    /// What the bindings were made with, less the vertices' own.
+    pub parts: PartBindings,
+}
+
+impl ProductTarget {
+    /// Binds vertices and joints of `character` to parts.
+    ///
+    /// # Errors
+    /// `Cancelled`.
+    pub fn of(
+        character: &Character,
+        measured: &Measured,
+        threads: usize,
+        progress: &mut Progress,
+    ) -> Result<Self> {
+        let figure = &measured.figure;
+        let mut parts = part_bindings(
+            figure,
+            &measured.anatomy,
+            measured.face.as_ref(),
+            &character.skeleton,
+            &measured.weld,
+            threads,
+            progress,
+        )?;
+        let vertices = std::mem::take(&mut parts.vertices);
+        let of_legs =
+            |vertex: usize| vertices[vertex].weights[Part::LeftUpperLeg as usize..].iter().sum::<f32>();
+        let ground = GroundContact::of(figure, |vertex| of_legs(vertex) > 0.5);
+        let means = mean_bindings(character, figure, &vertices);
+        let joints = joint_bindings(character, figure, |joint| {
+            Binding::Parts(if is_head_joint_in_neck(measured, joint) {
+                PartBinding::to(Part::Neck)
+            } else if let Some(mean) = means[joint] {
+                mean
+            } else {
+                joint_binding(figure, &parts, joint)
+            })
+        });
+        let vertices = vertices.into_iter().map(Binding::Parts).collect();
+        let bindings = Bindings { eyes: eyes(character, figure), ..Bindings::new(vertices, joints, ground) };
+        Ok(Self { bindings: Arc::new(bindings), parts })
+    }
+}
+
+/// What is worn of a character that is laid out as `figure`.
+pub fn worn(character: &Character, figure: &Figure, weld: &Weld, threads: usize) -> Worn {
+    let mesh = |vertex: usize| figure.mesh_starts.partition_point(|&start| start <= vertex) - 1;
+    Worn::of(figure, |vertex| character.meshes[mesh(vertex)].kind.is_some(), weld, threads)
+}
+
+/// The hair that may end within the body.
+pub fn hair_on_body(measured: &Measured, bindings: &Bindings, threads: usize) -> HairOnBody {
+    let figure = &measured.figure;
+    let weight = |vertex: usize, part: Part| bindings.vertices[vertex].weight(part);
+    let chin = measured.anatomy.landmarks.heights.chin;
+    let hair: Vec<usize> = (0..figure.positions.len())
+        .filter(|&vertex| figure.positions[vertex].y < chin && weight(vertex, Part::Hair) > 0.5)
+        .collect();
+    let of_head = |vertex: usize| weight(vertex, Part::Hair) + weight(vertex, Part::Head);
+    let body =
+        if hair.is_empty() { Vec::new() } else { figure.triangles_where(|vertex| of_head(vertex) < 0.5) };
+    HairOnBody::of(&figure.positions, &figure.triangles, body, hair, &measured.weld, threads)
+}
+
+/// Fewer vertices than this have no middle to speak of.
+const LEAST_EYE: usize = 8;
+
+/// Joints that play eyes, and the vertices of what they turn.
+fn eyes(character: &Character, figure: &Figure) -> Vec<(usize, Vec<u32>)> {
+    let of = |joint: usize| -> Vec<u32> {
+        let turns = |row: &[(u32, f32)]| row.iter().any(|&(by, weight)| by as usize == joint && weight > 0.5);
+        let meshes = character.meshes.iter().zip(&figure.mesh_starts);
+        let rows = meshes
+            .flat_map(|(mesh, &start)| mesh.weights.rows().enumerate().map(move |(v, row)| (start + v, row)));
+        rows.filter(|(_, row)| turns(row)).map(|(vertex, _)| vertex as u32).collect()
+    };
+    let joints =
+        [Role::LeftEye, Role::RightEye].into_iter().filter_map(|role| character.humanoid.joint(role));
+    joints.map(|joint| (joint, of(joint))).filter(|(_, vertices)| vertices.len() >= LEAST_EYE).collect()
+}
+
+/// Heads often turn about a point in the neck: a head joint below the chin moves as the neck does.
+fn is_head_joint_in_neck(measured: &Measured, joint: usize) -> bool {
+    let figure = &measured.figure;
+    figure.humanoid.joint(Role::Head) == Some(joint)
+        && figure.joints[joint].y < measured.anatomy.landmarks.heights.chin
+}
+
+/// What hangs from a head joint in the neck is on the head all the same, above the chin: the binding of such a point `p`,
+/// canonical frame.
+pub fn on_head(measured: &Measured, joint: usize, p: DVec3) -> Option<Binding> {
+    let is_above_chin = p.y >= measured.anatomy.landmarks.heights.chin;
+    (is_above_chin && is_head_joint_in_neck(measured, joint)).then(|| Binding::to(Part::Head))
+}
