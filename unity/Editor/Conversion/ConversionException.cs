@@ -43,7 +43,7 @@ namespace SuperDeform.Editor
             else UnityEngine.Debug.LogException(cause, where);
             bool ofFile = cause is LibraryMissingException || cause is LibraryVersionException;
             string value = ofFile ? SuperDeformLibrary.Version : Strings.OfLibrary(cause.Message);
-            return new ConversionException(new Finding(key, Severity.Error, where, value), cause);
+            return new ConversionException(new Finding(key, Severity.Error, where, value, SuperDeformLibrary.BuildCommand), cause);
         }
     }
 }
