@@ -1255,7 +1255,9 @@ fn morph_targets_that_the_character_was_not_given_come_out_as_those_that_it_was(
             assert!(given.vertices == wanted.vertices);
             assert!(given.deltas == wanted.deltas, "{style} heads, mesh {index}");
         }
-        [character.id, heads.id, made.id].map(destroy);
+        for id in [character.id, heads.id, made.id] {
+            destroy(id);
+        }
     }
 }
 
@@ -1288,7 +1290,9 @@ fn what_is_wrong_with_mapped_morph_targets_is_said_and_nothing_is_written() {
         assert!(error.status == status && error.message.contains(sentence), "{}", error.message);
         assert!(before == after);
     }
-    [character.id, style.id, made.id].map(destroy);
+    for id in [character.id, style.id, made.id] {
+        destroy(id);
+    }
 }
 
 #[test]
