@@ -193,6 +193,21 @@ static void a_deformer_is_applied(void) {
     CHECK(fabsf(n[0] * n[0] + n[1] * n[1] + n[2] * n[2] - 1) < 1e-4f);
     CHECK(results[vertex].tangent[3] == 1 && results[vertex].joint == 0 && results[vertex].weight == 0);
   }
+  // The same target, where it changes something, comes out the same.
+  static uint32_t changed[FIGURE_VERTICES];
+  static float deltas[FIGURE_VERTICES][3];
+  uint32_t changes = 0;
+  for (uint32_t vertex = 0; vertex < FIGURE_VERTICES; vertex++) {
+    const float *delta = figure.smile[vertex];
+    if (delta[0] == 0 && delta[1] == 0 && delta[2] == 0) continue;
+    changed[changes] = vertex;
+    memcpy(deltas[changes++], delta, sizeof deltas[0]);
+  }
+  OK(sdef_deformer_map_morph_targets(deformer, 0, &changes, 1, changed, deltas[0], NULL, NULL, &error));
+  CHECK(changes > 0);
+  for (uint32_t at = 0; at < changes; at++) CHECK(memcmp(deltas[at], smiles[changed[at]], sizeof deltas[0]) == 0);
+  CHECK(sdef_morph_target_is_read("blink") == 1 && sdef_morph_target_is_read("smile") == 0);
+
   SdefReport report = {0};
   report.struct_size = sizeof report;
   size_t size = 0;

@@ -509,6 +509,12 @@ SDEF_API SdefStatus sdef_character_set_face_hints(SdefCharacter character, const
 SDEF_API SdefStatus sdef_character_add_morph_target(SdefCharacter character, uint32_t mesh,
     const SdefMorphTarget *target, SdefError *error);
 
+// Tells whether morph targets of this name say something of the character to the library, as blinks say where the eyes
+// open: 1, and they belong to the character; 0 for all others, which sdef_deformer_map_morph_targets can map as well.
+//
+// name: NULL is none
+SDEF_API uint32_t sdef_morph_target_is_read(const char *name);
+
 // Counts what a character holds.
 SDEF_API SdefStatus sdef_character_get_info(SdefCharacter character, SdefCharacterInfo *info, SdefError *error);
 
@@ -832,6 +838,21 @@ SDEF_API SdefStatus sdef_deformer_map_points(SdefDeformer deformer, const uint32
 // Errors: BAD_INPUT with the collider as the element (SDEF_ELEMENT_COLLIDER), or the spring (SDEF_ELEMENT_POINT).
 SDEF_API SdefStatus sdef_deformer_map_colliders(SdefDeformer deformer, const SdefCollider *colliders, size_t count,
     const SdefSpringBall *springs, size_t spring_count, SdefCollider *results, SdefError *error);
+
+// Maps morph targets of a mesh where they change something, in place: those that the character was not given too, with
+// the same results as an apply has. For hosts with more targets than there is memory for all of them at once.
+//
+// mesh:          the mesh that they are of
+// vertex_counts: how many vertices each target changes
+// count:         targets
+// vertices:      those of each target, ascending, one target after the other
+// positions:     3 floats for each of these: what is added at weight 1, read and written
+// normals:       likewise, as vertices and targets were given with normals; may be NULL
+// tangents:      likewise
+//
+// Errors: BAD_ARGUMENT also for a mesh that is none; BAD_INPUT with the vertex as the element; OUT_OF_MEMORY.
+SDEF_API SdefStatus sdef_deformer_map_morph_targets(SdefDeformer deformer, uint32_t mesh, const uint32_t *vertex_counts,
+    size_t count, const uint32_t *vertices, float *positions, float *normals, float *tangents, SdefError *error);
 
 // Gives what is done to each bone group.
 //

@@ -497,6 +497,21 @@ public:
                  colliders.data());
   }
 
+  // In place: how many vertices each target changes, these vertices, and 3 numbers for each of them.
+  void map_morph_targets(std::uint32_t mesh, View<const std::uint32_t> vertex_counts,
+                         View<const std::uint32_t> vertices, View<float> positions, View<float> normals = {},
+                         View<float> tangents = {}) const {
+    std::size_t changes = 0;
+    for (std::size_t target = 0; target < vertex_counts.size(); ++target) changes += vertex_counts.data()[target];
+    const bool fits = detail::check_size("vertices", vertices.size(), changes) &&
+                      detail::check_size("positions", positions.size(), 3 * changes) &&
+                      (normals.empty() || detail::check_size("normals", normals.size(), 3 * changes)) &&
+                      (tangents.empty() || detail::check_size("tangents", tangents.size(), 3 * changes));
+    if (!fits) return;
+    detail::call(sdef_deformer_map_morph_targets, raw_, mesh, vertex_counts.data(), vertex_counts.size(),
+                 vertices.data(), positions.data(), normals.data(), tangents.data());
+  }
+
   std::vector<SdefGroup> groups() const {
     std::size_t count = 0;
     detail::call(sdef_deformer_get_groups, raw_, static_cast<SdefGroup *>(nullptr), std::size_t(0), &count);

@@ -1193,6 +1193,111 @@ fn structs_of_older_and_newer_hosts_are_read_and_written_as_far_as_they_go() {
     }
 }
 
+/// What is asked of `sdef_deformer_map_morph_targets`: the vertices of each target, and positions, normals and tangents there.
+struct Sparse {
+    counts: Vec<u32>,
+    vertices: Vec<u32>,
+    deltas: [Vec<Vec3>; 3],
+}
+
+impl Sparse {
+    fn of(targets: &[MorphTarget]) -> Self {
+        let mut sparse = Self { counts: Vec::new(), vertices: Vec::new(), deltas: Default::default() };
+        for target in targets {
+            let all = [&target.positions, &target.normals, &target.tangents];
+            let at = |array: &Vec<Vec3>, vertex: usize| array.get(vertex).copied().unwrap_or_default();
+            let touched = |&vertex: &usize| all.iter().any(|array| at(array, vertex) != Vec3::ZERO);
+            let touched: Vec<usize> = (0..target.positions.len()).filter(touched).collect();
+            sparse.counts.push(touched.len() as u32);
+            sparse.vertices.extend(touched.iter().map(|&vertex| vertex as u32));
+            for (deltas, array) in sparse.deltas.iter_mut().zip(all) {
+                deltas.extend(touched.iter().map(|&vertex| at(array, vertex)));
+            }
+        }
+        sparse
+    }
+
+    fn map(&mut self, deformer: SdefDeformer, mesh: u32) -> Result<(), Failed> {
+        let [positions, normals, tangents] = self.deltas.each_mut().map(|deltas| deltas.as_mut_ptr().cast());
+        ask(|error| unsafe {
+            sdef_deformer_map_morph_targets(
+                deformer,
+                mesh,
+                self.counts.as_ptr(),
+                self.counts.len(),
+                self.vertices.as_ptr(),
+                positions,
+                normals,
+                tangents,
+                error,
+            )
+        })
+    }
+}
+
+#[test]
+fn morph_targets_that_the_character_was_not_given_come_out_as_those_that_it_was() {
+    let _at_work = at_work();
+    for (style, options) in [(2.5, Options::default()), (7.0, Options { amount: 0.3, ..Options::default() })]
+    {
+        let wanted = library_deformer(person(), &Style::Heads(style), &options).apply();
+        let mut bare = person().clone();
+        bare.meshes.iter_mut().for_each(|mesh| mesh.morph_targets.clear());
+        let (character, heads) = (given(&bare), of_heads(style));
+        let made = deformer(character, heads, &SdefOptions { amount: options.amount, ..with_threads(2) });
+        for (index, (mesh, wanted)) in person().meshes.iter().zip(&wanted.meshes).enumerate() {
+            let (mut given, wanted) = (Sparse::of(&mesh.morph_targets), Sparse::of(&wanted.morph_targets));
+            given.map(made, index as u32).unwrap();
+            assert!(given.vertices == wanted.vertices);
+            assert!(given.deltas == wanted.deltas, "{style} heads, mesh {index}");
+        }
+        for id in [character.id, heads.id, made.id] {
+            destroy(id);
+        }
+    }
+}
+
+#[test]
+fn what_is_wrong_with_mapped_morph_targets_is_said_and_nothing_is_written() {
+    let _at_work = at_work();
+    let (character, style) = (given(person()), of_heads(2.5));
+    let made = deformer(character, style, &with_threads(1));
+    let count = person().meshes[0].positions.len() as u32;
+    type Spoil = fn(&mut Sparse);
+    let faults: [(u32, &str, u32, Spoil); 4] = [
+        (99, "there is no mesh 99", SDEF_STATUS_BAD_ARGUMENT, |_| ()),
+        (0, "has vertex 4 before 2", SDEF_STATUS_BAD_INPUT, |given| given.vertices.swap(1, 2)),
+        (0, "moves vertex 4000000000", SDEF_STATUS_BAD_INPUT, |given| {
+            given.vertices[given.counts[0] as usize - 1] = 4_000_000_000;
+        }),
+        (0, "moves vertex 1 by what is no number", SDEF_STATUS_BAD_INPUT, |given| {
+            given.deltas[1][0].y = f32::NAN
+        }),
+    ];
+    assert!(count > 8);
+    for (mesh, sentence, status, spoil) in faults {
+        let mut wrong = Sparse::of(&person().meshes[0].morph_targets);
+        spoil(&mut wrong);
+        let before: Vec<u32> =
+            wrong.deltas.iter().flatten().flat_map(|d| d.to_array()).map(f32::to_bits).collect();
+        let error = wrong.map(made, mesh).unwrap_err();
+        let after: Vec<u32> =
+            wrong.deltas.iter().flatten().flat_map(|d| d.to_array()).map(f32::to_bits).collect();
+        assert!(error.status == status && error.message.contains(sentence), "{}", error.message);
+        assert!(before == after);
+    }
+    for id in [character.id, style.id, made.id] {
+        destroy(id);
+    }
+}
+
+#[test]
+fn names_of_blinks_are_those_that_a_character_wants() {
+    let read = |name: &std::ffi::CStr| unsafe { sdef_morph_target_is_read(name.as_ptr()) };
+    assert_eq!([c"Fcl_EYE_Blink", c"vrc.blink", c"smile", c""].map(read), [1, 1, 0, 0]);
+    assert_eq!(unsafe { sdef_morph_target_is_read(std::ptr::null()) }, 0);
+}
+
 #[test]
 fn eight_hosts_at_once_get_what_one_gets() {
     let _at_work = at_work();

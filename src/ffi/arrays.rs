@@ -458,7 +458,7 @@ impl<T: Plain> Output<T> {
     }
 
     /// What begins at `index`.
-    fn from(self, index: usize) -> Self {
+    pub fn from(self, index: usize) -> Self {
         let index = index.min(self.count);
         let start = self.start.wrapping_add(index * self.stride);
         Self { start, count: self.count - index, ..self }

@@ -72,6 +72,12 @@ pub fn to_apply(character: &Character) -> usize {
     Size::of(character).bytes([350, 500, 120, 0])
 }
 
+/// Mapping morph targets of a character's mesh that change so many vertices together.
+pub fn to_map_targets(character: &Character, vertices: usize) -> usize {
+    let size = Size { weights: 0, morphs: vertices, ..Size::of(character) };
+    size.bytes([350, 500, 120, 0])
+}
+
 /// Deforming and measuring the result.
 pub fn to_report(character: &Character) -> usize {
     to_deform(character).saturating_add(to_apply(character))

@@ -65,6 +65,44 @@ impl SparseTarget {
     }
 }
 
+/// A morph target before a deformation, where it changes something.
+pub struct GivenTarget<'a> {
+    /// The vertices, ascending.
+    pub vertices: Arc<Vec<u32>>,
+    /// Positions, normals and tangents; empty where it has none.
+    pub deltas: [&'a [Vec3]; 3],
+    /// Whether these are of all vertices of the mesh, else of `vertices` alone.
+    pub is_dense: bool,
+}
+
+impl<'a> GivenTarget<'a> {
+    fn of((target, vertices): (&'a MorphTarget, &Arc<Vec<u32>>)) -> Self {
+        let deltas = [&target.positions[..], &target.normals, &target.tangents];
+        Self { vertices: Arc::clone(vertices), deltas, is_dense: true }
+    }
+
+    /// One of `vertices` with what is added to it.
+    fn at(&self, which: usize, index: usize) -> Option<(usize, Vec3)> {
+        let vertex = self.vertices[index] as usize;
+        Some((vertex, *self.deltas[which].get(if self.is_dense { vertex } else { index })?))
+    }
+
+    /// All of them; `None` where the target has no such changes.
+    fn each(&self, which: usize) -> Option<impl Iterator<Item = (usize, Vec3)>> {
+        let of = move |index: usize| self.at(which, index);
+        (!self.deltas[which].is_empty()).then(|| (0..self.vertices.len()).filter_map(of))
+    }
+
+    /// With other deltas.
+    fn with(&self, deltas: [Option<Vec<Vec3>>; 3]) -> SparseTarget {
+        SparseTarget { vertices: Arc::clone(&self.vertices), deltas }
+    }
+
+    fn same(&self) -> SparseTarget {
+        self.with([0, 1, 2].map(|which| Some(self.each(which)?.map(|(_, delta)| delta).collect())))
+    }
+}
+
 /// How far morph targets go all the way beyond their own deltas, model space: of each mesh, once it is asked for, by target and
 /// by the vertices that it moves. As a deformer's displacements they stay while amount and height change.
 #[derive(Debug, Default)]
@@ -127,85 +165,108 @@ impl Deformer {
     }
 
     fn targets_of_mesh(&self, mesh: usize, progress: &mut Progress) -> Result<Vec<SparseTarget>> {
-        let Mesh { morph_targets, normals, tangents, .. } = &self.inputs.character.meshes[mesh];
-        let touched = &self.view().touched()?[mesh].targets;
-        if self.made.field.finish.is_nothing() || morph_targets.is_empty() {
-            let same = |target: &MorphTarget, vertices: &[u32]| {
-                [&target.positions, &target.normals, &target.tangents].map(|deltas| {
-                    let of = |&vertex: &u32| deltas[vertex as usize];
-                    (!deltas.is_empty()).then(|| vertices.iter().map(of).collect())
-                })
-            };
-            let sparse = |(target, vertices): (&MorphTarget, &Arc<Vec<u32>>)| SparseTarget {
-                vertices: Arc::clone(vertices),
-                deltas: same(target, vertices),
-            };
-            return Ok(morph_targets.iter().zip(touched).map(sparse).collect());
+        let touched = self.view().touched()?;
+        let of_mesh = &self.inputs.character.meshes[mesh].morph_targets;
+        let given: Vec<GivenTarget> =
+            of_mesh.iter().zip(&touched[mesh].targets).map(GivenTarget::of).collect();
+        let kept = self.view().shifts()?;
+        let shifts = match kept.get(mesh) {
+            Some(known) => known,
+            None if self.made.field.finish.is_nothing() => Arc::default(),
+            None => {
+                let part = &mut progress.part(0.0, 0.7);
+                let shifts = Arc::new(self.shifts_of(mesh, &given, &touched[mesh].moved, part)?);
+                kept.keep(mesh, &shifts);
+                shifts
+            }
+        };
+        self.shifted(mesh, &given, &shifts, &mut progress.part(0.7, 1.0))
+    }
+
+    /// Morph targets of a mesh, those of the character or others, as [`Self::deformed_targets`] has them.
+    pub(crate) fn map_targets(&self, mesh: usize, given: &[GivenTarget]) -> Result<Vec<SparseTarget>> {
+        let progress = &mut Progress::none();
+        if self.made.field.finish.is_nothing() {
+            return self.shifted(mesh, given, &[], progress);
         }
-        let turn_normals =
-            !normals.is_empty() && morph_targets.iter().any(|target| !target.normals.is_empty());
-        let turn_tangents =
-            !tangents.is_empty() && morph_targets.iter().any(|target| !target.tangents.is_empty());
+        let is_moved = |(_, delta): &(usize, Vec3)| *delta != Vec3::ZERO;
+        let of = |target| GivenTarget::each(target, 0).into_iter().flatten().filter(is_moved);
+        let mut moved: Vec<u32> = given.iter().flat_map(of).map(|(vertex, _)| vertex as u32).collect();
+        moved.sort_unstable();
+        moved.dedup();
+        let shifts = self.shifts_of(mesh, given, &moved, progress)?;
+        self.shifted(mesh, given, &shifts, progress)
+    }
+
+    /// The targets after the deformation.
+    ///
+    /// `shifts`: as [`Self::shifts_of`] gives them.
+    fn shifted(
+        &self,
+        mesh: usize,
+        given: &[GivenTarget],
+        shifts: &[Vec<Vec3>],
+        progress: &mut Progress,
+    ) -> Result<Vec<SparseTarget>> {
+        if self.made.field.finish.is_nothing() || given.is_empty() {
+            return Ok(given.iter().map(GivenTarget::same).collect());
+        }
+        let Mesh { normals, tangents, .. } = &self.inputs.character.meshes[mesh];
+        let changes = |which: usize| given.iter().any(|target| !target.deltas[which].is_empty());
+        let turn_normals = !normals.is_empty() && changes(1);
+        let turn_tangents = !tangents.is_empty() && changes(2);
         let turns = match turn_normals || turn_tangents {
             true => self.turns(mesh, &*self.view().rest_triangles()?),
             false => Vec::new(),
         };
         let new_normals: Vec<Vec3> =
             turns.iter().zip(normals).map(|(turn, &normal)| turn.normal(normal)).collect();
+        let turn_normal = |vertex: usize, normal| turns[vertex].normal(normal);
         let tangent =
             |vertex: usize, tangent: Vec3| turns[vertex].tangent(tangent, new_normals.get(vertex).copied());
         let directions: Vec<Vec3> = tangents.iter().map(|tangent| tangent.truncate()).collect();
-        let shifts = self.morph_shifts(mesh, &mut progress.part(0.0, 0.7))?;
         let made = |index: usize| {
-            let (target, vertices) = (&morph_targets[index], &touched[index]);
-            let turn_normal = |vertex: usize, normal| turns[vertex].normal(normal);
-            SparseTarget {
-                vertices: Arc::clone(vertices),
-                deltas: [
-                    self.morph_positions(&target.positions, vertices, &shifts[index]),
-                    morph_turns(&target.normals, normals, vertices, &turn_normal),
-                    morph_turns(&target.tangents, &directions, vertices, &tangent),
-                ],
-            }
+            let target = &given[index];
+            target.with([
+                self.morph_positions(target, &shifts[index]),
+                morph_turns(target, 1, normals, &turn_normal),
+                morph_turns(target, 2, &directions, &tangent),
+            ])
         };
-        let least = if self.vertices(mesh).len() < LEAST_VERTICES { morph_targets.len() } else { 1 };
+        let least = if self.vertices(mesh).len() < LEAST_VERTICES { given.len() } else { 1 };
         let threads = self.inputs.options.thread_count;
-        progress.part(0.7, 1.0).collect_with(
-            threads,
-            morph_targets.len(),
-            least,
-            || (),
-            |(), index| made(index),
-        )
+        progress.collect_with(threads, given.len(), least, || (), |(), index| made(index))
     }
 
-    /// D(v + d) - D(v) - d of all vertices that a mesh's targets move, all the way, before amount, ground and height.
+    /// D(v + d) - D(v) - d of all vertices that targets move, all the way, before amount, ground and height.
     ///
     /// Lids that the face step opens are mapped as deep as they begin: before the ball, the field opens less than on it,
     /// and a lid that shuts beyond the other one's edge would be half-way too early. They go on along the ball, so the
     /// straight way between two places leads through it: ends are put forward until half of the way is where the field
     /// takes half of the way.
     ///
+    /// `moved`: the vertices with a change of place, ascending.
+    ///
     /// # Errors
     /// `Cancelled`.
-    fn morph_shifts(&self, mesh: usize, progress: &mut Progress) -> Result<ShiftsOfMesh> {
-        let kept = self.view().shifts()?;
-        if let Some(known) = kept.get(mesh) {
-            return Ok(known);
-        }
-        let morph_targets = &self.inputs.character.meshes[mesh].morph_targets;
-        let Touched { targets: touched, moved } = &self.view().touched()?[mesh];
+    fn shifts_of(
+        &self,
+        mesh: usize,
+        given: &[GivenTarget],
+        moved: &[u32],
+        progress: &mut Progress,
+    ) -> Result<Vec<Vec<Vec3>>> {
         let (deformation, threads) = (&self.made.deformation, self.inputs.options.thread_count);
         let field = &deformation.field;
         let placement = deformation.placement(field, threads);
         let figure = placement.figure;
         let placed = self.placed_of(mesh, moved, &placement);
         let start = self.vertices(mesh).start;
-        let shift = |target: usize, vertex: usize| {
-            let delta = match morph_targets[target].positions.get(vertex) {
-                Some(&delta) if delta != Vec3::ZERO => figure.frame.to_canonical(delta.as_dvec3()),
-                _ => return Vec3::ZERO,
-            };
+        let shift = |vertex: usize, delta: Vec3| {
+            if delta == Vec3::ZERO {
+                return Vec3::ZERO;
+            }
+            let delta = figure.frame.to_canonical(delta.as_dvec3());
             let from = figure.positions[start + vertex];
             let mut to = placement.beside(start + vertex, from + delta);
             let share = field.opens_lids(from, &placement.bindings.vertices[start + vertex]);
@@ -217,29 +278,27 @@ impl Deformer {
             single(figure.frame.to_model(to - placed[vertex] - delta))
         };
         // Cut where there are as many of all targets together, whatever each touches.
-        let ends: Vec<usize> = touched
+        let ends: Vec<usize> = given
             .iter()
-            .scan(0, |end, touched| {
-                *end += touched.len();
+            .scan(0, |end, target| {
+                *end += target.vertices.len();
                 Some(*end)
             })
             .collect();
         let all = ends.last().copied().unwrap_or(0);
         let shift = |_: &mut (), index: usize| {
             let target = ends.partition_point(|&end| end <= index);
-            let first = ends[target] - touched[target].len();
-            shift(target, touched[target][index - first] as usize)
+            let first = ends[target] - given[target].vertices.len();
+            given[target].at(0, index - first).map_or(Vec3::ZERO, |(vertex, delta)| shift(vertex, delta))
         };
         let flat = progress.collect_with(threads, all, LEAST_SHIFTS, || (), shift)?;
         let mut rest = &flat[..];
-        let by_target = |touched: &Arc<Vec<u32>>| {
-            let (own, others) = rest.split_at(touched.len());
+        let by_target = |target: &GivenTarget| {
+            let (own, others) = rest.split_at(target.vertices.len());
             rest = others;
             own.to_vec()
         };
-        let shifts = Arc::new(touched.iter().map(by_target).collect());
-        kept.keep(mesh, &shifts);
-        Ok(shifts)
+        Ok(given.iter().map(by_target).collect())
     }
 
     /// Where `placement` puts the vertices of a mesh, canonical frame: those that are `moved`.
@@ -253,35 +312,34 @@ impl Deformer {
         placed
     }
 
-    /// D(v + d) - D(v) of the `touched` vertices: exact, and zero where d is.
+    /// D(v + d) - D(v) of the vertices of a target: exact, and zero where d is.
     ///
-    /// `shifts`: as [`Self::morph_shifts`] gives them.
-    fn morph_positions(&self, deltas: &[Vec3], touched: &[u32], shifts: &[Vec3]) -> Option<Vec<Vec3>> {
+    /// `shifts`: as [`Self::shifts_of`] gives them.
+    fn morph_positions(&self, target: &GivenTarget, shifts: &[Vec3]) -> Option<Vec<Vec3>> {
         let finish = &self.made.field.finish;
         let (size, amount) = (finish.size as f32, finish.amount as f32);
-        let moved = |(&vertex, &shift): (&u32, &Vec3)| {
-            let to = size * (deltas[vertex as usize] + amount * shift);
+        let moved = |((_, delta), &shift): ((usize, Vec3), &Vec3)| {
+            let to = size * (delta + amount * shift);
             to.clamp(Vec3::splat(f32::MIN), Vec3::splat(f32::MAX))
         };
-        (!deltas.is_empty()).then(|| touched.iter().zip(shifts).map(moved).collect())
+        Some(target.each(0)?.zip(shifts).map(moved).collect())
     }
 }
 
 /// Fewer vertices of morph targets than this are not worth a thread.
 const LEAST_SHIFTS: usize = 2000;
 
-/// Changes of unit vectors at the `touched` vertices: what the changed vector turns into, less what the unchanged one does.
+/// Changes of unit vectors: what the changed vector turns into, less what the unchanged one does.
+///
+/// `before`: of all vertices of the mesh; without them there is nothing that a target changes.
 fn morph_turns(
-    deltas: &[Vec3],
+    target: &GivenTarget,
+    which: usize,
     before: &[Vec3],
-    touched: &[u32],
     turn: &dyn Fn(usize, Vec3) -> Vec3,
 ) -> Option<Vec<Vec3>> {
-    let turned = |&vertex: &u32| {
-        let vertex = vertex as usize;
-        let delta = deltas[vertex];
-        // Without base vectors there is nothing that the deltas change.
-        if delta == Vec3::ZERO || before.len() != deltas.len() {
+    let turned = |(vertex, delta): (usize, Vec3)| {
+        if delta == Vec3::ZERO || before.is_empty() {
             return delta;
         }
         let before = before[vertex];
@@ -290,5 +348,5 @@ fn morph_turns(
         let length = if before == Vec3::ZERO { 1.0 } else { before.length() };
         turn(vertex, changed) * (changed.length() / length) - turn(vertex, before)
     };
-    (!deltas.is_empty()).then(|| touched.iter().map(turned).collect())
+    Some(target.each(which)?.map(turned).collect())
 }

@@ -25,8 +25,7 @@ public static class AllAtOnce
         Character.CheckDirection(up, "up");
         Character.CheckDirection(forward, "forward");
         int count = meshes.Count;
-        if (outputs.Count != count)
-            throw Failure.Argument("there are " + outputs.Count + " outputs for " + count + " meshes: give one each");
+        if (outputs.Count != count) throw Failure.Argument("there are " + outputs.Count + " outputs for " + count + " meshes: give one each");
         using (MarshalScope scope = new MarshalScope())
         using (ProgressCall call = ProgressCall.Of(progress))
         {

@@ -11,7 +11,7 @@ namespace SuperDeform
 public sealed class Character : NativeObject
 {
     // By mesh: the library tells vertices of all meshes together only.
-    private readonly List<int> vertexCounts = new List<int>();
+    readonly List<int> vertexCounts = new List<int>();
 
     /// <summary>Makes an empty character.</summary>
     /// <param name="up">3 floats, from the feet to the head, any length but 0; null: (0, 1, 0), or
@@ -91,8 +91,10 @@ public sealed class Character : NativeObject
     {
         if (pixels == null) throw new ArgumentNullException("pixels");
         if (width < 1 || height < 1 || (long)width * height > pixels.Length)
+        {
             throw Failure.Argument("an image of " + width + " by " + height + " pixels does not fit " + pixels.Length
                 + " bytes: give one a pixel");
+        }
         SdefImage image = new SdefImage();
         image.struct_size = (uint)sizeof(SdefImage);
         image.width = (uint)width;
@@ -145,7 +147,9 @@ public sealed class Character : NativeObject
         lock (vertexCounts)
         {
             if (mesh < 0 || mesh >= vertexCounts.Count)
+            {
                 throw Failure.Argument("there is no mesh " + mesh + ": the character has " + vertexCounts.Count);
+            }
             count = vertexCounts[mesh];
         }
         using (MarshalScope scope = new MarshalScope())
@@ -157,6 +161,15 @@ public sealed class Character : NativeObject
             GC.KeepAlive(this);
             Failure.Check(status, &error);
         }
+    }
+
+    /// <summary>
+    /// Whether morph targets of this name say something of the character, as blinks say where the eyes open: these are added to
+    /// it. All others can go through <see cref="Deformer.MapMorphTargets"/> alone, which needs less memory.
+    /// </summary>
+    public static unsafe bool ReadsMorphTarget(string name)
+    {
+        using (MarshalScope scope = new MarshalScope()) return Native.sdef_morph_target_is_read(scope.Text(name)) != 0;
     }
 
     /// <summary>What it holds.</summary>
@@ -249,16 +262,14 @@ public sealed class Character : NativeObject
         }
     }
 
-    private static void CheckPlace(double[] place, string name)
+    static void CheckPlace(double[] place, string name)
     {
-        if (place != null && place.Length != 3)
-            throw Failure.Argument(name + " holds " + place.Length + " numbers: give 3, or null");
+        if (place != null && place.Length != 3) throw Failure.Argument(name + " holds " + place.Length + " numbers: give 3, or null");
     }
 
     internal static void CheckDirection(float[] direction, string name)
     {
-        if (direction != null && direction.Length != 3)
-            throw Failure.Argument(name + " holds " + direction.Length + " numbers: give 3, or null");
+        if (direction != null && direction.Length != 3) throw Failure.Argument(name + " holds " + direction.Length + " numbers: give 3, or null");
     }
 }
 }

@@ -11,7 +11,7 @@ namespace SuperDeform
 public sealed class Deformer : NativeObject
 {
     // Kept from one Apply to the next, so that a slider leaves no garbage.
-    private MarshalScope spare;
+    MarshalScope spare;
 
     /// <summary>Makes the deformation.</summary>
     /// <param name="character">With a skeleton or a made rig.</param>
@@ -38,7 +38,7 @@ public sealed class Deformer : NativeObject
         }
     }
 
-    private SdefDeformer Raw
+    SdefDeformer Raw
     {
         get { return new SdefDeformer { id = Handle }; }
     }
@@ -230,6 +230,40 @@ public sealed class Deformer : NativeObject
         return results;
     }
 
+    /// <summary>
+    /// Maps morph targets of a mesh where they change something, in place: those that the character was not given too, with the
+    /// results that Apply has. For more targets than there is memory for all of them at once. Arrays may be longer than is needed.
+    /// </summary>
+    /// <param name="mesh">The mesh that they are of.</param>
+    /// <param name="vertexCounts">How many vertices each target changes.</param>
+    /// <param name="vertices">Those of each target, ascending, one target after the other.</param>
+    /// <param name="positions">3 floats for each of these: what is added at weight 1. float[], or any struct of 3 floats.</param>
+    /// <param name="normals">Likewise; may be null.</param>
+    /// <param name="tangents">Likewise.</param>
+    /// <exception cref="InvalidInputException">With the vertex that the mesh has not, or whose change is no number.</exception>
+    public unsafe void MapMorphTargets(int mesh, uint[] vertexCounts, uint[] vertices, Array positions, Array normals = null,
+        Array tangents = null)
+    {
+        if (vertexCounts == null) throw new ArgumentNullException("vertexCounts");
+        long sum = 0;
+        foreach (uint count in vertexCounts) sum += count;
+        int given = vertices == null ? 0 : vertices.Length;
+        if (sum > given) throw Failure.Argument("vertices holds " + given + " numbers, but vertexCounts are " + sum + " together");
+        Owner owner = new Owner("morph targets of mesh", mesh);
+        if (positions == null && sum > 0) throw owner.Wrong("Positions is null: give 3 floats for each of vertices");
+        using (MarshalScope scope = new MarshalScope())
+        {
+            SdefError error = Failure.None();
+            uint status = Native.sdef_deformer_map_morph_targets(Raw, unchecked((uint)mesh), (uint*)scope.Pin(vertexCounts, "vertexCounts"),
+                (UIntPtr)(uint)vertexCounts.Length, (uint*)scope.Pin(vertices, "vertices"),
+                MarshalMeshes.Vectors(scope, positions, owner, "Positions", 3, 0, (int)sum),
+                MarshalMeshes.Vectors(scope, normals, owner, "Normals", 3, 0, (int)sum),
+                MarshalMeshes.Vectors(scope, tangents, owner, "Tangents", 3, 0, (int)sum), &error);
+            GC.KeepAlive(this);
+            Failure.Check(status, &error);
+        }
+    }
+
     /// <summary>What is done to each bone group.</summary>
     public unsafe Group[] GetGroups()
     {
@@ -266,7 +300,7 @@ public sealed class Deformer : NativeObject
             GetFigure(Native.SDEF_FIGURE_RESULT));
     }
 
-    private unsafe Figure GetFigure(uint which)
+    unsafe Figure GetFigure(uint which)
     {
         SdefFigure figure = new SdefFigure();
         figure.struct_size = (uint)sizeof(SdefFigure);
@@ -298,7 +332,7 @@ public sealed class Deformer : NativeObject
         }
     }
 
-    private static void CheckPoints(double[] array, string name, int count, int each)
+    static void CheckPoints(double[] array, string name, int count, int each)
     {
         if (array == null || array.Length >= (long)each * count) return;
         throw Failure.Argument(name + " holds " + array.Length + " numbers, but " + count + " points need "

@@ -21,12 +21,12 @@ public delegate void JobRunner(int count, Action<int> task);
 public sealed unsafe class JobScope : IDisposable
 {
     // Kept here, so that it is not collected while the library may call it.
-    private static readonly SdefJobs run = Run;
+    static readonly SdefJobs run = Run;
 
-    private readonly JobRunner runner;
-    private readonly Thread thread = Thread.CurrentThread;
-    private GCHandle self;
-    private Exception thrown;
+    readonly JobRunner runner;
+    readonly Thread thread = Thread.CurrentThread;
+    GCHandle self;
+    Exception thrown;
 
     /// <param name="runner">Neither waits for another call of itself nor calls the library.</param>
     public JobScope(JobRunner runner)
@@ -55,7 +55,7 @@ public sealed unsafe class JobScope : IDisposable
     }
 
     [MonoPInvokeCallback(typeof(SdefJobs))]
-    private static void Run(void* user, SdefTask task, void* data, uint count)
+    static void Run(void* user, SdefTask task, void* data, uint count)
     {
         // No exception may cross the library, and every index must be done once.
         JobScope scope = (JobScope)GCHandle.FromIntPtr((IntPtr)user).Target;

@@ -72,14 +72,16 @@ internal static unsafe class MarshalMeshes
         return results;
     }
 
-    private static void Fill(MarshalScope scope, SdefMeshResult* result, MeshOutput output, int mesh)
+    static void Fill(MarshalScope scope, SdefMeshResult* result, MeshOutput output, int mesh)
     {
         Owner owner = new Owner("output", mesh);
         if (output == null) throw owner.Wrong("it is null: give one with null arrays for what is left out");
         int count = output.VertexCount, targets = output.MorphTargetCount;
         if (count < 0 || targets < 0)
+        {
             throw owner.Wrong("VertexCount " + count + " and MorphTargetCount " + targets
                 + " must be 0 or more");
+        }
         result->struct_size = (uint)sizeof(SdefMeshResult);
         result->vertex_capacity = (UIntPtr)(uint)count;
         result->morph_target_capacity = (uint)targets;
@@ -93,7 +95,7 @@ internal static unsafe class MarshalMeshes
     }
 
     /// <summary>How many vertices a mesh has.</summary>
-    private static int VertexCount(MeshArrays arrays, Owner owner)
+    static int VertexCount(MeshArrays arrays, Owner owner)
     {
         if (arrays.VertexCount >= 0) return arrays.VertexCount;
         if (arrays.Positions == null) return 0;
@@ -101,21 +103,23 @@ internal static unsafe class MarshalMeshes
     }
 
     /// <summary>The address of one vertex of an array, from which on `count` vertices are wanted.</summary>
-    private static float* Vectors(MarshalScope scope, Array array, Owner owner, string name, int floats, int first,
+    internal static float* Vectors(MarshalScope scope, Array array, Owner owner, string name, int floats, int first,
         int count)
     {
         if (array == null) return null;
         long bytes = Bytes(array, owner, name, floats), stride = 4 * floats;
         if (first < 0 || (first + (long)count) * stride > bytes)
+        {
             throw owner.Wrong(name + " holds " + bytes / stride + " vertices, but vertices " + first
                 + " to " + (first + (long)count - 1)
                 + " are asked for: give all of them, or other FirstVertex and VertexCount");
+        }
         byte* start = scope.Pin(array, name);
         return start == null ? null : (float*)(start + first * stride);
     }
 
     // Bytes of an array of vectors.
-    private static long Bytes(Array array, Owner owner, string name, int floats)
+    static long Bytes(Array array, Owner owner, string name, int floats)
     {
         Type element = array.GetType().GetElementType();
         if (element == typeof(float)) return 4L * array.Length;
@@ -129,7 +133,7 @@ internal static unsafe class MarshalMeshes
             + " floats");
     }
 
-    private static void FillIndices(MarshalScope scope, SdefMesh* mesh, MeshArrays arrays, Owner owner)
+    static void FillIndices(MarshalScope scope, SdefMesh* mesh, MeshArrays arrays, Owner owner)
     {
         if (arrays.Indices == null)
         {
@@ -146,8 +150,10 @@ internal static unsafe class MarshalMeshes
         int first = arrays.FirstIndex, length = arrays.Indices.Length;
         int count = arrays.IndexCount >= 0 ? arrays.IndexCount : length - first;
         if (first < 0 || count < 0 || first + (long)count > length)
+        {
             throw owner.Wrong("Indices holds " + length + " numbers, but FirstIndex is " + first
                 + " and IndexCount " + count + ": name a part of them");
+        }
         byte* start = scope.Pin(arrays.Indices, "Indices");
         mesh->indices = start == null ? null : start + (long)first * size;
         mesh->index_count = (UIntPtr)(uint)count;
@@ -155,7 +161,7 @@ internal static unsafe class MarshalMeshes
             : size == 2 ? Native.SDEF_TYPE_U16 : Native.SDEF_TYPE_U8;
     }
 
-    private static void FillFixed(MarshalScope scope, SdefMesh* mesh, MeshArrays arrays, Owner owner, int count)
+    static void FillFixed(MarshalScope scope, SdefMesh* mesh, MeshArrays arrays, Owner owner, int count)
     {
         int each = arrays.InfluenceCount;
         if (each < 1) throw owner.Wrong("InfluenceCount is " + each
@@ -166,16 +172,17 @@ internal static unsafe class MarshalMeshes
         Weights(scope, mesh, arrays, first);
     }
 
-    private static void FillRows(MarshalScope scope, SdefMesh* mesh, MeshArrays arrays, Owner owner, int count)
+    static void FillRows(MarshalScope scope, SdefMesh* mesh, MeshArrays arrays, Owner owner, int count)
     {
         uint[] rows = arrays.RowStarts;
         int first = arrays.FirstVertex;
         if (first < 0 || first + (long)count + 1 > rows.Length)
+        {
             throw owner.Wrong("RowStarts holds " + rows.Length + " numbers, but vertices " + first + " to "
                 + (first + (long)count - 1) + " need " + (first + (long)count + 1));
+        }
         uint start = rows[first], end = rows[first + count];
-        if (end < start)
-            throw owner.Wrong("RowStarts falls from " + start + " to " + end + ": it must rise");
+        if (end < start) throw owner.Wrong("RowStarts falls from " + start + " to " + end + ": it must rise");
         CheckWeights(arrays, owner, end);
         mesh->influence_count = (UIntPtr)(end - start);
         Weights(scope, mesh, arrays, start);
@@ -190,16 +197,18 @@ internal static unsafe class MarshalMeshes
         mesh->row_starts = own;
     }
 
-    private static void CheckWeights(MeshArrays arrays, Owner owner, long needed)
+    static void CheckWeights(MeshArrays arrays, Owner owner, long needed)
     {
         if (arrays.Joints == null || arrays.Weights == null)
+        {
             throw owner.Wrong((arrays.Joints == null ? "Joints" : "Weights")
                 + " is null, but the other is not: give both or neither");
+        }
         CheckLength(arrays.Joints, owner, "Joints", needed);
         CheckLength(arrays.Weights, owner, "Weights", needed);
     }
 
-    private static void Weights(MarshalScope scope, SdefMesh* mesh, MeshArrays arrays, long first)
+    static void Weights(MarshalScope scope, SdefMesh* mesh, MeshArrays arrays, long first)
     {
         uint* joints = (uint*)scope.Pin(arrays.Joints, "Joints");
         float* weights = (float*)scope.Pin(arrays.Weights, "Weights");
@@ -208,13 +217,13 @@ internal static unsafe class MarshalMeshes
         mesh->weights = weights + first;
     }
 
-    private static float* Packed(MarshalScope scope, float[] array, Owner owner, string name, long needed)
+    static float* Packed(MarshalScope scope, float[] array, Owner owner, string name, long needed)
     {
         CheckLength(array, owner, name, needed);
         return (float*)scope.Pin(array, name);
     }
 
-    private static void CheckLength(Array array, Owner owner, string name, long needed)
+    static void CheckLength(Array array, Owner owner, string name, long needed)
     {
         if (array == null || array.Length >= needed) return;
         throw owner.Wrong(name + " holds " + array.Length + " elements, but " + needed

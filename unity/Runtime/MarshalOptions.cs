@@ -18,7 +18,7 @@ internal static unsafe class MarshalOptions
         return native;
     }
 
-    private static void Groups(MarshalScope scope, SdefOptions* native, Options options)
+    static void Groups(MarshalScope scope, SdefOptions* native, Options options)
     {
         int count = options.Groups == null ? 0 : options.Groups.Count;
         SdefGroupSettings* groups = (SdefGroupSettings*)scope.Alloc(count * sizeof(SdefGroupSettings));
@@ -34,7 +34,7 @@ internal static unsafe class MarshalOptions
         native->group_count = (uint)count;
     }
 
-    private static void BoneGroups(MarshalScope scope, SdefOptions* native, Options options)
+    static void BoneGroups(MarshalScope scope, SdefOptions* native, Options options)
     {
         int count = options.BoneGroups == null ? 0 : options.BoneGroups.Count;
         SdefBoneGroup* groups = (SdefBoneGroup*)scope.Alloc(count * sizeof(SdefBoneGroup));
@@ -50,7 +50,7 @@ internal static unsafe class MarshalOptions
         native->bone_group_count = (uint)count;
     }
 
-    private static void RigJoints(MarshalScope scope, SdefOptions* native, Options options)
+    static void RigJoints(MarshalScope scope, SdefOptions* native, Options options)
     {
         int count = options.RigJoints == null ? 0 : options.RigJoints.Count;
         SdefGivenJoint* joints = (SdefGivenJoint*)scope.Alloc(count * sizeof(SdefGivenJoint));

@@ -11,8 +11,8 @@ namespace SuperDeform
 /// </summary>
 internal sealed unsafe class MarshalScope : IDisposable
 {
-    private readonly List<GCHandle> pins = new List<GCHandle>();
-    private readonly List<IntPtr> blocks = new List<IntPtr>();
+    readonly List<GCHandle> pins = new List<GCHandle>();
+    readonly List<IntPtr> blocks = new List<IntPtr>();
 
     /// <summary>The address of an array's first element; null for null and for an empty array.</summary>
     internal byte* Pin(Array array, string name)

@@ -430,6 +430,32 @@ internal static unsafe partial class Native
         SdefError* error);
 
     /// <summary>
+    /// Maps morph targets of a mesh where they change something, in place: those that the character was not given too, with
+    /// the same results as an apply has. For hosts with more targets than there is memory for all of them at once.
+    ///
+    /// mesh:          the mesh that they are of
+    /// vertex_counts: how many vertices each target changes
+    /// count:         targets
+    /// vertices:      those of each target, ascending, one target after the other
+    /// positions:     3 floats for each of these: what is added at weight 1, read and written
+    /// normals:       likewise, as vertices and targets were given with normals; may be NULL
+    /// tangents:      likewise
+    ///
+    /// Errors: BAD_ARGUMENT also for a mesh that is none; BAD_INPUT with the vertex as the element; OUT_OF_MEMORY.
+    /// </summary>
+    [DllImport(Library, ExactSpelling = true, CallingConvention = CallingConvention.Cdecl)]
+    internal static extern UInt32 sdef_deformer_map_morph_targets(
+        SdefDeformer deformer,
+        UInt32 mesh,
+        UInt32* vertex_counts,
+        UIntPtr count,
+        UInt32* vertices,
+        float* positions,
+        float* normals,
+        float* tangents,
+        SdefError* error);
+
+    /// <summary>
     /// Maps points that move with joints: colliders, eyes, viewpoints, the tails of springs.
     ///
     /// joints:    the joint that each point moves with
@@ -532,6 +558,16 @@ internal static unsafe partial class Native
     /// </summary>
     [DllImport(Library, ExactSpelling = true, CallingConvention = CallingConvention.Cdecl)]
     internal static extern UInt64 sdef_live_handles ();
+
+    /// <summary>
+    /// Tells whether morph targets of this name say something of the character to the library, as blinks say where the eyes
+    /// open: 1, and they belong to the character; 0 for all others, which sdef_deformer_map_morph_targets can map as well.
+    ///
+    /// name: NULL is none
+    /// </summary>
+    [DllImport(Library, ExactSpelling = true, CallingConvention = CallingConvention.Cdecl)]
+    internal static extern UInt32 sdef_morph_target_is_read(
+        sbyte* name);
 
     /// <summary>
     /// Fills *options with the defaults.

@@ -9,7 +9,7 @@ namespace SuperDeform
 /// </summary>
 public abstract class NativeObject : IDisposable
 {
-    private long handle;
+    long handle;
 
     internal NativeObject()
     {
@@ -48,7 +48,7 @@ public abstract class NativeObject : IDisposable
     }
 
     // Never throws: the library takes handles that it does not know, too, and gives a status.
-    private unsafe void Destroy()
+    unsafe void Destroy()
     {
         long id = Interlocked.Exchange(ref handle, 0);
         if (id != 0) Native.sdef_destroy(unchecked((ulong)id), null);

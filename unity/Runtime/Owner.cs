@@ -3,7 +3,7 @@ namespace SuperDeform
 /// <summary>Whose array is meant, for messages; a word is made of it only where one is needed.</summary>
 internal struct Owner
 {
-    private readonly string kind, name;
+    readonly string kind, name;
 
     internal Owner(string kind, int index = -1, string name = null)
     {

@@ -14,16 +14,16 @@ public delegate bool ProgressHandler(float fraction);
 /// <summary>A progress handler during one call of the library.</summary>
 internal sealed unsafe class ProgressCall : IDisposable
 {
-    private static readonly ProgressCall none = new ProgressCall(null);
+    static readonly ProgressCall none = new ProgressCall(null);
 
     // Kept here, so that it is not collected while the library may call it.
-    private static readonly SdefProgress report = Report;
+    static readonly SdefProgress report = Report;
 
-    private readonly ProgressHandler handler;
-    private GCHandle self;
-    private ExceptionDispatchInfo thrown;
+    readonly ProgressHandler handler;
+    GCHandle self;
+    ExceptionDispatchInfo thrown;
 
-    private ProgressCall(ProgressHandler handler)
+    ProgressCall(ProgressHandler handler)
     {
         this.handler = handler;
         if (handler != null) self = GCHandle.Alloc(this);
@@ -57,7 +57,7 @@ internal sealed unsafe class ProgressCall : IDisposable
     }
 
     [MonoPInvokeCallback(typeof(SdefProgress))]
-    private static int Report(void* user, float fraction)
+    static int Report(void* user, float fraction)
     {
         // No exception may cross the library.
         ProgressCall call = null;

@@ -9,7 +9,7 @@ namespace SuperDeform
 /// </summary>
 public sealed class Style : NativeObject
 {
-    private Style() { }
+    Style() { }
 
     internal SdefStyle Raw
     {
@@ -167,7 +167,7 @@ public sealed class Style : NativeObject
         }
     }
 
-    private unsafe Style Take(uint status, SdefError* error, SdefStyle made)
+    unsafe Style Take(uint status, SdefError* error, SdefStyle made)
     {
         Failure.Check(status, error);
         Handle = made.id;

@@ -11,7 +11,7 @@ public static class SuperDeformLibrary
     /// <summary>The command that builds the native library into the package, in a checkout of the repository.</summary>
     public const string BuildCommand = "bash .ci/unity_package --plugins";
 
-    private static volatile bool found;
+    static volatile bool found;
 
     /// <summary>How many native objects there are that nobody has destroyed, of all kinds and threads.</summary>
     public static ulong LiveHandles
@@ -76,7 +76,7 @@ public static class SuperDeformLibrary
         throw new LibraryVersionException(VersionSentence("version " + version));
     }
 
-    private static string MissingSentence
+    static string MissingSentence
     {
         get
         {
@@ -92,7 +92,7 @@ public static class SuperDeformLibrary
         }
     }
 
-    private static string VersionSentence(string loaded)
+    static string VersionSentence(string loaded)
     {
         return "The native library superdeform has " + loaded + " of its interface, but this package needs version "
             + Native.SDEF_ABI_VERSION + ": restart the editor if an older library is still loaded; if that does not "

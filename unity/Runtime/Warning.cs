@@ -6,7 +6,7 @@ namespace SuperDeform
 /// <summary>A warning about a rig, roles or a result.</summary>
 public sealed class Warning
 {
-    private Warning(string code, string text)
+    Warning(string code, string text)
     {
         Code = code;
         Text = text;

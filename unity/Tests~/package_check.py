@@ -125,7 +125,7 @@ def check_manifest(root):
     library = re.search(r'^version = "(.*)"$', read(cargo), re.M).group(1) if cargo.exists() else version
     if version != library:
         said.append(f"package.json: version is {version}, the library's is {library}")
-    if f"[{version}]" not in read(root / "CHANGELOG.md") and "[Unreleased]" not in read(root / "CHANGELOG.md"):
+    if f"## [{version}]" not in read(root / "CHANGELOG.md"):
         said.append(f"CHANGELOG.md has no entry for {version}")
     for sample in manifest.get("samples", []):
         if not any((root / sample["path"]).rglob("*.cs")):
@@ -232,6 +232,41 @@ def check_api(root):
     return said
 
 
+# What holds a statement, with its condition, on a line or on several.
+HOLDER = re.compile(r"(?:else if|if|for|foreach|while|using|lock|fixed) \(|else$")
+
+
+def alone(lines):
+    """The numbers of lines whose statement stands on a line of its own without braces."""
+    for start, line in enumerate(lines):
+        text = line.strip()
+        if not HOLDER.match(text):
+            continue
+        depth, end = 0, start
+        for end in range(start, len(lines)):
+            depth += lines[end].count("(") - lines[end].count(")")
+            if depth <= 0:
+                break
+        below = next((line for line in lines[end + 1:] if line.strip()), "")
+        deeper = len(below) - len(below.lstrip()) > len(line) - len(line.lstrip())
+        if lines[end].rstrip().endswith((")", "else")) and deeper and not below.strip().startswith("{"):
+            yield start + 1
+
+
+def check_dialect(root):
+    """One way to write C#: what is private is not said to be; a statement stands behind its condition, or in braces."""
+    said = []
+    for source in sources(root):
+        if source.name.endswith(".g.cs"):
+            continue
+        lines = [bare(line) for line in read(source).splitlines()]
+        said += [f"{source.relative_to(root)}:{number} says private: leave it out"
+                 for number, line in enumerate(lines, 1) if re.match(r"\s*(?:\[[^]]*\] )*private (?!protected)", line)]
+        said += [f"{source.relative_to(root)}:{number} has its statement on a line of its own: put it behind, or in braces"
+                 for number in alone(lines)]
+    return said
+
+
 def texts(root, language):
     return json.loads(read(root / "Editor" / "Localization" / f"{language}.json"))
 
@@ -322,7 +357,7 @@ def check_libraries(root):
 
 
 CHECKS = [check_metas, check_json, check_manifest, check_modules, check_paths, check_assemblies, check_imports, check_api,
-          check_strings, check_documentation, check_libraries]
+          check_dialect, check_strings, check_documentation, check_libraries]
 
 
 def try_checks(root, result):

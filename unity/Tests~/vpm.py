@@ -56,6 +56,9 @@ def pack(folder, file):
     """The contents of the folder, not the folder; the same files give the same bytes."""
     with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
         for path in sorted(path for path in folder.rglob("*") if path.is_file()):
+            # The Creator Companion embeds what it installs, and Unity compiles the tests of embedded packages.
+            if path.relative_to(folder).parts[0] in ("Tests", "Tests.meta"):
+                continue
             entry = zipfile.ZipInfo(path.relative_to(folder).as_posix(), date_time=(1985, 10, 26, 8, 15, 0))
             entry.compress_type, entry.external_attr = zipfile.ZIP_DEFLATED, 0o644 << 16
             archive.writestr(entry, path.read_bytes(), compresslevel=9)
@@ -129,6 +132,7 @@ def check(out):
         expect("every file of the zip that Unity sees has its meta",
                all(f"{entry}.meta" in names for entry in names if not entry.endswith(".meta")
                    and not any(part.endswith("~") for part in entry.split("/"))))
+        expect("the zip has no tests, which its users would compile", not any(entry.startswith("Tests") for entry in names))
         expect("the zip has a native library", any(entry.startswith("Plugins/") for entry in names))
     expect("OpenUPM's file is called like the package and takes its release",
            f"name: {name}\n" in (text := (out / f"{name}.yml").read_text(encoding="utf-8"))

@@ -9,6 +9,8 @@ use super::handles::{self, Object};
 use super::memory;
 use crate::character::mesh::place;
 use crate::character::{Character, Mesh, MorphTarget};
+use crate::face::eyes::closes_an_eye;
+use core::ffi::c_char;
 use safer_ffi::prelude::*;
 use state::CharacterState;
 use std::sync::{Arc, RwLock};
@@ -183,6 +185,15 @@ pub unsafe extern "C" fn sdef_character_add_morph_target(
     unsafe { call(error, body) }
 }
 
+/// Tells whether morph targets of this name say something of the character to the library, as blinks say where the eyes
+/// open: 1, and they belong to the character; 0 for all others, which sdef_deformer_map_morph_targets can map as well.
+///
+/// name: NULL is none
+#[ffi_export]
+pub unsafe extern "C" fn sdef_morph_target_is_read(name: *const c_char) -> u32 {
+    u32::from(closes_an_eye(&unsafe { arrays::text(name) }))
+}
+
 /// Counts what a character holds.
 #[cfg_attr(not(target_arch = "wasm32"), ffi_export)]
 #[cfg_attr(target_arch = "wasm32", unsafe(no_mangle))]
@@ -323,7 +334,11 @@ pub unsafe extern "C" fn sdef_character_get_weights(
     unsafe { call(error, body) }
 }
 
-fn mesh_of(character: &Character, mesh: usize) -> Outcome<&Mesh> {
+/// A mesh by its index.
+///
+/// # Errors
+/// BAD_ARGUMENT where there is none.
+pub fn mesh_of(character: &Character, mesh: usize) -> Outcome<&Mesh> {
     let count = character.meshes.len();
     character.meshes.get(mesh).ok_or_else(|| {
         Failure::argument(format!("there is no mesh {mesh}: the character has {count}, counted from 0"))

@@ -2,8 +2,10 @@
 
 use super::arrays::{self, Input, Output, Structs, not_null, write_out};
 use super::basics::*;
+use super::character::mesh_of;
 use super::guard::{self, Failure, call, progress_of};
 use super::handles::{self, Object};
+use super::memory;
 use super::options::{self, SdefOptions};
 use crate::error::Named;
 use crate::pipeline::Style;
@@ -16,9 +18,11 @@ use safer_ffi::prelude::*;
 use state::DeformerState;
 use std::collections::BTreeMap;
 use std::sync::{Arc, RwLock};
+use targets::Deltas;
 
 mod colliders;
 pub mod state;
+mod targets;
 pub mod types;
 
 pub use types::*;
@@ -268,6 +272,47 @@ pub unsafe extern "C" fn sdef_deformer_map_colliders(
             arrays::structs_out("results", results, count, &mapped)?;
         }
         Ok(())
+    };
+    unsafe { call(error, body) }
+}
+
+/// Maps morph targets of a mesh where they change something, in place: those that the character was not given too, with
+/// the same results as an apply has. For hosts with more targets than there is memory for all of them at once.
+///
+/// mesh:          the mesh that they are of
+/// vertex_counts: how many vertices each target changes
+/// count:         targets
+/// vertices:      those of each target, ascending, one target after the other
+/// positions:     3 floats for each of these: what is added at weight 1, read and written
+/// normals:       likewise, as vertices and targets were given with normals; may be NULL
+/// tangents:      likewise
+///
+/// Errors: BAD_ARGUMENT also for a mesh that is none; BAD_INPUT with the vertex as the element; OUT_OF_MEMORY.
+#[ffi_export]
+pub unsafe extern "C" fn sdef_deformer_map_morph_targets(
+    deformer: SdefDeformer,
+    mesh: u32,
+    vertex_counts: *const u32,
+    count: usize,
+    vertices: *const u32,
+    positions: *mut f32,
+    normals: *mut f32,
+    tangents: *mut f32,
+    error: *mut SdefError,
+) -> SdefStatus {
+    let body = || unsafe {
+        let state = handles::deformer(deformer)?;
+        let state = handles::read(&state, "deformer")?;
+        let deformer = state.deformer();
+        let (character, index) = (deformer.character(), mesh as usize);
+        let mesh = mesh_of(character, index)?;
+        let (counts, vertices) = targets::vertices_of(vertex_counts, count, vertices)?;
+        let deltas = Deltas::new([positions, normals, tangents], vertices.len())?;
+        deltas.check(index, mesh, &counts, &vertices)?;
+        let bytes = memory::to_map_targets(character, vertices.len());
+        memory::with(bytes, deformer.options().thread_count, || {
+            Ok(deltas.map(deformer, index, &counts, &vertices)?)
+        })
     };
     unsafe { call(error, body) }
 }

@@ -28,7 +28,7 @@ namespace SuperDeform.Editor
     /// </remarks>
     public static class BatchConvert
     {
-        private const string Mark = "[Super Deform] ";
+        const string Mark = "[Super Deform] ";
 
         /// <summary>For -executeMethod: reads the command line, converts, prints a line an avatar, ends Unity.</summary>
         public static void Run()
@@ -44,8 +44,7 @@ namespace SuperDeform.Editor
                 code = 1;
             }
             // A person who tries the command in an open editor keeps it open.
-            if (Application.isBatchMode)
-                EditorApplication.Exit(code);
+            if (Application.isBatchMode) EditorApplication.Exit(code);
         }
 
         /// <summary>As Run, for given arguments.</summary>
@@ -66,17 +65,17 @@ namespace SuperDeform.Editor
             foreach (string path in arguments.Avatars)
             {
                 var avatar = AssetDatabase.LoadAssetAtPath<GameObject>(path);
-                if (avatar != null && arguments.AllowProhibited)
-                    Licences.Allow(avatar);
+                if (avatar != null && arguments.AllowProhibited) Licences.Allow(avatar);
                 BatchEntry entry = avatar == null
                     ? new BatchEntry { Avatar = path, Failure = Strings.Get("batch.not_found", path) }
                     : ConvertOne(avatar, arguments.Settings, null);
                 report.Entries.Add(entry);
             }
             foreach (string line in report.Lines())
+            {
                 Debug.Log(Mark + line);
-            if (arguments.ReportPath != null && !WriteReport(arguments.ReportPath, report))
-                return 1;
+            }
+            if (arguments.ReportPath != null && !WriteReport(arguments.ReportPath, report)) return 1;
             return report.Failed == 0 ? 0 : 1;
         }
 
@@ -112,7 +111,7 @@ namespace SuperDeform.Editor
             return report;
         }
 
-        private static BatchEntry ConvertOne(GameObject avatar, ConversionSettings settings, IConversionProgress progress)
+        static BatchEntry ConvertOne(GameObject avatar, ConversionSettings settings, IConversionProgress progress)
         {
             var entry = new BatchEntry { Avatar = NameOf(avatar) };
             try
@@ -122,18 +121,17 @@ namespace SuperDeform.Editor
             catch (Exception fault)
             {
                 ConversionException reason = ConversionException.From(fault, avatar);
-                if (reason.Cancelled)
-                    throw reason;
+                if (reason.Cancelled) throw reason;
                 entry.Failure = reason.Message;
             }
             return entry;
         }
 
         /// <summary>One avatar's share of the progress of a batch.</summary>
-        private sealed class Share : IConversionProgress
+        sealed class Share : IConversionProgress
         {
-            private IConversionProgress whole;
-            private int index, count;
+            IConversionProgress whole;
+            int index, count;
 
             internal static Share Of(IConversionProgress whole, int index, int count)
             {
@@ -146,7 +144,7 @@ namespace SuperDeform.Editor
             }
         }
 
-        private static bool WriteReport(string path, BatchReport report)
+        static bool WriteReport(string path, BatchReport report)
         {
             try
             {
@@ -160,7 +158,7 @@ namespace SuperDeform.Editor
             }
         }
 
-        private static string NameOf(GameObject avatar)
+        static string NameOf(GameObject avatar)
         {
             string path = AssetDatabase.GetAssetPath(avatar);
             return string.IsNullOrEmpty(path) ? avatar.name : path;

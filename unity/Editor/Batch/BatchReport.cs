@@ -39,8 +39,12 @@ namespace SuperDeform.Editor
                 lines.Add(Strings.Get("batch.done", entry.Avatar, report.Target.Heads.ToString("0.0", Invariant),
                     report.Result.Heads.ToString("0.0", Invariant), entry.Result.PrefabPath));
                 if (entry.Result.Findings != null)
+                {
                     foreach (Finding finding in entry.Result.Findings)
+                    {
                         lines.Add(Strings.Get("batch.warned", entry.Avatar, finding.Text));
+                    }
+                }
             }
             lines.Add(Strings.Get("batch.summary", Converted, Failed));
             return lines;
@@ -57,17 +61,18 @@ namespace SuperDeform.Editor
             {
                 BatchEntry entry = Entries[i];
                 text.Append(i == 0 ? "\n" : ",\n").Append("{\"avatar\": ").Append(FlatJson.Quote(entry.Avatar));
-                if (entry.Failure != null)
-                    text.Append(", \"error\": ").Append(FlatJson.Quote(entry.Failure));
+                if (entry.Failure != null) text.Append(", \"error\": ").Append(FlatJson.Quote(entry.Failure));
                 else
+                {
                     text.Append(", \"prefab\": ").Append(FlatJson.Quote(entry.Result.PrefabPath)).Append(", \"report\": ")
                         .Append(string.IsNullOrEmpty(entry.Result.ReportJson) ? "null" : entry.Result.ReportJson);
+                }
                 text.Append('}');
             }
             return text.Append("\n]}\n").ToString();
         }
 
-        private static readonly System.Globalization.CultureInfo Invariant =
+        static readonly System.Globalization.CultureInfo Invariant =
             System.Globalization.CultureInfo.InvariantCulture;
     }
 }

@@ -239,7 +239,7 @@ namespace SuperDeform.Editor
             }
             AddJoints(rows);
             rows["UnityEngine.LODGroup"] = new[] { Length("m_Size"), Point("m_LocalReferencePoint") };
-            rows["UnityEngine.Light"] = new[] { Length("m_Range"), Length("m_AreaSize"), Length("m_CookieSize") };
+            rows["UnityEngine.Light"] = new[] { Length("m_Range"), Length("m_AreaSize"), Length("m_CookieSize"), Length("m_CookieSize2D") };
             rows["UnityEngine.LineRenderer"] = new[]
             {
                 Length("m_Parameters.widthMultiplier"), When("m_UseWorldSpace", new[] { 0 }, Point("m_Positions[*]"))

@@ -41,7 +41,9 @@ namespace SuperDeform.Editor
             else if (cause is SuperDeformException) key = "library_says";
             // A fault of this package, perhaps: where it happened helps to mend it.
             else UnityEngine.Debug.LogException(cause, where);
-            return new ConversionException(new Finding(key, Severity.Error, where, Strings.OfLibrary(cause.Message)), cause);
+            bool ofFile = cause is LibraryMissingException || cause is LibraryVersionException;
+            string value = ofFile ? SuperDeformLibrary.Version : Strings.OfLibrary(cause.Message);
+            return new ConversionException(new Finding(key, Severity.Error, where, value, SuperDeformLibrary.BuildCommand), cause);
         }
     }
 }

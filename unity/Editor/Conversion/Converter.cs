@@ -45,15 +45,17 @@ namespace SuperDeform.Editor
         /// <exception cref="ConversionException">It cannot be done, and why. The avatar is as it was.</exception>
         public static ConversionResult ConvertInPlace(GameObject avatar, ConversionSettings settings, IConversionProgress progress)
         {
-            return ConvertInPlace(avatar, settings, progress, done => { });
+            return ConvertInPlace(avatar, settings, progress, null, done => { });
         }
 
         /// <summary>The same.</summary>
+        /// <param name="clips">What plays on the avatar; null for the clips of its Animators.</param>
         /// <param name="keep">What is to be done with the result before it counts: what that throws undoes all.</param>
-        internal static ConversionResult ConvertInPlace(GameObject avatar, ConversionSettings settings, IConversionProgress progress, Action<ConversionResult> keep)
+        internal static ConversionResult ConvertInPlace(GameObject avatar, ConversionSettings settings, IConversionProgress progress, IMovableClips clips,
+            Action<ConversionResult> keep)
         {
             return Run(avatar, settings, new StageProgress(progress),
-                (source, deformer, given, findings, stages) => FinishInPlace(source, deformer, findings, stages, keep));
+                (source, deformer, given, findings, stages) => FinishInPlace(source, deformer, findings, stages, clips, keep));
         }
 
         delegate ConversionResult Ending(AvatarData source, Deformer deformer, ConversionSettings settings, List<Finding> findings, StageProgress stages);
@@ -113,7 +115,8 @@ namespace SuperDeform.Editor
             return done;
         }
 
-        static ConversionResult FinishInPlace(AvatarData source, Deformer deformer, List<Finding> findings, StageProgress stages, Action<ConversionResult> keep)
+        static ConversionResult FinishInPlace(AvatarData source, Deformer deformer, List<Finding> findings, StageProgress stages, IMovableClips clips,
+            Action<ConversionResult> keep)
         {
             AvatarResult result;
             ConversionResult done = Deform(source, deformer, findings, stages, out result);
@@ -121,7 +124,7 @@ namespace SuperDeform.Editor
             AvatarSnapshot before = new AvatarSnapshot(source.Root);
             try
             {
-                CharacterWriter.Write(source.Root, map, source, result, done.Findings);
+                CharacterWriter.Write(source.Root, map, source, result, done.Findings, stages.Within(ConversionStage.Writing), clips ?? new AnimatorClips(source.Root));
                 done.Assets.AddRange(map.Assets);
                 done.Replaced.AddRange(map.Replaced);
                 keep(done);
@@ -178,7 +181,7 @@ namespace SuperDeform.Editor
                     copy.transform.localPosition = new Vector3(0, 0, 0);
                     copy.transform.localRotation = Quaternion.identity;
                 }
-                CharacterWriter.Write(copy, map, source, result, done.Findings);
+                CharacterWriter.Write(copy, map, source, result, done.Findings, stages.Within(ConversionStage.Writing), new AnimatorClips(copy));
                 // A build would deform the result once more.
                 foreach (SuperDeformAvatar component in copy.GetComponentsInChildren<SuperDeformAvatar>(true))
                 {

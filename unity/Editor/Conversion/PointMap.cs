@@ -32,6 +32,11 @@ namespace SuperDeform.Editor
             Pair(source.Root.transform, copy);
         }
 
+        internal Deformer Deformer
+        {
+            get { return deformer; }
+        }
+
         void Pair(Transform original, Transform copy)
         {
             sourceOf[copy] = original;

@@ -16,26 +16,22 @@ namespace SuperDeform.Editor
             var members = new List<KeyValuePair<string, string>>();
             var keys = new HashSet<string>();
             int at = 0;
-            if (text.Length > 0 && text[0] == '\uFEFF')
-                at++;
+            if (text.Length > 0 && text[0] == '\uFEFF') at++;
             Expect(text, ref at, '{');
             if (Peek(text, ref at) != '}')
             {
                 while (true)
                 {
                     string key = Text(text, ref at);
-                    if (!keys.Add(key))
-                        throw Wrong(text, at, "the key " + key + " stands here a second time");
+                    if (!keys.Add(key)) throw Wrong(text, at, "the key " + key + " stands here a second time");
                     Expect(text, ref at, ':');
                     members.Add(new KeyValuePair<string, string>(key, Text(text, ref at)));
-                    if (Peek(text, ref at) != ',')
-                        break;
+                    if (Peek(text, ref at) != ',') break;
                     at++;
                 }
             }
             Expect(text, ref at, '}');
-            if (Peek(text, ref at) != '\0')
-                throw Wrong(text, at, "nothing may follow the object");
+            if (Peek(text, ref at) != '\0') throw Wrong(text, at, "nothing may follow the object");
             return members;
         }
 
@@ -44,45 +40,44 @@ namespace SuperDeform.Editor
         {
             var result = new StringBuilder("\"");
             foreach (char letter in text ?? "")
-                if (letter == '"' || letter == '\\')
-                    result.Append('\\').Append(letter);
-                else if (letter < ' ')
-                    result.AppendFormat(CultureInfo.InvariantCulture, "\\u{0:x4}", (int)letter);
-                else
-                    result.Append(letter);
+            {
+                if (letter == '"' || letter == '\\') result.Append('\\').Append(letter);
+                else if (letter < ' ') result.AppendFormat(CultureInfo.InvariantCulture, "\\u{0:x4}", (int)letter);
+                else result.Append(letter);
+            }
             return result.Append('"').ToString();
         }
 
-        private static char Peek(string text, ref int at)
+        static char Peek(string text, ref int at)
         {
             while (at < text.Length && (text[at] == ' ' || text[at] == '\t' || text[at] == '\r' || text[at] == '\n'))
+            {
                 at++;
+            }
             return at < text.Length ? text[at] : '\0';
         }
 
-        private static void Expect(string text, ref int at, char wanted)
+        static void Expect(string text, ref int at, char wanted)
         {
-            if (Peek(text, ref at) != wanted)
-                throw Wrong(text, at, "expected " + wanted);
+            if (Peek(text, ref at) != wanted) throw Wrong(text, at, "expected " + wanted);
             at++;
         }
 
-        private static string Text(string text, ref int at)
+        static string Text(string text, ref int at)
         {
             Expect(text, ref at, '"');
             var result = new StringBuilder();
             while (at < text.Length && text[at] != '"')
             {
                 char letter = text[at++];
-                if (letter < ' ')
-                    throw Wrong(text, at, "a text ends on its own line: write \\n");
+                if (letter < ' ') throw Wrong(text, at, "a text ends on its own line: write \\n");
                 result.Append(letter == '\\' ? Escaped(text, ref at) : letter);
             }
             Expect(text, ref at, '"');
             return result.ToString();
         }
 
-        private static char Escaped(string text, ref int at)
+        static char Escaped(string text, ref int at)
         {
             char letter = at < text.Length ? text[at++] : '\0';
             switch (letter)
@@ -97,12 +92,14 @@ namespace SuperDeform.Editor
             int code = 0;
             if (letter != 'u' || at + 4 > text.Length || !int.TryParse(text.Substring(at, 4),
                 NumberStyles.AllowHexSpecifier, CultureInfo.InvariantCulture, out code))
+            {
                 throw Wrong(text, at, "there is no such escape as \\" + letter);
+            }
             at += 4;
             return (char)code;
         }
 
-        private static FormatException Wrong(string text, int at, string what)
+        static FormatException Wrong(string text, int at, string what)
         {
             int line = 1, column = 1;
             for (int i = 0; i < at && i < text.Length; i++)

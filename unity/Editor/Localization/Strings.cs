@@ -16,15 +16,15 @@ namespace SuperDeform.Editor
     /// </remarks>
     public static class Strings
     {
-        private const string Chosen = "SuperDeform.Language";
-        private static readonly string[] languages = { "en", "ja", "ko", "zh" };
+        const string Chosen = "SuperDeform.Language";
+        static readonly string[] languages = { "en", "ja", "ko", "zh" };
 
         /// <summary>What each language calls itself, in the order of Languages.</summary>
         internal static readonly string[] LanguageNames = { "English", "日本語", "한국어", "简体中文" };
 
-        private static readonly Dictionary<string, Dictionary<string, string>> read =
+        static readonly Dictionary<string, Dictionary<string, string>> read =
             new Dictionary<string, Dictionary<string, string>>();
-        private static string language;
+        static string language;
 
         /// <summary>The languages there are: "en", "ja", "ko", "zh" (simplified Chinese).</summary>
         public static IList<string> Languages { get { return Array.AsReadOnly(languages); } }
@@ -46,14 +46,25 @@ namespace SuperDeform.Editor
             set
             {
                 if (Array.IndexOf(languages, value) < 0)
+                {
                     throw new ArgumentException("There is no language " + value + ": use one of "
                         + string.Join(", ", languages) + ".");
+                }
                 language = value;
                 EditorPrefs.SetString(Chosen, value);
             }
         }
 
-        private static string OfSystem(SystemLanguage system)
+        /// <summary>Uses a language of another tool, by its code, such as "ja-JP" or "zh-Hans"; one that there is no text in: English.</summary>
+        internal static void Follow(string code)
+        {
+            string own = code.Length < 2 ? "en" : code.Substring(0, 2).ToLowerInvariant();
+            // Simplified Chinese is what there is.
+            bool other = code.StartsWith("zh-Hant", StringComparison.OrdinalIgnoreCase) || code.StartsWith("zh-TW", StringComparison.OrdinalIgnoreCase);
+            Language = Array.IndexOf(languages, own) >= 0 && !other ? own : "en";
+        }
+
+        static string OfSystem(SystemLanguage system)
         {
             switch (system)
             {
@@ -71,7 +82,9 @@ namespace SuperDeform.Editor
         {
             string text;
             if (!Of(Language).TryGetValue(key, out text) && !Of("en").TryGetValue(key, out text))
+            {
                 return values == null || values.Length == 0 ? key : key + ": " + string.Join(", ", values);
+            }
             try
             {
                 return values == null || values.Length == 0
@@ -91,8 +104,7 @@ namespace SuperDeform.Editor
         public static string OfLibrary(string sentence)
         {
             Match field = Regex.Match(sentence, @" \(([a-z_]+)(, or [a-z_]+)?\)$");
-            if (!field.Success)
-                return sentence;
+            if (!field.Success) return sentence;
             string key = "option." + field.Groups[1].Value;
             string label = Has(key) ? " (" + Get(key) + ")" : key.Contains("_") ? "" : field.Value;
             return sentence.Substring(0, field.Index) + label;
@@ -104,17 +116,18 @@ namespace SuperDeform.Editor
             return Of("en").ContainsKey(key);
         }
 
-        private static Dictionary<string, string> Of(string language)
+        static Dictionary<string, string> Of(string language)
         {
             Dictionary<string, string> texts;
-            if (read.TryGetValue(language, out texts))
-                return texts;
+            if (read.TryGetValue(language, out texts)) return texts;
             texts = new Dictionary<string, string>();
             // A file that cannot be read must not take the window down with it: then keys are shown.
             try
             {
                 foreach (KeyValuePair<string, string> text in FlatJson.Read(File.ReadAllText(FileOf(language))))
+                {
                     texts.Add(text.Key, text.Value);
+                }
             }
             catch (Exception wrong)
             {
@@ -133,7 +146,7 @@ namespace SuperDeform.Editor
             return File.Exists(inPackage) ? inPackage : Path.Combine(Path.GetDirectoryName(ThisFile()), language + ".json");
         }
 
-        private static string ThisFile([CallerFilePath] string path = "")
+        static string ThisFile([CallerFilePath] string path = "")
         {
             return path;
         }

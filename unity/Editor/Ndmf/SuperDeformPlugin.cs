@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using nadena.dev.ndmf;
+using nadena.dev.ndmf.animator;
 using nadena.dev.ndmf.localization;
 using nadena.dev.ndmf.preview;
 using UnityEditor;
@@ -16,7 +17,7 @@ namespace SuperDeform.Editor.Ndmf
     [RunsOnAllPlatforms]
     public sealed class SuperDeformPlugin : Plugin<SuperDeformPlugin>
     {
-        private static Localizer texts;
+        static Localizer texts;
 
         public override string QualifiedName { get { return "com.superdeform.converter"; } }
 
@@ -31,16 +32,16 @@ namespace SuperDeform.Editor.Ndmf
                 .AfterPlugin("net.rs64.tex-trans-tool")
                 .BeforePlugin("nadena.dev.modular-avatar.late-transform-stages")
                 .BeforePlugin("net.narazaka.vrchat.floor_adjuster")
-                .Run("Super-deform the avatar", Deform)
-                .PreviewingWith(new SuperDeformPreview());
+                .WithRequiredExtension(typeof(AnimatorServicesContext), sequence => sequence
+                    .Run("Super-deform the avatar", Deform)
+                    .PreviewingWith(new SuperDeformPreview()));
         }
 
         internal static void Deform(BuildContext context)
         {
             GameObject avatar = context.AvatarRootObject;
             SuperDeformAvatar[] found = avatar.GetComponentsInChildren<SuperDeformAvatar>(true);
-            if (found.Length == 0)
-                return;
+            if (found.Length == 0) return;
             SuperDeformAvatar component = avatar.GetComponent<SuperDeformAvatar>();
             try
             {
@@ -50,11 +51,16 @@ namespace SuperDeform.Editor.Ndmf
                     return;
                 }
                 ConversionResult done;
+                BuildClips clips = new BuildClips(context);
                 using (var progress = new EditorProgress(avatar.name, cancelable: false))
-                    done = Converter.ConvertInPlace(avatar, SettingsText.Of(component), progress, result => Keep(context, result));
+                {
+                    done = Converter.ConvertInPlace(avatar, SettingsText.Of(component), progress, clips, result => Keep(context, result));
+                }
+                clips.Commit();
                 foreach (Finding finding in done.Findings)
-                    if (finding.Severity != Severity.Info)
-                        Say(finding);
+                {
+                    if (finding.Severity != Severity.Info) Say(finding);
+                }
             }
             catch (Exception cause)
             {
@@ -65,43 +71,49 @@ namespace SuperDeform.Editor.Ndmf
             finally
             {
                 foreach (SuperDeformAvatar one in found)
+                {
                     UnityEngine.Object.DestroyImmediate(one);
+                }
             }
         }
 
-        private static void Keep(BuildContext context, ConversionResult done)
+        static void Keep(BuildContext context, ConversionResult done)
         {
             foreach (UnityEngine.Object asset in done.Assets)
+            {
                 context.AssetSaver.SaveAsset(asset);
+            }
             foreach (KeyValuePair<UnityEngine.Object, UnityEngine.Object> pair in done.Replaced)
+            {
                 // One that is known already, through somebody else's report, stays known as that.
                 if (pair.Key != null && pair.Value != null)
+                {
                     ObjectRegistry.TryRegisterReplacedObject(ObjectRegistry.GetReference(pair.Key), pair.Value);
+                }
+            }
         }
 
-        private static void Say(Finding finding)
+        static void Say(Finding finding)
         {
             ErrorSeverity severity = finding.Severity == Severity.Error ? ErrorSeverity.Error
                 : finding.Severity == Severity.Warning ? ErrorSeverity.NonFatal : ErrorSeverity.Information;
             // An object among the values becomes a link to it; none may be null.
-            if (finding.Where == null)
-                ErrorReport.ReportError(Texts, severity, "ndmf.note", finding.Text);
-            else
-                ErrorReport.ReportError(Texts, severity, "ndmf.note", finding.Text, finding.Where);
+            if (finding.Where == null) ErrorReport.ReportError(Texts, severity, "ndmf.note", finding.Text);
+            else ErrorReport.ReportError(Texts, severity, "ndmf.note", finding.Text, finding.Where);
         }
 
-        private static Localizer Texts
+        static Localizer Texts
         {
             get { return texts ?? (texts = new Localizer("en-US", new Func<List<ValueTuple<string, Func<string, string>>>>(Languages))); }
         }
 
         // Sentences come whole and in the package's own language; the title alone is looked up.
-        private static List<ValueTuple<string, Func<string, string>>> Languages()
+        static List<ValueTuple<string, Func<string, string>>> Languages()
         {
             return new List<ValueTuple<string, Func<string, string>>> { new ValueTuple<string, Func<string, string>>("en-US", Text) };
         }
 
-        private static string Text(string key)
+        static string Text(string key)
         {
             return key == "ndmf.note" ? Strings.Get("ndmf.note") : key == "ndmf.note:description" ? "{0}" : null;
         }
@@ -114,7 +126,7 @@ namespace SuperDeform.Editor.Ndmf
             PreviewSession.Shown += Yield;
         }
 
-        private static void Yield(bool shown)
+        static void Yield(bool shown)
         {
             NDMFPreview.DisablePreviewDepth = Math.Max(0, NDMFPreview.DisablePreviewDepth + (shown ? 1 : -1));
         }

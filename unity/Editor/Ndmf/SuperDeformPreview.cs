@@ -17,7 +17,7 @@ namespace SuperDeform.Editor.Ndmf
     /// </remarks>
     internal sealed class SuperDeformPreview : IRenderFilter
     {
-        private static readonly TogglablePreviewNode onOff = TogglablePreviewNode.Create(() => "Super Deform", "com.superdeform.converter/preview", true);
+        static readonly TogglablePreviewNode onOff = TogglablePreviewNode.Create(() => "Super Deform", "com.superdeform.converter/preview", true);
 
         /// <summary>The switch in NDMF's list of previews.</summary>
         public IEnumerable<TogglablePreviewNode> GetPreviewControlNodes()
@@ -41,11 +41,9 @@ namespace SuperDeform.Editor.Ndmf
             foreach (GameObject root in context.GetAvatarRoots())
             {
                 SuperDeformAvatar component = context.GetComponent<SuperDeformAvatar>(root);
-                if (component == null)
-                    continue;
+                if (component == null) continue;
                 Renderer[] renderers = Array.FindAll(context.GetComponentsInChildren<Renderer>(root, true), renderer => RendererReader.MeshOf(renderer) != null);
-                if (renderers.Length > 0)
-                    groups.Add(RenderGroup.For(renderers).WithData(component));
+                if (renderers.Length > 0) groups.Add(RenderGroup.For(renderers).WithData(component));
             }
             return groups.ToImmutableList();
         }
@@ -60,16 +58,16 @@ namespace SuperDeform.Editor.Ndmf
     /// <summary>One avatar in NDMF's preview. One that cannot be deformed is shown as it is: a build says why.</summary>
     internal sealed class SuperDeformPreviewNode : IRenderFilterNode
     {
-        private readonly SuperDeformAvatar component;
-        private readonly PreviewFigure figure;
-        private readonly ProxySkeleton skeleton;
-        private readonly Dictionary<Renderer, ShownMesh> meshes = new Dictionary<Renderer, ShownMesh>();
-        private ComputeContext context;
-        private double changedAt;
-        private bool hasRested;
+        readonly SuperDeformAvatar component;
+        readonly PreviewFigure figure;
+        readonly ProxySkeleton skeleton;
+        readonly Dictionary<Renderer, ShownMesh> meshes = new Dictionary<Renderer, ShownMesh>();
+        ComputeContext context;
+        double changedAt;
+        bool hasRested;
 
         /// <summary>One renderer's mesh and bones.</summary>
-        private sealed class ShownMesh
+        sealed class ShownMesh
         {
             /// <summary>Null where the proxy's own is shown.</summary>
             internal Mesh Mesh;
@@ -91,13 +89,13 @@ namespace SuperDeform.Editor.Ndmf
         }
 
         /// <summary>A bone of another filter, which stands beside the avatar's own: scaled, for instance.</summary>
-        private struct CarriedBone
+        struct CarriedBone
         {
             internal Transform Original, Given, Shown;
         }
 
         // Proxies without a skin whose place was changed: NDMF sets it again only where it hangs them elsewhere.
-        private readonly HashSet<Transform> placed = new HashSet<Transform>();
+        readonly HashSet<Transform> placed = new HashSet<Transform>();
 
         public RenderAspects WhatChanged { get { return RenderAspects.Mesh | RenderAspects.Shapes; } }
 
@@ -113,10 +111,11 @@ namespace SuperDeform.Editor.Ndmf
                 skeleton = new ProxySkeleton(figure.Avatar);
                 // NDMF empties this scene before scripts reload and before play mode.
                 Scene scene = NDMFPreviewSceneManager.GetPreviewScene();
-                if (scene.IsValid())
-                    SceneManager.MoveGameObjectToScene(skeleton.Root.gameObject, scene);
+                if (scene.IsValid()) SceneManager.MoveGameObjectToScene(skeleton.Root.gameObject, scene);
                 foreach (RendererResult renderer in figure.Result.Renderers)
+                {
                     meshes.Add(renderer.Source.Renderer, Made(renderer, BonesOf(reading.Shown, renderer.Source.Renderer)));
+                }
                 Follow();
             }
             catch (ConversionException)
@@ -128,7 +127,7 @@ namespace SuperDeform.Editor.Ndmf
             }
         }
 
-        private static ConversionSettings Observed(SuperDeformAvatar component, ComputeContext context)
+        static ConversionSettings Observed(SuperDeformAvatar component, ComputeContext context)
         {
             context.Observe(component, one => one.Settings);
             context.Observe(component, one => one.ReferenceAvatar);
@@ -136,22 +135,21 @@ namespace SuperDeform.Editor.Ndmf
             return SettingsText.Of(component);
         }
 
-        private static Transform[] BonesOf(Dictionary<Renderer, Renderer> proxies, Renderer original)
+        static Transform[] BonesOf(Dictionary<Renderer, Renderer> proxies, Renderer original)
         {
             Renderer proxy;
             var skinned = (proxies.TryGetValue(original, out proxy) ? proxy : original) as SkinnedMeshRenderer;
             return skinned == null ? null : skinned.bones;
         }
 
-        private ShownMesh Made(RendererResult renderer, Transform[] given)
+        ShownMesh Made(RendererResult renderer, Transform[] given)
         {
             RendererData source = renderer.Source;
             var skinned = source.Renderer as SkinnedMeshRenderer;
             Transform holder = source.Renderer.transform;
             var shown = new ShownMesh { Holder = skeleton.Of(figure.Avatar.IndexOf(holder)) };
             // A pet's mesh stays as it is.
-            if (source.Rides)
-                shown.Bounds = skinned == null ? new Bounds() : skinned.localBounds;
+            if (source.Rides) shown.Bounds = skinned == null ? new Bounds() : skinned.localBounds;
             else
             {
                 shown.Mesh = UnityEngine.Object.Instantiate(source.Mesh);
@@ -160,8 +158,7 @@ namespace SuperDeform.Editor.Ndmf
                 shown.Mesh.ClearBlendShapes();
                 Write(shown, renderer);
             }
-            if (skinned == null)
-                return shown;
+            if (skinned == null) return shown;
             Transform[] bones = skinned.bones;
             shown.Given = given;
             shown.Bones = new Transform[bones.Length];
@@ -175,7 +172,7 @@ namespace SuperDeform.Editor.Ndmf
             return shown;
         }
 
-        private static Transform Carried(ShownMesh shown, Transform original, Transform given, Transform joint)
+        static Transform Carried(ShownMesh shown, Transform original, Transform given, Transform joint)
         {
             Transform made = EditorUtility.CreateGameObjectWithHideFlags(given.name, HideFlags.HideAndDontSave).transform;
             made.SetParent(joint, false);
@@ -183,12 +180,11 @@ namespace SuperDeform.Editor.Ndmf
             return made;
         }
 
-        private static void Write(ShownMesh shown, RendererResult renderer)
+        static void Write(ShownMesh shown, RendererResult renderer)
         {
             MeshWriter.Write(shown.Mesh, renderer);
             var skinned = renderer.Source.Renderer as SkinnedMeshRenderer;
-            if (skinned != null)
-                shown.Bounds = MeshWriter.NewBounds(skinned.localBounds, renderer);
+            if (skinned != null) shown.Bounds = MeshWriter.NewBounds(skinned.localBounds, renderer);
         }
 
         /// <summary>
@@ -199,15 +195,15 @@ namespace SuperDeform.Editor.Ndmf
         {
             bool same = (updatedAspects & RenderAspects.Mesh) == 0 && !hasRested;
             if (!same || !HaveSameBones(proxyPairs) || figure == null || component == null || skeleton.Root == null)
+            {
                 return Task.FromResult<IRenderFilterNode>(null);
+            }
             this.context = context;
-            if ((updatedAspects & RenderAspects.Shapes) != 0)
-                WhenRested(ReadAnew);
+            if ((updatedAspects & RenderAspects.Shapes) != 0) WhenRested(ReadAnew);
             ConversionSettings settings = Observed(component, context);
             try
             {
-                if (SettingsChanges.Between(figure.Shown, settings) == SettingsChange.Rig)
-                    return Task.FromResult<IRenderFilterNode>(null);
+                if (SettingsChanges.Between(figure.Shown, settings) == SettingsChange.Rig) return Task.FromResult<IRenderFilterNode>(null);
                 if (figure.Update(settings, true))
                 {
                     WriteAll();
@@ -223,54 +219,51 @@ namespace SuperDeform.Editor.Ndmf
         }
 
         /// <summary>Whether filters before this one give the bones that they gave.</summary>
-        private bool HaveSameBones(IEnumerable<(Renderer, Renderer)> proxyPairs)
+        bool HaveSameBones(IEnumerable<(Renderer, Renderer)> proxyPairs)
         {
             foreach ((Renderer, Renderer) pair in proxyPairs)
             {
                 ShownMesh shown;
                 var skinned = pair.Item2 as SkinnedMeshRenderer;
-                if (skinned != null && meshes.TryGetValue(pair.Item1, out shown) && !skinned.bones.SequenceEqual(shown.Given))
-                    return false;
+                if (skinned != null && meshes.TryGetValue(pair.Item1, out shown) && !skinned.bones.SequenceEqual(shown.Given)) return false;
             }
             return true;
         }
 
-        private void WriteAll()
+        void WriteAll()
         {
             foreach (RendererResult renderer in figure.Result.Renderers)
-                if (!renderer.Source.Rides)
-                    Write(meshes[renderer.Source.Renderer], renderer);
+            {
+                if (!renderer.Source.Rides) Write(meshes[renderer.Source.Renderer], renderer);
+            }
         }
 
         /// <summary>Has a step tried in every round of the editor; it waits until nothing has changed for a while.</summary>
-        private void WhenRested(EditorApplication.CallbackFunction step)
+        void WhenRested(EditorApplication.CallbackFunction step)
         {
             changedAt = EditorApplication.timeSinceStartup;
             EditorApplication.update -= step;
             EditorApplication.update += step;
         }
 
-        private bool Moves { get { return EditorApplication.timeSinceStartup - changedAt < ConverterController.Rest; } }
+        bool Moves { get { return EditorApplication.timeSinceStartup - changedAt < ConverterController.Rest; } }
 
-        private void ReadAnew()
+        void ReadAnew()
         {
-            if (Moves)
-                return;
+            if (Moves) return;
             EditorApplication.update -= ReadAnew;
             hasRested = true;
             context.Invalidate();
         }
 
         /// <summary>Pushes clothes out of the body as it is now.</summary>
-        private void Settle()
+        void Settle()
         {
-            if (Moves)
-                return;
+            if (Moves) return;
             EditorApplication.update -= Settle;
             try
             {
-                if (skeleton.Root == null || !figure.Settle())
-                    return;
+                if (skeleton.Root == null || !figure.Settle()) return;
                 WriteAll();
                 SceneView.RepaintAll();
             }
@@ -282,23 +275,24 @@ namespace SuperDeform.Editor.Ndmf
 
         public void OnFrameGroup()
         {
-            if (figure != null && component != null && skeleton.Root != null)
-                Follow();
+            if (figure != null && component != null && skeleton.Root != null) Follow();
         }
 
-        private void Follow()
+        void Follow()
         {
             skeleton.Place(figure.Avatar.Root.transform, Vector3.zero);
-            if (skeleton.HasMoved())
-                skeleton.Stand(figure.Result);
+            if (skeleton.HasMoved()) skeleton.Stand(figure.Result);
             foreach (ShownMesh shown in meshes.Values)
+            {
                 foreach (CarriedBone bone in shown.Carried)
-                    if (bone.Original != null && bone.Given != null)
-                        Stand(bone);
+                {
+                    if (bone.Original != null && bone.Given != null) Stand(bone);
+                }
+            }
         }
 
         /// <summary>A bone of another filter stands beside the moved joint as it stands beside the avatar's.</summary>
-        private static void Stand(CarriedBone bone)
+        static void Stand(CarriedBone bone)
         {
             Matrix4x4 beside = bone.Original.worldToLocalMatrix * bone.Given.localToWorldMatrix;
             bone.Shown.localPosition = new Vector3(beside.m03, beside.m13, beside.m23);
@@ -314,25 +308,22 @@ namespace SuperDeform.Editor.Ndmf
         {
             ShownMesh shown;
             // NDMF may have emptied its scene.
-            if (figure == null || skeleton.Root == null || proxy == null || !meshes.TryGetValue(original, out shown))
-                return;
+            if (figure == null || skeleton.Root == null || proxy == null || !meshes.TryGetValue(original, out shown)) return;
             var skinned = proxy as SkinnedMeshRenderer;
             if (skinned == null)
             {
-                if (shown.Mesh != null)
-                    proxy.GetComponent<MeshFilter>().sharedMesh = shown.Mesh;
+                if (shown.Mesh != null) proxy.GetComponent<MeshFilter>().sharedMesh = shown.Mesh;
                 Place(proxy.transform, shown.Holder);
                 return;
             }
-            if (shown.Mesh != null)
-                skinned.sharedMesh = shown.Mesh;
+            if (shown.Mesh != null) skinned.sharedMesh = shown.Mesh;
             skinned.bones = shown.Bones;
             skinned.rootBone = shown.RootBone;
             skinned.localBounds = shown.Bounds;
         }
 
         /// <summary>Puts a proxy where a joint is, whatever it hangs from.</summary>
-        private void Place(Transform proxy, Transform joint)
+        void Place(Transform proxy, Transform joint)
         {
             Vector3 size = joint.lossyScale, above = proxy.parent == null ? Vector3.one : proxy.parent.lossyScale;
             proxy.position = joint.position;
@@ -342,12 +333,11 @@ namespace SuperDeform.Editor.Ndmf
         }
 
         /// <summary>Gives NDMF its proxies back where it had put them.</summary>
-        private void Release()
+        void Release()
         {
             foreach (Transform proxy in placed)
             {
-                if (proxy == null)
-                    continue;
+                if (proxy == null) continue;
                 proxy.localPosition = Vector3.zero;
                 proxy.localRotation = Quaternion.identity;
                 proxy.localScale = Vector3.one;
@@ -361,12 +351,11 @@ namespace SuperDeform.Editor.Ndmf
             EditorApplication.update -= Settle;
             Release();
             foreach (ShownMesh shown in meshes.Values)
-                if (shown.Mesh != null)
-                    UnityEngine.Object.DestroyImmediate(shown.Mesh);
-            if (skeleton != null)
-                skeleton.Destroy();
-            if (figure != null)
-                figure.Dispose();
+            {
+                if (shown.Mesh != null) UnityEngine.Object.DestroyImmediate(shown.Mesh);
+            }
+            if (skeleton != null) skeleton.Destroy();
+            if (figure != null) figure.Dispose();
         }
     }
 }

@@ -6,7 +6,7 @@ namespace SuperDeform.Editor
     /// <summary>What says in the Scene view that an avatar is shown as it will be, not as it is.</summary>
     internal static class PreviewBadge
     {
-        private const float Width = 216;
+        const float Width = 216;
 
         /// <param name="before">The avatar as it is stands there for comparison.</param>
         internal static void Draw(SceneView view, PreviewSession preview)
@@ -18,8 +18,7 @@ namespace SuperDeform.Editor
             GUI.Label(new Rect(left + 6, 11, 140, 18), Strings.Get(preview.ShowBefore ? "badge.before" : "badge.after"));
             bool frame = GUI.Button(new Rect(left + 146, 10, 66, 20), new GUIContent(Strings.Get("badge.frame"), Strings.Get("badge.frame.tooltip")));
             Handles.EndGUI();
-            if (frame)
-                view.Frame(preview.Bounds, false);
+            if (frame) view.Frame(preview.Bounds, false);
         }
     }
 }

@@ -9,9 +9,9 @@ namespace SuperDeform.Editor
     /// </summary>
     internal sealed class PreviewFigure : IDisposable
     {
-        private readonly PreviewStyle style = new PreviewStyle();
-        private Deformer deformer;
-        private bool pushedEarlier;
+        readonly PreviewStyle style = new PreviewStyle();
+        Deformer deformer;
+        bool pushedEarlier;
 
         internal AvatarData Avatar { get; private set; }
 
@@ -49,8 +49,7 @@ namespace SuperDeform.Editor
         internal bool Update(ConversionSettings settings, bool moving)
         {
             SettingsChange change = SettingsChanges.Between(Shown, settings);
-            if (change == SettingsChange.None)
-                return false;
+            if (change == SettingsChange.None) return false;
             return Change(settings, change, moving);
         }
 
@@ -62,10 +61,9 @@ namespace SuperDeform.Editor
             return pushedEarlier && Change(Shown, SettingsChange.Options, false);
         }
 
-        private bool Change(ConversionSettings settings, SettingsChange change, bool moving)
+        bool Change(ConversionSettings settings, SettingsChange change, bool moving)
         {
-            if (change == SettingsChange.Rig)
-                throw new InvalidOperationException("Another rig needs the avatar to be read anew.");
+            if (change == SettingsChange.Rig) throw new InvalidOperationException("Another rig needs the avatar to be read anew.");
             try
             {
                 Deform(settings, change, moving, null);
@@ -78,35 +76,41 @@ namespace SuperDeform.Editor
             }
         }
 
-        private void Deform(ConversionSettings settings, SettingsChange change, bool moving, ProgressHandler progress)
+        void Deform(ConversionSettings settings, SettingsChange change, bool moving, ProgressHandler progress)
         {
             bool asEarlier = moving && change == SettingsChange.Options && settings.Options.Repair == Repair.On;
             if (change == SettingsChange.Options)
             {
                 Options options = settings.Options.Clone();
-                if (asEarlier)
-                    options.Repair = Repair.Kept;
+                if (asEarlier) options.Repair = Repair.Kept;
                 deformer.SetOptions(options, null);
             }
             else
+            {
                 using (Style wanted = style.Make(settings))
                 {
+                    // A slider of the style: the character is not measured again. With other options it is made anew, so that what fails
+                    // leaves nothing half changed.
+                    if (deformer != null && !pushedEarlier && SettingsChanges.SameOptions(Shown, settings))
+                    {
+                        deformer.SetStyle(wanted);
+                        Shown = settings.Clone();
+                        return;
+                    }
                     var made = new Deformer(Avatar.Character, wanted, settings.Options, progress);
-                    if (deformer != null)
-                        deformer.Dispose();
+                    if (deformer != null) deformer.Dispose();
                     deformer = made;
                 }
+            }
             pushedEarlier = asEarlier;
             Shown = settings.Clone();
         }
 
         public void Dispose()
         {
-            if (deformer != null)
-                deformer.Dispose();
+            if (deformer != null) deformer.Dispose();
             style.Dispose();
-            if (Avatar != null)
-                Avatar.Dispose();
+            if (Avatar != null) Avatar.Dispose();
         }
     }
 }

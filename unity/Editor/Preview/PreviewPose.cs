@@ -8,7 +8,7 @@ namespace SuperDeform.Editor
     /// <summary>Bends a proxy skeleton: limbs are turned to point a given way, so that any rest pose will do.</summary>
     internal static class PreviewPoses
     {
-        private struct Limb
+        struct Limb
         {
             internal HumanoidRole From, To;
             /// <summary>Where it points, in the space of the avatar's root: right, up, forward.</summary>
@@ -23,7 +23,7 @@ namespace SuperDeform.Editor
         }
 
         // Parents before children.
-        private static readonly Limb[] walks =
+        static readonly Limb[] walks =
         {
             new Limb(HumanoidRole.LeftUpperLeg, HumanoidRole.LeftLowerLeg, -0.05f, -1, 0.5f),
             new Limb(HumanoidRole.LeftLowerLeg, HumanoidRole.LeftFoot, 0, -1, 0.2f),
@@ -35,7 +35,7 @@ namespace SuperDeform.Editor
             new Limb(HumanoidRole.RightLowerArm, HumanoidRole.RightHand, 0.25f, -1, 0.8f)
         };
 
-        private static readonly Limb[] sits =
+        static readonly Limb[] sits =
         {
             new Limb(HumanoidRole.LeftUpperLeg, HumanoidRole.LeftLowerLeg, -0.12f, -0.1f, 1),
             new Limb(HumanoidRole.LeftLowerLeg, HumanoidRole.LeftFoot, 0, -1, 0),
@@ -51,8 +51,7 @@ namespace SuperDeform.Editor
         /// <param name="twins">By joint: the joint of the body that it moves with, or itself.</param>
         internal static void Take(PreviewPose pose, ProxySkeleton skeleton, int[] jointOf, int[] twins)
         {
-            if (pose == PreviewPose.AsItStands)
-                return;
+            if (pose == PreviewPose.AsItStands) return;
             Matrix4x4[] from = System.Array.ConvertAll(twins, twin => skeleton.Of(twin).worldToLocalMatrix);
             Quaternion[] before = System.Array.ConvertAll(twins, twin => skeleton.Of(twin).rotation);
             Vector3[] places = new Vector3[twins.Length];
@@ -65,21 +64,22 @@ namespace SuperDeform.Editor
             Bend(pose, skeleton, jointOf);
             // Parents come first, so that what a parent does to a child is overwritten.
             for (int joint = 0; joint < twins.Length; joint++)
+            {
                 if (twins[joint] != joint)
                 {
                     Transform twin = skeleton.Of(twins[joint]);
                     skeleton.Of(joint).position = twin.localToWorldMatrix.MultiplyPoint3x4(places[joint]);
                     skeleton.Of(joint).rotation = twin.rotation * turns[joint];
                 }
+            }
         }
 
-        private static void Bend(PreviewPose pose, ProxySkeleton skeleton, int[] jointOf)
+        static void Bend(PreviewPose pose, ProxySkeleton skeleton, int[] jointOf)
         {
             foreach (Limb limb in pose == PreviewPose.Walks ? walks : sits)
             {
                 int from = jointOf[(int)limb.From], to = jointOf[(int)limb.To];
-                if (from < 0 || to < 0)
-                    continue;
+                if (from < 0 || to < 0) continue;
                 Transform joint = skeleton.Of(from);
                 Vector3 now = skeleton.Of(to).position - joint.position;
                 Vector3 wanted = skeleton.Root.rotation * limb.Way;

@@ -13,19 +13,19 @@ namespace SuperDeform.Editor
     /// </remarks>
     public sealed class PreviewSession : IDisposable
     {
-        private readonly PreviewFigure figure;
-        private readonly List<ProxyRenderer> renderers = new List<ProxyRenderer>();
-        private readonly List<Renderer> hidden = new List<Renderer>();
-        private readonly int[] jointOf;
-        private ProxySkeleton skeleton;
-        private bool showBefore, beside;
-        private PreviewPose pose;
-        private Matrix4x4 placedAt;
-        private readonly List<float> worn = new List<float>();
-        private bool counted;
-        private float width;
+        readonly PreviewFigure figure;
+        readonly List<ProxyRenderer> renderers = new List<ProxyRenderer>();
+        readonly List<Renderer> hidden = new List<Renderer>();
+        readonly int[] jointOf;
+        ProxySkeleton skeleton;
+        bool showBefore, beside;
+        PreviewPose pose;
+        Matrix4x4 placedAt;
+        readonly List<float> worn = new List<float>();
+        bool counted;
+        float width;
 
-        private AvatarData Avatar { get { return figure.Avatar; } }
+        AvatarData Avatar { get { return figure.Avatar; } }
 
         /// <summary>Comes with true when a preview begins to be shown, with false when it ends.</summary>
         public static event Action<bool> Shown;
@@ -47,15 +47,15 @@ namespace SuperDeform.Editor
                 Weights(worn);
                 skeleton = new ProxySkeleton(Avatar);
                 foreach (RendererResult renderer in figure.Result.Renderers)
-                    if (IsShown(renderer.Source))
-                        renderers.Add(new ProxyRenderer(Avatar, renderer, skeleton));
+                {
+                    if (IsShown(renderer.Source)) renderers.Add(new ProxyRenderer(Avatar, renderer, skeleton));
+                }
                 Show();
                 Place();
                 ApplyVisibility();
                 Selection.selectionChanged += SelectOriginal;
                 counted = true;
-                if (Shown != null)
-                    Shown(true);
+                if (Shown != null) Shown(true);
             }
             catch (Exception cause)
             {
@@ -64,7 +64,7 @@ namespace SuperDeform.Editor
             }
         }
 
-        private static bool IsShown(RendererData data)
+        static bool IsShown(RendererData data)
         {
             return data.Parts.Count > 0 || data.Rides;
         }
@@ -86,24 +86,24 @@ namespace SuperDeform.Editor
         /// <exception cref="ConversionException">They cannot be; the proxy stays as it was.</exception>
         public void Update(ConversionSettings settings, bool moving = false)
         {
-            if (figure.Update(settings, moving))
-                Show();
+            if (figure.Update(settings, moving)) Show();
         }
 
         /// <summary>After updates with moving: pushes clothes out of the body as it is now.</summary>
         /// <exception cref="ConversionException">They cannot be; the proxy stays as it was.</exception>
         public void Settle()
         {
-            if (figure.Settle())
-                Show();
+            if (figure.Settle()) Show();
         }
 
-        private void Show()
+        void Show()
         {
             skeleton.Move(figure.Result);
             Stand();
             foreach (ProxyRenderer renderer in renderers)
+            {
                 renderer.Show(skeleton);
+            }
         }
 
         /// <summary>Measures the result. Takes longer than a frame: for when settings rest.</summary>
@@ -132,8 +132,7 @@ namespace SuperDeform.Editor
             get { return beside; }
             set
             {
-                if (beside == value)
-                    return;
+                if (beside == value) return;
                 beside = value;
                 Place();
                 ApplyVisibility();
@@ -146,29 +145,29 @@ namespace SuperDeform.Editor
             get { return pose; }
             set
             {
-                if (pose == value)
-                    return;
+                if (pose == value) return;
                 pose = value;
                 Stand();
             }
         }
 
-        private void Stand()
+        void Stand()
         {
             skeleton.Stand(figure.Result);
-            if (Avatar.Rigged)
-                PreviewPoses.Take(pose, skeleton, jointOf, Avatar.Twins);
+            if (Avatar.Rigged) PreviewPoses.Take(pose, skeleton, jointOf, Avatar.Twins);
         }
 
         /// <summary>The weights of all blend shapes. Without garbage.</summary>
-        private void Weights(List<float> weights)
+        void Weights(List<float> weights)
         {
             weights.Clear();
             foreach (RendererData data in Avatar.Renderers)
             {
                 var skinned = data.Renderer as SkinnedMeshRenderer;
                 for (int shape = 0; skinned != null && shape < data.Mesh.blendShapeCount; shape++)
+                {
                     weights.Add(skinned.GetBlendShapeWeight(shape));
+                }
             }
         }
 
@@ -182,8 +181,9 @@ namespace SuperDeform.Editor
                 {
                     var skinned = data.Renderer as SkinnedMeshRenderer;
                     for (int shape = 0; skinned != null && shape < data.Mesh.blendShapeCount; shape++, at++)
-                        if (at >= worn.Count || worn[at] != skinned.GetBlendShapeWeight(shape))
-                            return true;
+                    {
+                        if (at >= worn.Count || worn[at] != skinned.GetBlendShapeWeight(shape)) return true;
+                    }
                 }
                 return false;
             }
@@ -192,28 +192,26 @@ namespace SuperDeform.Editor
         /// <summary>The avatar's object that one of the proxy's stands for; null for others.</summary>
         public GameObject OriginalOf(GameObject shown)
         {
-            if (shown == null || Proxy == null || !shown.transform.IsChildOf(Proxy.transform))
-                return null;
+            if (shown == null || Proxy == null || !shown.transform.IsChildOf(Proxy.transform)) return null;
             foreach (ProxyRenderer renderer in renderers)
-                if (renderer.IsOn(shown))
-                    return renderer.Original.gameObject;
+            {
+                if (renderer.IsOn(shown)) return renderer.Original.gameObject;
+            }
             return Avatar.Root;
         }
 
         /// <summary>
         /// A click on the proxy, or a rectangle around it, selects what it stands for: the proxy itself is nothing that can be changed.
         /// </summary>
-        private void SelectOriginal()
+        void SelectOriginal()
         {
             UnityEngine.Object[] selected = Selection.objects;
-            if (!Array.Exists(selected, one => OriginalOf(one as GameObject) != null))
-                return;
+            if (!Array.Exists(selected, one => OriginalOf(one as GameObject) != null)) return;
             var originals = new List<UnityEngine.Object>();
             foreach (UnityEngine.Object one in selected)
             {
                 UnityEngine.Object original = OriginalOf(one as GameObject) ?? one;
-                if (!originals.Contains(original))
-                    originals.Add(original);
+                if (!originals.Contains(original)) originals.Add(original);
             }
             Selection.objects = originals.ToArray();
         }
@@ -226,14 +224,14 @@ namespace SuperDeform.Editor
                 bool any = false;
                 var bounds = new Bounds(Avatar.Root.transform.position, Vector3.zero);
                 foreach (RendererData data in Avatar.Renderers)
+                {
                     if (data.Renderer != null)
                     {
-                        if (any)
-                            bounds.Encapsulate(data.Renderer.bounds);
-                        else
-                            bounds = data.Renderer.bounds;
+                        if (any) bounds.Encapsulate(data.Renderer.bounds);
+                        else bounds = data.Renderer.bounds;
                         any = true;
                     }
+                }
                 return bounds;
             }
         }
@@ -246,18 +244,17 @@ namespace SuperDeform.Editor
         {
             bool changed = false;
             foreach (ProxyRenderer renderer in renderers)
+            {
                 changed |= renderer.Follow(!showBefore);
-            if (changed && !showBefore && !beside)
-                Hide();
+            }
+            if (changed && !showBefore && !beside) Hide();
             bool placed = !placedAt.Equals(Avatar.Root.transform.localToWorldMatrix), posed = skeleton.HasMoved();
-            if (placed)
-                Place();
-            if (posed)
-                Stand();
+            if (placed) Place();
+            if (posed) Stand();
             return changed || placed || posed;
         }
 
-        private void Place()
+        void Place()
         {
             Transform root = Avatar.Root.transform;
             placedAt = root.localToWorldMatrix;
@@ -265,84 +262,89 @@ namespace SuperDeform.Editor
             skeleton.Place(root, aside);
         }
 
-        private float Width()
+        float Width()
         {
-            if (width > 0)
-                return width;
+            if (width > 0) return width;
             float low = 0, high = 0;
             foreach (RendererData renderer in Avatar.Renderers)
+            {
                 foreach (Vector3 vertex in renderer.ModelVertices)
                 {
                     low = Mathf.Min(low, vertex.x);
                     high = Mathf.Max(high, vertex.x);
                 }
+            }
             return width = high - low;
         }
 
-        private void ApplyVisibility()
+        void ApplyVisibility()
         {
             foreach (ProxyRenderer renderer in renderers)
+            {
                 renderer.Visible = !showBefore;
-            if (showBefore || beside)
-                Unhide();
-            else
-                Hide();
+            }
+            if (showBefore || beside) Unhide();
+            else Hide();
         }
 
         // forceRenderingOff is not saved and is no change of the object: nothing of the avatar is left different.
-        private void Hide()
+        void Hide()
         {
             foreach (RendererData data in Avatar.Renderers)
+            {
                 if (data.Renderer != null && IsShown(data) && !data.Renderer.forceRenderingOff)
                 {
                     data.Renderer.forceRenderingOff = true;
                     hidden.Add(data.Renderer);
                 }
+            }
         }
 
-        private void Unhide()
+        void Unhide()
         {
             foreach (Renderer renderer in hidden)
-                if (renderer != null)
-                    renderer.forceRenderingOff = false;
+            {
+                if (renderer != null) renderer.forceRenderingOff = false;
+            }
             hidden.Clear();
         }
 
-        private static ProgressHandler Part(IConversionProgress progress, string stage, float from, float to)
+        static ProgressHandler Part(IConversionProgress progress, string stage, float from, float to)
         {
             return progress == null ? (ProgressHandler)null : fraction => progress.Report(stage, from + (to - from) * fraction);
         }
 
-        private static int[] JointsByRole(AvatarData avatar)
+        static int[] JointsByRole(AvatarData avatar)
         {
             var joints = new int[55];
             for (int role = 0; role < joints.Length; role++)
+            {
                 joints[role] = -1;
-            if (!avatar.Rigged)
-                return joints;
+            }
+            if (!avatar.Rigged) return joints;
             // Guessed roles too, not only those that the avatar says.
             HumanoidRole[] roles = avatar.Character.GetJoints().Roles;
             for (int joint = 0; joint < avatar.Joints.Length; joint++)
-                if (roles[joint] >= 0 && (int)roles[joint] < joints.Length)
-                    joints[(int)roles[joint]] = joint;
+            {
+                if (roles[joint] >= 0 && (int)roles[joint] < joints.Length) joints[(int)roles[joint]] = joint;
+            }
             return joints;
         }
 
         public void Dispose()
         {
             Selection.selectionChanged -= SelectOriginal;
-            if (counted && Shown != null)
-                Shown(false);
+            if (counted && Shown != null) Shown(false);
             counted = false;
             Unhide();
             foreach (ProxyRenderer renderer in renderers)
+            {
                 renderer.Destroy();
+            }
             renderers.Clear();
-            if (skeleton != null)
-                skeleton.Destroy();
+            if (skeleton != null) skeleton.Destroy();
             skeleton = null;
-            if (figure != null)
-                figure.Dispose();
+            if (figure != null) figure.Dispose();
         }
     }
 }

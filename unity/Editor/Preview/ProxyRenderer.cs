@@ -12,12 +12,12 @@ namespace SuperDeform.Editor
     /// </remarks>
     internal sealed class ProxyRenderer
     {
-        private readonly RendererResult result;
-        private readonly int[] joints;
-        private readonly Mesh mesh;
-        private readonly Matrix4x4[] bindPoses;
-        private readonly SkinnedMeshRenderer renderer;
-        private readonly List<Material> now = new List<Material>(), before = new List<Material>();
+        readonly RendererResult result;
+        readonly int[] joints;
+        readonly Mesh mesh;
+        readonly Matrix4x4[] bindPoses;
+        readonly SkinnedMeshRenderer renderer;
+        readonly List<Material> now = new List<Material>(), before = new List<Material>();
 
         internal ProxyRenderer(AvatarData avatar, RendererResult result, ProxySkeleton skeleton)
         {
@@ -47,7 +47,9 @@ namespace SuperDeform.Editor
             renderer.rootBone = skeleton.Root;
             var bones = new Transform[joints.Length];
             for (int bone = 0; bone < bones.Length; bone++)
+            {
                 bones[bone] = skeleton.Of(joints[bone]);
+            }
             renderer.bones = bones;
             renderer.localBounds = Around(source.ModelVertices);
         }
@@ -56,12 +58,12 @@ namespace SuperDeform.Editor
         internal void Show(ProxySkeleton skeleton)
         {
             mesh.SetVertices(result.Positions);
-            if (result.Normals != null)
-                mesh.SetNormals(result.Normals);
-            if (result.Tangents != null)
-                mesh.SetTangents(result.Tangents);
+            if (result.Normals != null) mesh.SetNormals(result.Normals);
+            if (result.Tangents != null) mesh.SetTangents(result.Tangents);
             for (int bone = 0; bone < bindPoses.Length; bone++)
+            {
                 bindPoses[bone] = skeleton.InverseRest(joints[bone]);
+            }
             mesh.bindposes = bindPoses;
         }
 
@@ -81,7 +83,7 @@ namespace SuperDeform.Editor
         }
 
         // The eye in the Hierarchy hides an object in the Scene view alone.
-        private bool IsOriginalSeen
+        bool IsOriginalSeen
         {
             get
             {
@@ -96,15 +98,15 @@ namespace SuperDeform.Editor
         {
             bool seen = visible && IsOriginalSeen, changed = renderer.enabled != seen;
             renderer.enabled = seen;
-            if (Original == null)
-                return changed;
+            if (Original == null) return changed;
             Original.GetSharedMaterials(now);
             renderer.GetSharedMaterials(before);
             bool same = now.Count == before.Count;
             for (int slot = 0; same && slot < now.Count; slot++)
+            {
                 same = now[slot] == before[slot];
-            if (same)
-                return changed;
+            }
+            if (same) return changed;
             renderer.sharedMaterials = now.ToArray();
             return true;
         }
@@ -112,24 +114,27 @@ namespace SuperDeform.Editor
         internal void Destroy()
         {
             // The object goes with the skeleton's root; a mesh belongs to nobody.
-            if (mesh != null)
-                Object.DestroyImmediate(mesh);
+            if (mesh != null) Object.DestroyImmediate(mesh);
         }
 
-        private static BoneWeight[] WholeWeights(int count)
+        static BoneWeight[] WholeWeights(int count)
         {
             var weights = new BoneWeight[count];
             for (int i = 0; i < count; i++)
+            {
                 weights[i].weight0 = 1;
+            }
             return weights;
         }
 
         // Well beyond the mesh: what a slider does stays inside, and Unity does not cull it.
-        private static Bounds Around(Vector3[] points)
+        static Bounds Around(Vector3[] points)
         {
             var bounds = new Bounds(points.Length > 0 ? points[0] : Vector3.zero, Vector3.zero);
             foreach (Vector3 point in points)
+            {
                 bounds.Encapsulate(point);
+            }
             bounds.Expand(bounds.size.magnitude);
             return bounds;
         }

@@ -7,11 +7,11 @@ namespace SuperDeform.Editor
     /// <summary>Transforms that stand for the avatar's: the same hierarchy, names, rotations and scales, moved joints.</summary>
     internal sealed class ProxySkeleton
     {
-        private readonly AvatarData avatar;
-        private readonly Transform[] joints;
-        private readonly Matrix4x4[] inverses;
-        private readonly Vector3[] places;
-        private readonly Quaternion[] turns;
+        readonly AvatarData avatar;
+        readonly Transform[] joints;
+        readonly Matrix4x4[] inverses;
+        readonly Vector3[] places;
+        readonly Quaternion[] turns;
 
         internal Transform Root { get; private set; }
 
@@ -21,8 +21,7 @@ namespace SuperDeform.Editor
             // Hidden from the start: what is hidden later has changed the scene by then.
             Root = EditorUtility.CreateGameObjectWithHideFlags(avatar.Root.name + " (preview)", HideFlags.HideAndDontSave).transform;
             // The scene of the avatar, which need not be the active one; the view of a prefab shows its own alone.
-            if (avatar.Root.scene.IsValid())
-                SceneManager.MoveGameObjectToScene(Root.gameObject, avatar.Root.scene);
+            if (avatar.Root.scene.IsValid()) SceneManager.MoveGameObjectToScene(Root.gameObject, avatar.Root.scene);
             joints = new Transform[avatar.Joints.Length];
             inverses = new Matrix4x4[joints.Length];
             places = new Vector3[joints.Length];
@@ -65,7 +64,9 @@ namespace SuperDeform.Editor
         internal void Move(AvatarResult result)
         {
             for (int joint = 0; joint < joints.Length; joint++)
+            {
                 inverses[joint] = result.Rest[joint].Inverse.ToMatrix4x4();
+            }
         }
 
         /// <summary>Whether the avatar stands otherwise than at the last Stand. Without garbage.</summary>
@@ -77,7 +78,9 @@ namespace SuperDeform.Editor
                 // Against what was read, not against the copy, whose rotation Unity normalizes.
                 if (source != null && joints[joint] != Root
                     && !(source.localPosition.Equals(places[joint]) && source.localRotation.Equals(turns[joint])))
+                {
                     return true;
+                }
             }
             return false;
         }
@@ -88,8 +91,7 @@ namespace SuperDeform.Editor
             for (int joint = 0; joint < joints.Length; joint++)
             {
                 Transform source = avatar.Joints[joint];
-                if (source == null || joints[joint] == Root)
-                    continue;
+                if (source == null || joints[joint] == Root) continue;
                 places[joint] = source.localPosition;
                 turns[joint] = source.localRotation;
                 joints[joint].localPosition = places[joint] + result.LocalShifts[joint];
@@ -100,8 +102,7 @@ namespace SuperDeform.Editor
 
         internal void Destroy()
         {
-            if (Root != null)
-                Object.DestroyImmediate(Root.gameObject);
+            if (Root != null) Object.DestroyImmediate(Root.gameObject);
         }
     }
 }

@@ -174,6 +174,10 @@ namespace SuperDeform.Editor
                 if (renderer.Rides) renderer.Parts.Clear();
             }
             data.Parts.RemoveAll(part => part.Renderer.Rides);
+            for (int part = 0; part < data.Parts.Count; part++)
+            {
+                data.Parts[part].Index = part;
+            }
             if (data.Rigged) data.Character.SetSkeleton(Skeleton(data, EyeBones.Added(data, roles)));
             AddMeshes(data);
             AddMorphTargets(data);
@@ -221,36 +225,43 @@ namespace SuperDeform.Editor
             }
         }
 
+        /// <summary>Gives the character what is worn, and the blend shapes that say something of it; others cross when they are written.</summary>
         static void AddMorphTargets(AvatarData data)
         {
             foreach (RendererData renderer in data.Renderers)
             {
+                if (renderer.Worn != null) AddWorn(data, renderer);
+                List<BlendFrame> read = renderer.Frames.FindAll(frame => Character.ReadsMorphTarget(frame.ShapeName));
+                if (read.Count == 0 || renderer.Parts.Count == 0) continue;
                 FramePlacer placer = new FramePlacer(renderer);
-                foreach (PartData part in renderer.Parts)
+                BlendDeltas deltas = BlendDeltas.Of(renderer.Vertices.Length);
+                foreach (BlendFrame frame in read)
                 {
-                    part.MovesPlaces = new bool[renderer.Frames.Count];
-                    part.MovesNormals = new bool[renderer.Frames.Count];
-                    part.MovesTangents = new bool[renderer.Frames.Count];
-                }
-                for (int index = 0; index < renderer.Frames.Count; index++)
-                {
-                    BlendFrame frame = placer.ToModel(renderer.Frames[index]);
-                    foreach (PartData part in renderer.Parts)
-                    {
-                        part.MovesPlaces[index] = FramePlacer.Changes(frame.Positions, part);
-                        part.MovesNormals[index] = FramePlacer.Changes(frame.Normals, part);
-                        part.MovesTangents[index] = FramePlacer.Changes(frame.Tangents, part);
-                        data.Character.AddMorphTarget(data.Parts.IndexOf(part), new MorphArrays
-                        {
-                            Name = frame.ShapeName,
-                            FirstVertex = part.Start,
-                            Positions = part.Gather(frame.Positions),
-                            Normals = part.MovesNormals[index] ? part.Gather(frame.Normals) : null,
-                            Tangents = part.MovesTangents[index] ? part.Gather(frame.Tangents) : null
-                        });
-                    }
+                    deltas.Read(renderer.Mesh, frame);
+                    Vector3[] positions = placer.ToModel(deltas.Positions, Change.Place);
+                    renderer.Parts.ForEach(part => AddTarget(data, part, frame.ShapeName, positions, null));
                 }
             }
+        }
+
+        static void AddWorn(AvatarData data, RendererData renderer)
+        {
+            FramePlacer placer = new FramePlacer(renderer);
+            Vector3[] positions = placer.ToModel(renderer.Worn.Positions, Change.Place), normals = placer.ToModel(renderer.Worn.Normals, Change.Normal);
+            foreach (PartData part in renderer.Parts)
+            {
+                part.WornMoves = FramePlacer.Changes(positions, part);
+                part.WornTurns = FramePlacer.Changes(normals, part);
+                AddTarget(data, part, "as worn", positions, part.WornTurns ? normals : null);
+            }
+        }
+
+        static void AddTarget(AvatarData data, PartData part, string name, Vector3[] positions, Vector3[] normals)
+        {
+            data.Character.AddMorphTarget(part.Index, new MorphArrays
+            {
+                Name = name, FirstVertex = part.Start, Positions = part.Gather(positions), Normals = part.Gather(normals)
+            });
         }
     }
 }

@@ -2,26 +2,26 @@ using UnityEngine;
 
 namespace SuperDeform.Editor
 {
+    /// <summary>What a blend shape changes of a vertex.</summary>
+    internal enum Change { Place, Normal, Tangent }
+
     /// <summary>Brings the frames of a renderer's blend shapes to the avatar's space at rest.</summary>
     internal sealed class FramePlacer
     {
-        readonly RendererData renderer;
-
         /// <summary>What the lengths of normals and tangents were multiplied by to be 1 again, by vertex.</summary>
         readonly double[] normalScales, tangentScales;
 
         readonly bool identity;
+        readonly FrameSource frames;
 
         internal FramePlacer(RendererData renderer)
         {
-            this.renderer = renderer;
-            if (renderer.Frames.Count == 0) return;
             identity = renderer.Placements == null && renderer.Placement.Equals(Affine.Identity)
                 && renderer.ModelNormals == renderer.Normals && renderer.ModelTangents == renderer.Tangents;
             if (identity) return;
             normalScales = Ones(renderer.Normals == null ? 0 : renderer.Vertices.Length);
             tangentScales = Ones(renderer.Tangents == null ? 0 : renderer.Vertices.Length);
-            FrameSource frames = new FrameSource(renderer);
+            frames = new FrameSource(renderer);
             Frame frame = frames.At(0);
             for (int vertex = 0; vertex < renderer.Vertices.Length; vertex++)
             {
@@ -41,28 +41,26 @@ namespace SuperDeform.Editor
             return ones;
         }
 
-        /// <summary>The frame itself where nothing changes.</summary>
-        internal BlendFrame ToModel(BlendFrame frame)
+        /// <summary>What is added to each vertex, in the avatar's space; the same array where nothing changes.</summary>
+        internal Vector3[] ToModel(Vector3[] deltas, Change change)
         {
-            if (identity) return frame;
-            BlendFrame placed = new BlendFrame
+            if (identity || deltas == null) return deltas;
+            Vector3[] placed = new Vector3[deltas.Length];
+            for (int vertex = 0; vertex < deltas.Length; vertex++)
             {
-                ShapeName = frame.ShapeName,
-                Weight = frame.Weight,
-                Positions = new Vector3[frame.Positions.Length],
-                Normals = frame.Normals == null ? null : new Vector3[frame.Positions.Length],
-                Tangents = frame.Tangents == null ? null : new Vector3[frame.Positions.Length]
-            };
-            FrameSource frames = new FrameSource(renderer);
-            Frame at = frames.At(0);
-            for (int vertex = 0; vertex < frame.Positions.Length; vertex++)
-            {
-                if (frames.EachItsOwn) at = frames.At(vertex);
-                placed.Positions[vertex] = at.Delta(frame.Positions[vertex], 1);
-                if (placed.Normals != null) placed.Normals[vertex] = at.NormalDelta(frame.Normals[vertex], normalScales[vertex]);
-                if (placed.Tangents != null) placed.Tangents[vertex] = at.Delta(frame.Tangents[vertex], tangentScales[vertex]);
+                placed[vertex] = ToModel(deltas[vertex], vertex, change);
             }
             return placed;
+        }
+
+        /// <summary>What is added to one vertex, in the avatar's space.</summary>
+        internal Vector3 ToModel(Vector3 delta, int vertex, Change change)
+        {
+            // There is no need of a frame for what is 0.
+            if (identity || delta.x == 0 && delta.y == 0 && delta.z == 0) return delta;
+            Frame at = frames.At(vertex);
+            if (change == Change.Place) return at.Delta(delta, 1);
+            return change == Change.Normal ? at.NormalDelta(delta, normalScales[vertex]) : at.Delta(delta, tangentScales[vertex]);
         }
 
         /// <summary>True where any delta of a part is not 0.</summary>

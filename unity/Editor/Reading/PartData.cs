@@ -11,6 +11,9 @@ namespace SuperDeform.Editor
 
         public RendererData Renderer;
 
+        /// <summary>Which of the library's meshes it is.</summary>
+        internal int Index;
+
         /// <summary>What most of its triangles show; may be null.</summary>
         public Material Material;
 
@@ -27,8 +30,8 @@ namespace SuperDeform.Editor
         /// <summary>Triangles; FirstVertex, or the first of Vertices, counts as 0.</summary>
         public int[] Indices;
 
-        /// <summary>By blend frame of the renderer: whether it changes a place, a normal, a tangent of this part.</summary>
-        internal bool[] MovesPlaces, MovesNormals, MovesTangents;
+        /// <summary>Whether what is worn changes a place, a normal of this part.</summary>
+        internal bool WornMoves, WornTurns;
 
         /// <summary>
         /// What an array by vertex of the mesh holds of this part: the array itself where the vertices lie side by side.
@@ -42,13 +45,6 @@ namespace SuperDeform.Editor
                 part[vertex] = whole[Vertices[vertex]];
             }
             return part;
-        }
-
-        /// <summary>Makes an array by vertex of the mesh 0 at the vertices of this part.</summary>
-        internal void Clear(Vector3[] whole)
-        {
-            if (Vertices == null) System.Array.Clear(whole, FirstVertex, VertexCount);
-            else System.Array.ForEach(Vertices, vertex => whole[vertex] = new Vector3(0, 0, 0));
         }
 
         /// <summary>Where this part begins in what Gather gives.</summary>

@@ -45,6 +45,9 @@ namespace SuperDeform.Editor
         /// <summary>All frames of all blend shapes, in order; empty where blend shapes were not read.</summary>
         public readonly List<BlendFrame> Frames = new List<BlendFrame>();
 
+        /// <summary>What the blend shapes that are on add together; null where they were not asked for, or none is on.</summary>
+        public BlendDeltas Worn;
+
         public readonly List<PartData> Parts = new List<PartData>();
 
         /// <summary>True for a pet's mesh: it stays as it is, and goes where its bones go.</summary>

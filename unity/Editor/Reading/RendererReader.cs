@@ -278,31 +278,21 @@ namespace SuperDeform.Editor
             mesh.Weights = weights.ToArray();
         }
 
-        /// <summary>Reads all frames of all blend shapes.</summary>
+        /// <summary>Lists all frames of all blend shapes.</summary>
         internal static void ReadFrames(RendererData renderer)
         {
             Mesh mesh = renderer.Mesh;
-            int count = renderer.Vertices.Length;
             for (int shape = 0; shape < mesh.blendShapeCount; shape++)
             {
                 for (int frame = 0; frame < mesh.GetBlendShapeFrameCount(shape); frame++)
                 {
-                    Vector3[] positions = new Vector3[count], normals = new Vector3[count], tangents = new Vector3[count];
-                    mesh.GetBlendShapeFrameVertices(shape, frame, positions, normals, tangents);
-                    renderer.Frames.Add(new BlendFrame
-                    {
-                        ShapeName = mesh.GetBlendShapeName(shape),
-                        Weight = mesh.GetBlendShapeFrameWeight(shape, frame),
-                        Positions = positions,
-                        // What has no normals itself can have no changes of them.
-                        Normals = renderer.Normals != null && Any(normals) ? normals : null,
-                        Tangents = renderer.Tangents != null && Any(tangents) ? tangents : null
-                    });
+                    float weight = mesh.GetBlendShapeFrameWeight(shape, frame);
+                    renderer.Frames.Add(new BlendFrame { ShapeName = mesh.GetBlendShapeName(shape), Shape = shape, Frame = frame, Weight = weight });
                 }
             }
         }
 
-        /// <summary>Reads the blend shapes that are on, as one frame of weight 100; none where all are off.</summary>
+        /// <summary>Reads the blend shapes that are on, as one; none where all are off.</summary>
         internal static void ReadWorn(RendererData renderer)
         {
             SkinnedMeshRenderer skinned = renderer.Shown as SkinnedMeshRenderer;
@@ -332,10 +322,7 @@ namespace SuperDeform.Editor
                 }
             }
             if (positions == null) return;
-            renderer.Frames.Add(new BlendFrame
-            {
-                ShapeName = "as worn", Weight = 100, Positions = positions, Normals = renderer.Normals != null && Any(normals) ? normals : null
-            });
+            renderer.Worn = new BlendDeltas { Positions = positions, Normals = renderer.Normals != null && Any(normals) ? normals : null };
         }
 
         /// <summary>

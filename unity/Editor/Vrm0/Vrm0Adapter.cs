@@ -13,7 +13,7 @@ namespace SuperDeform.Editor.Vrm0
     public sealed class Vrm0Adapter : ISpringAdapter
     {
         [InitializeOnLoadMethod]
-        private static void Register()
+        static void Register()
         {
             ComponentAdapters.Register(new Vrm0Adapter());
         }
@@ -27,61 +27,59 @@ namespace SuperDeform.Editor.Vrm0
         /// <summary>Brings one component of the new avatar from the old lengths to the new ones.</summary>
         public void Adapt(Component copy, PointMap map)
         {
-            if (copy is VRMSpringBone)
-                AdaptSpring((VRMSpringBone)copy, map);
-            else if (copy is VRMSpringBoneColliderGroup)
-                AdaptColliders((VRMSpringBoneColliderGroup)copy, map);
-            else
-                AdaptViewpoint((VRMFirstPerson)copy, map);
+            if (copy is VRMSpringBone) AdaptSpring((VRMSpringBone)copy, map);
+            else if (copy is VRMSpringBoneColliderGroup) AdaptColliders((VRMSpringBoneColliderGroup)copy, map);
+            else AdaptViewpoint((VRMFirstPerson)copy, map);
         }
 
         /// <summary>Adds the ends of a spring's bones: the joints of its chains but the first of each, which is the end of none.</summary>
         public void AddSprings(Component copy, Springs springs)
         {
             var spring = copy as VRMSpringBone;
-            if (spring == null || spring.ColliderGroups == null)
-                return;
+            if (spring == null || spring.ColliderGroups == null) return;
             foreach (Transform joint in JointsOf(spring))
+            {
                 if (!spring.RootBones.Contains(joint))
+                {
                     foreach (VRMSpringBoneColliderGroup group in spring.ColliderGroups)
+                    {
                         springs.Add(group, joint, Vector3.zero, spring.m_hitRadius, joint);
+                    }
+                }
+            }
         }
 
-        private static HashSet<Transform> JointsOf(VRMSpringBone spring)
+        static HashSet<Transform> JointsOf(VRMSpringBone spring)
         {
             var joints = new HashSet<Transform>();
             foreach (Transform root in spring.RootBones)
             {
-                if (root != null)
-                    joints.UnionWith(root.GetComponentsInChildren<Transform>(true));
+                if (root != null) joints.UnionWith(root.GetComponentsInChildren<Transform>(true));
             }
             return joints;
         }
 
         // One set of numbers for several chains: the mean scale of all their joints.
-        private static void AdaptSpring(VRMSpringBone spring, PointMap map)
+        static void AdaptSpring(VRMSpringBone spring, PointMap map)
         {
             double sum = 0;
             int count = 0;
             foreach (Transform joint in JointsOf(spring))
             {
-                if (map.Joint(joint) == null)
-                    continue;
+                if (map.Joint(joint) == null) continue;
                 sum += map.Scale(joint, Vector3.zero);
                 count++;
             }
-            if (count == 0)
-                return;
+            if (count == 0) return;
             float scale = (float)(sum / count);
             spring.m_hitRadius *= scale;
             spring.m_stiffnessForce *= scale;
             spring.m_gravityPower *= scale;
         }
 
-        private static void AdaptColliders(VRMSpringBoneColliderGroup group, PointMap map)
+        static void AdaptColliders(VRMSpringBoneColliderGroup group, PointMap map)
         {
-            if (group.Colliders == null || map.Joint(group.transform) == null)
-                return;
+            if (group.Colliders == null || map.Joint(group.transform) == null) return;
             foreach (VRMSpringBoneColliderGroup.SphereCollider collider in group.Colliders)
             {
                 LocalCollider moved = map.Collider(group.transform, new LocalCollider { Start = collider.Offset, Radius = collider.Radius }, group);
@@ -90,11 +88,10 @@ namespace SuperDeform.Editor.Vrm0
             }
         }
 
-        private static void AdaptViewpoint(VRMFirstPerson viewpoint, PointMap map)
+        static void AdaptViewpoint(VRMFirstPerson viewpoint, PointMap map)
         {
             Transform bone = viewpoint.FirstPersonBone;
-            if (bone != null && map.Joint(bone) != null)
-                viewpoint.FirstPersonOffset = map.Point(bone, viewpoint.FirstPersonOffset);
+            if (bone != null && map.Joint(bone) != null) viewpoint.FirstPersonOffset = map.Point(bone, viewpoint.FirstPersonOffset);
         }
     }
 }

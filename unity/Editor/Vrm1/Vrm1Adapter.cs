@@ -13,7 +13,7 @@ namespace SuperDeform.Editor.Vrm1
     public sealed class Vrm1Adapter : ISpringAdapter
     {
         [InitializeOnLoadMethod]
-        private static void Register()
+        static void Register()
         {
             ComponentAdapters.Register(new Vrm1Adapter());
         }
@@ -27,43 +27,45 @@ namespace SuperDeform.Editor.Vrm1
         /// <summary>Brings one component of the new avatar from the old lengths to the new ones.</summary>
         public void Adapt(Component copy, PointMap map)
         {
-            if (copy is Vrm10Instance)
-                AdaptLookAt((Vrm10Instance)copy, map);
-            else if (map.Joint(copy.transform) == null)
-                return;
-            else if (copy is VRM10SpringBoneJoint)
-                AdaptJoint((VRM10SpringBoneJoint)copy, map);
-            else
-                AdaptCollider((VRM10SpringBoneCollider)copy, map);
+            if (copy is Vrm10Instance) AdaptLookAt((Vrm10Instance)copy, map);
+            else if (map.Joint(copy.transform) == null) return;
+            else if (copy is VRM10SpringBoneJoint) AdaptJoint((VRM10SpringBoneJoint)copy, map);
+            else AdaptCollider((VRM10SpringBoneCollider)copy, map);
         }
 
         /// <summary>Adds the ends of an avatar's spring bones: each joint, with the radius of the one before it.</summary>
         public void AddSprings(Component copy, Springs springs)
         {
             var instance = copy as Vrm10Instance;
-            if (instance == null || instance.SpringBone == null)
-                return;
+            if (instance == null || instance.SpringBone == null) return;
             foreach (Vrm10InstanceSpringBone.Spring spring in instance.SpringBone.Springs)
+            {
                 foreach (VRM10SpringBoneCollider collider in CollidersOf(spring))
+                {
                     for (int end = 1; end < spring.Joints.Count; end++)
+                    {
                         if (spring.Joints[end - 1] != null && spring.Joints[end] != null)
                         {
                             Transform joint = spring.Joints[end].transform;
                             springs.Add(collider, joint, Vector3.zero, spring.Joints[end - 1].m_jointRadius, joint);
                         }
+                    }
+                }
+            }
         }
 
         // A collider may be in several groups.
-        private static HashSet<VRM10SpringBoneCollider> CollidersOf(Vrm10InstanceSpringBone.Spring spring)
+        static HashSet<VRM10SpringBoneCollider> CollidersOf(Vrm10InstanceSpringBone.Spring spring)
         {
             var colliders = new HashSet<VRM10SpringBoneCollider>();
             foreach (VRM10SpringBoneColliderGroup group in spring.ColliderGroups)
-                if (group != null)
-                    colliders.UnionWith(group.Colliders);
+            {
+                if (group != null) colliders.UnionWith(group.Colliders);
+            }
             return colliders;
         }
 
-        private static void AdaptJoint(VRM10SpringBoneJoint joint, PointMap map)
+        static void AdaptJoint(VRM10SpringBoneJoint joint, PointMap map)
         {
             float scale = map.Scale(joint.transform, Vector3.zero);
             joint.m_jointRadius *= scale;
@@ -71,7 +73,7 @@ namespace SuperDeform.Editor.Vrm1
             joint.m_gravityPower *= scale;
         }
 
-        private static void AdaptCollider(VRM10SpringBoneCollider collider, PointMap map)
+        static void AdaptCollider(VRM10SpringBoneCollider collider, PointMap map)
         {
             bool plane = collider.ColliderType == VRM10SpringBoneColliderTypes.Plane;
             LocalCollider moved = map.Collider(collider.transform, new LocalCollider
@@ -80,13 +82,14 @@ namespace SuperDeform.Editor.Vrm1
             }, collider);
             collider.Offset = moved.Start;
             collider.Radius = moved.Radius;
-            if (plane)
-                collider.Normal = moved.End;
+            if (plane) collider.Normal = moved.End;
             else if (collider.ColliderType == VRM10SpringBoneColliderTypes.Capsule || collider.ColliderType == VRM10SpringBoneColliderTypes.CapsuleInside)
+            {
                 collider.Tail = moved.End;
+            }
         }
 
-        private static readonly Dictionary<VRM10SpringBoneColliderTypes, ColliderKind> Kinds = new Dictionary<VRM10SpringBoneColliderTypes, ColliderKind>
+        static readonly Dictionary<VRM10SpringBoneColliderTypes, ColliderKind> Kinds = new Dictionary<VRM10SpringBoneColliderTypes, ColliderKind>
         {
             { VRM10SpringBoneColliderTypes.Sphere, ColliderKind.Sphere }, { VRM10SpringBoneColliderTypes.Capsule, ColliderKind.Capsule },
             { VRM10SpringBoneColliderTypes.Plane, ColliderKind.Plane }, { VRM10SpringBoneColliderTypes.SphereInside, ColliderKind.InsideSphere },
@@ -94,11 +97,10 @@ namespace SuperDeform.Editor.Vrm1
         };
 
         // The settings of look-at lie in an asset that the old avatar uses too: the new one gets its own.
-        private static void AdaptLookAt(Vrm10Instance instance, PointMap map)
+        static void AdaptLookAt(Vrm10Instance instance, PointMap map)
         {
             Transform head = Head(instance);
-            if (instance.Vrm == null || instance.Vrm.LookAt == null || head == null || map.Joint(head) == null)
-                return;
+            if (instance.Vrm == null || instance.Vrm.LookAt == null || head == null || map.Joint(head) == null) return;
             VRM10Object own = Object.Instantiate(instance.Vrm);
             own.name = instance.Vrm.name;
             own.Prefab = null;
@@ -107,7 +109,7 @@ namespace SuperDeform.Editor.Vrm1
             instance.Vrm = own;
         }
 
-        private static Transform Head(Vrm10Instance instance)
+        static Transform Head(Vrm10Instance instance)
         {
             return HumanoidRoles.Of(instance.GetComponent<Animator>())[(int)HumanBodyBones.Head];
         }

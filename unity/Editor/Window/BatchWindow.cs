@@ -7,9 +7,9 @@ namespace SuperDeform.Editor
     /// <summary>Tools > Super Deform > Batch...: a list of avatars, and a button that converts them all.</summary>
     public sealed class BatchWindow : EditorWindow
     {
-        [SerializeField] private List<GameObject> avatars = new List<GameObject>();
-        [SerializeField] private List<string> lines = new List<string>();
-        [SerializeField] private Vector2 scroll;
+        [SerializeField] List<GameObject> avatars = new List<GameObject>();
+        [SerializeField] List<string> lines = new List<string>();
+        [SerializeField] Vector2 scroll;
 
         public static BatchWindow Open()
         {
@@ -29,12 +29,16 @@ namespace SuperDeform.Editor
         {
             Undo.RecordObject(this, Strings.Get("undo.batch"));
             foreach (GameObject candidate in candidates)
+            {
                 if (candidate != null && candidate.GetComponentInChildren<Renderer>(true) != null && !avatars.Contains(candidate))
+                {
                     avatars.Add(candidate);
+                }
+            }
         }
 
         /// <summary>Draws an avatar of the list; false where it is to go.</summary>
-        private static bool Listed(GameObject avatar)
+        static bool Listed(GameObject avatar)
         {
             EditorGUILayout.BeginHorizontal();
             EditorGUILayout.LabelField(avatar == null ? "-" : avatar.name);
@@ -44,17 +48,16 @@ namespace SuperDeform.Editor
         }
 
         /// <summary>Avatars that are dropped anywhere on the window join the list.</summary>
-        private void AcceptDrops()
+        void AcceptDrops()
         {
             EventType now = Event.current == null ? EventType.Ignore : Event.current.type;
-            if (now != EventType.DragUpdated && now != EventType.DragPerform)
-                return;
+            if (now != EventType.DragUpdated && now != EventType.DragPerform) return;
             var dropped = new List<GameObject>();
             foreach (Object one in DragAndDrop.objectReferences)
-                if (one is GameObject)
-                    dropped.Add((GameObject)one);
-            if (dropped.Count == 0)
-                return;
+            {
+                if (one is GameObject) dropped.Add((GameObject)one);
+            }
+            if (dropped.Count == 0) return;
             DragAndDrop.visualMode = DragAndDropVisualMode.Copy;
             if (now == EventType.DragPerform)
             {
@@ -69,34 +72,36 @@ namespace SuperDeform.Editor
         {
             BatchReport report;
             using (var progress = new EditorProgress(Strings.Get("batch.avatars")))
+            {
                 report = BatchConvert.Convert(avatars, ConverterWindow.LastSettings(), progress);
+            }
             lines = report.Lines();
             Repaint();
             return report;
         }
 
-        private void OnEnable()
+        void OnEnable()
         {
             titleContent = new GUIContent(Strings.Get("batch.title"));
             minSize = new Vector2(360, 240);
         }
 
-        private void OnGUI()
+        void OnGUI()
         {
             scroll = EditorGUILayout.BeginScrollView(scroll);
             EditorGUILayout.LabelField(Strings.Get("batch.avatars"), EditorStyles.boldLabel);
-            if (avatars.Count == 0)
-                EditorGUILayout.LabelField(Strings.Get("batch.empty"), EditorStyles.wordWrappedLabel);
+            if (avatars.Count == 0) EditorGUILayout.LabelField(Strings.Get("batch.empty"), EditorStyles.wordWrappedLabel);
             for (int i = 0; i < avatars.Count; i++)
+            {
                 if (!Listed(avatars[i]))
                 {
                     Undo.RecordObject(this, Strings.Get("undo.batch"));
                     avatars.RemoveAt(i--);
                 }
+            }
             AcceptDrops();
             EditorGUILayout.BeginHorizontal();
-            if (GUILayout.Button(Strings.Get("batch.add")))
-                Add(Selection.gameObjects);
+            if (GUILayout.Button(Strings.Get("batch.add"))) Add(Selection.gameObjects);
             if (GUILayout.Button(Strings.Get("batch.clear")))
             {
                 Undo.RecordObject(this, Strings.Get("undo.batch"));
@@ -106,14 +111,14 @@ namespace SuperDeform.Editor
             EditorGUILayout.EndHorizontal();
             EditorGUILayout.Space();
             EditorGUILayout.LabelField(Strings.Get("batch.settings"), EditorStyles.wordWrappedLabel);
-            if (GUILayout.Button(Strings.Get("batch.settings.open")))
-                MenuItems.OpenConverter();
+            if (GUILayout.Button(Strings.Get("batch.settings.open"))) MenuItems.OpenConverter();
             EditorGUI.BeginDisabledGroup(avatars.Count == 0);
-            if (GUILayout.Button(Strings.Get("batch.convert", avatars.Count), GUILayout.Height(32)))
-                EditorApplication.delayCall += () => Convert();
+            if (GUILayout.Button(Strings.Get("batch.convert", avatars.Count), GUILayout.Height(32))) EditorApplication.delayCall += () => Convert();
             EditorGUI.EndDisabledGroup();
             foreach (string line in lines)
+            {
                 EditorGUILayout.LabelField(line, EditorStyles.wordWrappedLabel);
+            }
             EditorGUILayout.EndScrollView();
         }
     }

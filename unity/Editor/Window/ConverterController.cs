@@ -12,12 +12,12 @@ namespace SuperDeform.Editor
         // How long settings rest, in seconds, before what takes longer than a frame: measuring the result, reading the avatar.
         internal const double Rest = 0.25;
 
-        private readonly ConverterModel model;
-        private PreviewSession preview;
-        private bool stale = true;
-        private bool measured;
-        private double changedAt;
-        private bool resting, wornOtherwise;
+        readonly ConverterModel model;
+        PreviewSession preview;
+        bool stale = true;
+        bool measured;
+        double changedAt;
+        bool resting, wornOtherwise;
 
         public ConverterController(ConverterModel model)
         {
@@ -40,10 +40,9 @@ namespace SuperDeform.Editor
             }
         }
 
-        private void DrawBadge(SceneView view)
+        void DrawBadge(SceneView view)
         {
-            if (preview != null && preview.IsAlive)
-                PreviewBadge.Draw(view, preview);
+            if (preview != null && preview.IsAlive) PreviewBadge.Draw(view, preview);
         }
 
         /// <summary>Brings the preview up to the model, and measures once settings rest.</summary>
@@ -77,16 +76,14 @@ namespace SuperDeform.Editor
                 Follow();
                 return true;
             }
-            if (preview != null && preview.Follow())
-                return true;
-            if (preview == null || measured || now - changedAt < Rest)
-                return false;
+            if (preview != null && preview.Follow()) return true;
+            if (preview == null || measured || now - changedAt < Rest) return false;
             measured = true;
             Measure();
             return true;
         }
 
-        private void Follow()
+        void Follow()
         {
             if (resting || !model.PreviewOn || !model.CanConvert)
             {
@@ -96,13 +93,15 @@ namespace SuperDeform.Editor
             }
             try
             {
-                if (preview != null && !preview.Fits(model.Avatar, model.Settings))
-                    Drop();
-                if (preview != null)
-                    preview.Update(model.Settings, true);
+                if (preview != null && !preview.Fits(model.Avatar, model.Settings)) Drop();
+                if (preview != null) preview.Update(model.Settings, true);
                 else
+                {
                     using (var progress = new EditorProgress(model.Avatar.name, 1))
+                    {
                         preview = new PreviewSession(model.Avatar, model.Settings, progress);
+                    }
+                }
                 preview.ShowBefore = model.ShowBefore;
                 preview.Beside = model.Beside;
                 preview.Pose = model.Pose;
@@ -115,7 +114,7 @@ namespace SuperDeform.Editor
             }
         }
 
-        private void Measure()
+        void Measure()
         {
             try
             {
@@ -139,8 +138,7 @@ namespace SuperDeform.Editor
             {
                 bool replace;
                 ConversionSettings settings = model.Settings;
-                if (!MayReplace(ref settings, out replace))
-                    return false;
+                if (!MayReplace(ref settings, out replace)) return false;
                 model.SetResult(Converter.Convert(model.Avatar, settings, progress, replace));
                 return true;
             }
@@ -154,18 +152,16 @@ namespace SuperDeform.Editor
         /// <summary>Asks where a result may be another avatar's, that stood in the same place.</summary>
         /// <param name="settings">Those for a new copy, where that is what the person wants.</param>
         /// <returns>Whether to go on.</returns>
-        private bool MayReplace(ref ConversionSettings settings, out bool replace)
+        bool MayReplace(ref ConversionSettings settings, out bool replace)
         {
             replace = false;
             ResultUpdate earlier = Converter.Earlier(model.Avatar, settings);
-            if (earlier == null || earlier.Match == SourceMatch.Same || Application.isBatchMode)
-                return true;
+            if (earlier == null || earlier.Match == SourceMatch.Same || Application.isBatchMode) return true;
             int answer = EditorUtility.DisplayDialogComplex(Strings.Get("window.title"),
                 Strings.Get("ask_replace", earlier.PrefabPath, earlier.MadeFrom, model.Avatar.name),
                 Strings.Get("ask_replace.replace"), Strings.Get("ask_replace.cancel"), Strings.Get("report.new_copy"));
             replace = answer == 0;
-            if (answer != 2)
-                return replace;
+            if (answer != 2) return replace;
             settings = settings.Clone();
             settings.NewCopy = true;
             return true;
@@ -178,7 +174,9 @@ namespace SuperDeform.Editor
             try
             {
                 using (Style style = model.Settings.MakeStyle())
+                {
                     File.WriteAllText(path, style.ToJson());
+                }
                 AssetDatabase.ImportAsset(path);
             }
             catch (Exception fault)
@@ -195,11 +193,9 @@ namespace SuperDeform.Editor
             {
                 var preset = AssetDatabase.LoadAssetAtPath<SuperDeformPreset>(path);
                 bool isNew = preset == null;
-                if (isNew)
-                    preset = ScriptableObject.CreateInstance<SuperDeformPreset>();
+                if (isNew) preset = ScriptableObject.CreateInstance<SuperDeformPreset>();
                 preset.Settings = model.Settings.Clone();
-                if (isNew)
-                    AssetDatabase.CreateAsset(preset, path);
+                if (isNew) AssetDatabase.CreateAsset(preset, path);
                 EditorUtility.SetDirty(preset);
                 AssetDatabase.SaveAssetIfDirty(preset);
             }
@@ -209,24 +205,22 @@ namespace SuperDeform.Editor
             }
         }
 
-        private Finding Reason(Exception fault)
+        Finding Reason(Exception fault)
         {
             Finding reason = ConversionException.From(fault, model.Avatar).Finding;
             // A reason that nobody foresaw: where it came from is worth a report.
-            if (reason.Key == "failed")
-                Debug.LogException(fault);
+            if (reason.Key == "failed") Debug.LogException(fault);
             return reason;
         }
 
-        private void MarkStale()
+        void MarkStale()
         {
             stale = true;
         }
 
-        private void Drop()
+        void Drop()
         {
-            if (preview != null)
-                preview.Dispose();
+            if (preview != null) preview.Dispose();
             preview = null;
         }
 

@@ -25,15 +25,19 @@ namespace SuperDeform.Editor
         public bool[] Open = { true, true, false, true, true };
         /// <summary>Whether the settings of a new rig are unfolded.</summary>
         public bool RigOpen;
+        /// <summary>Whether what is good to know, and wants nothing done, is unfolded.</summary>
+        public bool NotesOpen;
+        /// <summary>Whether each group of the fine tuning is unfolded, in their order.</summary>
+        public bool[] TuningOpen = { true, true, true, true };
 
-        [NonSerialized] private List<Section> sections;
-        [NonSerialized] private List<Finding> findings;
-        [NonSerialized] private Finding failure, previewFailure;
-        [NonSerialized] private PreviewNumbers numbers;
-        [NonSerialized] private ConversionResult result;
-        [NonSerialized] private ResultUpdate earlier;
-        [NonSerialized] private bool earlierKnown;
-        [NonSerialized] private string language;
+        [NonSerialized] List<Section> sections;
+        [NonSerialized] List<Finding> findings;
+        [NonSerialized] Finding failure, previewFailure;
+        [NonSerialized] PreviewNumbers numbers;
+        [NonSerialized] ConversionResult result;
+        [NonSerialized] ResultUpdate earlier;
+        [NonSerialized] bool earlierKnown;
+        [NonSerialized] string language;
 
         /// <summary>Comes before a change, with words for the Undo menu.</summary>
         public event Action<string> Changing;
@@ -66,8 +70,7 @@ namespace SuperDeform.Editor
         {
             get
             {
-                if (findings == null)
-                    findings = Avatar == null ? new List<Finding>() : AvatarChecks.Of(Avatar, Settings.RigAuto);
+                if (findings == null) findings = Avatar == null ? new List<Finding>() : AvatarChecks.Of(Avatar, Settings.RigAuto);
                 return findings;
             }
         }
@@ -77,8 +80,7 @@ namespace SuperDeform.Editor
         {
             get
             {
-                if (!earlierKnown)
-                    earlier = Converter.Earlier(Avatar, Settings);
+                if (!earlierKnown) earlier = Converter.Earlier(Avatar, Settings);
                 earlierKnown = true;
                 return earlier;
             }
@@ -108,11 +110,11 @@ namespace SuperDeform.Editor
         {
             get
             {
-                if (Avatar == null || !HasStyle)
-                    return false;
+                if (Avatar == null || !HasStyle) return false;
                 foreach (Finding finding in Findings)
-                    if (finding.Severity == Severity.Error)
-                        return false;
+                {
+                    if (finding.Severity == Severity.Error) return false;
+                }
                 return true;
             }
         }
@@ -135,8 +137,7 @@ namespace SuperDeform.Editor
         /// <param name="key">Key of the words for the Undo menu.</param>
         public void Change(string key, Action change)
         {
-            if (Changing != null)
-                Changing(Strings.Get(key));
+            if (Changing != null) Changing(Strings.Get(key));
             change();
             failure = null;
             Touch();
@@ -145,8 +146,7 @@ namespace SuperDeform.Editor
         /// <summary>Takes another avatar, and forgets what was found about the one before.</summary>
         public void SetAvatar(GameObject avatar)
         {
-            if (avatar == Avatar)
-                return;
+            if (avatar == Avatar) return;
             Change("undo.avatar", () => Avatar = avatar);
             result = null;
             numbers = null;
@@ -173,8 +173,7 @@ namespace SuperDeform.Editor
         public void SetPreviewFailure(Finding reason)
         {
             previewFailure = reason;
-            if (reason != null)
-                numbers = null;
+            if (reason != null) numbers = null;
             sections = null;
         }
 
@@ -197,12 +196,16 @@ namespace SuperDeform.Editor
         internal float ScaleFound(string group, bool thickness)
         {
             if (numbers != null)
+            {
                 foreach (Group found in numbers.Groups)
+                {
                     if (found.Name == group)
                     {
                         double scale = thickness ? found.ThicknessScale : found.LengthScale;
                         return double.IsNaN(scale) ? 1 : (float)scale;
                     }
+                }
+            }
             return 1;
         }
 
@@ -215,8 +218,7 @@ namespace SuperDeform.Editor
         /// <summary>Asks for the conversion.</summary>
         public void Convert()
         {
-            if (CanConvert && Converting != null)
-                Converting();
+            if (CanConvert && Converting != null) Converting();
         }
 
         /// <summary>Comes when the settings are to be saved as a file.</summary>
@@ -224,8 +226,7 @@ namespace SuperDeform.Editor
 
         internal void SavePreset()
         {
-            if (SavingPreset != null)
-                SavingPreset();
+            if (SavingPreset != null) SavingPreset();
         }
 
         /// <summary>Takes the settings of a file; the avatar stays.</summary>
@@ -237,8 +238,7 @@ namespace SuperDeform.Editor
 
         internal void SaveStyle()
         {
-            if (SavingStyle != null)
-                SavingStyle();
+            if (SavingStyle != null) SavingStyle();
         }
 
         /// <summary>Makes the sections anew, without saying that anything has changed.</summary>
@@ -251,8 +251,7 @@ namespace SuperDeform.Editor
         public void Touch()
         {
             sections = null;
-            if (Changed != null)
-                Changed();
+            if (Changed != null) Changed();
         }
     }
 }

@@ -20,7 +20,7 @@ namespace SuperDeform.Editor
 
         // ---- Avatar: which one, and whether it can be converted -----------------------------------------------------
 
-        private static Section Avatar(ConverterModel model)
+        static Section Avatar(ConverterModel model)
         {
             Section section = New(model, SectionId.Avatar);
             section.Summary = model.Avatar == null ? Strings.Get("avatar.none") : model.Avatar.name;
@@ -30,26 +30,27 @@ namespace SuperDeform.Editor
                 Type = typeof(GameObject), SceneObjects = true,
                 Get = () => model.Avatar, Set = value => model.SetAvatar((GameObject)value)
             });
-            if (model.Avatar == null)
-                section.Rows.Add(new TextRow { Label = Strings.Get("avatar.hint") });
-            else if (model.Findings.Count == 0)
-                section.Rows.Add(new CheckRow { Severity = Severity.Info, Label = Strings.Get("avatar.ready") });
+            if (model.Avatar == null) section.Rows.Add(new TextRow { Label = Strings.Get("avatar.hint") });
+            else if (model.Findings.Count == 0) section.Rows.Add(new CheckRow { Severity = Severity.Info, Label = Strings.Get("avatar.ready") });
             foreach (Finding finding in model.Findings)
+            {
                 section.Rows.Add(Check(model, finding));
+            }
             if (model.Avatar != null)
+            {
                 section.Rows.Add(Toggle("avatar.rig", true, () => model.Settings.RigAuto,
                     value =>
                     {
                         model.Change("undo.rig", () => model.Settings.RigAuto = value);
                         model.Recheck();
                     }));
-            if (model.Avatar != null)
-                AddRig(model, section);
+            }
+            if (model.Avatar != null) AddRig(model, section);
             return section;
         }
 
         // How a rig is made, where one is; folded, since the usual is right for most.
-        private static void AddRig(ConverterModel model, Section section)
+        static void AddRig(ConverterModel model, Section section)
         {
             Options options = model.Settings.Options;
             section.Rows.Add(new FoldoutRow
@@ -61,8 +62,7 @@ namespace SuperDeform.Editor
                     model.Touch();
                 }
             });
-            if (!model.RigOpen)
-                return;
+            if (!model.RigOpen) return;
             section.Rows.Add(Popup("rig_weights", typeof(BodyWeights), () => (int)options.RigWeights,
                 value => model.Change("undo.rig", () => options.RigWeights = (BodyWeights)value)));
             section.Rows.Add(Slider("option.rig_heat", 0.1f, 10, () => (float)options.RigHeat,
@@ -97,12 +97,12 @@ namespace SuperDeform.Editor
 
         // ---- Style: what it should become ---------------------------------------------------------------------------
 
-        private static readonly string[] presets = { "sd2", "sd2.5", "sd3", "sd4" };
-        private static readonly float[] presetHeads = { 2, 2.5f, 3, 4 };
-        private static readonly StyleSource[] others =
+        static readonly string[] presets = { "sd2", "sd2.5", "sd3", "sd4" };
+        static readonly float[] presetHeads = { 2, 2.5f, 3, 4 };
+        static readonly StyleSource[] others =
             { StyleSource.Heads, StyleSource.ReferenceAvatar, StyleSource.SavedStyle };
 
-        private static Section Style(ConverterModel model)
+        static Section Style(ConverterModel model)
         {
             ConversionSettings settings = model.Settings;
             Section section = New(model, SectionId.Style);
@@ -113,8 +113,7 @@ namespace SuperDeform.Editor
                 Type = typeof(SuperDeformPreset), Get = () => null,
                 Set = value =>
                 {
-                    if (value != null)
-                        model.Take((SuperDeformPreset)value);
+                    if (value != null) model.Take((SuperDeformPreset)value);
                 }
             });
             section.Rows.Add(new ChoiceRow
@@ -139,39 +138,51 @@ namespace SuperDeform.Editor
                 Set = value => model.Change("undo.style", () => settings.Source = others[value])
             });
             if (settings.Source == StyleSource.ReferenceAvatar)
+            {
                 section.Rows.Add(new ObjectRow
                 {
                     Label = Strings.Get("style.reference"), Tooltip = Strings.Get("style.reference.tooltip"),
                     Type = typeof(GameObject), SceneObjects = true, Get = () => settings.ReferenceAvatar,
                     Set = value => model.Change("undo.style", () => settings.ReferenceAvatar = (GameObject)value)
                 });
+            }
             if (settings.Source == StyleSource.SavedStyle)
+            {
                 section.Rows.Add(new ObjectRow
                 {
                     Label = Strings.Get("style.saved"), Tooltip = Strings.Get("style.saved.tooltip"),
                     Type = typeof(TextAsset), Get = () => settings.SavedStyle,
                     Set = value => model.Change("undo.style", () => settings.SavedStyle = (TextAsset)value)
                 });
+            }
             bool fromModel = settings.Source == StyleSource.ReferenceAvatar || settings.Source == StyleSource.SavedStyle;
             if (fromModel)
+            {
                 section.Rows.Add(Slider("style.blend", OptionRange.Blend, () => settings.Blend,
                     value => model.Change("undo.blend", () => settings.Blend = (float)value)));
+            }
             if (settings.Source == StyleSource.Heads || fromModel && settings.Blend > 0)
+            {
                 section.Rows.Add(Slider("style.heads", OptionRange.Heads, () => settings.Heads,
                     value => model.Change("undo.heads", () => settings.Heads = (float)value)));
+            }
             if (fromModel)
+            {
                 section.Rows.Add(new ActionRow
                 {
                     Label = Strings.Get("style.save"), Tooltip = Strings.Get("style.save.tooltip"),
                     Enabled = model.HasStyle, Do = model.SaveStyle
                 });
+            }
             return section;
         }
 
-        private static string StyleName(ConversionSettings settings)
+        static string StyleName(ConversionSettings settings)
         {
             if (settings.Source == StyleSource.Heads || settings.Source == StyleSource.BuiltIn)
+            {
                 return Strings.Get("style.heads.summary", Short(settings.Heads));
+            }
             UnityEngine.Object like = settings.Source == StyleSource.ReferenceAvatar
                 ? settings.ReferenceAvatar : (UnityEngine.Object)settings.SavedStyle;
             return like == null ? Strings.Get("style.none") : like.name;
@@ -179,7 +190,7 @@ namespace SuperDeform.Editor
 
         // ---- Preview: in the Scene view -----------------------------------------------------------------------------
 
-        private static Section Preview(ConverterModel model)
+        static Section Preview(ConverterModel model)
         {
             Section section = New(model, SectionId.Preview);
             section.Summary = Strings.Get(model.PreviewOn ? "preview.on" : "preview.off");
@@ -207,7 +218,7 @@ namespace SuperDeform.Editor
 
         // ---- Report, and the button that converts -------------------------------------------------------------------
 
-        private static Section Report(ConverterModel model)
+        static Section Report(ConverterModel model)
         {
             Section section = New(model, SectionId.Report);
             PreviewNumbers numbers = model.Numbers;
@@ -221,20 +232,14 @@ namespace SuperDeform.Editor
                         TwoDigits(numbers.Report.Result.Height))
                 });
                 section.Rows.Add(Groups(numbers));
-                foreach (Warning warning in numbers.Warnings)
-                {
-                    CheckRow said = Warned(warning);
-                    // Two of a kind, about two parts, are one sentence in the editor's language.
-                    if (!section.Rows.Exists(row => row is CheckRow && row.Label == said.Label))
-                        section.Rows.Add(said);
-                }
+                AddNotes(model, section, new List<Warning>(numbers.Warnings).ConvertAll(warning => LibraryWarnings.Of(warning, null)));
             }
-            else
-                section.Rows.Add(new TextRow { Label = Strings.Get("report.none") });
-            if (model.PreviewFailure != null)
-                section.Rows.Add(Check(model, model.PreviewFailure));
+            else section.Rows.Add(new TextRow { Label = Strings.Get("report.none") });
+            if (model.PreviewFailure != null) section.Rows.Add(Check(model, model.PreviewFailure));
             if (model.Failure != null && (model.PreviewFailure == null || model.PreviewFailure.Text != model.Failure.Text))
+            {
                 section.Rows.Add(Check(model, model.Failure));
+            }
             section.Rows.Add(new FieldRow
             {
                 Label = Strings.Get("report.folder"), Tooltip = Strings.Get("report.folder.tooltip"),
@@ -257,15 +262,13 @@ namespace SuperDeform.Editor
             {
                 Label = Strings.Get("style.keep"), Tooltip = Strings.Get("style.keep.tooltip"), Do = model.SavePreset
             });
-            if (model.Earlier != null)
-                section.Rows.Add(Replaces(model.Earlier));
+            if (model.Earlier != null) section.Rows.Add(Replaces(model.Earlier));
             section.Rows.Add(new ActionRow
             {
                 Label = Strings.Get("report.convert"), Tooltip = Strings.Get("report.convert.tooltip"), Main = true,
                 Enabled = model.CanConvert, Do = model.Convert
             });
-            if (!model.CanConvert)
-                section.Rows.Add(new TextRow { Label = Strings.Get(Missing(model)) });
+            if (!model.CanConvert) section.Rows.Add(new TextRow { Label = Strings.Get(Missing(model)) });
             if (model.Result != null)
             {
                 section.Rows.Add(new CheckRow
@@ -273,11 +276,36 @@ namespace SuperDeform.Editor
                     Severity = Severity.Info, Label = Strings.Get(model.Result.Updated ? "report.updated" : "report.made", model.Result.PrefabPath),
                     Where = model.Result.Prefab
                 });
-                foreach (Finding finding in model.Result.Findings)
-                    if (IsNews(model, finding))
-                        section.Rows.Add(Check(model, finding));
+                AddNotes(model, section, model.Result.Findings.FindAll(finding => IsNews(model, finding)));
             }
             return section;
+        }
+
+        // Warnings as they are; what is good to know, and wants nothing done, folded below their number.
+        static void AddNotes(ConverterModel model, Section section, List<Finding> findings)
+        {
+            List<CheckRow> notes = new List<CheckRow>();
+            foreach (Finding finding in findings)
+            {
+                CheckRow said = Check(model, finding);
+                // Two of a kind, about two parts, are one sentence in the editor's language.
+                bool known = section.Rows.Exists(row => row is CheckRow && row.Label == said.Label) || notes.Exists(row => row.Label == said.Label);
+                if (known) continue;
+                if (finding.Severity == Severity.Info && finding.Fix == null) notes.Add(said);
+                else section.Rows.Add(said);
+            }
+            if (notes.Count == 0) return;
+            section.Rows.Add(new FoldoutRow
+            {
+                Label = Strings.Get(notes.Count == 1 ? "report.note" : "report.notes", notes.Count), Tooltip = Strings.Get("report.notes.tooltip"),
+                Get = () => model.NotesOpen,
+                Set = value =>
+                {
+                    model.NotesOpen = value;
+                    model.Touch();
+                }
+            });
+            if (model.NotesOpen) section.Rows.AddRange(notes.ConvertAll(note => (Row)note));
         }
 
         // What will be no more as it is, before the button is pressed.
@@ -293,44 +321,44 @@ namespace SuperDeform.Editor
         }
 
         // What the checks of the avatar or the preview say already is not said again.
-        private static bool IsNews(ConverterModel model, Finding finding)
+        static bool IsNews(ConverterModel model, Finding finding)
         {
-            if (LibraryWarnings.IsOne(finding))
-                return model.Numbers == null;
+            if (LibraryWarnings.IsOne(finding)) return model.Numbers == null;
             foreach (Finding known in model.Findings)
-                if (known.Text == finding.Text)
-                    return false;
+            {
+                if (known.Text == finding.Text) return false;
+            }
             return true;
         }
 
-        private static string Missing(ConverterModel model)
+        static string Missing(ConverterModel model)
         {
             return model.Avatar == null ? "report.no_avatar" : model.HasStyle ? "report.not_ready" : "report.no_style";
         }
 
-        private static string Heads(PreviewNumbers numbers)
+        static string Heads(PreviewNumbers numbers)
         {
             return Strings.Get("report.heads", OneDigit(numbers.Report.Target.Heads), OneDigit(numbers.Report.Result.Heads));
         }
 
-        private static TableRow Groups(PreviewNumbers numbers)
+        static TableRow Groups(PreviewNumbers numbers)
         {
             var table = new TableRow { Columns = Words("report.group", "report.length", "report.thickness") };
             foreach (TunableGroup group in GroupTunings.Groups)
+            {
                 foreach (Group found in numbers.Groups)
+                {
                     if (found.Name == group.Name)
+                    {
                         table.Cells.Add(new[]
                         {
                             TuningSection.NameOf(group), Percent(found.LengthScale),
                             group.IsSpread || group.IsSize ? "" : Percent(found.ThicknessScale)
                         });
+                    }
+                }
+            }
             return table;
-        }
-
-        private static CheckRow Warned(Warning warning)
-        {
-            Finding said = LibraryWarnings.Of(warning, null);
-            return new CheckRow { Label = said.Text, Severity = said.Severity };
         }
 
         // ---- Small things -------------------------------------------------------------------------------------------
@@ -340,22 +368,22 @@ namespace SuperDeform.Editor
             return Array.ConvertAll(keys, key => Strings.Get(key));
         }
 
-        private static string Short(double value)
+        static string Short(double value)
         {
             return value.ToString("0.##", CultureInfo.InvariantCulture);
         }
 
-        private static string TwoDigits(double value)
+        static string TwoDigits(double value)
         {
             return value.ToString("0.00", CultureInfo.InvariantCulture);
         }
 
-        private static string OneDigit(double value)
+        static string OneDigit(double value)
         {
             return value.ToString("0.0", CultureInfo.InvariantCulture);
         }
 
-        private static string Percent(double value)
+        static string Percent(double value)
         {
             return double.IsNaN(value) ? "" : (100 * value).ToString("0", CultureInfo.InvariantCulture) + " %";
         }

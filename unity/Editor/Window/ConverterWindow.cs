@@ -7,12 +7,14 @@ namespace SuperDeform.Editor
     /// <summary>Tools > Super Deform > Converter...: draws the sections of a ConverterModel and passes on what is pressed.</summary>
     public sealed class ConverterWindow : EditorWindow
     {
-        [SerializeField] private ConverterModel model = new ConverterModel();
-        [SerializeField] private Vector2 scroll;
+        [SerializeField] ConverterModel model = new ConverterModel();
+        [SerializeField] Vector2 scroll;
+        // A window that a layout restores goes on with what it shows.
+        [SerializeField] bool opened;
         // Unity would keep private fields when scripts reload, and make an empty object of none.
-        [NonSerialized] private ConverterController controller;
-        [NonSerialized] private ConverterModel connected;
-        private static ConverterWindow open;
+        [NonSerialized] ConverterController controller;
+        [NonSerialized] ConverterModel connected;
+        static ConverterWindow open;
 
         /// <summary>Shows the window.</summary>
         /// <param name="avatar">What to convert; null, or an object that is no humanoid: as before.</param>
@@ -20,15 +22,14 @@ namespace SuperDeform.Editor
         {
             ConverterWindow window = GetWindow<ConverterWindow>();
             window.Show();
-            if (MenuItems.IsHumanoid(avatar))
-                window.model.SetAvatar(avatar);
+            if (MenuItems.IsHumanoid(avatar)) window.model.SetAvatar(avatar);
             return window;
         }
 
-        /// <summary>The settings of the open window, else the usual ones: what commands without a window work by.</summary>
+        /// <summary>The settings of the open window, else those that it was closed with: what commands without a window work by.</summary>
         public static ConversionSettings LastSettings()
         {
-            return (open == null ? new ConverterModel() : open.model).Settings.Clone();
+            return open == null ? SuperDeform.Editor.LastSettings.Read() : open.model.Settings.Clone();
         }
 
         public ConverterModel Model { get { return model; } }
@@ -36,9 +37,11 @@ namespace SuperDeform.Editor
         /// <summary>What happens behind the window; null while it is closed.</summary>
         public ConverterController Controller { get { return controller; } }
 
-        private void OnEnable()
+        void OnEnable()
         {
             open = this;
+            if (!opened) model.Settings = SuperDeform.Editor.LastSettings.Read();
+            opened = true;
             titleContent = new GUIContent(Strings.Get("window.title"));
             minSize = new Vector2(360, 300);
             Connect();
@@ -49,23 +52,21 @@ namespace SuperDeform.Editor
             EditorApplication.playModeStateChanged += FollowPlayMode;
         }
 
-        private void OnDisable()
+        void OnDisable()
         {
             EditorApplication.update -= Tick;
             Undo.undoRedoPerformed -= AfterUndo;
             AssemblyReloadEvents.beforeAssemblyReload -= Disconnect;
             EditorApplication.playModeStateChanged -= FollowPlayMode;
             Disconnect();
-            if (open == this)
-                open = null;
+            if (open == this) open = null;
         }
 
-        private void Connect()
+        void Connect()
         {
             Disconnect();
             // The preview belongs to the scene that is edited; FollowPlayMode comes back when that is.
-            if (EditorApplication.isPlayingOrWillChangePlaymode)
-                return;
+            if (EditorApplication.isPlayingOrWillChangePlaymode) return;
             connected = model;
             connected.Changing += RecordUndo;
             connected.Converting += ConvertSoon;
@@ -74,10 +75,10 @@ namespace SuperDeform.Editor
             controller = new ConverterController(connected);
         }
 
-        private void Disconnect()
+        void Disconnect()
         {
-            if (connected == null)
-                return;
+            if (connected == null) return;
+            SuperDeform.Editor.LastSettings.Write(connected.Settings);
             connected.Changing -= RecordUndo;
             connected.Converting -= ConvertSoon;
             connected.SavingStyle -= SaveStyleSoon;
@@ -87,138 +88,132 @@ namespace SuperDeform.Editor
             connected = null;
         }
 
-        private void AfterUndo()
+        void AfterUndo()
         {
             // Undo may put another object in the place of one that it restores.
-            if (connected != null && connected != model)
-                Connect();
+            if (connected != null && connected != model) Connect();
             model.Recheck();
             Repaint();
         }
 
-        private void FollowPlayMode(PlayModeStateChange change)
+        void FollowPlayMode(PlayModeStateChange change)
         {
-            if (change == PlayModeStateChange.ExitingEditMode)
-                Disconnect();
-            else if (change == PlayModeStateChange.EnteredEditMode)
-                Connect();
+            if (change == PlayModeStateChange.ExitingEditMode) Disconnect();
+            else if (change == PlayModeStateChange.EnteredEditMode) Connect();
         }
 
-        private void OnBecameVisible()
+        void OnBecameVisible()
         {
-            if (controller != null)
-                controller.Resting = false;
+            if (controller != null) controller.Resting = false;
         }
 
         // Another tab lies over it, or it is closed.
-        private void OnBecameInvisible()
+        void OnBecameInvisible()
         {
-            if (controller != null)
-                controller.Resting = true;
+            if (controller != null) controller.Resting = true;
         }
 
-        private void OnFocus()
+        void OnFocus()
         {
             // An import setting may have been mended elsewhere.
             model.Recheck();
         }
 
-        private void Tick()
+        void Tick()
         {
-            if (controller == null || !controller.Tick(EditorApplication.timeSinceStartup))
-                return;
+            if (controller == null || !controller.Tick(EditorApplication.timeSinceStartup)) return;
             Repaint();
             SceneView.RepaintAll();
         }
 
-        private void RecordUndo(string name)
+        void RecordUndo(string name)
         {
             Undo.RecordObject(this, name);
         }
 
         // Dialogs and progress bars end the drawing of a window that they are called from: later, then.
-        private void ConvertSoon()
+        void ConvertSoon()
         {
             EditorApplication.delayCall += Convert;
         }
 
-        private void SaveStyleSoon()
+        void SaveStyleSoon()
         {
             EditorApplication.delayCall += SaveStyle;
         }
 
-        private void SavePresetSoon()
+        void SavePresetSoon()
         {
             EditorApplication.delayCall += SavePreset;
         }
 
-        private void SavePreset()
+        void SavePreset()
         {
             string path = EditorUtility.SaveFilePanelInProject(Strings.Get("style.keep.title"), "chibi", "asset", "");
-            if (!string.IsNullOrEmpty(path) && controller != null)
-                controller.SavePreset(path);
+            if (!string.IsNullOrEmpty(path) && controller != null) controller.SavePreset(path);
             Repaint();
         }
 
-        private void Convert()
+        void Convert()
         {
-            if (controller == null || model.Avatar == null)
-                return;
+            if (controller == null || model.Avatar == null) return;
+            SuperDeform.Editor.LastSettings.Write(model.Settings);
             using (var progress = new EditorProgress(model.Avatar.name))
-                if (controller.Convert(progress))
-                    EditorGUIUtility.PingObject(model.Result.Prefab);
+            {
+                if (controller.Convert(progress)) EditorGUIUtility.PingObject(model.Result.Prefab);
+            }
             Repaint();
         }
 
-        private void SaveStyle()
+        void SaveStyle()
         {
             string path = EditorUtility.SaveFilePanelInProject(Strings.Get("style.save.title"), "chibi", "json", "");
-            if (!string.IsNullOrEmpty(path) && controller != null)
-                controller.SaveStyle(path);
+            if (!string.IsNullOrEmpty(path) && controller != null) controller.SaveStyle(path);
             Repaint();
         }
 
-        private void OnGUI()
+        void OnGUI()
         {
             DrawLanguage();
-            if (connected == null)
-                EditorGUILayout.HelpBox(Strings.Get("window.rests"), MessageType.Info);
+            if (connected == null) EditorGUILayout.HelpBox(Strings.Get("window.rests"), MessageType.Info);
             EditorGUI.BeginDisabledGroup(connected == null);
             scroll = EditorGUILayout.BeginScrollView(scroll);
             // A press makes new sections; this pass ends with the old ones, as IMGUI wants.
             foreach (Section section in model.Sections)
+            {
                 DrawSection(section);
+            }
             EditorGUILayout.EndScrollView();
             EditorGUI.EndDisabledGroup();
         }
 
-        private void DrawSection(Section section)
+        void DrawSection(Section section)
         {
             string title = section.Open || section.Summary.Length == 0
                 ? section.Title : section.Title + "    " + section.Summary;
             bool now = EditorGUILayout.BeginFoldoutHeaderGroup(section.Open, title);
-            if (now != section.Open)
-                section.Open = model.Open[(int)section.Id] = now;
+            if (now != section.Open) section.Open = model.Open[(int)section.Id] = now;
             if (section.Open)
             {
                 EditorGUI.indentLevel++;
                 foreach (Row row in section.Rows)
+                {
                     RowDrawer.Draw(row);
+                }
                 EditorGUI.indentLevel--;
                 EditorGUILayout.Space();
             }
             EditorGUILayout.EndFoldoutHeaderGroup();
         }
 
-        private void DrawLanguage()
+        void DrawLanguage()
         {
             int now = Strings.Languages.IndexOf(Strings.Language);
             EditorGUILayout.BeginHorizontal();
             GUILayout.FlexibleSpace();
             int chosen = GUILayout.Toolbar(now, Strings.LanguageNames);
             EditorGUILayout.EndHorizontal();
-            if (chosen != now)
-                Strings.Language = Strings.Languages[chosen];
+            if (chosen != now) Strings.Language = Strings.Languages[chosen];
         }
     }
 }

@@ -63,7 +63,7 @@ namespace SuperDeform.Editor
             return settings.Options.Groups.FindAll(tuned => !tuned.IsEmpty).Count;
         }
 
-        private static GroupSettings Find(ConversionSettings settings, string group)
+        static GroupSettings Find(ConversionSettings settings, string group)
         {
             return settings.Options.Groups.Find(tuned => tuned.Group == group);
         }

@@ -6,7 +6,7 @@ namespace SuperDeform.Editor
     /// <summary>The commands of the package in Unity's menus.</summary>
     public static class MenuItems
     {
-        private const string Convert = "GameObject/Super Deform/Convert selected avatar";
+        const string Convert = "GameObject/Super Deform/Convert selected avatar";
 
         [MenuItem("Tools/Super Deform/Converter...", false, 0)]
         public static void OpenConverter()
@@ -34,13 +34,40 @@ namespace SuperDeform.Editor
             {
                 BatchReport report = BatchConvert.Convert(new[] { avatar }, ConverterWindow.LastSettings(), progress);
                 foreach (string line in report.Lines())
-                    if (report.Failed > 0)
-                        Debug.LogError("[Super Deform] " + line, avatar);
-                    else
-                        Debug.Log("[Super Deform] " + line, avatar);
-                if (report.Failed == 0)
-                    EditorGUIUtility.PingObject(report.Entries[0].Result.Prefab);
+                {
+                    if (report.Failed > 0) Debug.LogError("[Super Deform] " + line, avatar);
+                    else Debug.Log("[Super Deform] " + line, avatar);
+                }
+                if (report.Failed == 0) EditorGUIUtility.PingObject(report.Entries[0].Result.Prefab);
             }
+        }
+
+        const string SetUp = "GameObject/Super Deform/Set up for build (NDMF)";
+
+        /// <summary>Gives the selected avatar the component that a build converts it by, with the settings of the converter window.</summary>
+        [MenuItem(SetUp, false, 31)]
+        public static void SetUpSelected()
+        {
+            GameObject avatar = Selection.activeGameObject;
+            if (avatar == null)
+            {
+                Debug.LogWarning("[Super Deform] " + Strings.Get("menu.select"));
+                return;
+            }
+            SuperDeformAvatar component = avatar.GetComponent<SuperDeformAvatar>();
+            if (component == null)
+            {
+                component = Undo.AddComponent<SuperDeformAvatar>(avatar);
+                SettingsText.Give(component, ConverterWindow.LastSettings());
+            }
+            EditorGUIUtility.PingObject(component);
+            if (!SuperDeformAvatarEditor.HasNdmf) Debug.LogWarning("[Super Deform] " + Strings.Get("component.no_ndmf"), avatar);
+        }
+
+        [MenuItem(SetUp, true)]
+        public static bool CanSetUpSelected()
+        {
+            return CanConvertSelected();
         }
 
         /// <summary>Whether the command is for what is selected: one object with a humanoid Animator.</summary>

@@ -23,6 +23,8 @@ namespace SuperDeform.Editor
         public string Label = "";
         public string Tooltip = "";
         public bool Enabled = true;
+        /// <summary>How deep it stands below what it is a part of.</summary>
+        public int Indent;
     }
 
     /// <summary>A sentence.</summary>
@@ -101,8 +103,9 @@ namespace SuperDeform.Editor
         public void Reset()
         {
             foreach (SliderRow slider in Sliders)
-                if (slider != null)
-                    slider.Reset();
+            {
+                if (slider != null) slider.Reset();
+            }
         }
     }
 

@@ -20,19 +20,18 @@ namespace SuperDeform.Editor
 #endif
         }
 
-        private ConverterModel model;
-        private ConverterController controller;
+        ConverterModel model;
+        ConverterController controller;
 
-        private SuperDeformAvatar Component { get { return (SuperDeformAvatar)target; } }
+        SuperDeformAvatar Component { get { return (SuperDeformAvatar)target; } }
 
         internal ConverterModel Model { get { return model; } }
 
         internal ConverterController Controller { get { return controller; } }
 
-        private void OnEnable()
+        void OnEnable()
         {
-            if (target == null || EditorApplication.isPlayingOrWillChangePlaymode)
-                return;
+            if (target == null || EditorApplication.isPlayingOrWillChangePlaymode) return;
             model = new ConverterModel { Avatar = Component.gameObject, Settings = SettingsText.Of(Component), PreviewOn = false };
             model.Changing += Record;
             model.Changed += Keep;
@@ -42,10 +41,9 @@ namespace SuperDeform.Editor
             AssemblyReloadEvents.beforeAssemblyReload += OnDisable;
         }
 
-        private void OnDisable()
+        void OnDisable()
         {
-            if (controller == null)
-                return;
+            if (controller == null) return;
             EditorApplication.update -= Tick;
             Undo.undoRedoPerformed -= ReadAgain;
             AssemblyReloadEvents.beforeAssemblyReload -= OnDisable;
@@ -54,64 +52,69 @@ namespace SuperDeform.Editor
             model = null;
         }
 
-        private void Record(string name)
+        void Record(string name)
         {
             Undo.RecordObject(Component, name);
         }
 
-        private void Keep()
+        void Keep()
         {
             if (SettingsText.Write(SettingsText.Of(Component)) == SettingsText.Write(model.Settings)
                 && Component.ReferenceAvatar == model.Settings.ReferenceAvatar && Component.SavedStyle == model.Settings.SavedStyle)
+            {
                 return;
+            }
             SettingsText.Give(Component, model.Settings);
             EditorUtility.SetDirty(Component);
         }
 
-        private void ReadAgain()
+        void ReadAgain()
         {
-            if (target == null || model == null)
-                return;
+            if (target == null || model == null) return;
             model.Settings = SettingsText.Of(Component);
             model.Recheck();
             Repaint();
         }
 
-        private void Tick()
+        void Tick()
         {
-            if (controller == null || !controller.Tick(EditorApplication.timeSinceStartup))
-                return;
+            if (controller == null || !controller.Tick(EditorApplication.timeSinceStartup)) return;
             Repaint();
             SceneView.RepaintAll();
         }
 
         public override void OnInspectorGUI()
         {
-            if (model == null)
-                return;
+            if (model == null) return;
             EditorGUILayout.HelpBox(Strings.Get(HasNdmf ? "component.built" : "component.no_ndmf"), MessageType.Info);
             foreach (Finding finding in model.Findings)
+            {
                 RowDrawer.Draw(ConverterSections.Check(model, finding));
+            }
             foreach (Section section in model.Sections)
+            {
                 if (section.Id == SectionId.Style || section.Id == SectionId.FineTuning || section.Id == SectionId.Preview)
+                {
                     RowDrawer.Draw(section, model);
-            if (model.Failure != null)
-                RowDrawer.Draw(ConverterSections.Check(model, model.Failure));
-            if (model.Earlier != null)
-                RowDrawer.Draw(ConverterSections.Replaces(model.Earlier));
+                }
+            }
+            if (model.Failure != null) RowDrawer.Draw(ConverterSections.Check(model, model.Failure));
+            if (model.Earlier != null) RowDrawer.Draw(ConverterSections.Replaces(model.Earlier));
             EditorGUI.BeginDisabledGroup(!model.CanConvert);
             if (GUILayout.Button(new GUIContent(Strings.Get("component.convert"), Strings.Get("report.convert.tooltip")), GUILayout.Height(32)))
+            {
                 EditorApplication.delayCall += Convert;
+            }
             EditorGUI.EndDisabledGroup();
         }
 
-        private void Convert()
+        void Convert()
         {
-            if (controller == null)
-                return;
+            if (controller == null) return;
             using (var progress = new EditorProgress(Component.name))
-                if (controller.Convert(progress))
-                    EditorGUIUtility.PingObject(model.Result.Prefab);
+            {
+                if (controller.Convert(progress)) EditorGUIUtility.PingObject(model.Result.Prefab);
+            }
             Repaint();
         }
     }

@@ -7,16 +7,15 @@ namespace SuperDeform.Editor
     [CustomEditor(typeof(SuperDeformPreset))]
     public sealed class SuperDeformPresetEditor : UnityEditor.Editor
     {
-        private ConverterModel model;
+        ConverterModel model;
 
-        private SuperDeformPreset Preset { get { return (SuperDeformPreset)target; } }
+        SuperDeformPreset Preset { get { return (SuperDeformPreset)target; } }
 
         internal ConverterModel Model { get { return model; } }
 
-        private void OnEnable()
+        void OnEnable()
         {
-            if (target == null)
-                return;
+            if (target == null) return;
             model = new ConverterModel();
             ReadAgain();
             model.Changing += Record;
@@ -24,26 +23,25 @@ namespace SuperDeform.Editor
             Undo.undoRedoPerformed += ReadAgain;
         }
 
-        private void OnDisable()
+        void OnDisable()
         {
             Undo.undoRedoPerformed -= ReadAgain;
         }
 
-        private void Record(string name)
+        void Record(string name)
         {
             Undo.RecordObject(Preset, name);
         }
 
-        private void Keep()
+        void Keep()
         {
             Preset.Settings = model.Settings.Clone();
             EditorUtility.SetDirty(Preset);
         }
 
-        private void ReadAgain()
+        void ReadAgain()
         {
-            if (target == null)
-                return;
+            if (target == null) return;
             model.Settings = Preset.Settings.Clone();
             model.Open[(int)SectionId.FineTuning] = true;
             model.Touched();
@@ -52,13 +50,12 @@ namespace SuperDeform.Editor
 
         public override void OnInspectorGUI()
         {
-            if (model == null)
-                return;
-            if (GUILayout.Button(Strings.Get("preset.use")))
-                ConverterWindow.Open(null).Model.Take(Preset);
+            if (model == null) return;
+            if (GUILayout.Button(Strings.Get("preset.use"))) ConverterWindow.Open(null).Model.Take(Preset);
             foreach (Section section in model.Sections)
-                if (section.Id == SectionId.Style || section.Id == SectionId.FineTuning)
-                    RowDrawer.Draw(section, model);
+            {
+                if (section.Id == SectionId.Style || section.Id == SectionId.FineTuning) RowDrawer.Draw(section, model);
+            }
         }
     }
 }

@@ -35,6 +35,7 @@ namespace SuperDeform.Editor
         public double OldLow { get; private set; }
         public double NewLow { get; private set; }
         public double HeightRatio { get; private set; }
+        internal double OldHeight { get; private set; }
 
         readonly MeshOutput[] outputs;
         readonly bool atRest;
@@ -171,7 +172,8 @@ namespace SuperDeform.Editor
                     newHigh = Math.Max(newHigh, now);
                 }
             }
-            double ratio = (newHigh - NewLow) / (oldHigh - OldLow);
+            OldHeight = oldHigh - OldLow;
+            double ratio = (newHigh - NewLow) / OldHeight;
             HeightRatio = ratio > 0 && !double.IsInfinity(ratio) ? ratio : 1;
         }
     }

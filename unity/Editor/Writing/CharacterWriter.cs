@@ -14,21 +14,30 @@ namespace SuperDeform.Editor
         /// <param name="copy">An instance of the source.</param>
         /// <param name="map">Receives as assets the new meshes, the Avatar, and what adapters make.</param>
         /// <param name="findings">Receives warnings and notes.</param>
-        internal static void Write(GameObject copy, PointMap map, AvatarData source, AvatarResult result, List<Finding> findings)
+        /// <param name="progress">Told of the blend shapes.</param>
+        /// <param name="clips">What plays on the copy.</param>
+        internal static void Write(GameObject copy, PointMap map, AvatarData source, AvatarResult result, List<Finding> findings, ProgressHandler progress,
+            IMovableClips clips)
         {
             RemoveMissingScripts(copy, source, findings);
             List<RendererResult> renderers = result.Renderers.FindAll(renderer => !renderer.Source.Rides);
             Dictionary<RendererResult, Mesh> made = new Dictionary<RendererResult, Mesh>();
+            int shapes = 0, done = 0;
+            renderers.ForEach(renderer => shapes += renderer.Source.Frames.Count);
             foreach (RendererResult renderer in renderers)
             {
                 Mesh mesh = source.Rigged ? Shared(renderer, made) : null;
                 if (mesh == null)
                 {
-                    mesh = MeshWriter.Make(renderer);
+                    int before = done, own = renderer.Source.Frames.Count;
+                    mesh = MeshWriter.Make(renderer, map, fraction => progress((before + fraction * own) / shapes));
                     made.Add(renderer, mesh);
                 }
+                done += renderer.Source.Frames.Count;
                 map.Remember(renderer.Source.Renderer, mesh);
             }
+            ClipMap written = new ClipMap(source, result, map);
+            written.Remember(clips.Clips);
             // Before any mesh changes hands: adapters may ask for the old one.
             Adapt(copy, map, findings);
             for (int joint = 0; joint < source.Joints.Length; joint++)
@@ -54,6 +63,11 @@ namespace SuperDeform.Editor
             {
                 MadeRig.Add(copy, map, source, result);
             }
+            foreach (IMovableClip clip in clips.Clips)
+            {
+                written.Write(clip);
+            }
+            clips.Finish(map, written, findings);
         }
 
         /// <summary>The mesh of another renderer that shows the same; null where there is none.</summary>

@@ -8,15 +8,19 @@ namespace SuperDeform.Editor
     /// </summary>
     internal static class MeshWriter
     {
-        internal static Mesh Make(RendererResult result)
+        /// <param name="progress">Told of the blend shapes, which take longest; false ends all.</param>
+        /// <exception cref="ConversionException">It was cancelled.</exception>
+        internal static Mesh Make(RendererResult result, PointMap map, ProgressHandler progress)
         {
             RendererData source = result.Source;
             Mesh mesh = Object.Instantiate(source.Mesh);
             try
             {
                 mesh.name = source.Mesh.name;
+                // The copies of what they were would lie in memory beside what they become.
+                mesh.ClearBlendShapes();
                 Write(mesh, result);
-                if (source.Frames.Count > 0) WriteFrames(mesh, result);
+                if (source.Frames.Count > 0) new ShapeWriter(result, map.Deformer, source.Frames).Write(mesh, progress);
                 return mesh;
             }
             catch
@@ -34,23 +38,6 @@ namespace SuperDeform.Editor
             if (result.Tangents != null) mesh.tangents = result.Tangents;
             if (result.BindPoses != null) mesh.bindposes = result.BindPoses;
             mesh.RecalculateBounds();
-        }
-
-        static void WriteFrames(Mesh mesh, RendererResult result)
-        {
-            RendererData source = result.Source;
-            int count = source.Vertices.Length;
-            // Unity copies what it is given, so that all frames share these.
-            BlendFrame written = new BlendFrame { Positions = new Vector3[count], Normals = new Vector3[count], Tangents = new Vector3[count] };
-            FramePlacer placer = new FramePlacer(source);
-            mesh.ClearBlendShapes();
-            for (int index = 0; index < source.Frames.Count; index++)
-            {
-                BlendFrame frame = source.Frames[index];
-                result.WriteFrame(index, placer.ToModel(frame), written);
-                mesh.AddBlendShapeFrame(frame.ShapeName, frame.Weight, written.Positions,
-                    frame.Normals == null ? null : written.Normals, frame.Tangents == null ? null : written.Tangents);
-            }
         }
 
         /// <summary>

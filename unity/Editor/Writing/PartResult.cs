@@ -23,13 +23,10 @@ namespace SuperDeform.Editor
                 Normals = renderer.Normals != null && aside ? new Vector3[part.VertexCount] : renderer.Normals,
                 Tangents = renderer.Tangents != null && aside ? new Vector4[part.VertexCount] : renderer.Tangents
             };
-            int frames = part.Renderer.Frames.Count;
-            if (frames == 0) return;
-            int numbers = checked(3 * part.VertexCount * frames);
-            Output.MorphTargetCount = frames;
-            Output.MorphPositions = new float[numbers];
-            if (Array.IndexOf(part.MovesNormals, true) >= 0) Output.MorphNormals = new float[numbers];
-            if (Array.IndexOf(part.MovesTangents, true) >= 0) Output.MorphTangents = new float[numbers];
+            if (part.Renderer.Worn == null) return;
+            Output.MorphTargetCount = 1;
+            Output.MorphPositions = new float[3 * part.VertexCount];
+            if (part.WornTurns) Output.MorphNormals = new float[3 * part.VertexCount];
         }
 
         /// <summary>Brings vertices that do not lie side by side to their places.</summary>
@@ -50,12 +47,10 @@ namespace SuperDeform.Editor
             }
         }
 
-        /// <summary>The change of one vertex in one of the packed arrays; 0 where there is none.</summary>
-        internal Vector3 Delta(float[] packed, int frame, int vertex)
+        /// <summary>What is worn of one vertex, in one of the packed arrays.</summary>
+        internal static Vector3 Worn(float[] packed, int vertex)
         {
-            if (packed == null) return new Vector3(0, 0, 0);
-            int start = 3 * (frame * Part.VertexCount + vertex);
-            return new Vector3(packed[start], packed[start + 1], packed[start + 2]);
+            return new Vector3(packed[3 * vertex], packed[3 * vertex + 1], packed[3 * vertex + 2]);
         }
     }
 }

@@ -63,19 +63,19 @@ namespace SuperDeform.Editor
             }
         }
 
-        /// <summary>Adds the one frame of a source that was read as it is worn.</summary>
+        /// <summary>Adds what is worn, where the source was read so.</summary>
         internal void Wear()
         {
-            if (Source.Frames.Count == 0) return;
+            if (Source.Worn == null) return;
             foreach (PartResult part in Parts)
             {
-                if (!part.Part.MovesPlaces[0]) continue;
+                if (!part.Part.WornMoves) continue;
                 bool turns = Normals != null && part.Output.MorphNormals != null;
                 for (int vertex = 0; vertex < part.Part.VertexCount; vertex++)
                 {
                     int place = part.Part.VertexOf(vertex);
-                    Positions[place] += part.Delta(part.Output.MorphPositions, 0, vertex);
-                    if (turns) Normals[place] = (Normals[place] + part.Delta(part.Output.MorphNormals, 0, vertex)).normalized;
+                    Positions[place] += PartResult.Worn(part.Output.MorphPositions, vertex);
+                    if (turns) Normals[place] = (Normals[place] + PartResult.Worn(part.Output.MorphNormals, vertex)).normalized;
                 }
             }
         }
@@ -161,54 +161,18 @@ namespace SuperDeform.Editor
             return one.x == other.x && one.y == other.y && one.z == other.z;
         }
 
-        /// <summary>One frame of a blend shape in mesh space, after ToMeshSpace.</summary>
-        /// <param name="placed">The source's frame in the avatar's space.</param>
-        /// <param name="into">Its arrays are written, each as long as the mesh.</param>
-        internal void WriteFrame(int index, BlendFrame placed, BlendFrame into)
+        /// <summary>What a blend shape adds to one vertex, in mesh space, after ToMeshSpace. What has not changed keeps its bits.</summary>
+        /// <param name="delta">In the avatar's space.</param>
+        /// <param name="given">What the source's shape adds, in mesh space.</param>
+        /// <param name="placed">The same in the avatar's space.</param>
+        internal Vector3 ToMesh(Vector3 delta, int vertex, Change change, Vector3 given, Vector3 placed)
         {
-            BlendFrame source = Source.Frames[index];
-            foreach (PartResult part in Parts)
-            {
-                MeshOutput output = part.Output;
-                bool normals = part.Part.MovesNormals[index], tangents = part.Part.MovesTangents[index];
-                WriteDeltas(part, index, part.Part.MovesPlaces[index], output.MorphPositions, source.Positions, placed.Positions, into.Positions, Change.Place);
-                WriteDeltas(part, index, normals, output.MorphNormals, source.Normals, placed.Normals, into.Normals, Change.Normal);
-                WriteDeltas(part, index, tangents, output.MorphTangents, source.Tangents, placed.Tangents, into.Tangents, Change.Tangent);
-            }
-        }
-
-        enum Change { Place, Normal, Tangent }
-
-        /// <summary>One part's changes in mesh space. What has not changed keeps its bits; what moves nothing is 0.</summary>
-        void WriteDeltas(PartResult part, int index, bool moves, float[] packed, Vector3[] source, Vector3[] placed, Vector3[] into, Change change)
-        {
-            if (!moves)
-            {
-                part.Part.Clear(into);
-                return;
-            }
-            Frame frame = back.At(0);
-            bool plain = back.IsIdentity && change == Change.Place;
-            for (int vertex = 0; vertex < part.Part.VertexCount; vertex++)
-            {
-                int place = part.Part.VertexOf(vertex);
-                Vector3 delta = part.Delta(packed, index, vertex);
-                if (plain)
-                {
-                    into[place] = delta;
-                    continue;
-                }
-                bool steady = change == Change.Place || (change == Change.Normal ? normalKept[place] : tangentKept[place]);
-                if (sameWay && steady && Same(delta, placed[place]))
-                {
-                    into[place] = source[place];
-                    continue;
-                }
-                if (back.EachItsOwn) frame = back.At(place);
-                if (change == Change.Place) into[place] = frame.Delta(delta, 1);
-                else if (change == Change.Normal) into[place] = frame.NormalDelta(delta, normalScales[place]);
-                else into[place] = frame.Delta(delta, tangentScales[place]);
-            }
+            if (back.IsIdentity && change == Change.Place) return delta;
+            bool steady = change == Change.Place || (change == Change.Normal ? normalKept[vertex] : tangentKept[vertex]);
+            if (sameWay && steady && Same(delta, placed)) return given;
+            Frame frame = back.At(vertex);
+            if (change == Change.Place) return frame.Delta(delta, 1);
+            return change == Change.Normal ? frame.NormalDelta(delta, normalScales[vertex]) : frame.Delta(delta, tangentScales[vertex]);
         }
 
         /// <summary>
@@ -235,14 +199,8 @@ namespace SuperDeform.Editor
             if (other.Source.Mesh != Source.Mesh || other.Parts.Count != Parts.Count) return false;
             if (!Equal(BindPoses, other.BindPoses) || !Equal(Positions, other.Positions)) return false;
             if (!Equal(Normals, other.Normals) || !Equal(Tangents, other.Tangents)) return false;
-            for (int part = 0; part < Parts.Count; part++)
-            {
-                MeshOutput one = Parts[part].Output, two = other.Parts[part].Output;
-                bool equal = Equal(one.MorphPositions, two.MorphPositions) && Equal(one.MorphNormals, two.MorphNormals)
-                    && Equal(one.MorphTangents, two.MorphTangents);
-                if (!equal) return false;
-            }
-            return true;
+            // What lay and lies in one place has the same shapes.
+            return Equal(Source.ModelVertices, other.Source.ModelVertices);
         }
 
         static bool Equal<T>(T[] one, T[] other) where T : struct, IEquatable<T>

@@ -17,9 +17,9 @@ namespace SuperDeform
     public sealed class SuperDeformAvatar : MonoBehaviour
 #endif
     {
-        [SerializeField] private string settings = "";
-        [SerializeField] private GameObject referenceAvatar;
-        [SerializeField] private TextAsset savedStyle;
+        [SerializeField] string settings = "";
+        [SerializeField] GameObject referenceAvatar;
+        [SerializeField] TextAsset savedStyle;
 
         /// <summary>The settings, one in a line: name and value; what is not named is as usual.</summary>
         public string Settings

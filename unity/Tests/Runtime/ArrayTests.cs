@@ -7,7 +7,7 @@ namespace SuperDeform.Tests
 [TestFixture]
 public sealed class ArrayTests
 {
-    private static readonly Mannequin figure = new Mannequin();
+    static readonly Mannequin figure = new Mannequin();
 
     [Test]
     public void Structs_floats_and_bytes_are_the_same()
@@ -260,7 +260,7 @@ public sealed class ArrayTests
     }
 
     // The figure in three slices of the same arrays.
-    private static void AssertSlices(Func<MeshArrays, MeshArrays> form)
+    static void AssertSlices(Func<MeshArrays, MeshArrays> form)
     {
         MeshOutput expected = Deformed(figure.Mesh(), Mannequin.Output(figure.VertexCount));
         MeshOutput shared = Mannequin.Output(figure.VertexCount);
@@ -284,7 +284,7 @@ public sealed class ArrayTests
         AssertClose((Triple[])expected.Normals, (Triple[])shared.Normals);
     }
 
-    private static int AddParts(Character character, int part, int count, Func<MeshArrays, MeshArrays> form)
+    static int AddParts(Character character, int part, int count, Func<MeshArrays, MeshArrays> form)
     {
         MeshArrays mesh = form(figure.Mesh());
         mesh.FirstVertex = part * Mannequin.PartVertices;
@@ -294,13 +294,15 @@ public sealed class ArrayTests
         // Indices count from the slice's first vertex.
         ushort[] indices = (ushort[])figure.Indices.Clone();
         for (int i = mesh.FirstIndex; i < mesh.FirstIndex + mesh.IndexCount; i++)
+        {
             indices[i] = (ushort)(indices[i] - mesh.FirstVertex);
+        }
         mesh.Indices = indices;
         return character.AddMesh(mesh);
     }
 
     // With a second joint of weight 0 for every other vertex, so that rows differ in length.
-    private static MeshArrays InRows(MeshArrays mesh)
+    static MeshArrays InRows(MeshArrays mesh)
     {
         uint[] starts = new uint[figure.VertexCount + 1];
         System.Collections.Generic.List<uint> joints = new System.Collections.Generic.List<uint>();
@@ -323,7 +325,7 @@ public sealed class ArrayTests
         return mesh;
     }
 
-    private static MeshOutput Deformed(MeshArrays mesh, MeshOutput output)
+    static MeshOutput Deformed(MeshArrays mesh, MeshOutput output)
     {
         using (Character character = new Character())
         using (Style style = Style.FromHeads(2.5))
@@ -336,7 +338,7 @@ public sealed class ArrayTests
         return output;
     }
 
-    private static void AssertRefused(Action<MeshArrays> spoil, params string[] words)
+    static void AssertRefused(Action<MeshArrays> spoil, params string[] words)
     {
         MeshArrays mesh = figure.Mesh();
         spoil(mesh);
@@ -360,29 +362,31 @@ public sealed class ArrayTests
         }
     }
 
-    private static void AssertSkeletonRefused(Action<SkeletonArrays> spoil, string word)
+    static void AssertSkeletonRefused(Action<SkeletonArrays> spoil, string word)
     {
         SkeletonArrays skeleton = new Mannequin().Skeleton;
         spoil(skeleton);
         using (Character character = new Character())
+        {
             Thrown.Says(Thrown.Invalid(Status.BadArgument, () => character.SetSkeleton(skeleton)), word);
+        }
     }
 
-    private static void AssertSame(MeshOutput expected, MeshOutput output)
+    static void AssertSame(MeshOutput expected, MeshOutput output)
     {
         Assert.AreEqual(expected.Positions, output.Positions);
         Assert.AreEqual(expected.Normals, output.Normals);
         Assert.AreEqual(expected.Tangents, output.Tangents);
     }
 
-    private static void AssertClose(Triple[] expected, Triple[] given)
+    static void AssertClose(Triple[] expected, Triple[] given)
     {
         float[] left = Floats(expected), right = Floats(given);
         Assert.AreEqual(left.Length, right.Length);
         for (int i = 0; i < left.Length; i++) Assert.AreEqual(left[i], right[i], 1e-5f, "number " + i);
     }
 
-    private static float[] Floats(Triple[] vectors)
+    static float[] Floats(Triple[] vectors)
     {
         float[] floats = new float[3 * vectors.Length];
         for (int i = 0; i < vectors.Length; i++)

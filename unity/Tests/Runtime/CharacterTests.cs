@@ -88,7 +88,9 @@ public sealed class CharacterTests
         skeleton.Names[tail] = "Tail";
         for (int i = 0; i < 4; i++) skeleton.RestMatrices[16 * tail + 5 * i] = 1;
         using (Character character = figure.Character())
+        {
             Assert.AreEqual(HumanoidRole.None, character.GetJoints().Roles[tail]);
+        }
     }
 
     [Test]
@@ -151,8 +153,10 @@ public sealed class CharacterTests
             float[] weights = new float[4 * figure.VertexCount];
             character.GetWeights(0, 4, by, weights);
             for (int vertex = 0; vertex < figure.VertexCount; vertex++)
+            {
                 Assert.AreEqual(1f, weights[4 * vertex] + weights[4 * vertex + 1] + weights[4 * vertex + 2]
                     + weights[4 * vertex + 3], 1e-5f);
+            }
             // Separate tubes are not a body whose joints can all be seen.
             IList<Warning> warnings = character.Warnings;
             Assert.IsTrue(warnings.Count > 0, "no warnings");

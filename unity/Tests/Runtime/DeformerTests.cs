@@ -8,10 +8,10 @@ namespace SuperDeform.Tests
 [TestFixture]
 public sealed class DeformerTests
 {
-    private readonly Mannequin figure = new Mannequin();
-    private Character character;
-    private Style style;
-    private Deformer deformer;
+    readonly Mannequin figure = new Mannequin();
+    Character character;
+    Style style;
+    Deformer deformer;
 
     [SetUp]
     public void Make()
@@ -39,6 +39,45 @@ public sealed class DeformerTests
         Assert.AreEqual(Bits((Triple[])expected.Normals), Bits((Triple[])output.Normals));
         Assert.AreEqual(expected.Tangents, output.Tangents);
         Assert.AreNotEqual(Bits(figure.Positions), Bits((Triple[])output.Positions));
+    }
+
+    [Test]
+    public void Morph_targets_that_the_character_was_not_given_come_out_as_those_that_it_was()
+    {
+        using (Character smiling = figure.Character())
+        {
+            smiling.AddMorphTarget(0, figure.SmileTarget());
+            using (Deformer expected = new Deformer(smiling, style))
+            {
+                MeshOutput output = Mannequin.Output(figure.VertexCount, 1);
+                expected.Apply(new[] { output });
+                var vertices = new List<uint>();
+                var deltas = new List<Triple>();
+                for (int vertex = 0; vertex < figure.VertexCount; vertex++)
+                {
+                    Triple delta = figure.Smile[vertex];
+                    if (delta.X == 0 && delta.Y == 0 && delta.Z == 0) continue;
+                    vertices.Add((uint)vertex);
+                    deltas.Add(delta);
+                }
+                Assert.Greater(vertices.Count, 0);
+                Triple[] mapped = deltas.ToArray();
+                deformer.MapMorphTargets(0, new[] { (uint)vertices.Count }, vertices.ToArray(), mapped);
+                for (int at = 0; at < mapped.Length; at++)
+                {
+                    int start = 3 * (int)vertices[at];
+                    Assert.AreEqual(output.MorphPositions[start], mapped[at].X);
+                    Assert.AreEqual(output.MorphPositions[start + 1], mapped[at].Y);
+                    Assert.AreEqual(output.MorphPositions[start + 2], mapped[at].Z);
+                }
+                Assert.AreNotEqual(Bits(deltas.ToArray()), Bits(mapped));
+                Thrown.Invalid(Status.BadArgument, () => deformer.MapMorphTargets(0, new[] { 9u }, vertices.GetRange(0, 3).ToArray(), mapped));
+                Thrown.Invalid(Status.BadArgument, () => deformer.MapMorphTargets(7, new[] { 1u }, new[] { 1u }, mapped));
+            }
+        }
+        Assert.IsTrue(Character.ReadsMorphTarget("vrc.blink"));
+        Assert.IsFalse(Character.ReadsMorphTarget("smile"));
+        Assert.IsFalse(Character.ReadsMorphTarget(null));
     }
 
     [Test]
@@ -94,7 +133,9 @@ public sealed class DeformerTests
         MeshOutput expected = Mannequin.Output(figure.VertexCount), output = Mannequin.Output(figure.VertexCount);
         Options options = new Options { FaceSquash = 0.25, FaceCurve = FaceCurve.F2 };
         using (Deformer other = new Deformer(character, style, options))
+        {
             other.Apply(new[] { expected });
+        }
         deformer.SetOptions(options);
         deformer.Apply(new[] { output });
         Assert.AreEqual(Bits((Triple[])expected.Positions), Bits((Triple[])output.Positions));
@@ -329,7 +370,7 @@ public sealed class DeformerTests
         Assert.IsNull(failed, failed == null ? "" : failed.ToString());
     }
 
-    private static int[] Bits(Triple[] vectors)
+    static int[] Bits(Triple[] vectors)
     {
         int[] bits = new int[3 * vectors.Length];
         for (int i = 0; i < vectors.Length; i++)

@@ -24,7 +24,9 @@ public sealed class ErrorTests
         MeshArrays mesh = new Mannequin().Mesh();
         mesh.Kind = (MeshKind)99;
         using (Character character = new Character())
+        {
             Thrown.Says(Thrown.Invalid(Status.BadArgument, () => character.AddMesh(mesh)), "99");
+        }
     }
 
     [Test]
@@ -150,12 +152,12 @@ public sealed class ErrorTests
         }
     }
 
-    private static void AssertNull(string name, TestDelegate call)
+    static void AssertNull(string name, TestDelegate call)
     {
         Assert.AreEqual(name, Assert.Throws<ArgumentNullException>(call).ParamName);
     }
 
-    private static void AssertClass(Type type, params Status[] statuses)
+    static void AssertClass(Type type, params Status[] statuses)
     {
         foreach (Status status in statuses)
         {
@@ -166,7 +168,7 @@ public sealed class ErrorTests
         }
     }
 
-    private static void AssertDisposed(string name, Action call)
+    static void AssertDisposed(string name, Action call)
     {
         try
         {

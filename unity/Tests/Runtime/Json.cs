@@ -11,10 +11,10 @@ namespace SuperDeform.Tests
 /// </summary>
 public sealed class Json
 {
-    private readonly string text;
-    private int at;
+    readonly string text;
+    int at;
 
-    private Json(string text)
+    Json(string text)
     {
         this.text = text;
     }
@@ -28,7 +28,7 @@ public sealed class Json
         return value;
     }
 
-    private object Value()
+    object Value()
     {
         Space();
         switch (Peek())
@@ -43,7 +43,7 @@ public sealed class Json
         }
     }
 
-    private Dictionary<string, object> Object()
+    Dictionary<string, object> Object()
     {
         Dictionary<string, object> members = new Dictionary<string, object>();
         at++;
@@ -63,7 +63,7 @@ public sealed class Json
         }
     }
 
-    private List<object> Array()
+    List<object> Array()
     {
         List<object> items = new List<object>();
         at++;
@@ -78,7 +78,7 @@ public sealed class Json
         }
     }
 
-    private string String()
+    string String()
     {
         StringBuilder value = new StringBuilder();
         at++;
@@ -104,42 +104,41 @@ public sealed class Json
         return value.ToString();
     }
 
-    private double Number()
+    double Number()
     {
         int start = at;
         while (at < text.Length && "+-.0123456789eE".IndexOf(text[at]) >= 0) at++;
         string digits = text.Substring(start, at - start);
         double number;
-        if (!double.TryParse(digits, NumberStyles.Float, CultureInfo.InvariantCulture, out number))
-            throw Wrong();
+        if (!double.TryParse(digits, NumberStyles.Float, CultureInfo.InvariantCulture, out number)) throw Wrong();
         return number;
     }
 
-    private object Word(string word, object value)
+    object Word(string word, object value)
     {
         if (string.CompareOrdinal(text, at, word, 0, word.Length) != 0) throw Wrong();
         at += word.Length;
         return value;
     }
 
-    private char Peek()
+    char Peek()
     {
         if (at >= text.Length) throw Wrong();
         return text[at];
     }
 
-    private void Take(char letter)
+    void Take(char letter)
     {
         if (Peek() != letter) throw Wrong();
         at++;
     }
 
-    private void Space()
+    void Space()
     {
         while (at < text.Length && " \t\r\n".IndexOf(text[at]) >= 0) at++;
     }
 
-    private FormatException Wrong()
+    FormatException Wrong()
     {
         return new FormatException("no JSON at character " + at + " of: " + text);
     }

@@ -58,35 +58,37 @@ public sealed class LibraryTests
         {
             if (role == HumanoidRole.None || role == HumanoidRole.HeadTop) continue;
             string name = role.ToString();
-            if (name.Contains("Thumb"))
-                name = name.Replace("Proximal", "Metacarpal").Replace("Intermediate", "Proximal");
+            if (name.Contains("Thumb")) name = name.Replace("Proximal", "Metacarpal").Replace("Intermediate", "Proximal");
             Assert.AreEqual((uint)role, Number("SDEF_ROLE_", name), role.ToString());
             roles++;
         }
         Assert.AreEqual(Native.SDEF_ROLE_COUNT, (uint)roles);
     }
 
-    private const System.Reflection.BindingFlags Everything = System.Reflection.BindingFlags.Static
+    const System.Reflection.BindingFlags Everything = System.Reflection.BindingFlags.Static
         | System.Reflection.BindingFlags.NonPublic | System.Reflection.BindingFlags.Public;
 
-    private static void AssertNumbers(Type type, string prefix)
+    static void AssertNumbers(Type type, string prefix)
     {
         int inC = 0;
         foreach (System.Reflection.FieldInfo field in typeof(Native).GetFields(Everything))
+        {
             if (field.Name.StartsWith(prefix, StringComparison.Ordinal)) inC++;
+        }
         Assert.AreEqual(inC, Enum.GetValues(type).Length, type.Name);
         foreach (object value in Enum.GetValues(type))
+        {
             Assert.AreEqual((uint)value, Number(prefix, value.ToString()), value.ToString());
+        }
     }
 
     // The constant of C whose name without underscores is the given one.
-    private static uint Number(string prefix, string name)
+    static uint Number(string prefix, string name)
     {
         foreach (System.Reflection.FieldInfo field in typeof(Native).GetFields(Everything))
         {
             if (!field.Name.StartsWith(prefix, StringComparison.Ordinal)) continue;
-            if (field.Name.Substring(prefix.Length).Replace("_", "") == name.ToUpperInvariant())
-                return (uint)field.GetRawConstantValue();
+            if (field.Name.Substring(prefix.Length).Replace("_", "") == name.ToUpperInvariant()) return (uint)field.GetRawConstantValue();
         }
         throw new ArgumentException("C has no " + prefix + "* for " + name);
     }

@@ -7,7 +7,7 @@ namespace SuperDeform.Tests
 [TestFixture]
 public sealed class LifetimeTests
 {
-    private readonly Mannequin figure = new Mannequin();
+    readonly Mannequin figure = new Mannequin();
 
     [Test]
     public void A_thousand_forgotten_objects_are_collected()
@@ -34,7 +34,9 @@ public sealed class LifetimeTests
         using (Character character = figure.Character())
         using (Style style = Style.FromHeads(2.5))
         using (new Deformer(character, style))
+        {
             AtMost(before + 3);
+        }
         AtMost(before);
     }
 
@@ -112,7 +114,7 @@ public sealed class LifetimeTests
         Assert.IsTrue(grown < 60, grown + " MB more after 40 calls with 3 MB each");
     }
 
-    private static long Resident()
+    static long Resident()
     {
         using (System.Diagnostics.Process self = System.Diagnostics.Process.GetCurrentProcess())
         {
@@ -121,7 +123,7 @@ public sealed class LifetimeTests
         }
     }
 
-    private ulong Forget()
+    ulong Forget()
     {
         ulong most = 0;
         for (int i = 0; i < 480; i++)
@@ -135,14 +137,14 @@ public sealed class LifetimeTests
     }
 
     // No more handles than these: the finalizer may still take back what an earlier test forgot, at any time.
-    private static void AtMost(ulong handles)
+    static void AtMost(ulong handles)
     {
         ulong live = SuperDeformLibrary.LiveHandles;
         Assert.IsTrue(live <= handles, live + " handles live instead of " + handles);
     }
 
     // Collects until so few handles are left, or until it does not help.
-    private static void Settle(ulong wanted)
+    static void Settle(ulong wanted)
     {
         for (int i = 0; i < 10; i++)
         {

@@ -11,7 +11,7 @@ public sealed class Mannequin
 {
     public const int Rings = 7, Sides = 12, PartVertices = Rings * Sides + 2, PartIndices = 6 * Sides * Rings;
 
-    private static readonly Part[] parts =
+    static readonly Part[] parts =
     {
         new Part(HumanoidRole.Hips, -1, 0, 0.85, 0, 0, 1.1, 0, 0.15),
         new Part(HumanoidRole.Spine, 0, 0, 1.1, 0, 0, 1.42, 0, 0.16),
@@ -104,7 +104,7 @@ public sealed class Mannequin
         return output;
     }
 
-    private void Make(int part)
+    void Make(int part)
     {
         Part from = parts[part];
         Skeleton.Names[part] = from.Role.ToString();
@@ -115,13 +115,15 @@ public sealed class Mannequin
         // The tube runs along the axis on which it is longest.
         int axis = 0;
         for (int i = 1; i < 3; i++)
+        {
             if (Math.Abs(from.End[i] - from.Start[i]) > Math.Abs(from.End[axis] - from.Start[axis])) axis = i;
+        }
         bool rises = from.End[axis] > from.Start[axis];
         for (int vertex = 0; vertex < PartVertices; vertex++) MakeVertex(part, vertex, axis, rises ? 1 : -1);
         MakeTriangles(part, rises);
     }
 
-    private void MakeVertex(int part, int vertex, int axis, float sign)
+    void MakeVertex(int part, int vertex, int axis, float sign)
     {
         Part from = parts[part];
         int at = part * PartVertices + vertex, across = (axis + 1) % 3, along = (axis + 2) % 3;
@@ -151,7 +153,7 @@ public sealed class Mannequin
         if (from.Role == HumanoidRole.Head) Smile[at] = new Triple(0, 0, (float)(0.01 * share));
     }
 
-    private void MakeTriangles(int part, bool rises)
+    void MakeTriangles(int part, bool rises)
     {
         int first = part * PartVertices, bottom = first + Rings * Sides, top = bottom + 1;
         List<int> corners = new List<int>();
@@ -175,7 +177,7 @@ public sealed class Mannequin
         }
     }
 
-    private sealed class Part
+    sealed class Part
     {
         public readonly HumanoidRole Role;
         public readonly int Parent;

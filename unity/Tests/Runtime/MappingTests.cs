@@ -55,18 +55,19 @@ public sealed class MappingTests
     }
 
     // A struct whose plain numbers are 1, 2, 3 and so on.
-    private static object Filled(Type type)
+    static object Filled(Type type)
     {
         object native = Activator.CreateInstance(type);
         int next = 1;
         foreach (FieldInfo field in type.GetFields())
-            if (field.FieldType.IsPrimitive)
-                field.SetValue(native, Convert.ChangeType(next++, field.FieldType));
+        {
+            if (field.FieldType.IsPrimitive) field.SetValue(native, Convert.ChangeType(next++, field.FieldType));
+        }
         return native;
     }
 
     // Compares each number that has a field or property of its name, and says how many there were.
-    private static int AssertNames(object native, object given)
+    static int AssertNames(object native, object given)
     {
         int compared = 0;
         foreach (FieldInfo field in native.GetType().GetFields())

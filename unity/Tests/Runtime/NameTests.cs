@@ -60,7 +60,9 @@ public sealed class NameTests
         options.Groups.Add(new GroupSettings { Group = "尻尾", LengthScale = 2 });
         using (Character character = new Mannequin().Character())
         using (Style style = Style.FromHeads(2.5))
+        {
             Thrown.Says(Thrown.Invalid(Status.BadOption, () => new Deformer(character, style, options)), "尻尾");
+        }
     }
 
     [Test]

@@ -30,19 +30,18 @@ public sealed class OptionsTests
     }
 
     // Numbers of a struct of the library's: not its size, pointers and how much they point to.
-    private static IEnumerable<FieldInfo> Numbers(Type type)
+    static IEnumerable<FieldInfo> Numbers(Type type)
     {
         foreach (FieldInfo field in type.GetFields(BindingFlags.Instance | BindingFlags.Public | BindingFlags.NonPublic))
         {
             FieldInfo list = type.GetField(field.Name.Replace("_count", "s"));
             bool counts = list != null && list.FieldType.IsPointer;
-            if (!field.FieldType.IsPointer && !counts && field.Name != "struct_size" && field.Name != "reserved")
-                yield return field;
+            if (!field.FieldType.IsPointer && !counts && field.Name != "struct_size" && field.Name != "reserved") yield return field;
         }
     }
 
     // The field that C# has for one of the library's: HeadScale for head_scale.
-    private static FieldInfo Field(Type type, string name)
+    static FieldInfo Field(Type type, string name)
     {
         string own = "";
         foreach (string word in name.Split('_')) own += char.ToUpperInvariant(word[0]) + word.Substring(1);
@@ -52,7 +51,7 @@ public sealed class OptionsTests
     }
 
     // Another value than the default for each field; gives what the library is to see.
-    private static Dictionary<FieldInfo, object> Change(object options, Type native)
+    static Dictionary<FieldInfo, object> Change(object options, Type native)
     {
         Dictionary<FieldInfo, object> expected = new Dictionary<FieldInfo, object>();
         foreach (FieldInfo number in Numbers(native))
@@ -88,11 +87,15 @@ public sealed class OptionsTests
         {
             SdefOptions* given = scope.Options(options);
             foreach (KeyValuePair<FieldInfo, object> number in expected)
+            {
                 Assert.AreEqual(number.Value, number.Key.GetValue(*given), number.Key.Name);
+            }
             Assert.AreEqual(1u, given->group_count);
             Assert.AreEqual("head", Text.Of(given->groups->group));
             foreach (KeyValuePair<FieldInfo, object> number in expectedOfHead)
+            {
                 Assert.AreEqual(number.Value, number.Key.GetValue(*given->groups), number.Key.Name);
+            }
             Assert.AreEqual(1u, given->bone_group_count);
             Assert.AreEqual(Native.SDEF_ROLE_LEFT_HAND, given->bone_groups->role);
             Assert.AreEqual("手", Text.Of(given->bone_groups->group));

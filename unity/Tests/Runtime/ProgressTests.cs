@@ -8,9 +8,9 @@ namespace SuperDeform.Tests
 [TestFixture]
 public sealed class ProgressTests
 {
-    private readonly Mannequin figure = new Mannequin();
-    private Character character;
-    private Style style;
+    readonly Mannequin figure = new Mannequin();
+    Character character;
+    Style style;
 
     [SetUp]
     public void Make()
@@ -126,14 +126,18 @@ public sealed class ProgressTests
             })) { }
             return true;
         }))
+        {
             Assert.IsTrue(outer > 0 && inner >= outer, outer + " outer and " + inner + " inner calls");
+        }
     }
 
     [Test]
     public void A_collection_during_a_call_does_no_harm()
     {
         using (Deformer deformer = new Deformer(character, style, null, Collect))
+        {
             deformer.Apply(new[] { Mannequin.Output(figure.VertexCount) }, Collect);
+        }
     }
 
     [Test]
@@ -151,14 +155,14 @@ public sealed class ProgressTests
         Assert.AreNotEqual(new Triple[figure.VertexCount], output.Positions);
     }
 
-    private static bool Collect(float fraction)
+    static bool Collect(float fraction)
     {
         GC.Collect();
         GC.WaitForPendingFinalizers();
         return true;
     }
 
-    private Character Bare()
+    Character Bare()
     {
         MeshArrays mesh = figure.Mesh();
         mesh.Joints = null;
@@ -168,7 +172,7 @@ public sealed class ProgressTests
         return bare;
     }
 
-    private static void AssertRises(List<float> fractions)
+    static void AssertRises(List<float> fractions)
     {
         Assert.IsTrue(fractions.Count > 0, "no progress was reported");
         for (int i = 1; i < fractions.Count; i++) Assert.IsTrue(fractions[i] >= fractions[i - 1]);
@@ -177,7 +181,7 @@ public sealed class ProgressTests
         fractions.Clear();
     }
 
-    private static void AssertThrows(Exception expected, Action call)
+    static void AssertThrows(Exception expected, Action call)
     {
         try
         {

@@ -25,8 +25,12 @@ public sealed class StyleTests
         string[] names = { "sd2", "sd2.5", "sd3", "sd4" };
         double[] heads = { 2, 2.5, 3, 4 };
         for (int i = 0; i < names.Length; i++)
+        {
             using (Style style = Style.FromText(names[i]))
+            {
                 Assert.AreEqual(heads[i], style.Numbers.Heads, 1e-9, names[i]);
+            }
+        }
     }
 
     [Test]
@@ -91,19 +95,23 @@ public sealed class StyleTests
         Thrown.Invalid(Status.BadStyle, () => Style.FromText(""));
     }
 
-    private static double Length(Style style, HumanoidRole end)
+    static double Length(Style style, HumanoidRole end)
     {
         foreach (Bone bone in style.Bones)
+        {
             if (bone.End == end) return bone.Length;
+        }
         return double.NaN;
     }
 
-    private static void AssertNumbers(StyleNumbers expected, StyleNumbers given)
+    static void AssertNumbers(StyleNumbers expected, StyleNumbers given)
     {
         System.Reflection.FieldInfo[] fields = typeof(StyleNumbers).GetFields();
         Assert.AreEqual(24, fields.Length);
         foreach (System.Reflection.FieldInfo field in fields)
+        {
             Assert.AreEqual(field.GetValue(expected), field.GetValue(given), field.Name);
+        }
     }
 }
 }

@@ -33,7 +33,9 @@ public static class Thrown
     public static void Says(Exception exception, params string[] words)
     {
         foreach (string word in words)
+        {
             Assert.IsTrue(exception.Message.Contains(word), "'" + word + "' is not in: " + exception.Message);
+        }
     }
 }
 }

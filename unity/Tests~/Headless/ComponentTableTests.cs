@@ -263,7 +263,7 @@ namespace SuperDeform.Editor.Tests
                 }, component => figure.Bones[Leg], "m_ConnectedAnchor stays");
             }
             Row(typeof(LODGroup), null, null, "m_Size length", "m_LocalReferencePoint point");
-            Row(typeof(Light), null, null, "m_Range length", "m_AreaSize length", "m_CookieSize length");
+            Row(typeof(Light), null, null, "m_Range length", "m_AreaSize length", "m_CookieSize length", "m_CookieSize2D length");
             Row(typeof(LineRenderer), null, null, "m_Parameters.widthMultiplier length", "m_Positions.Array.data[0] point", "m_Positions.Array.data[1] point");
             Row(typeof(LineRenderer), c => ((LineRenderer)c).m_UseWorldSpace = true, null, "m_Parameters.widthMultiplier length", "m_Positions.Array.data[0] stays");
             Row(typeof(TrailRenderer), null, null, "m_Parameters.widthMultiplier length", "m_MinVertexDistance length", "m_Time stays");

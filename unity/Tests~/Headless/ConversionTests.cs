@@ -123,10 +123,12 @@ namespace SuperDeform.Editor.Tests
                 Vector3[] written = new Vector3[rest.Length], none = new Vector3[rest.Length];
                 body.sharedMesh.GetBlendShapeFrameVertices(0, 1, written, none, null);
                 Affine toModel = renderer.Placement;
+                BlendDeltas given = BlendDeltas.Of(rest.Length);
+                given.Read(renderer.Mesh, renderer.Frames[1]);
                 int moved = 0;
                 for (int vertex = 0; vertex < rest.Length; vertex++)
                 {
-                    Vector3 delta = toModel.Direction(Double3.Of(renderer.Frames[1].Positions[vertex])).ToVector3();
+                    Vector3 delta = toModel.Direction(Double3.Of(given.Positions[vertex])).ToVector3();
                     Vector3 now = toModel.Direction(Double3.Of(written[vertex])).ToVector3();
                     if (delta == Vector3.zero)
                     {

@@ -194,5 +194,24 @@ namespace SuperDeform.Editor.Tests
             Assert.That(inspector.Model.Result, Is.Not.Null, inspector.Model.Failure == null ? "" : inspector.Model.Failure.Text);
             UnityEngine.Object.DestroyImmediate(inspector);
         }
+
+        [Test]
+        public void the_language_of_ndmf_is_followed()
+        {
+            try
+            {
+                NdmfLanguage.Follow();
+                foreach (string[] pair in new[] { new[] { "ja-JP", "ja" }, new[] { "ko-KR", "ko" }, new[] { "zh-Hans", "zh" }, new[] { "zh-Hant", "en" }, new[] { "de-DE", "en" }, new[] { "en-US", "en" } })
+                {
+                    nadena.dev.ndmf.localization.LanguagePrefs.Language = pair[0];
+                    Assert.AreEqual(pair[1], Strings.Language, pair[0]);
+                }
+            }
+            finally
+            {
+                nadena.dev.ndmf.localization.LanguagePrefs.Language = "en-us";
+                Strings.Language = "en";
+            }
+        }
     }
 }

@@ -197,6 +197,26 @@ namespace SuperDeform.Editor.Tests
         }
 
         [Test]
+        public void of_a_name_within_a_name_the_longer_one_counts_where_nothing_else_tells()
+        {
+            var figure = new ConversionFigure().Make();
+            figure.Bones[HumanBodyBones.LeftUpperArm].name = "Arm.L";
+            figure.Bones[HumanBodyBones.LeftLowerArm].name = "ForeArm.L";
+            UnityEngine.Object.DestroyImmediate(figure.Root.GetComponent<Animator>());
+            Wardrobe.MakeHumanoid(figure.Root, figure.Bones, null);
+            // A bracelet: one joint alone, which "Arm.L" with "My_Fore" before it would be as well as "ForeArm.L" with "My_".
+            Transform bracelet = new GameObject("My_ForeArm.L").transform;
+            bracelet.SetParent(figure.Root.transform, false);
+            bracelet.position = figure.Bones[HumanBodyBones.LeftLowerArm].position;
+            SkinnedMeshRenderer ring = UnityEngine.Object.Instantiate(figure.Hair, figure.Root.transform);
+            ring.name = "Ring";
+            ring.bones = figure.Hair.bones;
+            Wardrobe.Bind(ring, new Dictionary<Transform, Transform> { { figure.Bones[HumanBodyBones.Head], bracelet } });
+            using (AvatarData data = CharacterReader.Read(figure.Root, new ReadOptions()))
+                Assert.AreEqual("ForeArm.L", data.Joints[data.Twins[data.IndexOf(bracelet)]].name);
+        }
+
+        [Test]
         public void joints_that_do_not_follow_are_named()
         {
             Dressed dressed = Dress("names", 1);

@@ -496,13 +496,112 @@ namespace SuperDeform.Editor.Tests
         }
 
         [Test]
-        public void commands_work_by_the_settings_of_the_open_window()
+        public void settings_stay_with_the_project_when_the_window_is_closed()
         {
+            Assert.AreEqual("sd2.5", ConverterWindow.LastSettings().BuiltInStyle);
+            var saved = new TextAsset("{}") { name = "chibi" };
+            StubProject.Import("Assets/chibi.json", saved);
             ConverterWindow window = Open();
-            window.Model.Change("undo.heads", () => window.Model.Settings.BuiltInStyle = "sd4");
+            window.Model.Change("undo.heads", () =>
+            {
+                ConversionSettings settings = window.Model.Settings;
+                settings.BuiltInStyle = "sd4";
+                settings.Options.HeadScale = 1.7;
+                GroupTunings.Change(settings, "head", head => head.LengthScale = 1.2);
+                settings.SavedStyle = saved;
+                settings.ReferenceAvatar = figure.Root;
+            });
             Assert.AreEqual("sd4", ConverterWindow.LastSettings().BuiltInStyle);
             window.Close();
-            Assert.AreEqual("sd2.5", ConverterWindow.LastSettings().BuiltInStyle);
+            ConversionSettings closed = ConverterWindow.LastSettings();
+            window = Open();
+            foreach (ConversionSettings kept in new[] { closed, window.Model.Settings })
+            {
+                Assert.AreEqual("sd4", kept.BuiltInStyle);
+                Assert.AreEqual(1.7, kept.Options.HeadScale);
+                Assert.AreEqual(1.2, GroupTunings.Of(kept, "head").LengthScale);
+                Assert.AreSame(saved, kept.SavedStyle);
+                // No file can name an object of a scene.
+                Assert.IsNull(kept.ReferenceAvatar);
+            }
+            window.Close();
+            // Another project has its own.
+            Models.NewProject();
+            Assert.AreEqual("sd2.5", SuperDeform.Editor.LastSettings.Read().BuiltInStyle);
+        }
+
+        [Test]
+        public void settings_that_cannot_be_kept_are_said_and_nothing_else_fails()
+        {
+            System.IO.File.WriteAllText(System.IO.Path.Combine(System.IO.Path.GetDirectoryName(Application.dataPath), "UserSettings"), "in the way");
+            LogAssertion(() => SuperDeform.Editor.LastSettings.Write(new ConversionSettings { Heads = 3 }));
+            Assert.AreEqual("sd2.5", SuperDeform.Editor.LastSettings.Read().BuiltInStyle);
+        }
+
+        private static void LogAssertion(Action work)
+        {
+            Log.Clear();
+            work();
+            Assert.That(Log.Lines.Exists(line => line.Text.Contains("The settings could not be kept")));
+            Log.Clear();
+        }
+
+        [Test]
+        public void sliders_stand_in_groups_with_those_that_change_most_first()
+        {
+            var model = new ConverterModel();
+            List<Row> rows = model.Sections[(int)SectionId.FineTuning].Rows;
+            Assert.AreEqual(new[] { Strings.Get("option.head_scale"), Strings.Get("option.youth") }, new[] { rows[0].Label, rows[1].Label });
+            Assert.AreEqual(new[] { "Body", "Head and face", "Hair", "Hands and feet" }, rows.FindAll(row => row is FoldoutRow).ConvertAll(row => row.Label).ToArray());
+            Assert.AreEqual(1, rows.FindAll(row => row.Label == Strings.Get("option.youth")).Count);
+            // What Youth is made of stands below it, deeper than the rest of the face.
+            int eyes = rows.FindIndex(row => row.Label == Strings.Get("option.youth_eye")), smile = rows.FindIndex(row => row.Label == Strings.Get("option.smile"));
+            Assert.That(rows[eyes].Indent > rows[smile].Indent && rows[smile].Indent > 0);
+            model.Change("undo.tune", () => model.Settings.Options.HairLay = 0.2);
+            Assert.AreEqual("1 changed", model.Sections[2].Summary);
+            int before = model.Sections[2].Rows.Count;
+            ((FoldoutRow)model.Sections[2].Rows.Find(row => row.Label == "Hair")).Set(false);
+            Assert.AreEqual(before - 2, model.Sections[2].Rows.Count);
+            // What is folded counts all the same.
+            Assert.AreEqual("1 changed", model.Sections[2].Summary);
+        }
+
+        [Test]
+        public void what_wants_nothing_done_is_folded_below_its_number()
+        {
+            var model = new ConverterModel { Avatar = figure.Root };
+            model.SetResult(new ConversionResult
+            {
+                PrefabPath = "Assets/A.prefab",
+                Findings = new List<Finding>
+                {
+                    new Finding("missing_scripts", Severity.Warning, null, "A", 1), new Finding("collider_yields", Severity.Info, null, 1, 2),
+                    new Finding("pose_not_rest", Severity.Info, null, "A"), new Finding("collider_yields", Severity.Info, null, 1, 2)
+                }
+            });
+            Func<List<Row>> rows = () => model.Sections[(int)SectionId.Report].Rows;
+            Assert.That(rows().Exists(row => row is CheckRow && row.Label.Contains("missing scripts")));
+            Assert.That(!rows().Exists(row => row.Label.Contains("yield")));
+            var notes = (FoldoutRow)rows().Find(row => row.Label == "2 notes");
+            Assert.IsFalse(notes.Get());
+            notes.Set(true);
+            Assert.AreEqual(1, rows().FindAll(row => row.Label.Contains("yield")).Count);
+        }
+
+        [Test]
+        public void one_command_sets_an_avatar_up_for_builds_by_the_settings_of_the_window()
+        {
+            ConverterWindow window = Open();
+            GameObject avatar = new ConversionFigure().Make().Root;
+            window.Model.Change("undo.heads", () => window.Model.Settings.BuiltInStyle = "sd4");
+            Selection.activeGameObject = avatar;
+            Assert.IsTrue(MenuItems.CanSetUpSelected());
+            MenuItems.SetUpSelected();
+            MenuItems.SetUpSelected();
+            Assert.AreEqual(1, avatar.GetComponents<SuperDeformAvatar>().Length);
+            Assert.AreEqual("sd4", SettingsText.Of(avatar.GetComponent<SuperDeformAvatar>()).BuiltInStyle);
+            Undo.PerformUndo();
+            Assert.IsNull(avatar.GetComponent<SuperDeformAvatar>());
         }
     }
 }

@@ -22,7 +22,10 @@ namespace SuperDeform.Editor.WindowPicture
             y = top;
         }
 
-        private double From { get { return left + Margin; } }
+        // How deep the row stands below what it is a part of.
+        private int indent;
+
+        private double From { get { return left + Margin + 12 * indent; } }
         private double To { get { return left + Width - Margin; } }
 
         /// <summary>Draws the whole window.</summary>
@@ -88,6 +91,8 @@ namespace SuperDeform.Editor.WindowPicture
         private void Draw(Row row)
         {
             string ink = row.Enabled ? Canvas.Words : "#777777";
+            double x = From + Label;
+            indent = row.Indent;
             if (row is TextRow)
                 Sentence(row.Label, ((TextRow)row).Strong);
             else if (row is CheckRow)
@@ -104,8 +109,8 @@ namespace SuperDeform.Editor.WindowPicture
                 Action((ActionRow)row);
             else
             {
-                canvas.Text(From, y + 15, Canvas.Cut(row.Label, Label - 4), ink);
-                double x = From + Label, width = To - x;
+                canvas.Text(From, y + 15, Canvas.Cut(row.Label, Label - 4 - 12 * indent), ink);
+                double width = To - x;
                 if (row is ChoiceRow)
                     Buttons(((ChoiceRow)row).Choices, ((ChoiceRow)row).Get(), x, width, row.Enabled);
                 else if (row is ObjectRow)
@@ -127,6 +132,7 @@ namespace SuperDeform.Editor.WindowPicture
                     throw new NotSupportedException("There is no drawing for a " + row.GetType().Name + ".");
                 y += RowHeight;
             }
+            indent = 0;
         }
 
         private void Sentence(string text, bool strong)
@@ -183,7 +189,7 @@ namespace SuperDeform.Editor.WindowPicture
         {
             UnityEngine.Object value = row.Get();
             // What Unity writes into an empty field: "None (Game Object)".
-            string type = row.Type == typeof(GameObject) ? "Game Object" : "Text Asset";
+            string type = System.Text.RegularExpressions.Regex.Replace(row.Type.Name, "(?<=[a-z])(?=[A-Z])", " ");
             Field(value == null ? "None (" + type + ")" : value.name, x, width);
             canvas.Circle(x + width - 11, y + 9.5, 5.5, Canvas.Knob);
             canvas.Circle(x + width - 11, y + 9.5, 4, Canvas.Field);

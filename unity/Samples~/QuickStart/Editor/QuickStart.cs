@@ -5,24 +5,26 @@ using UnityEngine;
 /// <summary>Converts the selected avatar to 2.5 heads, by a script of your own.</summary>
 public static class QuickStart
 {
-    private const string Item = "GameObject/Super Deform/Quick start: 2.5 heads";
+    const string Item = "GameObject/Super Deform/Quick start: 2.5 heads";
 
     [MenuItem(Item, true)]
-    private static bool CanConvert()
+    static bool CanConvert()
     {
         GameObject avatar = Selection.activeGameObject;
         return avatar != null && avatar.GetComponent<Animator>() != null;
     }
 
     [MenuItem(Item)]
-    private static void Convert()
+    static void Convert()
     {
         var settings = new ConversionSettings { Heads = 2.5f };
         try
         {
             ConversionResult result = Converter.Convert(Selection.activeGameObject, settings, null);
             foreach (Finding finding in result.Findings)
+            {
                 Debug.Log(finding.Text, finding.Where);
+            }
             EditorGUIUtility.PingObject(result.Prefab);
         }
         catch (ConversionException refused)

@@ -147,7 +147,7 @@ namespace UnityStubs
                 return outside == null ? reference : outside(reference);
             }
             Type type = value.GetType();
-            if (Fields.IsPlain(type)) return value;
+            if (Fields.IsPlain(type) || value is Type) return value;
             object known;
             if (!type.IsValueType && shared.TryGetValue(value, out known)) return known;
             Array array = value as Array;
@@ -273,6 +273,7 @@ namespace UnityStubs
                     return;
                 }
                 if (value is string) m_Out.Write((string)value);
+                else if (value is Type) m_Out.Write(((Type)value).FullName);
                 else if (value is float) m_Out.Write((float)value);
                 else if (value is double) m_Out.Write((double)value);
                 else if (value is bool) m_Out.Write((bool)value);

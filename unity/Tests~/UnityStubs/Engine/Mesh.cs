@@ -54,7 +54,9 @@ namespace UnityEngine
     public sealed class Mesh : Object
     {
         sealed class SubMesh { public int[] Indices = new int[0]; public MeshTopology Topology; public int BaseVertex; }
-        sealed class Frame { public float Weight; public Vector3[] Vertices, Normals, Tangents; }
+        // As Unity keeps them: only vertices that change, 40 bytes each.
+        struct BlendShapeVertex { public Vector3 Vertex, Normal, Tangent; public int Index; }
+        sealed class Frame { public float Weight; public BlendShapeVertex[] Changes; }
         sealed class Shape { public string Name; public List<Frame> Frames = new List<Frame>(); }
 
         Vector3[] m_Vertices = new Vector3[0], m_Normals = new Vector3[0];
@@ -419,13 +421,19 @@ namespace UnityEngine
         public void GetBlendShapeFrameVertices(int shapeIndex, int frameIndex, Vector3[] deltaVertices, Vector3[] deltaNormals, Vector3[] deltaTangents)
         {
             Frame frame = FrameAt(shapeIndex, frameIndex);
-            Give(frame.Vertices, deltaVertices, "deltaVertices"); Give(frame.Normals, deltaNormals, "deltaNormals"); Give(frame.Tangents, deltaTangents, "deltaTangents");
+            Ready(deltaVertices, "deltaVertices"); Ready(deltaNormals, "deltaNormals"); Ready(deltaTangents, "deltaTangents");
+            foreach (BlendShapeVertex change in frame.Changes)
+            {
+                if (deltaVertices != null) deltaVertices[change.Index] = change.Vertex;
+                if (deltaNormals != null) deltaNormals[change.Index] = change.Normal;
+                if (deltaTangents != null) deltaTangents[change.Index] = change.Tangent;
+            }
         }
-        void Give(Vector3[] from, Vector3[] to, string argument)
+        void Ready(Vector3[] to, string argument)
         {
             if (to == null) return;
             if (to.Length != m_Vertices.Length) throw new ArgumentException(argument + " has " + to.Length + " elements; the mesh has " + m_Vertices.Length + " vertices", argument);
-            if (from == null) Array.Clear(to, 0, to.Length); else Array.Copy(from, to, to.Length);
+            Array.Clear(to, 0, to.Length);
         }
         public void AddBlendShapeFrame(string shapeName, float frameWeight, Vector3[] deltaVertices, Vector3[] deltaNormals, Vector3[] deltaTangents)
         {
@@ -438,9 +446,24 @@ namespace UnityEngine
             if (shape == null) m_Shapes.Add(shape = new Shape { Name = shapeName });
             else if (shape.Frames[shape.Frames.Count - 1].Weight >= frameWeight)
                 throw new ArgumentException("frame weight " + frameWeight + " of blend shape '" + shapeName + "' does not exceed the last one, " + shape.Frames[shape.Frames.Count - 1].Weight, "frameWeight");
-            shape.Frames.Add(new Frame { Weight = frameWeight, Vertices = Own(deltaVertices), Normals = Own(deltaNormals), Tangents = Own(deltaTangents) });
+            shape.Frames.Add(new Frame { Weight = frameWeight, Changes = Changes(deltaVertices, deltaNormals, deltaTangents) });
         }
-        static Vector3[] Own(Vector3[] deltas) { return deltas == null ? null : (Vector3[])deltas.Clone(); }
+        BlendShapeVertex[] Changes(Vector3[] vertices, Vector3[] normals, Vector3[] tangents)
+        {
+            int count = 0;
+            for (int vertex = 0; vertex < m_Vertices.Length; vertex++)
+                if (IsChange(vertices, vertex) || IsChange(normals, vertex) || IsChange(tangents, vertex)) count++;
+            BlendShapeVertex[] changes = new BlendShapeVertex[count];
+            for (int vertex = 0, at = 0; vertex < m_Vertices.Length; vertex++)
+                if (IsChange(vertices, vertex) || IsChange(normals, vertex) || IsChange(tangents, vertex))
+                    changes[at++] = new BlendShapeVertex { Index = vertex, Vertex = vertices[vertex], Normal = normals == null ? Vector3.zero : normals[vertex], Tangent = tangents == null ? Vector3.zero : tangents[vertex] };
+            return changes;
+        }
+        // Not by ==, which lets small ones pass as none; what is no number is kept.
+        static bool IsChange(Vector3[] deltas, int vertex)
+        {
+            return deltas != null && !(deltas[vertex].x == 0 && deltas[vertex].y == 0 && deltas[vertex].z == 0);
+        }
         public void ClearBlendShapes() { if (May("blend shapes")) m_Shapes.Clear(); }
 
         public Bounds bounds { get { Alive(); return m_Bounds; } set { Alive(); m_Bounds = value; } }

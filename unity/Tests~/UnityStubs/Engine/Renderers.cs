@@ -202,7 +202,8 @@ namespace UnityEngine
     public sealed class Light : Behaviour // Serialized as Unity names it.
     {
         float m_Range = 10f, m_Intensity = 1f, m_CookieSize = 10f;
-        Vector2 m_AreaSize = new Vector2(1, 2);
+        // m_CookieSize until 6000.0, m_CookieSize2D from 6000.7 on; here both, to see both.
+        Vector2 m_AreaSize = new Vector2(1, 2), m_CookieSize2D = new Vector2(10, 5);
         LightType m_Type = LightType.Point;
         Color m_Color = Color.white;
         public float range { get { return m_Range; } set { m_Range = value; } }

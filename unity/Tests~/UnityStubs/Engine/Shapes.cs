@@ -144,6 +144,8 @@ namespace UnityEngine
         public Keyframe(float time, float value, float inTangent, float outTangent) { this.time = time; this.value = value; this.inTangent = inTangent; this.outTangent = outTangent; }
     }
 
+    public enum WrapMode { Default = 0, Once = 1, Clamp = 1, Loop = 2, PingPong = 4, ClampForever = 8 }
+
     [Serializable]
     public class AnimationCurve
     {
@@ -153,6 +155,8 @@ namespace UnityEngine
         public AnimationCurve(params Keyframe[] keys) { this.keys = keys; }
         public AnimationCurve() { }
         public int length { get { return m_Keys.Length; } }
+        public WrapMode preWrapMode { get; set; }
+        public WrapMode postWrapMode { get; set; }
         public static AnimationCurve Linear(float timeStart, float valueStart, float timeEnd, float valueEnd)
         {
             float slope = timeStart == timeEnd ? 0f : (valueEnd - valueStart) / (timeEnd - timeStart);
