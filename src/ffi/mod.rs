@@ -74,8 +74,9 @@ mod arrays;
 pub mod basics;
 pub mod character;
 pub mod deformer;
-mod guard;
-mod handles;
+// These two are public for the library of the Python wheel, whose calls are guarded the same way.
+pub mod guard;
+pub mod handles;
 pub mod jobs;
 pub mod lifetime;
 pub mod memory;
