@@ -39,8 +39,8 @@ pub const SDEF_FACE_CURVE_SPHERE: u32 = 2;
 pub const SDEF_REPAIR_OFF: u32 = 0;
 /// They are pushed out.
 pub const SDEF_REPAIR_ON: u32 = 1;
-/// As they were pushed last, whatever else has changed since, or as ON where nothing was pushed yet: for while a slider
-/// moves. It saves the time to find out anew, which ON takes once the slider is let go.
+/// What was pushed last is pushed by as much again, and nothing else is looked for; as ON where nothing was pushed yet.
+/// It is faster than ON: for the time in which a slider moves. Set ON once it is let go.
 pub const SDEF_REPAIR_KEPT: u32 = 2;
 
 /// Heat where the body allows it, else the volume.
@@ -156,8 +156,8 @@ pub struct SdefOptions {
     pub rays: u32,
     /// 1 (default) bounds what product mode may do to a body, 0 does not
     pub limits: u32,
-    /// how large the head becomes, against itself in paper mode and the paper's size in the style, 0.1 to 10; default
-    /// 1.5. The number of heads stays the style's, so all else grows or shrinks with it; without effect where height is set
+    /// how many times as large as the character's own the head becomes, 0.1 to 10; default 1.5, the paper's. The number of
+    /// heads is the style's, so the whole figure grows and shrinks with the head; where height is set, that counts
     pub head_scale: f64,
     /// 0 gives the original back, 1 (default) the style
     pub amount: f64,
