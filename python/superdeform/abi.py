@@ -486,6 +486,7 @@ FUNCTIONS = {
     "sdef_deformer_map_points": (SdefStatus, [SdefDeformer, c.c_void_p, c.c_void_p, c.c_size_t, c.c_void_p, c.c_void_p, c.c_void_p, c.c_void_p]),
     "sdef_deformer_map_colliders": (SdefStatus, [SdefDeformer, c.c_void_p, c.c_size_t, c.c_void_p, c.c_size_t, c.c_void_p, c.c_void_p]),
     "sdef_deformer_get_groups": (SdefStatus, [SdefDeformer, c.c_void_p, c.c_size_t, c.c_void_p, c.c_void_p]),
+    "sdef_deformer_measure": (SdefStatus, [SdefDeformer, c.c_void_p, c.c_void_p, c.c_void_p]),
     "sdef_deformer_get_figure": (SdefStatus, [SdefDeformer, c.c_uint32, c.c_void_p, c.c_void_p]),
     "sdef_deformer_get_report": (SdefStatus, [SdefDeformer, c.c_void_p, c.c_void_p, c.c_size_t, c.c_void_p, c.c_void_p]),
     "sdef_super_deform": (SdefStatus, [c.c_void_p, c.c_void_p, c.c_void_p, c.c_void_p, c.c_size_t, SdefStyle, c.c_void_p, c.c_void_p, c.c_void_p, c.c_void_p, c.c_void_p]),
