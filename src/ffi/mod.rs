@@ -74,7 +74,7 @@
 // the header, the C# imports and the layout that hosts check, and compares them with the committed files.
 #![allow(unsafe_code)]
 // The contract of every pointer stands in the header's conventions, once for all functions.
-#![allow(clippy::missing_safety_doc)]
+#![allow(clippy::missing_safety_doc, clippy::not_unsafe_ptr_arg_deref)]
 
 pub mod all_at_once;
 mod arrays;
