@@ -8,7 +8,7 @@ use made::{
     JOINTS, Made, boxes, bytes_of, deformed, figure, squash, squash_jacobian, squash_point, stay_point,
 };
 use serde_json::{Value, json};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use superdeform::MeshKind;
 use superdeform_host::accessor::Reader;
@@ -154,6 +154,27 @@ fn a_changed_character_keeps_all_but_its_shape() {
             // Springs, viewpoint and outlines have tests of their own.
             json.as_object_mut().unwrap().remove("extensions");
             json.as_object_mut().unwrap().remove("materials");
+        }
+        if !loaded.file.list("animations").is_empty() {
+            // Keys that are made anew (`clips.rs`) have accessors of another length, and what they took is cut out.
+            let samplers = loaded
+                .file
+                .list("animations")
+                .iter()
+                .flat_map(|clip| superdeform_host::array_at(clip, "samplers").to_vec());
+            let keys: BTreeSet<usize> = samplers
+                .flat_map(|sampler| ["input", "output"].map(|key| superdeform_host::index_at(&sampler, key)))
+                .flatten()
+                .collect();
+            let count = loaded.file.list("accessors").len();
+            for json in [&mut before, &mut after] {
+                let accessors = json["accessors"].as_array().unwrap()[..count].iter().enumerate();
+                let others = accessors.filter(|(index, _)| !keys.contains(index));
+                json["accessors"] = others.map(|(_, accessor)| accessor.clone()).collect();
+                for list in ["animations", "bufferViews", "buffers"] {
+                    json.as_object_mut().unwrap().remove(list);
+                }
+            }
         }
         assert!(before == after, "{}", path.display());
     }
@@ -484,10 +505,8 @@ fn the_hips_track_is_scaled_with_their_height_and_others_move_with_their_rest() 
     for axis in 0..3 {
         assert!((f64::from(shin[axis]) - rest[axis]).abs() < 1e-6);
     }
-    // How far a key lies from the rest takes the field's scale at the joint.
-    let joint = loaded.joint_of_node[8].unwrap();
-    let scale = squash_jacobian(loaded.character.skeleton.joints[joint].position()).determinant().cbrt();
-    assert!((f64::from(shin[3] - shin[0]) - 0.1 * scale).abs() < 1e-6);
+    // How far a key of a leg lies from the rest is scaled as the hips are; that of another joint takes the field's scale there.
+    assert!((f64::from(shin[3] - shin[0]) - 0.1 * ratio).abs() < 1e-6);
     assert_eq!(output(2), [0.0, -0.4, 0.02, 0.1, -0.4, 0.02]);
     assert_eq!(output(3), [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]);
     let back = output(4);

@@ -148,8 +148,9 @@ fn convert(batch: &Batch, item: &Item, source: &run::Source, settings: &str, thr
 /// What all runs of a batch have in common, as a hash: version, style, options, and the files that they name.
 fn settings_hash(batch: &Batch) -> Result<String, String> {
     let mut settings = batch.settings.clone();
-    // Neither changes a result.
-    (settings.threads, settings.quiet, settings.allow_prohibited) = (None, false, false);
+    // None of these changes a result.
+    (settings.threads, settings.allow_prohibited) = (None, false);
+    (settings.quiet, settings.verbose) = (false, false);
     let mut hash = Sha256::new();
     hash.update(format!("{}\n{settings:?}\n{:?}\n", env!("CARGO_PKG_VERSION"), batch.style));
     let blended = settings.blend.as_ref().map(|(path, _)| path);

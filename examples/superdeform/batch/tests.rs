@@ -107,7 +107,10 @@ fn another_style_another_input_or_force_makes_a_result_anew() {
     };
     assert!(done(&["--style", "sd2"]));
     assert!(!done(&["--style", "sd2"]));
-    assert!(!done(&["--style", "sd2", "--threads", "1", "--jobs", "1"]), "how it is done changes nothing");
+    assert!(
+        !done(&["--style", "sd2", "--threads", "1", "--jobs", "1", "-v"]),
+        "how it is done changes nothing"
+    );
     assert!(done(&["--style", "sd2", "--force"]));
     assert!(done(&["--heads", "2.2"]));
     assert!(done(&["--heads", "2.2", "--amount", "0.5"]));
