@@ -12,10 +12,13 @@ use std::sync::{Mutex, Once, PoisonError};
 /// Why a call failed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Failure {
+    /// What the call returns.
     pub status: SdefStatus,
+    /// The mesh concerned.
     pub mesh: Option<usize>,
     /// Of which kind, `SDEF_ELEMENT_*`, and which.
     pub element: Option<(u32, usize)>,
+    /// One sentence.
     pub message: String,
 }
 
@@ -23,6 +26,7 @@ pub struct Failure {
 pub type Outcome<T = ()> = Result<T, Failure>;
 
 impl Failure {
+    /// About nothing in particular.
     pub fn new(status: SdefStatus, message: impl Into<String>) -> Self {
         Self { status, mesh: None, element: None, message: message.into() }
     }
@@ -37,6 +41,7 @@ impl Failure {
         Self::new(SDEF_STATUS_BAD_INPUT, message)
     }
 
+    /// About a mesh.
     pub fn in_mesh(mut self, mesh: usize) -> Self {
         self.mesh = Some(mesh);
         self

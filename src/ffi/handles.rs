@@ -13,8 +13,11 @@ use std::sync::{Arc, PoisonError, RwLock, RwLockReadGuard, RwLockWriteGuard, Try
 /// What a handle stands for.
 #[derive(Clone)]
 pub enum Object {
+    /// A character.
     Character(Arc<RwLock<CharacterState>>),
+    /// A style.
     Style(Arc<Style>),
+    /// A deformer.
     Deformer(Arc<RwLock<DeformerState>>),
 }
 

@@ -325,7 +325,7 @@ fn unless_nan(number: f64) -> Option<f64> {
 ///
 /// # Safety
 /// The struct and its arrays are as the header says.
-pub(super) unsafe fn read(options: *const SdefOptions) -> Outcome<(Options, RigOptions)> {
+pub unsafe fn read(options: *const SdefOptions) -> Outcome<(Options, RigOptions)> {
     let given = if options.is_null() { defaults() } else { unsafe { arrays::struct_in(options) }? };
     let mut options = Options {
         mode: one_of("mode", "SDEF_MODE_", given.mode, Mode::ALL)?,

@@ -6,7 +6,7 @@ use std::process::Command;
 use superdeform::options::table::Default;
 use superdeform::options::{NUMBERS, OptionInfo, Scope, TABLE, Values, find};
 use superdeform_headers::csharp::{constants_of, pascal, printed};
-use superdeform_headers::{EXPORT, SECTIONS, abi, broken, c_header, csharp, layout, root, source};
+use superdeform_headers::{EXPORT, SECTIONS, abi, broken, c_header, csharp, layout, python, root, source};
 
 #[test]
 fn the_readme_lists_the_options_that_are_one_number() {
@@ -50,6 +50,11 @@ fn the_committed_header_is_generated() {
 #[test]
 fn the_committed_imports_are_generated() {
     check("unity/Runtime/Native.g.cs", &csharp());
+}
+
+#[test]
+fn the_committed_ctypes_are_generated() {
+    check("python/superdeform/abi.py", &python());
 }
 
 /// C compilers compare it with what they make of the header, in `cpp_tests`.

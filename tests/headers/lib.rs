@@ -1,14 +1,16 @@
-//! Writes the C header, the C# imports and the layout that hosts check from `src/ffi`.
+//! Writes the C header, the imports for C# and Python and the layout that hosts check from `src/ffi`.
 
 mod c_header;
 pub mod csharp;
 mod frozen;
 mod layout;
+mod python;
 
 pub use c_header::c_header;
 pub use csharp::csharp;
 pub use frozen::{abi, broken};
 pub use layout::layout;
+pub use python::python;
 
 use std::path::{Path, PathBuf};
 use superdeform::options::table::Default;

@@ -10,29 +10,22 @@ fn refused(message: String) -> Error {
     Error::new(ErrorKind::BadOption, message)
 }
 
-/// The place of an option that is a number.
-fn place<'a>(options: &'a mut Options, name: &str) -> Option<&'a mut f64> {
-    let features = &mut options.features;
-    Some(match name {
-        "head_scale" => &mut options.head_scale,
-        "amount" => &mut options.amount,
-        "profile" => &mut options.profile,
-        "hair_length" => &mut options.hair_length,
-        "face_squash" => options.face_squash.get_or_insert_default(),
-        "youth" => &mut options.youth,
-        "youth_eye" => &mut features.eye,
-        "youth_lower" => &mut features.lower,
-        "youth_nose" => &mut features.nose,
-        "youth_cheek" => &mut features.cheek,
-        "youth_jaw" => &mut features.jaw,
-        "youth_skull" => &mut features.skull,
-        "youth_ear" => &mut features.ear,
-        "smile" => &mut options.smile,
-        "seat" => &mut options.seat,
-        "hair_lay" => &mut options.hair_lay,
-        _ => return None,
-    })
+macro_rules! places {
+    ($($_block:ident { $(
+        $(#[doc = $_text:literal])+
+        $name:ident: $_low:literal..=$_high:literal = $_default:expr, $_modes:ident, $_heading:ident;
+    )+ })+) => {
+        /// The place of an option that is a number.
+        fn place<'a>(options: &'a mut Options, name: &str) -> Option<&'a mut f64> {
+            Some(match name {
+                $($(stringify!($name) => &mut options.$name,)+)+
+                "face_squash" => options.face_squash.get_or_insert_default(),
+                _ => return None,
+            })
+        }
+    };
 }
+superdeform::number_options!(places);
 
 /// Options that are words.
 const WORDS: [&str; 5] = ["mode", "stage", "face_curve", "height", "repair"];

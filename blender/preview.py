@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""Live preview: while a slider moves, places alone; when it is let go, keys, normals and rest bones too."""
+
+import bpy
+import numpy as np
+from superdeform import Error
+
+from . import copies, refuse, settings, write
+from .character import Deformation, Figure, style_of
+from .read import rest_world
+
+# Seconds without a change after which a slider counts as let go.
+_PAUSE = 0.3
+
+_current = None
+
+
+class Preview:
+    """A collection of copies that follow the panel."""
+
+    def __init__(self, context, given):
+        armature = refuse.armature_of(context.object)
+        style = style_of(given.style, given.heads, bpy.path.abspath(given.path), bpy.data.objects.get(given.like))
+        self.deformation = Deformation(Figure(armature), style, settings.options(given))
+        self.armature = armature.name
+        collection, made, self.notes = write.character(context, self.deformation, f"{armature.name} preview")
+        self.collection = collection.name
+        self.made = {name: thing.name for name, thing in made.items()}
+        # What is hidden is no longer selected.
+        self.before = {name: (bpy.data.objects[name].hide_get(), bpy.data.objects[name].select_get()) for name in self.made}
+        for name in self.made:
+            bpy.data.objects[name].hide_set(True)
+
+    def objects(self):
+        """The copies by the names of what they were made from; None where one is gone."""
+        found = {name: bpy.data.objects.get(copy) for name, copy in self.made.items()}
+        return found if all(found.values()) and self.armature in bpy.data.objects else None
+
+    def slide(self, given):
+        """Follows the settings with places alone."""
+        made = self.objects()
+        if made is None:
+            return
+        style = style_of(given.style, given.heads, bpy.path.abspath(given.path), bpy.data.objects.get(given.like))
+        self.deformation.set(style, settings.options(given) | {"repair": "kept"})
+        placed = self.deformation.positions()
+        for source in self.deformation.figure.sources:
+            thing, places = made[source.name], placed[source.name]
+            world = np.array(rest_world(thing.parent, thing) if source.rigid else source.world, np.float64)
+            back = np.linalg.inv(world)
+            write.put(thing.data, (places @ back[:3, :3].T + back[:3, 3]).astype(np.float32))
+            thing.data.update()
+
+    def settle(self, context, given):
+        """Follows the settings with everything."""
+        made = self.objects()
+        if made is None:
+            return
+        self.deformation.deformer.set_options(**settings.options(given))
+        armature = bpy.data.objects[self.armature]
+        places = {name: rest_world(armature, bpy.data.objects[name]) for name in made}
+        with copies.object_mode(context):
+            write.reshape(context, self.deformation, armature, made, places)
+
+    def remove(self):
+        """Takes the copies away and shows what they were made from."""
+        if self.collection in bpy.data.collections:
+            copies.removed(bpy.data.collections[self.collection])
+        for name, (hidden, selected) in self.before.items():
+            if name in bpy.data.objects:
+                bpy.data.objects[name].hide_set(hidden)
+                bpy.data.objects[name].select_set(selected)
+
+
+def toggle(given, context):
+    """The panel's switch."""
+    global _current
+    if _current is not None:
+        _current.remove()
+        _current = None
+    given.fault = ""
+    if given.preview:
+        try:
+            _current = Preview(context, given)
+        except (Error, refuse.Refused) as fault:
+            given.fault = str(fault)
+
+
+def changed(given, context):
+    """A setting of the panel has another value."""
+    if _current is None:
+        return
+    given.fault = ""
+    try:
+        _current.slide(given)
+    except (Error, refuse.Refused) as fault:
+        given.fault = str(fault)
+    if bpy.app.timers.is_registered(_let_go):
+        bpy.app.timers.unregister(_let_go)
+    bpy.app.timers.register(_let_go, first_interval=_PAUSE)
+
+
+def _let_go():
+    if _current is not None:
+        try:
+            _current.settle(bpy.context, bpy.context.scene.superdeform)
+        except (Error, refuse.Refused) as fault:
+            bpy.context.scene.superdeform.fault = str(fault)
+
+
+def stop():
+    """Ends a preview without the panel."""
+    global _current
+    if _current is not None:
+        _current.remove()
+        _current = None

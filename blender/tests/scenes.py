@@ -1,0 +1,319 @@
+"""What a user does to a scene: each is a sentence that is true, told by its function's name."""
+
+import sys
+import traceback
+from pathlib import Path
+
+import bpy
+import numpy as np
+from mathutils import Matrix
+from start import convert, fresh, imported, refusal, rows, vertices
+
+DATA = Path(__file__).resolve().parents[2] / "tests" / "data"
+ROGUE = DATA / "kaykit_rogue.glb"
+
+
+def character(path=ROGUE):
+    """An armature and its meshes, alone in a scene."""
+    fresh()
+    things = imported(path)
+    armature = next(thing for thing in things if thing.type == "ARMATURE")
+    return armature, [thing for thing in things if thing.type == "MESH" and (thing.parent or thing.modifiers)]
+
+
+def state():
+    """What must stay as it is: names, places and matrices of all objects, modes, selection."""
+    def of(thing):
+        held = vertices(thing).tobytes() if thing.type == "MESH" else b""
+        bones = [tuple(map(tuple, bone.matrix_local)) for bone in thing.data.bones] if thing.type == "ARMATURE" else []
+        return held, tuple(map(tuple, thing.matrix_world)), tuple(bones), thing.hide_get(), thing.select_get(), sorted(thing.keys())
+
+    return {thing.name: of(thing) for thing in bpy.context.view_layer.objects}, bpy.context.mode
+
+
+def kept(before):
+    after, mode = state()
+    assert mode == before[1], f"the mode is {mode}"
+    for name, was in before[0].items():
+        assert after.get(name) == was, f"{name} was changed"
+
+
+def placed_of(things):
+    """The vertices of the meshes among objects, by the names of what they were made from."""
+    return {thing.name.split(".")[0]: vertices(thing) for thing in things if thing.type == "MESH"}
+
+
+def the_source_is_untouched_in_any_mode():
+    armature, _ = character()
+    for mode in ("OBJECT", "POSE", "EDIT"):
+        bpy.context.view_layer.objects.active = armature
+        bpy.ops.object.mode_set(mode=mode)
+        before = state()
+        convert(armature, heads=2.5)
+        kept(before)
+
+
+def the_result_is_a_collection_of_its_own():
+    armature, meshes = character()
+    made = convert(armature, heads=2.5)
+    homes = {collection.name for thing in made for collection in thing.users_collection}
+    assert homes == {f"{armature.name} SD"}, homes
+    assert sum(thing.type == "MESH" for thing in made) == len(meshes)
+    copy = next(thing for thing in made if thing.type == "ARMATURE")
+    for thing in made:
+        assert thing.parent in (None, copy) and all(m.object is copy for m in thing.modifiers if m.type == "ARMATURE")
+
+
+def fewer_heads_are_less_tall():
+    armature, meshes = character(DATA / "quaternius_female_dress.glb")
+    before = np.concatenate([vertices(mesh) for mesh in meshes])[:, 2]
+    after = np.concatenate(list(placed_of(convert(armature, heads=2.5)).values()))[:, 2]
+    assert np.ptp(after) < 0.95 * np.ptp(before), (np.ptp(after), np.ptp(before))
+    # The feet stay on the ground.
+    assert abs(after.min() - before.min()) < 0.01 * np.ptp(before)
+
+
+def amount_0_is_the_character():
+    armature, meshes = character()
+    after = placed_of(convert(armature, heads=2.5, amount=0))
+    for mesh in meshes:
+        assert np.abs(after[mesh.name] - vertices(mesh)).max() < 1e-5, mesh.name
+
+
+def converting_again_gives_the_same():
+    armature, _ = character()
+    first = placed_of(convert(armature, heads=2.5))
+    other = placed_of(convert(armature, heads=2.5, amount=0.5))
+    again = placed_of(convert(armature, heads=2.5))
+    assert all(np.array_equal(first[name], again[name]) for name in first)
+    assert any(np.abs(first[name] - other[name]).max() > 0.01 for name in first)
+
+
+def one_undo_takes_it_back_and_redo_brings_it_again():
+    armature, _ = character()
+    name = armature.name
+    bpy.context.preferences.edit.use_global_undo = True
+    bpy.context.view_layer.objects.active = armature
+    bpy.ops.ed.undo_push(message="before")
+    names = {thing.name for thing in bpy.data.objects}
+    bpy.ops.object.superdeform("EXEC_DEFAULT", True, heads=2.5)
+    with_copies = {thing.name for thing in bpy.data.objects}
+    assert len(with_copies) > len(names)
+    bpy.ops.ed.undo()
+    assert {thing.name for thing in bpy.data.objects} == names, "one undo"
+    bpy.ops.ed.redo()
+    assert {thing.name for thing in bpy.data.objects} == with_copies, "redo"
+    assert name in bpy.data.objects
+
+
+def it_is_saved_and_opened_and_needs_no_source():
+    armature, meshes = character()
+    made = convert(armature, heads=2.5)
+    expected = placed_of(made)
+    for thing in (armature, *meshes):
+        bpy.data.objects.remove(thing)
+    path = str(Path(bpy.app.tempdir) / "saved.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    bpy.ops.wm.open_mainfile(filepath=path)
+    after = placed_of(bpy.data.objects)
+    assert all(np.array_equal(after[name], rows_) for name, rows_ in expected.items())
+
+
+def two_characters_do_not_mix():
+    armature, _ = character()
+    alone = placed_of(convert(armature, heads=2.5))
+    armature, _ = character()
+    other = next(thing for thing in imported(DATA / "quaternius_female_dress.glb") if thing.type == "ARMATURE")
+    other.location.x = 3
+    bpy.context.view_layer.update()
+    made = convert(armature, heads=2.5)
+    beside = placed_of(made)
+    assert alone.keys() == beside.keys()
+    assert all(np.abs(alone[name] - beside[name]).max() < 1e-6 for name in alone)
+    convert(other, heads=3)
+
+
+def hidden_and_excluded_objects_are_copied():
+    armature, meshes = character()
+    expected = placed_of(convert(armature, heads=2.5))
+    armature, meshes = character()
+    meshes[0].hide_set(True)
+    meshes[1].hide_viewport = True
+    before = state()
+    made = convert(armature, heads=2.5)
+    kept(before)
+    assert placed_of(made).keys() == expected.keys()
+    copies = {thing.name.split(".")[0]: thing for thing in made}
+    assert copies[meshes[0].name].hide_get() and copies[meshes[1].name].hide_viewport
+
+
+def scale_and_turn_of_objects_do_not_matter():
+    def skinned():
+        armature, meshes = character()
+        for mesh in meshes:
+            if mesh.parent_type == "BONE":
+                bpy.data.objects.remove(mesh)
+        return armature, [thing for thing in bpy.data.objects if thing.type == "MESH" and thing.parent is armature]
+
+    armature, _ = skinned()
+    expected = placed_of(convert(armature, heads=2.5))
+    armature, meshes = skinned()
+    # As FBX has it: a hundred times as large inside, turned, and the objects' scale is .01.
+    turn = Matrix.Rotation(-np.pi / 2, 4, "X") @ Matrix.Scale(100, 4)
+    armature.data.transform(turn)
+    for mesh in meshes:
+        mesh.data.transform(turn)
+    armature.matrix_world = armature.matrix_world @ turn.inverted()
+    bpy.context.view_layer.update()
+    after = placed_of(convert(armature, heads=2.5))
+    # What is read differs by rounding, 2e-7.
+    for mesh in meshes:
+        apart = np.abs(after[mesh.name] - expected[mesh.name]).max()
+        assert apart < 1e-4, (mesh.name, apart)
+
+
+def a_pose_changes_nothing():
+    armature, _ = character()
+    expected = placed_of(convert(armature, heads=2.5))
+    armature, _ = character()
+    for bone in armature.pose.bones:
+        bone.rotation_mode = "XYZ"
+        bone.rotation_euler = (0.3, 0.1, 0)
+    bpy.context.view_layer.update()
+    made = convert(armature, heads=2.5)
+    after = {thing.name.split(".")[0]: rows(thing.data.vertices, "co") for thing in made if thing.type == "MESH"}
+    armature, meshes = character()
+    again = {thing.name.split(".")[0]: rows(thing.data.vertices, "co") for thing in convert(armature, heads=2.5) if thing.type == "MESH"}
+    assert all(np.abs(after[name] - again[name]).max() < 1e-5 for name in expected)
+
+
+def shape_keys_keep_their_values_and_what_they_are_relative_to():
+    armature, meshes = character()
+    mesh = next(each for each in meshes if each.parent_type != "BONE")
+    mesh.shape_key_add(name="Basis")
+    for name, lift in (("up", 0.1), ("more", 0.2)):
+        key = mesh.shape_key_add(name=name, from_mix=False)
+        places = rows(key.data, "co") + np.float32([0, lift, 0])
+        key.data.foreach_set("co", places.reshape(-1))
+        key.value = 0.25 + lift
+    blocks = mesh.data.shape_keys.key_blocks
+    blocks["more"].relative_key = blocks["up"]
+    copy = next(thing for thing in convert(armature, heads=2.5) if thing.name.startswith(mesh.name))
+    made = copy.data.shape_keys.key_blocks
+    assert [key.name for key in made] == ["Basis", "up", "more"]
+    assert np.allclose([key.value for key in made], [key.value for key in blocks])
+    assert made["more"].relative_key == made["up"]
+    basis, up, more = (rows(made[name].data, "co") for name in ("Basis", "up", "more"))
+    assert np.allclose(basis, rows(copy.data.vertices, "co"), atol=1e-6)
+    # Both lift by as much, so each does so after its own base.
+    assert np.abs((up - basis) - (more - up)).max() < 1e-5
+    assert (up - basis)[:, 1].max() > 0.02
+
+
+def modifiers_constraints_and_drivers_lead_to_the_copies():
+    armature, meshes = character()
+    mesh = next(each for each in meshes if each.parent_type != "BONE")
+    mesh.modifiers.new("after", "SUBSURF").levels = 1
+    target = bpy.data.objects.new("target", None)
+    bpy.context.collection.objects.link(target)
+    target.parent, target.parent_type, target.parent_bone = armature, "BONE", armature.data.bones[3].name
+    constraint = armature.pose.bones[5].constraints.new("DAMPED_TRACK")
+    constraint.target, constraint.mute = target, True
+    driver = mesh.driver_add("hide_render").driver
+    variable = driver.variables.new()
+    variable.type = "TRANSFORMS"
+    variable.targets[0].id = armature
+    driver.expression = "var*0"
+    mesh["mine"] = 7
+    made = {thing.name.rsplit(".", 1)[0]: thing for thing in convert(armature, heads=2.5)}
+    copy = made[mesh.name]
+    assert [modifier.type for modifier in copy.modifiers] == [modifier.type for modifier in mesh.modifiers]
+    assert made[armature.name].pose.bones[5].constraints[-1].target == made["target"]
+    assert copy.animation_data.drivers[0].driver.variables[0].targets[0].id == made[armature.name]
+    assert copy["mine"] == 7 and list(copy.material_slots.keys()) == list(mesh.material_slots.keys())
+    assert [group.name for group in copy.vertex_groups] == [group.name for group in mesh.vertex_groups]
+
+
+def what_cannot_be_converted_is_refused_and_left_alone():
+    def absolute(mesh, armature):
+        mesh.shape_key_add(name="Basis")
+        mesh.data.shape_keys.use_relative = False
+
+    def maker(mesh, armature):
+        mesh.modifiers.new("Mirror", "MIRROR")
+        mesh.modifiers.move(len(mesh.modifiers) - 1, 0)
+
+    def second(mesh, armature):
+        other = bpy.data.objects.new("other", bpy.data.armatures.new("other"))
+        bpy.context.collection.objects.link(other)
+        mesh.modifiers.new("Second", "ARMATURE").object = other
+
+    for change, words in ((absolute, "absolute shape keys"), (maker, "modifier Mirror before its Armature"), (second, "remove one")):
+        armature, meshes = character()
+        mesh = next(each for each in meshes if each.parent_type != "BONE")
+        change(mesh, armature)
+        before, collections = state(), len(bpy.data.collections)
+        said = refusal(armature, heads=2.5)
+        assert words in said and mesh.name in said, said
+        kept(before)
+        assert len(bpy.data.collections) == collections
+    fresh()
+    bpy.ops.mesh.primitive_cube_add()
+    said = refusal(bpy.context.object)
+    assert "has no armature" in said, said
+
+
+def a_character_of_the_scene_can_be_the_style():
+    armature, _ = character()
+    small = next(thing for thing in convert(armature, heads=2) if thing.type == "ARMATURE")
+    other = next(thing for thing in imported(DATA / "quaternius_female_dress.glb") if thing.type == "ARMATURE")
+    convert(other, style="ARMATURE", like=small.name)
+    said = refusal(other, style="ARMATURE", like="nobody")
+    assert "no armature is chosen" in said, said
+    convert(other, style="FILE", path=str(ROGUE))
+
+
+def a_preview_follows_and_leaves_nothing():
+    armature, meshes = character()
+    expected = placed_of(convert(armature, heads=3))
+    armature, meshes = character()
+    before = state()
+    bpy.context.view_layer.objects.active = armature
+    given = bpy.context.scene.superdeform
+    given.preview = True
+    assert not given.fault, given.fault
+    for heads in (2, 4, 3):
+        given.heads = heads
+    collection = bpy.data.collections[f"{armature.name} preview"]
+    shown = placed_of(collection.objects)
+    for mesh in meshes:
+        # Clothes are pushed out as they were when the preview began, until the slider is let go.
+        if mesh.parent_type != "BONE":
+            assert np.abs(shown[mesh.name] - expected[mesh.name]).max() < 0.02, mesh.name
+    preview = sys.modules["bl_ext.user_default.superdeform.preview"]
+    preview._let_go()
+    shown = placed_of(collection.objects)
+    assert all(np.abs(shown[name] - expected[name]).max() < 1e-6 for name in expected)
+    given.preview = False
+    kept(before)
+    assert f"{armature.name} preview" not in bpy.data.collections
+
+
+def main():
+    tests = [each for name, each in list(globals().items()) if callable(each) and "_" in name and each.__module__ == __name__
+             and name not in ("placed_of",)]
+    failed = 0
+    for test in tests:
+        try:
+            test()
+            print(f"passed: {test.__name__}", flush=True)
+        except Exception:
+            failed += 1
+            traceback.print_exc()
+            print(f"FAILED: {test.__name__}", flush=True)
+    print(f"Blender {bpy.app.version_string}: {len(tests) - failed} passed, {failed} failed")
+    return failed > 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,131 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""What the VRM add-on keeps of springs: colliders (empties on bones) and the radius at the end of each bone, of VRM 0.x and 1.0.
+
+The add-on fills both sets when it imports a VRM 0.x file, so both are written.
+"""
+
+from mathutils import Matrix, Vector
+from superdeform import abi
+
+from .read import rest_world
+
+
+def springs(armature, copy, figure, deformer):
+    """Maps colliders and hit radii; nothing where the add-on is not there."""
+    before = getattr(armature.data, "vrm_addon_extension", None)
+    after = getattr(copy.data, "vrm_addon_extension", None)
+    if before is None or after is None:
+        return
+    # What VRM 0.x and 1.0 have of the same file are two sets of empties.
+    balls, of_group = _balls_0(before, armature, figure)
+    _radii(balls, deformer, [(after.vrm0.secondary_animation.bone_groups[index], mine) for index, mine in enumerate(of_group)])
+    _colliders(_pairs_0(before, after, of_group), balls, armature, copy, figure, deformer)
+    balls, of_joint, of_spring = _balls_1(before, armature, figure)
+    new = after.spring_bone1.springs
+    _radii(balls, deformer, [(new[spring].joints[joint], [ball]) for (spring, joint), ball in of_joint.items()])
+    _colliders(_pairs_1(before, after, of_spring), balls, armature, copy, figure, deformer)
+
+
+def _ball(figure, bone, place, radius):
+    return abi.SdefSpringBall(joint=figure.joints.of_bone[bone], x=place.x, y=place.y, z=place.z, radius=radius)
+
+
+def _balls_0(extension, armature, figure):
+    """A ball at the end of every bone of every chain, and which are of which bone group."""
+    balls, of_group, world = [], [], armature.matrix_world
+    for group in extension.vrm0.secondary_animation.bone_groups:
+        mine, todo = [], [armature.data.bones.get(bone.bone_name) for bone in group.bones]
+        while todo:
+            bone = todo.pop()
+            if bone is None or bone.name not in figure.joints.of_bone:
+                continue
+            ends = [(child.name, child.head_local) for child in bone.children] or [(bone.name, bone.tail_local)]
+            todo += bone.children
+            for name, end in ends:
+                if name in figure.joints.of_bone:
+                    mine.append(len(balls))
+                    balls.append(_ball(figure, name, world @ end, group.hit_radius))
+        of_group.append(mine)
+    return balls, of_group
+
+
+def _balls_1(extension, armature, figure):
+    balls, of_joint, of_spring = [], {}, []
+    for index, spring in enumerate(extension.spring_bone1.springs):
+        mine = []
+        for number, joint in enumerate(spring.joints):
+            bone = armature.data.bones.get(joint.node.bone_name)
+            if bone is not None and bone.name in figure.joints.of_bone:
+                of_joint[index, number] = len(balls)
+                mine.append(len(balls))
+                balls.append(_ball(figure, bone.name, armature.matrix_world @ bone.head_local, joint.hit_radius))
+        of_spring.append(mine)
+    return balls, of_joint, of_spring
+
+
+def _radii(balls, deformer, owners):
+    """The radius of each owner grows as its balls do, on average."""
+    if not balls:
+        return
+    scales = deformer.map_points([ball.joint for ball in balls], [(ball.x, ball.y, ball.z) for ball in balls])[1]
+    for owner, mine in owners:
+        if mine:
+            owner.hit_radius *= float(scales[mine].mean())
+
+
+def _pairs_0(before, after, of_group):
+    """Each collider with its copy and the balls that it is for."""
+    old, new = before.vrm0.secondary_animation, after.vrm0.secondary_animation
+    for group, group_of_copy in zip(old.collider_groups, new.collider_groups):
+        mine = [ball for bone_group, balls in zip(old.bone_groups, of_group)
+                if any(named.collider_group_uuid == group.uuid for named in bone_group.collider_groups) for ball in balls]
+        for collider, made in zip(group.colliders, group_of_copy.colliders):
+            yield collider.bpy_object, made.bpy_object, group.node.bone_name, mine
+
+
+def _pairs_1(before, after, of_spring):
+    old, new = before.spring_bone1, after.spring_bone1
+    for collider, made in zip(old.colliders, new.colliders):
+        groups = {group.uuid for group in old.collider_groups if any(named.collider_uuid == collider.uuid for named in group.colliders)}
+        mine = [ball for spring, balls in zip(old.springs, of_spring)
+                if any(named.collider_group_uuid in groups for named in spring.collider_groups) for ball in balls]
+        yield collider.bpy_object, made.bpy_object, collider.node.bone_name, mine
+
+
+def _colliders(pairs, balls, armature, copy, figure, deformer):
+    rows, targets, kept = [], [], []
+    for empty, made, bone, mine in pairs:
+        if empty is None or made is None or empty is made or bone not in figure.joints.of_bone:
+            continue
+        tail = next(iter(empty.children), None)
+        tail_made = next(iter(made.children), None)
+        place = rest_world(armature, empty)
+        start = place.translation
+        end = (place @ tail.matrix_parent_inverse @ tail.matrix_basis).translation if tail and tail_made else Vector()
+        springs = (abi.c.c_uint32 * len(mine))(*mine)
+        kept.append(springs)
+        kind = abi.SDEF_COLLIDER_CAPSULE if tail and tail_made else abi.SDEF_COLLIDER_SPHERE
+        radius = empty.empty_display_size * sum(empty.matrix_basis.to_scale()) / 3
+        rows.append(abi.SdefCollider(kind=kind, joint=figure.joints.of_bone[bone], spring_count=len(mine), x=start.x, y=start.y,
+                                     z=start.z, end_x=end.x, end_y=end.y, end_z=end.z, radius=radius,
+                                     springs=abi.c.addressof(springs) if mine else None))
+        targets.append((made, tail_made if tail else None, radius))
+    for row, (made, tail, radius) in zip(deformer.map_colliders(rows, balls), targets):
+        _place(made, copy, Vector((row.x, row.y, row.z)))
+        if radius > 0:
+            made.empty_display_size *= row.radius / radius
+        if tail is not None:
+            place = rest_world(copy, made)
+            inner = place.inverted() @ Vector((row.end_x, row.end_y, row.end_z))
+            tail.matrix_parent_inverse = Matrix.Identity(4)
+            tail.location = inner
+            tail.empty_display_size = made.empty_display_size
+
+
+def _place(empty, armature, place):
+    """Moves an empty on a bone; the add-on reads its offset from its location, so that changes and not the parent's inverse."""
+    wanted = rest_world(armature, empty)
+    wanted.translation = place
+    bone = armature.data.bones[empty.parent_bone]
+    tail = armature.matrix_world @ bone.matrix_local @ Matrix.Translation((0, bone.length, 0))
+    empty.matrix_basis = empty.matrix_parent_inverse.inverted() @ tail.inverted() @ wanted
