@@ -1,4 +1,4 @@
-//! How long rig and create say nothing, as shares of their time: on Seed-san without its rig, where it is at hand, and on a body of
+//! How long rig, create and report say nothing, as shares of their time: on Seed-san without its rig, where it is at hand, and on a body of
 //! 100,000 triangles. Not a benchmark: times of one run each, with the three longest silences.
 
 use std::sync::Arc;
@@ -55,9 +55,14 @@ fn main() {
         })
         .expect("it can be rigged");
         let rigged = Arc::new(rig.applied_to(&character));
-        listen(&format!("create, {name}"), |progress| {
+        let deformer = listen(&format!("create, {name}"), |progress| {
             Deformer::with_rigged(rigged, &character, &rig, &models::style(), &options, progress)
         })
         .expect("it can be deformed");
+        listen(&format!("report, {name}"), |progress| {
+            let deformed = deformer.apply_with(&mut progress.part(0.0, 0.2))?;
+            deformer.report_with(&deformed, &mut progress.part(0.2, 1.0))
+        })
+        .expect("it can be measured");
     }
 }

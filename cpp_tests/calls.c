@@ -196,6 +196,9 @@ static void a_deformer_is_applied(void) {
   SdefReport report = {0};
   report.struct_size = sizeof report;
   size_t size = 0;
+  calls = 0;
+  OK(sdef_deformer_measure(deformer, count_calls, &calls, &error));
+  CHECK(calls > 3);
   OK(sdef_deformer_get_report(deformer, &report, NULL, 0, &size, &error));
   SdefFigure before = {0}, after = {0};
   before.struct_size = after.struct_size = sizeof before;

@@ -11,6 +11,14 @@ trap 'rm -rf "$scratch"' EXIT
 "$cmake" --install "$build" --prefix "$scratch/first" >/dev/null
 mv "$scratch/first" "$scratch/moved"
 prefix=$scratch/moved
+# Stripped, and with licences.
+if readelf -S "$(find "$prefix" -name libsuperdeform.so)" "$(find "$prefix" -name libsuperdeform.a)" | grep -q '\.debug_'; then
+  echo "what was installed has lines for debuggers"
+  exit 1
+fi
+for file in LICENSE-MIT LICENSE-APACHE third-party-notices.md; do
+  [[ -s $(find "$prefix" -name $file) ]] || { echo "$file was not installed"; exit 1; }
+done
 mkdir "$scratch/project"
 cp "$source/examples/minimal.c" "$scratch/project"
 cat >"$scratch/project/hello.cpp" <<'END'
@@ -58,10 +66,13 @@ exported=$(nm -D --defined-only "$(find "$scratch/build" -name 'libplugin*')" | 
 [[ $exported == plugin_version ]] || { echo "a plugin exports $(wc -w <<<"$exported") functions:" $exported; exit 1; }
 # The one needs the shared library, the other does not.
 readelf -d "$scratch/build/minimal_superdeform" | grep -q 'NEEDED.*\[libsuperdeform.so\]'
-if readelf -d "$scratch/build/minimal_static" | grep -q superdeform; then
-  echo "the static program needs the shared library"
-  exit 1
-fi
+needs_no_library() {
+  if readelf -d "$1" | grep -q superdeform; then
+    echo "$1 needs the shared library"
+    exit 1
+  fi
+}
+needs_no_library "$scratch/build/minimal_static"
 if command -v pkg-config >/dev/null; then
   pc=$(dirname "$(find "$prefix" -name superdeform.pc)")
   export PKG_CONFIG_PATH=$pc
@@ -71,9 +82,10 @@ if command -v pkg-config >/dev/null; then
   ${CC:-cc} -std=c99 "$scratch/project/minimal.c" $flags -o "$scratch/by_pkg_config"
   LD_LIBRARY_PATH=$libdir deforms "$scratch/by_pkg_config"
   # shellcheck disable=SC2046
-  ${CC:-cc} -std=c99 "$scratch/project/minimal.c" $(pkg-config --cflags superdeform) "$libdir/libsuperdeform.a" \
-    $(pkg-config --libs --static superdeform | sed 's/-lsuperdeform//') -o "$scratch/static_by_pkg_config"
+  ${CC:-cc} -std=c99 "$scratch/project/minimal.c" $(pkg-config --cflags --libs --static superdeform-static) \
+    -o "$scratch/static_by_pkg_config"
   deforms "$scratch/static_by_pkg_config"
+  needs_no_library "$scratch/static_by_pkg_config"
 else
   echo "skipped: no pkg-config here"
 fi

@@ -106,6 +106,10 @@ static void deformers() {
     return Deformer(made, Style::from_heads(2.5));
   }();
   const std::vector<float> positions = deformed(deformer);
+  CHECK(thrown([&] { deformer.measure([](float) { return true; }); }).status() == SDEF_STATUS_CANCELLED);
+  float measured = 0;
+  deformer.measure([&](float fraction) { measured = fraction; });
+  CHECK(measured == 1);
   CHECK(std::fabs(deformer.figure(SDEF_FIGURE_RESULT).heads - 2.5) < 0.3);
   CHECK(deformer.report_json().front() == '{' && deformer.report_json().back() != '\0');
   const Deformer::Joints joints = deformer.joints();

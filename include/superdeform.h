@@ -46,6 +46,12 @@
 //            must be 0 or NAN. One that is smaller than it was in version 1 of the ABI is refused, and so is a field
 //            called reserved that is not 0. In arrays all have the size of the first. Numbers that choose (kinds,
 //            modes) must be one of the constants; 0 and 1 stand for no and yes.
+// Changes    Within a version of the ABI what there is stays; functions, constants and fields are only added, so a host
+//            that was built runs with every later library of that version. Results are no part of it: a minor release
+//            may give better ones. Who needs the same vertices for good ships the library with the host, or keeps the
+//            vertices. A saved style keeps its numbers. On trial, which means that a minor release may change what
+//            they do, or have them do nothing: youth_*, smile, seat and hair_lay of SdefOptions, and
+//            sdef_deformer_map_colliders.
 // Errors     Every call that can fail returns a SdefStatus; its last argument, which may be NULL, receives a sentence
 //            that names the array, the element, the value and the remedy.
 // Progress   A callback (NULL: none) that is called on the caller's thread alone, with a fraction that rises to 1: some
@@ -58,7 +64,8 @@
 // Cost       Cheap, microseconds: create, destroy, get_info, get_joints, map_points, styles but _measure. A pass over
 //            the vertices, some 0.1 microseconds each: add_mesh, apply, and set_options where only amount, face_squash,
 //            face_curve or thread_count change. Ten times that: set_options otherwise, and set_style. Slow, seconds at
-//            100,000 vertices: rig, deformer_create, style_measure, get_report and get_figure after a change.
+//            100,000 vertices: rig, deformer_create, style_measure, deformer_measure (else get_report or get_figure
+//            after a change, without progress).
 
 #ifndef SUPERDEFORM_H
 #define SUPERDEFORM_H
@@ -203,8 +210,8 @@ SDEF_API SdefStatus sdef_set_jobs(SdefJobs jobs, void *user, SdefError *error);
 
 #define SDEF_REPAIR_OFF 0               // They may end inside.
 #define SDEF_REPAIR_ON 1                // They are pushed out.
-// As they were pushed last, whatever else has changed since, or as ON where nothing was pushed yet: for while a slider
-// moves. It saves the time to find out anew, which ON takes once the slider is let go.
+// What was pushed last is pushed by as much again, and nothing else is looked for; as ON where nothing was pushed yet.
+// It is faster than ON: for the time in which a slider moves. Set ON once it is let go.
 #define SDEF_REPAIR_KEPT 2
 
 #define SDEF_WEIGHTS_AUTO 0             // Heat where the body allows it, else the volume.
@@ -354,14 +361,14 @@ enum {
 // rows:  vertex v has the joints and weights row_starts[v] to row_starts[v + 1] - 1; influence_count is how many there
 //        are in all, row_starts holds vertex_count + 1 numbers that rise from 0, both strides are 0.
 // Weights are 0 or more; each vertex's are scaled to sum 1 where it matters. Weight 0 may name any joint. A vertex
-// whose weights are all 0 moves with the hips, and so does a mesh without weights beside a skeleton: what is fixed to a
-// joint (a sword, a cape) has weight 1 to it throughout.
+// whose weights are all 0 moves with the hips, and so does a mesh without weights beside a skeleton: what is rigid
+// (a sword, a helmet) has a joint of its own where it begins, a child of the joint that holds it, and weight 1 to that.
 typedef struct SdefMesh {
   uint32_t struct_size;       // sizeof(SdefMesh)
   uint32_t kind;              // SDEF_MESH_*
-  const char *name;           // for messages, and for guessing the kind by English words in it (hair, eyelash, skirt,
-                              // hat): "node/mesh/material", of which the one that the fewest meshes share counts first,
-                              // where the mesh lies as it says; may be NULL
+  const char *name;           // for messages, and for guessing the kind from English words (hair, eyelash, skirt, hat);
+                              // may be NULL. Best is "node/mesh/material": the part that the fewest meshes share is
+                              // read first. A word counts where the mesh lies where such a thing lies: hair on the head
   size_t vertex_count;        // up to 4294967294
   const float *positions;     // 3 floats a vertex, model units
   size_t position_stride;     // bytes from vertex to vertex; 0: 12
@@ -455,11 +462,11 @@ typedef struct SdefCharacterInfo {
 
 // Makes an empty character.
 //
-// up:        3 floats, from the feet to the head, any length but 0; NULL: (0, 1, 0), or for a character without a rig
-//            another axis along which it stands as people do
-// forward:   3 floats, the way the face looks, at any angle to up but 0. NULL: found, from left and right limbs where
-//            there are joints, else from feet and face. Left and right are told as in right-handed axes: a host with
-//            left-handed ones gives forward, and rig_left_handed to sdef_character_rig
+// up:        3 floats, from the feet to the head, of a length from 1e-15 to 1e15; NULL: (0, 1, 0), or for a character
+//            without a rig another axis along which it stands as people do
+// forward:   3 floats, the way the face looks, a tenth of a degree or more off up. NULL: found, from left and right
+//            limbs where there are joints, else from feet and face. Left and right are told as in right-handed axes: a
+//            host with left-handed ones gives forward, and rig_left_handed to sdef_character_rig
 // character: receives the handle
 //
 // Errors: BAD_ARGUMENT, BAD_INPUT.
@@ -569,7 +576,8 @@ typedef struct SdefBone {
 typedef struct SdefStyleNumbers {
   uint32_t struct_size;    // sizeof(SdefStyleNumbers)
   uint32_t reserved;       // 0
-  double heads;            // how many heads tall: a style for N heads is made of it, of others it is only told
+  double heads;            // how many heads tall. It makes a style that is nothing but a number of heads; of others it
+                           // is told, and not read
   double bone_head_length; // head joint to head top, above 0
   double crown;            // heights of landmarks along up, model space
   double chin;             // height
@@ -634,7 +642,8 @@ SDEF_API SdefStatus sdef_style_from_numbers(const char *name, const SdefStyleNum
 //
 // amount: 0 is first, 1 second; 0 to 1
 //
-// Errors: BAD_STYLE for a style of N heads that is like none, or where the result would be no body; BAD_OPTION.
+// Errors: BAD_STYLE where one of the two is nothing but a number of heads and the other is not, or where the result
+// would be no body; BAD_OPTION.
 SDEF_API SdefStatus sdef_style_blend(SdefStyle first, SdefStyle second, double amount, SdefStyle *style,
     SdefError *error);
 
@@ -653,7 +662,7 @@ SDEF_API SdefStatus sdef_style_get_numbers(SdefStyle style, SdefStyleNumbers *nu
 // capacity: bytes that text can hold
 // size:     receives the bytes needed, the terminating NUL among them; may be NULL
 //
-// Errors: BAD_STYLE for a style of N heads that is like none: save the number.
+// Errors: BAD_STYLE for a style that is nothing but a number of heads: save the number.
 SDEF_API SdefStatus sdef_style_to_json(SdefStyle style, char *text, size_t capacity, size_t *size, SdefError *error);
 
 // ---- The deformer: made once, applied as often as something changes -------------------------------------------------
@@ -726,7 +735,7 @@ typedef struct SdefSpringBall {
 } SdefSpringBall;
 
 #define SDEF_FIGURE_TARGET 0            // The character before.
-#define SDEF_FIGURE_REFERENCE 1         // The style; NAN throughout for a style of N heads.
+#define SDEF_FIGURE_REFERENCE 1         // The style; NAN throughout for one that is nothing but a number of heads.
 #define SDEF_FIGURE_RESULT 2            // Measured anew on what comes out.
 
 // What was measured on a body; heights are along up. NAN: not known.
@@ -748,7 +757,7 @@ typedef struct SdefReport {
   uint32_t struct_size;        // sizeof(SdefReport)
   uint32_t rig_made;           // 1 where the rig was made, 0 where it was the character's own
   double head_ratio;           // the report's g: head length of the target over that of the style, times head_scale; 1
-                               // for a style of N heads that is like none
+                               // for a style that is nothing but a number of heads
   uint64_t unreached_vertices; // vertices that the rig left without weights
   uint64_t fallback_vertices;  // vertices that were weighted by another rule than the chosen one
 } SdefReport;
@@ -832,19 +841,27 @@ SDEF_API SdefStatus sdef_deformer_map_colliders(SdefDeformer deformer, const Sde
 SDEF_API SdefStatus sdef_deformer_get_groups(SdefDeformer deformer, SdefGroup *groups, size_t capacity,
     size_t *group_count, SdefError *error);
 
+// Measures the result, as the first call of sdef_deformer_get_figure or _get_report after a change does, and says how
+// far it is; after it both are for free. It takes as long as an apply and a measurement together.
+//
+// progress, user: see Progress above
+//
+// Errors: NO_GEOMETRY where the result is too flat to be measured; OUT_OF_MEMORY; CANCELLED.
+SDEF_API SdefStatus sdef_deformer_measure(SdefDeformer deformer, SdefProgress progress, void *user, SdefError *error);
+
 // Gives what was measured on a figure.
 //
 // which:  SDEF_FIGURE_*
 // figure: struct_size is set before
 //
-// The first call after a change measures the result, as sdef_deformer_get_report does.
+// The first call after a change measures the result: sdef_deformer_measure says how far that is.
 //
 // Errors: BAD_ARGUMENT; NO_GEOMETRY where the result is too flat to be measured.
 SDEF_API SdefStatus sdef_deformer_get_figure(SdefDeformer deformer, uint32_t which, SdefFigure *figure,
     SdefError *error);
 
-// Measures the result and gives the numbers of the run. The first call after a change takes as long as an apply and a
-// measurement together; later ones are for free.
+// Gives the numbers of the run. The first call after a change measures the result: sdef_deformer_measure says how far
+// that is.
 //
 // report:   may be NULL
 // json:     receives everything as JSON text, by the keys that README lists: figures, groups, joints, times, warnings.

@@ -505,6 +505,11 @@ public:
     return groups;
   }
 
+  // Measures the result, with progress: figure, report and report_json would do so without.
+  template <class Progress = std::nullptr_t> void measure(Progress &&progress = Progress()) const {
+    detail::call_with_progress(std::forward<Progress>(progress), sdef_deformer_measure, raw_);
+  }
+
   // which: SDEF_FIGURE_*
   SdefFigure figure(std::uint32_t which) const {
     SdefFigure figure = make<SdefFigure>();

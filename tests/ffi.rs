@@ -896,6 +896,7 @@ fn a_destroyed_stale_made_up_or_other_handle_is_refused() {
         assert!(bad(ask(|error| unsafe {
             sdef_deformer_get_report(handle, null_mut(), null_mut(), 0, null_mut(), error)
         })));
+        assert!(bad(ask(|error| unsafe { sdef_deformer_measure(handle, None, null_mut(), error) })));
     }
     for id in [1, stale, style.id] {
         assert!(bad(ask(|error| unsafe { sdef_get_warnings(id, null_mut(), 0, null_mut(), error) })));
@@ -1338,6 +1339,10 @@ fn a_host_can_stop_every_long_call_and_nothing_has_changed() {
         }
         result
     });
+    let calls = stopped_everywhere(|progress, user| {
+        ask(|error| unsafe { sdef_deformer_measure(last, progress, user, error) })
+    });
+    assert!(calls >= 6, "{calls} callbacks");
     for id in [character.id, style.id, last.id] {
         destroy(id);
     }

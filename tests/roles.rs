@@ -463,6 +463,71 @@ DEF-spine @ 0 0.95 0
 }
 
 #[test]
+fn controls_of_rigify_beside_what_deforms_play_no_role() {
+    let deform = person(
+        "DEF-spine",
+        &["DEF-spine.001", "DEF-spine.002", "DEF-spine.003"],
+        ["DEF-spine.004", "DEF-spine.005"],
+        ["DEF-shoulder.L", "DEF-upper_arm.L", "DEF-forearm.L", "DEF-hand.L"],
+        ["DEF-thigh.L", "DEF-shin.L", "DEF-foot.L", "DEF-toe.L"],
+    );
+    // Controls stand first in the file, where they are.
+    let controls = "
+hips @ 0 0.95 0
+  chest @ 0 1.3 0
+    neck @ 0 1.45 0
+      head @ 0 1.55 0
+    shoulder.L @ 0.03 1.4 0
+    hand.L @ 0.7 1.4 0
+  foot.L @ 0.1 0.09 0
+";
+    let roles = [
+        (Hips, "DEF-spine"),
+        (Neck, "DEF-spine.004"),
+        (Head, "DEF-spine.005"),
+        (LeftShoulder, "DEF-shoulder.L"),
+        (LeftUpperArm, "DEF-upper_arm.L"),
+        (LeftHand, "DEF-hand.L"),
+        (LeftFoot, "DEF-foot.L"),
+    ];
+    expect(&format!("{controls}{deform}"), ".L", ".R", &roles);
+}
+
+#[test]
+fn auto_rig_pro_stretches_arms_and_legs() {
+    let game = person(
+        "root.x",
+        &["spine_01.x", "spine_02.x", "spine_03.x"],
+        ["neck.x", "head.x"],
+        ["shoulder.l", "arm_stretch.l", "forearm_stretch.l", "hand.l"],
+        ["thigh_stretch.l", "leg_stretch.l", "foot.l", "toes_01.l"],
+    );
+    let roles = [
+        (Hips, "root.x"),
+        (Spine, "spine_01.x"),
+        (UpperChest, "spine_03.x"),
+        (Neck, "neck.x"),
+        (Head, "head.x"),
+        (LeftShoulder, "shoulder.l"),
+        (LeftUpperArm, "arm_stretch.l"),
+        (LeftLowerArm, "forearm_stretch.l"),
+        (LeftHand, "hand.l"),
+        (LeftUpperLeg, "thigh_stretch.l"),
+        (LeftLowerLeg, "leg_stretch.l"),
+        (LeftFoot, "foot.l"),
+        (LeftToes, "toes_01.l"),
+    ];
+    expect(&game, ".l", ".r", &roles);
+    // Its own rig has what is bent beside what stretches, and twists.
+    let whole = game.replace(
+        "          arm_stretch.l @",
+        "          arm.l @ 0.18 1.4 0\n          arm_twist.l @ 0.2 1.4 0\n          arm_stretch.l @",
+    );
+    assert_ne!(whole, game);
+    expect(&whole, ".l", ".r", &roles);
+}
+
+#[test]
 fn plain_conventions_are_known() {
     // VRoid.
     expect_person(

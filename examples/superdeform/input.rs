@@ -1,9 +1,12 @@
 //! The files that a command names, read.
 
 use crate::cli::{Command, Reference};
+use crate::samples::Sample;
 use crate::words;
 use glam::DVec3;
 use serde_json::{Map, Value};
+use std::borrow::Cow;
+use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use superdeform::{BodyShape, Progress, RigOptions, Role};
@@ -11,34 +14,66 @@ use superdeform_host::beside;
 use superdeform_host::conversion::{self as host, Clock, Conversion, OpenOptions, Source};
 use superdeform_host::file::GltfFile;
 
+/// Where a model is.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Model {
+    /// In a file.
+    File(PathBuf),
+    /// In the program.
+    Sample(&'static Sample),
+}
+
+impl Model {
+    /// The path of a file.
+    pub fn path(&self) -> Option<&PathBuf> {
+        match self {
+            Self::File(path) => Some(path),
+            Self::Sample(_) => None,
+        }
+    }
+}
+
 /// A model's bytes.
-pub struct File {
+struct File {
     name: String,
-    bytes: Vec<u8>,
+    bytes: Cow<'static, [u8]>,
+    /// What names files beside it; a sample has all within.
     path: PathBuf,
 }
 
 impl File {
-    /// Reads the file at `path`, not yet the ones that it names.
+    /// Reads a model, not yet the files that it names.
     ///
     /// # Errors
     /// One sentence that begins with the file's name.
-    pub fn read(path: &Path) -> Result<Self, String> {
-        let (name, bytes) = GltfFile::read_bytes(path).map_err(|error| error.to_string())?;
-        Ok(Self { name, bytes, path: path.to_path_buf() })
+    fn read(model: &Model) -> Result<Self, String> {
+        match model {
+            Model::File(path) => {
+                let (name, bytes) = GltfFile::read_bytes(path).map_err(|error| error.to_string())?;
+                Ok(Self { name, bytes: bytes.into(), path: path.clone() })
+            }
+            Model::Sample(sample) => {
+                Ok(Self { name: sample.name.to_string(), bytes: sample.bytes.into(), path: PathBuf::new() })
+            }
+        }
     }
 
-    /// Gives it to `work`, with what lies beside it.
-    pub fn with<T>(&self, work: impl FnOnce(Source) -> T) -> T {
-        work(Source { name: &self.name, bytes: &self.bytes, beside: &beside::folder_of(&self.path) })
+    /// Gives it to `work`, with what lies beside it; and the paths of that.
+    fn with<T>(&self, work: impl FnOnce(Source) -> T) -> (T, Vec<PathBuf>) {
+        let (folder, named) = (beside::folder_of(&self.path), RefCell::new(Vec::new()));
+        let beside = |path: &str| {
+            named.borrow_mut().push(self.path.with_file_name(path));
+            folder(path)
+        };
+        (work(Source { name: &self.name, bytes: &self.bytes, beside: &beside }), named.into_inner())
     }
 }
 
-/// The target of `command`, open.
+/// The target of `command`, open; and the paths of the files that it names.
 ///
 /// # Errors
 /// One sentence that begins with the file's name.
-pub fn target(command: &Command, clock: Clock) -> Result<Conversion, String> {
+pub fn target(command: &Command, clock: Clock) -> Result<(Conversion, Vec<PathBuf>), String> {
     let options = OpenOptions {
         axes: command.axes,
         humanoid_map: humanoid_map(command.humanoid.as_deref())?,
@@ -50,7 +85,8 @@ pub fn target(command: &Command, clock: Clock) -> Result<Conversion, String> {
         clock,
     };
     let file = File::read(&command.target)?;
-    file.with(|source| Conversion::open(source, &options, &mut Progress::none())).map_err(words::sentence)
+    let (opened, named) = file.with(|source| Conversion::open(source, &options, &mut Progress::none()));
+    Ok((opened.map_err(words::sentence)?, named))
 }
 
 /// The reference, where it is a model.
@@ -58,13 +94,13 @@ pub fn target(command: &Command, clock: Clock) -> Result<Conversion, String> {
 /// # Errors
 /// One sentence that begins with the file's name.
 pub fn reference(command: &Command) -> Result<Option<host::Reference>, String> {
-    let Reference::Model(path) = &command.reference else {
+    let Reference::Model(model) = &command.reference else {
         return Ok(None);
     };
     let map = humanoid_map(command.reference_humanoid.as_deref())?;
-    let file = File::read(path)?;
+    let file = File::read(model)?;
     let (options, rig_options) = (&command.options, &command.rig_options);
-    let opened = file.with(|source| host::Reference::open(source, map.as_ref(), options, rig_options));
+    let (opened, _) = file.with(|source| host::Reference::open(source, map.as_ref(), options, rig_options));
     opened.map(Some).map_err(words::sentence_of_reference)
 }
 

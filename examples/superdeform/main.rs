@@ -13,6 +13,7 @@ mod picture;
 mod progress;
 mod report;
 mod run;
+mod samples;
 mod sheet;
 mod words;
 
@@ -33,6 +34,15 @@ fn main() -> ExitCode {
     if words.get(1).is_some_and(|word| word == "batch") {
         return many(words);
     }
+    if let Some(page) = cli::pages::page(&words) {
+        return match page {
+            Ok(page) => {
+                print(&page);
+                ExitCode::SUCCESS
+            }
+            Err(refusal) => refused(refusal),
+        };
+    }
     let command = match cli::parse(words) {
         Ok(command) => command,
         Err(refusal) => return refused(refusal),
@@ -40,7 +50,9 @@ fn main() -> ExitCode {
     match without_panic(|| run::run(&command)) {
         Ok(done) => {
             if !command.quiet {
-                print(&report::summary(&done.report, &done.files));
+                // What went wrong stands above where to look, on a terminal.
+                tell(&report::notes(&done.report.warnings, command.verbose));
+                print(report::summary(&done.report, &done.files));
             }
             ExitCode::SUCCESS
         }
@@ -57,6 +69,7 @@ fn many(words: Vec<OsString>) -> ExitCode {
     match without_panic(|| batch::run(&batch)) {
         Ok(outcome) => {
             if !batch.settings.quiet {
+                outcome.left_out.iter().for_each(|sentence| tell(&format!("{sentence}\n")));
                 print(&outcome.table);
             }
             if outcome.failures.is_empty() {
@@ -82,12 +95,16 @@ fn refused(refusal: Refusal) -> ExitCode {
 }
 
 fn fail(code: u8, sentence: &str) -> ExitCode {
-    // Nothing is left to tell where even standard error is closed.
-    let _ = writeln!(std::io::stderr(), "error: {sentence}");
+    tell(&format!("error: {sentence}\n"));
     ExitCode::from(code)
 }
 
+fn tell(text: &str) {
+    // Nothing is left to tell where even standard error is closed.
+    let _ = std::io::stderr().write_all(text.as_bytes());
+}
+
 /// Prints; a reader that has gone away (`| head`) is no error.
-fn print(text: &str) {
-    let _ = std::io::stdout().write_all(text.as_bytes());
+fn print(text: impl AsRef<[u8]>) {
+    let _ = std::io::stdout().write_all(text.as_ref());
 }

@@ -58,7 +58,7 @@ impl Bar {
     /// Says that one more file is through.
     pub fn line(&self, text: &str) {
         if !self.quiet {
-            self.bar.suspend(|| crate::print(&format!("{text}\n")));
+            self.bar.suspend(|| crate::print(format!("{text}\n")));
         }
         self.bar.inc(1);
     }

@@ -2,7 +2,7 @@
 //!
 //! Everything is made in memory before the first file is written, so that bad input leaves no files.
 
-use crate::cli::{Command, Reference};
+use crate::cli::{self, Command, Reference};
 use crate::progress::Progress;
 use crate::words::{self, sentence};
 use crate::{input, output, sheet};
@@ -74,7 +74,7 @@ fn stages(command: &Command, in_batch: Option<(&Source, &str)>, progress: &Progr
         || if in_batch.is_some() { None } else { Some(Source::of(command)) },
         || input::target(command, clock),
     );
-    let (mut conversion, own) = (target?, own.transpose()?);
+    let ((mut conversion, named), own) = (target?, own.transpose()?);
     let Source { reference, style } = match (in_batch, &own) {
         (Some((source, _)), _) | (None, Some(source)) => source,
         (None, None) => unreachable!("a reference is read where there is no batch"),
@@ -103,7 +103,17 @@ fn stages(command: &Command, in_batch: Option<(&Source, &str)>, progress: &Progr
     let mut results = Vec::new();
     for (index, (part, bytes)) in converted.files(&name).map_err(sentence)?.into_iter().enumerate() {
         let path = if index == 0 { command.output.clone() } else { command.output.with_file_name(part) };
-        results.push(("model", path, bytes));
+        if named.iter().any(|named| cli::same_file(named, &path)) {
+            // An image of the target, beside which the result is written.
+            if std::fs::read(&path).is_ok_and(|there| there == bytes) {
+                continue;
+            }
+            let path = path.display();
+            return Err(format!(
+                "{path}, which the target needs, would be written over: give another path for the result"
+            ));
+        }
+        results.push((if index == 0 { "model" } else { "with it" }, path, bytes));
     }
     if let Some(path) = &command.save_rigged {
         let rigged = conversion.rigged().and_then(|file| file.to_bytes()).map_err(sentence)?;
@@ -142,7 +152,7 @@ fn style(command: &Command, reference: Option<&host::Reference>) -> Result<Style
             format!("there is no built-in style {name}: name one of {}", BUILT_IN.join(", "))
         })?,
         (Reference::Model(_), Some(reference)) => reference.shape().clone(),
-        (Reference::Model(path), None) => return Err(format!("{}: was not measured", path.display())),
+        (Reference::Model(_), None) => unreachable!("a model is read before its style is asked for"),
     };
     let shape = match &command.blend {
         Some((path, share)) => shape.blended(&input::style(path)?, *share),
@@ -154,7 +164,6 @@ fn style(command: &Command, reference: Option<&host::Reference>) -> Result<Style
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cli;
     use glam::DVec3;
     use serde_json::Value;
     use std::path::Path;
@@ -188,11 +197,46 @@ mod tests {
     }
 
     #[test]
+    fn a_gltf_and_what_lies_beside_it_is_read_written_and_never_written_over() {
+        let folder = std::env::temp_dir().join(format!("superdeform-gltf-{}", std::process::id()));
+        let mut file = GltfFile::read(&samples::data().join("kaykit_rogue.glb")).unwrap();
+        file.images.insert("maps/skin.png".into(), std::sync::Arc::new(vec![1, 2, 3]));
+        file.json["images"].as_array_mut().unwrap().push(json!({"uri": "maps/skin.png"}));
+        for (name, bytes) in file.to_parts("a.gltf").unwrap() {
+            output::write(&folder.join(name), &bytes).unwrap();
+        }
+        let path = |name: &str| folder.join(name).to_str().unwrap().to_string();
+        let convert = |result: &str| {
+            let words =
+                ["superdeform", &path("a.gltf"), "sd2", "-q", "-o", &path(result)].map(str::to_string);
+            run(&cli::parse(words).ok().unwrap())
+        };
+        let written = |result: &str| -> Vec<PathBuf> {
+            convert(result).unwrap().files.into_iter().map(|(_, path)| path).collect()
+        };
+        let paths = |names: &[&str]| names.iter().map(|name| folder.join(name)).collect::<Vec<_>>();
+        assert_eq!(written("b.glb"), paths(&["b.glb"]));
+        // The image that both have stays.
+        assert_eq!(written("b.gltf"), paths(&["b.gltf", "b.bin"]));
+        assert_eq!(written("x/b.gltf"), paths(&["x/b.gltf", "x/b.bin", "x/maps/skin.png"]));
+        for result in ["b.glb", "b.gltf", "x/b.gltf"] {
+            let file = GltfFile::read(&folder.join(result)).unwrap();
+            let last = file.list("images").len() - 1;
+            assert!(file.image(last).unwrap() == [1, 2, 3].as_slice(), "{result}");
+        }
+        std::fs::rename(folder.join("a.gltf"), folder.join("c.gltf")).unwrap();
+        let words = ["superdeform", &path("c.gltf"), "sd2", "-q", "-o", &path("a.gltf")].map(str::to_string);
+        let refusal = run(&cli::parse(words).ok().unwrap()).err().unwrap();
+        assert!(refusal.contains("a.bin") && !folder.join("a.gltf").exists(), "{refusal}");
+        std::fs::remove_dir_all(&folder).unwrap();
+    }
+
+    #[test]
     fn the_sample_pair_is_written_where_the_field_takes_it() {
         let Ok(command) = crate::cli::parse(["superdeform", "--threads", "1"]) else {
             panic!("the sample pair was refused");
         };
-        let mut conversion = input::target(&command, clock).unwrap();
+        let (mut conversion, _) = input::target(&command, clock).unwrap();
         let source = Source::of(&command).unwrap();
         conversion.set(&source.style, &command.options, &mut superdeform::Progress::none()).unwrap();
         let converted = conversion.write(None, &WriteOptions::default()).unwrap();

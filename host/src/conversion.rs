@@ -9,7 +9,7 @@ use crate::appearance::Appearance;
 use crate::bad_input;
 use crate::beside::Beside;
 use crate::file::GltfFile;
-use crate::load::{LoadOptions, Loaded, load};
+use crate::load::{LoadOptions, Loaded, is_vrm, load};
 use crate::rig::{INFLUENCES, add_rig, rerigged};
 use crate::shades::shade;
 use crate::write;
@@ -248,6 +248,7 @@ impl Conversion {
             let (of_target, of_reference) = (&deformer.target().joints, &reference.measured.joints);
             let roles = of_reference.keys().copied().filter(|role| of_target.contains_key(role)).collect();
             report.reference = Some(FigureReport::of(&reference.measured, &roles, deformer.options()));
+            tell_swapped(&mut report);
         }
         let of_files = self.target.warnings.iter().cloned();
         let of_files = of_files.chain(reference.into_iter().flat_map(Reference::warnings));
@@ -334,8 +335,14 @@ impl Converted<'_> {
     /// beside it; for any other ending one GLB.
     ///
     /// # Errors
-    /// 2 GB or more.
+    /// 2 GB or more; a name that ends in `.vrm` for what is no VRM, since no viewer would open it.
     pub fn files(&self, name: &str) -> Result<Vec<(String, Vec<u8>)>> {
+        let from = &self.target.file.name;
+        if ends_in(name, "vrm") && !ends_in(from, "vrm") && !is_vrm(&self.target.file) {
+            return Err(bad_input(format!(
+                "{from} is no VRM, so {name} would be none: give the result a name that ends in .glb or .gltf, or make {from} a VRM first (Blender with the VRM add-on, UniVRM)"
+            )));
+        }
         if is_gltf(name) {
             self.file.to_parts(name)
         } else {
@@ -356,9 +363,29 @@ impl Converted<'_> {
     }
 }
 
+/// A reference of this many times the target's heads is taken to have been meant as the target: grown-ups have 5 to 8 heads,
+/// super-deformed figures 1.8 to 3.5.
+const SWAPPED: f64 = 1.5;
+
+/// Asks whether target and reference are swapped, in the place of the warning that little is left to deform.
+fn tell_swapped(report: &mut Report) {
+    let (Some(reference), target) = (&report.reference, report.target.heads) else { return };
+    if reference.heads > SWAPPED * target {
+        let heads = reference.heads;
+        let message =
+            format!("the reference has {heads:.1} heads and the target {target:.1}: are they swapped?");
+        report.warnings.retain(|warning| warning.code != "already_super_deformed");
+        report.warnings.insert(0, Warning::new("already_super_deformed", message));
+    }
+}
+
 /// True for the name of a glTF file whose buffer and images lie beside it.
 pub fn is_gltf(name: &str) -> bool {
-    name.rsplit_once('.').is_some_and(|(_, ending)| ending.eq_ignore_ascii_case("gltf"))
+    ends_in(name, "gltf")
+}
+
+fn ends_in(name: &str, wanted: &str) -> bool {
+    name.rsplit_once('.').is_some_and(|(_, ending)| ending.eq_ignore_ascii_case(wanted))
 }
 
 /// The target, its paint and what is said of its face.
@@ -421,6 +448,7 @@ mod tests {
     use super::*;
     use crate::samples;
     use serde_json::json;
+    use std::collections::BTreeMap;
 
     fn rogue() -> Vec<u8> {
         std::fs::read(samples::data().join("kaykit_rogue.glb")).unwrap()
@@ -465,6 +493,76 @@ mod tests {
         assert_eq!(open(&bytes, &OpenOptions::default()).unwrap_err().option, Some("allow_prohibited"));
         let allowed = OpenOptions { allow_prohibited: true, ..OpenOptions::default() };
         assert!(open(&bytes, &allowed).unwrap().target().licence.is_prohibited());
+    }
+
+    /// A `.gltf` with everything beside it, one image of a kind that nobody here reads.
+    fn in_parts() -> (Vec<u8>, BTreeMap<String, Vec<u8>>) {
+        let mut file = GltfFile::parse("a.glb", &rogue()).unwrap();
+        let image = file.list("images").len();
+        file.json["images"].as_array_mut().unwrap().push(json!({"uri": "maps/my%20skin.ktx2"}));
+        file.json["textures"][0]["extensions"] = json!({"KHR_texture_basisu": {"source": image}});
+        for list in ["extensionsUsed", "extensionsRequired"] {
+            file.json[list] = json!(["KHR_texture_basisu"]);
+        }
+        let ktx2 = b"\xABKTX 20\xBB\r\n\x1A\n and more".to_vec();
+        file.images.insert("maps/my%20skin.ktx2".into(), Arc::new(ktx2));
+        let mut parts: BTreeMap<String, Vec<u8>> = file.to_parts("a.gltf").unwrap().into_iter().collect();
+        (parts.remove("a.gltf").unwrap(), parts)
+    }
+
+    #[test]
+    fn what_lies_beside_a_file_goes_within_the_result_or_beside_it() {
+        let (text, parts) = in_parts();
+        assert!(parts.keys().eq(["a.bin", "maps/my skin.ktx2"]), "{:?}", parts.keys());
+        let whole = Source { name: "a.gltf", bytes: &text, beside: &|path| parts.get(path).cloned() };
+        let mut conversion = Conversion::open(whole, &OpenOptions::default(), &mut Progress::none()).unwrap();
+        conversion.set(&Style::heads(2.0).unwrap(), &Options::default(), &mut Progress::none()).unwrap();
+        let converted = conversion.write(None, &WriteOptions::default()).unwrap();
+        let image = &parts["maps/my skin.ktx2"];
+        // Within: a GLB that needs nothing else.
+        let glb = GltfFile::parse("b.glb", &converted.files("b.glb").unwrap()[0].1).unwrap();
+        let last = glb.list("images").len() - 1;
+        assert!(glb.image(last).unwrap() == image.as_slice() && glb.images.is_empty());
+        assert_eq!(glb.list("images")[last]["mimeType"], "image/ktx2");
+        // Beside: the same shape, the image as it was.
+        let files: BTreeMap<String, Vec<u8>> = converted.files("b.gltf").unwrap().into_iter().collect();
+        assert!(files.keys().eq(["b.bin", "b.gltf", "maps/my skin.ktx2"]), "{:?}", files.keys());
+        assert!(&files["maps/my skin.ktx2"] == image);
+        let beside = |path: &str| files.get(path).cloned();
+        let gltf = GltfFile::parse_with("b.gltf", &files["b.gltf"], &beside).unwrap();
+        assert_eq!(gltf.json["extensionsRequired"], json!(["KHR_texture_basisu"]));
+        let skinned = |file: &GltfFile| crate::verify::skinned(file).unwrap();
+        assert!(skinned(&gltf) == skinned(&glb));
+        let alone = Source { name: "a.gltf", bytes: &text, beside: &|_| None };
+        let refusal = Conversion::open(alone, &OpenOptions::default(), &mut Progress::none()).unwrap_err();
+        assert!(refusal.message.contains("a.bin"), "{refusal}");
+    }
+
+    #[test]
+    fn a_reference_of_many_more_heads_than_the_target_is_asked_about() {
+        let figure = |heads| FigureReport { heads, ..FigureReport::default() };
+        let said = |target, reference| {
+            let little = Warning::new("already_super_deformed", "little is left");
+            let report =
+                Report { target: figure(target), reference: Some(figure(reference)), ..Report::default() };
+            let mut report = Report { warnings: vec![little], ..report };
+            tell_swapped(&mut report);
+            assert_eq!(report.warnings.len(), 1);
+            report.warnings[0].message.clone()
+        };
+        assert_eq!(said(2.3, 8.0), "the reference has 8.0 heads and the target 2.3: are they swapped?");
+        assert_eq!(said(1.9, 2.3), "little is left");
+        assert_eq!(said(8.0, 2.3), "little is left");
+    }
+
+    #[test]
+    fn what_is_no_vrm_is_not_called_one() {
+        let mut conversion = open(&rogue(), &OpenOptions::default()).unwrap();
+        conversion.set(&Style::heads(2.0).unwrap(), &Options::default(), &mut Progress::none()).unwrap();
+        let converted = conversion.write(None, &WriteOptions::default()).unwrap();
+        let refusal = converted.files("b.VRM").unwrap_err();
+        assert!(refusal.message.contains("b.VRM") && refusal.message.contains("rogue.glb"), "{refusal}");
+        assert!(converted.files("b").is_ok());
     }
 
     #[test]

@@ -1,7 +1,8 @@
 //! All meshes of a character in one list of vertices and one of triangles.
 
 use super::Character;
-use crate::error::{Error, ErrorKind};
+use super::mesh::place;
+use crate::error::{Element, Error, ErrorKind};
 use glam::DVec3;
 
 /// The meshes of a character, one after the other.
@@ -34,6 +35,24 @@ impl MeshList {
             list.triangle_starts.push(list.triangles.len());
         }
         list
+    }
+
+    /// The error for a character none of whose triangles has an area: one vertex that lies far astray is enough.
+    pub fn no_area(character: &Character) -> Error {
+        let corners = character.meshes.iter().enumerate().flat_map(|(index, mesh)| {
+            mesh.triangles.iter().flatten().map(move |&vertex| (index, vertex as usize))
+        });
+        let position = |&(mesh, vertex): &(usize, usize)| character.meshes[mesh].positions[vertex];
+        let size = |corner: &(usize, usize)| position(corner).abs().max_element();
+        let Some((mesh, vertex)) = corners.max_by(|a, b| size(a).total_cmp(&size(b))) else {
+            return Self::no_extent();
+        };
+        let at = position(&(mesh, vertex)).to_array();
+        let place = place(mesh, &character.meshes[mesh].name);
+        let message = format!(
+            "{place}: no triangle of the character has an area beside its furthest vertex, {vertex} at {at:?}: move that if it lies astray, else give triangles of corners in three places"
+        );
+        Error::new(ErrorKind::NoGeometry, message).in_mesh(mesh).at(Element::Vertex(vertex))
     }
 
     /// The error for a list of nothing that stands.

@@ -2,6 +2,7 @@
 
 use super::basics::*;
 use crate::error::{Element, Error, ErrorKind, Warning};
+use crate::options::GroupSettings;
 use core::ffi::c_void;
 use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -76,6 +77,10 @@ pub fn with_field(message: &str, option: Option<&str>) -> String {
         Some("kinds") => "kind",
         Some("eyes") => "sdef_character_set_face_hints, or kind",
         Some("blend") => "amount",
+        // Zeros look as if they did so.
+        Some(option) if GroupSettings::default().numbers().iter().any(|(name, _)| *name == option) => {
+            return format!("{message}, or NAN to leave it as it is ({option})");
+        }
         Some(option) => option,
         None => return message.to_string(),
     };

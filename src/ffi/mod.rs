@@ -47,6 +47,12 @@
 //!            must be 0 or NAN. One that is smaller than it was in version 1 of the ABI is refused, and so is a field
 //!            called reserved that is not 0. In arrays all have the size of the first. Numbers that choose (kinds,
 //!            modes) must be one of the constants; 0 and 1 stand for no and yes.
+//! Changes    Within a version of the ABI what there is stays; functions, constants and fields are only added, so a host
+//!            that was built runs with every later library of that version. Results are no part of it: a minor release
+//!            may give better ones. Who needs the same vertices for good ships the library with the host, or keeps the
+//!            vertices. A saved style keeps its numbers. On trial, which means that a minor release may change what
+//!            they do, or have them do nothing: youth_*, smile, seat and hair_lay of SdefOptions, and
+//!            sdef_deformer_map_colliders.
 //! Errors     Every call that can fail returns a SdefStatus; its last argument, which may be NULL, receives a sentence
 //!            that names the array, the element, the value and the remedy.
 //! Progress   A callback (NULL: none) that is called on the caller's thread alone, with a fraction that rises to 1: some
@@ -59,7 +65,8 @@
 //! Cost       Cheap, microseconds: create, destroy, get_info, get_joints, map_points, styles but _measure. A pass over
 //!            the vertices, some 0.1 microseconds each: add_mesh, apply, and set_options where only amount, face_squash,
 //!            face_curve or thread_count change. Ten times that: set_options otherwise, and set_style. Slow, seconds at
-//!            100,000 vertices: rig, deformer_create, style_measure, get_report and get_figure after a change.
+//!            100,000 vertices: rig, deformer_create, style_measure, deformer_measure (else get_report or get_figure
+//!            after a change, without progress).
 //! ```
 
 // The C ABI, and the only unsafe code. Each module is a section of the header `include/superdeform.h`, which is generated

@@ -38,8 +38,8 @@ pub const SDEF_FACE_CURVE_SPHERE: u32 = 2;
 pub const SDEF_REPAIR_OFF: u32 = 0;
 /// They are pushed out.
 pub const SDEF_REPAIR_ON: u32 = 1;
-/// As they were pushed last, whatever else has changed since, or as ON where nothing was pushed yet: for while a slider
-/// moves. It saves the time to find out anew, which ON takes once the slider is let go.
+/// What was pushed last is pushed by as much again, and nothing else is looked for; as ON where nothing was pushed yet.
+/// It is faster than ON: for the time in which a slider moves. Set ON once it is let go.
 pub const SDEF_REPAIR_KEPT: u32 = 2;
 
 /// Heat where the body allows it, else the volume.

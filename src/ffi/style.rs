@@ -50,7 +50,7 @@ pub struct SdefStyleNumbers {
     pub struct_size: u32,
     /// 0
     pub reserved: u32,
-    /// how many heads tall: a style for N heads is made of it, of others it is only told
+    /// how many heads tall. It makes a style that is nothing but a number of heads; of others it is told, and not read
     pub heads: f64,
     /// head joint to head top, above 0
     pub bone_head_length: f64,
@@ -297,7 +297,8 @@ pub unsafe extern "C" fn sdef_style_from_numbers(
 ///
 /// amount: 0 is first, 1 second; 0 to 1
 ///
-/// Errors: BAD_STYLE for a style of N heads that is like none, or where the result would be no body; BAD_OPTION.
+/// Errors: BAD_STYLE where one of the two is nothing but a number of heads and the other is not, or where the result
+/// would be no body; BAD_OPTION.
 #[ffi_export]
 pub unsafe extern "C" fn sdef_style_blend(
     first: SdefStyle,
@@ -319,7 +320,7 @@ pub unsafe extern "C" fn sdef_style_blend(
             }
             _ => {
                 return Err(bad(
-                    "a style of N heads has no body to blend with a measured one: make it like that one first (sdef_style_from_heads)",
+                    "one style is nothing but a number of heads, the other a body: give the other as like to sdef_style_from_heads, and blend with what that makes",
                 ));
             }
         };
@@ -363,7 +364,7 @@ pub unsafe extern "C" fn sdef_style_get_numbers(
 /// capacity: bytes that text can hold
 /// size:     receives the bytes needed, the terminating NUL among them; may be NULL
 ///
-/// Errors: BAD_STYLE for a style of N heads that is like none: save the number.
+/// Errors: BAD_STYLE for a style that is nothing but a number of heads: save the number.
 #[ffi_export]
 pub unsafe extern "C" fn sdef_style_to_json(
     style: SdefStyle,

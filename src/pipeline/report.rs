@@ -74,6 +74,14 @@ impl Deformer {
     /// # Errors
     /// As [`Measured::of`] on the result.
     pub fn report(&self, deformed: &Deformed) -> Result<Report> {
+        self.report_with(deformed, &mut Progress::none())
+    }
+
+    /// As [`Deformer::report`], and reports how far it is.
+    ///
+    /// # Errors
+    /// `Cancelled` too.
+    pub fn report_with(&self, deformed: &Deformed, progress: &mut Progress) -> Result<Report> {
         let character = &self.inputs.character;
         let result = character.with(deformed);
         let figure = Arc::new(Figure::of(&result)?);
@@ -81,7 +89,7 @@ impl Deformer {
         let (repair, measured) = parallel::both(
             self.inputs.options.thread_count,
             || self.clothes(&placed),
-            || Measured::of_figure(figure, &result, &self.inputs.options, &mut Progress::none()),
+            || Measured::of_figure(figure, &result, &self.inputs.options, progress),
         );
         let measured = measured?;
         let roles = self.roles();

@@ -1,9 +1,9 @@
 //! Arms in whatever direction they are held: branches of the solid that end beside the trunk.
 
 use super::arm_curve::{Arm, ArmCurve, Station};
-use super::branches::{Branch, Rim};
 use super::front_view::median;
 use super::solid::Solid;
+use super::solid::branches::{Branch, Rim};
 use glam::{DVec2, DVec3};
 use std::ops::Range;
 

@@ -48,7 +48,9 @@ const SYMMETRIC_WITHIN: f64 = 2e-5;
 pub struct FrontView<'a> {
     /// Vertices of the unit figure.
     pub positions: &'a [DVec3],
-    /// The triangles that are looked at.
+    /// The meshes that are looked at, ...
+    pub meshes: Vec<bool>,
+    /// ... and their triangles.
     pub triangles: Vec<[u32; 3]>,
     /// What the rays meet: columns to the left, rows up, an even number of columns about the axis.
     pub grid: RayGrid,
@@ -81,23 +83,20 @@ impl<'a> FrontView<'a> {
     ) -> Result<Self> {
         let is = |mesh: usize, wanted: &[Option<MeshKind>]| wanted.contains(&kinds[mesh]);
         use MeshKind::*;
-        let sets: [&[Option<MeshKind>]; 5] = [
-            &[Some(Body), Some(FacePart)],
-            &[Some(Body), Some(FacePart), None],
-            &[Some(Body), Some(FacePart), None, Some(Garment)],
-            &[Some(Body), Some(FacePart), None, Some(Garment), Some(Accessory)],
-            &[Some(Body), Some(FacePart), None, Some(Garment), Some(Accessory), Some(Hair)],
-        ];
+        let everything: &[_] =
+            &[Some(Body), Some(FacePart), None, Some(Garment), Some(Accessory), Some(Hair), Some(Eye)];
+        let sets: [&[Option<MeshKind>]; 3] = [&everything[..2], &everything[..3], &everything[..4]];
         let triangles_of = |set: &[Option<MeshKind>]| figure.triangles_where(|mesh| is(mesh, set));
         let clothed = triangles_of(sets[2]);
-        let mut reference = if clothed.is_empty() { figure.triangles.clone() } else { clothed };
+        let mut shown = if clothed.is_empty() { everything } else { sets[2] };
+        let mut reference = triangles_of(shown);
         let mut reference_grid = front(&figure.positions, &reference, 0.0, threads);
         progress.at(0.3)?;
         // Of a figure in pieces whose kinds were guessed wrong, all pieces are looked at.
         let guessed = figure.kinds.iter().all(Option::is_none);
         let some = reference.len() < figure.triangles.len();
         if guessed && some && filled_share(&reference_grid) < FILLED_ROWS {
-            reference = figure.triangles.clone();
+            (shown, reference) = (everything, figure.triangles.clone());
             reference_grid = front(&figure.positions, &reference, 0.0, threads);
         }
         let whole = Extent::of(&reference_grid);
@@ -113,17 +112,23 @@ impl<'a> FrontView<'a> {
             let grid = front(&figure.positions, &triangles, 0.0, threads);
             progress.at(0.6)?;
             if is_whole(&grid, &whole) && shows_the_front(&grid, &reference_grid) {
-                chosen = Some((triangles, grid));
+                chosen = Some((*set, triangles, grid));
                 break;
             }
         }
-        let (triangles, grid) = chosen.unwrap_or((reference, reference_grid));
-        let view = Self::seen(&figure.positions, triangles, grid, threads);
+        let (shown, triangles, grid) = chosen.unwrap_or((shown, reference, reference_grid));
+        let meshes = (0..figure.mesh_count()).map(|mesh| is(mesh, shown)).collect();
+        let view = Self::seen(&figure.positions, (meshes, triangles), grid, threads);
         progress.at(1.0)?;
         Ok(view)
     }
 
-    fn seen(positions: &'a [DVec3], triangles: Vec<[u32; 3]>, grid: RayGrid, threads: usize) -> Self {
+    fn seen(
+        positions: &'a [DVec3],
+        (meshes, triangles): (Vec<bool>, Vec<[u32; 3]>),
+        grid: RayGrid,
+        threads: usize,
+    ) -> Self {
         let (axis, symmetry) = axis(&grid);
         let grid = if axis == 0.0 { grid } else { front(positions, &triangles, axis, threads) };
         let extent = Extent::of(&grid);
@@ -131,6 +136,7 @@ impl<'a> FrontView<'a> {
         let is_symmetric = is_symmetric(positions, &triangles, axis);
         Self {
             positions,
+            meshes,
             triangles,
             axis,
             symmetry,

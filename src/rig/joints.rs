@@ -9,13 +9,13 @@ use super::arm_branch::{arms_of, raised};
 use super::arm_choice::{Body, Candidate, FINER, IMAGE, even_hands};
 use super::arm_curve::Arm;
 use super::arms::{ArmSpace, find_arm, find_hanging_arm};
-use super::branches::branches;
 use super::candidates::{Candidates, likelihood};
 use super::front_view::FrontView;
 use super::hand::pair::add_fingers;
 use super::head_line::{HeadLine, head_line, middle};
 use super::legs::{Leg, LegGap, LegLobes, Legs, find_legs, leg};
-use super::solid::Solid;
+use super::solid::branches::branches;
+use super::solid::{Solid, Voxels};
 use super::{FoundJoint, UnitFigure};
 use crate::character::{MeshKind, Role};
 use crate::error::{Result, Warning};
@@ -170,7 +170,7 @@ pub fn find_joints(
     let given: BTreeMap<Role, DVec3> =
         given.iter().filter(|(_, at)| at.is_finite()).map(|(&role, &at)| (role, at)).collect();
     let view = FrontView::of(figure, kinds, thread_count, &mut progress.part(0.0, 0.5))?;
-    let search = Search { view: &view, given: &given, cells, found: FoundJoints::default() };
+    let search = Search { figure, view: &view, given: &given, cells, found: FoundJoints::default() };
     let mut found = search.run(&mut progress.part(0.5, 0.7))?;
     progress.at(0.7)?;
     if fingers {
@@ -181,6 +181,7 @@ pub fn find_joints(
 }
 
 struct Search<'a> {
+    figure: &'a UnitFigure,
     view: &'a FrontView<'a>,
     given: &'a BTreeMap<Role, DVec3>,
     cells: f64,
@@ -190,9 +191,12 @@ struct Search<'a> {
 impl Search<'_> {
     fn run(mut self, progress: &mut Progress) -> Result<FoundJoints> {
         let view = self.view;
-        let solid = Solid::new(view.positions, &view.triangles, view.axis, self.cells);
+        let Self { figure, cells, .. } = self;
+        let counts = |triangle: usize| view.meshes[figure.mesh_of(triangle)];
+        let solid = Solid::new(&figure.positions, &figure.triangles, counts, view.axis, cells);
+        let solid = Voxels::of(solid);
         progress.at(0.5)?;
-        let lobes = LegLobes::of(&solid, view.low, LEGS_BELOW * view.high);
+        let lobes = LegLobes::of(&solid.solid, view.low, LEGS_BELOW * view.high);
         let (mut legs, inside) = find_legs(view, &lobes, LEGS_BELOW * view.high);
         let mut arms = self.arms(&legs, &solid);
         let mut tried = Vec::new();
@@ -206,8 +210,11 @@ impl Search<'_> {
         let is_low = |legs: &Legs, arms| {
             shoulders(arms).is_some_and(|(line, seen)| seen && share(legs, line) < LEAST_LEGS)
         };
+        let fits = |legs: &Legs, arms| {
+            shoulders(arms).is_some_and(|(line, seen)| seen && USUAL_LEGS.contains(&share(legs, line)))
+        };
         if let Some(inside) = inside
-            && is_low(&legs, &arms)
+            && (is_low(&legs, &arms) || legs.seen == LegGap::Hem && fits(&inside, &arms))
         {
             tried.push(std::mem::replace(&mut legs, inside));
             arms = self.arms(&legs, &solid);
@@ -259,7 +266,7 @@ impl Search<'_> {
                 self.found.joints.insert(role, FoundJoint { position, confidence: 1.0 });
             }
         }
-        self.found.solid = Arc::new(solid);
+        self.found.solid = Arc::new(solid.solid);
         Ok(self.found)
     }
 
@@ -274,8 +281,8 @@ impl Search<'_> {
 
     /// The arms over `legs`: of what reaches out furthest, all and below the neck, of what hangs beside the trunk, and of the
     /// branches of the solid, the pair that is most like arms.
-    fn arms(&mut self, legs: &Legs, solid: &Solid) -> [Option<Arm>; 2] {
-        let view = self.view;
+    fn arms(&mut self, legs: &Legs, voxels: &Voxels) -> [Option<Arm>; 2] {
+        let (view, solid) = (self.view, &voxels.solid);
         let neck = neck_height(view, legs.crotch);
         let given = [true, false].map(|left| ARM.map(|role| self.given.get(&role.on_side(left)).copied()));
         let body = Body { solid, axis: view.axis, low: view.low, crotch: legs.crotch, neck, given };
@@ -294,7 +301,7 @@ impl Search<'_> {
         }
         let top = neck.unwrap_or(legs.crotch + CORE_BY_RATIO * (view.high - legs.crotch));
         let core = legs.crotch + CORE_FROM * (top - legs.crotch)..top;
-        for branch in branches(solid, view.axis, core) {
+        for branch in branches(voxels, view.axis, core) {
             for (left, arm) in arms_of(&branch, solid, view.axis, |y| middle(view, y).0) {
                 sides[usize::from(!left)].push(body.candidate(arm, left, FINER));
             }

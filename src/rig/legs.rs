@@ -4,7 +4,7 @@ use super::front_view::{FrontView, median};
 use super::silhouette::lowest;
 use super::solid::{Lobes, Solid};
 use crate::geometry::range;
-use glam::DVec3;
+use glam::{DVec3, IVec3};
 
 /// Filled rows between two legs of up to this height do not end the gap between them: shoes, knees, a ribbon. Seen:
 /// ±30 % changes no joint.
@@ -31,9 +31,6 @@ const CROTCH_BELOW: f64 = 0.6;
 const LEAST_LEG: f64 = 0.006;
 /// ... and inside of a skirt one narrower than this. Seen: ±30 % moves joints by under 0.0005 H.
 const LEAST_LEG_INSIDE: f64 = 0.02;
-/// Two lobes of a slice are one where the neck between them is this share of their radius: thighs that touch are still
-/// two.
-const ONE: f64 = 0.8;
 /// Right above a hem a slice fills more than this times what it does so many slices below: above a crotch the thighs go on,
 /// and grow together.
 const HEM_WIDENS: f64 = 2.0;
@@ -179,26 +176,44 @@ pub struct LegLobes {
     pub crotch: Option<f64>,
     /// True where that is the hem of something.
     is_hem: bool,
+    /// The same of two legs inside of something.
+    inner_crotch: Option<f64>,
 }
 
 impl LegLobes {
     /// Slices `solid` up to the highest crotch.
     pub fn of(solid: &Solid, low: f64, top: f64) -> Self {
         let (first, last) = (solid.row(low + SOLE_AT), solid.row(CROTCH_RANGE.1.min(top)));
-        let (rows, areas): (Vec<(f64, Option<Lobes>)>, Vec<f64>) = (first..=last)
-            .map(|row| {
-                let slice = solid.slice(row, LEG_REACH);
-                ((solid.middle([0, row, 0]).y, slice.lobes()), slice.area())
-            })
-            .unzip();
-        let are_one = |(_, lobes): &(f64, Option<Lobes>)| lobes.is_none_or(|lobes| lobes.neck >= ONE);
+        let mut all = Self { rows: Vec::new(), crotch: None, is_hem: false, inner_crotch: None };
+        let (mut areas, mut outer) = (Vec::new(), Vec::new());
+        for row in first..=last {
+            let slice = solid.slice(row, LEG_REACH, 1);
+            let mut lobes = slice.lobes();
+            let y = solid.middle(IVec3::new(0, row, 0)).y;
+            outer.push((y, lobes));
+            if !lobes.as_ref().is_some_and(Lobes::are_two) {
+                let below = all.rows.last().and_then(|row| row.1);
+                let inner = solid.slice(row, LEG_REACH, 2).lobes().filter(Lobes::are_two);
+                let inner = inner.filter(|inner| below.is_none_or(|below| inner.go_on(&below)));
+                lobes = inner.or(lobes);
+            }
+            all.rows.push((y, lobes));
+            areas.push(slice.area());
+        }
         let bridge = (BRIDGE / solid.cell) as usize;
-        let at = rows.windows(bridge.max(1)).position(|rows| rows.iter().all(are_one));
-        let crotch = at.map(|at| rows[at].0 - 0.5 * solid.cell).filter(|&y| y >= CROTCH_RANGE.0);
+        let end = |rows: &[(f64, Option<Lobes>)]| {
+            let are_one = |(_, lobes): &(f64, Option<Lobes>)| !lobes.as_ref().is_some_and(Lobes::are_two);
+            rows.windows(bridge.max(1)).position(|rows| rows.iter().all(are_one))
+        };
+        let height = |at: usize| Some(all.rows[at].0 - 0.5 * solid.cell).filter(|&y| y >= CROTCH_RANGE.0);
         let area = |at: usize| areas.get(at).copied().unwrap_or(0.0);
+        let at = end(&outer);
+        let crotch = at.and_then(height);
         let is_hem = crotch.is_some()
             && at.is_some_and(|at| area(at + 1) > HEM_WIDENS * area(at.saturating_sub(HEM_ROWS)));
-        Self { rows, crotch, is_hem }
+        let inner_crotch =
+            end(&all.rows).and_then(height).filter(|&y| crotch.is_none_or(|crotch| y > crotch));
+        Self { crotch, is_hem, inner_crotch, ..all }
     }
 
     /// True where the solid has not the thickness that rays see: surfaces are open, and what they enclose is empty.
@@ -242,10 +257,12 @@ pub fn find_legs(view: &FrontView, lobes: &LegLobes, top: f64) -> (Legs, Option<
         let sections = sections(view, crotch, first, &legs.pairs);
         let seen = if lobes.is_hem { LegGap::Hem } else { LegGap::Open };
         let told = Legs { crotch, seen, sections, pairs: legs.pairs.clone(), at_trunk: false };
-        if goes_on(&legs, crotch) {
-            inside = Some(legs);
-        }
+        inside = if goes_on(&legs, crotch) { Some(legs) } else { told.inside(view, lobes) };
         legs = told;
+    } else if legs.seen == LegGap::Unseen
+        && let Some(inner) = legs.inside(view, lobes)
+    {
+        legs = inner;
     }
     legs.heed(lobes, view.low);
     (legs, inside)
@@ -355,6 +372,13 @@ impl Legs {
             all.push(Section { y, x, front: middle.front + z, back: middle.back + z, ..middle });
         }
         all
+    }
+
+    /// The same legs, inside of something; `None` where lobes do not show any.
+    fn inside(&self, view: &FrontView, lobes: &LegLobes) -> Option<Self> {
+        let crotch = lobes.inner_crotch?;
+        let sections = sections(view, crotch, view.grid.row(view.low), &self.pairs);
+        Some(Self { crotch, seen: LegGap::Inside, sections, pairs: self.pairs.clone(), at_trunk: false })
     }
 
     /// Takes the lobes' word where a section holds something beside the leg: a tail, a cape, hair.

@@ -12,8 +12,7 @@
 //! | `silhouette` | a grid of parallel rays and all that they meet |
 //! | `front_view` | the figure seen from the front: which meshes, its axis, its runs |
 //! | `legs` | crotch, hip joints, knees, ankles, toes |
-//! | `solid` | the figure as filled cells |
-//! | `branches` | what sticks out of the solid, in whatever direction |
+//! | `solid` | the figure as filled cells: what it encloses, its slices, its `branches`, ways through it (`geodesic`) |
 //! | `arms` | armpits, shoulder joints, elbows, wrists of arms that rays see |
 //! | `arm_curve` | the joints that an arm's sections show |
 //! | `arm_branch`, `arm_choice` | the same of branches; which of several arms a body has |
@@ -27,7 +26,7 @@
 //! | `wholeness` | whether the surface is whole enough for heat |
 //! | `parts` | what is one skin with the body and moves otherwise: long hair |
 //! | `heat` | weights of a whole body; `nearest` bones and whether they are seen |
-//! | `volume`, `geodesic`, `voxel` | voxels of an open body, distances through them, weights by those |
+//! | `voxel` | weights of an open body by distances through its solid |
 //! | `transfer` | weights of clothes from the `skin` below, a `fill` where it says nothing, `rigid` things |
 //!
 //! Constants say what was *seen* when they alone were changed by 30 %, on 23 rigged figures whose rigs were taken away,
@@ -37,14 +36,12 @@ pub mod arm_branch;
 pub mod arm_choice;
 pub mod arm_curve;
 pub mod arms;
-pub mod branches;
 pub mod candidates;
 pub mod eyes;
 pub mod facing;
 pub mod far;
 pub mod front_view;
 pub mod front_votes;
-pub mod geodesic;
 pub mod hand;
 pub mod head_line;
 pub mod heat;
@@ -58,7 +55,6 @@ pub mod skeleton;
 pub mod solid;
 pub mod transfer;
 pub mod unit_figure;
-pub mod volume;
 pub mod voxel;
 pub mod wholeness;
 

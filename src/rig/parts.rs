@@ -6,7 +6,7 @@
 //! makes creases dear to cross as well). Normals are smoothed for it, so that the stairs of a grid are no creases.
 
 use super::WeightBone;
-use super::heat::outward;
+use super::solid::sides::outward;
 use crate::character::{Humanoid, Role};
 use crate::geometry::laplacian::has_area;
 use crate::geometry::{Neighbours, SEAM, foot, neighbours, weld};

@@ -99,6 +99,11 @@ impl UnitFigure {
         &self.triangles[self.triangle_starts[mesh]..self.triangle_starts[mesh + 1]]
     }
 
+    /// The mesh of a triangle.
+    pub fn mesh_of(&self, triangle: usize) -> usize {
+        self.triangle_starts.partition_point(|&start| start <= triangle) - 1
+    }
+
     /// The triangles of those meshes that `choose` accepts by index.
     pub fn triangles_where(&self, choose: impl Fn(usize) -> bool) -> Vec<[u32; 3]> {
         (0..self.mesh_count())

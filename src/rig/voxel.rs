@@ -2,8 +2,8 @@
 //!
 //! Dionne and de Lasa. Geodesic voxel binding for production character meshes. SCA 2013 (reference 14).
 
-use super::geodesic::{Bone, Distances, Paths, place_bones};
-use super::volume::{OUTSIDE, Volume, nearest};
+use super::solid::geodesic::{Bone, Distances, Paths, place_bones};
+use super::solid::{OUTSIDE, Solid, Voxels};
 use super::wholeness::Wholeness;
 use super::{WeightBone, WeightSet};
 use crate::character::Weights;
@@ -82,7 +82,7 @@ pub fn voxel_weights(
         return Ok(WeightSet { weights: Weights::rigid(joint, positions.len()), fallback: BTreeMap::new() });
     }
     let resolution = options.resolution.clamp(16, 512);
-    let volume = Volume::new(positions, triangles, resolution);
+    let volume = Voxels::of(Solid::of_body(positions, triangles, resolution));
     progress.at(0.3)?;
     let segments: Vec<Vec<[DVec3; 2]>> =
         bones.iter().map(|bone| bone.segments.clone()).filter(|segments| !segments.is_empty()).collect();
@@ -91,8 +91,9 @@ pub fn voxel_weights(
     let falloff = if options.falloff.is_finite() { options.falloff.clamp(0.0, 1.0) } else { FALLOFF };
     let profile = Profile::new(falloff);
 
-    let points: Vec<DVec3> = positions.iter().map(|&p| volume.to_grid(p)).collect();
-    let slots: Vec<u32> = points.iter().map(|&p| volume.slot(nearest(p))).collect();
+    let points: Vec<DVec3> =
+        positions.iter().map(|&p| volume.solid.within(volume.solid.to_cells(p))).collect();
+    let slots: Vec<u32> = points.iter().map(|&p| volume.slot(volume.solid.nearest(p))).collect();
     progress.at(0.4)?;
     let distances = &mut progress.part(0.4, 0.9);
     let rows = distance_rows(&paths, &bones, &points, &slots, &profile, options.thread_count, distances)?;
@@ -230,7 +231,7 @@ fn distance_rows(
 
 /// The distance of a bone from `p`: of the voxels around it those that see the bone give the straight distance from `p`
 /// itself, the others their own.
-fn distance_at(volume: &Volume, distances: &Distances, bone: &Bone, p: DVec3) -> f32 {
+fn distance_at(volume: &Voxels, distances: &Distances, bone: &Bone, p: DVec3) -> f32 {
     let straight = p.distance(bone.foot(p));
     let corner = p.floor();
     let share = p - corner;

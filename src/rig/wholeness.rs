@@ -1,7 +1,7 @@
 //! Whether a surface is whole enough for heat: what flows along it stops where it ends.
 
 use super::WeightBone;
-use super::volume::{Volume, nearest};
+use super::solid::Solid;
 use crate::geometry::{SEAM, components, foot, weld};
 use glam::DVec3;
 use std::collections::{BTreeMap, BTreeSet};
@@ -42,12 +42,12 @@ pub struct Wholeness {
 impl Wholeness {
     /// Measures a surface; all in one space.
     pub fn of(positions: &[DVec3], triangles: &[[u32; 3]], bones: &[WeightBone]) -> Self {
-        let volume = Volume::grid(positions, triangles, RESOLUTION);
-        let points: Vec<DVec3> = positions.iter().map(|&p| volume.to_grid(p)).collect();
+        let grid = Solid::around(positions, triangles, RESOLUTION);
+        let points: Vec<DVec3> = positions.iter().map(|&p| grid.within(grid.to_cells(p))).collect();
         let size = RESOLUTION as f64;
         let bones: Vec<Vec<[DVec3; 2]>> = bones
             .iter()
-            .map(|bone| bone.segments.iter().map(|ends| ends.map(|p| volume.to_grid_free(p))).collect())
+            .map(|bone| bone.segments.iter().map(|ends| ends.map(|p| grid.to_cells(p))).collect())
             .collect();
         let weld = weld(&points, SEAM * size);
         let components = components(triangles, &weld);
@@ -106,7 +106,7 @@ impl Wholeness {
             }
             edges.extend([(a, b), (b, c), (c, a)].map(|(one, other)| (one.min(other), one.max(other))));
             let middle = triangle.iter().map(|&vertex| points[vertex as usize]).sum::<DVec3>() / 3.0;
-            voxels.push((volume.cell(nearest(middle)) as u32, component_of(triangle[0])));
+            voxels.push((grid.index(grid.nearest(middle)) as u32, component_of(triangle[0])));
         }
         edges.sort_unstable();
         let first = weld.first_vertices();

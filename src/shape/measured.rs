@@ -8,6 +8,7 @@ use super::product::head::head;
 use super::product::profile::chains::Chains;
 use super::product::profile::{BodyFrame, measure_profile};
 use crate::character::bones::{Bone, bones};
+use crate::character::mesh_list::MeshList;
 use crate::character::{Character, MeshKind, Role};
 use crate::error::Result;
 use crate::face::landmarks::FaceLandmarks;
@@ -73,6 +74,9 @@ impl Measured {
             parallel::both(threads, || surfaces(&figure), || Anatomy::of(&figure))
         };
         progress.at(0.4)?;
+        if surfaces.iter().all(Surface::is_empty) {
+            return Err(MeshList::no_area(character));
+        }
         let joints: BTreeMap<Role, DVec3> =
             figure.humanoid.iter().map(|(role, joint)| (role, figure.joints[joint])).collect();
         let least = anatomy.head_joint.y + LEAST_HEAD * figure.height();

@@ -10,7 +10,7 @@ use super::solid::{Solid, surface};
 use glam::{DMat3, DVec3, Vec3};
 use std::collections::BTreeMap;
 use superdeform::Role::{self, *};
-use superdeform::{Character, Mesh};
+use superdeform::{Character, Mesh, MeshKind};
 
 /// Numbers that a seed decides (Steele, Lea and Flood, Fast splittable pseudorandom number generators, 2014).
 pub struct Random(u64);
@@ -134,6 +134,8 @@ pub struct Figure {
     pub pieces: Vec<Piece>,
     pub pose: Pose,
     pub things: Vec<Thing>,
+    /// Where the pieces of each thing begin; those of the body come first.
+    pub worn: Vec<usize>,
     pub heads: f64,
     /// Depth and wavelength of the waves on its surface.
     pub waves: (f64, f64),
@@ -299,11 +301,13 @@ impl Figure {
             pieces,
             pose,
             things: things.to_vec(),
+            worn: Vec::new(),
             heads,
             waves,
         };
         let measures = Measures { head, head_half, head_middle, leg, torso, pelvis, shoulder_half, arm };
         for &thing in things {
+            figure.worn.push(figure.pieces.len());
             figure.add(thing, &measures, &mut random);
         }
         figure
@@ -395,7 +399,7 @@ impl Figure {
     }
 
     fn outside(&self, p: DVec3) -> f64 {
-        self.pieces.iter().map(|piece| piece.outside(p)).fold(f64::INFINITY, f64::min)
+        outside(&self.pieces, p)
     }
 
     /// One skin over all pieces, from a grid of `cells` cells a height, waves on it.
@@ -413,34 +417,124 @@ impl Figure {
 
     /// Every piece a closed shell of its own: all in one mesh, or a mesh each.
     pub fn shells(&self, meshes: bool) -> Character {
-        let parts: Vec<(String, Vec<DVec3>, Vec<[u32; 3]>)> = self
-            .pieces
-            .iter()
-            .enumerate()
-            .map(|(index, piece)| {
-                let (low, high) = piece.bounds();
-                let cell = ((high - low).max_element() / 24.0).clamp(0.002, 0.02);
-                let solid = Solid::of_field(low, high, cell, |p| piece.outside(p));
-                let (positions, triangles) = surface(&solid);
+        let parts: Vec<(String, Vec<DVec3>, Vec<[u32; 3]>)> = (0..self.pieces.len())
+            .map(|index| {
+                let (positions, triangles) = meshed(&self.pieces[index..=index]);
                 (format!("part_{index}"), positions, triangles)
             })
             .collect();
         if meshes {
             return character(parts);
         }
-        let mut one = (String::new(), Vec::new(), Vec::new());
-        for (_, positions, triangles) in parts {
-            let start = one.1.len() as u32;
-            one.1.extend(positions);
-            one.2.extend(triangles.into_iter().map(|corners| corners.map(|vertex| vertex + start)));
+        let (positions, triangles) = meshed(&self.pieces);
+        character(vec![(String::new(), positions, triangles)])
+    }
+
+    /// As games have people: meshes with names and kinds, the head open under its hair, of every other figure what is below
+    /// its shirt left out, of every third each triangle of the body twice, once for either side.
+    pub fn dressed(&self) -> Character {
+        let mut random = Random::new(self.heads.to_bits());
+        let head = 1.0 / self.heads;
+        let body = &self.pieces[..self.worn.first().copied().unwrap_or(self.pieces.len())];
+        let Some(Piece::Ball(middle, half, _)) = body.iter().find(
+            |piece| matches!(piece, Piece::Ball(m, h, _) if m.y > 1.0 - 0.6 * head && h.y > 0.4 * head),
+        ) else {
+            unreachable!("a figure has a head")
+        };
+        // Hair: a sheet over the head, off it by so much, down to the brow in front and to the nape behind.
+        let off = random.within(1.02, 1.15);
+        let is_covered = |p: DVec3| {
+            let (up, ahead) = ((p.y - middle.y) / half.y, (p.z - middle.z) / half.z);
+            up > 0.3 + 0.8 * ahead.min(0.3)
+        };
+        let (low, high) = bounds(body);
+        let skin = Solid::of_field(low, high, 1.0 / 128.0, |p| outside(body, p));
+        let (positions, mut triangles) = surface(&skin);
+        let hair = Piece::Ball(*middle, *half * off, DMat3::IDENTITY);
+        let ends = random.within(0.25, 0.9);
+        // A shirt over the trunk and the upper arms, open at neck, hem and cuffs.
+        let (neck, hem) = (self.joints[&Neck].y, self.joints[&Hips].y);
+        let sleeve = |p: DVec3, left: bool| {
+            let [a, b] = [LeftUpperArm, LeftLowerArm].map(|role| self.joints[&sided(role, left)]);
+            let along = (b - a).normalize_or_zero();
+            (p - a).dot(along) / (b - a).length()
+        };
+        let is_shirt = |p: DVec3, ends: f64| {
+            let arm = [true, false].map(|left| sleeve(p, left));
+            let beside = p.x.abs() > 0.8 * self.joints[&LeftUpperArm].x;
+            let way = if p.x > 0.0 { arm[0] } else { arm[1] };
+            p.y < neck && (p.y > hem && !beside || beside && (0.0..ends).contains(&way))
+        };
+        let shirt = Solid::of_field(low - 0.02, high + 0.02, 1.0 / 128.0, |p| outside(body, p) - 0.008);
+        let (cloth, mut cloth_triangles) = surface(&shirt);
+        let middle_of = |positions: &[DVec3], corners: &[u32; 3]| {
+            corners.iter().map(|&vertex| positions[vertex as usize]).sum::<DVec3>() / 3.0
+        };
+        cloth_triangles.retain(|corners| is_shirt(middle_of(&cloth, corners), ends));
+        let (hidden, doubled) = (random.chance(0.5), random.chance(0.33));
+        triangles.retain(|corners| {
+            let p = middle_of(&positions, corners);
+            !(is_covered(p) || hidden && is_shirt(p, ends - 0.15) && p.y > hem + 0.03)
+        });
+        if doubled {
+            triangles.extend(triangles.clone().into_iter().map(|[a, b, c]| [a, c, b]));
         }
-        character(vec![one])
+        let mut meshes =
+            vec![("Body".to_string(), positions, triangles), ("Shirt".to_string(), cloth, cloth_triangles)];
+        let (sheet, mut sheet_triangles) = meshed(&[hair]);
+        sheet_triangles.retain(|corners| is_covered(middle_of(&sheet, corners)));
+        meshes.push(("Hair".to_string(), sheet, sheet_triangles));
+        let eyes = [1.0, -1.0].map(|sign| {
+            let at = *middle + DVec3::new(0.4 * sign * half.x, 0.0, 0.85 * half.z);
+            Piece::Ball(at, DVec3::splat(0.09 * head), DMat3::IDENTITY)
+        });
+        let (balls, balls_triangles) = meshed(&eyes);
+        meshes.push(("Eyes".to_string(), balls, balls_triangles));
+        for (index, (&thing, &start)) in self.things.iter().zip(&self.worn).enumerate() {
+            let end = self.worn.get(index + 1).copied().unwrap_or(self.pieces.len());
+            let (positions, triangles) = meshed(&self.pieces[start..end]);
+            meshes.push((format!("{thing:?}"), positions, triangles));
+        }
+        let mut character = character(meshes);
+        for mesh in &mut character.meshes {
+            mesh.kind = match mesh.name.as_str() {
+                "Hair" | "LongHair" | "Buns" | "Pigtails" | "Ponytail" => Some(MeshKind::Hair),
+                "Shirt" | "Skirt" | "Cape" => Some(MeshKind::Garment),
+                "Hat" | "Brim" | "Sword" => Some(MeshKind::Accessory),
+                "Eyes" => Some(MeshKind::FacePart),
+                _ => Some(MeshKind::Body),
+            };
+        }
+        character
     }
 
     fn bounds(&self) -> (DVec3, DVec3) {
-        let none = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-        self.pieces.iter().map(Piece::bounds).fold(none, |a, b| (a.0.min(b.0), a.1.max(b.1)))
+        bounds(&self.pieces)
     }
+}
+
+fn bounds(pieces: &[Piece]) -> (DVec3, DVec3) {
+    let none = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    pieces.iter().map(Piece::bounds).fold(none, |a, b| (a.0.min(b.0), a.1.max(b.1)))
+}
+
+fn outside(pieces: &[Piece], p: DVec3) -> f64 {
+    pieces.iter().map(|piece| piece.outside(p)).fold(f64::INFINITY, f64::min)
+}
+
+/// A closed shell around each piece.
+fn meshed(pieces: &[Piece]) -> (Vec<DVec3>, Vec<[u32; 3]>) {
+    let (mut positions, mut triangles) = (Vec::new(), Vec::new());
+    for piece in pieces {
+        let (low, high) = piece.bounds();
+        let cell = ((high - low).max_element() / 24.0).clamp(0.002, 0.02);
+        let solid = Solid::of_field(low, high, cell, |p| piece.outside(p));
+        let start = positions.len() as u32;
+        let (more, faces) = surface(&solid);
+        positions.extend(more);
+        triangles.extend(faces.into_iter().map(|corners| corners.map(|vertex| vertex + start)));
+    }
+    (positions, triangles)
 }
 
 struct Measures {

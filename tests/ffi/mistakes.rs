@@ -33,6 +33,7 @@ struct Host {
     too_long: SdefGroupSettings,
     knees: SdefGroupSettings,
     nameless: SdefGroupSettings,
+    of_zeros: SdefGroupSettings,
     mixed: [SdefGroupSettings; 2],
     bone: SdefBoneGroup,
     joint_of_no_role: SdefGivenJoint,
@@ -66,6 +67,11 @@ impl Host {
             twice: [group_settings(c"upper_leg"); 2],
             too_long: SdefGroupSettings { length_scale: 1000.0, ..group_settings(c"upper_leg") },
             nameless: SdefGroupSettings::default(),
+            of_zeros: SdefGroupSettings {
+                struct_size: size_of::<SdefGroupSettings>() as u32,
+                group: c"torso".as_ptr(),
+                ..zeroed()
+            },
             mixed: [
                 group_settings(c"foot"),
                 SdefGroupSettings { struct_size: 16, ..group_settings(c"hand") },
@@ -421,6 +427,12 @@ const CASES: &[(&str, u32, &str, Call)] = &[
         Deform(FULL, |host, options| (options.groups, options.group_count) = (&host.too_long, 1)),
     ),
     (
+        "a group of zeros",
+        OPTION,
+        "torso is 0: give a number from 0.01 to 10, or NAN to leave it as it is (length_scale)",
+        Deform(FULL, |host, options| (options.groups, options.group_count) = (&host.of_zeros, 1)),
+    ),
+    (
         "an unknown group",
         OPTION,
         "knees",
@@ -487,7 +499,12 @@ const CASES: &[(&str, u32, &str, Call)] = &[
     ("a bone twice", STYLE, "bones 1", Bones([(55, 1.0); 2])),
     ("a bone of length -1", STYLE, "-1", Bones([(55, 1.0), (5, -1.0)])),
     ("a blend of 11", OPTION, "11", Other(|host, error| blended(host.measured, 11.0, error))),
-    ("a blend with N heads", STYLE, "N heads", Other(|host, error| blended(host.of_heads, 0.5, error))),
+    (
+        "a blend with N heads",
+        STYLE,
+        "number of heads",
+        Other(|host, error| blended(host.of_heads, 0.5, error)),
+    ),
     (
         "N heads as JSON",
         STYLE,
@@ -647,4 +664,39 @@ fn every_mistake_gets_its_status_and_a_sentence() {
     let characters = [host.full, host.empty, host.bare].map(|handle| handle.id);
     let others = [host.of_heads.id, host.measured.id, host.deformer.id];
     characters.into_iter().chain(others).for_each(destroy);
+}
+
+/// Gives a person whose meshes were changed a style; what that says.
+fn refused(change: impl Fn(&mut superdeform::Mesh)) -> Failed {
+    let mut character = person().clone();
+    character.meshes.iter_mut().for_each(change);
+    let (character, style) = (given(&character), of_heads(2.5));
+    let failed = deformer_with(character, style, null(), None, null_mut()).unwrap_err();
+    destroy(character.id);
+    destroy(style.id);
+    failed
+}
+
+#[test]
+fn what_nothing_can_be_measured_beside_is_named() {
+    let _at_work = at_work();
+    // One vertex that a fault has flung away.
+    let body = &person().meshes[0].name;
+    let failed = refused(|mesh| {
+        if mesh.name == *body {
+            let vertex = mesh.triangles[7][1] as usize;
+            mesh.positions[vertex] = Vec3::new(0.5, 1e30, -2.0);
+        }
+    });
+    let vertex = person().meshes[0].triangles[7][1];
+    assert_eq!(
+        (failed.status, failed.mesh, failed.element),
+        (SDEF_STATUS_NO_GEOMETRY, Some(0), Some(vertex)),
+        "{failed:?}"
+    );
+    assert!(failed.message.contains(&format!("vertex, {vertex} at [0.5, 1e30, -2.0]")), "{failed:?}");
+    // Triangles of one corner.
+    let failed = refused(|mesh| mesh.triangles.iter_mut().for_each(|corners| *corners = [corners[0]; 3]));
+    assert_eq!(failed.status, SDEF_STATUS_NO_GEOMETRY, "{failed:?}");
+    assert!(failed.message.contains("no triangle of the character has an area"), "{failed:?}");
 }

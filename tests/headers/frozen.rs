@@ -4,7 +4,7 @@ use crate::layout;
 
 /// What hosts are built with: constants, fields in their order with their offsets, sizes, functions and callbacks, a line each.
 ///
-/// The release's own version and what macros begin a struct with are no part of it: a struct may grow.
+/// The release's own version and what macros begin a struct with are no part of it: a struct with struct_size may grow.
 ///
 /// - `header`: as [`c_header`](crate::c_header) gives it.
 pub fn abi(header: &str) -> Vec<String> {
@@ -63,10 +63,15 @@ pub fn broken(frozen: &[String], now: &[String]) -> Vec<String> {
     for line in frozen {
         if let Some((name, size)) = placed(line, "SIZE") {
             let own = now.iter().filter_map(|line| placed(line, "SIZE")).find(|(of, _)| *of == name);
-            if own.is_none_or(|(_, own)| own < size) {
-                broken.push(format!("{name} has become smaller than {size} bytes"));
+            let says_its_size = frozen.contains(&format!("AT({name}, struct_size, 0);"));
+            match own {
+                Some((_, own)) if own == size || (own > size && says_its_size) => {}
+                Some((_, own)) if own > size => {
+                    broken.push(format!("{name} goes by value and has grown from {size} bytes to {own}"));
+                }
+                _ => broken.push(format!("{name} has become smaller than {size} bytes")),
             }
-            // In the padding at its end an older host has anything.
+            // In the padding at its end an older host has anything. What goes by value does not grow at all.
             let is_new = |line: &&String| line.starts_with("AT(") && !frozen.contains(line);
             let early = now
                 .iter()

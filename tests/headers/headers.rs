@@ -78,7 +78,8 @@ fn the_frozen_abi_is_kept() {
 #[test]
 fn what_would_break_hosts_is_found() {
     let before = "#define SDEF_A 1\ntypedef uint32_t SdefStatus;\ntypedef struct SdefS {\n  uint32_t struct_size;\n  uint32_t a;\n  \
-                  double b;\n  uint32_t c;\n} SdefS;\nSDEF_API SdefStatus sdef_f(SdefS *s,\n    uint32_t n);\n";
+                  double b;\n  uint32_t c;\n} SdefS;\ntypedef struct SdefH { uint64_t id; } SdefH;\n\
+                  SDEF_API SdefStatus sdef_f(SdefH h,\n    SdefS *s, uint32_t n);\n";
     let frozen = abi(before);
     let found = |from: &str, to: &str| broken(&frozen, &abi(&before.replace(from, to)));
     assert_eq!(found("", ""), Vec::<String>::new());
@@ -97,6 +98,9 @@ fn what_would_break_hosts_is_found() {
         ("  uint32_t a;\n  double b;\n", "  double b;\n  uint32_t a;\n"),
         // In the padding that an older host left.
         ("  uint32_t c;\n", "  uint32_t c;\n  uint32_t d;\n"),
+        // A handle goes by value: with a second number it lies in other registers.
+        ("{ uint64_t id; }", "{ uint64_t id; uint64_t generation; }"),
+        ("{ uint64_t id; }", "{ uint32_t id; }"),
         ("uint32_t n", "uint64_t n"),
         ("sdef_f", "sdef_h"),
         ("typedef uint32_t SdefStatus", "typedef int32_t SdefStatus"),

@@ -189,11 +189,11 @@ internal static unsafe partial class Native
     /// <summary>
     /// Makes an empty character.
     ///
-    /// up:        3 floats, from the feet to the head, any length but 0; NULL: (0, 1, 0), or for a character without a rig
-    /// another axis along which it stands as people do
-    /// forward:   3 floats, the way the face looks, at any angle to up but 0. NULL: found, from left and right limbs where
-    /// there are joints, else from feet and face. Left and right are told as in right-handed axes: a host with
-    /// left-handed ones gives forward, and rig_left_handed to sdef_character_rig
+    /// up:        3 floats, from the feet to the head, of a length from 1e-15 to 1e15; NULL: (0, 1, 0), or for a character
+    /// without a rig another axis along which it stands as people do
+    /// forward:   3 floats, the way the face looks, a tenth of a degree or more off up. NULL: found, from left and right
+    /// limbs where there are joints, else from feet and face. Left and right are told as in right-handed axes: a
+    /// host with left-handed ones gives forward, and rig_left_handed to sdef_character_rig
     /// character: receives the handle
     ///
     /// Errors: BAD_ARGUMENT, BAD_INPUT.
@@ -341,7 +341,7 @@ internal static unsafe partial class Native
     /// which:  SDEF_FIGURE_*
     /// figure: struct_size is set before
     ///
-    /// The first call after a change measures the result, as sdef_deformer_get_report does.
+    /// The first call after a change measures the result: sdef_deformer_measure says how far that is.
     ///
     /// Errors: BAD_ARGUMENT; NO_GEOMETRY where the result is too flat to be measured.
     /// </summary>
@@ -388,8 +388,8 @@ internal static unsafe partial class Native
         SdefError* error);
 
     /// <summary>
-    /// Measures the result and gives the numbers of the run. The first call after a change takes as long as an apply and a
-    /// measurement together; later ones are for free.
+    /// Gives the numbers of the run. The first call after a change measures the result: sdef_deformer_measure says how far
+    /// that is.
     ///
     /// report:   may be NULL
     /// json:     receives everything as JSON text, by the keys that README lists: figures, groups, joints, times, warnings.
@@ -450,6 +450,21 @@ internal static unsafe partial class Native
         double* positions,
         double* scales,
         double* jacobians,
+        SdefError* error);
+
+    /// <summary>
+    /// Measures the result, as the first call of sdef_deformer_get_figure or _get_report after a change does, and says how far
+    /// it is; after it both are for free. It takes as long as an apply and a measurement together.
+    ///
+    /// progress, user: see Progress above
+    ///
+    /// Errors: NO_GEOMETRY where the result is too flat to be measured; OUT_OF_MEMORY; CANCELLED.
+    /// </summary>
+    [DllImport(Library, ExactSpelling = true, CallingConvention = CallingConvention.Cdecl)]
+    internal static extern UInt32 sdef_deformer_measure(
+        SdefDeformer deformer,
+        SdefProgress progress,
+        void* user,
         SdefError* error);
 
     /// <summary>
@@ -559,7 +574,8 @@ internal static unsafe partial class Native
     ///
     /// amount: 0 is first, 1 second; 0 to 1
     ///
-    /// Errors: BAD_STYLE for a style of N heads that is like none, or where the result would be no body; BAD_OPTION.
+    /// Errors: BAD_STYLE where one of the two is nothing but a number of heads and the other is not, or where the result would
+    /// be no body; BAD_OPTION.
     /// </summary>
     [DllImport(Library, ExactSpelling = true, CallingConvention = CallingConvention.Cdecl)]
     internal static extern UInt32 sdef_style_blend(
@@ -657,7 +673,7 @@ internal static unsafe partial class Native
     /// capacity: bytes that text can hold
     /// size:     receives the bytes needed, the terminating NUL among them; may be NULL
     ///
-    /// Errors: BAD_STYLE for a style of N heads that is like none: save the number.
+    /// Errors: BAD_STYLE for a style that is nothing but a number of heads: save the number.
     /// </summary>
     [DllImport(Library, ExactSpelling = true, CallingConvention = CallingConvention.Cdecl)]
     internal static extern UInt32 sdef_style_to_json(
@@ -792,8 +808,8 @@ internal unsafe struct SdefError {
 /// rows:  vertex v has the joints and weights row_starts[v] to row_starts[v + 1] - 1; influence_count is how many there
 /// are in all, row_starts holds vertex_count + 1 numbers that rise from 0, both strides are 0.
 /// Weights are 0 or more; each vertex's are scaled to sum 1 where it matters. Weight 0 may name any joint. A vertex
-/// whose weights are all 0 moves with the hips, and so does a mesh without weights beside a skeleton: what is fixed to a
-/// joint (a sword, a cape) has weight 1 to it throughout.
+/// whose weights are all 0 moves with the hips, and so does a mesh without weights beside a skeleton: what is rigid
+/// (a sword, a helmet) has a joint of its own where it begins, a child of the joint that holds it, and weight 1 to that.
 /// </summary>
 [StructLayout(LayoutKind.Sequential)]
 internal unsafe struct SdefMesh {
@@ -808,8 +824,9 @@ internal unsafe struct SdefMesh {
     public UInt32 kind;
 
     /// <summary>
-    /// for messages, and for guessing the kind by English words in it (hair, eyelash, skirt, hat): "node/mesh/material",
-    /// of which the one that the fewest meshes share counts first, where the mesh lies as it says; may be NULL
+    /// for messages, and for guessing the kind from English words (hair, eyelash, skirt, hat); may be NULL. Best is
+    /// "node/mesh/material": the part that the fewest meshes share is read first. A word counts where the mesh lies where
+    /// such a thing lies: hair on the head
     /// </summary>
     public sbyte* name;
 
@@ -1627,8 +1644,8 @@ internal unsafe struct SdefReport {
     public UInt32 rig_made;
 
     /// <summary>
-    /// the report's g: head length of the target over that of the style, times head_scale; 1 for a style of N heads that
-    /// is like none
+    /// the report's g: head length of the target over that of the style, times head_scale; 1 for a style that is nothing
+    /// but a number of heads
     /// </summary>
     public double head_ratio;
 
@@ -1783,7 +1800,7 @@ internal unsafe struct SdefStyleNumbers {
     public UInt32 reserved;
 
     /// <summary>
-    /// how many heads tall: a style for N heads is made of it, of others it is only told
+    /// how many heads tall. It makes a style that is nothing but a number of heads; of others it is told, and not read
     /// </summary>
     public double heads;
 

@@ -30,6 +30,8 @@ const STACK: usize = 8 << 20;
 pub struct Outcome {
     /// The table, for a person.
     pub table: String,
+    /// What was found and not converted, a sentence each.
+    pub left_out: Vec<String>,
     /// One line for each file that failed.
     pub failures: Vec<String>,
     /// How many files there were.
@@ -42,7 +44,8 @@ pub struct Outcome {
 /// One sentence where nothing can be begun: no inputs, a style that cannot be read, a folder that cannot be written.
 pub fn run(batch: &Batch) -> Result<Outcome, String> {
     let start = Instant::now();
-    let items = plan::plan(&batch.inputs, batch.root.as_deref(), &batch.output)?;
+    let plan = plan::plan(&batch.inputs, batch.root.as_deref(), &batch.output)?;
+    let items = plan.items;
     let first = command(batch, &items[0])?;
     let source = run::Source::of(&first)?;
     let settings = settings_hash(batch)?;
@@ -85,6 +88,7 @@ pub fn run(batch: &Batch) -> Result<Outcome, String> {
     }
     let failed = rows.iter().filter(|row| row.status == Status::Failed);
     Ok(Outcome {
+        left_out: plan.left_out,
         table: summary::table(&rows, seconds),
         failures: failed.map(Row::line).collect(),
         count: rows.len(),

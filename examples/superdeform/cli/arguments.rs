@@ -12,7 +12,7 @@ use values::{choice, count, help, number};
 
 /// Turns a 3D character into its super-deformed (SD, chibi) version.
 #[derive(Debug, Parser)]
-#[command(name = "superdeform", version, max_term_width = 100, after_help = EXAMPLES)]
+#[command(name = "superdeform", version, max_term_width = 100, after_help = SHORT, after_long_help = EXAMPLES)]
 pub struct Single {
     /// The character to change: GLB, or VRM 0.x or 1.0 [default: a sample]
     pub target: Option<PathBuf>,
@@ -183,6 +183,10 @@ pub struct Arguments {
     #[arg(long)]
     pub thumbnail: bool,
 
+    /// Print every note, not only how many there are
+    #[arg(short, long)]
+    pub verbose: bool,
+
     /// Print nothing but errors
     #[arg(short, long)]
     pub quiet: bool,
@@ -239,6 +243,10 @@ const METHOD: &str = "Method";
 const NEW_RIG: &str = "Rig";
 const READING: &str = "Reading the files";
 
+const SHORT: &str = "\
+Example: superdeform hero.vrm --heads 2.5 --picture hero.png -o hero_sd.vrm
+All options: superdeform --help. Many files at a time: superdeform batch -h.";
+
 const EXAMPLES: &str = "\
 Examples:
   superdeform                                           the sample pair
@@ -246,6 +254,8 @@ Examples:
   superdeform hero.vrm --heads 2.5 -o hero_sd.vrm --picture hero.png
   superdeform hero.vrm chibi.glb --group upper_leg:length=0.4 --amount 0.8
   superdeform batch avatars --style sd2.5 -o avatars_sd     many at a time; see superdeform batch --help
+  superdeform completions bash                          bash, zsh, fish, powershell, elvish
+  superdeform man                                       this as a manual page; superdeform man batch
 
 Bone groups: head neck torso shoulder upper_arm lower_arm hand finger hip upper_leg lower_leg foot.
 Exit codes: 0 done, 1 bad input (one sentence on standard error), 2 wrong usage.";

@@ -1,7 +1,7 @@
 //! The command line of a batch: `superdeform batch INPUTS... --style STYLE -o FOLDER`.
 
 use super::arguments::{Arguments, Single};
-use super::{Command, Refusal, command, refusal};
+use super::{Command, Refusal, command, parsed};
 use crate::batch::plan::with_ending;
 use clap::Parser;
 use std::ffi::OsString;
@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 
 /// Turns many 3D characters into their super-deformed versions, several at a time.
 #[derive(Clone, Debug, Parser)]
-#[command(name = "superdeform batch", version, max_term_width = 100, after_help = EXAMPLES)]
+#[command(name = "superdeform batch", version, max_term_width = 100, after_help = SHORT, after_long_help = EXAMPLES)]
 pub struct Batch {
     /// The characters: files, folders (.vrm, .glb and .gltf in them, to the bottom), or patterns such as 'in/*.vrm'
     #[arg(required = true)]
@@ -59,7 +59,7 @@ impl Batch {
     pub fn parse_from_words(words: impl IntoIterator<Item = OsString>) -> Result<Self, Refusal> {
         let mut words = words.into_iter();
         let name = words.next().unwrap_or_default();
-        let batch = Self::try_parse_from(std::iter::once(name).chain(words.skip(1))).map_err(refusal)?;
+        let batch: Self = parsed(std::iter::once(name).chain(words.skip(1)).collect())?;
         // What each file would refuse is refused before the first.
         batch.command(Path::new("a.glb"), Path::new("a_sd.glb"), Path::new("a_sd.glb.json"))?;
         Ok(batch)
@@ -90,6 +90,10 @@ fn gigabytes(text: &str) -> Result<f64, String> {
         _ => Err(format!("`{text}` is no amount of memory: give gigabytes above 0")),
     }
 }
+
+const SHORT: &str = "\
+Example: superdeform batch avatars --style sd2.5 -o avatars_sd
+All options, those of a single run too: superdeform batch --help.";
 
 const EXAMPLES: &str = "\
 Examples:

@@ -2,12 +2,14 @@
 
 mod arguments;
 pub mod batch;
+pub mod pages;
 mod values;
 
-use crate::input;
+use crate::input::{self, Model};
+use crate::samples;
 use arguments::{Arguments, Single};
 use clap::error::ErrorKind;
-use clap::{Parser, ValueEnum};
+use clap::{CommandFactory, Parser, ValueEnum};
 use regex_lite::Regex;
 use std::collections::BTreeMap;
 use std::ffi::OsString;
@@ -25,7 +27,7 @@ const OUTPUT_FOLDER: &str = "superdeform-out";
 #[derive(Clone, Debug, PartialEq)]
 pub enum Reference {
     /// A rigged GLB or VRM.
-    Model(PathBuf),
+    Model(Model),
     /// A style saved with `--save-style`.
     Style(PathBuf),
     /// One of the styles that the library brings along.
@@ -38,7 +40,7 @@ pub enum Reference {
 #[derive(Clone, Debug)]
 pub struct Command {
     /// The character to change.
-    pub target: PathBuf,
+    pub target: Model,
     /// Where the proportions come from.
     pub reference: Reference,
     /// The changed character; its format is the target's.
@@ -79,6 +81,8 @@ pub struct Command {
     pub thumbnail: bool,
     /// Print nothing but errors.
     pub quiet: bool,
+    /// Print every note.
+    pub verbose: bool,
 }
 
 /// Why there is no [`Command`].
@@ -105,7 +109,23 @@ pub enum Rig {
 /// # Errors
 /// [`Refusal`]: help or version, wrong usage, or a file of `--groups` that cannot be read.
 pub fn parse(arguments: impl IntoIterator<Item = impl Into<OsString> + Clone>) -> Result<Command, Refusal> {
-    command(Single::try_parse_from(arguments).map_err(refusal)?)
+    command(parsed(arguments.into_iter().map(Into::into).collect())?)
+}
+
+/// Reads the words of a command; `--help` has all options, `-h` those that are used most.
+fn parsed<T: Parser + CommandFactory>(mut words: Vec<OsString>) -> Result<T, Refusal> {
+    if words.get(1).is_some_and(|word| word == "help") && words.len() == 2 {
+        words[1] = "--help".into();
+    }
+    let all = words.iter().any(|word| word == "--help");
+    let parsed = pages::command::<T>().try_get_matches_from(words);
+    parsed.and_then(|matches| T::from_arg_matches(&matches)).map_err(|error| {
+        if all && error.kind() == ErrorKind::DisplayHelp {
+            Refusal::Answer(pages::help::<T>())
+        } else {
+            refusal(error)
+        }
+    })
 }
 
 fn refusal(error: clap::Error) -> Refusal {
@@ -158,15 +178,22 @@ fn command(single: Single) -> Result<Command, Refusal> {
             path.display()
         )));
     }
-    let target = single.target.unwrap_or_else(|| sample("quaternius_female_dress_unrigged.glb"));
+    let target = single.target.map_or(Model::Sample(&samples::TARGET), Model::File);
     let reference = match (arguments.heads, single.reference) {
         (Some(heads), _) => Reference::Heads(heads),
         (None, Some(path)) if path.to_str().is_some_and(|name| BUILT_IN.contains(&name)) => {
             Reference::BuiltIn(path.to_string_lossy().into_owned())
         }
         (None, Some(path)) if has_extension(&path, "json") => Reference::Style(path),
-        (None, Some(path)) => Reference::Model(path),
-        (None, None) => Reference::Model(sample("kaykit_rogue.glb")),
+        (None, Some(path)) if is_misspelt(&path) => {
+            return Err(Refusal::Usage(format!(
+                "{} is neither a file nor a built-in style: give a GLB, a VRM, a saved style (.json) or one of {}",
+                path.display(),
+                BUILT_IN.join(", ")
+            )));
+        }
+        (None, Some(path)) => Reference::Model(Model::File(path)),
+        (None, None) => Reference::Model(Model::Sample(&samples::REFERENCE)),
     };
     if single.save_style.is_some() && !matches!(reference, Reference::Model(_)) {
         return Err(Refusal::Usage(
@@ -223,6 +250,7 @@ fn command(single: Single) -> Result<Command, Refusal> {
         leaf_joints: arguments.leaf_joints,
         thumbnail: arguments.thumbnail,
         quiet: arguments.quiet,
+        verbose: arguments.verbose,
     };
     check_paths(&command)?;
     Ok(command)
@@ -253,9 +281,11 @@ fn options(arguments: &Arguments) -> Result<Options, Refusal> {
 
 /// Refuses to write over an input, or two results into one file.
 fn check_paths(command: &Command) -> Result<(), Refusal> {
-    let mut inputs = vec![&command.target];
-    if let Reference::Model(path) | Reference::Style(path) = &command.reference {
-        inputs.push(path);
+    let mut inputs: Vec<&PathBuf> = command.target.path().into_iter().collect();
+    match &command.reference {
+        Reference::Model(model) => inputs.extend(model.path()),
+        Reference::Style(path) => inputs.push(path),
+        Reference::BuiltIn(_) | Reference::Heads(_) => {}
     }
     inputs.extend(command.blend.as_ref().map(|(path, _)| path));
     inputs.extend(&command.humanoid);
@@ -284,7 +314,7 @@ fn check_paths(command: &Command) -> Result<(), Refusal> {
 }
 
 /// True where both paths lead to one file, whether by spelling or by links.
-fn same_file(first: &Path, second: &Path) -> bool {
+pub fn same_file(first: &Path, second: &Path) -> bool {
     first == second
         || match (first.canonicalize(), second.canonicalize()) {
             (Ok(first), Ok(second)) => first == second,
@@ -292,12 +322,16 @@ fn same_file(first: &Path, second: &Path) -> bool {
         }
 }
 
-/// One of the files in `tests/data`.
-fn sample(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data").join(name)
+/// True for a name that is no file's, and does not look like a model's.
+fn is_misspelt(path: &Path) -> bool {
+    !path.exists() && !["glb", "vrm", "gltf"].iter().any(|ending| has_extension(path, ending))
 }
 
-fn default_output(target: &Path) -> PathBuf {
+fn default_output(target: &Model) -> PathBuf {
+    let target = match target {
+        Model::File(path) => path,
+        Model::Sample(sample) => Path::new(sample.name),
+    };
     let mut name = target.file_stem().unwrap_or_default().to_os_string();
     name.push(if has_extension(target, "vrm") { "_sd.vrm" } else { "_sd.glb" });
     Path::new(OUTPUT_FOLDER).join(name)
@@ -332,8 +366,8 @@ mod tests {
     #[test]
     fn no_arguments_mean_the_sample_pair_and_three_results() {
         let command = parsed(&[]);
-        assert!(command.target.exists());
-        assert!(matches!(&command.reference, Reference::Model(path) if path.exists()));
+        assert_eq!(command.target, Model::Sample(&samples::TARGET));
+        assert_eq!(command.reference, Reference::Model(Model::Sample(&samples::REFERENCE)));
         assert_eq!(command.output, Path::new("superdeform-out/quaternius_female_dress_unrigged_sd.glb"));
         assert_eq!(
             command.picture.unwrap(),
@@ -391,7 +425,7 @@ mod tests {
             (&["--group", "tail:length=1"], &["tail", "upper_leg"]),
             (&["--group", "foot:girth=1"], &["girth", "thickness"]),
             (&["--blend", "x.json:2"], &["2", "0 to 1"]),
-            (&["--body", "("], &["unclosed group"]),
+            (&["--body", "("], &["open group"]),
             (&["--up", "w"], &["+X"]),
             (&["--forward", "-Y"], &["--up", "--forward"]),
             (&["a.glb", "b.glb", "-o", "a.glb"], &["a.glb"]),
@@ -405,6 +439,10 @@ mod tests {
             for word in words {
                 assert!(text.contains(word), "{arguments:?}: {text}");
             }
+        }
+        for style in ["sd7", "sd2.7", "chibi"] {
+            let (code, text) = refused(&["a.glb", style]);
+            assert!(code == 2 && text.contains(style) && text.contains("sd2, sd2.5, sd3, sd4"), "{text}");
         }
         assert_eq!(refused(&["a.glb", "b.glb", "--heads", "2"]).0, 2);
         assert_eq!(refused(&["--unknown"]).0, 2);
@@ -488,6 +526,20 @@ mod tests {
         ] {
             assert!(text.contains(words), "{words}: {text}");
         }
+    }
+
+    #[test]
+    fn short_help_has_a_dozen_options_on_a_screen_and_help_has_all() {
+        let screen = |text: &str| text.lines().map(|line| line.chars().count().div_ceil(100).max(1)).sum();
+        let flags = |text: &str| text.lines().filter(|line| line.trim_start().starts_with('-')).count();
+        let (short, long) = (refused(&["-h"]).1, refused(&["--help"]).1);
+        // A dozen, help and version.
+        assert_eq!(flags(&short), 14, "{short}");
+        let rows: usize = screen(&short);
+        assert!(rows <= 36, "{rows} rows: {short}");
+        let all = Single::command().get_arguments().filter(|argument| argument.get_long().is_some()).count();
+        assert_eq!(flags(&long), all + 2, "{long}");
+        assert_eq!(refused(&["help"]), (0, long));
     }
 
     #[test]

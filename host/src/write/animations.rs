@@ -1,146 +1,182 @@
-//! Translation tracks of animations.
+//! Tracks of animations: those that are made anew, and those that keep their keys.
 
+use super::clips::{NewTracks, Retarget};
 use super::nodes::Shift;
-use super::{MapPoint, Place, Slot, extent, same_bits};
+use super::{Place, Slot, same_bits};
 use crate::accessor::Reader;
 use crate::load::Loaded;
 use crate::{array_at, bad_input, index_at, text_at};
 use glam::{DVec3, Vec3};
 use serde_json::{Value, json};
-use std::collections::BTreeMap;
-use superdeform::{Deformed, Result, Role};
+use std::collections::{BTreeMap, BTreeSet};
+use superdeform::Result;
 
-/// New over old height of the hips above the ground, which is as low as the lowest vertex.
-pub(super) fn hip_ratio(loaded: &Loaded, deformed: &Deformed) -> f64 {
-    let up = loaded.character.axes.up.as_dvec3().normalize_or(DVec3::Y);
-    let Some(hips) = loaded.character.humanoid.joint(Role::Hips) else {
-        return 1.0;
-    };
-    let (low, high) = extent(loaded.character.meshes.iter().map(|mesh| mesh.positions.as_slice()), up);
-    let (new_low, _) = extent(deformed.meshes.iter().map(|mesh| mesh.positions.as_slice()), up);
-    let before = loaded.character.skeleton.joints[hips].position().dot(up) - low;
-    let after = deformed.joints[hips].dot(up) - new_low;
-    let ratio = after / before;
-    // Hips at or below the soles tell nothing.
-    if before > 1e-3 * (high - low) && ratio.is_finite() && ratio > 0.0 { ratio } else { 1.0 }
-}
-
-/// What translation tracks are scaled by, beside the field.
-#[derive(Clone, Copy)]
-pub(super) struct ClipScales<'a> {
-    /// As [`hip_ratio`] gives it.
-    pub(super) hip_ratio: f64,
-    /// Added to the hips' keys of each animation; empty where nothing is.
-    pub(super) carries: &'a [DVec3],
-}
-
-/// Translation tracks: how far a key lies from the rest is scaled, and the rest is the new one.
-///
-/// The scale is that of the hips' height for the hips and for what does not hang from them (a root that travels, feet
-/// that an animation places by themselves), and the field's own for what moves within the body (eyelids, a jaw). A track
-/// that keeps a joint at its old rest keeps it at its new rest.
+/// The tracks of all animations: what a clip's retargeting sets, and the places of all other nodes, of which a key is as far
+/// from the new rest as it was from the old one, scaled. A track that keeps a joint at its old rest keeps it at its new rest.
 pub(super) fn animation_slots(
     loaded: &Loaded,
+    retarget: &Retarget,
     shifts: &BTreeMap<usize, Shift>,
-    scales: ClipScales,
-    map_point: &MapPoint,
     reader: &Reader,
     json: &mut Value,
     slots: &mut Vec<Slot>,
 ) -> Result<()> {
-    let hips = loaded.character.humanoid.joint(Role::Hips).map(|joint| loaded.node_of_joint[joint]);
-    for (animation, animation_json) in loaded.file.list("animations").iter().enumerate() {
-        let channels = array_at(animation_json, "channels");
-        let samplers = array_at(animation_json, "samplers");
-        // What each sampler gives by now: several channels may share one.
-        let mut given: BTreeMap<usize, Option<Vec<f32>>> = BTreeMap::new();
-        for channel in channels.iter().filter(|channel| text_at(&channel["target"], "path") != "translation")
-        {
-            if let Some(sampler) = index_at(channel, "sampler") {
-                given.insert(sampler, None);
-            }
+    for animation in 0..loaded.file.list("animations").len() {
+        let mut made = Vec::new();
+        if let Some(tracks) = retarget.tracks(animation, reader)? {
+            made = new_tracks(&tracks, animation, &mut json["animations"][animation], slots);
         }
-        for (index, channel) in channels.iter().enumerate() {
-            let (Some(sampler), Some(node)) =
-                (index_at(channel, "sampler"), index_at(&channel["target"], "node"))
-            else {
-                continue;
-            };
-            if text_at(&channel["target"], "path") != "translation" {
-                continue;
-            }
-            let node_count = loaded.pose.rest.len();
-            if node >= node_count {
-                return Err(bad_input(format!(
-                    "{}: channel {index} of animation {animation} moves node {node}, but there are {node_count} nodes: export the file anew",
-                    loaded.file.name
-                )));
-            }
-            let Some(sampler_json) = samplers.get(sampler) else {
-                continue;
-            };
-            let Some(accessor) = index_at(sampler_json, "output") else {
-                continue;
-            };
-            let old = reader.floats(accessor, 3, None)?;
-            let mut numbers = old.clone();
-            let cubic = text_at(sampler_json, "interpolation") == "CUBICSPLINE";
-            let shift = shifts.get(&node);
-            let (before, after) = match shift {
-                Some(shift) => (shift.before, shift.after),
-                None => (loaded.pose_translation(node), loaded.pose_translation(node)),
-            };
-            let below_hips =
-                std::iter::successors(loaded.tree.parents[node], |&above| loaded.tree.parents[above])
-                    .any(|above| Some(above) == hips);
-            let scale = match loaded.joint_of_node[node] {
-                Some(joint) if below_hips => {
-                    map_point(joint, loaded.character.skeleton.joints[joint].position()).local_scale()
-                }
-                _ => scales.hip_ratio,
-            };
-            let carry = match scales.carries.get(animation) {
-                Some(&carry) if Some(node) == hips => carry,
-                _ => DVec3::ZERO,
-            };
-            if shift.is_some() || scale != 1.0 || carry != DVec3::ZERO {
-                for (key, raw) in numbers.chunks_exact_mut(3).enumerate() {
-                    let value = Vec3::from_slice(raw).as_dvec3();
-                    // In-tangent, value, out-tangent: tangents are differences.
-                    let value = if cubic && key % 3 != 1 {
-                        value * scale
-                    } else {
-                        after + (value - before) * scale + carry
-                    };
-                    raw.copy_from_slice(&value.as_vec3().to_array());
-                }
-            }
-            let mut place = Place::Output { animation, sampler };
-            match given.get(&sampler) {
-                None => {
-                    given.insert(sampler, Some(numbers.clone()));
-                }
-                Some(Some(other)) if same_bits(other, &numbers) => continue,
-                // Another channel keeps the old numbers: nothing to do where this one does, too.
-                Some(None) if same_bits(&old, &numbers) => continue,
-                Some(_) => {
-                    let list = json["animations"][animation]["samplers"].as_array_mut();
-                    let Some(list) = list else { continue };
-                    list.push(sampler_json.clone());
-                    let copy = list.len() - 1;
-                    json["animations"][animation]["channels"][index]["sampler"] = json!(copy);
-                    place = Place::Output { animation, sampler: copy };
-                }
-            }
-            slots.push(Slot { place, components: 3, numbers });
-        }
+        scaled_tracks(
+            loaded,
+            retarget,
+            shifts,
+            reader,
+            &mut json["animations"][animation],
+            slots,
+            (animation, &made),
+        )?;
     }
     Ok(())
 }
 
+/// Puts tracks into an animation, in the place of those that are there or as new ones; gives the channels that have them.
+fn new_tracks(tracks: &NewTracks, animation: usize, json: &mut Value, slots: &mut Vec<Slot>) -> Vec<usize> {
+    let floats =
+        |numbers: &mut dyn Iterator<Item = f64>| numbers.map(|number| number as f32).collect::<Vec<f32>>();
+    let places = tracks.places.iter().map(|(&node, places)| {
+        (node, "translation", 3, floats(&mut places.iter().flat_map(|place| place.to_array())))
+    });
+    let turns = tracks.turns.iter().map(|(&node, turns)| {
+        (node, "rotation", 4, floats(&mut turns.iter().flat_map(|turn| turn.to_array())))
+    });
+    let mut made = Vec::new();
+    for (node, path, components, numbers) in places.chain(turns).collect::<Vec<_>>() {
+        let (channel, sampler) = own_sampler(json, node, path);
+        json["samplers"][sampler]["interpolation"] = json!(if tracks.steps { "STEP" } else { "LINEAR" });
+        let input = Place::Input { animation, sampler };
+        slots.push(Slot { place: input, components: 1, numbers: tracks.times.clone() });
+        slots.push(Slot { place: Place::Output { animation, sampler }, components, numbers });
+        made.push(channel);
+    }
+    made
+}
+
+/// The channel of a property of a node, with a sampler that no other channel has.
+fn own_sampler(json: &mut Value, node: usize, path: &str) -> (usize, usize) {
+    let channels = array_at(json, "channels");
+    let is_it = |channel: &&Value| {
+        index_at(&channel["target"], "node") == Some(node) && text_at(&channel["target"], "path") == path
+    };
+    let channel = channels.iter().position(|channel| is_it(&channel));
+    let sampler = channel.and_then(|channel| index_at(&channels[channel], "sampler"));
+    let users = |sampler: usize| {
+        channels.iter().filter(|channel| index_at(channel, "sampler") == Some(sampler)).count()
+    };
+    if let (Some(channel), Some(sampler)) = (channel, sampler.filter(|&sampler| users(sampler) == 1)) {
+        return (channel, sampler);
+    }
+    // The moments of another sampler, so that those of all new ones become one accessor.
+    let input = array_at(json, "samplers").iter().find_map(|sampler| index_at(sampler, "input"));
+    let mut new = json!({});
+    if let Some(input) = input {
+        new["input"] = json!(input);
+    }
+    let sampler = push(&mut json["samplers"], new);
+    let channel = match channel {
+        Some(channel) => channel,
+        None => push(&mut json["channels"], json!({"target": {"node": node, "path": path}})),
+    };
+    json["channels"][channel]["sampler"] = json!(sampler);
+    (channel, sampler)
+}
+
+fn push(list: &mut Value, value: Value) -> usize {
+    let Some(list) = list.as_array_mut() else { return 0 };
+    list.push(value);
+    list.len() - 1
+}
+
+/// The places of nodes in an animation, scaled; but for the channels that are `made` anew.
+fn scaled_tracks(
+    loaded: &Loaded,
+    retarget: &Retarget,
+    shifts: &BTreeMap<usize, Shift>,
+    reader: &Reader,
+    json: &mut Value,
+    slots: &mut Vec<Slot>,
+    (animation, made): (usize, &[usize]),
+) -> Result<()> {
+    let made: BTreeSet<usize> = made.iter().copied().collect();
+    let channels = array_at(json, "channels").to_vec();
+    let samplers = array_at(json, "samplers").to_vec();
+    // What each sampler gives by now: several channels may share one.
+    let mut given: BTreeMap<usize, Option<Vec<f32>>> = BTreeMap::new();
+    for channel in channels.iter().filter(|channel| text_at(&channel["target"], "path") != "translation") {
+        if let Some(sampler) = index_at(channel, "sampler") {
+            given.insert(sampler, None);
+        }
+    }
+    for (index, channel) in channels.iter().enumerate().filter(|(index, _)| !made.contains(index)) {
+        let (Some(sampler), Some(node)) =
+            (index_at(channel, "sampler"), index_at(&channel["target"], "node"))
+        else {
+            continue;
+        };
+        if text_at(&channel["target"], "path") != "translation" {
+            continue;
+        }
+        let node_count = loaded.pose.rest.len();
+        if node >= node_count {
+            return Err(bad_input(format!(
+                "{}: channel {index} of animation {animation} moves node {node}, but there are {node_count} nodes: export the file anew",
+                loaded.file.name
+            )));
+        }
+        let Some(accessor) = samplers.get(sampler).and_then(|sampler| index_at(sampler, "output")) else {
+            continue;
+        };
+        let old = reader.floats(accessor, 3, None)?;
+        let cubic = text_at(&samplers[sampler], "interpolation") == "CUBICSPLINE";
+        let numbers =
+            scaled(&old, cubic, shifts.get(&node), loaded.pose_translation(node), retarget.scale_of(node));
+        let mut place = Place::Output { animation, sampler };
+        match given.get(&sampler) {
+            None => {
+                given.insert(sampler, Some(numbers.clone()));
+            }
+            Some(Some(other)) if same_bits(other, &numbers) => continue,
+            // Another channel keeps the old numbers: nothing to do where this one does, too.
+            Some(None) if same_bits(&old, &numbers) => continue,
+            Some(_) => {
+                let copy = push(&mut json["samplers"], samplers[sampler].clone());
+                json["channels"][index]["sampler"] = json!(copy);
+                place = Place::Output { animation, sampler: copy };
+            }
+        }
+        slots.push(Slot { place, components: 3, numbers });
+    }
+    Ok(())
+}
+
+/// The keys of a node's place: as far from its new rest as they were from its old one, times `scale`.
+fn scaled(old: &[f32], cubic: bool, shift: Option<&Shift>, rest: DVec3, scale: f64) -> Vec<f32> {
+    let mut numbers = old.to_vec();
+    if shift.is_none() && scale == 1.0 {
+        return numbers;
+    }
+    let (before, after) = shift.map_or((rest, rest), |shift| (shift.before, shift.after));
+    for (key, raw) in numbers.chunks_exact_mut(3).enumerate() {
+        let value = Vec3::from_slice(raw).as_dvec3();
+        // In-tangent, value, out-tangent: tangents are differences.
+        let value = if cubic && key % 3 != 1 { value * scale } else { after + (value - before) * scale };
+        raw.copy_from_slice(&value.as_vec3().to_array());
+    }
+    numbers
+}
+
 impl Loaded {
-    /// The local translation of a node in rest pose.
-    fn pose_translation(&self, node: usize) -> DVec3 {
+    /// The place of a node in its parent's space at rest.
+    pub(super) fn pose_translation(&self, node: usize) -> DVec3 {
         let place = self.pose.rest[node].w_axis.truncate();
         self.tree.parents[node]
             .map_or(place, |parent| self.pose.rest[parent].inverse().transform_point3(place))

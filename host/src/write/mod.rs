@@ -4,10 +4,10 @@
 //! changed keeps its bits. Accessors and buffer views keep their numbers, since extensions may name them.
 
 mod animations;
+mod clips;
 pub mod colliders;
 mod nodes;
 mod numbers;
-pub mod soles;
 mod store;
 mod thumbnail;
 mod vertices;
@@ -15,10 +15,10 @@ mod vrm;
 
 use super::accessor::Reader;
 use super::bad_input;
-use super::bind::RestPose;
 use super::file::GltfFile;
 use super::load::Loaded;
-use animations::{ClipScales, animation_slots, hip_ratio};
+use animations::animation_slots;
+use clips::Retarget;
 use glam::{DMat4, DVec3, Vec3};
 use nodes::{move_nodes, skin_slots};
 use serde_json::{Value, json};
@@ -36,6 +36,7 @@ enum Place {
     Attribute { mesh: usize, primitive: usize, key: &'static str },
     Target { mesh: usize, primitive: usize, target: usize, key: &'static str },
     InverseBinds { skin: usize },
+    Input { animation: usize, sampler: usize },
     Output { animation: usize, sampler: usize },
 }
 
@@ -49,6 +50,9 @@ impl Place {
                 format!("/meshes/{mesh}/primitives/{primitive}/targets/{target}/{key}")
             }
             Self::InverseBinds { skin } => format!("/skins/{skin}/inverseBindMatrices"),
+            Self::Input { animation, sampler } => {
+                format!("/animations/{animation}/samplers/{sampler}/input")
+            }
             Self::Output { animation, sampler } => {
                 format!("/animations/{animation}/samplers/{sampler}/output")
             }
@@ -64,7 +68,12 @@ impl Place {
     }
 
     fn needs_bounds(&self) -> bool {
-        matches!(self, Self::Attribute { key: "POSITION", .. } | Self::Target { key: "POSITION", .. })
+        matches!(
+            self,
+            Self::Attribute { key: "POSITION", .. }
+                | Self::Target { key: "POSITION", .. }
+                | Self::Input { .. }
+        )
     }
 
     fn is_vertex_data(&self) -> bool {
@@ -73,7 +82,6 @@ impl Place {
 }
 
 /// The numbers that a place should lead to.
-#[derive(Clone)]
 struct Slot {
     place: Place,
     components: usize,
@@ -105,27 +113,9 @@ pub fn rewrite(loaded: &Loaded, deformed: &Deformed, map_point: &MapPoint) -> Re
     mesh_slots(loaded, deformed, &new_rest, &reader(), &mut file.json, &mut slots)?;
     skin_slots(loaded, &new_rest, &reader(), &mut slots)?;
     let shifts = move_nodes(loaded, &new_rest, &mut file.json);
-    let hip_ratio = hip_ratio(loaded, deformed);
-    let (plain, before_clips) = (file.clone(), slots.clone());
-    let scales = ClipScales { hip_ratio, carries: &[] };
-    animation_slots(loaded, &shifts, scales, map_point, &reader(), &mut file.json, &mut slots)?;
+    let retarget = Retarget::new(loaded, deformed, &new_rest, &shifts, map_point);
+    animation_slots(loaded, &retarget, &shifts, &reader(), &mut file.json, &mut slots)?;
     store(&reader(), &mut file, slots)?;
-    if loaded.rigged && !loaded.file.list("animations").is_empty() {
-        // Where that leaves the soles shows in what was written; then all is written anew.
-        let after = Loaded {
-            file: file.clone(),
-            character: loaded.character.with(deformed),
-            pose: RestPose { rest: new_rest.clone(), ..loaded.pose.clone() },
-            ..loaded.clone()
-        };
-        let carries = soles::carries(loaded, &after, hip_ratio)?;
-        if carries.iter().any(|carry| *carry != DVec3::ZERO) {
-            let scales = ClipScales { hip_ratio, carries: &carries };
-            (file, slots) = (plain, before_clips);
-            animation_slots(loaded, &shifts, scales, map_point, &reader(), &mut file.json, &mut slots)?;
-            store(&reader(), &mut file, slots)?;
-        }
-    }
     let height_ratio = height_ratio(loaded, deformed);
     vrm::move_points(&mut file.json, loaded, &new_rest, map_point, height_ratio);
     Ok(file)

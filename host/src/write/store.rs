@@ -60,7 +60,13 @@ pub(super) fn store(reader: &Reader, file: &mut GltfFile, slots: Vec<Slot>) -> R
                     let new = match accessor {
                         Some(accessor) => file.json["accessors"][accessor].clone(),
                         None => {
-                            json!({"componentType": 5126, "type": if slot.components == 16 { "MAT4" } else { "VEC3" }})
+                            let kind = match slot.components {
+                                1 => "SCALAR",
+                                4 => "VEC4",
+                                16 => "MAT4",
+                                _ => "VEC3",
+                            };
+                            json!({"componentType": 5126, "type": kind})
                         }
                     };
                     let Some(accessors) = file.json["accessors"].as_array_mut() else {
@@ -72,7 +78,10 @@ pub(super) fn store(reader: &Reader, file: &mut GltfFile, slots: Vec<Slot>) -> R
             };
             let layout = accessor.map(|accessor| reader.layout(accessor)).transpose()?;
             let in_place = accessor == Some(holder)
-                && layout.as_ref().is_some_and(|layout| layout.component_type == 5126 && !layout.sparse)
+                && layout.as_ref().is_some_and(|layout| {
+                    let same_size = layout.count * layout.components == slot.numbers.len();
+                    layout.component_type == 5126 && !layout.sparse && same_size
+                })
                 && !overlaps.disturbs(holder);
             if let (true, Some(layout)) = (in_place, &layout) {
                 overwrite(&mut file.binary, layout, &slot.numbers);

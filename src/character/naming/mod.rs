@@ -129,7 +129,7 @@ impl NamedSkeleton<'_> {
         let lower = if upper.is_some() {
             let strong = self
                 .first_below(&lowers, upper)
-                .filter(|&joint| self.readings[joint].part.is_some_and(|(_, rank)| rank % 4 == 0));
+                .filter(|&joint| self.readings[joint].part.is_some_and(|(_, rank)| rank == 0));
             // A knee beside a "leg" is a helper.
             strong.or_else(|| self.first_below(&legs, upper)).or_else(|| self.first_below(&lowers, upper))
         } else {
@@ -284,7 +284,7 @@ impl NamedSkeleton<'_> {
 /// Roles as far as the names of the joints tell them.
 ///
 /// Knows the names of Mixamo, Unreal, Unity-chan, Rigify, VRoid, KayKit, Quaternius, Biped, Character Creator,
-/// ValveBiped, Daz, MakeHuman and MikuMikuDance, and most that are made like them. Where one joint's name fits but
+/// ValveBiped, Daz, MakeHuman, Auto-Rig Pro and MikuMikuDance, and most that are made like them. Where one joint's name fits but
 /// it does not hang where it should (a lower arm beside its upper arm), it gets no role. Names that tell nothing
 /// give an empty map. What names leave open between those roles, [`complete`](super::roles::complete) fills in.
 pub fn roles_from_names(skeleton: &Skeleton) -> Humanoid {

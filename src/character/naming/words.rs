@@ -118,8 +118,8 @@ fn part_of(core: &str) -> Option<(Part, u8)> {
 
 /// Words that name the rig or the kind of node, not a part of the body.
 const RIG_WORDS: &str = "adj anim armature b base bend bind bip biped bn bone bones c cc character def deform f human \
-    humanoid j jnt joint joints jt mixamo mixamorig org player rig sk skel skeleton skin valve \
-    valvebiped";
+    humanoid j jnt joint joints jt mixamo mixamorig org player rig sk skel skeleton skin stretch valve \
+    valvebiped x";
 
 /// Words of joints that help a rig along or end a chain, and of things worn: none of them plays a role.
 const HELPER_WORDS: &str = "aim attach breast bust cape cloth collider control corrective ctl ctrl dummy ear eff effector \
@@ -249,10 +249,16 @@ fn read(words: &[String]) -> Reading {
 /// Reads all names; first words that most of them share are taken for the rig's name.
 pub(super) fn read_all(skeleton: &Skeleton) -> Vec<Reading> {
     let mut names: Vec<Vec<String>> = skeleton.joints.iter().map(|joint| words(&joint.name)).collect();
-    // Rigify keeps the joints that deform (DEF-) beside their originals (ORG-) and controls (no prefix).
-    let deforming = |words: &[String]| words.first().is_some_and(|word| word == "def");
-    let any_deforming = names.iter().filter(|words| deforming(words)).count() >= 8;
-    let demoted: Vec<bool> = names.iter().map(|words| any_deforming && !deforming(words)).collect();
+    // Rigify keeps the joints that deform (DEF-) beside their originals (ORG-) and controls (no prefix), Auto-Rig Pro what
+    // stretches beside what does not.
+    let marks: [fn(&[String]) -> bool; 2] = [
+        |words| words.first().is_some_and(|word| word == "def"),
+        |words| words.iter().any(|word| word == "stretch"),
+    ];
+    // Two arms and two legs have eight joints: so many make a rule of it.
+    let is_rule = marks.map(|mark| names.iter().filter(|words| mark(words)).count() >= 8);
+    let lacks = |words: &Vec<String>| [0, 1].map(|index| is_rule[index] && !marks[index](words));
+    let lacking: Vec<[bool; 2]> = names.iter().map(lacks).collect();
     loop {
         let mut counts: BTreeMap<String, usize> = BTreeMap::new();
         for first in names.iter().filter_map(|words| words.first()) {
@@ -288,14 +294,15 @@ pub(super) fn read_all(skeleton: &Skeleton) -> Vec<Reading> {
     }
     names
         .iter()
-        .zip(demoted)
-        .map(|(words, demoted)| {
+        .zip(lacking)
+        .map(|(words, [def, stretch])| {
             let mut reading = read(words);
-            if let Some((_, rank)) = &mut reading.part
-                && demoted
-            {
-                *rank += 4;
-            }
+            reading.part = reading.part.filter(|(part, _)| match part {
+                // No DEF- joint is an eye's or a jaw's for certain; what does not stretch may be a hand's.
+                Part::Eye | Part::Jaw => true,
+                Part::UpperArm | Part::Arm | Part::LowerArm | Part::UpperLeg | Part::Leg => !def && !stretch,
+                _ => !def,
+            });
             reading
         })
         .collect()

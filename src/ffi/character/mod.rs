@@ -21,11 +21,11 @@ pub use types::*;
 
 /// Makes an empty character.
 ///
-/// up:        3 floats, from the feet to the head, any length but 0; NULL: (0, 1, 0), or for a character without a rig
-///            another axis along which it stands as people do
-/// forward:   3 floats, the way the face looks, at any angle to up but 0. NULL: found, from left and right limbs where
-///            there are joints, else from feet and face. Left and right are told as in right-handed axes: a host with
-///            left-handed ones gives forward, and rig_left_handed to sdef_character_rig
+/// up:        3 floats, from the feet to the head, of a length from 1e-15 to 1e15; NULL: (0, 1, 0), or for a character
+///            without a rig another axis along which it stands as people do
+/// forward:   3 floats, the way the face looks, a tenth of a degree or more off up. NULL: found, from left and right
+///            limbs where there are joints, else from feet and face. Left and right are told as in right-handed axes: a
+///            host with left-handed ones gives forward, and rig_left_handed to sdef_character_rig
 /// character: receives the handle
 ///
 /// Errors: BAD_ARGUMENT, BAD_INPUT.

@@ -97,8 +97,8 @@ pub const SDEF_ROLE_UPPER_CHEST: u32 = 54;
 /// rows:  vertex v has the joints and weights row_starts[v] to row_starts[v + 1] - 1; influence_count is how many there
 ///        are in all, row_starts holds vertex_count + 1 numbers that rise from 0, both strides are 0.
 /// Weights are 0 or more; each vertex's are scaled to sum 1 where it matters. Weight 0 may name any joint. A vertex
-/// whose weights are all 0 moves with the hips, and so does a mesh without weights beside a skeleton: what is fixed to a
-/// joint (a sword, a cape) has weight 1 to it throughout.
+/// whose weights are all 0 moves with the hips, and so does a mesh without weights beside a skeleton: what is rigid
+/// (a sword, a helmet) has a joint of its own where it begins, a child of the joint that holds it, and weight 1 to that.
 #[derive_ReprC]
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
@@ -107,8 +107,9 @@ pub struct SdefMesh {
     pub struct_size: u32,
     /// SDEF_MESH_*
     pub kind: u32,
-    /// for messages, and for guessing the kind by English words in it (hair, eyelash, skirt, hat): "node/mesh/material",
-    /// of which the one that the fewest meshes share counts first, where the mesh lies as it says; may be NULL
+    /// for messages, and for guessing the kind from English words (hair, eyelash, skirt, hat); may be NULL. Best is
+    /// "node/mesh/material": the part that the fewest meshes share is read first. A word counts where the mesh lies where
+    /// such a thing lies: hair on the head
     pub name: *const c_char,
     /// up to 4294967294
     pub vertex_count: usize,

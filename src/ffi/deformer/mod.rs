@@ -322,12 +322,33 @@ pub unsafe extern "C" fn sdef_deformer_get_groups(
     unsafe { call(error, body) }
 }
 
+/// Measures the result, as the first call of sdef_deformer_get_figure or _get_report after a change does, and says how
+/// far it is; after it both are for free. It takes as long as an apply and a measurement together.
+///
+/// progress, user: see Progress above
+///
+/// Errors: NO_GEOMETRY where the result is too flat to be measured; OUT_OF_MEMORY; CANCELLED.
+#[ffi_export]
+pub unsafe extern "C" fn sdef_deformer_measure(
+    deformer: SdefDeformer,
+    progress: SdefProgress,
+    user: *mut c_void,
+    error: *mut SdefError,
+) -> SdefStatus {
+    let body = || {
+        let state = handles::deformer(deformer)?;
+        let mut callback = progress_of(progress, user);
+        handles::read(&state, "deformer")?.report(&mut Progress::new(&mut callback)).map(drop)
+    };
+    unsafe { call(error, body) }
+}
+
 /// Gives what was measured on a figure.
 ///
 /// which:  SDEF_FIGURE_*
 /// figure: struct_size is set before
 ///
-/// The first call after a change measures the result, as sdef_deformer_get_report does.
+/// The first call after a change measures the result: sdef_deformer_measure says how far that is.
 ///
 /// Errors: BAD_ARGUMENT; NO_GEOMETRY where the result is too flat to be measured.
 #[ffi_export]
@@ -342,7 +363,7 @@ pub unsafe extern "C" fn sdef_deformer_get_figure(
         arrays::check_struct_out(figure)?;
         let which = options::one_of("which", "SDEF_FIGURE_", which, &[0, 1, 2])?;
         let state = handles::read(&state, "deformer")?;
-        let report = state.report()?;
+        let report = state.report(&mut Progress::none())?;
         let value = match which {
             SDEF_FIGURE_TARGET => figure_of(&report.target),
             SDEF_FIGURE_REFERENCE => report.reference.as_ref().map_or(NO_FIGURE, figure_of),
@@ -353,8 +374,8 @@ pub unsafe extern "C" fn sdef_deformer_get_figure(
     unsafe { call(error, body) }
 }
 
-/// Measures the result and gives the numbers of the run. The first call after a change takes as long as an apply and a
-/// measurement together; later ones are for free.
+/// Gives the numbers of the run. The first call after a change measures the result: sdef_deformer_measure says how far
+/// that is.
 ///
 /// report:   may be NULL
 /// json:     receives everything as JSON text, by the keys that README lists: figures, groups, joints, times, warnings.
@@ -376,7 +397,7 @@ pub unsafe extern "C" fn sdef_deformer_get_report(
         let state = handles::deformer(deformer)?;
         arrays::check_struct_out(report)?;
         let state = handles::read(&state, "deformer")?;
-        let found = state.report()?;
+        let found = state.report(&mut Progress::none())?;
         let text = serde_json::to_string_pretty(found).map_err(|error| {
             Failure::new(SDEF_STATUS_INTERNAL, format!("the report cannot be written: {error}"))
         })?;

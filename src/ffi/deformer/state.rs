@@ -74,19 +74,22 @@ impl DeformerState {
         }
     }
 
-    /// The numbers of the run.
-    pub fn report(&self) -> Outcome<&Report> {
+    /// The numbers of the run, measured where that was not done since the last change.
+    pub fn report(&self, progress: &mut Progress) -> Outcome<&Report> {
         if self.report.get().is_none() {
             let bytes = memory::to_report(self.deformer.character());
             let threads = self.deformer.options().thread_count;
-            let mut report =
-                memory::with(bytes, threads, || Ok(self.deformer.report(&self.deformer.apply())?))?;
+            let mut report = memory::with(bytes, threads, || {
+                let deformed = self.deformer.apply_with(&mut progress.part(0.0, 0.2))?;
+                Ok(self.deformer.report_with(&deformed, &mut progress.part(0.2, 1.0))?)
+            })?;
             report.warnings.splice(0..0, self.notes.iter().cloned());
             for warning in &mut report.warnings {
                 warning.message = guard::with_field(&warning.message, warning.option.take());
             }
             return Ok(self.report.get_or_init(|| report));
         }
+        progress.at(1.0)?;
         Ok(self.report.get().expect("it is there"))
     }
 

@@ -130,7 +130,7 @@ pub struct SdefSpringBall {
 
 /// The character before.
 pub const SDEF_FIGURE_TARGET: u32 = 0;
-/// The style; NAN throughout for a style of N heads.
+/// The style; NAN throughout for one that is nothing but a number of heads.
 pub const SDEF_FIGURE_REFERENCE: u32 = 1;
 /// Measured anew on what comes out.
 pub const SDEF_FIGURE_RESULT: u32 = 2;
@@ -171,8 +171,8 @@ pub struct SdefReport {
     pub struct_size: u32,
     /// 1 where the rig was made, 0 where it was the character's own
     pub rig_made: u32,
-    /// the report's g: head length of the target over that of the style, times head_scale; 1 for a style of N heads that
-    /// is like none
+    /// the report's g: head length of the target over that of the style, times head_scale; 1 for a style that is nothing
+    /// but a number of heads
     pub head_ratio: f64,
     /// vertices that the rig left without weights
     pub unreached_vertices: u64,

@@ -8,7 +8,6 @@
 //! 1 - exp(-√c s / r) / 2 at a distance s from their joint, on its own side.
 
 mod nearest;
-mod sides;
 
 use super::solid::Solid;
 use super::{WeightBone, WeightSet};
@@ -20,7 +19,6 @@ use crate::parallel;
 use crate::progress::Progress;
 use glam::DVec3;
 use nearest::{Body, NearestBones, Segments};
-pub(super) use sides::outward;
 use std::collections::BTreeMap;
 
 /// What lies further than this from the mesh's middle, in units of the figure, counts as this far, so that squares of
@@ -76,7 +74,7 @@ pub fn heat_weights(
 ///
 /// Vertices at one position are one. What hides a bone from a vertex is the vertex's own connected component, so teeth see
 /// through lips, and air between the two, where the body is known. A bone counts as the farther away the more the way to it
-/// leaves the surface's inside, which `sides` finds: which way triangles face does not matter. Every vertex gets weights, by other rules where the
+/// leaves the surface's inside, which `solid::sides` finds: which way triangles face does not matter. Every vertex gets weights, by other rules where the
 /// equation has no answer; the report counts these vertices:
 ///
 /// - `component_without_visible_bone`: no vertex of the component sees its nearest bone: all are taken to see it.

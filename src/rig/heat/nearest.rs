@@ -1,6 +1,5 @@
 //! The bones that are nearest to each vertex, and whether it sees them.
 
-use super::sides::outward;
 use super::{Components, Frame, Held};
 use crate::error::Result;
 use crate::geometry::{Surface, Weld, foot};
@@ -8,6 +7,7 @@ use crate::parallel;
 use crate::progress::Progress;
 use crate::rig::WeightBone;
 use crate::rig::solid::Solid;
+use crate::rig::solid::sides::outward;
 use glam::DVec3;
 
 /// A bone shares a vertex fully up to this ratio of its distance to the least one (baran and Popović, §4: the nearest

@@ -99,7 +99,7 @@ pub(super) struct Scene<'a> {
 impl Surroundings {
     pub(super) fn of(figure: &UnitFigure, threads: usize, progress: &mut Progress) -> Result<Self> {
         let surface = Surface::for_many(&figure.positions, &figure.triangles);
-        let mesh_of = |hit: &Hit| figure.triangle_starts.partition_point(|&start| start <= hit.triangle) - 1;
+        let mesh_of = |hit: &Hit| figure.mesh_of(hit.triangle);
         let (all, least, most) = SAMPLES;
         let count = (all / figure.mesh_count().max(1)).clamp(least, most);
         let points: Vec<Vec<(DVec3, DVec3)>> =

@@ -7,42 +7,68 @@ use glam::DVec3;
 /// thick has 0.004), and from which on it has one (a person has 0.027, a limb as long as 60 radii 0.026, a ball 0.094).
 const FULLNESS: [f64; 2] = [0.004, 0.008];
 
-/// Outward unit normals of the vertices, shorter where it is in doubt which side is the outside, 0 where nothing tells.
+/// How a triangle faces.
+#[derive(Clone, Copy, Debug)]
+pub struct Side {
+    /// True where it faces inwards.
+    pub is_inward: bool,
+    /// 0..1: how sure that is.
+    pub sure: f64,
+}
+
+/// How each triangle faces.
 ///
 /// Triangles are turned alike where two of them share an edge; what hangs together so has its outside where that makes
-/// its volume positive, holes closed from its middle.
+/// its volume positive, holes closed from its middle. What has none faces as the rest of the file does.
 ///
 /// O(triangles).
-pub(in crate::rig) fn outward(points: &[DVec3], triangles: &[[u32; 3]]) -> Vec<DVec3> {
+pub fn sides(points: &[DVec3], triangles: &[[u32; 3]]) -> Vec<Side> {
     let mut patches = Patches::of(points.len(), triangles);
     let patch_of: Vec<(u32, bool)> =
         (0..triangles.len() as u32).map(|triangle| patches.find(triangle)).collect();
-    let mut sums = vec![(0.0, DVec3::ZERO); triangles.len()];
     let doubles: Vec<DVec3> = triangles.iter().map(|&corners| double_area(points, corners)).collect();
     let middle =
         |corners: &[u32; 3]| corners.iter().map(|&vertex| points[vertex as usize]).sum::<DVec3>() / 3.0;
+    let mut sums = vec![(0.0, DVec3::ZERO); triangles.len()];
     for ((corners, &(patch, _)), double) in triangles.iter().zip(&patch_of).zip(&doubles) {
         let (area, moment) = &mut sums[patch as usize];
         *area += double.length();
         *moment += double.length() * middle(corners);
     }
+    // Of each patch, as if it faced as its first triangle does; and of the file as it is.
     let mut volumes = vec![0.0; triangles.len()];
+    let mut as_wound = 0.0;
     for ((corners, &(patch, is_turned)), double) in triangles.iter().zip(&patch_of).zip(&doubles) {
         let (area, moment) = sums[patch as usize];
         let cone = (middle(corners) - moment / area).dot(*double) / 6.0;
-        volumes[patch as usize] += if is_turned { -cone } else { cone };
+        if cone.is_finite() {
+            volumes[patch as usize] += if is_turned { -cone } else { cone };
+            as_wound += cone;
+        }
     }
-    let mut normals = vec![DVec3::ZERO; points.len()];
-    let mut totals = vec![(0.0, 0.0); points.len()];
-    for ((corners, &(patch, is_turned)), &double) in triangles.iter().zip(&patch_of).zip(&doubles) {
+    let side = |&(patch, is_turned): &(u32, bool)| {
         let volume: f64 = volumes[patch as usize];
         let fullness = volume.abs() / (0.5 * sums[patch as usize].0).powf(1.5);
         let sure = ((fullness - FULLNESS[0]) / (FULLNESS[1] - FULLNESS[0])).clamp(0.0, 1.0);
-        let outward = if is_turned == (volume > 0.0) { -double } else { double };
+        let is_inward = if sure > 0.0 { is_turned == (volume > 0.0) } else { as_wound < 0.0 };
+        // No area, no volume.
+        Side { is_inward, sure: if sure.is_nan() { 0.0 } else { sure } }
+    };
+    patch_of.iter().map(side).collect()
+}
+
+/// Outward unit normals of the vertices, shorter where it is in doubt which side is the outside, 0 where nothing tells.
+///
+/// O(triangles).
+pub fn outward(points: &[DVec3], triangles: &[[u32; 3]]) -> Vec<DVec3> {
+    let mut normals = vec![DVec3::ZERO; points.len()];
+    let mut totals = vec![(0.0, 0.0); points.len()];
+    for (corners, side) in triangles.iter().zip(sides(points, triangles)) {
+        let double = double_area(points, *corners);
         for &vertex in corners {
-            normals[vertex as usize] += sure * outward;
+            normals[vertex as usize] += if side.is_inward { -side.sure * double } else { side.sure * double };
             let (known, all) = &mut totals[vertex as usize];
-            *known += sure * double.length();
+            *known += side.sure * double.length();
             *all += double.length();
         }
     }

@@ -4,9 +4,9 @@
 //! voxel to voxel, which is up to a tenth too long and shows as blocks; here a voxel that sees its bone takes the straight
 //! distance, and steps are added up only around corners.
 
-use super::volume::{OUTSIDE, Volume, nearest};
+use super::voxels::{OUTSIDE, Queue, Voxels, neighbourhood};
 use crate::geometry::foot;
-use glam::{DVec3, IVec3};
+use glam::DVec3;
 
 /// Buckets a voxel: a voxel is always settled in a later bucket than the one on its way to the bone. Seen: ±30 % moves
 /// no vertex.
@@ -53,7 +53,7 @@ impl Bone {
 
     /// How far the volume reaches around the longest segment, in voxels: the median over directions at right angles to
     /// it, at least; 0 where it is out of the volume or has no length.
-    pub fn thickness(&self, volume: &Volume) -> f64 {
+    pub fn thickness(&self, volume: &Voxels) -> f64 {
         let longest = |one: &&[DVec3; 2], other: &&[DVec3; 2]| {
             one[0].distance(one[1]).total_cmp(&other[0].distance(other[1]))
         };
@@ -86,16 +86,13 @@ impl Bone {
 ///
 /// A bone without length at the end of another one goes on in that one's direction to the volume's end: else the whole
 /// of a head whose top nobody knows is as near to the neck as to the head.
-pub fn place_bones(volume: &Volume, bones: &[Vec<[DVec3; 2]>]) -> Vec<Bone> {
+pub fn place_bones(volume: &Voxels, bones: &[Vec<[DVec3; 2]>]) -> Vec<Bone> {
     // A joint given in another unit than the mesh is far away all the same.
-    let middle = (volume.size / 2).as_dvec3();
-    let reach = DVec3::splat(FARTHEST * f64::from(volume.size.max_element()));
+    let solid = &volume.solid;
+    let middle = (solid.size / 2).as_dvec3();
+    let reach = DVec3::splat(FARTHEST * f64::from(solid.size.max_element()));
     let in_grid = |p: DVec3| {
-        if p.is_finite() {
-            volume.to_grid_free(p).clamp(middle - reach, middle + reach)
-        } else {
-            volume.to_grid(p)
-        }
+        if p.is_finite() { solid.to_cells(p).clamp(middle - reach, middle + reach) } else { middle }
     };
     let mut all: Vec<Vec<[DVec3; 2]>> = bones
         .iter()
@@ -117,7 +114,7 @@ pub fn place_bones(volume: &Volume, bones: &[Vec<[DVec3; 2]>]) -> Vec<Bone> {
     }
     let placed = all.into_iter().map(|segments| {
         let mut starts: Vec<u32> = samples(volume, &segments)
-            .map(|p| volume.slot(nearest(p)))
+            .map(|p| volume.slot(p.round().as_ivec3()))
             .filter(|&slot| slot != OUTSIDE)
             .collect();
         starts.sort_unstable();
@@ -131,14 +128,14 @@ pub fn place_bones(volume: &Volume, bones: &[Vec<[DVec3; 2]>]) -> Vec<Bone> {
     placed.collect()
 }
 
-fn is_in(volume: &Volume, p: DVec3) -> bool {
-    volume.slot(nearest(p)) != OUTSIDE
+fn is_in(volume: &Voxels, p: DVec3) -> bool {
+    volume.slot(p.round().as_ivec3()) != OUTSIDE
 }
 
 /// Points along the segments, the part of them that lies in the grid.
-fn samples<'a>(volume: &Volume, segments: &'a [[DVec3; 2]]) -> impl Iterator<Item = DVec3> + 'a {
+fn samples<'a>(volume: &Voxels, segments: &'a [[DVec3; 2]]) -> impl Iterator<Item = DVec3> + 'a {
     // A bone of another scale than the mesh must not take forever.
-    let most = SAMPLES * 2.0 * f64::from(volume.size.element_sum());
+    let most = SAMPLES * 2.0 * f64::from(volume.solid.size.element_sum());
     segments.iter().flat_map(move |&[a, b]| {
         let count = (SAMPLES * a.distance(b)).ceil().clamp(1.0, most);
         (0..=count as usize).map(move |sample| a.lerp(b, sample as f64 / count))
@@ -146,15 +143,14 @@ fn samples<'a>(volume: &Volume, segments: &'a [[DVec3; 2]]) -> impl Iterator<Ite
 }
 
 /// The voxels that are nearest to a bone outside the volume.
-fn nearest_voxels(volume: &Volume, bone: &Bone) -> Vec<u32> {
-    let distance = |cell: &u32| {
-        let p = volume.place(*cell).as_dvec3();
+fn nearest_voxels(volume: &Voxels, bone: &Bone) -> Vec<u32> {
+    let distance = |&slot: &u32| {
+        let p = volume.place(slot).as_dvec3();
         bone.foot(p).distance(p)
     };
-    let least = volume.cells.iter().map(distance).fold(f64::INFINITY, f64::min);
-    let near =
-        volume.cells.iter().enumerate().filter(|(_, cell)| distance(cell) <= least * (1.0 + TIE) + TIE);
-    near.map(|(slot, _)| slot as u32).collect()
+    let slots = 0..volume.cells.len() as u32;
+    let least = slots.clone().map(|slot| distance(&slot)).fold(f64::INFINITY, f64::min);
+    slots.filter(|slot| distance(slot) <= least * (1.0 + TIE) + TIE).collect()
 }
 
 /// A way into a part of the volume that touches no bone's, from the nearest voxel that does.
@@ -169,33 +165,25 @@ struct Link {
 #[derive(Clone, Debug)]
 pub struct Paths<'a> {
     /// The voxels.
-    pub volume: &'a Volume,
+    pub volume: &'a Voxels,
     /// For each voxel, whether it lies in a part of the volume that no bone starts in.
     pub is_apart: Vec<bool>,
     /// Ascending by `from`.
     links: Vec<Link>,
     has_links: Vec<bool>,
-    /// Offsets of the 26 neighbours in memory, and how far they are.
-    steps: Vec<(isize, f32)>,
 }
 
 impl<'a> Paths<'a> {
     /// Parts of the volume that no bone starts in are tied to the nearest that one starts in, where they are nearest to
     /// it; ways lead into them, not through them.
-    pub fn new(volume: &'a Volume, bones: &[Bone]) -> Self {
-        let steps = neighbourhood().map(|at| (volume.stride(at), at.as_vec3().length())).collect();
+    pub fn new(volume: &'a Voxels, bones: &[Bone]) -> Self {
         let count = volume.cells.len();
-        let mut paths = Self {
-            volume,
-            is_apart: vec![true; count],
-            links: Vec::new(),
-            has_links: vec![false; count],
-            steps,
-        };
+        let mut paths =
+            Self { volume, is_apart: vec![true; count], links: Vec::new(), has_links: vec![false; count] };
         let mut open: Vec<u32> = bones.iter().flat_map(|bone| bone.starts.iter().copied()).collect();
         while let Some(slot) = open.pop() {
             if std::mem::replace(&mut paths.is_apart[slot as usize], false) {
-                open.extend(paths.neighbours(slot).map(|(next, _)| next));
+                open.extend(volume.beside(slot).map(|(next, _)| next));
             }
         }
         paths.tie_islands();
@@ -203,13 +191,6 @@ impl<'a> Paths<'a> {
             paths.has_links[link.from as usize] = true;
         }
         paths
-    }
-
-    fn neighbours(&self, slot: u32) -> impl Iterator<Item = (u32, f32)> + '_ {
-        let cell = self.volume.cells[slot as usize] as isize;
-        let near =
-            self.steps.iter().map(move |&(step, length)| (self.volume.slots[(cell + step) as usize], length));
-        near.filter(|&(next, _)| next != OUTSIDE)
     }
 
     fn links_of(&self, slot: u32) -> &[Link] {
@@ -230,7 +211,7 @@ impl<'a> Paths<'a> {
             while let Some(slot) = open.pop() {
                 if islands[slot as usize] == OUTSIDE {
                     islands[slot as usize] = count;
-                    open.extend(self.neighbours(slot).map(|(next, _)| next));
+                    open.extend(self.volume.beside(slot).map(|(next, _)| next));
                 }
             }
             count += 1;
@@ -250,17 +231,16 @@ impl<'a> Paths<'a> {
         let mut queue = Queue::default();
         for (slot, _) in self.is_apart.iter().enumerate().filter(|&(_, &is_apart)| !is_apart) {
             origins[volume.cells[slot] as usize] = slot as u32;
-            queue.push(0.0, volume.cells[slot]);
+            queue.push(0, volume.cells[slot]);
         }
         let length = |cell: u32, origin: u32| {
-            let from = volume.place(volume.cells[origin as usize]);
-            (volume.place(cell) - from).as_vec3().length()
+            (volume.solid.place(cell as usize) - volume.place(origin)).as_vec3().length()
         };
         let mut contacts = vec![f32::INFINITY; island_count];
         let mut untouched = island_count;
         let mut last = f32::INFINITY;
-        while let Some((key, cell)) = queue.pop() {
-            if key > last {
+        while let Some((bucket, cell)) = queue.pop() {
+            if bucket as f32 / BUCKETS > last {
                 break;
             }
             if std::mem::replace(&mut is_settled[cell as usize], true) {
@@ -280,14 +260,14 @@ impl<'a> Paths<'a> {
                 }
                 if least <= *contact + CONTACT {
                     let first = self.links.len();
-                    let at = volume.place(cell);
+                    let at = volume.solid.place(cell as usize);
                     for offset in neighbourhood() {
                         let next = at + offset;
-                        if next.cmplt(IVec3::ZERO).any() || next.cmpge(volume.size).any() {
+                        if !volume.solid.has(next) {
                             continue;
                         }
                         // All origins that are as near: else a midline would choose a side.
-                        let from = origins[volume.cell(next)];
+                        let from = origins[volume.solid.index(next)];
                         if from != OUTSIDE
                             && length(cell, from) <= least + TIE as f32
                             && self.links[first..].iter().all(|link| link.from != from)
@@ -297,60 +277,22 @@ impl<'a> Paths<'a> {
                     }
                 }
             }
-            let at = volume.place(cell);
+            let at = volume.solid.place(cell as usize);
             for offset in neighbourhood() {
                 let next = at + offset;
-                if next.cmplt(IVec3::ZERO).any() || next.cmpge(volume.size).any() {
+                if !volume.solid.has(next) {
                     continue;
                 }
-                let next = volume.cell(next);
+                let next = volume.solid.index(next);
                 let (origin, known) = (origins[cell as usize], origins[next]);
                 let candidate = length(next as u32, origin);
                 if !is_settled[next] && (known == OUTSIDE || candidate < length(next as u32, known)) {
                     origins[next] = origin;
-                    queue.push(candidate, next as u32);
+                    queue.push((candidate * BUCKETS) as usize, next as u32);
                 }
             }
         }
         self.links.sort_by_key(|link| (link.from, link.to));
-    }
-}
-
-/// The offsets of the 26 neighbours.
-fn neighbourhood() -> impl Iterator<Item = IVec3> {
-    (0..27).filter(|&i| i != 13).map(|i| IVec3::new(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1))
-}
-
-/// Voxels by distance, in buckets: those of one bucket come in no particular order.
-#[derive(Clone, Debug, Default)]
-struct Queue {
-    buckets: Vec<Vec<u32>>,
-    current: usize,
-}
-
-impl Queue {
-    fn push(&mut self, distance: f32, item: u32) {
-        let bucket = ((distance * BUCKETS) as usize).max(self.current);
-        if bucket >= self.buckets.len() {
-            self.buckets.resize(bucket + 1, Vec::new());
-        }
-        self.buckets[bucket].push(item);
-    }
-
-    /// The next item, and the least distance of its bucket.
-    fn pop(&mut self) -> Option<(f32, u32)> {
-        while let Some(bucket) = self.buckets.get_mut(self.current) {
-            if let Some(item) = bucket.pop() {
-                return Some((self.current as f32 / BUCKETS, item));
-            }
-            self.current += 1;
-        }
-        None
-    }
-
-    fn clear(&mut self) {
-        self.buckets.iter_mut().for_each(Vec::clear);
-        self.current = 0;
     }
 }
 
@@ -414,7 +356,7 @@ impl Distances {
         self.visited.clear();
         self.queue.clear();
         let volume = paths.volume;
-        let middle = |slot: u32| volume.place(volume.cells[slot as usize]).as_dvec3();
+        let middle = |slot: u32| volume.place(slot).as_dvec3();
         for bone in sources {
             for &slot in &all[bone].starts {
                 let p = middle(slot);
@@ -436,7 +378,7 @@ impl Distances {
             let p = middle(slot);
             let foot = all[bone as usize].foot(p);
             let way = foot - p;
-            let before = volume.slot(nearest(p + way / way.abs().max_element().max(1.0)));
+            let before = volume.slot((p + way / way.abs().max_element().max(1.0)).round().as_ivec3());
             // The voxel on the straight way is nearer to the bone, so it is settled already if it is in the volume.
             let sees = before == slot
                 || before != OUTSIDE && self.is_straight(before) && self.bones[before as usize] == bone;
@@ -454,12 +396,8 @@ impl Distances {
 
     fn offer_around(&mut self, paths: &Paths, slot: u32) {
         let (length, bone) = (self.lengths[slot as usize], self.bones[slot as usize]);
-        let cell = paths.volume.cells[slot as usize] as isize;
-        for &(step, step_length) in &paths.steps {
-            let next = paths.volume.slots[(cell + step) as usize];
-            if next != OUTSIDE {
-                self.offer(next, length + step_length, bone);
-            }
+        for (next, sides) in paths.volume.beside(slot) {
+            self.offer(next, length + (sides as f32).sqrt(), bone);
         }
         if paths.has_links[slot as usize] {
             for link in paths.links_of(slot) {
@@ -478,6 +416,6 @@ impl Distances {
         self.states[at] = State::Waiting;
         self.lengths[at] = length;
         self.bones[at] = bone;
-        self.queue.push(length, slot);
+        self.queue.push((length * BUCKETS) as usize, slot);
     }
 }

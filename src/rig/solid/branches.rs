@@ -1,0 +1,167 @@
+//! What sticks out of a trunk, in whatever direction: branches of the distance through the solid from the trunk's core.
+//!
+//! Cells further from the core than some distance hang together in pieces. As that distance falls, a piece is born at each
+//! end of something (a hand, a foot, a crown, a tail) and grows inwards until it meets another one, where the shorter of
+//! the two ends: the merge tree of the distance (Carr, Snoeyink and Axen, Computing contour trees in all dimensions, 2003).
+//! The rims of a piece, one after the other, are the sections of a limb, whatever way it bends.
+
+use super::voxels::{Queue, Voxels};
+use crate::geometry::Groups;
+use glam::DVec3;
+use std::ops::Range;
+
+/// Steps between neighbours of a cell that share a face, an edge, a corner, in thirds of a cell: no way is off by more than
+/// 6 % (Borgefors, Distance transformations in digital images, 1986).
+const STEPS: [u32; 3] = [3, 4, 5];
+/// A section is so many thirds of a cell thick: two cells.
+const BAND: u32 = 6;
+/// What is shorter than this, in heights, is no limb but a finger or a fold.
+const LEAST_BRANCH: f64 = 0.1;
+/// What fills more than this, in cubed heights, has no limbs: people fill .013, a ball of two heads .3.
+const MOST_FILLED: f64 = 0.4;
+/// The core is so many cells thick to either side of the plane: three layers of cells.
+const CORE: f64 = 1.5;
+/// No branch.
+const NONE: u32 = u32::MAX;
+
+/// A section of a branch.
+#[derive(Clone, Copy, Debug)]
+pub struct Rim {
+    /// Its middle.
+    pub middle: DVec3,
+    /// The mean distance of its outer cells from that.
+    pub radius: f64,
+}
+
+/// Something that sticks out.
+#[derive(Clone, Debug)]
+pub struct Branch {
+    /// Its sections from the tip inwards, down to where it meets another branch.
+    pub rims: Vec<Rim>,
+}
+
+/// The branches of `solid` around a core: the filled cells next to the plane at `axis` in a range of heights. Longest
+/// first; empty where no cell is there, or where the solid is no figure's.
+pub fn branches(voxels: &Voxels, axis: f64, heights: Range<f64>) -> Vec<Branch> {
+    if voxels.cells.len() as f64 * voxels.solid.cell.powi(3) > MOST_FILLED {
+        return Vec::new();
+    }
+    let far = distances(voxels, axis, heights);
+    let mut branches = merge(voxels, &far);
+    branches.retain_mut(|branch| measure(voxels, &far, branch));
+    let mut found: Vec<Branch> = branches.into_iter().map(|piece| Branch { rims: piece.rims }).collect();
+    found.sort_by_key(|branch| std::cmp::Reverse(branch.rims.len()));
+    found
+}
+
+/// One piece of the merge tree.
+struct Piece {
+    far: u32,
+    /// Its cells, from the tip inwards.
+    cells: Vec<u32>,
+    rims: Vec<Rim>,
+}
+
+/// Slots by how far they are, the furthest first, those that are as far in their order; without what no way leads to.
+fn furthest_first(far: &[u32]) -> Vec<u32> {
+    let reached = || far.iter().copied().filter(|&far| far != NONE);
+    let most = reached().max().unwrap_or(0);
+    let mut starts = vec![0usize; most as usize + 2];
+    reached().for_each(|far| starts[(most - far) as usize + 1] += 1);
+    for at in 1..starts.len() {
+        starts[at] += starts[at - 1];
+    }
+    let mut order = vec![0u32; starts[most as usize + 1]];
+    for (slot, &far) in far.iter().enumerate().filter(|&(_, &far)| far != NONE) {
+        let next = &mut starts[(most - far) as usize];
+        order[*next] = slot as u32;
+        *next += 1;
+    }
+    order
+}
+
+/// How far each cell is from the core through filled cells, in thirds of a cell; `NONE` where no way leads.
+fn distances(voxels: &Voxels, axis: f64, heights: Range<f64>) -> Vec<u32> {
+    let solid = &voxels.solid;
+    let mut far = vec![NONE; voxels.cells.len()];
+    let mut queue = Queue::default();
+    for slot in 0..far.len() as u32 {
+        let at = solid.middle(voxels.place(slot));
+        if (at.x - axis).abs() < CORE * solid.cell && heights.contains(&at.y) {
+            far[slot as usize] = 0;
+            queue.push(0, slot);
+        }
+    }
+    while let Some((at, slot)) = queue.pop() {
+        if far[slot as usize] as usize != at {
+            continue;
+        }
+        for (other, sides) in voxels.beside(slot) {
+            let next = at as u32 + STEPS[sides - 1];
+            if next < far[other as usize] {
+                far[other as usize] = next;
+                queue.push(next as usize, other);
+            }
+        }
+    }
+    far
+}
+
+/// The pieces of the merge tree that are long enough.
+fn merge(voxels: &Voxels, far: &[u32]) -> Vec<Piece> {
+    let order = furthest_first(far);
+    let mut groups = Groups::new(far.len());
+    // Of each group's least slot the piece that goes on there.
+    let mut owner = vec![NONE; far.len()];
+    let mut pieces: Vec<Piece> = Vec::new();
+    for slot in order {
+        let at = |slot: u32| (std::cmp::Reverse(far[slot as usize]), slot);
+        let mut own = slot as usize;
+        for (other, _) in voxels.beside(slot).filter(|&(other, _)| at(other) < at(slot)) {
+            let (a, b) = (own, groups.least(other as usize));
+            if a == b {
+                continue;
+            }
+            // The longer one goes on.
+            let (one, two) = (owner[a], owner[b]);
+            let goes_on = match (one, two) {
+                (NONE, two) => two,
+                (one, NONE) => one,
+                (one, two) if pieces[one as usize].far >= pieces[two as usize].far => one,
+                (_, two) => two,
+            };
+            groups.join(a, b);
+            own = a.min(b);
+            owner[own] = goes_on;
+        }
+        if owner[own] == NONE {
+            owner[own] = pieces.len() as u32;
+            pieces.push(Piece { far: far[slot as usize], cells: Vec::new(), rims: Vec::new() });
+        }
+        pieces[owner[own] as usize].cells.push(slot);
+    }
+    pieces
+}
+
+/// Cuts a piece into sections; false where it is too short.
+fn measure(voxels: &Voxels, far: &[u32], piece: &mut Piece) -> bool {
+    let solid = &voxels.solid;
+    let last = piece.cells.last().map_or(0, |&slot| far[slot as usize]);
+    if f64::from(piece.far - last) / 3.0 * solid.cell < LEAST_BRANCH {
+        return false;
+    }
+    let band = |slot: u32| (piece.far - far[slot as usize]) / BAND;
+    for cells in piece.cells.chunk_by(|&a, &b| band(a) == band(b)) {
+        let count = cells.len() as f64;
+        let at = |slot: u32| solid.middle(voxels.place(slot));
+        let middle = cells.iter().map(|&slot| at(slot)).sum::<DVec3>() / count;
+        let outer: Vec<f64> = cells
+            .iter()
+            .filter(|&&slot| voxels.beside(slot).filter(|&(_, sides)| sides == 1).count() < 6)
+            .map(|&slot| at(slot).distance(middle))
+            .collect();
+        let radius = outer.iter().sum::<f64>() / outer.len().max(1) as f64;
+        piece.rims.push(Rim { middle, radius });
+    }
+    true
+}
