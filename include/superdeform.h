@@ -786,7 +786,8 @@ SDEF_API SdefStatus sdef_deformer_create(SdefCharacter character, SdefStyle styl
 SDEF_API SdefStatus sdef_deformer_set_options(SdefDeformer deformer, const SdefOptions *options, SdefProgress progress,
     void *user, SdefError *error);
 
-// Changes the style of a deformer, with the same results as a new one and for less: the character is not measured again.
+// Changes the style of a deformer, with the same results as a new one and for less: the character is not measured
+// again.
 //
 // Errors: as sdef_deformer_create, after which the deformer is as it was; BUSY.
 SDEF_API SdefStatus sdef_deformer_set_style(SdefDeformer deformer, SdefStyle style, SdefProgress progress, void *user,

@@ -466,6 +466,7 @@ FUNCTIONS = {
     "sdef_character_add_image": (SdefStatus, [SdefCharacter, c.c_void_p, c.c_void_p, c.c_void_p]),
     "sdef_character_set_face_hints": (SdefStatus, [SdefCharacter, c.c_void_p, c.c_void_p]),
     "sdef_character_add_morph_target": (SdefStatus, [SdefCharacter, c.c_uint32, c.c_void_p, c.c_void_p]),
+    "sdef_morph_target_is_read": (c.c_uint32, [c.c_char_p]),
     "sdef_character_get_info": (SdefStatus, [SdefCharacter, c.c_void_p, c.c_void_p]),
     "sdef_character_get_joints": (SdefStatus, [SdefCharacter, c.c_void_p, c.c_void_p, c.c_void_p, c.c_void_p, c.c_size_t, c.c_void_p, c.c_void_p]),
     "sdef_character_get_weights": (SdefStatus, [SdefCharacter, c.c_uint32, c.c_uint32, c.c_void_p, c.c_void_p, c.c_size_t, c.c_void_p]),
@@ -485,6 +486,7 @@ FUNCTIONS = {
     "sdef_deformer_get_joints": (SdefStatus, [SdefDeformer, c.c_void_p, c.c_void_p, c.c_size_t, c.c_void_p, c.c_void_p]),
     "sdef_deformer_map_points": (SdefStatus, [SdefDeformer, c.c_void_p, c.c_void_p, c.c_size_t, c.c_void_p, c.c_void_p, c.c_void_p, c.c_void_p]),
     "sdef_deformer_map_colliders": (SdefStatus, [SdefDeformer, c.c_void_p, c.c_size_t, c.c_void_p, c.c_size_t, c.c_void_p, c.c_void_p]),
+    "sdef_deformer_map_morph_targets": (SdefStatus, [SdefDeformer, c.c_uint32, c.c_void_p, c.c_size_t, c.c_void_p, c.c_void_p, c.c_void_p, c.c_void_p, c.c_void_p]),
     "sdef_deformer_get_groups": (SdefStatus, [SdefDeformer, c.c_void_p, c.c_size_t, c.c_void_p, c.c_void_p]),
     "sdef_deformer_measure": (SdefStatus, [SdefDeformer, c.c_void_p, c.c_void_p, c.c_void_p]),
     "sdef_deformer_get_figure": (SdefStatus, [SdefDeformer, c.c_uint32, c.c_void_p, c.c_void_p]),
@@ -495,11 +497,10 @@ FUNCTIONS = {
 # Numbers that can be set, by their names in SdefOptions: the least, the greatest, what it is unless set (in product mode; None:
 # found or measured), and what it does.
 OPTIONS = {
-    "head_scale": (0.1, 10.0, 1.5, "size of the head, 1.5 is the paper's; the body follows, so the number of heads stays"),
+    "head_scale": (0.1, 10.0, 1.5, "how many times as large as the character's own the head becomes; 1.5 is the paper's. The number of heads is the style's, so the whole figure grows and shrinks with the head; where height is set, that counts"),
     "amount": (0.0, 1.0, 1.0, "from the original (0) to the style (1)"),
     "profile": (0.0, 1.0, 1.0, "1 makes every slice of the body as broad and deep as the style's, 0 gives each part one thickness"),
     "hair_length": (0.0, 1.0, 1.0, "hair below the chin: 1 ends it where it ended on the body, 0 at the chin"),
-    "face_squash": (-10.0, 10.0, 0.8, "how much younger the face gets; 0 leaves it"),
     "youth": (0.0, 1.0, 1.0, "from the face's own age (0) to a child's, or the reference's (1)"),
     "youth_eye": (0.0, 1.0, 1.0, "of youth: eyes grow, lids open"),
     "youth_lower": (0.0, 1.0, 1.0, "of youth: eyes and all beside them sink"),
@@ -511,6 +512,7 @@ OPTIONS = {
     "smile": (0.0, 1.0, 0.0, "lifts the corners of the mouth"),
     "seat": (0.0, 1.0, 1.0, "moves the head back over the chest and fills the nape"),
     "hair_lay": (0.0, 1.0, 1.0, "lays long hair on the body instead of letting it flare"),
+    "face_squash": (-10.0, 10.0, 0.8, "how much younger the face gets; 0 leaves it"),
     "length_scale": (0.01, 10.0, None, "1 keeps the length of the group's bones, 0.5 halves it"),
     "thickness_scale": (0.01, 10.0, None, "1 keeps the thickness of the group, 0.5 halves it"),
     "length_transfer": (0.0, 1.0, None, "0 keeps the target's length, 1 takes all of the reference's"),

@@ -115,8 +115,8 @@ fn printed() -> String {
     bindings.write(&mut bytes);
     let _ = std::fs::remove_dir_all(&folder);
     let text = String::from_utf8(bytes).expect("a header is text");
-    // Those that cannot fail: abi_version, version, status_name, live_handles.
-    let functions = text.matches("SdefStatus sdef_").count() + 4;
+    // Those that cannot fail: abi_version, version, status_name, live_handles, morph_target_is_read.
+    let functions = text.matches("SdefStatus sdef_").count() + 5;
     assert_eq!(functions, exports, "cbindgen has seen as many functions as there are exports");
     text
 }

@@ -479,8 +479,8 @@ internal static unsafe partial class Native
         SdefError* error);
 
     /// <summary>
-    /// Measures the result, as the first call of sdef_deformer_get_figure or _get_report after a change does, and says how far
-    /// it is; after it both are for free. It takes as long as an apply and a measurement together.
+    /// Measures the result, as the first call of sdef_deformer_get_figure or _get_report after a change does, and says how
+    /// far it is; after it both are for free. It takes as long as an apply and a measurement together.
     ///
     /// progress, user: see Progress above
     ///
@@ -508,7 +508,8 @@ internal static unsafe partial class Native
         SdefError* error);
 
     /// <summary>
-    /// Changes the style of a deformer, with the same results as a new one and for less: the character is not measured again.
+    /// Changes the style of a deformer, with the same results as a new one and for less: the character is not measured
+    /// again.
     ///
     /// Errors: as sdef_deformer_create, after which the deformer is as it was; BUSY.
     /// </summary>
@@ -610,8 +611,8 @@ internal static unsafe partial class Native
     ///
     /// amount: 0 is first, 1 second; 0 to 1
     ///
-    /// Errors: BAD_STYLE where one of the two is nothing but a number of heads and the other is not, or where the result would
-    /// be no body; BAD_OPTION.
+    /// Errors: BAD_STYLE where one of the two is nothing but a number of heads and the other is not, or where the result
+    /// would be no body; BAD_OPTION.
     /// </summary>
     [DllImport(Library, ExactSpelling = true, CallingConvention = CallingConvention.Cdecl)]
     internal static extern UInt32 sdef_style_blend(

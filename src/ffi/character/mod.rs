@@ -189,7 +189,8 @@ pub unsafe extern "C" fn sdef_character_add_morph_target(
 /// open: 1, and they belong to the character; 0 for all others, which sdef_deformer_map_morph_targets can map as well.
 ///
 /// name: NULL is none
-#[ffi_export]
+#[cfg_attr(not(target_arch = "wasm32"), ffi_export)]
+#[cfg_attr(target_arch = "wasm32", unsafe(no_mangle))]
 pub unsafe extern "C" fn sdef_morph_target_is_read(name: *const c_char) -> u32 {
     u32::from(closes_an_eye(&unsafe { arrays::text(name) }))
 }

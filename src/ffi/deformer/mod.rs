@@ -84,7 +84,8 @@ pub unsafe extern "C" fn sdef_deformer_set_options(
     unsafe { call(error, body) }
 }
 
-/// Changes the style of a deformer, with the same results as a new one and for less: the character is not measured again.
+/// Changes the style of a deformer, with the same results as a new one and for less: the character is not measured
+/// again.
 ///
 /// Errors: as sdef_deformer_create, after which the deformer is as it was; BUSY.
 #[cfg_attr(not(target_arch = "wasm32"), ffi_export)]
@@ -288,7 +289,8 @@ pub unsafe extern "C" fn sdef_deformer_map_colliders(
 /// tangents:      likewise
 ///
 /// Errors: BAD_ARGUMENT also for a mesh that is none; BAD_INPUT with the vertex as the element; OUT_OF_MEMORY.
-#[ffi_export]
+#[cfg_attr(not(target_arch = "wasm32"), ffi_export)]
+#[cfg_attr(target_arch = "wasm32", unsafe(no_mangle))]
 pub unsafe extern "C" fn sdef_deformer_map_morph_targets(
     deformer: SdefDeformer,
     mesh: u32,
