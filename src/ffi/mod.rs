@@ -51,7 +51,7 @@
 //!            that was built runs with every later library of that version. Results are no part of it: a minor release
 //!            may give better ones. Who needs the same vertices for good ships the library with the host, or keeps the
 //!            vertices. A saved style keeps its numbers. On trial, which means that a minor release may change what
-//!            they do, or have them do nothing: youth_*, smile, seat and hair_lay of SdefOptions, and
+//!            they do, or have them do nothing: the fields of SdefOptions from youth on, and
 //!            sdef_deformer_map_colliders.
 //! Errors     Every call that can fail returns a SdefStatus; its last argument, which may be NULL, receives a sentence
 //!            that names the array, the element, the value and the remedy.

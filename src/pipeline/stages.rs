@@ -3,7 +3,7 @@
 //! A row says what a stage makes, the function that makes it, and the options that it reads. Which stages above it a function
 //! reads stands in it, at its beginning. [`memo`](super::memo) calls it where what it reads has changed. Where a point goes by
 //! what comes out here is in [`Placement`] and [`Field`]; what is done last, for every vertex alike,
-//! in [`Ending`](super::displacement::Ending).
+//! in [`super::displacement::Ending`].
 
 use super::displacement::{self, Ending};
 use super::memo::{Phase, Stage, Value, View};

@@ -106,7 +106,8 @@ impl Solid {
         if !low.is_finite() {
             return layers;
         }
-        let (low, high) = (self.nearest(low), self.nearest(high));
+        // A wall half a cell behind the last cell that is nearest to one is crossed too.
+        let (low, high) = (self.nearest(low), self.within(high).ceil().as_ivec3());
         let lengths = (high - low + 1).to_array();
         let strides = [1, lengths[0] as usize, (lengths[0] * lengths[1]) as usize];
         let cell_count = strides[2] * lengths[2] as usize;
@@ -350,7 +351,7 @@ mod tests {
         let count = positions.len() as u32;
         triangles.extend(triangles.clone().into_iter().map(|corners| corners.map(|vertex| vertex + count)));
         let both = Solid::of_body(&shells, &triangles, 64);
-        let layers = |x: f64| both.layers[both.index(both.nearest(both.to_cells(DVec3::new(x, 0.5, 0.0))))];
+        let layers = |x: f64| both.layers(both.to_cells(DVec3::new(x, 0.5, 0.0)).round().as_ivec3());
         assert_eq!([0.0, 0.25, 0.31].map(layers), [2, 1, 0]);
     }
 
