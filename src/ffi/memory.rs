@@ -96,8 +96,8 @@ pub fn to_rig(character: &Character, options: &RigOptions) -> usize {
 
 /// Cells along the longest side of a figure where its limbs are looked for, a quarter more for what is wider than high.
 const SOLID: usize = 200;
-/// Bytes a cell of the box around a figure takes there, 5 and half as much again.
-const SOLID_CELL: usize = 8;
+/// Bytes a cell of the box around a figure takes there: 17 where 160 cells are as long as the figure is high.
+const SOLID_CELL: usize = 16;
 /// Bytes more a cell within the figure, 32 and half as much again.
 const SOLID_CELL_WITHIN: usize = 48;
 

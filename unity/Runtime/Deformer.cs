@@ -285,6 +285,22 @@ public sealed class Deformer : NativeObject
     }
 
     /// <summary>
+    /// Measures the result, as the first <see cref="GetReport"/> after a change does, and says how far it is; after it that
+    /// is for free.
+    /// </summary>
+    /// <exception cref="InvalidInputException">NoGeometry where the result is too flat to be measured.</exception>
+    public unsafe void Measure(ProgressHandler progress = null)
+    {
+        using (ProgressCall call = ProgressCall.Of(progress))
+        {
+            SdefError error = Failure.None();
+            uint status = Native.sdef_deformer_measure(Raw, call.Callback, call.User, &error);
+            GC.KeepAlive(this);
+            call.Check(status, &error);
+        }
+    }
+
+    /// <summary>
     /// Measures the result. The first call after a change takes as long as an apply and a measurement together.
     /// </summary>
     /// <exception cref="InvalidInputException">NoGeometry where the result is too flat to be measured.</exception>

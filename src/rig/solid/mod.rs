@@ -60,7 +60,7 @@ impl Solid {
     ) -> Self {
         let middle = DVec3::new(axis, 0.5, 0.0);
         let off = |&vertex: &u32| (positions[vertex as usize] - middle).abs();
-        let reach = triangles.iter().flatten().map(off).fold(DVec3::splat(0.5), |most, off| {
+        let reach = triangles.iter().flatten().map(off).fold(DVec3::ZERO, |most, off| {
             // min and max pass over what is no number.
             most.max(off.min(DVec3::splat(REACH)))
         });

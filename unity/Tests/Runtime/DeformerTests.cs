@@ -302,6 +302,14 @@ public sealed class DeformerTests
     [Test]
     public void The_report_is_numbers_and_the_same_numbers_as_JSON()
     {
+        float far = 0;
+        deformer.Measure(fraction =>
+        {
+            Assert.IsTrue(fraction >= far, fraction + " after " + far);
+            far = fraction;
+            return true;
+        });
+        Assert.AreEqual(1, far);
         Report report = deformer.GetReport();
         Assert.IsFalse(report.RigMade);
         Assert.AreEqual(1.75, report.Target.Height, 0.05);
