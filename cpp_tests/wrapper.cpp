@@ -124,6 +124,13 @@ static void deformers() {
   colliders[0].joint = 3, colliders[0].y = 1.6, colliders[0].z = 0.1, colliders[0].radius = 0.1;
   deformer.map_colliders(colliders);
   CHECK(std::fabs(colliders[0].y - moved[1]) < 1e-9 && std::fabs(colliders[0].radius - 0.1 * scales[0]) < 1e-9);
+  CHECK(superdeform::morph_target_is_read("blink") && !superdeform::morph_target_is_read("smile"));
+  const std::vector<std::uint32_t> one{1}, first{0};
+  std::vector<float> change{0, 0.01f, 0};
+  deformer.map_morph_targets(0, one, first, change);
+  CHECK(change[1] > 0 && change[1] < 0.05f);
+  CHECK(thrown([&] { deformer.map_morph_targets(0, one, first, std::vector<float>()); }).status() ==
+        SDEF_STATUS_BAD_ARGUMENT);
   CHECK(deformer.groups().size() >= 6);
   deformer.warnings();
   Options options;

@@ -281,6 +281,12 @@ inline const char *status_name(SdefStatus status) {
   return sdef_status_name(status);
 }
 
+// Whether the library wants a morph target of this name with the character, as it does blinks; nullptr is none.
+inline bool morph_target_is_read(const char *name) {
+  detail::check_version();
+  return sdef_morph_target_is_read(name) != 0;
+}
+
 // The warnings about the rig and the roles of a character, or about a deformer and all before it.
 template <class Raw> std::string warnings(const detail::Handle<Raw> &handle) {
   return detail::text([&](char *text, std::size_t capacity, std::size_t *size, SdefError *error) {
