@@ -47,10 +47,10 @@ impl MeshList {
         let Some((mesh, vertex)) = corners.max_by(|a, b| size(a).total_cmp(&size(b))) else {
             return Self::no_extent();
         };
-        let at = position(&(mesh, vertex)).to_array();
+        let at = position(&(mesh, vertex));
         let place = place(mesh, &character.meshes[mesh].name);
         let message = format!(
-            "{place}: no triangle of the character has an area beside its furthest vertex, {vertex} at {at:?}: move that if it lies astray, else give triangles of corners in three places"
+            "{place}: no triangle of the character has an area beside its furthest vertex, {vertex} at {at}: move that if it lies astray, else give triangles of corners in three places"
         );
         Error::new(ErrorKind::NoGeometry, message).in_mesh(mesh).at(Element::Vertex(vertex))
     }

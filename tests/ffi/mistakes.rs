@@ -694,7 +694,8 @@ fn what_nothing_can_be_measured_beside_is_named() {
         (SDEF_STATUS_NO_GEOMETRY, Some(0), Some(vertex)),
         "{failed:?}"
     );
-    assert!(failed.message.contains(&format!("vertex, {vertex} at [0.5, 1e30, -2.0]")), "{failed:?}");
+    let at = format!("vertex, {vertex} at [0.5, 1{}, -2]", "0".repeat(30));
+    assert!(failed.message.contains(&at), "{failed:?}");
     // Triangles of one corner.
     let failed = refused(|mesh| mesh.triangles.iter_mut().for_each(|corners| *corners = [corners[0]; 3]));
     assert_eq!(failed.status, SDEF_STATUS_NO_GEOMETRY, "{failed:?}");
