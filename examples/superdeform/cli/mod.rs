@@ -520,7 +520,7 @@ mod tests {
     fn help_gives_ranges_defaults_and_choices() {
         let text = refused(&["--help"]).1.split_whitespace().collect::<Vec<_>>().join(" ");
         for words in [
-            "Size of the head, 1.5 is the paper's; the body follows, so the number of heads stays [0.1 to 10; default: 1.5]",
+            "where height is set, that counts [0.1 to 10; default: 1.5]",
             "[default: f4] [possible values: f4, f2, sphere]",
             "[1.8 to 6]",
         ] {
