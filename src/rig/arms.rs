@@ -44,16 +44,12 @@ const MOST_TOUCHING: f64 = 0.15;
 const HANGING_OVER: f64 = 0.8;
 /// An arm is followed so many columns before its lower side is looked at for a drop (seen: ±30 % changes no joint), ...
 const LEAST_FOLLOWED: usize = 12;
-/// ... and has at least so many (seen: ±30 % changes no joint), ...
+/// ... and has at least so many. Seen: ±30 % changes no joint.
 const LEAST_COLUMNS: usize = 8;
-/// ... of which so many at least are fitted. Seen: ±30 % changes no joint.
-const LEAST_FITTED: usize = 4;
 /// Where no armpit is seen the arm begins at this distance from the axis. Seen: ±30 % changes no joint.
 const PIT_BY_RATIO: f64 = 0.1;
-/// The line of an arm that hangs straight down is taken to run outwards by at least this. Seen: ±30 % changes no joint.
-const STEEPEST_LINE: f64 = 0.2;
-/// The same where the shoulder is looked for along it. Seen: ±30 % changes no joint.
-const STEEPEST_SHOULDER: f64 = 0.3;
+/// The line of an arm that hangs straight down is taken to run outwards by at least this. Seen: .2 to .3 change no joint.
+const STEEPEST: f64 = 0.25;
 /// Rays go on beyond the tip, or the last ones would miss it. Seen: at -30 %, joints lie 0.030 H further off, 58 more
 /// by over 0.06 H, 37 more good joints doubted.
 const BEYOND_TIP: f64 = 1.02;
@@ -143,8 +139,8 @@ pub fn find_arm(view: &FrontView, left: bool, space: &ArmSpace) -> Option<Arm> {
     if length < LEAST_COLUMNS {
         return None;
     }
-    let fitted: Vec<DVec2> = path[(LINE_RANGE.0 * length as f64) as usize
-        ..((LINE_RANGE.1 * length as f64) as usize).max(LEAST_FITTED)]
+    let fitted: Vec<DVec2> = path
+        [(LINE_RANGE.0 * length as f64) as usize..(LINE_RANGE.1 * length as f64) as usize]
         .iter()
         .map(|&(steps, run)| DVec2::new(view.distance(steps), 0.5 * (run.0 + run.1) as f64 * cell))
         .collect();
@@ -154,7 +150,7 @@ pub fn find_arm(view: &FrontView, left: bool, space: &ArmSpace) -> Option<Arm> {
     let pit = DVec2::new(pit_steps as f64 * cell, pit_row as f64 * cell);
     // The foot of the pit on the line, and of the tip.
     let start = through + along * (pit - through).dot(along);
-    let length = (view.distance(outermost) - start.x) / along.x.max(STEEPEST_LINE);
+    let length = (view.distance(outermost) - start.x) / along.x.max(STEEPEST);
     joints(view, left, &ArmLine { along, pit, start, length, hangs: false }, pit_seen)
 }
 
@@ -405,7 +401,7 @@ fn joints(view: &FrontView, left: bool, line: &ArmLine, pit_seen: bool) -> Optio
     let inwards = if line.hangs {
         (line.pit.y + HANGING_OVER * radius - upper.y) / -line.along.y
     } else {
-        ((upper.x - view.axis).abs() - out) / line.along.x.max(STEEPEST_SHOULDER)
+        ((upper.x - view.axis).abs() - out) / line.along.x.max(STEEPEST)
     };
     let mut shoulder = upper - right * inwards + DVec3::Y * SHOULDER_OVER * radius;
     let (ahead, trunk) = (curve.ahead(right), middle(view, shoulder.y).0);

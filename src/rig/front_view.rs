@@ -26,12 +26,6 @@ const WIDE_SHARE: f64 = 0.6;
 const FILLED_ROWS: f64 = 0.97;
 /// ... and nearly all of it hangs together. Seen: at +30 %, joints lie 0.003 H further off, eight more by over 0.06 H.
 const CONNECTED_SHARE: f64 = 0.9;
-/// The front near the axis, within this distance of it (seen: ±30 % changes no joint), ...
-const FRONT_REACH: f64 = 0.05;
-/// ... lies no further than this behind that of all meshes (seen: ±30 % changes no joint), ...
-const FRONT_WITHIN: f64 = 0.05;
-/// ... but for this share of the rows. Seen: ±30 % changes no joint.
-const FRONT_MISSING: f64 = 0.12;
 /// Gaps of so many cells within a row are slits between patches, not air. Seen: ±30 % moves joints by under 0.0005 H.
 const SLIT: usize = 2;
 /// Every so many rows are compared with their mirror image. Seen: ±30 % moves joints by under 0.0005 H.
@@ -111,7 +105,7 @@ impl<'a> FrontView<'a> {
             }
             let grid = front(&figure.positions, &triangles, 0.0, threads);
             progress.at(0.6)?;
-            if is_whole(&grid, &whole) && shows_the_front(&grid, &reference_grid) {
+            if is_whole(&grid, &whole) {
                 chosen = Some((*set, triangles, grid));
                 break;
             }
@@ -292,21 +286,6 @@ fn filled_share(grid: &RayGrid) -> f64 {
     let (first, last) = (grid.row(own.low), grid.row(own.high - 0.5 * grid.frame.cell));
     let filled = (first..=last).filter(|&row| !runs(grid, row).is_empty()).count();
     filled as f64 / (last - first + 1) as f64
-}
-
-/// True where nearly all rows show the figure's front about the axis, not the back of its head without a face.
-fn shows_the_front(grid: &RayGrid, all: &RayGrid) -> bool {
-    let front = |grid: &RayGrid, row: usize| {
-        let x = |column: usize| grid.x(column).abs() < FRONT_REACH;
-        let depths = (0..grid.frame.columns)
-            .filter(|&column| x(column))
-            .filter_map(|column| grid.depth(column, row))
-            .map(|(_, front)| front);
-        depths.max_by(f64::total_cmp)
-    };
-    let pairs: Vec<f64> = (0..ROWS).filter_map(|row| Some(front(all, row)? - front(grid, row)?)).collect();
-    let behind = pairs.iter().filter(|&&behind| behind > FRONT_WITHIN).count();
-    behind as f64 <= FRONT_MISSING * pairs.len() as f64
 }
 
 /// The share of the silhouette that its largest piece has, where gaps of a slit are bridged.

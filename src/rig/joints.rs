@@ -198,10 +198,9 @@ struct Search<'a> {
 
 impl Search<'_> {
     fn run(mut self, progress: &mut Progress) -> Result<FoundJoints> {
-        let view = self.view;
-        let Self { figure, cells, .. } = self;
+        let (figure, view) = (self.figure, self.view);
         let counts = |triangle: usize| view.meshes[figure.mesh_of(triangle)];
-        let solid = Solid::new(&figure.positions, &figure.triangles, counts, view.axis, cells);
+        let solid = Solid::new(&figure.positions, &figure.triangles, counts, view.axis, self.cells);
         let solid = Voxels::of(solid);
         progress.at(0.5)?;
         let lobes = LegLobes::of(&solid.solid, view.low, LEGS_BELOW * view.high);
@@ -407,11 +406,8 @@ impl Search<'_> {
         }
         for (left, leg) in [true, false].into_iter().zip(pair) {
             let leans = (leg.ankle.x - leg.hip.x).abs() > LEANS * (leg.hip.y - leg.ankle.y);
-            let ankle = match (leg.ankle_seen, leans) {
-                (true, _) => confidence,
-                (false, true) => confidence.min(DOUBTFUL),
-                (false, false) => confidence.min(ANKLE_BY_LEG),
-            };
+            let by_leg = if leans { DOUBTFUL } else { ANKLE_BY_LEG };
+            let ankle = if leg.ankle_seen { confidence } else { confidence.min(by_leg) };
             let upper = if odd || legs.seen == LegGap::Hem { confidence.min(DOUBTFUL) } else { confidence };
             self.put(Role::LeftUpperLeg.on_side(left), leg.hip, upper.min(SEEN_HIP));
             self.put(Role::LeftLowerLeg.on_side(left), leg.knee, upper);
@@ -435,15 +431,11 @@ impl Search<'_> {
                 Some((arm, base)) => {
                     let seen = if arm.pit_seen { SEEN } else { RATIO };
                     let wrist = if arm.wrist_seen { seen } else { seen.min(DOUBTFUL) };
-                    let confidences = [base, base.min(wrist + UNSURE_ELBOW), wrist];
-                    (
-                        [arm.shoulder, arm.elbow, arm.wrist, arm.tip],
-                        confidences.map(|confidence| confidence.min(most)),
-                    )
+                    let sure = [base, base.min(wrist + UNSURE_ELBOW), wrist].map(|sure| sure.min(most));
+                    ([arm.shoulder, arm.elbow, arm.wrist, arm.tip], sure)
                 }
                 None => {
-                    let above = view.high - legs.crotch;
-                    let y = legs.crotch + SHOULDER_BY_RATIO * above;
+                    let y = legs.crotch + SHOULDER_BY_RATIO * (view.high - legs.crotch);
                     let joint = |distance: f64| view.point(left, distance, y, middle(view, y).0);
                     (ARM_BY_RATIO.map(joint), [RATIO; 3])
                 }
@@ -485,10 +477,8 @@ impl Search<'_> {
 
     /// How far the feet are ahead of the shoulders or behind them, both sides' mean.
     fn off_balance(&self) -> f64 {
-        let ahead = |left: bool| {
-            self.at(Role::LeftFoot.on_side(left)).z - self.at(Role::LeftUpperArm.on_side(left)).z
-        };
-        (0.5 * (ahead(true) + ahead(false))).abs()
+        let both = |role: Role| self.at(role).z + self.at(role.on_side(false)).z;
+        (0.5 * (both(Role::LeftFoot) - both(Role::LeftUpperArm))).abs()
     }
 
     /// Shoulder, elbow, wrist and tip of an arm some of whose joints are given.

@@ -23,10 +23,8 @@ const SLIT: usize = 2;
 const CROTCH_RANGE: (f64, f64) = (0.10, 0.62);
 /// The crotch where none is seen, as a share of the figure's height (seen: ±30 % changes no joint), ...
 const CROTCH_BY_RATIO: f64 = 0.47;
-/// ... of the shoulders' height, where those are seen (seen: ±30 % changes no joint), ...
+/// ... and of the shoulders' height, where those are seen. Seen: ±30 % changes no joint.
 const CROTCH_OF_SHOULDERS: f64 = 0.56;
-/// ... but no higher than this share of what may be legs. Seen: ±30 % changes no joint.
-const CROTCH_BELOW: f64 = 0.6;
 /// A run narrower than this is a sliver, no leg (seen: ±30 % moves joints by under 0.0005 H), ...
 const LEAST_LEG: f64 = 0.006;
 /// ... and inside of a skirt one narrower than this. Seen: ±30 % moves joints by under 0.0005 H.
@@ -325,7 +323,7 @@ fn seen_legs(view: &FrontView, top: f64) -> Legs {
         };
     }
     let crotch = match (seen, crotch) {
-        (LegGap::Unseen, _) | (_, None) => (CROTCH_BY_RATIO * (view.high - view.low)).min(CROTCH_BELOW * top),
+        (LegGap::Unseen, _) | (_, None) => CROTCH_BY_RATIO * (view.high - view.low),
         (_, Some(y)) => y,
     };
     let sections = sections(view, crotch, first, &pairs);
