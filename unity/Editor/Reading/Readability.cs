@@ -8,7 +8,7 @@ namespace SuperDeform.Editor
     {
         internal static Finding NotReadable(Mesh mesh, UnityEngine.Object where)
         {
-            Finding finding = new Finding("not_readable", Severity.Error, where, mesh.name, where.name);
+            var finding = new Finding("not_readable", Severity.Error, where, mesh.name, where.name);
             return CanMend(mesh) ? finding.WithFix("fix_readable", () => Mend(mesh)) : finding;
         }
 
@@ -28,7 +28,7 @@ namespace SuperDeform.Editor
                 return;
             }
             // A mesh asset of its own, or within a prefab.
-            SerializedObject asset = new SerializedObject(mesh);
+            var asset = new SerializedObject(mesh);
             asset.FindProperty("m_IsReadable").boolValue = true;
             asset.ApplyModifiedPropertiesWithoutUndo();
             AssetDatabase.SaveAssetIfDirty(mesh);

@@ -50,7 +50,7 @@ namespace SuperDeform.Editor
                 {
                     Component component = ComponentOf(clip, curve);
                     if (component == null) continue;
-                    using (SerializedObject serialized = new SerializedObject(component))
+                    using (var serialized = new SerializedObject(component))
                     {
                         SerializedProperty number = NumberOf(serialized, curve);
                         if (number != null) before[new KeyValuePair<Component, string>(component, curve.propertyName)] = number.floatValue;
@@ -79,8 +79,7 @@ namespace SuperDeform.Editor
             int written = 0;
             foreach (EditorCurveBinding curve in new List<EditorCurveBinding>(clip.Curves))
             {
-                double factor, shift;
-                if (!Change(clip, curve, out factor, out shift)) continue;
+                if (!Change(clip, curve, out double factor, out double shift)) continue;
                 AnimationCurve keys = clip.Get(curve);
                 if (keys == null) continue;
                 clip.Set(curve, Changed(keys, (float)factor, (float)shift));
@@ -94,8 +93,7 @@ namespace SuperDeform.Editor
         {
             foreach (EditorCurveBinding curve in clip.Curves)
             {
-                double factor, shift;
-                if (Change(clip, curve, out factor, out shift)) return true;
+                if (Change(clip, curve, out double factor, out double shift)) return true;
             }
             return false;
         }
@@ -144,9 +142,8 @@ namespace SuperDeform.Editor
         void OfNumber(IMovableClip clip, EditorCurveBinding curve, bool ofPoint, ref double factor, ref double shift)
         {
             Component component = ComponentOf(clip, curve);
-            float old;
-            if (component == null || !before.TryGetValue(new KeyValuePair<Component, string>(component, curve.propertyName), out old)) return;
-            using (SerializedObject serialized = new SerializedObject(component))
+            if (component == null || !before.TryGetValue(new KeyValuePair<Component, string>(component, curve.propertyName), out float old)) return;
+            using (var serialized = new SerializedObject(component))
             {
                 float now = NumberOf(serialized, curve).floatValue;
                 if (now == old) return;
