@@ -131,6 +131,7 @@ namespace SuperDeform.Editor.Tests
         /// VRM 1.0 role -> node name, for files that do not say; null for VRM files and for those that cannot be humanoids in Unity.
         public static Dictionary<string, string> RolesOf(string file)
         {
+            file = Path.GetFileName(file);
             if (file.EndsWith(".vrm")) return null;
             if (file.StartsWith("kaykit")) return Sided("hips hips spine spine chest chest head head", "UpperArm upperarm LowerArm lowerarm Hand hand UpperLeg upperleg LowerLeg lowerleg Foot foot Toes toes", ".l", ".r", "");
             // Its feet hang from the root beside the legs, which no humanoid Avatar allows: its joints are told by their names.

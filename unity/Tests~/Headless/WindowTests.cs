@@ -60,10 +60,15 @@ namespace SuperDeform.Editor.Tests
             window.Controller.Tick(now + 1);
         }
 
+        private static void Tell(ConverterWindow window, string message)
+        {
+            const System.Reflection.BindingFlags own = System.Reflection.BindingFlags.Instance | System.Reflection.BindingFlags.NonPublic;
+            typeof(ConverterWindow).GetMethod(message, own).Invoke(window, null);
+        }
+
         private static void Draw(ConverterWindow window)
         {
-            Gui.Pass(() => typeof(ConverterWindow).GetMethod("OnGUI", System.Reflection.BindingFlags.Instance
-                | System.Reflection.BindingFlags.NonPublic).Invoke(window, null));
+            Gui.Pass(() => Tell(window, "OnGUI"));
         }
 
         [Test]
@@ -362,6 +367,20 @@ namespace SuperDeform.Editor.Tests
         }
 
         [Test]
+        public void behind_another_tab_the_avatar_is_seen_as_it_is()
+        {
+            ConverterWindow window = Open();
+            Settle(window);
+            Assert.IsTrue(figure.Body.forceRenderingOff);
+            Tell(window, "OnBecameInvisible");
+            Settle(window);
+            Assert.IsFalse(figure.Body.forceRenderingOff, "another tab lies over it");
+            Tell(window, "OnBecameVisible");
+            Settle(window);
+            Assert.IsTrue(figure.Body.forceRenderingOff, "in front again");
+        }
+
+        [Test]
         public void the_button_makes_a_prefab_and_shows_it()
         {
             Settings.BatchMode = false;
@@ -430,7 +449,7 @@ namespace SuperDeform.Editor.Tests
         }
 
         [Test]
-        public void everything_is_drawn_in_both_languages()
+        public void everything_is_drawn_in_every_language()
         {
             ConverterWindow window = Open();
             for (int section = 0; section < 5; section++)
