@@ -202,7 +202,9 @@ namespace SuperDeform.Editor.Tests
         {
             Model model = Models.Load("kaykit_rogue.glb");
             foreach (Renderer renderer in model.Root.GetComponentsInChildren<Renderer>(true))
+            {
                 if (renderer.name != "Rogue_Head") UnityEngine.Object.DestroyImmediate(renderer.gameObject);
+            }
             Fails(model.Root, "no_body_mesh", model.Root.name);
         }
 
