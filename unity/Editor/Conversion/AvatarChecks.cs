@@ -129,6 +129,10 @@ namespace SuperDeform.Editor
                 findings.Add(cause.Finding);
                 return;
             }
+            foreach (RendererData renderer in data.Renderers.FindAll(renderer => renderer.Unmoved > 0))
+            {
+                findings.Add(new Finding("bones_missing", Severity.Warning, renderer.Renderer, renderer.Renderer.name, renderer.Unmoved));
+            }
             bool skinned = data.Renderers.Exists(renderer => renderer.Skin != null);
             int[] roles = library ? GuessedRoles.Of(data, false) : data.Roles;
             findings.AddRange(data.Findings);

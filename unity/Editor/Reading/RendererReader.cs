@@ -81,17 +81,23 @@ namespace SuperDeform.Editor
             byte[] perVertex = counts.ToArray();
             BoneWeight1[] all = renderer.Mesh.GetAllBoneWeights().ToArray();
             int spare = Math.Max(0, Array.FindIndex(skin.Joints, joint => joint >= 0));
-            if (skin.Joints[spare] < 0) return false;
+            if (skin.Joints[spare] < 0)
+            {
+                renderer.Unmoved = vertexCount;
+                return false;
+            }
             uint[] starts = new uint[vertexCount + 1];
             var bones = new List<uint>(all.Length);
             var weights = new List<float>(all.Length);
             int next = 0;
             for (int vertex = 0; vertex < vertexCount; vertex++)
             {
+                bool lost = false;
                 for (int influence = 0; influence < perVertex[vertex]; influence++, next++)
                 {
                     int bone = all[next].boneIndex;
                     bool known = bone >= 0 && bone < skin.Joints.Length && skin.Joints[bone] >= 0;
+                    lost |= !known && all[next].weight > 0f;
                     if (!known || all[next].weight == 0f) continue;
                     bones.Add((uint)bone);
                     weights.Add(all[next].weight);
@@ -101,6 +107,7 @@ namespace SuperDeform.Editor
                     bones.Add((uint)spare);
                     weights.Add(1f);
                 }
+                if (lost) renderer.Unmoved++;
                 starts[vertex + 1] = (uint)weights.Count;
             }
             renderer.RowStarts = starts;
