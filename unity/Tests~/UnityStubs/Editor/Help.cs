@@ -7,6 +7,9 @@ using Object = UnityEngine.Object;
 
 namespace UnityEditor
 {
+    /// Of .unitypackage files; the Package Manager's has the same name.
+    public struct PackageInfo { public string packagePath, jsonInfo, iconURL; }
+
     public class Help
     {
         /// As Unity does (Editor/Mono/Help.cs): the attribute's address as it stands, and no other help for a class that is not Unity's own.
