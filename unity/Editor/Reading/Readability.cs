@@ -1,4 +1,5 @@
 using UnityEditor;
+using UnityEditor.AssetImporters;
 using UnityEngine;
 
 namespace SuperDeform.Editor
@@ -15,7 +16,9 @@ namespace SuperDeform.Editor
         static bool CanMend(Mesh mesh)
         {
             string path = AssetDatabase.GetAssetPath(mesh);
-            return !string.IsNullOrEmpty(path) && (path.StartsWith("Assets/") || AssetImporter.GetAtPath(path) is ModelImporter);
+            AssetImporter importer = AssetImporter.GetAtPath(path);
+            // What is set on a mesh that a script has imported, such as UniVRM's, lasts until the next import.
+            return !string.IsNullOrEmpty(path) && (importer is ModelImporter || path.StartsWith("Assets/") && !(importer is ScriptedImporter));
         }
 
         static void Mend(Mesh mesh)

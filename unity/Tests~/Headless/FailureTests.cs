@@ -91,6 +91,16 @@ namespace SuperDeform.Editor.Tests
         }
 
         [Test]
+        public void a_mesh_that_a_script_imports_has_no_fix_that_would_not_last()
+        {
+            Model model = Models.Load("kaykit_rogue.glb");
+            StubEditor.AddScriptedImporter(model.AssetPath);
+            StubProject.SetReadable(model.Glb.Meshes[0], false);
+            ConversionException fault = Fails(model.Root, "not_readable", "Read/Write");
+            Assert.That(fault.Finding.Fix, Is.Null);
+        }
+
+        [Test]
         public void nothing_chosen_is_said()
         {
             Models.NewProject();

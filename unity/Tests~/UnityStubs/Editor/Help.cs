@@ -31,6 +31,11 @@ namespace UnityEditor
     }
 }
 
+namespace UnityEditor.AssetImporters
+{
+    public abstract class ScriptedImporter : AssetImporter { }
+}
+
 namespace UnityEditor.PackageManager
 {
     public class PackageInfo
