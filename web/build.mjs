@@ -58,7 +58,7 @@ async function script(entry, worker) {
   };
   const built = await esbuild.build({
     entryPoints: [path.join(here, 'src', entry)], bundle: true, minify: true, write: false, plugins: [plugin],
-    format: entry === 'worker.js' ? 'iife' : 'esm', target: 'es2022', legalComments: 'none', logLevel: 'error',
+    format: entry === 'worker.js' ? 'iife' : 'esm', target: 'es2022', legalComments: 'eof', logLevel: 'error',
   });
   // Within a page, no text may end its script.
   return built.outputFiles[0].text.replaceAll('</script', '<\\/script');
