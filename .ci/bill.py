@@ -54,9 +54,9 @@ def linked(what, targets):
 
 
 def metadata():
-    """What cargo knows of each package of the lock file, by name and version."""
-    packages = json.loads(cargo("metadata", "--locked", "--format-version", "1"))["packages"]
-    return {(package["name"], package["version"]): package for package in packages}
+    """What cargo knows of the lock file: each package by name and version, and what each of them needs."""
+    whole = json.loads(cargo("metadata", "--locked", "--format-version", "1"))
+    return {(package["name"], package["version"]): package for package in whole["packages"]}, whole["resolve"]["nodes"]
 
 
 def text_of(folder, licence):
@@ -74,7 +74,7 @@ def text_of(folder, licence):
 
 def texts(found):
     """A chapter for each text, under the names of the packages that it is of."""
-    known = metadata()
+    known, _ = metadata()
     of = {}
     for name, version, licence, _ in found:
         text = text_of(Path(known[name, version]["manifest_path"]).parent, licence)
@@ -97,13 +97,12 @@ def notices(what, targets):
 
 def sbom(what, targets):
     """CycloneDX 1.5."""
-    known = metadata()
+    known, resolved = metadata()
     lock = re.findall(r'\[\[package\]\]\nname = "(.+?)"\nversion = "(.+?)"\n(?:source = "(.+?)"\nchecksum = "(.+?)"\n)?',
                       (ROOT / "Cargo.lock").read_text())
     checksums = {(name, version): checksum for name, version, source, checksum in lock if source == INDEX}
     found = linked(what, targets)
     here = {(name, version) for name, version, *_ in found}
-    resolved = json.loads(cargo("metadata", "--locked", "--format-version", "1"))["resolve"]["nodes"]
     names = {package["id"]: key for key, package in known.items()}
     edges = {names[node["id"]]: sorted({names[of] for of in node["dependencies"]} & here) for node in resolved}
     url = lambda key: f"pkg:cargo/{key[0]}@{key[1]}"

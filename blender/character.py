@@ -4,6 +4,7 @@
 import hashlib
 from pathlib import Path
 
+import bpy
 import numpy as np
 import superdeform
 
@@ -35,23 +36,22 @@ class Figure:
 
     def _add(self, source, mesh, used, triangles, material, images):
         name = material.name if material else ""
-        if name not in images:
-            grey = grey_of(material) if source.has_uv else None
+        if source.has_uv and name not in images:
+            grey = grey_of(material)
             images[name] = 0 if grey is None else self.character.add_image(grey)
         of = source.of[used]
-        joints, weights, starts = source.rows(of)
+        places, (joints, weights, starts) = source.to_world(source.local)[of], source.rows(of)
         shown = images[name] if source.has_uv else 0
         label = f"{mesh.name}/{mesh.data.name}/{name}"
-        for given in (label.encode(), source.to_world(source.local)[of], source.normals[used], triangles, joints, weights, starts,
+        for given in (label.encode(), places, source.normals[used], triangles, joints, weights, starts,
                       *(moved[of] for _, _, moved in source.keys)):
             self._digest.update(given if isinstance(given, bytes) else np.ascontiguousarray(given).tobytes())
         number = self.character.add_mesh(
-            source.to_world(source.local)[of], triangles, label, joints=joints, weights=weights,
+            places, triangles, label, joints=joints, weights=weights,
             row_starts=starts, normals=source.normals[used], uvs=source.uv[used] if shown else None, image=shown)
         for key, _, moved in source.keys:
             self.character.add_morph_target(number, moved[of], key)
         self.parts.append((source, used, of))
-
 
     @property
     def digest(self):
@@ -111,11 +111,12 @@ def deformation_of(armature, style, options):
     return _last
 
 
-def style_of(kind, heads, path, armature):
-    """The style that is chosen: "HEADS", "FILE" (GLB, VRM, or the JSON of a saved style) or "ARMATURE" (another character)."""
-    if kind == "HEADS":
-        return superdeform.Style.heads(heads)
-    if kind == "ARMATURE":
+def style_of(given):
+    """The style that settings ask for: "HEADS", "FILE" (GLB, VRM, or the JSON of a saved style) or "ARMATURE" (another character)."""
+    path, armature = bpy.path.abspath(given.path), bpy.data.objects.get(given.like)
+    if given.style == "HEADS":
+        return superdeform.Style.heads(given.heads)
+    if given.style == "ARMATURE":
         if armature is None:
             raise refuse.Refused("no armature is chosen to be like: choose one, or ask for a number of heads")
         return superdeform.Style.measure(Figure(armature).character, armature.name)

@@ -46,7 +46,7 @@ else:
         def execute(self, context):
             try:
                 armature = refuse.armature_of(context.object)
-                style = style_of(self.style, self.heads, bpy.path.abspath(self.path), bpy.data.objects.get(self.like))
+                style = style_of(self)
                 deformation = deformation_of(armature, style, settings.options(self))
                 collection, made, notes = write.character(context, deformation, f"{armature.name} SD")
             except (Error, refuse.Refused) as fault:

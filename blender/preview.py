@@ -2,7 +2,6 @@
 """Live preview: while a slider moves, places alone; when it is let go, keys, normals and rest bones too."""
 
 import bpy
-import numpy as np
 from superdeform import Error
 
 from . import copies, refuse, settings, write
@@ -18,10 +17,11 @@ _current = None
 class Preview:
     """A collection of copies that follow the panel."""
 
+    _asked = None
+
     def __init__(self, context, given):
         armature = refuse.armature_of(context.object)
-        style = style_of(given.style, given.heads, bpy.path.abspath(given.path), bpy.data.objects.get(given.like))
-        self.deformation = Deformation(Figure(armature), style, settings.options(given))
+        self.deformation = Deformation(Figure(armature), self._style_of(given), settings.options(given))
         self.armature = armature.name
         collection, made, self.notes = write.character(context, self.deformation, f"{armature.name} preview")
         self.collection = collection.name
@@ -36,19 +36,23 @@ class Preview:
         found = {name: bpy.data.objects.get(copy) for name, copy in self.made.items()}
         return found if all(found.values()) and self.armature in bpy.data.objects else None
 
+    def _style_of(self, given):
+        """The style that is asked for; a file or another character is measured once, not as often as a slider moves."""
+        asked = (given.style, given.heads, given.path, given.like)
+        if asked != self._asked:
+            self._style, self._asked = style_of(given), asked
+        return self._style
+
     def slide(self, given):
         """Follows the settings with places alone."""
         made = self.objects()
         if made is None:
             return
-        style = style_of(given.style, given.heads, bpy.path.abspath(given.path), bpy.data.objects.get(given.like))
-        self.deformation.set(style, settings.options(given) | {"repair": "kept"})
+        self.deformation.set(self._style_of(given), settings.options(given) | {"repair": "kept"})
         placed = self.deformation.positions()
         for source in self.deformation.figure.sources:
             thing, places = made[source.name], placed[source.name]
-            world = np.array(rest_world(thing.parent, thing) if source.rigid else source.world, np.float64)
-            back = np.linalg.inv(world)
-            write.put(thing.data, (places @ back[:3, :3].T + back[:3, 3]).astype(np.float32))
+            write.put(thing.data, places, write.back_of(source, thing))
             thing.data.update()
 
     def settle(self, context, given):

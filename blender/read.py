@@ -15,12 +15,16 @@ def numbers(things, key, count, kind=np.float32):
     return made
 
 
+def tail_of(armature, name):
+    """The tail of a bone at rest, in world space, with the bone's turn: what hangs from the bone hangs there."""
+    bone = armature.data.bones[name]
+    return armature.matrix_world @ bone.matrix_local @ Matrix.Translation((0, bone.length, 0))
+
+
 def rest_world(armature, thing):
     """Where an object is while its armature is at rest."""
     if thing.parent is armature and thing.parent_type == "BONE" and thing.parent_bone in armature.data.bones:
-        bone = armature.data.bones[thing.parent_bone]
-        tail = armature.matrix_world @ bone.matrix_local @ Matrix.Translation((0, bone.length, 0))
-        return tail @ thing.matrix_parent_inverse @ thing.matrix_basis
+        return tail_of(armature, thing.parent_bone) @ thing.matrix_parent_inverse @ thing.matrix_basis
     return thing.matrix_world.copy()
 
 

@@ -55,9 +55,7 @@ def check(armature, meshes):
                 kind = "linked from another file" if part.library else "a library override"
                 raise Refused(f"{thing.name} is {kind}: make it local first (Object > Relations > Make Local > All)")
     for mesh in meshes:
-        armatures = armatures_of(mesh)
-        if len(armatures) > 1:
-            raise Refused(f"{mesh.name} is deformed by {armatures[0].name} and {armatures[1].name}: remove one of the Armature modifiers")
+        armature_of(mesh)
         keys = mesh.data.shape_keys
         if keys and not keys.use_relative:
             raise Refused(f"{mesh.name} has absolute shape keys: switch Relative on in its Shape Keys panel")

@@ -44,9 +44,8 @@ def deforming(armature, meshes):
     return {name for name in found if name in bones and bones[name].use_deform}
 
 
-def has_controls(armature, meshes):
-    """Whether bones that deform are carried by bones that do not."""
-    names = deforming(armature, meshes)
+def has_controls(armature, names):
+    """Whether the bones that deform, `names`, are carried by bones that do not."""
     for name in names:
         for constraint in armature.pose.bones[name].constraints:
             carried = constraint.type in _CARRIES and not constraint.mute
@@ -60,8 +59,9 @@ def has_controls(armature, meshes):
 def joints_of(armature, meshes):
     """The joints, and whether the rig has controls."""
     bones, world, made = armature.data.bones, armature.matrix_world, Joints()
-    controls = has_controls(armature, meshes)
-    chosen = deforming(armature, meshes) if controls else {bone.name for bone in bones}
+    moving = deforming(armature, meshes)
+    controls = has_controls(armature, moving)
+    chosen = moving if controls else {bone.name for bone in bones}
     for bone in bones:
         if bone.name in chosen:
             made.add(bone.name, bone.name, -1, world @ bone.matrix_local)

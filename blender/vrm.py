@@ -7,7 +7,7 @@ The add-on fills both sets when it imports a VRM 0.x file, so both are written.
 from mathutils import Matrix, Vector
 from superdeform import abi
 
-from .read import rest_world
+from .read import rest_world, tail_of
 
 
 def springs(armature, copy, figure, deformer):
@@ -126,6 +126,5 @@ def _place(empty, armature, place):
     """Moves an empty on a bone; the add-on reads its offset from its location, so that changes and not the parent's inverse."""
     wanted = rest_world(armature, empty)
     wanted.translation = place
-    bone = armature.data.bones[empty.parent_bone]
-    tail = armature.matrix_world @ bone.matrix_local @ Matrix.Translation((0, bone.length, 0))
+    tail = tail_of(armature, empty.parent_bone)
     empty.matrix_basis = empty.matrix_parent_inverse.inverted() @ tail.inverted() @ wanted

@@ -6,7 +6,7 @@ import numpy as np
 from mathutils import Matrix, Vector
 
 from . import copies, skeleton, vrm
-from .read import numbers, rest_world
+from .read import rest_world, tail_of, turned
 from .refuse import Refused
 
 # A bone shorter than this vanishes when edit mode ends.
@@ -128,9 +128,7 @@ def _hang(thing, copy, armature, figure, deformer, joints, source_name, place):
             joint = skeleton.nearest(armature, figure.joints, place.translation)
         to = Vector(deformer.map_points([joint], [place.translation])[0][0])
     wanted = Matrix.Translation(to - place.translation) @ place
-    bone = copy.data.bones[thing.parent_bone]
-    tail = copy.matrix_world @ bone.matrix_local @ Matrix.Translation((0, bone.length, 0))
-    thing.matrix_parent_inverse = tail.inverted() @ wanted @ thing.matrix_basis.inverted()
+    thing.matrix_parent_inverse = tail_of(copy, thing.parent_bone).inverted() @ wanted @ thing.matrix_basis.inverted()
 
 
 def shapes(deformation, made):
@@ -138,14 +136,16 @@ def shapes(deformation, made):
     results = deformation.everything()
     for source in deformation.figure.sources:
         thing = made[source.name]
-        copy = thing.parent
-        world = np.array(rest_world(copy, thing) if source.rigid else source.world, np.float64)
-        _write_mesh(source, thing.data, np.linalg.inv(world), *results[source.name])
+        _write_mesh(source, thing.data, back_of(source, thing), *results[source.name])
+
+
+def back_of(source, thing):
+    """What takes world space to that of a mesh made from `source`."""
+    return np.linalg.inv(np.array(rest_world(thing.parent, thing) if source.rigid else source.world, np.float64))
 
 
 def _write_mesh(source, data, back, places, keys, normals):
-    local = (places @ back[:3, :3].T + back[:3, 3]).astype(np.float32)
-    put(data, local)
+    local = put(data, places, back)
     if data.shape_keys:
         blocks = data.shape_keys.key_blocks
         written = {data.shape_keys.reference_key.name: local}
@@ -162,17 +162,17 @@ def _write_mesh(source, data, back, places, keys, normals):
     # Normals are kept relative to those that follow from the places.
     data.update()
     if data.has_custom_normals:
-        rows = normals @ np.linalg.inv(back[:3, :3])
-        rows /= np.maximum(np.linalg.norm(rows, axis=1, keepdims=True), 1e-20)
-        data.normals_split_custom_set(rows[source.split].tolist())
+        data.normals_split_custom_set(turned(normals, back)[source.split].tolist())
         data.update()
 
 
-def put(data, local):
-    """Writes the places of a mesh, a hundred times as fast as through its vertices, and those of its first key."""
+def put(data, places, back):
+    """Writes the places of a mesh, a hundred times as fast as through its vertices, and those of its first key; gives them."""
+    local = (places @ back[:3, :3].T + back[:3, 3]).astype(np.float32)
     data.attributes["position"].data.foreach_set("vector", local.reshape(-1))
     if data.shape_keys:
         data.shape_keys.reference_key.data.foreach_set("co", local.reshape(-1))
+    return local
 
 
 def _scale_actions(copy, armature):

@@ -39,6 +39,9 @@ int main() {
     const superdeform::Style none = superdeform::Style::from_heads(99);
     CHECK(!none && superdeform::last_error().status() == SDEF_STATUS_BAD_OPTION);
     CHECK(std::strlen(superdeform::last_error().what()) > 10);
+    const superdeform::Deformer of_none(component.character, none);
+    CHECK(!of_none && none.to_json().empty() && of_none.warnings().empty() && of_none.report_json().empty());
+    CHECK(superdeform::last_error().status() == SDEF_STATUS_BAD_OPTION);
     const superdeform::Deformer stopped(component.character, component.style, superdeform::Options(),
                                         [](float) { return true; });
     CHECK(!stopped && superdeform::last_error().status() == SDEF_STATUS_CANCELLED);

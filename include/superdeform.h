@@ -36,8 +36,9 @@
 //            need no alignment, are read during the call and never kept, texts in structs too. NULL is allowed where
 //            the count is 0, and for arrays that may be left out, which say so.
 // Arrays out The caller's, with the number of elements that they can hold (capacity). NULL: left out. One that is too
-//            small gives SDEF_STATUS_BUFFER_TOO_SMALL, and what is needed is written. On an error nothing is written
-//            but the error, counts and sizes. They may be arrays that were given in before.
+//            small gives SDEF_STATUS_BUFFER_TOO_SMALL, and what is needed is written where the call has a place for it,
+//            else told in the sentence. On an error nothing is written but the error, counts and sizes. They may be
+//            arrays that were given in before.
 // Text       UTF-8, NUL-terminated. A name may be NULL, for none, unless the call needs it. Sentences show 64 bytes of
 //            a name, control characters escaped.
 // Structs    Zero a struct, set struct_size = sizeof(it), fill in what there is. SdefOptions is filled by
@@ -64,8 +65,8 @@
 // Cost       Cheap, microseconds: create, destroy, get_info, get_joints, map_points, styles but _measure. A pass over
 //            the vertices, some 0.1 microseconds each: add_mesh, apply, and set_options where only amount, face_squash,
 //            face_curve or thread_count change. Ten times that: set_options otherwise, and set_style. Slow, seconds at
-//            100,000 vertices: rig, deformer_create, style_measure, deformer_measure (else get_report or get_figure
-//            after a change, without progress).
+//            100,000 vertices: rig, deformer_create, style_measure, deformer_measure, or in its place the first
+//            get_report or get_figure after a change.
 
 #ifndef SUPERDEFORM_H
 #define SUPERDEFORM_H
@@ -104,7 +105,7 @@ typedef uint32_t SdefStatus;
 #define SDEF_STATUS_BAD_STYLE 5         // A style cannot be read, or lacks what the mode transfers.
 #define SDEF_STATUS_NO_HUMANOID 6       // No joints for hips, head, upper legs, upper arms: name them, or make a rig.
 #define SDEF_STATUS_NO_GEOMETRY 7       // There are no triangles, or they have no extent along up.
-#define SDEF_STATUS_BUFFER_TOO_SMALL 8  // An array of the caller's is too small; how much is needed is written.
+#define SDEF_STATUS_BUFFER_TOO_SMALL 8  // An array of the caller's is too small; see Arrays out above.
 #define SDEF_STATUS_BUSY 9              // The handle is in use, by another thread or by the call around this one.
 #define SDEF_STATUS_CANCELLED 10        // The progress callback asked to stop.
 #define SDEF_STATUS_OUT_OF_MEMORY 11    // Memory could not be had; see Memory above.
@@ -114,7 +115,7 @@ typedef uint32_t SdefStatus;
 #define SDEF_ELEMENT_VERTEX 1           // A vertex of the mesh.
 #define SDEF_ELEMENT_TRIANGLE 2         // A triangle of the mesh.
 #define SDEF_ELEMENT_JOINT 3            // A joint of the skeleton.
-#define SDEF_ELEMENT_POINT 4            // An element of the array points or joints of sdef_deformer_map_points.
+#define SDEF_ELEMENT_POINT 4            // A point, joint or spring of sdef_deformer_map_points or _map_colliders.
 #define SDEF_ELEMENT_GROUP 5            // An element of SdefOptions.groups.
 #define SDEF_ELEMENT_BONE_GROUP 6       // An element of SdefOptions.bone_groups.
 #define SDEF_ELEMENT_GIVEN_JOINT 7      // An element of SdefOptions.rig_joints.
@@ -208,8 +209,8 @@ SDEF_API SdefStatus sdef_set_jobs(SdefJobs jobs, void *user, SdefError *error);
 #define SDEF_FACE_CURVE_F2 1            // Eq. 12.
 #define SDEF_FACE_CURVE_SPHERE 2        // The sphere approximation of Shen et al.
 
-#define SDEF_REPAIR_OFF 0               // They may end inside.
-#define SDEF_REPAIR_ON 1                // They are pushed out.
+#define SDEF_REPAIR_OFF 0               // Clothes may end inside of the body.
+#define SDEF_REPAIR_ON 1                // Clothes that would are pushed out.
 // What was pushed last is pushed by as much again, and nothing else is looked for; as ON where nothing was pushed yet.
 // It is faster than ON: for the time in which a slider moves. Set ON once it is let go.
 #define SDEF_REPAIR_KEPT 2
@@ -260,7 +261,8 @@ typedef struct SdefOptions {
   uint32_t thread_count;            // threads to use, up to 1024; 0 (default): all cores
   uint32_t mode;                    // SDEF_MODE_*; default PRODUCT
   uint32_t stage;                   // SDEF_STAGE_*: stop after it; default FACE, which is everything
-  uint32_t rays;                    // rays around a sample of a bone, 3 to 4096; 0 (default): the mode's own, 48 or 12
+  uint32_t rays;                    // rays around a sample of a bone, 3 to 4096; 0 (default): 48 in product mode, 12 in
+                                    // paper mode
   uint32_t limits;                  // 1 (default) bounds what product mode may do to a body, 0 does not
   double head_scale;                // how many times as large as the character's own the head becomes; 1.5 is the
                                     // paper's. The number of heads is the style's, so the whole figure grows and
@@ -368,7 +370,8 @@ typedef struct SdefMesh {
   uint32_t kind;              // SDEF_MESH_*
   const char *name;           // for messages, and for guessing the kind from English words (hair, eyelash, skirt, hat);
                               // may be NULL. Best is "node/mesh/material": the part that the fewest meshes share is
-                              // read first. A word counts where the mesh lies where such a thing lies: hair on the head
+                              // read first. A word counts only for a mesh that lies where such a thing does: hair on
+                              // the head
   size_t vertex_count;        // up to 4294967294
   const float *positions;     // 3 floats a vertex, model units
   size_t position_stride;     // bytes from vertex to vertex; 0: 12
@@ -476,8 +479,8 @@ SDEF_API SdefStatus sdef_character_create(const float *up, const float *forward,
 // Gives a character its joints, in place of any that it had. Comes before meshes with weights, which name joints.
 //
 // Errors: BAD_ARGUMENT; BAD_INPUT with the joint as the element: a parent that is none, a circle of parents, a number
-// that is not finite, a matrix row by row, a role for a joint that is none or has one; or weights of a mesh for a joint
-// that is no more.
+// that is not finite, a matrix row by row, a joint that is given two roles; BAD_INPUT without one for a role whose
+// joint is none; or weights of a mesh for a joint that is no more.
 SDEF_API SdefStatus sdef_character_set_skeleton(SdefCharacter character, const SdefSkeleton *skeleton,
     SdefError *error);
 
@@ -510,7 +513,8 @@ SDEF_API SdefStatus sdef_character_add_morph_target(SdefCharacter character, uin
     const SdefMorphTarget *target, SdefError *error);
 
 // Tells whether morph targets of this name say something of the character to the library, as blinks say where the eyes
-// open: 1, and they belong to the character; 0 for all others, which sdef_deformer_map_morph_targets can map as well.
+// open. 1: add them to the character (sdef_character_add_morph_target). 0: that is not needed;
+// sdef_deformer_map_morph_targets maps them as well.
 //
 // name: NULL is none
 SDEF_API uint32_t sdef_morph_target_is_read(const char *name);
@@ -555,7 +559,7 @@ SDEF_API SdefStatus sdef_character_rig(SdefCharacter character, const SdefOption
 
 // Writes the warnings about the rig and roles of a character, or about a deformer and all before it: a line each,
 // "code: sentence\n", where code is a fixed word such as joint_by_ratio (README lists them). Empty text where there are
-// none. What only the result shows (clothes_pierced) is among them once sdef_deformer_get_report has measured it.
+// none. What only the result shows (clothes_pierced) is among them once the result is measured (sdef_deformer_measure).
 //
 // handle:   the id of a character or deformer
 // text:     receives the lines
@@ -840,15 +844,15 @@ SDEF_API SdefStatus sdef_deformer_map_points(SdefDeformer deformer, const uint32
 SDEF_API SdefStatus sdef_deformer_map_colliders(SdefDeformer deformer, const SdefCollider *colliders, size_t count,
     const SdefSpringBall *springs, size_t spring_count, SdefCollider *results, SdefError *error);
 
-// Maps morph targets of a mesh where they change something, in place: those that the character was not given too, with
-// the same results as an apply has. For hosts with more targets than there is memory for all of them at once.
+// Maps morph targets of a mesh, in place and only where they change something; they need not be the character's own.
+// The results are those of an apply. For hosts with more targets than there is memory for all of them at once.
 //
 // mesh:          the mesh that they are of
 // vertex_counts: how many vertices each target changes
 // count:         targets
 // vertices:      those of each target, ascending, one target after the other
 // positions:     3 floats for each of these: what is added at weight 1, read and written
-// normals:       likewise, as vertices and targets were given with normals; may be NULL
+// normals:       likewise, of meshes that were given with normals; NULL where the targets have none
 // tangents:      likewise
 //
 // Errors: BAD_ARGUMENT also for a mesh that is none; BAD_INPUT with the vertex as the element; OUT_OF_MEMORY.
@@ -878,7 +882,7 @@ SDEF_API SdefStatus sdef_deformer_measure(SdefDeformer deformer, SdefProgress pr
 //
 // The first call after a change measures the result: sdef_deformer_measure says how far that is.
 //
-// Errors: BAD_ARGUMENT; NO_GEOMETRY where the result is too flat to be measured.
+// Errors: BAD_ARGUMENT; NO_GEOMETRY where the result is too flat to be measured; OUT_OF_MEMORY.
 SDEF_API SdefStatus sdef_deformer_get_figure(SdefDeformer deformer, uint32_t which, SdefFigure *figure,
     SdefError *error);
 

@@ -191,10 +191,11 @@ void call_with_progress(Progress &&progress, Function function, Arguments... arg
 }
 
 // Text of a function that tells how much room it needs. What it writes of may change in between.
-template <class Function> std::string text(Function function) {
+template <class Raw, class Function> std::string text(Raw of, Function function) {
   std::string text;
   std::size_t size = 0;
-  call([&](SdefError *error) { return function(static_cast<char *>(nullptr), std::size_t(0), &size, error); });
+  call([&](Raw, SdefError *error) { return function(static_cast<char *>(nullptr), std::size_t(0), &size, error); }, of);
+  if (of.id == 0) return text;
   for (;;) {
     text.resize(size);
     SdefError error = SDEF_ERROR_INIT;
@@ -289,7 +290,7 @@ inline bool morph_target_is_read(const char *name) {
 
 // The warnings about the rig and the roles of a character, or about a deformer and all before it.
 template <class Raw> std::string warnings(const detail::Handle<Raw> &handle) {
-  return detail::text([&](char *text, std::size_t capacity, std::size_t *size, SdefError *error) {
+  return detail::text(handle.get(), [&](char *text, std::size_t capacity, std::size_t *size, SdefError *error) {
     return sdef_get_warnings(handle.id(), text, capacity, size, error);
   });
 }
@@ -423,7 +424,7 @@ public:
   }
 
   std::string to_json() const {
-    return detail::text([&](char *text, std::size_t capacity, std::size_t *size, SdefError *error) {
+    return detail::text(raw_, [&](char *text, std::size_t capacity, std::size_t *size, SdefError *error) {
       return sdef_style_to_json(raw_, text, capacity, size, error);
     });
   }
@@ -451,9 +452,10 @@ public:
            Progress &&progress = Progress()) {
     detail::call_with_progress(
         std::forward<Progress>(progress),
-        [&](SdefProgress callback, void *user, SdefError *error) {
-          return sdef_deformer_create(character.get(), style.get(), &options, callback, user, &raw_, error);
-        });
+        [&](SdefCharacter of, SdefStyle as, SdefProgress callback, void *user, SdefError *error) {
+          return sdef_deformer_create(of, as, &options, callback, user, &raw_, error);
+        },
+        character.get(), style.get());
   }
   // Takes a handle over.
   explicit Deformer(SdefDeformer raw) noexcept : Handle(raw) {}
@@ -546,7 +548,7 @@ public:
   }
 
   std::string report_json() const {
-    return detail::text([&](char *text, std::size_t capacity, std::size_t *size, SdefError *error) {
+    return detail::text(raw_, [&](char *text, std::size_t capacity, std::size_t *size, SdefError *error) {
       return sdef_deformer_get_report(raw_, nullptr, text, capacity, size, error);
     });
   }

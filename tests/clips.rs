@@ -10,6 +10,7 @@ use glam::{DMat4, DVec3};
 use models::{check_all, loaded, model, models, style_of};
 use serde_json::json;
 use std::sync::Arc;
+use superdeform::internals::geometry::range;
 use superdeform::{BodyShape, Deformer, Options, Style};
 use superdeform_host::bind::NodeTree;
 use superdeform_host::file::GltfFile;
@@ -104,10 +105,7 @@ fn seen(file: &GltfFile, source: &Loaded, animation: usize, end: f32) -> Seen {
     let (feet, edges) = feet(source, &body);
     let rest = superdeform_host::verify::skinned(file).unwrap();
     let up = |place: &DVec3| place.dot(body.up);
-    let (floor, top) = rest
-        .iter()
-        .map(up)
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), y| (low.min(y), high.max(y)));
+    let (floor, top) = range(rest.iter().map(up));
     let mut seen = Seen { feet: Vec::new(), soles: Vec::new(), stretch: 0.0 };
     for moment in 0..MOMENTS {
         let places = shown(file, animation, end * moment as f32 / (MOMENTS - 1) as f32);

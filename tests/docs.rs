@@ -24,19 +24,8 @@ fn text(path: &str) -> String {
 
 /// All Rust sources under `folder`, by path from the root.
 fn sources(folder: &str) -> BTreeMap<String, String> {
-    let mut found = BTreeMap::new();
-    let mut folders = vec![PathBuf::from(folder)];
-    while let Some(folder) = folders.pop() {
-        for entry in fs::read_dir(root().join(&folder)).unwrap().map(Result::unwrap) {
-            let path = folder.join(entry.file_name());
-            if entry.file_type().unwrap().is_dir() {
-                folders.push(path);
-            } else if path.extension().is_some_and(|end| end == "rs") {
-                let name = path.to_str().unwrap().to_string();
-                found.insert(name.clone(), text(&name));
-            }
-        }
-    }
+    let paths = files(folder).into_iter().filter(|path| path.ends_with(".rs"));
+    let found: BTreeMap<String, String> = paths.map(|path| (path.clone(), text(&path))).collect();
     assert!(!found.is_empty(), "{folder} has no sources");
     found
 }
@@ -153,11 +142,28 @@ fn an_option_takes_the_files_that_contributing_lists() {
             None => format!("{folder}/{path}"),
         })
         .collect();
-    let generated = ["include/superdeform.h", "cpp_tests/layout.inc", "unity/Runtime/Native.g.cs"];
+    let generated = [
+        "include/superdeform.h",
+        "cpp_tests/layout.inc",
+        "unity/Runtime/Native.g.cs",
+        "python/superdeform/abi.py",
+    ];
     assert!(generated.iter().all(|path| told.contains(path)), "{told}");
 
     let named = Regex::new(r"hair_lay|hair-lay|HairLay").unwrap();
-    let folders = ["src", "capi", "host", "examples/superdeform", "include", "unity/Runtime", "unity/Editor"];
+    let folders = [
+        "src",
+        "capi",
+        "host",
+        "examples/superdeform",
+        "include",
+        "unity/Runtime",
+        "unity/Editor",
+        "blender",
+        "python/superdeform",
+        "web/src",
+        "web/npm",
+    ];
     let found: BTreeSet<String> = folders
         .iter()
         .flat_map(|folder| files(folder))

@@ -25,16 +25,16 @@ pub fn png(
 ) -> Result<Vec<u8>, String> {
     let (target, report) = (conversion.target(), &converted.report);
     let reference = reference.map(|reference| &reference.loaded);
-    let of_target = Appearance::of(target, 0);
+    let of_target = conversion.appearance();
     let of_reference = reference.map(|reference| Appearance::of(reference, 0));
     let of_rig = conversion.rig().map(bones).unwrap_or_default();
-    let mut views = vec![View { bones: of_rig, ..view("target", &report.target, target, &of_target, None) }];
+    let mut views = vec![View { bones: of_rig, ..view("target", &report.target, target, of_target, None) }];
     if let (Some(reference), Some(appearance), Some(figure)) = (reference, &of_reference, &report.reference) {
         // The result comes after it.
         let as_tall_as = Some(views.len() + 1);
         views.push(View { as_tall_as, ..view("reference", figure, reference, appearance, None) });
     }
-    views.push(view("result", &report.result, target, &of_target, Some(&converted.deformed)));
+    views.push(view("result", &report.result, target, of_target, Some(&converted.deformed)));
     picture::draw(&views).to_png()
 }
 
@@ -47,8 +47,7 @@ const THUMBNAIL: u32 = 512;
 /// One sentence where it cannot be encoded.
 pub fn thumbnail(conversion: &Conversion, converted: &Converted) -> Result<Vec<u8>, String> {
     let (target, figure) = (conversion.target(), &converted.report.result);
-    let appearance = Appearance::of(target, 0);
-    let view = view("", figure, target, &appearance, Some(&converted.deformed));
+    let view = view("", figure, target, conversion.appearance(), Some(&converted.deformed));
     picture::portrait(&view, figure.landmarks.chin as f32, THUMBNAIL).to_png()
 }
 

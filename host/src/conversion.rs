@@ -158,6 +158,7 @@ impl Reference {
 #[derive(Clone, Debug)]
 pub struct Conversion {
     target: Loaded,
+    appearance: Appearance,
     rig: Option<Rig>,
     /// The target's character, with the new rig where there is one.
     character: Arc<Character>,
@@ -174,7 +175,7 @@ impl Conversion {
     /// rig can be made; `Cancelled`.
     pub fn open(source: Source, options: &OpenOptions, progress: &mut Progress) -> Result<Self> {
         let start = (options.clock)();
-        let mut target = read_target(source, options)?;
+        let (mut target, appearance) = read_target(source, options)?;
         let load_ms = (options.clock)() - start;
         progress.at(0.2)?;
         let rig = rig(&mut target, options, &mut progress.part(0.2, 1.0))?;
@@ -184,12 +185,17 @@ impl Conversion {
         };
         progress.at(1.0)?;
         let character = Arc::new(character);
-        Ok(Self { target, rig, character, deformer: None, clock: options.clock, load_ms })
+        Ok(Self { target, appearance, rig, character, deformer: None, clock: options.clock, load_ms })
     }
 
     /// The target as it was read.
     pub fn target(&self) -> &Loaded {
         &self.target
+    }
+
+    /// Its materials, texture coordinates and colours.
+    pub fn appearance(&self) -> &Appearance {
+        &self.appearance
     }
 
     /// The rig that was made for it; none where its own is kept.
@@ -412,7 +418,7 @@ fn ends_in(name: &str, wanted: &str) -> bool {
 }
 
 /// The target, its paint and what is said of its face.
-fn read_target(source: Source, options: &OpenOptions) -> Result<Loaded> {
+fn read_target(source: Source, options: &OpenOptions) -> Result<(Loaded, Appearance)> {
     let reading = LoadOptions {
         axes: options.axes,
         humanoid_map: options.humanoid_map.as_ref(),
@@ -430,10 +436,10 @@ fn read_target(source: Source, options: &OpenOptions) -> Result<Loaded> {
         );
         return Err(Error::new(ErrorKind::BadInput, message).about("allow_prohibited"));
     }
-    let seen = Appearance::of(&target, options.rig_options.thread_count);
-    shade(&mut target.character, &seen);
+    let appearance = Appearance::of(&target, options.rig_options.thread_count);
+    shade(&mut target.character, &appearance);
     target.character.face_hints = options.face_hints;
-    Ok(target)
+    Ok((target, appearance))
 }
 
 /// The rig to deform by where the target's own is not kept: it has none, it is not wanted, or it does not say which joint is

@@ -236,7 +236,7 @@ pub unsafe extern "C" fn sdef_conversion_write(
 
 /// Closes what is open; 0 is allowed and does nothing.
 ///
-/// Errors: BAD_HANDLE.
+/// Errors: BAD_HANDLE; BUSY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn sdef_conversion_close(conversion: u64, error: *mut SdefError) -> SdefStatus {
     let body = || {

@@ -18,7 +18,7 @@ _FIELDS = {name: kind for name, kind in abi.SdefOptions._fields_ if name not in 
 def options(groups: Mapping[str, Mapping[str, float]] | None = None, **given: Any) -> abi.SdefOptions:
     """The library's options, with the defaults for what is not given.
 
-    - `groups`: settings by bone group: `{"leg": {"length_scale": 0.8}}`.
+    - `groups`: settings by bone group: `{"upper_leg": {"length_scale": 0.8}}`.
     - `given`: fields of SdefOptions by name, such as `amount=0.5`, `youth=1`, `mode="paper"`, `repair="off"`, `height=1.2`;
       None leaves the default. `OPTIONS` has their ranges and what they do.
 

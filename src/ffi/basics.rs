@@ -33,7 +33,7 @@ pub const SDEF_STATUS_BAD_STYLE: u32 = 5;
 pub const SDEF_STATUS_NO_HUMANOID: u32 = 6;
 /// There are no triangles, or they have no extent along up.
 pub const SDEF_STATUS_NO_GEOMETRY: u32 = 7;
-/// An array of the caller's is too small; how much is needed is written.
+/// An array of the caller's is too small; see Arrays out above.
 pub const SDEF_STATUS_BUFFER_TOO_SMALL: u32 = 8;
 /// The handle is in use, by another thread or by the call around this one.
 pub const SDEF_STATUS_BUSY: u32 = 9;
@@ -52,7 +52,7 @@ pub const SDEF_ELEMENT_VERTEX: u32 = 1;
 pub const SDEF_ELEMENT_TRIANGLE: u32 = 2;
 /// A joint of the skeleton.
 pub const SDEF_ELEMENT_JOINT: u32 = 3;
-/// An element of the array points or joints of sdef_deformer_map_points.
+/// A point, joint or spring of sdef_deformer_map_points or _map_colliders.
 pub const SDEF_ELEMENT_POINT: u32 = 4;
 /// An element of SdefOptions.groups.
 pub const SDEF_ELEMENT_GROUP: u32 = 5;

@@ -101,7 +101,8 @@ const SOLID_CELL: usize = 16;
 /// Bytes more a cell within the figure, 32 and half as much again.
 const SOLID_CELL_WITHIN: usize = 48;
 
-/// Bytes a voxel of the box around a figure, 4 and half as much again.
+/// Bytes a voxel of the box around a figure, 5 and a fifth as much again; what filling takes beside them is gone before
+/// the voxels within the figure take theirs.
 const VOXEL: usize = 6;
 /// Bytes more a voxel within the figure, 160 and half as much again.
 const VOXEL_WITHIN: usize = 240;

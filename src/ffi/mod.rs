@@ -37,8 +37,9 @@
 //!            need no alignment, are read during the call and never kept, texts in structs too. NULL is allowed where
 //!            the count is 0, and for arrays that may be left out, which say so.
 //! Arrays out The caller's, with the number of elements that they can hold (capacity). NULL: left out. One that is too
-//!            small gives SDEF_STATUS_BUFFER_TOO_SMALL, and what is needed is written. On an error nothing is written
-//!            but the error, counts and sizes. They may be arrays that were given in before.
+//!            small gives SDEF_STATUS_BUFFER_TOO_SMALL, and what is needed is written where the call has a place for it,
+//!            else told in the sentence. On an error nothing is written but the error, counts and sizes. They may be
+//!            arrays that were given in before.
 //! Text       UTF-8, NUL-terminated. A name may be NULL, for none, unless the call needs it. Sentences show 64 bytes of
 //!            a name, control characters escaped.
 //! Structs    Zero a struct, set struct_size = sizeof(it), fill in what there is. SdefOptions is filled by
@@ -65,8 +66,8 @@
 //! Cost       Cheap, microseconds: create, destroy, get_info, get_joints, map_points, styles but _measure. A pass over
 //!            the vertices, some 0.1 microseconds each: add_mesh, apply, and set_options where only amount, face_squash,
 //!            face_curve or thread_count change. Ten times that: set_options otherwise, and set_style. Slow, seconds at
-//!            100,000 vertices: rig, deformer_create, style_measure, deformer_measure (else get_report or get_figure
-//!            after a change, without progress).
+//!            100,000 vertices: rig, deformer_create, style_measure, deformer_measure, or in its place the first
+//!            get_report or get_figure after a change.
 //! ```
 
 // The C ABI, and the only unsafe code. Each module is a section of the header `include/superdeform.h`, which is generated

@@ -34,9 +34,9 @@ pub const SDEF_FACE_CURVE_F2: u32 = 1;
 /// The sphere approximation of Shen et al.
 pub const SDEF_FACE_CURVE_SPHERE: u32 = 2;
 
-/// They may end inside.
+/// Clothes may end inside of the body.
 pub const SDEF_REPAIR_OFF: u32 = 0;
-/// They are pushed out.
+/// Clothes that would are pushed out.
 pub const SDEF_REPAIR_ON: u32 = 1;
 /// What was pushed last is pushed by as much again, and nothing else is looked for; as ON where nothing was pushed yet.
 /// It is faster than ON: for the time in which a slider moves. Set ON once it is let go.
@@ -158,7 +158,7 @@ macro_rules! sdef_options {
             pub mode: u32,
             /// SDEF_STAGE_*: stop after it; default FACE, which is everything
             pub stage: u32,
-            /// rays around a sample of a bone, 3 to 4096; 0 (default): the mode's own, 48 or 12
+            /// rays around a sample of a bone, 3 to 4096; 0 (default): 48 in product mode, 12 in paper mode
             pub rays: u32,
             /// 1 (default) bounds what product mode may do to a body, 0 does not
             pub limits: u32,

@@ -37,7 +37,7 @@ pub unsafe extern "C" fn sdef_character_rig(
 
 /// Writes the warnings about the rig and roles of a character, or about a deformer and all before it: a line each,
 /// "code: sentence\n", where code is a fixed word such as joint_by_ratio (README lists them). Empty text where there are
-/// none. What only the result shows (clothes_pierced) is among them once sdef_deformer_get_report has measured it.
+/// none. What only the result shows (clothes_pierced) is among them once the result is measured (sdef_deformer_measure).
 ///
 /// handle:   the id of a character or deformer
 /// text:     receives the lines

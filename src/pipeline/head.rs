@@ -123,10 +123,7 @@ pub fn make_young(view: &View) -> Result<Option<Young>> {
     let known = view.before::<Option<Young>>();
     let known = known.as_deref().and_then(Option::as_ref);
     let young = YoungFace::new(frame, flow, &things, known.map(|known| &*known.face));
-    let binding = |binding: &Binding| match binding {
-        Binding::Parts(binding) => binding.face,
-        _ => FaceBinding::None,
-    };
+    let binding = |binding: &Binding| binding.parts().map_or(FaceBinding::None, |parts| parts.face);
     let bindings: Vec<FaceBinding> = body.bindings.vertices.iter().map(binding).collect();
     let known = known.map(|known| (&*known.face, &known.ways));
     let ways = young.ways(&placed, &bindings, known, view.threads());

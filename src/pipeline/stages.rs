@@ -131,7 +131,7 @@ stages! {
     /// Amount, ground and height: what is left to do for all alike.
     finish: Finish = finish, Deform 1, [amount, height];
     /// What a person should know.
-    warnings: Vec<Warning> = report::warnings, Deform 0, [amount, stage, youth, youth_eye, seat];
+    warnings: Vec<Warning> = report::warnings, Deform 0, [amount, stage, youth, youth_eye];
 
     // Asked for when results are written.
 

@@ -184,36 +184,36 @@ impl LegLobes {
     /// Slices `solid` up to the highest crotch.
     pub fn of(solid: &Solid, low: f64, top: f64) -> Self {
         let (first, last) = (solid.row(low + SOLE_AT), solid.row(CROTCH_RANGE.1.min(top)));
-        let mut all = Self { rows: Vec::new(), crotch: None, is_hem: false, inner_crotch: None };
+        let mut rows: Vec<(f64, Option<Lobes>)> = Vec::new();
         let (mut areas, mut outer) = (Vec::new(), Vec::new());
+        let are_two = |lobes: &Option<Lobes>| lobes.as_ref().is_some_and(Lobes::are_two);
         for row in first..=last {
             let slice = solid.slice(row, LEG_REACH, 1);
             let mut lobes = slice.lobes();
             let y = solid.middle(IVec3::new(0, row, 0)).y;
             outer.push((y, lobes));
-            if !lobes.as_ref().is_some_and(Lobes::are_two) {
-                let below = all.rows.last().and_then(|row| row.1);
+            if !are_two(&lobes) {
+                let below = rows.last().and_then(|row| row.1);
                 let inner = solid.slice(row, LEG_REACH, 2).lobes().filter(Lobes::are_two);
                 let inner = inner.filter(|inner| below.is_none_or(|below| inner.go_on(&below)));
                 lobes = inner.or(lobes);
             }
-            all.rows.push((y, lobes));
+            rows.push((y, lobes));
             areas.push(slice.area());
         }
         let bridge = (BRIDGE / solid.cell) as usize;
         let end = |rows: &[(f64, Option<Lobes>)]| {
-            let are_one = |(_, lobes): &(f64, Option<Lobes>)| !lobes.as_ref().is_some_and(Lobes::are_two);
+            let are_one = |(_, lobes): &(f64, Option<Lobes>)| !are_two(lobes);
             rows.windows(bridge.max(1)).position(|rows| rows.iter().all(are_one))
         };
-        let height = |at: usize| Some(all.rows[at].0 - 0.5 * solid.cell).filter(|&y| y >= CROTCH_RANGE.0);
+        let height = |at: usize| Some(rows[at].0 - 0.5 * solid.cell).filter(|&y| y >= CROTCH_RANGE.0);
         let area = |at: usize| areas.get(at).copied().unwrap_or(0.0);
         let at = end(&outer);
         let crotch = at.and_then(height);
         let is_hem = crotch.is_some()
             && at.is_some_and(|at| area(at + 1) > HEM_WIDENS * area(at.saturating_sub(HEM_ROWS)));
-        let inner_crotch =
-            end(&all.rows).and_then(height).filter(|&y| crotch.is_none_or(|crotch| y > crotch));
-        Self { crotch, is_hem, inner_crotch, ..all }
+        let inner_crotch = end(&rows).and_then(height).filter(|&y| crotch.is_none_or(|crotch| y > crotch));
+        Self { rows, crotch, is_hem, inner_crotch }
     }
 
     /// True where the solid has not the thickness that rays see: surfaces are open, and what they enclose is empty.

@@ -32,28 +32,29 @@ impl Binding {
         Self::Parts(PartBinding::to(part))
     }
 
+    /// The binding to parts; `None` in paper mode, and for what stays.
+    pub fn parts(&self) -> Option<&PartBinding> {
+        match self {
+            Self::Parts(binding) => Some(binding),
+            _ => None,
+        }
+    }
+
     /// The weight of `part`.
     pub fn weight(&self, part: Part) -> f32 {
-        match self {
-            Self::Parts(binding) => binding.weights[part as usize],
-            _ => 0.0,
-        }
+        self.parts().map_or(0.0, |binding| binding.weights[part as usize])
     }
 
     /// The weight of both arms and hands.
     pub fn arms_weight(&self) -> f32 {
-        match self {
-            Self::Parts(binding) => binding.weights[Part::LeftUpperArm as usize..].iter().take(6).sum(),
-            _ => 0.0,
-        }
+        let arms =
+            |binding: &PartBinding| binding.weights[Part::LeftUpperArm as usize..].iter().take(6).sum();
+        self.parts().map_or(0.0, arms)
     }
 
     /// See [`PartBinding::of_head_and_neck`].
     pub fn of_head_and_neck(&self) -> f64 {
-        match self {
-            Self::Parts(binding) => binding.of_head_and_neck(),
-            _ => 0.0,
-        }
+        self.parts().map_or(0.0, PartBinding::of_head_and_neck)
     }
 }
 
@@ -111,11 +112,6 @@ impl Finish {
         Mapped { position: self.about + size * (to.position - self.about), jacobian: to.jacobian * size }
     }
 
-    /// The same before amount, ground and height.
-    pub fn all_the_way(&self) -> Self {
-        Self { face: self.face, whole: self.whole, about: self.about, ..Self::default() }
-    }
-
     /// How much of an offset is left that is added to where the body's field takes a point.
     pub fn share_of_offsets(&self) -> f64 {
         self.size * self.amount * self.whole
@@ -155,11 +151,6 @@ impl Field {
             seat_amount: SeatAmount::default(),
             finish: Finish::default(),
         }
-    }
-
-    /// The body's field alone, with another end.
-    pub fn with(&self, finish: Finish) -> Self {
-        Self { finish, ..Self::of(Arc::clone(&self.body)) }
     }
 
     /// Where `p` goes.

@@ -10,7 +10,6 @@ use crate::error::{Error, ErrorKind, Result};
 use crate::geometry::range;
 use glam::DVec3;
 use std::collections::HashMap;
-use std::sync::Arc;
 
 /// A character in the canonical frame, its meshes in one list.
 #[derive(Clone, Debug)]
@@ -20,7 +19,7 @@ pub struct Figure {
     /// Rest positions of all meshes' vertices, one mesh after the other.
     pub positions: Vec<DVec3>,
     /// Triangles of all meshes, as indices into `positions`.
-    pub triangles: Arc<Vec<[u32; 3]>>,
+    pub triangles: Vec<[u32; 3]>,
     /// Where each mesh's vertices start; one more than there are meshes.
     pub mesh_starts: Vec<usize>,
     /// What each vertex belongs to.
@@ -32,7 +31,7 @@ pub struct Figure {
     /// The role each joint folds into: its own, else its nearest ancestor's; `None` for joints outside the humanoid.
     pub joint_roles: Vec<Option<Role>>,
     /// Each vertex's weights by role; they sum to 1.
-    pub role_weights: Arc<Vec<Vec<(Role, f64)>>>,
+    pub role_weights: Vec<Vec<(Role, f64)>>,
     /// Each vertex's weight to joints that play no role themselves (hair, skirts, helpers).
     pub extra_weight: Vec<f64>,
     /// The joint of each vertex's largest weight.
@@ -83,13 +82,13 @@ impl Figure {
         Ok(Self {
             frame,
             positions,
-            triangles: Arc::new(triangles),
+            triangles,
             mesh_starts,
             kinds,
             joints,
             humanoid,
             joint_roles,
-            role_weights: Arc::new(role_weights),
+            role_weights,
             extra_weight,
             main_joint: main.iter().map(|main| main.map(|(joint, _)| joint)).collect(),
             main_weight: main.iter().map(|main| main.map_or(0.0, |(_, weight)| weight)).collect(),

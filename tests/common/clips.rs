@@ -115,12 +115,15 @@ impl Body {
     }
 }
 
+/// True where a node is `above` or hangs from it.
+fn is_within(loaded: &Loaded, node: usize, above: usize) -> bool {
+    std::iter::successors(Some(node), |&node| loaded.tree.parents[node]).any(|node| node == above)
+}
+
 /// The indices that [`skinned`] gives a file's vertices: those of the left foot and of the right one, by the joint that moves
 /// them most; and edges between a foot and its shin.
 pub fn feet(loaded: &Loaded, body: &Body) -> ([Vec<usize>; 2], Vec<[usize; 2]>) {
-    let within = |node: usize, above: usize| {
-        std::iter::successors(Some(node), |&node| loaded.tree.parents[node]).any(|node| node == above)
-    };
+    let within = |node: usize, above: usize| is_within(loaded, node, above);
     let (mut feet, mut edges, mut first) = ([Vec::new(), Vec::new()], Vec::new(), 0);
     for mesh in &loaded.character.meshes {
         let main: Vec<usize> = mesh
@@ -255,9 +258,6 @@ fn set(loaded: &Loaded, body: &Body, turned: &BTreeMap<usize, DQuat>, lift: f64)
         let mut above = std::iter::successors(parents[node], |&node| parents[node]);
         above.find_map(|node| turned.get(&node)).copied().unwrap_or(DQuat::IDENTITY)
     };
-    let within = |node: usize, above: usize| {
-        std::iter::successors(Some(node), |&node| parents[node]).any(|node| node == above)
-    };
     let in_parent = |node: usize, place: DVec3| match parents[node] {
         Some(parent) => rest[parent].inverse().transform_point3(place),
         None => place,
@@ -270,7 +270,7 @@ fn set(loaded: &Loaded, body: &Body, turned: &BTreeMap<usize, DQuat>, lift: f64)
         set.insert(node, (Some(local.normalize()), None));
     }
     for leg in &body.legs {
-        if !within(leg.foot, leg.lower) {
+        if !is_within(loaded, leg.foot, leg.lower) {
             let knee = place(leg.upper) + turned[&leg.upper] * (place(leg.lower) - place(leg.upper));
             let ankle = knee + turned[&leg.lower] * (place(leg.foot) - place(leg.lower)) + lift * body.up;
             set.get_mut(&leg.foot).unwrap().1 = Some(in_parent(leg.foot, ankle));

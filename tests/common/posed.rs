@@ -1,11 +1,12 @@
 //! Rigged characters in other poses, without their rigs: what is known of a pose is where its joints are.
 #![allow(dead_code)]
 
-use glam::{DMat3, DQuat, DVec3, Vec3};
+use glam::{DQuat, DVec3};
 use std::collections::BTreeMap;
 use superdeform::Role::{self, *};
 use superdeform::internals::character::Frame;
 use superdeform::{Character, Humanoid, Skeleton, Weights};
+use superdeform_host::write::extent;
 
 /// The ways some bones run, each from a joint to the next of its limb: left, up, ahead of the character.
 pub type Pose = Vec<(Role, DVec3)>;
@@ -82,11 +83,6 @@ fn next(role: Role) -> Option<Role> {
 /// not hang from the one before it.
 pub fn posed(character: &Character, pose: &Pose) -> Option<(Character, BTreeMap<Role, DVec3>)> {
     let frame = Frame::of(character).ok()?;
-    let turn = DMat3::from_cols(
-        frame.to_model(DVec3::X) - frame.to_model(DVec3::ZERO),
-        frame.to_model(DVec3::Y) - frame.to_model(DVec3::ZERO),
-        frame.to_model(DVec3::Z) - frame.to_model(DVec3::ZERO),
-    );
     let skeleton = &character.skeleton;
     let rest: Vec<DVec3> = skeleton.joints.iter().map(|joint| joint.position()).collect();
     let mut turns = vec![DQuat::IDENTITY; rest.len()];
@@ -105,7 +101,7 @@ pub fn posed(character: &Character, pose: &Pose) -> Option<(Character, BTreeMap<
             return None;
         }
         let before = (turns[joint] * (rest[end] - rest[joint])).normalize();
-        turns[joint] = DQuat::from_rotation_arc(before, (turn * way).normalize()) * turns[joint];
+        turns[joint] = DQuat::from_rotation_arc(before, frame.to_model(way).normalize()) * turns[joint];
     }
     let mut result = character.clone();
     for mesh in &mut result.meshes {
@@ -133,9 +129,7 @@ pub fn posed(character: &Character, pose: &Pose) -> Option<(Character, BTreeMap<
 
 /// The height of a character along its up.
 pub fn height(character: &Character) -> f64 {
-    let up: Vec3 = character.axes.up.normalize();
-    let heights = character.meshes.iter().flat_map(|mesh| &mesh.positions).map(|p| f64::from(p.dot(up)));
-    let (low, high) =
-        heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), y| (low.min(y), high.max(y)));
+    let meshes = character.meshes.iter().map(|mesh| mesh.positions.as_slice());
+    let (low, high) = extent(meshes, character.axes.up.as_dvec3().normalize());
     high - low
 }

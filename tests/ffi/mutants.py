@@ -24,8 +24,8 @@ COPY = WORK / "source"
 # switched on; the test that must fail: a host of cpp_tests, or a test of tests/ffi.rs.
 MUTANTS = [
     ("arrays are read as packed", "arrays.rs",
-     "count, stride, size_of::<T>())?;\n        Ok(Self { start: start.cast(), count, stride, element",
-     "count, if MUTANT { 0 } else { stride }, size_of::<T>())?;\n        Ok(Self { start: start.cast(), count, stride, element",
+     "start.is_null(), count, stride, size_of::<T>())?;",
+     "start.is_null(), count, if MUTANT { 0 } else { stride }, size_of::<T>())?;",
      "calls"),
     ("repair is off by default", "options.rs", "repair: options.repair as u32,",
      "repair: if MUTANT { 0 } else { options.repair as u32 },", "calls"),

@@ -6,16 +6,16 @@ use std::process::Command;
 use superdeform::options::table::Default;
 use superdeform::options::{NUMBERS, OptionInfo, Scope, TABLE, Values, find};
 use superdeform_headers::csharp::{constants_of, pascal, printed};
-use superdeform_headers::{EXPORT, SECTIONS, abi, broken, c_header, csharp, layout, python, root, source};
+use superdeform_headers::{
+    EXPORT, SECTIONS, abi, broken, c_header, csharp, layout, numbers_of, python, root, source,
+};
 
 #[test]
 fn the_readme_lists_the_options_that_are_one_number() {
     let readme = std::fs::read_to_string(root().join("README.md")).unwrap().replace("\r\n", "\n");
     let start = |info: &OptionInfo| format!("| `--{} ", info.name.replace('_', "-"));
     let row = |info: &OptionInfo| {
-        let (Values::Number { low, high }, Default::Number(usual)) = (info.values, info.default) else {
-            panic!("{} is not one number", info.name)
-        };
+        let [low, high, usual] = numbers_of(info);
         format!("{}{low}..{high}` | {}; {usual} unless set |", start(info), info.text)
     };
     let lines: Vec<&str> = readme.lines().collect();

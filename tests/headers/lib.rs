@@ -53,11 +53,17 @@ fn text_of(section: &str) -> String {
     format!("{comment}\n\n{types}\n{rest}")
 }
 
-/// What an option that is one number does, its range and its default.
-pub fn described(info: &OptionInfo) -> String {
+/// The least, the greatest and the default of an option that is one number.
+pub fn numbers_of(info: &OptionInfo) -> [f64; 3] {
     let (Values::Number { low, high }, Default::Number(usual)) = (info.values, info.default) else {
         panic!("{} is not one number", info.name)
     };
+    [low, high, usual]
+}
+
+/// What an option that is one number does, its range and its default.
+pub fn described(info: &OptionInfo) -> String {
+    let [low, high, usual] = numbers_of(info);
     format!("{}; {low} to {high}, default {usual}", info.text)
 }
 

@@ -2,7 +2,6 @@
 
 use crate::tubes::blended;
 use glam::DVec3;
-use std::sync::Arc;
 use superdeform::Progress;
 use superdeform::internals::geometry::weld::{Weld, weld};
 use superdeform::internals::shape::figure::Figure;
@@ -19,8 +18,7 @@ const WIDTH: f64 = 0.012;
 /// A figure of height 1 with these points and triangles, and nothing else of the person that it was.
 fn figure(positions: Vec<DVec3>, triangles: Vec<[u32; 3]>) -> (Figure, Weld) {
     let weld = weld(&positions, 1e-6);
-    let figure =
-        Figure { positions, triangles: Arc::new(triangles), extent: (0.0, 1.0), ..blended().figure.clone() };
+    let figure = Figure { positions, triangles, extent: (0.0, 1.0), ..blended().figure.clone() };
     (figure, weld)
 }
 

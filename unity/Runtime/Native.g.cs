@@ -288,8 +288,8 @@ internal static unsafe partial class Native
     /// Gives a character its joints, in place of any that it had. Comes before meshes with weights, which name joints.
     ///
     /// Errors: BAD_ARGUMENT; BAD_INPUT with the joint as the element: a parent that is none, a circle of parents, a number
-    /// that is not finite, a matrix row by row, a role for a joint that is none or has one; or weights of a mesh for a joint
-    /// that is no more.
+    /// that is not finite, a matrix row by row, a joint that is given two roles; BAD_INPUT without one for a role whose
+    /// joint is none; or weights of a mesh for a joint that is no more.
     /// </summary>
     [DllImport(Library, ExactSpelling = true, CallingConvention = CallingConvention.Cdecl)]
     internal static extern UInt32 sdef_character_set_skeleton(
@@ -343,7 +343,7 @@ internal static unsafe partial class Native
     ///
     /// The first call after a change measures the result: sdef_deformer_measure says how far that is.
     ///
-    /// Errors: BAD_ARGUMENT; NO_GEOMETRY where the result is too flat to be measured.
+    /// Errors: BAD_ARGUMENT; NO_GEOMETRY where the result is too flat to be measured; OUT_OF_MEMORY.
     /// </summary>
     [DllImport(Library, ExactSpelling = true, CallingConvention = CallingConvention.Cdecl)]
     internal static extern UInt32 sdef_deformer_get_figure(
@@ -430,15 +430,15 @@ internal static unsafe partial class Native
         SdefError* error);
 
     /// <summary>
-    /// Maps morph targets of a mesh where they change something, in place: those that the character was not given too, with
-    /// the same results as an apply has. For hosts with more targets than there is memory for all of them at once.
+    /// Maps morph targets of a mesh, in place and only where they change something; they need not be the character's own.
+    /// The results are those of an apply. For hosts with more targets than there is memory for all of them at once.
     ///
     /// mesh:          the mesh that they are of
     /// vertex_counts: how many vertices each target changes
     /// count:         targets
     /// vertices:      those of each target, ascending, one target after the other
     /// positions:     3 floats for each of these: what is added at weight 1, read and written
-    /// normals:       likewise, as vertices and targets were given with normals; may be NULL
+    /// normals:       likewise, of meshes that were given with normals; NULL where the targets have none
     /// tangents:      likewise
     ///
     /// Errors: BAD_ARGUMENT also for a mesh that is none; BAD_INPUT with the vertex as the element; OUT_OF_MEMORY.
@@ -539,7 +539,7 @@ internal static unsafe partial class Native
     /// <summary>
     /// Writes the warnings about the rig and roles of a character, or about a deformer and all before it: a line each,
     /// "code: sentence\n", where code is a fixed word such as joint_by_ratio (README lists them). Empty text where there are
-    /// none. What only the result shows (clothes_pierced) is among them once sdef_deformer_get_report has measured it.
+    /// none. What only the result shows (clothes_pierced) is among them once the result is measured (sdef_deformer_measure).
     ///
     /// handle:   the id of a character or deformer
     /// text:     receives the lines
@@ -562,7 +562,8 @@ internal static unsafe partial class Native
 
     /// <summary>
     /// Tells whether morph targets of this name say something of the character to the library, as blinks say where the eyes
-    /// open: 1, and they belong to the character; 0 for all others, which sdef_deformer_map_morph_targets can map as well.
+    /// open. 1: add them to the character (sdef_character_add_morph_target). 0: that is not needed;
+    /// sdef_deformer_map_morph_targets maps them as well.
     ///
     /// name: NULL is none
     /// </summary>
@@ -862,8 +863,8 @@ internal unsafe struct SdefMesh {
 
     /// <summary>
     /// for messages, and for guessing the kind from English words (hair, eyelash, skirt, hat); may be NULL. Best is
-    /// "node/mesh/material": the part that the fewest meshes share is read first. A word counts where the mesh lies where
-    /// such a thing lies: hair on the head
+    /// "node/mesh/material": the part that the fewest meshes share is read first. A word counts only for a mesh that lies
+    /// where such a thing does: hair on the head
     /// </summary>
     public sbyte* name;
 
@@ -1214,7 +1215,7 @@ internal unsafe struct SdefOptions {
     public UInt32 stage;
 
     /// <summary>
-    /// rays around a sample of a bone, 3 to 4096; 0 (default): the mode's own, 48 or 12
+    /// rays around a sample of a bone, 3 to 4096; 0 (default): 48 in product mode, 12 in paper mode
     /// </summary>
     public UInt32 rays;
 

@@ -104,6 +104,20 @@ pub fn write(loaded: &Loaded, deformed: &Deformed, map_point: &MapPoint) -> Resu
 /// # Errors
 /// As [`write()`].
 pub fn rewrite(loaded: &Loaded, deformed: &Deformed, map_point: &MapPoint) -> Result<GltfFile> {
+    reshaped(loaded, deformed, Some(map_point))
+}
+
+/// As [`rewrite()`], of vertices and nodes alone: animations, springs and colliders stay as they were, and so do morph targets
+/// that `deformed` lacks.
+///
+/// # Errors
+/// As [`write()`].
+pub fn at_rest(loaded: &Loaded, deformed: &Deformed) -> Result<GltfFile> {
+    reshaped(loaded, deformed, None)
+}
+
+/// `map_point`: without it animations, springs and colliders stay as they were.
+fn reshaped(loaded: &Loaded, deformed: &Deformed, map_point: Option<&MapPoint>) -> Result<GltfFile> {
     check(loaded, deformed)?;
     let new_rest = new_rest(loaded, deformed);
     let mut file = loaded.file.clone();
@@ -113,29 +127,15 @@ pub fn rewrite(loaded: &Loaded, deformed: &Deformed, map_point: &MapPoint) -> Re
     mesh_slots(loaded, deformed, &new_rest, &reader(), &mut file.json, &mut slots)?;
     skin_slots(loaded, &new_rest, &reader(), &mut slots)?;
     let shifts = move_nodes(loaded, &new_rest, &mut file.json);
-    let retarget = Retarget::new(loaded, deformed, &new_rest, &shifts, map_point);
-    animation_slots(loaded, &retarget, &shifts, &reader(), &mut file.json, &mut slots)?;
+    if let Some(map_point) = map_point {
+        let retarget = Retarget::new(loaded, deformed, &new_rest, &shifts, map_point);
+        animation_slots(loaded, &retarget, &shifts, &reader(), &mut file.json, &mut slots)?;
+    }
     store(&reader(), &mut file, slots)?;
-    let height_ratio = height_ratio(loaded, deformed);
-    vrm::move_points(&mut file.json, loaded, &new_rest, map_point, height_ratio);
-    Ok(file)
-}
-
-/// As [`rewrite()`], of vertices and nodes alone: animations, springs and colliders stay as they were, and so do morph targets
-/// that `deformed` lacks.
-///
-/// # Errors
-/// As [`write()`].
-pub fn at_rest(loaded: &Loaded, deformed: &Deformed) -> Result<GltfFile> {
-    check(loaded, deformed)?;
-    let new_rest = new_rest(loaded, deformed);
-    let mut file = loaded.file.clone();
-    let reader = || Reader::new(&loaded.file);
-    let mut slots = Vec::new();
-    mesh_slots(loaded, deformed, &new_rest, &reader(), &mut file.json, &mut slots)?;
-    skin_slots(loaded, &new_rest, &reader(), &mut slots)?;
-    move_nodes(loaded, &new_rest, &mut file.json);
-    store(&reader(), &mut file, slots)?;
+    if let Some(map_point) = map_point {
+        let height_ratio = height_ratio(loaded, deformed);
+        vrm::move_points(&mut file.json, loaded, &new_rest, map_point, height_ratio);
+    }
     Ok(file)
 }
 

@@ -52,8 +52,8 @@ pub unsafe extern "C" fn sdef_character_create(
 /// Gives a character its joints, in place of any that it had. Comes before meshes with weights, which name joints.
 ///
 /// Errors: BAD_ARGUMENT; BAD_INPUT with the joint as the element: a parent that is none, a circle of parents, a number
-/// that is not finite, a matrix row by row, a role for a joint that is none or has one; or weights of a mesh for a joint
-/// that is no more.
+/// that is not finite, a matrix row by row, a joint that is given two roles; BAD_INPUT without one for a role whose
+/// joint is none; or weights of a mesh for a joint that is no more.
 #[cfg_attr(not(target_arch = "wasm32"), ffi_export)]
 #[cfg_attr(target_arch = "wasm32", unsafe(no_mangle))]
 pub unsafe extern "C" fn sdef_character_set_skeleton(
@@ -186,7 +186,8 @@ pub unsafe extern "C" fn sdef_character_add_morph_target(
 }
 
 /// Tells whether morph targets of this name say something of the character to the library, as blinks say where the eyes
-/// open: 1, and they belong to the character; 0 for all others, which sdef_deformer_map_morph_targets can map as well.
+/// open. 1: add them to the character (sdef_character_add_morph_target). 0: that is not needed;
+/// sdef_deformer_map_morph_targets maps them as well.
 ///
 /// name: NULL is none
 #[cfg_attr(not(target_arch = "wasm32"), ffi_export)]

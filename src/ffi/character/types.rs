@@ -108,8 +108,8 @@ pub struct SdefMesh {
     /// SDEF_MESH_*
     pub kind: u32,
     /// for messages, and for guessing the kind from English words (hair, eyelash, skirt, hat); may be NULL. Best is
-    /// "node/mesh/material": the part that the fewest meshes share is read first. A word counts where the mesh lies where
-    /// such a thing lies: hair on the head
+    /// "node/mesh/material": the part that the fewest meshes share is read first. A word counts only for a mesh that lies
+    /// where such a thing does: hair on the head
     pub name: *const c_char,
     /// up to 4294967294
     pub vertex_count: usize,

@@ -277,15 +277,15 @@ pub unsafe extern "C" fn sdef_deformer_map_colliders(
     unsafe { call(error, body) }
 }
 
-/// Maps morph targets of a mesh where they change something, in place: those that the character was not given too, with
-/// the same results as an apply has. For hosts with more targets than there is memory for all of them at once.
+/// Maps morph targets of a mesh, in place and only where they change something; they need not be the character's own.
+/// The results are those of an apply. For hosts with more targets than there is memory for all of them at once.
 ///
 /// mesh:          the mesh that they are of
 /// vertex_counts: how many vertices each target changes
 /// count:         targets
 /// vertices:      those of each target, ascending, one target after the other
 /// positions:     3 floats for each of these: what is added at weight 1, read and written
-/// normals:       likewise, as vertices and targets were given with normals; may be NULL
+/// normals:       likewise, of meshes that were given with normals; NULL where the targets have none
 /// tangents:      likewise
 ///
 /// Errors: BAD_ARGUMENT also for a mesh that is none; BAD_INPUT with the vertex as the element; OUT_OF_MEMORY.
@@ -406,7 +406,7 @@ pub unsafe extern "C" fn sdef_deformer_measure(
 ///
 /// The first call after a change measures the result: sdef_deformer_measure says how far that is.
 ///
-/// Errors: BAD_ARGUMENT; NO_GEOMETRY where the result is too flat to be measured.
+/// Errors: BAD_ARGUMENT; NO_GEOMETRY where the result is too flat to be measured; OUT_OF_MEMORY.
 #[cfg_attr(not(target_arch = "wasm32"), ffi_export)]
 #[cfg_attr(target_arch = "wasm32", unsafe(no_mangle))]
 pub unsafe extern "C" fn sdef_deformer_get_figure(

@@ -107,11 +107,6 @@ impl Solid {
         (p - self.low) / self.cell
     }
 
-    /// The middle of the grid.
-    pub fn centre(&self) -> DVec3 {
-        self.middle(self.size / 2)
-    }
-
     /// A point given in cells, moved into what the margin is around; the middle for what is no number.
     pub fn within(&self, p: DVec3) -> DVec3 {
         let p = if p.is_finite() { p } else { (self.size / 2).as_dvec3() };

@@ -70,10 +70,7 @@ pub fn with_profile(
         weld: &measured.weld,
         rest: measured.shape.profile.as_ref(),
         pieces: &product.parts.pieces,
-        binding: &|vertex| match &product.bindings.vertices[vertex] {
-            Binding::Parts(binding) => Some(binding),
-            _ => None,
-        },
+        binding: &|vertex| product.bindings.vertices[vertex].parts(),
         threads: options.thread_count,
     };
     let strengths = |frame: &_| strengths(share, options, groups, frame);

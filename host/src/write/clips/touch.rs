@@ -2,7 +2,7 @@
 
 use crate::load::Loaded;
 use glam::{DMat4, DVec3};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use superdeform::Deformed;
 
 /// Ways into which the outermost vertices of a foot are sought: of a ball of points so spread, one is within 10 degrees of any
@@ -41,7 +41,7 @@ pub(super) fn outermost(
     is_foot: impl Fn(usize) -> bool,
 ) -> Vec<Vec<Point>> {
     let character = &loaded.character;
-    let mut found = vec![BTreeMap::<(usize, usize), ()>::new(); part_count];
+    let mut found = vec![BTreeSet::<(usize, usize)>::new(); part_count];
     // By joint: its vertices, and the part that these are of.
     let mut of_joint: BTreeMap<(usize, usize), Vec<(usize, usize)>> = BTreeMap::new();
     for (index, mesh) in character.meshes.iter().enumerate() {
@@ -68,7 +68,7 @@ pub(super) fn outermost(
                     positions[vertex].as_dvec3()
                 };
                 let furthest = vertices.iter().max_by(|a, b| place(a).dot(way).total_cmp(&place(b).dot(way)));
-                found[part].extend(furthest.map(|&vertex| (vertex, ())));
+                found[part].extend(furthest);
             }
         }
     }
@@ -82,7 +82,7 @@ pub(super) fn outermost(
             weights: row.iter().map(|&(joint, weight)| (node(joint), f64::from(weight) / total)).collect(),
         }
     };
-    found.into_iter().map(|part| part.into_keys().map(point).collect()).collect()
+    found.into_iter().map(|part| part.into_iter().map(point).collect()).collect()
 }
 
 /// So many ways, spread evenly: a spiral whose turn from one to the next is the golden angle.
