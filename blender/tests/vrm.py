@@ -2,7 +2,7 @@
 
     python vrm.py ADDON MODEL... [--out FOLDER]
 
-ADDON is the add-on's folder (`io_scene_vrm`). Roles, colliders and hit radii of what the add-on exports are those of the command
+ADDON is the add-on's folder (`io_scene_vrm`). Roles, colliders and springs of what the add-on exports are those of the command
 line's file; exit code 1 where they are not.
 """
 
@@ -38,7 +38,7 @@ def height(path):
 
 
 def springs(file):
-    """Colliders and hit radii of VRM 0.x and 1.0, as (what and whose, numbers), in the order of their names."""
+    """Colliders and springs of VRM 0.x and 1.0, as (what and whose, numbers), in the order of their names."""
     name = lambda index: file["nodes"][index]["name"]
     found = []
     secondary = file["extensions"].get("VRM", {}).get("secondaryAnimation", {})
@@ -46,7 +46,8 @@ def springs(file):
         for ball in group["colliders"]:
             found.append((f"collider of {name(group['node'])}", [*(ball["offset"][axis] for axis in "xyz"), ball["radius"]]))
     for group in secondary.get("boneGroups", []):
-        found.append((f"hit radius of {sorted(map(name, group['bones']))}", [group["hitRadius"]]))
+        numbers = [group[key] for key in ("hitRadius", "stiffiness", "gravityPower")]
+        found.append((f"spring of {sorted(map(name, group['bones']))}", numbers))
     new = file["extensions"].get("VRMC_springBone", {})
     for each in new.get("colliders", []):
         (kind, shape), = each["shape"].items()
@@ -54,8 +55,9 @@ def springs(file):
     for spring in new.get("springs", []):
         # The last joint of a chain only says where it ends.
         for joint in spring["joints"][:-1]:
-            found.append((f"hit radius of {name(joint['node'])}", [joint.get("hitRadius", 0)]))
-    return sorted(found)
+            numbers = [joint.get(key, usual) for key, usual in (("hitRadius", 0), ("stiffness", 1), ("gravityPower", 0))]
+            found.append((f"spring of {name(joint['node'])}", numbers))
+    return sorted(found, key=lambda each: (each[0], np.round(each[1], 3).tolist()))
 
 
 def roles(file):
@@ -68,7 +70,7 @@ def roles(file):
 def compared(model, folder):
     """What differs, as sentences, and the largest difference over the height."""
     fresh()
-    addon_utils.enable("bl_ext.user_default.vrm")
+    addon_utils.enable("bl_ext.user_default.vrm", default_set=True)
     assert bpy.ops.import_scene.vrm(filepath=str(model), use_addon_preferences=False) == {"FINISHED"}
     armature = next(thing for thing in bpy.data.objects if thing.type == "ARMATURE")
     made = convert(armature, heads=2.5)
@@ -105,7 +107,7 @@ def main(given):
         for model in models:
             faults, worst, count = compared(model, kept or Path(folder))
             failed += bool(faults)
-            print(f"{'FAILED' if faults else 'passed'}: {model.stem}: {count} colliders and radii, {worst:.1e} of the height apart", flush=True)
+            print(f"{'FAILED' if faults else 'passed'}: {model.stem}: {count} colliders and springs, {worst:.1e} of the height apart", flush=True)
             for fault in faults:
                 print(f"    {fault}")
     print(f"Blender {bpy.app.version_string}, VRM add-on: {len(models) - failed} passed, {failed} failed")
