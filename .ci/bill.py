@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""What is linked into the library, or into the command line: third-party notices and a bill of materials (CycloneDX).
+"""What is linked into the library, the command line, the Python wheel's library or the page's WebAssembly: third-party notices
+and a bill of materials (CycloneDX).
 
-    bill.py library|program notices|sbom TARGET...     prints it, for these targets of rustc; the same bytes on every run
+    bill.py library|program|wheel|page notices|sbom TARGET...   prints it, for these targets of rustc; the same bytes on every run
 
 Read from cargo and the sources that it has fetched: normal dependencies, and for the command line, which is an example,
 those of examples too; without what only runs while it is built.
@@ -15,7 +16,7 @@ import uuid
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-OWN = {"superdeform", "superdeform-host"}
+OWN = {"superdeform", "superdeform-files", "superdeform-host", "superdeform-web"}
 INDEX = "registry+https://github.com/rust-lang/crates.io-index"
 
 HEAD = """# Third-party notices
@@ -28,7 +29,9 @@ Where a package offers several licences, it is used under MIT, where that is non
 | Package | Version | Licence | Source |
 | --- | --- | --- | --- |
 """
-WHAT = {"library": "The library", "program": "The command line `superdeform`"}
+WHAT = {"library": "The library", "program": "The command line `superdeform`", "wheel": "The Python wheel's library",
+        "page": "The WebAssembly of the page and of the npm package"}
+PACKAGE = {"wheel": "superdeform-files", "page": "superdeform-web"}
 
 
 def cargo(*arguments):
@@ -37,10 +40,10 @@ def cargo(*arguments):
 
 def linked(what, targets):
     """Name, version, licence and source of all that is linked, by name."""
-    edges = {"library": "normal,no-proc-macro", "program": "normal,dev,no-proc-macro"}[what]
+    edges = "normal,dev,no-proc-macro" if what == "program" else "normal,no-proc-macro"
     found = set()
     for target in targets:
-        lines = cargo("tree", "--locked", "--edges", edges, "--prefix", "none", "--package", "superdeform",
+        lines = cargo("tree", "--locked", "--edges", edges, "--prefix", "none", "--package", PACKAGE.get(what, "superdeform"),
                       "--target", target, "--format", "{p}|{l}|{r}").splitlines()
         for line in lines:
             name, licence, source = line.replace(" (*)", "").split("|")
@@ -103,7 +106,7 @@ def sbom(what, targets):
     names = {package["id"]: key for key, package in known.items()}
     edges = {names[node["id"]]: sorted({names[of] for of in node["dependencies"]} & here) for node in resolved}
     url = lambda key: f"pkg:cargo/{key[0]}@{key[1]}"
-    own = next(key for key in known if key[0] == "superdeform")
+    own = next(key for key in known if key[0] == PACKAGE.get(what, "superdeform"))
 
     def component(name, version, licence, source):
         made = {"type": "library", "bom-ref": url((name, version)), "name": name, "version": version,
@@ -120,8 +123,8 @@ def sbom(what, targets):
         "bomFormat": "CycloneDX",
         "specVersion": "1.5",
         "version": 1,
-        "metadata": {"component": {"type": "library" if what == "library" else "application", "bom-ref": url(own),
-                                   "name": "superdeform", "version": own[1], "purl": url(own),
+        "metadata": {"component": {"type": "application" if what == "program" else "library", "bom-ref": url(own),
+                                   "name": own[0], "version": own[1], "purl": url(own),
                                    "licenses": [{"expression": "MIT OR Apache-2.0"}]}},
         "components": [component(*row) for row in found],
         "dependencies": [{"ref": url(own), "dependsOn": [url(of) for of in direct]}] +

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""What the VRM add-on keeps of springs: colliders (empties on bones) and the radius at the end of each bone, of VRM 0.x and 1.0.
+"""What the VRM add-on keeps of springs: colliders (empties on bones), and radii, stiffness and gravity, of VRM 0.x and 1.0.
 
 The add-on fills both sets when it imports a VRM 0.x file, so both are written.
 """
@@ -11,19 +11,31 @@ from .read import rest_world, tail_of
 
 
 def springs(armature, copy, figure, deformer):
-    """Maps colliders and hit radii; nothing where the add-on is not there."""
+    """Maps colliders, and what of springs has a length; nothing where the add-on is not there."""
     before = getattr(armature.data, "vrm_addon_extension", None)
     after = getattr(copy.data, "vrm_addon_extension", None)
     if before is None or after is None:
         return
     # What VRM 0.x and 1.0 have of the same file are two sets of empties.
-    balls, of_group = _balls_0(before, armature, figure)
-    _radii(balls, deformer, [(after.vrm0.secondary_animation.bone_groups[index], mine) for index, mine in enumerate(of_group)])
+    balls, of_group, chains = _balls_0(before, armature, figure)
+    for group, chain in zip(after.vrm0.secondary_animation.bone_groups, chains):
+        _scaled(group, ("hit_radius", "stiffiness", "gravity_power"), chain, armature, figure, deformer)
     _colliders(_pairs_0(before, after, of_group), balls, armature, copy, figure, deformer)
-    balls, of_joint, of_spring = _balls_1(before, armature, figure)
-    new = after.spring_bone1.springs
-    _radii(balls, deformer, [(new[spring].joints[joint], [ball]) for (spring, joint), ball in of_joint.items()])
+    balls, of_spring = _balls_1(before, armature, figure)
+    for spring in after.spring_bone1.springs:
+        for joint in spring.joints:
+            _scaled(joint, ("hit_radius", "stiffness", "gravity_power"), [joint.node.bone_name], armature, figure, deformer)
     _colliders(_pairs_1(before, after, of_spring), balls, armature, copy, figure, deformer)
+
+
+def _scaled(owner, names, chain, armature, figure, deformer):
+    """Numbers of a spring grow as the body does where its bones begin, on average: the step of a spring is in units of the model."""
+    bones = [armature.data.bones[name] for name in chain if name in figure.joints.of_bone]
+    if bones:
+        joints = [figure.joints.of_bone[bone.name] for bone in bones]
+        scale = float(deformer.map_points(joints, [tuple(armature.matrix_world @ bone.head_local) for bone in bones])[1].mean())
+        for name in names:
+            setattr(owner, name, getattr(owner, name) * scale)
 
 
 def _ball(figure, bone, place, radius):
@@ -31,14 +43,15 @@ def _ball(figure, bone, place, radius):
 
 
 def _balls_0(extension, armature, figure):
-    """A ball at the end of every bone of every chain, and which are of which bone group."""
-    balls, of_group, world = [], [], armature.matrix_world
+    """A ball at the end of every bone of every chain; which are of which bone group; the bones of each group."""
+    balls, of_group, chains, world = [], [], [], armature.matrix_world
     for group in extension.vrm0.secondary_animation.bone_groups:
-        mine, todo = [], [armature.data.bones.get(bone.bone_name) for bone in group.bones]
+        mine, chain, todo = [], {}, [armature.data.bones.get(bone.bone_name) for bone in group.bones]
         while todo:
             bone = todo.pop()
             if bone is None or bone.name not in figure.joints.of_bone:
                 continue
+            chain[bone.name] = True
             ends = [(child.name, child.head_local) for child in bone.children] or [(bone.name, bone.tail_local)]
             todo += bone.children
             for name, end in ends:
@@ -46,31 +59,22 @@ def _balls_0(extension, armature, figure):
                     mine.append(len(balls))
                     balls.append(_ball(figure, name, world @ end, group.hit_radius))
         of_group.append(mine)
-    return balls, of_group
+        chains.append(list(chain))
+    return balls, of_group, chains
 
 
 def _balls_1(extension, armature, figure):
-    balls, of_joint, of_spring = [], {}, []
-    for index, spring in enumerate(extension.spring_bone1.springs):
-        mine = []
-        for number, joint in enumerate(spring.joints):
-            bone = armature.data.bones.get(joint.node.bone_name)
+    """A ball where each joint of a spring ends, which is where the next begins, and which are of which spring."""
+    balls, of_spring = [], []
+    for spring in extension.spring_bone1.springs:
+        mine, joints = [], list(spring.joints)
+        for joint, following in zip(joints, joints[1:]):
+            bone = armature.data.bones.get(following.node.bone_name)
             if bone is not None and bone.name in figure.joints.of_bone:
-                of_joint[index, number] = len(balls)
                 mine.append(len(balls))
                 balls.append(_ball(figure, bone.name, armature.matrix_world @ bone.head_local, joint.hit_radius))
         of_spring.append(mine)
-    return balls, of_joint, of_spring
-
-
-def _radii(balls, deformer, owners):
-    """The radius of each owner grows as its balls do, on average."""
-    if not balls:
-        return
-    scales = deformer.map_points([ball.joint for ball in balls], [(ball.x, ball.y, ball.z) for ball in balls])[1]
-    for owner, mine in owners:
-        if mine:
-            owner.hit_radius *= float(scales[mine].mean())
+    return balls, of_spring
 
 
 def _pairs_0(before, after, of_group):

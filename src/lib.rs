@@ -78,11 +78,16 @@
 //! never changed. Joints move; they neither turn nor scale. Results are the same bits for any number of threads and on
 //! every run.
 
+// What only the C ABI calls stands beside the rest.
+#![cfg_attr(all(target_arch = "wasm32", not(feature = "exports")), allow(dead_code))]
+
 mod character;
 mod clock;
 mod error;
 mod face;
-// Its comments are the header's too, where brackets are indices of arrays.
+// Its comments are the header's too, where brackets are indices of arrays. A library of WebAssembly exports it all, so
+// there it is left out of what does not ask for it.
+#[cfg(any(not(target_arch = "wasm32"), feature = "exports"))]
 #[allow(rustdoc::broken_intra_doc_links)]
 mod ffi;
 mod geometry;
@@ -121,6 +126,7 @@ pub mod internals {
     pub mod face {
         pub use crate::face::*;
     }
+    #[cfg(any(not(target_arch = "wasm32"), feature = "exports"))]
     pub mod ffi {
         pub use crate::ffi::*;
     }

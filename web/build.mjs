@@ -27,38 +27,36 @@ function words() {
   return JSON.stringify(Object.fromEntries(all));
 }
 
-/** Where the page's parts come from: from beside it, or from within it. */
-function parts(worker) {
-  if (!worker) {
-    // Each is fetched once, so that nothing is asked for later.
-    return `const fetched = {};
-    export const bytesOf = (name) => (fetched[name] ??= load(name));
-    const load = async (name) => {
-      const answer = await fetch(name);
-      if (!answer.ok) throw new Error(name + ': ' + answer.status);
-      return new Uint8Array(await answer.arrayBuffer());
-    };
-    export const workerAddress = () => 'worker.js';`;
-  }
-  return `export const bytesOf = async (name) => {
+/** Where the page's parts come from: from beside it, each fetched once, so that nothing is asked for later; or from within it. */
+function parts(within) {
+  const fetched = `const fetched = {};
+  export const bytesOf = (name) => (fetched[name] ??= load(name));
+  const load = async (name) => {
+    const answer = await fetch(name);
+    if (!answer.ok) throw new Error(name + ': ' + answer.status);
+    return new Uint8Array(await answer.arrayBuffer());
+  };`;
+  const held = `export const bytesOf = async (name) => {
     const text = document.getElementById(name).textContent;
     return Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
-  };
-  export const workerAddress = () => URL.createObjectURL(new Blob([document.getElementById('worker').textContent], { type: 'text/javascript' }));`;
+  };`;
+  return `${within ? held : fetched}
+  // Of its own bytes, so that a new one can be had without a network.
+  export const workerAddress = async () => URL.createObjectURL(new Blob([await bytesOf('worker.js')], { type: 'text/javascript' }));`;
 }
 
-async function script(entry, worker) {
+async function script(entry, within) {
   const plugin = {
     name: 'made',
     setup(build) {
-      const of = { words: () => `export const words = ${words()};`, parts: () => parts(worker) };
+      const of = { words: () => `export const words = ${words()};`, parts: () => parts(within) };
       build.onResolve({ filter: /^(words|parts)$/ }, ({ path: name }) => ({ path: name, namespace: 'made' }));
       build.onLoad({ filter: /.*/, namespace: 'made' }, ({ path: name }) => ({ contents: of[name](), loader: 'js' }));
     },
   };
   const built = await esbuild.build({
     entryPoints: [path.join(here, 'src', entry)], bundle: true, minify: true, write: false, plugins: [plugin],
-    format: entry === 'worker.js' ? 'iife' : 'esm', target: 'es2022', legalComments: 'none', logLevel: 'error',
+    format: entry === 'worker.js' ? 'iife' : 'esm', target: 'es2022', legalComments: 'eof', logLevel: 'error',
   });
   // Within a page, no text may end its script.
   return built.outputFiles[0].text.replaceAll('</script', '<\\/script');
@@ -84,13 +82,12 @@ function page(rules, inner) {
 fs.rmSync(folder, { recursive: true, force: true });
 fs.mkdirSync(folder, { recursive: true });
 const write = (name, content) => fs.writeFileSync(path.join(folder, name), content);
-const worker = await script('worker.js');
-write('worker.js', worker);
+write('worker.js', await script('worker.js'));
 write('page.js', await script('main.js'));
-write('index.html', page(policy("'self'", "'self' blob:", "'self'"), '<script type="module" src="page.js"></script>'));
+write('index.html', page(policy("'self'", "'self' blob:", 'blob:'), '<script type="module" src="page.js"></script>'));
 for (const [name, from] of Object.entries(PARTS)) fs.copyFileSync(from, path.join(folder, name));
 
-const inline = await script('main.js', worker);
-const held = Object.entries(PARTS).map(([name, from]) => `<script type="text/plain" id="${name}">${fs.readFileSync(from, 'base64')}</script>`);
-const inner = [...held, `<script type="text/plain" id="worker">${worker}</script>`, `<script type="module">${inline}</script>`].join('\n');
+const inline = await script('main.js', true);
+const held = [...Object.keys(PARTS), 'worker.js'].map((name) => `<script type="text/plain" id="${name}">${fs.readFileSync(path.join(folder, name), 'base64')}</script>`);
+const inner = [...held, `<script type="module">${inline}</script>`].join('\n');
 write('superdeform.html', page(policy(`${hash(inline)} blob:`, 'blob:', 'blob:'), inner));

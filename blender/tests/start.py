@@ -2,8 +2,8 @@
 
 import json
 import logging
-import os
 import tempfile
+from pathlib import Path
 
 import bpy
 
@@ -22,22 +22,30 @@ def fresh():
     addon_utils.enable(NAME)
 
 
-def imported(path):
-    """The objects of a GLB or VRM file, whose clips are left out: Blender would show their first frame."""
-    with open(path, "rb") as file:
-        raw = file.read()
+def stripped(path, folder):
+    """A copy of a GLB or VRM file as a GLB with what Blender's own importer reads: no roles and springs of a VRM, and no clips,
+    of which Blender would show the first frame."""
+    raw = Path(path).read_bytes()
     size = int.from_bytes(raw[12:16], "little")
     content = json.loads(raw[20:20 + size])
     content.pop("animations", None)
+    for name in ("VRM", "VRMC_vrm", "VRMC_springBone"):
+        content.get("extensions", {}).pop(name, None)
     text = json.dumps(content).encode()
     text += b" " * (-len(text) % 4)
     rest = raw[20 + size:]
     head = raw[:8] + (20 + len(text) + len(rest)).to_bytes(4, "little") + len(text).to_bytes(4, "little") + b"JSON"
-    with tempfile.NamedTemporaryFile(suffix=".glb", delete=False) as file:
-        file.write(head + text + rest)
+    made = Path(folder) / f"{Path(path).stem}_plain.glb"
+    made.write_bytes(head + text + rest)
+    return made
+
+
+def imported(path):
+    """The objects of a GLB or VRM file."""
     before = set(bpy.data.objects)
-    bpy.ops.import_scene.gltf(filepath=file.name, bone_heuristic="TEMPERANCE", disable_bone_shape=True)
-    os.unlink(file.name)
+    with tempfile.TemporaryDirectory() as folder:
+        file = stripped(path, folder)
+        bpy.ops.import_scene.gltf(filepath=str(file), bone_heuristic="TEMPERANCE", disable_bone_shape=True)
     return [thing for thing in bpy.data.objects if thing not in before]
 
 

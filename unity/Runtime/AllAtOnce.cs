@@ -26,10 +26,10 @@ public static class AllAtOnce
         Character.CheckDirection(forward, "forward");
         int count = meshes.Count;
         if (outputs.Count != count) throw Failure.Argument("there are " + outputs.Count + " outputs for " + count + " meshes: give one each");
-        using (MarshalScope scope = new MarshalScope())
+        using (var scope = new MarshalScope())
         using (ProgressCall call = ProgressCall.Of(progress))
         {
-            SdefSkeleton joints = new SdefSkeleton();
+            var joints = new SdefSkeleton();
             if (skeleton != null) scope.Fill(&joints, skeleton);
             SdefMesh* inputs = (SdefMesh*)scope.Alloc(checked(count * sizeof(SdefMesh)));
             for (int mesh = 0; mesh < count; mesh++) scope.Fill(inputs + mesh, meshes[mesh], mesh);

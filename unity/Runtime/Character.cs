@@ -24,7 +24,7 @@ public sealed class Character : NativeObject
     {
         CheckDirection(up, "up");
         CheckDirection(forward, "forward");
-        SdefCharacter made = new SdefCharacter();
+        var made = new SdefCharacter();
         SdefError error = Failure.None();
         uint status;
         fixed (float* upwards = up, ahead = forward)
@@ -35,10 +35,7 @@ public sealed class Character : NativeObject
         Handle = made.id;
     }
 
-    internal SdefCharacter Raw
-    {
-        get { return new SdefCharacter { id = Handle }; }
-    }
+    internal SdefCharacter Raw => new SdefCharacter { id = Handle };
 
     /// <summary>Gives it joints, in place of any that it had. Comes before meshes with weights.</summary>
     /// <exception cref="InvalidInputException">With the joint: a parent that is none, a circle of parents, a number
@@ -46,9 +43,9 @@ public sealed class Character : NativeObject
     public unsafe void SetSkeleton(SkeletonArrays skeleton)
     {
         if (skeleton == null) throw new ArgumentNullException("skeleton");
-        using (MarshalScope scope = new MarshalScope())
+        using (var scope = new MarshalScope())
         {
-            SdefSkeleton native = new SdefSkeleton();
+            var native = new SdefSkeleton();
             scope.Fill(&native, skeleton);
             SdefError error = Failure.None();
             uint status = Native.sdef_character_set_skeleton(Raw, &native, &error);
@@ -63,9 +60,9 @@ public sealed class Character : NativeObject
     public unsafe int AddMesh(MeshArrays mesh)
     {
         if (mesh == null) throw new ArgumentNullException("mesh");
-        using (MarshalScope scope = new MarshalScope())
+        using (var scope = new MarshalScope())
         {
-            SdefMesh native = new SdefMesh();
+            var native = new SdefMesh();
             scope.Fill(&native, mesh, vertexCounts.Count);
             uint index = Native.SDEF_NONE;
             SdefError error = Failure.None();
@@ -95,7 +92,7 @@ public sealed class Character : NativeObject
             throw Failure.Argument("an image of " + width + " by " + height + " pixels does not fit " + pixels.Length
                 + " bytes: give one a pixel");
         }
-        SdefImage image = new SdefImage();
+        var image = new SdefImage();
         image.struct_size = (uint)sizeof(SdefImage);
         image.width = (uint)width;
         image.height = (uint)height;
@@ -122,7 +119,7 @@ public sealed class Character : NativeObject
     {
         CheckPlace(eye, "eye");
         CheckPlace(otherEye, "otherEye");
-        SdefFaceHints hints = new SdefFaceHints();
+        var hints = new SdefFaceHints();
         hints.struct_size = (uint)sizeof(SdefFaceHints);
         hints.half_width = halfWidth;
         hints.half_height = halfHeight;
@@ -152,9 +149,9 @@ public sealed class Character : NativeObject
             }
             count = vertexCounts[mesh];
         }
-        using (MarshalScope scope = new MarshalScope())
+        using (var scope = new MarshalScope())
         {
-            SdefMorphTarget native = new SdefMorphTarget();
+            var native = new SdefMorphTarget();
             scope.Fill(&native, target, mesh, count);
             SdefError error = Failure.None();
             uint status = Native.sdef_character_add_morph_target(Raw, (uint)mesh, &native, &error);
@@ -169,7 +166,7 @@ public sealed class Character : NativeObject
     /// </summary>
     public static unsafe bool ReadsMorphTarget(string name)
     {
-        using (MarshalScope scope = new MarshalScope()) return Native.sdef_morph_target_is_read(scope.Text(name)) != 0;
+        using (var scope = new MarshalScope()) return Native.sdef_morph_target_is_read(scope.Text(name)) != 0;
     }
 
     /// <summary>What it holds.</summary>
@@ -177,7 +174,7 @@ public sealed class Character : NativeObject
     {
         get
         {
-            SdefCharacterInfo info = new SdefCharacterInfo();
+            var info = new SdefCharacterInfo();
             info.struct_size = (uint)sizeof(SdefCharacterInfo);
             SdefError error = Failure.None();
             uint status = Native.sdef_character_get_info(Raw, &info, &error);
@@ -190,7 +187,7 @@ public sealed class Character : NativeObject
     /// <summary>The joints: own ones first, then those of a made rig.</summary>
     public unsafe Joints GetJoints()
     {
-        Joints joints = new Joints(Info.JointCount);
+        var joints = new Joints(Info.JointCount);
         SdefError error = Failure.None();
         uint status;
         UIntPtr count;
@@ -241,7 +238,7 @@ public sealed class Character : NativeObject
     /// <param name="progress">May be null.</param>
     public unsafe void Rig(Options options = null, ProgressHandler progress = null)
     {
-        using (MarshalScope scope = new MarshalScope())
+        using (var scope = new MarshalScope())
         using (ProgressCall call = ProgressCall.Of(progress))
         {
             SdefError error = Failure.None();

@@ -24,10 +24,10 @@ public sealed class Deformer : NativeObject
     {
         if (character == null) throw new ArgumentNullException("character");
         if (style == null) throw new ArgumentNullException("style");
-        using (MarshalScope scope = new MarshalScope())
+        using (var scope = new MarshalScope())
         using (ProgressCall call = ProgressCall.Of(progress))
         {
-            SdefDeformer made = new SdefDeformer();
+            var made = new SdefDeformer();
             SdefError error = Failure.None();
             uint status = Native.sdef_deformer_create(character.Raw, style.Raw, scope.Options(options), call.Callback,
                 call.User, &made, &error);
@@ -38,10 +38,7 @@ public sealed class Deformer : NativeObject
         }
     }
 
-    SdefDeformer Raw
-    {
-        get { return new SdefDeformer { id = Handle }; }
-    }
+    SdefDeformer Raw => new SdefDeformer { id = Handle };
 
     /// <summary>
     /// Changes the options, with the same results as a new deformer and for less: only what depends on the change is done
@@ -49,7 +46,7 @@ public sealed class Deformer : NativeObject
     /// </summary>
     public unsafe void SetOptions(Options options, ProgressHandler progress = null)
     {
-        using (MarshalScope scope = new MarshalScope())
+        using (var scope = new MarshalScope())
         using (ProgressCall call = ProgressCall.Of(progress))
         {
             SdefError error = Failure.None();
@@ -188,7 +185,7 @@ public sealed class Deformer : NativeObject
         {
             struct_size = (uint)sizeof(SdefSpringBall), joint = ball.Joint, x = ball.X, y = ball.Y, z = ball.Z, radius = ball.Radius
         });
-        List<uint> named = new List<uint>();
+        var named = new List<uint>();
         foreach (SpringCollider collider in colliders) named.AddRange(collider.Springs ?? new uint[0]);
         uint[] all = named.ToArray();
         SdefError error = Failure.None();
@@ -249,9 +246,9 @@ public sealed class Deformer : NativeObject
         foreach (uint count in vertexCounts) sum += count;
         int given = vertices == null ? 0 : vertices.Length;
         if (sum > given) throw Failure.Argument("vertices holds " + given + " numbers, but vertexCounts are " + sum + " together");
-        Owner owner = new Owner("morph targets of mesh", mesh);
+        var owner = new Owner("morph targets of mesh", mesh);
         if (positions == null && sum > 0) throw owner.Wrong("Positions is null: give 3 floats for each of vertices");
-        using (MarshalScope scope = new MarshalScope())
+        using (var scope = new MarshalScope())
         {
             SdefError error = Failure.None();
             uint status = Native.sdef_deformer_map_morph_targets(Raw, unchecked((uint)mesh), (uint*)scope.Pin(vertexCounts, "vertexCounts"),
@@ -306,7 +303,7 @@ public sealed class Deformer : NativeObject
     /// <exception cref="InvalidInputException">NoGeometry where the result is too flat to be measured.</exception>
     public unsafe Report GetReport()
     {
-        SdefReport report = new SdefReport();
+        var report = new SdefReport();
         report.struct_size = (uint)sizeof(SdefReport);
         SdefError error = Failure.None();
         uint status = Native.sdef_deformer_get_report(Raw, &report, null, UIntPtr.Zero, null, &error);
@@ -318,7 +315,7 @@ public sealed class Deformer : NativeObject
 
     unsafe Figure GetFigure(uint which)
     {
-        SdefFigure figure = new SdefFigure();
+        var figure = new SdefFigure();
         figure.struct_size = (uint)sizeof(SdefFigure);
         SdefError error = Failure.None();
         uint status = Native.sdef_deformer_get_figure(Raw, which, &figure, &error);

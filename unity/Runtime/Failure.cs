@@ -6,7 +6,7 @@ internal static unsafe class Failure
     /// <summary>Room for an error.</summary>
     internal static SdefError None()
     {
-        SdefError error = new SdefError();
+        var error = new SdefError();
         error.struct_size = (uint)sizeof(SdefError);
         return error;
     }
@@ -20,10 +20,7 @@ internal static unsafe class Failure
     }
 
     /// <summary>An error in the calling code that only this side of the library can see.</summary>
-    internal static InvalidInputException Argument(string sentence)
-    {
-        return new InvalidInputException(Status.BadArgument, sentence);
-    }
+    internal static InvalidInputException Argument(string sentence) => new InvalidInputException(Status.BadArgument, sentence);
 
     internal static SuperDeformException Of(Status status, string message, int mesh, int element)
     {

@@ -11,10 +11,7 @@ public sealed class Joints
         Confidence = new double[count];
     }
 
-    public int Count
-    {
-        get { return Parents.Length; }
-    }
+    public int Count => Parents.Length;
 
     /// <summary>By joint: its parent, or -1.</summary>
     public int[] Parents { get; private set; }

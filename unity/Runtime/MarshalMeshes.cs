@@ -12,7 +12,7 @@ internal static unsafe class MarshalMeshes
 {
     internal static void Fill(this MarshalScope scope, SdefMesh* mesh, MeshArrays arrays, int index)
     {
-        Owner owner = new Owner("mesh", index, arrays == null ? null : arrays.Name);
+        var owner = new Owner("mesh", index, arrays == null ? null : arrays.Name);
         if (arrays == null) throw owner.Wrong("it is null: give its arrays");
         int count = VertexCount(arrays, owner);
         if (arrays.FirstVertex < 0) throw owner.Wrong("FirstVertex is " + arrays.FirstVertex + ": give 0 or more");
@@ -37,7 +37,7 @@ internal static unsafe class MarshalMeshes
 
     internal static void Fill(this MarshalScope scope, SdefMorphTarget* target, MorphArrays arrays, int mesh, int count)
     {
-        Owner owner = new Owner("morph target of mesh", mesh, arrays.Name);
+        var owner = new Owner("morph target of mesh", mesh, arrays.Name);
         target->struct_size = (uint)sizeof(SdefMorphTarget);
         target->name = scope.Text(arrays.Name);
         target->positions = Vectors(scope, arrays.Positions, owner, "Positions", 3, arrays.FirstVertex, count);
@@ -47,7 +47,7 @@ internal static unsafe class MarshalMeshes
 
     internal static void Fill(this MarshalScope scope, SdefSkeleton* skeleton, SkeletonArrays arrays)
     {
-        Owner owner = new Owner("skeleton");
+        var owner = new Owner("skeleton");
         if (arrays.Parents == null) throw owner.Wrong("Parents is null: give one a joint");
         int count = arrays.Parents.Length;
         CheckLength(arrays.Names, owner, "Names", count);
@@ -74,7 +74,7 @@ internal static unsafe class MarshalMeshes
 
     static void Fill(MarshalScope scope, SdefMeshResult* result, MeshOutput output, int mesh)
     {
-        Owner owner = new Owner("output", mesh);
+        var owner = new Owner("output", mesh);
         if (output == null) throw owner.Wrong("it is null: give one with null arrays for what is left out");
         int count = output.VertexCount, targets = output.MorphTargetCount;
         if (count < 0 || targets < 0)

@@ -28,10 +28,7 @@ public abstract class NativeObject : IDisposable
     }
 
     /// <summary>Whether <see cref="Dispose"/> was called.</summary>
-    public bool IsDisposed
-    {
-        get { return Interlocked.Read(ref handle) == 0; }
-    }
+    public bool IsDisposed => Interlocked.Read(ref handle) == 0;
 
     /// <summary>
     /// The handle, for one call: GC.KeepAlive(this) comes after that, or the finaliser might run before it.

@@ -17,10 +17,7 @@ public partial struct OptionRange
     }
 
     /// <summary>Whether a value may be.</summary>
-    public bool Contains(double value)
-    {
-        return value >= Low && value <= High;
-    }
+    public bool Contains(double value) => value >= Low && value <= High;
 
     /// <summary>The range of a number of <see cref="Options"/> or <see cref="GroupSettings"/>, by its name.</summary>
     /// <exception cref="ArgumentException">There is no such number.</exception>

@@ -135,10 +135,7 @@ public sealed class GroupSettings
     }
 
     /// <summary>A copy.</summary>
-    public GroupSettings Clone()
-    {
-        return (GroupSettings)MemberwiseClone();
-    }
+    public GroupSettings Clone() => (GroupSettings)MemberwiseClone();
 
     /// <summary>Fills the library's struct in, but for the name.</summary>
     internal unsafe void Write(SdefGroupSettings* native)
@@ -161,10 +158,7 @@ public sealed class BoneGroup
     public string Group;
 
     /// <summary>A copy.</summary>
-    public BoneGroup Clone()
-    {
-        return (BoneGroup)MemberwiseClone();
-    }
+    public BoneGroup Clone() => (BoneGroup)MemberwiseClone();
 }
 
 /// <summary>Where a joint is known to be, for making a rig.</summary>

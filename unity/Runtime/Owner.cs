@@ -21,9 +21,6 @@ internal struct Owner
         return string.IsNullOrEmpty(name) ? text : text + " (" + name + ")";
     }
 
-    internal InvalidInputException Wrong(string sentence)
-    {
-        return new InvalidInputException(Status.BadArgument, ToString() + ": " + sentence, Index);
-    }
+    internal InvalidInputException Wrong(string sentence) => new InvalidInputException(Status.BadArgument, ToString() + ": " + sentence, Index);
 }
 }

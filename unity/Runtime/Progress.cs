@@ -29,20 +29,11 @@ internal sealed unsafe class ProgressCall : IDisposable
         if (handler != null) self = GCHandle.Alloc(this);
     }
 
-    internal static ProgressCall Of(ProgressHandler handler)
-    {
-        return handler == null ? none : new ProgressCall(handler);
-    }
+    internal static ProgressCall Of(ProgressHandler handler) => handler == null ? none : new ProgressCall(handler);
 
-    internal SdefProgress Callback
-    {
-        get { return handler == null ? null : report; }
-    }
+    internal SdefProgress Callback => handler == null ? null : report;
 
-    internal void* User
-    {
-        get { return handler == null ? null : (void*)GCHandle.ToIntPtr(self); }
-    }
+    internal void* User => handler == null ? null : (void*)GCHandle.ToIntPtr(self);
 
     /// <summary>Throws what the handler threw; else what the call ended with.</summary>
     internal void Check(uint status, SdefError* error)

@@ -11,10 +11,7 @@ public sealed class Style : NativeObject
 {
     Style() { }
 
-    internal SdefStyle Raw
-    {
-        get { return new SdefStyle { id = Handle }; }
-    }
+    internal SdefStyle Raw => new SdefStyle { id = Handle };
 
     /// <summary>A style of so many heads.</summary>
     /// <param name="heads">1.8 to 6, crown to sole over crown to chin.</param>
@@ -23,8 +20,8 @@ public sealed class Style : NativeObject
     /// </param>
     public static unsafe Style FromHeads(double heads, Style like = null)
     {
-        Style style = new Style();
-        SdefStyle made = new SdefStyle();
+        var style = new Style();
+        var made = new SdefStyle();
         SdefError error = Failure.None();
         SdefStyle other = like == null ? new SdefStyle() : like.Raw;
         uint status = Native.sdef_style_from_heads(heads, other, &made, &error);
@@ -36,8 +33,8 @@ public sealed class Style : NativeObject
     public static unsafe Style FromText(string text)
     {
         if (text == null) throw new ArgumentNullException("text");
-        Style style = new Style();
-        SdefStyle made = new SdefStyle();
+        var style = new Style();
+        var made = new SdefStyle();
         SdefError error = Failure.None();
         byte[] bytes = Encoding.UTF8.GetBytes(text);
         uint status;
@@ -55,10 +52,10 @@ public sealed class Style : NativeObject
     public static unsafe Style Measure(Character character, string name = null, Options options = null)
     {
         if (character == null) throw new ArgumentNullException("character");
-        Style style = new Style();
-        SdefStyle made = new SdefStyle();
+        var style = new Style();
+        var made = new SdefStyle();
         SdefError error = Failure.None();
-        using (MarshalScope scope = new MarshalScope())
+        using (var scope = new MarshalScope())
         {
             uint status = Native.sdef_style_measure(character.Raw, scope.Text(name), scope.Options(options), &made,
                 &error);
@@ -75,11 +72,11 @@ public sealed class Style : NativeObject
     public static unsafe Style FromNumbers(string name, StyleNumbers numbers, Bone[] bones = null)
     {
         if (numbers == null) throw new ArgumentNullException("numbers");
-        Style style = new Style();
-        SdefStyle made = new SdefStyle();
+        var style = new Style();
+        var made = new SdefStyle();
         SdefError error = Failure.None();
         int count = bones == null ? 0 : bones.Length;
-        using (MarshalScope scope = new MarshalScope())
+        using (var scope = new MarshalScope())
         {
             SdefBone* native = (SdefBone*)scope.Alloc(checked(count * sizeof(SdefBone)));
             for (int i = 0; i < count; i++)
@@ -104,8 +101,8 @@ public sealed class Style : NativeObject
     {
         if (first == null) throw new ArgumentNullException("first");
         if (second == null) throw new ArgumentNullException("second");
-        Style style = new Style();
-        SdefStyle made = new SdefStyle();
+        var style = new Style();
+        var made = new SdefStyle();
         SdefError error = Failure.None();
         uint status = Native.sdef_style_blend(first.Raw, second.Raw, amount, &made, &error);
         GC.KeepAlive(first);
@@ -129,7 +126,7 @@ public sealed class Style : NativeObject
     {
         get
         {
-            SdefStyleNumbers numbers = new SdefStyleNumbers();
+            var numbers = new SdefStyleNumbers();
             numbers.struct_size = (uint)sizeof(SdefStyleNumbers);
             SdefError error = Failure.None();
             uint status = Native.sdef_style_get_numbers(Raw, &numbers, null, UIntPtr.Zero, null, &error);

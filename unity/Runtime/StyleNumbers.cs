@@ -110,7 +110,7 @@ public sealed class StyleNumbers
 
     internal unsafe SdefStyleNumbers ToNative()
     {
-        SdefStyleNumbers native = new SdefStyleNumbers();
+        var native = new SdefStyleNumbers();
         native.struct_size = (uint)sizeof(SdefStyleNumbers);
         native.heads = Heads;
         native.bone_head_length = BoneHeadLength;

@@ -18,10 +18,7 @@ public sealed class Warning
     /// <summary>One sentence.</summary>
     public string Text { get; private set; }
 
-    public override string ToString()
-    {
-        return Code + ": " + Text;
-    }
+    public override string ToString() => Code + ": " + Text;
 
     internal static unsafe IList<Warning> Of(ulong handle)
     {
@@ -32,7 +29,7 @@ public sealed class Warning
     // One "code: sentence" a line.
     internal static IList<Warning> Parse(string lines)
     {
-        List<Warning> warnings = new List<Warning>();
+        var warnings = new List<Warning>();
         foreach (string line in lines.Split('\n'))
         {
             if (line.Length == 0) continue;

@@ -43,7 +43,7 @@ assembly nadena.dev.ndmf.runtime UnityEngine "" Tests~/NdmfStubs/Runtime
 assembly System.Collections.Immutable "" "" Tests~/NdmfStubs/Immutable
 assembly nadena.dev.ndmf "nadena.dev.ndmf.runtime System.Collections.Immutable UnityEngine UnityEditor" "" Tests~/NdmfStubs/Editor
 assembly SuperDeform.Avatar.Alone UnityEngine "" Runtime/Avatar
-assembly SuperDeform.Avatar "nadena.dev.ndmf.runtime UnityEngine" -d:SUPERDEFORM_NDMF Runtime/Avatar
+assembly SuperDeform.Avatar "nadena.dev.ndmf.runtime UnityEngine" "-d:UNITY_EDITOR -d:SUPERDEFORM_NDMF" Runtime/Avatar
 editor="SuperDeform SuperDeform.Avatar nadena.dev.ndmf.runtime UnityEngine UnityEditor"
 mapfile -t folders < <(find Editor -mindepth 1 -maxdepth 1 -type d ! -name 'Vrm?' ! -name Ndmf)
 assembly SuperDeform.Editor "$editor" "-unsafe -d:UNITY_EDITOR" "${folders[@]}"

@@ -21,7 +21,48 @@ LIBRARIES = {"superdeform.dll": ("x86_64", "Windows"), "libsuperdeform.so": ("x8
 TAIL = "  userData: \n  assetBundleName: \n  assetBundleVariant: \n"
 PLAIN = "  externalObjects: {}\n" + TAIL
 MONO = ("  externalObjects: {}\n  serializedVersion: 2\n  defaultReferences: []\n  executionOrder: 0\n"
-        "  icon: {instanceID: 0}\n" + TAIL)
+        "  icon: %s\n" + TAIL)
+
+# What objects and assets of these classes are drawn with.
+ICON = "Editor/Icons/SuperDeform.png"
+WITH_ICON = {"SuperDeformAvatar.cs", "SuperDeformPreset.cs"}
+
+# A picture of the editor's own drawing: as it lies there, in its own pixels.
+TEXTURE = """  internalIDToNameTable: []
+  externalObjects: {}
+  serializedVersion: 11
+  mipmaps:
+    mipMapMode: 0
+    enableMipMap: 0
+    sRGBTexture: 0
+  isReadable: 0
+  textureFormat: 1
+  maxTextureSize: 2048
+  textureSettings:
+    serializedVersion: 2
+    filterMode: 1
+    aniso: 1
+    mipBias: 0
+    wrapU: 1
+    wrapV: 1
+    wrapW: 1
+  nPOTScale: 0
+  alphaUsage: 1
+  alphaIsTransparency: 1
+  textureType: 2
+  textureShape: 1
+  platformSettings:
+  - serializedVersion: 3
+    buildTarget: DefaultTexturePlatform
+    maxTextureSize: 2048
+    resizeAlgorithm: 0
+    textureFormat: -1
+    textureCompression: 0
+    compressionQuality: 50
+    crunchedCompression: 0
+    allowsAlphaSplitting: 0
+    overridden: 0
+"""
 
 PLUGIN = """  externalObjects: {{}}
   serializedVersion: 2
@@ -115,7 +156,10 @@ def importer(root, path):
     if path == "package.json":
         return "PackageManifestImporter:\n" + PLAIN
     if suffix == "cs":
-        return "MonoImporter:\n" + MONO
+        shown = f"{{fileID: 2800000, guid: {guid(ICON)}, type: 3}}" if name in WITH_ICON else "{instanceID: 0}"
+        return "MonoImporter:\n" + MONO % shown
+    if suffix == "png":
+        return "TextureImporter:\n" + TEXTURE + TAIL
     if suffix == "asmdef":
         return "AssemblyDefinitionImporter:\n" + PLAIN
     if suffix in ("json", "md", "txt"):

@@ -253,10 +253,38 @@ def alone(lines):
             yield start + 1
 
 
+# Names of types that stand twice in a declaration, and `var` where the type is not named at all.
+TYPE_TWICE = re.compile(r"\s*(?:using \()?([A-Z][\w<>\[\],. ]*?) \w+ = new \1(?:[({;]| [({]|$)(?!.*\)\.)")
+TYPE_NOWHERE = re.compile(r"\bvar \w+ = (?!new [\w(])")
+
+
+def wordy(lines):
+    """(Number, sentence) of what C# 7 says in fewer words: it is the newest that mono compiles; Unity 2021.3 knows C# 9."""
+    for number, line in enumerate(lines, 1):
+        text, below = line.strip(), [other.strip() for other in lines[number:number + 3]]
+        if re.search(r"[^=] \{ get \{ return [^;]*; \} \}$", text):
+            yield number, "is a property that only returns: write =>"
+        if below[:1] == ["{"] and below[2:] == ["}"] and len(line) + len(below[1]) < 142:
+            getter = re.match(r"get \{ return .*; \}$", below[1])
+            method = re.match(r"return .*;$", below[1]) and re.match(r"(?!else|if|for|while|switch|using|lock|fixed|catch)[\w<>\[\],. ]+ \w+(<\w+>)?\(", text)
+            if getter or method and "delegate" not in text:
+                yield number, "only returns: write =>"
+        declared = re.match(r"(?!return|using|throw|goto)[\w<>\[\], .]+ (\w+);$", text)
+        if declared and below and re.search(rf"\bout {declared.group(1)}\b", below[0]) and not re.search(rf"\b{declared.group(1)}\b.*\bout {declared.group(1)}", below[0]):
+            yield number, "declares what an out parameter receives: write the type behind out"
+        # Several things of one type are declared by its name.
+        if TYPE_TWICE.match(line) and not re.search(r"\), \w+ = ", line):
+            yield number, "names a type twice: write var"
+        if TYPE_NOWHERE.search(line):
+            yield number, "does not say of which type it is: write the type"
+
+
 def check_dialect(root):
-    """One way to write C#: what is private is not said to be; a statement stands behind its condition, or in braces."""
+    """One way to write C#: what is private is not said to be; a statement stands behind its condition, or in braces; few words."""
     said = []
-    for source in sources(root):
+    # Stand-ins of others' classes are written as those are.
+    tests = sorted(path for path in (root / "Tests~").rglob("*.cs") if "Stubs" not in str(path.relative_to(root)))
+    for source in sources(root) + tests:
         if source.name.endswith(".g.cs"):
             continue
         lines = [bare(line) for line in read(source).splitlines()]
@@ -264,6 +292,8 @@ def check_dialect(root):
                  for number, line in enumerate(lines, 1) if re.match(r"\s*(?:\[[^]]*\] )*private (?!protected)", line)]
         said += [f"{source.relative_to(root)}:{number} has its statement on a line of its own: put it behind, or in braces"
                  for number in alone(lines)]
+        if source not in tests:
+            said += [f"{source.relative_to(root)}:{number} {what}" for number, what in wordy(lines)]
     return said
 
 

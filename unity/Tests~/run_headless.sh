@@ -31,6 +31,9 @@ rm -rf "$out/projects"
 
 bash "$tests/build.sh" "$out"
 
+# A character with a clip that sets places.
+python3 "$tests/Glb/walk.py" tests/data/kaykit_rogue.glb "$out/kaykit_walk.glb"
+
 # A library of a version that will never be.
 echo 'unsigned sdef_abi_version(void) { return 0x00FF0000u; }' >"$out/other.c"
 cc -shared -fPIC -o "$out/other_library/libsuperdeform.so" "$out/other.c"

@@ -45,7 +45,7 @@ const { report } = await superdeform(await readFile('avatar.vrm'), { style: 'sd2
 console.log(`bundled: ${report.result.heads.toFixed(2)} heads`);
 END
 # As for a browser, but for reading the file.
-"$here/../node_modules/.bin/esbuild" bundled.js --bundle --format=esm --platform=browser --external:node:fs/promises \
+"$here/../node_modules/.bin/esbuild" bundled.js --bundle --format=esm --target=es2022 --platform=browser --external:node:fs/promises \
   --loader:.wasm=binary --outfile=out/bundle.js --log-level=error
 tried "bundler" node out/bundle.js
 ls -l "$scratch"/packed/*.tgz | awk '{print "the package has", $5, "bytes"}'

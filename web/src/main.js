@@ -43,6 +43,18 @@ async function during(sentence, work) {
   }
 }
 
+let tasks = 0;
+
+/** Says to assistive technology that the view is not final until `task` is done. */
+async function untilFinal(task) {
+  $('view').setAttribute('aria-busy', ++tasks > 0);
+  try {
+    return await task();
+  } finally {
+    $('view').setAttribute('aria-busy', --tasks > 0);
+  }
+}
+
 function tell(sentence) {
   $('alert').firstElementChild.textContent = sentence;
   $('alert').hidden = !sentence;
@@ -65,7 +77,9 @@ let opening = 0;
 /** False while another character is being opened: what is set then waits. */
 let isOpen = false;
 
-async function open(given) {
+const open = (given) => untilFinal(() => opens(given));
+
+async function opens(given) {
   const turn = ++opening;
   tell('');
   let next;
@@ -163,7 +177,7 @@ let running = null;
 /** Shows what the settings make of the character: `whole` with its file and its numbers, else a glimpse. */
 function update(whole) {
   wanted = whole || wanted === 'whole' ? 'whole' : 'glimpse';
-  running ??= run().finally(() => (running = null));
+  running ??= untilFinal(run).finally(() => (running = null));
   return running;
 }
 
@@ -250,7 +264,9 @@ function showSettings() {
   showActions();
 }
 
-async function refer(given) {
+const refer = (given) => untilFinal(() => refers(given));
+
+async function refers(given) {
   tell('');
   try {
     const files = await gathered(given);
@@ -391,7 +407,9 @@ function listen() {
   $('canvas').addEventListener('keydown', turnByKeys);
 }
 
-async function cancel() {
+const cancel = () => untilFinal(cancels);
+
+async function cancels() {
   opening += 1;
   wanted = null;
   isOpen = false;
@@ -443,9 +461,9 @@ async function start() {
   relabel();
   listen();
   try {
-    const [library, sample] = await Promise.all([bytesOf('superdeform.wasm'), bytesOf('sample.glb')]);
+    const [library, sample, worker] = await Promise.all([bytesOf('superdeform.wasm'), bytesOf('sample.glb'), workerAddress()]);
     const module = await WebAssembly.compile(library);
-    client = new Client(workerAddress(), module, (share) => ($('progress').value = share));
+    client = new Client(worker, module, (share) => ($('progress').value = share));
     // Questions wait for the warming up; sliders do not.
     const options = client.start({ name: 'sample.glb', bytes: sample });
     buildSettings(await options);

@@ -28,8 +28,13 @@ function numbers({ json, binary }, index) {
   const [Array, items] = [ARRAYS[accessor.componentType], COUNTS[accessor.type]];
   const packed = items * Array.BYTES_PER_ELEMENT;
   const [stride, from] = [view.byteStride ?? packed, (view.byteOffset ?? 0) + (accessor.byteOffset ?? 0)];
-  const bytes = new Uint8Array(packed * accessor.count);
-  for (let i = 0; i < accessor.count; i++) bytes.set(binary.subarray(from + i * stride, from + i * stride + packed), i * packed);
+  let bytes;
+  if (stride === packed) {
+    bytes = binary.slice(from, from + packed * accessor.count);
+  } else {
+    bytes = new Uint8Array(packed * accessor.count);
+    for (let i = 0; i < accessor.count; i++) bytes.set(binary.subarray(from + i * stride, from + i * stride + packed), i * packed);
+  }
   return { array: new Array(bytes.buffer), items, normalized: accessor.normalized ?? false };
 }
 

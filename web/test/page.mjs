@@ -1,4 +1,5 @@
-// Drives the page as a person does, in headless Chromium: node page.mjs FOLDER [--command SUPERDEFORM] [--shots FOLDER] [--quick]
+// Drives the page as a person does, in headless Chromium:
+// node page.mjs FOLDER [--command SUPERDEFORM] [--models FOLDER] [--shots FOLDER] [--quick]
 //
 // FOLDER holds the built page. Ends with `N passed, N failed`; exit code 77 where there is no Chromium.
 import { execFileSync } from 'node:child_process';
@@ -8,14 +9,16 @@ import os from 'node:os';
 import path from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { chromium } from 'playwright-core';
+import { beside, licensed, withShapes } from './made.mjs';
 
 const here = path.dirname(fileURLToPath(import.meta.url));
 const [folder, ...flags] = process.argv.slice(2);
 const flag = (name) => (flags.includes(name) ? (flags[flags.indexOf(name) + 1] ?? true) : null);
-const [command, shots, quick] = [flag('--command'), flag('--shots'), flags.includes('--quick')];
+const [command, shots, models, quick] = [flag('--command'), flag('--shots'), flag('--models'), flags.includes('--quick')];
 const DATA = path.join(here, '../../tests/data');
 const DRESS = path.join(DATA, 'quaternius_female_dress.glb');
 const ROGUE = path.join(DATA, 'kaykit_rogue.glb');
+const UNRIGGED = path.join(DATA, 'quaternius_female_dress_unrigged.glb');
 /** How long anything may take: a loaded machine draws without a graphics card. */
 const PATIENCE = 240e3;
 
@@ -62,6 +65,8 @@ const requests = [];
 async function opened(url, size) {
   const page = await browser.newPage();
   if (size) await page.setViewportSize(size);
+  // Choosers are caught from the start: to begin with it takes longer than a key.
+  page.on('filechooser', () => {});
   page.on('console', (message) => message.type() === 'error' && complaints.push(message.text()));
   page.on('pageerror', (error) => complaints.push(error.message));
   page.on('request', (request) => requests.push(request.url()));
@@ -72,12 +77,25 @@ async function opened(url, size) {
 const heads = (page) => page.textContent('#heads-after');
 /** Waits until nothing is being made. */
 async function rested(page) {
-  await page.waitForFunction(() => document.getElementById('busy').hidden && !document.getElementById('download').disabled);
-  await page.waitForFunction(() => document.getElementById('heads-after').textContent);
-  await page.waitForTimeout(400);
-  await page.waitForFunction(() => document.getElementById('busy').hidden);
+  await page.waitForFunction(() => document.getElementById('view').ariaBusy !== 'true' && document.getElementById('busy').hidden);
+  await page.waitForFunction(() => !document.getElementById('download').disabled && document.getElementById('heads-after').textContent);
 }
 const choose = (page, files) => page.setInputFiles('#file', files);
+/** Lets files fall on the page: { name, buffer }. */
+async function drop(page, files) {
+  const given = files.map(({ name, buffer }) => ({ name, text: buffer.toString('base64') }));
+  await page.evaluate((all) => {
+    const transfer = new DataTransfer();
+    for (const { name, text } of all) transfer.items.add(new File([Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0))], name));
+    for (const kind of ['dragenter', 'dragover', 'drop']) {
+      document.getElementById('view').dispatchEvent(new DragEvent(kind, { dataTransfer: transfer, bubbles: true, cancelable: true }));
+    }
+  }, given);
+}
+async function named(page, name) {
+  await page.waitForFunction((is) => document.getElementById('file-name').textContent === is, name);
+  await rested(page);
+}
 async function slide(page, name, value) {
   await page.evaluate(([id, to]) => {
     const input = document.getElementById(id);
@@ -178,6 +196,60 @@ if (!quick) {
     }
     await page.click('#poses [value=a]');
   });
+  await check('a file and what lies beside it are dropped', async () => {
+    const [json, binary] = beside(fs.readFileSync(ROGUE), 'parts/rogue.bin');
+    await drop(page, [{ name: 'rogue.bin', buffer: binary }, { name: 'rogue.gltf', buffer: json }]);
+    await named(page, 'rogue.gltf');
+    that(path.basename(await downloaded(page, '#download')) === 'rogue_sd.glb', 'it is not saved as a GLB');
+  });
+  await check('eyes shut and the mouth opens, before and after', async () => {
+    const names = ['eyes_closed', 'mouth_open'];
+    await drop(page, [{ name: 'shapes.glb', buffer: withShapes(fs.readFileSync(ROGUE), 2, (index) => names[index], 0.4) }]);
+    await named(page, 'shapes.glb');
+    for (const name of ['blink', 'aa']) {
+      const still = await pixels(page);
+      await slide(page, name, 1);
+      await page.waitForTimeout(500);
+      const moved = await pixels(page);
+      for (const [half, from] of [['before', 0], ['after', 48]]) {
+        const of = (all) => all.filter((_, i) => ((i >> 2) % 96 >= from) && ((i >> 2) % 96 < from + 48));
+        that(differs(of(still), of(moved)) > 20, `${name} moves nothing ${half}`);
+      }
+      await slide(page, name, 0);
+    }
+  });
+  await check('opening is cancelled, and the last character stays', async () => {
+    await choose(page, UNRIGGED);
+    // At once, for it may be done soon.
+    await page.waitForFunction(() => !document.getElementById('busy').hidden && !document.getElementById('cancel').click(), null, { polling: 20 });
+    await rested(page);
+    that((await page.textContent('#file-name')) === 'shapes.glb', 'the file is open all the same');
+    that(await page.isHidden('#alert'), await page.textContent('#alert span'));
+    await choose(page, DRESS);
+    await named(page, path.basename(DRESS));
+  });
+  await check('what came without a rig gets one, and says so', async () => {
+    await choose(page, UNRIGGED);
+    await named(page, path.basename(UNRIGGED));
+    that((await page.textContent('#notes-list')).includes('without a usable rig'), await page.textContent('#notes-list'));
+    await choose(page, DRESS);
+    await named(page, path.basename(DRESS));
+  });
+  const avatar = models && ['godette.vrm', 'catbot.vrm'].map((name) => path.join(models, name)).find((at) => fs.existsSync(at));
+  if (avatar) await check('a VRM swings, blinks and stays a VRM', async () => {
+    await choose(page, avatar);
+    await page.waitForSelector('#licence[open], body:not(:has(#busy:not([hidden])))');
+    await named(page, path.basename(avatar));
+    that(await page.isVisible('#springs-row'), 'it has no springs');
+    for (const name of ['blink', 'aa']) that(await page.isVisible(`#slider-${name}`), `it has no ${name}`);
+    await page.uncheck('#springs');
+    await page.check('#springs');
+    await shot(page, 'vrm');
+    const ours = await downloaded(page, '#download');
+    that(ours.endsWith('_sd.vrm'), ours);
+    await choose(page, DRESS);
+    await named(page, path.basename(DRESS));
+  });
   await check('a style is taken from a model', async () => {
     await page.setInputFiles('#reference-file', ROGUE);
     await page.waitForFunction(() => document.getElementById('like').getAttribute('aria-pressed') === 'true');
@@ -222,24 +294,15 @@ if (!quick) {
     await rested(page);
   });
   await check('a licence that forbids changes is asked about', async () => {
-    const file = fs.readFileSync(ROGUE);
-    const size = file.readUInt32LE(12);
-    const json = JSON.parse(file.subarray(20, 20 + size));
-    json.asset.extras = { license: 'CC-BY-ND-4.0 (http://creativecommons.org/licenses/by-nd/4.0/)' };
-    let text = JSON.stringify(json);
-    text += ' '.repeat((4 - (text.length % 4)) % 4);
-    const head = Buffer.alloc(20);
-    file.copy(head, 0, 0, 20);
-    head.writeUInt32LE(20 + text.length + file.length - 20 - size, 8);
-    head.writeUInt32LE(text.length, 12);
-    await choose(page, { name: 'forbidden.glb', mimeType: '', buffer: Buffer.concat([head, Buffer.from(text), file.subarray(20 + size)]) });
+    const buffer = licensed(fs.readFileSync(ROGUE), 'CC-BY-ND-4.0 (http://creativecommons.org/licenses/by-nd/4.0/)');
+    await choose(page, { name: 'forbidden.glb', mimeType: '', buffer });
     await page.waitForSelector('#licence[open]');
     await shot(page, 'licence');
     that(await page.isDisabled('#licence-go'), 'one may go on without saying anything');
     await page.keyboard.press('Escape');
     await rested(page);
     that((await page.textContent('#file-name')) === 'quaternius_female_dress.glb', 'refused, the old file is gone');
-    await choose(page, { name: 'forbidden.glb', mimeType: '', buffer: Buffer.concat([head, Buffer.from(text), file.subarray(20 + size)]) });
+    await choose(page, { name: 'forbidden.glb', mimeType: '', buffer });
     await page.waitForSelector('#licence[open]');
     await page.check('#licence-mine');
     await page.click('#licence-go');
@@ -293,6 +356,13 @@ await check('no request leaves the page after it is loaded, and without a networ
   await rested(page);
   await browser.setOffline(false);
   return `${loaded} requests to load it`;
+});
+await check('its own rules keep it from asking elsewhere', async () => {
+  const before = complaints.length;
+  const answer = await page.evaluate(() => fetch('http://127.0.0.1:9/').then(() => 'an answer', (error) => error.name));
+  await page.waitForTimeout(300);
+  const said = complaints.splice(before).join(' ');
+  that(answer === 'TypeError' && /Content Security Policy/.test(said), `${answer}; ${said}`);
 });
 await check('on a phone it is usable', async () => {
   const phone = await opened(address, { width: 390, height: 844 });

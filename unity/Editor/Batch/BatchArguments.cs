@@ -69,8 +69,7 @@ namespace SuperDeform.Editor
         {
             // First, so that the sentences after it are in the language asked for.
             if (given.ContainsKey("Language")) Strings.Language = Word("Language", new List<string>(Strings.Languages).ToArray());
-            string avatars;
-            if (given.TryGetValue("Avatars", out avatars))
+            if (given.TryGetValue("Avatars", out string avatars))
             {
                 foreach (string path in avatars.Split(';'))
                 {
@@ -85,8 +84,7 @@ namespace SuperDeform.Editor
                 if (given.ContainsKey(option.Name)) option.SetValue(Settings.Options, Value(option.Name, option.FieldType));
             }
             if (given.ContainsKey("Rig")) Settings.RigAuto = Word("Rig", "keep", "auto") == "auto";
-            string folder;
-            if (given.TryGetValue("Output", out folder)) Settings.OutputFolder = folder.Replace('\\', '/');
+            if (given.TryGetValue("Output", out string folder)) Settings.OutputFolder = folder.Replace('\\', '/');
             if (given.ContainsKey("NewCopy")) Settings.NewCopy = Word("NewCopy", "yes", "no") == "yes";
             given.TryGetValue("Report", out ReportPath);
             if (given.ContainsKey("AllowProhibited")) AllowProhibited = Word("AllowProhibited", "yes", "no") == "yes";
@@ -102,9 +100,8 @@ namespace SuperDeform.Editor
 
         void TakeStyle()
         {
-            string reference, style;
-            given.TryGetValue("Reference", out reference);
-            given.TryGetValue("Style", out style);
+            given.TryGetValue("Reference", out string reference);
+            given.TryGetValue("Style", out string style);
             if (reference != null && style != null) throw Wrong("batch.two_styles", Prefix + "Reference", Prefix + "Style");
             Settings.Source = StyleSource.Heads;
             if (reference != null)
@@ -136,8 +133,7 @@ namespace SuperDeform.Editor
             {
                 string[] sides = part.Split('=');
                 FieldInfo field = Array.Find(numbers, number => Same(WordOf(number), sides[0].Trim()));
-                double value;
-                if (sides.Length != 2 || field == null || !TryNumber(sides[1], OptionRange.Of(field.Name), out value))
+                if (sides.Length != 2 || field == null || !TryNumber(sides[1], OptionRange.Of(field.Name), out double value))
                 {
                     throw Wrong("batch.bad_group", text);
                 }
@@ -165,8 +161,7 @@ namespace SuperDeform.Editor
             if (type == typeof(bool)) return Word(name, "yes", "no") == "yes";
             if (type.IsEnum) return Enum.Parse(type, Word(name, Array.ConvertAll(Enum.GetNames(type), word => word.ToLowerInvariant())), true);
             OptionRange range = OptionRange.Of(name);
-            double number;
-            if (!TryNumber(given[name], range, out number) || type == typeof(uint) && number != Math.Floor(number))
+            if (!TryNumber(given[name], range, out double number) || type == typeof(uint) && number != Math.Floor(number))
             {
                 throw Wrong("batch.bad_number", given[name], Prefix + name, range.Low, range.High);
             }
@@ -186,14 +181,8 @@ namespace SuperDeform.Editor
             return word;
         }
 
-        static bool Same(string one, string other)
-        {
-            return string.Equals(one, other, StringComparison.OrdinalIgnoreCase);
-        }
+        static bool Same(string one, string other) => string.Equals(one, other, StringComparison.OrdinalIgnoreCase);
 
-        static ArgumentException Wrong(string key, params object[] values)
-        {
-            return new ArgumentException(Strings.Get(key, values));
-        }
+        static ArgumentException Wrong(string key, params object[] values) => new ArgumentException(Strings.Get(key, values));
     }
 }

@@ -64,7 +64,7 @@ namespace SuperDeform.Editor
             var report = new BatchReport();
             foreach (string path in arguments.Avatars)
             {
-                var avatar = AssetDatabase.LoadAssetAtPath<GameObject>(path);
+                GameObject avatar = AssetDatabase.LoadAssetAtPath<GameObject>(path);
                 if (avatar != null && arguments.AllowProhibited) Licences.Allow(avatar);
                 BatchEntry entry = avatar == null
                     ? new BatchEntry { Avatar = path, Failure = Strings.Get("batch.not_found", path) }
@@ -80,17 +80,14 @@ namespace SuperDeform.Editor
         }
 
         /// <summary>Converts avatars one after the other; one that fails does not stop the others.</summary>
-        public static BatchReport Convert(IEnumerable<GameObject> avatars, ConversionSettings settings)
-        {
-            return Convert(avatars, settings, null);
-        }
+        public static BatchReport Convert(IEnumerable<GameObject> avatars, ConversionSettings settings) => Convert(avatars, settings, null);
 
         /// <summary>As above, with progress over all; cancelling leaves out the avatar at work and those after it.</summary>
         public static BatchReport Convert(IEnumerable<GameObject> avatars, ConversionSettings settings,
             IConversionProgress progress)
         {
             var report = new BatchReport();
-            List<GameObject> all = new List<GameObject>(avatars).FindAll(avatar => avatar != null);
+            var all = new List<GameObject>(avatars).FindAll(avatar => avatar != null);
             for (int i = 0; i < all.Count; i++)
             {
                 GameObject avatar = all[i];
@@ -133,15 +130,10 @@ namespace SuperDeform.Editor
             IConversionProgress whole;
             int index, count;
 
-            internal static Share Of(IConversionProgress whole, int index, int count)
-            {
-                return whole == null ? null : new Share { whole = whole, index = index, count = count };
-            }
+            internal static Share Of(IConversionProgress whole, int index, int count) =>
+                whole == null ? null : new Share { whole = whole, index = index, count = count };
 
-            public bool Report(string stageKey, float fraction)
-            {
-                return whole.Report(stageKey, (index + fraction) / count);
-            }
+            public bool Report(string stageKey, float fraction) => whole.Report(stageKey, (index + fraction) / count);
         }
 
         static bool WriteReport(string path, BatchReport report)

@@ -21,8 +21,8 @@ namespace SuperDeform.Editor
         /// <summary>Whether a person stopped it; avatars after that have no entry.</summary>
         public bool Cancelled;
 
-        public int Converted { get { return Entries.FindAll(entry => entry.Failure == null).Count; } }
-        public int Failed { get { return Entries.FindAll(entry => entry.Failure != null).Count; } }
+        public int Converted => Entries.FindAll(entry => entry.Failure == null).Count;
+        public int Failed => Entries.FindAll(entry => entry.Failure != null).Count;
 
         /// <summary>What a person should read: a line an avatar, a line a finding, and a summary.</summary>
         public List<string> Lines()

@@ -15,7 +15,7 @@ namespace SuperDeform.Editor
             return scope =>
             {
                 Vector3 at = scope.VectorAt(center, Vector3.zero);
-                Capsule moved = new Capsule(at, at, scope.FloatAt(radius, 0), 0).Moved(scope, scope.IsOn(inside));
+                var moved = new Capsule(at, at, scope.FloatAt(radius, 0), 0).Moved(scope, scope.IsOn(inside));
                 scope.Multiply(radius, moved.Growth);
                 scope.SetVector(center, moved.Middle);
             };
@@ -27,7 +27,7 @@ namespace SuperDeform.Editor
             return scope =>
             {
                 Quaternion turn = scope.TurnAt(rotation);
-                LocalCollider plane = new LocalCollider { Kind = ColliderKind.Plane, Start = scope.VectorAt(center, Vector3.zero), End = turn * Up };
+                var plane = new LocalCollider { Kind = ColliderKind.Plane, Start = scope.VectorAt(center, Vector3.zero), End = turn * Up };
                 LocalCollider moved = scope.Map.Collider(scope.Frame, plane, scope.Component);
                 scope.SetVector(center, moved.Start);
                 scope.SetTurn(rotation, Quaternion.FromToRotation(plane.End, moved.End) * turn);
@@ -89,7 +89,7 @@ namespace SuperDeform.Editor
             return scope =>
             {
                 Vector3 at = scope.VectorAt(center, Vector3.zero), half = axis(scope) * scope.FloatAt(length, 0);
-                Capsule moved = new Capsule(at + half, at - half, scope.FloatAt(radius, 0), scope.FloatAt(otherRadius, 0)).Moved(scope, false);
+                var moved = new Capsule(at + half, at - half, scope.FloatAt(radius, 0), scope.FloatAt(otherRadius, 0)).Moved(scope, false);
                 scope.Multiply(radius, moved.Growth);
                 scope.Multiply(otherRadius, moved.Growth);
                 scope.SetVector(center, moved.Middle);
@@ -126,34 +126,19 @@ namespace SuperDeform.Editor
             return new Capsule(center + axis * (half - radius), center - axis * (half - otherRadius), radius, otherRadius);
         }
 
-        internal bool IsBall
-        {
-            get { return First == Second; }
-        }
+        internal bool IsBall => First == Second;
 
         /// <summary>The direction from the second ball to the first.</summary>
-        internal Vector3 Way
-        {
-            get { return (First - Second).normalized; }
-        }
+        internal Vector3 Way => (First - Second).normalized;
 
         /// <summary>From tip to tip.</summary>
-        internal float Length
-        {
-            get { return Apart + radius + otherRadius; }
-        }
+        internal float Length => Apart + radius + otherRadius;
 
         /// <summary>From the middle of one ball to that of the other.</summary>
-        internal float Apart
-        {
-            get { return Vector3.Distance(First, Second); }
-        }
+        internal float Apart => Vector3.Distance(First, Second);
 
         /// <summary>Half-way between the middles of the balls.</summary>
-        internal Vector3 Middle
-        {
-            get { return (First + Second) * 0.5f; }
-        }
+        internal Vector3 Middle => (First + Second) * 0.5f;
 
         /// <summary>What becomes of it in the frame of a component; both radii grow alike.</summary>
         internal Capsule Moved(PropertyScope scope, bool inside)

@@ -28,26 +28,19 @@ namespace SuperDeform.Editor
         }
 
         /// <summary>The classes in the table.</summary>
-        internal static IEnumerable<string> Types
-        {
-            get { return Rows.Keys; }
-        }
+        internal static IEnumerable<string> Types => Rows.Keys;
 
         /// <summary>What a table holds for a class, or for one that it derives from; null where it is not in the table.</summary>
         static T Find<T>(Dictionary<string, T> table, Component component) where T : class
         {
             for (Type type = component.GetType(); type != null; type = type.BaseType)
             {
-                T found;
-                if (table.TryGetValue(type.FullName, out found)) return found;
+                if (table.TryGetValue(type.FullName, out T found)) return found;
             }
             return null;
         }
 
-        public bool Handles(Component copy)
-        {
-            return Find(Rows, copy) != null;
-        }
+        public bool Handles(Component copy) => Find(Rows, copy) != null;
 
         public void AddSprings(Component copy, Springs springs)
         {
@@ -57,9 +50,9 @@ namespace SuperDeform.Editor
 
         public void Adapt(Component copy, PointMap map)
         {
-            using (SerializedObject properties = new SerializedObject(copy))
+            using (var properties = new SerializedObject(copy))
             {
-                PropertyScope scope = new PropertyScope(copy, properties, map);
+                var scope = new PropertyScope(copy, properties, map);
                 foreach (Rule rule in Find(Rows, copy))
                 {
                     rule(scope);
@@ -97,7 +90,7 @@ namespace SuperDeform.Editor
             rows[Dynamics + "Contact.Components.VRCContactSender"] = contact;
             rows[Dynamics + "Contact.Components.VRCContactReceiver"] = contact;
             rows[Dynamics + "Constraint.Components.VRCPositionConstraint"] = new[] { RestPosition("PositionAtRest", "TargetTransform"), Length("PositionOffset") };
-            List<Rule> parent = new List<Rule> { RestPosition("PositionAtRest", "TargetTransform") };
+            var parent = new List<Rule> { RestPosition("PositionAtRest", "TargetTransform") };
             for (int source = 0; source < 16; source++)
             {
                 string at = "Sources.source" + source;
@@ -125,7 +118,7 @@ namespace SuperDeform.Editor
             foreach (Component component in instance.GetComponents<Component>())
             {
                 if (component == null || component.GetType().FullName != AvatarDescriptor) continue;
-                using (SerializedObject properties = new SerializedObject(component))
+                using (var properties = new SerializedObject(component))
                 {
                     SerializedProperty view = properties.FindProperty(View);
                     if (view == null) continue;
@@ -137,8 +130,8 @@ namespace SuperDeform.Editor
 
         static Rule[] Descriptor()
         {
-            List<Rule> rules = new List<Rule> { Viewpoint(View), Length("portraitCameraPositionOffset") };
-            List<string> parts = new List<string> { "head", "torso", "footL", "footR", "handL", "handR" };
+            var rules = new List<Rule> { Viewpoint(View), Length("portraitCameraPositionOffset") };
+            var parts = new List<string> { "head", "torso", "footL", "footR", "handL", "handR" };
             foreach (string finger in new[] { "Index", "Middle", "Ring", "Little" })
             {
                 parts.Add("finger" + finger + "L");
@@ -176,7 +169,7 @@ namespace SuperDeform.Editor
             rows[space + "MagicaCapsuleCollider"] = new[] { HalfAlong("center", Axis("axis"), "length", "startRadius", "endRadius") };
             rows[space + "MagicaPlaneCollider"] = new[] { Point("center") };
             // Their rest shape is an asset that only their own Create button makes: see NeedsCreate.
-            List<Rule> cloth = new List<Rule>();
+            var cloth = new List<Rule>();
             foreach (string bezier in new[]
             {
                 "radius", "clampPositionLength", "penetrationConnectDistance", "penetrationDistance", "penetrationRadius"
@@ -260,7 +253,7 @@ namespace SuperDeform.Editor
             };
             foreach (string kind in new[] { "CharacterJoint", "FixedJoint", "HingeJoint", "SpringJoint", "ConfigurableJoint" })
             {
-                List<Rule> rules = new List<Rule>(anchors);
+                var rules = new List<Rule>(anchors);
                 foreach (string length in new[] { "m_MinDistance", "m_MaxDistance", "m_LinearLimit.limit", "m_TargetPosition", "m_ProjectionDistance" })
                 {
                     rules.Add(Length(length));
@@ -274,7 +267,7 @@ namespace SuperDeform.Editor
 
         static Rule[] Particles()
         {
-            List<Rule> rules = new List<Rule>();
+            var rules = new List<Rule>();
             foreach (string curve in new[]
             {
                 "InitialModule.startSize", "InitialModule.startSizeY", "InitialModule.startSizeZ", "InitialModule.startSpeed",

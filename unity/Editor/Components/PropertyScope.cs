@@ -24,10 +24,7 @@ namespace SuperDeform.Editor
         }
 
         /// <summary>The property at a path; null where there is none.</summary>
-        internal SerializedProperty At(string path)
-        {
-            return properties.FindProperty(path);
-        }
+        internal SerializedProperty At(string path) => properties.FindProperty(path);
 
         /// <summary>The transform at a path; null where there is none, or one outside the avatar.</summary>
         internal Transform TransformAt(string path)
@@ -37,10 +34,7 @@ namespace SuperDeform.Editor
         }
 
         /// <summary>Paths with a number for each element in place of "[*]"; the path itself where it has none.</summary>
-        internal List<string> Expand(string path)
-        {
-            return Serialized.Expand(properties, path);
-        }
+        internal List<string> Expand(string path) => Serialized.Expand(properties, path);
 
         /// <summary>A vector of three: one of Unity's, or any value of x, y and z; other where there is none.</summary>
         internal Vector3 VectorAt(string path, Vector3 other)

@@ -61,10 +61,7 @@ namespace SuperDeform.Editor
         }
 
         /// <summary>A length that belongs to a chain of joints: by the mean scale of the frame and all below it.</summary>
-        internal static Rule ChainLength(string path)
-        {
-            return scope => scope.Multiply(path, ChainScale(scope));
-        }
+        internal static Rule ChainLength(string path) => scope => scope.Multiply(path, ChainScale(scope));
 
         static float ChainScale(PropertyScope scope)
         {
@@ -89,10 +86,7 @@ namespace SuperDeform.Editor
         }
 
         /// <summary>An offset from the chain's last joint, in the component's own axes: its length alone changes.</summary>
-        internal static Rule EndLength(string path)
-        {
-            return scope => scope.Multiply(path, scope.Map.Scale(Leaf(scope.Frame), Vector3.zero));
-        }
+        internal static Rule EndLength(string path) => scope => scope.Multiply(path, scope.Map.Scale(Leaf(scope.Frame), Vector3.zero));
 
         static Transform Leaf(Transform chain)
         {

@@ -50,15 +50,13 @@ namespace SuperDeform.Editor
             }
         };
 
-        static SpringRow Magica(string roots, string radius, string colliders)
-        {
-            return new SpringRow { Roots = new[] { roots }, Radius = radius, Colliders = colliders };
-        }
+        static SpringRow Magica(string roots, string radius, string colliders) =>
+            new SpringRow { Roots = new[] { roots }, Radius = radius, Colliders = colliders };
 
         /// <summary>Adds the balls of a component.</summary>
         internal void Add(Component component, Springs springs)
         {
-            using (SerializedObject properties = new SerializedObject(component))
+            using (var properties = new SerializedObject(component))
             {
                 List<Component> colliders = Serialized.ComponentsAt(properties, Colliders);
                 if (colliders.Count == 0) return;
@@ -67,7 +65,7 @@ namespace SuperDeform.Editor
                 Vector3 endAt = end == null ? Vector3.zero : end.vector3Value;
                 foreach (Transform root in RootsOf(component, properties))
                 {
-                    Balls balls = new Balls
+                    var balls = new Balls
                     {
                         Springs = springs, Colliders = colliders, Left = left, End = endAt, Radius = radius == null ? 0 : radius.floatValue,
                         MeasuredIn = ByRoot ? root : component.transform
@@ -79,7 +77,7 @@ namespace SuperDeform.Editor
 
         List<Transform> RootsOf(Component component, SerializedObject properties)
         {
-            List<Transform> roots = new List<Transform>();
+            var roots = new List<Transform>();
             foreach (string path in Roots)
             {
                 foreach (Transform root in Serialized.TransformsAt(properties, path))

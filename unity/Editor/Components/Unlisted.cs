@@ -34,8 +34,8 @@ namespace SuperDeform.Editor
         internal static string LengthsOf(Component component)
         {
             if (!(component is MonoBehaviour)) return null;
-            List<string> names = new List<string>();
-            using (SerializedObject properties = new SerializedObject(component))
+            var names = new List<string>();
+            using (var properties = new SerializedObject(component))
             {
                 SerializedProperty property = properties.GetIterator();
                 for (bool enter = true; property.Next(enter);)

@@ -21,16 +21,13 @@ namespace SuperDeform.Editor
         /// <summary>
         /// What is to be known about an avatar; empty where all is well. Errors first, and with one of them a conversion fails.
         /// </summary>
-        public static List<Finding> Of(GameObject avatar)
-        {
-            return Of(avatar, false);
-        }
+        public static List<Finding> Of(GameObject avatar) => Of(avatar, false);
 
         /// <summary>The same.</summary>
         /// <param name="rigAuto">A rig will be made, so that no humanoid is needed.</param>
         public static List<Finding> Of(GameObject avatar, bool rigAuto)
         {
-            List<Finding> findings = new List<Finding>();
+            var findings = new List<Finding>();
             bool library = CheckLibrary(findings);
             if (avatar == null)
             {
@@ -90,7 +87,7 @@ namespace SuperDeform.Editor
         {
             Animator animator = HumanoidRoles.Speaker(avatar);
             if (animator == null || animator.avatar == null || animator.hasTransformHierarchy) return;
-            Finding finding = new Finding("bones_hidden", Severity.Error, animator, avatar.name);
+            var finding = new Finding("bones_hidden", Severity.Error, animator, avatar.name);
             ModelImporter importer = ImporterOf(animator.avatar);
             if (importer != null)
             {
@@ -106,7 +103,7 @@ namespace SuperDeform.Editor
         static bool CheckMeshes(GameObject avatar, List<Finding> findings)
         {
             bool any = false, readable = true;
-            HashSet<Mesh> known = new HashSet<Mesh>();
+            var known = new HashSet<Mesh>();
             foreach (Renderer renderer in avatar.GetComponentsInChildren<Renderer>(true))
             {
                 Mesh mesh = RendererReader.MeshOf(renderer);
@@ -131,6 +128,10 @@ namespace SuperDeform.Editor
             {
                 findings.Add(cause.Finding);
                 return;
+            }
+            foreach (RendererData renderer in data.Renderers.FindAll(renderer => renderer.Unmoved > 0))
+            {
+                findings.Add(new Finding("bones_missing", Severity.Warning, renderer.Renderer, renderer.Renderer.name, renderer.Unmoved));
             }
             bool skinned = data.Renderers.Exists(renderer => renderer.Skin != null);
             int[] roles = library ? GuessedRoles.Of(data, false) : data.Roles;
@@ -228,7 +229,7 @@ namespace SuperDeform.Editor
             PoseMeasure pose = PoseMeasure.Of(roles, data.Rest);
             if (!(pose.Degrees > PoseMeasure.Limit)) return;
             Transform limb = data.Joints[roles[(int)pose.Limb]];
-            Finding finding = new Finding("pose_far", Severity.Warning, limb, data.Root.name, Math.Round(pose.Degrees), limb.name);
+            var finding = new Finding("pose_far", Severity.Warning, limb, data.Root.name, Math.Round(pose.Degrees), limb.name);
             if (TPose.CanStand(data)) finding.WithFix("fix_pose", () => TPose.Stand(data));
             findings.Add(finding);
         }

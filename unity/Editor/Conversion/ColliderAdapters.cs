@@ -5,10 +5,7 @@ namespace SuperDeform.Editor
 {
     internal sealed class SphereColliderAdapter : IComponentAdapter
     {
-        public bool Handles(Component copy)
-        {
-            return copy is SphereCollider;
-        }
+        public bool Handles(Component copy) => copy is SphereCollider;
 
         public void Adapt(Component copy, PointMap map)
         {
@@ -21,10 +18,7 @@ namespace SuperDeform.Editor
 
     internal sealed class CapsuleColliderAdapter : IComponentAdapter
     {
-        public bool Handles(Component copy)
-        {
-            return copy is CapsuleCollider;
-        }
+        public bool Handles(Component copy) => copy is CapsuleCollider;
 
         public void Adapt(Component copy, PointMap map)
         {
@@ -33,10 +27,10 @@ namespace SuperDeform.Editor
             float scale = map.Scale(capsule.transform, center);
             // The centres of the two half spheres go their ways; the capsule's axis cannot turn.
             float half = Math.Max(0, capsule.height / 2 - capsule.radius);
-            Vector3 axis = new Vector3(capsule.direction == 0 ? half : 0, capsule.direction == 1 ? half : 0, capsule.direction == 2 ? half : 0);
+            var axis = new Vector3(capsule.direction == 0 ? half : 0, capsule.direction == 1 ? half : 0, capsule.direction == 2 ? half : 0);
             Vector3 low = map.Point(capsule.transform, center - axis), high = map.Point(capsule.transform, center + axis);
             bool round = half == 0;
-            Vector3 along = new Vector3(capsule.direction == 0 ? 1 : 0, capsule.direction == 1 ? 1 : 0, capsule.direction == 2 ? 1 : 0);
+            var along = new Vector3(capsule.direction == 0 ? 1 : 0, capsule.direction == 1 ? 1 : 0, capsule.direction == 2 ? 1 : 0);
             float across = round ? scale : map.Across(capsule.transform, center, along);
             float height = round ? capsule.height * scale : Vector3.Distance(low, high) + 2 * capsule.radius * across;
             capsule.center = round ? map.Point(capsule.transform, center) : (low + high) * 0.5f;
@@ -47,10 +41,7 @@ namespace SuperDeform.Editor
 
     internal sealed class BoxColliderAdapter : IComponentAdapter
     {
-        public bool Handles(Component copy)
-        {
-            return copy is BoxCollider;
-        }
+        public bool Handles(Component copy) => copy is BoxCollider;
 
         public void Adapt(Component copy, PointMap map)
         {
@@ -63,19 +54,14 @@ namespace SuperDeform.Editor
             box.center = map.Point(box.transform, center);
         }
 
-        static float Length(PointMap map, BoxCollider box, Vector3 center, Vector3 half)
-        {
-            return Vector3.Distance(map.Point(box.transform, center - half), map.Point(box.transform, center + half));
-        }
+        static float Length(PointMap map, BoxCollider box, Vector3 center, Vector3 half) =>
+            Vector3.Distance(map.Point(box.transform, center - half), map.Point(box.transform, center + half));
     }
 
     /// <summary>A collider in the shape of a renderer's mesh gets the new mesh.</summary>
     internal sealed class MeshColliderAdapter : IComponentAdapter
     {
-        public bool Handles(Component copy)
-        {
-            return copy is MeshCollider;
-        }
+        public bool Handles(Component copy) => copy is MeshCollider;
 
         public void Adapt(Component copy, PointMap map)
         {
@@ -87,10 +73,7 @@ namespace SuperDeform.Editor
 
     internal sealed class CharacterControllerAdapter : IComponentAdapter
     {
-        public bool Handles(Component copy)
-        {
-            return copy is CharacterController;
-        }
+        public bool Handles(Component copy) => copy is CharacterController;
 
         public void Adapt(Component copy, PointMap map)
         {
@@ -109,10 +92,7 @@ namespace SuperDeform.Editor
     /// <summary>Cloth may go as far as before, in the new avatar's measure.</summary>
     internal sealed class ClothAdapter : IComponentAdapter
     {
-        public bool Handles(Component copy)
-        {
-            return copy is Cloth;
-        }
+        public bool Handles(Component copy) => copy is Cloth;
 
         public void Adapt(Component copy, PointMap map)
         {

@@ -54,7 +54,7 @@ namespace SuperDeform.Editor
 
         SpringBall[] Balls(Component named)
         {
-            List<SpringBall> balls = new List<SpringBall>();
+            var balls = new List<SpringBall>();
             foreach (Springs.Ball ball in Springs.Of(named))
             {
                 int index = map.IndexOf(ball.Joint);

@@ -11,10 +11,7 @@ namespace SuperDeform.Editor
         public Finding Finding { get; private set; }
 
         /// <summary>True where the person asked to stop: nothing went wrong.</summary>
-        public bool Cancelled
-        {
-            get { return Finding.Key == "cancelled"; }
-        }
+        public bool Cancelled => Finding.Key == "cancelled";
 
         public ConversionException(Finding finding) : base(finding.Text)
         {
@@ -30,8 +27,7 @@ namespace SuperDeform.Editor
         /// <param name="where">What was being converted; may be null.</param>
         public static ConversionException From(Exception cause, UnityEngine.Object where)
         {
-            ConversionException known = cause as ConversionException;
-            if (known != null) return known;
+            if (cause is ConversionException known) return known;
             string key = "failed";
             if (cause is CancelledException) return new ConversionException(new Finding("cancelled", Severity.Info, where), cause);
             Finding tooNew = cause is LibraryMissingException ? LibraryFile.TooNew() : null;

@@ -107,10 +107,7 @@ namespace SuperDeform.Editor
             }
         }
 
-        static ConversionException Missing(string key)
-        {
-            return new ConversionException(new Finding(key, Severity.Error, null));
-        }
+        static ConversionException Missing(string key) => new ConversionException(new Finding(key, Severity.Error, null));
 
         /// <summary>A copy that shares nothing with this one but the assets that both name.</summary>
         public ConversionSettings Clone()

@@ -17,10 +17,8 @@ namespace SuperDeform.Editor
         /// put beside it, which Undo takes away; the assets stay.
         /// </remarks>
         /// <exception cref="ConversionException">It cannot be done, and why; nothing is left behind.</exception>
-        public static ConversionResult Convert(GameObject avatar, ConversionSettings settings, IConversionProgress progress)
-        {
-            return Convert(avatar, settings, progress, false);
-        }
+        public static ConversionResult Convert(GameObject avatar, ConversionSettings settings, IConversionProgress progress) =>
+            Convert(avatar, settings, progress, false);
 
         /// <summary>The same.</summary>
         /// <param name="replaceDoubtful">
@@ -34,19 +32,15 @@ namespace SuperDeform.Editor
         }
 
         /// <summary>The earlier result that a conversion would bring up to date; null where it makes a new one.</summary>
-        internal static ResultUpdate Earlier(GameObject avatar, ConversionSettings settings)
-        {
-            return avatar == null || settings.NewCopy ? null : ResultUpdate.Find(new SourceIdentity(avatar), FolderOf(settings));
-        }
+        internal static ResultUpdate Earlier(GameObject avatar, ConversionSettings settings) =>
+            avatar == null || settings.NewCopy ? null : ResultUpdate.Find(new SourceIdentity(avatar), FolderOf(settings));
 
         /// <summary>Converts an avatar itself, which a build step may do to its own copy: nothing is saved.</summary>
         /// <param name="avatar">The root of an object of a scene that nobody else needs as it was.</param>
         /// <returns>Assets and Replaced say what was made and what it stands for; there is no prefab.</returns>
         /// <exception cref="ConversionException">It cannot be done, and why. The avatar is as it was.</exception>
-        public static ConversionResult ConvertInPlace(GameObject avatar, ConversionSettings settings, IConversionProgress progress)
-        {
-            return ConvertInPlace(avatar, settings, progress, null, done => { });
-        }
+        public static ConversionResult ConvertInPlace(GameObject avatar, ConversionSettings settings, IConversionProgress progress) =>
+            ConvertInPlace(avatar, settings, progress, null, done => { });
 
         /// <summary>The same.</summary>
         /// <param name="clips">What plays on the avatar; null for the clips of its Animators.</param>
@@ -68,7 +62,7 @@ namespace SuperDeform.Editor
                 stages.Begin(ConversionStage.Reading);
                 List<Finding> findings = AvatarChecks.Of(avatar, settings.RigAuto);
                 if (findings.Count > 0 && findings[0].Severity == Severity.Error) throw new ConversionException(findings[0]);
-                ReadOptions reading = new ReadOptions
+                var reading = new ReadOptions
                 {
                     WithMorphs = true,
                     RigAuto = settings.RigAuto,
@@ -79,7 +73,7 @@ namespace SuperDeform.Editor
                 {
                     stages.Begin(ConversionStage.Measuring);
                     using (Style style = settings.MakeStyle())
-                    using (Deformer deformer = new Deformer(source.Character, style, settings.Options, stages.Part(ConversionStage.Deforming, 0f, 0.5f)))
+                    using (var deformer = new Deformer(source.Character, style, settings.Options, stages.Part(ConversionStage.Deforming, 0f, 0.5f)))
                     {
                         return ending(source, deformer, settings, findings, stages);
                     }
@@ -94,8 +88,7 @@ namespace SuperDeform.Editor
         static ConversionResult Finish(AvatarData source, Deformer deformer, ConversionSettings settings, List<Finding> findings, StageProgress stages,
             bool replaceDoubtful)
         {
-            AvatarResult result;
-            ConversionResult done = Deform(source, deformer, findings, stages, out result);
+            ConversionResult done = Deform(source, deformer, findings, stages, out AvatarResult result);
             ResultUpdate update = Earlier(source.Root, settings);
             if (update != null && update.Match != SourceMatch.Same && !replaceDoubtful) update = null;
             if (update != null)
@@ -104,7 +97,7 @@ namespace SuperDeform.Editor
             }
             else
             {
-                using (ResultFolder folder = new ResultFolder(ParentFolder(source.Root, settings), source.Root.name))
+                using (var folder = new ResultFolder(ParentFolder(source.Root, settings), source.Root.name))
                 {
                     Save(source, result, deformer, settings, folder.Save, done, stages);
                 }
@@ -118,10 +111,9 @@ namespace SuperDeform.Editor
         static ConversionResult FinishInPlace(AvatarData source, Deformer deformer, List<Finding> findings, StageProgress stages, IMovableClips clips,
             Action<ConversionResult> keep)
         {
-            AvatarResult result;
-            ConversionResult done = Deform(source, deformer, findings, stages, out result);
-            PointMap map = new PointMap(source, result, deformer, source.Root.transform) { SameAvatar = true };
-            AvatarSnapshot before = new AvatarSnapshot(source.Root);
+            ConversionResult done = Deform(source, deformer, findings, stages, out AvatarResult result);
+            var map = new PointMap(source, result, deformer, source.Root.transform) { SameAvatar = true };
+            var before = new AvatarSnapshot(source.Root);
             try
             {
                 CharacterWriter.Write(source.Root, map, source, result, done.Findings, stages.Within(ConversionStage.Writing), clips ?? new AnimatorClips(source.Root));
@@ -147,7 +139,7 @@ namespace SuperDeform.Editor
             result = new AvatarResult(source, false);
             result.Apply(deformer, stages.Part(ConversionStage.Deforming, 0.5f, 1f));
             stages.Begin(ConversionStage.Reporting);
-            ConversionResult done = new ConversionResult
+            var done = new ConversionResult
             {
                 Report = deformer.GetReport(),
                 ReportJson = deformer.GetReportJson(),
@@ -168,9 +160,9 @@ namespace SuperDeform.Editor
 
         static void Save(AvatarData source, AvatarResult result, Deformer deformer, ConversionSettings settings, Saving save, ConversionResult done, StageProgress stages)
         {
-            ScratchScene scratch = new ScratchScene();
+            var scratch = new ScratchScene();
             GameObject copy = scratch.Copy(source.Root);
-            PointMap map = new PointMap(source, result, deformer, copy.transform);
+            var map = new PointMap(source, result, deformer, copy.transform);
             SuperDeformPreset preset = ScriptableObject.CreateInstance<SuperDeformPreset>();
             bool saved = false;
             try
@@ -191,7 +183,7 @@ namespace SuperDeform.Editor
                 // An asset cannot name objects of a scene.
                 if (preset.Settings.ReferenceAvatar != null && !EditorUtility.IsPersistent(preset.Settings.ReferenceAvatar)) preset.Settings.ReferenceAvatar = null;
                 stages.Begin(ConversionStage.Saving);
-                SourceIdentity identity = new SourceIdentity(source.Root);
+                var identity = new SourceIdentity(source.Root);
                 preset.Avatar = identity.ToString();
                 preset.MadeFrom = identity.Where;
                 done.PrefabPath = save(copy, preset, map.Assets);
@@ -226,10 +218,7 @@ namespace SuperDeform.Editor
             return slash > 0 && path.StartsWith("Assets/") ? path.Substring(0, slash) : "Assets";
         }
 
-        static string FolderOf(ConversionSettings settings)
-        {
-            return (settings.OutputFolder ?? "").Replace('\\', '/').Trim().TrimEnd('/');
-        }
+        static string FolderOf(ConversionSettings settings) => (settings.OutputFolder ?? "").Replace('\\', '/').Trim().TrimEnd('/');
 
         /// <summary>The instance of a prefab in the source's scene; null where there is none.</summary>
         static GameObject InstanceOf(GameObject prefab, GameObject source)
@@ -258,7 +247,7 @@ namespace SuperDeform.Editor
         {
             GameObject instance = (GameObject)PrefabUtility.InstantiatePrefab(prefab, source.Root.scene);
             Undo.RegisterCreatedObjectUndo(instance, Strings.Get("undo_convert"));
-            Box box = new Box();
+            var box = new Box();
             foreach (RendererData renderer in source.Renderers)
             {
                 Box of = Box.Around(renderer.ModelVertices);
@@ -267,7 +256,7 @@ namespace SuperDeform.Editor
             }
             Transform original = source.Root.transform, placed = instance.transform;
             placed.SetParent(original.parent, false);
-            Vector3 aside = new Vector3((float)box.Size.X * original.localScale.x, 0, 0);
+            var aside = new Vector3((float)box.Size.X * original.localScale.x, 0, 0);
             placed.localRotation = original.localRotation;
             placed.localPosition = original.localPosition + original.localRotation * aside;
             if (placed.parent != null && placed.parent.lossyScale != Vector3.one) VrChatRows.Hang(instance);

@@ -6,9 +6,6 @@ namespace SuperDeform.Editor
         /// <summary>
         /// The number that a value is written as: 1.8, not 1.7999999523, which is below the least that the library takes.
         /// </summary>
-        internal static double Of(float value)
-        {
-            return float.IsNaN(value) || float.IsInfinity(value) ? value : (double)(decimal)value;
-        }
+        internal static double Of(float value) => float.IsNaN(value) || float.IsInfinity(value) ? value : (double)(decimal)value;
     }
 }

@@ -64,14 +64,8 @@ namespace SuperDeform.Editor
         }
 
         /// <summary>The sentence in the editor's language.</summary>
-        public string Text
-        {
-            get { return Strings.Get(Key, Values ?? new object[0]); }
-        }
+        public string Text => Strings.Get(Key, Values ?? new object[0]);
 
-        public override string ToString()
-        {
-            return Text;
-        }
+        public override string ToString() => Text;
     }
 }

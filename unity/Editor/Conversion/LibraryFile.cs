@@ -34,10 +34,10 @@ namespace SuperDeform.Editor
         /// <summary>The newest version of glibc whose functions a library names; 0.0 where it names none.</summary>
         internal static Version Needed(byte[] library)
         {
-            Version newest = new Version(0, 0);
+            var newest = new Version(0, 0);
             foreach (Match name in Regex.Matches(Encoding.GetEncoding(28591).GetString(library), @"GLIBC_(\d{1,3}\.\d{1,3})"))
             {
-                Version version = new Version(name.Groups[1].Value);
+                var version = new Version(name.Groups[1].Value);
                 if (version > newest) newest = version;
             }
             return newest;

@@ -35,9 +35,6 @@ namespace SuperDeform.Editor
         }
 
         /// <summary>Whether a finding is a warning of the library.</summary>
-        internal static bool IsOne(Finding finding)
-        {
-            return finding.Key == Other || finding.Key.StartsWith(Prefix, StringComparison.Ordinal);
-        }
+        internal static bool IsOne(Finding finding) => finding.Key == Other || finding.Key.StartsWith(Prefix, StringComparison.Ordinal);
     }
 }

@@ -84,14 +84,14 @@ namespace SuperDeform.Editor
                 string type = component == null ? null : Serialized.TypeOf(component);
                 if (type != Vrm0 && type != Vrm1) continue;
                 UnityEngine.Object asset;
-                using (SerializedObject properties = new SerializedObject(component))
+                using (var properties = new SerializedObject(component))
                 {
                     SerializedProperty holder = properties.FindProperty(type == Vrm0 ? "Meta" : "Vrm");
                     asset = holder == null ? null : holder.objectReferenceValue;
                 }
                 if (asset == null) continue;
-                Statement said = new Statement { Where = component, Key = KeyOf(asset, avatar) };
-                using (SerializedObject meta = new SerializedObject(asset))
+                var said = new Statement { Where = component, Key = KeyOf(asset, avatar) };
+                using (var meta = new SerializedObject(asset))
                 {
                     if (type == Vrm0) Hear(said, meta, "LicenseType", "OtherPermissionUrl", "OtherLicenseUrl");
                     else Hear(said, meta, "Meta.Modification", "Meta.OtherLicenseUrl");
@@ -110,8 +110,7 @@ namespace SuperDeform.Editor
         static void Hear(Statement said, SerializedObject meta, string words, params string[] addresses)
         {
             string word = WordAt(meta, words);
-            Changes changes;
-            if (Words.TryGetValue(word, out changes)) said.Hear(changes, word);
+            if (Words.TryGetValue(word, out Changes changes)) said.Hear(changes, word);
             foreach (string path in addresses)
             {
                 string address = Serialized.TextAt(meta, path);
@@ -134,8 +133,7 @@ namespace SuperDeform.Editor
         /// </summary>
         internal static Changes OfAddress(string address)
         {
-            Uri uri;
-            if (!Uri.TryCreate(address.Trim().ToLowerInvariant(), UriKind.Absolute, out uri)) return Changes.NotStated;
+            if (!Uri.TryCreate(address.Trim().ToLowerInvariant(), UriKind.Absolute, out Uri uri)) return Changes.NotStated;
             string host = uri.Host.StartsWith("www.", StringComparison.Ordinal) ? uri.Host.Substring(4) : uri.Host;
             if (host == "hub.vroid.com" && uri.AbsolutePath.TrimEnd('/').EndsWith("license", StringComparison.Ordinal)) return OfHub(uri.Query.TrimStart('?').Split('&'));
             if (host != "creativecommons.org") return Changes.NotStated;

@@ -22,19 +22,15 @@ namespace SuperDeform.Editor
         public int[] Values = new int[0];
 
         /// <summary>An object's number in its file; 0 where it has none.</summary>
-        internal static long NumberOf(Object thing)
-        {
-            string guid;
-            long number;
-            return AssetDatabase.TryGetGUIDAndLocalFileIdentifier(thing, out guid, out number) ? number : 0;
-        }
+        internal static long NumberOf(Object thing) =>
+            AssetDatabase.TryGetGUIDAndLocalFileIdentifier(thing, out string guid, out long number) ? number : 0;
 
         /// <summary>A record of a thing as it is.</summary>
         /// <param name="pathOf">The path that a thing of the avatar was made under; null for others.</param>
         /// <param name="instead">By property in which a person's value has stayed, what was made; null: there are none.</param>
         internal static MadeThing Of(Object thing, string path, Func<Object, string> pathOf, Dictionary<int, int> instead)
         {
-            List<int> values = new List<int>();
+            var values = new List<int>();
             foreach (KeyValuePair<string, int> value in ValuesOf(thing, pathOf))
             {
                 int property = HashOf(value.Key), made;
@@ -47,7 +43,7 @@ namespace SuperDeform.Editor
         /// <summary>By property, as two numbers that stand for it and its value.</summary>
         Dictionary<int, int> Recorded()
         {
-            Dictionary<int, int> recorded = new Dictionary<int, int>();
+            var recorded = new Dictionary<int, int>();
             for (int index = 0; index + 1 < Values.Length; index += 2)
             {
                 recorded[Values[index]] = Values[index + 1];
@@ -60,7 +56,7 @@ namespace SuperDeform.Editor
         internal List<string> ChangedIn(Object thing, Func<Object, string> pathOf, Dictionary<int, int> made)
         {
             Dictionary<int, int> then = Recorded();
-            List<string> changed = new List<string>();
+            var changed = new List<string>();
             foreach (KeyValuePair<string, int> value in ValuesOf(thing, pathOf))
             {
                 int before, property = HashOf(value.Key);
@@ -83,13 +79,12 @@ namespace SuperDeform.Editor
 
         static List<KeyValuePair<string, int>> ValuesOf(Object thing, Func<Object, string> pathOf)
         {
-            List<KeyValuePair<string, int>> values = new List<KeyValuePair<string, int>>();
-            using (SerializedObject properties = new SerializedObject(thing))
+            var values = new List<KeyValuePair<string, int>>();
+            using (var properties = new SerializedObject(thing))
             {
                 PropertyWalk.Each(properties, property => !Left.Contains(property.propertyPath), property =>
                 {
-                    int value;
-                    if (TryValue(property, pathOf, out value)) values.Add(new KeyValuePair<string, int>(property.propertyPath, value));
+                    if (TryValue(property, pathOf, out int value)) values.Add(new KeyValuePair<string, int>(property.propertyPath, value));
                 });
             }
             return values;
@@ -127,9 +122,8 @@ namespace SuperDeform.Editor
         {
             if (thing == null) return "";
             string path = pathOf(thing), guid;
-            long number;
             if (path != null) return path;
-            return AssetDatabase.TryGetGUIDAndLocalFileIdentifier(thing, out guid, out number) ? guid + number : thing.GetType().Name + thing.name;
+            return AssetDatabase.TryGetGUIDAndLocalFileIdentifier(thing, out guid, out long number) ? guid + number : thing.GetType().Name + thing.name;
         }
 
         /// <summary>The same in every session, which GetHashCode is not.</summary>

@@ -23,8 +23,8 @@ namespace SuperDeform.Editor
                 if (holder >= 0 && data.PetOf[holder] == holder) findings.Add(new Finding("pet", Severity.Warning, animator, animator.name, data.Root.name));
             }
             bool[] ofBody = Outfits.OfBody(data, roles), moving = MovingSkins(data);
-            Dictionary<Transform, List<int>> left = new Dictionary<Transform, List<int>>();
-            HashSet<Transform> paired = new HashSet<Transform>();
+            var left = new Dictionary<Transform, List<int>>();
+            var paired = new HashSet<Transform>();
             for (int joint = 0; joint < data.Joints.Length; joint++)
             {
                 if (ofBody[joint] || data.PetOf[joint] >= 0) continue;
@@ -77,8 +77,7 @@ namespace SuperDeform.Editor
 
         static List<int> ListOf(Dictionary<Transform, List<int>> lists, Transform holder)
         {
-            List<int> list;
-            if (!lists.TryGetValue(holder, out list)) lists.Add(holder, list = new List<int>());
+            if (!lists.TryGetValue(holder, out List<int> list)) lists.Add(holder, list = new List<int>());
             return list;
         }
 

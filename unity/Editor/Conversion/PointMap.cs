@@ -32,10 +32,7 @@ namespace SuperDeform.Editor
             Pair(source.Root.transform, copy);
         }
 
-        internal Deformer Deformer
-        {
-            get { return deformer; }
-        }
+        internal Deformer Deformer => deformer;
 
         void Pair(Transform original, Transform copy)
         {
@@ -48,10 +45,7 @@ namespace SuperDeform.Editor
         }
 
         /// <summary>New over old height of the avatar; for lengths that belong to all of it.</summary>
-        public float HeightRatio
-        {
-            get { return (float)result.HeightRatio; }
-        }
+        public float HeightRatio => (float)result.HeightRatio;
 
         /// <summary>
         /// The new avatar's transform that stands for one of the source; one of the new avatar is given back, others are null.
@@ -59,8 +53,7 @@ namespace SuperDeform.Editor
         public Transform Joint(Transform sourceOrCopy)
         {
             if (sourceOrCopy == null) return null;
-            Transform copy;
-            if (copyOf.TryGetValue(sourceOrCopy, out copy)) return copy;
+            if (copyOf.TryGetValue(sourceOrCopy, out Transform copy)) return copy;
             return sourceOf.ContainsKey(sourceOrCopy) ? sourceOrCopy : null;
         }
 
@@ -70,8 +63,7 @@ namespace SuperDeform.Editor
         public Transform Source(Transform sourceOrCopy)
         {
             if (sourceOrCopy == null) return null;
-            Transform original;
-            if (sourceOf.TryGetValue(sourceOrCopy, out original)) return original;
+            if (sourceOf.TryGetValue(sourceOrCopy, out Transform original)) return original;
             return copyOf.ContainsKey(sourceOrCopy) ? sourceOrCopy : null;
         }
 
@@ -81,7 +73,7 @@ namespace SuperDeform.Editor
         public Vector3 Point(Transform joint, Vector3 local)
         {
             Place(joint, Double3.Of(local));
-            Double3 moved = new Double3(positions[0], positions[1], positions[2]);
+            var moved = new Double3(positions[0], positions[1], positions[2]);
             Double3 back = NewRest(joint).Inverse.Point(moved);
             return back.IsFinite ? back.ToVector3() : local;
         }
@@ -157,10 +149,7 @@ namespace SuperDeform.Editor
         public bool SameAvatar { get; internal set; }
 
         /// <summary>A direction of a joint's space in the root's space, of length 1.</summary>
-        Double3 Direction(Transform joint, Vector3 direction)
-        {
-            return OldRest(joint).Direction(Double3.Of(direction)).Normalized;
-        }
+        Double3 Direction(Transform joint, Vector3 direction) => OldRest(joint).Direction(Double3.Of(direction)).Normalized;
 
         Double3 Stretched(Double3 unit)
         {
@@ -174,7 +163,7 @@ namespace SuperDeform.Editor
         public Vector3 Normal(Transform joint, Vector3 local, Vector3 normal)
         {
             Place(joint, Double3.Of(local));
-            Affine stretch = new Affine
+            var stretch = new Affine
             {
                 M00 = jacobian[0], M10 = jacobian[1], M20 = jacobian[2],
                 M01 = jacobian[3], M11 = jacobian[4], M21 = jacobian[5],
@@ -208,10 +197,7 @@ namespace SuperDeform.Editor
             if (!assets.Contains(asset)) assets.Add(asset);
         }
 
-        internal List<UnityEngine.Object> Assets
-        {
-            get { return assets; }
-        }
+        internal List<UnityEngine.Object> Assets => assets;
 
         /// <summary>What was replaced, and what it was replaced with: each new one once, however many renderers show it.</summary>
         internal readonly List<KeyValuePair<UnityEngine.Object, UnityEngine.Object>> Replaced = new List<KeyValuePair<UnityEngine.Object, UnityEngine.Object>>();
@@ -230,15 +216,9 @@ namespace SuperDeform.Editor
         }
 
         /// <summary>The mesh that was made for a renderer of the source.</summary>
-        internal Mesh MeshFor(Renderer original)
-        {
-            return newMeshes[original];
-        }
+        internal Mesh MeshFor(Renderer original) => newMeshes[original];
 
-        internal Transform CopyOf(Transform original)
-        {
-            return copyOf[original];
-        }
+        internal Transform CopyOf(Transform original) => copyOf[original];
 
         /// <summary>The library's joint that a transform is; -1 for what keeps its place on the ground.</summary>
         internal int IndexOf(Transform joint)
@@ -247,10 +227,7 @@ namespace SuperDeform.Editor
             return index == 0 && source.HoldsRoot || IsOfPet(index) ? -1 : index;
         }
 
-        bool IsOfPet(int index)
-        {
-            return index >= 0 && source.PetOf[index] >= 0;
-        }
+        bool IsOfPet(int index) => index >= 0 && source.PetOf[index] >= 0;
 
         internal Affine OldRest(Transform joint)
         {

@@ -14,10 +14,7 @@ namespace SuperDeform.Editor
     {
         internal const string Define = "SUPERDEFORM_RUNTIME";
 
-        public int callbackOrder
-        {
-            get { return 0; }
-        }
+        public int callbackOrder => 0;
 
         /// <exception cref="BuildFailedException">The define is set, and no library for the system is in the build.</exception>
         public void OnPreprocessBuild(BuildReport report)

@@ -16,7 +16,7 @@ namespace SuperDeform.Editor
         /// <summary>The lines for what differs from new settings; empty where nothing does.</summary>
         public static string Write(ConversionSettings settings)
         {
-            StringBuilder text = new StringBuilder();
+            var text = new StringBuilder();
             Write("", settings, Usual(), text);
             return text.ToString();
         }
@@ -50,10 +50,7 @@ namespace SuperDeform.Editor
             component.SavedStyle = settings.SavedStyle;
         }
 
-        static ConversionSettings Usual()
-        {
-            return new ConversionSettings { Source = StyleSource.BuiltIn };
-        }
+        static ConversionSettings Usual() => new ConversionSettings { Source = StyleSource.BuiltIn };
 
         static void Write(string prefix, object value, object usual, StringBuilder text)
         {
@@ -105,8 +102,7 @@ namespace SuperDeform.Editor
 
         static void AssignElement(IList list, Type type, string[] path, int at, string text)
         {
-            int index;
-            if (!int.TryParse(path[at], NumberStyles.None, CultureInfo.InvariantCulture, out index) || index > list.Count) return;
+            if (!int.TryParse(path[at], NumberStyles.None, CultureInfo.InvariantCulture, out int index) || index > list.Count) return;
             bool whole = at == path.Length - 1;
             if (index == list.Count)
             {
@@ -121,10 +117,7 @@ namespace SuperDeform.Editor
             list[index] = element;
         }
 
-        static bool IsPlain(Type type)
-        {
-            return type.IsPrimitive || type.IsEnum || type == typeof(string);
-        }
+        static bool IsPlain(Type type) => type.IsPrimitive || type.IsEnum || type == typeof(string);
 
         static string Plain(object value)
         {

@@ -37,16 +37,12 @@ namespace SuperDeform.Editor
         public void Add(Component collider, Transform joint, Vector3 offset, float radius, Transform measuredIn)
         {
             if (collider == null || joint == null) return;
-            List<Ball> balls;
-            if (!byCollider.TryGetValue(collider, out balls)) byCollider.Add(collider, balls = new List<Ball>());
+            if (!byCollider.TryGetValue(collider, out List<Ball> balls)) byCollider.Add(collider, balls = new List<Ball>());
             balls.Add(new Ball { Joint = joint, Offset = offset, Radius = radius, MeasuredIn = measuredIn });
         }
 
         /// <summary>The balls that keep out of the colliders of a component; empty where no spring names it.</summary>
-        internal IList<Ball> Of(Component collider)
-        {
-            List<Ball> balls;
-            return collider != null && byCollider.TryGetValue(collider, out balls) ? (IList<Ball>)balls : None;
-        }
+        internal IList<Ball> Of(Component collider) =>
+            collider != null && byCollider.TryGetValue(collider, out List<Ball> balls) ? (IList<Ball>)balls : None;
     }
 }

@@ -33,16 +33,10 @@ namespace SuperDeform.Editor
         }
 
         /// <summary>A handler for what the library does within a stage.</summary>
-        internal ProgressHandler Within(string stage)
-        {
-            return Part(stage, 0f, 1f);
-        }
+        internal ProgressHandler Within(string stage) => Part(stage, 0f, 1f);
 
         /// <summary>The same for a part of a stage.</summary>
-        internal ProgressHandler Part(string stage, float from, float to)
-        {
-            return fraction => Report(stage, from + (to - from) * fraction);
-        }
+        internal ProgressHandler Part(string stage, float from, float to) => fraction => Report(stage, from + (to - from) * fraction);
 
         bool Report(string stage, float fraction)
         {

@@ -7,6 +7,7 @@ namespace SuperDeform.Editor
     /// Settings as an asset: to be kept, shared, and used again. Each result carries those that made it.
     /// </summary>
     [CreateAssetMenu(fileName = "SuperDeformPreset", menuName = "Super Deform Preset")]
+    [Manual]
     public sealed class SuperDeformPreset : ScriptableObject
     {
         public ConversionSettings Settings = new ConversionSettings();

@@ -8,10 +8,8 @@ namespace SuperDeform.Editor
     internal static class TPose
     {
         /// <summary>True for avatars of a scene whose Avatar knows a pose.</summary>
-        internal static bool CanStand(AvatarData data)
-        {
-            return HumanoidRoles.IsHumanoid(data.Animator) && !EditorUtility.IsPersistent(data.Root) && Pose(data).Count > 0;
-        }
+        internal static bool CanStand(AvatarData data) =>
+            HumanoidRoles.IsHumanoid(data.Animator) && !EditorUtility.IsPersistent(data.Root) && Pose(data).Count > 0;
 
         /// <summary>Turns the bones; Undo turns them back.</summary>
         internal static void Stand(AvatarData data)
@@ -25,16 +23,15 @@ namespace SuperDeform.Editor
 
         static Dictionary<Transform, Quaternion> Pose(AvatarData data)
         {
-            Dictionary<string, SkeletonBone> byName = new Dictionary<string, SkeletonBone>();
+            var byName = new Dictionary<string, SkeletonBone>();
             foreach (SkeletonBone bone in data.Animator.avatar.humanDescription.skeleton ?? new SkeletonBone[0])
             {
                 byName[bone.name] = bone;
             }
-            Dictionary<Transform, Quaternion> pose = new Dictionary<Transform, Quaternion>();
+            var pose = new Dictionary<Transform, Quaternion>();
             foreach (int joint in data.Roles)
             {
-                SkeletonBone bone;
-                if (joint >= 0 && byName.TryGetValue(data.Joints[joint].name, out bone)) pose[data.Joints[joint]] = bone.rotation;
+                if (joint >= 0 && byName.TryGetValue(data.Joints[joint].name, out SkeletonBone bone)) pose[data.Joints[joint]] = bone.rotation;
             }
             return pose;
         }

@@ -27,7 +27,7 @@ namespace SuperDeform.Editor
         static string language;
 
         /// <summary>The languages there are: "en", "ja", "ko", "zh" (simplified Chinese).</summary>
-        public static IList<string> Languages { get { return Array.AsReadOnly(languages); } }
+        public static IList<string> Languages => Array.AsReadOnly(languages);
 
         /// <summary>The language in use. At first the one chosen last, else the system's, else "en".</summary>
         /// <exception cref="ArgumentException">There is no such language.</exception>
@@ -80,8 +80,7 @@ namespace SuperDeform.Editor
         /// <returns>The key itself, and the values after it, where no language has it: nothing is lost.</returns>
         public static string Get(string key, params object[] values)
         {
-            string text;
-            if (!Of(Language).TryGetValue(key, out text) && !Of("en").TryGetValue(key, out text))
+            if (!Of(Language).TryGetValue(key, out string text) && !Of("en").TryGetValue(key, out text))
             {
                 return values == null || values.Length == 0 ? key : key + ": " + string.Join(", ", values);
             }
@@ -111,15 +110,11 @@ namespace SuperDeform.Editor
         }
 
         /// <summary>Whether English has a text for a key.</summary>
-        public static bool Has(string key)
-        {
-            return Of("en").ContainsKey(key);
-        }
+        public static bool Has(string key) => Of("en").ContainsKey(key);
 
         static Dictionary<string, string> Of(string language)
         {
-            Dictionary<string, string> texts;
-            if (read.TryGetValue(language, out texts)) return texts;
+            if (read.TryGetValue(language, out Dictionary<string, string> texts)) return texts;
             texts = new Dictionary<string, string>();
             // A file that cannot be read must not take the window down with it: then keys are shown.
             try
@@ -146,9 +141,6 @@ namespace SuperDeform.Editor
             return File.Exists(inPackage) ? inPackage : Path.Combine(Path.GetDirectoryName(ThisFile()), language + ".json");
         }
 
-        static string ThisFile([CallerFilePath] string path = "")
-        {
-            return path;
-        }
+        static string ThisFile([CallerFilePath] string path = "") => path;
     }
 }

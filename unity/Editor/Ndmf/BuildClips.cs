@@ -14,21 +14,17 @@ namespace SuperDeform.Editor.Ndmf
         internal BuildClips(BuildContext context)
         {
             AnimatorServicesContext services = context.Extension<AnimatorServicesContext>();
-            HashSet<VirtualNode> known = new HashSet<VirtualNode>();
+            var known = new HashSet<VirtualNode>();
             foreach (VirtualAnimatorController controller in services.ControllerContext.GetAllControllers())
             {
                 foreach (VirtualNode node in controller.AllReachableNodes())
                 {
-                    VirtualClip clip = node as VirtualClip;
-                    if (clip != null && !clip.IsMarkerClip && known.Add(node)) clips.Add(new BuildClip(clip, services.ObjectPathRemapper));
+                    if (node is VirtualClip clip && !clip.IsMarkerClip && known.Add(node)) clips.Add(new BuildClip(clip, services.ObjectPathRemapper));
                 }
             }
         }
 
-        public IList<IMovableClip> Clips
-        {
-            get { return clips.ConvertAll(clip => (IMovableClip)clip); }
-        }
+        public IList<IMovableClip> Clips => clips.ConvertAll(clip => (IMovableClip)clip);
 
         public void Finish(PointMap map, ClipMap written, List<Finding> findings)
         {
@@ -52,20 +48,11 @@ namespace SuperDeform.Editor.Ndmf
                 this.paths = paths;
             }
 
-            public string Name
-            {
-                get { return clip.Name; }
-            }
+            public string Name => clip.Name;
 
-            public IEnumerable<EditorCurveBinding> Curves
-            {
-                get { return clip.GetFloatCurveBindings(); }
-            }
+            public IEnumerable<EditorCurveBinding> Curves => clip.GetFloatCurveBindings();
 
-            public AnimationCurve Get(EditorCurveBinding binding)
-            {
-                return clip.GetFloatCurve(binding);
-            }
+            public AnimationCurve Get(EditorCurveBinding binding) => clip.GetFloatCurve(binding);
 
             public void Set(EditorCurveBinding binding, AnimationCurve curve)
             {

@@ -19,9 +19,9 @@ namespace SuperDeform.Editor.Ndmf
     {
         static Localizer texts;
 
-        public override string QualifiedName { get { return "com.superdeform.converter"; } }
+        public override string QualifiedName => "com.superdeform.converter";
 
-        public override string DisplayName { get { return "Super Deform"; } }
+        public override string DisplayName => "Super Deform";
 
         // After outfits are merged and textures made, before what measures the body (floor, humanoid pose); optimizers have a
         // phase of their own behind this one.
@@ -51,7 +51,7 @@ namespace SuperDeform.Editor.Ndmf
                     return;
                 }
                 ConversionResult done;
-                BuildClips clips = new BuildClips(context);
+                var clips = new BuildClips(context);
                 using (var progress = new EditorProgress(avatar.name, cancelable: false))
                 {
                     done = Converter.ConvertInPlace(avatar, SettingsText.Of(component), progress, clips, result => Keep(context, result));
@@ -102,21 +102,13 @@ namespace SuperDeform.Editor.Ndmf
             else ErrorReport.ReportError(Texts, severity, "ndmf.note", finding.Text, finding.Where);
         }
 
-        static Localizer Texts
-        {
-            get { return texts ?? (texts = new Localizer("en-US", new Func<List<ValueTuple<string, Func<string, string>>>>(Languages))); }
-        }
+        static Localizer Texts => texts ?? (texts = new Localizer("en-US", new Func<List<ValueTuple<string, Func<string, string>>>>(Languages)));
 
         // Sentences come whole and in the package's own language; the title alone is looked up.
-        static List<ValueTuple<string, Func<string, string>>> Languages()
-        {
-            return new List<ValueTuple<string, Func<string, string>>> { new ValueTuple<string, Func<string, string>>("en-US", Text) };
-        }
+        static List<ValueTuple<string, Func<string, string>>> Languages() =>
+            new List<ValueTuple<string, Func<string, string>>> { new ValueTuple<string, Func<string, string>>("en-US", Text) };
 
-        static string Text(string key)
-        {
-            return key == "ndmf.note" ? Strings.Get("ndmf.note") : key == "ndmf.note:description" ? "{0}" : null;
-        }
+        static string Text(string key) => key == "ndmf.note" ? Strings.Get("ndmf.note") : key == "ndmf.note:description" ? "{0}" : null;
 
         // NDMF shows the avatar through proxies of its own while any of its previews is on: they rest while ours is shown.
         [InitializeOnLoadMethod]

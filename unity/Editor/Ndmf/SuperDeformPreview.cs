@@ -20,20 +20,14 @@ namespace SuperDeform.Editor.Ndmf
         static readonly TogglablePreviewNode onOff = TogglablePreviewNode.Create(() => "Super Deform", "com.superdeform.converter/preview", true);
 
         /// <summary>The switch in NDMF's list of previews.</summary>
-        public IEnumerable<TogglablePreviewNode> GetPreviewControlNodes()
-        {
-            return new[] { onOff };
-        }
+        public IEnumerable<TogglablePreviewNode> GetPreviewControlNodes() => new[] { onOff };
 
-        public bool IsEnabled(ComputeContext context)
-        {
-            return context.Observe(onOff.IsEnabled);
-        }
+        public bool IsEnabled(ComputeContext context) => context.Observe(onOff.IsEnabled);
 
         /// <summary>The whole avatar counts, with what is switched off.</summary>
-        public bool StrictRenderGroup { get { return true; } }
+        public bool StrictRenderGroup => true;
 
-        public bool CanEnableRenderers { get { return false; } }
+        public bool CanEnableRenderers => false;
 
         public ImmutableList<RenderGroup> GetTargetGroups(ComputeContext context)
         {
@@ -97,7 +91,7 @@ namespace SuperDeform.Editor.Ndmf
         // Proxies without a skin whose place was changed: NDMF sets it again only where it hangs them elsewhere.
         readonly HashSet<Transform> placed = new HashSet<Transform>();
 
-        public RenderAspects WhatChanged { get { return RenderAspects.Mesh | RenderAspects.Shapes; } }
+        public RenderAspects WhatChanged => RenderAspects.Mesh | RenderAspects.Shapes;
 
         internal SuperDeformPreviewNode(SuperDeformAvatar component, List<(Renderer, Renderer)> pairs, ComputeContext context)
         {
@@ -137,15 +131,14 @@ namespace SuperDeform.Editor.Ndmf
 
         static Transform[] BonesOf(Dictionary<Renderer, Renderer> proxies, Renderer original)
         {
-            Renderer proxy;
-            var skinned = (proxies.TryGetValue(original, out proxy) ? proxy : original) as SkinnedMeshRenderer;
+            SkinnedMeshRenderer skinned = (proxies.TryGetValue(original, out Renderer proxy) ? proxy : original) as SkinnedMeshRenderer;
             return skinned == null ? null : skinned.bones;
         }
 
         ShownMesh Made(RendererResult renderer, Transform[] given)
         {
             RendererData source = renderer.Source;
-            var skinned = source.Renderer as SkinnedMeshRenderer;
+            SkinnedMeshRenderer skinned = source.Renderer as SkinnedMeshRenderer;
             Transform holder = source.Renderer.transform;
             var shown = new ShownMesh { Holder = skeleton.Of(figure.Avatar.IndexOf(holder)) };
             // A pet's mesh stays as it is.
@@ -183,7 +176,7 @@ namespace SuperDeform.Editor.Ndmf
         static void Write(ShownMesh shown, RendererResult renderer)
         {
             MeshWriter.Write(shown.Mesh, renderer);
-            var skinned = renderer.Source.Renderer as SkinnedMeshRenderer;
+            SkinnedMeshRenderer skinned = renderer.Source.Renderer as SkinnedMeshRenderer;
             if (skinned != null) shown.Bounds = MeshWriter.NewBounds(skinned.localBounds, renderer);
         }
 
@@ -223,9 +216,8 @@ namespace SuperDeform.Editor.Ndmf
         {
             foreach ((Renderer, Renderer) pair in proxyPairs)
             {
-                ShownMesh shown;
-                var skinned = pair.Item2 as SkinnedMeshRenderer;
-                if (skinned != null && meshes.TryGetValue(pair.Item1, out shown) && !skinned.bones.SequenceEqual(shown.Given)) return false;
+                SkinnedMeshRenderer skinned = pair.Item2 as SkinnedMeshRenderer;
+                if (skinned != null && meshes.TryGetValue(pair.Item1, out ShownMesh shown) && !skinned.bones.SequenceEqual(shown.Given)) return false;
             }
             return true;
         }
@@ -246,7 +238,7 @@ namespace SuperDeform.Editor.Ndmf
             EditorApplication.update += step;
         }
 
-        bool Moves { get { return EditorApplication.timeSinceStartup - changedAt < ConverterController.Rest; } }
+        bool Moves => EditorApplication.timeSinceStartup - changedAt < ConverterController.Rest;
 
         void ReadAnew()
         {
@@ -306,10 +298,9 @@ namespace SuperDeform.Editor.Ndmf
         /// </summary>
         public void OnFrame(Renderer original, Renderer proxy)
         {
-            ShownMesh shown;
             // NDMF may have emptied its scene.
-            if (figure == null || skeleton.Root == null || proxy == null || !meshes.TryGetValue(original, out shown)) return;
-            var skinned = proxy as SkinnedMeshRenderer;
+            if (figure == null || skeleton.Root == null || proxy == null || !meshes.TryGetValue(original, out ShownMesh shown)) return;
+            SkinnedMeshRenderer skinned = proxy as SkinnedMeshRenderer;
             if (skinned == null)
             {
                 if (shown.Mesh != null) proxy.GetComponent<MeshFilter>().sharedMesh = shown.Mesh;

@@ -20,7 +20,7 @@ namespace SuperDeform.Editor
         /// <summary>What Result was made by.</summary>
         internal ConversionSettings Shown { get; private set; }
 
-        internal Deformer Deformer { get { return deformer; } }
+        internal Deformer Deformer => deformer;
 
         /// <param name="reading">With AsWorn.</param>
         /// <param name="atRest">Whether vertices stay at rest in the root's space, which saves the way back to each mesh's.</param>
@@ -56,10 +56,7 @@ namespace SuperDeform.Editor
         /// <summary>Pushes clothes anew where they stayed as they were.</summary>
         /// <returns>Whether they had.</returns>
         /// <exception cref="ConversionException">They cannot be; the result stays as it was.</exception>
-        internal bool Settle()
-        {
-            return pushedEarlier && Change(Shown, SettingsChange.Options, false);
-        }
+        internal bool Settle() => pushedEarlier && Change(Shown, SettingsChange.Options, false);
 
         bool Change(ConversionSettings settings, SettingsChange change, bool moving)
         {

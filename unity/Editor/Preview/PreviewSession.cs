@@ -25,7 +25,7 @@ namespace SuperDeform.Editor
         bool counted;
         float width;
 
-        AvatarData Avatar { get { return figure.Avatar; } }
+        AvatarData Avatar => figure.Avatar;
 
         /// <summary>Comes with true when a preview begins to be shown, with false when it ends.</summary>
         public static event Action<bool> Shown;
@@ -37,7 +37,7 @@ namespace SuperDeform.Editor
         {
             try
             {
-                ReadOptions reading = new ReadOptions
+                var reading = new ReadOptions
                 {
                     AsWorn = true, RigAuto = settings.RigAuto, RigOptions = settings.Options,
                     RigProgress = Part(progress, ConversionStage.Rigging, 0, 0.7f)
@@ -64,22 +64,17 @@ namespace SuperDeform.Editor
             }
         }
 
-        static bool IsShown(RendererData data)
-        {
-            return data.Parts.Count > 0 || data.Rides;
-        }
+        static bool IsShown(RendererData data) => data.Parts.Count > 0 || data.Rides;
 
         /// <summary>The root of what is shown.</summary>
-        public GameObject Proxy { get { return skeleton == null || skeleton.Root == null ? null : skeleton.Root.gameObject; } }
+        public GameObject Proxy => skeleton == null || skeleton.Root == null ? null : skeleton.Root.gameObject;
 
         /// <summary>Whether the avatar and the proxy are still there.</summary>
-        public bool IsAlive { get { return Avatar.Root != null && Proxy != null; } }
+        public bool IsAlive => Avatar.Root != null && Proxy != null;
 
         /// <summary>Whether this session is for an avatar and its rig.</summary>
-        public bool Fits(GameObject candidate, ConversionSettings settings)
-        {
-            return IsAlive && candidate == Avatar.Root && settings.RigAuto == figure.Shown.RigAuto;
-        }
+        public bool Fits(GameObject candidate, ConversionSettings settings) =>
+            IsAlive && candidate == Avatar.Root && settings.RigAuto == figure.Shown.RigAuto;
 
         /// <summary>Brings the proxy up to the settings; only what depends on the change is done again.</summary>
         /// <param name="moving">Whether a slider moves: clothes stay pushed as they were, which is faster, until Settle.</param>
@@ -163,7 +158,7 @@ namespace SuperDeform.Editor
             weights.Clear();
             foreach (RendererData data in Avatar.Renderers)
             {
-                var skinned = data.Renderer as SkinnedMeshRenderer;
+                SkinnedMeshRenderer skinned = data.Renderer as SkinnedMeshRenderer;
                 for (int shape = 0; skinned != null && shape < data.Mesh.blendShapeCount; shape++)
                 {
                     weights.Add(skinned.GetBlendShapeWeight(shape));
@@ -179,7 +174,7 @@ namespace SuperDeform.Editor
                 int at = 0;
                 foreach (RendererData data in Avatar.Renderers)
                 {
-                    var skinned = data.Renderer as SkinnedMeshRenderer;
+                    SkinnedMeshRenderer skinned = data.Renderer as SkinnedMeshRenderer;
                     for (int shape = 0; skinned != null && shape < data.Mesh.blendShapeCount; shape++, at++)
                     {
                         if (at >= worn.Count || worn[at] != skinned.GetBlendShapeWeight(shape)) return true;
@@ -309,10 +304,8 @@ namespace SuperDeform.Editor
             hidden.Clear();
         }
 
-        static ProgressHandler Part(IConversionProgress progress, string stage, float from, float to)
-        {
-            return progress == null ? (ProgressHandler)null : fraction => progress.Report(stage, from + (to - from) * fraction);
-        }
+        static ProgressHandler Part(IConversionProgress progress, string stage, float from, float to) =>
+            progress == null ? (ProgressHandler)null : fraction => progress.Report(stage, from + (to - from) * fraction);
 
         static int[] JointsByRole(AvatarData avatar)
         {

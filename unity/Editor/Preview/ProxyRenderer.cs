@@ -68,13 +68,10 @@ namespace SuperDeform.Editor
         }
 
         /// <summary>The avatar's renderer; null once it was deleted.</summary>
-        internal Renderer Original { get { return result.Source.Renderer; } }
+        internal Renderer Original => result.Source.Renderer;
 
         /// <summary>Whether an object is the one that it is shown by.</summary>
-        internal bool IsOn(GameObject shown)
-        {
-            return renderer.gameObject == shown && Original != null;
-        }
+        internal bool IsOn(GameObject shown) => renderer.gameObject == shown && Original != null;
 
         /// <summary>Whether it is to be seen, where the avatar's renderer is.</summary>
         internal bool Visible

@@ -49,16 +49,10 @@ namespace SuperDeform.Editor
         }
 
         /// <summary>The transform that stands for a joint; the root for -1.</summary>
-        internal Transform Of(int joint)
-        {
-            return joint < 0 ? Root : joints[joint];
-        }
+        internal Transform Of(int joint) => joint < 0 ? Root : joints[joint];
 
         /// <summary>Model space to joint space at rest, as moved; the identity for -1.</summary>
-        internal Matrix4x4 InverseRest(int joint)
-        {
-            return joint < 0 ? Matrix4x4.identity : inverses[joint];
-        }
+        internal Matrix4x4 InverseRest(int joint) => joint < 0 ? Matrix4x4.identity : inverses[joint];
 
         /// <summary>Takes the joints' rest pose for the bind poses. Without garbage.</summary>
         internal void Move(AvatarResult result)

@@ -31,10 +31,7 @@ namespace SuperDeform.Editor
             return Same(one.Options, other.Options, field => true) ? SettingsChange.None : SettingsChange.Options;
         }
 
-        internal static bool SameOptions(ConversionSettings one, ConversionSettings other)
-        {
-            return Same(one.Options, other.Options, field => true);
-        }
+        internal static bool SameOptions(ConversionSettings one, ConversionSettings other) => Same(one.Options, other.Options, field => true);
 
         /// <summary>Whether two objects have the same in those of their fields that are asked for.</summary>
         static bool Same(object one, object other, Predicate<FieldInfo> asked)

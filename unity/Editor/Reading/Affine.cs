@@ -27,10 +27,7 @@ namespace SuperDeform.Editor
         }
 
         /// <summary>The map of a transform to its parent's space.</summary>
-        public static Affine Local(Transform transform)
-        {
-            return Of(transform.localPosition, transform.localRotation, transform.localScale);
-        }
+        public static Affine Local(Transform transform) => Of(transform.localPosition, transform.localRotation, transform.localScale);
 
         /// <summary>Scale, then rotation, then translation. A rotation of length 0 turns nothing.</summary>
         public static Affine Of(Vector3 position, Quaternion rotation, Vector3 scale)
@@ -55,10 +52,7 @@ namespace SuperDeform.Editor
             };
         }
 
-        public static Affine Translation(Double3 by)
-        {
-            return Identity.At(by);
-        }
+        public static Affine Translation(Double3 by) => Identity.At(by);
 
         /// <summary>Writes 16 numbers, column by column, as the library has them.</summary>
         public void ToColumns(double[] numbers, int start)
@@ -100,10 +94,7 @@ namespace SuperDeform.Editor
         }
 
         /// <summary>Where the origin goes.</summary>
-        public Double3 Position
-        {
-            get { return new Double3(M03, M13, M23); }
-        }
+        public Double3 Position => new Double3(M03, M13, M23);
 
         /// <summary>The same map, but for where the origin goes.</summary>
         public Affine At(Double3 position)
@@ -145,7 +136,7 @@ namespace SuperDeform.Editor
             get
             {
                 double d = 1 / Determinant;
-                Affine inverse = new Affine
+                var inverse = new Affine
                 {
                     M00 = (M11 * M22 - M12 * M21) * d, M01 = (M02 * M21 - M01 * M22) * d, M02 = (M01 * M12 - M02 * M11) * d,
                     M10 = (M12 * M20 - M10 * M22) * d, M11 = (M00 * M22 - M02 * M20) * d, M12 = (M02 * M10 - M00 * M12) * d,
@@ -180,10 +171,7 @@ namespace SuperDeform.Editor
         }
 
         /// <summary>True where there is a way back in numbers.</summary>
-        public bool IsInvertible
-        {
-            get { return IsFinite && Math.Abs(Determinant) > 1e-30 && Inverse.IsFinite; }
-        }
+        public bool IsInvertible => IsFinite && Math.Abs(Determinant) > 1e-30 && Inverse.IsFinite;
 
         /// <summary>First b, then a.</summary>
         public static Affine operator *(Affine a, Affine b)
@@ -270,14 +258,8 @@ namespace SuperDeform.Editor
                 && M20 == other.M20 && M21 == other.M21 && M22 == other.M22 && M23 == other.M23;
         }
 
-        public override bool Equals(object other)
-        {
-            return other is Affine && Equals((Affine)other);
-        }
+        public override bool Equals(object other) => other is Affine && Equals((Affine)other);
 
-        public override int GetHashCode()
-        {
-            return M03.GetHashCode() ^ M13.GetHashCode() ^ M23.GetHashCode() ^ M00.GetHashCode();
-        }
+        public override int GetHashCode() => M03.GetHashCode() ^ M13.GetHashCode() ^ M23.GetHashCode() ^ M00.GetHashCode();
     }
 }

@@ -37,10 +37,7 @@ namespace SuperDeform.Editor
             length = (Place(roles[(int)HumanBodyBones.Head]) - Place(roles[(int)HumanBodyBones.Hips])).Length;
         }
 
-        Double3 Place(int joint)
-        {
-            return data.Rest[joint].Position;
-        }
+        Double3 Place(int joint) => data.Rest[joint].Position;
 
         /// <param name="pairs">The armature's joints, and the avatar's that they would be twins of.</param>
         internal bool Lies(List<KeyValuePair<int, int>> pairs)
@@ -62,7 +59,7 @@ namespace SuperDeform.Editor
 
         static Double3 Middle(List<Double3> points)
         {
-            Double3 sum = new Double3(0, 0, 0);
+            var sum = new Double3(0, 0, 0);
             foreach (Double3 point in points)
             {
                 sum += point;

@@ -74,19 +74,12 @@ namespace SuperDeform.Editor
         internal readonly Dictionary<Transform, int> JointOf = new Dictionary<Transform, int>();
 
         /// <summary>True where the root is the first of Joints. It never moves.</summary>
-        public bool HoldsRoot
-        {
-            get { return Joints.Length > 0 && Joints[0] == Root.transform; }
-        }
+        public bool HoldsRoot => Joints.Length > 0 && Joints[0] == Root.transform;
 
         /// <summary>
         /// The joint that a transform is; -1 for the root where it is none, and for what is not below the root.
         /// </summary>
-        public int IndexOf(Transform transform)
-        {
-            int joint;
-            return transform != null && JointOf.TryGetValue(transform, out joint) ? joint : -1;
-        }
+        public int IndexOf(Transform transform) => transform != null && JointOf.TryGetValue(transform, out int joint) ? joint : -1;
 
         public void Dispose()
         {

@@ -26,10 +26,8 @@ namespace SuperDeform.Editor
         public Vector3[] Tangents;
 
         /// <summary>With all three, which are written anew by each Read.</summary>
-        internal static BlendDeltas Of(int vertices)
-        {
-            return new BlendDeltas { Positions = new Vector3[vertices], Normals = new Vector3[vertices], Tangents = new Vector3[vertices] };
-        }
+        internal static BlendDeltas Of(int vertices) =>
+            new BlendDeltas { Positions = new Vector3[vertices], Normals = new Vector3[vertices], Tangents = new Vector3[vertices] };
 
         internal void Read(Mesh mesh, BlendFrame frame)
         {

@@ -9,15 +9,9 @@ namespace SuperDeform.Editor
         public Double3 Low, High;
         bool filled;
 
-        public bool IsEmpty
-        {
-            get { return !filled; }
-        }
+        public bool IsEmpty => !filled;
 
-        public Double3 Size
-        {
-            get { return High - Low; }
-        }
+        public Double3 Size => High - Low;
 
         /// <summary>Points that are not finite are left out.</summary>
         public void Add(Double3 point)
@@ -33,15 +27,12 @@ namespace SuperDeform.Editor
             High = new Double3(Math.Max(High.X, point.X), Math.Max(High.Y, point.Y), Math.Max(High.Z, point.Z));
         }
 
-        public static Box Around(Vector3[] points)
-        {
-            return Around(points, Affine.Identity);
-        }
+        public static Box Around(Vector3[] points) => Around(points, Affine.Identity);
 
         /// <summary>The box of points that a matrix has mapped.</summary>
         public static Box Around(Vector3[] points, Affine matrix)
         {
-            Box box = new Box();
+            var box = new Box();
             foreach (Vector3 point in points)
             {
                 box.Add(matrix.Point(Double3.Of(point)));

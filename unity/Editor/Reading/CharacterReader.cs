@@ -22,7 +22,7 @@ namespace SuperDeform.Editor
         public static AvatarData Read(GameObject avatar, ReadOptions options)
         {
             if (avatar == null) throw new ConversionException(new Finding("no_avatar", Severity.Error, null));
-            AvatarData data = new AvatarData { Root = avatar, AsWorn = options.AsWorn && !options.WithMorphs };
+            var data = new AvatarData { Root = avatar, AsWorn = options.AsWorn && !options.WithMorphs };
             try
             {
                 SuperDeformLibrary.Check();
@@ -56,7 +56,7 @@ namespace SuperDeform.Editor
         /// </summary>
         internal static AvatarData ReadSkeleton(GameObject avatar)
         {
-            AvatarData data = new AvatarData { Root = avatar, Animator = HumanoidRoles.Speaker(avatar) };
+            var data = new AvatarData { Root = avatar, Animator = HumanoidRoles.Speaker(avatar) };
             ReadRenderers(data, null);
             ReadJoints(data);
             ReadSkins(data);
@@ -68,8 +68,7 @@ namespace SuperDeform.Editor
         {
             foreach (Renderer renderer in data.Root.GetComponentsInChildren<Renderer>(true))
             {
-                Renderer instead;
-                if (shown == null || !shown.TryGetValue(renderer, out instead) || instead == null) instead = renderer;
+                if (shown == null || !shown.TryGetValue(renderer, out Renderer instead) || instead == null) instead = renderer;
                 Mesh mesh = RendererReader.MeshOf(instead);
                 if (mesh == null) continue;
                 Transform outside = RendererReader.MoverOutside(renderer, data.Root.transform);
@@ -86,7 +85,7 @@ namespace SuperDeform.Editor
 
         static void ReadJoints(AvatarData data)
         {
-            List<Transform> joints = new List<Transform>(data.Root.GetComponentsInChildren<Transform>(true));
+            var joints = new List<Transform>(data.Root.GetComponentsInChildren<Transform>(true));
             bool rootUsed = data.Renderers.Exists(renderer => RendererReader.Uses(renderer.Renderer, data.Root.transform));
             if (!rootUsed) joints.Remove(data.Root.transform);
             data.Joints = joints.ToArray();
@@ -122,7 +121,7 @@ namespace SuperDeform.Editor
         static void ReadPose(AvatarData data)
         {
             Affine[] world = World(data);
-            List<Skin> skins = new List<Skin>();
+            var skins = new List<Skin>();
             foreach (RendererData renderer in data.Renderers)
             {
                 if (renderer.Skin != null) skins.Add(renderer.Skin);
@@ -189,7 +188,7 @@ namespace SuperDeform.Editor
 
         static SkeletonArrays Skeleton(AvatarData data, int[] roles)
         {
-            SkeletonArrays skeleton = new SkeletonArrays
+            var skeleton = new SkeletonArrays
             {
                 Names = Array.ConvertAll(data.Joints, joint => joint.name),
                 Parents = data.MergedParents,
@@ -205,11 +204,11 @@ namespace SuperDeform.Editor
 
         static void AddMeshes(AvatarData data)
         {
-            PaintedSurfaces surfaces = new PaintedSurfaces(data.Character);
+            var surfaces = new PaintedSurfaces(data.Character);
             foreach (PartData part in data.Parts)
             {
                 RendererData renderer = part.Renderer;
-                MeshArrays mesh = new MeshArrays
+                var mesh = new MeshArrays
                 {
                     Name = part.Name,
                     FirstVertex = part.Start,
@@ -233,7 +232,7 @@ namespace SuperDeform.Editor
                 if (renderer.Worn != null) AddWorn(data, renderer);
                 List<BlendFrame> read = renderer.Frames.FindAll(frame => Character.ReadsMorphTarget(frame.ShapeName));
                 if (read.Count == 0 || renderer.Parts.Count == 0) continue;
-                FramePlacer placer = new FramePlacer(renderer);
+                var placer = new FramePlacer(renderer);
                 BlendDeltas deltas = BlendDeltas.Of(renderer.Vertices.Length);
                 foreach (BlendFrame frame in read)
                 {
@@ -246,7 +245,7 @@ namespace SuperDeform.Editor
 
         static void AddWorn(AvatarData data, RendererData renderer)
         {
-            FramePlacer placer = new FramePlacer(renderer);
+            var placer = new FramePlacer(renderer);
             Vector3[] positions = placer.ToModel(renderer.Worn.Positions, Change.Place), normals = placer.ToModel(renderer.Worn.Normals, Change.Normal);
             foreach (PartData part in renderer.Parts)
             {

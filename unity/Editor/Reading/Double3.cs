@@ -17,30 +17,15 @@ namespace SuperDeform.Editor
             Z = z;
         }
 
-        public static Double3 Of(Vector3 vector)
-        {
-            return new Double3(vector.x, vector.y, vector.z);
-        }
+        public static Double3 Of(Vector3 vector) => new Double3(vector.x, vector.y, vector.z);
 
-        public Vector3 ToVector3()
-        {
-            return new Vector3((float)X, (float)Y, (float)Z);
-        }
+        public Vector3 ToVector3() => new Vector3((float)X, (float)Y, (float)Z);
 
-        public double Length
-        {
-            get { return Math.Sqrt(Dot(this)); }
-        }
+        public double Length => Math.Sqrt(Dot(this));
 
-        public double Dot(Double3 other)
-        {
-            return X * other.X + Y * other.Y + Z * other.Z;
-        }
+        public double Dot(Double3 other) => X * other.X + Y * other.Y + Z * other.Z;
 
-        public Double3 Cross(Double3 other)
-        {
-            return new Double3(Y * other.Z - Z * other.Y, Z * other.X - X * other.Z, X * other.Y - Y * other.X);
-        }
+        public Double3 Cross(Double3 other) => new Double3(Y * other.Z - Z * other.Y, Z * other.X - X * other.Z, X * other.Y - Y * other.X);
 
         /// <summary>The direction alone; 0 stays 0.</summary>
         public Double3 Normalized
@@ -52,10 +37,7 @@ namespace SuperDeform.Editor
             }
         }
 
-        public bool IsFinite
-        {
-            get { return !double.IsNaN(X + Y + Z) && !double.IsInfinity(X + Y + Z); }
-        }
+        public bool IsFinite => !double.IsNaN(X + Y + Z) && !double.IsInfinity(X + Y + Z);
 
         public static Double3 operator +(Double3 one, Double3 other)
         {

@@ -24,22 +24,13 @@ namespace SuperDeform.Editor
             IsIdentity = matrix.Equals(Affine.Identity);
         }
 
-        public Vector3 Point(Vector3 point)
-        {
-            return matrix.Point(Double3.Of(point)).ToVector3();
-        }
+        public Vector3 Point(Vector3 point) => matrix.Point(Double3.Of(point)).ToVector3();
 
         /// <summary>Maps a displacement, times scale; one of 0 stays exactly 0.</summary>
-        public Vector3 Delta(Vector3 delta, double scale)
-        {
-            return Scaled(matrix, delta, scale);
-        }
+        public Vector3 Delta(Vector3 delta, double scale) => Scaled(matrix, delta, scale);
 
         /// <summary>Maps the change of a normal whose length was multiplied by scale.</summary>
-        public Vector3 NormalDelta(Vector3 delta, double scale)
-        {
-            return Scaled(normals, delta, scale);
-        }
+        public Vector3 NormalDelta(Vector3 delta, double scale) => Scaled(normals, delta, scale);
 
         Vector3 Scaled(Affine linear, Vector3 delta, double scale)
         {
@@ -48,10 +39,7 @@ namespace SuperDeform.Editor
         }
 
         /// <summary>Maps a unit normal; scale: what its length was multiplied by to be 1 again.</summary>
-        public Vector3 Normal(Vector3 normal, out double scale)
-        {
-            return Unit(normals, normal, out scale);
-        }
+        public Vector3 Normal(Vector3 normal, out double scale) => Unit(normals, normal, out scale);
 
         /// <summary>
         /// Maps a unit tangent, the handedness kept; scale: what its length was multiplied by to be 1 again.

@@ -90,14 +90,8 @@ namespace SuperDeform.Editor
             common = new Frame(renderer.Placement);
         }
 
-        internal bool EachItsOwn
-        {
-            get { return renderer.Placements != null; }
-        }
+        internal bool EachItsOwn => renderer.Placements != null;
 
-        internal Frame At(int vertex)
-        {
-            return EachItsOwn ? new Frame(renderer.Placements[vertex]) : common;
-        }
+        internal Frame At(int vertex) => EachItsOwn ? new Frame(renderer.Placements[vertex]) : common;
     }
 }

@@ -15,7 +15,7 @@ namespace SuperDeform.Editor
         {
             if (HumanoidRoles.Missing(role => data.Roles[role] >= 0) == null) return data.Roles;
             // The library tells left from right as in right-handed axes, so it is shown Unity's world in a mirror.
-            using (Character mirrored = new Character(new float[] { 0, 1, 0 }, null))
+            using (var mirrored = new Character(new float[] { 0, 1, 0 }, null))
             {
                 mirrored.SetSkeleton(Mirrored(data));
                 foreach (PartData part in data.Parts)
@@ -40,7 +40,7 @@ namespace SuperDeform.Editor
 
         static SkeletonArrays Mirrored(AvatarData data)
         {
-            SkeletonArrays skeleton = new SkeletonArrays
+            var skeleton = new SkeletonArrays
             {
                 Names = Array.ConvertAll(data.Joints, joint => joint.name),
                 Parents = data.Parents,
@@ -58,7 +58,7 @@ namespace SuperDeform.Editor
 
         static MeshArrays Mirrored(PartData part)
         {
-            MeshArrays mesh = new MeshArrays
+            var mesh = new MeshArrays
             {
                 Name = part.Name,
                 FirstVertex = part.Start,

@@ -18,10 +18,8 @@ namespace SuperDeform.Editor
         };
 
         /// <summary>True where an animator has a humanoid Avatar that Unity can use.</summary>
-        public static bool IsHumanoid(Animator animator)
-        {
-            return animator != null && animator.avatar != null && animator.avatar.isValid && animator.avatar.isHuman;
-        }
+        public static bool IsHumanoid(Animator animator) =>
+            animator != null && animator.avatar != null && animator.avatar.isValid && animator.avatar.isHuman;
 
         /// <summary>
         /// The animator that speaks for an avatar: the root's own, else the only humanoid one below; null where there is none.
@@ -40,7 +38,7 @@ namespace SuperDeform.Editor
         /// </summary>
         internal static List<Animator> Bodies(GameObject root)
         {
-            HashSet<Transform> moving = new HashSet<Transform>();
+            var moving = new HashSet<Transform>();
             foreach (Renderer renderer in root.GetComponentsInChildren<Renderer>(true))
             {
                 SkinnedMeshRenderer skinned = renderer as SkinnedMeshRenderer;
@@ -75,8 +73,7 @@ namespace SuperDeform.Editor
                 string humanName = HumanTrait.BoneName[role];
                 foreach (HumanBone bone in human)
                 {
-                    Transform named;
-                    if (bone.humanName == humanName && byName.TryGetValue(bone.boneName, out named)) roles[role] = named;
+                    if (bone.humanName == humanName && byName.TryGetValue(bone.boneName, out Transform named)) roles[role] = named;
                 }
             }
             return roles;

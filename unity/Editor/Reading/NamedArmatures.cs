@@ -14,8 +14,8 @@ namespace SuperDeform.Editor
         /// <param name="asked">Which joints may be twins.</param>
         internal static List<List<KeyValuePair<int, int>>> Of(AvatarData data, int[] roles, Func<int, bool> asked)
         {
-            Dictionary<int, List<int>> namesakes = new Dictionary<int, List<int>>();
-            Dictionary<string, int> votes = new Dictionary<string, int>();
+            var namesakes = new Dictionary<int, List<int>>();
+            var votes = new Dictionary<string, int>();
             for (int joint = 0; joint < data.Joints.Length; joint++)
             {
                 if (!asked(joint)) continue;
@@ -23,9 +23,8 @@ namespace SuperDeform.Editor
                 if (found.Count > 0) namesakes.Add(joint, found);
                 foreach (int role in found)
                 {
-                    int count;
                     string affix = Affix(data, joint, role);
-                    votes.TryGetValue(affix, out count);
+                    votes.TryGetValue(affix, out int count);
                     votes[affix] = count + 1;
                 }
             }
@@ -35,7 +34,7 @@ namespace SuperDeform.Editor
         /// <summary>The joints with roles whose names are in a joint's.</summary>
         static List<int> Namesakes(AvatarData data, int[] roles, int joint)
         {
-            List<int> found = new List<int>();
+            var found = new List<int>();
             foreach (int role in roles)
             {
                 bool named = role >= 0 && data.Joints[joint].name.IndexOf(data.Joints[role].name, StringComparison.Ordinal) >= 0;
@@ -54,14 +53,13 @@ namespace SuperDeform.Editor
 
         static List<List<KeyValuePair<int, int>>> Grouped(AvatarData data, Dictionary<int, List<int>> namesakes, Func<int, int, int> votes)
         {
-            List<List<KeyValuePair<int, int>>> armatures = new List<List<KeyValuePair<int, int>>>();
-            Dictionary<int, List<KeyValuePair<int, int>>> armatureOf = new Dictionary<int, List<KeyValuePair<int, int>>>();
-            Dictionary<int, int> chosen = new Dictionary<int, int>();
+            var armatures = new List<List<KeyValuePair<int, int>>>();
+            var armatureOf = new Dictionary<int, List<KeyValuePair<int, int>>>();
+            var chosen = new Dictionary<int, int>();
             // In the order of the hierarchy: parents come first.
             for (int joint = 0; joint < data.Joints.Length; joint++)
             {
-                List<int> found;
-                if (!namesakes.TryGetValue(joint, out found)) continue;
+                if (!namesakes.TryGetValue(joint, out List<int> found)) continue;
                 // What most of all are called like; of a name within a name the longer one.
                 int best = found[0];
                 foreach (int role in found)

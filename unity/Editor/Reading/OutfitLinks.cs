@@ -29,12 +29,12 @@ namespace SuperDeform.Editor
         /// <param name="bone">The transform that plays a role; null: none.</param>
         internal static List<OutfitLink> Of(GameObject root, Func<int, Transform> bone)
         {
-            List<OutfitLink> links = new List<OutfitLink>();
+            var links = new List<OutfitLink>();
             foreach (Component component in root.GetComponentsInChildren<Component>(true))
             {
                 string type = component == null ? null : Serialized.TypeOf(component);
                 if (type != MergeArmature && type != VrcFury) continue;
-                using (SerializedObject properties = new SerializedObject(component))
+                using (var properties = new SerializedObject(component))
                 {
                     OutfitLink link = type == MergeArmature ? OfModularAvatar(component, properties, root.transform) : OfVrcFury(properties, root.transform, bone);
                     if (link != null && link.From != null && link.To != null) links.Add(link);

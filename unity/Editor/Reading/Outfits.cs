@@ -32,7 +32,7 @@ namespace SuperDeform.Editor
             }
             data.MergedParents = (int[])data.Parents.Clone();
             if (HumanoidRoles.Missing(role => roles[role] >= 0) != null) return;
-            Pairing pairing = new Pairing(data, roles);
+            var pairing = new Pairing(data, roles);
             List<OutfitLink> links = OutfitLinks.Of(data.Root, role => role >= 0 && role < HumanoidRoles.Count && roles[role] >= 0 ? data.Joints[roles[role]] : null);
             pairing.Linked(links);
             pairing.Animators();
@@ -107,7 +107,7 @@ namespace SuperDeform.Editor
                 {
                     if (animator == data.Animator || !HumanoidRoles.IsHumanoid(animator)) continue;
                     Transform[] own = HumanoidRoles.Of(animator);
-                    List<KeyValuePair<int, int>> pairs = new List<KeyValuePair<int, int>>();
+                    var pairs = new List<KeyValuePair<int, int>>();
                     for (int role = 0; role < own.Length; role++)
                     {
                         int joint = data.IndexOf(own[role]);
@@ -146,10 +146,7 @@ namespace SuperDeform.Editor
                 }
             }
 
-            bool IsFree(int joint)
-            {
-                return !ofBody[joint] && !linked[joint] && data.Twins[joint] == joint;
-            }
+            bool IsFree(int joint) => !ofBody[joint] && !linked[joint] && data.Twins[joint] == joint;
 
             void PairAll(List<KeyValuePair<int, int>> pairs)
             {
@@ -190,7 +187,7 @@ namespace SuperDeform.Editor
             {
                 string type = Serialized.TypeOf(component);
                 if (type != BoneProxy && type != ParentConstraint && type != VrcParentConstraint) return -1;
-                using (SerializedObject properties = new SerializedObject(component))
+                using (var properties = new SerializedObject(component))
                 {
                     if (type == ParentConstraint) return data.IndexOf(Serialized.TransformAt(properties, "m_Sources.Array.data[0].sourceTransform"));
                     if (type == VrcParentConstraint) return data.IndexOf(Serialized.TransformAt(properties, "Sources.source0.SourceTransform"));
@@ -212,10 +209,8 @@ namespace SuperDeform.Editor
                 return false;
             }
 
-            static bool Has(Transform transform, string type)
-            {
-                return Array.Exists(transform.GetComponents<Component>(), component => component != null && Serialized.TypeOf(component) == type);
-            }
+            static bool Has(Transform transform, string type) =>
+                Array.Exists(transform.GetComponents<Component>(), component => component != null && Serialized.TypeOf(component) == type);
         }
 
         /// <summary>By joint, whether it is the body's: one with a role, what hangs from those, and what they hang from.</summary>

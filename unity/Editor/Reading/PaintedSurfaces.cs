@@ -43,8 +43,7 @@ namespace SuperDeform.Editor
 
         Vector2[] UvsOf(RendererData renderer)
         {
-            Vector2[] uvs;
-            if (!allUvs.TryGetValue(renderer, out uvs))
+            if (!allUvs.TryGetValue(renderer, out Vector2[] uvs))
             {
                 uvs = renderer.Mesh.uv;
                 allUvs[renderer] = uvs = uvs.Length == renderer.Vertices.Length ? uvs : null;
@@ -61,10 +60,8 @@ namespace SuperDeform.Editor
         /// <summary>The number of a texture in the library, handed over once; 0 where it cannot be read.</summary>
         int ImageOf(Texture texture)
         {
-            int number;
-            if (images.TryGetValue(texture, out number)) return number;
-            int width, height;
-            byte[] pixels = Brightness(texture, out width, out height);
+            if (images.TryGetValue(texture, out int number)) return number;
+            byte[] pixels = Brightness(texture, out int width, out int height);
             if (pixels != null) number = character.AddImage(width, height, pixels);
             images[texture] = number;
             return number;
@@ -81,7 +78,7 @@ namespace SuperDeform.Editor
             if (SystemInfo.graphicsDeviceType == GraphicsDeviceType.Null) return null;
             RenderTexture before = RenderTexture.active;
             RenderTexture small = RenderTexture.GetTemporary(width, height, 0, RenderTextureFormat.ARGB32, RenderTextureReadWrite.sRGB);
-            Texture2D copy = new Texture2D(width, height, TextureFormat.RGBA32, false);
+            var copy = new Texture2D(width, height, TextureFormat.RGBA32, false);
             try
             {
                 Graphics.Blit(texture, small);

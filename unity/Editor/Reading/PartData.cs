@@ -48,15 +48,9 @@ namespace SuperDeform.Editor
         }
 
         /// <summary>Where this part begins in what Gather gives.</summary>
-        internal int Start
-        {
-            get { return Vertices == null ? FirstVertex : 0; }
-        }
+        internal int Start => Vertices == null ? FirstVertex : 0;
 
         /// <summary>The mesh's vertex that a vertex of this part is.</summary>
-        internal int VertexOf(int vertex)
-        {
-            return Vertices == null ? FirstVertex + vertex : Vertices[vertex];
-        }
+        internal int VertexOf(int vertex) => Vertices == null ? FirstVertex + vertex : Vertices[vertex];
     }
 }

@@ -28,7 +28,7 @@ namespace SuperDeform.Editor
         public static PoseMeasure Of(int[] roles, Affine[] rest)
         {
             Double3 right = Facing.Up.Cross(Facing.Of(roles, rest));
-            PoseMeasure worst = new PoseMeasure { Limb = HumanBodyBones.LeftUpperArm };
+            var worst = new PoseMeasure { Limb = HumanBodyBones.LeftUpperArm };
             worst.Arm(roles, rest, HumanBodyBones.LeftUpperArm, HumanBodyBones.LeftLowerArm, HumanBodyBones.LeftHand, right * -1);
             worst.Arm(roles, rest, HumanBodyBones.RightUpperArm, HumanBodyBones.RightLowerArm, HumanBodyBones.RightHand, right);
             worst.Leg(roles, rest, HumanBodyBones.LeftUpperLeg, HumanBodyBones.LeftLowerLeg);
@@ -73,9 +73,6 @@ namespace SuperDeform.Editor
             return direction.Length > 0 ? direction.Normalized : (Double3?)null;
         }
 
-        static double Angle(Double3 one, Double3 other)
-        {
-            return Math.Acos(Math.Max(-1, Math.Min(1, one.Dot(other)))) * 180 / Math.PI;
-        }
+        static double Angle(Double3 one, Double3 other) => Math.Acos(Math.Max(-1, Math.Min(1, one.Dot(other)))) * 180 / Math.PI;
     }
 }

@@ -11,7 +11,7 @@ namespace SuperDeform.Editor
         /// <param name="visit">Is called for each, before those within it; may change its value.</param>
         internal static void Each(SerializedObject properties, Predicate<SerializedProperty> enter, Action<SerializedProperty> visit)
         {
-            HashSet<long> references = new HashSet<long>();
+            var references = new HashSet<long>();
             SerializedProperty property = properties.GetIterator();
             bool inside = true;
             while (property.Next(inside))

@@ -1,4 +1,5 @@
 using UnityEditor;
+using UnityEditor.AssetImporters;
 using UnityEngine;
 
 namespace SuperDeform.Editor
@@ -8,14 +9,16 @@ namespace SuperDeform.Editor
     {
         internal static Finding NotReadable(Mesh mesh, UnityEngine.Object where)
         {
-            Finding finding = new Finding("not_readable", Severity.Error, where, mesh.name, where.name);
+            var finding = new Finding("not_readable", Severity.Error, where, mesh.name, where.name);
             return CanMend(mesh) ? finding.WithFix("fix_readable", () => Mend(mesh)) : finding;
         }
 
         static bool CanMend(Mesh mesh)
         {
             string path = AssetDatabase.GetAssetPath(mesh);
-            return !string.IsNullOrEmpty(path) && (path.StartsWith("Assets/") || AssetImporter.GetAtPath(path) is ModelImporter);
+            AssetImporter importer = AssetImporter.GetAtPath(path);
+            // What is set on a mesh that a script has imported, such as UniVRM's, lasts until the next import.
+            return !string.IsNullOrEmpty(path) && (importer is ModelImporter || path.StartsWith("Assets/") && !(importer is ScriptedImporter));
         }
 
         static void Mend(Mesh mesh)
@@ -28,7 +31,7 @@ namespace SuperDeform.Editor
                 return;
             }
             // A mesh asset of its own, or within a prefab.
-            SerializedObject asset = new SerializedObject(mesh);
+            var asset = new SerializedObject(mesh);
             asset.FindProperty("m_IsReadable").boolValue = true;
             asset.ApplyModifiedPropertiesWithoutUndo();
             AssetDatabase.SaveAssetIfDirty(mesh);

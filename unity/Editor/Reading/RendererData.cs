@@ -42,6 +42,9 @@ namespace SuperDeform.Editor
         public uint[] RowStarts, RowJoints;
         public float[] RowWeights;
 
+        /// <summary>How many vertices bones should move that are missing.</summary>
+        internal int Unmoved;
+
         /// <summary>All frames of all blend shapes, in order; empty where blend shapes were not read.</summary>
         public readonly List<BlendFrame> Frames = new List<BlendFrame>();
 

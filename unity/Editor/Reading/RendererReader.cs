@@ -46,7 +46,7 @@ namespace SuperDeform.Editor
             if (skinned == null || skinned.bones.Length == 0) return;
             Transform[] bones = skinned.bones;
             Matrix4x4[] binds = renderer.Mesh.bindposes;
-            Skin skin = new Skin
+            var skin = new Skin
             {
                 Joints = new int[bones.Length],
                 InverseBinds = new Affine[bones.Length],
@@ -81,17 +81,23 @@ namespace SuperDeform.Editor
             byte[] perVertex = counts.ToArray();
             BoneWeight1[] all = renderer.Mesh.GetAllBoneWeights().ToArray();
             int spare = Math.Max(0, Array.FindIndex(skin.Joints, joint => joint >= 0));
-            if (skin.Joints[spare] < 0) return false;
+            if (skin.Joints[spare] < 0)
+            {
+                renderer.Unmoved = vertexCount;
+                return false;
+            }
             uint[] starts = new uint[vertexCount + 1];
-            List<uint> bones = new List<uint>(all.Length);
-            List<float> weights = new List<float>(all.Length);
+            var bones = new List<uint>(all.Length);
+            var weights = new List<float>(all.Length);
             int next = 0;
             for (int vertex = 0; vertex < vertexCount; vertex++)
             {
+                bool lost = false;
                 for (int influence = 0; influence < perVertex[vertex]; influence++, next++)
                 {
                     int bone = all[next].boneIndex;
                     bool known = bone >= 0 && bone < skin.Joints.Length && skin.Joints[bone] >= 0;
+                    lost |= !known && all[next].weight > 0f;
                     if (!known || all[next].weight == 0f) continue;
                     bones.Add((uint)bone);
                     weights.Add(all[next].weight);
@@ -101,6 +107,7 @@ namespace SuperDeform.Editor
                     bones.Add((uint)spare);
                     weights.Add(1f);
                 }
+                if (lost) renderer.Unmoved++;
                 starts[vertex + 1] = (uint)weights.Count;
             }
             renderer.RowStarts = starts;
@@ -163,7 +170,7 @@ namespace SuperDeform.Editor
                 }
             }
             bool plain = renderer.Placements == null && renderer.Placement.Equals(Affine.Identity);
-            FrameSource frames = new FrameSource(renderer);
+            var frames = new FrameSource(renderer);
             renderer.ModelVertices = plain ? renderer.Vertices : new Vector3[count];
             renderer.ModelNormals = plain && AreUnit(renderer.Normals) ? renderer.Normals : renderer.Normals == null ? null : new Vector3[count];
             renderer.ModelTangents = plain && AreUnit(renderer.Tangents) ? renderer.Tangents : renderer.Tangents == null ? null : new Vector4[count];
@@ -212,7 +219,7 @@ namespace SuperDeform.Editor
                 {
                     sum += renderer.RowWeights[row];
                 }
-                Affine blended = new Affine();
+                var blended = new Affine();
                 for (uint row = from; row < to; row++)
                 {
                     blended.Add(ref skin.ByBone[renderer.RowJoints[row]], renderer.RowWeights[row] / sum);
@@ -261,8 +268,8 @@ namespace SuperDeform.Editor
         static void GatherRows(PartData part, MeshArrays mesh)
         {
             RendererData renderer = part.Renderer;
-            List<uint> joints = new List<uint>();
-            List<float> weights = new List<float>();
+            var joints = new List<uint>();
+            var weights = new List<float>();
             mesh.RowStarts = new uint[part.VertexCount + 1];
             for (int vertex = 0; vertex < part.VertexCount; vertex++)
             {
@@ -331,7 +338,7 @@ namespace SuperDeform.Editor
         /// </summary>
         internal static List<KeyValuePair<int, float>> FrameShares(Mesh mesh, int shape, float weight)
         {
-            List<KeyValuePair<int, float>> shares = new List<KeyValuePair<int, float>>();
+            var shares = new List<KeyValuePair<int, float>>();
             int last = mesh.GetBlendShapeFrameCount(shape) - 1, frame = 0;
             while (frame < last && weight > mesh.GetBlendShapeFrameWeight(shape, frame))
             {

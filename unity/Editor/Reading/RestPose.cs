@@ -71,7 +71,7 @@ namespace SuperDeform.Editor
         /// <param name="skins">Common, ByBone and Uniform are filled in.</param>
         public static RestPose OfBindPoses(int[] parents, Affine[] local, Affine[] world, IList<Skin> skins)
         {
-            RestPose pose = new RestPose(parents, world);
+            var pose = new RestPose(parents, world);
             Affine?[] ofJoint = new Affine?[parents.Length];
             foreach (Skin skin in skins)
             {
@@ -91,7 +91,7 @@ namespace SuperDeform.Editor
         /// <summary>The pose that the transforms stand in as the rest pose. Skins: as in OfBindPoses.</summary>
         public static RestPose Standing(int[] parents, Affine[] world, IList<Skin> skins)
         {
-            RestPose pose = new RestPose(parents, world);
+            var pose = new RestPose(parents, world);
             pose.Rest = world;
             foreach (Skin skin in skins)
             {
@@ -110,7 +110,7 @@ namespace SuperDeform.Editor
             List<int> usable = Usable(skin);
             List<Affine> posed = Posed(skin, usable);
             // Joints that an earlier skin has placed bring this skin's mesh to where that one's is.
-            List<Affine> placed = new List<Affine>();
+            var placed = new List<Affine>();
             foreach (int bone in usable)
             {
                 Affine? rest = ofJoint[skin.Joints[bone]];
@@ -162,7 +162,7 @@ namespace SuperDeform.Editor
 
         static List<int> Usable(Skin skin)
         {
-            List<int> usable = new List<int>();
+            var usable = new List<int>();
             for (int bone = 0; bone < skin.Joints.Length; bone++)
             {
                 if (skin.Joints[bone] >= 0 && skin.InverseBinds[bone].IsInvertible) usable.Add(bone);
@@ -170,10 +170,7 @@ namespace SuperDeform.Editor
             return usable;
         }
 
-        List<Affine> Posed(Skin skin, List<int> usable)
-        {
-            return usable.ConvertAll(bone => world[skin.Joints[bone]] * skin.InverseBinds[bone]);
-        }
+        List<Affine> Posed(Skin skin, List<int> usable) => usable.ConvertAll(bone => world[skin.Joints[bone]] * skin.InverseBinds[bone]);
 
         /// <summary>The corners of the box around the skin's vertices and its joints at rest, in mesh space.</summary>
         static Double3[] Corners(Skin skin)
@@ -219,7 +216,7 @@ namespace SuperDeform.Editor
         {
             if (matrices.Count == 0) return new Election { Winner = Affine.Identity };
             int step = Math.Max(1, (matrices.Count + LargestElection - 1) / LargestElection);
-            List<Affine> best = new List<Affine>();
+            var best = new List<Affine>();
             Affine winner = matrices[0];
             for (int candidate = 0; candidate < matrices.Count; candidate += step)
             {
@@ -248,8 +245,8 @@ namespace SuperDeform.Editor
         /// </summary>
         Affine Conventional(Skin skin, List<int> usable, List<Affine> posed, Double3[] corners)
         {
-            HashSet<int> ofSkin = new HashSet<int>(skin.Joints);
-            List<Affine> candidates = new List<Affine> { skin.MeshToModel, Affine.Identity };
+            var ofSkin = new HashSet<int>(skin.Joints);
+            var candidates = new List<Affine> { skin.MeshToModel, Affine.Identity };
             for (int index = 0; index < usable.Count && candidates.Count < 10; index++)
             {
                 int parent = parents[skin.Joints[usable[index]]];
@@ -304,7 +301,7 @@ namespace SuperDeform.Editor
 
         static Double3 Mean(List<Double3> points)
         {
-            Double3 sum = new Double3(0, 0, 0);
+            var sum = new Double3(0, 0, 0);
             foreach (Double3 point in points)
             {
                 sum += point;

@@ -12,10 +12,7 @@ namespace SuperDeform.Editor
     internal static class Serialized
     {
         /// <summary>A component's class with its namespace, such as "UnityEngine.Light".</summary>
-        internal static string TypeOf(Component component)
-        {
-            return component.GetType().FullName;
-        }
+        internal static string TypeOf(Component component) => component.GetType().FullName;
 
         /// <summary>The text at a path; null where there is none.</summary>
         internal static string TextAt(SerializedObject component, string path)
@@ -49,21 +46,17 @@ namespace SuperDeform.Editor
         }
 
         /// <summary>The transforms at a path, where "[*]" stands for every element of a list; those that are not set are left out.</summary>
-        internal static List<Transform> TransformsAt(SerializedObject component, string path)
-        {
-            return Expand(component, path).ConvertAll(each => TransformAt(component, each)).FindAll(transform => transform != null);
-        }
+        internal static List<Transform> TransformsAt(SerializedObject component, string path) =>
+            Expand(component, path).ConvertAll(each => TransformAt(component, each)).FindAll(transform => transform != null);
 
         /// <summary>The same for components.</summary>
-        internal static List<Component> ComponentsAt(SerializedObject component, string path)
-        {
-            return Expand(component, path).ConvertAll(each => component.FindProperty(each).objectReferenceValue as Component).FindAll(found => found != null);
-        }
+        internal static List<Component> ComponentsAt(SerializedObject component, string path) =>
+            Expand(component, path).ConvertAll(each => component.FindProperty(each).objectReferenceValue as Component).FindAll(found => found != null);
 
         /// <summary>Paths with a number for each element in place of "[*]"; the path itself where it has none.</summary>
         internal static List<string> Expand(SerializedObject component, string path)
         {
-            List<string> paths = new List<string>();
+            var paths = new List<string>();
             int star = path.IndexOf("[*]", StringComparison.Ordinal);
             if (star < 0)
             {

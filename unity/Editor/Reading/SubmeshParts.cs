@@ -56,12 +56,12 @@ namespace SuperDeform.Editor
 
         static List<PartData> Cut(RendererData renderer, int[] partOf, int[] same, int[][] triangles)
         {
-            List<PartData> parts = new List<PartData>();
+            var parts = new List<PartData>();
             int[] placeOf = new int[partOf.Length];
             for (int submesh = 0; submesh < triangles.Length; submesh++)
             {
                 if (Find(same, submesh) != submesh) continue;
-                List<int> vertices = new List<int>();
+                var vertices = new List<int>();
                 for (int vertex = 0; vertex < partOf.Length; vertex++)
                 {
                     if (partOf[vertex] != submesh) continue;
@@ -87,7 +87,7 @@ namespace SuperDeform.Editor
 
         static int[] Indices(int[] same, int[][] triangles, int part, int[] placeOf)
         {
-            List<int> indices = new List<int>();
+            var indices = new List<int>();
             for (int submesh = part; submesh < triangles.Length; submesh++)
             {
                 if (Find(same, submesh) != part) continue;

@@ -19,10 +19,7 @@ namespace SuperDeform.Editor.Vrm0
         }
 
         /// <summary>True for VRMSpringBone, VRMSpringBoneColliderGroup and VRMFirstPerson.</summary>
-        public bool Handles(Component copy)
-        {
-            return copy is VRMSpringBone || copy is VRMSpringBoneColliderGroup || copy is VRMFirstPerson;
-        }
+        public bool Handles(Component copy) => copy is VRMSpringBone || copy is VRMSpringBoneColliderGroup || copy is VRMFirstPerson;
 
         /// <summary>Brings one component of the new avatar from the old lengths to the new ones.</summary>
         public void Adapt(Component copy, PointMap map)
@@ -35,7 +32,7 @@ namespace SuperDeform.Editor.Vrm0
         /// <summary>Adds the ends of a spring's bones: the joints of its chains but the first of each, which is the end of none.</summary>
         public void AddSprings(Component copy, Springs springs)
         {
-            var spring = copy as VRMSpringBone;
+            VRMSpringBone spring = copy as VRMSpringBone;
             if (spring == null || spring.ColliderGroups == null) return;
             foreach (Transform joint in JointsOf(spring))
             {

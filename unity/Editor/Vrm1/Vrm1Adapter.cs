@@ -19,10 +19,7 @@ namespace SuperDeform.Editor.Vrm1
         }
 
         /// <summary>True for VRM10SpringBoneJoint, VRM10SpringBoneCollider and Vrm10Instance.</summary>
-        public bool Handles(Component copy)
-        {
-            return copy is VRM10SpringBoneJoint || copy is VRM10SpringBoneCollider || copy is Vrm10Instance;
-        }
+        public bool Handles(Component copy) => copy is VRM10SpringBoneJoint || copy is VRM10SpringBoneCollider || copy is Vrm10Instance;
 
         /// <summary>Brings one component of the new avatar from the old lengths to the new ones.</summary>
         public void Adapt(Component copy, PointMap map)
@@ -36,7 +33,7 @@ namespace SuperDeform.Editor.Vrm1
         /// <summary>Adds the ends of an avatar's spring bones: each joint, with the radius of the one before it.</summary>
         public void AddSprings(Component copy, Springs springs)
         {
-            var instance = copy as Vrm10Instance;
+            Vrm10Instance instance = copy as Vrm10Instance;
             if (instance == null || instance.SpringBone == null) return;
             foreach (Vrm10InstanceSpringBone.Spring spring in instance.SpringBone.Springs)
             {
@@ -109,9 +106,6 @@ namespace SuperDeform.Editor.Vrm1
             instance.Vrm = own;
         }
 
-        static Transform Head(Vrm10Instance instance)
-        {
-            return HumanoidRoles.Of(instance.GetComponent<Animator>())[(int)HumanBodyBones.Head];
-        }
+        static Transform Head(Vrm10Instance instance) => HumanoidRoles.Of(instance.GetComponent<Animator>())[(int)HumanBodyBones.Head];
     }
 }

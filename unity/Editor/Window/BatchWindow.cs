@@ -19,10 +19,10 @@ namespace SuperDeform.Editor
         }
 
         /// <summary>What will be converted.</summary>
-        public IList<GameObject> Avatars { get { return avatars; } }
+        public IList<GameObject> Avatars => avatars;
 
         /// <summary>What the last batch said.</summary>
-        public IList<string> Lines { get { return lines; } }
+        public IList<string> Lines => lines;
 
         /// <summary>Adds avatars that are not yet in the list: objects that show anything.</summary>
         public void Add(IEnumerable<GameObject> candidates)
@@ -82,7 +82,7 @@ namespace SuperDeform.Editor
 
         void OnEnable()
         {
-            titleContent = new GUIContent(Strings.Get("batch.title"));
+            titleContent = WindowTitle.Of("batch.title");
             minSize = new Vector2(360, 240);
         }
 

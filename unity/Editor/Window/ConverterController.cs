@@ -27,7 +27,7 @@ namespace SuperDeform.Editor
         }
 
         /// <summary>What the Scene view shows; null where there is no preview.</summary>
-        public PreviewSession Preview { get { return preview; } }
+        public PreviewSession Preview => preview;
 
         /// <summary>While nobody can see the window there is no preview: the avatar is seen as it is.</summary>
         public bool Resting
@@ -136,9 +136,8 @@ namespace SuperDeform.Editor
             stale = true;
             try
             {
-                bool replace;
                 ConversionSettings settings = model.Settings;
-                if (!MayReplace(ref settings, out replace)) return false;
+                if (!MayReplace(ref settings, out bool replace)) return false;
                 model.SetResult(Converter.Convert(model.Avatar, settings, progress, replace));
                 return true;
             }
@@ -191,7 +190,7 @@ namespace SuperDeform.Editor
         {
             try
             {
-                var preset = AssetDatabase.LoadAssetAtPath<SuperDeformPreset>(path);
+                SuperDeformPreset preset = AssetDatabase.LoadAssetAtPath<SuperDeformPreset>(path);
                 bool isNew = preset == null;
                 if (isNew) preset = ScriptableObject.CreateInstance<SuperDeformPreset>();
                 preset.Settings = model.Settings.Clone();

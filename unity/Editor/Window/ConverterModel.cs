@@ -94,16 +94,16 @@ namespace SuperDeform.Editor
         }
 
         /// <summary>Why the last conversion failed; null where it did not, and after a change.</summary>
-        public Finding Failure { get { return failure; } }
+        public Finding Failure => failure;
 
         /// <summary>Why there is no preview; null where there is one, or none is wanted.</summary>
-        public Finding PreviewFailure { get { return previewFailure; } }
+        public Finding PreviewFailure => previewFailure;
 
         /// <summary>What the preview measured; null before it has.</summary>
-        public PreviewNumbers Numbers { get { return numbers; } }
+        public PreviewNumbers Numbers => numbers;
 
         /// <summary>What the last conversion made; null before.</summary>
-        public ConversionResult Result { get { return result; } }
+        public ConversionResult Result => result;
 
         /// <summary>Whether all is there that a conversion needs.</summary>
         public bool CanConvert
@@ -210,10 +210,7 @@ namespace SuperDeform.Editor
         }
 
         /// <summary>How tall the result is; 1 before there is a preview.</summary>
-        internal float HeightFound
-        {
-            get { return numbers == null ? 1 : (float)numbers.Report.Result.Height; }
-        }
+        internal float HeightFound => numbers == null ? 1 : (float)numbers.Report.Result.Height;
 
         /// <summary>Asks for the conversion.</summary>
         public void Convert()

@@ -8,15 +8,11 @@ namespace SuperDeform.Editor
     /// <summary>The five sections of the converter window, made from its model: which rows there are, and what they do.</summary>
     internal static class ConverterSections
     {
-        internal static List<Section> Of(ConverterModel model)
-        {
-            return new List<Section> { Avatar(model), Style(model), TuningSection.Of(model), Preview(model), Report(model) };
-        }
+        internal static List<Section> Of(ConverterModel model) =>
+            new List<Section> { Avatar(model), Style(model), TuningSection.Of(model), Preview(model), Report(model) };
 
-        internal static Section New(ConverterModel model, SectionId id)
-        {
-            return new Section { Id = id, Title = Strings.Get("section." + id), Open = model.Open[(int)id] };
-        }
+        internal static Section New(ConverterModel model, SectionId id) =>
+            new Section { Id = id, Title = Strings.Get("section." + id), Open = model.Open[(int)id] };
 
         // ---- Avatar: which one, and whether it can be converted -----------------------------------------------------
 
@@ -284,7 +280,7 @@ namespace SuperDeform.Editor
         // Warnings as they are; what is good to know, and wants nothing done, folded below their number.
         static void AddNotes(ConverterModel model, Section section, List<Finding> findings)
         {
-            List<CheckRow> notes = new List<CheckRow>();
+            var notes = new List<CheckRow>();
             foreach (Finding finding in findings)
             {
                 CheckRow said = Check(model, finding);
@@ -331,15 +327,11 @@ namespace SuperDeform.Editor
             return true;
         }
 
-        static string Missing(ConverterModel model)
-        {
-            return model.Avatar == null ? "report.no_avatar" : model.HasStyle ? "report.not_ready" : "report.no_style";
-        }
+        static string Missing(ConverterModel model) =>
+            model.Avatar == null ? "report.no_avatar" : model.HasStyle ? "report.not_ready" : "report.no_style";
 
-        static string Heads(PreviewNumbers numbers)
-        {
-            return Strings.Get("report.heads", OneDigit(numbers.Report.Target.Heads), OneDigit(numbers.Report.Result.Heads));
-        }
+        static string Heads(PreviewNumbers numbers) =>
+            Strings.Get("report.heads", OneDigit(numbers.Report.Target.Heads), OneDigit(numbers.Report.Result.Heads));
 
         static TableRow Groups(PreviewNumbers numbers)
         {
@@ -363,30 +355,15 @@ namespace SuperDeform.Editor
 
         // ---- Small things -------------------------------------------------------------------------------------------
 
-        internal static string[] Words(params string[] keys)
-        {
-            return Array.ConvertAll(keys, key => Strings.Get(key));
-        }
+        internal static string[] Words(params string[] keys) => Array.ConvertAll(keys, key => Strings.Get(key));
 
-        static string Short(double value)
-        {
-            return value.ToString("0.##", CultureInfo.InvariantCulture);
-        }
+        static string Short(double value) => value.ToString("0.##", CultureInfo.InvariantCulture);
 
-        static string TwoDigits(double value)
-        {
-            return value.ToString("0.00", CultureInfo.InvariantCulture);
-        }
+        static string TwoDigits(double value) => value.ToString("0.00", CultureInfo.InvariantCulture);
 
-        static string OneDigit(double value)
-        {
-            return value.ToString("0.0", CultureInfo.InvariantCulture);
-        }
+        static string OneDigit(double value) => value.ToString("0.0", CultureInfo.InvariantCulture);
 
-        static string Percent(double value)
-        {
-            return double.IsNaN(value) ? "" : (100 * value).ToString("0", CultureInfo.InvariantCulture) + " %";
-        }
+        static string Percent(double value) => double.IsNaN(value) ? "" : (100 * value).ToString("0", CultureInfo.InvariantCulture) + " %";
 
         // An option of the library that is one of some words.
         internal static PopupRow Popup(string option, Type words, Func<int> get, Action<int> set)
@@ -399,10 +376,8 @@ namespace SuperDeform.Editor
             };
         }
 
-        internal static SliderRow Slider(string key, OptionRange range, Func<float> get, Action<double> set)
-        {
-            return Slider(key, (float)range.Low, (float)range.High, get, set);
-        }
+        internal static SliderRow Slider(string key, OptionRange range, Func<float> get, Action<double> set) =>
+            Slider(key, (float)range.Low, (float)range.High, get, set);
 
         internal static SliderRow Slider(string key, float low, float high, Func<float> get, Action<double> set)
         {

@@ -27,22 +27,19 @@ namespace SuperDeform.Editor
         }
 
         /// <summary>The settings of the open window, else those that it was closed with: what commands without a window work by.</summary>
-        public static ConversionSettings LastSettings()
-        {
-            return open == null ? SuperDeform.Editor.LastSettings.Read() : open.model.Settings.Clone();
-        }
+        public static ConversionSettings LastSettings() => open == null ? SuperDeform.Editor.LastSettings.Read() : open.model.Settings.Clone();
 
-        public ConverterModel Model { get { return model; } }
+        public ConverterModel Model => model;
 
         /// <summary>What happens behind the window; null while it is closed.</summary>
-        public ConverterController Controller { get { return controller; } }
+        public ConverterController Controller => controller;
 
         void OnEnable()
         {
             open = this;
             if (!opened) model.Settings = SuperDeform.Editor.LastSettings.Read();
             opened = true;
-            titleContent = new GUIContent(Strings.Get("window.title"));
+            titleContent = WindowTitle.Of("window.title");
             minSize = new Vector2(360, 300);
             Connect();
             EditorApplication.update += Tick;

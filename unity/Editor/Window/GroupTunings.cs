@@ -33,10 +33,7 @@ namespace SuperDeform.Editor
         };
 
         /// <summary>A person's own settings of a group, to be read; all NaN where there are none.</summary>
-        public static GroupSettings Of(ConversionSettings settings, string group)
-        {
-            return Find(settings, group) ?? new GroupSettings { Group = group };
-        }
+        public static GroupSettings Of(ConversionSettings settings, string group) => Find(settings, group) ?? new GroupSettings { Group = group };
 
         /// <summary>Changes a person's own settings of a group; those that set nothing go.</summary>
         public static void Change(ConversionSettings settings, string group, Action<GroupSettings> change)
@@ -58,14 +55,8 @@ namespace SuperDeform.Editor
         }
 
         /// <summary>How many groups are tuned.</summary>
-        public static int Count(ConversionSettings settings)
-        {
-            return settings.Options.Groups.FindAll(tuned => !tuned.IsEmpty).Count;
-        }
+        public static int Count(ConversionSettings settings) => settings.Options.Groups.FindAll(tuned => !tuned.IsEmpty).Count;
 
-        static GroupSettings Find(ConversionSettings settings, string group)
-        {
-            return settings.Options.Groups.Find(tuned => tuned.Group == group);
-        }
+        static GroupSettings Find(ConversionSettings settings, string group) => settings.Options.Groups.Find(tuned => tuned.Group == group);
     }
 }

@@ -13,10 +13,7 @@ namespace SuperDeform.Editor
     {
         const string Reference = "ReferenceAvatar", Style = "SavedStyle";
 
-        static string File
-        {
-            get { return Path.Combine(Path.GetDirectoryName(Application.dataPath), "UserSettings/SuperDeform.txt"); }
-        }
+        static string File => Path.Combine(Path.GetDirectoryName(Application.dataPath), "UserSettings/SuperDeform.txt");
 
         /// <summary>The usual ones where there are none yet, or they cannot be read.</summary>
         internal static ConversionSettings Read()

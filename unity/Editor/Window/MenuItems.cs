@@ -65,21 +65,12 @@ namespace SuperDeform.Editor
         }
 
         [MenuItem(SetUp, true)]
-        public static bool CanSetUpSelected()
-        {
-            return CanConvertSelected();
-        }
+        public static bool CanSetUpSelected() => CanConvertSelected();
 
         /// <summary>Whether the command is for what is selected: one object with a humanoid Animator.</summary>
         [MenuItem(Convert, true)]
-        public static bool CanConvertSelected()
-        {
-            return Selection.gameObjects.Length == 1 && IsHumanoid(Selection.activeGameObject);
-        }
+        public static bool CanConvertSelected() => Selection.gameObjects.Length == 1 && IsHumanoid(Selection.activeGameObject);
 
-        internal static bool IsHumanoid(GameObject candidate)
-        {
-            return candidate != null && HumanoidRoles.IsHumanoid(candidate.GetComponent<Animator>());
-        }
+        internal static bool IsHumanoid(GameObject candidate) => candidate != null && HumanoidRoles.IsHumanoid(candidate.GetComponent<Animator>());
     }
 }

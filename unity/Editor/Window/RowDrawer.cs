@@ -119,10 +119,8 @@ namespace SuperDeform.Editor
         // Margins, the scroll bar and the indent of a section.
         const float Aside = 48;
 
-        internal static bool IsNarrow(int columns)
-        {
-            return (EditorGUIUtility.currentViewWidth - GroupLabel - ResetWidth - Aside) / columns < LeastSlider + 4;
-        }
+        internal static bool IsNarrow(int columns) =>
+            (EditorGUIUtility.currentViewWidth - GroupLabel - ResetWidth - Aside) / columns < LeastSlider + 4;
 
         static void Group(GroupRow row, GUIContent label)
         {

@@ -94,10 +94,7 @@ namespace SuperDeform.Editor
         public SliderRow[] Sliders;
 
         /// <summary>Whether a person has set any of them.</summary>
-        public bool IsOwn
-        {
-            get { return Array.Exists(Sliders, slider => slider != null && slider.IsOwn()); }
-        }
+        public bool IsOwn => Array.Exists(Sliders, slider => slider != null && slider.IsOwn());
 
         /// <summary>Takes back what a person has set.</summary>
         public void Reset()

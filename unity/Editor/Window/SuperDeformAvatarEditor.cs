@@ -23,11 +23,11 @@ namespace SuperDeform.Editor
         ConverterModel model;
         ConverterController controller;
 
-        SuperDeformAvatar Component { get { return (SuperDeformAvatar)target; } }
+        SuperDeformAvatar Component => (SuperDeformAvatar)target;
 
-        internal ConverterModel Model { get { return model; } }
+        internal ConverterModel Model => model;
 
-        internal ConverterController Controller { get { return controller; } }
+        internal ConverterController Controller => controller;
 
         void OnEnable()
         {

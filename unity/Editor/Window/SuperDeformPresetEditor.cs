@@ -9,9 +9,9 @@ namespace SuperDeform.Editor
     {
         ConverterModel model;
 
-        SuperDeformPreset Preset { get { return (SuperDeformPreset)target; } }
+        SuperDeformPreset Preset => (SuperDeformPreset)target;
 
-        internal ConverterModel Model { get { return model; } }
+        internal ConverterModel Model => model;
 
         void OnEnable()
         {

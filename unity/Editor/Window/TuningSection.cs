@@ -82,20 +82,18 @@ namespace SuperDeform.Editor
         /// <summary>All sliders but those of bone groups, folded or not.</summary>
         static List<SliderRow> Settings(ConverterModel model)
         {
-            List<Row> rows = new List<Row> { HeadSize(model), Youth(model) };
+            var rows = new List<Row> { HeadSize(model), Youth(model) };
             Array.ForEach(parts, part => rows.AddRange(part.Rows(model)));
             return rows.FindAll(row => row is SliderRow).ConvertAll(row => (SliderRow)row);
         }
 
-        static SliderRow Youth(ConverterModel model)
-        {
-            return Number(model, "option.youth", OptionRange.Youth, options => options.Youth, (options, value) => options.Youth = value, 1, "undo.face");
-        }
+        static SliderRow Youth(ConverterModel model) =>
+            Number(model, "option.youth", OptionRange.Youth, options => options.Youth, (options, value) => options.Youth = value, 1, "undo.face");
 
         static List<Row> Body(ConverterModel model)
         {
             Options options = model.Settings.Options;
-            List<Row> rows = new List<Row>
+            var rows = new List<Row>
             {
                 Number(model, "option.amount", OptionRange.Amount, o => o.Amount, (o, value) => o.Amount = value),
                 Number(model, "option.profile", OptionRange.Profile, o => o.Profile, (o, value) => o.Profile = value)
@@ -163,7 +161,7 @@ namespace SuperDeform.Editor
         static List<Row> Face(ConverterModel model)
         {
             Options options = model.Settings.Options;
-            List<Row> rows = new List<Row>();
+            var rows = new List<Row>();
             Action<string, OptionRange, Func<Options, double>, Action<Options, double>> add =
                 (name, range, get, set) => rows.Add(Number(model, "option." + name, range, get, set, 1, "undo.face"));
             add("youth_eye", OptionRange.YouthEye, o => o.YouthEye, (o, value) => o.YouthEye = value);

@@ -31,10 +31,7 @@ namespace SuperDeform.Editor
             }
         }
 
-        public IList<IMovableClip> Clips
-        {
-            get { return clips.ConvertAll(clip => (IMovableClip)clip); }
-        }
+        public IList<IMovableClip> Clips => clips.ConvertAll(clip => (IMovableClip)clip);
 
         public void Finish(PointMap map, ClipMap written, List<Finding> findings)
         {
@@ -55,8 +52,8 @@ namespace SuperDeform.Editor
         {
             AnimatorOverrideController old = given as AnimatorOverrideController;
             RuntimeAnimatorController plain = old == null ? given : old.runtimeAnimatorController;
-            AnimatorOverrideController made = new AnimatorOverrideController(plain) { name = given.name };
-            List<KeyValuePair<AnimationClip, AnimationClip>> pairs = new List<KeyValuePair<AnimationClip, AnimationClip>>();
+            var made = new AnimatorOverrideController(plain) { name = given.name };
+            var pairs = new List<KeyValuePair<AnimationClip, AnimationClip>>();
             (old != null ? old : made).GetOverrides(pairs);
             for (int pair = 0; pair < pairs.Count; pair++)
             {
@@ -71,7 +68,7 @@ namespace SuperDeform.Editor
         /// <summary>Names the clips that other components play: only who wrote those knows how.</summary>
         void ReportLeft(ClipMap written, List<Finding> findings)
         {
-            HashSet<AnimationClip> said = new HashSet<AnimationClip>();
+            var said = new HashSet<AnimationClip>();
             foreach (Component component in avatar.GetComponentsInChildren<Component>(true))
             {
                 if (component == null || component is Animator || component is Transform) continue;
@@ -85,8 +82,8 @@ namespace SuperDeform.Editor
 
         static IEnumerable<AnimationClip> PlayedBy(Component component)
         {
-            List<AnimationClip> played = new List<AnimationClip>();
-            using (SerializedObject serialized = new SerializedObject(component))
+            var played = new List<AnimationClip>();
+            using (var serialized = new SerializedObject(component))
             {
                 PropertyWalk.Each(serialized, property => true, property =>
                 {
@@ -114,20 +111,11 @@ namespace SuperDeform.Editor
 
             internal AnimationClip Copy { get; private set; }
 
-            public string Name
-            {
-                get { return Original.name; }
-            }
+            public string Name => Original.name;
 
-            public IEnumerable<EditorCurveBinding> Curves
-            {
-                get { return AnimationUtility.GetCurveBindings(Original); }
-            }
+            public IEnumerable<EditorCurveBinding> Curves => AnimationUtility.GetCurveBindings(Original);
 
-            public AnimationCurve Get(EditorCurveBinding binding)
-            {
-                return AnimationUtility.GetEditorCurve(Original, binding);
-            }
+            public AnimationCurve Get(EditorCurveBinding binding) => AnimationUtility.GetEditorCurve(Original, binding);
 
             public void Set(EditorCurveBinding binding, AnimationCurve curve)
             {
@@ -139,10 +127,7 @@ namespace SuperDeform.Editor
                 AnimationUtility.SetEditorCurve(Copy, binding, curve);
             }
 
-            public Transform Find(string path)
-            {
-                return path.Length == 0 ? Player.transform : Player.transform.Find(path);
-            }
+            public Transform Find(string path) => path.Length == 0 ? Player.transform : Player.transform.Find(path);
         }
     }
 }

@@ -50,7 +50,7 @@ namespace SuperDeform.Editor
             {
                 Renderers.Add(new RendererResult(renderer));
             }
-            List<MeshOutput> ordered = new List<MeshOutput>();
+            var ordered = new List<MeshOutput>();
             foreach (RendererResult renderer in Renderers)
             {
                 ordered.AddRange(renderer.Parts.ConvertAll(part => part.Output));
@@ -126,7 +126,7 @@ namespace SuperDeform.Editor
         /// </summary>
         Affine PetHolder(int joint)
         {
-            Affine scale = new Affine { M00 = HeightRatio, M11 = HeightRatio, M22 = HeightRatio };
+            var scale = new Affine { M00 = HeightRatio, M11 = HeightRatio, M22 = HeightRatio };
             Double3 old = Source.Rest[joint].Position;
             bool carried = Source.MergedParents[joint] >= 0;
             Double3 place = carried
@@ -136,10 +136,7 @@ namespace SuperDeform.Editor
         }
 
         /// <summary>By how much a joint's transform grows: a pet's holder with the avatar, no other.</summary>
-        internal float LocalScale(int joint)
-        {
-            return Source.Rigged && Source.PetOf[joint] == joint ? (float)HeightRatio : 1;
-        }
+        internal float LocalScale(int joint) => Source.Rigged && Source.PetOf[joint] == joint ? (float)HeightRatio : 1;
 
         /// <summary>How far a joint moves in its parent's space; 0 where that cannot be told.</summary>
         Double3 Shift(int joint)

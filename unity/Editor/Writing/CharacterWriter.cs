@@ -21,7 +21,7 @@ namespace SuperDeform.Editor
         {
             RemoveMissingScripts(copy, source, findings);
             List<RendererResult> renderers = result.Renderers.FindAll(renderer => !renderer.Source.Rides);
-            Dictionary<RendererResult, Mesh> made = new Dictionary<RendererResult, Mesh>();
+            var made = new Dictionary<RendererResult, Mesh>();
             int shapes = 0, done = 0;
             renderers.ForEach(renderer => shapes += renderer.Source.Frames.Count);
             foreach (RendererResult renderer in renderers)
@@ -36,7 +36,7 @@ namespace SuperDeform.Editor
                 done += renderer.Source.Frames.Count;
                 map.Remember(renderer.Source.Renderer, mesh);
             }
-            ClipMap written = new ClipMap(source, result, map);
+            var written = new ClipMap(source, result, map);
             written.Remember(clips.Clips);
             // Before any mesh changes hands: adapters may ask for the old one.
             Adapt(copy, map, findings);
@@ -109,14 +109,13 @@ namespace SuperDeform.Editor
 
         static void Adapt(GameObject copy, PointMap map, List<Finding> findings)
         {
-            List<Component> left = new List<Component>();
+            var left = new List<Component>();
             // Null where a script is missing.
             Component[] components = Array.FindAll(copy.GetComponentsInChildren<Component>(true), component => component != null);
             // Before any adapter changes a radius.
             foreach (Component component in components)
             {
-                ISpringAdapter adapter = ComponentAdapters.For(component) as ISpringAdapter;
-                if (adapter != null) Try(component, findings, () => adapter.AddSprings(component, map.Colliders.Springs));
+                if (ComponentAdapters.For(component) is ISpringAdapter adapter) Try(component, findings, () => adapter.AddSprings(component, map.Colliders.Springs));
             }
             foreach (Component component in components)
             {

@@ -9,19 +9,31 @@ namespace SuperDeform.Editor
     /// Rewrites what animation clips say in lengths: the places of transforms, and numbers of components that change with the body.
     /// </summary>
     /// <remarks>
-    /// How far a key lies from the rest is scaled, and the rest is the new one: by the hips' height for the hips and for what does not
-    /// hang from them, such as a root that travels; by the body around it for what moves within the body, such as a jaw.
+    /// How far a key lies from the rest is scaled, and the rest is the new one: by the legs' length for the hips, for what does not
+    /// hang from them, such as a root that travels, and for legs; by the body around it for what moves within the body, such as a jaw.
+    /// So does the command line, which turns hips, knees and ankles besides where soles would leave the floor: in Unity that is the
+    /// work of foot IK.
     /// </remarks>
     internal sealed class ClipMap
     {
-        // Hips lower than this share of the height tell nothing of a step's length.
-        const double LeastHips = 1e-3;
+        // Legs shorter, or hips lower, than this share of the height tell nothing of a step's length.
+        const double Least = 1e-3;
+
+        static readonly HumanBodyBones[][] Legs =
+        {
+            new[] { HumanBodyBones.LeftUpperLeg, HumanBodyBones.LeftLowerLeg, HumanBodyBones.LeftFoot },
+            new[] { HumanBodyBones.RightUpperLeg, HumanBodyBones.RightLowerLeg, HumanBodyBones.RightFoot }
+        };
 
         readonly AvatarData source;
         readonly AvatarResult result;
         readonly PointMap map;
+        readonly int[] roles;
+
+        // What carries hips and legs; -1: nothing is known to.
         readonly int hips;
-        readonly double hipRatio;
+        readonly bool[] ofLeg;
+        readonly double stride;
 
         /// <summary>By component of the copy and name of a number: what it was.</summary>
         readonly Dictionary<KeyValuePair<Component, string>, float> before = new Dictionary<KeyValuePair<Component, string>, float>();
@@ -31,14 +43,72 @@ namespace SuperDeform.Editor
             this.source = source;
             this.result = result;
             this.map = map;
-            hips = source.Rigged ? Array.IndexOf(source.Character.GetJoints().Roles, HumanoidRole.Hips) : -1;
-            hipRatio = hips < 0 || hips >= source.Joints.Length ? result.HeightRatio : HipRatio();
+            roles = Roles(source);
+            ofLeg = new bool[source.Joints.Length];
+            foreach (HumanBodyBones[] leg in Legs)
+            {
+                foreach (HumanBodyBones part in leg)
+                {
+                    for (int joint = roles[(int)part]; joint >= 0; joint = source.Parents[joint])
+                    {
+                        ofLeg[joint] = true;
+                    }
+                }
+            }
+            hips = roles[(int)HumanBodyBones.Hips];
+            for (int joint = hips; joint >= 0; joint = source.Parents[joint])
+            {
+                if (!Array.TrueForAll(Legs, leg => roles[(int)leg[0]] < 0 || IsBelow(roles[(int)leg[0]], joint))) continue;
+                hips = joint;
+                break;
+            }
+            stride = Stride();
         }
 
-        double HipRatio()
+        /// <summary>By HumanBodyBones: the joint that the library knows as that; -1: none.</summary>
+        static int[] Roles(AvatarData source)
         {
-            double old = source.Rest[hips].Position.Y - result.OldLow, now = result.Rest[hips].Position.Y - result.NewLow;
-            return old > LeastHips * result.OldHeight && now > 0 ? now / old : result.HeightRatio;
+            int[] roles = new int[HumanoidRoles.Count];
+            HumanoidRole[] known = source.Rigged ? source.Character.GetJoints().Roles : new HumanoidRole[0];
+            for (int role = 0; role < roles.Length; role++)
+            {
+                int joint = Array.IndexOf(known, (HumanoidRole)role);
+                roles[role] = joint < source.Joints.Length ? joint : -1;
+            }
+            return roles;
+        }
+
+        /// <summary>New over old length of the legs; of the hips' height where there are no two whole legs, of the avatar's without hips.</summary>
+        double Stride()
+        {
+            double old = LegLength(source.Rest), now = LegLength(result.Rest);
+            if (!(old > 0) && hips >= 0)
+            {
+                old = source.Rest[hips].Position.Y - result.OldLow;
+                now = result.Rest[hips].Position.Y - result.NewLow;
+            }
+            return old > Least * result.OldHeight && now > 0 ? now / old : result.HeightRatio;
+        }
+
+        double LegLength(Affine[] rest)
+        {
+            double length = 0;
+            foreach (HumanBodyBones[] leg in Legs)
+            {
+                int[] joints = Array.ConvertAll(leg, part => roles[(int)part]);
+                if (Array.IndexOf(joints, -1) >= 0) return 0;
+                length += (rest[joints[0]].Position - rest[joints[1]].Position).Length + (rest[joints[1]].Position - rest[joints[2]].Position).Length;
+            }
+            return length / Legs.Length;
+        }
+
+        bool IsBelow(int joint, int above)
+        {
+            for (; joint >= 0; joint = source.MergedParents[joint])
+            {
+                if (joint == above) return true;
+            }
+            return false;
         }
 
         /// <summary>Remembers the numbers of components that clips set, before they change.</summary>
@@ -50,7 +120,7 @@ namespace SuperDeform.Editor
                 {
                     Component component = ComponentOf(clip, curve);
                     if (component == null) continue;
-                    using (SerializedObject serialized = new SerializedObject(component))
+                    using (var serialized = new SerializedObject(component))
                     {
                         SerializedProperty number = NumberOf(serialized, curve);
                         if (number != null) before[new KeyValuePair<Component, string>(component, curve.propertyName)] = number.floatValue;
@@ -79,8 +149,7 @@ namespace SuperDeform.Editor
             int written = 0;
             foreach (EditorCurveBinding curve in new List<EditorCurveBinding>(clip.Curves))
             {
-                double factor, shift;
-                if (!Change(clip, curve, out factor, out shift)) continue;
+                if (!Change(clip, curve, out double factor, out double shift)) continue;
                 AnimationCurve keys = clip.Get(curve);
                 if (keys == null) continue;
                 clip.Set(curve, Changed(keys, (float)factor, (float)shift));
@@ -94,8 +163,7 @@ namespace SuperDeform.Editor
         {
             foreach (EditorCurveBinding curve in clip.Curves)
             {
-                double factor, shift;
-                if (Change(clip, curve, out factor, out shift)) return true;
+                if (Change(clip, curve, out double factor, out double shift)) return true;
             }
             return false;
         }
@@ -119,34 +187,25 @@ namespace SuperDeform.Editor
             int joint = source.IndexOf(map.Source(transform));
             if (joint < 0)
             {
-                if (map.Source(transform) == source.Root.transform) factor = hipRatio;
+                if (map.Source(transform) == source.Root.transform) factor = stride;
                 return;
             }
             bool inPet = source.PetOf[joint] >= 0 && source.PetOf[joint] != joint;
             if (inPet) return;
-            factor = BelowHips(joint) ? map.Scale(source.Joints[joint], new Vector3(0, 0, 0)) : hipRatio;
+            int body = source.Twins[joint];
+            bool within = hips >= 0 && body != hips && IsBelow(body, hips) && !ofLeg[body];
+            factor = within ? map.Scale(source.Joints[joint], new Vector3(0, 0, 0)) : stride;
             int parent = source.Parents[joint];
             Double3 rest = source.Rest[joint].Position;
             if (parent >= 0) rest = source.Rest[parent].Inverse.Point(rest);
             shift = result.LocalShifts[joint][axis] + rest.ToVector3()[axis] * (1 - factor);
         }
 
-        bool BelowHips(int joint)
-        {
-            if (source.Twins[joint] == hips) return false;
-            for (int above = source.MergedParents[joint]; above >= 0; above = source.MergedParents[above])
-            {
-                if (above == hips) return true;
-            }
-            return false;
-        }
-
         void OfNumber(IMovableClip clip, EditorCurveBinding curve, bool ofPoint, ref double factor, ref double shift)
         {
             Component component = ComponentOf(clip, curve);
-            float old;
-            if (component == null || !before.TryGetValue(new KeyValuePair<Component, string>(component, curve.propertyName), out old)) return;
-            using (SerializedObject serialized = new SerializedObject(component))
+            if (component == null || !before.TryGetValue(new KeyValuePair<Component, string>(component, curve.propertyName), out float old)) return;
+            using (var serialized = new SerializedObject(component))
             {
                 float now = NumberOf(serialized, curve).floatValue;
                 if (now == old) return;

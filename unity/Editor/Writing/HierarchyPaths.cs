@@ -22,7 +22,7 @@ namespace SuperDeform.Editor
         void Add(string path, Transform transform)
         {
             Name(path, transform.gameObject);
-            Dictionary<string, int> counts = new Dictionary<string, int>();
+            var counts = new Dictionary<string, int>();
             foreach (Component component in transform.GetComponents<Component>())
             {
                 // Null where a script is missing.
@@ -38,8 +38,7 @@ namespace SuperDeform.Editor
 
         static string Numbered(Dictionary<string, int> counts, string name)
         {
-            int count;
-            counts.TryGetValue(name, out count);
+            counts.TryGetValue(name, out int count);
             counts[name] = count + 1;
             return name + "#" + count;
         }
@@ -50,24 +49,13 @@ namespace SuperDeform.Editor
             byObject[thing] = name;
         }
 
-        internal IEnumerable<KeyValuePair<string, Object>> All
-        {
-            get { return byName; }
-        }
+        internal IEnumerable<KeyValuePair<string, Object>> All => byName;
 
         /// <summary>The object or component of a name; null where there is none.</summary>
-        internal Object Find(string name)
-        {
-            Object found;
-            return name != null && byName.TryGetValue(name, out found) ? found : null;
-        }
+        internal Object Find(string name) => name != null && byName.TryGetValue(name, out Object found) ? found : null;
 
         /// <summary>The name of an object or component; null for what is not of the hierarchy.</summary>
-        internal string NameOf(Object thing)
-        {
-            string name;
-            return thing != null && byObject.TryGetValue(thing, out name) ? name : null;
-        }
+        internal string NameOf(Object thing) => thing != null && byObject.TryGetValue(thing, out string name) ? name : null;
 
         /// <summary>Puts others in the place of objects that a thing refers to.</summary>
         /// <param name="other">What to refer to instead; null leaves the reference as it is.</param>
@@ -75,7 +63,7 @@ namespace SuperDeform.Editor
         {
             // Where a transform hangs is no reference of its own, and it has no others.
             if (thing is Transform || thing is GameObject) return;
-            using (SerializedObject properties = new SerializedObject(thing))
+            using (var properties = new SerializedObject(thing))
             {
                 PropertyWalk.Each(properties, property => property.propertyPath != "m_GameObject" && property.propertyPath != "m_Script", property =>
                 {

@@ -18,12 +18,12 @@ namespace SuperDeform.Editor
             if (!HumanoidRoles.IsHumanoid(source.Animator)) return;
             HumanDescription description = source.Animator.avatar.humanDescription;
             List<int> joints = BodyJoints(source);
-            List<AvatarNode> nodes = new List<AvatarNode>();
+            var nodes = new List<AvatarNode>();
             foreach (int joint in joints)
             {
                 nodes.Add(Node(joint, joints, source, result, description));
             }
-            HashSet<string> names = new HashSet<string>(nodes.ConvertAll(node => node.Name));
+            var names = new HashSet<string>(nodes.ConvertAll(node => node.Name));
             HumanBone[] human = Array.FindAll(description.human ?? new HumanBone[0], bone => names.Contains(bone.boneName));
             description.human = human.Length > 0 ? human : Human(source.Roles, joint => source.Joints[joint].name);
             Animator animator = map.CopyOf(source.Animator.transform).GetComponent<Animator>();
@@ -46,7 +46,7 @@ namespace SuperDeform.Editor
         /// </summary>
         static List<int> BodyJoints(AvatarData source)
         {
-            SortedDictionary<int, bool> joints = new SortedDictionary<int, bool>();
+            var joints = new SortedDictionary<int, bool>();
             foreach (int role in source.Roles)
             {
                 for (int joint = role; joint >= 0 && source.Joints[joint] != source.Animator.transform; joint = source.Parents[joint])
@@ -63,7 +63,7 @@ namespace SuperDeform.Editor
         {
             Transform transform = source.Joints[joint];
             Vector3 shift = result.LocalShifts[joint];
-            AvatarNode node = new AvatarNode
+            var node = new AvatarNode
             {
                 Name = transform.name,
                 Parent = joints.IndexOf(source.Parents[joint]),
@@ -85,7 +85,7 @@ namespace SuperDeform.Editor
         /// <summary>The roles as Unity's list of human bones.</summary>
         internal static HumanBone[] Human(int[] roles, Func<int, string> nameOf)
         {
-            List<HumanBone> human = new List<HumanBone>();
+            var human = new List<HumanBone>();
             for (int role = 0; role < roles.Length; role++)
             {
                 if (roles[role] < 0) continue;
@@ -104,7 +104,7 @@ namespace SuperDeform.Editor
         /// <exception cref="ConversionException">Unity refuses it.</exception>
         internal static Avatar Build(string rootName, List<AvatarNode> nodes, HumanDescription description, AvatarData source)
         {
-            List<SkeletonBone> skeleton = new List<SkeletonBone>
+            var skeleton = new List<SkeletonBone>
             {
                 new SkeletonBone { name = rootName, position = new Vector3(0, 0, 0), rotation = Quaternion.identity, scale = new Vector3(1, 1, 1) }
             };
@@ -112,7 +112,7 @@ namespace SuperDeform.Editor
             GameObject body = EditorUtility.CreateGameObjectWithHideFlags(rootName, HideFlags.HideAndDontSave);
             try
             {
-                List<Transform> transforms = new List<Transform>();
+                var transforms = new List<Transform>();
                 foreach (AvatarNode node in nodes)
                 {
                     Transform transform = EditorUtility.CreateGameObjectWithHideFlags(node.Name, HideFlags.HideAndDontSave).transform;

@@ -13,24 +13,21 @@ namespace SuperDeform.Editor
         /// <param name="changes">A person's changes that were brought over; null: none.</param>
         internal static void Keep(SuperDeformPreset container, HierarchyPaths paths, GameObject copy, string prefabPath, PersonsChanges changes)
         {
-            Dictionary<Object, Object> saved = new Dictionary<Object, Object>();
+            var saved = new Dictionary<Object, Object>();
             Pair(copy.transform, AssetDatabase.LoadAssetAtPath<GameObject>(prefabPath).transform, saved);
-            Dictionary<Object, string> savedPaths = new Dictionary<Object, string>();
+            var savedPaths = new Dictionary<Object, string>();
             foreach (KeyValuePair<string, Object> thing in paths.All)
             {
-                Object there;
-                if (thing.Value != null && saved.TryGetValue(thing.Value, out there)) savedPaths[there] = thing.Key;
+                if (thing.Value != null && saved.TryGetValue(thing.Value, out Object there)) savedPaths[there] = thing.Key;
             }
             System.Func<Object, string> pathOf = thing =>
             {
-                string path;
-                return savedPaths.TryGetValue(thing, out path) ? path : null;
+                return savedPaths.TryGetValue(thing, out string path) ? path : null;
             };
             container.Made.Clear();
             foreach (KeyValuePair<string, Object> thing in paths.All)
             {
-                Object there;
-                if (thing.Value != null && saved.TryGetValue(thing.Value, out there))
+                if (thing.Value != null && saved.TryGetValue(thing.Value, out Object there))
                 {
                     MadeThing made = MadeThing.Of(there, thing.Key, pathOf, changes == null ? null : changes.MadeValues(thing.Key));
                     made.Number = MadeThing.NumberOf(there);

@@ -30,15 +30,10 @@ namespace SuperDeform.Editor
             AddAvatar(copy, map, source, joints, roles, result.JointPositions);
         }
 
-        static string NameOf(HumanoidRole[] roles, int joint)
-        {
-            return roles[joint] == HumanoidRole.None ? "Bone" + joint : roles[joint].ToString();
-        }
+        static string NameOf(HumanoidRole[] roles, int joint) => roles[joint] == HumanoidRole.None ? "Bone" + joint : roles[joint].ToString();
 
-        internal static Double3 Place(double[] positions, int joint)
-        {
-            return new Double3(positions[3 * joint], positions[3 * joint + 1], positions[3 * joint + 2]);
-        }
+        internal static Double3 Place(double[] positions, int joint) =>
+            new Double3(positions[3 * joint], positions[3 * joint + 1], positions[3 * joint + 2]);
 
         /// <summary>Where a joint is in its parent's space; made joints neither turn nor scale.</summary>
         static Vector3 Local(Joints joints, double[] positions, int joint)
@@ -111,7 +106,7 @@ namespace SuperDeform.Editor
             skinned.bones = bones;
             skinned.rootBone = bones[hips];
             Box box = Box.Around(renderer.Positions, Affine.Translation(Place(positions, hips) * -1) * renderer.Source.Placement);
-            Bounds bounds = new Bounds();
+            var bounds = new Bounds();
             bounds.SetMinMax(box.Low.ToVector3(), box.High.ToVector3());
             skinned.localBounds = bounds;
         }
@@ -146,11 +141,11 @@ namespace SuperDeform.Editor
             {
                 jointOf[role] = Array.IndexOf(roles, (HumanoidRole)role);
             }
-            List<AvatarNode> nodes = new List<AvatarNode>
+            var nodes = new List<AvatarNode>
             {
                 new AvatarNode { Name = Holder, Parent = -1, Rotation = Quaternion.identity, Scale = new Vector3(1, 1, 1) }
             };
-            Dictionary<int, int> nodeOf = new Dictionary<int, int>();
+            var nodeOf = new Dictionary<int, int>();
             Quaternion[] turns = Straightening.Turns(joints.Parents, jointOf, positions);
             foreach (int joint in Straightening.ParentsFirst(joints.Parents))
             {
@@ -165,7 +160,7 @@ namespace SuperDeform.Editor
                     Scale = new Vector3(1, 1, 1)
                 });
             }
-            HumanDescription description = new HumanDescription
+            var description = new HumanDescription
             {
                 human = HumanoidAvatar.Human(jointOf, joint => NameOf(roles, joint)),
                 upperArmTwist = 0.5f,

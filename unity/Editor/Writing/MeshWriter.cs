@@ -51,14 +51,12 @@ namespace SuperDeform.Editor
             Double3 min = Double3.Of(old.min), max = Double3.Of(old.max);
             Double3 low = result.NewBox.Low - Margin(result.OldBox.Low - min) * ratio;
             Double3 high = result.NewBox.High + Margin(max - result.OldBox.High) * ratio;
-            Bounds bounds = new Bounds();
+            var bounds = new Bounds();
             bounds.SetMinMax(low.ToVector3(), high.ToVector3());
             return bounds;
         }
 
-        static Double3 Margin(Double3 margin)
-        {
-            return new Double3(System.Math.Max(0, margin.X), System.Math.Max(0, margin.Y), System.Math.Max(0, margin.Z));
-        }
+        static Double3 Margin(Double3 margin) =>
+            new Double3(System.Math.Max(0, margin.X), System.Math.Max(0, margin.Y), System.Math.Max(0, margin.Z));
     }
 }

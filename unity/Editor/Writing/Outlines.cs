@@ -26,7 +26,7 @@ namespace SuperDeform.Editor
         internal static void Scale(GameObject copy, PointMap map, List<Finding> findings)
         {
             if (map.HeightRatio == 1f) return;
-            Dictionary<Material, Material> scaled = new Dictionary<Material, Material>();
+            var scaled = new Dictionary<Material, Material>();
             foreach (Renderer renderer in copy.GetComponentsInChildren<Renderer>(true))
             {
                 Material[] materials = renderer.sharedMaterials;
@@ -45,8 +45,7 @@ namespace SuperDeform.Editor
         /// <summary>A copy with other widths; the material itself where it has none.</summary>
         static Material Scaled(Material material, Dictionary<Material, Material> scaled, PointMap map, List<Finding> findings)
         {
-            Material copy;
-            if (scaled.TryGetValue(material, out copy)) return copy;
+            if (scaled.TryGetValue(material, out Material copy)) return copy;
             List<string> widths = Widths(material);
             bool fur = HasFur(material);
             if (widths.Contains(PoiyomiWidth) && material.shader != null && material.shader.name.StartsWith(Locked, System.StringComparison.Ordinal))
@@ -76,7 +75,7 @@ namespace SuperDeform.Editor
         /// <summary>The properties that are lengths and not 0.</summary>
         static List<string> Widths(Material material)
         {
-            List<string> widths = new List<string>();
+            var widths = new List<string>();
             bool inWorld = !material.HasProperty(Mode) || material.GetFloat(Mode) == 1f;
             if (inWorld && IsPositive(material, Width)) widths.Add(Width);
             bool drawn = !material.HasProperty(PoiyomiOn) || material.GetFloat(PoiyomiOn) != 0f;
@@ -84,14 +83,9 @@ namespace SuperDeform.Editor
             return widths;
         }
 
-        static bool IsPositive(Material material, string property)
-        {
-            return material.HasProperty(property) && material.GetFloat(property) > 0f;
-        }
+        static bool IsPositive(Material material, string property) => material.HasProperty(property) && material.GetFloat(property) > 0f;
 
-        static bool HasFur(Material material)
-        {
-            return material.HasProperty(Fur) && material.shader != null && material.shader.name.Contains("Fur") && material.GetVector(Fur).w > 0f;
-        }
+        static bool HasFur(Material material) =>
+            material.HasProperty(Fur) && material.shader != null && material.shader.name.Contains("Fur") && material.GetVector(Fur).w > 0f;
     }
 }

@@ -48,9 +48,6 @@ namespace SuperDeform.Editor
         }
 
         /// <summary>What is worn of one vertex, in one of the packed arrays.</summary>
-        internal static Vector3 Worn(float[] packed, int vertex)
-        {
-            return new Vector3(packed[3 * vertex], packed[3 * vertex + 1], packed[3 * vertex + 2]);
-        }
+        internal static Vector3 Worn(float[] packed, int vertex) => new Vector3(packed[3 * vertex], packed[3 * vertex + 1], packed[3 * vertex + 2]);
     }
 }

@@ -37,23 +37,16 @@ namespace SuperDeform.Editor
         }
 
         /// <summary>By property of a thing in which a person's value stays, what was made; null where there is none.</summary>
-        internal Dictionary<int, int> MadeValues(string path)
-        {
-            Dictionary<int, int> values;
-            return instead.TryGetValue(path, out values) ? values : null;
-        }
+        internal Dictionary<int, int> MadeValues(string path) => instead.TryGetValue(path, out Dictionary<int, int> values) ? values : null;
 
         /// <summary>By thing of the new avatar, the path that it was made under.</summary>
-        internal HierarchyPaths MadePaths
-        {
-            get { return now; }
-        }
+        internal HierarchyPaths MadePaths => now;
 
         internal void Apply(GameObject old)
         {
-            HashSet<string> left = new HashSet<string>();
+            var left = new HashSet<string>();
             Pair(old.transform, left);
-            List<Component> brought = new List<Component>();
+            var brought = new List<Component>();
             Bring(old.transform, brought);
             foreach (KeyValuePair<Object, Object> pair in new List<KeyValuePair<Object, Object>>(standIns))
             {
@@ -66,18 +59,10 @@ namespace SuperDeform.Editor
             Delete(left);
         }
 
-        Object StandIn(Object old)
-        {
-            Object found;
-            return standIns.TryGetValue(old, out found) ? found : null;
-        }
+        Object StandIn(Object old) => standIns.TryGetValue(old, out Object found) ? found : null;
 
         /// <summary>The path that a thing of the old prefab was made under; null where it is a person's own.</summary>
-        string MadePath(Object thing)
-        {
-            string path;
-            return pathByNumber.TryGetValue(MadeThing.NumberOf(thing), out path) ? path : null;
-        }
+        string MadePath(Object thing) => pathByNumber.TryGetValue(MadeThing.NumberOf(thing), out string path) ? path : null;
 
         void Pair(Transform old, HashSet<string> left)
         {
@@ -157,12 +142,11 @@ namespace SuperDeform.Editor
         void KeepValues(Object old, Object made)
         {
             string path = MadePath(old);
-            MadeThing then;
-            if (path == null || !madeByPath.TryGetValue(path, out then) || old.GetType() != made.GetType()) return;
-            using (SerializedObject from = new SerializedObject(old))
-            using (SerializedObject to = new SerializedObject(made))
+            if (path == null || !madeByPath.TryGetValue(path, out MadeThing then) || old.GetType() != made.GetType()) return;
+            using (var from = new SerializedObject(old))
+            using (var to = new SerializedObject(made))
             {
-                Dictionary<int, int> values = new Dictionary<int, int>();
+                var values = new Dictionary<int, int>();
                 List<string> changed = then.ChangedIn(old, MadePath, values);
                 if (changed.Count == 0) return;
                 instead.Add(path, values);

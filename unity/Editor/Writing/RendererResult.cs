@@ -131,8 +131,7 @@ namespace SuperDeform.Editor
 
         Vector3 Normal(ref Frame frame, int vertex)
         {
-            double scale;
-            Vector3 normal = frame.Normal(Normals[vertex], out scale);
+            Vector3 normal = frame.Normal(Normals[vertex], out double scale);
             bool kept = sameWay && Same(Normals[vertex], Source.ModelNormals[vertex]);
             if (normalScales != null)
             {
@@ -144,9 +143,8 @@ namespace SuperDeform.Editor
 
         Vector4 Tangent(ref Frame frame, int vertex)
         {
-            double scale;
             Vector4 given = Tangents[vertex], before = Source.ModelTangents[vertex];
-            Vector4 tangent = frame.Tangent(given, out scale);
+            Vector4 tangent = frame.Tangent(given, out double scale);
             bool kept = sameWay && given.x == before.x && given.y == before.y && given.z == before.z && given.w == before.w;
             if (tangentScales != null)
             {
@@ -156,10 +154,7 @@ namespace SuperDeform.Editor
             return kept ? Source.Tangents[vertex] : tangent;
         }
 
-        static bool Same(Vector3 one, Vector3 other)
-        {
-            return one.x == other.x && one.y == other.y && one.z == other.z;
-        }
+        static bool Same(Vector3 one, Vector3 other) => one.x == other.x && one.y == other.y && one.z == other.z;
 
         /// <summary>What a blend shape adds to one vertex, in mesh space, after ToMeshSpace. What has not changed keeps its bits.</summary>
         /// <param name="delta">In the avatar's space.</param>
@@ -230,19 +225,10 @@ namespace SuperDeform.Editor
             common = new Frame(placement.Equals(Affine.Identity) ? placement : placement.Inverse);
         }
 
-        internal bool EachItsOwn
-        {
-            get { return renderer.Placements != null; }
-        }
+        internal bool EachItsOwn => renderer.Placements != null;
 
-        internal bool IsIdentity
-        {
-            get { return !EachItsOwn && common.IsIdentity; }
-        }
+        internal bool IsIdentity => !EachItsOwn && common.IsIdentity;
 
-        internal Frame At(int vertex)
-        {
-            return EachItsOwn ? new Frame(renderer.Placements[vertex].Inverse) : common;
-        }
+        internal Frame At(int vertex) => EachItsOwn ? new Frame(renderer.Placements[vertex].Inverse) : common;
     }
 }

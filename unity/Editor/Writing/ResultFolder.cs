@@ -140,7 +140,7 @@ namespace SuperDeform.Editor
         {
             // Folders of packages may be elsewhere on the disk.
             if (!path.StartsWith("Assets/")) return true;
-            FileInfo file = new FileInfo(Path.Combine(Path.GetDirectoryName(Application.dataPath), path));
+            var file = new FileInfo(Path.Combine(Path.GetDirectoryName(Application.dataPath), path));
             return file.Exists && file.Length > 0;
         }
 

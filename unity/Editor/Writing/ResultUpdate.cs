@@ -44,7 +44,7 @@ namespace SuperDeform.Editor
                 if (preset == null || preset.Made.Count == 0 || folder.Length > 0 && Above(Above(path)) != folder) continue;
                 SourceMatch match = avatar.Matches(preset.Avatar);
                 if (match == SourceMatch.None || best != null && match < best.Match) continue;
-                ResultUpdate update = new ResultUpdate(path, preset.MadeFrom, match);
+                var update = new ResultUpdate(path, preset.MadeFrom, match);
                 DateTime written = File.GetLastWriteTimeUtc(Path.GetFullPath(path));
                 bool later = best == null || match > best.Match || written > newest;
                 if (!later || AssetDatabase.LoadAssetAtPath<GameObject>(update.PrefabPath) == null) continue;
@@ -78,7 +78,7 @@ namespace SuperDeform.Editor
                 {
                     UnityEngine.Object.DestroyImmediate(asset);
                 }
-                PersonsChanges changes = new PersonsChanges(old.Made, copy);
+                var changes = new PersonsChanges(old.Made, copy);
                 changes.Apply(AssetDatabase.LoadAssetAtPath<GameObject>(PrefabPath));
                 old.Settings = preset.Settings;
                 old.Avatar = preset.Avatar;
@@ -123,8 +123,8 @@ namespace SuperDeform.Editor
         /// <returns>By new asset, the old one that holds it now.</returns>
         static Dictionary<UnityEngine.Object, UnityEngine.Object> Exchange(SuperDeformPreset container, IList<UnityEngine.Object> assets)
         {
-            Dictionary<UnityEngine.Object, UnityEngine.Object> kept = new Dictionary<UnityEngine.Object, UnityEngine.Object>();
-            List<UnityEngine.Object> old = new List<UnityEngine.Object>(AssetDatabase.LoadAllAssetRepresentationsAtPath(AssetDatabase.GetAssetPath(container)));
+            var kept = new Dictionary<UnityEngine.Object, UnityEngine.Object>();
+            var old = new List<UnityEngine.Object>(AssetDatabase.LoadAllAssetRepresentationsAtPath(AssetDatabase.GetAssetPath(container)));
             foreach (UnityEngine.Object asset in assets)
             {
                 UnityEngine.Object twin = old.Find(other => other != null && other.GetType() == asset.GetType() && other.name == asset.name);

@@ -152,10 +152,7 @@ namespace SuperDeform.Editor
                 deformer.MapMorphTargets(part.Index, counts, vertices, mapped[0], any[1] ? mapped[1] : null, any[2] ? mapped[2] : null);
             }
 
-            int Begin(int frame)
-            {
-                return frame == 0 ? 0 : ends[frame - 1];
-            }
+            int Begin(int frame) => frame == 0 ? 0 : ends[frame - 1];
 
             /// <summary>Writes what one frame changes to an array by vertex of the mesh.</summary>
             /// <returns>Whether the source's changes anything so.</returns>
@@ -173,10 +170,7 @@ namespace SuperDeform.Editor
                 return found;
             }
 
-            static bool IsNone(Vector3 delta)
-            {
-                return delta.x == 0 && delta.y == 0 && delta.z == 0;
-            }
+            static bool IsNone(Vector3 delta) => delta.x == 0 && delta.y == 0 && delta.z == 0;
         }
     }
 }

@@ -71,7 +71,7 @@ namespace SuperDeform.Editor
         static IEnumerable<GameObject> SiblingsOf(Transform transform)
         {
             if (transform.parent == null) return transform.gameObject.scene.GetRootGameObjects();
-            List<GameObject> siblings = new List<GameObject>();
+            var siblings = new List<GameObject>();
             for (int child = 0; child < transform.parent.childCount; child++)
             {
                 siblings.Add(transform.parent.GetChild(child).gameObject);
@@ -88,15 +88,12 @@ namespace SuperDeform.Editor
         }
 
         /// <summary>As a result keeps it.</summary>
-        public override string ToString()
-        {
-            return string.Join("\n", names.ToArray());
-        }
+        public override string ToString() => string.Join("\n", names.ToArray());
 
         /// <param name="kept">What ToString gave when a result was made.</param>
         internal SourceMatch Matches(string kept)
         {
-            List<string> others = new List<string>((kept ?? "").Split('\n'));
+            var others = new List<string>((kept ?? "").Split('\n'));
             List<string> same = names.FindAll(others.Contains);
             if (same.Exists(name => !name.StartsWith(Place))) return SourceMatch.Same;
             if (same.Count == 0) return SourceMatch.None;

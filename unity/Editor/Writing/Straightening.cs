@@ -8,7 +8,7 @@ namespace SuperDeform.Editor
     {
         internal static List<int> ParentsFirst(int[] parents)
         {
-            List<int> order = new List<int>();
+            var order = new List<int>();
             for (int joint = 0; joint < parents.Length; joint++)
             {
                 int place = order.Count;
@@ -27,7 +27,7 @@ namespace SuperDeform.Editor
         {
             Quaternion[] turns = new Quaternion[parents.Length];
             Vector3 left = new Vector3(-1, 0, 0), right = new Vector3(1, 0, 0), down = new Vector3(0, -1, 0);
-            Dictionary<int, Quaternion> limbs = new Dictionary<int, Quaternion>();
+            var limbs = new Dictionary<int, Quaternion>();
             Straighten(limbs, roles, positions, HumanoidRole.LeftUpperArm, HumanoidRole.LeftLowerArm, left);
             Straighten(limbs, roles, positions, HumanoidRole.LeftLowerArm, HumanoidRole.LeftHand, left);
             Straighten(limbs, roles, positions, HumanoidRole.RightUpperArm, HumanoidRole.RightLowerArm, right);
@@ -41,8 +41,7 @@ namespace SuperDeform.Editor
             foreach (int joint in ParentsFirst(parents))
             {
                 int parent = parents[joint];
-                Quaternion turn;
-                if (!limbs.TryGetValue(joint, out turn)) turn = parent < 0 ? Quaternion.identity : turns[parent];
+                if (!limbs.TryGetValue(joint, out Quaternion turn)) turn = parent < 0 ? Quaternion.identity : turns[parent];
                 turns[joint] = turn;
             }
             return turns;

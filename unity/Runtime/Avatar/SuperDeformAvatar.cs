@@ -11,6 +11,7 @@ namespace SuperDeform
     /// </remarks>
     [AddComponentMenu("Super Deform/Super Deform Avatar")]
     [DisallowMultipleComponent]
+    [Manual]
 #if SUPERDEFORM_NDMF
     public sealed class SuperDeformAvatar : MonoBehaviour, nadena.dev.ndmf.INDMFEditorOnly
 #else

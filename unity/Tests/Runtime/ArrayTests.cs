@@ -24,7 +24,7 @@ public sealed class ArrayTests
         byte[] bytes = new byte[4 * positions.Length];
         Buffer.BlockCopy(positions, 0, bytes, 0, bytes.Length);
         mesh.Positions = bytes;
-        MeshOutput bytesOut = new MeshOutput { VertexCount = figure.VertexCount, Positions = new byte[bytes.Length] };
+        var bytesOut = new MeshOutput { VertexCount = figure.VertexCount, Positions = new byte[bytes.Length] };
         Deformed(mesh, bytesOut);
         float[] back = new float[positions.Length];
         Buffer.BlockCopy(bytesOut.Positions, 0, back, 0, bytes.Length);
@@ -42,7 +42,7 @@ public sealed class ArrayTests
             mesh.Indices = indices;
             AssertSame(expected, Deformed(mesh, Mannequin.Output(figure.VertexCount)));
         }
-        using (Character character = new Character())
+        using (var character = new Character())
         {
             character.AddMesh(new MeshArrays { Positions = new Triple[3], Indices = new byte[] { 0, 1, 2 } });
             Assert.AreEqual(1, character.Info.TriangleCount);
@@ -71,10 +71,10 @@ public sealed class ArrayTests
     [Test]
     public void Rows_of_a_slice_are_its_own_where_those_before_it_are_empty()
     {
-        MeshArrays mesh = new MeshArrays { Positions = new Triple[5], FirstVertex = 2, VertexCount = 3,
+        var mesh = new MeshArrays { Positions = new Triple[5], FirstVertex = 2, VertexCount = 3,
             RowStarts = new uint[] { 0, 0, 0, 1, 2, 3 }, Joints = new uint[] { 3, 4, 5 },
             Weights = new[] { 1f, 1f, 1f } };
-        using (Character character = new Character())
+        using (var character = new Character())
         {
             character.SetSkeleton(figure.Skeleton);
             character.AddMesh(mesh);
@@ -92,7 +92,7 @@ public sealed class ArrayTests
         MeshOutput output = Mannequin.Output(before + figure.VertexCount + after);
         output.FirstVertex = before;
         output.VertexCount = figure.VertexCount;
-        Triple untouched = new Triple(-1, -2, -3);
+        var untouched = new Triple(-1, -2, -3);
         Triple[] positions = (Triple[])output.Positions;
         for (int i = 0; i < positions.Length; i++) positions[i] = untouched;
         Deformed(figure.Mesh(), output);
@@ -107,7 +107,7 @@ public sealed class ArrayTests
     [Test]
     public void Morph_targets_come_out_packed_from_slices()
     {
-        using (Character character = new Character())
+        using (var character = new Character())
         using (Style style = Style.FromHeads(2.5))
         {
             character.SetSkeleton(figure.Skeleton);
@@ -121,10 +121,10 @@ public sealed class ArrayTests
             smile.Normals = figure.Smile;
             smile.Tangents = figure.Smile;
             character.AddMorphTarget(head, smile);
-            using (Deformer deformer = new Deformer(character, style))
+            using (var deformer = new Deformer(character, style))
             {
                 int floats = 3 * Mannequin.PartVertices;
-                MeshOutput output = new MeshOutput { VertexCount = Mannequin.PartVertices, MorphTargetCount = 2,
+                var output = new MeshOutput { VertexCount = Mannequin.PartVertices, MorphTargetCount = 2,
                     MorphPositions = new float[2 * floats], MorphNormals = new float[2 * floats],
                     MorphTangents = new float[2 * floats] };
                 deformer.Apply(new[] { new MeshOutput(), output, new MeshOutput() });
@@ -173,7 +173,7 @@ public sealed class ArrayTests
     {
         using (Character character = figure.Character())
         {
-            MorphArrays target = new MorphArrays { Name = "笑顔", Positions = new Triple[figure.VertexCount - 1] };
+            var target = new MorphArrays { Name = "笑顔", Positions = new Triple[figure.VertexCount - 1] };
             InvalidInputException exception = Thrown.Invalid(Status.BadArgument,
                 () => character.AddMorphTarget(0, target));
             Thrown.Says(exception, "mesh 0", "笑顔", "Positions");
@@ -199,7 +199,7 @@ public sealed class ArrayTests
     {
         MeshArrays mesh = figure.Mesh();
         mesh.FirstVertex = Mannequin.PartVertices;
-        using (Character character = new Character())
+        using (var character = new Character())
         {
             character.SetSkeleton(figure.Skeleton);
             // The last part's triangles reach beyond the slice.
@@ -211,10 +211,10 @@ public sealed class ArrayTests
     [Test]
     public void A_mesh_without_vertices_is_a_mesh()
     {
-        using (Character character = new Character())
+        using (var character = new Character())
         {
             Assert.AreEqual(0, character.AddMesh(new MeshArrays()));
-            MeshArrays empty = new MeshArrays { Positions = new Triple[0], Indices = new ushort[0] };
+            var empty = new MeshArrays { Positions = new Triple[0], Indices = new ushort[0] };
             Assert.AreEqual(1, character.AddMesh(empty));
             Assert.AreEqual(2, character.Info.MeshCount);
         }
@@ -236,7 +236,7 @@ public sealed class ArrayTests
     {
         using (Character character = figure.Character())
         using (Style style = Style.FromHeads(2.5))
-        using (Deformer deformer = new Deformer(character, style))
+        using (var deformer = new Deformer(character, style))
         {
             MeshOutput output = Mannequin.Output(figure.VertexCount);
             output.Normals = new Triple[3];
@@ -264,7 +264,7 @@ public sealed class ArrayTests
     {
         MeshOutput expected = Deformed(figure.Mesh(), Mannequin.Output(figure.VertexCount));
         MeshOutput shared = Mannequin.Output(figure.VertexCount);
-        using (Character character = new Character())
+        using (var character = new Character())
         using (Style style = Style.FromHeads(2.5))
         {
             character.SetSkeleton(figure.Skeleton);
@@ -277,7 +277,7 @@ public sealed class ArrayTests
                     Tangents = shared.Tangents, FirstVertex = cuts[slice] * Mannequin.PartVertices,
                     VertexCount = (cuts[slice + 1] - cuts[slice]) * Mannequin.PartVertices };
             }
-            using (Deformer deformer = new Deformer(character, style)) deformer.Apply(outputs);
+            using (var deformer = new Deformer(character, style)) deformer.Apply(outputs);
         }
         // Measured over the meshes of the body one after the other, so the same but for the order of sums.
         AssertClose((Triple[])expected.Positions, (Triple[])shared.Positions);
@@ -305,8 +305,8 @@ public sealed class ArrayTests
     static MeshArrays InRows(MeshArrays mesh)
     {
         uint[] starts = new uint[figure.VertexCount + 1];
-        System.Collections.Generic.List<uint> joints = new System.Collections.Generic.List<uint>();
-        System.Collections.Generic.List<float> weights = new System.Collections.Generic.List<float>();
+        var joints = new System.Collections.Generic.List<uint>();
+        var weights = new System.Collections.Generic.List<float>();
         for (int vertex = 0; vertex < figure.VertexCount; vertex++)
         {
             joints.Add(figure.Joints[vertex]);
@@ -327,13 +327,13 @@ public sealed class ArrayTests
 
     static MeshOutput Deformed(MeshArrays mesh, MeshOutput output)
     {
-        using (Character character = new Character())
+        using (var character = new Character())
         using (Style style = Style.FromHeads(2.5))
         {
             character.SetSkeleton(figure.Skeleton);
             if (output.Tangents == null) mesh.Tangents = null;
             character.AddMesh(mesh);
-            using (Deformer deformer = new Deformer(character, style)) deformer.Apply(new[] { output });
+            using (var deformer = new Deformer(character, style)) deformer.Apply(new[] { output });
         }
         return output;
     }
@@ -342,7 +342,7 @@ public sealed class ArrayTests
     {
         MeshArrays mesh = figure.Mesh();
         spoil(mesh);
-        using (Character character = new Character())
+        using (var character = new Character())
         {
             character.SetSkeleton(figure.Skeleton);
             try
@@ -366,7 +366,7 @@ public sealed class ArrayTests
     {
         SkeletonArrays skeleton = new Mannequin().Skeleton;
         spoil(skeleton);
-        using (Character character = new Character())
+        using (var character = new Character())
         {
             Thrown.Says(Thrown.Invalid(Status.BadArgument, () => character.SetSkeleton(skeleton)), word);
         }

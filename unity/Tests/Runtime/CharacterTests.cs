@@ -9,7 +9,7 @@ public sealed class CharacterTests
     [Test]
     public void It_counts_what_it_holds()
     {
-        Mannequin figure = new Mannequin();
+        var figure = new Mannequin();
         using (Character character = figure.Character())
         {
             character.AddMorphTarget(0, figure.SmileTarget());
@@ -27,7 +27,7 @@ public sealed class CharacterTests
     [Test]
     public void Images_are_numbered_and_meshes_show_them()
     {
-        Mannequin figure = new Mannequin();
+        var figure = new Mannequin();
         using (Character character = figure.Character())
         {
             Assert.AreEqual(1, character.AddImage(2, 1, new byte[] { 0, 255 }));
@@ -61,7 +61,7 @@ public sealed class CharacterTests
     [Test]
     public void Its_joints_come_back_as_given()
     {
-        Mannequin figure = new Mannequin();
+        var figure = new Mannequin();
         using (Character character = figure.Character())
         {
             Joints joints = character.GetJoints();
@@ -79,7 +79,7 @@ public sealed class CharacterTests
     [Test]
     public void A_joint_without_a_role_has_none()
     {
-        Mannequin figure = new Mannequin();
+        var figure = new Mannequin();
         SkeletonArrays skeleton = figure.Skeleton;
         int tail = figure.JointCount;
         System.Array.Resize(ref skeleton.Parents, tail + 1);
@@ -96,7 +96,7 @@ public sealed class CharacterTests
     [Test]
     public void Its_weights_come_back_largest_first()
     {
-        Mannequin figure = new Mannequin();
+        var figure = new Mannequin();
         MeshArrays mesh = figure.Mesh();
         mesh.InfluenceCount = 2;
         mesh.Joints = new uint[2 * figure.VertexCount];
@@ -108,7 +108,7 @@ public sealed class CharacterTests
             mesh.Weights[2 * vertex] = 1;
             mesh.Weights[2 * vertex + 1] = 3;
         }
-        using (Character character = new Character())
+        using (var character = new Character())
         {
             character.SetSkeleton(figure.Skeleton);
             character.AddMesh(mesh);
@@ -131,14 +131,14 @@ public sealed class CharacterTests
     [Test]
     public void A_rig_is_made_where_there_is_none_and_has_warnings()
     {
-        Mannequin figure = new Mannequin();
+        var figure = new Mannequin();
         MeshArrays mesh = figure.Mesh();
         mesh.Joints = null;
         mesh.Weights = null;
-        Options options = new Options { RigVoxelResolution = 32, RigFingers = false };
-        Triple head = new Triple(0, 1.5f, 0);
+        var options = new Options { RigVoxelResolution = 32, RigFingers = false };
+        var head = new Triple(0, 1.5f, 0);
         options.RigJoints.Add(new GivenJoint(HumanoidRole.Head, head.X, head.Y, head.Z));
-        using (Character character = new Character(new float[] { 0, 1, 0 }, new float[] { 0, 0, 1 }))
+        using (var character = new Character(new float[] { 0, 1, 0 }, new float[] { 0, 0, 1 }))
         {
             character.AddMesh(mesh);
             character.Rig(options);
@@ -185,7 +185,7 @@ public sealed class CharacterTests
     [Test]
     public void A_morph_target_of_a_mesh_that_is_none_is_refused()
     {
-        Mannequin figure = new Mannequin();
+        var figure = new Mannequin();
         using (Character character = figure.Character())
         {
             MorphArrays target = figure.SmileTarget();

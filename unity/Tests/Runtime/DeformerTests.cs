@@ -47,7 +47,7 @@ public sealed class DeformerTests
         using (Character smiling = figure.Character())
         {
             smiling.AddMorphTarget(0, figure.SmileTarget());
-            using (Deformer expected = new Deformer(smiling, style))
+            using (var expected = new Deformer(smiling, style))
             {
                 MeshOutput output = Mannequin.Output(figure.VertexCount, 1);
                 expected.Apply(new[] { output });
@@ -85,8 +85,8 @@ public sealed class DeformerTests
     {
         MeshOutput expected = Mannequin.Output(figure.VertexCount);
         deformer.Apply(new[] { expected });
-        Mannequin own = new Mannequin();
-        MeshOutput output = new MeshOutput { Positions = own.Positions, VertexCount = own.VertexCount };
+        var own = new Mannequin();
+        var output = new MeshOutput { Positions = own.Positions, VertexCount = own.VertexCount };
         float last = 0;
         AllAtOnce.SuperDeform(new float[] { 0, 1, 0 }, new float[] { 0, 0, 1 }, own.Skeleton, new[] { own.Mesh() }, style,
             new Options { ThreadCount = 1 }, new[] { output }, fraction =>
@@ -118,10 +118,10 @@ public sealed class DeformerTests
     [Test]
     public void Options_set_later_give_what_options_set_first_give()
     {
-        Options options = new Options { HeadScale = 1.1, HairLength = 0.5, FaceSquash = 0.3, FaceCurve = FaceCurve.F2 };
+        var options = new Options { HeadScale = 1.1, HairLength = 0.5, FaceSquash = 0.3, FaceCurve = FaceCurve.F2 };
         options.Groups.Add(new GroupSettings { Group = "hand", LengthScale = 1.2, ThicknessScale = 1.3 });
         MeshOutput expected = Mannequin.Output(figure.VertexCount), output = Mannequin.Output(figure.VertexCount);
-        using (Deformer other = new Deformer(character, style, options)) other.Apply(new[] { expected });
+        using (var other = new Deformer(character, style, options)) other.Apply(new[] { expected });
         deformer.SetOptions(options);
         deformer.Apply(new[] { output });
         Assert.AreEqual(Bits((Triple[])expected.Positions), Bits((Triple[])output.Positions));
@@ -131,8 +131,8 @@ public sealed class DeformerTests
     public void A_change_of_the_face_gives_what_a_new_deformer_gives()
     {
         MeshOutput expected = Mannequin.Output(figure.VertexCount), output = Mannequin.Output(figure.VertexCount);
-        Options options = new Options { FaceSquash = 0.25, FaceCurve = FaceCurve.F2 };
-        using (Deformer other = new Deformer(character, style, options))
+        var options = new Options { FaceSquash = 0.25, FaceCurve = FaceCurve.F2 };
+        using (var other = new Deformer(character, style, options))
         {
             other.Apply(new[] { expected });
         }
@@ -149,7 +149,7 @@ public sealed class DeformerTests
         MeshOutput expected = Mannequin.Output(figure.VertexCount), output = Mannequin.Output(figure.VertexCount);
         using (Style taller = Style.FromHeads(4))
         {
-            using (Deformer other = new Deformer(character, taller, null)) other.Apply(new[] { expected });
+            using (var other = new Deformer(character, taller, null)) other.Apply(new[] { expected });
             deformer.SetStyle(taller);
         }
         deformer.Apply(new[] { output });
@@ -223,7 +223,7 @@ public sealed class DeformerTests
         double[] at = new double[3], positions = new double[3], scales = new double[1];
         for (int i = 0; i < 3; i++) at[i] = figure.Skeleton.RestMatrices[16 * head + 12 + i];
         deformer.MapPoints(new[] { head }, at, positions, scales);
-        SpringCollider sphere = new SpringCollider { Kind = ColliderKind.Sphere, Joint = head, X = at[0], Y = at[1], Z = at[2], Radius = 0.05 };
+        var sphere = new SpringCollider { Kind = ColliderKind.Sphere, Joint = head, X = at[0], Y = at[1], Z = at[2], Radius = 0.05 };
         SpringCollider moved = deformer.MapColliders(new[] { sphere })[0];
         Assert.AreEqual(positions[0], moved.X, 1e-12);
         Assert.AreEqual(positions[1], moved.Y, 1e-12);
@@ -231,10 +231,10 @@ public sealed class DeformerTests
         Assert.AreEqual(0.05 * scales[0], moved.Radius, 1e-9);
         Assert.AreEqual(0.0, moved.Yielded);
         // A capsule of the head's two ends; a plane keeps the length of its normal.
-        SpringCollider capsule = new SpringCollider { Kind = ColliderKind.Capsule, Joint = head, X = at[0], Y = at[1], Z = at[2], EndX = at[0], EndY = at[1] + 0.1, EndZ = at[2], Radius = 0.05 };
-        SpringCollider plane = new SpringCollider { Kind = ColliderKind.Plane, Joint = head, X = at[0], Y = at[1], Z = at[2], EndX = 0, EndY = 2, EndZ = 0 };
+        var capsule = new SpringCollider { Kind = ColliderKind.Capsule, Joint = head, X = at[0], Y = at[1], Z = at[2], EndX = at[0], EndY = at[1] + 0.1, EndZ = at[2], Radius = 0.05 };
+        var plane = new SpringCollider { Kind = ColliderKind.Plane, Joint = head, X = at[0], Y = at[1], Z = at[2], EndX = 0, EndY = 2, EndZ = 0 };
         // A spring that does not move with the head: the head grows into it.
-        SpringBall ball = new SpringBall { Joint = 0, X = at[0] + 0.0601, Y = at[1], Z = at[2], Radius = 0.01 };
+        var ball = new SpringBall { Joint = 0, X = at[0] + 0.0601, Y = at[1], Z = at[2], Radius = 0.01 };
         sphere.Springs = new uint[] { 0 };
         SpringCollider[] all = deformer.MapColliders(new[] { capsule, plane, sphere }, new[] { ball });
         double[] top = { at[0], at[1] + 0.1, at[2] }, end = new double[3];
@@ -258,24 +258,24 @@ public sealed class DeformerTests
         int runs = 0;
         using (Style style = Style.FromHeads(3))
         {
-            using (Deformer own = new Deformer(character, style)) own.GetJoints(before, null);
+            using (var own = new Deformer(character, style)) own.GetJoints(before, null);
             using (new JobScope((count, task) =>
             {
                 System.Threading.Interlocked.Increment(ref runs);
                 System.Threading.Tasks.Parallel.For(0, count, task);
             }))
             {
-                using (Deformer hosts = new Deformer(character, style)) hosts.GetJoints(after, null);
+                using (var hosts = new Deformer(character, style)) hosts.GetJoints(after, null);
                 // A rig is work enough for several threads.
                 using (Character rigged = figure.Character()) rigged.Rig(new Options { ThreadCount = 4 });
             }
             Assert.AreEqual(before, after);
             Assert.IsTrue(runs > 0, "the runner was never called");
             int once = runs;
-            using (Deformer own = new Deformer(character, style)) own.GetJoints(after, null);
+            using (var own = new Deformer(character, style)) own.GetJoints(after, null);
             Assert.AreEqual(once, runs, "after its end");
             // What a runner leaves out is done all the same, and what it throws comes out.
-            JobScope lazy = new JobScope((count, task) => { throw new NotSupportedException("no jobs today"); });
+            var lazy = new JobScope((count, task) => { throw new NotSupportedException("no jobs today"); });
             using (Character rigged = figure.Character()) rigged.Rig(new Options { ThreadCount = 4 });
             Assert.Throws<NotSupportedException>(() => lazy.Dispose());
             lazy.Dispose();
@@ -286,10 +286,10 @@ public sealed class DeformerTests
     [Test]
     public void Groups_have_names_scales_and_sizes()
     {
-        Options options = new Options();
+        var options = new Options();
         options.Groups.Add(new GroupSettings { Group = "lower_arm", ThicknessScale = 1.25 });
         deformer.SetOptions(options);
-        Dictionary<string, Group> groups = new Dictionary<string, Group>();
+        var groups = new Dictionary<string, Group>();
         foreach (Group group in deformer.GetGroups()) groups.Add(group.Name, group);
         Assert.AreEqual(1.25, groups["lower_arm"].ThicknessScale, 1e-9);
         // Both lower arms of the figure, elbow to wrist.

@@ -23,7 +23,7 @@ public sealed class ErrorTests
     {
         MeshArrays mesh = new Mannequin().Mesh();
         mesh.Kind = (MeshKind)99;
-        using (Character character = new Character())
+        using (var character = new Character())
         {
             Thrown.Says(Thrown.Invalid(Status.BadArgument, () => character.AddMesh(mesh)), "99");
         }
@@ -32,9 +32,9 @@ public sealed class ErrorTests
     [Test]
     public void A_position_that_is_not_finite_is_named_with_its_mesh_and_vertex()
     {
-        Mannequin figure = new Mannequin();
+        var figure = new Mannequin();
         figure.Positions[7].Y = float.NaN;
-        using (Character character = new Character())
+        using (var character = new Character())
         {
             character.SetSkeleton(figure.Skeleton);
             MeshArrays mesh = figure.Mesh("skin");
@@ -69,7 +69,7 @@ public sealed class ErrorTests
     [Test]
     public void A_character_without_roles_is_no_humanoid()
     {
-        using (Character character = new Character())
+        using (var character = new Character())
         using (Style style = Style.FromHeads(2.5))
         {
             MeshArrays mesh = new Mannequin().Mesh();
@@ -83,7 +83,7 @@ public sealed class ErrorTests
     [Test]
     public void A_character_without_triangles_has_no_geometry()
     {
-        using (Character character = new Character())
+        using (var character = new Character())
         {
             Thrown.Invalid(Status.NoGeometry, () => character.Rig());
         }
@@ -92,10 +92,10 @@ public sealed class ErrorTests
     [Test]
     public void An_output_that_is_too_small_is_named_with_its_mesh()
     {
-        Mannequin figure = new Mannequin();
+        var figure = new Mannequin();
         using (Character character = figure.Character())
         using (Style style = Style.FromHeads(2.5))
-        using (Deformer deformer = new Deformer(character, style))
+        using (var deformer = new Deformer(character, style))
         {
             InvalidInputException exception = Thrown.Invalid(Status.BufferTooSmall,
                 () => deformer.Apply(new[] { Mannequin.Output(figure.VertexCount - 1) }));
@@ -106,7 +106,7 @@ public sealed class ErrorTests
     [Test]
     public void A_handle_that_was_destroyed_elsewhere_is_a_bad_handle()
     {
-        using (Character character = new Character())
+        using (var character = new Character())
         {
             ulong own = character.Handle;
             character.Handle = own + (1ul << 60);
@@ -124,10 +124,10 @@ public sealed class ErrorTests
     [Test]
     public void What_was_disposed_of_says_its_name()
     {
-        Mannequin figure = new Mannequin();
+        var figure = new Mannequin();
         Character character = figure.Character();
         Style style = Style.FromHeads(2.5);
-        Deformer deformer = new Deformer(character, style);
+        var deformer = new Deformer(character, style);
         Assert.IsFalse(deformer.IsDisposed);
         foreach (NativeObject made in new NativeObject[] { character, style, deformer })
         {
@@ -143,7 +143,7 @@ public sealed class ErrorTests
     [Test]
     public void Null_is_refused_by_name()
     {
-        using (Character character = new Character())
+        using (var character = new Character())
         {
             AssertNull("mesh", () => character.AddMesh(null));
             AssertNull("skeleton", () => character.SetSkeleton(null));

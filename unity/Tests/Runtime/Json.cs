@@ -21,7 +21,7 @@ public sealed class Json
 
     public static object Read(string text)
     {
-        Json json = new Json(text);
+        var json = new Json(text);
         object value = json.Value();
         json.Space();
         if (json.at != text.Length) throw json.Wrong();
@@ -45,7 +45,7 @@ public sealed class Json
 
     Dictionary<string, object> Object()
     {
-        Dictionary<string, object> members = new Dictionary<string, object>();
+        var members = new Dictionary<string, object>();
         at++;
         Space();
         if (Peek() == '}') { at++; return members; }
@@ -65,7 +65,7 @@ public sealed class Json
 
     List<object> Array()
     {
-        List<object> items = new List<object>();
+        var items = new List<object>();
         at++;
         Space();
         if (Peek() == ']') { at++; return items; }
@@ -80,7 +80,7 @@ public sealed class Json
 
     string String()
     {
-        StringBuilder value = new StringBuilder();
+        var value = new StringBuilder();
         at++;
         while (Peek() != '"')
         {
@@ -109,8 +109,7 @@ public sealed class Json
         int start = at;
         while (at < text.Length && "+-.0123456789eE".IndexOf(text[at]) >= 0) at++;
         string digits = text.Substring(start, at - start);
-        double number;
-        if (!double.TryParse(digits, NumberStyles.Float, CultureInfo.InvariantCulture, out number)) throw Wrong();
+        if (!double.TryParse(digits, NumberStyles.Float, CultureInfo.InvariantCulture, out double number)) throw Wrong();
         return number;
     }
 
@@ -138,9 +137,6 @@ public sealed class Json
         while (at < text.Length && " \t\r\n".IndexOf(text[at]) >= 0) at++;
     }
 
-    FormatException Wrong()
-    {
-        return new FormatException("no JSON at character " + at + " of: " + text);
-    }
+    FormatException Wrong() => new FormatException("no JSON at character " + at + " of: " + text);
 }
 }

@@ -16,7 +16,7 @@ public sealed class LifetimeTests
         ulong before = SuperDeformLibrary.LiveHandles;
         ulong most = 0;
         // On a thread of its own: nothing of its stack is left to keep them.
-        Thread thread = new Thread(() => most = Forget());
+        var thread = new Thread(() => most = Forget());
         thread.Start();
         thread.Join();
         Assert.IsTrue(most > before, "none were made");
@@ -60,7 +60,7 @@ public sealed class LifetimeTests
         ulong before = SuperDeformLibrary.LiveHandles;
         for (int time = 0; time < 50; time++)
         {
-            Character character = new Character();
+            var character = new Character();
             Thread[] threads = new Thread[3];
             for (int i = 0; i < threads.Length; i++)
             {
@@ -76,7 +76,7 @@ public sealed class LifetimeTests
     public void What_nobody_keeps_lives_as_long_as_its_call()
     {
         bool done = false;
-        Thread collector = new Thread(() =>
+        var collector = new Thread(() =>
         {
             while (!Volatile.Read(ref done)) GC.Collect();
         });

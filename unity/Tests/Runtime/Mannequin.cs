@@ -52,20 +52,14 @@ public sealed class Mannequin
         for (int part = 0; part < parts.Length; part++) Make(part);
     }
 
-    public int VertexCount
-    {
-        get { return Positions.Length; }
-    }
+    public int VertexCount => Positions.Length;
 
-    public int JointCount
-    {
-        get { return parts.Length; }
-    }
+    public int JointCount => parts.Length;
 
     /// <summary>The whole figure as one mesh.</summary>
     public MeshArrays Mesh(string name = "figure")
     {
-        MeshArrays mesh = new MeshArrays();
+        var mesh = new MeshArrays();
         mesh.Name = name;
         mesh.Kind = MeshKind.Body;
         mesh.Positions = Positions;
@@ -80,21 +74,18 @@ public sealed class Mannequin
 
     public Character Character()
     {
-        Character character = new Character();
+        var character = new Character();
         character.SetSkeleton(Skeleton);
         character.AddMesh(Mesh());
         return character;
     }
 
-    public MorphArrays SmileTarget()
-    {
-        return new MorphArrays { Name = "smile", Positions = Smile };
-    }
+    public MorphArrays SmileTarget() => new MorphArrays { Name = "smile", Positions = Smile };
 
     /// <summary>Room for what comes out of one mesh.</summary>
     public static MeshOutput Output(int vertices, int targets = 0)
     {
-        MeshOutput output = new MeshOutput();
+        var output = new MeshOutput();
         output.VertexCount = vertices;
         output.MorphTargetCount = targets;
         output.Positions = new Triple[vertices];
@@ -156,7 +147,7 @@ public sealed class Mannequin
     void MakeTriangles(int part, bool rises)
     {
         int first = part * PartVertices, bottom = first + Rings * Sides, top = bottom + 1;
-        List<int> corners = new List<int>();
+        var corners = new List<int>();
         for (int side = 0; side < Sides; side++)
         {
             int next = (side + 1) % Sides, last = first + (Rings - 1) * Sides;

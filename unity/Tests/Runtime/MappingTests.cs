@@ -12,7 +12,7 @@ public sealed class MappingTests
     public void Style_numbers_there_and_back()
     {
         object native = Filled(typeof(SdefStyleNumbers));
-        StyleNumbers numbers = new StyleNumbers((SdefStyleNumbers)native);
+        var numbers = new StyleNumbers((SdefStyleNumbers)native);
         Assert.AreEqual(24, AssertNames(native, numbers));
         Assert.AreEqual(24, AssertNames(numbers.ToNative(), numbers));
     }
@@ -30,7 +30,7 @@ public sealed class MappingTests
         SdefReport native = (SdefReport)Filled(typeof(SdefReport));
         Figure[] figures = { new Figure(), new Figure(), new Figure() };
         for (int i = 0; i < 3; i++) figures[i].Height = 101 + i;
-        Report report = new Report(native, figures[0], figures[1], figures[2]);
+        var report = new Report(native, figures[0], figures[1], figures[2]);
         Assert.AreEqual(4, AssertNames(native, report));
         Assert.AreEqual(101.0, report.Target.Height);
         Assert.AreEqual(102.0, report.Reference.Height);
@@ -49,7 +49,7 @@ public sealed class MappingTests
     {
         SdefGroup native = (SdefGroup)Filled(typeof(SdefGroup));
         native.name[0] = (sbyte)'a';
-        Group group = new Group(&native);
+        var group = new Group(&native);
         Assert.AreEqual("a", group.Name);
         Assert.AreEqual(6, AssertNames(native, group));
     }

@@ -8,9 +8,9 @@ public sealed class NameTests
     [Test]
     public void A_mesh_with_a_Japanese_name_is_named_in_errors()
     {
-        Mannequin figure = new Mannequin();
+        var figure = new Mannequin();
         figure.Positions[3].X = float.PositiveInfinity;
-        using (Character character = new Character())
+        using (var character = new Character())
         {
             character.SetSkeleton(figure.Skeleton);
             Thrown.Says(Thrown.Invalid(Status.BadInput, () => character.AddMesh(figure.Mesh("体/肌"))), "体/肌");
@@ -20,9 +20,9 @@ public sealed class NameTests
     [Test]
     public void A_message_is_cut_between_characters()
     {
-        Mannequin figure = new Mannequin();
+        var figure = new Mannequin();
         figure.Positions[3].X = float.NaN;
-        using (Character character = new Character())
+        using (var character = new Character())
         {
             character.SetSkeleton(figure.Skeleton);
             for (int padding = 0; padding < 3; padding++)
@@ -39,12 +39,12 @@ public sealed class NameTests
     [Test]
     public void A_group_of_your_own_keeps_its_Japanese_name()
     {
-        Options options = new Options();
+        var options = new Options();
         options.BoneGroups.Add(new BoneGroup { Role = HumanoidRole.LeftHand, Group = "手袋" });
         options.Mode = Mode.Paper;
         using (Character character = new Mannequin().Character())
         using (Style style = Style.Measure(character, "ちびキャラ", options))
-        using (Deformer deformer = new Deformer(character, style, options))
+        using (var deformer = new Deformer(character, style, options))
         {
             bool found = false;
             foreach (Group group in deformer.GetGroups()) found = found || group.Name == "手袋";
@@ -56,7 +56,7 @@ public sealed class NameTests
     [Test]
     public void A_group_that_nobody_knows_is_named()
     {
-        Options options = new Options();
+        var options = new Options();
         options.Groups.Add(new GroupSettings { Group = "尻尾", LengthScale = 2 });
         using (Character character = new Mannequin().Character())
         using (Style style = Style.FromHeads(2.5))
@@ -79,10 +79,10 @@ public sealed class NameTests
     [Test]
     public void Names_may_be_null()
     {
-        Mannequin figure = new Mannequin();
+        var figure = new Mannequin();
         figure.Skeleton.Names[2] = null;
         MeshArrays mesh = figure.Mesh(null);
-        using (Character character = new Character())
+        using (var character = new Character())
         {
             character.SetSkeleton(figure.Skeleton);
             figure.Skeleton.Names = null;

@@ -11,9 +11,9 @@ public sealed class OptionsTests
     [Test]
     public unsafe void The_defaults_are_the_librarys()
     {
-        SdefOptions expected = new SdefOptions();
+        var expected = new SdefOptions();
         Assert.AreEqual(0u, Native.sdef_options_init(&expected, (uint)sizeof(SdefOptions), null));
-        using (MarshalScope scope = new MarshalScope())
+        using (var scope = new MarshalScope())
         {
             SdefOptions* given = scope.Options(new Options());
             // No number is one of many: any will do.
@@ -53,7 +53,7 @@ public sealed class OptionsTests
     // Another value than the default for each field; gives what the library is to see.
     static Dictionary<FieldInfo, object> Change(object options, Type native)
     {
-        Dictionary<FieldInfo, object> expected = new Dictionary<FieldInfo, object>();
+        var expected = new Dictionary<FieldInfo, object>();
         foreach (FieldInfo number in Numbers(native))
         {
             FieldInfo field = Field(options.GetType(), number.Name);
@@ -75,15 +75,15 @@ public sealed class OptionsTests
     [Test]
     public unsafe void Every_field_arrives()
     {
-        Options options = new Options();
-        GroupSettings head = new GroupSettings { Group = "head" };
+        var options = new Options();
+        var head = new GroupSettings { Group = "head" };
         options.Groups.Add(head);
         options.BoneGroups.Add(new BoneGroup { Role = HumanoidRole.LeftHand, Group = "手" });
         options.RigJoints.Add(new GivenJoint(HumanoidRole.Head, 1, 2, 3));
         Dictionary<FieldInfo, object> expected = Change(options, typeof(SdefOptions));
         Dictionary<FieldInfo, object> expectedOfHead = Change(head, typeof(SdefGroupSettings));
         Assert.IsTrue(expected.Count >= 15 && expectedOfHead.Count >= 4);
-        using (MarshalScope scope = new MarshalScope())
+        using (var scope = new MarshalScope())
         {
             SdefOptions* given = scope.Options(options);
             foreach (KeyValuePair<FieldInfo, object> number in expected)
@@ -110,7 +110,7 @@ public sealed class OptionsTests
     [Test]
     public void A_copy_shares_nothing()
     {
-        Options options = new Options { HeadScale = 1.25 };
+        var options = new Options { HeadScale = 1.25 };
         options.Groups.Add(new GroupSettings { Group = "head", LengthScale = 2 });
         options.BoneGroups.Add(new BoneGroup { Role = HumanoidRole.LeftHand, Group = "own" });
         options.RigJoints.Add(new GivenJoint(HumanoidRole.Head, 1, 2, 3));
@@ -128,12 +128,12 @@ public sealed class OptionsTests
     [Test]
     public void Lists_may_be_null_and_so_may_the_options()
     {
-        Mannequin figure = new Mannequin();
-        Options options = new Options { Groups = null, BoneGroups = null, RigJoints = null };
+        var figure = new Mannequin();
+        var options = new Options { Groups = null, BoneGroups = null, RigJoints = null };
         using (Character character = figure.Character())
         using (Style style = Style.FromHeads(2.5))
-        using (Deformer with = new Deformer(character, style, options))
-        using (Deformer without = new Deformer(character, style))
+        using (var with = new Deformer(character, style, options))
+        using (var without = new Deformer(character, style))
         {
             MeshOutput first = Mannequin.Output(figure.VertexCount), second = Mannequin.Output(figure.VertexCount);
             with.Apply(new[] { first });
@@ -145,7 +145,7 @@ public sealed class OptionsTests
     [Test]
     public void An_empty_place_in_a_list_is_named()
     {
-        Options options = new Options();
+        var options = new Options();
         options.Groups.Add(null);
         InvalidInputException exception = Thrown.Invalid(Status.BadArgument, () =>
         {

@@ -29,7 +29,7 @@ public sealed class ProgressTests
     [Test]
     public void It_rises_to_1_on_the_calling_thread()
     {
-        List<float> fractions = new List<float>();
+        var fractions = new List<float>();
         int other = 0, own = Thread.CurrentThread.ManagedThreadId;
         ProgressHandler progress = fraction =>
         {
@@ -37,7 +37,7 @@ public sealed class ProgressTests
             fractions.Add(fraction);
             return true;
         };
-        using (Deformer deformer = new Deformer(character, style, null, progress))
+        using (var deformer = new Deformer(character, style, null, progress))
         {
             AssertRises(fractions);
             deformer.SetOptions(new Options { HeadScale = 1.2 }, progress);
@@ -60,7 +60,7 @@ public sealed class ProgressTests
         Thrown.With<CancelledException>(Status.Cancelled,
             () => new Deformer(character, style, null, fraction => false));
         Assert.IsTrue(SuperDeformLibrary.LiveHandles <= before, "handles were left");
-        using (Deformer deformer = new Deformer(character, style))
+        using (var deformer = new Deformer(character, style))
         {
             MeshOutput expected = Mannequin.Output(figure.VertexCount), output = Mannequin.Output(figure.VertexCount);
             deformer.Apply(new[] { expected });
@@ -83,11 +83,11 @@ public sealed class ProgressTests
     public void What_a_handler_throws_comes_out_of_the_call()
     {
         ulong before = SuperDeformLibrary.LiveHandles;
-        ArgumentException own = new ArgumentException("the window was closed: 窓");
+        var own = new ArgumentException("the window was closed: 窓");
         ProgressHandler throws = fraction => { throw own; };
         AssertThrows(own, () => new Deformer(character, style, null, throws));
         Assert.IsTrue(SuperDeformLibrary.LiveHandles <= before, "handles were left");
-        using (Deformer deformer = new Deformer(character, style))
+        using (var deformer = new Deformer(character, style))
         {
             AssertThrows(own, () => deformer.SetOptions(null, throws));
             AssertThrows(own, () => deformer.Apply(new[] { Mannequin.Output(figure.VertexCount) }, throws));
@@ -101,9 +101,9 @@ public sealed class ProgressTests
     [Test]
     public void A_change_from_within_a_call_is_busy()
     {
-        using (Deformer deformer = new Deformer(character, style))
+        using (var deformer = new Deformer(character, style))
         {
-            Options options = new Options { HeadScale = 1.2 };
+            var options = new Options { HeadScale = 1.2 };
             Thrown.With<BusyException>(Status.Busy, () => deformer.SetOptions(options, fraction =>
             {
                 deformer.SetOptions(null);
@@ -116,7 +116,7 @@ public sealed class ProgressTests
     public void A_call_within_a_call_has_a_handler_of_its_own()
     {
         int inner = 0, outer = 0;
-        using (Deformer deformer = new Deformer(character, style, null, fraction =>
+        using (var deformer = new Deformer(character, style, null, fraction =>
         {
             outer++;
             using (new Deformer(character, style, null, again =>
@@ -134,7 +134,7 @@ public sealed class ProgressTests
     [Test]
     public void A_collection_during_a_call_does_no_harm()
     {
-        using (Deformer deformer = new Deformer(character, style, null, Collect))
+        using (var deformer = new Deformer(character, style, null, Collect))
         {
             deformer.Apply(new[] { Mannequin.Output(figure.VertexCount) }, Collect);
         }
@@ -144,7 +144,7 @@ public sealed class ProgressTests
     public void What_is_disposed_of_during_its_own_call_goes_after_it()
     {
         ulong before = SuperDeformLibrary.LiveHandles;
-        Deformer deformer = new Deformer(character, style);
+        var deformer = new Deformer(character, style);
         MeshOutput output = Mannequin.Output(figure.VertexCount);
         deformer.Apply(new[] { output }, fraction =>
         {
@@ -167,7 +167,7 @@ public sealed class ProgressTests
         MeshArrays mesh = figure.Mesh();
         mesh.Joints = null;
         mesh.Weights = null;
-        Character bare = new Character(null, new float[] { 0, 0, 1 });
+        var bare = new Character(null, new float[] { 0, 0, 1 });
         bare.AddMesh(mesh);
         return bare;
     }

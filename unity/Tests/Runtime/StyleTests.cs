@@ -10,7 +10,7 @@ public sealed class StyleTests
     {
         using (Character character = new Mannequin().Character())
         using (Style style = Style.FromHeads(3))
-        using (Deformer deformer = new Deformer(character, style))
+        using (var deformer = new Deformer(character, style))
         {
             Report report = deformer.GetReport();
             Assert.AreEqual(3, report.Result.Heads, 0.15);

@@ -24,10 +24,7 @@ public static class Thrown
         return null;
     }
 
-    public static InvalidInputException Invalid(Status status, Action call)
-    {
-        return With<InvalidInputException>(status, call);
-    }
+    public static InvalidInputException Invalid(Status status, Action call) => With<InvalidInputException>(status, call);
 
     /// <summary>Checks that a sentence holds words.</summary>
     public static void Says(Exception exception, params string[] words)

@@ -14,20 +14,24 @@ namespace SuperDeform.Editor.Bench
 {
     internal static class MemoryBench
     {
-        private sealed class Silent : IConversionProgress
+        sealed class Silent : IConversionProgress
         {
             public bool Report(string stage, float fraction) { return true; }
         }
 
-        private static double Megabytes(string key)
+        static double Megabytes(string key)
         {
             foreach (string line in File.ReadAllLines("/proc/self/status"))
+            {
                 if (line.StartsWith(key, StringComparison.Ordinal))
+                {
                     return long.Parse(line.Substring(key.Length + 1).Replace("kB", "").Trim(), CultureInfo.InvariantCulture) / 1024.0;
+                }
+            }
             throw new InvalidOperationException("there is no " + key);
         }
 
-        private static void AddShapes(Mesh mesh, int shapes, double share)
+        static void AddShapes(Mesh mesh, int shapes, double share)
         {
             Vector3[] positions = mesh.vertices, at = new Vector3[positions.Length], turns = new Vector3[positions.Length], tangents = new Vector3[positions.Length];
             int moved = (int)(share * positions.Length);
@@ -47,7 +51,7 @@ namespace SuperDeform.Editor.Bench
             }
         }
 
-        private static int Main(string[] arguments)
+        static int Main(string[] arguments)
         {
             int vertices = arguments.Length > 0 ? int.Parse(arguments[0], CultureInfo.InvariantCulture) : 20000;
             int shapes = arguments.Length > 1 ? int.Parse(arguments[1], CultureInfo.InvariantCulture) : 500;

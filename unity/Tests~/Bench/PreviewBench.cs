@@ -20,14 +20,14 @@ namespace SuperDeform.Editor.Bench
     {
         // Processor time of the process, all threads: what a busy machine cannot falsify.
         [DllImport("libc", EntryPoint = "clock")]
-        private static extern IntPtr ProcessorMicroseconds();
+        static extern IntPtr ProcessorMicroseconds();
 
         // What one part of the path took, in every round.
-        private sealed class Times
+        sealed class Times
         {
-            private readonly List<double> all = new List<double>();
-            private readonly Stopwatch watch = new Stopwatch();
-            private double processor, processorAtStart;
+            readonly List<double> all = new List<double>();
+            readonly Stopwatch watch = new Stopwatch();
+            double processor, processorAtStart;
 
             internal void Start()
             {
@@ -68,13 +68,13 @@ namespace SuperDeform.Editor.Bench
         }
 
         // Everything that PreviewSession holds, apart, so that each part can be timed.
-        private sealed class Path : IDisposable
+        sealed class Path : IDisposable
         {
-            private readonly AvatarData avatar;
-            private readonly AvatarResult result;
-            private readonly ProxySkeleton skeleton;
-            private readonly List<ProxyRenderer> renderers = new List<ProxyRenderer>();
-            private readonly Style style;
+            readonly AvatarData avatar;
+            readonly AvatarResult result;
+            readonly ProxySkeleton skeleton;
+            readonly List<ProxyRenderer> renderers = new List<ProxyRenderer>();
+            readonly Style style;
             internal readonly Deformer Deformer;
 
             internal Path(GameObject root, ConversionSettings settings, uint threads)
@@ -84,14 +84,12 @@ namespace SuperDeform.Editor.Bench
                 Deformer = new Deformer(avatar.Character, style, Options(settings, threads));
                 skeleton = new ProxySkeleton(avatar);
                 result = new AvatarResult(avatar, true);
-                foreach (RendererResult renderer in result.Renderers)
-                    renderers.Add(new ProxyRenderer(avatar, renderer, skeleton));
+                foreach (RendererResult renderer in result.Renderers) renderers.Add(new ProxyRenderer(avatar, renderer, skeleton));
             }
 
             internal Deformer Again(ConversionSettings settings, uint threads)
             {
-                using (Style wanted = settings.MakeStyle())
-                    return new Deformer(avatar.Character, wanted, Options(settings, threads));
+                using (Style wanted = settings.MakeStyle()) return new Deformer(avatar.Character, wanted, Options(settings, threads));
             }
 
             internal void Apply()
@@ -109,14 +107,12 @@ namespace SuperDeform.Editor.Bench
             {
                 skeleton.Move(result);
                 skeleton.Stand(result);
-                foreach (ProxyRenderer renderer in renderers)
-                    renderer.Show(skeleton);
+                foreach (ProxyRenderer renderer in renderers) renderer.Show(skeleton);
             }
 
             public void Dispose()
             {
-                foreach (ProxyRenderer renderer in renderers)
-                    renderer.Destroy();
+                foreach (ProxyRenderer renderer in renderers) renderer.Destroy();
                 skeleton.Destroy();
                 Deformer.Dispose();
                 style.Dispose();
@@ -124,14 +120,14 @@ namespace SuperDeform.Editor.Bench
             }
         }
 
-        private static Options Options(ConversionSettings settings, uint threads)
+        static Options Options(ConversionSettings settings, uint threads)
         {
             Options options = settings.Options.Clone();
             options.ThreadCount = threads;
             return options;
         }
 
-        private static int Main(string[] arguments)
+        static int Main(string[] arguments)
         {
             int vertices = arguments.Length > 0 ? int.Parse(arguments[0], CultureInfo.InvariantCulture) : 50000;
             uint threads = arguments.Length > 1 ? uint.Parse(arguments[1], CultureInfo.InvariantCulture) : 2;
@@ -193,7 +189,7 @@ namespace SuperDeform.Editor.Bench
         }
 
         // Gives the median of deforming and updating.
-        private static double Slider(string name, int rounds, Path path, Action<int> move)
+        static double Slider(string name, int rounds, Path path, Action<int> move)
         {
             Times library = new Times(), apply = new Times(), show = new Times(), both = new Times(), all = new Times();
             Times take = new Times(), share = new Times();

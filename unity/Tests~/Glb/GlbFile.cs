@@ -84,6 +84,7 @@ namespace SuperDeform.Tests.Glb
             int start = view["byteOffset"].Int(0) + offset, stride = view["byteStride"].Int(0);
             if (stride == 0) stride = size * components;
             for (int element = 0; element < count; element++)
+            {
                 for (int component = 0; component < components; component++)
                 {
                     int at = start + element * stride + component * size;
@@ -99,6 +100,7 @@ namespace SuperDeform.Tests.Glb
                     }
                     into[element * components + component] = number;
                 }
+            }
         }
 
         /// The bytes of some elements of an accessor, packed.

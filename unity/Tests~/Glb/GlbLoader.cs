@@ -62,6 +62,7 @@ namespace SuperDeform.Tests.Glb
             foreach (Json root in scene["nodes"].Items) MakeNode(root.Int(), m_Made.Root.transform, taken);
             // Joints count wherever they are.
             foreach (Json skin in m_File.Root["skins"].Items)
+            {
                 foreach (Json joint in skin["joints"].Items)
                 {
                     int top = joint.Int();
@@ -69,6 +70,7 @@ namespace SuperDeform.Tests.Glb
                     for (int above = ParentOf(top); above >= 0; above = ParentOf(above)) top = above;
                     if (m_Made.Nodes[top] == null) MakeNode(top, m_Made.Root.transform, taken);
                 }
+            }
         }
         int ParentOf(int node)
         {
@@ -157,7 +159,9 @@ namespace SuperDeform.Tests.Glb
                 renderer.sharedMaterials = materials.ToArray();
                 List<int[]> ranges = m_Ranges[mesh];
                 for (int primitive = 0; primitive < ranges.Count; primitive++)
+                {
                     m_Made.Primitives.Add(new PrimitiveRange { Node = index, Primitive = primitive, FirstVertex = ranges[primitive][0], VertexCount = ranges[primitive][1], Renderer = renderer, Mesh = mesh });
+                }
             }
         }
 
@@ -236,7 +240,9 @@ namespace SuperDeform.Tests.Glb
             int components;
             double[] numbers = m_File.Numbers(accessor.Int(), out components);
             for (int at = 0; at < numbers.Length; at += components)
+            {
                 yield return new Vector4((float)numbers[at], (float)numbers[at + 1], components > 2 ? (float)numbers[at + 2] : 0f, components > 3 ? (float)numbers[at + 3] : 1f);
+            }
         }
 
         // Fans and strips become single triangles; each turns round.
@@ -322,12 +328,14 @@ namespace SuperDeform.Tests.Glb
                 Vector3[][] deltas = { new Vector3[mesh.vertexCount], normals ? new Vector3[mesh.vertexCount] : null, tangents ? new Vector3[mesh.vertexCount] : null };
                 string[] keys = { "POSITION", "NORMAL", "TANGENT" };
                 foreach (int starter in starters)
+                {
                     for (int key = 0; key < 3; key++)
                     {
                         if (deltas[key] == null) continue;
                         int vertex = ranges[starter][0];
                         foreach (Vector4 v in Vectors(json["primitives"][starter]["targets"][target][keys[key]])) deltas[key][vertex++] = Flip((Vector3)v);
                     }
+                }
                 Json names = json["extras"]["targetNames"];
                 if (!names.Exists) names = json["primitives"][starters[0]]["extras"]["targetNames"];
                 string wanted = names[target].Text("");

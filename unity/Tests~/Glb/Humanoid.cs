@@ -22,7 +22,9 @@ namespace SuperDeform.Tests.Glb
         {
             List<SkeletonBone> skeleton = new List<SkeletonBone>();
             foreach (Transform at in root.GetComponentsInChildren<Transform>(true))
+            {
                 skeleton.Add(new SkeletonBone { name = at.name, position = at.localPosition, rotation = at.localRotation, scale = at.localScale });
+            }
             List<HumanBone> human = new List<HumanBone>();
             foreach (KeyValuePair<string, Transform> pair in roles)
             {

@@ -12,12 +12,12 @@ namespace SuperDeform.Editor.Tests
             Strings.Language = "en";
         }
 
-        private static BatchArguments Read(params string[] arguments)
+        static BatchArguments Read(params string[] arguments)
         {
             return BatchArguments.Read(arguments);
         }
 
-        private static void Refused(string sentence, params string[] arguments)
+        static void Refused(string sentence, params string[] arguments)
         {
             Assert.That(() => BatchArguments.Read(arguments), Throws.ArgumentException.With.Message.Contains(sentence));
         }
@@ -131,7 +131,9 @@ namespace SuperDeform.Editor.Tests
             Refused("9 is no number from 1.8 to 6, which the option -superdeformHeads needs", "-superdeformAvatars", "A",
                 "-superdeformHeads", "9");
             foreach (string text in new[] { "two", "NaN", "Infinity", "2,5", "" })
+            {
                 Refused("-superdeformHeads needs", "-superdeformAvatars", "A", "-superdeformHeads", text);
+            }
         }
 
         [Test]
@@ -141,7 +143,9 @@ namespace SuperDeform.Editor.Tests
             Refused("keep, auto", "-superdeformAvatars", "A", "-superdeformRig", "yes");
             foreach (string text in new[] { "tail:length=1", "head", "head:", "head:length", "head:length=x", "head:width=1",
                 "head:length=0", "head:length=1=2" })
+            {
                 Refused("upper_leg:length=0.4", "-superdeformAvatars", "A", "-superdeformGroup", text);
+            }
         }
 
         [Test]

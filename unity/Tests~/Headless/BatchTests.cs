@@ -11,7 +11,7 @@ namespace SuperDeform.Editor.Tests
     [TestFixture]
     public class BatchTests
     {
-        private ulong handles;
+        ulong handles;
 
         [SetUp]
         public void Begin()
@@ -23,20 +23,21 @@ namespace SuperDeform.Editor.Tests
         [TearDown]
         public void NothingIsLeft()
         {
-            foreach (EditorWindow window in Resources.FindObjectsOfTypeAll<EditorWindow>())
-                window.Close();
+            foreach (EditorWindow window in Resources.FindObjectsOfTypeAll<EditorWindow>()) window.Close();
             Assert.AreEqual(handles, SuperDeformLibrary.LiveHandles, "live handles");
             Assert.IsFalse(Dialogs.BarOpen, "a progress bar is open");
             Assert.IsEmpty(Dialogs.Shown, "dialogs");
         }
 
         // A prefab of a figure; its scene object goes.
-        private static string Prefab(string name)
+        static string Prefab(string name)
         {
             var figure = new WindowFigure(name, 2000);
             string path = "Assets/" + name + ".prefab";
             foreach (MeshFilter filter in figure.Root.GetComponentsInChildren<MeshFilter>(true))
+            {
                 AssetDatabase.CreateAsset(filter.sharedMesh, "Assets/" + name + "_hat.asset");
+            }
             AssetDatabase.CreateAsset(figure.Body.sharedMesh, "Assets/" + name + "_body.asset");
             PrefabUtility.SaveAsPrefabAsset(figure.Root, path);
             UnityEngine.Object.DestroyImmediate(figure.Root);
@@ -44,7 +45,7 @@ namespace SuperDeform.Editor.Tests
         }
 
         // A prefab that shows nothing.
-        private static string Empty(string name)
+        static string Empty(string name)
         {
             var root = new GameObject(name);
             PrefabUtility.SaveAsPrefabAsset(root, "Assets/" + name + ".prefab");
@@ -52,7 +53,7 @@ namespace SuperDeform.Editor.Tests
             return "Assets/" + name + ".prefab";
         }
 
-        private static string Logged()
+        static string Logged()
         {
             return string.Join("\n", Log.Lines.ConvertAll(line => line.Text));
         }
@@ -110,7 +111,7 @@ namespace SuperDeform.Editor.Tests
             Assert.That(Height("Assets/Four/A_SD/A_SD.prefab"), Is.Not.EqualTo(Height("Assets/Two/A_SD/A_SD.prefab")).Within(0.05f));
         }
 
-        private static float Height(string prefab)
+        static float Height(string prefab)
         {
             var root = AssetDatabase.LoadAssetAtPath<GameObject>(prefab);
             Assert.IsNotNull(root, prefab);
@@ -131,8 +132,7 @@ namespace SuperDeform.Editor.Tests
             string a = Prefab("A"), chibi = Prefab("Chibi");
             Assert.AreEqual(0, BatchConvert.Run(new[] { "-superdeformAvatars", a, "-superdeformReference", chibi,
                 "-superdeformBlend", "0.5", "-superdeformHeads", "3" }), Logged());
-            using (Style style = Style.FromText("sd3"))
-                StubProject.Import("Assets/chibi.json", new TextAsset(style.ToJson()));
+            using (Style style = Style.FromText("sd3")) StubProject.Import("Assets/chibi.json", new TextAsset(style.ToJson()));
             Assert.AreEqual(0, BatchConvert.Run(new[] { "-superdeformAvatars", a, "-superdeformStyle", "Assets/chibi.json" }),
                 Logged());
         }
@@ -172,10 +172,10 @@ namespace SuperDeform.Editor.Tests
             StringAssert.StartsWith("B was cancelled", report.Entries[1].Failure);
         }
 
-        private sealed class StopAt : IConversionProgress
+        sealed class StopAt : IConversionProgress
         {
-            private readonly float end;
-            private float last;
+            readonly float end;
+            float last;
 
             internal StopAt(float end)
             {
@@ -215,7 +215,7 @@ namespace SuperDeform.Editor.Tests
             Assert.That(Dialogs.Bars.Count, Is.GreaterThan(5));
         }
 
-        private static void Draw(EditorWindow window)
+        static void Draw(EditorWindow window)
         {
             Gui.Pass(() => window.GetType().GetMethod("OnGUI", System.Reflection.BindingFlags.Instance
                 | System.Reflection.BindingFlags.NonPublic).Invoke(window, null));

@@ -16,10 +16,10 @@ namespace SuperDeform.Editor.Tests
     [TestFixture]
     public class BuildTests
     {
-        private const float Height = 1.9f;
-        private ConversionFigure figure;
+        const float Height = 1.9f;
+        ConversionFigure figure;
 
-        private static ConversionSettings Settings()
+        static ConversionSettings Settings()
         {
             return new ConversionSettings { Heads = 2.5f, OutputFolder = "Assets/Out", PlaceInScene = false };
         }
@@ -39,7 +39,7 @@ namespace SuperDeform.Editor.Tests
         }
 
         /// <summary>A bought outfit: a humanoid itself, set up with Modular Avatar.</summary>
-        private SkinnedMeshRenderer Dress()
+        SkinnedMeshRenderer Dress()
         {
             SkinnedMeshRenderer coat = Wardrobe.Coat(figure, 0.015f);
             var twins = Wardrobe.Armature(figure.Root, figure.Bones[HumanBodyBones.Hips], name => name + ".coat");
@@ -55,7 +55,7 @@ namespace SuperDeform.Editor.Tests
             return coat;
         }
 
-        private GameObject Built(Action<BuildContext> earlier = null)
+        GameObject Built(Action<BuildContext> earlier = null)
         {
             GameObject clone = UnityEngine.Object.Instantiate(figure.Root);
             clone.name = figure.Root.name + "(Clone)";
@@ -64,7 +64,7 @@ namespace SuperDeform.Editor.Tests
             return clone;
         }
 
-        private static string Said()
+        static string Said()
         {
             return string.Join("\n", NdmfStub.Report);
         }
@@ -96,7 +96,7 @@ namespace SuperDeform.Editor.Tests
             Assert.That(Converter.Convert(figure.Root, Settings(), null).Prefab, Is.Not.Null);
         }
 
-        private static readonly string[] places = { "Beside", "Shoulder" };
+        static readonly string[] places = { "Beside", "Shoulder" };
 
         [Test]
         public void a_pet_that_is_a_humanoid_rides_along_in_its_own_shape([ValueSource("places")] string where)
@@ -104,8 +104,7 @@ namespace SuperDeform.Editor.Tests
             var other = new ConversionFigure().Make();
             Transform pet = other.Root.transform;
             pet.name = "Pet";
-            foreach (Renderer renderer in pet.GetComponentsInChildren<Renderer>(true))
-                renderer.name = "Pet" + renderer.name;
+            foreach (Renderer renderer in pet.GetComponentsInChildren<Renderer>(true)) renderer.name = "Pet" + renderer.name;
             pet.SetParent(where == "Beside" ? figure.Root.transform : figure.Bones[HumanBodyBones.LeftUpperArm], false);
             pet.localScale = Vector3.one * 0.15f;
             pet.position = where == "Beside" ? new Vector3(0.6f, 0, 0) : new Vector3(-0.18f, 1.52f, 0);
@@ -120,8 +119,7 @@ namespace SuperDeform.Editor.Tests
             Assert.AreEqual(Tall(built) / Tall(figure.Root), size, 1e-3, "it grows as the avatar does");
             // It goes where the shoulder goes that carries it.
             Vector3 shoulder = ConversionTests.Find(built, "J_LeftUpperArm").position, place = ConversionTests.Find(built, "Pet").position;
-            if (where == "Shoulder")
-                Assert.That(Vector3.Distance(shoulder, place), Is.LessThan(0.1));
+            if (where == "Shoulder") Assert.That(Vector3.Distance(shoulder, place), Is.LessThan(0.1));
             SettingsText.Give(figure.Root.AddComponent<SuperDeformAvatar>(), Settings());
             using (NdmfPreviewStub preview = NdmfPreviewStub.Of(NdmfStub.Filters[0]))
             {
@@ -138,11 +136,10 @@ namespace SuperDeform.Editor.Tests
         }
 
         /// <summary>How tall the avatar is, without its pet.</summary>
-        private static double Tall(GameObject avatar)
+        static double Tall(GameObject avatar)
         {
             var all = new List<Vector3>();
-            foreach (string name in new[] { "Body", "Hair", "Hat" })
-                all.AddRange(Drawing.Drawn(avatar, name));
+            foreach (string name in new[] { "Body", "Hair", "Hat" }) all.AddRange(Drawing.Drawn(avatar, name));
             return Drawing.Extent(all.ToArray());
         }
 
@@ -194,8 +191,7 @@ namespace SuperDeform.Editor.Tests
                     before = Fingerprint.Of(WithoutComponent(clone));
                     NdmfStub.Refuse = asset =>
                     {
-                        if (saved++ == limit)
-                            throw new IOException("there is not enough space on the disk");
+                        if (saved++ == limit) throw new IOException("there is not enough space on the disk");
                     };
                 });
                 NdmfStub.Refuse = null;
@@ -208,7 +204,7 @@ namespace SuperDeform.Editor.Tests
         }
 
         /// <summary>A copy without this package's component, which goes in any case.</summary>
-        private static GameObject WithoutComponent(GameObject avatar)
+        static GameObject WithoutComponent(GameObject avatar)
         {
             GameObject copy = UnityEngine.Object.Instantiate(avatar);
             UnityEngine.Object.DestroyImmediate(copy.GetComponent<SuperDeformAvatar>());
@@ -224,7 +220,7 @@ namespace SuperDeform.Editor.Tests
             Assert.That(Dialogs.BarOpen, Is.False);
         }
 
-        private static void Settings_BatchMode(bool batch)
+        static void Settings_BatchMode(bool batch)
         {
             UnityStubs.Settings.BatchMode = batch;
         }

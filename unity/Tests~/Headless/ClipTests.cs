@@ -2,6 +2,7 @@ using System;
 using System.Collections.Generic;
 using nadena.dev.ndmf;
 using NUnit.Framework;
+using SuperDeform.Tests.Glb;
 using SuperDeform.Editor.Ndmf;
 using UnityEditor;
 using UnityEditor.Animations;
@@ -14,10 +15,10 @@ namespace SuperDeform.Editor.Tests
     [TestFixture]
     public class ClipTests
     {
-        private const float Height = 1.9f;
-        private static readonly Vector3 step = new Vector3(0.01f, 0.03f, -0.02f);
-        private ConversionFigure figure;
-        private AnimationClip walk;
+        const float Height = 1.9f;
+        static readonly Vector3 step = new Vector3(0.01f, 0.03f, -0.02f);
+        ConversionFigure figure;
+        AnimationClip walk;
 
         [SetUp]
         public void Begin()
@@ -26,58 +27,53 @@ namespace SuperDeform.Editor.Tests
             figure = new ConversionFigure { Turned = true }.Make();
             walk = new AnimationClip { name = "Walk" };
             foreach (Transform bone in figure.Bones.Values)
+            {
                 for (int axis = 0; axis < 3; axis++)
+                {
                     Set(walk, bone, typeof(Transform), "m_LocalPosition." + "xyz"[axis], bone.localPosition[axis], bone.localPosition[axis] + step[axis]);
+                }
+            }
             StubProject.Import("Assets/Walk.anim", walk);
             Play(figure.Root.GetComponent<Animator>(), walk);
         }
 
-        private static ConversionSettings Settings()
+        static ConversionSettings Settings()
         {
             return new ConversionSettings { Source = StyleSource.BuiltIn, BuiltInStyle = "sd2.5", OutputFolder = "Assets/Out", PlaceInScene = false };
         }
 
-        private static void Play(Animator animator, params AnimationClip[] clips)
+        static void Play(Animator animator, params AnimationClip[] clips)
         {
             var controller = new AnimatorController { name = "Moves" };
-            foreach (AnimationClip clip in clips)
-                controller.AddMotion(clip);
+            foreach (AnimationClip clip in clips) controller.AddMotion(clip);
             StubProject.Import("Assets/Moves.controller", controller);
             animator.runtimeAnimatorController = controller;
         }
 
-        private void Set(AnimationClip clip, Transform place, Type type, string property, float first, float second)
+        void Set(AnimationClip clip, Transform place, Type type, string property, float first, float second)
         {
             var keys = new[] { new Keyframe(0, first, 0, 2), new Keyframe(1, second, 2, float.PositiveInfinity) };
             AnimationUtility.SetEditorCurve(clip, EditorCurveBinding.FloatCurve(Path(figure.Root.transform, place), type, property), new AnimationCurve(keys));
         }
 
-        private static string Path(Transform root, Transform place)
+        static string Path(Transform root, Transform place)
         {
             return place.parent == root ? place.name : Path(root, place.parent) + "/" + place.name;
         }
 
-        private static Keyframe[] Keys(AnimationClip clip, string path, Type type, string property)
+        static Keyframe[] Keys(AnimationClip clip, string path, Type type, string property)
         {
             return AnimationUtility.GetEditorCurve(clip, EditorCurveBinding.FloatCurve(path, type, property)).keys;
         }
 
-        private static float Low(GameObject root)
-        {
-            float low = float.PositiveInfinity;
-            foreach (Renderer renderer in root.GetComponentsInChildren<Renderer>(true))
-                foreach (Vector3 p in Drawing.Drawn(renderer, root.transform.worldToLocalMatrix))
-                    low = Mathf.Min(low, p.y);
-            return low;
-        }
-
-        /// <summary>By how much a step of each bone is to grow: as the command line has it, hips by their height and the rest by the body.</summary>
-        private Dictionary<HumanBodyBones, double> Wanted(GameObject result)
+        /// <summary>By how much a step of each bone is to grow: as the command line has it, hips and legs by the legs' length and the rest by the body.</summary>
+        Dictionary<HumanBodyBones, double> Wanted(GameObject result)
         {
             var wanted = new Dictionary<HumanBodyBones, double>();
             using (AvatarData data = CharacterReader.Read(figure.Root, new ReadOptions()))
             using (Style style = Settings().MakeStyle())
             using (var deformer = new Deformer(data.Character, style, Settings().Options))
+            {
                 foreach (KeyValuePair<HumanBodyBones, Transform> bone in figure.Bones)
                 {
                     uint joint = (uint)data.IndexOf(bone.Value);
@@ -86,12 +82,28 @@ namespace SuperDeform.Editor.Tests
                     deformer.MapPoints(new[] { joint }, new[] { place.X, place.Y, place.Z }, new double[3], scale);
                     wanted.Add(bone.Key, scale[0]);
                 }
-            float now = Array.Find(result.GetComponentsInChildren<Transform>(), t => t.name == "J_Hips").position.y - Low(result);
-            wanted[HumanBodyBones.Hips] = now / (figure.Bones[HumanBodyBones.Hips].position.y - Low(figure.Root));
+            }
+            Transform[] all = result.GetComponentsInChildren<Transform>();
+            double stride = LegLength(bone => Array.Find(all, t => t.name == figure.Bones[bone].name)) / LegLength(bone => figure.Bones[bone]);
+            foreach (HumanBodyBones bone in legs) wanted[bone] = stride;
+            wanted[HumanBodyBones.Hips] = stride;
             return wanted;
         }
 
-        private void Walks(GameObject result, AnimationClip clip)
+        static readonly HumanBodyBones[] legs =
+        {
+            HumanBodyBones.LeftUpperLeg, HumanBodyBones.LeftLowerLeg, HumanBodyBones.LeftFoot,
+            HumanBodyBones.RightUpperLeg, HumanBodyBones.RightLowerLeg, HumanBodyBones.RightFoot
+        };
+
+        static double LegLength(Func<HumanBodyBones, Transform> find)
+        {
+            double length = 0;
+            foreach (int part in new[] { 0, 1, 3, 4 }) length += Vector3.Distance(find(legs[part]).position, find(legs[part + 1]).position);
+            return length;
+        }
+
+        void Walks(GameObject result, AnimationClip clip)
         {
             Dictionary<HumanBodyBones, double> wanted = Wanted(result);
             // Bones of the figure count in hundredths.
@@ -113,8 +125,7 @@ namespace SuperDeform.Editor.Tests
         [Test]
         public void a_walk_of_a_generic_character_goes_along([Values(false, true)] bool humanoid)
         {
-            if (!humanoid)
-                figure.Root.GetComponent<Animator>().avatar = null;
+            if (!humanoid) figure.Root.GetComponent<Animator>().avatar = null;
             ConversionResult result = Converter.Convert(figure.Root, Settings(), null);
             RuntimeAnimatorController moves = result.Prefab.GetComponent<Animator>().runtimeAnimatorController;
             Assert.AreEqual("Moves", moves.name);
@@ -126,6 +137,79 @@ namespace SuperDeform.Editor.Tests
             // The avatar and what it plays are as they were.
             Assert.AreEqual(figure.Bones[HumanBodyBones.Head].localPosition.y, Keys(walk, Path(figure.Root.transform, figure.Bones[HumanBodyBones.Head]), typeof(Transform), "m_LocalPosition.y")[0].value);
             Assert.AreSame(walk, figure.Root.GetComponent<Animator>().runtimeAnimatorController.animationClips[0]);
+        }
+
+        /// <summary>The places of a clip's tracks by node's name, a key after the other, in Unity's axes.</summary>
+        static Dictionary<string, Vector3[]> Tracks(string path)
+        {
+            var file = new GlbFile(path);
+            var tracks = new Dictionary<string, Vector3[]>();
+            Json clip = file.Root["animations"][0];
+            foreach (Json channel in clip["channels"].Items)
+            {
+                Assert.AreEqual("translation", channel["target"]["path"].Text());
+                double[] numbers = file.Numbers(clip["samplers"][channel["sampler"].Int()]["output"].Int(), out int width);
+                var places = new Vector3[numbers.Length / width];
+                for (int key = 0; key < places.Length; key++)
+                {
+                    places[key] = new Vector3(-(float)numbers[3 * key], (float)numbers[3 * key + 1], (float)numbers[3 * key + 2]);
+                }
+                tracks.Add(file.Root["nodes"][channel["target"]["node"].Int()]["name"].Text(), places);
+            }
+            return tracks;
+        }
+
+        [Test]
+        public void a_walk_is_the_command_lines()
+        {
+            // What Tests~/Glb/walk.py made of the rogue.
+            string walking = System.IO.Path.Combine(Models.Out, "kaykit_walk.glb"), made = ExampleTests.RunExample(walking, "--heads 2");
+            if (made == null) return;
+            Model model = Models.Load(walking);
+            // A Generic character: its joints are known by their names.
+            model.Root.AddComponent<Animator>();
+            var clip = new AnimationClip { name = "Walk" };
+            Dictionary<string, Vector3[]> tracks = Tracks(walking), wanted = Tracks(made);
+            var places = new Dictionary<string, string>();
+            foreach (string name in tracks.Keys)
+            {
+                Transform joint = ConversionTests.Find(model.Root, name);
+                places.Add(name, Path(model.Root.transform, joint));
+                for (int axis = 0; axis < 3; axis++)
+                {
+                    AnimationUtility.SetEditorCurve(clip, EditorCurveBinding.FloatCurve(places[name], typeof(Transform), "m_LocalPosition." + "xyz"[axis]),
+                        new AnimationCurve(new Keyframe(0, tracks[name][0][axis]), new Keyframe(1, tracks[name][1][axis])));
+                }
+            }
+            StubProject.Import("Assets/Walk.anim", clip);
+            Play(model.Root.GetComponent<Animator>(), clip);
+            ConversionResult result = Converter.Convert(model.Root, new ConversionSettings { Heads = 2, PlaceInScene = false }, null);
+            AnimationClip copy = result.Prefab.GetComponent<Animator>().runtimeAnimatorController.animationClips[0];
+            GameObject mine = UnityEngine.Object.Instantiate(result.Prefab), theirs = GlbLoader.Load(made, null).Root;
+            double height = Models.Height(model.Root), far = 0, moved = 0;
+            foreach (int key in new[] { 0, 1 })
+            {
+                foreach (string name in tracks.Keys)
+                {
+                    Transform joint = ConversionTests.Find(mine, name);
+                    Vector3 at = joint.localPosition;
+                    for (int axis = 0; axis < 3; axis++)
+                    {
+                        at[axis] = Keys(copy, places[name], typeof(Transform), "m_LocalPosition." + "xyz"[axis])[key].value;
+                    }
+                    moved = Math.Max(moved, Vector3.Distance(at, joint.localPosition));
+                    joint.localPosition = at;
+                    ConversionTests.Find(theirs, name).localPosition = wanted[name][key];
+                }
+                foreach (string name in tracks.Keys)
+                {
+                    Vector3 one = mine.transform.InverseTransformPoint(ConversionTests.Find(mine, name).position);
+                    far = Math.Max(far, Vector3.Distance(one, theirs.transform.InverseTransformPoint(ConversionTests.Find(theirs, name).position)));
+                }
+            }
+            Console.WriteLine("{0} joints: {1:0.0E0} of the height off the command line's, moved by {2:0.00}", tracks.Count, far / height, moved / height);
+            Assert.That(moved, Is.GreaterThan(0.1 * height));
+            Assert.That(far, Is.LessThan(1e-4 * height));
         }
 
         [Test]
@@ -175,7 +259,7 @@ namespace SuperDeform.Editor.Tests
         }
 
         /// <summary>Plays clips in a way that nobody here knows.</summary>
-        private sealed class Player : MonoBehaviour
+        sealed class Player : MonoBehaviour
         {
             public RuntimeAnimatorController Layer;
         }
@@ -190,7 +274,7 @@ namespace SuperDeform.Editor.Tests
             Assert.That(left != null && left.Severity == Severity.Warning && left.Text.Contains("Walk") && left.Text.Contains("Player"));
         }
 
-        private static string Build(GameObject clone)
+        static string Build(GameObject clone)
         {
             return NdmfStub.Build<SuperDeformPlugin>(clone);
         }

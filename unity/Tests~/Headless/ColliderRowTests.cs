@@ -16,9 +16,9 @@ namespace SuperDeform.Editor.Tests
     [TestFixture]
     public class ColliderRowTests
     {
-        private const HumanBodyBones Arm = HumanBodyBones.LeftUpperArm, Leg = HumanBodyBones.RightUpperLeg;
-        private const float Near = 1e-4f;
-        private ConversionFigure figure;
+        const HumanBodyBones Arm = HumanBodyBones.LeftUpperArm, Leg = HumanBodyBones.RightUpperLeg;
+        const float Near = 1e-4f;
+        ConversionFigure figure;
 
         /// <summary>The classes that these tests are for.</summary>
         internal static readonly string[] Types =
@@ -31,7 +31,7 @@ namespace SuperDeform.Editor.Tests
         };
 
         /// <summary>Two balls and what is between them, or one ball, in the space of a transform.</summary>
-        private struct Shape
+        struct Shape
         {
             internal Vector3 First, Second;
             internal float FirstRadius, SecondRadius;
@@ -42,18 +42,18 @@ namespace SuperDeform.Editor.Tests
             }
         }
 
-        private static float Cube(PointMap map, Transform frame, Vector3 at)
+        static float Cube(PointMap map, Transform frame, Vector3 at)
         {
             Vector3 x = Step(map, frame, at, Vector3.right), y = Step(map, frame, at, Vector3.up), z = Step(map, frame, at, Vector3.forward);
             return (float)Math.Pow(Math.Abs(Vector3.Dot(x, Vector3.Cross(y, z))), 1.0 / 3);
         }
 
-        private static Vector3 Step(PointMap map, Transform frame, Vector3 at, Vector3 way)
+        static Vector3 Step(PointMap map, Transform frame, Vector3 at, Vector3 way)
         {
             return (map.Point(frame, at + way * 1e-3f) - map.Point(frame, at - way * 1e-3f)) / 2e-3f;
         }
 
-        private static Shape Wanted(PointMap map, Transform frame, Shape old)
+        static Shape Wanted(PointMap map, Transform frame, Shape old)
         {
             float growth = old.First == old.Second ? Cube(map, frame, old.First)
                 : Mathf.Sqrt(ComponentTableTests.Across(map, frame, old.First, old.First - old.Second) * ComponentTableTests.Across(map, frame, old.Second, old.First - old.Second));
@@ -67,7 +67,7 @@ namespace SuperDeform.Editor.Tests
         /// <summary>Converts a figure with one component on its arm.</summary>
         /// <param name="frame">In whose space the shape is; null: the component's own.</param>
         /// <param name="turns">Whether the ends go where they should exactly; else their distance and middle do.</param>
-        private void Check<T>(string what, Action<T> set, HumanBodyBones frame, Func<T, Shape> shape, bool turns, Action<T, T> more = null) where T : Component
+        void Check<T>(string what, Action<T> set, HumanBodyBones frame, Func<T, Shape> shape, bool turns, Action<T, T> more = null) where T : Component
         {
             figure = ComponentTableTests.Probed();
             T component = figure.Bones[Arm].gameObject.AddComponent<T>();
@@ -93,13 +93,12 @@ namespace SuperDeform.Editor.Tests
             {
                 Assert.That(Vector3.Distance(wanted.First + wanted.Second, found.First + found.Second), Is.LessThan(2 * Near), what + ": middle");
             }
-            if (more != null)
-                more(component, made);
+            if (more != null) more(component, made);
             Assert.AreEqual(before, Fingerprint.Of(figure.Root), what + ": the source");
         }
 
         // Heights of VRChat, Modular Avatar and NDMF are from tip to tip, along Y.
-        private static Shape Upright(Vector3 position, Quaternion rotation, float radius, float height)
+        static Shape Upright(Vector3 position, Quaternion rotation, float radius, float height)
         {
             Vector3 half = rotation * Vector3.up * Math.Max(0, height / 2 - radius);
             return new Shape { First = position + half, Second = position - half, FirstRadius = radius, SecondRadius = radius };
@@ -200,18 +199,19 @@ namespace SuperDeform.Editor.Tests
         public void colliders_of_ndmf_and_modular_avatar()
         {
             foreach (int type in new[] { 0, 1 })
+            {
                 Check<nadena.dev.ndmf.multiplatform.components.PortableDynamicBoneCollider>("type " + type, c => c.m_colliderType = type, Arm,
                     c => type == 0 ? Shape.Ball(c.m_positionOffset, c.m_radius) : Upright(c.m_positionOffset, c.m_rotationOffset, c.m_radius, c.m_height), true);
+            }
             Check<nadena.dev.modular_avatar.core.ModularAvatarGlobalCollider>("capsule", c => c.m_rootTransform.targetObject = figure.Bones[Leg].gameObject, Leg,
                 c => Upright(c.m_position, c.m_rotation, c.m_radius, c.m_height), true);
         }
 
         // As DynamicBoneCollider prepares itself: ends at half the height less each radius; a second radius that is 0 or close is none.
-        private static Shape Seen(DynamicBoneCollider c)
+        static Shape Seen(DynamicBoneCollider c)
         {
             float half = c.m_Height / 2, one = c.m_Radius, other = c.m_Radius2 > 0 && Math.Abs(c.m_Radius - c.m_Radius2) >= 0.01f ? c.m_Radius2 : c.m_Radius;
-            if (half - Math.Max(one, other) <= 0)
-                return Shape.Ball(c.m_Center, Math.Max(one, other));
+            if (half - Math.Max(one, other) <= 0) return Shape.Ball(c.m_Center, Math.Max(one, other));
             Vector3 axis = new Vector3(c.m_Direction == 0 ? 1 : 0, c.m_Direction == 1 ? 1 : 0, c.m_Direction == 2 ? 1 : 0);
             return new Shape { First = c.m_Center + axis * (half - one), Second = c.m_Center - axis * (half - other), FirstRadius = one, SecondRadius = other };
         }
@@ -220,11 +220,13 @@ namespace SuperDeform.Editor.Tests
         public void colliders_of_dynamic_bone()
         {
             for (int direction = 0; direction < 3; direction++)
+            {
                 Check<DynamicBoneCollider>("direction " + direction, c =>
                 {
                     c.m_Direction = direction;
                     c.m_Radius2 = 0;
                 }, Arm, Seen, false, (old, made) => Assert.AreEqual(0, made.m_Radius2));
+            }
             Check<DynamicBoneCollider>("two radii", c => c.m_Radius2 = 0.09f, Arm, Seen, false);
             Check<DynamicBoneCollider>("ball", c =>
             {
@@ -234,14 +236,14 @@ namespace SuperDeform.Editor.Tests
         }
 
         // As Magica Cloth 1 has it: the length is from the centre to each end's middle.
-        private static Shape Seen(MagicaCloth.MagicaCapsuleCollider c)
+        static Shape Seen(MagicaCloth.MagicaCapsuleCollider c)
         {
             Vector3 half = new Vector3(c.axis == 0 ? 1 : 0, c.axis == 1 ? 1 : 0, c.axis == 2 ? 1 : 0) * c.length;
             return new Shape { First = c.center + half, Second = c.center - half, FirstRadius = c.startRadius, SecondRadius = c.endRadius };
         }
 
         // And 2: from tip to tip, around the centre or from it; backwards or not; with one radius or two.
-        private static Shape Seen(MagicaCloth2.MagicaCapsuleCollider c)
+        static Shape Seen(MagicaCloth2.MagicaCapsuleCollider c)
         {
             float one = c.size.x, other = c.radiusSeparation ? c.size.y : c.size.x;
             Vector3 axis = new Vector3(c.direction == 0 ? 1 : 0, c.direction == 1 ? 1 : 0, c.direction == 2 ? 1 : 0) * (c.reverseDirection ? -1 : 1);

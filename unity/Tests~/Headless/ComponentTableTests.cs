@@ -11,10 +11,10 @@ namespace SuperDeform.Editor.Tests
     [TestFixture]
     public class ComponentTableTests
     {
-        private sealed class Mark : MonoBehaviour { }
+        sealed class Mark : MonoBehaviour { }
 
         /// <summary>Asks the map of a conversion while there is one.</summary>
-        private sealed class Probe : IComponentAdapter
+        sealed class Probe : IComponentAdapter
         {
             internal static Action<PointMap> Ask;
             public bool Handles(Component copy) { return copy is Mark; }
@@ -26,16 +26,16 @@ namespace SuperDeform.Editor.Tests
             Probe.Ask = ask;
         }
 
-        private const HumanBodyBones Arm = HumanBodyBones.LeftUpperArm, Leg = HumanBodyBones.RightUpperLeg;
-        private ConversionFigure figure;
-        private readonly HashSet<string> tried = new HashSet<string>();
+        const HumanBodyBones Arm = HumanBodyBones.LeftUpperArm, Leg = HumanBodyBones.RightUpperLeg;
+        ConversionFigure figure;
+        readonly HashSet<string> tried = new HashSet<string>();
 
         internal static ConversionSettings Settings()
         {
             return new ConversionSettings { Heads = 2.5f, OutputFolder = "Assets/Out", PlaceInScene = false };
         }
 
-        private void Begin()
+        void Begin()
         {
             figure = Probed();
         }
@@ -50,7 +50,7 @@ namespace SuperDeform.Editor.Tests
             return figure;
         }
 
-        private static object Get(Component component, string path)
+        static object Get(Component component, string path)
         {
             using (var properties = new SerializedObject(component))
             {
@@ -81,13 +81,13 @@ namespace SuperDeform.Editor.Tests
             return Mathf.Sqrt(Mathf.Abs(Vector3.Dot(Vector3.Cross(first, second), along.normalized))) / 2e-3f;
         }
 
-        private static object Times(object old, float scale)
+        static object Times(object old, float scale)
         {
             return old is float ? (object)((float)old * scale) : (Vector3)old * scale;
         }
 
         /// <summary>One property: "path: rule [argument...]"; what it must become.</summary>
-        private static object Wanted(PointMap map, Component component, Transform frame, string[] words)
+        static object Wanted(PointMap map, Component component, Transform frame, string[] words)
         {
             object old = Get(component, words[0]);
             Vector3 at = words.Length > 2 && words[2] != "-" ? (Vector3)Get(component, words[2]) : Vector3.zero;
@@ -105,8 +105,7 @@ namespace SuperDeform.Editor.Tests
                 case "chain":
                     float sum = 0;
                     Transform[] chain = frame.GetComponentsInChildren<Transform>(true);
-                    foreach (Transform joint in chain)
-                        sum += map.Scale(joint, Vector3.zero);
+                    foreach (Transform joint in chain) sum += map.Scale(joint, Vector3.zero);
                     return Times(old, sum / chain.Length);
                 case "end": return map.Point(Last(frame), (Vector3)old);
                 case "endlength": return Times(old, map.Scale(Last(frame), Vector3.zero));
@@ -116,25 +115,23 @@ namespace SuperDeform.Editor.Tests
             throw new ArgumentException(words[1]);
         }
 
-        private static Transform Last(Transform chain)
+        static Transform Last(Transform chain)
         {
             return chain.childCount == 0 ? chain : Last(chain.GetChild(0));
         }
 
         /// <summary>Puts a component on the arm, converts, and compares each property with what it must become.</summary>
-        private void Row(Type type, Action<Component> set, Func<Component, Transform> frame, params string[] properties)
+        void Row(Type type, Action<Component> set, Func<Component, Transform> frame, params string[] properties)
         {
             Begin();
             Component component = figure.Bones[Arm].gameObject.AddComponent(type);
-            if (set != null)
-                set(component);
+            if (set != null) set(component);
             string before = Fingerprint.Of(figure.Root);
             var wanted = new List<object>();
             Probe.Ask = map =>
             {
                 Transform from = frame == null ? component.transform : frame(component);
-                foreach (string property in properties)
-                    wanted.Add(Wanted(map, component, from, property.Split(' ')));
+                foreach (string property in properties) wanted.Add(Wanted(map, component, from, property.Split(' ')));
             };
             GameObject prefab = Converter.Convert(figure.Root, Settings(), null).Prefab;
             Component made = Array.Find(prefab.GetComponentsInChildren<Component>(true), one => one.GetType() == type);
@@ -143,16 +140,14 @@ namespace SuperDeform.Editor.Tests
                 string[] words = properties[i].Split(' ');
                 object now = Get(made, words[0]), old = Get(component, words[0]);
                 string name = type.Name + " " + properties[i];
-                if (now is float)
-                    Assert.AreEqual((float)wanted[i], (float)now, 1e-3f * Math.Abs((float)old), name);
+                if (now is float) Assert.AreEqual((float)wanted[i], (float)now, 1e-3f * Math.Abs((float)old), name);
                 else if (now is Vector3)
+                {
                     Assert.That(Vector3.Distance((Vector3)wanted[i], (Vector3)now), Is.LessThan(1e-3f * ((Vector3)old).magnitude + 1e-6f), name);
-                else
-                    Assert.AreEqual(wanted[i], now, name);
-                if (words[1] == "stays")
-                    Assert.AreEqual(old, now, name);
-                else
-                    Assert.AreNotEqual(old, now, name);
+                }
+                else Assert.AreEqual(wanted[i], now, name);
+                if (words[1] == "stays") Assert.AreEqual(old, now, name);
+                else Assert.AreNotEqual(old, now, name);
             }
             Assert.AreEqual(before, Fingerprint.Of(figure.Root), type.Name + " of the source");
             tried.Add(type.FullName);
@@ -174,11 +169,10 @@ namespace SuperDeform.Editor.Tests
                 Probe.Ask = null;
             }
             tried.UnionWith(ColliderRowTests.Types);
-            foreach (string type in ComponentTable.Types)
-                Assert.That(tried.Contains(type), "no made-up component stands for " + type);
+            foreach (string type in ComponentTable.Types) Assert.That(tried.Contains(type), "no made-up component stands for " + type);
         }
 
-        private void VrChat()
+        void VrChat()
         {
             Func<Component, Transform> leg = component => figure.Bones[Leg];
             Row(typeof(VRC.Core.PipelineManager), null, null, "blueprintId empty");
@@ -194,11 +188,13 @@ namespace SuperDeform.Editor.Tests
                 constraint.Sources.source1 = new VRC.SDK3.Dynamics.Constraint.Components.VRCConstraintSource { SourceTransform = figure.Bones[Leg], ParentPositionOffset = new Vector3(0.1f, 0.2f, 0) };
             }, leg, "Sources.source1.ParentPositionOffset point", "Sources.source0.ParentPositionOffset stays");
             foreach (string kind in new[] { "Rotation", "Scale", "Aim", "LookAt" })
+            {
                 Row(typeof(VRC.SDK3.Dynamics.Constraint.Components.Turning).Assembly.GetType("VRC.SDK3.Dynamics.Constraint.Components.VRC" + kind + "Constraint"), null, null,
                     "RotationOffset stays", "ScaleOffset stays", "size stays");
+            }
         }
 
-        private void Portable()
+        void Portable()
         {
             Row(typeof(nadena.dev.ndmf.multiplatform.components.PortableDynamicBone), null, null, "m_baseRadius.m_value chain");
             Row(typeof(Anatawa12.AvatarOptimizer.RemoveMeshInBox), null, null,
@@ -208,7 +204,7 @@ namespace SuperDeform.Editor.Tests
             Row(typeof(Anatawa12.AvatarOptimizer.ReplaceEndBoneWithEndpointPosition), null, null, "overridePosition end");
         }
 
-        private void DynamicBones()
+        void DynamicBones()
         {
             Row(typeof(DynamicBone), c => ((DynamicBone)c).m_Root = figure.Bones[Leg], component => figure.Bones[Leg],
                 "m_Radius chain", "m_Gravity chain", "m_Force chain", "m_EndOffset endlength", "m_EndLength stays");
@@ -216,16 +212,20 @@ namespace SuperDeform.Editor.Tests
             Row(typeof(DynamicBonePlaneCollider), null, null, "m_Center point");
         }
 
-        private void MagicaCloth()
+        void MagicaCloth()
         {
             Row(typeof(MagicaCloth.MagicaPlaneCollider), null, null, "center point");
             foreach (Type cloth in new[] { typeof(MagicaCloth.MagicaBoneCloth), typeof(MagicaCloth.MagicaBoneSpring), typeof(MagicaCloth.MagicaMeshCloth), typeof(MagicaCloth.MagicaMeshSpring) })
             {
                 var properties = new List<string> { "clothParams.mass stays", "clothParams.radius.curveValue stays" };
                 foreach (string bezier in new[] { "radius", "clampPositionLength", "penetrationConnectDistance", "penetrationDistance", "penetrationRadius" })
+                {
                     properties.AddRange(new[] { "clothParams." + bezier + ".startValue length", "clothParams." + bezier + ".endValue length" });
+                }
                 foreach (string number in new[] { "nearDistanceLength", "springRadius", "maxVolumeLength", "teleportDistance" })
+                {
                     properties.Add("clothParams." + number + " length");
+                }
                 Row(cloth, null, null, properties.ToArray());
             }
             Row(typeof(MagicaCloth2.MagicaPlaneCollider), null, null, "center point");
@@ -236,7 +236,7 @@ namespace SuperDeform.Editor.Tests
                 "serializeData2.selectionData.positions.Array.data[1] point", "serializeData.gravity stays");
         }
 
-        private void Engine()
+        void Engine()
         {
             Row(typeof(UnityEngine.Animations.PositionConstraint), c => ((UnityEngine.Animations.PositionConstraint)c).m_TranslationAtRest = c.transform.localPosition,
                 null, "m_TranslationAtRest rest", "m_TranslationOffset length");
@@ -248,7 +248,9 @@ namespace SuperDeform.Editor.Tests
             }, component => figure.Bones[Leg], "m_TranslationOffsets.Array.data[0] point");
             foreach (Type turned in new[] { typeof(UnityEngine.Animations.RotationConstraint), typeof(UnityEngine.Animations.ScaleConstraint),
                 typeof(UnityEngine.Animations.AimConstraint), typeof(UnityEngine.Animations.LookAtConstraint) })
+            {
                 Row(turned, null, null, "m_RotationOffset stays", "m_ScaleOffset stays", "m_Position stays");
+            }
             foreach (Type joint in new[] { typeof(CharacterJoint), typeof(FixedJoint), typeof(HingeJoint), typeof(SpringJoint), typeof(ConfigurableJoint) })
             {
                 var properties = new List<string> { "m_Anchor point" };
@@ -272,9 +274,13 @@ namespace SuperDeform.Editor.Tests
             var particles = new List<string> { "InitialModule.startLifetime.scalar stays", "ShapeModule.angle stays", "ShapeModule.m_Rotation stays", "ShapeModule.m_Scale length" };
             foreach (string curve in new[] { "InitialModule.startSize", "InitialModule.startSizeY", "InitialModule.startSizeZ", "InitialModule.startSpeed", "InitialModule.gravityModifier",
                 "VelocityModule.x", "VelocityModule.y", "VelocityModule.z", "ForceModule.x", "ForceModule.y", "ForceModule.z", "NoiseModule.strength", "NoiseModule.strengthY", "NoiseModule.strengthZ" })
+            {
                 particles.AddRange(new[] { curve + ".scalar length", curve + ".minScalar length" });
+            }
             foreach (string length in new[] { "radius.value", "length", "donutRadius", "m_MeshNormalOffset", "m_Position" })
+            {
                 particles.Add("ShapeModule." + length + " length");
+            }
             Row(typeof(ParticleSystem), null, null, particles.ToArray());
             // A cone's size is its radius; its scale multiplies that.
             Row(typeof(ParticleSystem), c => ((ParticleSystem)c).ShapeModule.type = 4, null, "ShapeModule.m_Scale stays");
@@ -395,8 +401,7 @@ namespace SuperDeform.Editor.Tests
             {
                 Finding said = left.Find(finding => finding.Where == figure.Bones[bone]);
                 Assert.That(said, Is.Not.Null, bone.ToString());
-                foreach (string word in new[] { figure.Bones[bone].name, "Tail", "tailRadius", "restOffset" })
-                    StringAssert.Contains(word, said.Text);
+                foreach (string word in new[] { figure.Bones[bone].name, "Tail", "tailRadius", "restOffset" }) StringAssert.Contains(word, said.Text);
                 StringAssert.DoesNotContain("speed", said.Text);
             }
             Finding baked = result.Findings.Find(finding => finding.Key == "needs_create");
@@ -407,15 +412,14 @@ namespace SuperDeform.Editor.Tests
         public void many_of_them_are_counted()
         {
             Begin();
-            for (int i = 0; i < 40; i++)
-                figure.Bones[Arm].gameObject.AddComponent<SomebodyElse.Tail>();
+            for (int i = 0; i < 40; i++) figure.Bones[Arm].gameObject.AddComponent<SomebodyElse.Tail>();
             Probe.Ask = null;
             ConversionResult result = Converter.Convert(figure.Root, Settings(), null);
             Assert.AreEqual(30, result.Findings.FindAll(finding => finding.Key == "not_adapted").Count);
             StringAssert.Contains("10", result.Findings.Find(finding => finding.Key == "not_adapted_more").Text);
         }
 
-        private static Material Painted(string shader, string property, float value)
+        static Material Painted(string shader, string property, float value)
         {
             var material = new Material(Shader.Find("Standard")) { name = shader.Replace('/', ' ') };
             material.shader.name = "Standard";

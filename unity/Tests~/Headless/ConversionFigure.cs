@@ -22,7 +22,7 @@ namespace SuperDeform.Editor.Tests
         public MeshRenderer Hat;
         public readonly Dictionary<HumanBodyBones, Transform> Bones = new Dictionary<HumanBodyBones, Transform>();
 
-        private static readonly object[][] joints =
+        static readonly object[][] joints =
         {
             new object[] { HumanBodyBones.Hips, null, 0f, 1f, 0f, 0.13f },
             new object[] { HumanBodyBones.Spine, HumanBodyBones.Hips, 0f, 1.1f, 0f, 0.12f },
@@ -38,7 +38,7 @@ namespace SuperDeform.Editor.Tests
             new object[] { HumanBodyBones.LeftHand, HumanBodyBones.LeftLowerArm, -0.7f, 1.45f, 0f, 0.03f }
         };
 
-        private static readonly Dictionary<HumanBodyBones, Vector3> ends = new Dictionary<HumanBodyBones, Vector3>
+        static readonly Dictionary<HumanBodyBones, Vector3> ends = new Dictionary<HumanBodyBones, Vector3>
         {
             { HumanBodyBones.Head, new Vector3(0, 1.8f, 0) }, { HumanBodyBones.LeftToes, new Vector3(-0.1f, 0.03f, 0.2f) },
             { HumanBodyBones.RightToes, new Vector3(0.1f, 0.03f, 0.2f) }, { HumanBodyBones.LeftHand, new Vector3(-0.85f, 1.45f, 0) },
@@ -72,85 +72,87 @@ namespace SuperDeform.Editor.Tests
             return this;
         }
 
-        private static IEnumerable<object[]> All()
+        static IEnumerable<object[]> All()
         {
-            foreach (object[] joint in joints)
-                yield return joint;
+            foreach (object[] joint in joints) yield return joint;
             foreach (object[] joint in joints)
             {
-                if (!joint[0].ToString().StartsWith("Left"))
-                    continue;
+                if (!joint[0].ToString().StartsWith("Left")) continue;
                 var mirrored = (object[])joint.Clone();
                 mirrored[0] = Other((HumanBodyBones)joint[0]);
-                if (joint[1].ToString().StartsWith("Left"))
-                    mirrored[1] = Other((HumanBodyBones)joint[1]);
+                if (joint[1].ToString().StartsWith("Left")) mirrored[1] = Other((HumanBodyBones)joint[1]);
                 mirrored[2] = -(float)joint[2];
                 yield return mirrored;
             }
         }
 
-        private static HumanBodyBones Other(HumanBodyBones left)
+        static HumanBodyBones Other(HumanBodyBones left)
         {
             return (HumanBodyBones)Enum.Parse(typeof(HumanBodyBones), left.ToString().Replace("Left", "Right"));
         }
 
-        private static Vector3 Place(object[] joint)
+        static Vector3 Place(object[] joint)
         {
             return new Vector3((float)joint[2], (float)joint[3], (float)joint[4]);
         }
 
-        private static bool IsLeg(HumanBodyBones role)
+        static bool IsLeg(HumanBodyBones role)
         {
             return role.ToString().Contains("Leg");
         }
 
         /// <summary>Tubes around the bones; hair is a cap around the head.</summary>
-        private SkinnedMeshRenderer Skinned(string name, string[] materials, Predicate<HumanBodyBones> second, bool body)
+        SkinnedMeshRenderer Skinned(string name, string[] materials, Predicate<HumanBodyBones> second, bool body)
         {
             var positions = new List<Vector3>();
             var triangles = new List<List<int>> { new List<int>(), new List<int>() };
             var weights = new List<KeyValuePair<int, int>>();
             var names = new List<HumanBodyBones>(Bones.Keys);
             foreach (int part in new[] { 0, 1 })
+            {
                 foreach (object[] joint in All())
                 {
                     var role = (HumanBodyBones)joint[0];
                     bool isSecond = second != null && second(role);
-                    if (isSecond != (part == 1) || !body && role != HumanBodyBones.Head)
-                        continue;
+                    if (isSecond != (part == 1) || !body && role != HumanBodyBones.Head) continue;
                     Vector3 from = Place(joint), to = End(role);
                     float radius = (float)joint[5] * (body ? 1 : 1.15f);
                     Tube(positions, triangles[part], from, to, radius);
                     while (weights.Count < positions.Count)
+                    {
                         weights.Add(new KeyValuePair<int, int>(names.IndexOf(role), joint[1] == null ? 0 : names.IndexOf((HumanBodyBones)joint[1])));
+                    }
                 }
+            }
             return Show(name, materials, positions, triangles, weights, names, body);
         }
 
-        private static Vector3 End(HumanBodyBones role)
+        static Vector3 End(HumanBodyBones role)
         {
-            if (ends.ContainsKey(role))
-                return ends[role];
+            if (ends.ContainsKey(role)) return ends[role];
             object[] self = null;
             foreach (object[] joint in All())
             {
-                if ((HumanBodyBones)joint[0] == role)
-                    self = joint;
+                if ((HumanBodyBones)joint[0] == role) self = joint;
                 else if (joint[1] != null && (HumanBodyBones)joint[1] == role && Mathf.Approximately((float)joint[2], self == null ? 0 : (float)self[2]))
+                {
                     return Place(joint);
+                }
             }
             foreach (object[] joint in All())
-                if (joint[1] != null && (HumanBodyBones)joint[1] == role)
-                    return Place(joint);
+            {
+                if (joint[1] != null && (HumanBodyBones)joint[1] == role) return Place(joint);
+            }
             throw new InvalidOperationException(role.ToString());
         }
 
-        private static void Tube(List<Vector3> positions, List<int> triangles, Vector3 from, Vector3 to, float radius)
+        static void Tube(List<Vector3> positions, List<int> triangles, Vector3 from, Vector3 to, float radius)
         {
             const int Sides = 12, Rings = 8;
             Quaternion turn = Quaternion.FromToRotation(Vector3.up, (to - from).normalized);
             int first = positions.Count;
             for (int ring = 0; ring <= Rings; ring++)
+            {
                 for (int side = 0; side < Sides; side++)
                 {
                     float angle = side * 2 * Mathf.PI / Sides;
@@ -159,15 +161,18 @@ namespace SuperDeform.Editor.Tests
                     float along = ring <= 1 ? 0 : ring >= Rings - 1 ? 1 : (ring - 1f) / (Rings - 2);
                     positions.Add(Vector3.Lerp(from, to, along) + turn * new Vector3(Mathf.Cos(angle) * width, 0, Mathf.Sin(angle) * width));
                 }
+            }
             for (int ring = 0; ring < Rings; ring++)
+            {
                 for (int side = 0; side < Sides; side++)
                 {
                     int next = (side + 1) % Sides, a = first + ring * Sides + side, b = first + ring * Sides + next, c = a + Sides, d = b + Sides;
                     triangles.AddRange(new[] { a, c, b, b, c, d });
                 }
+            }
         }
 
-        private SkinnedMeshRenderer Show(string name, string[] materials, List<Vector3> positions, List<List<int>> triangles,
+        SkinnedMeshRenderer Show(string name, string[] materials, List<Vector3> positions, List<List<int>> triangles,
             List<KeyValuePair<int, int>> weights, List<HumanBodyBones> names, bool body)
         {
             var holder = new GameObject(name);
@@ -185,13 +190,11 @@ namespace SuperDeform.Editor.Tests
             mesh.tangents = positions.ConvertAll(p => Tangent(toMesh, p)).ToArray();
             mesh.uv = positions.ConvertAll(p => new Vector2(p.x, p.y)).ToArray();
             mesh.subMeshCount = materials.Length;
-            for (int part = 0; part < materials.Length; part++)
-                mesh.SetTriangles(triangles[part].ToArray(), part);
+            for (int part = 0; part < materials.Length; part++) mesh.SetTriangles(triangles[part].ToArray(), part);
             SetWeights(mesh, positions, weights, names);
             var bones = names.ConvertAll(role => Bones[role]);
             mesh.bindposes = bones.ConvertAll(bone => bone.worldToLocalMatrix * holder.transform.localToWorldMatrix).ToArray();
-            if (WithShapes && body)
-                AddShapes(mesh, positions, toMesh);
+            if (WithShapes && body) AddShapes(mesh, positions, toMesh);
             mesh.RecalculateBounds();
             renderer.sharedMesh = mesh;
             renderer.bones = bones.ToArray();
@@ -201,26 +204,26 @@ namespace SuperDeform.Editor.Tests
         }
 
         /// <summary>An asset of the project: a prefab keeps nothing else.</summary>
-        private static Material Material(string name)
+        static Material Material(string name)
         {
             var material = new Material(Shader.Find("Standard")) { name = name };
             StubProject.Import("Assets/" + name + ".mat", material);
             return material;
         }
 
-        private static Vector3 Outward(Vector3 p)
+        static Vector3 Outward(Vector3 p)
         {
             return new Vector3(p.x, 0.1f, p.z).normalized;
         }
 
-        private static Vector4 Tangent(Matrix4x4 toMesh, Vector3 p)
+        static Vector4 Tangent(Matrix4x4 toMesh, Vector3 p)
         {
             Vector3 tangent = toMesh.MultiplyVector(Vector3.Cross(Outward(p), Vector3.right)).normalized;
             return new Vector4(tangent.x, tangent.y, tangent.z, -1);
         }
 
         /// <summary>At the beginning of a bone 2 of 5 are the parent's: fifths keep their sum in 16 bits.</summary>
-        private static void SetWeights(Mesh mesh, List<Vector3> positions, List<KeyValuePair<int, int>> weights, List<HumanBodyBones> names)
+        static void SetWeights(Mesh mesh, List<Vector3> positions, List<KeyValuePair<int, int>> weights, List<HumanBodyBones> names)
         {
             var counts = new byte[positions.Count];
             var all = new List<BoneWeight1>();
@@ -229,16 +232,14 @@ namespace SuperDeform.Editor.Tests
                 bool near = vertex % 108 < 24;
                 counts[vertex] = (byte)(near ? 2 : 1);
                 all.Add(new BoneWeight1 { boneIndex = weights[vertex].Key, weight = near ? 0.6f : 1 });
-                if (near)
-                    all.Add(new BoneWeight1 { boneIndex = weights[vertex].Value, weight = 0.4f });
+                if (near) all.Add(new BoneWeight1 { boneIndex = weights[vertex].Value, weight = 0.4f });
             }
             using (var native = new NativeArray<byte>(counts, Allocator.Temp))
-            using (var flat = new NativeArray<BoneWeight1>(all.ToArray(), Allocator.Temp))
-                mesh.SetBoneWeights(native, flat);
+            using (var flat = new NativeArray<BoneWeight1>(all.ToArray(), Allocator.Temp)) mesh.SetBoneWeights(native, flat);
         }
 
         /// <summary>Smile has two frames and changes normals; Breathe moves the chest alone.</summary>
-        private static void AddShapes(Mesh mesh, List<Vector3> positions, Matrix4x4 toMesh)
+        static void AddShapes(Mesh mesh, List<Vector3> positions, Matrix4x4 toMesh)
         {
             Vector3[] smile = positions.ConvertAll(p => toMesh.MultiplyVector(p.y > 1.6f ? new Vector3(0, 0.02f, 0.01f) : Vector3.zero)).ToArray();
             Vector3[] turned = positions.ConvertAll(p => toMesh.MultiplyVector(p.y > 1.6f ? new Vector3(0, 0.1f, 0) : Vector3.zero).normalized * 0.1f).ToArray();
@@ -248,7 +249,7 @@ namespace SuperDeform.Editor.Tests
             mesh.AddBlendShapeFrame("Breathe", 100, breathe, null, null);
         }
 
-        private MeshRenderer AddHat()
+        MeshRenderer AddHat()
         {
             var holder = new GameObject("Hat");
             holder.transform.SetParent(Bones[HumanBodyBones.Head], false);
@@ -266,7 +267,7 @@ namespace SuperDeform.Editor.Tests
             return renderer;
         }
 
-        private void AddColliders()
+        void AddColliders()
         {
             var sphere = Bones[HumanBodyBones.Head].gameObject.AddComponent<SphereCollider>();
             sphere.center = Bones[HumanBodyBones.Head].InverseTransformPoint(new Vector3(0, 1.7f, 0));
@@ -282,20 +283,24 @@ namespace SuperDeform.Editor.Tests
             controller.radius = 0.2f;
         }
 
-        private void AddAnimator()
+        void AddAnimator()
         {
             var skeleton = new List<SkeletonBone>();
             foreach (Transform transform in Root.GetComponentsInChildren<Transform>(true))
+            {
                 skeleton.Add(new SkeletonBone
                 {
                     name = transform.name, position = transform.localPosition, rotation = transform.localRotation, scale = transform.localScale
                 });
+            }
             var human = new List<HumanBone>();
             foreach (KeyValuePair<HumanBodyBones, Transform> bone in Bones)
+            {
                 human.Add(new HumanBone
                 {
                     humanName = HumanTrait.BoneName[(int)bone.Key], boneName = bone.Value.name, limit = new HumanLimit { useDefaultValues = true }
                 });
+            }
             var description = new HumanDescription { human = human.ToArray(), skeleton = skeleton.ToArray(), upperArmTwist = 0.25f };
             Avatar avatar = AvatarBuilder.BuildHumanAvatar(Root, description);
             avatar.name = "MikaAvatar";

@@ -11,7 +11,7 @@ namespace SuperDeform.Editor.Tests
     [TestFixture]
     public class ConversionTests
     {
-        private const double Height = 1.9;
+        const double Height = 1.9;
 
         [SetUp]
         public void Begin()
@@ -20,7 +20,7 @@ namespace SuperDeform.Editor.Tests
             Directory.Delete(Path.Combine(Models.NewProject(), "Assets/Models"));
         }
 
-        private static ConversionSettings Settings()
+        static ConversionSettings Settings()
         {
             return new ConversionSettings { Heads = 2.5f, OutputFolder = "Assets/Out", PlaceInScene = false };
         }
@@ -54,7 +54,9 @@ namespace SuperDeform.Editor.Tests
                 ConversionResult plain = Converter.Convert(new ConversionFigure().Make().Root, settings, null);
                 ConversionResult turned = Converter.Convert(new ConversionFigure { Turned = true }.Make().Root, settings, null);
                 foreach (string name in new[] { "Body", "Hair", "Hat" })
+                {
                     Assert.That(Drawing.Apart(Drawing.Drawn(plain.Prefab, name), Drawing.Drawn(turned.Prefab, name)), Is.LessThan((profile == 0 ? 1e-4 : 5e-3) * Height), name);
+                }
             }
         }
 
@@ -81,15 +83,15 @@ namespace SuperDeform.Editor.Tests
             Assert.AreEqual(old.tangents, made.tangents);
             Assert.AreEqual(old.bindposes, made.bindposes);
             Assert.AreEqual(Frames(old), Frames(made));
-            foreach (Transform bone in figure.Bones.Values)
-                Assert.AreEqual(bone.localPosition, Find(prefab, bone.name).localPosition);
+            foreach (Transform bone in figure.Bones.Values) Assert.AreEqual(bone.localPosition, Find(prefab, bone.name).localPosition);
             Assert.AreEqual(0.1f, Find(prefab, "J_Head").GetComponent<SphereCollider>().radius, 1e-6);
         }
 
-        private static List<Vector3> Frames(Mesh mesh)
+        static List<Vector3> Frames(Mesh mesh)
         {
             var all = new List<Vector3>();
             for (int shape = 0; shape < mesh.blendShapeCount; shape++)
+            {
                 for (int frame = 0; frame < mesh.GetBlendShapeFrameCount(shape); frame++)
                 {
                     Vector3[] positions = new Vector3[mesh.vertexCount], normals = new Vector3[mesh.vertexCount], tangents = new Vector3[mesh.vertexCount];
@@ -98,6 +100,7 @@ namespace SuperDeform.Editor.Tests
                     all.AddRange(normals);
                     all.AddRange(tangents);
                 }
+            }
             return all;
         }
 
@@ -158,8 +161,7 @@ namespace SuperDeform.Editor.Tests
             Assert.AreEqual(old.name, body.sharedMesh.name);
             Assert.AreEqual(Array.ConvertAll(figure.Body.sharedMaterials, m => m.name), Array.ConvertAll(body.sharedMaterials, m => m.name));
             Assert.AreEqual(figure.Body.bones.Length, body.bones.Length);
-            foreach (Transform bone in body.bones)
-                Assert.That(bone.IsChildOf(result.Prefab.transform), bone.name);
+            foreach (Transform bone in body.bones) Assert.That(bone.IsChildOf(result.Prefab.transform), bone.name);
             Assert.AreEqual("Assets/Out/Mika_SD/Mika_SD.asset", AssetDatabase.GetAssetPath(body.sharedMesh));
             var preset = AssetDatabase.LoadAssetAtPath<SuperDeformPreset>("Assets/Out/Mika_SD/Mika_SD.asset");
             Assert.AreEqual(2.5f, preset.Settings.Heads);
@@ -178,8 +180,12 @@ namespace SuperDeform.Editor.Tests
             Assert.AreEqual(old.humanDescription.human.Length, avatar.humanDescription.human.Length);
             Assert.AreEqual(0.25f, avatar.humanDescription.upperArmTwist);
             foreach (SkeletonBone bone in avatar.humanDescription.skeleton)
+            {
                 if (bone.name != prefab.name)
+                {
                     Assert.That(Vector3.Distance(bone.position, Find(prefab, bone.name).localPosition), Is.LessThan(1e-4), bone.name);
+                }
+            }
             Assert.AreSame(Find(prefab, "J_Head"), prefab.GetComponent<Animator>().GetBoneTransform(HumanBodyBones.Head));
         }
 
@@ -193,8 +199,7 @@ namespace SuperDeform.Editor.Tests
             Vector3 center = sphere.transform.TransformPoint(sphere.center);
             Vector3[] hair = Drawing.Drawn(result.Prefab, "Hair");
             var box = new Bounds(hair[0], Vector3.zero);
-            foreach (Vector3 p in hair)
-                box.Encapsulate(p);
+            foreach (Vector3 p in hair) box.Encapsulate(p);
             Assert.That(Vector3.Distance(box.center, center), Is.LessThan(0.2f * box.extents.y));
             Assert.That(sphere.radius, Is.InRange(0.6f * box.extents.x, 1.2f * box.extents.x));
             var controller = result.Prefab.GetComponent<CharacterController>();
@@ -213,8 +218,7 @@ namespace SuperDeform.Editor.Tests
             Matrix4x4 toBone = body.rootBone.worldToLocalMatrix * prefab.transform.localToWorldMatrix;
             Bounds wide = body.localBounds;
             wide.Expand(1e-3f * wide.size.magnitude);
-            foreach (Vector3 p in Drawing.Drawn(prefab, "Body"))
-                Assert.That(wide.Contains(toBone.MultiplyPoint3x4(p)));
+            foreach (Vector3 p in Drawing.Drawn(prefab, "Body")) Assert.That(wide.Contains(toBone.MultiplyPoint3x4(p)));
         }
 
         [Test]
@@ -412,12 +416,12 @@ namespace SuperDeform.Editor.Tests
         }
 
         /// <summary>All objects that are not destroyed.</summary>
-        private static HashSet<int> Objects()
+        static HashSet<int> Objects()
         {
             return new HashSet<int>(Registry.All().ConvertAll(value => value.GetInstanceID()));
         }
 
-        private static void Refused(ConversionFigure figure)
+        static void Refused(ConversionFigure figure)
         {
             HashSet<int> objects = Objects();
             var refused = Assert.Throws<ConversionException>(() => Converter.Convert(figure.Root, Settings(), null));
@@ -426,18 +430,17 @@ namespace SuperDeform.Editor.Tests
             Assert.That(Objects(), Is.SubsetOf(objects));
         }
 
-        private sealed class Stops : IConversionProgress
+        sealed class Stops : IConversionProgress
         {
             public int After;
             public readonly List<string> Stages = new List<string>();
-            private float last;
+            float last;
 
             public bool Report(string stageKey, float fraction)
             {
                 Assert.That(fraction, Is.InRange(last, 1f));
                 last = fraction;
-                if (!Stages.Contains(stageKey))
-                    Stages.Add(stageKey);
+                if (!Stages.Contains(stageKey)) Stages.Add(stageKey);
                 return After-- > 0;
             }
         }
@@ -476,7 +479,7 @@ namespace SuperDeform.Editor.Tests
         }
 
         /// <summary>The figure as meshes alone: no bones, no animator.</summary>
-        private static GameObject Unrigged(ConversionFigure figure)
+        static GameObject Unrigged(ConversionFigure figure)
         {
             var root = new GameObject("Statue");
             foreach (SkinnedMeshRenderer skinned in new[] { figure.Body, figure.Hair })
@@ -508,8 +511,7 @@ namespace SuperDeform.Editor.Tests
             Assert.That(body.GetComponent<MeshFilter>() == null && body.GetComponent<MeshRenderer>() == null);
             Assert.AreEqual(2, body.sharedMaterials.Length);
             Assert.AreSame(Find(result.Prefab, "Hips"), body.rootBone);
-            foreach (byte count in body.sharedMesh.GetBonesPerVertex())
-                Assert.That(count, Is.InRange(1, 4));
+            foreach (byte count in body.sharedMesh.GetBonesPerVertex()) Assert.That(count, Is.InRange(1, 4));
             var animator = result.Prefab.GetComponent<Animator>();
             Assert.That(animator.avatar.isValid && animator.avatar.isHuman);
             Assert.AreSame(Find(result.Prefab, "LeftUpperArm"), animator.GetBoneTransform(HumanBodyBones.LeftUpperArm));
@@ -525,7 +527,9 @@ namespace SuperDeform.Editor.Tests
             // Arms 45 degrees down, bound so.
             GameObject statue = Unrigged(figure);
             foreach (MeshFilter filter in statue.GetComponentsInChildren<MeshFilter>())
+            {
                 filter.sharedMesh.vertices = Array.ConvertAll(filter.sharedMesh.vertices, Lowered);
+            }
             GameObject prefab = Converter.Convert(statue, Settings(), null).Prefab;
             var turned = new Dictionary<string, Quaternion>();
             var places = new Dictionary<string, Vector3>();
@@ -547,11 +551,10 @@ namespace SuperDeform.Editor.Tests
             Assert.That(Vector3.Angle(stands, Vector3.left), Is.InRange(30f, 60f));
         }
 
-        private static Vector3 Lowered(Vector3 p)
+        static Vector3 Lowered(Vector3 p)
         {
             float beyond = Mathf.Abs(p.x) - 0.18f;
-            if (p.y < 1.3f || beyond <= 0)
-                return p;
+            if (p.y < 1.3f || beyond <= 0) return p;
             var shoulder = new Vector3(0.18f * Mathf.Sign(p.x), 1.45f, 0);
             return shoulder + Quaternion.AngleAxis(-45 * Mathf.Sign(p.x), Vector3.forward) * (p - shoulder);
         }
@@ -602,7 +605,7 @@ namespace SuperDeform.Editor.Tests
         }
 
         /// <summary>Converts, and compares what is drawn with what the library gives for the avatar.</summary>
-        private static ConversionResult DrawsWhatTheLibraryGives(GameObject avatar, ConversionSettings settings)
+        static ConversionResult DrawsWhatTheLibraryGives(GameObject avatar, ConversionSettings settings)
         {
             ConversionResult result = Converter.Convert(avatar, settings, null);
             using (AvatarData data = CharacterReader.Read(avatar, new ReadOptions { RigAuto = settings.RigAuto }))
@@ -612,7 +615,9 @@ namespace SuperDeform.Editor.Tests
                 var expected = new AvatarResult(data, true);
                 expected.Apply(deformer, null);
                 foreach (RendererResult renderer in expected.Renderers)
+                {
                     Assert.That(Drawing.Apart(renderer.Positions, Drawing.Drawn(result.Prefab, renderer.Source.Renderer.name)), Is.LessThan(1e-5 * Height), renderer.Source.Renderer.name);
+                }
             }
             return result;
         }
@@ -644,8 +649,7 @@ namespace SuperDeform.Editor.Tests
             ConversionFigure figure = new ConversionFigure().Make();
             UnityEngine.Object.DestroyImmediate(figure.Root.GetComponent<Animator>());
             int number = 0;
-            foreach (Transform bone in figure.Bones.Values)
-                bone.name = "b" + number++;
+            foreach (Transform bone in figure.Bones.Values) bone.name = "b" + number++;
             ConversionResult result = Converter.Convert(figure.Root, Settings(), null);
             Assert.That(result.Findings.Exists(finding => finding.Key == "no_animator"));
             Assert.That(Drawing.Apart(Drawing.Drawn(named, "Body"), Drawing.Drawn(result.Prefab, "Body")), Is.LessThan(1e-3 * Height));
@@ -688,14 +692,14 @@ namespace SuperDeform.Editor.Tests
         }
 
         /// <summary>What is measured with both arms so many degrees down, seen from another side.</summary>
-        private static double Angle(double down, double turned)
+        static double Angle(double down, double turned)
         {
             int[] roles = new int[HumanoidRoles.Count];
-            for (int role = 0; role < roles.Length; role++)
-                roles[role] = -1;
+            for (int role = 0; role < roles.Length; role++) roles[role] = -1;
             var places = new List<Affine>();
             double x = Math.Cos(down * Math.PI / 180), y = -Math.Sin(down * Math.PI / 180);
             for (int side = -1; side <= 1; side += 2)
+            {
                 for (int joint = 0; joint < 3; joint++)
                 {
                     var role = (HumanBodyBones)((int)HumanBodyBones.LeftUpperArm + 2 * joint + (side + 1) / 2);
@@ -703,6 +707,7 @@ namespace SuperDeform.Editor.Tests
                     double a = turned * Math.PI / 180, across = side * (0.2 + 0.3 * joint * x);
                     places.Add(Affine.Translation(new Double3(across * Math.Cos(a), 1.4 + 0.3 * joint * y, across * Math.Sin(a))));
                 }
+            }
             return PoseMeasure.Of(roles, places.ToArray()).Degrees;
         }
     }

@@ -13,7 +13,9 @@ namespace SuperDeform.Editor.Tests
         {
             var skinned = renderer as SkinnedMeshRenderer;
             if (skinned == null)
+            {
                 return Array.ConvertAll(renderer.GetComponent<MeshFilter>().sharedMesh.vertices, p => (space * renderer.transform.localToWorldMatrix).MultiplyPoint3x4(p));
+            }
             Vector3[] positions, normals;
             Skinning.Drawn(skinned, space, out positions, out normals);
             return positions;
@@ -32,8 +34,7 @@ namespace SuperDeform.Editor.Tests
         {
             Assert.AreEqual(one.Length, other.Length);
             double most = 0;
-            for (int i = 0; i < one.Length; i++)
-                most = Math.Max(most, Vector3.Distance(one[i], other[i]));
+            for (int i = 0; i < one.Length; i++) most = Math.Max(most, Vector3.Distance(one[i], other[i]));
             return most;
         }
 
@@ -48,8 +49,7 @@ namespace SuperDeform.Editor.Tests
                 square += (before[i] - from).sqrMagnitude;
             }
             size = product / square;
-            for (int i = 0; i < before.Length; i++)
-                most = Math.Max(most, (after[i] - to - (before[i] - from) * (float)size).magnitude);
+            for (int i = 0; i < before.Length; i++) most = Math.Max(most, (after[i] - to - (before[i] - from) * (float)size).magnitude);
             return most;
         }
 
@@ -62,7 +62,9 @@ namespace SuperDeform.Editor.Tests
             {
                 double nearest = double.PositiveInfinity;
                 for (int t = 0; t < triangles.Length; t += 3)
+                {
                     nearest = Math.Min(nearest, ToTriangle(points[i], corners[triangles[t]], corners[triangles[t + 1]], corners[triangles[t + 2]]));
+                }
                 nearest = Math.Sqrt(nearest);
                 sum += nearest;
                 most = Math.Max(most, nearest);
@@ -72,38 +74,31 @@ namespace SuperDeform.Editor.Tests
         }
 
         /// <summary>The square of the distance of a point from a triangle (Ericson, Real-Time Collision Detection, 5.1.5).</summary>
-        private static float ToTriangle(Vector3 p, Vector3 a, Vector3 b, Vector3 c)
+        static float ToTriangle(Vector3 p, Vector3 a, Vector3 b, Vector3 c)
         {
             Vector3 ab = b - a, ac = c - a, ap = p - a;
             float d1 = Vector3.Dot(ab, ap), d2 = Vector3.Dot(ac, ap);
-            if (d1 <= 0 && d2 <= 0)
-                return ap.sqrMagnitude;
+            if (d1 <= 0 && d2 <= 0) return ap.sqrMagnitude;
             Vector3 bp = p - b;
             float d3 = Vector3.Dot(ab, bp), d4 = Vector3.Dot(ac, bp);
-            if (d3 >= 0 && d4 <= d3)
-                return bp.sqrMagnitude;
+            if (d3 >= 0 && d4 <= d3) return bp.sqrMagnitude;
             float vc = d1 * d4 - d3 * d2;
-            if (vc <= 0 && d1 >= 0 && d3 <= 0)
-                return (ap - ab * (d1 / (d1 - d3))).sqrMagnitude;
+            if (vc <= 0 && d1 >= 0 && d3 <= 0) return (ap - ab * (d1 / (d1 - d3))).sqrMagnitude;
             Vector3 cp = p - c;
             float d5 = Vector3.Dot(ab, cp), d6 = Vector3.Dot(ac, cp);
-            if (d6 >= 0 && d5 <= d6)
-                return cp.sqrMagnitude;
+            if (d6 >= 0 && d5 <= d6) return cp.sqrMagnitude;
             float vb = d5 * d2 - d1 * d6;
-            if (vb <= 0 && d2 >= 0 && d6 <= 0)
-                return (ap - ac * (d2 / (d2 - d6))).sqrMagnitude;
+            if (vb <= 0 && d2 >= 0 && d6 <= 0) return (ap - ac * (d2 / (d2 - d6))).sqrMagnitude;
             float va = d3 * d6 - d5 * d4;
-            if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0)
-                return (bp - (c - b) * ((d4 - d3) / (d4 - d3 + d5 - d6))).sqrMagnitude;
+            if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) return (bp - (c - b) * ((d4 - d3) / (d4 - d3 + d5 - d6))).sqrMagnitude;
             float scale = 1 / (va + vb + vc);
             return (ap - ab * (vb * scale) - ac * (vc * scale)).sqrMagnitude;
         }
 
-        private static Vector3 Middle(Vector3[] points)
+        static Vector3 Middle(Vector3[] points)
         {
             Vector3 sum = Vector3.zero;
-            foreach (Vector3 point in points)
-                sum += point;
+            foreach (Vector3 point in points) sum += point;
             return sum / points.Length;
         }
 

@@ -21,13 +21,13 @@ namespace SuperDeform.Editor.Tests
     [TestFixture]
     public class DressedAvatarTests
     {
-        private const float Height = 1.9f, Thick = 0.015f;
-        private ConversionFigure figure;
-        private Vector3[] wantedCoat, wantedHair;
-        private Dictionary<string, double[]> before, wantedLengths;
-        private float ratio;
+        const float Height = 1.9f, Thick = 0.015f;
+        ConversionFigure figure;
+        Vector3[] wantedCoat, wantedHair;
+        Dictionary<string, double[]> before, wantedLengths;
+        float ratio;
 
-        private static ConversionSettings Settings()
+        static ConversionSettings Settings()
         {
             return new ConversionSettings { Source = StyleSource.BuiltIn, BuiltInStyle = "sd2.5", OutputFolder = "Assets/Out", PlaceInScene = false };
         }
@@ -68,7 +68,7 @@ namespace SuperDeform.Editor.Tests
             before = Lengths(figure.Root);
         }
 
-        private static void AddComponents(ConversionFigure figure)
+        static void AddComponents(ConversionFigure figure)
         {
             var left = new GameObject("LeftEye").transform;
             var right = new GameObject("RightEye").transform;
@@ -91,29 +91,27 @@ namespace SuperDeform.Editor.Tests
         }
 
         /// <summary>Every number of the components of the table, by component and path.</summary>
-        private static Dictionary<string, double[]> Lengths(GameObject root)
+        static Dictionary<string, double[]> Lengths(GameObject root)
         {
             var types = new HashSet<string>(ComponentTable.Types);
             var found = new Dictionary<string, double[]>();
             foreach (Component component in root.GetComponentsInChildren<Component>(true))
             {
-                if (!types.Contains(component.GetType().FullName))
-                    continue;
+                if (!types.Contains(component.GetType().FullName)) continue;
                 using (var properties = new SerializedObject(component))
                 {
                     SerializedProperty property = properties.GetIterator();
                     while (property.Next(property.propertyPath.Length == 0 || property.propertyType == SerializedPropertyType.Generic))
                     {
                         double[] numbers = Numbers(property);
-                        if (numbers != null)
-                            found.Add(component.GetType().Name + "." + property.propertyPath, numbers);
+                        if (numbers != null) found.Add(component.GetType().Name + "." + property.propertyPath, numbers);
                     }
                 }
             }
             return found;
         }
 
-        private static double[] Numbers(SerializedProperty property)
+        static double[] Numbers(SerializedProperty property)
         {
             switch (property.propertyType)
             {
@@ -126,7 +124,7 @@ namespace SuperDeform.Editor.Tests
             }
         }
 
-        private void IsDressed(GameObject result, string how)
+        void IsDressed(GameObject result, string how)
         {
             double coat = Drawing.Apart(wantedCoat, Drawing.Drawn(result, "Coat")), hair = Drawing.Apart(wantedHair, Drawing.Drawn(result, "Hair"));
             Vector3 eyes = (ConversionTests.Find(result, "LeftEye").position + ConversionTests.Find(result, "RightEye").position) * 0.5f - result.transform.position;
@@ -141,11 +139,17 @@ namespace SuperDeform.Editor.Tests
             Dictionary<string, double[]> lengths = Lengths(result);
             CollectionAssert.AreEquivalent(wantedLengths.Keys, lengths.Keys, how);
             foreach (string name in wantedLengths.Keys)
+            {
                 for (int i = 0; i < wantedLengths[name].Length; i++)
+                {
                     Assert.AreEqual(wantedLengths[name][i], lengths[name][i], 1e-4, how + ": " + name);
+                }
+            }
             foreach (string changed in new[] { "VRCPhysBone.radius", "VRCPhysBone.endpointPosition", "VRCPhysBoneCollider.radius", "VRCPhysBoneCollider.height",
                 "VRCContactSender.radius", "VRCContactReceiver.position", "VRCAvatarDescriptor.collider_head.radius", "VRCAvatarDescriptor.ViewPosition" })
+            {
                 CollectionAssert.AreNotEqual(before[changed], lengths[changed], how + ": " + changed);
+            }
         }
 
         [Test]

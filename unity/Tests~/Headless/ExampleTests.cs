@@ -19,7 +19,7 @@ namespace SuperDeform.Editor.Tests
         const float Tolerance = 1e-5f, NormalTolerance = 4e-4f;
 
         /// What the command line writes, or null where there is no such program.
-        static string RunExample(string file, string more)
+        internal static string RunExample(string file, string more)
         {
             string example = Environment.GetEnvironmentVariable("SUPERDEFORM_EXAMPLE");
             if (string.IsNullOrEmpty(example)) { Console.WriteLine("left out, since SUPERDEFORM_EXAMPLE names no program"); return null; }
@@ -30,7 +30,7 @@ namespace SuperDeform.Editor.Tests
             IDictionary<string, string> roles = Models.RolesOf(file);
             if (roles != null)
             {
-                string map = Path.Combine(folder, file + ".roles.json");
+                string map = Path.Combine(folder, Path.GetFileName(file) + ".roles.json");
                 File.WriteAllText(map, Models.Json(roles));
                 arguments += " --humanoid \"" + map + "\"";
             }

@@ -25,7 +25,9 @@ namespace SuperDeform.Editor.Tests
             VRCAvatarDescriptor descriptor = figure.Root.AddComponent<VRCAvatarDescriptor>();
             descriptor.customEyeLookSettings.leftEye = left;
             using (AvatarData data = CharacterReader.Read(figure.Root, new ReadOptions()))
+            {
                 Assert.AreEqual(HumanoidRole.None, data.Character.GetJoints().Roles[data.IndexOf(left)], "one eye is no pair");
+            }
             descriptor.customEyeLookSettings.rightEye = right;
             using (AvatarData data = CharacterReader.Read(figure.Root, new ReadOptions()))
             {

@@ -49,10 +49,13 @@ namespace SuperDeform.Editor.Tests
             foreach (string word in words) StringAssert.Contains(word, finding.Text);
             Assert.That(Strings.Has(key), "no sentence for " + key);
             Assert.That(finding.Text, Is.Not.StringContaining("{0}"));
-            Strings.Language = "ja";
-            string japanese = finding.Text;
+            string english = finding.Text;
+            foreach (string language in Strings.Languages)
+            {
+                Strings.Language = language;
+                Assert.AreEqual(language == "en", finding.Text == english, language + ": " + finding.Text);
+            }
             Strings.Language = "en";
-            Assert.That(japanese, Is.Not.EqualTo(finding.Text), "no Japanese sentence");
         }
 
         [Test]
@@ -85,6 +88,16 @@ namespace SuperDeform.Editor.Tests
             fault.Finding.Fix();
             Assert.That(own.isReadable);
             Assert.That(Converter.Convert(model.Root, Models.Settings(), null).Prefab != null);
+        }
+
+        [Test]
+        public void a_mesh_that_a_script_imports_has_no_fix_that_would_not_last()
+        {
+            Model model = Models.Load("kaykit_rogue.glb");
+            StubEditor.AddScriptedImporter(model.AssetPath);
+            StubProject.SetReadable(model.Glb.Meshes[0], false);
+            ConversionException fault = Fails(model.Root, "not_readable", "Read/Write");
+            Assert.That(fault.Finding.Fix, Is.Null);
         }
 
         [Test]
@@ -149,6 +162,34 @@ namespace SuperDeform.Editor.Tests
         }
 
         [Test]
+        public void bones_that_are_gone_are_said_with_how_many_vertices_they_move([Values(false, true)] bool all)
+        {
+            Models.NewProject();
+            ConversionFigure figure = new ConversionFigure().Make();
+            Transform[] bones = figure.Body.bones;
+            int hand = Array.IndexOf(bones, figure.Bones[HumanBodyBones.LeftHand]), moved = 0;
+            foreach (BoneWeight weight in figure.Body.sharedMesh.boneWeights)
+            {
+                bool by = weight.boneIndex0 == hand && weight.weight0 > 0 || weight.boneIndex1 == hand && weight.weight1 > 0;
+                if (by || weight.boneIndex2 == hand && weight.weight2 > 0 || weight.boneIndex3 == hand && weight.weight3 > 0) moved++;
+            }
+            SkinnedMeshRenderer torn = all ? figure.Hair : figure.Body;
+            if (all) torn.bones = new Transform[torn.bones.Length];
+            else
+            {
+                bones[hand] = null;
+                torn.bones = bones;
+                Assert.That(moved, Is.GreaterThan(3));
+            }
+            string before = Fingerprint.Of(figure.Root);
+            List<Finding> said = AvatarChecks.Of(figure.Root).FindAll(finding => finding.Severity != Severity.Info);
+            Assert.AreEqual(1, said.Count, string.Join("\n", said.ConvertAll(finding => finding.Text).ToArray()));
+            Says(said[0], "bones_missing", torn.name, (all ? torn.sharedMesh.vertexCount : moved).ToString());
+            Assert.That(Converter.Convert(figure.Root, new ConversionSettings { Heads = 2.5f, PlaceInScene = false }, null).Prefab, Is.Not.Null);
+            Assert.AreEqual(before, Fingerprint.Of(figure.Root));
+        }
+
+        [Test]
         public void hidden_bones_are_said_and_the_fix_shows_them()
         {
             Model model = Models.Load("kaykit_rogue.glb");
@@ -202,7 +243,9 @@ namespace SuperDeform.Editor.Tests
         {
             Model model = Models.Load("kaykit_rogue.glb");
             foreach (Renderer renderer in model.Root.GetComponentsInChildren<Renderer>(true))
+            {
                 if (renderer.name != "Rogue_Head") UnityEngine.Object.DestroyImmediate(renderer.gameObject);
+            }
             Fails(model.Root, "no_body_mesh", model.Root.name);
         }
 

@@ -48,7 +48,9 @@ namespace SuperDeform.Editor.Tests
         {
             Model model = Models.Load("kaykit_rogue.glb");
             foreach (SkinnedMeshRenderer renderer in model.Root.GetComponentsInChildren<SkinnedMeshRenderer>(true))
+            {
                 if (renderer.name == "Rogue_Head") SplitRenderers.AddShapes(renderer.sharedMesh, 4);
+            }
             if (change != null) change(model);
             before = new Look(model.Root);
             height = Models.Height(model.Root);
@@ -99,6 +101,7 @@ namespace SuperDeform.Editor.Tests
             List<KeyValuePair<string, float>> frames = new List<KeyValuePair<string, float>>();
             List<Vector3[][]> deltas = new List<Vector3[][]>();
             for (int shape = 0; shape < mesh.blendShapeCount; shape++)
+            {
                 for (int frame = 0; frame < mesh.GetBlendShapeFrameCount(shape); frame++)
                 {
                     Vector3[] p = new Vector3[mesh.vertexCount], n = new Vector3[mesh.vertexCount];
@@ -106,6 +109,7 @@ namespace SuperDeform.Editor.Tests
                     frames.Add(new KeyValuePair<string, float>(mesh.GetBlendShapeName(shape), mesh.GetBlendShapeFrameWeight(shape, frame)));
                     deltas.Add(new[] { Array.ConvertAll(p, to.MultiplyVector), Array.ConvertAll(n, delegate (Vector3 v) { return to.MultiplyVector(v) / 2.5f; }) });
                 }
+            }
             mesh.ClearBlendShapes();
             for (int at = 0; at < frames.Count; at++) mesh.AddBlendShapeFrame(frames[at].Key, frames[at].Value, deltas[at][0], deltas[at][1], null);
         }
@@ -131,7 +135,9 @@ namespace SuperDeform.Editor.Tests
             MakesNoDifference(delegate (Model model)
             {
                 foreach (Transform at in model.Root.GetComponentsInChildren<Transform>(true))
+                {
                     if (at.parent != null && at.GetComponentInChildren<Renderer>(true) == null) at.SetAsFirstSibling();
+                }
             });
         }
 
@@ -156,7 +162,9 @@ namespace SuperDeform.Editor.Tests
             Look actual = Convert(delegate (Model model)
             {
                 foreach (SkinnedMeshRenderer renderer in model.Root.GetComponentsInChildren<SkinnedMeshRenderer>(true))
+                {
                     if (renderer.sharedMesh.blendShapeCount > 0) renderer.SetBlendShapeWeight(1, 70f);
+                }
             }, out unused, out height);
             // The mesh is deformed without it, and the renderer keeps it.
             Same(expected, actual, height, "");

@@ -144,9 +144,13 @@ namespace SuperDeform.Editor.Tests
             ConversionResult result = Converter.Convert(model.Root, Models.Settings(), null);
             string folder = System.IO.Path.GetDirectoryName(result.PrefabPath);
             foreach (string path in StubProject.FilesOnDisk())
+            {
                 if (path.StartsWith(folder) && System.IO.File.Exists(path)) Assert.That(new System.IO.FileInfo(path).Length, Is.GreaterThan(0), path);
+            }
             foreach (Renderer renderer in result.Prefab.GetComponentsInChildren<Renderer>(true))
+            {
                 StringAssert.StartsWith(folder, AssetDatabase.GetAssetPath(Models.MeshOf(renderer)));
+            }
             StringAssert.StartsWith(folder, AssetDatabase.GetAssetPath(result.Prefab.GetComponent<Animator>().avatar));
             Assert.That(EditorUtility.IsDirty(result.Prefab.GetComponent<Animator>().avatar), Is.False, "not saved");
             string json = result.ReportJson;

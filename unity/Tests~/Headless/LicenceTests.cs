@@ -12,7 +12,7 @@ namespace SuperDeform.Editor.Tests
     [TestFixture]
     public class LicenceTests
     {
-        private ConversionFigure figure;
+        ConversionFigure figure;
 
         [SetUp]
         public void Begin()
@@ -30,7 +30,7 @@ namespace SuperDeform.Editor.Tests
             Licences.Forget();
         }
 
-        private VRM10Object Vrm1(ModificationType modification, string address = null)
+        VRM10Object Vrm1(ModificationType modification, string address = null)
         {
             var asset = ScriptableObject.CreateInstance<VRM10Object>();
             asset.Meta.Modification = modification;
@@ -40,7 +40,7 @@ namespace SuperDeform.Editor.Tests
             return asset;
         }
 
-        private void Vrm0(LicenseType type, string address = null)
+        void Vrm0(LicenseType type, string address = null)
         {
             var asset = ScriptableObject.CreateInstance<VRMMetaObject>();
             asset.LicenseType = type;
@@ -49,7 +49,7 @@ namespace SuperDeform.Editor.Tests
             figure.Root.AddComponent<VRMMeta>().Meta = asset;
         }
 
-        private string Said()
+        string Said()
         {
             List<Finding> found = AvatarChecks.Of(figure.Root).FindAll(finding => finding.Key.StartsWith("licence"));
             Assert.That(found.Count, Is.LessThan(2));
@@ -101,7 +101,9 @@ namespace SuperDeform.Editor.Tests
             Assert.AreEqual(Licences.Changes.Allowed, Licences.OfAddress("http://creativecommons.org/publicdomain/zero/1.0/"));
             Assert.AreEqual(Licences.Changes.Allowed, Licences.OfAddress("https://creativecommons.org/licenses/by/4.0/"));
             foreach (string other in new[] { "", "no address", "https://example.com/licenses/by-nd/", "https://creativecommons.org/" })
+            {
                 Assert.AreEqual(Licences.Changes.NotStated, Licences.OfAddress(other), other);
+            }
         }
 
         [Test]
@@ -135,7 +137,9 @@ namespace SuperDeform.Editor.Tests
             StringAssert.Contains("does not allow changes (prohibited)", report.Entries[0].Failure);
             string path = "Assets/Mika.prefab";
             foreach (Renderer renderer in figure.Root.GetComponentsInChildren<Renderer>())
+            {
                 AssetDatabase.CreateAsset(Models.MeshOf(renderer), "Assets/" + renderer.name + "_mesh.asset");
+            }
             AssetDatabase.CreateAsset(figure.Root.GetComponent<Animator>().avatar, "Assets/MikaAvatar.asset");
             PrefabUtility.SaveAsPrefabAsset(figure.Root, path);
             Assert.AreEqual(1, BatchConvert.Run(new[] { "-superdeformAvatars", path, "-superdeformAllowProhibited", "no" }));

@@ -182,7 +182,9 @@ namespace SuperDeform.Editor.Tests
             {
                 Assert.That(counts[vertex], Is.GreaterThan(0));
                 for (int end = slot + counts[vertex]; slot < end; slot++)
+                {
                     far = Math.Max(far, (skin[weights[slot].boneIndex].MultiplyPoint3x4(vertices[vertex]) - common.MultiplyPoint3x4(vertices[vertex])).magnitude / height);
+                }
             }
             Assert.That(far, Is.LessThan(1e-5f), after.name + ": skinning the rest pose does not give the mesh");
             // The renderer's box holds what it draws.
@@ -322,12 +324,14 @@ namespace SuperDeform.Editor.Tests
             List<int> kept = new List<int>();
             List<int[]> corners = new List<int[]>();
             for (int part = from; part < to; part++)
+            {
                 corners.Add(Array.ConvertAll(whole.GetIndices(part), delegate (int vertex)
                 {
                     int index;
                     if (!renumbered.TryGetValue(vertex, out index)) { renumbered[vertex] = index = kept.Count; kept.Add(vertex); }
                     return index;
                 }));
+            }
             Mesh made = new Mesh();
             made.indexFormat = whole.indexFormat;
             made.vertices = Pick(whole.vertices, kept);

@@ -33,7 +33,9 @@ namespace SuperDeform.Editor.Tests
             if (Path.IsPathRooted(file)) return file;
             string models = Environment.GetEnvironmentVariable("SUPERDEFORM_MODELS") ?? Path.Combine(Repository, "../shared/models");
             foreach (string folder in new[] { Path.Combine(Repository, "tests/data"), models })
+            {
                 if (System.IO.File.Exists(Path.Combine(folder, file))) return Path.GetFullPath(Path.Combine(folder, file));
+            }
             return null;
         }
 
@@ -105,7 +107,9 @@ namespace SuperDeform.Editor.Tests
                     weights[bone * 8 + corner] = new BoneWeight { boneIndex0 = bone, weight0 = 1f };
                 }
                 for (int face = 0; face < 6; face++)
+                {
                     for (int corner = 0; corner < 6; corner++) triangles[(bone * 6 + face) * 6 + corner] = bone * 8 + faces[face][new[] { 0, 1, 2, 0, 2, 3 }[corner]];
+                }
             }
             mesh.vertices = corners;
             mesh.triangles = triangles;
@@ -131,6 +135,7 @@ namespace SuperDeform.Editor.Tests
         /// VRM 1.0 role -> node name, for files that do not say; null for VRM files and for those that cannot be humanoids in Unity.
         public static Dictionary<string, string> RolesOf(string file)
         {
+            file = Path.GetFileName(file);
             if (file.EndsWith(".vrm")) return null;
             if (file.StartsWith("kaykit")) return Sided("hips hips spine spine chest chest head head", "UpperArm upperarm LowerArm lowerarm Hand hand UpperLeg upperleg LowerLeg lowerleg Foot foot Toes toes", ".l", ".r", "");
             // Its feet hang from the root beside the legs, which no humanoid Avatar allows: its joints are told by their names.
@@ -142,8 +147,10 @@ namespace SuperDeform.Editor.Tests
                     "Shoulder Shoulder UpperArm Arm LowerArm ForeArm Hand Hand UpperLeg UpLeg LowerLeg Leg Foot Foot Toes ToeBase", "Left", "Right", m);
             }
             if (file.StartsWith("gdquest"))
+            {
                 return Sided("hips pelvis spine spine_01 chest spine_02 neck neck_01 head head",
                     "Shoulder clavicle UpperArm upperarm LowerArm lowerarm Hand hand UpperLeg thigh LowerLeg calf Foot foot Toes ball", ".l", ".r", "");
+            }
             throw new ArgumentException("no roles are known for " + file);
         }
 

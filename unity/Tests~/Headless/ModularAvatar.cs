@@ -50,26 +50,23 @@ namespace nadena.dev.modular_avatar.core
             foreach (var config in avatar.GetComponentsInChildren<ModularAvatarMergeArmature>(true))
             {
                 GameObject target = config.mergeTarget.targetObject ?? Found(avatar, config.mergeTarget.referencePath);
-                if (target != null)
-                    Merge(config, config.transform, target.transform, true, merged);
+                if (target != null) Merge(config, config.transform, target.transform, true, merged);
             }
-            foreach (var config in avatar.GetComponentsInChildren<ModularAvatarMergeArmature>(true))
-                UnityEngine.Object.DestroyImmediate(config);
+            foreach (var config in avatar.GetComponentsInChildren<ModularAvatarMergeArmature>(true)) UnityEngine.Object.DestroyImmediate(config);
             Retain(avatar, merged);
-            foreach (var renderer in avatar.GetComponentsInChildren<SkinnedMeshRenderer>(true))
-                Retarget(renderer, merged);
+            foreach (var renderer in avatar.GetComponentsInChildren<SkinnedMeshRenderer>(true)) Retarget(renderer, merged);
             Remove(merged);
             Attach(avatar);
         }
 
-        private static GameObject Found(GameObject avatar, string path)
+        static GameObject Found(GameObject avatar, string path)
         {
             Transform found = string.IsNullOrEmpty(path) ? null : path == "$$$AVATAR_ROOT$$$" ? avatar.transform : avatar.transform.Find(path);
             return found == null ? null : found.gameObject;
         }
 
         /// <summary>A scaled joint moves its meshes through a child; what hangs from it stays.</summary>
-        private static void AdjustScales(GameObject avatar)
+        static void AdjustScales(GameObject avatar)
         {
             var proxies = new Dictionary<Transform, Transform>();
             foreach (var adjuster in avatar.GetComponentsInChildren<ModularAvatarScaleAdjuster>(true))
@@ -81,25 +78,22 @@ namespace nadena.dev.modular_avatar.core
                 UnityEngine.Object.DestroyImmediate(adjuster);
             }
             foreach (var renderer in avatar.GetComponentsInChildren<SkinnedMeshRenderer>(true))
+            {
                 renderer.bones = Array.ConvertAll(renderer.bones, bone => bone != null && proxies.ContainsKey(bone) ? proxies[bone] : bone);
+            }
         }
 
-        private static void Merge(ModularAvatarMergeArmature config, Transform source, Transform target, bool zip, HashSet<Transform> merged)
+        static void Merge(ModularAvatarMergeArmature config, Transform source, Transform target, bool zip, HashSet<Transform> merged)
         {
-            if (PrefabUtility.IsPartOfAnyPrefab(source))
-                throw new Exception("Cannot merge prefab instances or prefab assets");
+            if (PrefabUtility.IsPartOfAnyPrefab(source)) throw new Exception("Cannot merge prefab instances or prefab assets");
             source.SetParent(target, true);
-            if (config.mangleNames)
-                source.name += "$" + Guid.NewGuid();
-            if (source.GetComponent<ModularAvatarPBBlocker>() == null)
-                source.gameObject.AddComponent<ModularAvatarPBBlocker>();
-            if (!zip)
-                return;
+            if (config.mangleNames) source.name += "$" + Guid.NewGuid();
+            if (source.GetComponent<ModularAvatarPBBlocker>() == null) source.gameObject.AddComponent<ModularAvatarPBBlocker>();
+            if (!zip) return;
             merged.Add(source);
             foreach (Transform child in source)
             {
-                if (child.GetComponent<ModularAvatarMergeArmature>() != null)
-                    continue;
+                if (child.GetComponent<ModularAvatarMergeArmature>() != null) continue;
                 string name = child.name, prefix = config.prefix, suffix = config.suffix;
                 bool fits = name.StartsWith(prefix) && name.EndsWith(suffix) && name.Length > prefix.Length + suffix.Length;
                 Transform twin = fits ? target.Find(name.Substring(prefix.Length, name.Length - prefix.Length - suffix.Length)) : null;
@@ -108,39 +102,37 @@ namespace nadena.dev.modular_avatar.core
         }
 
         /// <summary>What PhysBones, colliders, contacts and constraints name stays.</summary>
-        private static void Retain(GameObject avatar, HashSet<Transform> merged)
+        static void Retain(GameObject avatar, HashSet<Transform> merged)
         {
             foreach (Component component in avatar.GetComponentsInChildren<Component>(true))
             {
                 string type = component == null ? "" : component.GetType().Name;
-                if (!type.StartsWith("VRC") && !type.EndsWith("Constraint"))
-                    continue;
+                if (!type.StartsWith("VRC") && !type.EndsWith("Constraint")) continue;
                 using (var properties = new SerializedObject(component))
                 {
                     SerializedProperty property = properties.GetIterator();
                     while (property.Next(property.propertyPath.Length == 0 || property.propertyType != SerializedPropertyType.String))
+                    {
                         if (property.propertyType == SerializedPropertyType.ObjectReference && property.name != "m_GameObject")
                         {
                             var named = property.objectReferenceValue as Transform;
-                            if (named != null)
-                                merged.Remove(named);
+                            if (named != null) merged.Remove(named);
                         }
+                    }
                 }
             }
         }
 
-        private static Transform Kept(Transform bone, HashSet<Transform> merged)
+        static Transform Kept(Transform bone, HashSet<Transform> merged)
         {
-            while (bone != null && merged.Contains(bone))
-                bone = bone.parent;
+            while (bone != null && merged.Contains(bone)) bone = bone.parent;
             return bone;
         }
 
-        private static void Retarget(SkinnedMeshRenderer renderer, HashSet<Transform> merged)
+        static void Retarget(SkinnedMeshRenderer renderer, HashSet<Transform> merged)
         {
             Transform[] bones = renderer.bones;
-            if (!Array.Exists(bones, bone => bone != null && merged.Contains(bone)))
-                return;
+            if (!Array.Exists(bones, bone => bone != null && merged.Contains(bone))) return;
             Mesh mesh = UnityEngine.Object.Instantiate(renderer.sharedMesh);
             mesh.name = "RETARGETED__" + renderer.sharedMesh.name;
             ObjectRegistry.RegisterReplacedObject(renderer.sharedMesh, mesh);
@@ -148,8 +140,7 @@ namespace nadena.dev.modular_avatar.core
             for (int i = 0; i < bones.Length && i < binds.Length; i++)
             {
                 Transform kept = Kept(bones[i], merged);
-                if (kept == null || kept == bones[i])
-                    continue;
+                if (kept == null || kept == bones[i]) continue;
                 binds[i] = kept.worldToLocalMatrix * bones[i].localToWorldMatrix * binds[i];
                 bones[i] = kept;
             }
@@ -159,27 +150,27 @@ namespace nadena.dev.modular_avatar.core
             renderer.rootBone = Kept(renderer.rootBone, merged) ?? renderer.transform;
         }
 
-        private static void Remove(HashSet<Transform> merged)
+        static void Remove(HashSet<Transform> merged)
         {
             foreach (Transform bone in merged)
             {
                 if (Array.Exists(bone.GetComponents<Component>(), component => !(component is Transform) && !(component is AvatarTagComponent)))
+                {
                     continue;
+                }
                 Transform above = Kept(bone, merged);
-                foreach (Transform child in bone)
-                    child.SetParent(above, true);
+                foreach (Transform child in bone) child.SetParent(above, true);
                 UnityEngine.Object.DestroyImmediate(bone.gameObject);
             }
         }
 
-        private static void Attach(GameObject avatar)
+        static void Attach(GameObject avatar)
         {
             Animator animator = avatar.GetComponent<Animator>();
             foreach (var proxy in avatar.GetComponentsInChildren<ModularAvatarBoneProxy>(true))
             {
                 Transform bone = animator.GetBoneTransform(proxy.boneReference);
-                if (bone != null)
-                    proxy.transform.SetParent(string.IsNullOrEmpty(proxy.subPath) ? bone : bone.Find(proxy.subPath) ?? bone, true);
+                if (bone != null) proxy.transform.SetParent(string.IsNullOrEmpty(proxy.subPath) ? bone : bone.Find(proxy.subPath) ?? bone, true);
                 UnityEngine.Object.DestroyImmediate(proxy);
             }
         }

@@ -14,10 +14,10 @@ namespace SuperDeform.Editor.Tests
     [TestFixture]
     public class NdmfPreviewTests
     {
-        private const float Height = 1.9f;
-        private ConversionFigure figure;
-        private SuperDeformAvatar component;
-        private IRenderFilter filter;
+        const float Height = 1.9f;
+        ConversionFigure figure;
+        SuperDeformAvatar component;
+        IRenderFilter filter;
 
         [SetUp]
         public void Begin()
@@ -38,13 +38,13 @@ namespace SuperDeform.Editor.Tests
             NdmfPreviewStub.CloseScene();
         }
 
-        private Renderer[] Parts()
+        Renderer[] Parts()
         {
             return new Renderer[] { figure.Body, figure.Hair, figure.Hat };
         }
 
         /// <summary>What a build draws of each part.</summary>
-        private Dictionary<Renderer, Vector3[]> Built(Action<BuildContext> earlier = null)
+        Dictionary<Renderer, Vector3[]> Built(Action<BuildContext> earlier = null)
         {
             GameObject clone = UnityEngine.Object.Instantiate(figure.Root);
             NdmfStub.Build<SuperDeformPlugin>(clone, earlier);
@@ -53,10 +53,12 @@ namespace SuperDeform.Editor.Tests
             return drawn;
         }
 
-        private void ShowsWhatIsBuilt(NdmfPreviewStub preview, string when, Action<BuildContext> earlier = null)
+        void ShowsWhatIsBuilt(NdmfPreviewStub preview, string when, Action<BuildContext> earlier = null)
         {
             foreach (KeyValuePair<Renderer, Vector3[]> built in Built(earlier))
+            {
                 Assert.That(Drawing.Apart(built.Value, Drawing.Drawn(preview.Proxy(built.Key), Matrix4x4.identity)), Is.LessThan(1e-5 * Height), when + ": " + built.Key.name);
+            }
         }
 
         [Test]
@@ -107,8 +109,7 @@ namespace SuperDeform.Editor.Tests
         [Test]
         public void clothes_are_pushed_anew_when_settings_rest()
         {
-            if (!Models.Has("kaykit_rogue.glb"))
-                return;
+            if (!Models.Has("kaykit_rogue.glb")) return;
             GameObject root = Models.Load("kaykit_rogue.glb").Root;
             UnityEngine.Object.DestroyImmediate(component);
             component = root.AddComponent<SuperDeformAvatar>();
@@ -186,8 +187,7 @@ namespace SuperDeform.Editor.Tests
             var cut = new Dictionary<Mesh, Mesh>();
             Func<Mesh, Mesh> before = mesh =>
             {
-                if (mesh != figure.Body.sharedMesh)
-                    return mesh;
+                if (mesh != figure.Body.sharedMesh) return mesh;
                 Mesh made;
                 if (!cut.TryGetValue(mesh, out made))
                 {
@@ -242,13 +242,14 @@ namespace SuperDeform.Editor.Tests
             Action<Renderer, Renderer> earlier = (original, proxy) =>
             {
                 var skinned = proxy as SkinnedMeshRenderer;
-                if (skinned == null || !on)
-                    return;
+                if (skinned == null || !on) return;
                 skinned.bones = Array.ConvertAll(((SkinnedMeshRenderer)original).bones, bone =>
                 {
                     Transform shadow;
                     if (!shadows.TryGetValue(bone, out shadow))
+                    {
                         shadows.Add(bone, shadow = UnityEditor.EditorUtility.CreateGameObjectWithHideFlags(bone.name, HideFlags.DontSave).transform);
+                    }
                     shadow.position = bone.position;
                     shadow.rotation = bone.rotation;
                     Vector3 size = bone.lossyScale;
@@ -270,8 +271,7 @@ namespace SuperDeform.Editor.Tests
                 component.Settings += "\n";
                 Assert.AreEqual("instantiated", preview.Frame());
             }
-            foreach (Transform shadow in shadows.Values)
-                UnityEngine.Object.DestroyImmediate(shadow.gameObject);
+            foreach (Transform shadow in shadows.Values) UnityEngine.Object.DestroyImmediate(shadow.gameObject);
         }
 
         [Test]
@@ -282,8 +282,7 @@ namespace SuperDeform.Editor.Tests
                 preview.Frame();
                 preview.Frame();
                 int changes = Changes.Hierarchy;
-                for (int frame = 0; frame < 1000; frame++)
-                    preview.Frame();
+                for (int frame = 0; frame < 1000; frame++) preview.Frame();
                 Assert.AreEqual(changes, Changes.Hierarchy, "with what NDMF itself does");
                 // This package's share of a frame alone, with an avatar that moves.
                 Renderer[] originals = Parts(), proxies = Array.ConvertAll(Parts(), preview.Proxy);
@@ -298,8 +297,7 @@ namespace SuperDeform.Editor.Tests
                         figure.Root.transform.localPosition = new Vector3(0.001f * frame, 0, 0);
                         arm.localRotation = new Quaternion(0, 0, 0.001f * frame, 1);
                         node.OnFrameGroup();
-                        for (int part = 0; part < originals.Length; part++)
-                            node.OnFrame(originals[part], proxies[part]);
+                        for (int part = 0; part < originals.Length; part++) node.OnFrame(originals[part], proxies[part]);
                     }
                     long grown = GC.GetTotalMemory(false) - before;
                     Console.WriteLine(grown + " bytes in 1000 frames");
@@ -333,7 +331,9 @@ namespace SuperDeform.Editor.Tests
             {
                 preview.Frame();
                 foreach (Renderer part in Parts())
+                {
                     Assert.That(Drawing.Apart(Drawing.Drawn(part, Matrix4x4.identity), Drawing.Drawn(preview.Proxy(part), Matrix4x4.identity)), Is.LessThan(1e-5 * Height), part.name);
+                }
                 component.Settings = "Source = Heads\n";
                 Assert.AreEqual("instantiated", preview.Frame());
                 ShowsWhatIsBuilt(preview, "mended");
@@ -350,8 +350,7 @@ namespace SuperDeform.Editor.Tests
                 Renderer[] proxies = Array.ConvertAll(Parts(), preview.Proxy);
                 NdmfPreviewStub.CloseScene();
                 node.OnFrameGroup();
-                for (int part = 0; part < proxies.Length; part++)
-                    node.OnFrame(Parts()[part], proxies[part]);
+                for (int part = 0; part < proxies.Length; part++) node.OnFrame(Parts()[part], proxies[part]);
             }
         }
     }

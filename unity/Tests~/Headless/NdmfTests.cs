@@ -14,8 +14,8 @@ namespace SuperDeform.Editor.Tests
     [TestFixture]
     public class NdmfTests
     {
-        private ConversionFigure figure;
-        private SuperDeformAvatar component;
+        ConversionFigure figure;
+        SuperDeformAvatar component;
 
         [SetUp]
         public void Begin()
@@ -26,7 +26,7 @@ namespace SuperDeform.Editor.Tests
             SettingsText.Give(component, Settings());
         }
 
-        private static ConversionSettings Settings()
+        static ConversionSettings Settings()
         {
             var settings = new ConversionSettings { Heads = 3, OutputFolder = "Assets/Out", PlaceInScene = false };
             settings.Options.HeadScale = 1.2;
@@ -34,7 +34,7 @@ namespace SuperDeform.Editor.Tests
             return settings;
         }
 
-        private static GameObject Clone(GameObject avatar)
+        static GameObject Clone(GameObject avatar)
         {
             GameObject clone = UnityEngine.Object.Instantiate(avatar);
             clone.name = avatar.name + "(Clone)";
@@ -71,12 +71,16 @@ namespace SuperDeform.Editor.Tests
                 Assert.That(NdmfStub.Replaced.Exists(pair => pair.Value == made && pair.Key == Models.MeshOf(ConversionTests.Find(figure.Root, name).GetComponent<Renderer>())), name);
             }
             foreach (Transform bone in figure.Bones.Values)
+            {
                 Assert.AreEqual(ConversionTests.Find(prefab, bone.name).localPosition, ConversionTests.Find(clone, bone.name).localPosition, bone.name);
+            }
             Avatar avatar = clone.GetComponent<Animator>().avatar, saved = prefab.GetComponent<Animator>().avatar;
             Assert.AreNotSame(old, avatar);
             Assert.That(NdmfStub.Saved.Contains(avatar));
             for (int bone = 0; bone < saved.humanDescription.skeleton.Length; bone++)
+            {
                 Assert.AreEqual(saved.humanDescription.skeleton[bone].position, avatar.humanDescription.skeleton[bone].position);
+            }
             Assert.AreEqual("avtr_1", clone.GetComponent<VRC.Core.PipelineManager>().blueprintId, "the same avatar to the server");
             Assert.AreEqual("", prefab.GetComponent<VRC.Core.PipelineManager>().blueprintId, "another avatar");
             var made2 = clone.GetComponentInChildren<VRC.SDK3.Dynamics.PhysBone.Components.VRCPhysBone>();
@@ -102,7 +106,9 @@ namespace SuperDeform.Editor.Tests
         {
             figure.Root.transform.Find("Armature").rotation = Quaternion.Euler(0, 0, 90);
             foreach (SkinnedMeshRenderer renderer in figure.Root.GetComponentsInChildren<SkinnedMeshRenderer>())
+            {
                 UnityEngine.Object.DestroyImmediate(renderer.gameObject);
+            }
             UnityEngine.Object.DestroyImmediate(figure.Hat.gameObject);
             GameObject clone = Clone(figure.Root);
             NdmfStub.Build<SuperDeformPlugin>(clone);

@@ -14,7 +14,7 @@ namespace SuperDeform.Editor.Tests
     [TestFixture]
     public class OutfitSizeTests
     {
-        private const float Height = 1.9f;
+        const float Height = 1.9f;
 
         [SetUp]
         public void Begin()
@@ -22,12 +22,12 @@ namespace SuperDeform.Editor.Tests
             Models.NewProject();
         }
 
-        private static ConversionSettings Settings()
+        static ConversionSettings Settings()
         {
             return new ConversionSettings { Heads = 2.5f, OutputFolder = "Assets/Out", PlaceInScene = false };
         }
 
-        private sealed class Dressed
+        sealed class Dressed
         {
             internal ConversionFigure Figure;
             internal SkinnedMeshRenderer Coat;
@@ -36,7 +36,7 @@ namespace SuperDeform.Editor.Tests
         }
 
         /// <summary>A coat on an armature of its own, scaled around the soles.</summary>
-        private static Dressed Dress(string how, float scale)
+        static Dressed Dress(string how, float scale)
         {
             var dressed = new Dressed { Figure = new ConversionFigure().Make() };
             dressed.Coat = Wardrobe.Coat(dressed.Figure, 0.015f);
@@ -53,15 +53,16 @@ namespace SuperDeform.Editor.Tests
                 merge.prefix = "X";
             }
             else if (how == "Armature Link")
+            {
                 dressed.Outfit.gameObject.AddComponent<VRCFury>().content = new ArmatureLink { propBone = hips.gameObject, recursive = true };
-            else if (how == "own Animator")
-                Wardrobe.MakeHumanoid(dressed.Outfit.gameObject, dressed.Figure.Bones, dressed.Twins);
+            }
+            else if (how == "own Animator") Wardrobe.MakeHumanoid(dressed.Outfit.gameObject, dressed.Figure.Bones, dressed.Twins);
             dressed.Outfit.localScale = Vector3.one * scale;
             return dressed;
         }
 
         /// <summary>The coat and the body before and after, in the root's space.</summary>
-        private static void Deform(GameObject root, out Vector3[] coat, out Vector3[] body, out Vector3[] newCoat, out Vector3[] newBody)
+        static void Deform(GameObject root, out Vector3[] coat, out Vector3[] body, out Vector3[] newCoat, out Vector3[] newBody)
         {
             using (AvatarData data = CharacterReader.Read(root, new ReadOptions()))
             using (Style style = Settings().MakeStyle())
@@ -77,18 +78,19 @@ namespace SuperDeform.Editor.Tests
             }
         }
 
-        private static readonly string[] ways = { "names", "Merge Armature", "Armature Link", "own Animator" };
+        static readonly string[] ways = { "names", "Merge Armature", "Armature Link", "own Animator" };
 
         /// <summary>The vertices that are not the head's, which grows twice as large as the rest: a coat has none.</summary>
-        private static Vector3[] BelowHead(Dressed dressed, Vector3[] all)
+        static Vector3[] BelowHead(Dressed dressed, Vector3[] all)
         {
             BoneWeight[] weights = dressed.Coat.sharedMesh.boneWeights;
             int head = Array.IndexOf(dressed.Coat.bones, dressed.Twins[dressed.Figure.Bones[HumanBodyBones.Head]]);
             int neck = Array.IndexOf(dressed.Coat.bones, dressed.Twins[dressed.Figure.Bones[HumanBodyBones.Neck]]);
             var below = new List<Vector3>();
             for (int vertex = 0; vertex < all.Length; vertex++)
-                if (weights[vertex].boneIndex0 != head && weights[vertex].boneIndex0 != neck)
-                    below.Add(all[vertex]);
+            {
+                if (weights[vertex].boneIndex0 != head && weights[vertex].boneIndex0 != neck) below.Add(all[vertex]);
+            }
             return below.ToArray();
         }
 
@@ -108,8 +110,7 @@ namespace SuperDeform.Editor.Tests
                 Deform(merged.Figure.Root, out coat, out body, out wanted, out newBody);
                 foreach (string how in ways)
                 {
-                    if (!all && how != "names" && scale != 0.9f && scale != 0.98f && scale != 1.1f)
-                        continue;
+                    if (!all && how != "names" && scale != 0.9f && scale != 0.98f && scale != 1.1f) continue;
                     Models.NewProject();
                     Dressed dressed = Dress(how, scale);
                     Deform(dressed.Figure.Root, out coat, out body, out newCoat, out newBody);
@@ -131,18 +132,24 @@ namespace SuperDeform.Editor.Tests
         public void an_armature_that_is_far_larger_smaller_or_elsewhere_is_no_outfit()
         {
             foreach (string how in new[] { "names", "own Animator" })
+            {
                 foreach (string where in new[] { "half", "double", "aside", "above" })
                 {
                     Models.NewProject();
                     Dressed dressed = Dress(how, where == "half" ? 0.5f : where == "double" ? 2 : 1);
                     dressed.Outfit.localPosition = where == "aside" ? new Vector3(0.5f, 0, 0) : where == "above" ? new Vector3(0, 0.5f, 0) : Vector3.zero;
                     using (AvatarData data = CharacterReader.Read(dressed.Figure.Root, new ReadOptions()))
+                    {
                         foreach (Transform twin in dressed.Twins.Values)
+                        {
                             Assert.AreEqual(data.IndexOf(twin), data.Twins[data.IndexOf(twin)], how + ", " + where + ": " + twin.name);
+                        }
+                    }
                     List<Finding> said = AvatarChecks.Of(dressed.Figure.Root).FindAll(finding => finding.Severity == Severity.Warning);
                     Assert.AreEqual(how == "names" ? "own_bones" : "pet", said[0].Key, how + ", " + where);
                     StringAssert.Contains("Outfit", said[0].Text);
                 }
+            }
         }
 
         [Test]
@@ -184,15 +191,18 @@ namespace SuperDeform.Editor.Tests
             foreach (Func<string, string> rename in new Func<string, string>[] { name => name, name => "Coat_" + name, name => name + "1" })
             {
                 Transform old = figure.Root.transform.Find("Outfit");
-                if (old != null)
-                    UnityEngine.Object.DestroyImmediate(old.gameObject);
+                if (old != null) UnityEngine.Object.DestroyImmediate(old.gameObject);
                 coat.bones = figure.Body.bones;
                 coat.sharedMesh.bindposes = figure.Body.sharedMesh.bindposes;
                 var twins = Wardrobe.Armature(figure.Root, figure.Bones[HumanBodyBones.Hips], rename);
                 Wardrobe.Bind(coat, twins);
                 using (AvatarData data = CharacterReader.Read(figure.Root, new ReadOptions()))
+                {
                     foreach (KeyValuePair<Transform, Transform> pair in twins)
+                    {
                         Assert.AreEqual(pair.Key.name, data.Joints[data.Twins[data.IndexOf(pair.Value)]].name, pair.Value.name);
+                    }
+                }
             }
         }
 
@@ -213,7 +223,9 @@ namespace SuperDeform.Editor.Tests
             ring.bones = figure.Hair.bones;
             Wardrobe.Bind(ring, new Dictionary<Transform, Transform> { { figure.Bones[HumanBodyBones.Head], bracelet } });
             using (AvatarData data = CharacterReader.Read(figure.Root, new ReadOptions()))
+            {
                 Assert.AreEqual("ForeArm.L", data.Joints[data.Twins[data.IndexOf(bracelet)]].name);
+            }
         }
 
         [Test]

@@ -11,18 +11,18 @@ namespace SuperDeform.Editor.Tests
     [TestFixture]
     public class OutfitTests
     {
-        private static ConversionSettings Settings()
+        static ConversionSettings Settings()
         {
             return new ConversionSettings { Heads = 2.5f, OutputFolder = "Assets/Out", PlaceInScene = false };
         }
 
-        private static Vector3[] Converted(GameObject root, string cloth)
+        static Vector3[] Converted(GameObject root, string cloth)
         {
             return Drawing.Drawn(Converter.Convert(root, Settings(), null).Prefab, cloth);
         }
 
         /// <summary>A person whose hair has a bone's weights all over; the cloth is a second body, one size larger.</summary>
-        private static ConversionFigure Figure(out SkinnedMeshRenderer coat)
+        static ConversionFigure Figure(out SkinnedMeshRenderer coat)
         {
             var figure = new ConversionFigure { Turned = true, WithShapes = true }.Make();
             // Its meshes are in centimetres.
@@ -30,7 +30,7 @@ namespace SuperDeform.Editor.Tests
             return figure;
         }
 
-        private static void FitsAsMerged(string how, Action<ConversionFigure, Dictionary<Transform, Transform>> dress, Func<string, string> rename)
+        static void FitsAsMerged(string how, Action<ConversionFigure, Dictionary<Transform, Transform>> dress, Func<string, string> rename)
         {
             Models.NewProject();
             SkinnedMeshRenderer coat;
@@ -48,7 +48,7 @@ namespace SuperDeform.Editor.Tests
             Assert.AreEqual(before, Fingerprint.Of(dressed.Root), how);
         }
 
-        private static Transform Armature(ConversionFigure figure)
+        static Transform Armature(ConversionFigure figure)
         {
             return figure.Root.transform.Find("Outfit/Armature.1");
         }
@@ -94,8 +94,12 @@ namespace SuperDeform.Editor.Tests
             component.mergeTarget.targetObject = moved.Root.transform.Find("Armature").gameObject;
             component.prefix = "X";
             using (AvatarData data = CharacterReader.Read(moved.Root, new ReadOptions()))
+            {
                 foreach (KeyValuePair<Transform, Transform> pair in copies)
+                {
                     Assert.AreEqual(data.IndexOf(pair.Key), data.Twins[data.IndexOf(pair.Value)], pair.Key.name);
+                }
+            }
         }
 
         [Test]
@@ -108,8 +112,9 @@ namespace SuperDeform.Editor.Tests
             Wardrobe.Bind(coat, copies);
             figure.Root.transform.Find("Outfit").position = new Vector3(1, 0, 0);
             using (AvatarData data = CharacterReader.Read(figure.Root, new ReadOptions()))
-                foreach (Transform copy in copies.Values)
-                    Assert.AreEqual(data.IndexOf(copy), data.Twins[data.IndexOf(copy)], copy.name);
+            {
+                foreach (Transform copy in copies.Values) Assert.AreEqual(data.IndexOf(copy), data.Twins[data.IndexOf(copy)], copy.name);
+            }
         }
 
         [Test]
@@ -148,7 +153,7 @@ namespace SuperDeform.Editor.Tests
             Assert.That(Vector3.Distance(wanted, ConversionTests.Find(prefab, "Free").position), Is.GreaterThan(0.01f * 1.9f));
         }
 
-        private static Transform Empty(string name, Transform parent)
+        static Transform Empty(string name, Transform parent)
         {
             Transform made = new GameObject(name).transform;
             made.SetParent(parent, false);
@@ -156,7 +161,7 @@ namespace SuperDeform.Editor.Tests
             return made;
         }
 
-        private static MeshRenderer Hat(ConversionFigure figure, Transform parent, string name)
+        static MeshRenderer Hat(ConversionFigure figure, Transform parent, string name)
         {
             MeshRenderer hat = UnityEngine.Object.Instantiate(figure.Hat, parent);
             hat.name = name;
@@ -172,8 +177,7 @@ namespace SuperDeform.Editor.Tests
         public void an_outfit_of_a_real_character_fits()
         {
             const string file = "makehuman_female_vrm1.vrm";
-            if (!Models.Has(file))
-                return;
+            if (!Models.Has(file)) return;
             foreach (string cloth in new[] { "cloth_tights", "cloth_skirt" })
             {
                 Model merged = Models.Load(file);
@@ -200,7 +204,7 @@ namespace SuperDeform.Editor.Tests
             Assert.That(AvatarChecks.Of(figure.Root).FindAll(finding => finding.Severity == Severity.Error), Is.Empty);
         }
 
-        private static Vector3[] Shown(PreviewSession session, string name)
+        static Vector3[] Shown(PreviewSession session, string name)
         {
             SkinnedMeshRenderer renderer = Array.Find(session.Proxy.GetComponentsInChildren<SkinnedMeshRenderer>(), one => one.name == name);
             Vector3[] positions, normals;

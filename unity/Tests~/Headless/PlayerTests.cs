@@ -16,10 +16,12 @@ namespace SuperDeform.Editor.Tests
         {
             Models.NewProject();
             foreach (BuildTargetGroup group in Enum.GetValues(typeof(BuildTargetGroup)))
+            {
                 PlayerSettings.SetScriptingDefineSymbols(NamedBuildTarget.FromBuildTargetGroup(group), "");
+            }
         }
 
-        private static void Build(BuildTarget target)
+        static void Build(BuildTarget target)
         {
             new RuntimeLibrary().OnPreprocessBuild(StubBuild.Of(target));
         }
@@ -27,8 +29,7 @@ namespace SuperDeform.Editor.Tests
         [Test]
         public void a_build_needs_no_library_until_the_define_asks_for_one()
         {
-            foreach (BuildTarget target in Enum.GetValues(typeof(BuildTarget)))
-                Build(target);
+            foreach (BuildTarget target in Enum.GetValues(typeof(BuildTarget))) Build(target);
         }
 
         [Test]

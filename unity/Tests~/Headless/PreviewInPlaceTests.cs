@@ -14,8 +14,8 @@ namespace SuperDeform.Editor.Tests
     [TestFixture]
     public class PreviewInPlaceTests
     {
-        private ConversionFigure figure;
-        private ConversionSettings settings;
+        ConversionFigure figure;
+        ConversionSettings settings;
 
         [SetUp]
         public void Begin()
@@ -44,7 +44,9 @@ namespace SuperDeform.Editor.Tests
             }
             figure.Body.SetBlendShapeWeight(0, 0);
             using (var session = new PreviewSession(figure.Root, settings))
+            {
                 Assert.That(Drawing.Apart(Drawing.Drawn(Converter.Convert(figure.Root, settings, null).Prefab, "Body"), Drawing.Drawn(session.Proxy, "Body")), Is.LessThan(1e-5 * 1.9));
+            }
         }
 
         [Test]
@@ -91,7 +93,9 @@ namespace SuperDeform.Editor.Tests
             {
                 Assert.AreEqual(prefabMode, session.Proxy.scene);
                 foreach (Transform shown in session.Proxy.GetComponentsInChildren<Transform>(true))
+                {
                     Assert.AreEqual(prefabMode, shown.gameObject.scene, shown.name);
+                }
             }
             settings.PlaceInScene = true;
             Assert.AreEqual(prefabMode, Converter.Convert(figure.Root, settings, null).Instance.scene);

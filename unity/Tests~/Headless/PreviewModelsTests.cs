@@ -24,8 +24,7 @@ namespace SuperDeform.Editor.Tests
         [Test]
         public void clothes_are_pushed_anew_when_a_slider_rests()
         {
-            if (!Models.Has("kaykit_rogue.glb"))
-                return;
+            if (!Models.Has("kaykit_rogue.glb")) return;
             Model model = Models.Load("kaykit_rogue.glb");
             var settings = new ConversionSettings { Source = StyleSource.BuiltIn };
             using (var session = new PreviewSession(model.Root, settings))
@@ -47,8 +46,7 @@ namespace SuperDeform.Editor.Tests
         [Test]
         public void a_preview_that_rests_shows_what_is_converted()
         {
-            if (!Models.Has("kaykit_rogue.glb"))
-                return;
+            if (!Models.Has("kaykit_rogue.glb")) return;
             Model model = Models.Load("kaykit_rogue.glb");
             ConverterWindow window = ConverterWindow.Open(null);
             try
@@ -71,16 +69,17 @@ namespace SuperDeform.Editor.Tests
             }
         }
 
-        private static float Most(Vector3[][] one, Vector3[][] other)
+        static float Most(Vector3[][] one, Vector3[][] other)
         {
             float most = 0;
             for (int mesh = 0; mesh < one.Length; mesh++)
-                for (int vertex = 0; vertex < one[mesh].Length; vertex++)
-                    most = Mathf.Max(most, (one[mesh][vertex] - other[mesh][vertex]).magnitude);
+            {
+                for (int vertex = 0; vertex < one[mesh].Length; vertex++) most = Mathf.Max(most, (one[mesh][vertex] - other[mesh][vertex]).magnitude);
+            }
             return most;
         }
 
-        private static Vector3[][] Shown(PreviewSession session)
+        static Vector3[][] Shown(PreviewSession session)
         {
             return Array.ConvertAll(session.Proxy.GetComponentsInChildren<SkinnedMeshRenderer>(true), shown => shown.sharedMesh.vertices);
         }
@@ -91,10 +90,9 @@ namespace SuperDeform.Editor.Tests
         [Test]
         public void mannequiny() { Check("gdquest_mannequiny.glb"); }
 
-        private static void Check(string file)
+        static void Check(string file)
         {
-            if (!Models.Has(file))
-                return;
+            if (!Models.Has(file)) return;
             ulong handles = SuperDeformLibrary.LiveHandles;
             Model model = Models.Load(file);
             var settings = new ConversionSettings { Source = StyleSource.BuiltIn, PlaceInScene = false };
@@ -103,8 +101,12 @@ namespace SuperDeform.Editor.Tests
                 // Posed after reading, as an artist does who looks at a preview.
                 Animator animator = model.Root.GetComponent<Animator>();
                 if (animator != null && animator.isHuman)
+                {
                     foreach (HumanBodyBones bone in new[] { HumanBodyBones.LeftUpperArm, HumanBodyBones.RightLowerLeg })
+                    {
                         animator.GetBoneTransform(bone).localRotation *= Quaternion.Euler(15, 5, 10);
+                    }
+                }
                 session.Follow();
                 GameObject prefab = Converter.Convert(model.Root, settings, null).Prefab;
                 var result = (GameObject)UnityEditor.PrefabUtility.InstantiatePrefab(prefab);
@@ -131,14 +133,14 @@ namespace SuperDeform.Editor.Tests
             Assert.AreEqual(handles, SuperDeformLibrary.LiveHandles, "live handles");
         }
 
-        private static bool HasMesh(Renderer renderer)
+        static bool HasMesh(Renderer renderer)
         {
             Mesh mesh = renderer is SkinnedMeshRenderer ? ((SkinnedMeshRenderer)renderer).sharedMesh
                 : renderer.GetComponent<MeshFilter>() == null ? null : renderer.GetComponent<MeshFilter>().sharedMesh;
             return mesh != null && mesh.vertexCount > 0;
         }
 
-        private static Vector3[] World(Renderer renderer)
+        static Vector3[] World(Renderer renderer)
         {
             if (renderer is SkinnedMeshRenderer)
             {

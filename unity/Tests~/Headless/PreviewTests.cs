@@ -10,11 +10,11 @@ namespace SuperDeform.Editor.Tests
     public class PreviewTests
     {
         // 1e-5 of the figure's height of 1.6.
-        private const float Tolerance = 1.6e-5f;
+        const float Tolerance = 1.6e-5f;
 
-        private WindowFigure figure;
-        private ConversionSettings settings;
-        private ulong handles;
+        WindowFigure figure;
+        ConversionSettings settings;
+        ulong handles;
 
         [SetUp]
         public void Begin()
@@ -31,47 +31,46 @@ namespace SuperDeform.Editor.Tests
             Assert.AreEqual(handles, SuperDeformLibrary.LiveHandles, "live handles");
         }
 
-        private static Vector3[] World(SkinnedMeshRenderer renderer)
+        static Vector3[] World(SkinnedMeshRenderer renderer)
         {
             Vector3[] positions, normals;
             Skinning.Drawn(renderer, Matrix4x4.identity, out positions, out normals);
             return positions;
         }
 
-        private static int OfPreviews()
+        static int OfPreviews()
         {
             return Array.FindAll(Resources.FindObjectsOfTypeAll<GameObject>(), Hidden).Length
                 + Array.FindAll(Resources.FindObjectsOfTypeAll<Mesh>(), Hidden).Length;
         }
 
-        private static bool Hidden(UnityEngine.Object candidate)
+        static bool Hidden(UnityEngine.Object candidate)
         {
             return candidate.hideFlags == HideFlags.HideAndDontSave;
         }
 
-        private static SkinnedMeshRenderer Proxy(PreviewSession session, string name)
+        static SkinnedMeshRenderer Proxy(PreviewSession session, string name)
         {
             return Array.Find(session.Proxy.GetComponentsInChildren<SkinnedMeshRenderer>(true),
                 renderer => renderer.name == name);
         }
 
-        private static float Distance(Vector3[] one, Vector3[] other)
+        static float Distance(Vector3[] one, Vector3[] other)
         {
             Assert.AreEqual(one.Length, other.Length);
             float most = 0;
-            for (int i = 0; i < one.Length; i++)
-                most = Mathf.Max(most, (one[i] - other[i]).magnitude);
+            for (int i = 0; i < one.Length; i++) most = Mathf.Max(most, (one[i] - other[i]).magnitude);
             return most;
         }
 
-        private static Vector3[] Rigid(MeshRenderer renderer)
+        static Vector3[] Rigid(MeshRenderer renderer)
         {
             return Array.ConvertAll(renderer.GetComponent<MeshFilter>().sharedMesh.vertices,
                 vertex => renderer.transform.localToWorldMatrix.MultiplyPoint3x4(vertex));
         }
 
         // Where the vertices of a conversion stand when its prefab is put where the avatar is.
-        private Vector3[][] Converted()
+        Vector3[][] Converted()
         {
             GameObject prefab = Converter.Convert(figure.Root, settings, null).Prefab;
             var instance = (GameObject)UnityEditor.PrefabUtility.InstantiatePrefab(prefab);
@@ -83,7 +82,7 @@ namespace SuperDeform.Editor.Tests
             return new[] { body, hat };
         }
 
-        private void SameAsConverted(PreviewSession session)
+        void SameAsConverted(PreviewSession session)
         {
             Vector3[][] wanted = Converted();
             Assert.That(Distance(wanted[0], World(Proxy(session, "body"))), Is.LessThan(Tolerance), "body");
@@ -108,8 +107,7 @@ namespace SuperDeform.Editor.Tests
             figure["LeftUpperArm"].localRotation = Quaternion.Euler(10, 20, 50);
             figure["RightUpperLeg"].localRotation = Quaternion.Euler(-40, 0, 5);
             figure["Head"].localRotation = Quaternion.Euler(0, 30, 0);
-            using (var session = new PreviewSession(figure.Root, settings))
-                SameAsConverted(session);
+            using (var session = new PreviewSession(figure.Root, settings)) SameAsConverted(session);
         }
 
         [Test]
@@ -129,6 +127,7 @@ namespace SuperDeform.Editor.Tests
                 () => GroupTunings.Clear(settings)
             };
             using (var session = new PreviewSession(figure.Root, settings))
+            {
                 foreach (Action change in changes)
                 {
                     Vector3[] before = Proxy(session, "body").sharedMesh.vertices;
@@ -144,6 +143,7 @@ namespace SuperDeform.Editor.Tests
                         anew.ShowBefore = true;
                     }
                 }
+            }
         }
 
         [Test]
@@ -166,7 +166,9 @@ namespace SuperDeform.Editor.Tests
             {
                 Assert.AreEqual(2, figure.Body.sharedMesh.blendShapeCount);
                 foreach (Transform part in session.Proxy.GetComponentsInChildren<Transform>(true))
+                {
                     Assert.AreEqual(HideFlags.HideAndDontSave, part.gameObject.hideFlags, part.name);
+                }
                 foreach (SkinnedMeshRenderer renderer in session.Proxy.GetComponentsInChildren<SkinnedMeshRenderer>(true))
                 {
                     Assert.AreEqual(0, renderer.sharedMesh.blendShapeCount);
@@ -200,8 +202,7 @@ namespace SuperDeform.Editor.Tests
         {
             figure.Hat.forceRenderingOff = true;
             figure.Body.enabled = false;
-            using (var session = new PreviewSession(figure.Root, settings))
-                Assert.IsFalse(Proxy(session, "body").enabled);
+            using (var session = new PreviewSession(figure.Root, settings)) Assert.IsFalse(Proxy(session, "body").enabled);
             Assert.IsTrue(figure.Hat.forceRenderingOff);
             Assert.IsFalse(figure.Body.forceRenderingOff);
         }
@@ -212,10 +213,8 @@ namespace SuperDeform.Editor.Tests
             using (var session = new PreviewSession(figure.Root, settings) { Beside = true })
             {
                 float right = float.NegativeInfinity, left = float.PositiveInfinity;
-                foreach (Vector3 vertex in World(figure.Body))
-                    right = Mathf.Max(right, vertex.x);
-                foreach (Vector3 vertex in World(Proxy(session, "body")))
-                    left = Mathf.Min(left, vertex.x);
+                foreach (Vector3 vertex in World(figure.Body)) right = Mathf.Max(right, vertex.x);
+                foreach (Vector3 vertex in World(Proxy(session, "body"))) left = Mathf.Min(left, vertex.x);
                 Assert.That(left, Is.GreaterThan(right));
             }
         }
@@ -275,7 +274,7 @@ namespace SuperDeform.Editor.Tests
             Assert.IsFalse(figure.Body.forceRenderingOff);
         }
 
-        private sealed class Refusal : IConversionProgress
+        sealed class Refusal : IConversionProgress
         {
             public bool Report(string stageKey, float fraction)
             {

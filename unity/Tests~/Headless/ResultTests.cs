@@ -24,23 +24,23 @@ namespace SuperDeform.Editor.Tests
             Models.NewProject();
         }
 
-        private static ConversionSettings Settings()
+        static ConversionSettings Settings()
         {
             return new ConversionSettings { Heads = 2.5f, OutputFolder = "Assets/Out", PlaceInScene = false };
         }
 
-        private static string Converted(GameObject avatar)
+        static string Converted(GameObject avatar)
         {
             return Converter.Convert(avatar, Settings(), null).PrefabPath;
         }
 
         /// <summary>As when the editor is closed and opened: instances have other numbers.</summary>
-        private static void RestartEditor()
+        static void RestartEditor()
         {
             SessionState.SetString("SuperDeform.Session", "");
         }
 
-        private static void Edit(string path, Action<GameObject> change)
+        static void Edit(string path, Action<GameObject> change)
         {
             GameObject contents = PrefabUtility.LoadPrefabContents(path);
             change(contents);
@@ -49,13 +49,13 @@ namespace SuperDeform.Editor.Tests
         }
 
         /// <summary>Meshes, Avatar and prefab as files of the project.</summary>
-        private static GameObject AsAsset(ConversionFigure figure, string path)
+        static GameObject AsAsset(ConversionFigure figure, string path)
         {
             StubProject.Import(path + ".fbx", figure.Body.sharedMesh, figure.Hair.sharedMesh, figure.Hat.GetComponent<MeshFilter>().sharedMesh, figure.Root.GetComponent<Animator>().avatar);
             return PrefabUtility.SaveAsPrefabAsset(figure.Root, path + ".prefab");
         }
 
-        private static List<Transform> Named(GameObject root, string name)
+        static List<Transform> Named(GameObject root, string name)
         {
             return new List<Transform>(Array.FindAll(root.GetComponentsInChildren<Transform>(true), one => one.name == name));
         }
@@ -314,10 +314,11 @@ namespace SuperDeform.Editor.Tests
                 GameObject instance = Converter.Convert(figure.Root, settings, null).Instance;
                 Matrix4x4 space = Matrix4x4.Rotate(Quaternion.Inverse(figure.Root.transform.rotation));
                 float right = float.MinValue, left = float.MaxValue;
-                foreach (Vector3 p in Drawing.Drawn(figure.Body, space))
-                    right = Math.Max(right, p.x);
+                foreach (Vector3 p in Drawing.Drawn(figure.Body, space)) right = Math.Max(right, p.x);
                 foreach (Vector3 p in Drawing.Drawn(ConversionTests.Find(instance, "Body").GetComponent<Renderer>(), space))
+                {
                     left = Math.Min(left, p.x);
+                }
                 Assert.That(left, Is.GreaterThan(right), "scale " + scale);
                 Assert.That(left - right, Is.LessThan(2 * scale), "and near");
             }

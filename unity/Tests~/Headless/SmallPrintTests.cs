@@ -17,7 +17,7 @@ namespace SuperDeform.Editor.Tests
             Models.NewProject();
         }
 
-        private static ConversionSettings Settings()
+        static ConversionSettings Settings()
         {
             return new ConversionSettings { Source = StyleSource.BuiltIn, BuiltInStyle = "sd2.5", OutputFolder = "Assets/Out", PlaceInScene = false };
         }
@@ -54,12 +54,11 @@ namespace SuperDeform.Editor.Tests
             Assert.AreEqual(new[] { 0.07f, 0.08f, 0.09f, 0.4f }, new[] { made.armStretch, made.legStretch, made.feetSpacing, made.lowerLegTwist });
         }
 
-        private static Bounds Tight(SkinnedMeshRenderer renderer)
+        static Bounds Tight(SkinnedMeshRenderer renderer)
         {
             Vector3[] drawn = Drawing.Drawn(renderer, renderer.rootBone.worldToLocalMatrix);
             var box = new Bounds(drawn[0], Vector3.zero);
-            foreach (Vector3 p in drawn)
-                box.Encapsulate(p);
+            foreach (Vector3 p in drawn) box.Encapsulate(p);
             return box;
         }
 
@@ -92,13 +91,15 @@ namespace SuperDeform.Editor.Tests
             {
                 Vector3[] shown = Normals(session.Proxy);
                 for (int vertex = 0; vertex < wanted.Length; vertex++)
+                {
                     Assert.That(Vector3.Distance(wanted[vertex], shown[vertex]), Is.LessThan(1e-3f), "vertex " + vertex);
+                }
             }
             figure.Body.SetBlendShapeWeight(0, 0);
             Assert.That(Drawing.Apart(wanted, Normals(Converter.Convert(figure.Root, Settings(), null).Prefab)), Is.GreaterThan(0.02));
         }
 
-        private static Vector3[] Normals(GameObject root)
+        static Vector3[] Normals(GameObject root)
         {
             Vector3[] positions, normals;
             var body = Array.Find(root.GetComponentsInChildren<SkinnedMeshRenderer>(true), renderer => renderer.name == "Body");

@@ -10,14 +10,14 @@ namespace SuperDeform.Editor.Tests
     [TestFixture]
     public class SpringTests
     {
-        private const HumanBodyBones Carrier = HumanBodyBones.Hips;
-        private ConversionFigure figure;
-        private Transform root, end, left;
+        const HumanBodyBones Carrier = HumanBodyBones.Hips;
+        ConversionFigure figure;
+        Transform root, end, left;
 
         /// <summary>
         /// A tail that hangs from a foot; its end comes nearer to the hips, whose collider it just does not touch.
         /// </summary>
-        private void Begin()
+        void Begin()
         {
             figure = ComponentTableTests.Probed();
             root = new GameObject("TailRoot").transform;
@@ -30,9 +30,9 @@ namespace SuperDeform.Editor.Tests
             left.position = figure.Bones[Carrier].position + new Vector3(0, -0.3f, 0);
         }
 
-        private const float Ball = 0.02f;
+        const float Ball = 0.02f;
 
-        private float Reach(Vector3 point)
+        float Reach(Vector3 point)
         {
             return Vector3.Distance(figure.Bones[Carrier].position, point) - Ball - 0.002f;
         }
@@ -40,7 +40,7 @@ namespace SuperDeform.Editor.Tests
         /// <summary>Converts with a sphere around the hips' joint.</summary>
         /// <param name="add">Adds collider and spring; gives the collider.</param>
         /// <returns>The radius that came out over the one that no spring has touched.</returns>
-        private float Yield(Func<float, Component> add, Func<Component, float> radius, Vector3 to, float ball = Ball, bool yields = true)
+        float Yield(Func<float, Component> add, Func<Component, float> radius, Vector3 to, float ball = Ball, bool yields = true)
         {
             Component collider = add(Reach(to));
             float free = 0, room = 0;
@@ -68,15 +68,14 @@ namespace SuperDeform.Editor.Tests
         }
 
         // Nothing turns or scales in this figure: local shifts add up.
-        private static Vector3 Sum(PointMap map, Transform joint)
+        static Vector3 Sum(PointMap map, Transform joint)
         {
             Vector3 sum = Vector3.zero;
-            for (Transform at = joint; at != null; at = at.parent)
-                sum += map.Shift(at);
+            for (Transform at = joint; at != null; at = at.parent) sum += map.Shift(at);
             return sum;
         }
 
-        private Component PhysBone(float reach, Action<VRCPhysBone> more = null)
+        Component PhysBone(float reach, Action<VRCPhysBone> more = null)
         {
             var collider = figure.Bones[Carrier].gameObject.AddComponent<VRCPhysBoneCollider>();
             collider.shapeType = 0;
@@ -88,12 +87,11 @@ namespace SuperDeform.Editor.Tests
             bone.endpointPosition = Vector3.zero;
             bone.ignoreTransforms.Add(left);
             bone.colliders.Add(collider);
-            if (more != null)
-                more(bone);
+            if (more != null) more(bone);
             return collider;
         }
 
-        private static float Radius(Component collider)
+        static float Radius(Component collider)
         {
             return ((VRCPhysBoneCollider)collider).radius;
         }
@@ -128,7 +126,7 @@ namespace SuperDeform.Editor.Tests
         }
 
         /// <summary>Radii are measured in the object that holds the springs, which is larger here.</summary>
-        private Component Dynamic(float reach, float ball)
+        Component Dynamic(float reach, float ball)
         {
             var collider = figure.Bones[Carrier].gameObject.AddComponent<DynamicBoneCollider>();
             collider.m_Center = Vector3.zero;
@@ -216,7 +214,9 @@ namespace SuperDeform.Editor.Tests
                 bone.radius = Ball;
                 bone.endpointPosition = Vector3.zero;
                 foreach (Transform child in head)
+                {
                     if (child != tip) bone.ignoreTransforms.Add(child);
+                }
                 bone.colliders.Add(collider);
                 ComponentTableTests.Ask(map =>
                 {

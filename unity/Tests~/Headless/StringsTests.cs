@@ -9,7 +9,7 @@ namespace SuperDeform.Editor.Tests
     [TestFixture]
     public class StringsTests
     {
-        private static readonly Regex gap = new Regex(@"\{(\d+)\}");
+        static readonly Regex gap = new Regex(@"\{(\d+)\}");
 
         [TearDown]
         public void English()
@@ -17,23 +17,21 @@ namespace SuperDeform.Editor.Tests
             Strings.Language = "en";
         }
 
-        private static Dictionary<string, string> Texts(string language)
+        static Dictionary<string, string> Texts(string language)
         {
             var texts = new Dictionary<string, string>();
-            foreach (KeyValuePair<string, string> text in FlatJson.Read(File.ReadAllText(Strings.FileOf(language))))
-                texts.Add(text.Key, text.Value);
+            foreach (KeyValuePair<string, string> text in FlatJson.Read(File.ReadAllText(Strings.FileOf(language)))) texts.Add(text.Key, text.Value);
             return texts;
         }
 
-        private static string Gaps(string text)
+        static string Gaps(string text)
         {
             var found = new SortedSet<string>();
-            foreach (Match match in gap.Matches(text))
-                found.Add(match.Groups[1].Value);
+            foreach (Match match in gap.Matches(text)) found.Add(match.Groups[1].Value);
             return string.Join(" ", found);
         }
 
-        private static string Folder()
+        static string Folder()
         {
             return Path.GetDirectoryName(Path.GetDirectoryName(Strings.FileOf("en")));
         }
@@ -59,13 +57,14 @@ namespace SuperDeform.Editor.Tests
         public void gaps_count_from_0_without_holes_and_braces_are_only_gaps()
         {
             foreach (string language in Strings.Languages)
+            {
                 foreach (KeyValuePair<string, string> text in Texts(language))
                 {
                     string[] gaps = Gaps(text.Value).Split(new[] { ' ' }, StringSplitOptions.RemoveEmptyEntries);
-                    for (int i = 0; i < gaps.Length; i++)
-                        Assert.AreEqual(i.ToString(), gaps[i], language + " " + text.Key);
+                    for (int i = 0; i < gaps.Length; i++) Assert.AreEqual(i.ToString(), gaps[i], language + " " + text.Key);
                     Assert.That(gap.Replace(text.Value, ""), Is.Not.StringMatching("[{}]"), language + " " + text.Key);
                 }
+            }
         }
 
         [Test]
@@ -74,9 +73,13 @@ namespace SuperDeform.Editor.Tests
             Dictionary<string, string> english = Texts("en");
             var letters = new Regex("[A-Za-z]");
             foreach (KeyValuePair<string, string> text in Texts("ja"))
+            {
                 // Names stay, and so do sentences whose gaps say everything.
                 if (letters.IsMatch(gap.Replace(text.Value, "").Replace("Super Deform", "").Replace("f2", "")))
+                {
                     Assert.AreNotEqual(english[text.Key], text.Value, text.Key);
+                }
+            }
         }
 
         [Test]
@@ -86,12 +89,14 @@ namespace SuperDeform.Editor.Tests
             var call = new Regex(@"(?:Strings\.(?:Get|Has)|new Finding)\(""([^""]+)""\s*[,)]");
             int found = 0;
             foreach (string file in Directory.GetFiles(Folder(), "*.cs", SearchOption.AllDirectories))
+            {
                 foreach (Match match in call.Matches(File.ReadAllText(file)))
                 {
                     found++;
                     Assert.That(english.ContainsKey(match.Groups[1].Value), Path.GetFileName(file) + " names the key "
                         + match.Groups[1].Value + ", which has no text");
                 }
+            }
             Assert.That(found, Is.GreaterThan(20));
         }
 
@@ -101,13 +106,15 @@ namespace SuperDeform.Editor.Tests
             var call = new Regex(@"Warning::new\(\s*""([a-z_]+)""");
             var codes = new HashSet<string>();
             foreach (string file in Directory.GetFiles(Path.Combine(Models.Repository, "src"), "*.rs", SearchOption.AllDirectories))
-                foreach (Match match in call.Matches(File.ReadAllText(file)))
-                    codes.Add("warning." + match.Groups[1].Value);
+            {
+                foreach (Match match in call.Matches(File.ReadAllText(file))) codes.Add("warning." + match.Groups[1].Value);
+            }
             Assert.That(codes.Count, Is.GreaterThan(10));
             var texts = new HashSet<string>();
             foreach (string key in Texts("en").Keys)
-                if (key.StartsWith("warning."))
-                    texts.Add(key);
+            {
+                if (key.StartsWith("warning.")) texts.Add(key);
+            }
             CollectionAssert.AreEquivalent(codes, texts);
         }
 
@@ -115,13 +122,13 @@ namespace SuperDeform.Editor.Tests
         public void every_text_is_named_by_the_code_or_made_of_names_that_are()
         {
             string code = "";
-            foreach (string file in Directory.GetFiles(Folder(), "*.cs", SearchOption.AllDirectories))
-                code += File.ReadAllText(file);
+            foreach (string file in Directory.GetFiles(Folder(), "*.cs", SearchOption.AllDirectories)) code += File.ReadAllText(file);
             // Keys that code puts together: section.Avatar, group.head, warning.open_body, option.face_curve.f4, style.heads.tooltip.
             var made = new Regex(@"^(section|group|warning|option)\.|\.tooltip$");
             foreach (string key in Texts("en").Keys)
-                if (!made.IsMatch(key))
-                    Assert.That(code.Contains("\"" + key + "\""), "nothing uses the text " + key);
+            {
+                if (!made.IsMatch(key)) Assert.That(code.Contains("\"" + key + "\""), "nothing uses the text " + key);
+            }
         }
 
         [Test]
@@ -196,7 +203,9 @@ namespace SuperDeform.Editor.Tests
                 "{\"a\":\"b", "{\"a\":\"b\nc\"}"
             };
             foreach (string text in wrong)
+            {
                 Assert.That(() => FlatJson.Read(text), Throws.TypeOf<FormatException>().With.Message.StartsWith("line "), text);
+            }
             Assert.That(() => FlatJson.Read("{\"a\": \"b\",\n \"a\": \"c\"}"),
                 Throws.TypeOf<FormatException>().With.Message.Contains("line 2").And.Message.Contains("second time"));
         }

@@ -17,8 +17,7 @@ namespace SuperDeform.Editor.Tests
             coat.rootBone = figure.Body.rootBone;
             Mesh mesh = UnityEngine.Object.Instantiate(figure.Body.sharedMesh);
             Vector3[] vertices = mesh.vertices, normals = mesh.normals;
-            for (int i = 0; i < vertices.Length; i++)
-                vertices[i] += normals[i] * thick;
+            for (int i = 0; i < vertices.Length; i++) vertices[i] += normals[i] * thick;
             mesh.vertices = vertices;
             mesh.name = "CoatMesh";
             coat.sharedMesh = mesh;
@@ -36,24 +35,21 @@ namespace SuperDeform.Editor.Tests
             return twins;
         }
 
-        private static void Copy(Transform joint, Transform parent, Func<string, string> rename, Dictionary<Transform, Transform> twins)
+        static void Copy(Transform joint, Transform parent, Func<string, string> rename, Dictionary<Transform, Transform> twins)
         {
-            if (joint.GetComponent<Renderer>() != null)
-                return;
+            if (joint.GetComponent<Renderer>() != null) return;
             Transform twin = new GameObject(rename(joint.name)).transform;
             twin.SetParent(parent, false);
             twin.position = joint.position;
             twin.rotation = joint.rotation;
             twins[joint] = twin;
-            foreach (Transform child in Children(joint))
-                Copy(child, twin, rename, twins);
+            foreach (Transform child in Children(joint)) Copy(child, twin, rename, twins);
         }
 
-        private static List<Transform> Children(Transform joint)
+        static List<Transform> Children(Transform joint)
         {
             var children = new List<Transform>();
-            for (int child = 0; child < joint.childCount; child++)
-                children.Add(joint.GetChild(child));
+            for (int child = 0; child < joint.childCount; child++) children.Add(joint.GetChild(child));
             return children;
         }
 
@@ -65,13 +61,11 @@ namespace SuperDeform.Editor.Tests
             Mesh mesh = UnityEngine.Object.Instantiate(cloth.sharedMesh);
             mesh.name = cloth.sharedMesh.name;
             Matrix4x4[] binds = mesh.bindposes;
-            for (int bone = 0; bone < bones.Length; bone++)
-                binds[bone] = bones[bone].worldToLocalMatrix * old[bone].localToWorldMatrix * binds[bone];
+            for (int bone = 0; bone < bones.Length; bone++) binds[bone] = bones[bone].worldToLocalMatrix * old[bone].localToWorldMatrix * binds[bone];
             mesh.bindposes = binds;
             cloth.sharedMesh = mesh;
             cloth.bones = bones;
-            if (cloth.rootBone != null && twins.ContainsKey(cloth.rootBone))
-                cloth.rootBone = twins[cloth.rootBone];
+            if (cloth.rootBone != null && twins.ContainsKey(cloth.rootBone)) cloth.rootBone = twins[cloth.rootBone];
         }
 
         /// <summary>Makes an outfit a humanoid of its own, as a model's importer does.</summary>
@@ -80,10 +74,14 @@ namespace SuperDeform.Editor.Tests
         {
             var skeleton = new List<SkeletonBone>();
             foreach (Transform at in outfit.GetComponentsInChildren<Transform>(true))
+            {
                 skeleton.Add(new SkeletonBone { name = at.name, position = at.localPosition, rotation = at.localRotation, scale = at.localScale });
+            }
             var human = new List<HumanBone>();
             foreach (KeyValuePair<HumanBodyBones, Transform> bone in bones)
+            {
                 human.Add(new HumanBone { humanName = HumanTrait.BoneName[(int)bone.Key], boneName = (twins == null ? bone.Value : twins[bone.Value]).name, limit = new HumanLimit { useDefaultValues = true } });
+            }
             outfit.AddComponent<Animator>().avatar = AvatarBuilder.BuildHumanAvatar(outfit, new HumanDescription { human = human.ToArray(), skeleton = skeleton.ToArray() });
         }
     }

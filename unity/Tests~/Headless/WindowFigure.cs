@@ -8,15 +8,15 @@ namespace SuperDeform.Editor.Tests
     /// has its vertices side by side; a hat hangs from the head without a skin; the body has blend shapes.</remarks>
     internal sealed class WindowFigure
     {
-        private struct Limb
+        struct Limb
         {
             internal string Bone;
             internal Vector3 From, To;
             internal float Radius;
         }
 
-        private readonly Dictionary<string, Transform> bones = new Dictionary<string, Transform>();
-        private readonly List<Limb> limbs = new List<Limb>();
+        readonly Dictionary<string, Transform> bones = new Dictionary<string, Transform>();
+        readonly List<Limb> limbs = new List<Limb>();
 
         internal GameObject Root { get; private set; }
         internal SkinnedMeshRenderer Body { get; private set; }
@@ -61,7 +61,7 @@ namespace SuperDeform.Editor.Tests
             MakeHat();
         }
 
-        private void Bone(string name, string parent, float x, float y, float z)
+        void Bone(string name, string parent, float x, float y, float z)
         {
             Transform bone = new GameObject(name).transform;
             bone.SetParent(parent == null ? Root.transform : bones[parent], false);
@@ -69,12 +69,12 @@ namespace SuperDeform.Editor.Tests
             bones.Add(name, bone);
         }
 
-        private void Add(string bone, float x1, float y1, float z1, float x2, float y2, float z2, float radius)
+        void Add(string bone, float x1, float y1, float z1, float x2, float y2, float z2, float radius)
         {
             limbs.Add(new Limb { Bone = bone, From = new Vector3(x1, y1, z1), To = new Vector3(x2, y2, z2), Radius = radius });
         }
 
-        private void MakeBody(int count, int blendShapes, bool exact)
+        void MakeBody(int count, int blendShapes, bool exact)
         {
             int rings = Mathf.Max(4, (int)Mathf.Sqrt(count / (2f * limbs.Count))), around = 2 * rings;
             var names = new List<string>(bones.Keys);
@@ -89,6 +89,7 @@ namespace SuperDeform.Editor.Tests
                 Vector3 other = Vector3.Cross(axis, side).normalized;
                 int first = positions.Count;
                 for (int ring = 0; ring < rings; ring++)
+                {
                     for (int step = 0; step < around; step++)
                     {
                         float tilt = Mathf.PI * (ring + 0.5f) / rings, turn = 2 * Mathf.PI * step / around;
@@ -98,13 +99,16 @@ namespace SuperDeform.Editor.Tests
                             - axis * (2 * Mathf.Cos(tilt) / axis.sqrMagnitude)).normalized);
                         weights.Add(new BoneWeight { boneIndex0 = names.IndexOf(limb.Bone), weight0 = 1 });
                     }
+                }
                 int half = limbs.IndexOf(limb) % 2;
                 for (int ring = 0; ring + 1 < rings; ring++)
+                {
                     for (int step = 0; step < around; step++)
                     {
                         int a = first + ring * around + step, b = first + ring * around + (step + 1) % around;
                         triangles[half].AddRange(new[] { a, a + around, b, b, a + around, b + around });
                     }
+                }
                 for (int step = 2; step < around; step++)
                 {
                     triangles[half].AddRange(new[] { first, first + step - 1, first + step });
@@ -119,8 +123,7 @@ namespace SuperDeform.Editor.Tests
                 positions.Add(new Vector3(0.01f * Mathf.Sin(at), 1.25f + 0.01f * Mathf.Cos(at), 0.17f));
                 normals.Add(Vector3.forward);
                 weights.Add(new BoneWeight { boneIndex0 = names.IndexOf("Chest"), weight0 = 1 });
-                if (at % 3 == 2)
-                    triangles[0].AddRange(new[] { at - 2, at - 1, at });
+                if (at % 3 == 2) triangles[0].AddRange(new[] { at - 2, at - 1, at });
             }
             var mesh = new Mesh { name = "body", indexFormat = UnityEngine.Rendering.IndexFormat.UInt32 };
             mesh.vertices = positions.ToArray();
@@ -134,8 +137,7 @@ namespace SuperDeform.Editor.Tests
             for (int shape = 0; shape < blendShapes; shape++)
             {
                 var deltas = new Vector3[positions.Count];
-                for (int i = 0; i < deltas.Length; i++)
-                    deltas[i] = positions[i].y > 1.45f ? normals[i] * (0.001f * (shape + 1)) : Vector3.zero;
+                for (int i = 0; i < deltas.Length; i++) deltas[i] = positions[i].y > 1.45f ? normals[i] * (0.001f * (shape + 1)) : Vector3.zero;
                 mesh.AddBlendShapeFrame("shape" + shape, 100, deltas, null, null);
             }
             var holder = new GameObject("body");
@@ -146,7 +148,7 @@ namespace SuperDeform.Editor.Tests
             Body.rootBone = bones["Hips"];
         }
 
-        private void MakeHat()
+        void MakeHat()
         {
             var mesh = new Mesh { name = "hat" };
             mesh.vertices = new[] { new Vector3(-0.1f, 0.2f, -0.1f), new Vector3(0.1f, 0.2f, -0.1f), new Vector3(0, 0.2f, 0.12f),

@@ -49,7 +49,7 @@ namespace SuperDeform.Editor.Tests
             CollectionAssert.AreEquivalent(all, System.Array.ConvertAll(GroupTunings.Groups, group => group.Name));
         }
 
-        private static SettingsChange After(System.Action<ConversionSettings> change)
+        static SettingsChange After(System.Action<ConversionSettings> change)
         {
             var before = new ConversionSettings();
             ConversionSettings after = before.Clone();
@@ -100,6 +100,7 @@ namespace SuperDeform.Editor.Tests
                 int count = Sliders(model).Count;
                 Assert.That(count, Is.GreaterThan(30));
                 for (int slider = 0; slider < count; slider++)
+                {
                     foreach (bool high in new[] { false, true })
                     {
                         ConversionSettings before = model.Settings.Clone();
@@ -110,20 +111,21 @@ namespace SuperDeform.Editor.Tests
                         model.Settings = before;
                         model.Touch();
                     }
+                }
             }
         }
 
-        private static List<SliderRow> Sliders(ConverterModel model)
+        static List<SliderRow> Sliders(ConverterModel model)
         {
             var sliders = new List<SliderRow>();
             foreach (Section section in model.Sections)
+            {
                 foreach (Row row in section.Rows)
                 {
-                    if (row is SliderRow)
-                        sliders.Add((SliderRow)row);
-                    if (row is GroupRow)
-                        sliders.AddRange(Array.FindAll(((GroupRow)row).Sliders, slider => slider != null));
+                    if (row is SliderRow) sliders.Add((SliderRow)row);
+                    if (row is GroupRow) sliders.AddRange(Array.FindAll(((GroupRow)row).Sliders, slider => slider != null));
                 }
+            }
             return sliders;
         }
 
@@ -134,8 +136,7 @@ namespace SuperDeform.Editor.Tests
             model.Settings.Source = StyleSource.Heads;
             SliderRow heads = Sliders(model).Find(row => row.Label == Strings.Get("style.heads"));
             heads.Set(1.8f);
-            using (Style style = model.Settings.MakeStyle())
-                Assert.AreEqual(1.8, style.Numbers.Heads);
+            using (Style style = model.Settings.MakeStyle()) Assert.AreEqual(1.8, style.Numbers.Heads);
             SliderRow amount = Sliders(model).Find(row => row.Label == Strings.Get("option.amount"));
             amount.Set(0.7f);
             Assert.AreEqual(0.7, model.Settings.Options.Amount);

@@ -11,8 +11,8 @@ namespace SuperDeform.Editor.Tests
     [TestFixture]
     public class WindowTests
     {
-        private WindowFigure figure;
-        private ulong handles;
+        WindowFigure figure;
+        ulong handles;
 
         [SetUp]
         public void Begin()
@@ -25,27 +25,27 @@ namespace SuperDeform.Editor.Tests
         [TearDown]
         public void NothingIsLeft()
         {
-            foreach (ConverterWindow window in Resources.FindObjectsOfTypeAll<ConverterWindow>())
-                window.Close();
+            foreach (ConverterWindow window in Resources.FindObjectsOfTypeAll<ConverterWindow>()) window.Close();
             Assert.AreEqual(handles, SuperDeformLibrary.LiveHandles, "live handles");
             Assert.IsFalse(Dialogs.BarOpen, "a progress bar is open");
         }
 
-        private static T Find<T>(ConverterModel model, SectionId section, string key) where T : Row
+        static T Find<T>(ConverterModel model, SectionId section, string key) where T : Row
         {
             string label = Strings.Get(key);
             foreach (Row row in model.Sections[(int)section].Rows)
-                if (row is T && row.Label == label)
-                    return (T)row;
+            {
+                if (row is T && row.Label == label) return (T)row;
+            }
             throw new AssertionException("there is no " + typeof(T).Name + " \"" + label + "\" in " + section);
         }
 
-        private static List<string> Labels(ConverterModel model, SectionId section)
+        static List<string> Labels(ConverterModel model, SectionId section)
         {
             return model.Sections[(int)section].Rows.ConvertAll(row => row.Label);
         }
 
-        private ConverterWindow Open()
+        ConverterWindow Open()
         {
             ConverterWindow window = ConverterWindow.Open(null);
             window.Model.SetAvatar(figure.Root);
@@ -53,17 +53,22 @@ namespace SuperDeform.Editor.Tests
         }
 
         // The editor's clock stands still in these tests: time is given.
-        private static void Settle(ConverterWindow window)
+        static void Settle(ConverterWindow window)
         {
             double now = 1e6;
             window.Controller.Tick(now);
             window.Controller.Tick(now + 1);
         }
 
-        private static void Draw(ConverterWindow window)
+        static void Tell(ConverterWindow window, string message)
         {
-            Gui.Pass(() => typeof(ConverterWindow).GetMethod("OnGUI", System.Reflection.BindingFlags.Instance
-                | System.Reflection.BindingFlags.NonPublic).Invoke(window, null));
+            const System.Reflection.BindingFlags own = System.Reflection.BindingFlags.Instance | System.Reflection.BindingFlags.NonPublic;
+            typeof(ConverterWindow).GetMethod(message, own).Invoke(window, null);
+        }
+
+        static void Draw(ConverterWindow window)
+        {
+            Gui.Pass(() => Tell(window, "OnGUI"));
         }
 
         [Test]
@@ -186,22 +191,21 @@ namespace SuperDeform.Editor.Tests
             foreach (Row row in rows)
             {
                 var sliders = new List<SliderRow>();
-                if (row is SliderRow)
-                    sliders.Add((SliderRow)row);
-                if (row is GroupRow)
-                    sliders.AddRange(Array.FindAll(((GroupRow)row).Sliders, slider => slider != null));
+                if (row is SliderRow) sliders.Add((SliderRow)row);
+                if (row is GroupRow) sliders.AddRange(Array.FindAll(((GroupRow)row).Sliders, slider => slider != null));
                 foreach (SliderRow slider in sliders)
+                {
                     foreach (float value in new[] { slider.Low, slider.High })
                     {
                         slider.Set(value);
                         Assert.AreEqual(value, slider.Get(), row.Label);
                         seen++;
                     }
+                }
             }
             Assert.That(seen, Is.GreaterThan(40));
             // The library takes the bounds of all of them.
-            using (var session = new PreviewSession(figure.Root, model.Settings))
-                Assert.IsTrue(session.IsAlive);
+            using (var session = new PreviewSession(figure.Root, model.Settings)) Assert.IsTrue(session.IsAlive);
         }
 
         [Test]
@@ -223,8 +227,7 @@ namespace SuperDeform.Editor.Tests
             Assert.AreEqual(2.0, options.RigHeat);
             Assert.AreEqual(64u, options.RigVoxelResolution);
             Assert.IsFalse(options.RigFingers);
-            foreach (PopupRow row in model.Sections[0].Rows.FindAll(found => found is PopupRow))
-                Assert.AreEqual(3, row.Choices.Length, row.Label);
+            foreach (PopupRow row in model.Sections[0].Rows.FindAll(found => found is PopupRow)) Assert.AreEqual(3, row.Choices.Length, row.Label);
         }
 
         [Test]
@@ -362,6 +365,20 @@ namespace SuperDeform.Editor.Tests
         }
 
         [Test]
+        public void behind_another_tab_the_avatar_is_seen_as_it_is()
+        {
+            ConverterWindow window = Open();
+            Settle(window);
+            Assert.IsTrue(figure.Body.forceRenderingOff);
+            Tell(window, "OnBecameInvisible");
+            Settle(window);
+            Assert.IsFalse(figure.Body.forceRenderingOff, "another tab lies over it");
+            Tell(window, "OnBecameVisible");
+            Settle(window);
+            Assert.IsTrue(figure.Body.forceRenderingOff, "in front again");
+        }
+
+        [Test]
         public void the_button_makes_a_prefab_and_shows_it()
         {
             Settings.BatchMode = false;
@@ -374,7 +391,9 @@ namespace SuperDeform.Editor.Tests
             Assert.IsNotNull(window.Model.Result.Prefab);
             Assert.AreSame(window.Model.Result.Prefab, Dialogs.Pinged);
             foreach (Renderer renderer in window.Model.Result.Prefab.GetComponentsInChildren<Renderer>(true))
+            {
                 Assert.IsFalse(renderer.forceRenderingOff, "hidden by the preview: " + renderer.name);
+            }
             Assert.That(Dialogs.Bars.Count, Is.GreaterThan(3));
             Assert.IsFalse(Dialogs.BarOpen);
             Assert.IsEmpty(Dialogs.Shown, "dialogs");
@@ -425,16 +444,14 @@ namespace SuperDeform.Editor.Tests
             Find<ActionRow>(window.Model, SectionId.Style, "style.save").Do();
             StubEditor.Tick();
             string json = File.ReadAllText(Path.Combine(Settings.ProjectFolder, "Assets/chibi.json"));
-            using (Style style = Style.FromText(json))
-                Assert.That(style.Numbers.Heads, Is.GreaterThan(1));
+            using (Style style = Style.FromText(json)) Assert.That(style.Numbers.Heads, Is.GreaterThan(1));
         }
 
         [Test]
-        public void everything_is_drawn_in_both_languages()
+        public void everything_is_drawn_in_every_language()
         {
             ConverterWindow window = Open();
-            for (int section = 0; section < 5; section++)
-                window.Model.Open[section] = true;
+            for (int section = 0; section < 5; section++) window.Model.Open[section] = true;
             window.Model.Touch();
             Settle(window);
             foreach (string language in Strings.Languages)
@@ -446,8 +463,9 @@ namespace SuperDeform.Editor.Tests
                 {
                     StringAssert.Contains(section.Title, drawn);
                     foreach (Row row in section.Rows)
-                        if (row.Label.Length > 0 && !(row is TableRow))
-                            StringAssert.Contains(row.Label, drawn);
+                    {
+                        if (row.Label.Length > 0 && !(row is TableRow)) StringAssert.Contains(row.Label, drawn);
+                    }
                 }
             }
         }
@@ -538,7 +556,7 @@ namespace SuperDeform.Editor.Tests
             Assert.AreEqual("sd2.5", SuperDeform.Editor.LastSettings.Read().BuiltInStyle);
         }
 
-        private static void LogAssertion(Action work)
+        static void LogAssertion(Action work)
         {
             Log.Clear();
             work();

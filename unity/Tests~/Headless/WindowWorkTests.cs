@@ -11,8 +11,8 @@ namespace SuperDeform.Editor.Tests
     [TestFixture]
     public class WindowWorkTests
     {
-        private ConversionFigure figure;
-        private ConverterWindow window;
+        ConversionFigure figure;
+        ConverterWindow window;
 
         [SetUp]
         public void Begin()
@@ -21,8 +21,7 @@ namespace SuperDeform.Editor.Tests
             Gui.Width = 440;
             figure = new ConversionFigure().Make();
             window = ConverterWindow.Open(figure.Root);
-            for (int i = 0; i < window.Model.Open.Length; i++)
-                window.Model.Open[i] = true;
+            for (int i = 0; i < window.Model.Open.Length; i++) window.Model.Open[i] = true;
             window.Model.Settings.OutputFolder = "Assets/Out";
             window.Model.Touch();
         }
@@ -34,21 +33,22 @@ namespace SuperDeform.Editor.Tests
             window.Close();
         }
 
-        private void Draw()
+        void Draw()
         {
             Gui.Pass(() => typeof(ConverterWindow).GetMethod("OnGUI", System.Reflection.BindingFlags.Instance | System.Reflection.BindingFlags.NonPublic).Invoke(window, null));
         }
 
-        private List<SliderRow> Sliders()
+        List<SliderRow> Sliders()
         {
             var sliders = new List<SliderRow>();
             foreach (Row row in window.Model.Sections[(int)SectionId.FineTuning].Rows)
-                if (row is SliderRow)
-                    sliders.Add((SliderRow)row);
+            {
+                if (row is SliderRow) sliders.Add((SliderRow)row);
+            }
             return sliders;
         }
 
-        private SliderRow Slider(string key)
+        SliderRow Slider(string key)
         {
             return Sliders().Find(row => row.Label == Strings.Get(key));
         }
@@ -100,14 +100,12 @@ namespace SuperDeform.Editor.Tests
         [Test]
         public void all_tuning_goes_back_at_once()
         {
-            foreach (SliderRow row in Sliders())
-                row.Set(row.Low + 0.4f * (row.High - row.Low));
+            foreach (SliderRow row in Sliders()) row.Set(row.Low + 0.4f * (row.High - row.Low));
             GroupTunings.Change(window.Model.Settings, "hip", tuned => tuned.LengthScale = 0.8);
             window.Model.Settings.Options.RigVoxelResolution = 64;
             window.Model.Touch();
             ((ActionRow)window.Model.Sections[(int)SectionId.FineTuning].Rows.Find(row => row.Label == Strings.Get("tune.reset"))).Do();
-            foreach (SliderRow row in Sliders())
-                Assert.That(row.IsOwn(), Is.False, row.Label);
+            foreach (SliderRow row in Sliders()) Assert.That(row.IsOwn(), Is.False, row.Label);
             Assert.AreEqual(0, GroupTunings.Count(window.Model.Settings));
             Assert.AreEqual(64, window.Model.Settings.Options.RigVoxelResolution, "what a new rig is made by stays");
         }
@@ -138,7 +136,7 @@ namespace SuperDeform.Editor.Tests
             Assert.AreEqual(1, Slider("option.amount").Get());
         }
 
-        private Vector3[] Shown()
+        Vector3[] Shown()
         {
             return Array.Find(window.Controller.Preview.Proxy.GetComponentsInChildren<SkinnedMeshRenderer>(true), one => one.name == "Body").sharedMesh.vertices;
         }
@@ -236,7 +234,7 @@ namespace SuperDeform.Editor.Tests
             StringAssert.Contains("tail", LibraryWarnings.Of(new ConversionWarning("new_one", "something of the tail").Made, null).Text);
         }
 
-        private sealed class ConversionWarning
+        sealed class ConversionWarning
         {
             internal readonly Warning Made;
 

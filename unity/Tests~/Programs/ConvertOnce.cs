@@ -6,7 +6,7 @@ using UnityStubs;
 
 internal static class ConvertOnce
 {
-    private static int Main()
+    static int Main()
     {
         Model model = Models.Load("kaykit_rogue.glb");
         string before = Fingerprint.Of(model.Root);

@@ -9,7 +9,7 @@ namespace SuperDeform.Tests
 /// </summary>
 public sealed class DomainReload : MarshalByRefObject
 {
-    private static readonly List<NativeObject> kept = new List<NativeObject>();
+    static readonly List<NativeObject> kept = new List<NativeObject>();
 
     public static void Main()
     {

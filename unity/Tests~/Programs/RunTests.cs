@@ -10,19 +10,20 @@ namespace SuperDeform.Tests
 /// </summary>
 public static class RunTests
 {
-    private static int passed, failed;
+    static int passed, failed;
 
     public static int Main()
     {
         Console.WriteLine(Environment.Version + " " + typeof(object).Assembly.GetName().Name);
         foreach (Type type in typeof(RunTests).Assembly.GetTypes())
-            if (type.IsDefined(typeof(TestFixtureAttribute), false))
-                Run(type);
+        {
+            if (type.IsDefined(typeof(TestFixtureAttribute), false)) Run(type);
+        }
         Console.WriteLine(passed + " passed, " + failed + " failed");
         return failed == 0 ? 0 : 1;
     }
 
-    private static void Run(Type type)
+    static void Run(Type type)
     {
         object fixture = Activator.CreateInstance(type);
         foreach (MethodInfo method in type.GetMethods())
@@ -55,11 +56,12 @@ public static class RunTests
         }
     }
 
-    private static void Each(object fixture, Type attribute)
+    static void Each(object fixture, Type attribute)
     {
         foreach (MethodInfo method in fixture.GetType().GetMethods())
-            if (method.IsDefined(attribute, false))
-                method.Invoke(fixture, null);
+        {
+            if (method.IsDefined(attribute, false)) method.Invoke(fixture, null);
+        }
     }
 }
 }

@@ -18,7 +18,7 @@ public static class WithoutLibrary
         Console.WriteLine("and goes on");
     }
 
-    private static void Say(Action call)
+    static void Say(Action call)
     {
         try
         {

@@ -14,7 +14,7 @@ namespace SuperDeform.Tests
 [TestFixture]
 public sealed class LayoutTests
 {
-    private const BindingFlags Fields = BindingFlags.Instance | BindingFlags.Public | BindingFlags.NonPublic;
+    const BindingFlags Fields = BindingFlags.Instance | BindingFlags.Public | BindingFlags.NonPublic;
 
     [Test]
     public void Every_struct_has_the_size_that_C_gives_it()
@@ -60,22 +60,26 @@ public sealed class LayoutTests
             if (!type.IsValueType || !type.Name.StartsWith("Sdef", StringComparison.Ordinal)) continue;
             Assert.IsTrue(inC.ContainsKey(type.Name), type.Name);
             foreach (FieldInfo field in type.GetFields(Fields))
+            {
                 Assert.IsTrue(inC.ContainsKey(type.Name + "." + field.Name), type.Name + "." + field.Name);
+            }
         }
     }
 
-    private static Type Struct(string name)
+    static Type Struct(string name)
     {
         Type type = typeof(Native).Assembly.GetType("SuperDeform." + name);
         Assert.IsNotNull(type, name + " is not in Native.g.cs");
         return type;
     }
 
-    private static Dictionary<string, int> InC()
+    static Dictionary<string, int> InC()
     {
         Dictionary<string, int> lines = new Dictionary<string, int>();
         foreach (string line in File.ReadAllLines(Environment.GetEnvironmentVariable("SUPERDEFORM_LAYOUT")))
+        {
             lines.Add(line.Split(' ')[0], int.Parse(line.Split(' ')[1]));
+        }
         return lines;
     }
 }

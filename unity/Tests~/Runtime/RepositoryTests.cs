@@ -32,7 +32,7 @@ public sealed class RepositoryTests
         StringAssert.Contains("#define SDEF_ABI_VERSION " + Native.SDEF_ABI_VERSION, Read("include/superdeform.h"));
     }
 
-    private static string Read(string path)
+    static string Read(string path)
     {
         return File.ReadAllText(Path.Combine(Environment.GetEnvironmentVariable("SUPERDEFORM_REPOSITORY"), path));
     }

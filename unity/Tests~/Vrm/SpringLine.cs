@@ -21,16 +21,13 @@ namespace SuperDeform.Editor.Tests
             return File.ReadAllLines(path).Select(text => Of(text.Split(' '))).ToList();
         }
 
-        private static SpringLine Of(string[] words)
+        static SpringLine Of(string[] words)
         {
             var line = new SpringLine { Kind = words[0] };
             int at = 1;
-            if (line.Kind != "look-at")
-                line.Joint = words[at++];
-            if (line.Kind == "collider")
-                line.Shape = words[at++];
-            if (line.Kind == "spring")
-                line.Groups = words[at++];
+            if (line.Kind != "look-at") line.Joint = words[at++];
+            if (line.Kind == "collider") line.Shape = words[at++];
+            if (line.Kind == "spring") line.Groups = words[at++];
             line.Numbers = words.Skip(at).Select(word => float.Parse(word, CultureInfo.InvariantCulture)).ToArray();
             return line;
         }

@@ -18,7 +18,7 @@ namespace SuperDeform.Editor.Tests
         public readonly List<SpringLine> Before, After;
         public readonly VRM10Object Asset;
 
-        private VrmAvatar(string name)
+        VrmAvatar(string name)
         {
             Root = GlbLoader.Load(Lines(name, ".vrm"), null).Root;
             Before = SpringLine.Read(Lines(name, ".txt"));
@@ -26,7 +26,7 @@ namespace SuperDeform.Editor.Tests
             Asset = ScriptableObject.CreateInstance<VRM10Object>();
         }
 
-        private static string Lines(string name, string tail)
+        static string Lines(string name, string tail)
         {
             return Path.Combine(System.Environment.GetEnvironmentVariable("SUPERDEFORM_VRM"), name + tail);
         }
@@ -89,12 +89,12 @@ namespace SuperDeform.Editor.Tests
             return avatar;
         }
 
-        private static void StubProjectAsset(string path, Object asset)
+        static void StubProjectAsset(string path, Object asset)
         {
             AssetDatabase.CreateAsset(asset, path);
         }
 
-        private static readonly Dictionary<string, VRM10SpringBoneColliderTypes> Types =
+        static readonly Dictionary<string, VRM10SpringBoneColliderTypes> Types =
             new Dictionary<string, VRM10SpringBoneColliderTypes>
             {
                 { "sphere", VRM10SpringBoneColliderTypes.Sphere }, { "capsule", VRM10SpringBoneColliderTypes.Capsule },
@@ -116,8 +116,10 @@ namespace SuperDeform.Editor.Tests
             var secondary = new GameObject("springs");
             secondary.transform.SetParent(avatar.Root.transform, false);
             foreach (SpringLine line in avatar.Old("spring"))
+            {
                 avatar.AddSpring(secondary, line.Joint.Split(','), line.Numbers).ColliderGroups = line.Groups.Split(',').Where(joint => joint != "-")
                     .Select(joint => avatar.Find(joint).GetComponent<VRMSpringBoneColliderGroup>()).ToArray();
+            }
             foreach (SpringLine line in avatar.Old("viewpoint"))
             {
                 var viewpoint = avatar.Root.AddComponent<VRMFirstPerson>();

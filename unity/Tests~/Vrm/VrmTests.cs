@@ -18,26 +18,25 @@ namespace SuperDeform.Editor.Tests
     public class VrmTests
     {
         // Of the avatar's height (about 1.5): what the task of the conversion allows.
-        private const float Near = 1.5e-5f;
+        const float Near = 1.5e-5f;
 
         [SetUp]
         public void EmptyProject()
         {
             string folder = Path.Combine(System.Environment.GetEnvironmentVariable("SUPERDEFORM_VRM"), "project");
-            if (Directory.Exists(folder))
-                Directory.Delete(folder, true);
+            if (Directory.Exists(folder)) Directory.Delete(folder, true);
             StubProject.Open(folder);
             ComponentAdapters.Register(new Vrm0Adapter());
             ComponentAdapters.Register(new Vrm1Adapter());
         }
 
-        private static void Same(Vector3 expected, Vector3 found, string what)
+        static void Same(Vector3 expected, Vector3 found, string what)
         {
             Assert.That((expected - found).magnitude, Is.LessThan(Near * System.Math.Max(1, expected.magnitude)),
                 what + ": " + expected.ToString("F6") + " wanted, found " + found.ToString("F6"));
         }
 
-        private static void Same(float expected, float found, string what)
+        static void Same(float expected, float found, string what)
         {
             Assert.AreEqual(expected, found, Near * System.Math.Max(1, System.Math.Abs(expected)), what);
         }
@@ -84,10 +83,8 @@ namespace SuperDeform.Editor.Tests
                 var collider = VrmAvatar.Find(prefab, line.Joint).GetComponents<VRM10SpringBoneCollider>()[place];
                 Same(line.Vector(0), collider.Offset, line.Joint + " " + line.Shape + ", offset");
                 Same(line.Last, collider.Radius, line.Joint + " " + line.Shape + ", radius");
-                if (line.Shape.StartsWith("capsule"))
-                    Same(line.Vector(3), collider.Tail, line.Joint + " " + line.Shape + ", tail");
-                if (line.Shape == "plane")
-                    Same(line.Vector(6), collider.Normal, line.Joint + ", normal");
+                if (line.Shape.StartsWith("capsule")) Same(line.Vector(3), collider.Tail, line.Joint + " " + line.Shape + ", tail");
+                if (line.Shape == "plane") Same(line.Vector(6), collider.Normal, line.Joint + ", normal");
             }
             Assert.AreEqual(8, used.Values.Sum());
         }
@@ -197,8 +194,7 @@ namespace SuperDeform.Editor.Tests
         [Test]
         public void godette_swings_as_the_example_program_says()
         {
-            if (!VrmAvatar.Exists("godette"))
-                Assert.Ignore("godette.vrm is not in SUPERDEFORM_MODELS, or there is no example program");
+            if (!VrmAvatar.Exists("godette")) Assert.Ignore("godette.vrm is not in SUPERDEFORM_MODELS, or there is no example program");
             VrmAvatar avatar = VrmAvatar.Vrm0("godette");
             GameObject prefab = avatar.Convert();
 

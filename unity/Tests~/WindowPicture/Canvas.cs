@@ -10,20 +10,18 @@ namespace SuperDeform.Editor.WindowPicture
         internal const string Background = "#383838", Header = "#414141", Line = "#232323", Field = "#2a2a2a";
         internal const string Button = "#585858", Pressed = "#46607c", Words = "#d2d2d2", Faint = "#9a9a9a", Bright = "#ffffff";
         internal const string Track = "#5e5e5e", Knob = "#999999", Box = "#404040";
-        private const double Size = 12;
+        const double Size = 12;
 
-        private readonly StringBuilder svg = new StringBuilder();
+        readonly StringBuilder svg = new StringBuilder();
 
         internal void Rectangle(double x, double y, double width, double height, string fill, double corner = 0,
             string stroke = null)
         {
             svg.Append("<rect x=\"").Append(Number(x)).Append("\" y=\"").Append(Number(y)).Append("\" width=\"")
                 .Append(Number(width)).Append("\" height=\"").Append(Number(height)).Append('"');
-            if (corner > 0)
-                svg.Append(" rx=\"").Append(Number(corner)).Append('"');
+            if (corner > 0) svg.Append(" rx=\"").Append(Number(corner)).Append('"');
             svg.Append(" fill=\"").Append(fill).Append('"');
-            if (stroke != null)
-                svg.Append(" stroke=\"").Append(stroke).Append('"');
+            if (stroke != null) svg.Append(" stroke=\"").Append(stroke).Append('"');
             svg.Append("/>\n");
         }
 
@@ -45,23 +43,18 @@ namespace SuperDeform.Editor.WindowPicture
         {
             svg.Append("<text x=\"").Append(Number(x)).Append("\" y=\"").Append(Number(y)).Append("\" fill=\"").Append(fill)
                 .Append('"');
-            if (anchor != "start")
-                svg.Append(" text-anchor=\"").Append(anchor).Append('"');
-            if (bold)
-                svg.Append(" font-weight=\"bold\"");
-            if (size != Size)
-                svg.Append(" font-size=\"").Append(Number(size)).Append('"');
+            if (anchor != "start") svg.Append(" text-anchor=\"").Append(anchor).Append('"');
+            if (bold) svg.Append(" font-weight=\"bold\"");
+            if (size != Size) svg.Append(" font-size=\"").Append(Number(size)).Append('"');
             svg.Append('>').Append(Escaped(text)).Append("</text>\n");
         }
 
         /// <summary>A text cut to a width, with an ellipsis.</summary>
         internal static string Cut(string text, double width)
         {
-            if (Width(text) <= width)
-                return text;
+            if (Width(text) <= width) return text;
             int length = text.Length;
-            while (length > 0 && Width(text.Substring(0, length) + "\u2026") > width)
-                length--;
+            while (length > 0 && Width(text.Substring(0, length) + "\u2026") > width) length--;
             return text.Substring(0, length) + "\u2026";
         }
 
@@ -75,19 +68,18 @@ namespace SuperDeform.Editor.WindowPicture
             {
                 int end = at + 1;
                 if (!IsWide(text[at]))
-                    while (end < text.Length && text[end] != ' ' && !IsWide(text[end]))
-                        end++;
+                {
+                    while (end < text.Length && text[end] != ' ' && !IsWide(text[end])) end++;
+                }
                 // A line does not begin with a full stop or a closing bracket.
-                while (end < text.Length && ")\u3002\u3001\uff09\u300d".IndexOf(text[end]) >= 0)
-                    end++;
+                while (end < text.Length && ")\u3002\u3001\uff09\u300d".IndexOf(text[end]) >= 0) end++;
                 string word = text.Substring(at, end - at);
                 if (line.Length > 0 && Width(line + word) > width)
                 {
                     lines.Add(line);
                     line = word.TrimStart();
                 }
-                else
-                    line += word;
+                else line += word;
                 at = end;
             }
             lines.Add(line);
@@ -99,12 +91,14 @@ namespace SuperDeform.Editor.WindowPicture
         {
             double width = 0;
             foreach (char letter in text)
+            {
                 width += IsWide(letter) ? 1 : "iljI.,:;|!'() ".IndexOf(letter) >= 0 ? 0.32
                     : "mwMW%\u2026".IndexOf(letter) >= 0 ? 0.86 : char.IsUpper(letter) ? 0.68 : 0.56;
+            }
             return width * Size;
         }
 
-        private static bool IsWide(char letter)
+        static bool IsWide(char letter)
         {
             return letter >= '\u2e80' && letter < '\ufb00' || letter >= '\uff00' && letter < '\uff61';
         }
@@ -114,7 +108,7 @@ namespace SuperDeform.Editor.WindowPicture
             return value.ToString("0.##", CultureInfo.InvariantCulture);
         }
 
-        private static string Escaped(string text)
+        static string Escaped(string text)
         {
             return text.Replace("&", "&amp;").Replace("<", "&lt;").Replace(">", "&gt;");
         }

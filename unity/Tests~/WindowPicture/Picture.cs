@@ -20,8 +20,7 @@ namespace SuperDeform.Editor.WindowPicture
             try
             {
                 var model = new ConverterModel();
-                for (int section = 0; section < model.Open.Length; section++)
-                    model.Open[section] = true;
+                for (int section = 0; section < model.Open.Length; section++) model.Open[section] = true;
                 model.SetAvatar(character.Root);
                 GroupTunings.Change(model.Settings, "upper_arm", arm => arm.ThicknessScale = 0.8);
                 GroupTunings.Change(model.Settings, "hand", hand => hand.LengthScale = 0.9);

@@ -6,7 +6,7 @@ namespace SuperDeform.Editor.WindowPicture
     /// <summary>Draws the pictures of the window into a folder: draw.sh runs it.</summary>
     internal static class Program
     {
-        private static int Main(string[] arguments)
+        static int Main(string[] arguments)
         {
             if (arguments.Length != 1)
             {
@@ -14,8 +14,7 @@ namespace SuperDeform.Editor.WindowPicture
                 return 2;
             }
             string folder = Path.GetFullPath(arguments[0]);
-            foreach (string file in Picture.Files)
-                File.WriteAllText(Path.Combine(folder, file), Picture.Draw(file));
+            foreach (string file in Picture.Files) File.WriteAllText(Path.Combine(folder, file), Picture.Draw(file));
             return 0;
         }
     }

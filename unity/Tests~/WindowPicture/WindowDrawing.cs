@@ -9,13 +9,13 @@ namespace SuperDeform.Editor.WindowPicture
     internal sealed class WindowDrawing
     {
         internal const double Width = 440;
-        private const double Margin = 12, Label = 128, GroupLabel = 116, RowHeight = 22, Reset = 22, Value = 46;
+        const double Margin = 12, Label = 128, GroupLabel = 116, RowHeight = 22, Reset = 22, Value = 46;
 
-        private readonly Canvas canvas;
-        private readonly double left;
-        private double y;
+        readonly Canvas canvas;
+        readonly double left;
+        double y;
 
-        private WindowDrawing(Canvas canvas, double left, double top)
+        WindowDrawing(Canvas canvas, double left, double top)
         {
             this.canvas = canvas;
             this.left = left;
@@ -23,10 +23,10 @@ namespace SuperDeform.Editor.WindowPicture
         }
 
         // How deep the row stands below what it is a part of.
-        private int indent;
+        int indent;
 
-        private double From { get { return left + Margin + 12 * indent; } }
-        private double To { get { return left + Width - Margin; } }
+        double From { get { return left + Margin + 12 * indent; } }
+        double To { get { return left + Width - Margin; } }
 
         /// <summary>Draws the whole window.</summary>
         /// <returns>Where it ends.</returns>
@@ -41,7 +41,7 @@ namespace SuperDeform.Editor.WindowPicture
             return drawing.y;
         }
 
-        private void DrawAll(ConverterModel model)
+        void DrawAll(ConverterModel model)
         {
             canvas.Rectangle(left, y, Width, 24, Canvas.Line, 4);
             canvas.Rectangle(left + 1, y + 1, 124, 23, Canvas.Background, 3);
@@ -56,86 +56,69 @@ namespace SuperDeform.Editor.WindowPicture
                 double x = From, middle = y + 11;
                 Arrow(section.Open, x, middle);
                 canvas.Text(From + 16, y + 15, section.Title, Canvas.Words, "start", true);
-                if (!section.Open)
-                    canvas.Text(To, y + 15, section.Summary, Canvas.Faint, "end");
+                if (!section.Open) canvas.Text(To, y + 15, section.Summary, Canvas.Faint, "end");
                 y += 22;
-                if (!section.Open)
-                    continue;
+                if (!section.Open) continue;
                 y += 6;
-                foreach (Row row in section.Rows)
-                    Draw(row);
+                foreach (Row row in section.Rows) Draw(row);
                 y += 8;
             }
             y += 4;
         }
 
-        private void Foldout(FoldoutRow row)
+        void Foldout(FoldoutRow row)
         {
             Arrow(row.Get(), From, y + 10);
             canvas.Text(From + 14, y + 15, row.Label, Canvas.Words);
             y += RowHeight;
         }
 
-        private void Arrow(bool open, double x, double middle)
+        void Arrow(bool open, double x, double middle)
         {
             canvas.Path(open ? Path(x, middle - 3, 8, 0, -4, 6) : Path(x + 2, middle - 4, 0, 8, 6, -4), Canvas.Words);
         }
 
         // A triangle: a point, and the way from it to the second and from there to the third.
-        private static string Path(double x, double y, double dx1, double dy1, double dx2, double dy2)
+        static string Path(double x, double y, double dx1, double dy1, double dx2, double dy2)
         {
             return "M" + Canvas.Number(x) + " " + Canvas.Number(y) + "l" + Canvas.Number(dx1) + " " + Canvas.Number(dy1) + "l"
                 + Canvas.Number(dx2) + " " + Canvas.Number(dy2) + "z";
         }
 
-        private void Draw(Row row)
+        void Draw(Row row)
         {
             string ink = row.Enabled ? Canvas.Words : "#777777";
             double x = From + Label;
             indent = row.Indent;
-            if (row is TextRow)
-                Sentence(row.Label, ((TextRow)row).Strong);
-            else if (row is CheckRow)
-                Check((CheckRow)row);
-            else if (row is ColumnsRow)
-                Columns((ColumnsRow)row);
-            else if (row is GroupRow)
-                Group((GroupRow)row);
-            else if (row is TableRow)
-                Table((TableRow)row);
-            else if (row is FoldoutRow)
-                Foldout((FoldoutRow)row);
-            else if (row is ActionRow)
-                Action((ActionRow)row);
+            if (row is TextRow) Sentence(row.Label, ((TextRow)row).Strong);
+            else if (row is CheckRow) Check((CheckRow)row);
+            else if (row is ColumnsRow) Columns((ColumnsRow)row);
+            else if (row is GroupRow) Group((GroupRow)row);
+            else if (row is TableRow) Table((TableRow)row);
+            else if (row is FoldoutRow) Foldout((FoldoutRow)row);
+            else if (row is ActionRow) Action((ActionRow)row);
             else
             {
                 canvas.Text(From, y + 15, Canvas.Cut(row.Label, Label - 4 - 12 * indent), ink);
                 double width = To - x;
-                if (row is ChoiceRow)
-                    Buttons(((ChoiceRow)row).Choices, ((ChoiceRow)row).Get(), x, width, row.Enabled);
-                else if (row is ObjectRow)
-                    Object((ObjectRow)row, x, width);
-                else if (row is PopupRow)
-                    Popup((PopupRow)row, x, width);
-                else if (row is ToggleRow)
-                    Toggle((ToggleRow)row, x);
-                else if (row is FieldRow)
-                    Field(((FieldRow)row).Get(), x, width);
+                if (row is ChoiceRow) Buttons(((ChoiceRow)row).Choices, ((ChoiceRow)row).Get(), x, width, row.Enabled);
+                else if (row is ObjectRow) Object((ObjectRow)row, x, width);
+                else if (row is PopupRow) Popup((PopupRow)row, x, width);
+                else if (row is ToggleRow) Toggle((ToggleRow)row, x);
+                else if (row is FieldRow) Field(((FieldRow)row).Get(), x, width);
                 else if (row is SliderRow)
                 {
                     var slider = (SliderRow)row;
                     Slider(slider, x, width - (slider.Reset == null ? 0 : Reset), ink);
-                    if (slider.Reset != null)
-                        ResetButton(slider.IsOwn());
+                    if (slider.Reset != null) ResetButton(slider.IsOwn());
                 }
-                else
-                    throw new NotSupportedException("There is no drawing for a " + row.GetType().Name + ".");
+                else throw new NotSupportedException("There is no drawing for a " + row.GetType().Name + ".");
                 y += RowHeight;
             }
             indent = 0;
         }
 
-        private void Sentence(string text, bool strong)
+        void Sentence(string text, bool strong)
         {
             foreach (string line in Canvas.Wrap(text, To - From))
             {
@@ -145,7 +128,7 @@ namespace SuperDeform.Editor.WindowPicture
             y += 3;
         }
 
-        private void Check(CheckRow row)
+        void Check(CheckRow row)
         {
             double fix = row.Fix == null ? 0 : Canvas.Width(row.FixLabel) + 20, show = row.Where == null ? 0 : 52;
             double buttons = fix + show;
@@ -156,36 +139,32 @@ namespace SuperDeform.Editor.WindowPicture
             string sign = row.Severity == Severity.Info ? "i" : "!";
             canvas.Circle(From + 14, y + height / 2, 8, colour);
             canvas.Text(From + 14, y + height / 2 + 4, sign, "#202020", "middle", true);
-            for (int i = 0; i < lines.Count; i++)
-                canvas.Text(From + 28, y + (height - 16 * lines.Count) / 2 + 12 + 16 * i, lines[i], Canvas.Words);
+            for (int i = 0; i < lines.Count; i++) canvas.Text(From + 28, y + (height - 16 * lines.Count) / 2 + 12 + 16 * i, lines[i], Canvas.Words);
             double x = To - buttons + 4;
-            if (row.Fix != null)
-                Button(row.FixLabel, x, fix - 4, 21, true, false);
-            if (row.Where != null)
-                Button(Strings.Get("show"), x + fix, show - 4, 21, true, false);
+            if (row.Fix != null) Button(row.FixLabel, x, fix - 4, 21, true, false);
+            if (row.Where != null) Button(Strings.Get("show"), x + fix, show - 4, 21, true, false);
             y += height + 3;
         }
 
-        private void Button(string text, double x, double width, double height, bool enabled, bool pressed)
+        void Button(string text, double x, double width, double height, bool enabled, bool pressed)
         {
             canvas.Rectangle(x, y, width, height, pressed ? Canvas.Pressed : enabled ? Canvas.Button : "#464646", 3, Canvas.Line);
             canvas.Text(x + width / 2, y + height / 2 + 4, Canvas.Cut(text, width - 4),
                 pressed ? Canvas.Bright : enabled ? Canvas.Words : "#777777", "middle");
         }
 
-        private void Buttons(string[] texts, int down, double x, double width, bool enabled)
+        void Buttons(string[] texts, int down, double x, double width, bool enabled)
         {
-            for (int i = 0; i < texts.Length; i++)
-                Button(texts[i], x + i * width / texts.Length, width / texts.Length, 19, enabled, i == down);
+            for (int i = 0; i < texts.Length; i++) Button(texts[i], x + i * width / texts.Length, width / texts.Length, 19, enabled, i == down);
         }
 
-        private void Field(string text, double x, double width)
+        void Field(string text, double x, double width)
         {
             canvas.Rectangle(x, y, width, 19, Canvas.Field, 3, Canvas.Line);
             canvas.Text(x + 6, y + 14, Canvas.Cut(text, width - 12), Canvas.Words);
         }
 
-        private void Object(ObjectRow row, double x, double width)
+        void Object(ObjectRow row, double x, double width)
         {
             UnityEngine.Object value = row.Get();
             // What Unity writes into an empty field: "None (Game Object)".
@@ -196,22 +175,24 @@ namespace SuperDeform.Editor.WindowPicture
             canvas.Circle(x + width - 11, y + 9.5, 1.5, Canvas.Knob);
         }
 
-        private void Popup(PopupRow row, double x, double width)
+        void Popup(PopupRow row, double x, double width)
         {
             canvas.Rectangle(x, y, width, 19, Canvas.Button, 3, Canvas.Line);
             canvas.Text(x + 8, y + 14, row.Choices[row.Get()], Canvas.Words);
             canvas.Path(Path(x + width - 16, y + 7, 8, 0, -4, 6), Canvas.Words);
         }
 
-        private void Toggle(ToggleRow row, double x)
+        void Toggle(ToggleRow row, double x)
         {
             canvas.Rectangle(x, y + 2, 15, 15, Canvas.Field, 3, Canvas.Line);
             if (row.Get())
+            {
                 canvas.Path("M" + Canvas.Number(x + 3) + " " + Canvas.Number(y + 9) + "l2 -2l3 3l5 -6l2 2l-7 8z",
                     row.Enabled ? Canvas.Words : "#777777");
+            }
         }
 
-        private void Slider(SliderRow row, double x, double width, string ink)
+        void Slider(SliderRow row, double x, double width, string ink)
         {
             float value = row.Get();
             double track = width - Value - 6;
@@ -222,48 +203,46 @@ namespace SuperDeform.Editor.WindowPicture
             canvas.Text(x + track + 11, y + 14, value.ToString("0.##", CultureInfo.InvariantCulture), ink);
         }
 
-        private void ResetButton(bool enabled)
+        void ResetButton(bool enabled)
         {
             Button("\u21ba", To - Reset + 3, Reset - 3, 19, enabled, false);
         }
 
-        private double GroupColumn { get { return (To - From - GroupLabel - Reset) / 2; } }
+        double GroupColumn { get { return (To - From - GroupLabel - Reset) / 2; } }
 
-        private void Columns(ColumnsRow row)
+        void Columns(ColumnsRow row)
         {
             canvas.Text(From, y + 15, row.Label, Canvas.Faint);
-            for (int i = 0; i < row.Columns.Length; i++)
-                canvas.Text(From + GroupLabel + i * GroupColumn + 5, y + 15, row.Columns[i], Canvas.Faint);
+            for (int i = 0; i < row.Columns.Length; i++) canvas.Text(From + GroupLabel + i * GroupColumn + 5, y + 15, row.Columns[i], Canvas.Faint);
             y += RowHeight;
         }
 
-        private void Group(GroupRow row)
+        void Group(GroupRow row)
         {
             canvas.Text(From, y + 15, Canvas.Cut(row.Label, GroupLabel - 4), Canvas.Words, "start", row.IsOwn);
             for (int i = 0; i < row.Sliders.Length; i++)
-                if (row.Sliders[i] != null)
-                    Slider(row.Sliders[i], From + GroupLabel + i * GroupColumn, GroupColumn - 6, Canvas.Words);
+            {
+                if (row.Sliders[i] != null) Slider(row.Sliders[i], From + GroupLabel + i * GroupColumn, GroupColumn - 6, Canvas.Words);
+            }
             ResetButton(row.IsOwn);
             y += RowHeight;
         }
 
-        private void Table(TableRow row)
+        void Table(TableRow row)
         {
             double column = (To - From) / row.Columns.Length;
-            for (int i = 0; i < row.Columns.Length; i++)
-                canvas.Text(From + i * column, y + 14, row.Columns[i], Canvas.Faint);
+            for (int i = 0; i < row.Columns.Length; i++) canvas.Text(From + i * column, y + 14, row.Columns[i], Canvas.Faint);
             y += 18;
             foreach (string[] cells in row.Cells)
             {
                 canvas.Rectangle(From, y, To - From, 1, "#303030");
-                for (int i = 0; i < cells.Length; i++)
-                    canvas.Text(From + i * column, y + 14, cells[i], Canvas.Words);
+                for (int i = 0; i < cells.Length; i++) canvas.Text(From + i * column, y + 14, cells[i], Canvas.Words);
                 y += 18;
             }
             y += 6;
         }
 
-        private void Action(ActionRow row)
+        void Action(ActionRow row)
         {
             y += 2;
             double height = row.Main ? 34 : 21;

@@ -375,6 +375,9 @@ namespace UnityStubs
         public static int UndoSteps { get { return Undo.StepCount; } }
         public static int AssetEditing { get { return AssetDatabase.Editing; } }
         public static int RunningProgress { get { return Progress.Running.Count; } }
+        /// An importer written in C#, such as UniVRM's: its assets are sub-assets of the file, and made anew by each import.
+        public static void AddScriptedImporter(string path) { AssetImporter.All[path] = new SomeImporter { m_Path = path }; }
+        sealed class SomeImporter : UnityEditor.AssetImporters.ScriptedImporter { }
         /// A model file's importer: its meshes are sub-assets of the file.
         public static ModelImporter AddModelImporter(string path, bool readable)
         {

@@ -20,7 +20,12 @@ namespace UnityEngine
     public sealed class ExecuteAlways : Attribute { }
     public sealed class SelectionBaseAttribute : Attribute { }
     [AttributeUsage(AttributeTargets.Class, Inherited = true)] public sealed class DisallowMultipleComponent : Attribute { }
-    [AttributeUsage(AttributeTargets.Class)] public sealed class HelpURLAttribute : Attribute { public HelpURLAttribute(string url) { } }
+    [AttributeUsage(AttributeTargets.Class, AllowMultiple = false)]
+    public class HelpURLAttribute : Attribute
+    {
+        public HelpURLAttribute(string url) { URL = url; }
+        public string URL { get; private set; }
+    }
     [AttributeUsage(AttributeTargets.Class)] public sealed class DefaultExecutionOrder : Attribute { public DefaultExecutionOrder(int order) { } }
     [AttributeUsage(AttributeTargets.Class, AllowMultiple = true)]
     public sealed class RequireComponent : Attribute
