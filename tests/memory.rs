@@ -12,7 +12,9 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 use superdeform::internals::ffi::memory;
 use superdeform::internals::shape::Measured;
-use superdeform::{Character, Deformer, Options, Rig, RigOptions, Style, WeightMethod, Weights, find_roles};
+use superdeform::{
+    Character, Deformer, Height, Options, Progress, Rig, RigOptions, Style, WeightMethod, Weights, find_roles,
+};
 use superdeform_host::file::GltfFile;
 use superdeform_host::load::{LoadOptions, load};
 use superdeform_host::samples;
@@ -92,8 +94,26 @@ fn check_calls(name: &str, character: Character, check: &mut impl FnMut(String, 
     check(named("a copy"), taken, memory::to_copy(&character));
     let (_, taken) = most(|| Measured::of(&character, &options).unwrap());
     check(named("measuring"), taken, memory::to_measure(&character));
-    let (deformer, taken) = most(|| Deformer::new(character.clone(), &Style::Heads(2.5), &options).unwrap());
+    let (mut deformer, taken) =
+        most(|| Deformer::new(character.clone(), &Style::Heads(2.5), &options).unwrap());
     check(named("making a deformer"), taken, memory::to_deform(&character));
+    for (what, changed) in [
+        ("a change of the amount", Options { amount: 0.5, ..options.clone() }),
+        ("a change of the height", Options { height: Height::Units(1.0), ..options.clone() }),
+        ("a change of youth", Options { youth: 0.5, ..options.clone() }),
+        ("a change of the head's size", Options { head_scale: 1.6, ..options.clone() }),
+        ("a change of the profile", Options { profile: 0.5, ..options.clone() }),
+        ("a change of hair's length", Options { hair_length: 0.5, ..options.clone() }),
+        ("a change of rays", Options { rays: Some(24), ..options.clone() }),
+    ] {
+        let asked = memory::to_change_options(&deformer, &changed);
+        let (_, taken) = most(|| deformer.set_options(&changed, &mut Progress::none()).unwrap());
+        check(named(what), taken, asked);
+    }
+    let style = Style::Heads(3.5);
+    let (_, taken) = most(|| deformer.set_style(&style, &mut Progress::none()).unwrap());
+    check(named("a change of the style"), taken, memory::to_change_style(&character));
+    deformer.set(&Style::Heads(2.5), &options, &mut Progress::none()).unwrap();
     let (_, taken) = most(|| deformer.apply());
     check(named("applying"), taken, memory::to_apply(&character));
     let (_, taken) = most(|| deformer.report(&deformer.apply()).unwrap());

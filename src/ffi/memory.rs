@@ -1,15 +1,16 @@
 //! Memory is asked for before a call begins: where an allocation fails in its midst, Rust ends the process.
 //!
 //! What a call takes beyond what it gives back goes by vertices, triangles and voxels. The numbers here are upper bounds,
-//! half as much again and more than `tests/memory.rs` measures, which compares them; that also covers the sparse solver and
+//! a quarter and more above what `tests/memory.rs` measures, which compares them; that also covers the sparse solver and
 //! the tree of triangles, whose packages cannot fail. Another thread of the host may still take between asking and using.
 
 use super::basics::SDEF_STATUS_OUT_OF_MEMORY;
 use super::guard::{Failure, Outcome};
 use crate::character::Character;
 use crate::geometry::bounds;
-use crate::options::{RigOptions, table};
+use crate::options::{Options, RigOptions, table};
 use crate::parallel;
+use crate::pipeline::{Deformer, Kept};
 
 /// Bytes that any of the larger calls takes, whatever the character: names, tables, text.
 const BASE: usize = 1 << 19;
@@ -59,23 +60,38 @@ pub fn to_copy(character: &Character) -> usize {
 
 /// Measuring a body.
 pub fn to_measure(character: &Character) -> usize {
-    Size::of(character).bytes([800, 500, 0, 16])
+    Size::of(character).bytes([680, 400, 0, 16])
 }
 
-/// Making a deformer; changing its options takes no more.
+/// Making a deformer.
 pub fn to_deform(character: &Character) -> usize {
-    Size::of(character).bytes([1500, 500, 0, 16])
+    Size::of(character).bytes([950, 320, 0, 16])
+}
+
+/// Changing a deformer's style: its target is not measured again.
+pub fn to_change_style(character: &Character) -> usize {
+    Size::of(character).bytes([450, 60, 0, 0])
+}
+
+/// Changing a deformer's options.
+pub fn to_change_options(deformer: &Deformer, options: &Options) -> usize {
+    let character = deformer.character();
+    match deformer.kept_with(options) {
+        Kept::Nothing => to_deform(character),
+        Kept::Target => to_change_style(character),
+        Kept::Field => Size::of(character).bytes([16, 0, 0, 0]),
+    }
 }
 
 /// Deforming into the caller's arrays.
 pub fn to_apply(character: &Character) -> usize {
-    Size::of(character).bytes([350, 500, 120, 0])
+    Size::of(character).bytes([170, 240, 60, 0])
 }
 
 /// Mapping morph targets of a character's mesh that change so many vertices together.
 pub fn to_map_targets(character: &Character, vertices: usize) -> usize {
     let size = Size { weights: 0, morphs: vertices, ..Size::of(character) };
-    size.bytes([350, 500, 120, 0])
+    size.bytes([170, 240, 60, 0])
 }
 
 /// Deforming and measuring the result.

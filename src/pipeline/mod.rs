@@ -35,7 +35,7 @@ use crate::shape::product::target::on_head;
 pub use crate::shape::style::Style;
 use glam::{DVec3, Vec3};
 use memo::{Inputs, Memo, Phase, View};
-use stages::Deformation;
+use stages::{Deformation, Number, STAGES};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -49,6 +49,17 @@ pub struct Deformer {
     made: Made,
     /// Milliseconds for joints, weights and clothes of a rig that was made.
     rig_times: [f64; 3],
+}
+
+/// What of a deformer holds when its options change.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kept {
+    /// Not even what was read of the target.
+    Nothing,
+    /// What was read of the target.
+    Target,
+    /// The field, too: what changes is done last, for all vertices alike.
+    Field,
 }
 
 /// What the stages make of what is given.
@@ -151,6 +162,16 @@ impl Deformer {
     /// As [`Deformer::with_progress`].
     pub fn set_options(&mut self, options: &Options, progress: &mut Progress) -> Result<()> {
         self.change(Inputs { options: options.clone(), ..self.inputs.clone() }, progress)
+    }
+
+    /// What a change to these options keeps of what was made.
+    pub fn kept_with(&self, options: &Options) -> Kept {
+        let same = |stage: &memo::Stage| (stage.options)(&self.inputs.options) == (stage.options)(options);
+        match STAGES.iter().position(|stage| !same(stage)) {
+            Some(first) if first < Number::BODY => Kept::Nothing,
+            Some(first) if first < Number::FINISH => Kept::Target,
+            _ => Kept::Field,
+        }
     }
 
     /// [`Deformer::set_style`] and [`Deformer::set_options`] at once: both are changed, or where it fails neither.

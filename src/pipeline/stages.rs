@@ -41,6 +41,10 @@ macro_rules! stages {
         impl Number {
             /// See [`View::is_made`].
             pub const REST_TRIANGLES: usize = Self::rest_triangles as usize;
+            /// What comes before it reads the target.
+            pub const BODY: usize = Self::body as usize;
+            /// What comes before it makes the field.
+            pub const FINISH: usize = Self::finish as usize;
         }
 
         /// All stages, in their order.

@@ -50,17 +50,23 @@ impl DeformerState {
 
     /// Changes its options; after an error it is as it was.
     pub fn set_options(&mut self, options: &Options, progress: &mut Progress) -> Outcome {
-        self.change(options.thread_count, |deformer| deformer.set_options(options, progress))
+        let bytes = memory::to_change_options(&self.deformer, options);
+        self.change(bytes, options.thread_count, |deformer| deformer.set_options(options, progress))
     }
 
     /// Changes its style; after an error it is as it was.
     pub fn set_style(&mut self, style: &Style, progress: &mut Progress) -> Outcome {
         let threads = self.deformer.options().thread_count;
-        self.change(threads, |deformer| deformer.set_style(style, progress))
+        let bytes = memory::to_change_style(self.deformer.character());
+        self.change(bytes, threads, |deformer| deformer.set_style(style, progress))
     }
 
-    fn change(&mut self, threads: usize, change: impl FnOnce(&mut Deformer) -> crate::Result<()>) -> Outcome {
-        let bytes = memory::to_deform(self.deformer.character());
+    fn change(
+        &mut self,
+        bytes: usize,
+        threads: usize,
+        change: impl FnOnce(&mut Deformer) -> crate::Result<()>,
+    ) -> Outcome {
         memory::with(bytes, threads, || Ok(change(&mut self.deformer)?))?;
         self.report = OnceLock::new();
         Ok(())
