@@ -87,7 +87,9 @@ class VIEW3D_PT_superdeform(bpy.types.Panel):
         layout.use_property_decorate = False
         layout.label(text=context.object.name if context.object else "Select a character", icon="ARMATURE_DATA")
         settings.draw(layout.column(), given)
-        layout.prop(given, "preview", toggle=True, icon="HIDE_OFF" if given.preview else "HIDE_ON")
+        row = layout.row()
+        row.use_property_split = False
+        row.prop(given, "preview", toggle=True, icon="HIDE_OFF" if given.preview else "HIDE_ON")
         if given.fault:
             sentence(layout, given.fault)
         row = layout.row()

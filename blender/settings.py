@@ -67,7 +67,15 @@ def draw(layout, given):
 
 def draw_groups(layout, given):
     """How much of the style each part of the body takes."""
+    def line(label):
+        made = layout.split(factor=0.4, align=True)
+        made.label(text=label)
+        return made
+
+    heading = line("")
+    for part in ("Length", "Girth"):
+        heading.label(text=part)
     for group in GROUPS:
-        row = layout.row(align=True, heading=group.replace("_", " ").title())
-        row.prop(given, f"{group}_length", text="Length", slider=True)
-        row.prop(given, f"{group}_thickness", text="Girth", slider=True)
+        numbers = line(group.replace("_", " ").title())
+        for part in ("length", "thickness"):
+            numbers.prop(given, f"{group}_{part}", text="", slider=True)

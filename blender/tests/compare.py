@@ -17,7 +17,10 @@ from start import convert, fresh, imported, placed, rows, stripped, vertices
 
 # Places, keys and bone heads over the height; normals in degrees: Blender keeps 16 bits of them.
 PLACES, NORMALS = 1e-5, 0.1
-EXCEPTIONS = {}
+EXCEPTIONS = {
+    # With its nodes put to the bind pose it is equal to 9e-7.
+    "gdquest_mannequiny.glb": (0.2, "its nodes stand in another pose than its skin's bind pose, which Blender takes for the rest pose"),
+}
 
 
 def plain(name):
@@ -89,6 +92,8 @@ def main(paths):
             print(f"| {path.stem} | {found['vertices']} | {found['places']:.1e} | {found['keys']:.1e} | {found['normals']:.3f} | "
                   f"{found['heads']:.1e} | {found['turn']:.4f} |", flush=True)
             bound, cause = EXCEPTIONS.get(path.name, (PLACES, ""))
+            if cause:
+                print(f"{path.name} may differ by {bound}: {cause}", flush=True)
             worst = max(found["places"], found["keys"], found["heads"])
             if worst > bound or (not cause and found["normals"] > NORMALS):
                 past.append(path.name)

@@ -50,6 +50,16 @@ pub fn monotone_cubic(places: &[f64], knots: &[f64], x: f64) -> f64 {
         + (t3 - t2) * b
 }
 
+/// Where [`bell`] ends, in widths.
+pub const BELL_ENDS: f64 = 3.0;
+
+/// The weight of what lies `away` from the middle, in widths: a Gaussian that goes down to 0 at its end. Rows lie by parts of
+/// these widths, so one lies there to the last digit: with a step it would count or not.
+pub fn bell(away: f64) -> f64 {
+    let gaussian = |away: f64| (-0.5 * away * away).exp();
+    (gaussian(away) - gaussian(BELL_ENDS)).max(0.0)
+}
+
 /// `N` functions of one place, sampled at even steps; between the samples cubic, with a slope that has no jumps; constant
 /// beyond the ends.
 #[derive(Clone, Debug, PartialEq)]
@@ -66,12 +76,11 @@ impl<const N: usize> Table<N> {
         Self { start, step, rows: (0..count).map(|row| functions(start + step * row as f64)).collect() }
     }
 
-    /// The same functions without what is shorter than `sigma`: weighted means, by a Gaussian.
+    /// The same functions without what is shorter than `sigma`: weighted means, by [`bell`].
     pub fn smoothed(&self, sigma: f64) -> Self {
-        let reach = (3.0 * sigma / self.step).ceil() as i64;
-        let weights: Vec<f64> = (-reach..=reach)
-            .map(|offset| (-0.5 * (offset as f64 * self.step / sigma).powi(2)).exp())
-            .collect();
+        let reach = (BELL_ENDS * sigma / self.step).ceil() as i64;
+        let weights: Vec<f64> =
+            (-reach..=reach).map(|offset| bell(offset as f64 * self.step / sigma)).collect();
         let total: f64 = weights.iter().sum();
         let last = self.rows.len() as i64 - 1;
         let rows = (0..=last)

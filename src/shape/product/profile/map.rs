@@ -5,6 +5,7 @@
 
 use super::curve::{Table, monotone_cubic};
 use super::measure::{BodyFrame, BodyLines};
+use super::relief::MOST_ROWS;
 use super::scales::Scales;
 use super::slab::slab;
 use super::{ARM_STATIONS, LEG_STATIONS, Profile, STATIONS, TORSO_STATIONS, station_at, stations};
@@ -17,8 +18,6 @@ use glam::{DMat3, DVec2, DVec3};
 /// Rows of the tables: so many for a head length, and for an arm.
 const ROWS_PER_HEAD: f64 = 100.0;
 const ROWS_OF_ARM: usize = 200;
-/// No table has more rows: for heads that are tiny beside their bodies.
-const MOST_ROWS: f64 = 10_000.0;
 /// What is shorter than this, in head lengths, is smoothed out of the torso's functions: it joins torso and legs at the crotch
 /// and torso and neck at the shoulder line.
 const JOINING: f64 = 0.08;
@@ -471,8 +470,13 @@ fn level_tables(own: &Profile, frame: &BodyFrame, scales: &Scales) -> (TorsoTabl
             shift,
         ]
     };
-    let (start, end) = (frame.heights.sole - 0.3 * length, chin + 0.3 * length);
-    let count = ((end - start) / length * ROWS_PER_HEAD).ceil().min(MOST_ROWS) as usize + 2;
+    let (up, down) = (chin - crotch, crotch - frame.heights.sole);
+    let step = (length / ROWS_PER_HEAD).max(up.max(down) / MOST_ROWS);
+    // The torso begins halfway between two rows: where it lay on one, last digits would tell to which side that belongs.
+    let rows = |way: f64| ((way + 0.3 * length) / step).ceil().max(1.0) + 0.5;
+    let (below_crotch, above) = (rows(down), rows(up));
+    let (start, end) = (crotch - below_crotch * step, crotch + above * step);
+    let count = (below_crotch + above) as usize + 1;
     let torso = Table::sample(start, end, count, |y| if y < crotch { below(y) } else { of_torso(y) });
     (torso.smoothed(JOINING * length), Table::sample(start, end, count, of_leg))
 }

@@ -1,5 +1,6 @@
 //! How far a body reaches around an axis, by height and direction, and a scale for each: a map of its relief.
 
+use super::curve::{BELL_ENDS, bell};
 use super::station::{outer_surface, surface};
 use crate::geometry::Moved;
 use crate::geometry::slice::{Outline, Planes, RAYS};
@@ -167,7 +168,7 @@ impl Taps {
     }
 }
 
-/// Weighted means along `rows`, by a Gaussian `sigma` rows wide.
+/// Weighted means along `rows`, by a [`bell`] `sigma` rows wide.
 fn smoothed<T: Copy>(
     rows: &[T],
     sigma: f64,
@@ -175,13 +176,8 @@ fn smoothed<T: Copy>(
     add: impl Fn(&mut T, &T, f64),
     divide: impl Fn(T, f64) -> T,
 ) -> Vec<T> {
-    let reach = (3.0 * sigma).ceil() as usize;
-    let weights: Vec<f64> = (0..=reach.min(rows.len()))
-        .map(|rows| {
-            let off = rows as f64 / sigma;
-            (-0.5 * off * off).exp()
-        })
-        .collect();
+    let reach = (BELL_ENDS * sigma).ceil() as usize;
+    let weights: Vec<f64> = (0..=reach.min(rows.len())).map(|rows| bell(rows as f64 / sigma)).collect();
     (0..rows.len())
         .map(|row| {
             let (mut sum, mut total) = (zero, 0.0);
@@ -196,7 +192,7 @@ fn smoothed<T: Copy>(
         .collect()
 }
 
-/// Weighted means along rings, by a Gaussian `sigma` rows wide.
+/// Weighted means along rings, by a [`bell`] `sigma` rows wide.
 pub fn smoothed_rings(rings: &[Ring], sigma: f64) -> Vec<Ring> {
     smoothed(
         rings,

@@ -4,6 +4,7 @@
 //! reach of the surface around torso and limbs is smoothed along them, and what lies on it moves along.
 
 use super::chains::{Chain, Chains, arm_share};
+use super::curve::BELL_ENDS;
 use super::measure::{Body, BodyFrame, OVER_MIDDLE, on_limb};
 use super::radius_map::{RadiusMap, Ring, smoothed_rings, without_spikes};
 use crate::geometry::slice::{Outline, RAYS, slices};
@@ -18,8 +19,8 @@ use glam::{DMat3, DVec2, DVec3};
 /// Rows of the torso and of limbs, in head lengths.
 const TORSO_STEP: f64 = 0.02;
 const LIMB_STEP: f64 = 0.015;
-/// No map has more rows: for heads that are tiny beside their bodies.
-const MOST_ROWS: f64 = 2000.0;
+/// No map and no table has more rows, or few more: for heads that are tiny beside their bodies.
+pub(super) const MOST_ROWS: f64 = 2000.0;
 /// Widths of the Gaussians that leave no relief, and of that for the middles, in head lengths.
 const TORSO_SIGMA: f64 = 0.16;
 const LIMB_SIGMA: f64 = 0.20;
@@ -298,7 +299,7 @@ fn mirror(rings: &mut [Ring]) {
 
 /// Smooth reaches, by their logarithms; beyond both ends lines go on that begin with what `reach` rows show.
 fn smoothed_beyond(rings: &[Ring], sigma: f64, reach: f64) -> Vec<Ring> {
-    let pad = (3.0 * sigma).ceil() as usize;
+    let pad = (BELL_ENDS * sigma).ceil() as usize;
     let logs: Vec<Ring> = rings.iter().map(|ring| ring.map(f64::ln)).collect();
     let reach = (reach.round() as usize).clamp(1, logs.len().saturating_sub(1).max(1));
     let line = |from: usize, to: usize, away: f64| -> Ring {
