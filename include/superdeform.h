@@ -303,7 +303,7 @@ typedef struct SdefOptions {
                                     // 1
   double youth_ear;                 // of youth: ears come closer and become smaller; 0 to 1, default 1
   double smile;                     // lifts the corners of the mouth; 0 to 1, default 0
-  double seat;                      // moves the head back over the chest and fills the nape; 0 to 1, default 1
+  double seat;                      // moves the head back over the chest; 0 to 1, default 1
   double hair_lay;                  // lays long hair on the body instead of letting it flare; 0 to 1, default 1
 } SdefOptions;
 

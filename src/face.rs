@@ -6,15 +6,16 @@
 pub mod brows;
 pub mod dual;
 pub mod eyes;
-pub mod flow;
 pub mod head;
-pub mod in_skin;
 pub mod iris;
+pub mod kernel;
 pub mod landmarks;
+pub mod outline;
+pub mod pieces;
 pub mod raster;
+pub mod rows;
 pub mod seat;
 pub mod stage;
-pub mod youth;
 
 use crate::error::Warning;
 use crate::geometry::{Mapped, outer};
@@ -78,9 +79,7 @@ pub struct FaceMap {
 impl FaceMap {
     /// Where the map takes the height `y`.
     pub fn map(&self, y: f64) -> f64 {
-        let Some(inside) = self.inside(y) else {
-            return y;
-        };
+        let Some(inside) = self.inside(y) else { return y };
         let mapped = match self.curve {
             FaceCurve::F4 => f4(inside, self.squash),
             FaceCurve::F2 => f2(inside, self.squash),

@@ -3,13 +3,17 @@
 #[path = "common/models.rs"]
 mod models;
 
-use glam::{DMat3, DVec3};
+use glam::{DMat3, DVec2, DVec3};
 use models::{Run, check_all, in_parallel, model, models as all_models, present};
 use std::sync::Arc;
+use superdeform::internals::face::brows::Brows;
 use superdeform::internals::face::eyes::{Eye, EyeSource, Eyeball, Pair};
-use superdeform::internals::face::flow::{Flow, Follower, STEPS, along};
+use superdeform::internals::face::head::HeadFrame;
+use superdeform::internals::face::kernel::{Follower, STEPS, along};
 use superdeform::internals::face::landmarks::{Ears, FaceLandmarks, Nose};
-use superdeform::internals::face::youth::FaceAim;
+use superdeform::internals::face::outline::{HEIGHTS, Outline, OutlineSources};
+use superdeform::internals::face::rows::{FaceAim, Rows};
+use superdeform::internals::face::seat::Seat;
 use superdeform::internals::shape::Measured;
 use superdeform::internals::shape::figure::Figure;
 use superdeform::options::Features;
@@ -34,7 +38,7 @@ const FACES: [(&str, EyeSource, [f64; 9]); 12] = [
     ("kaykit_knight.glb", EyeSource::Twins, [0.357, 0.187, 0.047, 0.059, 0.059, 0.262, 0.096, 0.336, 0.454]),
 ];
 
-/// Heads on which no eyes can be told: none, or painted and nobody says how bright the skin is.
+/// Heads on which no eyes can be told: none, or painted.
 const WITHOUT_EYES: [&str; 7] = [
     "cesiumman.glb",
     "cool_loops.vrm",
@@ -118,8 +122,6 @@ fn adult(eyes: f64) -> FaceLandmarks {
         nose: Some(Nose { tip: DVec3::new(0.0, 0.34, 0.44), side_z: 0.35, half_width: 0.06, base: 0.29 }),
         half_width: 0.30,
         skull_half_width: 0.35,
-        cheek_half_width: 0.33,
-        crown_half_width: 0.33,
         ears: Some(Ears {
             root: 0.33,
             low: DVec3::new(0.33, 0.33, -0.12),
@@ -145,8 +147,27 @@ fn grid(spacing: f64) -> Vec<DVec3> {
 
 const AIM: FaceAim = FaceAim { eye_size: 0.067, eye_height: 0.40, skull_half_width: 0.46 };
 
+/// An adult's head from the side, as it is seen on realistic people: the forehead recedes, the neck shows from the chin
+/// to the occiput.
+fn adult_outline() -> Outline {
+    Outline {
+        middle: -0.03,
+        half_widths: [0.22, 0.30, 0.35, 0.38, 0.38, 0.37, 0.35, 0.29],
+        with_hair: [0.22, 0.30, 0.38, 0.40, 0.38, 0.37, 0.35, 0.29],
+        fronts: [0.46, 0.51, 0.50, 0.46, 0.47, 0.45, 0.40, 0.31],
+        backs: [0.06, 0.19, 0.34, 0.42, 0.46, 0.46, 0.41, 0.32],
+        occiput: 0.38,
+        overhang: 0.2,
+        behind: 0.2,
+    }
+}
+
+fn rows(face: &FaceLandmarks) -> Rows {
+    Rows::new(face, Some(&adult_outline()), &AIM, &Features::default(), 0.0)
+}
+
 fn follower(face: &FaceLandmarks) -> Follower {
-    Follower::new(Flow::new(face, &AIM, &Features::default(), 0.0))
+    Follower::new(&rows(face).kernels)
 }
 
 /// The largest stretch of a matrix.
@@ -157,6 +178,194 @@ fn norm(m: DMat3) -> f64 {
         direction = (squared * direction).normalize_or(DVec3::X);
     }
     (squared * direction).length().sqrt()
+}
+
+/// An ellipsoid of these half axes about `middle`, as triangles.
+fn ellipsoid(half: DVec3, middle: DVec3) -> (Vec<DVec3>, Vec<[u32; 3]>) {
+    const RINGS: u32 = 60;
+    let angle = |step: u32, of: f64| of * f64::from(step) / f64::from(RINGS);
+    let mut points = Vec::new();
+    let mut triangles = Vec::new();
+    for ring in 0..=RINGS {
+        for step in 0..RINGS {
+            let (down, around) = (angle(ring, std::f64::consts::PI), angle(step, std::f64::consts::TAU));
+            let p = DVec3::new(down.sin() * around.cos(), down.cos(), down.sin() * around.sin());
+            points.push(middle + half * p);
+            let [a, b] = [ring * RINGS + step, ring * RINGS + (step + 1) % RINGS];
+            if ring < RINGS {
+                triangles.extend([[a, b, b + RINGS], [a, b + RINGS, a + RINGS]]);
+            }
+        }
+    }
+    (points, triangles)
+}
+
+#[test]
+fn an_outline_is_that_of_the_head() {
+    let (half, middle) = (DVec3::new(0.42, 0.5, 0.47), DVec3::new(0.0, 0.5, -0.05));
+    let (mut points, triangles) = ellipsoid(half, middle);
+    let vertices = (0..points.len() as u32).collect();
+    // A trunk whose front is .2 behind the chin's foremost point between .02 and .12, and its back at the skull's.
+    let chin = middle.z + half.z * (1.0 - ((0.12 - 0.5) / 0.5_f64).powi(2)).sqrt();
+    let first = points.len() as u32;
+    let (low, high) = (DVec3::new(-0.3, -1.0, middle.z - half.z), DVec3::new(0.3, -0.4, chin - 0.2));
+    for corner in 0..8 {
+        let of = |axis: usize| if corner >> axis & 1 == 0 { low[axis] } else { high[axis] };
+        points.push(DVec3::new(of(0), of(1), of(2)));
+    }
+    let trunk =
+        [[0, 1, 3], [0, 3, 2], [4, 5, 7], [4, 7, 6]].map(|corners| corners.map(|corner| first + corner));
+    let with_hair = triangles.clone();
+    let sources = OutlineSources { vertices, bare: triangles, with_hair, trunk: trunk.to_vec() };
+    let frame = HeadFrame { origin: DVec3::new(0.0, 10.0, 0.0), length: 2.0 };
+    let points: Vec<DVec3> = points.iter().map(|&p| frame.from_unit(p)).collect();
+    let outline = Outline::of(&sources, &points, frame, frame.from_unit(DVec3::Y * -0.45).y).unwrap();
+    // Squares are .01 wide, rows .03 high of which the outermost counts; the front is read .085 aside, where the ellipsoid is
+    // 2 % less deep.
+    let near = |is: f64, wanted: f64| (is - wanted).abs() < 0.025;
+    assert!(near(outline.middle, middle.z), "{outline:?}");
+    for (station, y) in HEIGHTS.into_iter().enumerate() {
+        let share = |y: f64| (1.0 - ((y - 0.5) / 0.5_f64).powi(2)).sqrt();
+        let least = share(y) - 0.025;
+        let most = share(if y < 0.5 { (y + 0.02_f64).min(0.5) } else { y - 0.02 }) + 0.025;
+        for (is, half) in [
+            (outline.half_widths[station], half.x),
+            (outline.fronts[station], half.z),
+            (outline.backs[station], half.z),
+        ] {
+            assert!((half * least..half * most).contains(&is), "{y}: {outline:?}");
+        }
+    }
+    // .9 of the depth at .55, which is .995 of the most: (y - .5) / .5 = -sqrt(1 - .9^2 (1 - .01)).
+    assert!(near(outline.occiput, 0.5 - 0.5 * (1.0 - 0.81 * 0.99_f64).sqrt()), "{outline:?}");
+    assert!(near(outline.overhang, 0.2) && near(outline.behind, 0.0), "{outline:?}");
+}
+
+#[test]
+fn a_head_gets_a_childs_outline() {
+    let outline = adult_outline();
+    let face = FaceLandmarks { eyes: None, nose: None, ears: None, ..adult(1.0) };
+    // Without eyes six tenths of the way are done.
+    let made = Rows::new(&face, Some(&outline), &AIM, &Features::default(), 0.0);
+    let follower = Follower::new(&made.kernels);
+    let after = |p: DVec3| follower.place(p, 1.0);
+    // The wedge from chin to occiput fills, the forehead comes forward, the muzzle goes back, the cheeks fill.
+    let at = |values: &[f64; 8], side: f64, station: usize| {
+        after(DVec3::new(0.0, HEIGHTS[station], outline.middle + side * values[station])).z - outline.middle
+    };
+    // Of .165 that an adult's back lacks at .16, six tenths, two thirds of it by the row of that height.
+    assert!(-at(&outline.backs, -1.0, 1) > outline.backs[1] + 0.6 * 0.165 * 2.0 / 3.0 * 0.8);
+    assert!(at(&outline.fronts, 1.0, 6) > outline.fronts[6] + 0.015);
+    // The mouth goes back by .02 at most: two thirds of it by the row of its height.
+    assert!(at(&outline.fronts, 1.0, 1) < outline.fronts[1] - 0.6 * 0.02 * 2.0 / 3.0 * 0.8);
+    // A child's chin is .065 behind its mouth, this one .05: it goes six tenths of what is missing, and its underside with it, which
+    // of what chin and muzzle do together lacks some of the muzzle's.
+    let front = |y: f64| {
+        let p = DVec3::new(0.0, y, outline.middle + outline.fronts[0]);
+        p.z - after(p).z
+    };
+    let mouth = outline.fronts[1] - at(&outline.fronts, 1.0, 1);
+    assert!(front(HEIGHTS[0]) - mouth > 0.6 * 0.015 * 0.5 && front(0.0) > 0.6 * front(HEIGHTS[0]));
+    assert!(after(DVec3::new(outline.half_widths[1], HEIGHTS[1], 0.0)).x > 1.1 * outline.half_widths[1]);
+    // The neck's lower end stays.
+    let neck = DVec3::new(0.1, -0.07, -0.1);
+    assert!(after(neck) == neck);
+    // What is tied on top of the head goes as one: the same way at any height.
+    let moves = |y: f64| {
+        let p = DVec3::new(0.1, y, 0.1);
+        after(p) - p
+    };
+    assert!(
+        moves(1.0).distance(moves(1.12)) < 1e-12 && moves(1.0).x > 0.005,
+        "{} {}",
+        moves(1.0),
+        moves(1.12)
+    );
+}
+
+#[test]
+fn brows_keep_their_shape() {
+    let face = adult(1.0);
+    let follower = follower(&face);
+    let pair = Pair::of(&face.eyes.as_ref().unwrap().1);
+    // Adults' brows are .03 to .11 above the lids, beside the nose and up to the temples.
+    let (mut slope, mut height, mut width, mut count) = (0.0, 0.0, 0.0, 0.0);
+    for aside in 0..=10 {
+        for above in 0..=4 {
+            let x = pair.half_distance * (0.5 + 0.1 * f64::from(aside));
+            let y = pair.height + pair.half_height + 0.03 + 0.02 * f64::from(above);
+            let (_, jacobian) = follower.map(DVec3::new(x, y, 0.30), 1.0);
+            slope += jacobian.x_axis.y;
+            height += jacobian.y_axis.y;
+            width += jacobian.x_axis.x;
+            count += 1.0;
+        }
+    }
+    // Ends that rise or sink by a twentieth of a brow's length are seen, and a tenth of its thickness.
+    assert!((slope / width).abs() < 0.05, "they tilt by {}", slope / width);
+    assert!((height / width - 1.0).abs() < 0.1, "they are {} as thick for their length", height / width);
+    assert!(width / count > 1.0, "{width} {count}");
+}
+
+#[test]
+fn brows_that_frown_become_nearly_level_and_others_stay() {
+    let d = 0.142;
+    // Outer ends that are higher by .012 are no frown: brows that are quite level look worried.
+    for (frown, least, most) in
+        [(-0.02, -0.025, -0.018), (0.006, 0.004, 0.008), (0.012, 0.010, 0.016), (0.03, 0.006, 0.016)]
+    {
+        let [inner, outer] = [(0.5 * d, 0.58), (1.3 * d, 0.58 + frown)].map(|(x, y)| DVec2::new(x, y));
+        let face = FaceLandmarks { brows: Some(Brows { inner, outer }), ..adult(1.0) };
+        let follower = follower(&face);
+        let after = [inner, outer].map(|p| follower.place(p.extend(0.30), 1.0));
+        let rises = after[1].y - after[0].y;
+        assert!((least..most).contains(&rises), "{frown}: {rises}");
+    }
+}
+
+#[test]
+fn nothing_is_pressed_to_a_quarter_of_its_volume() {
+    // The face sinks where the nose shrinks: together they leave what the nose alone may.
+    let follower = follower(&adult(1.0));
+    check_all(&grid(0.02), |&p| {
+        let determinant = follower.map(p, 1.0).1.determinant();
+        if determinant > 0.25 { Vec::new() } else { vec![format!("{p}: {determinant}")] }
+    });
+}
+
+#[test]
+fn a_head_that_hangs_before_the_chest_goes_back_and_never_forward() {
+    let frame = HeadFrame { origin: DVec3::new(0.0, 10.0, 0.5), length: 2.0 };
+    let outline = |overhang: f64, behind: f64| Outline { overhang, behind, ..adult_outline() };
+    // The chin may hang .10 head lengths before the chest, the skull .42 behind the back.
+    for (overhang, behind, shoulder_line, back) in [
+        (0.14, 0.2, -0.4, 0.04),
+        (0.3, 0.39, -0.4, 0.03),
+        (0.05, 0.2, -0.4, 0.0),
+        (0.3, 0.5, -0.4, 0.0),
+        (0.5, f64::INFINITY, -0.4, 0.0),
+    ] {
+        let seat = Seat::new(&outline(overhang, behind), frame, frame.from_unit(DVec3::Y * shoulder_line).y);
+        assert_eq!(seat.is_some(), back > 0.0, "{overhang}, {behind}");
+        let Some(seat) = seat else { continue };
+        let off = |y: f64, share: f64| {
+            let p = frame.from_unit(DVec3::new(0.1, y, 0.3));
+            (seat.place(p, share) - p) / frame.length
+        };
+        let near = |is: DVec3, wanted: f64| is.distance(-wanted * DVec3::Z) < 1e-12;
+        assert!(near(off(0.1, 1.0), back) && near(off(0.9, 1.0), back) && near(off(0.9, 0.3), 0.3 * back));
+        assert!(near(off(shoulder_line, 1.0), 0.0) && near(off(-2.0, 1.0), 0.0));
+        // Of the neck each height leans as the one below: none further than the head.
+        let lean: Vec<f64> =
+            (0..50).map(|step| -off(shoulder_line + 0.01 * f64::from(step), 1.0).z).collect();
+        assert!(lean.is_sorted() && lean[25] > 0.0, "{lean:?}");
+    }
+    // However far it hangs out, a short neck leans by less than 45 degrees.
+    let short = Seat::new(&outline(1.0, -1.0), frame, frame.from_unit(DVec3::Y * -0.05).y).unwrap();
+    for step in 0..30 {
+        let p = frame.from_unit(DVec3::new(0.0, -0.07 + 0.01 * f64::from(step), 0.0));
+        assert!(short.map(p, 1.0).jacobian.y_axis.z.abs() < 1.0);
+    }
 }
 
 #[test]
@@ -200,9 +409,8 @@ fn a_kept_way_is_the_flow_for_any_youth() {
 #[test]
 fn a_face_with_a_childs_eyes_stays() {
     // e = sqrt(.05 * .017) * 2.5 = .073 > .067.
-    let young = follower(&adult(2.5));
-    assert!(young.flow().is_identity());
-    assert!(!follower(&adult(1.0)).flow().is_identity());
+    assert!(rows(&adult(2.5)).kernels.is_empty());
+    assert!(!rows(&adult(1.0)).kernels.is_empty());
 }
 
 #[test]
@@ -360,19 +568,6 @@ fn check_eyes(face: &FaceLandmarks, from: EyeSource, seen: [f64; 3]) {
 }
 
 #[test]
-fn eyes_painted_on_the_skin_are_found() {
-    const KUN: &str = "tubbykun.vrm";
-    if model(KUN).is_none() {
-        println!("skipped: {KUN} is not there");
-        return;
-    }
-    let character = painted(&all_models()[KUN]);
-    let face = Measured::of(&character, &Options::default()).unwrap().face.unwrap();
-    // As its picture shows them: discs of a fifth of the head, .4 of it above the chin.
-    check_eyes(&face, EyeSource::Paint, [0.40, 0.20, 0.10]);
-}
-
-#[test]
 fn eyes_sewn_to_the_skin_are_found() {
     const MAN: &str = "quaternius_man_2017.glb";
     if model(MAN).is_none() {
@@ -380,24 +575,7 @@ fn eyes_sewn_to_the_skin_are_found() {
         return;
     }
     // As its picture shows them: balls of .045 of the head, a quarter of it apart, a little above its middle.
-    check_eyes(&measured(MAN).face.unwrap(), EyeSource::Balls, [0.53, 0.13, 0.022]);
-}
-
-#[test]
-fn no_head_gets_painted_eyes_where_it_has_none() {
-    let has_some = "tubbykun.vrm";
-    let others: Vec<_> = present(&WITHOUT_EYES).into_iter().filter(|&name| name != has_some).collect();
-    if others.is_empty() {
-        println!("skipped: none of {WITHOUT_EYES:?} is there");
-        return;
-    }
-    check_all(&others, |name| {
-        let character = painted(&all_models()[*name]);
-        match Measured::of(&character, &Options::default()).unwrap().face.and_then(|face| face.eyes) {
-            Some((source, _)) => vec![format!("{name}: eyes by {source:?}")],
-            None => Vec::new(),
-        }
-    });
+    check_eyes(&measured(MAN).face.unwrap(), EyeSource::Twins, [0.53, 0.13, 0.022]);
 }
 
 #[test]

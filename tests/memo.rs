@@ -208,13 +208,13 @@ fn a_change_does_again_what_depends_on_it_alone() {
     assert_eq!(all(|options| options.repair = Repair::Kept), ["pushed"]);
     let again = all(|options| options.youth = 0.5);
     for kept in
-        ["measured", "parts", "body", "pushed", "offsets", "whole", "placed", "young", "seat", "hair_after"]
+        ["measured", "parts", "body", "pushed", "offsets", "whole", "outline", "young", "seat", "hair_after"]
     {
         assert!(!again.contains(&kept), "youth does {kept} again");
     }
     let again = all(|options| options.head_scale = 1.3);
     for kept in
-        ["figure", "measured", "parts", "worn", "head_sources", "hair_on_body", "strands", "seat_sources"]
+        ["figure", "measured", "parts", "worn", "head_sources", "hair_on_body", "strands", "outline_sources"]
     {
         assert!(!again.contains(&kept), "the size of the head does {kept} again");
     }

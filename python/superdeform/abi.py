@@ -510,7 +510,7 @@ OPTIONS = {
     "youth_skull": (0.0, 1.0, 1.0, "of youth: the skull becomes as wide and deep as the reference's"),
     "youth_ear": (0.0, 1.0, 1.0, "of youth: ears come closer and become smaller"),
     "smile": (0.0, 1.0, 0.0, "lifts the corners of the mouth"),
-    "seat": (0.0, 1.0, 1.0, "moves the head back over the chest and fills the nape"),
+    "seat": (0.0, 1.0, 1.0, "moves the head back over the chest"),
     "hair_lay": (0.0, 1.0, 1.0, "lays long hair on the body instead of letting it flare"),
     "face_squash": (-10.0, 10.0, 0.8, "how much younger the face gets; 0 leaves it"),
     "length_scale": (0.01, 10.0, None, "1 keeps the length of the group's bones, 0.5 halves it"),

@@ -1,13 +1,11 @@
-//! Where the eyes are: by pieces of the mesh, by what blinks, by joints, by twin pieces; else nowhere.
+//! Where the eyes are: by the host, by pieces of the mesh, by what blinks, by joints, by mirrored pieces; else nowhere.
 //!
 //! Dents in the depth map were tried and dropped: they took a brow and an egg-shaped head for eyes on two of three
 //! heads, and a wrong eye bends the face where it should not.
 
 use super::head::{Head, quantile_ends};
-use super::in_skin::{by_balls, by_paint};
 use super::iris::{Iris, iris};
-use crate::geometry::{bounds, components, weld};
-
+use super::pieces::{Piece, is_ball, pieces};
 use glam::{DVec2, DVec3};
 
 /// How the eyes were found, surest first.
@@ -21,12 +19,8 @@ pub enum EyeSource {
     Blink,
     /// The eye joints alone.
     Joints,
-    /// Two mirrored pieces of the head.
+    /// Two mirrored pieces of the head, loose or sewn to the skin.
     Twins,
-    /// Two mirrored balls whose rims are sewn to the skin.
-    Balls,
-    /// Two mirrored spots painted on it.
-    Paint,
 }
 
 impl EyeSource {
@@ -38,8 +32,6 @@ impl EyeSource {
             EyeSource::Blink => "blink",
             EyeSource::Joints => "joints",
             EyeSource::Twins => "twins",
-            EyeSource::Balls => "balls",
-            EyeSource::Paint => "paint",
         }
     }
 
@@ -50,8 +42,7 @@ impl EyeSource {
             EyeSource::Pieces => 0.95,
             EyeSource::Blink => 0.9,
             EyeSource::Twins => 0.7,
-            EyeSource::Balls => 0.7,
-            EyeSource::Joints | EyeSource::Paint => 0.6,
+            EyeSource::Joints => 0.6,
         }
     }
 }
@@ -183,60 +174,7 @@ fn found(head: &Head) -> Option<(EyeSource, Eyes)> {
     }
     or(blink, EyeSource::Blink)
         .or_else(|| or(by_joints(head), EyeSource::Joints))
-        .or_else(|| or(by_twins(head), EyeSource::Twins))
-        .or_else(|| or(by_balls(head), EyeSource::Balls))
-        .or_else(|| or(by_paint(head), EyeSource::Paint))
-}
-
-/// A connected piece of one side of the head.
-struct Piece {
-    vertices: Vec<u32>,
-    triangles: Vec<u32>,
-    low: DVec3,
-    high: DVec3,
-}
-
-impl Piece {
-    fn middle(&self) -> DVec3 {
-        0.5 * (self.low + self.high)
-    }
-
-    fn extent(&self) -> DVec3 {
-        self.high - self.low
-    }
-}
-
-/// Connected pieces of `chosen`, numbers of `triangles`, on one side of the middle.
-fn pieces(head: &Head, triangles: &[[u32; 3]], side: f64) -> Vec<Piece> {
-    // Only their own vertices are welded: an eye in its socket often touches the lids.
-    let mut used: Vec<u32> = triangles.iter().flatten().copied().collect();
-    used.sort_unstable();
-    used.dedup();
-    let number = |vertex: u32| used.binary_search(&vertex).expect("all are listed") as u32;
-    let own: Vec<[u32; 3]> = triangles.iter().map(|corners| corners.map(number)).collect();
-    let points: Vec<DVec3> = used.iter().map(|&vertex| head.points[vertex as usize]).collect();
-    let weld = weld(&points, head.parts.seam / head.frame.length);
-    let component = components(&own, &weld);
-    let mut found: Vec<Vec<u32>> = vec![Vec::new(); weld.count];
-    for (index, corners) in triangles.iter().enumerate() {
-        let x: f64 = corners.iter().map(|&corner| head.points[corner as usize].x).sum();
-        if side * x > 0.0 {
-            found[component[weld.representative[own[index][0] as usize] as usize] as usize]
-                .push(index as u32);
-        }
-    }
-    found.retain(|triangles| !triangles.is_empty());
-    found
-        .into_iter()
-        .map(|members| {
-            let mut vertices: Vec<u32> =
-                members.iter().flat_map(|&triangle| triangles[triangle as usize]).collect();
-            vertices.sort_unstable();
-            vertices.dedup();
-            let (low, high) = bounds(vertices.iter().map(|&vertex| head.points[vertex as usize]));
-            Piece { vertices, triangles: members, low, high }
-        })
-        .collect()
+        .or_else(|| or(by_mirrored(head), EyeSource::Twins))
 }
 
 /// How far from the middle an eye's may be, in head lengths.
@@ -258,7 +196,7 @@ const JOINT_IN_BALL: f64 = 0.6;
 fn by_pieces(head: &Head) -> Option<Eyes> {
     let triangles = head.eyes();
     let [left, right] = [0, 1].map(|side| {
-        let pieces = pieces(head, &triangles, if side == 0 { 1.0 } else { -1.0 });
+        let pieces = pieces(head, &triangles, if side == 0 { 1.0 } else { -1.0 }, false);
         let fits = |piece: &&Piece| {
             let (extent, aside) = (piece.extent(), piece.middle().x.abs());
             let heights = PIECE_FLATTEST * extent.x..PIECE_HEIGHT;
@@ -270,42 +208,47 @@ fn by_pieces(head: &Head) -> Option<Eyes> {
         let slack = 0.1 * largest.extent();
         let (low, high) = (largest.low - slack, largest.high + slack);
         let inside = |piece: &&Piece| piece.low.cmpge(low).all() && piece.high.cmple(high).all();
-        let parts: Vec<&Piece> = pieces.iter().filter(inside).collect();
-        let own: Vec<[u32; 3]> =
-            parts.iter().flat_map(|piece| &piece.triangles).map(|&index| triangles[index as usize]).collect();
-        let mut vertices: Vec<u32> = parts.iter().flat_map(|piece| &piece.vertices).copied().collect();
-        vertices.sort_unstable();
-        vertices.dedup();
-        let (low, high) = bounds(vertices.iter().map(|&vertex| head.points[vertex as usize]));
-        let opening = opening(head, &own, low, high)?;
-        let radius = 0.5 * (high - low).truncate().max_element();
-        let middle = 0.5 * (low + high);
-        let joint = head.eye_joint(side).filter(|joint| joint.distance(middle) < JOINT_IN_BALL * radius);
-        let moved = vertices.iter().filter(|&&vertex| head.parts.turns[vertex as usize]).count();
-        let ball = Eyeball {
-            low,
-            high,
-            centre: joint.unwrap_or(middle),
-            turns: 2 * moved > vertices.len(),
-            vertices,
-            iris: None,
-        };
-        Some(Eye { low: opening.0.extend(high.z), high: opening.1.extend(high.z), ball: Some(ball) })
+        let parts = pieces.iter().filter(inside);
+        let whole = Piece::new(head, parts.flat_map(|piece| &piece.triangles).copied().collect());
+        let mut eye = eye(head, &whole)?;
+        let moved = whole.vertices.iter().filter(|&&vertex| head.parts.turns[vertex as usize]).count();
+        if let Some(ball) = &mut eye.ball {
+            let reach = JOINT_IN_BALL * ball.radius();
+            let joint = head.eye_joint(side).filter(|joint| joint.distance(whole.middle()) < reach);
+            ball.turns = 2 * moved > whole.vertices.len();
+            ball.centre = joint.unwrap_or(ball.centre);
+        }
+        Some(eye)
     });
     Some([left?, right?]).filter(are_plausible)
 }
 
-/// Where the front shows `own` triangles, within the box from `low` to `high`.
-pub(super) fn opening(head: &Head, own: &[[u32; 3]], low: DVec3, high: DVec3) -> Option<(DVec2, DVec2)> {
+/// The eye that a piece is: its opening is where the front shows it.
+fn eye(head: &Head, piece: &Piece) -> Option<Eye> {
+    let (low, high) = opening(head, piece)?;
+    let ball = Eyeball {
+        low: piece.low,
+        high: piece.high,
+        centre: piece.middle(),
+        turns: false,
+        vertices: piece.vertices.clone(),
+        iris: None,
+    };
+    Some(Eye { low: low.extend(piece.high.z), high: high.extend(piece.high.z), ball: Some(ball) })
+}
+
+/// Where the front shows a piece.
+fn opening(head: &Head, piece: &Piece) -> Option<(DVec2, DVec2)> {
     let margin = DVec2::splat(FINE);
-    let mut of_eye = own.to_vec();
-    of_eye.sort_unstable();
-    let view = head.front_view(low.truncate() - margin, high.truncate() + margin, FINE);
+    let mut own = piece.triangles.clone();
+    own.sort_unstable();
+    let view = head.front_view(piece.low.truncate() - margin, piece.high.truncate() + margin, FINE);
     let (mut x, mut y) = (Vec::new(), Vec::new());
     for row in 0..view.rows() {
         for column in 0..view.columns() {
-            if let Some(triangle) = view.triangle(column, row)
-                && of_eye.binary_search(&head.bare[triangle]).is_ok()
+            if view
+                .triangle(column, row)
+                .is_some_and(|triangle| own.binary_search(&head.bare[triangle]).is_ok())
             {
                 let middle = view.middle(column, row);
                 x.push(middle.x);
@@ -441,8 +384,24 @@ fn by_hints(head: &Head) -> Option<Eyes> {
     Some([eye(0, left)?, eye(1, right)?]).filter(are_plausible)
 }
 
+/// Mirrored pieces are alike to this, in head lengths.
+const MIRRORED: f64 = 0.03;
+/// Their widths; how flat and how high they may be; how far aside and how high up eyes are; in head lengths. Painted eyes
+/// of figurines are dots or stand upright; brows, moustaches and tusks lie.
+const TWIN_WIDTH: std::ops::Range<f64> = 0.03..0.3;
+/// See [`TWIN_WIDTH`].
+const TWIN_FLATTEST: f64 = 0.8;
+/// See [`TWIN_WIDTH`].
+const TWIN_MOST: f64 = 0.4;
+/// See [`TWIN_WIDTH`].
+const TWIN_ASIDE: std::ops::Range<f64> = 0.07..0.36;
+/// See [`TWIN_WIDTH`].
+const TWIN_HEIGHT: std::ops::Range<f64> = 0.2..0.62;
+/// Of a mirrored piece's box at least this share is seen from the front.
+const TWIN_SEEN: f64 = 0.5;
+
 /// Two eyes stand side by side in the middle third of a head: what does not is no pair of eyes.
-pub(super) fn are_plausible(eyes: &Eyes) -> bool {
+fn are_plausible(eyes: &Eyes) -> bool {
     let [left, right] = eyes.each_ref().map(Eye::middle);
     let d = 0.5 * (left.x - right.x);
     TWIN_ASIDE.contains(&d)
@@ -452,57 +411,38 @@ pub(super) fn are_plausible(eyes: &Eyes) -> bool {
         && eyes.iter().all(|eye| eye.half_width() < d && eye.half_width() > 0.0 && eye.half_height() > 0.0)
 }
 
-/// Twins are mirrored to this, in head lengths.
-const TWIN_MIRRORED: f64 = 0.03;
-/// Their widths; how flat and how high they may be; how far aside and how high up they are; in head lengths.
-pub(super) const TWIN_WIDTH: std::ops::Range<f64> = 0.03..0.3;
-/// See [`TWIN_WIDTH`]. Painted eyes of figurines are dots or stand upright; brows, moustaches and tusks lie.
-const TWIN_FLATTEST: f64 = 0.8;
-/// See [`TWIN_WIDTH`].
-pub(super) const TWIN_MOST: f64 = 0.4;
-/// See [`TWIN_WIDTH`].
-pub(super) const TWIN_ASIDE: std::ops::Range<f64> = 0.07..0.36;
-/// See [`TWIN_WIDTH`].
-pub(super) const TWIN_HEIGHT: std::ops::Range<f64> = 0.2..0.62;
-/// Of a twin's box at least this share is seen from the front.
-const TWIN_SEEN: f64 = 0.5;
-
-/// Two small pieces without names that mirror each other, as figurines' painted-black eyes are.
-fn by_twins(head: &Head) -> Option<Eyes> {
-    let pieces = [1.0, -1.0].map(|side| pieces(head, &head.bare, side));
-    let fits = |piece: &&Piece| {
+/// The largest two small pieces without names that mirror each other, as figurines' painted-black eyes are; else two balls
+/// whose rims are sewn to the skin.
+fn by_mirrored(head: &Head) -> Option<Eyes> {
+    let fits = |piece: &Piece| {
         let (extent, middle) = (piece.extent(), piece.middle());
         TWIN_WIDTH.contains(&extent.x)
             && (TWIN_FLATTEST * extent.x..TWIN_MOST).contains(&extent.y)
             && TWIN_ASIDE.contains(&middle.x.abs())
             && TWIN_HEIGHT.contains(&middle.y)
     };
-    let mut best: Option<(f64, Eyes)> = None;
-    for left in pieces[0].iter().filter(fits) {
-        for right in pieces[1].iter().filter(fits) {
-            let mirrored = DVec3::new(-right.middle().x, right.middle().y, right.middle().z);
+    let seen = |eye: &Eye, piece: &Piece| {
+        let extent = piece.extent();
+        4.0 * eye.half_width() * eye.half_height() > TWIN_SEEN * extent.x * extent.y
+    };
+    [false, true].into_iter().find_map(|sewn| {
+        let [left, right] = [1.0, -1.0].map(|side| {
+            let mut pieces = pieces(head, &head.bare, side, sewn);
+            pieces.retain(|piece| fits(piece) && (!sewn || is_ball(head, piece)));
+            pieces
+        });
+        let mut best: Option<(f64, Eyes)> = None;
+        for (left, right) in left.iter().flat_map(|left| right.iter().map(move |right| (left, right))) {
+            let off = left.middle() - right.middle() * DVec3::new(-1.0, 1.0, 1.0);
             let grown = left.extent() - right.extent();
-            if left.middle().distance(mirrored) > TWIN_MIRRORED || grown.abs().max_element() > TWIN_MIRRORED {
+            if off.length() > MIRRORED || grown.abs().max_element() > MIRRORED {
                 continue;
             }
-            let eye = |piece: &Piece| {
-                let own: Vec<[u32; 3]> =
-                    piece.triangles.iter().map(|&index| head.bare[index as usize]).collect();
-                let (low, high) = opening(head, &own, piece.low, piece.high)?;
-                let seen = (high - low).element_product() / piece.extent().truncate().element_product();
-                let ball = Eyeball {
-                    low: piece.low,
-                    high: piece.high,
-                    centre: piece.middle(),
-                    turns: false,
-                    vertices: piece.vertices.clone(),
-                    iris: None,
-                };
-                let eye =
-                    Eye { low: low.extend(piece.high.z), high: high.extend(piece.high.z), ball: Some(ball) };
-                (seen > TWIN_SEEN).then_some(eye)
-            };
-            if let (Some(left), Some(right)) = (eye(left), eye(right)) {
+            let eyes = [
+                eye(head, left).filter(|eye| seen(eye, left)),
+                eye(head, right).filter(|eye| seen(eye, right)),
+            ];
+            if let [Some(left), Some(right)] = eyes {
                 let area = left.half_width() * left.half_height();
                 let eyes = [left, right];
                 if are_plausible(&eyes) && best.as_ref().is_none_or(|(most, _)| area > *most) {
@@ -510,6 +450,6 @@ fn by_twins(head: &Head) -> Option<Eyes> {
                 }
             }
         }
-    }
-    best.map(|(_, eyes)| eyes)
+        best.map(|(_, eyes)| eyes)
+    })
 }

@@ -1,10 +1,10 @@
 //! Painted irises: where on an eyeball the dark disc is, how large, and how it grows on the ball.
 
-use super::dual::{Number, step};
+use super::dual::step;
 use super::head::{Head, quantile};
 use super::raster::{DepthMap, Window};
 use crate::geometry::Bounds;
-use glam::{DVec2, DVec3};
+use glam::{DQuat, DVec2, DVec3};
 
 /// An iris on a ball.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -97,54 +97,28 @@ pub struct IrisFlow {
     pub half: DVec3,
     /// What is found there.
     pub iris: Iris,
-    /// How many times as large it becomes, 1 to [`MOST_GROWTH`].
+    /// How many times as large it becomes, at least 1.
     pub growth: f64,
     /// By how much the ball turns outwards, in radians, towards +x where above 0.
     pub yaw: f64,
 }
 
-/// Larger, the rest of the ball's front would be pressed into too little of it.
-pub const MOST_GROWTH: f64 = 1.6;
-/// The iris grows evenly up to so many of its own chords, and nothing changes beyond this chord.
-const EVEN: f64 = 1.05;
-/// 2 sin(1.75 / 2): three quarters of the way to the ball's edge lie behind its side.
+/// Nothing of a ball changes further from the iris's middle than this chord, three quarters of the way to its side.
 const UNTOUCHED: f64 = 1.535;
 
 impl IrisFlow {
-    /// Where a point of the ball is after the share `youth` of the change, before the ball itself moves.
-    ///
-    /// Each point keeps its distance from the ball's middle, in the ball's half extents.
-    pub fn map<N: Number>(&self, p: [N; 3], youth: f64) -> [N; 3] {
-        let [x, y, z] = [0, 1, 2].map(|axis| (p[axis] - self.middle[axis]) * (1.0 / self.half[axis]));
-        let radius = (x * x + y * y + z * z).root();
-        if radius.value() <= 0.0 {
+    /// Where a point of the ball is after the share `youth` of the change, before the ball itself moves: it keeps its
+    /// distance from the ball's middle, in the ball's half extents.
+    pub fn map(&self, p: DVec3, youth: f64) -> DVec3 {
+        let from = (p - self.middle) / self.half;
+        let radius = from.length();
+        if radius <= 0.0 {
             return p;
         }
-        let inverse = radius.recip();
-        let [x, y, z] = [x * inverse, y * inverse, z * inverse];
-        let w = self.iris.towards;
-        let along = x * w.x + y * w.y + z * w.z;
-        // The square of the chord to the iris's middle.
-        let square = -along * 2.0 + 2.0;
-        let start = EVEN * 2.0 * (0.5 * self.iris.angle).sin();
-        let grown = 1.0 + youth * (self.growth - 1.0);
-        let mut moved = [x, y, z];
-        if square.value() < UNTOUCHED * UNTOUCHED && square.value() > 0.0 {
-            let chord = square.root();
-            let fades = -step((chord - start) * (1.0 / (UNTOUCHED - start))) + 1.0;
-            let factor = fades * (grown - 1.0) + 1.0;
-            let new_square = square * factor * factor;
-            let new_along = -new_square * 0.5 + 1.0;
-            // What is at right angles to the middle grows with the chord, and shrinks as the sphere turns away.
-            let rest = (-new_square * 0.25 + 1.0) * (-square * 0.25 + 1.0).recip();
-            let across = factor * rest.root();
-            moved = [0, 1, 2].map(|axis| {
-                let own = [x, y, z][axis] - along * w[axis];
-                new_along * w[axis] + own * across
-            });
-        }
-        let (sin, cos) = (youth * self.yaw).sin_cos();
-        let turned = [moved[0] * cos + moved[2] * sin, moved[1], moved[2] * cos - moved[0] * sin];
-        [0, 1, 2].map(|axis| turned[axis] * radius * self.half[axis] + self.middle[axis])
+        let chord = from / radius - self.iris.towards;
+        let even = 2.0 * (0.5 * self.iris.angle).sin();
+        let fades = 1.0 - step((chord.length() - even) / (UNTOUCHED - even));
+        let grown = (from / radius + fades * youth * (self.growth - 1.0) * chord).normalize();
+        self.middle + radius * self.half * (DQuat::from_rotation_y(youth * self.yaw) * grown)
     }
 }

@@ -21,10 +21,6 @@ pub struct FaceLandmarks {
     pub half_width: f64,
     /// W: half the skull's width.
     pub skull_half_width: f64,
-    /// Half the head's width at the cheeks, without ears.
-    pub cheek_half_width: f64,
-    /// Half its width at the upper skull, with hair.
-    pub crown_half_width: f64,
     /// The ears, where they stick out.
     pub ears: Option<Ears>,
 }
@@ -75,15 +71,12 @@ impl FaceLandmarks {
         let nose = nose(head, pair);
         let ye = pair.map_or(EYE_HEIGHT, |pair| pair.height);
         let ears = ears(head, ye);
-        let root = ears.map_or(f64::INFINITY, |ears| ears.root);
         Self {
             covered: eyes.as_ref().map_or(0.0, |(_, eyes)| covered(head, eyes)),
             brows: pair.and_then(|pair| brows(head, pair)),
             nose,
             half_width: half_width_at(head, ye, pair),
-            skull_half_width: half_width_between(head, &head.bare, SKULL_ROWS, 0.98).unwrap_or(0.4),
-            cheek_half_width: half_width_between(head, &head.bare, CHEEK_ROWS, 0.97).unwrap_or(0.4).min(root),
-            crown_half_width: half_width_between(head, &head.with_hair(), CROWN_ROWS, 0.97).unwrap_or(0.4),
+            skull_half_width: skull_half_width(head),
             ears,
             eyes,
         }
@@ -139,8 +132,6 @@ impl FaceLandmarks {
             nose: self.nose.map(nose),
             half_width: aside(self.half_width, ye, 0.0),
             skull_half_width: aside(self.skull_half_width, 0.5 * (SKULL_ROWS.0 + SKULL_ROWS.1), 0.0),
-            cheek_half_width: aside(self.cheek_half_width, 0.5 * (CHEEK_ROWS.0 + CHEEK_ROWS.1), 0.0),
-            crown_half_width: aside(self.crown_half_width, 0.5 * (CROWN_ROWS.0 + CROWN_ROWS.1), 0.0),
             ears: self.ears.map(ears),
         }
     }
@@ -269,25 +260,20 @@ fn half_width_at(head: &Head, ye: f64, pair: Option<Pair>) -> f64 {
 /// Heights at which a skull is measured: above the ears, below the crown.
 const SKULL_ROWS: (f64, f64) = (0.52, 0.72);
 
-/// Where the cheeks are widest, and the upper skull.
-const CHEEK_ROWS: (f64, f64) = (0.29, 0.37);
-/// See [`CHEEK_ROWS`].
-const CROWN_ROWS: (f64, f64) = (0.71, 0.79);
-
-/// How far aside the share `q` of the vertices of `triangles` between two heights is: between the two next to it, as low-poly
-/// heads have few.
-fn half_width_between(head: &Head, triangles: &[[u32; 3]], rows: (f64, f64), q: f64) -> Option<f64> {
+/// W: how far aside 98 of 100 vertices between these heights are: between the two next to it, as low-poly heads have few.
+fn skull_half_width(head: &Head) -> f64 {
     let mut is_used = vec![false; head.points.len()];
-    for &vertex in triangles.iter().flatten() {
+    for &vertex in head.bare.iter().flatten() {
         is_used[vertex as usize] = true;
     }
-    let used =
-        head.points.iter().zip(is_used).filter(|&(p, is_used)| is_used && p.y > rows.0 && p.y < rows.1);
+    let is_near = |p: &DVec3| p.y > SKULL_ROWS.0 && p.y < SKULL_ROWS.1;
+    let used = head.points.iter().zip(is_used).filter(|&(p, is_used)| is_used && is_near(p));
     let mut aside: Vec<f64> = used.map(|(p, _)| p.x.abs()).collect();
     aside.sort_unstable_by(f64::total_cmp);
-    let place = q * aside.len().checked_sub(1)? as f64;
+    let Some(last) = aside.len().checked_sub(1) else { return 0.0 };
+    let place = 0.98 * last as f64;
     let (below, above) = (aside[place.floor() as usize], aside[place.ceil() as usize]);
-    Some(below + (above - below) * place.fract())
+    below + (above - below) * place.fract()
 }
 
 /// Rows that ears are looked for in: their height, and the lowest and the highest against the eyes'.

@@ -1,10 +1,29 @@
 //! The face step as a stage of the deformation: where the stages before put a point, to where a younger face has it.
 
-use super::flow::{Flow, Follower, STEPS, along};
+use super::FaceShape;
 use super::head::HeadFrame;
+use super::kernel::{Follower, STEPS, along};
+use super::rows::Rows;
 use crate::geometry::Mapped;
 use crate::parallel;
 use glam::{DMat3, DVec3, Vec3};
+
+/// The head's first row, Eqs. 12 and 13.
+impl FaceShape {
+    /// Where a point goes that is at `to` already and takes `share` of the map; what keeps its shape goes as its `middle`.
+    pub fn apply(&self, to: Mapped, share: f64, middle: Option<DVec3>) -> Mapped {
+        let from = middle.unwrap_or(to.position);
+        if share <= 0.0 {
+            return to;
+        }
+        let face = self.map(from);
+        let bent = (face.jacobian - DMat3::IDENTITY) * share * to.jacobian;
+        Mapped {
+            position: to.position + share * (face.position - from),
+            jacobian: if middle.is_none() { to.jacobian + bent } else { to.jacobian },
+        }
+    }
+}
 
 /// How a point takes part in the face step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -27,6 +46,7 @@ pub enum FaceBinding {
 pub struct YoungFace {
     /// Where the head is, after the stages before.
     frame: HeadFrame,
+    rows: Rows,
     skin: Follower,
     hair: Follower,
     /// What hats, glasses and earrings do after each piece of the way: one row for each thing.
@@ -67,14 +87,14 @@ fn beginning(frame: &HeadFrame, p: DVec3) -> Vec3 {
 }
 
 impl YoungFace {
-    /// The step that moves a head at `frame` by `flow`.
+    /// The step that moves a head at `frame` by `rows`.
     ///
     /// - `things`: where the stages before put the vertices of each thing that keeps its shape.
     /// - `known`: a step for the same things, which may have made the same already.
-    pub fn new(frame: HeadFrame, flow: Flow, things: &[Vec<DVec3>], known: Option<&Self>) -> Self {
-        let known = known.filter(|known| *known.flow() == flow);
-        let hair = Follower::new(flow.of_hair());
-        let mut face = Self { frame, skin: Follower::new(flow), hair, pieces: Vec::new() };
+    pub fn new(frame: HeadFrame, rows: Rows, things: &[Vec<DVec3>], known: Option<&Self>) -> Self {
+        let known = known.filter(|known| known.rows == rows);
+        let (skin, hair) = (Follower::new(&rows.kernels), Follower::new(&rows.kernels[rows.of_skin..]));
+        let mut face = Self { frame, rows, skin, hair, pieces: Vec::new() };
         let piece = |(index, points): (usize, &Vec<DVec3>)| {
             let from: Vec<Vec3> = points.iter().map(|&p| beginning(&frame, p)).collect();
             let known = known.and_then(|known| known.pieces.get(index)).filter(|known| known.from == from);
@@ -104,8 +124,8 @@ impl YoungFace {
     }
 
     /// What the points follow.
-    pub fn flow(&self) -> &Flow {
-        self.skin.flow()
+    pub fn rows(&self) -> &Rows {
+        &self.rows
     }
 
     /// Where the head is, after the stages before.
@@ -131,8 +151,8 @@ impl YoungFace {
             FaceBinding::Skin(share) => (&self.skin, f64::from(share)),
             FaceBinding::Hair(share) => (&self.hair, f64::from(share)),
             FaceBinding::Ball(eye) => {
-                let Some(eyes) = &self.flow().eyes else { return Mapped::unmoved(p) };
-                let (to, jacobian) = eyes[usize::from(eye)].ball(self.frame.to_unit(p), youth);
+                let Some(balls) = &self.rows.balls else { return Mapped::unmoved(p) };
+                let (to, jacobian) = balls[usize::from(eye)].map(self.frame.to_unit(p), youth);
                 return Mapped { position: self.frame.from_unit(to), jacobian };
             }
             FaceBinding::Piece(piece) => {
@@ -153,10 +173,9 @@ impl YoungFace {
         }
     }
 
-    /// How much `p`, which the stages before have put there, takes part where lids open more than the ball between them
-    /// grows, 0 to 1.
+    /// See [`Rows::opens_lids`]; `p` is where the stages before have put a point.
     pub fn opens_lids(&self, p: DVec3) -> f64 {
-        self.skin.opens_lids(self.frame.to_unit(p))
+        self.rows.opens_lids(self.frame.to_unit(p))
     }
 
     /// The ways of vertices that the stages before put at `points`.
@@ -171,7 +190,7 @@ impl YoungFace {
         known: Option<(&Self, &Ways)>,
         threads: usize,
     ) -> Ways {
-        let known = known.filter(|(face, _)| face.flow() == self.flow()).map(|(_, ways)| ways);
+        let known = known.filter(|(face, _)| face.rows == self.rows).map(|(_, ways)| ways);
         let follower = |vertex: usize| match bindings[vertex] {
             FaceBinding::Skin(share) if share > 0.0 => Some(&self.skin),
             FaceBinding::Hair(share) if share > 0.0 => Some(&self.hair),

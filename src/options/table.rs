@@ -229,7 +229,7 @@ macro_rules! number_options {
                 youth_ear: 0.0..=1.0 = 1.0, PRODUCT, FACE;
                 /// lifts the corners of the mouth
                 smile: 0.0..=1.0 = 0.0, PRODUCT, FACE;
-                /// moves the head back over the chest and fills the nape
+                /// moves the head back over the chest
                 seat: 0.0..=1.0 = 1.0, PRODUCT, FACE;
                 /// lays long hair on the body instead of letting it flare
                 hair_lay: 0.0..=1.0 = 1.0, PRODUCT, FACE;

@@ -5,7 +5,6 @@ use super::memo::View;
 use crate::error::Result;
 use crate::face::eyes::Pair;
 use crate::face::head::HeadFrame;
-use crate::face::seat::SeatAmount;
 use crate::options::{Options, Stage};
 use crate::shape::Measured;
 use crate::shape::field::{Binding, Field};
@@ -141,16 +140,15 @@ fn keyframe(view: &View, youth: f64) -> Result<Keyframe> {
         young: young.map(|young| Arc::clone(&young.face)),
         youth: growth * youth,
         seat: seat.and_then(|seat| (*seat).clone()).map(Arc::new),
-        seat_amount: SeatAmount { back, nape: back * youth },
+        seat_amount: back,
         ..body.with_face(shape)
     };
     // Over clothes as they are pushed out of the body.
     let pushed = view.pushed()?.dense(measured.figure.positions.len());
-    let placed = view.placed()?;
     let placement = Placement {
         hair_offsets: &pushed,
         ways: young.map(|young| &young.ways),
-        ..body.placement(&measured.figure, &field, &placed, view.threads())
+        ..body.placement(&measured.figure, &field, &body.placed, view.threads())
     };
     let mut keyframe = Keyframe {
         field: field.clone(),
@@ -164,7 +162,7 @@ fn keyframe(view: &View, youth: f64) -> Result<Keyframe> {
     if keyframe.amount > 0.0 {
         let strands = view.strands()?;
         if (strands.sides.is_some() || strands.long.is_some())
-            && let Some(frame) = frame_after(&body, &measured, shape)
+            && let Some(frame) = frame_after(&body, &measured)
         {
             lay(&mut keyframe, &strands, &measured, frame, &placement);
             keyframe.strands = Some(strands);

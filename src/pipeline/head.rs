@@ -3,13 +3,12 @@
 use super::memo::View;
 use crate::character::MeshKind;
 use crate::error::{Result, Warning};
-use crate::face::FaceShape;
-use crate::face::flow::Flow;
 use crate::face::head::HeadFrame;
-use crate::face::seat::{Seat, SeatAmount};
+use crate::face::outline::Outline;
+use crate::face::rows::{FaceAim, Rows};
+use crate::face::seat::Seat;
 use crate::face::stage::{FaceBinding, Ways, YoungFace};
-use crate::face::youth::{FaceAim, adultness};
-use crate::geometry::bounds;
+use crate::geometry::{Mapped, bounds};
 use crate::options::Stage;
 use crate::shape::Measured;
 use crate::shape::field::{Binding, BodyField, Field, Finish};
@@ -36,8 +35,6 @@ pub struct Young {
     pub face: Arc<YoungFace>,
     /// The ways.
     pub ways: Ways,
-    /// q: how adult the face was.
-    pub adultness: f64,
 }
 
 /// How much of the head's own stages is done, 0 where the figure keeps its number of heads, which leaves a character made
@@ -48,11 +45,11 @@ pub fn growth(body: &Body, measured: &Measured) -> f64 {
     ((before / field.after().heads() - 1.0) / HEADS_LOST).clamp(0.0, 1.0)
 }
 
-/// Where `body` with a face of this shape puts the head; `None` in paper mode.
-pub fn frame_after(body: &Body, measured: &Measured, face: FaceShape) -> Option<HeadFrame> {
+/// Where `body` puts the head; `None` in paper mode.
+pub fn frame_after(body: &Body, measured: &Measured) -> Option<HeadFrame> {
     let BodyField::Parts(parts) = &*body.field else { return None };
     let chin = head_frame(&measured.anatomy).origin;
-    let origin = body.with_face(face).place(chin, &Binding::to(Part::Head));
+    let origin = body.field().place(chin, &Binding::to(Part::Head));
     Some(HeadFrame { origin, length: parts.after().head_length() })
 }
 
@@ -77,23 +74,22 @@ pub fn face_box(view: &View) -> Result<Option<(DVec3, DVec3)>> {
     Ok(Some((low.with_y(chin), high.with_y(crown))))
 }
 
-/// Asks the body's field where it takes the vertices that the face moves.
-pub fn place_face(view: &View) -> Result<Arc<Vec<DVec3>>> {
-    let (body, measured, face) = (view.body()?, view.measured()?, view.face()?);
-    let placed = Arc::clone(&body.placed);
-    if face.shape == FaceShape::None {
-        return Ok(placed);
-    }
-    let (field, bindings, positions) =
-        (body.with_face(face.shape), &body.bindings, &measured.figure.positions);
-    let place = |vertex: usize| field.place_body(positions[vertex], &bindings.vertices[vertex]);
-    Ok(renewed(view.threads(), placed, &bindings.of_head, place))
+/// The outline of the head as body and face map leave it, and how it stands over the trunk.
+pub fn outline(view: &View) -> Result<Option<Outline>> {
+    let (body, measured, sources) = (view.body()?, view.measured()?, view.outline_sources()?);
+    let (Some(frame), BodyField::Parts(parts)) = (frame_after(&body, &measured), &*body.field) else {
+        return Ok(None);
+    };
+    let field = body.with_face(view.face()?.shape);
+    let placement = body.placement(&measured.figure, &field, &body.placed, view.threads());
+    let points = placement.vertices(&sources.vertices);
+    Ok(Outline::of(&sources, &points, frame, parts.after().shoulder_line))
 }
 
 /// The face step beyond Eqs. 12 and 13: of the target's face as they leave it.
 pub fn make_young(view: &View) -> Result<Option<Young>> {
     let (measured, body, shape) = (view.measured()?, view.body()?, view.face()?.shape);
-    let frame = frame_after(&body, &measured, shape);
+    let frame = frame_after(&body, &measured);
     let (Some(face), Some(frame), BodyField::Parts(parts)) = (&measured.face, frame, &*body.field) else {
         return Ok(None);
     };
@@ -111,44 +107,34 @@ pub fn make_young(view: &View) -> Result<Option<Young>> {
         Style::Heads(_) => (None, None),
     };
     let aim = FaceAim::new(parts.after().heads(), eyes, head);
-    let flow = Flow::new(&face, &aim, &view.options.features(), view.options.smile);
-    if flow.is_identity() {
+    let outline = view.outline()?;
+    let rows = Rows::new(&face, Option::as_ref(&outline), &aim, &view.options.features(), view.options.smile);
+    if rows.kernels.is_empty() {
         return Ok(None);
     }
-    let placed = view.placed()?;
-    let placement = body.placement(&measured.figure, &field, &placed, view.threads());
+    let placement = body.placement(&measured.figure, &field, &body.placed, view.threads());
     let things: Vec<Vec<DVec3>> =
         view.parts()?.parts.things.iter().map(|vertices| placement.vertices(vertices)).collect();
     // What is the same as last time is taken from there.
     let known = view.before::<Option<Young>>();
     let known = known.as_deref().and_then(Option::as_ref);
-    let young = YoungFace::new(frame, flow, &things, known.map(|known| &*known.face));
+    let young = YoungFace::new(frame, rows, &things, known.map(|known| &*known.face));
     let binding = |binding: &Binding| binding.parts().map_or(FaceBinding::None, |parts| parts.face);
+    let squashed = renewed(view.threads(), Arc::clone(&body.placed), &body.bindings.of_head, |vertex| {
+        field.squash(Mapped::unmoved(body.placed[vertex]), &body.bindings.vertices[vertex]).position
+    });
     let bindings: Vec<FaceBinding> = body.bindings.vertices.iter().map(binding).collect();
     let known = known.map(|known| (&*known.face, &known.ways));
-    let ways = young.ways(&placed, &bindings, known, view.threads());
-    Ok(Some(Young { face: Arc::new(young), ways, adultness: adultness(&face, &aim) }))
+    let ways = young.ways(&squashed, &bindings, known, view.threads());
+    Ok(Some(Young { face: Arc::new(young), ways }))
 }
 
-/// How the youngest head sits over the chest, whose nape fills most: measured before amount and ground.
+/// How the head goes back over the chest.
 pub fn seat(view: &View) -> Result<Option<Seat>> {
-    let (measured, body, shape) = (view.measured()?, view.body()?, view.face()?.shape);
-    let (Some(frame), BodyField::Parts(parts)) = (frame_after(&body, &measured, shape), &*body.field) else {
-        return Ok(None);
-    };
-    let (young, placed, sources) = (view.young()?, view.placed()?, view.seat_sources()?);
-    let young = (*young).as_ref();
-    let field = Field {
-        youth: growth(&body, &measured),
-        young: young.map(|young| Arc::clone(&young.face)),
-        ..body.with_face(shape)
-    };
-    let placement = body.placement(&measured.figure, &field, &placed, view.threads());
-    let placement = Placement { ways: young.map(|young| &young.ways), ..placement };
-    let points = placement.vertices(&sources.vertices);
-    let joint = field.place(measured.anatomy.head_joint, &Binding::to(Part::Head));
-    let fill = young.map_or(0.0, |young| young.adultness);
-    Ok(Seat::new(&sources, &points, frame, parts.after().shoulder_line, joint, fill))
+    let (body, measured, outline) = (view.body()?, view.measured()?, view.outline()?);
+    let (Some(outline), Some(frame)) = (*outline, frame_after(&body, &measured)) else { return Ok(None) };
+    let BodyField::Parts(parts) = &*body.field else { return Ok(None) };
+    Ok(Seat::new(&outline, frame, parts.after().shoulder_line))
 }
 
 /// The field all the way: body, face, flow and seat, as much of each as the options ask for.
@@ -166,8 +152,7 @@ pub fn field(view: &View) -> Result<Field> {
     }
     if options.seat * growth != 0.0 {
         field.seat = view.seat()?.as_ref().clone().map(Arc::new);
-        field.seat_amount =
-            SeatAmount { back: growth * options.seat, nape: growth * options.seat * options.youth };
+        field.seat_amount = growth * options.seat;
     }
     Ok(field)
 }

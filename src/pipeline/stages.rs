@@ -11,7 +11,8 @@ use super::morphs::{self, Shifts, Touched};
 use super::{hair, head, report};
 use crate::error::{Result, Warning};
 use crate::face::FaceShape;
-use crate::face::seat::{Seat, SeatSources};
+use crate::face::outline::{Outline, OutlineSources};
+use crate::face::seat::Seat;
 use crate::geometry::range;
 use crate::options::table::PRODUCT_FACE_SQUASH;
 use crate::options::{Height, Mode, Options, Repair, Stage as LastStage};
@@ -23,7 +24,7 @@ use crate::shape::paper;
 use crate::shape::placement::{Body, Placement};
 use crate::shape::product;
 use crate::shape::product::hair::HairOnBody;
-use crate::shape::product::head::seat_sources;
+use crate::shape::product::head::outline_sources;
 use crate::shape::product::landmarks::HeadSources;
 use crate::shape::product::repair::Pushed;
 use crate::shape::product::strands::Strands;
@@ -82,8 +83,8 @@ stages! {
     hair_on_body: HairOnBody = hair_on_body, Deform 0, [];
     /// Strands of hair: which part before the eyes, which lie on the body (D30).
     strands: Strands = strands, Deform 0, [];
-    /// The middle of head, neck and trunk, seen from the side (D30).
-    seat_sources: SeatSources = middle_of_head, Deform 0, [];
+    /// Head and trunk without arms: what the head's outline is read from (D30).
+    outline_sources: OutlineSources = outline_of_head, Deform 0, [];
 
     // The body.
 
@@ -104,14 +105,14 @@ stages! {
     face_box: Option<(DVec3, DVec3)> = head::face_box, Face 1, [];
     /// The younger face of Eqs. 12 and 13, as far as it does not fold.
     face: Face = squash_face, Face 0, [mode, stage, face_squash, face_curve];
-    /// Where the body takes each vertex with that face.
-    placed: Vec<DVec3> = head::place_face, Face 1, [];
-    /// The flow of the face beyond it (D30), and each vertex's way through it.
+    /// The head from front and side, and how it stands over the trunk (D30).
+    outline: Option<Outline> = head::outline, Face 1, [];
+    /// The table of the head (D30), and each vertex's way through it.
     young: Option<head::Young> = head::make_young, Face 8, [
         youth_eye, youth_lower, youth_nose, youth_cheek, youth_jaw, youth_skull, youth_ear, smile
     ];
-    /// How far the head goes back over the chest, and how the nape fills (D30).
-    seat: Option<Seat> = head::seat, Deform 3, [];
+    /// How far the head goes back over the chest (D30).
+    seat: Option<Seat> = head::seat, Deform 0, [];
     /// Body, face, flow and seat: the field of the head's vertices, all the way.
     field: Field = head::field, Deform 0, [stage, youth, seat];
 
@@ -165,8 +166,6 @@ pub struct Deformation {
     pub body: Arc<Body>,
     /// All of it.
     pub field: Arc<Field>,
-    /// See the stage `placed`.
-    pub placed: Arc<Vec<DVec3>>,
     /// See the stage `young`: there where the field has a face step.
     pub young: Option<Arc<Option<head::Young>>>,
     /// See the stage `offsets`.
@@ -183,7 +182,7 @@ impl Deformation {
             hair_offsets: hair.map_or(&self.offsets, |hair| &hair.offsets),
             joint_offsets: hair.map_or(&[], |hair| &hair.joint_offsets),
             ways: self.young.as_ref().and_then(|young| Option::as_ref(young)).map(|young| &young.ways),
-            ..self.body.placement(&self.measured.figure, field, &self.placed, threads)
+            ..self.body.placement(&self.measured.figure, field, &self.body.placed, threads)
         }
     }
 }
@@ -219,9 +218,9 @@ fn strands(view: &View) -> Result<Strands> {
     Ok(Strands::of(view.character(), &*view.measured()?, &view.parts()?.bindings.vertices))
 }
 
-fn middle_of_head(view: &View) -> Result<SeatSources> {
+fn outline_of_head(view: &View) -> Result<OutlineSources> {
     let (measured, parts) = (view.measured()?, view.parts()?);
-    Ok(seat_sources(&measured.figure, &measured.anatomy, &parts.bindings.vertices))
+    Ok(outline_sources(&measured.figure, &measured.anatomy, &parts.bindings.vertices))
 }
 
 fn shape_body(view: &View) -> Result<Body> {
@@ -299,7 +298,6 @@ fn put_together(view: &View) -> Result<Deformation> {
     Ok(Deformation {
         measured: view.measured()?,
         body: view.body()?,
-        placed: view.placed()?,
         young: field.young.as_ref().map(|_| view.young()).transpose()?,
         offsets: view.offsets()?,
         hair: view.hair()?,

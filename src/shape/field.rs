@@ -9,7 +9,7 @@ use super::product::binding::PartBinding;
 use super::product::field::PartField;
 use super::product::part::Part;
 use crate::face::FaceShape;
-use crate::face::seat::{Seat, SeatAmount};
+use crate::face::seat::Seat;
 use crate::face::stage::{FaceBinding, Ways, YoungFace};
 use crate::geometry::Mapped;
 use glam::{DMat3, DVec3};
@@ -52,6 +52,15 @@ impl Binding {
         self.parts().map_or(0.0, arms)
     }
 
+    /// How much of the face map it takes, 0 to 1; what keeps its shape takes that of its middle, which is at rest there.
+    pub fn of_face(&self) -> (f64, Option<DVec3>) {
+        match self {
+            Self::Parts(binding) => binding.of_face(),
+            Self::Bones(binding) => (binding.head, binding.on_face),
+            Self::Fixed => (0.0, None),
+        }
+    }
+
     /// See [`PartBinding::of_head_and_neck`].
     pub fn of_head_and_neck(&self) -> f64 {
         self.parts().map_or(0.0, PartBinding::of_head_and_neck)
@@ -67,10 +76,10 @@ pub enum BodyField {
     Bones(PaperField),
 }
 
-/// What is done last: the face, how far to go, and where the ground is.
+/// What is done after the body: the face map, how far to go, and where the ground is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Finish {
-    /// Eqs. 12 and 13. Each mode says what is on the face, so this goes through its field.
+    /// Eqs. 12 and 13.
     pub face: FaceShape,
     /// All the way, the body is this many times as large as its field makes it.
     pub whole: f64,
@@ -134,8 +143,8 @@ pub struct Field {
     pub youth: f64,
     /// How the head sits over the chest.
     pub seat: Option<Arc<Seat>>,
-    /// How much of that is done.
-    pub seat_amount: SeatAmount,
+    /// How much of that is done, 0 to 1.
+    pub seat_amount: f64,
     /// What is done last.
     pub finish: Finish,
 }
@@ -143,14 +152,7 @@ pub struct Field {
 impl Field {
     /// The field of `body`, all the way.
     pub fn of(body: Arc<BodyField>) -> Self {
-        Self {
-            body,
-            young: None,
-            youth: 0.0,
-            seat: None,
-            seat_amount: SeatAmount::default(),
-            finish: Finish::default(),
-        }
+        Self { body, young: None, youth: 0.0, seat: None, seat_amount: 0.0, finish: Finish::default() }
     }
 
     /// Where `p` goes.
@@ -158,8 +160,8 @@ impl Field {
         self.place_from(p, self.place_body(p, binding), binding, 0, None)
     }
 
-    /// As [`Self::place`], for a vertex that is at `p` and that the body's field, with the face that is asked for, takes to
-    /// `placed`; `ways` may hold how it goes on from there through the face step.
+    /// As [`Self::place`], for a vertex that is at `p` and that the body's field takes to `placed`; `ways` may hold how it
+    /// goes through the face step.
     pub fn place_from(
         &self,
         p: DVec3,
@@ -168,22 +170,23 @@ impl Field {
         vertex: usize,
         ways: Option<&Ways>,
     ) -> DVec3 {
+        let squashed = self.squash(Mapped::unmoved(placed), binding).position;
         let to = match binding {
-            Binding::Parts(binding) => self.place_head(placed, binding, |young, to| match ways {
+            Binding::Parts(binding) => self.place_head(squashed, binding, |young, to| match ways {
                 Some(ways) => young.place_along(to, binding.face, self.youth, vertex, ways),
                 None => young.place(to, binding.face, self.youth),
             }),
-            Binding::Bones(_) => placed,
+            Binding::Bones(_) => squashed,
             Binding::Fixed => return p,
         };
         self.finish.apply(p, Mapped::unmoved(to)).position
     }
 
-    /// Where the body's field alone takes `p`, with the face that is asked for.
+    /// Where the body's field alone takes `p`.
     pub fn place_body(&self, p: DVec3, binding: &Binding) -> DVec3 {
         match (&*self.body, binding) {
-            (BodyField::Parts(field), Binding::Parts(binding)) => field.place(p, binding, &self.finish.face),
-            (BodyField::Bones(field), Binding::Bones(binding)) => field.place(p, binding, &self.finish.face),
+            (BodyField::Parts(field), Binding::Parts(binding)) => field.place(p, binding),
+            (BodyField::Bones(field), Binding::Bones(binding)) => field.place(p, binding),
             _ => p,
         }
     }
@@ -191,14 +194,23 @@ impl Field {
     /// How much `p` takes part where the face step opens lids more than the ball between them grows, 0 to 1.
     pub fn opens_lids(&self, p: DVec3, binding: &Binding) -> f64 {
         match (&self.young, binding) {
-            (Some(young), Binding::Parts(parts)) if matches!(parts.face, FaceBinding::Skin(_)) => {
-                young.opens_lids(self.place_body(p, binding))
+            (Some(young), Binding::Parts(PartBinding { face: FaceBinding::Skin(_), .. })) => {
+                young.opens_lids(self.squash(Mapped::unmoved(self.place_body(p, binding)), binding).position)
             }
             _ => 0.0,
         }
     }
 
-    /// Where the head's own stages take a point that the body's field takes `to`.
+    /// The head's first row: where the face map (Eqs. 12 and 13) takes what the body's field takes `to`.
+    pub fn squash(&self, to: Mapped, binding: &Binding) -> Mapped {
+        if self.finish.face == FaceShape::None {
+            return to;
+        }
+        let (share, middle) = binding.of_face();
+        self.finish.face.apply(to, share, middle.map(|middle| self.place_body(middle, binding)))
+    }
+
+    /// Where the rows after it take a point: the younger face, then the seat.
     #[inline(always)]
     fn place_head(
         &self,
@@ -211,7 +223,7 @@ impl Field {
             _ => to,
         };
         match &self.seat {
-            Some(seat) => seat.place(to, binding.of_head_and_neck(), self.seat_amount),
+            Some(seat) => seat.place(to, self.seat_amount * binding.of_head_and_neck()),
             None => to,
         }
     }
@@ -219,18 +231,18 @@ impl Field {
     /// Where `p` goes, and the Jacobian there at fixed weights.
     pub fn map(&self, p: DVec3, binding: &Binding) -> Mapped {
         let to = match (&*self.body, binding) {
-            (BodyField::Parts(field), Binding::Parts(binding)) => {
-                let to = field.map(p, binding, &self.finish.face);
+            (BodyField::Parts(field), Binding::Parts(parts)) => {
+                let to = self.squash(field.map(p, parts), binding);
                 let to = match &self.young {
-                    Some(young) => to.then(|to| young.map(to, binding.face, self.youth)),
+                    Some(young) => to.then(|to| young.map(to, parts.face, self.youth)),
                     None => to,
                 };
                 match &self.seat {
-                    Some(seat) => to.then(|to| seat.map(to, binding.of_head_and_neck(), self.seat_amount)),
+                    Some(seat) => to.then(|to| seat.map(to, self.seat_amount * parts.of_head_and_neck())),
                     None => to,
                 }
             }
-            (BodyField::Bones(field), Binding::Bones(binding)) => field.map(p, binding, &self.finish.face),
+            (BodyField::Bones(field), Binding::Bones(bones)) => self.squash(field.map(p, bones), binding),
             _ => return Mapped::unmoved(p),
         };
         self.finish.apply(p, to)

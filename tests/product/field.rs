@@ -3,9 +3,11 @@
 use crate::people::Person;
 use crate::tubes::{Tubes, blended, crowd, jacobian_error, mirrored_weights, numbers};
 use glam::{DMat3, DVec3};
+use std::sync::Arc;
 use superdeform::internals::face::stage::FaceBinding;
 use superdeform::internals::face::{FaceMap, FaceShape};
 use superdeform::internals::geometry::Mapped;
+use superdeform::internals::shape::field::{Binding, BodyField, Field, Finish};
 use superdeform::internals::shape::product::anatomy::Anatomy;
 use superdeform::internals::shape::product::binding::{PartBinding, PartBindings};
 use superdeform::internals::shape::product::field::PartField;
@@ -15,8 +17,6 @@ use superdeform::internals::shape::product::pieces::{Attachment, Piece};
 use superdeform::internals::shape::product::scales::{HeadScale, PartCoefficients, Scale};
 use superdeform::{FaceCurve, Role};
 
-const NO_FACE: FaceShape = FaceShape::None;
-
 fn scale(length: f64, thickness: f64) -> Scale {
     Scale { length, thickness }
 }
@@ -24,7 +24,7 @@ fn scale(length: f64, thickness: f64) -> Scale {
 /// A scale of its own for every part.
 const SCALES: PartCoefficients = PartCoefficients {
     head: HeadScale { height: 1.5, width: 1.6, depth: 1.2 },
-    head_seat: 1.0,
+    hair_taming: 1.0,
     neck: Scale { length: 0.5, thickness: 0.75 },
     torso: Scale { length: 0.6, thickness: 0.8 },
     shoulder_spread: 0.7,
@@ -74,8 +74,14 @@ fn field_of(anatomy: &Anatomy, scales: PartCoefficients) -> PartField {
     PartField::new(anatomy, scales, &PartBindings::default(), 1.0)
 }
 
+/// `field` and then `face`.
+fn with_face(field: PartField, face: FaceShape) -> Field {
+    let body = Field::of(Arc::new(BodyField::Parts(Box::new(field))));
+    Field { finish: Finish { face, ..Finish::default() }, ..body }
+}
+
 fn by_part(field: &PartField, part: Part, p: DVec3) -> DVec3 {
-    field.place(p, &PartBinding::to(part), &NO_FACE)
+    field.place(p, &PartBinding::to(part))
 }
 
 fn assert_near(what: &str, found: DVec3, expected: DVec3) {
@@ -90,7 +96,7 @@ fn scales_of_one_leave_everything_where_it_is() {
         let field = PartField::new(anatomy, PartCoefficients::IDENTITY, &bindings, 1.0);
         let height = figure.height();
         for (&p, binding) in figure.positions.iter().zip(&bindings.vertices) {
-            let to = field.map(p, binding, &NO_FACE);
+            let to = field.map(p, binding);
             assert!(to.position.distance(p) < 1e-9 * height, "{p} goes to {}: {person:?}", to.position);
             assert!((to.jacobian - DMat3::IDENTITY).to_cols_array().iter().all(|x| x.abs() < 1e-6));
         }
@@ -227,33 +233,6 @@ fn torso_neck_and_head_meet_on_their_axis() {
 }
 
 #[test]
-fn the_head_sits_back_over_the_chest_and_takes_the_neck_along() {
-    let mut anatomy = blended().anatomy.clone();
-    let heights = anatomy.landmarks.heights;
-    anatomy.centre_line = vec![(heights.crotch, 0.0), (heights.shoulder_line, 0.0)];
-    anatomy.head_joint.z = 0.0;
-    let chin = DVec3::new(0.0, heights.chin, 0.0);
-    let most = 0.08 * 1.5 * heights.head_length();
-    for (head_z, seat, back) in [
-        // Half of what its middle, 1.2 times as far out, lies before the chest.
-        (0.02, 1.0, 0.5 * 1.2 * 0.02),
-        (0.02, 0.5, 0.25 * 1.2 * 0.02),
-        (0.02, 0.0, 0.0),
-        (0.5, 1.0, most),
-        // It never moves forward.
-        (-0.1, 1.0, 0.0),
-    ] {
-        anatomy.head_centre.z = head_z;
-        let field = field_of(&anatomy, PartCoefficients { head_seat: seat, ..SCALES });
-        let head = by_part(&field, Part::Head, chin);
-        assert!((head.z + back).abs() < 1e-9, "{head_z}, {seat}: {} instead of {}", head.z, -back);
-        let half_way = by_part(&field, Part::Neck, chin.with_y(0.5 * (heights.shoulder_line + heights.chin)));
-        assert!((half_way.z + 0.5 * back).abs() < 1e-9, "{half_way}");
-        assert_near("scale", by_part(&field, Part::Head, chin + 0.1) - head, DVec3::new(0.16, 0.15, 0.12));
-    }
-}
-
-#[test]
 fn no_part_jumps_anywhere() {
     let Tubes { anatomy, .. } = blended();
     let mut bindings = PartBindings { hair: long_hair(anatomy), ..PartBindings::default() };
@@ -280,7 +259,7 @@ fn no_part_jumps_anywhere() {
             for step in 0..20_000 {
                 // Upwards, and a little forward.
                 let p = from + STEP * f64::from(step) * DVec3::new(0.0, 1.0, 0.05);
-                let to = field.map(p, &binding, &NO_FACE);
+                let to = field.map(p, &binding);
                 if let Some((before, last)) = last {
                     let stretch = norm(to.jacobian).max(norm(last.jacobian));
                     let jump = to.position.distance(last.position);
@@ -303,11 +282,12 @@ fn jacobians_are_those_of_central_differences() {
     let mut bindings = PartBindings { hair: long_hair(&anatomy), ..PartBindings::default() };
     let anchor = DVec3::new(0.1, 1.1, 0.1);
     bindings.pieces.push(Piece { anchor, lowest: 0.9, weights: Part::Torso.alone() });
-    let field = PartField::new(&anatomy, SCALES, &bindings, 0.7);
-    let chin = field.after().chin;
+    let parts = PartField::new(&anatomy, SCALES, &bindings, 0.7);
+    let chin = parts.after().chin;
     let curve = FaceMap { bottom: chin, top: chin + 0.3, squash: 0.8, curve: FaceCurve::F4 };
     let mut next = numbers(3);
-    for face in [NO_FACE, FaceShape::Curve(curve)] {
+    for face in [FaceShape::None, FaceShape::Curve(curve)] {
+        let field = with_face(parts.clone(), face);
         for round in 0..4000 {
             let mut weights = [0.0; PART_COUNT];
             match round % 3 {
@@ -320,9 +300,10 @@ fn jacobians_are_those_of_central_differences() {
                 1 => Attachment::Piece(0),
                 _ => Attachment::Plain,
             };
-            let binding = PartBinding { weights, attachment, face: FaceBinding::None, is_skirt: false };
+            let binding =
+                Binding::Parts(PartBinding { weights, attachment, face: FaceBinding::None, is_skirt: false });
             let p = DVec3::new(0.8 * next() - 0.4, 2.0 * next() - 0.1, 0.4 * next() - 0.2);
-            let map = |p: DVec3| field.map(p, &binding, &face);
+            let map = |p: DVec3| field.map(p, &binding);
             let step = 1e-6;
             // A corner within the step (a landmark, a knot of the hair's width) has two Jacobians.
             let (up, down) = (map(p + step * DVec3::Y).jacobian, map(p - step * DVec3::Y).jacobian);
@@ -331,7 +312,7 @@ fn jacobians_are_those_of_central_differences() {
             }
             let error = jacobian_error(map, p, step);
             assert!(error < 1e-5, "{error} at {p}: {binding:?}");
-            assert_eq!(field.place(p, &binding, &face), map(p).position);
+            assert_eq!(field.place(p, &binding), map(p).position);
         }
     }
 }
@@ -352,7 +333,7 @@ fn the_other_side_moves_like_this_one() {
     let field = field_of(&anatomy, SCALES);
     for (&p, binding) in figure.positions.iter().zip(&bindings.vertices).step_by(7) {
         let other = PartBinding { weights: mirrored_weights(&binding.weights), ..*binding };
-        let (here, there) = (field.place(p, binding, &NO_FACE), field.place(mirror(p), &other, &NO_FACE));
+        let (here, there) = (field.place(p, binding), field.place(mirror(p), &other));
         assert!(there.distance(mirror(here)) < 1e-12, "{p}: {here} and {there}");
     }
 }
@@ -385,7 +366,7 @@ fn a_piece_is_moved_and_scaled_as_one_and_does_not_sink_into_the_ground() {
             face: FaceBinding::None,
             is_skirt: false,
         };
-        let place = |p: DVec3| field.place(p, &binding, &NO_FACE);
+        let place = |p: DVec3| field.place(p, &binding);
         assert_near("anchor", place(anchor), on_torso(anchor));
         assert_near("size", place(anchor + away) - place(anchor), size * away);
     }
@@ -395,7 +376,7 @@ fn a_piece_is_moved_and_scaled_as_one_and_does_not_sink_into_the_ground() {
         face: FaceBinding::None,
         is_skirt: false,
     };
-    let lowest = field.place(anchors[1].with_y(before.sole), &on_ground, &NO_FACE);
+    let lowest = field.place(anchors[1].with_y(before.sole), &on_ground);
     assert!(lowest.y > -1e-9, "{lowest}");
 }
 
@@ -405,7 +386,7 @@ fn what_sits_on_the_face_takes_the_face_map_of_one_point() {
     let field = field_of(anatomy, SCALES);
     let (chin, crown) = (field.after().chin, field.after().crown);
     let curve = FaceMap { bottom: chin, top: crown, squash: 0.8, curve: FaceCurve::F4 };
-    let face = FaceShape::Curve(curve);
+    let with_face = with_face(field.clone(), FaceShape::Curve(curve));
     let heights = anatomy.landmarks.heights;
     let centre = DVec3::new(0.0, heights.chin + 0.4 * heights.head_length(), 0.08);
     let binding = PartBinding {
@@ -418,7 +399,7 @@ fn what_sits_on_the_face_takes_the_face_map_of_one_point() {
     assert!(shift < -0.001, "{shift}");
     for away in [DVec3::ZERO, DVec3::new(0.05, 0.03, 0.02), DVec3::new(0.0, 0.3, 0.0)] {
         let expected = by_part(&field, Part::Head, centre + away) + shift * DVec3::Y;
-        assert_near("on the face", field.place(centre + away, &binding, &face), expected);
+        assert_near("on the face", with_face.place(centre + away, &Binding::Parts(binding)), expected);
     }
 }
 

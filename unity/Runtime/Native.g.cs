@@ -1372,7 +1372,7 @@ internal unsafe struct SdefOptions {
     public double smile;
 
     /// <summary>
-    /// moves the head back over the chest and fills the nape
+    /// moves the head back over the chest
     /// </summary>
     public double seat;
 
@@ -2026,7 +2026,7 @@ public partial struct OptionRange
     /// <summary>Lifts the corners of the mouth.</summary>
     public static readonly OptionRange Smile = new OptionRange(0, 1);
 
-    /// <summary>Moves the head back over the chest and fills the nape.</summary>
+    /// <summary>Moves the head back over the chest.</summary>
     public static readonly OptionRange Seat = new OptionRange(0, 1);
 
     /// <summary>Lays long hair on the body instead of letting it flare.</summary>
@@ -2108,7 +2108,7 @@ public static class OptionDefaults
     /// <summary>Lifts the corners of the mouth.</summary>
     public const double Smile = 0;
 
-    /// <summary>Moves the head back over the chest and fills the nape.</summary>
+    /// <summary>Moves the head back over the chest.</summary>
     public const double Seat = 1;
 
     /// <summary>Lays long hair on the body instead of letting it flare.</summary>
@@ -2183,7 +2183,7 @@ public sealed partial class Options
     /// <summary>Lifts the corners of the mouth; 0 to 1, default 0.</summary>
     public double Smile = OptionDefaults.Smile;
 
-    /// <summary>Moves the head back over the chest and fills the nape; 0 to 1, default 1.</summary>
+    /// <summary>Moves the head back over the chest; 0 to 1, default 1.</summary>
     public double Seat = OptionDefaults.Seat;
 
     /// <summary>Lays long hair on the body instead of letting it flare; 0 to 1, default 1.</summary>

@@ -2,7 +2,6 @@
 
 use crate::character::Role;
 use crate::character::bones::{Bone, Group};
-use crate::face::FaceShape;
 use crate::geometry::{Mapped, foot, outer};
 use crate::options::Stage;
 use crate::shape::{Coefficient, Shortened};
@@ -206,27 +205,15 @@ pub struct PaperField {
 }
 
 impl PaperField {
-    /// Where `p` goes, with the map `face` (Eqs. 12, 13).
-    pub fn place(&self, p: DVec3, binding: &BoneBinding, face: &FaceShape) -> DVec3 {
-        let to = self.bones.displace(p, &binding.weights, self.stage);
-        if binding.head <= 0.0 || *face == FaceShape::None {
-            return to;
-        }
-        let from = match binding.on_face {
-            Some(centre) => self.bones.displace(centre, &binding.weights, self.stage),
-            None => to,
-        };
-        to + binding.head * (face.map(from).position - from)
+    /// Where `p` goes.
+    pub fn place(&self, p: DVec3, binding: &BoneBinding) -> DVec3 {
+        self.bones.displace(p, &binding.weights, self.stage)
     }
 
     /// Where `p` goes, and the Jacobian there at fixed weights.
-    pub fn map(&self, p: DVec3, binding: &BoneBinding, face: &FaceShape) -> Mapped {
-        let mut jacobian = self.bones.jacobian(p, &binding.weights, self.stage);
-        if binding.head > 0.0 && *face != FaceShape::None && binding.on_face.is_none() {
-            let on_face = self.bones.displace(p, &binding.weights, self.stage);
-            jacobian += (face.map(on_face).jacobian - DMat3::IDENTITY) * binding.head * jacobian;
-        }
-        Mapped { position: self.place(p, binding, face), jacobian }
+    pub fn map(&self, p: DVec3, binding: &BoneBinding) -> Mapped {
+        let jacobian = self.bones.jacobian(p, &binding.weights, self.stage);
+        Mapped { position: self.place(p, binding), jacobian }
     }
 }
 

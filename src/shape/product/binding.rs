@@ -40,6 +40,16 @@ impl PartBinding {
         Self { weights: part.alone(), attachment: Attachment::Plain, face, is_skirt: false }
     }
 
+    /// How much of the face map it takes, 0 to 1; what keeps its shape takes that of its middle, which is at rest there.
+    pub fn of_face(&self) -> (f64, Option<DVec3>) {
+        let share = f64::from(self.weights[Part::Head as usize] + self.weights[Part::Hair as usize]);
+        match self.attachment {
+            Attachment::Plain => (share, None),
+            Attachment::OnFace(middle) => (share, Some(middle)),
+            Attachment::Piece(_) | Attachment::Strand { .. } => (0.0, None),
+        }
+    }
+
     /// How far it goes where head and neck go, 0 to 1; what is carried on the body does not.
     pub fn of_head_and_neck(&self) -> f64 {
         let with_piece = match self.attachment {

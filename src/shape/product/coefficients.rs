@@ -8,7 +8,7 @@ use super::anatomy::Proportions;
 use super::groups::PartGroups;
 use super::scales::{HeadScale, PartCoefficients, Scale};
 use crate::error::{Result, Warning};
-use crate::face::youth::{CHILD_SKULL, CHILD_SKULL_DEPTH};
+use crate::face::rows::{CHILD_SKULL, CHILD_SKULL_DEPTH};
 use crate::options::table::HEAD_SCALE;
 use crate::options::{Options, Stage};
 
@@ -349,7 +349,7 @@ impl<'a> Solver<'a> {
             head: head_scale * target.head_length,
             growth,
             bounds: Bounds { strictness: if options.limits { growth } else { 0.0 }, acted: Vec::new() },
-            scales: PartCoefficients { head, head_seat: growth, ..PartCoefficients::IDENTITY },
+            scales: PartCoefficients { head, hair_taming: growth, ..PartCoefficients::IDENTITY },
         }
     }
 

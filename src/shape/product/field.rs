@@ -12,25 +12,16 @@ use super::part::{PART_COUNT, Part, PartWeights, TINY};
 use super::pieces::{Attachment, Piece};
 use super::profile::ProfileStage;
 use super::scales::{HeadScale, PartCoefficients, Scale};
-use crate::face::FaceShape;
 use crate::geometry::{Mapped, outer};
 use crate::shape::heights::Heights;
 use glam::{DMat3, DVec3};
 
-/// The head moves back by this share of its distance before the chest. D28. Seen: without, heads hang up to .032 H
-/// forward.
-const HEAD_SEAT: f64 = 0.5;
-/// The head moves back by at most so many new heads. D28. Seen: acts on none of 14; 30 % less on two.
-const HEAD_SEAT_MOST: f64 = 0.08;
 /// How far below the chin hair is as narrow as it gets, in new heads. D28. Seen: nearer, short tails lose their place
 /// behind the head.
 const HAIR_TAPERING: f64 = 0.5;
 /// Hair keeps at least this share of its depth below the chin, times the head's scale: of no length it would be a disc.
 /// D28.
 const HAIR_SHORTEST: f64 = 0.05;
-/// The height at which the chest's middle is taken, from crotch (0) to shoulder line (1). D28. Seen: ±30 % moves heads
-/// by up to .004 H.
-const CHEST_HEIGHT: f64 = 0.85;
 /// Above the shoulder line the torso's heights change at most this many times as much as the neck's. D28. Seen: less
 /// sinks collars by up to .013 H.
 const YOKE_PER_NECK: f64 = 1.5;
@@ -80,9 +71,8 @@ pub struct PartField {
     yoke_slope: f64,
     /// z about which the torso's centre line is flattened.
     hip_z: f64,
-    /// The neck's axis at the shoulder line (before, after) and how far the head moves back.
+    /// The neck's axis at the shoulder line, before and after.
     neck_z: [f64; 2],
-    head_back: f64,
     hair: Option<HairMap>,
     pieces: Vec<Affine>,
     /// What comes after the parts; `None` where nothing does.
@@ -111,7 +101,6 @@ impl PartField {
             hip_z: anatomy.centre_line.iter().map(|point| point.1).sum::<f64>()
                 / anatomy.centre_line.len() as f64,
             neck_z: [base, base],
-            head_back: 0.0,
             hair: None,
             pieces: Vec::new(),
             profile: None,
@@ -153,38 +142,38 @@ impl PartField {
     }
 
     /// Where `p` goes.
-    pub fn place(&self, p: DVec3, binding: &PartBinding, face: &FaceShape) -> DVec3 {
+    pub fn place(&self, p: DVec3, binding: &PartBinding) -> DVec3 {
         // Everything below is inlined, so that the Jacobian is not made here.
-        let by_parts = |attachment| self.blend(p, &binding.weights, attachment, face).position;
+        let by_parts = || self.blend(p, &binding.weights).position;
         match (binding.attachment, &self.profile) {
             (Attachment::Piece(piece), _) => self.with_piece(piece, p).position,
             (Attachment::Strand { piece, share }, _) => {
                 self.strand(p, binding, piece, f64::from(share)).position
             }
-            (attachment, None) => by_parts(attachment),
-            (attachment, Some(profile)) => profile.place(by_parts(attachment), binding),
+            (_, None) => by_parts(),
+            (_, Some(profile)) => profile.place(by_parts(), binding),
         }
     }
 
-    /// As [`Self::place`] without a younger face, where the parts take `p` to `by_parts` and the profile's relief goes on from there
+    /// As [`Self::place`], where the parts take `p` to `by_parts` and the profile's relief goes on from there
     /// to `smooth`.
     pub fn place_smooth(&self, p: DVec3, by_parts: DVec3, smooth: DVec3, binding: &PartBinding) -> DVec3 {
         match (binding.attachment, &self.profile) {
             (Attachment::Plain | Attachment::OnFace(_), Some(profile)) => {
                 profile.place_smooth(by_parts, smooth, binding)
             }
-            _ => self.place(p, binding, &FaceShape::None),
+            _ => self.place(p, binding),
         }
     }
 
     /// Where `p` goes, and the Jacobian there at fixed binding.
-    pub fn map(&self, p: DVec3, binding: &PartBinding, face: &FaceShape) -> Mapped {
-        let by_parts = |attachment| self.blend(p, &binding.weights, attachment, face);
+    pub fn map(&self, p: DVec3, binding: &PartBinding) -> Mapped {
+        let by_parts = || self.blend(p, &binding.weights);
         match (binding.attachment, &self.profile) {
             (Attachment::Piece(piece), _) => self.with_piece(piece, p),
             (Attachment::Strand { piece, share }, _) => self.strand(p, binding, piece, f64::from(share)),
-            (attachment, None) => by_parts(attachment),
-            (attachment, Some(profile)) => by_parts(attachment).then(|p| profile.map(p, binding)),
+            (_, None) => by_parts(),
+            (_, Some(profile)) => by_parts().then(|p| profile.map(p, binding)),
         }
     }
 
@@ -202,7 +191,7 @@ impl PartField {
     #[inline(never)]
     fn strand(&self, p: DVec3, binding: &PartBinding, piece: usize, share: f64) -> Mapped {
         let plain = PartBinding { attachment: Attachment::Plain, ..*binding };
-        let body = self.blend(p, &binding.weights, Attachment::Plain, &FaceShape::None);
+        let body = self.blend(p, &binding.weights);
         let body = match &self.profile {
             Some(profile) => body.then(|p| profile.map(p, &plain)),
             None => body,
@@ -215,13 +204,13 @@ impl PartField {
     }
 
     #[inline(always)]
-    fn blend(&self, p: DVec3, weights: &PartWeights, attachment: Attachment, face: &FaceShape) -> Mapped {
+    fn blend(&self, p: DVec3, weights: &PartWeights) -> Mapped {
         let mut position = DVec3::ZERO;
         let mut jacobian = DMat3::ZERO;
         let mut total = 0.0;
         for (part, &weight) in weights.iter().enumerate().filter(|&(_, &weight)| weight > 0.0) {
             let weight = f64::from(weight);
-            let to = self.part(part, p, attachment, face);
+            let to = self.part(part, p);
             position += weight * to.position;
             jacobian += to.jacobian * weight;
             total += weight;
@@ -230,12 +219,12 @@ impl PartField {
     }
 
     #[inline(always)]
-    fn part(&self, part: usize, p: DVec3, attachment: Attachment, face: &FaceShape) -> Mapped {
+    fn part(&self, part: usize, p: DVec3) -> Mapped {
         match part {
             TORSO => self.torso(p),
             NECK => self.neck(p),
-            HEAD => self.head(p, attachment, face, false),
-            HAIR => self.head(p, attachment, face, true),
+            HEAD => self.head(p, false),
+            HAIR => self.head(p, true),
             _ => self.affine[part].map(p),
         }
     }
@@ -269,61 +258,35 @@ impl PartField {
     #[inline(always)]
     fn neck(&self, p: DVec3) -> Mapped {
         let Scale { length, thickness } = self.coefficients.neck;
-        let neck = self.anatomy.proportions.neck;
-        let rise = (p.y - self.before.shoulder_line) / neck;
-        let (back, back_slope) = match rise {
-            rise if rise <= 0.0 => (0.0, 0.0),
-            rise if rise >= 1.0 => (self.head_back, 0.0),
-            rise => (self.head_back * rise, self.head_back / neck),
-        };
         let position = DVec3::new(
             self.anatomy.middle_x + thickness * (p.x - self.anatomy.middle_x),
             self.after.shoulder_line + length * (p.y - self.before.shoulder_line),
-            self.neck_z[1] + thickness * (p.z - self.neck_z[0]) - back,
+            self.neck_z[1] + thickness * (p.z - self.neck_z[0]),
         );
         let jacobian = DMat3::from_cols(
             DVec3::new(thickness, 0.0, 0.0),
-            DVec3::new(0.0, length, -back_slope),
+            DVec3::new(0.0, length, 0.0),
             DVec3::new(0.0, 0.0, thickness),
         );
         Mapped { position, jacobian }
     }
 
     #[inline(always)]
-    fn head(&self, p: DVec3, attachment: Attachment, face: &FaceShape, is_hair: bool) -> Mapped {
-        let to = match &self.hair {
+    fn head(&self, p: DVec3, is_hair: bool) -> Mapped {
+        match &self.hair {
             Some(hair) if is_hair && p.y < self.before.chin => hair.map(p),
             _ => self.affine[HEAD].map(p),
-        };
-        if let Attachment::OnFace(centre) = &attachment {
-            return Mapped { position: to.position + self.shift_on_face(centre, face), ..to };
         }
-        to.then(|p| face.map(p))
     }
 
-    /// How far the face map moves what stands at `centre` at rest.
-    // Not inlined: see `FaceShape::map`.
-    #[inline(never)]
-    fn shift_on_face(&self, centre: &DVec3, face: &FaceShape) -> DVec3 {
-        let centre = self.affine[HEAD].map(*centre).position;
-        face.map(centre).position - centre
-    }
-
-    /// The head is scaled about the chin's level on the neck's axis, and moved back over the chest.
+    /// The head is scaled about the chin's level on the neck's axis.
     fn place_head(&mut self) {
         let anatomy = &self.anatomy;
         let HeadScale { height, width, depth } = self.coefficients.head;
         let axis_z = anatomy.head_joint.z;
         let from = DVec3::new(anatomy.middle_x, self.before.chin, axis_z);
         let z = self.neck_z[1] + self.coefficients.neck.thickness * (axis_z - self.neck_z[0]);
-        let head_centre = z + depth * (anatomy.head_centre.z - axis_z);
-        let chest_y = self.before.crotch + CHEST_HEIGHT * (self.before.shoulder_line - self.before.crotch);
-        let chest = DVec3::new(anatomy.middle_x, chest_y, anatomy.centre_z(chest_y).0);
-        let chest_z = self.torso(chest).position.z;
-        let most = HEAD_SEAT_MOST * height * anatomy.proportions.head_length;
-        let back = self.coefficients.head_seat * (HEAD_SEAT * (head_centre - chest_z)).clamp(0.0, most);
-        self.head_back = back;
-        let to = DVec3::new(anatomy.middle_x, self.after.chin, z - back);
+        let to = DVec3::new(anatomy.middle_x, self.after.chin, z);
         let linear = DMat3::from_diagonal(DVec3::new(width, height, depth));
         self.affine[HEAD] = Affine { from, to, linear };
     }
@@ -366,13 +329,13 @@ impl PartField {
             scales.head,
             scales.neck.thickness,
             HAIR_TAPERING * (after.crown - after.chin),
-            scales.head_seat,
+            scales.hair_taming,
         )
     }
 
     /// A piece goes where the body carries its anchor, as large as the body is there.
     fn piece_map(&self, piece: &Piece) -> Affine {
-        let to = self.blend(piece.anchor, &piece.weights, Attachment::Plain, &FaceShape::None);
+        let to = self.blend(piece.anchor, &piece.weights);
         let mut scale = to.local_scale();
         if piece.lowest >= self.before.sole && piece.anchor.y > piece.lowest {
             // What did not reach the ground does not reach below it.

@@ -3,7 +3,7 @@
 use super::anatomy::Anatomy;
 use crate::character::{Character, MeshKind, Role};
 use crate::face::head::{Head, HeadFrame, HeadParts};
-use crate::face::seat::SeatSources;
+use crate::face::outline::OutlineSources;
 use crate::geometry::SEAM;
 use crate::shape::field::Binding;
 use crate::shape::figure::Figure;
@@ -44,34 +44,37 @@ pub fn head_frame(anatomy: &Anatomy) -> HeadFrame {
     }
 }
 
-/// How far beside and below the head its seat is measured, in head lengths: more than the parts' maps make of a head's
+/// How far beside and below the head its outline is measured, in head lengths: more than the parts' maps make of a head's
 /// width, and the chest of a child's body.
-const SEAT_REACH: (f64, f64) = (0.4, 1.2);
+const OUTLINE_REACH: (f64, f64) = (0.66, 1.2);
 
-/// What the seat of a figure's head is measured on: the middle of what is not an arm.
-pub fn seat_sources(figure: &Figure, anatomy: &Anatomy, bindings: &[Binding]) -> SeatSources {
+/// What the outline of a figure's head is measured on: the head, and the middle of what is not an arm.
+pub fn outline_sources(figure: &Figure, anatomy: &Anatomy, bindings: &[Binding]) -> OutlineSources {
     let frame = head_frame(anatomy);
+    let share = |vertex: usize| bindings[vertex].of_head_and_neck();
     let is_near = |vertex: usize| {
         let p = frame.to_unit(figure.positions[vertex]);
         let arms = bindings[vertex].arms_weight();
-        p.x.abs() < SEAT_REACH.0 && p.y > -SEAT_REACH.1 && arms < 0.5
+        p.x.abs() < OUTLINE_REACH.0 && p.y > -OUTLINE_REACH.1 && arms < 0.5
     };
-    let is_near: Vec<bool> = (0..figure.positions.len()).map(is_near).collect();
-    let of = |choose: &dyn Fn(MeshKind) -> bool| {
-        figure.triangles_where(|vertex| is_near[vertex] && choose(figure.kind(vertex)))
+    let near: Vec<(bool, bool)> =
+        (0..figure.positions.len()).map(|vertex| (is_near(vertex), share(vertex) > 0.5)).collect();
+    let of = |of_head: bool, choose: &dyn Fn(MeshKind) -> bool| {
+        figure.triangles_where(|vertex| near[vertex] == (true, of_head) && choose(figure.kind(vertex)))
     };
-    let mut sources = SeatSources {
-        bare: of(&|kind| !kind.is_carried()),
-        with_hair: of(&|kind| kind != MeshKind::Accessory),
-        ..SeatSources::default()
+    let mut sources = OutlineSources {
+        bare: of(true, &|kind| !kind.is_carried()),
+        with_hair: of(true, &|kind| kind != MeshKind::Accessory),
+        trunk: of(false, &|kind| !kind.is_carried()),
+        ..OutlineSources::default()
     };
     let mut numbers = vec![u32::MAX; figure.positions.len()];
-    for corner in sources.bare.iter_mut().chain(&mut sources.with_hair).flatten() {
+    let all = sources.bare.iter_mut().chain(&mut sources.with_hair).chain(&mut sources.trunk);
+    for corner in all.flatten() {
         let number = &mut numbers[*corner as usize];
         if *number == u32::MAX {
             *number = sources.vertices.len() as u32;
             sources.vertices.push(*corner);
-            sources.shares.push(bindings[*corner as usize].of_head_and_neck() as f32);
         }
         *corner = *number;
     }

@@ -35,8 +35,8 @@ pub struct HeadScale {
 pub struct PartCoefficients {
     /// The head.
     pub head: HeadScale,
-    /// How much of the way the head moves back over the chest, 0 to 1.
-    pub head_seat: f64,
+    /// How far hair below the chin is kept within the reach that it has on the head, 0 to 1.
+    pub hair_taming: f64,
     /// The neck.
     pub neck: Scale,
     /// The torso.
@@ -63,7 +63,7 @@ impl PartCoefficients {
     /// Leaves everything as it is.
     pub const IDENTITY: Self = Self {
         head: HeadScale { height: 1.0, width: 1.0, depth: 1.0 },
-        head_seat: 0.0,
+        hair_taming: 0.0,
         neck: Scale::IDENTITY,
         torso: Scale::IDENTITY,
         shoulder_spread: 1.0,

@@ -1,0 +1,222 @@
+//! Kernels: what one row of the head's table does to space, and the flow that all of them make together.
+//!
+//! Points follow the sum of the kernels' velocities for one unit of time. A flow of a smooth field does not fold, however
+//! strong, where added displacements do. A point's way is cut into [`STEPS`] straight pieces (the midpoint rule), each of
+//! which moves a point by less than its distance from its neighbours (see the tests), so each is one to one, and so is the
+//! way. The places after whole pieces are kept for each vertex: youth is how far along them it goes.
+
+use super::dual::{Dual, Number, step};
+use glam::{DMat3, DVec3};
+
+/// Straight pieces of a point's way.
+pub const STEPS: usize = 12;
+
+/// Where a point is after each piece of its way, in head lengths.
+pub type Way = [DVec3; STEPS];
+
+/// A part of space that moves: about a centre, as far as it reaches, fully within its plateau. Head lengths; rates per whole
+/// way.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Kernel {
+    /// What it acts around, at first.
+    pub centre: DVec3,
+    /// How far that moves.
+    pub drift: DVec3,
+    /// 1 over its reach towards lower coordinates, at first; 0 has no end.
+    pub per_low: DVec3,
+    /// Towards higher ones.
+    pub per_high: DVec3,
+    /// The part of its reach within which it acts fully, 0 (a bell) to below 1.
+    pub plateau: f64,
+    /// ln of the scales about its centre.
+    pub rates: DVec3,
+    /// How far it moves what is in it.
+    pub shift: DVec3,
+    /// How much it bends what is in it: upwards, over the square of the distance from the middle.
+    pub bend: f64,
+    /// A ramp of depth: where it begins, and 1 over how much further on it is whole; 0 for none, below 0 towards the back.
+    pub ramp: [f64; 2],
+    /// True where what comes after it in the table takes only what it leaves: its plateau moves as one.
+    pub holds: bool,
+}
+
+impl Kernel {
+    /// About `centre`, as far as `reach` on both sides; `f64::INFINITY` has no end.
+    pub fn about(centre: DVec3, reach: DVec3) -> Self {
+        Self { centre, per_low: reach.recip(), per_high: reach.recip(), ..Self::default() }
+    }
+
+    /// The same with another reach upwards and downwards.
+    pub fn between(mut self, down: f64, up: f64) -> Self {
+        (self.per_low.y, self.per_high.y) = (1.0 / down, 1.0 / up);
+        self
+    }
+
+    /// The same, that begins at the depth `from` and is whole at `to`.
+    pub fn ramp(self, from: f64, to: f64) -> Self {
+        Self { ramp: [from, 1.0 / (to - from)], ..self }
+    }
+
+    /// The same on the other side of the middle.
+    pub fn mirrored(&self) -> Self {
+        let mirror = DVec3::new(-1.0, 1.0, 1.0);
+        let mut other = *self;
+        (other.centre, other.drift, other.shift) =
+            (mirror * self.centre, mirror * self.drift, mirror * self.shift);
+        (other.per_low.x, other.per_high.x) = (self.per_high.x, self.per_low.x);
+        other
+    }
+
+    /// The same at `time`, 0 to 1. What holds grows with what is in it, and never reaches over the middle.
+    fn at(&self, time: f64) -> Self {
+        let mut now = Self { centre: self.centre + time * self.drift, ..*self };
+        if self.holds {
+            let grown = DVec3::from((-time * self.rates).to_array().map(f64::exp));
+            (now.per_low, now.per_high) = (self.per_low * grown, self.per_high * grown);
+            // What is about the middle itself reaches to both sides.
+            let to_middle = now.centre.x.abs().recip();
+            match now.centre.x {
+                x if x > 0.0 => now.per_low.x = now.per_low.x.max(to_middle),
+                x if x < 0.0 => now.per_high.x = now.per_high.x.max(to_middle),
+                _ => {}
+            }
+        }
+        now
+    }
+
+    /// How much of it acts at `p`, 0 to 1.
+    pub fn weight<N: Number>(&self, p: [N; 3]) -> N {
+        let mut square = N::constant(0.0);
+        for (axis, &along) in p.iter().enumerate() {
+            let from = along - self.centre[axis];
+            let per_reach = if from.value() < 0.0 { self.per_low[axis] } else { self.per_high[axis] };
+            let share = from * per_reach;
+            square = square + share * share;
+            if square.value() >= 1.0 {
+                return N::constant(0.0);
+            }
+        }
+        let mut weight = N::constant(1.0);
+        if self.plateau == 0.0 {
+            weight = bell(square.root());
+        } else if square.value() > self.plateau * self.plateau {
+            weight = step((-square.root() + 1.0) * (1.0 / (1.0 - self.plateau)));
+        }
+        if self.ramp[1] != 0.0 {
+            weight = weight * step((p[2] - self.ramp[0]) * self.ramp[1]);
+        }
+        weight
+    }
+
+    /// Adds its share of what is `left` to the velocity at `p`.
+    fn add<N: Number>(&self, p: [N; 3], left: &mut N, velocity: &mut [N; 3]) {
+        let weight = self.weight(p);
+        if weight.value() <= 0.0 {
+            return;
+        }
+        let share = weight * *left;
+        for axis in 0..3 {
+            let moves = (p[axis] - self.centre[axis]) * self.rates[axis] + self.shift[axis];
+            velocity[axis] = velocity[axis] + share * moves;
+        }
+        velocity[1] = velocity[1] + share * p[0] * p[0] * self.bend;
+        if self.holds {
+            *left = *left - share;
+        }
+    }
+}
+
+/// A cubic B-spline: 1 at 0, 0 from 1 on. Bells half their reach apart add up to 1.5, and follow what changes evenly without
+/// steps.
+fn bell<N: Number>(t: N) -> N {
+    let rest = -t + 1.0;
+    if t.value() > 0.5 { rest * rest * rest * 2.0 } else { t * t * rest * -6.0 + 1.0 }
+}
+
+/// The velocity of all `kernels` at `p`.
+pub fn velocity<N: Number>(kernels: &[Kernel], p: [N; 3]) -> [N; 3] {
+    let mut velocity = [N::constant(0.0); 3];
+    let mut left = N::constant(1.0);
+    for kernel in kernels {
+        kernel.add(p, &mut left, &mut velocity);
+        if left.value() <= 0.0 {
+            break;
+        }
+    }
+    velocity
+}
+
+/// Kernels ready for points to follow them.
+#[derive(Clone, Debug, Default)]
+pub struct Follower {
+    /// At the start and in the middle of each piece of the way.
+    moments: Vec<[Vec<Kernel>; 2]>,
+}
+
+impl Follower {
+    /// Ready to follow `kernels`, in the order of the table.
+    pub fn new(kernels: &[Kernel]) -> Self {
+        let at = |time: f64| kernels.iter().map(|kernel| kernel.at(time)).collect();
+        let start = |piece: usize| piece as f64 / STEPS as f64;
+        Self {
+            moments: (0..STEPS)
+                .map(|piece| [at(start(piece)), at(start(piece) + 0.5 / STEPS as f64)])
+                .collect(),
+        }
+    }
+
+    /// The way of `p`.
+    pub fn way(&self, p: DVec3) -> Way {
+        let mut place = p.to_array();
+        std::array::from_fn(|piece| {
+            place = self.piece(place, piece, 1.0);
+            DVec3::from_array(place)
+        })
+    }
+
+    /// Where `p` is after the share `youth` of its way.
+    pub fn place(&self, p: DVec3, youth: f64) -> DVec3 {
+        DVec3::from_array(self.follow(p.to_array(), youth))
+    }
+
+    /// As [`Follower::place`], with the Jacobian.
+    pub fn map(&self, p: DVec3, youth: f64) -> (DVec3, DMat3) {
+        Dual::split(self.follow(Dual::point(p), youth))
+    }
+
+    fn follow<N: Number>(&self, mut place: [N; 3], youth: f64) -> [N; 3] {
+        let (whole, rest) = pieces(youth);
+        for piece in 0..whole {
+            place = self.piece(place, piece, 1.0);
+        }
+        if rest > 0.0 { self.piece(place, whole, rest) } else { place }
+    }
+
+    fn piece<N: Number>(&self, p: [N; 3], piece: usize, share: f64) -> [N; 3] {
+        let [start, middle] = &self.moments[piece];
+        const STEP: f64 = 1.0 / STEPS as f64;
+        let first = velocity(start, p);
+        let half = [0, 1, 2].map(|axis| p[axis] + first[axis] * (0.5 * STEP));
+        let moves = velocity(middle, half);
+        [0, 1, 2].map(|axis| p[axis] + moves[axis] * (share * STEP))
+    }
+
+    /// The slope of the velocity at the start of a piece.
+    pub fn slope(&self, p: DVec3, piece: usize) -> DMat3 {
+        Dual::split(velocity(&self.moments[piece][0], Dual::point(p))).1
+    }
+}
+
+/// Whole pieces of the way, and what part of the next one.
+fn pieces(youth: f64) -> (usize, f64) {
+    let along = youth.clamp(0.0, 1.0) * STEPS as f64;
+    let whole = (along as usize).min(STEPS);
+    (whole, along - whole as f64)
+}
+
+/// Where a point that starts at `p` is after the share `youth` of its way.
+pub fn along(p: DVec3, way: &Way, youth: f64) -> DVec3 {
+    let (whole, rest) = pieces(youth);
+    let last = if whole == 0 { p } else { way[whole - 1] };
+    if rest > 0.0 { last + rest * (way[whole] - last) } else { last }
+}
