@@ -67,6 +67,7 @@ class Deformation:
         self.deformer = superdeform.Deformer(figure.character, style, **options)
         self.whole = self.deformer.room(tangents=False)
         self.quick = [superdeform.Deformed(mesh.positions, None, None, None) for mesh in self.whole]
+        self.placed = {source.name: source.to_world(source.local) for source in figure.sources}
 
     def set(self, style, options):
         """Changes style and options; what does not depend on the change is not done again."""
@@ -74,12 +75,11 @@ class Deformation:
         self.deformer.set_options(**options)
 
     def positions(self):
-        """Places of each mesh in world space, by its name; nothing else, for while a slider moves."""
+        """Places of each mesh in world space, by its name, until the next call; nothing else, for while a slider moves."""
         self.deformer.apply(self.quick)
-        placed = {source.name: source.to_world(source.local) for source in self.figure.sources}
         for (source, _, of), mesh in zip(self.figure.parts, self.quick):
-            placed[source.name][of] = mesh.positions
-        return placed
+            self.placed[source.name][of] = mesh.positions
+        return self.placed
 
     def everything(self):
         """Of each mesh by its name: places, what each shape key adds, normals of the split vertices."""

@@ -26,10 +26,15 @@ class Preview:
         collection, made, self.notes = write.character(context, self.deformation, f"{armature.name} preview")
         self.collection = collection.name
         self.made = {name: thing.name for name, thing in made.items()}
+        self._look_back(made)
         # What is hidden is no longer selected.
         self.before = {name: (bpy.data.objects[name].hide_get(), bpy.data.objects[name].select_get()) for name in self.made}
         for name in self.made:
             bpy.data.objects[name].hide_set(True)
+
+    def _look_back(self, made):
+        """Keeps what takes world space to that of each mesh, which stays while a slider moves."""
+        self.backs = {source.name: write.back_of(source, made[source.name]) for source in self.deformation.figure.sources}
 
     def objects(self):
         """The copies by the names of what they were made from; None where one is gone."""
@@ -52,7 +57,7 @@ class Preview:
         placed = self.deformation.positions()
         for source in self.deformation.figure.sources:
             thing, places = made[source.name], placed[source.name]
-            write.put(thing.data, places, write.back_of(source, thing))
+            write.put(thing.data, places, self.backs[source.name])
             thing.data.update()
 
     def settle(self, context, given):
@@ -65,6 +70,7 @@ class Preview:
         places = {name: rest_world(armature, bpy.data.objects[name]) for name in made}
         with copies.object_mode(context):
             write.reshape(context, self.deformation, armature, made, places)
+        self._look_back(made)
 
     def remove(self):
         """Takes the copies away and shows what they were made from."""

@@ -166,9 +166,18 @@ def _write_mesh(source, data, back, places, keys, normals):
         data.update()
 
 
+def _mapped(places, matrix):
+    """Places through a matrix, as floats. Not by `@`: BLAS lets its threads spin after a product, a fifth of a slider's frame."""
+    made = np.empty_like(places)
+    x, y, z = places.T
+    for axis, row in enumerate(matrix[:3].astype(np.float32)):
+        made[:, axis] = x * row[0] + y * row[1] + z * row[2] + row[3]
+    return made
+
+
 def put(data, places, back):
     """Writes the places of a mesh, a hundred times as fast as through its vertices, and those of its first key; gives them."""
-    local = (places @ back[:3, :3].T + back[:3, 3]).astype(np.float32)
+    local = _mapped(places, back)
     data.attributes["position"].data.foreach_set("vector", local.reshape(-1))
     if data.shape_keys:
         data.shape_keys.reference_key.data.foreach_set("co", local.reshape(-1))

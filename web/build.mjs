@@ -17,11 +17,11 @@ const read = (name) => fs.readFileSync(path.join(here, name), 'utf8');
 const LANGUAGES = ['en', 'ja', 'ko', 'zh'];
 const PARTS = { 'superdeform.wasm': wasm, 'sample.glb': path.join(here, '../tests/data/quaternius_female_dress_unrigged.glb') };
 
-/** The page's own words, and of the Unity window's the names of options and what warnings tell. */
+/** The page's own words, and of the Unity window's the names of options and parts and what warnings tell. */
 function words() {
   const all = LANGUAGES.map((language) => {
     const unity = JSON.parse(read(`../unity/Editor/Localization/${language}.json`));
-    const shared = Object.entries(unity).filter(([key]) => /^(option|warning)\./.test(key));
+    const shared = Object.entries(unity).filter(([key]) => /^(option|warning|group|tune)\./.test(key));
     return [language, { ...Object.fromEntries(shared), ...JSON.parse(read(`src/words/${language}.json`)) }];
   });
   return JSON.stringify(Object.fromEntries(all));

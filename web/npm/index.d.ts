@@ -38,6 +38,8 @@ export interface Options {
   height?: 'style' | 'keep' | number;
   mode?: 'product' | 'paper';
   stage?: 'length' | 'thickness' | 'face';
+  /** Parts of the body by name, such as upper_arm, hand, foot: a scale of 1 keeps the part as it is, a transfer of 1 takes all of the style. */
+  groups?: Record<string, { length_scale?: number; thickness_scale?: number; length_transfer?: number; thickness_transfer?: number }>;
 }
 
 export interface Result {

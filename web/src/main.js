@@ -4,7 +4,8 @@ import { Character, gathered } from './character.js';
 import { dropped, save } from './files.js';
 import { FIRST, History } from './history.js';
 import { notes } from './notes.js';
-import { ROWS, Slider } from './sliders.js';
+import { GROUPS, groupSliders, ROWS } from './rows.js';
+import { Slider } from './sliders.js';
 import { Stage } from './stage.js';
 import { Shown } from './shown.js';
 import { POSES } from './poses.js';
@@ -208,8 +209,8 @@ async function result() {
   $('heads-before').textContent = t('heads', heads(report.target));
   $('heads-after').textContent = t('heads', heads(report.result));
   $('busy-text').textContent = t('status.ready', of.name, heads(report.target), heads(report.result));
+  settleParts(report);
   showNotes();
-  showActions();
 }
 
 function showNotes() {
@@ -243,9 +244,37 @@ function set(settings, isLast) {
 function changed(name, value, isLast) {
   const next = { style: shown.style, options: { ...shown.options } };
   if (name === 'heads') next.style = value === null ? FIRST.style : { heads: value };
-  else if (value === null) delete next.options[name];
-  else next.options[name] = value;
+  else put(next.options, name, value);
   set(next, isLast);
+}
+
+/** Sets an option, or a part's own (`hand.length_scale`); `null`: it is unset. */
+function put(options, name, value) {
+  const [group, part] = name.split('.');
+  if (part) {
+    const groups = { ...options.groups, [group]: { ...options.groups?.[group] } };
+    put(groups[group], part, value);
+    put(groups, group, Object.keys(groups[group]).length ? groups[group] : null);
+    return put(options, 'groups', Object.keys(groups).length ? groups : null);
+  }
+  if (value === null) delete options[name];
+  else options[name] = value;
+}
+
+/** What an option, or a part's own, is set to; `null`: unset. */
+function valueOf(options, name) {
+  const [group, part] = name.split('.');
+  return (part ? options.groups?.[group]?.[part] : options[name]) ?? null;
+}
+
+/** Sliders of parts stand at what the style makes of each part until they are moved. */
+function settleParts({ coefficients }) {
+  for (const [name, slider] of sliders) {
+    const [group, part] = name.split('.');
+    const found = coefficients?.[group]?.[part];
+    if (found !== undefined && valueOf(shown.options, name) === null) slider.settle(found);
+  }
+  showSettings();
 }
 
 /** The number of heads that a style stands for. */
@@ -255,7 +284,7 @@ function headsOf({ heads, built_in: name, reference: like }) {
 
 function showSettings() {
   for (const [name, slider] of sliders) {
-    slider.set(name === 'heads' ? headsOf(shown.style) : (shown.options[name] ?? null));
+    slider.set(name === 'heads' ? headsOf(shown.style) : valueOf(shown.options, name));
   }
   for (const button of $('styles').children) button.setAttribute('aria-pressed', shown.style.built_in === button.value);
   $('like').setAttribute('aria-pressed', !!shown.style.reference);
@@ -293,8 +322,15 @@ function buildSettings(options) {
     element.dataset.t = key;
     return element;
   };
-  $('more-sliders').append(title('more.face'), ...ROWS.face.map(add), title('more.body'), ...ROWS.body.map(add));
-  $('more-sliders').append(box('height', 'option.height.keep', 'keep', 'style'), box('repair', 'option.repair', 'on', 'on'));
+  const boxes = () => [box('height', 'option.height.keep', 'keep', 'style'), box('repair', 'option.repair', 'on', 'on')];
+  const parts = (groups) => groupSliders(groups).map(add);
+  const more = {
+    'tune.face': () => ROWS.face.map(add),
+    'tune.hair': () => ROWS.hair.map(add),
+    'tune.body': () => [...ROWS.body.map(add), ...boxes(), ...parts(GROUPS.body)],
+    'tune.ends': () => parts(GROUPS.ends),
+  };
+  for (const [key, rows] of Object.entries(more)) $('more-sliders').append(title(key), ...rows());
   for (const name of STYLES) {
     const button = Object.assign(document.createElement('button'), { type: 'button', value: name, textContent: name.slice(2) });
     button.addEventListener('click', () => set({ ...shown, style: { built_in: name } }, true));

@@ -1,14 +1,24 @@
 // Rows of a slider with its name, its number and a way back.
+import { GROUPS } from './rows.js';
 import { t } from './words.js';
 
 const percent = (value) => `${Math.round(100 * value)} %`;
 
-/** What stands where. Ranges and defaults come from the library; a slider may show less of a range than there is. */
-export const ROWS = {
-  main: ['heads', 'amount', 'youth', 'head_scale', 'hair_length'],
-  face: ['youth_eye', 'youth_lower', 'youth_nose', 'youth_cheek', 'youth_jaw', 'youth_skull', 'youth_ear', 'face_squash', 'smile'],
-  body: ['profile', 'seat', 'hair_lay'],
-};
+const ONLY = { ...GROUPS.body, ...GROUPS.ends };
+/** Of a part's number: 1 keeps what it is. */
+const PART = { low: 0.1, high: 2, text: (value) => value.toFixed(2) };
+
+/** What a slider is called, and what it does. */
+function named(name) {
+  const [group, part] = name.split('.');
+  if (!part) {
+    const key = name === 'heads' ? 'slider.heads' : `option.${name}`;
+    return [t(key), name === 'head_scale' ? '' : t(`${key}.tooltip`)];
+  }
+  const is = ONLY[group];
+  const title = is ? t(`group.${is}`, t(`group.${group}`)) : `${t(`group.${group}`)} · ${t(`option.${part}`)}`;
+  return [title, t(is ? `tune.${is}.tooltip` : `option.${part}.tooltip`)];
+}
 
 const SHOWN = {
   heads: { low: 1.8, high: 6, step: 0.1, text: (value) => value.toFixed(1) },
@@ -19,9 +29,9 @@ const SHOWN = {
 
 export class Slider {
   /** `changed(name, value, isLast)`: while it moves, and when it is let go. */
-  constructor(name, row, changed) {
+  constructor(name, row = { default: 1 }, changed) {
     Object.assign(this, { name, fallback: row.default, changed });
-    const { low, high, step, text } = { low: row.low, high: row.high, step: 0.01, text: percent, ...SHOWN[name] };
+    const { low, high, step, text } = { low: row.low, high: row.high, step: 0.01, text: percent, ...(name.includes('.') ? PART : SHOWN[name]) };
     this.text = text;
     const input = Object.assign(document.createElement('input'), { type: 'range', min: low, max: high, step, id: `slider-${name}` });
     const label = Object.assign(document.createElement('label'), { htmlFor: input.id });
@@ -46,16 +56,22 @@ export class Slider {
   }
 
   relabel() {
-    const key = this.name === 'heads' ? 'slider.heads' : `option.${this.name}`;
-    this.label.textContent = t(key);
-    this.element.title = this.name === 'head_scale' ? '' : t(`${key}.tooltip`);
+    const [title, tooltip] = named(this.name);
+    this.label.textContent = title;
+    this.element.title = tooltip;
     if (this.fallback !== null) this.back.title = t('reset.one', this.text(this.fallback));
-    this.back.setAttribute('aria-label', `${t(key)}: ${this.back.title}`);
+    this.back.setAttribute('aria-label', `${title}: ${this.back.title}`);
+  }
+
+  /** What it is unless set. */
+  settle(fallback) {
+    this.fallback = fallback;
+    this.relabel();
   }
 
   /** Shows a value; `null`: what it is unless set. */
-  set(value, fallback = this.fallback) {
-    const now = value ?? fallback;
+  set(value) {
+    const now = value ?? this.fallback;
     this.input.value = now;
     this.output.textContent = this.text(now);
     this.input.setAttribute('aria-valuetext', this.output.textContent);

@@ -1,7 +1,7 @@
 // Two characters side by side, seen from the same place at the same scale.
 import {
-  CanvasTexture, CircleGeometry, Color, DirectionalLight, HemisphereLight, Mesh, MeshBasicMaterial, PerspectiveCamera, Scene,
-  SphereGeometry, Vector2, Vector3, WebGLRenderer,
+  CanvasTexture, CircleGeometry, Color, DirectionalLight, HemisphereLight, Mesh, MeshBasicMaterial, NeutralToneMapping,
+  PerspectiveCamera, Scene, SphereGeometry, Vector2, Vector3, WebGLRenderer,
 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 
@@ -12,8 +12,8 @@ const SETTLING = 1.5;
 
 function half() {
   const scene = new Scene();
-  scene.add(new HemisphereLight(0xffffff, 0xe6dcd2, 2.9));
-  const sun = new DirectionalLight(0xffffff, 1.9);
+  scene.add(new HemisphereLight(0xffffff, 0xb4a8b4, 2.8));
+  const sun = new DirectionalLight(0xffffff, 2.4);
   sun.position.set(1, 2, 3);
   scene.add(sun);
   const ground = new Mesh(new CircleGeometry(1, 48), new MeshBasicMaterial({ map: shade(), transparent: true, depthWrite: false }));
@@ -50,6 +50,8 @@ export class Stage {
   constructor(canvas) {
     this.canvas = canvas;
     this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true, preserveDrawingBuffer: true });
+    // What is white keeps its shape in a light that is right for what is dark.
+    this.renderer.toneMapping = NeutralToneMapping;
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.camera = new PerspectiveCamera(26, 1, 0.01, 1000);
     this.controls = new OrbitControls(this.camera, canvas);

@@ -1,4 +1,4 @@
-// The page's sentences in the user's language; names of options and what warnings tell are those of the Unity window.
+// The page's sentences in the user's language; names of options and parts and what warnings tell are those of the Unity window.
 import { words } from 'words';
 
 const chosen = () => {

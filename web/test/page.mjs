@@ -164,6 +164,22 @@ if (!quick) {
     await page.keyboard.press('Control+z');
     await rested(page);
   });
+  await check('a part of the body has its own sliders', async () => {
+    const report = async () => JSON.parse(fs.readFileSync(await downloaded(page, '#report'), 'utf8')).coefficients.upper_arm;
+    const shows = () => page.inputValue('#slider-upper_arm\\.length_scale').then(Number);
+    const before = await report();
+    that(Math.abs((await shows()) - before.length_scale) <= 0.005, `the slider shows ${await shows()} where the style makes ${before.length_scale}`);
+    await slide(page, 'upper_arm.length_scale', 0.9);
+    await slide(page, 'upper_arm.thickness_scale', 0.8);
+    await rested(page);
+    const after = await report();
+    that(after.length_scale === 0.9 && after.thickness_scale === 0.8, `the upper arms have ${JSON.stringify(after)}`);
+    await page.keyboard.press('Control+z');
+    await page.keyboard.press('Control+z');
+    await rested(page);
+    that(JSON.stringify(await report()) === JSON.stringify(before), 'undone, they are not as before');
+    that(Math.abs((await shows()) - before.length_scale) <= 0.005, `undone, the slider shows ${await shows()}`);
+  });
   await check('a slider is followed while it moves', async () => {
     const frames = {};
     for (const [name, from, to] of [['amount', 0.3, 1], ['heads', 2.2, 3]]) {

@@ -1,9 +1,10 @@
 //! Options and styles as JSON names them: by the names of the library's table.
 
 use serde_json::{Map, Value, json};
+use std::collections::BTreeMap;
 use superdeform::options::table::Default as Unset;
 use superdeform::options::{Scope, TABLE, Values};
-use superdeform::{BodyShape, Error, ErrorKind, Options, Result, Style};
+use superdeform::{BodyShape, Error, ErrorKind, GroupSettings, Options, Result, Style};
 use superdeform_host::conversion::Reference;
 
 fn refused(message: String) -> Error {
@@ -30,10 +31,11 @@ superdeform::number_options!(places);
 /// Options that are words.
 const WORDS: [&str; 5] = ["mode", "stage", "face_curve", "height", "repair"];
 
-/// The library's options as `asked` has them: `{"amount": 0.5, "repair": "off"}`.
+/// The library's options as `asked` has them: `{"amount": 0.5, "repair": "off", "groups": {"hand": {"length_scale": 0.6}}}`.
 ///
 /// # Errors
-/// One sentence: a name that is none, a word or a number that it cannot be. Ranges are checked where options are set.
+/// One sentence: a name that is none, a word or a number that it cannot be. Ranges, and which groups there are, are checked
+/// where options are set.
 pub fn options(asked: &Value) -> Result<Options> {
     let mut options = Options::default();
     let none = Map::new();
@@ -44,6 +46,7 @@ pub fn options(asked: &Value) -> Result<Options> {
             "stage" => options.stage = text.parse()?,
             "face_curve" => options.face_curve = text.parse()?,
             "repair" => options.repair = text.parse()?,
+            "groups" => options.groups = groups(value)?,
             "height" => {
                 options.height = value.as_f64().map_or(text.to_string(), |x| x.to_string()).parse()?
             }
@@ -59,6 +62,29 @@ pub fn options(asked: &Value) -> Result<Options> {
         }
     }
     Ok(options)
+}
+
+fn groups(asked: &Value) -> Result<BTreeMap<String, GroupSettings>> {
+    let expected = || refused(format!("groups is {asked}: give groups by name, and numbers in each"));
+    let settings = |(group, asked): (&String, &Value)| {
+        let mut settings = GroupSettings::default();
+        for (name, value) in asked.as_object().ok_or_else(expected)? {
+            let place = match name.as_str() {
+                "length_scale" => &mut settings.length_scale,
+                "thickness_scale" => &mut settings.thickness_scale,
+                "length_transfer" => &mut settings.length_transfer,
+                "thickness_transfer" => &mut settings.thickness_transfer,
+                _ => {
+                    let names = settings.numbers().map(|(name, _)| name).join(", ");
+                    return Err(refused(format!("group {group} has no {name}: name one of {names}")));
+                }
+            };
+            let number = || refused(format!("group {group}: {name} is {value}: give a number"));
+            *place = Some(value.as_f64().ok_or_else(number)?);
+        }
+        Ok((group.clone(), settings))
+    };
+    asked.as_object().ok_or_else(expected)?.iter().map(settings).collect()
 }
 
 fn is_known(name: &str) -> bool {
@@ -116,6 +142,13 @@ mod tests {
     use super::*;
     use superdeform::options::Repair;
 
+    const NO_GROUPS: [fn() -> Value; 4] = [
+        || json!("hand"),
+        || json!({"hand": 2}),
+        || json!({"hand": {"length_scale": "long"}}),
+        || json!({"hand": {"beauty": 1}}),
+    ];
+
     #[test]
     fn every_plain_number_of_the_table_can_be_set_and_others_are_refused() {
         for (name, _) in Options::default().numbers() {
@@ -127,8 +160,19 @@ mod tests {
             }
         }
         assert_eq!(options(&json!({"repair": "kept"})).unwrap().repair, Repair::Kept);
-        for wrong in [json!({"amount": "much"}), json!({"beauty": 1}), json!({"repair": "perhaps"})] {
+        let wrong = [json!({"amount": "much"}), json!({"beauty": 1}), json!({"repair": "perhaps"})];
+        for wrong in wrong.into_iter().chain(NO_GROUPS.map(|groups| json!({"groups": groups()}))) {
             assert!(options(&wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn every_number_of_a_group_can_be_set() {
+        for (name, _) in GroupSettings::default().numbers() {
+            let set = options(&json!({"groups": {"hand": {name: 0.25}}})).unwrap();
+            let there: Vec<_> =
+                set.groups["hand"].numbers().into_iter().filter(|(_, set)| set.is_some()).collect();
+            assert_eq!(there, [(name, Some(0.25))]);
         }
     }
 
