@@ -12,8 +12,9 @@ const COUNTS = { SCALAR: 1, VEC2: 2, VEC3: 3, VEC4: 4, MAT4: 16 };
 /** Names of shapes in files that have no expressions of their own. */
 const SHAPES = { blink: /^(blink|eyes?_?closed?|vrc\.blink|fcl_eye_close|まばたき)$/i, aa: /^(aa?|vrc\.v_aa|mouth_?open|jaw_?open|fcl_mth_a|あ)$/i };
 
-/** The JSON of a GLB and where its binary begins. */
-function parts(bytes) {
+/** The JSON of a GLB and its binary, which begins where numbers may. */
+function parts(given) {
+  const bytes = given.byteOffset % 4 ? given.slice() : given;
   const view = new DataView(bytes.buffer, bytes.byteOffset);
   const size = view.getUint32(12, true);
   const json = JSON.parse(new TextDecoder().decode(bytes.subarray(20, 20 + size)));
@@ -26,16 +27,16 @@ function numbers({ json, binary }, index) {
   const view = json.bufferViews[accessor.bufferView];
   if (!view || accessor.sparse) return null;
   const [Array, items] = [ARRAYS[accessor.componentType], COUNTS[accessor.type]];
-  const packed = items * Array.BYTES_PER_ELEMENT;
-  const [stride, from] = [view.byteStride ?? packed, (view.byteOffset ?? 0) + (accessor.byteOffset ?? 0)];
-  let bytes;
-  if (stride === packed) {
-    bytes = binary.slice(from, from + packed * accessor.count);
-  } else {
-    bytes = new Uint8Array(packed * accessor.count);
-    for (let i = 0; i < accessor.count; i++) bytes.set(binary.subarray(from + i * stride, from + i * stride + packed), i * packed);
+  const size = Array.BYTES_PER_ELEMENT;
+  const from = (view.byteOffset ?? 0) + (accessor.byteOffset ?? 0);
+  const step = (view.byteStride ?? items * size) / size;
+  const found = new Array(binary.buffer, binary.byteOffset + from, step * (accessor.count - 1) + items);
+  if (step === items) return { array: found.slice(), items, normalized: accessor.normalized ?? false };
+  const array = new Array(items * accessor.count);
+  for (let to = 0, at = 0; to < array.length; at += step - items) {
+    for (let item = 0; item < items; item++) array[to++] = found[at++];
   }
-  return { array: new Array(bytes.buffer), items, normalized: accessor.normalized ?? false };
+  return { array, items, normalized: accessor.normalized ?? false };
 }
 
 /** Puts numbers where the old ones are drawn from. */
