@@ -78,8 +78,7 @@ namespace SuperDeform.Editor
             int vertexCount = renderer.Vertices.Length;
             NativeArray<byte> counts = renderer.Mesh.GetBonesPerVertex();
             if (counts.Length != vertexCount) return false;
-            byte[] perVertex = counts.ToArray();
-            BoneWeight1[] all = renderer.Mesh.GetAllBoneWeights().ToArray();
+            NativeArray<BoneWeight1> all = renderer.Mesh.GetAllBoneWeights();
             int spare = Math.Max(0, Array.FindIndex(skin.Joints, joint => joint >= 0));
             if (skin.Joints[spare] < 0)
             {
@@ -93,14 +92,15 @@ namespace SuperDeform.Editor
             for (int vertex = 0; vertex < vertexCount; vertex++)
             {
                 bool lost = false;
-                for (int influence = 0; influence < perVertex[vertex]; influence++, next++)
+                for (int end = next + counts[vertex]; next < end; next++)
                 {
-                    int bone = all[next].boneIndex;
+                    BoneWeight1 influence = all[next];
+                    int bone = influence.boneIndex;
                     bool known = bone >= 0 && bone < skin.Joints.Length && skin.Joints[bone] >= 0;
-                    lost |= !known && all[next].weight > 0f;
-                    if (!known || all[next].weight == 0f) continue;
+                    lost |= !known && influence.weight > 0f;
+                    if (!known || influence.weight == 0f) continue;
                     bones.Add((uint)bone);
-                    weights.Add(all[next].weight);
+                    weights.Add(influence.weight);
                 }
                 if (weights.Count == starts[vertex])
                 {

@@ -464,7 +464,15 @@ namespace UnityEngine
         {
             return deltas != null && !(deltas[vertex].x == 0 && deltas[vertex].y == 0 && deltas[vertex].z == 0);
         }
-        public void ClearBlendShapes() { if (May("blend shapes")) m_Shapes.Clear(); }
+        public void ClearBlendShapes()
+        {
+            if (!May("blend shapes")) return;
+            long changes = 0;
+            foreach (Shape shape in m_Shapes) foreach (Frame frame in shape.Frames) changes += frame.Changes.Length;
+            m_Shapes.Clear();
+            // Unity keeps them outside of what is collected by and by: they are gone at once.
+            if (changes > 1 << 20) GC.Collect();
+        }
 
         public Bounds bounds { get { Alive(); return m_Bounds; } set { Alive(); m_Bounds = value; } }
         public void RecalculateBounds() { if (May("vertices")) m_Bounds = BoundsOf(m_Vertices, 0, m_Vertices.Length); }
