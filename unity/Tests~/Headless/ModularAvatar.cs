@@ -6,6 +6,7 @@ using System.Collections.Generic;
 using nadena.dev.ndmf;
 using UnityEditor;
 using UnityEngine;
+using VRC.SDK3.Dynamics.PhysBone.Components;
 
 namespace nadena.dev.modular_avatar.core
 {
@@ -90,10 +91,14 @@ namespace nadena.dev.modular_avatar.core
             if (config.mangleNames) source.name += "$" + Guid.NewGuid();
             if (source.GetComponent<ModularAvatarPBBlocker>() == null) source.gameObject.AddComponent<ModularAvatarPBBlocker>();
             if (!zip) return;
-            merged.Add(source);
-            foreach (Transform child in source)
+            // What swings or is constrained by itself is no duplicate, and what hangs from it stays below it.
+            if (Array.Exists(source.GetComponents<Component>(), component => component.GetType().Name.EndsWith("Constraint"))) return;
+            VRCPhysBone own = ChainOf(source);
+            if (own == null || IsSimilar(source, target, own.ignoreTransforms)) merged.Add(source);
+            foreach (Transform child in ChildrenOf(source))
             {
                 if (child.GetComponent<ModularAvatarMergeArmature>() != null) continue;
+                if (own != null && !merged.Contains(source) && !own.ignoreTransforms.Contains(child)) continue;
                 string name = child.name, prefix = config.prefix, suffix = config.suffix;
                 bool fits = name.StartsWith(prefix) && name.EndsWith(suffix) && name.Length > prefix.Length + suffix.Length;
                 Transform twin = fits ? target.Find(name.Substring(prefix.Length, name.Length - prefix.Length - suffix.Length)) : null;
@@ -101,13 +106,42 @@ namespace nadena.dev.modular_avatar.core
             }
         }
 
-        /// <summary>What PhysBones, colliders, contacts and constraints name stays.</summary>
+        static List<Transform> ChildrenOf(Transform parent)
+        {
+            var children = new List<Transform>();
+            foreach (Transform child in parent) children.Add(child);
+            return children;
+        }
+
+        /// <summary>The PhysBone whose chain begins at a bone.</summary>
+        static VRCPhysBone ChainOf(Transform bone)
+        {
+            return Array.Find(bone.root.GetComponentsInChildren<VRCPhysBone>(true), one => (one.rootTransform ?? one.transform) == bone);
+        }
+
+        /// <summary>Whether a chain lies within 1 mm of the target's, as far as the names are the same.</summary>
+        static bool IsSimilar(Transform bone, Transform target, List<Transform> left)
+        {
+            if ((bone.position - target.position).sqrMagnitude > 1e-6f) return false;
+            return ChildrenOf(bone).TrueForAll(child => left.Contains(child) || target.Find(child.name) == null || IsSimilar(child, target.Find(child.name), left));
+        }
+
+        /// <summary>What PhysBones, colliders, contacts and constraints name or are on stays, and root bones that lie elsewhere.</summary>
         static void Retain(GameObject avatar, HashSet<Transform> merged)
         {
+            foreach (var renderer in avatar.GetComponentsInChildren<SkinnedMeshRenderer>(true))
+            {
+                Transform root = renderer.rootBone;
+                if (root == null || root.parent == null) continue;
+                bool elsewhere = (root.parent.position - root.position).sqrMagnitude > 1e-6f;
+                if (elsewhere || Vector3.Dot(root.parent.localScale.normalized, root.localScale.normalized) < 0.9999f) merged.Remove(root);
+            }
             foreach (Component component in avatar.GetComponentsInChildren<Component>(true))
             {
                 string type = component == null ? "" : component.GetType().Name;
                 if (!type.StartsWith("VRC") && !type.EndsWith("Constraint")) continue;
+                // Those of dynamics get their own object for their root where they have none.
+                if (type.StartsWith("VRCPhysBone") || type.StartsWith("VRCContact")) merged.Remove(component.transform);
                 using (var properties = new SerializedObject(component))
                 {
                     SerializedProperty property = properties.GetIterator();
@@ -116,6 +150,8 @@ namespace nadena.dev.modular_avatar.core
                         if (property.propertyType == SerializedPropertyType.ObjectReference && property.name != "m_GameObject")
                         {
                             var named = property.objectReferenceValue as Transform;
+                            var other = property.objectReferenceValue as GameObject;
+                            if (other != null) named = other.transform;
                             if (named != null) merged.Remove(named);
                         }
                     }
@@ -132,7 +168,7 @@ namespace nadena.dev.modular_avatar.core
         static void Retarget(SkinnedMeshRenderer renderer, HashSet<Transform> merged)
         {
             Transform[] bones = renderer.bones;
-            if (!Array.Exists(bones, bone => bone != null && merged.Contains(bone))) return;
+            if (!Array.Exists(bones, bone => bone != null && merged.Contains(bone)) && !merged.Contains(renderer.rootBone)) return;
             Mesh mesh = UnityEngine.Object.Instantiate(renderer.sharedMesh);
             mesh.name = "RETARGETED__" + renderer.sharedMesh.name;
             ObjectRegistry.RegisterReplacedObject(renderer.sharedMesh, mesh);
@@ -147,7 +183,13 @@ namespace nadena.dev.modular_avatar.core
             mesh.bindposes = binds;
             renderer.bones = bones;
             renderer.sharedMesh = mesh;
-            renderer.rootBone = Kept(renderer.rootBone, merged) ?? renderer.transform;
+            Transform scale = renderer.rootBone ?? renderer.transform, rootBone = Kept(renderer.rootBone, merged) ?? renderer.transform;
+            Vector3 was = scale.lossyScale, now = rootBone.lossyScale;
+            Bounds bounds = renderer.localBounds;
+            bounds.extents = new Vector3(bounds.extents.x * was.x / now.x, bounds.extents.y * was.y / now.y, bounds.extents.z * was.z / now.z);
+            bounds.center = rootBone.InverseTransformPoint(scale.TransformPoint(bounds.center));
+            renderer.localBounds = bounds;
+            renderer.rootBone = rootBone;
         }
 
         static void Remove(HashSet<Transform> merged)
@@ -159,7 +201,7 @@ namespace nadena.dev.modular_avatar.core
                     continue;
                 }
                 Transform above = Kept(bone, merged);
-                foreach (Transform child in bone) child.SetParent(above, true);
+                foreach (Transform child in ChildrenOf(bone)) child.SetParent(above, true);
                 UnityEngine.Object.DestroyImmediate(bone.gameObject);
             }
         }
