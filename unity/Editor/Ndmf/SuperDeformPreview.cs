@@ -37,7 +37,11 @@ namespace SuperDeform.Editor.Ndmf
                 SuperDeformAvatar component = context.GetComponent<SuperDeformAvatar>(root);
                 if (component == null) continue;
                 Renderer[] renderers = Array.FindAll(context.GetComponentsInChildren<Renderer>(root, true), renderer => RendererReader.MeshOf(renderer) != null);
-                if (renderers.Length > 0) groups.Add(RenderGroup.For(renderers).WithData(component));
+                if (renderers.Length == 0) continue;
+                // The one that tells how to compare came with 1.13; there the same object is the same.
+#pragma warning disable 618
+                groups.Add(RenderGroup.For(renderers).WithData(component));
+#pragma warning restore 618
             }
             return groups.ToImmutableList();
         }
