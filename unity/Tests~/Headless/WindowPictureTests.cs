@@ -8,6 +8,12 @@ namespace SuperDeform.Editor.Tests
     public class WindowPictureTests
     {
         [Test]
+        public void every_label_fits_in_every_language()
+        {
+            foreach (string file in Picture.Files) StringAssert.DoesNotContain("\u2026", Picture.Draw(file), file + " cuts a text short: find a shorter one");
+        }
+
+        [Test]
         public void the_pictures_of_the_documentation_are_what_the_window_is()
         {
             foreach (string file in Picture.Files)
