@@ -55,6 +55,11 @@ NEWER = {
     r"\{[^}]*\binit\s*;": "set",
 }
 
+# What Unity refuses to compile from 6000.5 on. Of all other members that the package names, none is gone in 6000.7.0a1 or an error there.
+GONE = {
+    r"\b\w*[iI]nstanceID\w*\b": "GetEntityId",
+}
+
 
 # Which types come with which module of Unity.
 MODULES = {
@@ -222,13 +227,31 @@ def check_imports(root):
     return said
 
 
+def by_editor(lines):
+    """(Number, line, whether editors compile it: those of 2021.3, the newest) of a source."""
+    old = new = True
+    for number, line in enumerate(lines, 1):
+        directive = line.strip()
+        if directive.startswith("#if"):
+            newer = re.search(r"(!?)\bUNITY_6000_\d+_OR_NEWER", directive)
+            old, new = (True, True) if newer is None else (bool(newer.group(1)), not newer.group(1))
+        elif directive.startswith("#else"):
+            old, new = (True, True) if old and new else (new, old)
+        elif directive.startswith("#endif"):
+            old = new = True
+        yield number, line, old, new
+
+
 def check_api(root):
     said = []
     for source in sources(root):
-        for number, line in enumerate(bare(read(source)).splitlines(), 1):
+        for number, line, old, new in by_editor(bare(read(source)).splitlines()):
             for pattern, instead in NEWER.items():
-                if re.search(pattern, line):
+                if old and re.search(pattern, line):
                     said.append(f"{source.relative_to(root)}:{number} is newer than 2021.3: use {instead}")
+            for pattern, instead in GONE.items():
+                if new and re.search(pattern, line):
+                    said.append(f"{source.relative_to(root)}:{number} is no more in 6000.5: use {instead} where UNITY_6000_5_OR_NEWER stands")
     return said
 
 

@@ -56,6 +56,8 @@ FAULTS = [
      lambda root: edit(root / "Runtime/Native.g.cs", "sdef_destroy", "sdef_destroyed"), "sdef_destroy stands"),
     ("imports", "an older ABI",
      lambda root: edit(root / "Runtime/Native.g.cs", "SDEF_ABI_VERSION = 1;", "SDEF_ABI_VERSION = 0;"), "ABI version"),
+    ("api", "a function that the newest editors refuse",
+     lambda root: edit(root / "Editor/Writing/SourceIdentity.cs", "#if UNITY_6000_5_OR_NEWER", "#if UNITY_2021_3_OR_NEWER"), "no more in 6000.5"),
     ("api", "a newer function",
      lambda root: put(root / "Editor/Newer.cs", "class Newer { object all = Object.FindObjectsByType<int>(0); }\n"),
      "Editor/Newer.cs:1"),

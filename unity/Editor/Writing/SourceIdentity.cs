@@ -48,7 +48,7 @@ namespace SuperDeform.Editor
             GlobalObjectId number = GlobalObjectId.GetGlobalObjectIdSlow(avatar);
             // 0: it has none yet, and all that have none are alike.
             if (number.identifierType != 0 && number.targetObjectId != 0) names.Add(Number + number);
-            names.Add(Instance + ThisSession() + " " + avatar.GetInstanceID());
+            names.Add(Instance + ThisSession() + " " + InstanceOf(avatar));
             if (!string.IsNullOrEmpty(scene)) names.Add(Place + AssetDatabase.AssetPathToGUID(scene) + place);
             Where = (string.IsNullOrEmpty(scene) ? avatar.scene.name : scene) + place;
         }
@@ -77,6 +77,16 @@ namespace SuperDeform.Editor
                 siblings.Add(transform.parent.GetChild(child).gameObject);
             }
             return siblings;
+        }
+
+        /// <summary>The number of an object while the editor runs.</summary>
+        static string InstanceOf(GameObject avatar)
+        {
+#if UNITY_6000_5_OR_NEWER
+            return avatar.GetEntityId().ToString();
+#else
+            return avatar.GetInstanceID().ToString();
+#endif
         }
 
         /// <summary>A name for the time until the editor is closed: instances have other numbers afterwards.</summary>
