@@ -30,7 +30,7 @@ namespace SuperDeform.Editor.Ndmf
         {
         }
 
-        /// <summary>Gives NDMF what was written, once nothing can fail any more.</summary>
+        /// <summary>Gives NDMF what was written, once nothing else can fail any more.</summary>
         internal void Commit()
         {
             clips.ForEach(clip => clip.Commit());

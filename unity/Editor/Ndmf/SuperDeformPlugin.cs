@@ -54,9 +54,8 @@ namespace SuperDeform.Editor.Ndmf
                 var clips = new BuildClips(context);
                 using (var progress = new EditorProgress(avatar.name, cancelable: false))
                 {
-                    done = Converter.ConvertInPlace(avatar, SettingsText.Of(component), progress, clips, result => Keep(context, result));
+                    done = Converter.ConvertInPlace(avatar, SettingsText.Of(component), progress, clips, result => Keep(context, result, clips));
                 }
-                clips.Commit();
                 foreach (Finding finding in done.Findings)
                 {
                     if (finding.Severity != Severity.Info) Say(finding);
@@ -77,7 +76,7 @@ namespace SuperDeform.Editor.Ndmf
             }
         }
 
-        static void Keep(BuildContext context, ConversionResult done)
+        static void Keep(BuildContext context, ConversionResult done, BuildClips clips)
         {
             foreach (UnityEngine.Object asset in done.Assets)
             {
@@ -91,6 +90,7 @@ namespace SuperDeform.Editor.Ndmf
                     ObjectRegistry.TryRegisterReplacedObject(ObjectRegistry.GetReference(pair.Key), pair.Value);
                 }
             }
+            clips.Commit();
         }
 
         static void Say(Finding finding)
