@@ -10,10 +10,14 @@ use made::{
 use serde_json::{Value, json};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
-use superdeform::MeshKind;
+use superdeform::{MeshKind, Options, Progress, Style};
 use superdeform_host::accessor::Reader;
+use superdeform_host::appearance::Appearance;
+use superdeform_host::conversion::{Conversion, OpenOptions, Source, WriteOptions};
 use superdeform_host::file::{GltfFile, write_atomically};
+use superdeform_host::image::Image;
 use superdeform_host::load::{LoadOptions, Loaded, load};
+use superdeform_host::paint::EvenEyes;
 use superdeform_host::samples;
 use superdeform_host::verify::closure;
 use superdeform_host::write::rewrite;
@@ -837,4 +841,95 @@ fn a_file_is_written_whole_or_not_at_all() {
         std::fs::read_dir(&folder).unwrap().map(|e| (e.unwrap().file_name(), ())).collect();
     assert_eq!(left.len(), 1);
     std::fs::remove_dir_all(&folder).unwrap();
+}
+
+/// What is written of a file at two and a half heads, and what its report says of the paint around its eyes.
+fn evened(file: &GltfFile, even_eyes: Option<f64>) -> (GltfFile, EvenEyes) {
+    let bytes = file.to_bytes().unwrap();
+    let source = Source { name: &file.name, bytes: &bytes, beside: &|_| None };
+    let mut conversion = Conversion::open(source, &OpenOptions::default(), &mut Progress::none()).unwrap();
+    conversion.set(&Style::heads(2.5).unwrap(), &Options::default(), &mut Progress::none()).unwrap();
+    let options = WriteOptions { even_eyes, ..WriteOptions::default() };
+    let converted = conversion.write(None, &options).unwrap();
+    (GltfFile::parse("written.glb", &converted.file.to_bytes().unwrap()).unwrap(), converted.even_eyes)
+}
+
+fn images(file: &GltfFile) -> Vec<Vec<u8>> {
+    (0..file.list("images").len()).map(|index| file.image(index).unwrap().into_owned()).collect()
+}
+
+#[test]
+fn paint_around_the_eyes_of_a_photo_is_evened_and_all_else_on_its_image_stays() {
+    let Some(path) = samples::path("valid_hispanic_f_2_casual.glb") else { return };
+    let file = GltfFile::read(&path).unwrap();
+    let (none, told) = evened(&file, Some(0.0));
+    assert!(images(&none) == images(&file) && told.texels == 0 && told.because.is_some(), "{told:?}");
+    let (written, told) = evened(&file, None);
+    assert_eq!((told.share, told.taken_for, told.because), (0.8, Some("photo"), None));
+    // Image 0 is the normal map.
+    assert!(images(&written)[0] == images(&file)[0]);
+    let picture = |file: &GltfFile| Image::decode(&file.image(1).unwrap()).unwrap();
+    let (before, after) = (picture(&file), picture(&written));
+    assert!(
+        written.image(1).unwrap().starts_with(b"\x89PNG")
+            && written.list("images")[1]["mimeType"] == "image/png"
+    );
+    assert_eq!((before.width, before.height()), (after.width, after.height()));
+    let changed = before.pixels.iter().zip(&after.pixels).filter(|(before, after)| before != after).count();
+    // Two ellipses of half a width of .2 and half a height of .12, on 190 texels a head length, are 5,400.
+    assert!(changed == told.texels && (2000..6500).contains(&changed), "{changed}");
+    // What other meshes show of it: eyes, teeth.
+    let source = loaded_file(&file);
+    let seen = Appearance::of(&source, 1);
+    for (mesh, surface) in source.character.meshes.iter().zip(&seen.surfaces) {
+        if mesh.name.contains("H_DDS") {
+            continue;
+        }
+        for corners in &mesh.triangles {
+            let [u, v] =
+                [0, 1].map(|axis| corners.iter().map(|&c| surface.uvs[c as usize][axis]).sum::<f32>() / 3.0);
+            let (x, y) = ((u * before.width as f32) as usize, (v * before.height() as f32) as usize);
+            assert_eq!(before.at(x, y), after.at(x, y), "{}", mesh.name);
+        }
+    }
+    // Two materials that share an image, and a texture for each.
+    let mut shared = file.clone();
+    let mut material = shared.json["materials"][0].clone();
+    material["pbrMetallicRoughness"]["baseColorTexture"]["index"] = json!(shared.list("textures").len());
+    let number = shared.list("materials").len();
+    shared.json["materials"].as_array_mut().unwrap().push(material);
+    shared.json["textures"].as_array_mut().unwrap().push(json!({"source": 1}));
+    for mesh in 1..shared.list("meshes").len() {
+        shared.json["meshes"][mesh]["primitives"][0]["material"] = json!(number);
+    }
+    let (both, of_both) = evened(&shared, None);
+    assert!(images(&both) == images(&written) && of_both == told);
+    // Another format of the same image would be shown in its place.
+    shared.json["textures"][0]["extensions"] = json!({"EXT_texture_webp": {"source": 1}});
+    let (other, told) = evened(&shared, None);
+    assert!(images(&other) == images(&file) && told.because.unwrap().contains("format"), "{told:?}");
+}
+
+#[test]
+fn drawn_faces_and_plain_ones_keep_their_images() {
+    let names = [
+        "kaykit_rogue.glb",
+        "godette.vrm",
+        "seedsan_vrm1.vrm",
+        "quaternius_knight.glb",
+        "makehuman_female_vrm1.vrm",
+    ];
+    for path in names.iter().filter_map(|name| samples::path(name)) {
+        let file = GltfFile::read(&path).unwrap();
+        for share in [None, Some(1.0)] {
+            let (written, told) = evened(&file, share);
+            assert!(images(&written) == images(&file), "{}", file.name);
+            assert!(told.texels == 0 && told.because.is_some(), "{}: {told:?}", file.name);
+        }
+    }
+}
+
+fn loaded_file(file: &GltfFile) -> Loaded {
+    let options = LoadOptions { find_roles: Some(&superdeform::find_roles), ..LoadOptions::default() };
+    load(file.clone(), &options).unwrap()
 }

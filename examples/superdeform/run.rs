@@ -82,7 +82,7 @@ fn stages(command: &Command, in_batch: Option<(&Source, &str)>, progress: &Progr
 
     progress.stage("deforming");
     conversion.set(style, &command.options, &mut superdeform::Progress::none()).map_err(sentence)?;
-    let options = WriteOptions { leaf_joints: command.leaf_joints };
+    let options = WriteOptions { even_eyes: command.even_eyes, leaf_joints: command.leaf_joints };
     let mut converted = conversion.write(reference.as_ref(), &options).map_err(sentence)?;
     converted.report.warnings.iter_mut().for_each(words::name_flag);
 

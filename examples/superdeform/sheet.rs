@@ -4,7 +4,7 @@ use crate::picture::{self, Bone, Heads, PictureMesh, View};
 use glam::{DVec3, Vec3};
 use std::sync::LazyLock;
 use superdeform::report::FigureReport;
-use superdeform::{Character, Deformed, Rig};
+use superdeform::{Character, Rig};
 use superdeform_host::appearance::Appearance;
 use superdeform_host::conversion::{Conversion, Converted, Reference};
 use superdeform_host::load::Loaded;
@@ -34,7 +34,7 @@ pub fn png(
         let as_tall_as = Some(views.len() + 1);
         views.push(View { as_tall_as, ..view("reference", figure, reference, appearance, None) });
     }
-    views.push(view("result", &report.result, target, of_target, Some(&converted.deformed)));
+    views.push(view("result", &report.result, target, of_target, Some(converted)));
     picture::draw(&views).to_png()
 }
 
@@ -47,24 +47,25 @@ const THUMBNAIL: u32 = 512;
 /// One sentence where it cannot be encoded.
 pub fn thumbnail(conversion: &Conversion, converted: &Converted) -> Result<Vec<u8>, String> {
     let (target, figure) = (conversion.target(), &converted.report.result);
-    let view = view("", figure, target, conversion.appearance(), Some(&converted.deformed));
+    let view = view("", figure, target, conversion.appearance(), Some(converted));
     picture::portrait(&view, figure.landmarks.chin as f32, THUMBNAIL).to_png()
 }
 
-/// A figure for the picture; where `deformed` is given, with its shape in place of the file's.
+/// A figure for the picture; where `converted` is given, with its shape and its materials in place of the file's.
 fn view<'a>(
     title: &str,
     figure: &FigureReport,
     loaded: &'a Loaded,
     appearance: &'a Appearance,
-    deformed: Option<&'a Deformed>,
+    converted: Option<&'a Converted>,
 ) -> View<'a> {
     static PLAIN: LazyLock<Material> = LazyLock::new(Material::default);
     let character = &loaded.character;
     let meshes = character.meshes.iter().zip(&appearance.surfaces).enumerate();
+    let materials = converted.map_or(&appearance.materials, |converted| &converted.materials);
     let heights = &figure.landmarks;
     let marks = figure.face.iter().flat_map(|face| face.points.values());
-    let marks = if deformed.is_none() {
+    let marks = if converted.is_none() {
         marks.map(|&p| DVec3::from_array(p).as_vec3()).collect()
     } else {
         Vec::new()
@@ -74,17 +75,14 @@ fn view<'a>(
         note: format!("{:.1} heads", figure.heads),
         meshes: meshes
             .map(|(index, (mesh, surface))| {
-                let shape = deformed.map(|deformed| &deformed.meshes[index]);
+                let shape = converted.map(|converted| &converted.deformed.meshes[index]);
                 PictureMesh {
                     positions: shape.map_or(&mesh.positions, |shape| &shape.positions),
                     normals: shape.map_or(&mesh.normals, |shape| &shape.normals),
                     triangles: &mesh.triangles,
                     uvs: &surface.uvs,
                     colours: &surface.colours,
-                    material: surface
-                        .material
-                        .and_then(|material| appearance.materials.get(material))
-                        .unwrap_or(&PLAIN),
+                    material: surface.material.and_then(|material| materials.get(material)).unwrap_or(&PLAIN),
                 }
             })
             .collect(),

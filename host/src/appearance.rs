@@ -2,9 +2,13 @@
 //! that are painted, and a picture is drawn.
 
 use crate::accessor::Reader;
+use crate::image::Image;
 use crate::index_at;
 use crate::load::Loaded;
-use crate::materials::{Material, materials};
+use crate::materials::{Material, TEXTURE_SIZE, materials};
+use crate::paint::Images;
+use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// What a file says of a character beside its shape.
 #[derive(Clone, Debug, Default)]
@@ -37,6 +41,21 @@ impl Appearance {
         let surfaces =
             primitives.map(|(mesh, primitive)| Surface::of(&reader, mesh, primitive, &materials)).collect();
         Self { materials, surfaces }
+    }
+
+    /// Its materials, with other images in the place of those with these numbers.
+    pub fn materials_with(&self, images: Images) -> Vec<Material> {
+        let images: BTreeMap<usize, Arc<Image>> = images
+            .into_iter()
+            .map(|(source, image)| (source, Arc::new(image.shrunk(TEXTURE_SIZE))))
+            .collect();
+        let mut materials = self.materials.clone();
+        for texture in materials.iter_mut().filter_map(|material| material.texture.as_mut()) {
+            if let Some(image) = images.get(&texture.source) {
+                texture.image = Arc::clone(image);
+            }
+        }
+        materials
     }
 }
 

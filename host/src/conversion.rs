@@ -10,6 +10,8 @@ use crate::bad_input;
 use crate::beside::Beside;
 use crate::file::GltfFile;
 use crate::load::{LoadOptions, Loaded, is_vrm, load};
+use crate::materials::Material;
+use crate::paint::{EvenEyes, even_eyes};
 use crate::rig::{INFLUENCES, add_rig, rerigged};
 use crate::shades::shade;
 use crate::write;
@@ -246,12 +248,17 @@ impl Conversion {
             if options.leaf_joints {
                 write::colliders::add_leaf_joints(&mut file, &self.target, &deformed, &map_point);
             }
-            Ok((file, (self.clock)() - start))
+            let (images, told) =
+                even_eyes(&self.target, &self.appearance, &deformer.painted(), options.even_eyes);
+            for (&image, evened) in &images {
+                write::set_image(&mut file, image, &evened.to_png().map_err(bad_input)?);
+            }
+            Ok((file, (self.appearance.materials_with(images), told), (self.clock)() - start))
         };
         let threads = deformer.options().thread_count;
         let (made, report) = parallel::both(threads, model, || deformer.report(&deformed));
         let mut report = report?;
-        let (file, write_ms) = made?;
+        let (file, (materials, even_eyes), write_ms) = made?;
         if let Some(reference) = reference {
             // Measured over the roles of both, so that the two figures can be compared group by group.
             let (of_target, of_reference) = (&deformer.target().joints, &reference.measured.joints);
@@ -271,7 +278,7 @@ impl Conversion {
         report.timing_ms.load = self.load_ms;
         report.timing_ms.write = write_ms;
         let aim_degrees = write::colliders::aim_turn(&self.target, &deformed).map(|(degrees, _)| degrees);
-        Ok(Converted { target: &self.target, file, deformed, report, aim_degrees })
+        Ok(Converted { target: &self.target, file, deformed, report, materials, even_eyes, aim_degrees })
     }
 
     /// The file as it looks at once, for while a slider moves: its vertices and nodes are where [`Conversion::write`] puts them,
@@ -321,8 +328,10 @@ impl Conversion {
 }
 
 /// How a result is written.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct WriteOptions {
+    /// How much of the shade that is painted around eyes is evened, 0 to 1; where it is not said, as [`EvenEyes`] tells.
+    pub even_eyes: Option<f64>,
     /// Gives each spring chain of a VRM 0.x one joint more, so that its last bone keeps its proportion.
     pub leaf_joints: bool,
 }
@@ -337,6 +346,10 @@ pub struct Converted<'a> {
     pub deformed: Deformed,
     /// The numbers, and in `warnings` what a person should know.
     pub report: Report,
+    /// Its materials.
+    pub materials: Vec<Material>,
+    /// What was done about shade that is painted around its eyes.
+    pub even_eyes: EvenEyes,
     /// By how many degrees the aim constraint that turns most does at rest.
     pub aim_degrees: Option<f64>,
 }
@@ -347,6 +360,7 @@ struct FileReport<'a> {
     #[serde(flatten)]
     report: &'a Report,
     licence: Value,
+    even_eyes: &'a EvenEyes,
     #[serde(skip_serializing_if = "Option::is_none")]
     aim_degrees: Option<f64>,
     /// What a batch knows a finished run by.
@@ -386,7 +400,8 @@ impl Converted<'_> {
     /// What JSON cannot hold.
     pub fn report_text(&self, batch: Option<Value>) -> Result<String> {
         let licence = self.target.licence.to_json();
-        let report = FileReport { report: &self.report, licence, aim_degrees: self.aim_degrees, batch };
+        let Self { report, even_eyes, aim_degrees, .. } = self;
+        let report = FileReport { report, licence, even_eyes, aim_degrees: *aim_degrees, batch };
         let text = serde_json::to_string_pretty(&report).map_err(|error| bad_input(error.to_string()))?;
         Ok(text + "\n")
     }

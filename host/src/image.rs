@@ -62,6 +62,32 @@ impl Image {
         let pixels = starts(height).flat_map(|row| starts(width).map(move |column| (row, column)));
         Self { width: width.div_ceil(block), pixels: pixels.map(|(row, column)| mean(row, column)).collect() }
     }
+
+    /// The picture as PNG, without alpha where every pixel is opaque.
+    ///
+    /// # Errors
+    /// One sentence with the encoder's reason.
+    pub fn to_png(&self) -> Result<Vec<u8>, String> {
+        let size = (self.width as u32, self.height() as u32);
+        if self.pixels.iter().all(|pixel| pixel[3] == u8::MAX) {
+            let opaque: Vec<u8> = self.pixels.iter().flat_map(|pixel| &pixel[..3]).copied().collect();
+            encode_png(size, png::ColorType::Rgb, &opaque)
+        } else {
+            encode_png(size, png::ColorType::Rgba, self.pixels.as_flattened())
+        }
+    }
+}
+
+fn encode_png(size: (u32, u32), colour: png::ColorType, data: &[u8]) -> Result<Vec<u8>, String> {
+    let failed = |error: png::EncodingError| format!("the picture cannot be encoded: {error}");
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, size.0, size.1);
+    encoder.set_color(colour);
+    encoder.set_depth(png::BitDepth::Eight);
+    let mut writer = encoder.write_header().map_err(failed)?;
+    writer.write_image_data(data).map_err(failed)?;
+    writer.finish().map_err(failed)?;
+    Ok(bytes)
 }
 
 fn decode_png(bytes: &[u8]) -> Option<Image> {
@@ -165,15 +191,7 @@ impl Sheet {
     /// # Errors
     /// One sentence with the encoder's reason.
     pub fn to_png(&self) -> Result<Vec<u8>, String> {
-        let failed = |error: png::EncodingError| format!("the picture cannot be encoded: {error}");
-        let mut bytes = Vec::new();
-        let mut encoder = png::Encoder::new(&mut bytes, self.width, self.height);
-        encoder.set_color(png::ColorType::Rgb);
-        encoder.set_depth(png::BitDepth::Eight);
-        let mut writer = encoder.write_header().map_err(failed)?;
-        writer.write_image_data(self.pixels.as_flattened()).map_err(failed)?;
-        writer.finish().map_err(failed)?;
-        Ok(bytes)
+        encode_png((self.width, self.height), png::ColorType::Rgb, self.pixels.as_flattened())
     }
 }
 

@@ -18,6 +18,7 @@ pub mod load;
 pub mod materials;
 #[cfg(feature = "meshopt")]
 mod meshopt;
+pub mod paint;
 mod primitive;
 pub mod rig;
 pub mod roles;

@@ -13,7 +13,7 @@ use superdeform::GreyImage;
 use superdeform::internals::parallel;
 
 /// Longest side of a decoded texture: a figure in a picture is about this many pixels tall.
-const TEXTURE_SIZE: usize = 512;
+pub(crate) const TEXTURE_SIZE: usize = 512;
 
 /// How alpha is used.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -44,6 +44,10 @@ pub enum Wrap {
 pub struct Texture {
     /// sRGB colours and alpha.
     pub image: Arc<Image>,
+    /// The image's number in the file.
+    pub source: usize,
+    /// True where the texture also names the image in another format, which viewers that know it show.
+    pub has_other_format: bool,
     /// How bright the whole image is, for the face step.
     pub grey: Arc<GreyImage>,
     /// Along u and along v.
@@ -151,6 +155,10 @@ fn one_material(document: &Value, material: &Value, index: usize) -> (Material, 
         base_colour,
         texture: texture.map(|texture| Texture {
             image: Arc::default(),
+            source: image_index(document, texture).unwrap_or_default(),
+            has_other_format: document["textures"][texture]["extensions"]
+                .as_object()
+                .is_some_and(|held| held.values().any(|other| index_at(other, "source").is_some())),
             grey: Arc::default(),
             wrap: wrap(document, texture),
             transform: transform(move_by),

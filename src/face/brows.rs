@@ -46,9 +46,7 @@ pub fn brows(head: &Head, pair: Pair) -> Option<Brows> {
         for (row, value) in column.iter_mut().enumerate() {
             let y = first + ROWS.2 * row as f64;
             let sides = [bright(DVec2::new(x, y)), bright(DVec2::new(-x, y))];
-            if let [Some(left), Some(right)] = sides {
-                *value = Some(0.5 * (left + right));
-            }
+            *value = sides[0].zip(sides[1]).map(|(left, right)| 0.5 * (left + right));
         }
     }
     let blurred = |column: usize, row: usize| {

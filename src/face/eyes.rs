@@ -287,8 +287,6 @@ pub fn closes_an_eye(name: &str) -> bool {
 const BLINK_LEAST: f64 = 0.3;
 /// The share of a blink's vertices at each end that is left out.
 const BLINK_ENDS: f64 = 0.03;
-/// Fewer vertices that move are no lids.
-const BLINK_VERTICES: usize = 3;
 
 /// What blinks move: their lids' vertices lie around the opening, and travel through it.
 fn by_blink(head: &Head) -> Option<Eyes> {
@@ -313,9 +311,6 @@ fn by_blink(head: &Head) -> Option<Eyes> {
             .filter(|&&vertex| travel[vertex] > BLINK_LEAST * most)
             .map(|&vertex| head.points[vertex])
             .collect();
-        if lids.len() < BLINK_VERTICES {
-            return None;
-        }
         let mut x: Vec<f64> = lids.iter().map(|p| p.x).collect();
         let mut y: Vec<f64> = lids.iter().map(|p| p.y).collect();
         let ((inner, outer), (bottom, top)) =

@@ -141,9 +141,6 @@ pub fn quantile_ends(values: &mut [f64], q: f64) -> Option<(f64, f64)> {
 
 /// The value below which the share `q` of `values` lies; `None` where there are none.
 pub fn quantile(values: &mut [f64], q: f64) -> Option<f64> {
-    if values.is_empty() {
-        return None;
-    }
-    let index = ((q * values.len() as f64) as usize).min(values.len() - 1);
+    let index = ((q * values.len() as f64) as usize).min(values.len().checked_sub(1)?);
     Some(*values.select_nth_unstable_by(index, f64::total_cmp).1)
 }

@@ -73,9 +73,6 @@ pub fn iris(head: &Head, vertices: &[u32], (low, high): Bounds) -> Option<Iris> 
         let near = dark.iter().filter(|direction| direction.dot(towards) > NEAR);
         towards = near.sum::<DVec3>().normalize_or_zero();
     }
-    if towards == DVec3::ZERO {
-        return None;
-    }
     let mut rings: Vec<[usize; 2]> = vec![[0; 2]; (1.2 / RING) as usize];
     for &(direction, shade) in &seen {
         let ring = (direction.dot(towards).clamp(-1.0, 1.0).acos() / RING) as usize;

@@ -4,6 +4,7 @@ use super::brows::{Brows, brows};
 use super::eyes::{Eye, EyeSource, Eyeball, Eyes, Pair, eyes};
 use super::head::{Head, quantile};
 use super::raster::{DepthMap, Window};
+use crate::geometry::bounds;
 use glam::{DVec2, DVec3};
 
 /// A face, in head lengths: x to the character's left from the middle, y up from the chin, z to the front.
@@ -68,22 +69,18 @@ impl FaceLandmarks {
     pub fn of(head: &Head) -> Self {
         let eyes = eyes(head);
         let pair = eyes.as_ref().map(|(_, eyes)| Pair::of(eyes));
-        let nose = nose(head, pair);
         let ye = pair.map_or(EYE_HEIGHT, |pair| pair.height);
-        let ears = ears(head, ye);
         Self {
             covered: eyes.as_ref().map_or(0.0, |(_, eyes)| covered(head, eyes)),
             brows: pair.and_then(|pair| brows(head, pair)),
-            nose,
+            nose: nose(head, pair),
             half_width: half_width_at(head, ye, pair),
             skull_half_width: skull_half_width(head),
-            ears,
+            ears: ears(head, ye),
             eyes,
         }
     }
-}
 
-impl FaceLandmarks {
     /// True where both eyes are turned by joints.
     pub fn eyes_turn(&self) -> bool {
         let turns = |eye: &Eye| eye.ball.as_ref().is_some_and(|ball| ball.turns);
@@ -292,12 +289,8 @@ const EAR_REACH: std::ops::Range<f64> = 0.02..0.2;
 fn ears(head: &Head, ye: f64) -> Option<Ears> {
     const STEP: f64 = 0.01;
     let (bottom, top) = (ye + EAR_ROWS.0, ye + EAR_ROWS.1);
-    let middle = {
-        let z = head.bare.iter().flatten().map(|&vertex| head.points[vertex as usize].z);
-        let (low, high) =
-            z.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), z| (low.min(z), high.max(z)));
-        0.5 * (low + high)
-    };
+    let (low, high) = bounds(head.bare.iter().flatten().map(|&vertex| head.points[vertex as usize]));
+    let middle = 0.5 * (low.z + high.z);
     let (low, high) =
         (DVec2::new(middle + EAR_BACK.0 - 0.1, bottom), DVec2::new(middle + EAR_BACK.1 + 0.25, top));
     let views = [1.0, -1.0].map(|side| head.side_view(side, low, high, STEP));

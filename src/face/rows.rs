@@ -17,7 +17,7 @@
 //! what the rows below it do there.
 
 use super::brows::Brows;
-use super::dual::Dual;
+use super::dual::{Dual, step};
 use super::eyes::{Eye, Eyes, Pair};
 use super::iris::IrisFlow;
 use super::kernel::{Kernel, velocity};
@@ -143,6 +143,9 @@ const LIDS_MORE: (f64, f64) = (0.2, 0.8);
 const PLATEAU: (f64, f64, f64, f64) = (1.12, 1.5, 0.55, 0.06);
 /// The part of an eye's reach that moves as one.
 const PLATEAU_OF_EYE: f64 = 0.5;
+/// A socket's shade reaches so many times as far as what grows with the eye; the skin below it is so many of that further down;
+/// below a painted brow it is whole from this on.
+const SOCKET: [f64; 3] = [1.6, 1.2, 0.05];
 /// What does not turn grows in depth by this part of what it grows across: all of it bulges like goggles.
 const FLAT_DEPTH: f64 = 0.25;
 /// The face curves back like a parabola of this radius.
@@ -206,6 +209,8 @@ pub struct Rows {
     pub kernels: Vec<Kernel>,
     /// So many of them act on skin alone: hair hangs before brows and eyes.
     pub of_skin: usize,
+    /// Brows that are painted.
+    pub brows: Option<Brows>,
     /// The eyeballs' own.
     pub balls: Option<[Ball; 2]>,
 }
@@ -288,7 +293,25 @@ impl Rows {
         }
         let of_skin = kernels.len();
         kernels.extend(rest);
-        Self { kernels, of_skin, balls }
+        Self { kernels, of_skin, brows: face.brows, balls }
+    }
+
+    /// How much of what is painted at `p` is shade of a socket, and how much of `p` is the skin below that has none, 0 to 1
+    /// each: as far as eyes grow.
+    pub fn painted(&self, p: DVec3) -> [f64; 2] {
+        let [_, eyes @ ..] = &self.kernels[..self.of_skin] else { return [0.0; 2] };
+        let most = |below: f64| {
+            let of = |eye: &Kernel| {
+                let from = (p - eye.centre) / SOCKET[0] + DVec3::Y * (below / eye.per_low.y);
+                eye.weight((eye.centre + from).to_array())
+            };
+            eyes.iter().map(of).fold(0.0, f64::max)
+        };
+        let below_brow = self.brows.map_or(1.0, |Brows { inner, outer }| {
+            let brow = inner + (outer - inner) * ((p.x.abs() - inner.x) / (outer.x - inner.x));
+            step((brow.y - p.y) / SOCKET[2])
+        });
+        [below_brow * most(0.0), most(SOCKET[1])]
     }
 
     /// How much `p` takes part where lids open more than the ball between them grows, 0 to 1.

@@ -178,6 +178,12 @@ impl YoungFace {
         self.rows.opens_lids(self.frame.to_unit(p))
     }
 
+    /// See [`Rows::painted`]; only skin is painted.
+    pub fn painted(&self, p: DVec3, binding: FaceBinding) -> [f64; 2] {
+        let FaceBinding::Skin(share) = binding else { return [0.0; 2] };
+        self.rows.painted(self.frame.to_unit(p)).map(|weight| f64::from(share) * weight)
+    }
+
     /// The ways of vertices that the stages before put at `points`.
     ///
     /// - `bindings`: one for each.
@@ -208,10 +214,8 @@ impl YoungFace {
                 return known.ways[row];
             }
             let from = from[row].as_dvec3();
-            match follower(moved[row]) {
-                Some(follower) => follower.way(from).map(|p| (p - from).as_vec3()),
-                None => [Vec3::ZERO; STEPS],
-            }
+            let way = |follower: &Follower| follower.way(from).map(|p| (p - from).as_vec3());
+            follower(moved[row]).map_or([Vec3::ZERO; STEPS], way)
         });
         Ways { rows, from, ways }
     }

@@ -21,6 +21,7 @@ pub use rigging::Rig;
 
 use crate::character::{Character, Humanoid};
 use crate::error::{Result, Warning};
+use crate::face::stage::FaceBinding;
 pub use crate::geometry::Mapped;
 use crate::options::Repair;
 pub use crate::options::{FaceCurve, GroupSettings, Mode, Options, Stage};
@@ -237,6 +238,22 @@ impl Deformer {
             position += field.finish.share_of_offsets() * hair.offset(binding, joint, p);
         }
         Mapped { position: frame.to_model(position), jacobian: frame.jacobian_to_model(jacobian) }
+    }
+
+    /// Where a painted face changes: for each vertex of each mesh how much of what is painted there is shade of an eye's socket,
+    /// which grew with the eye, and how much of it is the skin below, which that is evened to; 0 to 1 each, by as much as eyes
+    /// grow. Empty where they do not: drawn eyes, no eyes, a youth of 0, paper mode.
+    pub fn painted(&self) -> Vec<Vec<[f32; 2]>> {
+        let (Deformation { measured, body, .. }, field) = (&*self.made.deformation, &self.made.field);
+        let (Some(young), starts) = (&field.young, &measured.figure.mesh_starts) else { return Vec::new() };
+        let share = (field.youth * field.finish.amount).clamp(0.0, 1.0);
+        let weights = |vertex: usize| {
+            let binding = &body.bindings.vertices[vertex];
+            let at = field.squash(Mapped::unmoved(body.placed[vertex]), binding).position;
+            let face = binding.parts().map_or(FaceBinding::None, |parts| parts.face);
+            young.painted(at, face).map(|weight| (share * weight) as f32)
+        };
+        starts.windows(2).map(|ends| (ends[0]..ends[1]).map(weights).collect()).collect()
     }
 
     /// The character that is deformed: with the rig in place, where one was made.

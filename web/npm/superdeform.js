@@ -4,7 +4,7 @@ import { Engine } from './engine.js';
 export { Fault, Refused } from './engine.js';
 
 /** The options of this package; all others are the library's own. */
-const OWN = ['heads', 'style', 'reference', 'name', 'files', 'allowProhibited', 'leafJoints'];
+const OWN = ['heads', 'style', 'reference', 'name', 'files', 'allowProhibited', 'leafJoints', 'evenEyes'];
 
 function styleOf({ heads, style, reference }) {
   if (reference) return { reference: true };
@@ -28,7 +28,7 @@ export function of(compile) {
     await engine.ask(open, [{ name, bytes }, ...named(options.files)]);
     if (options.reference) await engine.ask({ do: 'reference' }, [{ name: 'reference.glb', bytes: options.reference }]);
     await engine.ask({ do: 'set', style: styleOf(options), options: rest });
-    const write = { do: 'write', name: name.replace(/\.gltf$/i, '.glb'), by_reference: !!options.reference, leaf_joints: options.leafJoints === true };
+    const write = { do: 'write', name: name.replace(/\.gltf$/i, '.glb'), by_reference: !!options.reference, leaf_joints: options.leafJoints === true, even_eyes: options.evenEyes };
     const { report, files } = await engine.ask(write);
     return { bytes: files[0].bytes, report: JSON.parse(report) };
   };

@@ -82,6 +82,11 @@ pub struct Arguments {
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = ValueParser::new(values::eyes), help_heading = FACE)]
     pub eyes: Option<FaceHints>,
 
+    /// How much of the shade that is painted around the eyes goes, as they grow: a copy of the face's image is evened to the
+    /// cheeks' colour [0 to 1; default: 0.8 for photos, 0 for drawn faces]
+    #[arg(long, value_name = "X", value_parser = ValueParser::new(values::share), help_heading = FACE)]
+    pub even_eyes: Option<f64>,
+
     /// Set a bone group, e.g. upper_leg:length=0.4,thickness=0.8: scales (length, thickness), or how much of
     /// the reference is taken, 0 to 1 (length_transfer, thickness_transfer); repeatable
     #[arg(long, value_name = "NAME:KEY=X,...", value_parser = ValueParser::new(values::group), help_heading = STYLE)]

@@ -75,6 +75,8 @@ pub struct Command {
     pub save_rigged: Option<PathBuf>,
     /// Convert what its licence forbids to change.
     pub allow_prohibited: bool,
+    /// How much of the shade around painted eyes is evened; `None` as the library thinks fit.
+    pub even_eyes: Option<f64>,
     /// Give spring chains of VRM 0.x one joint more.
     pub leaf_joints: bool,
     /// Draw a VRM's thumbnail anew.
@@ -247,6 +249,7 @@ fn command(single: Single) -> Result<Command, Refusal> {
         joints: single.joints,
         save_rigged: single.save_rigged,
         allow_prohibited: arguments.allow_prohibited,
+        even_eyes: arguments.even_eyes,
         leaf_joints: arguments.leaf_joints,
         thumbnail: arguments.thumbnail,
         quiet: arguments.quiet,
@@ -502,6 +505,16 @@ mod tests {
         assert_eq!(options.repair, Repair::Off);
         let rig = command.rig_options;
         assert_eq!((rig.voxel_resolution, rig.heat, rig.fingers), (64, 2.0, false));
+    }
+
+    #[test]
+    fn how_much_paint_is_evened_is_a_share() {
+        assert_eq!(parsed(&[]).even_eyes, None);
+        assert_eq!(parsed(&["--even-eyes", "0.5"]).even_eyes, Some(0.5));
+        for wrong in ["2", "-0.1", "much", "NaN"] {
+            let (code, text) = refused(&[&format!("--even-eyes={wrong}")]);
+            assert!(code == 2 && text.contains(wrong) && text.contains("0 to 1"), "{text}");
+        }
     }
 
     #[test]

@@ -77,6 +77,14 @@ pub fn repair(text: &str) -> Result<Repair, String> {
     }
 }
 
+/// A number from 0 to 1.
+pub fn share(text: &str) -> Result<f64, String> {
+    match text.trim().parse::<f64>() {
+        Ok(share) if (0.0..=1.0).contains(&share) => Ok(share),
+        _ => Err(format!("`{text}` is no share: give a number from 0 to 1")),
+    }
+}
+
 /// A whole number in the range of the option `name`.
 pub fn count(name: &'static str) -> impl Fn(&str) -> Result<usize, String> + Clone {
     move |text| {

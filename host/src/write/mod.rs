@@ -24,7 +24,7 @@ use nodes::{move_nodes, skin_slots};
 use serde_json::{Value, json};
 use store::store;
 use superdeform::{Deformed, Mapped, Result};
-pub use thumbnail::set_thumbnail;
+pub use thumbnail::{set_image, set_thumbnail};
 use vertices::mesh_slots;
 
 /// Where the field takes a point (model space) that is attached to a joint.

@@ -2,7 +2,7 @@
 
 use super::store::{keep_named, named_views};
 use crate::file::GltfFile;
-use crate::{array_at, index_at};
+use crate::{array_at, index_at, text_at};
 use serde_json::{Value, json};
 
 /// Puts `png` in the place of the file's thumbnail, or gives it one where it has none; true for a VRM, of which alone
@@ -34,6 +34,15 @@ pub fn set_thumbnail(file: &mut GltfFile, png: &[u8]) -> bool {
         return false;
     }
     true
+}
+
+/// Gives the image with this number other bytes, a PNG's: all that shows it shows these.
+pub fn set_image(file: &mut GltfFile, image: usize, png: &[u8]) {
+    let address = text_at(&file.list("images")[image], "uri").to_string();
+    put_image(file, Some(image), png);
+    if file.list("images").iter().all(|image| text_at(image, "uri") != address) {
+        file.images.remove(&address);
+    }
 }
 
 /// Textures that show an image, whatever its format.

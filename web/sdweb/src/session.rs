@@ -8,7 +8,7 @@
 //! | `"reference"` | `files`, or none: there is no reference any more | `heads`, `name` |
 //! | `"set"` | `style`, `options` | `warnings` |
 //! | `"glimpse"` | | one file, for while a slider moves |
-//! | `"write"` | `name`, `leaf_joints`, `by_reference` | its files, `report`: the text of the report |
+//! | `"write"` | `name`, `even_eyes`, `leaf_joints`, `by_reference` | its files, `report`: the text of the report |
 //! | `"fault"` | | nothing: it panics, for hosts to see what becomes of them then |
 //!
 //! An answer with `error` says in one sentence why there is no other; `option` is what it is about.
@@ -123,7 +123,10 @@ impl Session {
 
     fn write(&mut self, json: &Value) -> Result<Answer> {
         let name = json["name"].as_str().unwrap_or("character_sd.glb");
-        let options = WriteOptions { leaf_joints: json["leaf_joints"] == true };
+        let options = WriteOptions {
+            even_eyes: json["even_eyes"].as_f64().map(|share| share.clamp(0.0, 1.0)),
+            leaf_joints: json["leaf_joints"] == true,
+        };
         let by_reference = self.reference.as_ref().filter(|_| json["by_reference"] == true);
         let converted = self.opened()?.write(by_reference, &options)?;
         let report = converted.report_text(None)?;
