@@ -36,6 +36,18 @@ def angle(ours, theirs):
     return float(np.degrees(np.arccos(np.percentile((one * other).sum(1).clip(-1, 1), 0.1))))
 
 
+def shown(thing, local):
+    """Places in world space, carried as the pose of the armature's first bone carries them: files may store a character elsewhere
+    than they show it, and Blender's importer keeps both, the one as rest and the other as pose."""
+    armature = thing if thing.type == "ARMATURE" else thing.find_armature() or thing.parent
+    root = armature.pose.bones[0]
+    while root.parent:
+        root = root.parent
+    rest = armature.matrix_world @ root.bone.matrix_local
+    carried = np.array(rest @ root.matrix_basis @ rest.inverted())
+    return placed(thing, local) @ carried[:3, :3].T + carried[:3, 3]
+
+
 def compared(path, folder):
     """The figures of a model, or why it is left out."""
     fresh()
@@ -55,24 +67,28 @@ def compared(path, folder):
     subprocess.run([os.environ["SUPERDEFORM_EXAMPLE"], str(stripped(path, folder)), "--heads", "2.5", "-q", "--allow-prohibited", "-o", str(out)], check=True)
     # The copies take their sources' names with a number; so does what is imported a second time.
     theirs = imported(out)
+    for thing in (*ours, *theirs):
+        if thing.type == "ARMATURE":
+            thing.data.pose_position = "REST"
     bpy.context.view_layer.update()
     counterpart = {plain(thing.name): thing for thing in theirs}
+    at = lambda thing, points: shown(thing, rows(points, "co"))
     found = {"vertices": sum(map(len, before.values())), "places": 0.0, "keys": 0.0, "normals": 0.0, "heads": 0.0, "turn": 0.0}
     for mesh in (thing for thing in ours if thing.type == "MESH" and thing.data.polygons):
         other = counterpart[plain(mesh.name)]
         if len(mesh.data.vertices) != len(other.data.vertices):
             return f"{mesh.name} is imported with another number of vertices"
-        found["places"] = max(found["places"], np.abs(vertices(mesh) - vertices(other)).max() / height)
+        found["places"] = max(found["places"], np.abs(at(mesh, mesh.data.vertices) - at(other, other.data.vertices)).max() / height)
         found["normals"] = max(found["normals"], angle(mesh, other))
         if mesh.data.shape_keys:
             for one, two in zip(mesh.data.shape_keys.key_blocks, other.data.shape_keys.key_blocks):
-                apart = placed(mesh, rows(one.data, "co")) - placed(other, rows(two.data, "co"))
+                apart = at(mesh, one.data) - at(other, two.data)
                 found["keys"] = max(found["keys"], np.abs(apart).max() / height)
     ours, theirs = (next(thing for thing in each if thing.type == "ARMATURE") for each in (ours, theirs))
     for bone in ours.data.bones:
         twin, source = theirs.data.bones[bone.name], armatures[0].data.bones[bone.name]
-        apart = ours.matrix_world @ bone.head_local - theirs.matrix_world @ twin.head_local
-        found["heads"] = max(found["heads"], apart.length / height)
+        apart = shown(ours, np.array(bone.head_local)) - shown(theirs, np.array(twin.head_local))
+        found["heads"] = max(found["heads"], np.linalg.norm(apart) / height)
         turn = np.degrees(bone.matrix_local.to_quaternion().rotation_difference(source.matrix_local.to_quaternion()).angle)
         found["turn"] = max(found["turn"], min(turn, 360 - turn))
     for name, places in before.items():
