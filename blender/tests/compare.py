@@ -17,9 +17,12 @@ from start import convert, fresh, imported, placed, rows, stripped, vertices
 
 # Places, keys and bone heads over the height; normals in degrees: Blender keeps 16 bits of them.
 PLACES, NORMALS = 1e-5, 0.1
+_SEEDSAN = (PLACES, 0.4, "Blender keeps some of its face's normals by up to .5 degrees beside those of the file that it imports")
 EXCEPTIONS = {
     # With its nodes put to the bind pose it is equal to 9e-7.
-    "gdquest_mannequiny.glb": (0.2, "its nodes stand in another pose than its skin's bind pose, which Blender takes for the rest pose"),
+    "gdquest_mannequiny.glb": (0.2, 180, "its nodes stand in another pose than its skin's bind pose, which Blender takes for the rest pose"),
+    "seedsan.glb": _SEEDSAN,
+    "seedsan_vrm1.vrm": _SEEDSAN,
 }
 
 
@@ -107,11 +110,11 @@ def main(paths):
                 continue
             print(f"| {path.stem} | {found['vertices']} | {found['places']:.1e} | {found['keys']:.1e} | {found['normals']:.3f} | "
                   f"{found['heads']:.1e} | {found['turn']:.4f} |", flush=True)
-            bound, cause = EXCEPTIONS.get(path.name, (PLACES, ""))
+            bound, turned, cause = EXCEPTIONS.get(path.name, (PLACES, NORMALS, ""))
             if cause:
-                print(f"{path.name} may differ by {bound}: {cause}", flush=True)
+                print(f"{path.name} may differ by {bound} and {turned} degrees: {cause}", flush=True)
             worst = max(found["places"], found["keys"], found["heads"])
-            if worst > bound or (not cause and found["normals"] > NORMALS):
+            if worst > bound or found["normals"] > turned:
                 past.append(path.name)
     print(f"{len(paths)} models, past their bound: {', '.join(past) or 'none'}")
     return bool(past)
