@@ -11,11 +11,40 @@ import superdeform
 from . import refuse, roles, skeleton
 from .read import Source, grey_of
 
-_UP = (0, 0, 1)
+UP = (0, 0, 1)
+
+
+def give(character, meshes, sources, tell=lambda given: None):
+    """Gives meshes with their images, weights and shape keys to the library; `tell` is called with all that is given.
+
+    Returns of each mesh that the library has: its source, the split vertices that it has, and which vertices those were.
+    """
+    parts, images = [], {}
+    for mesh, source in zip(meshes, sources):
+        for slot, used, triangles in source.parts():
+            material = mesh.material_slots[slot].material if slot < len(mesh.material_slots) else None
+            name = material.name if material else ""
+            if source.has_uv and name not in images:
+                grey = grey_of(material)
+                images[name] = 0 if grey is None else character.add_image(grey)
+            of = source.of[used]
+            places, (joints, weights, starts) = source.to_world(source.local)[of], source.rows(of)
+            shown = images[name] if source.has_uv else 0
+            label = f"{mesh.name}/{mesh.data.name}/{name}"
+            for given in (label.encode(), places, source.normals[used], triangles, joints, weights, starts,
+                          *(moved[of] for _, _, moved in source.keys)):
+                tell(given if isinstance(given, bytes) else np.ascontiguousarray(given).tobytes())
+            number = character.add_mesh(
+                places, triangles, label, joints=joints, weights=weights,
+                row_starts=starts, normals=source.normals[used], uvs=source.uv[used] if shown else None, image=shown)
+            for key, _, moved in source.keys:
+                character.add_morph_target(number, moved[of], key)
+            parts.append((source, used, of))
+    return parts
 
 
 class Figure:
-    """The meshes and bones of an armature, as the library has them."""
+    """The meshes and bones of an armature, as the library has them. Needs object mode: others keep the truth elsewhere."""
 
     def __init__(self, armature):
         self.armature = armature.name
@@ -23,35 +52,12 @@ class Figure:
         refuse.check(armature, meshes)
         self.joints, self.controls = skeleton.joints_of(armature, meshes)
         self.sources = [Source(mesh, armature, self.joints.of_bone) for mesh in meshes]
-        self.character = superdeform.Character(up=_UP)
+        self.character = superdeform.Character(up=UP)
         self.character.set_skeleton(self.joints.parents, self.joints.rest, self.joints.names,
                                     roles.roles_of(armature, self.joints.of_bone))
-        self.parts, images = [], {}
         self._digest = hashlib.sha1(repr((self.joints.names, self.joints.parents, armature.name)).encode())
         self._digest.update(np.array(self.joints.rest).tobytes())
-        for mesh, source in zip(meshes, self.sources):
-            for slot, used, triangles in source.parts():
-                material = mesh.material_slots[slot].material if slot < len(mesh.material_slots) else None
-                self._add(source, mesh, used, triangles, material, images)
-
-    def _add(self, source, mesh, used, triangles, material, images):
-        name = material.name if material else ""
-        if source.has_uv and name not in images:
-            grey = grey_of(material)
-            images[name] = 0 if grey is None else self.character.add_image(grey)
-        of = source.of[used]
-        places, (joints, weights, starts) = source.to_world(source.local)[of], source.rows(of)
-        shown = images[name] if source.has_uv else 0
-        label = f"{mesh.name}/{mesh.data.name}/{name}"
-        for given in (label.encode(), places, source.normals[used], triangles, joints, weights, starts,
-                      *(moved[of] for _, _, moved in source.keys)):
-            self._digest.update(given if isinstance(given, bytes) else np.ascontiguousarray(given).tobytes())
-        number = self.character.add_mesh(
-            places, triangles, label, joints=joints, weights=weights,
-            row_starts=starts, normals=source.normals[used], uvs=source.uv[used] if shown else None, image=shown)
-        for key, _, moved in source.keys:
-            self.character.add_morph_target(number, moved[of], key)
-        self.parts.append((source, used, of))
+        self.parts = give(self.character, meshes, self.sources, self._digest.update)
 
     @property
     def digest(self):
@@ -73,6 +79,15 @@ class Deformation:
         """Changes style and options; what does not depend on the change is not done again."""
         self.deformer.set_style(style)
         self.deformer.set_options(**options)
+
+    def hip_ratio(self):
+        """New over old height of the hips above the lowest vertex; 1 where that tells nothing."""
+        hips = np.flatnonzero(self.figure.character.joints().roles == superdeform.character.ROLES["hips"])
+        if not len(hips):
+            return 1.0
+        before = self.figure.joints.rest[hips[0]][2, 3] - min(source.to_world(source.local)[:, 2].min() for source in self.figure.sources)
+        after = self.deformer.joints()[hips[0]][2] - min(places[:, 2].min() for places in self.positions().values())
+        return after / before if before > 0 and after > 0 else 1.0
 
     def positions(self):
         """Places of each mesh in world space, by its name, until the next call; nothing else, for while a slider moves."""

@@ -89,9 +89,10 @@ def copied(context, things, name):
 
 
 def _own_data(source, copy):
-    """Data that the user's preferences would have shared is copied."""
-    if copy.data is not None and copy.data is source.data and copy.type in {"MESH", "ARMATURE"}:
-        copy.data = source.data.copy()
+    """Data that the user's preferences would have shared, or that objects share with one another, is copied: each is deformed where
+    its object is."""
+    if copy.type in {"MESH", "ARMATURE"} and (copy.data is source.data or copy.data.users > 1):
+        copy.data = copy.data.copy()
 
 
 def removed(collection):

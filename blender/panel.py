@@ -5,13 +5,13 @@ import textwrap
 
 import bpy
 
-try:
+from . import refuse
+
+MISSING = refuse.library_fault()
+if not MISSING:
     from superdeform import Error
-except ImportError as fault:
-    MISSING = str(fault)
-else:
-    MISSING = ""
-    from . import preview, refuse, settings, write
+
+    from . import copies, preview, rig, settings, write
     from .character import deformation_of, style_of
 
     class SuperdeformSettings(bpy.types.PropertyGroup):
@@ -46,9 +46,9 @@ else:
         def execute(self, context):
             try:
                 armature = refuse.armature_of(context.object)
-                style = style_of(self)
-                deformation = deformation_of(armature, style, settings.options(self))
-                collection, made, notes = write.character(context, deformation, f"{armature.name} SD")
+                with copies.object_mode(context):
+                    deformation = deformation_of(armature, style_of(self), settings.options(self))
+                    collection, made, notes = write.character(context, deformation, f"{armature.name} SD")
             except (Error, refuse.Refused) as fault:
                 self.report({"ERROR"}, str(fault))
                 return {"CANCELLED"}
@@ -61,6 +61,30 @@ else:
             self.layout.use_property_split = True
             settings.draw(self.layout, self)
             settings.draw_groups(self.layout.box(), self)
+
+    class OBJECT_OT_superdeform_rig(bpy.types.Operator):
+        """Finds the joints of the selected meshes, which have no armature, and gives them one with weights"""
+
+        bl_idname = "object.superdeform_rig"
+        bl_label = "Make a Rig"
+        bl_options = {"REGISTER", "UNDO"}
+
+        @classmethod
+        def poll(cls, context):
+            return bool(refuse.unrigged(context))
+
+        def execute(self, context):
+            try:
+                meshes = refuse.unrigged(context)
+                with copies.object_mode(context):
+                    armature, notes = rig.rigged(context, meshes)
+            except (Error, refuse.Refused) as fault:
+                self.report({"ERROR"}, str(fault))
+                return {"CANCELLED"}
+            for note in notes:
+                self.report({"WARNING"}, note.partition(": ")[2])
+            self.report({"INFO"}, f"{armature.name} has {len(armature.data.bones)} bones")
+            return {"FINISHED"}
 
 
 def sentence(layout, text, width=44):
@@ -92,6 +116,8 @@ class VIEW3D_PT_superdeform(bpy.types.Panel):
         row.prop(given, "preview", toggle=True, icon="HIDE_OFF" if given.preview else "HIDE_ON")
         if given.fault:
             sentence(layout, given.fault)
+        if refuse.unrigged(context):
+            layout.operator("object.superdeform_rig", icon="BONE_DATA")
         row = layout.row()
         row.scale_y = 1.4
         row.operator("object.superdeform", text="Make a Copy", icon="OUTLINER_OB_ARMATURE")
@@ -118,7 +144,7 @@ class VIEW3D_PT_superdeform_groups(bpy.types.Panel):
 
 _classes = [VIEW3D_PT_superdeform, VIEW3D_PT_superdeform_groups]
 if not MISSING:
-    _classes = [SuperdeformSettings, OBJECT_OT_superdeform, *_classes]
+    _classes = [SuperdeformSettings, OBJECT_OT_superdeform, OBJECT_OT_superdeform_rig, *_classes]
 
 
 def register():
@@ -126,11 +152,12 @@ def register():
         bpy.utils.register_class(each)
     if not MISSING:
         bpy.types.Scene.superdeform = bpy.props.PointerProperty(type=SuperdeformSettings)
+        preview.register()
 
 
 def unregister():
     if not MISSING:
-        preview.stop()
+        preview.unregister()
         del bpy.types.Scene.superdeform
     for each in reversed(_classes):
         bpy.utils.unregister_class(each)

@@ -2,6 +2,7 @@
 """Live preview: while a slider moves, places alone; when it is let go, keys, normals and rest bones too."""
 
 import bpy
+from bpy.app.handlers import persistent
 from superdeform import Error
 
 from . import copies, refuse, settings, write
@@ -21,9 +22,10 @@ class Preview:
 
     def __init__(self, context, given):
         armature = refuse.armature_of(context.object)
-        self.deformation = Deformation(Figure(armature), self._style_of(given), settings.options(given))
         self.armature = armature.name
-        collection, made, self.notes = write.character(context, self.deformation, f"{armature.name} preview")
+        with copies.object_mode(context):
+            self.deformation = Deformation(Figure(armature), self._style_of(given), settings.options(given))
+            collection, made, self.notes = write.character(context, self.deformation, f"{armature.name} preview")
         self.collection = collection.name
         self.made = {name: thing.name for name, thing in made.items()}
         self._look_back(made)
@@ -124,3 +126,31 @@ def stop():
     if _current is not None:
         _current.remove()
         _current = None
+
+
+@persistent
+def _before_saving(*_):
+    """A file is saved with the character, not with a preview that nobody would end."""
+    for scene in bpy.data.scenes:
+        scene.superdeform.preview = False
+
+
+@persistent
+def _before_loading(*_):
+    """What is shown belongs to a file that goes."""
+    global _current
+    _current = None
+
+
+_HANDLERS = ((bpy.app.handlers.save_pre, _before_saving), (bpy.app.handlers.load_pre, _before_loading))
+
+
+def register():
+    for handlers, handler in _HANDLERS:
+        handlers.append(handler)
+
+
+def unregister():
+    stop()
+    for handlers, handler in _HANDLERS:
+        handlers.remove(handler)

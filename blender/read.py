@@ -4,8 +4,11 @@
 import numpy as np
 from mathutils import Matrix
 
-# Corners whose normals and texture coordinates differ by less than this share a vertex: below what glTF keeps of either.
-_NORMAL_STEPS, _UV_STEPS = 8000, 65536
+# Corners whose texture coordinates differ by less than one of so many steps share a vertex: below what glTF keeps of them.
+_UV_STEPS = 65536
+# Corners of a vertex share its normal as far as theirs have this cosine, .2 degrees: of normals that a file gives Blender keeps 16
+# bits, relative to the triangles around, so that corners of one normal differ by up to .05 degrees.
+_SAME_NORMAL = 0.999994
 
 
 def numbers(things, key, count, kind=np.float32):
@@ -32,6 +35,20 @@ def turned(rows, matrix):
     """Normals through a matrix, of unit length."""
     made = rows @ np.linalg.inv(matrix[:3, :3])
     return (made / np.maximum(np.linalg.norm(made, axis=1, keepdims=True), 1e-20)).astype(np.float32)
+
+
+def unlike(key, normal):
+    """Numbers corners of one key by their normals: 0 those that have the first one's, 1 those that have the first one's of the rest,
+    and so on."""
+    number, left = np.zeros(len(key), np.int32), np.arange(len(key))
+    while len(left):
+        first, of = np.unique(key[left], return_index=True, return_inverse=True)[1:]
+        alike = (normal[left] * normal[left[first[of.reshape(-1)]]]).sum(1) >= _SAME_NORMAL
+        # Normals of no length are like nothing, not even themselves.
+        alike[first] = True
+        left = left[~alike]
+        number[left] += 1
+    return number
 
 
 class Source:
@@ -77,9 +94,9 @@ class Source:
             data.uv_layers.active.uv.foreach_get("vector", uv.reshape(-1))
         of_corner = np.zeros(corners, np.int32)
         of_corner[triangle] = np.repeat(material, 3)
-        key = np.empty(corners, [("material", "i4"), ("vertex", "i4"), ("normal", "3i2"), ("uv", "2i4")])
-        key["material"], key["vertex"] = of_corner, vertex
-        key["normal"], key["uv"] = np.rint(normal * _NORMAL_STEPS), np.rint(uv * _UV_STEPS)
+        key = np.zeros(corners, [("material", "i4"), ("vertex", "i4"), ("normal", "i4"), ("uv", "2i4")])
+        key["material"], key["vertex"], key["uv"] = of_corner, vertex, np.rint(uv * _UV_STEPS)
+        key["normal"] = unlike(key, normal)
         first, split = np.unique(key, return_index=True, return_inverse=True)[1:]
         self.split = split.reshape(-1)
         self.of = vertex[first]

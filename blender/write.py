@@ -18,20 +18,19 @@ _CARRIED_OFF = 0.02
 def character(context, deformation, name):
     """Copies with the new shape in a collection `name`: it, and sentences about what a person should know.
 
-    Raises Refused, after which no copy is left.
+    Needs object mode. Raises Refused, after which no copy is left.
     """
     figure = deformation.figure
     armature = bpy.data.objects[figure.armature]
     meshes = [bpy.data.objects[source.name] for source in figure.sources]
     things = copies.belonging(armature, meshes)
     places = {thing.name: rest_world(armature, thing) for thing in things}
-    with copies.object_mode(context):
-        home, made = copies.copied(context, things, name)
-        try:
-            notes = _written(context, deformation, armature, made, places)
-        except Exception:
-            copies.removed(home)
-            raise
+    home, made = copies.copied(context, things, name)
+    try:
+        notes = _written(context, deformation, armature, made, places)
+    except Exception:
+        copies.removed(home)
+        raise
     return home, made, notes
 
 
@@ -41,7 +40,7 @@ def _written(context, deformation, armature, made, places):
     reshape(context, deformation, armature, made, places)
     vrm.springs(armature, copy, figure, deformer)
     notes = deformer.warnings()
-    _scale_actions(copy, armature)
+    _scale_actions(copy, deformation.hip_ratio())
     if figure.controls:
         _reset_controls(context, copy, figure)
     return notes
@@ -55,6 +54,7 @@ def reshape(context, deformation, armature, made, places):
     figure, deformer = deformation.figure, deformation.deformer
     copy, joints = made[armature.name], deformer.joints()
     bones(context, copy, armature, figure, deformer, joints)
+    _carry_roots(copy, armature)
     context.view_layer.update()
     for name, thing in made.items():
         _hang(thing, copy, armature, figure, deformer, joints, name, places[name])
@@ -96,6 +96,17 @@ def bones(context, copy, armature, figure, deformer, joints):
             bone.use_connect = True
     copy.data.use_mirror_x = mirrored
     bpy.ops.object.mode_set(mode="OBJECT")
+
+
+def _carry_roots(copy, armature):
+    """Poses bones without a parent so that they carry the copy where those of the source carry it: a scale or a turn of a pose is
+    about the head of its bone, which is elsewhere now. Importers pose whole characters, from where a file stores them to where
+    it shows them."""
+    for bone in armature.pose.bones:
+        if bone.parent is None and bone.matrix_basis != Matrix.Identity(4):
+            rest, new = bone.bone.matrix_local, copy.data.bones[bone.name].matrix_local
+            carried = rest @ bone.matrix_basis @ rest.inverted()
+            copy.pose.bones[bone.name].matrix_basis = new.inverted() @ carried @ new
 
 
 def _ends(armature, figure, deformer, joints, name, head, tail):
@@ -184,11 +195,10 @@ def put(data, places, back):
     return local
 
 
-def _scale_actions(copy, armature):
-    """Locations that an action of the copy gives to bones shrink with the height of the hips, on a copy of the action."""
+def _scale_actions(copy, ratio):
+    """Locations that an action of the copy gives to bones shrink by `ratio`, on a copy of the action."""
     if not copy.animation_data:
         return
-    ratio = _height_of_root(copy) / max(_height_of_root(armature), 1e-9)
     done = {}
 
     def own(action):
@@ -216,13 +226,6 @@ def _curves(action):
     if hasattr(action, "layers") and len(action.layers):
         return [curve for layer in action.layers for strip in layer.strips for bag in strip.channelbags for curve in bag.fcurves]
     return list(getattr(action, "fcurves", ()))
-
-
-def _height_of_root(armature):
-    """How high the highest bone without a parent above the ground of the armature has its head, or its first child's."""
-    up = armature.matrix_world.to_3x3()
-    heads = [(up @ bone.head_local).z for bone in armature.data.bones if len(bone.children) > 1]
-    return max((abs(head) for head in heads[:1]), default=1.0)
 
 
 def _reset_controls(context, copy, figure):

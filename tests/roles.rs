@@ -528,6 +528,71 @@ fn auto_rig_pro_stretches_arms_and_legs() {
 }
 
 #[test]
+fn names_that_blender_addons_give_are_known() {
+    // CATS, when it has fixed a model.
+    expect_person(
+        "Hips",
+        &["Spine", "Chest"],
+        ["Neck", "Head"],
+        ["Left shoulder", "Left arm", "Left elbow", "Left wrist"],
+        ["Left leg", "Left knee", "Left ankle", "Left toe"],
+        ["Left", "Right"],
+    );
+    // MikuMikuDance's bones as mmd_tools imports them, sides behind, and as it translates them.
+    expect_person(
+        "腰",
+        &["上半身", "上半身2"],
+        ["首", "頭"],
+        ["肩.L", "腕.L", "ひじ.L", "手首.L"],
+        ["足.L", "ひざ.L", "足首.L", "つま先.L"],
+        [".L", ".R"],
+    );
+    expect_person(
+        "waist",
+        &["upper body", "upper body2"],
+        ["neck", "head"],
+        ["shoulder.L", "arm.L", "elbow.L", "wrist.L"],
+        ["leg.L", "knee.L", "ankle.L", "toe.L"],
+        [".L", ".R"],
+    );
+}
+
+#[test]
+fn legs_that_deform_beside_those_that_are_posed_play_the_roles() {
+    // MikuMikuDance: 足 is posed and has no vertices, 足D follows it and has them.
+    let text = "
+腰 @ 0 0.95 0
+  下半身 @ 0 1.0 0
+    左足 @ 0.1 0.9 0
+      左ひざ @ 0.1 0.5 0
+        左足首 @ 0.1 0.09 0
+          左つま先 @ 0.1 0.02 0.12
+    左足D @ 0.1 0.9 0
+      左ひざD @ 0.1 0.5 0
+        左足首D @ 0.1 0.09 0
+          左足先EX @ 0.1 0.03 0.1
+  上半身 @ 0 1.0 0
+    上半身2 @ 0 1.2 0
+      首 @ 0 1.45 0
+        頭 @ 0 1.55 0
+      左肩 @ 0.03 1.4 0
+        左腕 @ 0.18 1.4 0
+          左ひじ @ 0.45 1.4 0
+            左手首 @ 0.7 1.4 0
+";
+    let roles = [
+        (Hips, "腰"),
+        (Head, "頭"),
+        (LeftHand, "左手首"),
+        (LeftUpperLeg, "左足D"),
+        (LeftLowerLeg, "左ひざD"),
+        (LeftFoot, "左足首D"),
+        (LeftToes, "左足先EX"),
+    ];
+    expect(text, "左", "右", &roles);
+}
+
+#[test]
 fn plain_conventions_are_known() {
     // VRoid.
     expect_person(

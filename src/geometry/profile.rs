@@ -36,10 +36,12 @@ pub fn deepest_step(depths: &[Option<f64>], search: &StepSearch) -> Option<usize
         }
     }
     let (_, edge) = deepest.filter(|&(step, _)| step >= least)?;
+    // A step between rows is about as much less than one between bands.
+    let row_tie = tie * span / band as f64;
     let mut steepest = (f64::MIN, edge);
     for row in edge.saturating_sub(band).max(1)..(edge + band).min(depths.len()) {
         if let (Some(above), Some(below)) = (depths[row], depths[row - 1])
-            && above - below > steepest.0 * (1.0 + tie)
+            && above - below > steepest.0 * (1.0 + tie) + row_tie
         {
             steepest = (above - below, row);
         }
@@ -77,5 +79,10 @@ mod tests {
     fn of_equal_steps_the_lowest_counts() {
         let twice = rows(&[0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0, 2.0 + 1e-9, 2.0, 2.0, 2.0]);
         assert_eq!(deepest_step(&twice, &SEARCH), Some(4));
+        // Under a flat chin all rows step back alike, but for the last digits.
+        for tremble in [-5e-7, 0.0, 5e-7] {
+            let slope = rows(&[0.0, 0.0, 0.0, 0.0, 0.25, 0.5 + tremble, 0.75, 1.0, 1.0, 1.0, 1.0, 1.0]);
+            assert_eq!(deepest_step(&slope, &SEARCH), Some(4), "{tremble}");
+        }
     }
 }

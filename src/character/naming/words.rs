@@ -81,15 +81,17 @@ fn part_of(core: &str) -> Option<(Part, u8)> {
         "hand" => (Part::Hand, 0),
         "wrist" | "手首" => (Part::Hand, 1),
         "palm" => (Part::Hand, 2),
-        "thigh" | "upperleg" | "upleg" | "legupper" | "legup" | "femur" | "足" => (Part::UpperLeg, 0),
+        "thigh" | "upperleg" | "upleg" | "legupper" | "legup" | "femur" | "足d" => (Part::UpperLeg, 0),
+        // MikuMikuDance poses 足 and lets 足D follow it, which has the vertices.
+        "足" => (Part::UpperLeg, 1),
         "leg" => (Part::Leg, 0),
         "calf" | "shin" | "lowerleg" | "lowleg" | "leglower" | "leglow" | "crus" | "foreleg" => {
             (Part::LowerLeg, 0)
         }
-        "knee" | "ひざ" | "膝" => (Part::LowerLeg, 1),
+        "knee" | "ひざ" | "膝" | "ひざd" => (Part::LowerLeg, 1),
         "foot" | "feet" => (Part::Foot, 0),
-        "ankle" | "足首" => (Part::Foot, 1),
-        "toe" | "toes" | "つま先" | "爪先" => (Part::Toes, 0),
+        "ankle" | "足首" | "足首d" => (Part::Foot, 1),
+        "toe" | "toes" | "つま先" | "爪先" | "足先ex" => (Part::Toes, 0),
         "ball" | "football" | "foottoe" | "foottoes" => (Part::Toes, 1),
         "finger" => (Part::NumberedFinger, 0),
         "fingers" => (Part::Finger(Finger::Middle), 1),

@@ -49,7 +49,7 @@ const LEAST_EXTREMITY: f64 = 0.02;
 /// Lengths are at least this share of H, so that nothing is divided by 0. Seen: 30 % either way moves no vertex of 14
 /// models.
 const LEAST_LENGTH: f64 = 0.005;
-/// Joints nearer to each other than this share of H lie on one another. Seen: 30 % either way moves no vertex of 14
+/// Joints nearer to each other than this share of H lie on one another, and finger tips are as far as each other. Seen: 30 % either way moves no vertex of 14
 /// models.
 const APART: f64 = 1e-3;
 /// The elbow where no joint tells, as a share of the way from shoulder to finger tips. Seen: 30 % either way moves no
@@ -311,12 +311,18 @@ fn arm(figure: &Figure, parts: &[PartWeights], left: bool) -> Limb {
     let root = figure.role_position(side(LeftUpperArm)).unwrap_or_default();
     let elbow = figure.role_position(side(LeftLowerArm));
     let wrist = figure.role_position(side(LeftHand));
-    // The finger tips: the arm's own vertex that lies furthest from the shoulder.
-    let tip = (0..figure.positions.len())
-        .filter(|&vertex| indices.iter().map(|&part| parts[vertex][part]).sum::<f32>() > 0.5)
-        .map(|vertex| figure.positions[vertex])
-        .max_by(|a, b| a.distance_squared(root).total_cmp(&b.distance_squared(root)))
-        .unwrap_or(root);
+    // The finger tips: the arm's own vertices that lie furthest from the shoulder. Of a blunt end several lie as far, and the
+    // last digits must not choose one.
+    let reach = APART * figure.height();
+    let own = |vertex: &usize| indices.iter().map(|&part| parts[*vertex][part]).sum::<f32>() > 0.5;
+    let places: Vec<DVec3> =
+        (0..figure.positions.len()).filter(own).map(|vertex| figure.positions[vertex]).collect();
+    let furthest = places.iter().map(|p| p.distance(root)).fold(0.0, f64::max);
+    let (sum, total) = places.iter().fold((DVec3::ZERO, 0.0), |(sum, total), &p| {
+        let weight = (reach - (furthest - p.distance(root))).max(0.0);
+        (sum + p * weight, total + weight)
+    });
+    let tip = if total > 0.0 { sum / total } else { root };
     let apart = |a: DVec3, b: DVec3| a.distance(b) > APART * figure.height();
     let middle = elbow.filter(|&elbow| apart(elbow, root)).unwrap_or_else(|| match wrist {
         Some(wrist) => root.lerp(wrist, 0.5),
