@@ -138,12 +138,7 @@ struct Asked {
 
 impl Asked {
     /// The proportions of `reference`, for a head of length `head` that grows `width_factor` more in width.
-    fn of_reference(
-        target: &Proportions,
-        reference: &Proportions,
-        head: f64,
-        width_factor: f64,
-    ) -> Self {
+    fn of_reference(target: &Proportions, reference: &Proportions, head: f64, width_factor: f64) -> Self {
         let unit = head / reference.head_length;
         let thickness = |ours: Option<f64>, theirs: Option<f64>| Some(theirs? * unit / ours?);
         // Judged by the heads' widths: a wide-headed style makes no bulky toddler.
