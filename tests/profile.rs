@@ -309,9 +309,8 @@ fn bounds_on_lengths_alone_are_warned_of() {
     if !at_hand() {
         return;
     }
-    let style = style_of(REFERENCE, &Options::default());
     for profile in [0.0, 1.0] {
-        let named = bounds_named(&run(&style, &Options { profile, ..Options::default() }));
+        let named = bounds_named(&run(&Style::Heads(1.8), &Options { profile, ..Options::default() }));
         assert!(named.contains("leg length") && !named.contains("thickness"), "{named}");
     }
 }

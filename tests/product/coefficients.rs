@@ -125,27 +125,29 @@ fn without_limits_all_lengths_in_heads_are_the_references() {
     assert_near("heads", heads_of(&tall(), &scales), 2.6);
 }
 
-/// Between 0.75 * 0.07 / 0.08 and 0.75 * 0.06 / 0.05.
+/// The root of 0.225 / 0.8.
 fn legs_thickness() -> f64 {
-    (0.65625 * 0.9_f64).sqrt()
+    0.28125_f64.sqrt()
 }
 
 #[test]
 fn the_limits_keep_a_body_sound_and_say_so() {
-    let (scales, warnings) =
-        solved(&tall(), Goal::Reference(&Proportions { leg: 0.28, ..small() }), &Options::default());
+    let reference = Proportions { leg: 0.24, ..small() };
+    let (scales, warnings) = solved(&tall(), Goal::Reference(&reference), &Options::default());
     assert_scale("arm", scales.upper_arm, 0.42, 0.6272);
-    assert_near("legs", scales.upper_leg.thickness, legs_thickness());
-    // Hands at least as large as the arm is thick, but 0.34 of the new head: 0.34 * 0.3 / 0.18. Feet 0.6 * 0.3 / 0.24.
+    // The root of what is asked for, 0.18 / 0.8; feet of 0.46875 would be slimmer.
+    let thickness = 0.225_f64.sqrt();
+    assert_near("legs", scales.upper_leg.thickness, thickness);
+    assert_near("foot", scales.foot, thickness);
+    // At least as large as the arm is thick, but 0.34 of the new head: 0.34 * 0.3 / 0.18.
     assert_near("hand", scales.hand, 0.102 / 0.18);
-    assert_near("foot", scales.foot, 0.75);
-    // Legs of 0.21 less the foot's 0.06, over 0.72, are less than 0.22; the torso gives (0.22 * 0.72 + 0.06 - 0.21) / 0.5.
+    // Legs of 0.18 less the foot's height, over 0.72, are less than 0.22; the torso gives the rest.
     assert_near("leg", scales.upper_leg.length, 0.22);
     assert_near("lower leg", scales.lower_leg.length, 0.22);
-    assert_scale("torso", scales.torso, 0.45 - 0.0084 / 0.5, 0.6272);
-    assert_near("heads", heads_of(&tall(), &scales), 2.55);
+    assert_scale("torso", scales.torso, 0.45 - (0.22 * 0.72 + 0.08 * thickness - 0.18) / 0.5, 0.6272);
+    assert_near("heads", heads_of(&tall(), &scales), 2.45);
     assert_eq!(codes(&warnings), ["coefficient_limited"]);
-    assert!(warnings[0].message.contains("leg length 0.208 to 0.220"), "{}", warnings[0].message);
+    assert!(warnings[0].message.contains("leg length 0.197 to 0.220"), "{}", warnings[0].message);
 }
 
 #[test]
@@ -161,7 +163,7 @@ fn each_limit_acts_where_it_should() {
             "the legs under it",
             |_, r| r.neck = 0.2,
             |s| s.upper_leg.length,
-            (0.225 * 0.543 / 0.45 - 0.06) / 0.72,
+            (0.2715 - 0.08 * (0.2715_f64 / 0.8).sqrt()) / 0.72,
         ),
         ("a neck's shortest", |_, r| r.neck = 0.004, |s| s.neck.length, 0.03 * 0.3 / 0.06),
         // 1.5 times what the target has in heads: 0.075.
@@ -176,8 +178,7 @@ fn each_limit_acts_where_it_should() {
         // 0.75 * 0.14 / 0.15, judged by heads that are 1.12 * 0.4 and 0.625 wide for their length.
         ("a broad head's body", |_, r| r.head_half_width = 0.25, |s| s.torso.thickness, 0.7 * 0.448 / 0.625),
         ("an arm's longest", |_, r| r.arm = 3.0, |s| s.lower_arm.length, 1.5),
-        ("a thin leg", |_, r| r.upper_leg_radius = Some(0.02), |s| s.upper_leg.thickness, 0.45),
-        ("a thick leg", |_, r| r.upper_leg_radius = Some(0.5), |s| s.lower_leg.thickness, 1.0),
+        ("a short leg's thickness", |_, r| r.leg = 0.1, |s| s.lower_leg.thickness, 0.22_f64.sqrt()),
         // 1.1 times the lower arm's thickness where the style knows none, 1.2 times the leg's.
         ("hands without a style", |_, r| r.hand = None, |s| s.hand, 0.102 / 0.18),
         (
@@ -232,8 +233,8 @@ fn a_number_of_heads_is_reached_after_the_targets_own_build() {
     // 0.6 of the new head over 0.24 is less than 1.2 times the leg's thickness; so with hands.
     assert_near("foot", scales.foot, 0.75);
     assert_near("hand", scales.hand, 0.102 / 0.18);
-    assert_scale("upper leg", scales.upper_leg, (leg - 0.06) / 0.72, thickness);
-    assert_scale("lower leg", scales.lower_leg, (leg - 0.06) / 0.72, thickness);
+    assert_scale("upper leg", scales.upper_leg, (leg - 0.06) / 0.72, (leg / 0.8).sqrt());
+    assert_scale("lower leg", scales.lower_leg, (leg - 0.06) / 0.72, (leg / 0.8).sqrt());
     assert_near("heads", heads_of(&tall(), &scales), 3.0);
     assert_eq!(warnings, []);
 }
@@ -279,6 +280,6 @@ fn what_a_user_sets_stands_beside_the_limits() {
         Options { groups: BTreeMap::from([("upper_leg".to_string(), settings)]), ..Options::default() };
     let (scales, _) = solved(&tall(), Goal::Reference(&small()), &options);
     assert_eq!(scales.upper_leg.length, 0.05);
-    // 0.225 less the foot's 0.06.
-    assert_near("lower leg", scales.lower_leg.length, 0.165 / 0.72);
+    // 0.225 less the foot's height.
+    assert_near("lower leg", scales.lower_leg.length, (0.225 - 0.08 * legs_thickness()) / 0.72);
 }

@@ -133,18 +133,15 @@ struct Asked {
     hand: Option<f64>,
     foot: Option<f64>,
     torso_thickness: Option<f64>,
-    leg_thickness: Option<f64>,
 }
 
 impl Asked {
     /// The proportions of `reference`, for a head of length `head` that grows `width_factor` more in width.
     fn of_reference(target: &Proportions, reference: &Proportions, head: f64, width_factor: f64) -> Self {
         let unit = head / reference.head_length;
-        let thickness = |ours: Option<f64>, theirs: Option<f64>| Some(theirs? * unit / ours?);
         // Judged by the heads' widths: a wide-headed style makes no bulky toddler.
         let by_head = target.head_width() * width_factor / reference.head_width();
-        let upper = thickness(target.upper_leg_radius, reference.upper_leg_radius);
-        let lower = thickness(target.lower_leg_radius, reference.lower_leg_radius);
+        let widths = target.torso_half_width.zip(reference.torso_half_width);
         Self {
             neck: reference.neck * unit,
             torso: reference.torso * unit,
@@ -152,9 +149,7 @@ impl Asked {
             leg: reference.leg * unit,
             hand: reference.hand.map(|hand| hand * unit),
             foot: reference.foot.map(|foot| foot * unit),
-            torso_thickness: thickness(target.torso_half_width, reference.torso_half_width)
-                .map(|thickness| thickness * by_head),
-            leg_thickness: upper.zip(lower).map(|(upper, lower)| (upper * lower).sqrt()),
+            torso_thickness: widths.map(|(ours, theirs)| theirs * unit / ours * by_head),
         }
     }
 
@@ -174,7 +169,6 @@ impl Asked {
             hand: None,
             foot: None,
             torso_thickness: None,
-            leg_thickness: None,
         }
     }
 }
@@ -233,7 +227,7 @@ pub fn part_coefficients(
     let asked = solver.asked();
     let (torso, leg) = solver.solve_neck(&asked);
     solver.solve_torso(torso);
-    solver.solve_thickness(&asked);
+    solver.solve_thickness(&asked, leg);
     solver.solve_arms(asked.arm);
     solver.solve_hands(asked.hand);
     solver.solve_feet(asked.foot);
@@ -328,14 +322,18 @@ impl<'a> Solver<'a> {
             self.bounds.apply("torso length", torso / self.target.torso, 0.0, self.head_scale);
     }
 
-    /// Thicknesses that slices go on from; what has none in the style is as thick as the root of its length. None becomes slimmer
-    /// than the torso becomes short, nor thicker than it was. Neck and arms are as the torso: their first slice lies outside of
-    /// the shoulders' caps, which take this alone.
-    fn solve_thickness(&mut self, asked: &Asked) {
-        let Self { bounds, scales, .. } = self;
+    /// Thicknesses that slices go on from: the torso's is the style's, legs have the root of their length, and none becomes slimmer
+    /// than it becomes short, nor thicker than it was. Neck and arms are as the torso: their first slice lies outside of the
+    /// shoulders' caps, which take this alone.
+    ///
+    /// `leg`: how long legs are to be.
+    fn solve_thickness(&mut self, asked: &Asked, leg: f64) {
+        let Self { bounds, scales, target, .. } = self;
         let length = scales.torso.length;
-        let [torso, leg] = [asked.torso_thickness, asked.leg_thickness]
-            .map(|thickness| bounds.within(thickness.unwrap_or(length.sqrt()), length, length.max(1.0)));
+        let leg_length = (leg / target.leg).max(SHORTEST_LIMB);
+        let most = length.max(1.0);
+        let torso = bounds.within(asked.torso_thickness.unwrap_or(length.sqrt()), length, most);
+        let leg = bounds.within(leg_length.sqrt(), length.min(leg_length), most);
         (scales.torso.thickness, scales.neck.thickness) = (torso, torso);
         (scales.upper_arm.thickness, scales.lower_arm.thickness) = (torso, torso);
         (scales.upper_leg.thickness, scales.lower_leg.thickness) = (leg, leg);
