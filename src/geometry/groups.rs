@@ -1,4 +1,7 @@
-//! Things that belong together because each belongs to the next: a union-find.
+//! Things that are joined: which of them belong together (a union-find), and what it costs to get from one to the others.
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
 
 /// Things in groups that grow together, each known by its least member.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -27,6 +30,40 @@ impl Groups {
         let (one, other) = (self.least(one), self.least(other));
         self.above[one.max(other)] = one.min(other) as u32;
     }
+}
+
+/// What it costs at least to reach each of `count` things; infinite where no way leads.
+///
+/// - `starts`: where ways begin, each with what it costs to be there.
+/// - `beside`: what is beside one, with the cost of the way there, 0 or more.
+///
+/// Dijkstra. A note on two problems in connexion with graphs. Numerische Mathematik 1, 1959.
+pub fn least_costs<Beside: Iterator<Item = (u32, f64)>>(
+    count: usize,
+    starts: impl Iterator<Item = (u32, f64)>,
+    beside: impl Fn(u32) -> Beside,
+) -> Vec<f64> {
+    let mut costs = vec![f64::INFINITY; count];
+    // Bits of numbers that are 0 or more are in the order of these.
+    let mut queue = BinaryHeap::new();
+    for (start, cost) in starts {
+        costs[start as usize] = cost;
+        queue.push(Reverse((cost.to_bits(), start)));
+    }
+    while let Some(Reverse((bits, at))) = queue.pop() {
+        let cost = f64::from_bits(bits);
+        if cost > costs[at as usize] {
+            continue;
+        }
+        for (next, way) in beside(at) {
+            let further = cost + way;
+            if further < costs[next as usize] {
+                costs[next as usize] = further;
+                queue.push(Reverse((further.to_bits(), next)));
+            }
+        }
+    }
+    costs
 }
 
 #[cfg(test)]

@@ -27,7 +27,7 @@ const FILLED_ROWS: f64 = 0.97;
 /// ... and nearly all of it hangs together. Seen: at +30 %, joints lie 0.003 H further off, eight more by over 0.06 H.
 const CONNECTED_SHARE: f64 = 0.9;
 /// Gaps of so many cells within a row are slits between patches, not air. Seen: ±30 % moves joints by under 0.0005 H.
-const SLIT: usize = 2;
+pub const SLIT: usize = 2;
 /// Every so many rows are compared with their mirror image. Seen: ±30 % moves joints by under 0.0005 H.
 const AXIS_ROWS: usize = 3;
 /// An axis is kept where another one makes no more than this share of the silhouette's mirror image fit better. Seen:
@@ -36,7 +36,7 @@ const AXIS_GAIN: f64 = 0.004;
 /// A mesh is symmetric where nearly all of its vertices (seen: ±30 % moves joints by under 0.0005 H) ...
 const SYMMETRIC_SHARE: f64 = 0.999;
 /// ... have a mirror image within this. Seen: ±30 % changes no joint.
-const SYMMETRIC_WITHIN: f64 = 2e-5;
+pub const SYMMETRIC_WITHIN: f64 = 2e-5;
 
 /// A figure seen from the front.
 pub struct FrontView<'a> {
@@ -50,8 +50,6 @@ pub struct FrontView<'a> {
     pub grid: RayGrid,
     /// x of the plane of symmetry.
     pub axis: f64,
-    /// 0..1: the share of the silhouette that its mirror image covers.
-    pub symmetry: f64,
     /// True where vertices have mirror images, not only the outline.
     pub is_symmetric: bool,
     /// At most so many threads; 0 means all cores.
@@ -123,7 +121,7 @@ impl<'a> FrontView<'a> {
         grid: RayGrid,
         threads: usize,
     ) -> Self {
-        let (axis, symmetry) = axis(&grid);
+        let axis = axis(&grid);
         let grid = if axis == 0.0 { grid } else { front(positions, &triangles, axis, threads) };
         let extent = Extent::of(&grid);
         let runs = (0..grid.frame.rows).map(|row| runs(&grid, row)).collect();
@@ -133,7 +131,6 @@ impl<'a> FrontView<'a> {
             meshes,
             triangles,
             axis,
-            symmetry,
             is_symmetric,
             threads,
             low: extent.low,
@@ -331,14 +328,14 @@ fn runs(grid: &RayGrid, row: usize) -> Vec<(usize, usize)> {
     runs
 }
 
-/// The axis about which most of the silhouette is its own mirror image, and the share that is.
-fn axis(grid: &RayGrid) -> (f64, f64) {
+/// The axis about which most of the silhouette is its own mirror image.
+fn axis(grid: &RayGrid) -> f64 {
     let columns = grid.frame.columns;
     let rows: Vec<Vec<(usize, usize)>> =
         (0..grid.frame.rows).step_by(AXIS_ROWS).map(|row| runs(grid, row)).collect();
     let area: usize = rows.iter().flatten().map(|run| run.1 - run.0).sum();
     if area == 0 {
-        return (0.0, 0.0);
+        return 0.0;
     }
     // `sum` is the sum of two columns that are each other's image: [start, end) has the image (sum - end, sum - start].
     let overlap = |sum: usize| -> f64 {
@@ -366,14 +363,14 @@ fn axis(grid: &RayGrid) -> (f64, f64) {
         }
     }
     if scores[middle] >= scores[best] - AXIS_GAIN {
-        return (0.0, scores[middle]);
+        return 0.0;
     }
     // A parabola through the best and its neighbours.
     let value = |sum: usize| scores.get(sum).copied().unwrap_or(0.0);
     let (before, after) = (value(best.wrapping_sub(1)), value(best + 1));
     let bend = before - 2.0 * scores[best] + after;
     let shift = if bend < 0.0 { (0.5 * (before - after) / bend).clamp(-0.5, 0.5) } else { 0.0 };
-    (0.5 * (best as f64 + shift - middle as f64) * grid.frame.cell, scores[best])
+    0.5 * (best as f64 + shift - middle as f64) * grid.frame.cell
 }
 
 fn is_symmetric(positions: &[DVec3], triangles: &[[u32; 3]], axis: f64) -> bool {

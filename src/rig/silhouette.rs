@@ -8,8 +8,6 @@ const MOST_HITS: f64 = 6e6;
 /// Things that lie further apart than this share of a limb's thickness are not the same limb. Seen: ±30 % moves joints
 /// by under 0.0005 H.
 const LIMB_GAP: f64 = 0.35;
-/// Fewer triangles than this are not worth a thread of their own. Time alone.
-const LEAST_SHARE: usize = 4096;
 
 /// The plane that a grid of rays starts from, and how fine the grid is.
 #[derive(Clone, Copy, Debug)]
@@ -68,7 +66,7 @@ impl RayGrid {
         } else {
             triangles
         };
-        let shares = triangles.len().div_ceil(LEAST_SHARE).clamp(1, 64);
+        let shares = triangles.len().div_ceil(parallel::FEW).clamp(1, 64);
         let share = triangles.len().div_ceil(shares).max(1);
         let hits = parallel::collect(threads, triangles.len().div_ceil(share), 1, |index| {
             let last = ((index + 1) * share).min(triangles.len());

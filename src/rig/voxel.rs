@@ -3,11 +3,12 @@
 //! Dionne and de Lasa. Geodesic voxel binding for production character meshes. SCA 2013 (reference 14).
 
 use super::solid::geodesic::{Bone, Distances, Paths, place_bones};
-use super::solid::{OUTSIDE, Solid, Voxels};
+use super::solid::{Solid, Voxels};
 use super::wholeness::Wholeness;
 use super::{WeightBone, WeightSet};
 use crate::character::Weights;
 use crate::error::Result;
+use crate::geometry::NONE;
 use crate::parallel;
 use crate::progress::Progress;
 use glam::{DVec3, IVec3};
@@ -239,7 +240,7 @@ fn distance_at(volume: &Voxels, distances: &Distances, bone: &Bone, p: DVec3) ->
     for i in 0..8 {
         let offset = IVec3::new(i & 1, i >> 1 & 1, i >> 2);
         let slot = volume.slot(corner.as_ivec3() + offset);
-        if slot == OUTSIDE || !distances.is_reached(slot) {
+        if slot == NONE || !distances.is_reached(slot) {
             continue;
         }
         let far = offset.as_dvec3();

@@ -6,7 +6,7 @@
 //! The rims of a piece, one after the other, are the sections of a limb, whatever way it bends.
 
 use super::voxels::{Queue, Voxels};
-use crate::geometry::Groups;
+use crate::geometry::{Groups, NONE};
 use glam::DVec3;
 use std::ops::Range;
 
@@ -21,8 +21,6 @@ const LEAST_BRANCH: f64 = 0.1;
 const MOST_FILLED: f64 = 0.4;
 /// The core is so many cells thick to either side of the plane: three layers of cells.
 const CORE: f64 = 1.5;
-/// No branch.
-const NONE: u32 = u32::MAX;
 
 /// A section of a branch.
 #[derive(Clone, Copy, Debug)]
