@@ -1,4 +1,5 @@
-//! Things that are joined: which of them belong together (a union-find), and what it costs to get from one to the others.
+//! Things that are joined: which of them belong together (a union-find), in the order of numbers, and what it costs to get from
+//! one to the others.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -30,6 +31,27 @@ impl Groups {
         let (one, other) = (self.least(one), self.least(other));
         self.above[one.max(other)] = one.min(other) as u32;
     }
+}
+
+/// Things in the order of the numbers below `count` that they have, those of one number in their own; with where those of each
+/// number start, one more than there are numbers.
+pub fn by_number<Thing: Copy + Default>(
+    count: usize,
+    things: impl Iterator<Item = (u32, Thing)> + Clone,
+) -> (Vec<u32>, Vec<Thing>) {
+    let mut starts = vec![0u32; count + 1];
+    things.clone().for_each(|(number, _)| starts[number as usize + 1] += 1);
+    for number in 0..count {
+        starts[number + 1] += starts[number];
+    }
+    let mut sorted = vec![Thing::default(); starts[count] as usize];
+    let mut next = starts.clone();
+    for (number, thing) in things {
+        let at = &mut next[number as usize];
+        sorted[*at as usize] = thing;
+        *at += 1;
+    }
+    (starts, sorted)
 }
 
 /// What it costs at least to reach each of `count` things; infinite where no way leads.

@@ -63,81 +63,49 @@ pub struct FrontView<'a> {
 }
 
 impl<'a> FrontView<'a> {
-    /// Looks at `figure`, whose meshes are of these `kinds`, as far as known.
+    /// Looks at `figure`, whose meshes are of these `kinds`.
     ///
     /// # Errors
     /// `Cancelled`.
     pub fn of(
         figure: &'a UnitFigure,
-        kinds: &[Option<MeshKind>],
+        kinds: &[MeshKind],
         threads: usize,
         progress: &mut Progress,
     ) -> Result<Self> {
-        let is = |mesh: usize, wanted: &[Option<MeshKind>]| wanted.contains(&kinds[mesh]);
         use MeshKind::*;
-        let everything: &[_] =
-            &[Some(Body), Some(FacePart), None, Some(Garment), Some(Accessory), Some(Hair), Some(Eye)];
-        let sets: [&[Option<MeshKind>]; 3] = [&everything[..2], &everything[..3], &everything[..4]];
-        let triangles_of = |set: &[Option<MeshKind>]| figure.triangles_where(|mesh| is(mesh, set));
-        let clothed = triangles_of(sets[2]);
-        let mut shown = if clothed.is_empty() { everything } else { sets[2] };
-        let mut reference = triangles_of(shown);
-        let mut reference_grid = front(&figure.positions, &reference, 0.0, threads);
+        let everything: &[MeshKind] = &[Body, FacePart, Garment, Accessory, Hair, Eye];
+        let positions = &figure.positions;
+        let of_kinds = |set: &[MeshKind]| figure.triangles_where(|mesh| set.contains(&kinds[mesh]));
+        let dressed = of_kinds(&everything[..3]);
+        let mut shown = if dressed.is_empty() { everything } else { &everything[..3] };
+        let mut triangles = of_kinds(shown);
+        let mut grid = front(positions, &triangles, 0.0, threads);
         progress.at(0.3)?;
         // Of a figure in pieces whose kinds were guessed wrong, all pieces are looked at.
         let guessed = figure.kinds.iter().all(Option::is_none);
-        let some = reference.len() < figure.triangles.len();
-        if guessed && some && filled_share(&reference_grid) < FILLED_ROWS {
-            (shown, reference) = (everything, figure.triangles.clone());
-            reference_grid = front(&figure.positions, &reference, 0.0, threads);
+        let some = triangles.len() < figure.triangles.len();
+        if guessed && some && filled_share(&grid) < FILLED_ROWS {
+            (shown, triangles) = (everything, figure.triangles.clone());
+            grid = front(positions, &triangles, 0.0, threads);
         }
-        let whole = Extent::of(&reference_grid);
-        let mut chosen = None;
-        for set in &sets[..2] {
-            let triangles = triangles_of(set);
-            if triangles.len() == reference.len() {
-                break;
-            }
-            if triangles.is_empty() {
-                continue;
-            }
-            let grid = front(&figure.positions, &triangles, 0.0, threads);
+        // Of a body that is whole, what it wears is in the way.
+        let bare = of_kinds(&everything[..2]);
+        if !bare.is_empty() && bare.len() < triangles.len() {
+            let of_bare = front(positions, &bare, 0.0, threads);
             progress.at(0.6)?;
-            if is_whole(&grid, &whole) {
-                chosen = Some((*set, triangles, grid));
-                break;
+            if is_whole(&of_bare, &Extent::of(&grid)) {
+                (shown, triangles, grid) = (&everything[..2], bare, of_bare);
             }
         }
-        let (shown, triangles, grid) = chosen.unwrap_or((shown, reference, reference_grid));
-        let meshes = (0..figure.mesh_count()).map(|mesh| is(mesh, shown)).collect();
-        let view = Self::seen(&figure.positions, (meshes, triangles), grid, threads);
-        progress.at(1.0)?;
-        Ok(view)
-    }
-
-    fn seen(
-        positions: &'a [DVec3],
-        (meshes, triangles): (Vec<bool>, Vec<[u32; 3]>),
-        grid: RayGrid,
-        threads: usize,
-    ) -> Self {
+        let meshes = kinds.iter().map(|kind| shown.contains(kind)).collect();
         let axis = axis(&grid);
         let grid = if axis == 0.0 { grid } else { front(positions, &triangles, axis, threads) };
-        let extent = Extent::of(&grid);
+        let Extent { low, high, .. } = Extent::of(&grid);
         let runs = (0..grid.frame.rows).map(|row| runs(&grid, row)).collect();
         let is_symmetric = is_symmetric(positions, &triangles, axis);
-        Self {
-            positions,
-            meshes,
-            triangles,
-            axis,
-            is_symmetric,
-            threads,
-            low: extent.low,
-            high: extent.high,
-            runs,
-            grid,
-        }
+        progress.at(1.0)?;
+        Ok(Self { positions, meshes, triangles, grid, axis, is_symmetric, threads, low, high, runs })
     }
 
     /// The side of a cell.

@@ -159,14 +159,14 @@ pub struct FoundJoints {
 
 /// Finds the joints of `figure`; what is not seen is placed by ratio.
 ///
-/// `kinds` are those of the unit figure's meshes, `None` where nobody knows. `given` joints (its space) stay where they are,
+/// `kinds` are those of the unit figure's meshes. `given` joints (its space) stay where they are,
 /// with confidence 1, and the rest is found around them. `cells`: of the solid, over the height.
 ///
 /// # Errors
 /// `Cancelled`.
 pub fn find_joints(
     figure: &UnitFigure,
-    kinds: &[Option<MeshKind>],
+    kinds: &[MeshKind],
     given: &BTreeMap<Role, DVec3>,
     fingers: bool,
     cells: f64,

@@ -15,23 +15,10 @@ use glam::{DVec3, Vec3};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-/// Limb joints by which it is judged whether a character stands.
-const LIMBS: [Role; 12] = {
+/// Left limb joints by which, with those of the right, it is judged whether a character stands.
+const LIMBS: [Role; 6] = {
     use Role::*;
-    [
-        LeftUpperLeg,
-        RightUpperLeg,
-        LeftLowerLeg,
-        RightLowerLeg,
-        LeftFoot,
-        RightFoot,
-        LeftUpperArm,
-        RightUpperArm,
-        LeftLowerArm,
-        RightLowerArm,
-        LeftHand,
-        RightHand,
-    ]
+    [LeftUpperLeg, LeftLowerLeg, LeftFoot, LeftUpperArm, LeftLowerArm, LeftHand]
 };
 /// The first try is this much of the progress: it is nearly always the only one.
 const STANDING: f32 = 0.8;
@@ -122,7 +109,7 @@ impl Placed {
 
     /// How many limb joints are seen.
     fn seen_count(&self) -> usize {
-        LIMBS.iter().filter(|role| self.sees(role)).count()
+        LIMBS.iter().flat_map(|&role| [role, role.mirrored()]).filter(|role| self.sees(role)).count()
     }
 
     fn sees(&self, role: &Role) -> bool {
@@ -199,10 +186,9 @@ impl Placed {
             guess_kinds(&figure, options.thread_count, &mut progress.part(0.25, 0.5))?;
         warnings.extend(kind_warnings);
         let given = options.given.iter().map(|(&role, &at)| (role, figure.to_unit(at))).collect();
-        let guessed: Vec<Option<MeshKind>> = kinds.iter().copied().map(Some).collect();
         let mut found = find_joints(
             &figure,
-            &guessed,
+            &kinds,
             &given,
             options.fingers,
             cells,

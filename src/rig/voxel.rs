@@ -8,7 +8,7 @@ use super::wholeness::Wholeness;
 use super::{WeightBone, WeightSet};
 use crate::character::Weights;
 use crate::error::Result;
-use crate::geometry::NONE;
+use crate::geometry::{NONE, by_number};
 use crate::parallel;
 use crate::progress::Progress;
 use glam::{DVec3, IVec3};
@@ -211,22 +211,10 @@ fn distance_rows(
             column
         },
     )?;
-    let mut starts = vec![0u32; points.len() + 1];
-    for &(vertex, _) in columns.iter().flatten() {
-        starts[vertex as usize + 1] += 1;
-    }
-    for vertex in 0..points.len() {
-        starts[vertex + 1] += starts[vertex];
-    }
-    let mut entries = vec![(0, 0.0); starts[points.len()] as usize];
-    let mut next = starts.clone();
-    for (bone, column) in columns.iter().enumerate() {
-        for &(vertex, length) in column {
-            let at = &mut next[vertex as usize];
-            entries[*at as usize] = (bone as u32, length);
-            *at += 1;
-        }
-    }
+    let entries = (0u32..)
+        .zip(&columns)
+        .flat_map(|(bone, column)| column.iter().map(move |&(vertex, length)| (vertex, (bone, length))));
+    let (starts, entries) = by_number(points.len(), entries);
     Ok(Rows { starts, entries })
 }
 

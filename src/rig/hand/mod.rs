@@ -65,16 +65,20 @@ pub fn find_fingers(
     if fingers.iter().any(|finger| !region.is_buried(surface, finger)) {
         fingers.retain(|finger| !region.is_buried(surface, finger));
     }
-    let mut hand = region.hand(surface, fingers);
-    if !left {
-        hand.joints = std::mem::take(&mut hand.joints)
-            .into_iter()
-            .map(|(role, joint)| (role.mirrored(), joint))
-            .collect();
-        hand.tips =
-            std::mem::take(&mut hand.tips).into_iter().map(|(role, tip)| (role.mirrored(), tip)).collect();
+    let hand = region.hand(surface, fingers);
+    if left { hand } else { hand.of_other_side(|p| p) }
+}
+
+impl Hand {
+    /// The same with the other side's roles, and its points moved.
+    fn of_other_side(&self, moved: impl Fn(DVec3) -> DVec3) -> Self {
+        let joint = |joint: &FoundJoint| FoundJoint { position: moved(joint.position), ..*joint };
+        Self {
+            joints: self.joints.iter().map(|(role, one)| (role.mirrored(), joint(one))).collect(),
+            tips: self.tips.iter().map(|(role, &tip)| (role.mirrored(), moved(tip))).collect(),
+            finger_count: self.finger_count,
+        }
     }
-    hand
 }
 
 impl Region {

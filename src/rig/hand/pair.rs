@@ -39,7 +39,7 @@ pub fn add_fingers(figure: &UnitFigure, view: &FrontView, found: &mut FoundJoint
         let seen = |hand: &Hand| hand.joints.values().map(|joint| joint.confidence).sum::<f64>();
         let better =
             usize::from((hands[1].finger_count, seen(&hands[1])) > (hands[0].finger_count, seen(&hands[0])));
-        hands[1 - better] = mirrored(&hands[better], middle);
+        hands[1 - better] = hands[better].of_other_side(|p| DVec3::new(2.0 * middle - p.x, p.y, p.z));
     }
     for (left, hand) in [true, false].into_iter().zip(hands) {
         let wrist = Role::LeftHand.on_side(left);
@@ -87,18 +87,4 @@ fn mirror_of_hands(view: &FrontView, wrists: [DVec3; 2]) -> Option<f64> {
         }
     }
     Some(middle)
-}
-
-/// The same hand on the other side.
-fn mirrored(hand: &Hand, middle: f64) -> Hand {
-    let mirror = |p: DVec3| DVec3::new(2.0 * middle - p.x, p.y, p.z);
-    Hand {
-        joints: hand
-            .joints
-            .iter()
-            .map(|(role, joint)| (role.mirrored(), FoundJoint { position: mirror(joint.position), ..*joint }))
-            .collect(),
-        tips: hand.tips.iter().map(|(role, &tip)| (role.mirrored(), mirror(tip))).collect(),
-        finger_count: hand.finger_count,
-    }
 }

@@ -14,7 +14,7 @@ use super::{WeightBone, WeightSet};
 use crate::character::Weights;
 use crate::error::Result;
 use crate::geometry::laplacian::{COLUMNS, Cholesky, Symbolic, cotangent_laplacian, has_area};
-use crate::geometry::{NONE, ROUNDING, SEAM, Weld, bounds, components, weld};
+use crate::geometry::{NONE, ROUNDING, SEAM, Weld, bounds, by_number, components, weld};
 use crate::parallel;
 use crate::progress::Progress;
 use glam::DVec3;
@@ -461,7 +461,7 @@ impl Frame {
 struct Components {
     triangles: Vec<[u32; 3]>,
     /// Where each component's triangles start; one more than there are components.
-    starts: Vec<usize>,
+    starts: Vec<u32>,
     /// The component of each vertex, or `NONE`.
     components: Vec<u32>,
 }
@@ -474,32 +474,23 @@ impl Components {
         let mut components = components(&triangles, &alone);
         // Loose vertices are components as well there; here only triangles make one.
         let mut numbers = vec![NONE; points.len()];
-        let mut starts = vec![0];
+        let mut count = 0;
         for &[vertex, ..] in &triangles {
             let number = &mut numbers[components[vertex as usize] as usize];
             if *number == NONE {
-                *number = starts.len() as u32 - 1;
-                starts.push(0);
+                *number = count;
+                count += 1;
             }
-            starts[*number as usize + 1] += 1;
         }
         for component in &mut components {
             *component = numbers[*component as usize];
         }
-        for number in 1..starts.len() {
-            starts[number] += starts[number - 1];
-        }
-        let mut ends = starts.clone();
-        let mut sorted = vec![[0; 3]; triangles.len()];
-        for corners in triangles {
-            let end = &mut ends[components[corners[0] as usize] as usize];
-            sorted[*end] = corners;
-            *end += 1;
-        }
-        Self { triangles: sorted, starts, components }
+        let numbered = triangles.iter().map(|&corners| (components[corners[0] as usize], corners));
+        let (starts, triangles) = by_number(count as usize, numbered);
+        Self { triangles, starts, components }
     }
 
     fn triangles_of(&self, component: usize) -> &[[u32; 3]] {
-        &self.triangles[self.starts[component]..self.starts[component + 1]]
+        &self.triangles[self.starts[component] as usize..self.starts[component + 1] as usize]
     }
 }
