@@ -1,5 +1,6 @@
 //! Work shared out among threads. Every item is made by itself, so results do not depend on how many there are.
 
+use crate::options::table::MOST_THREADS;
 use std::cell::{Cell, RefCell};
 use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
@@ -10,8 +11,10 @@ use std::thread::LocalKey;
 /// The name of every thread that this module starts.
 pub const WORKER: &str = "superdeform";
 
-/// More threads than this are of no use, and tens of thousands are more than a system can start.
-const MOST_THREADS: usize = 1024;
+/// Fewer vertices or triangles than this are not worth a thread, ...
+pub const FEW: usize = 8000;
+/// ... and fewer points that each look for the nearest of a surface, or cast rays. Time alone.
+pub const FEW_RAYS: usize = 200;
 
 /// A host's own way to run tasks beside each other, such as an engine's job system.
 pub trait Jobs {
@@ -67,7 +70,7 @@ pub fn thread_count(asked: usize) -> usize {
     } else if asked == 0 {
         std::thread::available_parallelism().map_or(1, usize::from)
     } else {
-        asked.min(MOST_THREADS)
+        asked.min(MOST_THREADS as usize)
     }
 }
 

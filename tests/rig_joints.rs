@@ -14,7 +14,7 @@ use superdeform::internals::rig::UnitFigure;
 use superdeform::internals::rig::joints::{FoundJoints, find_joints};
 use superdeform::internals::rig::silhouette::{GridFrame, RayGrid};
 use superdeform::internals::rig::solid::CELLS;
-use superdeform::{Character, Mesh, Progress, Role};
+use superdeform::{Character, Mesh, MeshKind, Progress, Role};
 use superdeform_host::image::Sheet;
 use truth::{Case, cases};
 
@@ -43,12 +43,18 @@ struct Outcome {
     found: FoundJoints,
 }
 
+/// The kinds that names tell; what they do not tell may be clothes.
+fn kinds_of(figure: &UnitFigure) -> Vec<MeshKind> {
+    figure.kinds.iter().map(|kind| kind.unwrap_or(MeshKind::Garment)).collect()
+}
+
 fn outcome(case: &Case) -> Outcome {
     let figure = UnitFigure::of(&case.character, case.forward).unwrap();
     let truth = case.joints.iter().map(|(&role, &at)| (role, figure.to_unit(at))).collect();
     let start = std::time::Instant::now();
-    let found = find_joints(&figure, &figure.kinds, &BTreeMap::new(), false, CELLS, 2, &mut Progress::none())
-        .unwrap();
+    let found =
+        find_joints(&figure, &kinds_of(&figure), &BTreeMap::new(), false, CELLS, 2, &mut Progress::none())
+            .unwrap();
     if std::env::var_os("PICTURES").is_some() {
         println!("{}: {} triangles, {:?}", case.name, figure.triangles.len(), start.elapsed());
     }
@@ -241,8 +247,9 @@ fn report(unnamed: bool) {
 
 fn found_of(character: &Character, forward: DVec3) -> (UnitFigure, FoundJoints) {
     let figure = UnitFigure::of(character, forward).unwrap();
-    let found = find_joints(&figure, &figure.kinds, &BTreeMap::new(), false, CELLS, 1, &mut Progress::none())
-        .unwrap();
+    let found =
+        find_joints(&figure, &kinds_of(&figure), &BTreeMap::new(), false, CELLS, 1, &mut Progress::none())
+            .unwrap();
     (figure, found)
 }
 
@@ -388,9 +395,16 @@ fn what_is_no_figure_is_doubted() {
         ("upside down", upside_down),
     ] {
         let Ok(figure) = UnitFigure::of(&character, DVec3::Z) else { continue };
-        let found =
-            find_joints(&figure, &figure.kinds, &BTreeMap::new(), false, CELLS, 1, &mut Progress::none())
-                .unwrap();
+        let found = find_joints(
+            &figure,
+            &kinds_of(&figure),
+            &BTreeMap::new(),
+            false,
+            CELLS,
+            1,
+            &mut Progress::none(),
+        )
+        .unwrap();
         for (role, joint) in &found.joints {
             assert!(joint.position.is_finite(), "{name}: {role}");
             if joint.confidence >= 0.5 {
@@ -466,7 +480,7 @@ fn things_worn_are_survived() {
         };
         let found = find_joints(
             &outcome.figure,
-            &outcome.figure.kinds,
+            &kinds_of(&outcome.figure),
             &BTreeMap::new(),
             false,
             CELLS,
@@ -512,7 +526,7 @@ fn things_worn_are_survived() {
 }
 
 fn joints_of(figure: &UnitFigure, given: &BTreeMap<Role, DVec3>, threads: usize) -> FoundJoints {
-    find_joints(figure, &figure.kinds, given, false, CELLS, threads, &mut Progress::none()).unwrap()
+    find_joints(figure, &kinds_of(figure), given, false, CELLS, threads, &mut Progress::none()).unwrap()
 }
 
 #[test]

@@ -1,4 +1,8 @@
-//! Things that belong together because each belongs to the next: a union-find.
+//! Things that are joined: which of them belong together (a union-find), in the order of numbers, and what it costs to get from
+//! one to the others.
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
 
 /// Things in groups that grow together, each known by its least member.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -27,6 +31,61 @@ impl Groups {
         let (one, other) = (self.least(one), self.least(other));
         self.above[one.max(other)] = one.min(other) as u32;
     }
+}
+
+/// Things in the order of the numbers below `count` that they have, those of one number in their own; with where those of each
+/// number start, one more than there are numbers.
+pub fn by_number<Thing: Copy + Default>(
+    count: usize,
+    things: impl Iterator<Item = (u32, Thing)> + Clone,
+) -> (Vec<u32>, Vec<Thing>) {
+    let mut starts = vec![0u32; count + 1];
+    things.clone().for_each(|(number, _)| starts[number as usize + 1] += 1);
+    for number in 0..count {
+        starts[number + 1] += starts[number];
+    }
+    let mut sorted = vec![Thing::default(); starts[count] as usize];
+    let mut next = starts.clone();
+    for (number, thing) in things {
+        let at = &mut next[number as usize];
+        sorted[*at as usize] = thing;
+        *at += 1;
+    }
+    (starts, sorted)
+}
+
+/// What it costs at least to reach each of `count` things; infinite where no way leads.
+///
+/// - `starts`: where ways begin, each with what it costs to be there.
+/// - `beside`: what is beside one, with the cost of the way there, 0 or more.
+///
+/// Dijkstra. A note on two problems in connexion with graphs. Numerische Mathematik 1, 1959.
+pub fn least_costs<Beside: Iterator<Item = (u32, f64)>>(
+    count: usize,
+    starts: impl Iterator<Item = (u32, f64)>,
+    beside: impl Fn(u32) -> Beside,
+) -> Vec<f64> {
+    let mut costs = vec![f64::INFINITY; count];
+    // Bits of numbers that are 0 or more are in the order of these.
+    let mut queue = BinaryHeap::new();
+    for (start, cost) in starts {
+        costs[start as usize] = cost;
+        queue.push(Reverse((cost.to_bits(), start)));
+    }
+    while let Some(Reverse((bits, at))) = queue.pop() {
+        let cost = f64::from_bits(bits);
+        if cost > costs[at as usize] {
+            continue;
+        }
+        for (next, way) in beside(at) {
+            let further = cost + way;
+            if further < costs[next as usize] {
+                costs[next as usize] = further;
+                queue.push(Reverse((further.to_bits(), next)));
+            }
+        }
+    }
+    costs
 }
 
 #[cfg(test)]

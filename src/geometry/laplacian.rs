@@ -24,7 +24,7 @@ const LARGEST_COTANGENT: f64 = 1e5;
 const LEAST_AREA: f64 = 1e-12;
 
 /// Right-hand sides that are solved for together: a fixed number, so that threads and memory change no bit. Time alone.
-const BLOCK: usize = 8;
+pub const COLUMNS: usize = 4;
 
 /// A symmetric matrix in the making: entries may come in any order and add up.
 #[derive(Clone, Debug, Default)]
@@ -218,7 +218,7 @@ impl Cholesky {
         if size == 0 {
             return;
         }
-        for block in columns.chunks_mut(BLOCK * size) {
+        for block in columns.chunks_mut(COLUMNS * size) {
             solve_block(&self.symbolic.0, &self.values, block);
         }
     }

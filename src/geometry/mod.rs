@@ -1,5 +1,11 @@
 //! What the paper's sections stand on: segments, triangles, surfaces, boxes, near and shared positions, groups.
 
+/// What differs by less, in figures about 1 high, differs by rounding; nothing is divided by less.
+pub const ROUNDING: f64 = 1e-6;
+
+/// In place of an index: there is none.
+pub const NONE: u32 = u32::MAX;
+
 pub mod bounds;
 pub mod cells;
 pub mod groups;
@@ -17,10 +23,10 @@ pub mod whole;
 
 pub use bounds::{Bounds, bounds, bounds_by_group, clusters, grown_clusters, range};
 pub use cells::CellMap;
-pub use groups::Groups;
+pub use groups::{Groups, by_number, least_costs};
 pub use mapped::{Mapped, Moved, outer};
 pub use point_tree::PointTree;
-pub use profile::{StepSearch, deepest_step};
+pub use profile::{CHIN_BAND, CHIN_BY_RATIO, CHIN_STEP, StepSearch, deepest_step};
 pub use segment::foot;
 pub use slice::{Outline, Planes, slices};
 pub use smoothstep::{smoothstep, smoothstep_slope};

@@ -2,6 +2,14 @@
 
 use std::ops::Range;
 
+/// A chin's bands above and below a row that are compared, as a share of the way from shoulder line to crown (D25).
+pub const CHIN_BAND: f64 = 0.05;
+/// A smaller step back than this share of the same is no chin (D25). Seen: faces step back by more than .052, a mannequin's
+/// egg by less than .028.
+pub const CHIN_STEP: f64 = 0.04;
+/// The chin where none is seen, as a share of the same (D25).
+pub const CHIN_BY_RATIO: f64 = 0.22;
+
 /// How a step of a profile is looked for.
 #[derive(Clone, Copy, Debug)]
 pub struct StepSearch {

@@ -1,7 +1,7 @@
 //! Vertices that share a position: seam copies become one, so that a mesh can be walked along its surface.
 
 use super::cells::CellMap;
-use super::groups::Groups;
+use super::groups::{Groups, by_number};
 use super::whole::floor;
 use glam::DVec3;
 
@@ -136,33 +136,17 @@ impl Neighbours {
 
 /// Which welded vertices share an edge with which.
 pub fn neighbours(triangles: &[[u32; 3]], weld: &Weld) -> Neighbours {
-    // Counted and filled with repeats first: most edges have two triangles.
-    let mut ends = vec![0u32; weld.count + 1];
-    let edges = |corners: &[u32; 3]| {
-        let [a, b, c] = weld.triangle(*corners);
-        [(a, b), (b, c), (c, a)].into_iter().filter(|(one, two)| one != two)
-    };
-    for (one, two) in triangles.iter().flat_map(edges) {
-        ends[one as usize + 1] += 1;
-        ends[two as usize + 1] += 1;
-    }
-    for vertex in 0..weld.count {
-        ends[vertex + 1] += ends[vertex];
-    }
-    let mut all = vec![0u32; ends[weld.count] as usize];
-    for (one, two) in triangles.iter().flat_map(edges) {
-        for (vertex, other) in [(one, two), (two, one)] {
-            all[ends[vertex as usize] as usize] = other;
-            ends[vertex as usize] += 1;
-        }
-    }
-    // Filling moved the start of each vertex to its end.
+    // With repeats first: most edges have two triangles.
+    let both_ways = triangles.iter().flat_map(|&corners| {
+        let [a, b, c] = weld.triangle(corners);
+        [(a, b), (b, c), (c, a), (b, a), (c, b), (a, c)]
+    });
+    let (ends, mut all) = by_number(weld.count, both_ways.filter(|(one, other)| one != other));
     let mut starts = Vec::with_capacity(weld.count + 1);
     let mut vertices: Vec<u32> = Vec::with_capacity(all.len() / 2);
-    let mut start = 0;
-    for &end in &ends[..weld.count] {
+    for vertex in 0..weld.count {
         starts.push(vertices.len() as u32);
-        let row = &mut all[start..end as usize];
+        let row = &mut all[ends[vertex] as usize..ends[vertex + 1] as usize];
         row.sort_unstable();
         let first = vertices.len();
         for &mut other in row {
@@ -170,7 +154,6 @@ pub fn neighbours(triangles: &[[u32; 3]], weld: &Weld) -> Neighbours {
                 vertices.push(other);
             }
         }
-        start = end as usize;
     }
     starts.push(vertices.len() as u32);
     Neighbours { starts, vertices }

@@ -10,7 +10,7 @@ use crate::character::{Character, Frame};
 use crate::error::Result;
 use crate::parallel;
 use crate::shape::field::{Field, Finish};
-use crate::shape::placement::{LEAST_VERTICES, Placement, renewed};
+use crate::shape::placement::{Placement, renewed};
 use glam::{DVec3, Vec3};
 use std::sync::Arc;
 
@@ -22,7 +22,7 @@ pub fn below_head(view: &View) -> Result<Vec<Vec3>> {
     let placement = body.placement(figure, &field, &body.placed, view.threads());
     let placement = Placement { hair_offsets: &offsets, ..placement };
     let is_of_head = body.bindings.is_of_head();
-    Ok(parallel::collect(view.threads(), is_of_head.len(), LEAST_VERTICES, |vertex| {
+    Ok(parallel::collect(view.threads(), is_of_head.len(), parallel::FEW, |vertex| {
         if is_of_head[vertex] { Vec3::ZERO } else { displacement(&placement, vertex) }
     }))
 }

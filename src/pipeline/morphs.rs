@@ -5,9 +5,10 @@ use super::displacement::single;
 use super::memo::View;
 use crate::character::{Mesh, MorphTarget};
 use crate::error::Result;
+use crate::parallel;
 use crate::progress::Progress;
 use crate::shape::directions::{RestTriangles, Room};
-use crate::shape::placement::{LEAST_VERTICES, Placement};
+use crate::shape::placement::Placement;
 use crate::shape::turn::Turn;
 use glam::{DVec3, Vec3};
 use std::ops::Range;
@@ -233,7 +234,7 @@ impl Deformer {
                 morph_turns(target, 2, &directions, &tangent),
             ])
         };
-        let least = if self.vertices(mesh).len() < LEAST_VERTICES { given.len() } else { 1 };
+        let least = if self.vertices(mesh).len() < parallel::FEW { given.len() } else { 1 };
         let threads = self.inputs.options.thread_count;
         progress.collect_with(threads, given.len(), least, || (), |(), index| made(index))
     }
@@ -291,7 +292,7 @@ impl Deformer {
             let first = ends[target] - given[target].vertices.len();
             given[target].at(0, index - first).map_or(Vec3::ZERO, |(vertex, delta)| shift(vertex, delta))
         };
-        let flat = progress.collect_with(threads, all, LEAST_SHIFTS, || (), shift)?;
+        let flat = progress.collect_with(threads, all, parallel::FEW, || (), shift)?;
         let mut rest = &flat[..];
         let by_target = |target: &GivenTarget| {
             let (own, others) = rest.split_at(target.vertices.len());
@@ -325,9 +326,6 @@ impl Deformer {
         Some(target.each(0)?.zip(shifts).map(moved).collect())
     }
 }
-
-/// Fewer vertices of morph targets than this are not worth a thread.
-const LEAST_SHIFTS: usize = 2000;
 
 /// Changes of unit vectors: what the changed vector turns into, less what the unchanged one does.
 ///

@@ -1,5 +1,6 @@
 //! The middles of an arm's sections, and the joints that they show.
 
+use super::arms::STATIONS;
 use super::front_view::median;
 use super::silhouette::lowest;
 use crate::geometry::foot;
@@ -51,8 +52,6 @@ const BEND_RANGE: (f64, f64) = (0.3, 0.72);
 const BEND_STANDS_OUT: f64 = 1.1;
 /// A joint further than this from a curve, in heights, is another arm's, or lies in the air.
 const PASSES_BY: f64 = 0.08;
-/// Two arms are laid over each other at so many shares of their ways.
-const STATIONS: usize = 120;
 
 /// One arm.
 #[derive(Clone, Debug)]

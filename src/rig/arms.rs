@@ -4,6 +4,7 @@ use super::arm_curve::{Arm, ArmCurve, Station};
 use super::front_view::{FrontView, median};
 use super::head_line::middle;
 use super::silhouette::{GridFrame, RayGrid};
+use crate::geometry::ROUNDING;
 use glam::{DVec2, DVec3, Vec2Swizzles};
 
 /// An arm's column of cells that reaches lower than the arm by so many of its thicknesses belongs to the trunk. Seen:
@@ -19,7 +20,7 @@ const TRUNK_WITHIN: f64 = 0.04;
 /// The share of an arm, from the tip, to which its line is fitted. Seen: ±30 % moves joints by under 0.0005 H.
 const LINE_RANGE: (f64, f64) = (0.25, 0.9);
 /// Sections along an arm. One is 0.8 % of an arm, some 0.003 H: a tenth of what joints are off in the mean.
-const STATIONS: usize = 120;
+pub const STATIONS: usize = 120;
 /// The shoulder joint lies straight over a point this many arm radii outside of the armpit (seen: at -30 %, four fewer
 /// joints off by over 0.06 H), ...
 const SHOULDER_OUT: f64 = 0.4;
@@ -42,10 +43,6 @@ const LEAST_HANGING: f64 = 0.08;
 const MOST_TOUCHING: f64 = 0.15;
 /// ... and its shoulder joint lies so many of its radii over the armpit.
 const HANGING_OVER: f64 = 0.8;
-/// An arm is followed so many columns before its lower side is looked at for a drop (seen: ±30 % changes no joint), ...
-const LEAST_FOLLOWED: usize = 12;
-/// ... and has at least so many. Seen: ±30 % changes no joint.
-const LEAST_COLUMNS: usize = 8;
 /// Where no armpit is seen the arm begins at this distance from the axis. Seen: ±30 % changes no joint.
 const PIT_BY_RATIO: f64 = 0.1;
 /// The line of an arm that hangs straight down is taken to run outwards by at least this. Seen: .2 to .3 change no joint.
@@ -53,8 +50,6 @@ const STEEPEST: f64 = 0.25;
 /// Rays go on beyond the tip, or the last ones would miss it. Seen: at -30 %, joints lie 0.030 H further off, 58 more
 /// by over 0.06 H, 37 more good joints doubted.
 const BEYOND_TIP: f64 = 1.02;
-/// A shorter arm has no sections. Seen: ±30 % changes no joint.
-const LEAST_LENGTH: f64 = 1e-3;
 /// Rays begin inside of the armpit by this share of the arm's length (seen: ±30 % moves joints by under 0.0005 H), ...
 const INSIDE_OF_PIT: f64 = 0.25;
 /// ... and reach this share of it to either side. Seen: ±30 % moves joints by under 0.0005 H.
@@ -62,7 +57,7 @@ const SPAN: f64 = 0.35;
 /// A section further from the one before than this share of the arm's length is something else. Seen: ±30 % changes no
 /// joint.
 const STATION_OFF: f64 = 0.12;
-/// Fewer sections show no joints. Seen: ±30 % changes no joint.
+/// Fewer columns, or sections, are no arm. Seen: ±30 % changes no joint.
 const LEAST_STATIONS: usize = 12;
 /// Middles are means over so many sections to either side. Seen: ±30 % moves joints by under 0.0005 H.
 const SMOOTHED: usize = 3;
@@ -122,7 +117,7 @@ pub fn find_arm(view: &FrontView, left: bool, space: &ArmSpace) -> Option<Arm> {
     for steps in (0..outermost).rev() {
         let next = inwards(steps, run)?;
         // A drop of the lower side below where the arm has run so far.
-        if path.len() >= LEAST_FOLLOWED {
+        if path.len() >= LEAST_STATIONS {
             let (low, thickness) = lower_side(&path, steps);
             if (next.0 as f64) < low - PIT_DROP * thickness && reaches_down(steps, low, next) {
                 pit = Some(steps + 1);
@@ -136,7 +131,7 @@ pub fn find_arm(view: &FrontView, left: bool, space: &ArmSpace) -> Option<Arm> {
     let pit_steps = pit.unwrap_or(((PIT_BY_RATIO / cell) as usize).min(outermost.saturating_sub(1)));
     path.retain(|&(steps, _)| steps >= pit_steps);
     let length = path.len();
-    if length < LEAST_COLUMNS {
+    if length < LEAST_STATIONS {
         return None;
     }
     let fitted: Vec<DVec2> = path
@@ -309,7 +304,7 @@ impl ArmRays {
         let sign = if left { 1.0 } else { -1.0 };
         let place = |p: DVec2| DVec3::new(view.axis + sign * p.x, p.y, 0.0);
         let (start, length) = (line.start, line.length * BEYOND_TIP);
-        if length.is_nan() || length <= LEAST_LENGTH {
+        if length.is_nan() || length <= ROUNDING {
             return None;
         }
         let inside = INSIDE_OF_PIT * length;

@@ -1,7 +1,7 @@
 //! Eyeballs: two like pieces of the face, one on each side.
 
 use super::UnitFigure;
-use super::joints::FoundJoints;
+use super::joints::{FoundJoints, SEEN};
 use crate::character::{MeshKind, Role};
 use crate::geometry::{SEAM, components, weld};
 use glam::DVec3;
@@ -18,9 +18,6 @@ const LARGER: f64 = 1.25;
 /// What lies within this many radii of an eyeball's middle turns with it: an iris lies on it, a lid beside it. Seen:
 /// ±30 % changes no eye.
 const TURNS_WITH: f64 = 1.25;
-/// How sure a pair of like round pieces is: the artist may have put the joint elsewhere. No joint depends on it, nor a
-/// warning.
-const SURE: f64 = 0.9;
 
 /// An eyeball.
 #[derive(Clone, Debug)]
@@ -97,7 +94,7 @@ pub fn find_eyes(figure: &UnitFigure, kinds: &[MeshKind], found: &FoundJoints) -
             let mut vertices: Vec<usize> =
                 pieces.iter().filter(within).flat_map(|(_, _, vertices)| vertices).copied().collect();
             vertices.sort_unstable();
-            Eye { role, centre, vertices, confidence: SURE }
+            Eye { role, centre, vertices, confidence: SEEN }
         })
         .collect()
 }

@@ -56,17 +56,13 @@ const TRIED_MARGIN: f64 = 0.12;
 
 /// Votes that add up to less than this leave a doubt which way is front (seen: at -30 %, five fewer of 115 poses warned
 /// of) ...
-const SURE_VOTE: f64 = 0.25;
+pub const SURE_VOTE: f64 = 0.25;
 
 /// ... and to less than this say nothing. Seen: at -30 %, three fewer of 115 poses wrong by over 5 degrees.
 const LEAST_VOTE: f64 = 0.1;
 
-/// Points of the surface are no further apart than this share of a cell (seen: ±30 % turns directions by under half a
-/// degree), ...
+/// Points of the surface are no further apart than this share of a cell. Seen: ±30 % turns directions by under half a degree.
 const SAMPLE_STEP: f64 = 0.75;
-
-/// ... but no more than so many along a triangle's side. Seen: ±30 % changes no direction.
-const MOST_STEPS: f64 = 200.0;
 
 /// Points of the surface, about, at most: triangles are not taken apart further where there are many large ones. Seen:
 /// ±30 % turns directions by under half a degree.
@@ -202,7 +198,7 @@ impl Cells {
         let mut sums = vec![Vec4::ZERO; count];
         let mut samples = Vec::new();
         let triangle_count = triangles().count();
-        let most_steps = (2.0 * SAMPLE_COUNT / triangle_count as f64).sqrt().clamp(1.0, MOST_STEPS);
+        let most_steps = (2.0 * SAMPLE_COUNT / triangle_count as f64).sqrt().max(1.0);
         let mut add = |p: DVec3| {
             samples.push(p.as_vec3());
             let [x, y, z] = p.to_array().map(|c| c as usize);

@@ -27,7 +27,7 @@ const FILLED_ROWS: f64 = 0.97;
 /// ... and nearly all of it hangs together. Seen: at +30 %, joints lie 0.003 H further off, eight more by over 0.06 H.
 const CONNECTED_SHARE: f64 = 0.9;
 /// Gaps of so many cells within a row are slits between patches, not air. Seen: ±30 % moves joints by under 0.0005 H.
-const SLIT: usize = 2;
+pub const SLIT: usize = 2;
 /// Every so many rows are compared with their mirror image. Seen: ±30 % moves joints by under 0.0005 H.
 const AXIS_ROWS: usize = 3;
 /// An axis is kept where another one makes no more than this share of the silhouette's mirror image fit better. Seen:
@@ -36,7 +36,7 @@ const AXIS_GAIN: f64 = 0.004;
 /// A mesh is symmetric where nearly all of its vertices (seen: ±30 % moves joints by under 0.0005 H) ...
 const SYMMETRIC_SHARE: f64 = 0.999;
 /// ... have a mirror image within this. Seen: ±30 % changes no joint.
-const SYMMETRIC_WITHIN: f64 = 2e-5;
+pub const SYMMETRIC_WITHIN: f64 = 2e-5;
 
 /// A figure seen from the front.
 pub struct FrontView<'a> {
@@ -50,8 +50,6 @@ pub struct FrontView<'a> {
     pub grid: RayGrid,
     /// x of the plane of symmetry.
     pub axis: f64,
-    /// 0..1: the share of the silhouette that its mirror image covers.
-    pub symmetry: f64,
     /// True where vertices have mirror images, not only the outline.
     pub is_symmetric: bool,
     /// At most so many threads; 0 means all cores.
@@ -65,82 +63,49 @@ pub struct FrontView<'a> {
 }
 
 impl<'a> FrontView<'a> {
-    /// Looks at `figure`, whose meshes are of these `kinds`, as far as known.
+    /// Looks at `figure`, whose meshes are of these `kinds`.
     ///
     /// # Errors
     /// `Cancelled`.
     pub fn of(
         figure: &'a UnitFigure,
-        kinds: &[Option<MeshKind>],
+        kinds: &[MeshKind],
         threads: usize,
         progress: &mut Progress,
     ) -> Result<Self> {
-        let is = |mesh: usize, wanted: &[Option<MeshKind>]| wanted.contains(&kinds[mesh]);
         use MeshKind::*;
-        let everything: &[_] =
-            &[Some(Body), Some(FacePart), None, Some(Garment), Some(Accessory), Some(Hair), Some(Eye)];
-        let sets: [&[Option<MeshKind>]; 3] = [&everything[..2], &everything[..3], &everything[..4]];
-        let triangles_of = |set: &[Option<MeshKind>]| figure.triangles_where(|mesh| is(mesh, set));
-        let clothed = triangles_of(sets[2]);
-        let mut shown = if clothed.is_empty() { everything } else { sets[2] };
-        let mut reference = triangles_of(shown);
-        let mut reference_grid = front(&figure.positions, &reference, 0.0, threads);
+        let everything: &[MeshKind] = &[Body, FacePart, Garment, Accessory, Hair, Eye];
+        let positions = &figure.positions;
+        let of_kinds = |set: &[MeshKind]| figure.triangles_where(|mesh| set.contains(&kinds[mesh]));
+        let dressed = of_kinds(&everything[..3]);
+        let mut shown = if dressed.is_empty() { everything } else { &everything[..3] };
+        let mut triangles = of_kinds(shown);
+        let mut grid = front(positions, &triangles, 0.0, threads);
         progress.at(0.3)?;
         // Of a figure in pieces whose kinds were guessed wrong, all pieces are looked at.
         let guessed = figure.kinds.iter().all(Option::is_none);
-        let some = reference.len() < figure.triangles.len();
-        if guessed && some && filled_share(&reference_grid) < FILLED_ROWS {
-            (shown, reference) = (everything, figure.triangles.clone());
-            reference_grid = front(&figure.positions, &reference, 0.0, threads);
+        let some = triangles.len() < figure.triangles.len();
+        if guessed && some && filled_share(&grid) < FILLED_ROWS {
+            (shown, triangles) = (everything, figure.triangles.clone());
+            grid = front(positions, &triangles, 0.0, threads);
         }
-        let whole = Extent::of(&reference_grid);
-        let mut chosen = None;
-        for set in &sets[..2] {
-            let triangles = triangles_of(set);
-            if triangles.len() == reference.len() {
-                break;
-            }
-            if triangles.is_empty() {
-                continue;
-            }
-            let grid = front(&figure.positions, &triangles, 0.0, threads);
+        // Of a body that is whole, what it wears is in the way.
+        let bare = of_kinds(&everything[..2]);
+        if !bare.is_empty() && bare.len() < triangles.len() {
+            let of_bare = front(positions, &bare, 0.0, threads);
             progress.at(0.6)?;
-            if is_whole(&grid, &whole) {
-                chosen = Some((*set, triangles, grid));
-                break;
+            if is_whole(&of_bare, &Extent::of(&grid)) {
+                (shown, triangles, grid) = (&everything[..2], bare, of_bare);
             }
         }
-        let (shown, triangles, grid) = chosen.unwrap_or((shown, reference, reference_grid));
-        let meshes = (0..figure.mesh_count()).map(|mesh| is(mesh, shown)).collect();
-        let view = Self::seen(&figure.positions, (meshes, triangles), grid, threads);
-        progress.at(1.0)?;
-        Ok(view)
-    }
-
-    fn seen(
-        positions: &'a [DVec3],
-        (meshes, triangles): (Vec<bool>, Vec<[u32; 3]>),
-        grid: RayGrid,
-        threads: usize,
-    ) -> Self {
-        let (axis, symmetry) = axis(&grid);
+        let meshes = kinds.iter().map(|kind| shown.contains(kind)).collect();
+        let axis = axis(&grid);
         let grid = if axis == 0.0 { grid } else { front(positions, &triangles, axis, threads) };
-        let extent = Extent::of(&grid);
+        let Extent { low, high, .. } = Extent::of(&grid);
         let runs = (0..grid.frame.rows).map(|row| runs(&grid, row)).collect();
         let is_symmetric = is_symmetric(positions, &triangles, axis);
-        Self {
-            positions,
-            meshes,
-            triangles,
-            axis,
-            symmetry,
-            is_symmetric,
-            threads,
-            low: extent.low,
-            high: extent.high,
-            runs,
-            grid,
-        }
+        progress.at(1.0)?;
+        Ok(Self { positions, meshes, triangles, grid, axis, is_symmetric, threads, low, high, runs })
     }
 
     /// The side of a cell.
@@ -331,14 +296,14 @@ fn runs(grid: &RayGrid, row: usize) -> Vec<(usize, usize)> {
     runs
 }
 
-/// The axis about which most of the silhouette is its own mirror image, and the share that is.
-fn axis(grid: &RayGrid) -> (f64, f64) {
+/// The axis about which most of the silhouette is its own mirror image.
+fn axis(grid: &RayGrid) -> f64 {
     let columns = grid.frame.columns;
     let rows: Vec<Vec<(usize, usize)>> =
         (0..grid.frame.rows).step_by(AXIS_ROWS).map(|row| runs(grid, row)).collect();
     let area: usize = rows.iter().flatten().map(|run| run.1 - run.0).sum();
     if area == 0 {
-        return (0.0, 0.0);
+        return 0.0;
     }
     // `sum` is the sum of two columns that are each other's image: [start, end) has the image (sum - end, sum - start].
     let overlap = |sum: usize| -> f64 {
@@ -366,14 +331,14 @@ fn axis(grid: &RayGrid) -> (f64, f64) {
         }
     }
     if scores[middle] >= scores[best] - AXIS_GAIN {
-        return (0.0, scores[middle]);
+        return 0.0;
     }
     // A parabola through the best and its neighbours.
     let value = |sum: usize| scores.get(sum).copied().unwrap_or(0.0);
     let (before, after) = (value(best.wrapping_sub(1)), value(best + 1));
     let bend = before - 2.0 * scores[best] + after;
     let shift = if bend < 0.0 { (0.5 * (before - after) / bend).clamp(-0.5, 0.5) } else { 0.0 };
-    (0.5 * (best as f64 + shift - middle as f64) * grid.frame.cell, scores[best])
+    0.5 * (best as f64 + shift - middle as f64) * grid.frame.cell
 }
 
 fn is_symmetric(positions: &[DVec3], triangles: &[[u32; 3]], axis: f64) -> bool {

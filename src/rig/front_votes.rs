@@ -1,5 +1,6 @@
 //! What of a figure tells its front from its back: feet, face, chin.
 
+use super::facing::SURE_VOTE;
 use crate::geometry::{bounds, range};
 use glam::DVec3;
 use std::collections::{BTreeMap, BTreeSet};
@@ -18,8 +19,6 @@ const SOLE_UP_TO: f64 = 0.04;
 /// ... and back and front of the shin between these. Seen: at -30 %, three fewer of 115 poses wrong by over 5 degrees;
 /// at +30 %, two more of 115 poses wrong by over 5 degrees.
 const SHIN_RANGE: (f64, f64) = (0.06, 0.12);
-/// What is beside a foot is not heard where its shin says another way by this.
-const CLEAR_VOTE: f64 = 0.25;
 /// What lies further apart than this, in heights, is not one foot or shin, ...
 const PLAN_CELL: f64 = 0.02;
 /// ... or than so many times as far as points of the surface are.
@@ -49,7 +48,7 @@ pub struct Vote {
 /// its soles, ahead of its middle, in heights.
 pub fn front_vote(points: &[DVec3], spacing: f64, face_parts: &[DVec3]) -> Vote {
     let (all, feet) = feet_votes(points, PLAN_CELL.max(PLAN_POINTS * spacing));
-    let is_divided = all * feet < 0.0 && feet.abs() >= CLEAR_VOTE;
+    let is_divided = all * feet < 0.0 && feet.abs() >= SURE_VOTE;
     let vote = if is_divided { feet } else { all };
     let vote = vote + FACE_VOTE * face_vote(points, face_parts) + CHIN_VOTE * chin_vote(points);
     Vote { vote, is_divided }

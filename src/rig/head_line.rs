@@ -1,7 +1,7 @@
 //! The middle line: neck, chin and head above the shoulders, spine below them.
 
 use super::front_view::{FrontView, median};
-use crate::geometry::{StepSearch, deepest_step};
+use crate::geometry::{CHIN_BAND, CHIN_BY_RATIO, CHIN_STEP, ROUNDING, StepSearch, deepest_step};
 
 /// Above its narrowest row the head is wider by this share, and by this share of the height. Seen: at -30 %, seven
 /// fewer good joints doubted; at +30 %, eight more good joints doubted.
@@ -9,21 +9,11 @@ const HEAD_WIDENS: (f64, f64) = (1.15, 0.006);
 /// The chin's rays start and end at these shares of the way from shoulders to crown (D25). Seen: ±30 % moves joints by
 /// under 0.0005 H.
 const CHIN_RANGE: (f64, f64) = (-0.05, 0.55);
-/// Bands above and below a row that are compared, as a share of the same (D25). Seen: ±30 % moves joints by under
-/// 0.0005 H.
-const CHIN_BAND: f64 = 0.05;
 /// The middle's depth is a median over this share of half the width (seen: ±30 % moves joints by under 0.0005 H), ...
 const MIDDLE_REACH: f64 = 0.6;
 /// ... but no less and no more from the axis than this, in heights: a tail is narrower, arms are outside. Seen: ±30 %
 /// moves joints by under 0.0005 H.
 const MIDDLE_RANGE: (f64, f64) = (0.005, 0.08);
-/// A smaller step back than this share of the same is no chin (D25). Seen: ±30 % changes no joint.
-const CHIN_STEP: f64 = 0.04;
-/// Steps that differ by less than this share of themselves and of the figure's height are equally deep. Seen: ±30 %
-/// changes no joint.
-const TIE: f64 = 1e-6;
-/// The chin where none is seen (D25). Seen: ±30 % moves joints by under 0.0005 H.
-const CHIN_BY_RATIO: f64 = 0.22;
 
 /// A crown lies at least this far over the shoulders, in heights: nothing divides by less. Seen: ±30 % changes no
 /// joint.
@@ -61,8 +51,6 @@ pub struct HeadLine {
     pub crown: f64,
     /// True where there is a narrow place between shoulders and head.
     pub neck_seen: bool,
-    /// True where the profile steps back below a face.
-    pub chin_seen: bool,
 }
 
 /// Looks for neck, chin and crown above `shoulder_line`, where the arms' radius is `radius`.
@@ -107,14 +95,14 @@ pub fn head_line(view: &FrontView, shoulder_line: f64, radius: f64) -> HeadLine 
     let chin = chin(view, shoulder_line, crown);
     let by_ratio = shoulder_line + CHIN_BY_RATIO * span;
     let neck = if neck_seen { narrow_y } else { shoulder_line + 0.5 * CHIN_BY_RATIO * span };
-    let (mut chin_y, mut chin_seen) = chin.map_or((by_ratio, false), |y| (y, true));
+    let mut chin_y = chin.unwrap_or(by_ratio);
     if neck_seen && chin_y < neck {
         // A face does not end below the neck: a collar or a bust does.
-        (chin_y, chin_seen) = (neck + CHIN_OVER_NECK * (by_ratio - shoulder_line), false);
+        chin_y = neck + CHIN_OVER_NECK * (by_ratio - shoulder_line);
     }
     let row = view.grid.row(chin_y + CHIN_READ_OVER * span);
     let chin_z = view.depth(row, CHIN_READ_WITHIN).map_or(0.0, |(_, front)| front);
-    HeadLine { neck, chin: chin_y.min(crown - LEAST_FACE * span), chin_z, crown, neck_seen, chin_seen }
+    HeadLine { neck, chin: chin_y.min(crown - LEAST_FACE * span), chin_z, crown, neck_seen }
 }
 
 /// The deepest step back of the front profile, downwards.
@@ -127,7 +115,7 @@ fn chin(view: &FrontView, shoulder_line: f64, crown: f64) -> Option<f64> {
         .map(|row| view.depth(row, (CHIN_WITHIN.0 * 2.0 * face).min(CHIN_WITHIN.1)).map(|(_, front)| front))
         .collect();
     let band = ((CHIN_BAND * span / view.cell()).round() as usize).max(2);
-    let row = deepest_step(&depths, &StepSearch { band, least: CHIN_STEP * span, tie: TIE, span: 1.0 })?;
+    let row = deepest_step(&depths, &StepSearch { band, least: CHIN_STEP * span, tie: ROUNDING, span: 1.0 })?;
     Some(view.grid.y(low + row) - 0.5 * view.cell())
 }
 

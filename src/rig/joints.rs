@@ -19,6 +19,7 @@ use super::solid::{Solid, Voxels};
 use super::{FoundJoint, UnitFigure};
 use crate::character::{MeshKind, Role};
 use crate::error::{Result, Warning};
+use crate::geometry::ROUNDING;
 use crate::progress::Progress;
 use glam::DVec3;
 use std::collections::BTreeMap;
@@ -49,8 +50,6 @@ const NECK_NARROWS: f64 = 0.75;
 const CORE_FROM: f64 = 0.1;
 /// ... up to the neck, or this share of the way to the crown.
 const CORE_BY_RATIO: f64 = 0.45;
-/// A pair of arms is chosen before an earlier one that is this much worse.
-const BETTER: f64 = 1e-6;
 /// An arm is longer than so many of its radii (seen: at +30 %, joints lie 0.020 H further off, 21 more by over 0.06 H,
 /// 21 more good joints doubted), ...
 const SLENDER: f64 = 4.0;
@@ -70,11 +69,10 @@ const CHEST_SHARE: f64 = 0.48;
 const SPINE_OF_CHEST: f64 = 0.46;
 /// The legs are looked for below this share of the height. Seen: at -30 %, three more joints off by over 0.06 H.
 const LEGS_BELOW: f64 = 0.8;
-/// A gap between legs that ends below this share of the shoulders' height ends at the hem of something. The crotch of
-/// people is at .58 of it (Winter, table 4.1: .818 and .48 H), that of an SD figure of two heads at .45.
-const LEAST_LEGS: f64 = 0.38;
-/// One above this share of the same is no crotch either.
-const MOST_LEGS: f64 = 0.78;
+/// A gap between legs that ends below this share of the shoulders' height ends at the hem of something, and one above the
+/// second is no crotch either. The crotch of people is at .58 of it (Winter, table 4.1: .818 and .48 H), that of an SD figure
+/// of two heads at .45.
+const LEGS: RangeInclusive<f64> = 0.38..=0.78;
 /// Beyond these shares hips and knees are doubted: between the two there, with room for stylised figures.
 const USUAL_LEGS: RangeInclusive<f64> = 0.42..=0.72;
 /// The arms' radius is taken to be no more than this, in heights, and this where no arm is seen. Seen: ±30 % changes no
@@ -111,9 +109,9 @@ const DIFFER: f64 = 0.04;
 
 /// Confidence of what a rule saw, below 0.5 a joint is warned of: the share of such limb joints within 0.03 H. Of random
 /// people (160 of even seeds) it is .96, of stripped models .91, and of the 160 of odd seeds .97, ...
-const SEEN: f64 = 0.93;
+pub const SEEN: f64 = 0.93;
 /// ... of what follows from that by the way bodies are made (seen: at -30 %, 51 more good joints doubted), ...
-const DERIVED: f64 = 0.7;
+pub const DERIVED: f64 = 0.7;
 /// ... of hip joints, which artists put at heights of their own choice (1.0 of random people, .65 of stripped models, .71
 /// of their solids), ...
 const SEEN_HIP: f64 = 0.83;
@@ -122,7 +120,7 @@ const SEEN_INSIDE: f64 = 0.92;
 /// ... of an ankle on a leg without a slim place (1.0 and 1.0 of the two there are, 1.0), ...
 const ANKLE_BY_LEG: f64 = 0.91;
 /// ... of what rests on a doubtful reading (.55 and .20, .61), ...
-const DOUBTFUL: f64 = 0.4;
+pub const DOUBTFUL: f64 = 0.4;
 /// ... and of what a ratio gave (.33 and none, .17).
 const RATIO: f64 = 0.2;
 
@@ -161,14 +159,14 @@ pub struct FoundJoints {
 
 /// Finds the joints of `figure`; what is not seen is placed by ratio.
 ///
-/// `kinds` are those of the unit figure's meshes, `None` where nobody knows. `given` joints (its space) stay where they are,
+/// `kinds` are those of the unit figure's meshes. `given` joints (its space) stay where they are,
 /// with confidence 1, and the rest is found around them. `cells`: of the solid, over the height.
 ///
 /// # Errors
 /// `Cancelled`.
 pub fn find_joints(
     figure: &UnitFigure,
-    kinds: &[Option<MeshKind>],
+    kinds: &[MeshKind],
     given: &BTreeMap<Role, DVec3>,
     fingers: bool,
     cells: f64,
@@ -215,7 +213,7 @@ impl Search<'_> {
         };
         let share = |legs: &Legs, line: f64| (legs.crotch - view.low) / (line - view.low).max(1e-6);
         let is_low = |legs: &Legs, arms| {
-            shoulders(arms).is_some_and(|(line, seen)| seen && share(legs, line) < LEAST_LEGS)
+            shoulders(arms).is_some_and(|(line, seen)| seen && share(legs, line) < *LEGS.start())
         };
         let fits = |legs: &Legs, arms| {
             shoulders(arms).is_some_and(|(line, seen)| seen && USUAL_LEGS.contains(&share(legs, line)))
@@ -228,7 +226,7 @@ impl Search<'_> {
         }
         if let Some((line, seen)) = shoulders(&arms)
             && (matches!(legs.seen, LegGap::Unseen | LegGap::Hem)
-                || (seen && !(LEAST_LEGS..=MOST_LEGS).contains(&share(&legs, line))))
+                || (seen && !LEGS.contains(&share(&legs, line))))
         {
             let ends_at_hem = legs.seen == LegGap::Hem;
             let below = legs.below_shoulders(view, line);
@@ -340,7 +338,7 @@ impl Search<'_> {
                 let cost = body.cost([left.as_ref(), right.as_ref()]);
                 least[0][at] = least[0][at].min(cost);
                 least[1][opposite] = least[1][opposite].min(cost);
-                if cost < best.0 - BETTER {
+                if cost < best.0 - ROUNDING {
                     best = (cost, [left, right].map(|one| one.as_ref().map(|one| one.arm.clone())));
                 }
             }

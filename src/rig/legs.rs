@@ -1,6 +1,6 @@
 //! Legs: where they divide, and where hip, knee, ankle and toes are in them.
 
-use super::front_view::{FrontView, median};
+use super::front_view::{FrontView, SLIT, median};
 use super::silhouette::lowest;
 use super::solid::{Lobes, Solid};
 use crate::geometry::range;
@@ -17,8 +17,6 @@ const GAP_OFF_AXIS: f64 = 0.04;
 const TOUCHING_THIN: f64 = 0.6;
 /// ... within this distance of the axis. Seen: ±30 % changes no joint.
 const TOUCH_OFF_AXIS: f64 = 0.01;
-/// Empty cells across the axis that are no gap. Seen: ±30 % changes no joint.
-const SLIT: usize = 2;
 /// A crotch lower or higher than this is none. Seen: at -30 %, joints lie 0.004 H further off, ten more by over 0.06 H.
 const CROTCH_RANGE: (f64, f64) = (0.10, 0.62);
 /// The crotch where none is seen, as a share of the figure's height (seen: ±30 % changes no joint), ...
@@ -68,10 +66,6 @@ const ANKLE_RANGE: (f64, f64) = (0.06, 0.22);
 const SECTION_WITHIN: f64 = 0.01;
 /// A leg without a section stands this far from the axis, as a share of the height (seen: ±30 % changes no joint), ...
 const LEG_BY_RATIO: f64 = 0.06;
-/// ... and is this wide from its middle, in heights. Seen: ±30 % changes no joint.
-const LEG_HALF_WIDTH: f64 = 0.03;
-/// A shin is looked at at this share of the crotch's height (seen: ±30 % changes no joint), ...
-const SHIN_AT: f64 = 0.3;
 /// ... and the top of the thigh between these. Seen: ±30 % moves joints by under 0.0005 H.
 const THIGH_RANGE: (f64, f64) = (0.90, 0.99);
 /// The foot stands where its section at this height is. Seen: ±30 % moves toes by up to 0.001 H.
@@ -85,9 +79,6 @@ const FOOT_WIDENS: f64 = 1.15;
 /// ... and that section is not at the lower end of its range, to within this factor. Seen: ±30 % moves joints by under
 /// 0.0005 H.
 const SLIM_MARGIN: f64 = 1.05;
-/// Where the ankle is not seen, its depth is read at this share of the crotch's height. Seen: ±30 % moves joints by
-/// under 0.0005 H.
-const ANKLE_READ_AT: f64 = 0.35;
 
 /// A horizontal section of one leg.
 #[derive(Clone, Copy, Debug)]
@@ -574,23 +565,20 @@ pub fn leg(view: &FrontView, legs: &Legs, left: bool, given: [Option<DVec3>; 3])
     let sections = &legs.sections[usize::from(!left)];
     let length = (legs.crotch - view.low).max(1e-3);
     let at = |share: f64| view.low + share * length;
-    let height_of = |y: f64| {
-        mean_section(sections, y - SECTION_WITHIN, y + SECTION_WITHIN).unwrap_or(Section {
-            y,
-            x: LEG_BY_RATIO * (view.high - view.low),
-            half_width: LEG_HALF_WIDTH,
-            front: 0.0,
-            back: 0.0,
-        })
+    // Where there are no sections a leg stands as bodies have it.
+    let between = |low: f64, high: f64| {
+        let x = LEG_BY_RATIO * (view.high - view.low);
+        let none = Section { y: 0.5 * (low + high), x, half_width: 0.5 * x, front: 0.0, back: 0.0 };
+        mean_section(sections, low, high).unwrap_or(none)
     };
+    let height_of = |y: f64| between(y - SECTION_WITHIN, y + SECTION_WITHIN);
     let foot: Vec<&Section> = sections.iter().filter(|s| s.y < at(ANKLE_RANGE.1)).collect();
     let Ankle { y: ankle_y, slim, seen: ankle_seen } = ankle_height(sections, view.low, length);
-    let shin = height_of(at(SHIN_AT));
     let above_ankle = height_of(slim);
     let ankle = given_ankle.unwrap_or_else(|| view.point(left, above_ankle.x, ankle_y, above_ankle.z()));
     let hip = given_hip.unwrap_or_else(|| {
         let y = legs.crotch + HIP_OVER_CROTCH * length;
-        let top = mean_section(sections, at(THIGH_RANGE.0), at(THIGH_RANGE.1)).unwrap_or(shin);
+        let top = between(at(THIGH_RANGE.0), at(THIGH_RANGE.1));
         let steps = (top.x / view.cell()) as usize;
         let z = view.grid.thickest(view.column(left, steps), view.grid.row(y));
         // What lies outside of the thigh is no hip: a tail, hair.
@@ -651,5 +639,5 @@ fn ankle_height(sections: &[Section], low: f64, length: f64) -> Ankle {
             return Ankle { y: believed(y), slim, seen: true };
         }
     }
-    Ankle { y: by_ratio, slim: low + ANKLE_READ_AT * length, seen: false }
+    Ankle { y: by_ratio, slim: low + SLIM_RANGE.1 * length, seen: false }
 }

@@ -9,10 +9,9 @@ use super::WeightBone;
 use super::solid::sides::outward;
 use crate::character::{Humanoid, Role};
 use crate::geometry::laplacian::has_area;
-use crate::geometry::{Neighbours, SEAM, foot, neighbours, weld};
+use crate::geometry::{Neighbours, ROUNDING, SEAM, foot, least_costs, neighbours, weld};
 use glam::{DMat2, DVec2, DVec3};
-use std::cmp::Ordering;
-use std::collections::{BTreeMap, BinaryHeap};
+use std::collections::BTreeMap;
 
 /// Normals are smoothed over about this width, in heights: stairs of a grid of 100 cells a height and the furrows between
 /// locks are no creases, the edge of hair on a back is one. Seen, head weight of hair below the chin (solids of Seed-san and
@@ -29,8 +28,6 @@ const LENGTH_COST: f64 = 0.3;
 /// Of the vertices that are nearest to a limb's bone or the head's this share that lies nearest is that for sure; what hangs
 /// beside it is not. Seen: at .25, and at .5, head weight of hair below the chin changes by up to .02.
 const SURE: f64 = 0.4;
-/// Neighbours that lie in one line tell no curvature: the sine between two ways of theirs. A guard against division by 0.
-const FLAT: f64 = 1e-6;
 /// What looks this much forward, as the cosine, is the front: 60 degrees to either side.
 const FORWARD: f64 = 0.5;
 /// The breastbone reaches this share of the way from chest to neck. Seen: without it skin under a lock on the chest is
@@ -209,27 +206,14 @@ impl<'a> Skin<'a> {
 
     /// What each vertex costs to reach from `seeds`.
     fn reached(&self, seeds: &[usize]) -> Vec<f64> {
-        let mut costs = vec![f64::INFINITY; self.points.len()];
-        let mut next = BinaryHeap::new();
-        for &seed in seeds {
-            costs[seed] = 0.0;
-            next.push(Reached { cost: 0.0, vertex: seed as u32 });
-        }
-        while let Some(Reached { cost, vertex }) = next.pop() {
-            if cost > costs[vertex as usize] {
-                continue;
-            }
-            for &other in self.near.of(vertex as usize) {
-                let length = self.points[other as usize].distance(self.points[vertex as usize]);
-                let hollow = 0.5 * (self.hollows[vertex as usize] + self.hollows[other as usize]);
-                let cost = cost + (hollow + LENGTH_COST) * length;
-                if cost < costs[other as usize] {
-                    costs[other as usize] = cost;
-                    next.push(Reached { cost, vertex: other });
-                }
-            }
-        }
-        costs
+        let beside = move |at: u32| {
+            self.near.of(at as usize).iter().map(move |&other| {
+                let length = self.points[other as usize].distance(self.points[at as usize]);
+                let hollow = 0.5 * (self.hollows[at as usize] + self.hollows[other as usize]);
+                (other, (hollow + LENGTH_COST) * length)
+            })
+        };
+        least_costs(self.points.len(), seeds.iter().map(|&seed| (seed as u32, 0.0)), beside)
     }
 
     /// Keeps what hangs together and reaches below the shoulders.
@@ -300,7 +284,9 @@ fn hollows(points: &[DVec3], near: &Neighbours, normals: &[DVec3]) -> Vec<f64> {
             ways += DMat2::from_cols(way * way.x, way * way.y);
             turns += DMat2::from_cols(turn * way.x, turn * way.y);
         }
-        if normal == DVec3::ZERO || ways.determinant() <= FLAT * ways.col(0).length() * ways.col(1).length() {
+        if normal == DVec3::ZERO
+            || ways.determinant() <= ROUNDING * ways.col(0).length() * ways.col(1).length()
+        {
             return 0.0;
         }
         let shape = turns * ways.inverse();
@@ -310,29 +296,3 @@ fn hollows(points: &[DVec3], near: &Neighbours, normals: &[DVec3]) -> Vec<f64> {
     };
     (0..points.len()).map(hollow).collect()
 }
-
-/// A vertex and what it costs to reach; the least cost comes first out of a heap.
-struct Reached {
-    cost: f64,
-    vertex: u32,
-}
-
-impl Ord for Reached {
-    fn cmp(&self, other: &Self) -> Ordering {
-        other.cost.total_cmp(&self.cost).then(other.vertex.cmp(&self.vertex))
-    }
-}
-
-impl PartialOrd for Reached {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl PartialEq for Reached {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other) == Ordering::Equal
-    }
-}
-
-impl Eq for Reached {}

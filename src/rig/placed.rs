@@ -3,7 +3,7 @@
 use super::candidates::Place;
 use super::facing::find_forward;
 use super::far::gathered;
-use super::joints::{FoundJoints, find_joints};
+use super::joints::{DOUBTFUL, FoundJoints, find_joints};
 use super::mesh_kinds::{Surroundings, guess_kinds};
 use super::solid::{CELLS, FEW_CELLS};
 use super::{RigOptions, UnitFigure};
@@ -15,34 +15,19 @@ use glam::{DVec3, Vec3};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-/// Limb joints by which it is judged whether a character stands.
-const LIMBS: [Role; 12] = {
+/// Left limb joints by which, with those of the right, it is judged whether a character stands.
+const LIMBS: [Role; 6] = {
     use Role::*;
-    [
-        LeftUpperLeg,
-        RightUpperLeg,
-        LeftLowerLeg,
-        RightLowerLeg,
-        LeftFoot,
-        RightFoot,
-        LeftUpperArm,
-        RightUpperArm,
-        LeftLowerArm,
-        RightLowerArm,
-        LeftHand,
-        RightHand,
-    ]
+    [LeftUpperLeg, LeftLowerLeg, LeftFoot, LeftUpperArm, LeftLowerArm, LeftHand]
 };
 /// The first try is this much of the progress: it is nearly always the only one.
 const STANDING: f32 = 0.8;
-/// A joint of at least this confidence was seen.
-const SEEN: f64 = 0.5;
+/// A joint of at least this confidence is trusted: below it a person is told.
+pub const TRUSTED: f64 = 0.5;
 /// A character half of whose limb joints are seen stands: no other way is tried.
 const STANDS: usize = 6;
 /// Another way up has so many more limb joints to be taken: a leg and an arm.
 const MORE: usize = 6;
-/// Where nobody knows front from back, no joint is surer than this: left and right may be swapped.
-const DOUBTFUL: f64 = 0.4;
 
 /// A character that is laid out, with its joints.
 #[derive(Clone, Debug)]
@@ -124,11 +109,11 @@ impl Placed {
 
     /// How many limb joints are seen.
     fn seen_count(&self) -> usize {
-        LIMBS.iter().filter(|role| self.sees(role)).count()
+        LIMBS.iter().flat_map(|&role| [role, role.mirrored()]).filter(|role| self.sees(role)).count()
     }
 
     fn sees(&self, role: &Role) -> bool {
-        self.found.joints.get(role).is_some_and(|joint| joint.confidence >= SEEN)
+        self.found.joints.get(role).is_some_and(|joint| joint.confidence >= TRUSTED)
     }
 
     /// True where half of its limb joints are seen, and ankles among them: what seem to be arms of someone who lies may be
@@ -146,7 +131,7 @@ impl Placed {
                 joint.confidence = joint.confidence.min(DOUBTFUL);
             }
         }
-        self.candidates = self.found.candidates.of_doubted(&self.found.joints, SEEN);
+        self.candidates = self.found.candidates.of_doubted(&self.found.joints, TRUSTED);
         self
     }
 
@@ -201,10 +186,9 @@ impl Placed {
             guess_kinds(&figure, options.thread_count, &mut progress.part(0.25, 0.5))?;
         warnings.extend(kind_warnings);
         let given = options.given.iter().map(|(&role, &at)| (role, figure.to_unit(at))).collect();
-        let guessed: Vec<Option<MeshKind>> = kinds.iter().copied().map(Some).collect();
         let mut found = find_joints(
             &figure,
-            &guessed,
+            &kinds,
             &given,
             options.fingers,
             cells,

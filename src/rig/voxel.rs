@@ -3,11 +3,12 @@
 //! Dionne and de Lasa. Geodesic voxel binding for production character meshes. SCA 2013 (reference 14).
 
 use super::solid::geodesic::{Bone, Distances, Paths, place_bones};
-use super::solid::{OUTSIDE, Solid, Voxels};
+use super::solid::{Solid, Voxels};
 use super::wholeness::Wholeness;
 use super::{WeightBone, WeightSet};
 use crate::character::Weights;
 use crate::error::Result;
+use crate::geometry::{NONE, by_number};
 use crate::parallel;
 use crate::progress::Progress;
 use glam::{DVec3, IVec3};
@@ -210,22 +211,10 @@ fn distance_rows(
             column
         },
     )?;
-    let mut starts = vec![0u32; points.len() + 1];
-    for &(vertex, _) in columns.iter().flatten() {
-        starts[vertex as usize + 1] += 1;
-    }
-    for vertex in 0..points.len() {
-        starts[vertex + 1] += starts[vertex];
-    }
-    let mut entries = vec![(0, 0.0); starts[points.len()] as usize];
-    let mut next = starts.clone();
-    for (bone, column) in columns.iter().enumerate() {
-        for &(vertex, length) in column {
-            let at = &mut next[vertex as usize];
-            entries[*at as usize] = (bone as u32, length);
-            *at += 1;
-        }
-    }
+    let entries = (0u32..)
+        .zip(&columns)
+        .flat_map(|(bone, column)| column.iter().map(move |&(vertex, length)| (vertex, (bone, length))));
+    let (starts, entries) = by_number(points.len(), entries);
     Ok(Rows { starts, entries })
 }
 
@@ -239,7 +228,7 @@ fn distance_at(volume: &Voxels, distances: &Distances, bone: &Bone, p: DVec3) ->
     for i in 0..8 {
         let offset = IVec3::new(i & 1, i >> 1 & 1, i >> 2);
         let slot = volume.slot(corner.as_ivec3() + offset);
-        if slot == OUTSIDE || !distances.is_reached(slot) {
+        if slot == NONE || !distances.is_reached(slot) {
             continue;
         }
         let far = offset.as_dvec3();

@@ -6,8 +6,6 @@ use crate::geometry::{SEAM, components, foot, weld};
 use glam::DVec3;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Ends of bones this near meet, in the same units. Seen: ±30 % moves no vertex.
-const MEETING: f64 = 1e-4;
 /// Shorter bones are fingers: how they bend says little about the body. In the same units. Seen: ±30 % moves no vertex.
 const LEAST_LENGTH: f64 = 0.02;
 /// A component with this share of a bone's surface bends with it. Seen: at +30 %, vertices move up to 0.120 H.
@@ -83,7 +81,7 @@ impl Wholeness {
 
         let length = |bone: &Vec<[DVec3; 2]>| bone.iter().map(|[a, b]| a.distance(*b)).fold(0.0, f64::max);
         let meet = |one: &Vec<[DVec3; 2]>, other: &Vec<[DVec3; 2]>| {
-            one.iter().flatten().any(|p| other.iter().flatten().any(|q| p.distance(*q) <= MEETING * size))
+            one.iter().flatten().any(|p| other.iter().flatten().any(|q| p.distance(*q) <= SEAM * size))
         };
         let (mut joints, mut unjoined) = (0, 0);
         for one in 0..bones.len() {

@@ -9,8 +9,8 @@
 //! triangle at a border is looked at by each of its pieces, in the order of the mesh, so that the pieces do not show.
 
 use super::turn::{Four, LANES, Turn, Turns, columns_of, cross, dot, four_at, root, transposed};
-use crate::geometry::bounds;
 use crate::geometry::weld::Weld;
+use crate::geometry::{bounds, by_number};
 use glam::{BVec4A, DVec3, Mat3A, Vec3, Vec3A, Vec4};
 use std::ops::Range;
 
@@ -330,23 +330,11 @@ struct Around {
 
 impl Around {
     fn of(triangles: &[[u32; 3]], weld: &Weld) -> Self {
-        let mut starts = vec![0u32; weld.count + 1];
-        for corner in triangles.iter().flat_map(|&corners| weld.triangle(corners)) {
-            starts[corner as usize + 1] += 1;
-        }
-        for vertex in 0..weld.count {
-            starts[vertex + 1] += starts[vertex];
-        }
-        let mut next = starts.clone();
-        let mut around = vec![0u32; 3 * triangles.len()];
-        for (index, &corners) in triangles.iter().enumerate() {
-            for corner in weld.triangle(corners) {
-                let place = &mut next[corner as usize];
-                around[*place as usize] = index as u32;
-                *place += 1;
-            }
-        }
-        Self { starts, triangles: around }
+        let corners = (0u32..).zip(triangles);
+        let corners =
+            corners.flat_map(|(index, &corners)| weld.triangle(corners).map(|corner| (corner, index)));
+        let (starts, triangles) = by_number(weld.count, corners);
+        Self { starts, triangles }
     }
 
     fn of_vertex(&self, welded: u32) -> &[u32] {

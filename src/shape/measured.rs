@@ -5,6 +5,7 @@ use super::figure::Figure;
 use super::measure::measure;
 use super::product::anatomy::Anatomy;
 use super::product::head::head;
+use super::product::landmarks::HAIRBREADTH;
 use super::product::profile::chains::Chains;
 use super::product::profile::{BodyFrame, measure_profile};
 use crate::character::bones::{Bone, bones};
@@ -19,11 +20,6 @@ use crate::progress::Progress;
 use glam::DVec3;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
-
-/// A head joint above the head's top would make a head of no length: this share of H is left.
-const LEAST_HEAD: f64 = 0.01;
-/// Fewer triangles than this are not worth a second thread.
-const LEAST_TRIANGLES: usize = 10_000;
 
 /// One character, measured.
 #[derive(Clone, Debug)]
@@ -65,7 +61,7 @@ impl Measured {
         options: &Options,
         progress: &mut Progress,
     ) -> Result<Self> {
-        let threads = if figure.triangles.len() < LEAST_TRIANGLES { 1 } else { options.thread_count };
+        let threads = if figure.triangles.len() < parallel::FEW { 1 } else { options.thread_count };
         let (surfaces, anatomy) = if parallel::thread_count(threads) == 1 {
             let surfaces = surfaces(&figure);
             progress.at(0.2)?;
@@ -79,7 +75,7 @@ impl Measured {
         }
         let joints: BTreeMap<Role, DVec3> =
             figure.humanoid.iter().map(|(role, joint)| (role, figure.joints[joint])).collect();
-        let least = anatomy.head_joint.y + LEAST_HEAD * figure.height();
+        let least = anatomy.head_joint.y + HAIRBREADTH * figure.height();
         let head_top = anatomy.head_joint.with_y(anatomy.landmarks.head_top.max(least));
         let roles: BTreeSet<Role> = joints.keys().copied().collect();
         let bones = bones(&roles, &options.bone_groups);

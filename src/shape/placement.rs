@@ -14,9 +14,6 @@ use glam::DVec3;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// Fewer vertices than this are not worth a thread.
-pub const LEAST_VERTICES: usize = 8000;
-
 /// `all`, with what `of` gives for these of them.
 pub fn renewed<T: Clone + Send>(
     threads: usize,
@@ -24,8 +21,7 @@ pub fn renewed<T: Clone + Send>(
     vertices: &[u32],
     of: impl Fn(usize) -> T + Sync,
 ) -> Arc<Vec<T>> {
-    let new =
-        parallel::collect(threads, vertices.len(), LEAST_VERTICES, |index| of(vertices[index] as usize));
+    let new = parallel::collect(threads, vertices.len(), parallel::FEW, |index| of(vertices[index] as usize));
     let values = Arc::make_mut(&mut all);
     for (&vertex, new) in vertices.iter().zip(new) {
         values[vertex as usize] = new;
@@ -244,19 +240,19 @@ impl<'a> Placement<'a> {
     pub fn all_placed(&self) -> Vec<DVec3> {
         let place =
             |vertex| self.field.place_body(self.figure.positions[vertex], &self.bindings.vertices[vertex]);
-        parallel::collect(self.threads, self.figure.positions.len(), LEAST_VERTICES, place)
+        parallel::collect(self.threads, self.figure.positions.len(), parallel::FEW, place)
     }
 
     /// Where every vertex goes, canonical frame.
     pub fn all_vertices(&self) -> Vec<DVec3> {
-        parallel::collect(self.threads, self.figure.positions.len(), LEAST_VERTICES, |vertex| {
+        parallel::collect(self.threads, self.figure.positions.len(), parallel::FEW, |vertex| {
             self.vertex(vertex)
         })
     }
 
     /// As [`Self::all_vertices`], of these.
     pub fn vertices(&self, vertices: &[u32]) -> Vec<DVec3> {
-        parallel::collect(self.threads, vertices.len(), LEAST_VERTICES, |index| {
+        parallel::collect(self.threads, vertices.len(), parallel::FEW, |index| {
             self.vertex(vertices[index] as usize)
         })
     }

@@ -1,26 +1,16 @@
 //! Legs in a tree of joints: a pair of like branches that reach the ground.
 
-use super::tree::{POINTS_OF_HALVES, POINTS_OF_STUMP, STUMP, TINY, Tree};
+use super::tree::{POINTS_OF_HALVES, Tree};
 use glam::DVec3;
 
 /// A leg begins above this height, in heights of the figure. Seen: ±30 % changes no role.
 const LEG_BEGINS_ABOVE: f64 = 0.08;
-/// A leg reaches below this height, in heights of the figure. Seen: ±30 % changes no role.
-const LEG_ENDS_BELOW: f64 = 0.3;
-/// The lower ends of two legs are at least this far apart, in heights of the figure. Seen: ±30 % changes no role.
-const LEGS_APART: f64 = 0.02;
 
 /// A pair of legs has the points of the share of weights that it carries, up to this. Seen: ±30 % changes no role.
 const LEGS_CARRY: f64 = 0.4;
-/// Points of a pair of legs for each leg with a joint below the first. Seen: ±30 % changes no role.
-const POINTS_OF_KNEE: f64 = 0.1;
 /// Points against a pair of legs, times how far both end over the ground, how unlike their beginnings and how unlike
 /// their ends are. Seen: ±30 % changes no role.
 const POINTS_OF_GROUND: f64 = 2.0;
-/// Points against a pair of legs, times how far the first begins above half of the figure: capes and long hair reach
-/// the ground from above.
-/// Seen: ±30 % changes no role.
-const POINTS_OF_HEIGHT: f64 = 0.5;
 
 /// A joint of the pelvis, not of the leg, is a first joint nearer to the middle than this share of the next one's
 /// distance. Seen: ±30 % changes no role.
@@ -32,8 +22,7 @@ const POINTS_OF_LEG_GAP: f64 = 0.25;
 
 /// An ankle lies at this share of the hip joint's height, give or take [`ANKLE_SLACK`]. Seen: ±30 % changes no role.
 const ANKLE_LEVEL: f64 = 0.15;
-/// An ankle may lie this much higher or lower. Seen: ±30 % changes no role.
-const ANKLE_SLACK: f64 = 0.1;
+
 /// Points against an ankle, times how far it lies beyond. Seen: ±30 % changes no role.
 const POINTS_OF_ANKLE: f64 = 2.0;
 
@@ -52,20 +41,15 @@ impl Tree<'_> {
             for (place, &a) in children.iter().enumerate() {
                 for &b in &children[place + 1..] {
                     let high_enough = self.level(a) >= LEG_BEGINS_ABOVE && self.level(b) >= LEG_BEGINS_ABOVE;
-                    let grounded = lowest(a) < LEG_ENDS_BELOW && lowest(b) < LEG_ENDS_BELOW;
-                    let apart = self.lower_ends_distance(a, b) > LEGS_APART * self.height;
-                    if !(high_enough && grounded && apart) {
+                    if !high_enough || self.lower_ends_distance(a, b) <= 0.0 {
                         continue;
                     }
                     let start = self.level(a) - self.level(b);
-                    let segments = |joint| f64::from(u8::from(!self.live(joint).is_empty()));
+                    let unlike = (self.reach[a] - self.reach[b]).abs() / self.height;
+                    let over_ground = lowest(a) + lowest(b) + (lowest(a) - lowest(b)).abs();
                     let score = (self.carried[a] + self.carried[b]).min(LEGS_CARRY)
-                        - POINTS_OF_GROUND * (lowest(a) + lowest(b))
-                        - POINTS_OF_GROUND * start.abs()
-                        - POINTS_OF_GROUND * (lowest(a) - lowest(b)).abs()
-                        - (self.reach[a] - self.reach[b]).abs() / self.height
-                        + POINTS_OF_KNEE * (segments(a) + segments(b))
-                        - POINTS_OF_HEIGHT * (self.level(a) - 0.5).max(0.0);
+                        - POINTS_OF_GROUND * (over_ground + start.abs())
+                        - unlike;
                     if best.is_none_or(|(known, _, _)| score > known) {
                         best = Some((score, a, b));
                     }
@@ -88,7 +72,8 @@ impl Tree<'_> {
     /// From the top of a leg, always to the child that reaches lowest and moves most.
     pub(super) fn downward(&self, top: usize) -> Vec<usize> {
         self.follow(top, |tree, child| {
-            tree.carried[child] / tree.carried[top].max(TINY) - (tree.low[child] - tree.ground) / tree.height
+            tree.carried[child] / tree.carried[top].max(f64::MIN_POSITIVE)
+                - (tree.low[child] - tree.ground) / tree.height
         })
     }
 
@@ -113,14 +98,12 @@ impl Tree<'_> {
                 for ankle in knee + 1..chain.len() {
                     let upper = point(hip).distance(point(knee));
                     let lower = point(knee).distance(point(ankle));
-                    let whole = (upper + lower).max(TINY);
-                    let stump = upper.min(lower) < STUMP * whole;
-                    let ankle_level = along(ankle) / along(hip).max(TINY);
+                    let whole = (upper + lower).max(f64::MIN_POSITIVE);
+                    let ankle_level = along(ankle) / along(hip).max(f64::MIN_POSITIVE);
                     let score = POINTS_OF_HALVES * (upper / whole - 0.5).abs()
-                        + POINTS_OF_ANKLE * ((ankle_level - ANKLE_LEVEL).abs() - ANKLE_SLACK).max(0.0)
+                        + POINTS_OF_ANKLE * (ankle_level - ANKLE_LEVEL).abs()
                         + (1.0 - (along(hip) - along(ankle)) / whole)
                         + if (hip > 0) == pelvis_first { 0.0 } else { POINTS_OF_PELVIS }
-                        + if stump { POINTS_OF_STUMP } else { 0.0 }
                         + POINTS_OF_LEG_GAP * (ankle - hip - 2) as f64;
                     if score < best.0 {
                         best = (score, [hip, knee, ankle]);

@@ -13,26 +13,9 @@ use super::{Humanoid, Mesh, Role, Skeleton};
 use glam::{DVec3, Vec3};
 use tree::Tree;
 
-/// Upwards from the chest the next joint is the one that carries most, and, by this much, that reaches highest. Seen:
-/// ±30 % changes no role.
-const RISING: f64 = 0.2;
-
 /// The head is the first joint above the arms that moves at least this share of what the heaviest one moves. Seen:
 /// ±30 % changes no role.
 const HEAVY: f64 = 0.4;
-
-/// A neck begins no further below the shoulders than this, in heights. Seen: ±30 % changes no role.
-const NECK_BELOW_SHOULDERS: f64 = 0.02;
-
-/// Feet tell which way is forward where they point this far, in heights. Seen: ±30 % changes no role.
-const LEAST_FEET: f64 = 0.005;
-
-/// A thumb is this much more unlike the hand's way than any other finger. Seen: ±30 % changes no role.
-const THUMB_UNLIKE: f64 = 1.2;
-
-/// Up is along z where it is by more than this: forward is then along -y, as in programs in which Z is up. Seen: ±30 %
-/// changes no role.
-const UPRIGHT: f64 = 0.9;
 
 impl Tree<'_> {
     /// Neck and head, above the joint from which the arms hang.
@@ -58,9 +41,7 @@ impl Tree<'_> {
                 .filter(|&child| (self.high[child] - self.ground) / self.height > shoulders)
                 .max_by(|&a, &b| worth(a).total_cmp(&worth(b)))
         })?;
-        let chain = self.follow(start, |tree, child| {
-            tree.carried[child] + RISING * (tree.high[child] - tree.ground) / tree.height
-        });
+        let chain = self.follow(start, |tree, child| tree.carried[child]);
         let most = chain.iter().map(|&joint| self.own[joint]).fold(0.0, f64::max);
         let place = if self.weighted {
             let heavy = chain.iter().position(|&joint| self.own[joint] >= HEAVY * most)?;
@@ -75,12 +56,7 @@ impl Tree<'_> {
             let fork = chain.iter().position(|&joint| self.live(joint).len() >= 2);
             fork.unwrap_or(if chain.len() >= 3 { chain.len() - 2 } else { chain.len() - 1 })
         };
-        let neck = chain[..place]
-            .iter()
-            .copied()
-            .find(|&joint| self.level(joint) >= shoulders - NECK_BELOW_SHOULDERS)
-            .or(place.checked_sub(1).map(|place| chain[place]));
-        Some((neck, chain[place]))
+        Some((chain[..place].first().copied(), chain[place]))
     }
 
     /// The way the feet point, across up; `None` where they do not tell.
@@ -96,7 +72,7 @@ impl Tree<'_> {
             };
             sum += (toward - self.position[ankle]).reject_from(self.up);
         }
-        (sum.length() > LEAST_FEET * self.height).then(|| sum.normalize())
+        sum.try_normalize()
     }
 
     /// The fingers of one hand, thumb first, as lines of joints; empty where their order is not clear.
@@ -133,9 +109,6 @@ impl Tree<'_> {
             along.angle_between(mean) + (start(line) - wrist).angle_between(mean)
         };
         lines.sort_by(|a, b| off(b).total_cmp(&off(a)));
-        if off(&lines[0]) < THUMB_UNLIKE * off(&lines[1]) {
-            return Vec::new();
-        }
         let thumb = start(&lines[0]);
         lines[1..].sort_by(|a, b| start(a).distance(thumb).total_cmp(&start(b).distance(thumb)));
         lines
@@ -178,12 +151,13 @@ fn find(skeleton: &Skeleton, meshes: &[Mesh], up: DVec3) -> Option<Humanoid> {
     // The first of each pair is the one toward `across`.
     let aside = |joint: usize| tree.reach_aside(joint, middle, across);
     let (c, d) = if aside(c) >= aside(d) { (c, d) } else { (d, c) };
-    let mut arms = [tree.split_arm(c, middle, across), tree.split_arm(d, middle, across)];
+    let mut arms = [tree.split_arm(c), tree.split_arm(d)];
     let head = tree.head([c, d], [a, b], middle, across);
     // Right-handed axes: left = up × forward.
-    let forward = tree.forward(&legs).unwrap_or({
-        let ahead = if up.z.abs() > UPRIGHT { DVec3::NEG_Y } else { DVec3::Z };
-        ahead.reject_from(up)
+    let forward = tree.forward(&legs).unwrap_or_else(|| {
+        // What exporters do by default: glTF looks along +Z, programs in which Z is up along -Y.
+        let usual = [DVec3::Z, DVec3::NEG_Y].map(|ahead| ahead.reject_from(up));
+        usual.into_iter().find(|ahead| ahead.length() > 0.5).unwrap_or_default()
     });
     if up.cross(forward).dot(across) < 0.0 {
         legs.swap(0, 1);

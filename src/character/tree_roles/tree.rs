@@ -3,21 +3,8 @@
 use crate::character::{Mesh, Skeleton};
 use glam::DVec3;
 
-/// A joint moves something where what hangs from it has more than this share of all weights. Seen: ±30 % changes no
-/// role.
-const LEAST_CARRIED: f64 = 1e-7;
-
-/// Of a thigh and a shin, or an upper arm and a forearm, neither is shorter than this share of both. Seen: ±30 %
-/// changes no role.
-pub(super) const STUMP: f64 = 0.15;
-
-/// Points against a limb with such a stump. Seen: ±30 % changes no role.
-pub(super) const POINTS_OF_STUMP: f64 = 1.0;
 /// Points against a limb whose halves differ, times how much. Seen: ±30 % changes no role.
 pub(super) const POINTS_OF_HALVES: f64 = 1.5;
-
-/// Nothing is divided by less than this. Seen: ±30 % changes no role.
-pub(super) const TINY: f64 = 1e-9;
 
 /// What the search knows of each joint.
 pub(super) struct Tree<'a> {
@@ -135,7 +122,7 @@ impl<'a> Tree<'a> {
     }
 
     pub(super) fn moves(&self, joint: usize) -> bool {
-        self.carried[joint] > LEAST_CARRIED
+        self.carried[joint] > 0.0
     }
 
     /// Children that move something, or all where there are no weights.

@@ -8,6 +8,9 @@ use super::FoundJoint;
 use crate::character::Role;
 use crate::character::humanoid::LEFT_FINGERS;
 use crate::geometry::Surface;
+use crate::options::table::PAPER_RAYS;
+use crate::rig::joints::{DERIVED, SEEN};
+use crate::rig::placed::TRUSTED;
 use glam::DVec3;
 use region::{Finger, LEAST_PERSISTENCE, MITTEN_KNUCKLES, Region, SECTION_COUNT};
 use std::collections::BTreeMap;
@@ -43,8 +46,8 @@ pub struct Hand {
 /// in this order from the thumb's side, as many as there are: a cartoon hand of four has no little finger. All fingers
 /// in one have the middle one's roles, beside a thumb or alone. Without a thumb the front one is the index.
 ///
-/// Confidence is 0.9 for joints within a finger that stands out clearly, 0.7 for its knuckle, 0.5 for a knuckle out of
-/// place and for mittens, less where fingers are stubs or rays around a joint do not meet the surface.
+/// Confidence is that of what is seen for joints within a finger that stands out clearly, of what is derived for its knuckle, just
+/// enough for a knuckle out of place and for mittens, and less where fingers are stubs or rays around a joint do not meet the surface.
 ///
 /// Where nothing is cut at the wrist there is no hand. O(triangles + hand · log hand).
 pub fn find_fingers(
@@ -62,16 +65,20 @@ pub fn find_fingers(
     if fingers.iter().any(|finger| !region.is_buried(surface, finger)) {
         fingers.retain(|finger| !region.is_buried(surface, finger));
     }
-    let mut hand = region.hand(surface, fingers);
-    if !left {
-        hand.joints = std::mem::take(&mut hand.joints)
-            .into_iter()
-            .map(|(role, joint)| (role.mirrored(), joint))
-            .collect();
-        hand.tips =
-            std::mem::take(&mut hand.tips).into_iter().map(|(role, tip)| (role.mirrored(), tip)).collect();
+    let hand = region.hand(surface, fingers);
+    if left { hand } else { hand.of_other_side(|p| p) }
+}
+
+impl Hand {
+    /// The same with the other side's roles, and its points moved.
+    fn of_other_side(&self, moved: impl Fn(DVec3) -> DVec3) -> Self {
+        let joint = |joint: &FoundJoint| FoundJoint { position: moved(joint.position), ..*joint };
+        Self {
+            joints: self.joints.iter().map(|(role, one)| (role.mirrored(), joint(one))).collect(),
+            tips: self.tips.iter().map(|(role, &tip)| (role.mirrored(), moved(tip))).collect(),
+            finger_count: self.finger_count,
+        }
     }
-    hand
 }
 
 impl Region {
@@ -127,10 +134,10 @@ impl Region {
                 .clamp(0.5, 1.0);
             for (number, (role, position)) in LEFT_FINGERS[role].into_iter().zip(joints).enumerate() {
                 let sure = match number {
-                    _ if is_mitten => UNSURE,
-                    0 if kept => SURE_KNUCKLE,
-                    0 => UNSURE,
-                    _ => SURE,
+                    _ if is_mitten => TRUSTED,
+                    0 if kept => DERIVED,
+                    0 => TRUSTED,
+                    _ => SEEN,
                 };
                 let within = enclosed(surface, position, ways[number], RAY_REACH * self.wrist_radius);
                 hand.joints.insert(role, FoundJoint { position, confidence: sure * seen * within });
@@ -259,15 +266,6 @@ const KNUCKLE_RANGE: [f64; 2] = [0.4, 0.66];
 /// ... and a thumb's. Seen: ±30 % moves finger joints by under 0.0005 H.
 const THUMB_RANGE: [f64; 2] = [0.15, 0.5];
 
-/// Confidence of a joint within a finger that stands out clearly (no joint depends on it, nor a warning), ...
-const SURE: f64 = 0.9;
-
-/// ... of its knuckle (the same), ...
-const SURE_KNUCKLE: f64 = 0.7;
-
-/// ... of a knuckle out of place, and of mittens. The same.
-const UNSURE: f64 = 0.5;
-
 /// Rays around a joint reach this many radii of the wrist. Seen: ±30 % changes no finger.
 const RAY_REACH: f64 = 3.0;
 
@@ -288,12 +286,9 @@ fn enclosed(surface: &Surface, at: DVec3, way: DVec3, reach: f64) -> f64 {
     let axis = if way.y.abs() < 0.8 { DVec3::Y } else { DVec3::Z };
     let one = axis.reject_from_normalized(way).normalize();
     let other = way.cross(one);
-    let met = (0..RAY_COUNT).filter(|&ray| {
-        let (sin, cos) = (TAU * ray as f64 / RAY_COUNT as f64).sin_cos();
+    let met = (0..PAPER_RAYS).filter(|&ray| {
+        let (sin, cos) = (TAU * f64::from(ray) / f64::from(PAPER_RAYS)).sin_cos();
         surface.first_hit(at, cos * one + sin * other, reach).is_some()
     });
-    met.count() as f64 / RAY_COUNT as f64
+    met.count() as f64 / f64::from(PAPER_RAYS)
 }
-
-/// Rays around a joint (as §V-A). Seen: ±30 % changes no finger.
-const RAY_COUNT: usize = 12;

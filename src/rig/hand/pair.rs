@@ -3,17 +3,13 @@
 use super::{Hand, find_fingers};
 use crate::character::Role;
 use crate::geometry::{PointTree, Surface};
-use crate::rig::front_view::FrontView;
+use crate::rig::front_view::{FrontView, SYMMETRIC_WITHIN};
 use crate::rig::joints::FoundJoints;
 use crate::rig::{FoundJoint, UnitFigure};
 use glam::DVec3;
 
-/// Two hands are alike where every vertex nearer to a wrist than the first has a mirror image within the second (seen:
-/// ±30 % changes no joint), ...
+/// Two hands are alike where every vertex nearer to a wrist than this has a mirror image. Seen: ±30 % changes no joint.
 const HAND_REACH: f64 = 0.2;
-const MIRRORED: f64 = 2e-5;
-/// ... about a plane that mirrors the wrists to within this. Seen: ±30 % changes no joint.
-const MIRRORED_WRISTS: f64 = 1e-3;
 
 /// A hand with this many fingers but no thumb is looked at again ...
 const FINGERS_BESIDE_THUMB: usize = 3;
@@ -43,7 +39,7 @@ pub fn add_fingers(figure: &UnitFigure, view: &FrontView, found: &mut FoundJoint
         let seen = |hand: &Hand| hand.joints.values().map(|joint| joint.confidence).sum::<f64>();
         let better =
             usize::from((hands[1].finger_count, seen(&hands[1])) > (hands[0].finger_count, seen(&hands[0])));
-        hands[1 - better] = mirrored(&hands[better], middle);
+        hands[1 - better] = hands[better].of_other_side(|p| DVec3::new(2.0 * middle - p.x, p.y, p.z));
     }
     for (left, hand) in [true, false].into_iter().zip(hands) {
         let wrist = Role::LeftHand.on_side(left);
@@ -63,7 +59,7 @@ pub fn add_fingers(figure: &UnitFigure, view: &FrontView, found: &mut FoundJoint
 fn mirror_of_hands(view: &FrontView, wrists: [DVec3; 2]) -> Option<f64> {
     let middle = 0.5 * (wrists[0].x + wrists[1].x);
     let mirror = |p: DVec3| DVec3::new(2.0 * middle - p.x, p.y, p.z);
-    if mirror(wrists[0]).distance(wrists[1]) > MIRRORED_WRISTS {
+    if mirror(wrists[0]).distance(wrists[1]) > SYMMETRIC_WITHIN {
         return None;
     }
     let mut corners: Vec<u32> = view.triangles.iter().flatten().copied().collect();
@@ -81,28 +77,14 @@ fn mirror_of_hands(view: &FrontView, wrists: [DVec3; 2]) -> Option<f64> {
     for (one, other) in [(&hands[0], &hands[1]), (&hands[1], &hands[0])] {
         let tree = PointTree::new(other);
         let has_image = |p: &DVec3| {
-            tree.nearest(mirror(*p), 1, MIRRORED, &mut near);
+            tree.nearest(mirror(*p), 1, SYMMETRIC_WITHIN, &mut near);
             // Points at the rim may have an image just beyond it.
             !near.is_empty()
-                || p.distance(wrists[0]).min(p.distance(wrists[1])) > HAND_REACH - MIRRORED_WRISTS
+                || p.distance(wrists[0]).min(p.distance(wrists[1])) > HAND_REACH - SYMMETRIC_WITHIN
         };
         if one.is_empty() || !one.iter().all(has_image) {
             return None;
         }
     }
     Some(middle)
-}
-
-/// The same hand on the other side.
-fn mirrored(hand: &Hand, middle: f64) -> Hand {
-    let mirror = |p: DVec3| DVec3::new(2.0 * middle - p.x, p.y, p.z);
-    Hand {
-        joints: hand
-            .joints
-            .iter()
-            .map(|(role, joint)| (role.mirrored(), FoundJoint { position: mirror(joint.position), ..*joint }))
-            .collect(),
-        tips: hand.tips.iter().map(|(role, &tip)| (role.mirrored(), mirror(tip))).collect(),
-        finger_count: hand.finger_count,
-    }
 }

@@ -1,10 +1,9 @@
 //! The mesh beyond the wrist, and the fingers that stand out of it: the merge tree of distances from the wrist.
 
 use super::section::Section;
-use crate::geometry::{PointTree, SEAM, components, neighbours, weld};
+use crate::geometry::{NONE, PointTree, SEAM, components, least_costs, neighbours, weld};
 use glam::DVec3;
-use std::cmp::Reverse;
-use std::collections::{BTreeMap, BinaryHeap};
+use std::collections::BTreeMap;
 
 /// The mesh beyond the wrist.
 pub(super) struct Region {
@@ -81,7 +80,7 @@ impl Region {
             // The section's middle lies in the plane through the wrist, which parts what is cut from what is not.
             (p - wrist).dot(along) > 0.0 && p.distance_squared(section.centre) <= reach * reach
         };
-        let mut index = vec![u32::MAX; positions.len()];
+        let mut index = vec![NONE; positions.len()];
         let mut points = Vec::new();
         for (vertex, &p) in positions.iter().enumerate() {
             if is_near(p) {
@@ -92,7 +91,7 @@ impl Region {
         let near: Vec<[u32; 3]> = triangles
             .iter()
             .map(|corners| corners.map(|vertex| index[vertex as usize]))
-            .filter(|corners| !corners.contains(&u32::MAX))
+            .filter(|corners| !corners.contains(&NONE))
             .collect();
         let weld = weld(&points, SEAM);
         let pieces = components(&near, &weld);
@@ -108,7 +107,7 @@ impl Region {
         let mut is_start = vec![false; points.len()];
         for vertex in section.ahead {
             if let Some(&near) = index.get(vertex as usize)
-                && near != u32::MAX
+                && near != NONE
             {
                 is_start[weld.representative[near as usize] as usize] = true;
             }
@@ -175,28 +174,15 @@ impl Region {
 
     /// Distances from the wrist along edges.
     fn measure(&mut self) {
-        self.distances = vec![f64::INFINITY; self.points.len()];
-        let mut queue = BinaryHeap::new();
-        for vertex in 0..self.points.len() as u32 {
-            if self.is_start[vertex as usize] {
-                let ahead = (self.points[vertex as usize] - self.wrist).dot(self.along).max(0.0);
-                self.distances[vertex as usize] = ahead;
-                queue.push(Reverse((ahead.to_bits(), vertex)));
-            }
-        }
-        while let Some(Reverse((bits, vertex))) = queue.pop() {
-            let distance = f64::from_bits(bits);
-            if distance > self.distances[vertex as usize] {
-                continue;
-            }
-            for &next in &self.graph[vertex as usize] {
-                let further = distance + self.points[vertex as usize].distance(self.points[next as usize]);
-                if further < self.distances[next as usize] {
-                    self.distances[next as usize] = further;
-                    queue.push(Reverse((further.to_bits(), next)));
-                }
-            }
-        }
+        let ahead = |v: u32| (v, (self.points[v as usize] - self.wrist).dot(self.along).max(0.0));
+        let starts = (0..self.points.len() as u32).filter(|&v| self.is_start[v as usize]).map(ahead);
+        let (graph, points) = (&self.graph, &self.points);
+        let beside = move |at: u32| {
+            let way = move |&next: &u32| (next, points[at as usize].distance(points[next as usize]));
+            graph[at as usize].iter().map(way)
+        };
+        let distances = least_costs(points.len(), starts, beside);
+        self.distances = distances;
         self.length = self.distances.iter().copied().filter(|d| d.is_finite()).fold(0.0, f64::max);
     }
 
@@ -207,7 +193,7 @@ impl Region {
         order.sort_by(|&a, &b| {
             self.distances[b as usize].total_cmp(&self.distances[a as usize]).then(a.cmp(&b))
         });
-        let mut parents = vec![u32::MAX; self.points.len()];
+        let mut parents = vec![NONE; self.points.len()];
         fn root(parents: &mut [u32], mut vertex: u32) -> u32 {
             while parents[vertex as usize] != vertex {
                 parents[vertex as usize] = parents[parents[vertex as usize] as usize];
@@ -223,7 +209,7 @@ impl Region {
             let distance = self.distances[vertex as usize];
             parents[vertex as usize] = vertex;
             for &next in &self.graph[vertex as usize] {
-                if parents[next as usize] == u32::MAX {
+                if parents[next as usize] == NONE {
                     continue;
                 }
                 let (one, other) = (root(&mut parents, vertex), root(&mut parents, next));

@@ -13,8 +13,8 @@ use super::solid::Solid;
 use super::{WeightBone, WeightSet};
 use crate::character::Weights;
 use crate::error::Result;
-use crate::geometry::laplacian::{Cholesky, Symbolic, cotangent_laplacian, has_area};
-use crate::geometry::{SEAM, Weld, bounds, components, weld};
+use crate::geometry::laplacian::{COLUMNS, Cholesky, Symbolic, cotangent_laplacian, has_area};
+use crate::geometry::{NONE, ROUNDING, SEAM, Weld, bounds, by_number, components, weld};
 use crate::parallel;
 use crate::progress::Progress;
 use glam::DVec3;
@@ -29,21 +29,12 @@ const FARTHEST: f64 = 1e6;
 /// of the solve would be as large. Seen: ±30 % moves no vertex.
 const LEAST_EXCHANGE: f64 = 1e-9;
 
-/// Weights below this are none. Seen: ±30 % moves no vertex.
-const LEAST_WEIGHT: f64 = 1e-6;
-
 /// c is taken into this range, outside of which nothing but rounding changes. Seen: ±30 % moves no vertex.
 const HEAT_RANGE: [f64; 2] = [1e-4, 1e6];
 
 /// What the diagonal is raised by, relative to itself, where the system is not positive definite for rounding. Tried
 /// one after the other, 0 first, so that what needs none is exact.
 const SHIFTS: [f64; 4] = [0.0, 1e-10, 1e-7, 1e-4];
-
-/// Bones that are solved for together. Time alone.
-const BLOCK: usize = 4;
-
-/// No component: the vertex is in no triangle with an area.
-const LOOSE: u32 = u32::MAX;
 
 /// What heat can be told.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -90,7 +81,7 @@ pub struct HeatSystem {
     /// The joint of each bone.
     joints: Vec<u32>,
     nearest: NearestBones,
-    /// The component of each welded vertex, or `LOOSE`.
+    /// The component of each welded vertex, or `NONE`.
     components: Vec<u32>,
     /// How each component gets its weights.
     rules: Vec<Rule>,
@@ -203,7 +194,7 @@ impl HeatSystem {
 
     /// Tells how each component gets its weights, and takes the rest out of the system.
     fn choose_rules(&mut self, component_count: usize) {
-        let vertices = || self.components.iter().enumerate().filter(|&(_, &component)| component != LOOSE);
+        let vertices = || self.components.iter().enumerate().filter(|&(_, &component)| component != NONE);
         self.rules = vec![Rule::Unseen; component_count];
         for (vertex, &component) in vertices() {
             if self.nearest.seen[vertex] {
@@ -226,7 +217,7 @@ impl HeatSystem {
             }
         }
         for (vertex, &component) in self.components.iter().enumerate() {
-            if component == LOOSE {
+            if component == NONE {
                 self.diagonal[vertex] = 1.0;
             } else if self.rules[component as usize] == Rule::Small {
                 // Its rows are not asked for; this makes them definite for sure.
@@ -352,7 +343,7 @@ impl HeatSystem {
             }
         }
         let bones: Vec<usize> = (0..sources.len()).filter(|&bone| !sources[bone].is_empty()).collect();
-        let blocks: Vec<&[usize]> = bones.chunks(BLOCK).collect();
+        let blocks: Vec<&[usize]> = bones.chunks(COLUMNS).collect();
         let size = self.weld.count;
         let solved = |&mut (): &mut (), block: usize| {
             let bones = blocks[block];
@@ -366,7 +357,7 @@ impl HeatSystem {
             let mut solution = Vec::new();
             for vertex in 0..size {
                 for (&bone, column) in bones.iter().zip(columns.chunks(size)) {
-                    if column[vertex] >= LEAST_WEIGHT {
+                    if column[vertex] >= ROUNDING {
                         solution.push((vertex as u32, bone as u32, column[vertex]));
                     }
                 }
@@ -470,8 +461,8 @@ impl Frame {
 struct Components {
     triangles: Vec<[u32; 3]>,
     /// Where each component's triangles start; one more than there are components.
-    starts: Vec<usize>,
-    /// The component of each vertex, or `LOOSE`.
+    starts: Vec<u32>,
+    /// The component of each vertex, or `NONE`.
     components: Vec<u32>,
 }
 
@@ -482,33 +473,24 @@ impl Components {
         let alone = Weld { representative: (0..points.len() as u32).collect(), count: points.len() };
         let mut components = components(&triangles, &alone);
         // Loose vertices are components as well there; here only triangles make one.
-        let mut numbers = vec![LOOSE; points.len()];
-        let mut starts = vec![0];
+        let mut numbers = vec![NONE; points.len()];
+        let mut count = 0;
         for &[vertex, ..] in &triangles {
             let number = &mut numbers[components[vertex as usize] as usize];
-            if *number == LOOSE {
-                *number = starts.len() as u32 - 1;
-                starts.push(0);
+            if *number == NONE {
+                *number = count;
+                count += 1;
             }
-            starts[*number as usize + 1] += 1;
         }
         for component in &mut components {
             *component = numbers[*component as usize];
         }
-        for number in 1..starts.len() {
-            starts[number] += starts[number - 1];
-        }
-        let mut ends = starts.clone();
-        let mut sorted = vec![[0; 3]; triangles.len()];
-        for corners in triangles {
-            let end = &mut ends[components[corners[0] as usize] as usize];
-            sorted[*end] = corners;
-            *end += 1;
-        }
-        Self { triangles: sorted, starts, components }
+        let numbered = triangles.iter().map(|&corners| (components[corners[0] as usize], corners));
+        let (starts, triangles) = by_number(count as usize, numbered);
+        Self { triangles, starts, components }
     }
 
     fn triangles_of(&self, component: usize) -> &[[u32; 3]] {
-        &self.triangles[self.starts[component]..self.starts[component + 1]]
+        &self.triangles[self.starts[component] as usize..self.starts[component + 1] as usize]
     }
 }

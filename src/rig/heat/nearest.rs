@@ -2,7 +2,7 @@
 
 use super::{Components, Frame, Held};
 use crate::error::Result;
-use crate::geometry::{Surface, Weld, foot};
+use crate::geometry::{ROUNDING, Surface, Weld, foot};
 use crate::parallel;
 use crate::progress::Progress;
 use crate::rig::WeightBone;
@@ -17,21 +17,14 @@ const EQUAL: f64 = 1.0 + 1e-4;
 /// keeps both legs alike however it is rounded. Seen: at 1.3, vertices move up to 0.044 H.
 const UNEQUAL: f64 = 1.0 + 1e-3;
 
-/// Distances to bones are at least this, in units of the figure: what is nearer lies on the bone, and H stays finite.
-/// Seen: ±30 % moves no vertex.
-const LEAST_DISTANCE: f64 = 1e-6;
-
 /// A way straight out of the surface counts as so much longer than one straight into it: no bone is so much farther than
 /// another.
 const MOST_STRETCH: f64 = 2000.0;
 
-/// A way to a bone that leads through air for more than so many cells of the body leaves it: a cell that a surface
-/// touches reaches beyond it by less than one. Seen: at ±30 %, posed vertices lie as far from the artists', to 0.1 %.
-const LEAST_AIR: f64 = 2.0;
-
-/// The body lies behind a vertex where it is found so many of its cells behind it: cloth is thinner. Seen: at ±30 %,
-/// posed vertices lie as far from the artists', to 1 %.
-const BEHIND: f64 = 2.0;
+/// So many cells of the body off a surface it is known what is there, since a cell that a surface touches reaches beyond it by less
+/// than one: a way to a bone leaves the body where it leads through more air, and the body lies behind a vertex where it is found so
+/// far behind it. Seen: at ±30 %, posed vertices lie as far from the artists', to 1 %.
+const CLEAR: f64 = 2.0;
 
 /// What is held counts as this far from what holds it, in units of the figure: its weights go over into those of the skin
 /// around it within about as much, some cells of a coarse grid. Found by looking.
@@ -112,8 +105,8 @@ impl Body<'_> {
     /// an arm below it. Cloth without a body right behind it does see one.
     fn hides(&self, p: DVec3, way: DVec3) -> bool {
         let (from, to) = (self.frame.original(p), self.frame.original(p + way));
-        let behind = from - BEHIND * self.solid.cell * (to - from).normalize_or_zero();
-        self.solid.is_in(behind) && self.solid.air(from, to) > LEAST_AIR * self.solid.cell
+        let behind = from - CLEAR * self.solid.cell * (to - from).normalize_or_zero();
+        self.solid.is_in(behind) && self.solid.air(from, to) > CLEAR * self.solid.cell
     }
 }
 
@@ -281,13 +274,13 @@ impl Segments {
             self.stretch(p, normal, squared);
         }
         let least = squared.iter().fold(f64::INFINITY, |least, &distance| least.min(distance));
-        let least = least.sqrt().max(LEAST_DISTANCE);
+        let least = least.sqrt().max(ROUNDING);
         let reach = (UNEQUAL * least).powi(2);
         for (segment, &squared) in (0u32..).zip(&*squared) {
             if squared > reach {
                 continue;
             }
-            let distance = squared.sqrt().max(LEAST_DISTANCE);
+            let distance = squared.sqrt().max(ROUNDING);
             let share = ((UNEQUAL - distance / least) / (UNEQUAL - EQUAL)).clamp(0.0, 1.0);
             let bone = self.bones[segment as usize];
             match near.last_mut() {

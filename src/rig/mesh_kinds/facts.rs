@@ -2,6 +2,7 @@
 
 use crate::error::Result;
 use crate::geometry::{Hit, Surface, bounds, double_area};
+use crate::parallel;
 use crate::progress::Progress;
 use crate::rig::UnitFigure;
 use glam::DVec3;
@@ -31,9 +32,6 @@ const COVER_SHARE: f64 = 0.15;
 /// What has less than this share of a mesh's area is a crumb beside it, which it does not lie over. Seen: at +30 %, one
 /// more mesh misjudged.
 const CRUMB: f64 = 0.1;
-
-/// Fewer points than this are not worth a thread.
-const LEAST_POINTS: usize = 200;
 
 /// How far points of a sequence step along both sides of a triangle: the golden ratio of the plane spreads them evenly,
 /// whatever triangles they fall on (Roberts, The unreasonable effectiveness of quasirandom sequences, 2018). Seen:
@@ -117,7 +115,7 @@ impl Surroundings {
         };
         progress.at(0.1)?;
         let part = &mut progress.part(0.1, 1.0);
-        let mut shot = part.collect_with(threads, all.len(), LEAST_POINTS, || (), shoot)?.into_iter();
+        let mut shot = part.collect_with(threads, all.len(), parallel::FEW_RAYS, || (), shoot)?.into_iter();
         let shots: Vec<Vec<_>> =
             points.iter().map(|of_mesh| shot.by_ref().take(of_mesh.len()).collect()).collect();
         let turned: Vec<bool> = shots

@@ -9,7 +9,7 @@ mod reach;
 use super::{FoundJoint, UnitFigure};
 use crate::character::{MeshKind, Role};
 use crate::error::{Named, Result, Warning};
-use crate::geometry::{Surface, range, weld};
+use crate::geometry::{SEAM, Surface, range, weld};
 use crate::progress::Progress;
 pub use facts::Surroundings;
 use facts::{Facts, Scene};
@@ -17,9 +17,6 @@ use glam::DVec3;
 use reach::{SLICES, Slices, TRUNK_HALF_WIDTH, middle_plane, reaches_over, shown_count, slices};
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
-
-/// Borders this near are one, in heights. Seen: ±30 % changes no mesh.
-const SEAM: f64 = 1e-5;
 
 /// A mesh of which this share lies over others is a layer. Seen: at -30 %, two more meshes misjudged.
 const LAYER_SHARE: f64 = 0.5;

@@ -6,7 +6,7 @@
 //! The rims of a piece, one after the other, are the sections of a limb, whatever way it bends.
 
 use super::voxels::{Queue, Voxels};
-use crate::geometry::Groups;
+use crate::geometry::{Groups, NONE};
 use glam::DVec3;
 use std::ops::Range;
 
@@ -21,8 +21,6 @@ const LEAST_BRANCH: f64 = 0.1;
 const MOST_FILLED: f64 = 0.4;
 /// The core is so many cells thick to either side of the plane: three layers of cells.
 const CORE: f64 = 1.5;
-/// No branch.
-const NONE: u32 = u32::MAX;
 
 /// A section of a branch.
 #[derive(Clone, Copy, Debug)]
@@ -62,24 +60,6 @@ struct Piece {
     rims: Vec<Rim>,
 }
 
-/// Slots by how far they are, the furthest first, those that are as far in their order; without what no way leads to.
-fn furthest_first(far: &[u32]) -> Vec<u32> {
-    let reached = || far.iter().copied().filter(|&far| far != NONE);
-    let most = reached().max().unwrap_or(0);
-    let mut starts = vec![0usize; most as usize + 2];
-    reached().for_each(|far| starts[(most - far) as usize + 1] += 1);
-    for at in 1..starts.len() {
-        starts[at] += starts[at - 1];
-    }
-    let mut order = vec![0u32; starts[most as usize + 1]];
-    for (slot, &far) in far.iter().enumerate().filter(|&(_, &far)| far != NONE) {
-        let next = &mut starts[(most - far) as usize];
-        order[*next] = slot as u32;
-        *next += 1;
-    }
-    order
-}
-
 /// How far each cell is from the core through filled cells, in thirds of a cell; `NONE` where no way leads.
 fn distances(voxels: &Voxels, axis: f64, heights: Range<f64>) -> Vec<u32> {
     let solid = &voxels.solid;
@@ -109,7 +89,9 @@ fn distances(voxels: &Voxels, axis: f64, heights: Range<f64>) -> Vec<u32> {
 
 /// The pieces of the merge tree that are long enough.
 fn merge(voxels: &Voxels, far: &[u32]) -> Vec<Piece> {
-    let order = furthest_first(far);
+    // The furthest first, without what no way leads to.
+    let mut order: Vec<u32> = (0..far.len() as u32).filter(|&slot| far[slot as usize] != NONE).collect();
+    order.sort_by_key(|&slot| std::cmp::Reverse(far[slot as usize]));
     let mut groups = Groups::new(far.len());
     // Of each group's least slot the piece that goes on there.
     let mut owner = vec![NONE; far.len()];

@@ -274,8 +274,9 @@ fn crossed(corners: [[f64; 3]; 3], ends: [i32; 2], mut cross: impl FnMut(i32, i3
 
 #[cfg(test)]
 mod tests {
-    use super::super::{OUTSIDE, Voxels};
+    use super::super::Voxels;
     use super::*;
+    use crate::geometry::NONE;
     use std::f64::consts::TAU;
 
     /// A box of 12 triangles.
@@ -412,7 +413,7 @@ mod tests {
         let loose = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::splat(1e30), DVec3::NAN];
         let voxels = Voxels::of(Solid::of_body(&loose, &[[0, 1, 2]], 16));
         for p in loose {
-            assert_ne!(voxels.slot(voxels.solid.nearest(voxels.solid.to_cells(p))), OUTSIDE, "{p}");
+            assert_ne!(voxels.slot(voxels.solid.nearest(voxels.solid.to_cells(p))), NONE, "{p}");
         }
     }
 }

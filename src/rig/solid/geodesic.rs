@@ -4,8 +4,8 @@
 //! voxel to voxel, which is up to a tenth too long and shows as blocks; here a voxel that sees its bone takes the straight
 //! distance, and steps are added up only around corners.
 
-use super::voxels::{OUTSIDE, Queue, Voxels, neighbourhood};
-use crate::geometry::foot;
+use super::voxels::{Queue, Voxels, neighbourhood};
+use crate::geometry::{NONE, ROUNDING, foot};
 use glam::DVec3;
 
 /// Buckets a voxel: a voxel is always settled in a later bucket than the one on its way to the bone. Seen: ±30 % moves
@@ -13,16 +13,11 @@ use glam::DVec3;
 const BUCKETS: f32 = 4.0;
 /// A bone is sampled this often a voxel. Seen: at ±30 %, vertices move up to 0.001 H.
 const SAMPLES: f64 = 4.0;
-/// Voxels this much further away than the nearest are as near: a bone in a plane of symmetry starts on both sides.
-/// Seen: ±30 % moves no vertex.
-const TIE: f64 = 1e-6;
 /// How much deeper than its first contact an island is tied to the volume beside it, in voxels. Seen: ±30 % moves no
 /// vertex.
 const CONTACT: f32 = 2.0;
 /// No bone is further from the middle of the volume than this, in sizes of the volume. Seen: ±30 % moves no vertex.
 const FARTHEST: f64 = 4.0;
-/// Ends of bones that are this close, in voxels, are one. Seen: ±30 % moves no vertex.
-const SAME: f64 = 1e-6;
 
 /// A bone in voxels.
 #[derive(Clone, Debug)]
@@ -43,7 +38,7 @@ impl Bone {
     /// Whether an end of one bone is an end of the other.
     pub fn touches(&self, other: &Self) -> bool {
         let mut ends = self.segments.iter().flatten();
-        ends.any(|p| other.segments.iter().flatten().any(|q| p.distance(*q) <= SAME))
+        ends.any(|p| other.segments.iter().flatten().any(|q| p.distance(*q) <= ROUNDING))
     }
 
     /// The length of the longest segment.
@@ -60,7 +55,7 @@ impl Bone {
         let Some(&[a, b]) = self.segments.iter().max_by(longest) else {
             return 0.0;
         };
-        if a.distance(b) <= SAME {
+        if a.distance(b) <= ROUNDING {
             return 0.0;
         }
         let mut reaches = Vec::new();
@@ -101,11 +96,12 @@ pub fn place_bones(volume: &Voxels, bones: &[Vec<[DVec3; 2]>]) -> Vec<Bone> {
     let lines: Vec<[DVec3; 2]> = all.iter().flatten().copied().collect();
     for segment in all.iter_mut().flatten() {
         let [joint, end] = *segment;
-        if joint.distance(end) > SAME {
+        if joint.distance(end) > ROUNDING {
             continue;
         }
-        let arriving =
-            lines.iter().filter(|[from, to]| to.distance(joint) <= SAME && from.distance(joint) > SAME);
+        let arriving = lines
+            .iter()
+            .filter(|[from, to]| to.distance(joint) <= ROUNDING && from.distance(joint) > ROUNDING);
         let direction: DVec3 = arriving.map(|&[from, to]| (to - from).normalize_or_zero()).sum();
         let step = direction.normalize_or_zero() / SAMPLES;
         while step != DVec3::ZERO && is_in(volume, segment[1] + step) {
@@ -115,7 +111,7 @@ pub fn place_bones(volume: &Voxels, bones: &[Vec<[DVec3; 2]>]) -> Vec<Bone> {
     let placed = all.into_iter().map(|segments| {
         let mut starts: Vec<u32> = samples(volume, &segments)
             .map(|p| volume.slot(p.round().as_ivec3()))
-            .filter(|&slot| slot != OUTSIDE)
+            .filter(|&slot| slot != NONE)
             .collect();
         starts.sort_unstable();
         starts.dedup();
@@ -129,7 +125,7 @@ pub fn place_bones(volume: &Voxels, bones: &[Vec<[DVec3; 2]>]) -> Vec<Bone> {
 }
 
 fn is_in(volume: &Voxels, p: DVec3) -> bool {
-    volume.slot(p.round().as_ivec3()) != OUTSIDE
+    volume.slot(p.round().as_ivec3()) != NONE
 }
 
 /// Points along the segments, the part of them that lies in the grid.
@@ -150,7 +146,7 @@ fn nearest_voxels(volume: &Voxels, bone: &Bone) -> Vec<u32> {
     };
     let slots = 0..volume.cells.len() as u32;
     let least = slots.clone().map(|slot| distance(&slot)).fold(f64::INFINITY, f64::min);
-    slots.filter(|slot| distance(slot) <= least * (1.0 + TIE) + TIE).collect()
+    slots.filter(|slot| distance(slot) <= least * (1.0 + ROUNDING) + ROUNDING).collect()
 }
 
 /// A way into a part of the volume that touches no bone's, from the nearest voxel that does.
@@ -199,17 +195,17 @@ impl<'a> Paths<'a> {
         &self.links[first..first + count]
     }
 
-    /// For each voxel the number of its island, counted from 0, or `OUTSIDE` where it is not apart; and their number.
+    /// For each voxel the number of its island, counted from 0, or `NONE` where it is not apart; and their number.
     fn islands(&self) -> (Vec<u32>, usize) {
-        let mut islands = vec![OUTSIDE; self.is_apart.len()];
+        let mut islands = vec![NONE; self.is_apart.len()];
         let mut count = 0;
         for first in 0..islands.len() as u32 {
-            if !self.is_apart[first as usize] || islands[first as usize] != OUTSIDE {
+            if !self.is_apart[first as usize] || islands[first as usize] != NONE {
                 continue;
             }
             let mut open = vec![first];
             while let Some(slot) = open.pop() {
-                if islands[slot as usize] == OUTSIDE {
+                if islands[slot as usize] == NONE {
                     islands[slot as usize] = count;
                     open.extend(self.volume.beside(slot).map(|(next, _)| next));
                 }
@@ -226,7 +222,7 @@ impl<'a> Paths<'a> {
             return;
         }
         let volume = self.volume;
-        let mut origins = vec![OUTSIDE; volume.slots.len()];
+        let mut origins = vec![NONE; volume.slots.len()];
         let mut is_settled = vec![false; volume.slots.len()];
         let mut queue = Queue::default();
         for (slot, _) in self.is_apart.iter().enumerate().filter(|&(_, &is_apart)| !is_apart) {
@@ -248,8 +244,8 @@ impl<'a> Paths<'a> {
             }
             let least = length(cell, origins[cell as usize]);
             let slot = volume.slots[cell as usize];
-            let island = if slot == OUTSIDE { OUTSIDE } else { islands[slot as usize] };
-            if island != OUTSIDE {
+            let island = if slot == NONE { NONE } else { islands[slot as usize] };
+            if island != NONE {
                 let contact = &mut contacts[island as usize];
                 if *contact == f32::INFINITY {
                     *contact = least;
@@ -268,8 +264,8 @@ impl<'a> Paths<'a> {
                         }
                         // All origins that are as near: else a midline would choose a side.
                         let from = origins[volume.solid.index(next)];
-                        if from != OUTSIDE
-                            && length(cell, from) <= least + TIE as f32
+                        if from != NONE
+                            && length(cell, from) <= least + ROUNDING as f32
                             && self.links[first..].iter().all(|link| link.from != from)
                         {
                             self.links.push(Link { from, to: slot, length: least });
@@ -286,7 +282,7 @@ impl<'a> Paths<'a> {
                 let next = volume.solid.index(next);
                 let (origin, known) = (origins[cell as usize], origins[next]);
                 let candidate = length(next as u32, origin);
-                if !is_settled[next] && (known == OUTSIDE || candidate < length(next as u32, known)) {
+                if !is_settled[next] && (known == NONE || candidate < length(next as u32, known)) {
                     origins[next] = origin;
                     queue.push((candidate * BUCKETS) as usize, next as u32);
                 }
@@ -381,7 +377,7 @@ impl Distances {
             let before = volume.slot((p + way / way.abs().max_element().max(1.0)).round().as_ivec3());
             // The voxel on the straight way is nearer to the bone, so it is settled already if it is in the volume.
             let sees = before == slot
-                || before != OUTSIDE && self.is_straight(before) && self.bones[before as usize] == bone;
+                || before != NONE && self.is_straight(before) && self.bones[before as usize] == bone;
             self.states[slot as usize] = if sees { State::Straight } else { State::Bent };
             if sees {
                 self.lengths[slot as usize] = way.length() as f32;

@@ -11,7 +11,7 @@ mod voxels;
 
 use glam::{DVec3, IVec3};
 pub use slice::{Lobes, Slice};
-pub use voxels::{OUTSIDE, Voxels};
+pub use voxels::Voxels;
 
 /// Cells over the height of a figure: one is 0.006 H, a fifth of the least limb.
 pub const CELLS: f64 = 160.0;
@@ -26,8 +26,6 @@ const REACH: f64 = 1.0;
 const MARGIN: i32 = 2;
 /// Points on a way are no further apart than this share of a cell: air that is two cells wide has two of them at least.
 const AIR_STEP: f64 = 0.7;
-/// More steps along a way than this go beyond the grid.
-const MOST_STEPS: f64 = 1500.0;
 
 /// Cells of a grid, some of them filled. A plane through the middle of the grid goes through the middles of cells, not
 /// between them: mirror images fall on cells that are mirror images.
@@ -162,7 +160,7 @@ impl Solid {
     /// How much of the way from one point to another lies outside, in its units.
     pub fn air(&self, from: DVec3, to: DVec3) -> f64 {
         let length = from.distance(to);
-        let steps = (length / (AIR_STEP * self.cell)).ceil().clamp(1.0, MOST_STEPS);
+        let steps = (length / (AIR_STEP * self.cell)).ceil().clamp(1.0, f64::from(self.size.element_sum()));
         let is_air = |step: f64| !self.is_in(from.lerp(to, (step + 0.5) / steps));
         let count = (0..steps as usize).filter(|&step| is_air(step as f64)).count();
         length * count as f64 / steps

@@ -1,6 +1,6 @@
 //! Which side of a surface is its outside, whatever way its triangles face.
 
-use crate::geometry::double_area;
+use crate::geometry::{by_number, double_area};
 use glam::DVec3;
 
 /// The volume of a thing over its area to the power of 1.5 up to which it is a sheet without an outside (a coat 0.005 H
@@ -85,24 +85,11 @@ struct Patches {
 impl Patches {
     fn of(vertex_count: usize, triangles: &[[u32; 3]]) -> Self {
         // Edges by their lesser end.
-        let edges = || {
-            (0u32..).zip(triangles).flat_map(|(triangle, &[a, b, c])| {
-                [(a, b), (b, c), (c, a)]
-                    .map(|(one, other)| (one.min(other), one.max(other), triangle, one < other))
-            })
-        };
-        let mut ends = vec![0u32; vertex_count + 1];
-        edges().for_each(|(least, ..)| ends[least as usize + 1] += 1);
-        for vertex in 0..vertex_count {
-            ends[vertex + 1] += ends[vertex];
-        }
-        let mut sorted = vec![(0u32, 0u32, false); 3 * triangles.len()];
-        let mut next = ends.clone();
-        for (least, most, triangle, rises) in edges() {
-            let at = &mut next[least as usize];
-            sorted[*at as usize] = (most, triangle, rises);
-            *at += 1;
-        }
+        let edges = (0u32..).zip(triangles).flat_map(|(triangle, &[a, b, c])| {
+            [(a, b), (b, c), (c, a)]
+                .map(|(one, other)| (one.min(other), (one.max(other), triangle, one < other)))
+        });
+        let (ends, mut sorted) = by_number(vertex_count, edges);
         let mut patches =
             Self { above: (0..triangles.len() as u32).map(|triangle| (triangle, false)).collect() };
         for vertex in 0..vertex_count {

@@ -1,17 +1,15 @@
 //! The filled cells of a solid, one after the other, and their neighbours.
 
 use super::Solid;
+use crate::geometry::NONE;
 use glam::IVec3;
-
-/// The slot of a cell that is not filled.
-pub const OUTSIDE: u32 = u32::MAX;
 
 /// The filled cells of a solid by slots.
 #[derive(Clone, Debug)]
 pub struct Voxels {
     /// The grid.
     pub solid: Solid,
-    /// For each cell of the grid its slot, or `OUTSIDE`.
+    /// For each cell of the grid its slot, or `NONE`.
     pub slots: Vec<u32>,
     /// For each slot its cell, ascending.
     pub cells: Vec<u32>,
@@ -30,7 +28,7 @@ impl Voxels {
     pub fn of(solid: Solid) -> Self {
         let cells: Vec<u32> =
             (0..solid.layers.len() as u32).filter(|&cell| solid.layers[cell as usize] > 0).collect();
-        let mut slots = vec![OUTSIDE; solid.layers.len()];
+        let mut slots = vec![NONE; solid.layers.len()];
         for (slot, &cell) in cells.iter().enumerate() {
             slots[cell as usize] = slot as u32;
         }
@@ -38,9 +36,9 @@ impl Voxels {
         Self { solid, slots, cells, around }
     }
 
-    /// The slot of the cell at `at`, or `OUTSIDE`.
+    /// The slot of the cell at `at`, or `NONE`.
     pub fn slot(&self, at: IVec3) -> u32 {
-        if self.solid.has(at) { self.slots[self.solid.index(at)] } else { OUTSIDE }
+        if self.solid.has(at) { self.slots[self.solid.index(at)] } else { NONE }
     }
 
     /// The cell of a slot.
@@ -52,7 +50,7 @@ impl Voxels {
     pub fn beside(&self, slot: u32) -> impl Iterator<Item = (u32, usize)> + '_ {
         let cell = self.cells[slot as usize] as isize;
         let near = self.around.iter().map(move |&(step, sides)| (self.slots[(cell + step) as usize], sides));
-        near.filter(|&(next, _)| next != OUTSIDE)
+        near.filter(|&(next, _)| next != NONE)
     }
 }
 

@@ -1,8 +1,8 @@
 //! Rows of a cloth's vertices filled in smoothly between those that are kept.
 
-use super::{LEAST_WEIGHT, Match, Row, normalised};
-use crate::geometry::Neighbours;
-use crate::geometry::laplacian::{Cholesky, cotangent_laplacian};
+use super::{Match, Row, normalised};
+use crate::geometry::laplacian::{COLUMNS, Cholesky, cotangent_laplacian};
+use crate::geometry::{NONE, Neighbours, ROUNDING};
 use crate::parallel;
 use glam::DVec3;
 use std::collections::BTreeMap;
@@ -17,12 +17,6 @@ const SMOOTHING_STEPS: usize = 10;
 const SMOOTHING_SHARE: f64 = 0.2;
 /// ... and rings of vertices beyond the region. Seen: at -30 %, vertices move up to 0.006 H.
 const SMOOTHING_RINGS: usize = 2;
-
-/// A pull of 1 would leave nothing to solve for. Seen: ±30 % moves no vertex.
-const MOST_PULL: f64 = 1.0 - 1e-6;
-
-/// Columns solved together: fixed, so that results do not depend on the threads. Time alone.
-const BATCH: usize = 4;
 
 /// How much the two ends of each edge pull at each other, above 0.
 pub(super) struct EdgeWeights {
@@ -91,7 +85,7 @@ pub(super) struct Held<'a> {
 pub(super) struct Fill {
     /// The vertices that are solved for, ...
     free: Vec<u32>,
-    /// ... and for each vertex its place among them, or `u32::MAX`.
+    /// ... and for each vertex its place among them, or `NONE`.
     slots: Vec<u32>,
     factor: Cholesky,
 }
@@ -104,7 +98,7 @@ impl Fill {
         if free.is_empty() {
             return None;
         }
-        let mut slots = vec![u32::MAX; pulls.len()];
+        let mut slots = vec![NONE; pulls.len()];
         for (slot, &vertex) in free.iter().enumerate() {
             slots[vertex as usize] = slot as u32;
         }
@@ -141,13 +135,13 @@ impl Fill {
         }
         let columns: Vec<(u32, Vec<(u32, f64)>)> = columns.into_iter().collect();
         let region = region(held);
-        let batches: Vec<_> = columns.chunks(BATCH).collect();
+        let batches: Vec<_> = columns.chunks(COLUMNS).collect();
         let solved =
             parallel::collect(threads, batches.len(), 1, |batch| self.solve(held, batches[batch], &region));
         let solved: Vec<Vec<f64>> = solved.into_iter().flatten().collect();
         let rows = region.iter().enumerate().filter_map(|(slot, &vertex)| {
             let entries = columns.iter().zip(&solved).map(|((joint, _), values)| (*joint, values[slot]));
-            let row = normalised(entries.filter(|&(_, weight)| weight >= LEAST_WEIGHT).collect());
+            let row = normalised(entries.filter(|&(_, weight)| weight >= ROUNDING).collect());
             (!row.is_empty()).then_some((vertex, row))
         });
         rows.collect()
@@ -192,13 +186,13 @@ impl Fill {
     fn add_known(&self, Held { around, weights, pulls }: Held, column: &[(u32, f64)], side: &mut [f64]) {
         for &(vertex, weight) in column {
             let vertex = vertex as usize;
-            if self.slots[vertex] != u32::MAX {
+            if self.slots[vertex] != NONE {
                 side[self.slots[vertex] as usize] += pull_weight(pulls, weights, vertex) * weight;
                 continue;
             }
             for (other, edge) in weights.of(around, vertex) {
                 let slot = self.slots[other as usize];
-                if slot != u32::MAX {
+                if slot != NONE {
                     side[slot as usize] += edge * weight;
                 }
             }
@@ -223,6 +217,7 @@ fn is_free(pull: Option<f64>) -> bool {
 
 /// The weight of a vertex's match beside its edges: a share p of the match's beside the neighbours' 1 - p.
 fn pull_weight(pulls: &[Option<f64>], weights: &EdgeWeights, vertex: usize) -> f64 {
-    let pull = pulls[vertex].unwrap_or(0.0).min(MOST_PULL);
+    // A pull of 1 would leave nothing to solve for.
+    let pull = pulls[vertex].unwrap_or(0.0).min(1.0 - ROUNDING);
     pull / (1.0 - pull) * weights.sum(vertex)
 }

@@ -12,7 +12,7 @@ mod skin;
 use super::{GarmentWeights, WeightSet};
 use crate::character::Weights;
 use crate::geometry::{
-    Closest, Neighbours, SEAM, Surface, Weld, bounds, bounds_by_group, components, neighbours, weld,
+    Closest, Neighbours, ROUNDING, SEAM, Surface, Weld, bounds, bounds_by_group, components, neighbours, weld,
 };
 use crate::parallel;
 use fill::{EdgeWeights, Fill, Held};
@@ -45,9 +45,6 @@ const RIGID_EXTENT: f64 = 0.02;
 /// How far a piece that nothing matches is smoothed, in heights: about a thigh's radius. Seen: ±30 % moves vertices by
 /// under 0.0005 H.
 const LOOSE_SMOOTHING: f64 = 0.05;
-
-/// Smaller weights are dropped. Seen: ±30 % moves no vertex.
-const LEAST_WEIGHT: f64 = 1e-5;
 
 /// Weights by joint, ascending; they sum to 1.
 type Row = Vec<(u32, f64)>;
@@ -430,7 +427,7 @@ fn finish(welded: &Weld, rows: Vec<Row>, rules: &[Option<&'static str>]) -> Weig
         .into_iter()
         .map(|row| {
             let most = row.iter().map(|&(_, weight)| weight).fold(0.0, f64::max);
-            let least = LEAST_WEIGHT.min(most);
+            let least = ROUNDING.min(most);
             let row = normalised(row.into_iter().filter(|&(_, weight)| weight >= least).collect());
             row.into_iter().map(|(joint, weight)| (joint, weight as f32)).collect()
         })

@@ -14,9 +14,9 @@ use crate::shape::heights::Heights;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-/// A chin at or below the shoulder line still leaves this much neck, as a share of L. Seen: 30 % either way moves no
-/// vertex of 14 models.
-const SHORTEST_NECK: f64 = 0.02;
+/// Nothing is shorter than this, as a share of L or, of limbs and torso, of H: a neck where the chin lies at the shoulder line is as
+/// long, and what is less is no hand, no foot, no half of a head. Seen: 30 % either way moves no vertex of 14 models.
+const LEAST: f64 = 0.02;
 /// The head's half width is taken this far above the chin, as a share of L (D27). Seen: 0.25 meets jaws and moves
 /// vertices by up to 0.05 H, 0.46 meets the widest skulls and limits more heads.
 const HEAD_WIDTH_AT: f64 = 0.35;
@@ -26,9 +26,6 @@ const HEAD_DEPTH_AT: f64 = 0.55;
 const MOST_HEAD_DEPTH: f64 = 0.55;
 /// A line around a head is looked for in this many directions: a skin that ends under the hair is missing in some.
 const SECTORS: usize = 8;
-/// A head is at least this wide to either side, as a share of L: less is a hole in it. Seen: 30 % either way moves no
-/// vertex of 14 models.
-const LEAST_HEAD_WIDTH: f64 = 0.05;
 /// Its half width where none is measured, as a share of L. Seen: 30 % either way moves no vertex of 14 models.
 const HEAD_WIDTH_BY_RATIO: f64 = 0.4;
 /// The torso's width is the median of so many slices.
@@ -43,13 +40,8 @@ const WIDTH_QUANTILES: (f64, f64) = (0.03, 0.97);
 const DEPTH_QUANTILES: (f64, f64) = (0.1, 0.9);
 /// An edge of an outline counts as so many points. Seen: with 3 or 5, vertices move by up to 0.009 H.
 const EDGE_POINTS: u32 = 4;
-/// A hand or a foot is at least this long, as a share of L, or it is none. Seen: 30 % either way moves no vertex of 14
-/// models.
-const LEAST_EXTREMITY: f64 = 0.02;
-/// Lengths are at least this share of H, so that nothing is divided by 0. Seen: 30 % either way moves no vertex of 14
-/// models.
-const LEAST_LENGTH: f64 = 0.005;
-/// Joints nearer to each other than this share of H lie on one another, and finger tips are as far as each other. Seen: 30 % either way moves no vertex of 14
+/// Joints nearer to each other than this share of H lie on one another, and finger tips are as far as each other. Seen: 30 %
+/// either way moves no vertex of 14
 /// models.
 const APART: f64 = 1e-3;
 /// The elbow where no joint tells, as a share of the way from shoulder to finger tips. Seen: 30 % either way moves no
@@ -205,10 +197,10 @@ impl Anatomy {
         let length = heights.head_length();
         let head_half_width = slice(figure, &head, heights.chin + HEAD_WIDTH_AT * length)
             .map(|slice| slice.half_width)
-            .filter(|&half| half > LEAST_HEAD_WIDTH * length)
+            .filter(|&half| half > LEAST * length)
             .unwrap_or(HEAD_WIDTH_BY_RATIO * length);
         let head_half_depth = head_half_depth(figure, &head, heights.chin + HEAD_DEPTH_AT * length)
-            .filter(|half| (LEAST_HEAD_WIDTH..MOST_HEAD_DEPTH).contains(&(half / length)));
+            .filter(|half| (LEAST..MOST_HEAD_DEPTH).contains(&(half / length)));
         let (bottom, top) = (heights.crotch, heights.shoulder_line);
         let mut widths: Vec<f64> = (1..=TORSO_SLICES)
             .filter_map(|step| {
@@ -229,19 +221,17 @@ impl Anatomy {
                     .filter(|&vertex| parts[vertex][limb.parts[2]] > 0.5 && !figure.is_carried(vertex))
                     .map(|vertex| figure.positions[vertex])
                     .collect();
-                (points.len() > 2)
-                    .then(|| reach(limb, &points))
-                    .filter(|&reach| reach > LEAST_EXTREMITY * length)
+                (points.len() > 2).then(|| reach(limb, &points)).filter(|&reach| reach > LEAST * length)
             }))
         };
         let (arms, legs) = limbs.split_at(2);
         // Joints that lie on one another leave a sliver, so that nothing is divided by 0.
-        let least = LEAST_LENGTH * figure.height();
+        let least = LEAST * figure.height();
         let proportions = Proportions {
             head_length: length,
             head_half_width,
             head_half_depth,
-            neck: (heights.chin - heights.shoulder_line).max(SHORTEST_NECK * length),
+            neck: (heights.chin - heights.shoulder_line).max(LEAST * length),
             torso: (top - bottom).max(least),
             arm: (arms.iter().map(Limb::length).sum::<f64>() / 2.0).max(least),
             leg: (bottom - heights.sole).max(least),

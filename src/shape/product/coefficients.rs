@@ -9,6 +9,7 @@ use super::groups::PartGroups;
 use super::scales::{HeadScale, PartCoefficients, Scale};
 use crate::error::{Result, Warning};
 use crate::face::rows::{CHILD_SKULL, CHILD_SKULL_DEPTH};
+use crate::geometry::ROUNDING;
 use crate::options::table::HEAD_SCALE;
 use crate::options::{Options, Stage};
 
@@ -25,14 +26,10 @@ const FULL_HEAD_SCALE: f64 = HEAD_SCALE;
 const NECK: (f64, f64) = (0.03, 0.19);
 /// The neck may grow this much more than the head. D27, for targets without a neck. Seen: 30 % less acts on one of 14.
 const NECK_GROWTH: f64 = 1.5;
-/// A target without a neck is divided by this much of one, in heads: a guard against 0.
-const LEAST_NECK: f64 = 1e-6;
 /// Length of the neck in a style for N heads, in new heads. D27. Seen: the upper one acts on long necks.
 const NECK_FOR_HEADS: (f64, f64) = (0.05, 0.14);
 /// The neck's largest share of all below the head in a style for N heads: a guard that would act below 1.5 heads.
 const NECK_SHARE_FOR_HEADS: f64 = 0.3;
-/// What is left of a leg below this share of it is rounding.
-const ROUNDING: f64 = 1e-6;
 /// No limb may become shorter than this share of itself: less is a stub that nothing bends in. D27. Seen: acts on the legs of
 /// six of seven adults made like the KayKit rogue, whose legs are .15 to .22 of theirs.
 const SHORTEST_LIMB: f64 = 0.22;
@@ -311,7 +308,7 @@ impl<'a> Solver<'a> {
         let below = asked.neck + asked.torso + asked.leg;
         let longest = (NECK_GROWTH * self.target.neck / self.target.head_length).clamp(NECK.0, NECK.1);
         let neck = self.bounds.apply("neck", asked.neck / self.head, NECK.0, longest) * self.head;
-        self.scales.neck.length = neck / self.target.neck.max(LEAST_NECK * self.target.head_length);
+        self.scales.neck.length = neck / self.target.neck.max(ROUNDING * self.target.head_length);
         let rest = (below - neck) / (asked.torso + asked.leg);
         (asked.torso * rest, asked.leg * rest)
     }

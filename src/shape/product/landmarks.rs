@@ -6,7 +6,7 @@
 use crate::character::Role;
 use crate::error::Warning;
 use crate::geometry::surface::Surface;
-use crate::geometry::{StepSearch, bounds, deepest_step};
+use crate::geometry::{CHIN_BAND, CHIN_BY_RATIO, CHIN_STEP, StepSearch, bounds, deepest_step};
 use crate::shape::figure::{Figure, extent};
 use crate::shape::heights::Heights;
 use crate::shape::measure::{HeadTop, head_top};
@@ -19,7 +19,7 @@ const SURE_WEIGHT: f64 = 0.999;
 const SLIVER: f64 = 1e-3;
 /// Heights that must differ do by this share of H: a head of no length would divide by 0. The same for rays that begin
 /// outside of what they look at.
-const HAIRBREADTH: f64 = 0.01;
+pub const HAIRBREADTH: f64 = 0.01;
 /// So many of the seven rays over a head must meet it. D6, D25: with fewer the skull is in another mesh.
 const MOST_RAYS: usize = 5;
 /// Rows of rays that look for the chin. D25; a row is .6 % of the range.
@@ -30,18 +30,9 @@ const CHIN_RANGE: (f64, f64) = (-0.05, 0.70);
 /// Columns of rays, as shares of the face's width, from its middle. D25; on a symmetric face the median is that of a
 /// column at .04, and the outer ones outvote a necklace or a beard.
 const CHIN_COLUMNS: [f64; 5] = [0.0, -0.04, 0.04, -0.08, 0.08];
-/// The bands above and below a row that are compared, as a share of (crown - shoulder line). D25. Seen: ±30 % changes
-/// nothing, as the steepest row within is taken.
-const CHIN_BAND: f64 = 0.05;
-/// A smaller step back than this part of (crown - shoulder line) is no chin. D25. Seen: faces step back by more than
-/// .052, a mannequin's egg by less than .028.
-const CHIN_STEP: f64 = 0.04;
 /// Steps that differ by less than this share of themselves and of (crown - shoulder line) are equally deep: rounding
 /// must not decide.
 const TIE: f64 = 1e-4;
-/// Where the chin is taken to be where none is seen, as a share of (crown - shoulder line). D25. Seen: a mannequin
-/// alone needs it, whose chin it misses by .015 H.
-const CHIN_BY_RATIO: f64 = 0.22;
 /// A crotch is believed from this far below the hip joints to this far above them, as shares of H. D25. Seen: three of
 /// 14 have something between the legs .065 to .085 below.
 const CROTCH_RANGE: (f64, f64) = (-0.065, 0.03);

@@ -29,8 +29,6 @@ const ROUNDS: usize = 4;
 const LEAST_TURN: f64 = 0.1;
 /// Times that a flipped triangle is eased before its push is halved, and as often again before it is taken back.
 const EASINGS: usize = 8;
-/// Fewer places than this are not worth a thread.
-const LEAST_PLACES: usize = 200;
 
 /// What keeps clothes outside of the body.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -135,7 +133,7 @@ impl<'a> Membrane<'a> {
     /// Finds what the body pushes of `places` where they are now; false where it pushes nothing anew.
     fn find_pushes(&mut self, outside: &Outside, places: &[u32], height: f64, threads: usize) -> bool {
         let (clearance, furthest) = (CLEARANCE * height, FURTHEST * height);
-        let found = parallel::collect(threads, places.len(), LEAST_PLACES, |index| {
+        let found = parallel::collect(threads, places.len(), parallel::FEW_RAYS, |index| {
             let place = places[index] as usize;
             let old = self.worn.distances[place];
             if old.is_nan() || old <= 0.0 || self.worn.is_sewn[place] {

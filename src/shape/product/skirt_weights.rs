@@ -4,7 +4,7 @@
 //! a hem became a third wider than that of the same skirt with weights to the legs, and longer or shorter than the legs.
 
 use super::part::{Part, PartWeights, TINY, add};
-use super::smoothing::Fork;
+use super::smoothing::{Fork, LAYER_NEIGHBOURS};
 use crate::character::MeshKind;
 use crate::geometry::point_tree::PointTree;
 use crate::geometry::smoothstep;
@@ -13,8 +13,6 @@ use glam::DVec3;
 
 /// A vertex hangs where joints without a role have more than this weight. D26.
 const HANGS: f64 = 0.5;
-/// Vertices under the cloth that it follows: as many as one step of smoothing takes.
-const UNDER: usize = 24;
 
 /// Gives cloth that hangs below the crotch the weights of the body under it, for the torso's: by and by, as far down as left
 /// and right leg take to part.
@@ -51,7 +49,7 @@ pub fn follow_legs(figure: &Figure, fork: Fork, parts: &mut [PartWeights]) {
     let mut found = Vec::new();
     for vertex in hanging {
         let p = figure.positions[vertex];
-        tree.nearest(p, UNDER, f64::INFINITY, &mut found);
+        tree.nearest(p, LAYER_NEIGHBOURS, f64::INFINITY, &mut found);
         let Some(width) = found.first().map(|near| near.distance().max(TINY)) else {
             return;
         };

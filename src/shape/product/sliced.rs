@@ -10,7 +10,7 @@ use crate::parallel;
 use crate::progress::Progress;
 use crate::shape::Measured;
 use crate::shape::field::{Binding, BodyField, Field};
-use crate::shape::placement::{LEAST_VERTICES, Placement};
+use crate::shape::placement::Placement;
 use crate::shape::style::Style;
 use glam::DVec3;
 use std::sync::Arc;
@@ -83,7 +83,7 @@ pub fn with_profile(
         }
         _ => positions[vertex],
     };
-    let placed = parallel::collect(options.thread_count, positions.len(), LEAST_VERTICES, place);
+    let placed = parallel::collect(options.thread_count, positions.len(), parallel::FEW, place);
     let field = Field::of(Arc::new(BodyField::Parts(Box::new(parts))));
     Ok(Sliced { field, placed: Some(placed), limited })
 }

@@ -16,8 +16,6 @@ const UMBRELLA_STEP: f32 = 0.6;
 const SMOOTHING_WIDTH: f64 = 0.012;
 /// Steps along the mesh for the square of that width in edges: what they spread grows with their root. D26.
 const PASSES_PER_SQUARE: f64 = 10.0;
-/// Edges are taken to be at least this share of H long: points may coincide.
-const SHORTEST_EDGE: f64 = 1e-12;
 /// A Gaussian beyond so many standard deviations is nothing.
 const LAYER_REACH: f64 = 3.0;
 /// A sum of distances may be this much too short.
@@ -28,11 +26,9 @@ const UMBRELLA_PASSES: (f64, f64) = (4.0, 60.0);
 /// Steps across layers. D26. Seen: without, skin shows through tights.
 const LAYER_PASSES: usize = 3;
 /// Vertices that each step across layers takes into account. D26: the nearest two dozen reach across cloth and body.
-const LAYER_NEIGHBOURS: usize = 24;
+pub(super) const LAYER_NEIGHBOURS: usize = 24;
 /// Left arm, right arm, the rest. D26: arms beside a body do not mix with it.
 const CLASS_COUNT: usize = 3;
-/// Fewer samples than this are not worth a thread: time alone.
-const LEAST_SAMPLES: usize = 4000;
 /// A vertex with more than this weight to an arm is the arm's. D26. Not a half: where two pieces meet half and half is
 /// common, and the last digits would decide.
 const ARM_MAJORITY: f32 = 0.503;
@@ -67,7 +63,7 @@ pub fn smooth_along(
     }
     let middle = edges.len() / 2;
     let median = *edges.select_nth_unstable_by(middle, f64::total_cmp).1;
-    let width = SMOOTHING_WIDTH * figure.height() / median.max(SHORTEST_EDGE * figure.height());
+    let width = SMOOTHING_WIDTH * figure.height() / median.max(f64::MIN_POSITIVE);
     let passes =
         (PASSES_PER_SQUARE * width * width).clamp(UMBRELLA_PASSES.0, UMBRELLA_PASSES.1).round() as usize;
 
@@ -92,7 +88,7 @@ pub fn smooth_along(
         row.iter_mut().for_each(|weight| *weight /= count.max(1.0));
     }
     // Parts do not mix, so each thread takes some of them; parts of one limb touch the same vertices.
-    let threads = if weld.count < LEAST_SAMPLES { 1 } else { threads };
+    let threads = if weld.count < parallel::FEW { 1 } else { threads };
     let smooth = |(): &mut (), group: usize| {
         let columns: Vec<[f32; 4]> =
             rows.iter().map(|row| SMOOTHED_TOGETHER[group].map(|part| row[part as usize])).collect();
@@ -269,7 +265,7 @@ fn layer_steps(
     let layers = progress.part(0.1, 0.7).collect_with(
         threads,
         points.len(),
-        LEAST_SAMPLES,
+        parallel::FEW_RAYS,
         || (Vec::<Near>::new(), None::<DVec3>),
         |(found, last), slot| {
             let p = tree.point(slot);
@@ -305,7 +301,7 @@ fn layer_steps(
     let mut ordered: Vec<PartWeights> = tree.indices().iter().map(|&index| rows[index as usize]).collect();
     for pass in 0..LAYER_PASSES {
         progress.at(0.7 + 0.1 * pass as f32)?;
-        ordered = parallel::collect(threads, points.len(), LEAST_SAMPLES, |slot| {
+        ordered = parallel::collect(threads, points.len(), parallel::FEW_RAYS, |slot| {
             let layer = &layers[slot];
             let mut sum = [0.0; PART_COUNT];
             let mut total = 0.0;

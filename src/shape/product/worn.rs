@@ -15,8 +15,6 @@ const WORN_SHARE: f64 = 0.5;
 const SHEET_REACH: f64 = 0.02;
 /// A sheet's own vertices are no sheet under it: hits nearer than this share of the way to the body are its own.
 const OWN_SHEET: f64 = 1e-4;
-/// Fewer vertices than this are not worth a thread.
-const LEAST_VERTICES: usize = 200;
 
 /// A place on a sheet of cloth that lies under a vertex.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -95,7 +93,7 @@ impl Worn {
     /// For each place whether the body is around it, where all vertices are at `points`.
     pub fn inside(&self, points: &[DVec3], weld: &Weld, threads: usize) -> Vec<bool> {
         let outside = self.outside(points, weld);
-        parallel::collect(threads, self.places.len(), LEAST_VERTICES, |place| {
+        parallel::collect(threads, self.places.len(), parallel::FEW_RAYS, |place| {
             let p = points[self.vertices[place] as usize];
             outside.at(p, Some(self.nearest[place])).is_some_and(|(_, distance, _)| distance < 0.0)
         })
@@ -170,7 +168,7 @@ impl Worn {
             });
             (distance, under, nearest)
         };
-        let found = parallel::collect(threads, points.len(), LEAST_VERTICES, find);
+        let found = parallel::collect(threads, points.len(), parallel::FEW_RAYS, find);
         let distances = found.iter().map(|found| found.0).collect();
         let under = found.iter().map(|found| found.1).collect();
         let nearest = found.iter().map(|found| found.2).collect();
@@ -211,7 +209,7 @@ fn lying_over(
     places.dedup();
     let first = weld.first_vertices();
     let reach = WORN_REACH * figure.height();
-    let lies = parallel::collect(threads, places.len(), LEAST_VERTICES, |index| {
+    let lies = parallel::collect(threads, places.len(), parallel::FEW_RAYS, |index| {
         let p = figure.positions[first[places[index] as usize] as usize];
         outside.at(p, None).is_some_and(|(_, distance, _)| distance > 0.0 && distance < reach)
     });

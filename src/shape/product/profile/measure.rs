@@ -16,12 +16,10 @@ use crate::shape::heights::Heights;
 use crate::shape::product::anatomy::{Anatomy, Limb};
 use glam::{DVec2, DVec3};
 
-/// A body of fewer vertices than this is not worth a thread.
-const LEAST_VERTICES: usize = 8000;
 /// What reaches further than this over the middle is no leg, in head lengths.
 pub(super) const OVER_MIDDLE: f64 = 0.012;
 /// What reaches as far as this over it on both sides is a skirt.
-const SKIRT_OVER_MIDDLE: f64 = 0.05;
+pub(super) const SKIRT_OVER_MIDDLE: f64 = 0.05;
 /// Beyond a wrist and under an ankle is what lies this much further, in head lengths: a ring of vertices at the joint itself is
 /// not, whatever its last digits are.
 const BEYOND: f64 = 1e-3;
@@ -210,7 +208,7 @@ pub(super) struct Body<'a> {
 impl Body<'_> {
     /// As many of these threads as are worth it.
     pub(super) fn worth(&self, threads: usize) -> usize {
-        if self.positions.len() < LEAST_VERTICES { 1 } else { threads }
+        if self.positions.len() < parallel::FEW { 1 } else { threads }
     }
 
     /// Triangles of the body and its clothes that are of `chain`.

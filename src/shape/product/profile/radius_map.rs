@@ -1,18 +1,14 @@
 //! How far a body reaches around an axis, by height and direction, and a scale for each: a map of its relief.
 
 use super::curve::{BELL_ENDS, bell};
-use super::station::{outer_surface, surface};
+use super::station::{CENTRINGS, GOES_AROUND, outer_surface, surface};
 use crate::geometry::Moved;
 use crate::geometry::slice::{Outline, Planes, RAYS};
 use crate::geometry::whole::round;
 use glam::{DMat2, DMat3, DVec2, DVec3};
 
-/// Of the rays of a cut, so many have to meet something, or the cut is taken from those beside it.
-const FEWEST_HITS: f64 = 0.6;
 /// No reach counts for more than so many times the usual one of its cut.
 const FURTHEST: f64 = 1.6;
-/// Times that the middle of a cut is put between its sides.
-const CENTRINGS: usize = 2;
 
 /// One number for each direction.
 pub type Ring = [f64; RAYS];
@@ -219,7 +215,7 @@ pub fn without_spikes(reaches: &mut [Ring], rows: usize, most: f64) {
 /// Reaches no further than [`FURTHEST`]; gaps between rays filled along the ring; NaN where too few rays meet anything.
 fn bounded(mut ring: Ring) -> Ring {
     let mut hits: Vec<f64> = ring.iter().copied().filter(|reach| !reach.is_nan()).collect();
-    if (hits.len() as f64) < FEWEST_HITS * RAYS as f64 {
+    if (hits.len() as f64) < GOES_AROUND * RAYS as f64 {
         return [f64::NAN; RAYS];
     }
     let usual = super::station::median(&mut hits);

@@ -24,7 +24,6 @@ pub(super) const MOST_ROWS: f64 = 2000.0;
 /// Widths of the Gaussians that leave no relief, and of that for the middles, in head lengths.
 const TORSO_SIGMA: f64 = 0.16;
 const LIMB_SIGMA: f64 = 0.20;
-const MIDDLE_SIGMA: f64 = 0.20;
 /// What the reach may be scaled by.
 const TORSO_BOUNDS: (f64, f64) = (0.72, 1.10);
 const LIMB_BOUNDS: (f64, f64) = (0.70, 1.20);
@@ -251,7 +250,7 @@ impl Body<'_> {
         bones: &[DVec2],
         strength: f64,
     ) -> Option<RadiusMap> {
-        let mut map = RadiusMap::of(planes, rows, cuts, bones, MIDDLE_SIGMA * self.length, false)?;
+        let mut map = RadiusMap::of(planes, rows, cuts, bones, LIMB_SIGMA * self.length, false)?;
         let smooth =
             smoothed_beyond(&map.reaches, LIMB_SIGMA * self.length / rows.1, ENDS.1 * self.length / rows.1);
         self.set_scales(&mut map, &smooth, LIMB_BOUNDS, strength);

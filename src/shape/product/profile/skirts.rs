@@ -1,5 +1,6 @@
 //! Which vertices are a skirt's, a robe's or the tails' of a coat: they hang around both legs and follow neither.
 
+use super::measure::SKIRT_OVER_MIDDLE;
 use crate::geometry::weld::{Weld, components, neighbours};
 use crate::shape::figure::Figure;
 use crate::shape::product::anatomy::Anatomy;
@@ -8,8 +9,6 @@ use crate::shape::product::anatomy::Anatomy;
 const FORK: f64 = 0.08;
 /// Heights at which pieces are looked at, as parts of the leg's length under the crotch.
 const HEIGHTS: [f64; 6] = [FORK, 0.2, 0.35, 0.5, 0.65, 0.8];
-/// A piece that reaches this far over the middle on both sides hangs around both legs, in head lengths.
-const OVER_MIDDLE: f64 = 0.05;
 
 /// True for the vertices of pieces that below the crotch still join left and right; upwards to the crotch.
 ///
@@ -22,7 +21,7 @@ pub fn skirt_vertices(figure: &Figure, anatomy: &Anatomy, weld: &Weld) -> Vec<bo
     let height = |t: f64| heights.crotch - t * (heights.crotch - ankle);
     let firsts = weld.first_vertices();
     let place = |welded: usize| figure.positions[firsts[welded] as usize];
-    let (fork, reach) = (height(FORK), OVER_MIDDLE * heights.head_length());
+    let (fork, reach) = (height(FORK), SKIRT_OVER_MIDDLE * heights.head_length());
     let hanging: Vec<[u32; 3]> = figure
         .triangles
         .iter()

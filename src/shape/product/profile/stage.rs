@@ -17,8 +17,6 @@ use crate::shape::product::part::{Part, PartWeights};
 use crate::shape::product::pieces::Piece;
 use glam::{DMat3, DVec3};
 
-/// Fewer vertices than this are not worth a thread.
-const LEAST_VERTICES: usize = 8000;
 /// What becomes this much stubbier (its length shrinks to .7 of what its thickness does) loses all of its relief.
 const SMOOTH_FROM: f64 = 0.3;
 
@@ -119,7 +117,7 @@ impl ProfileStage {
             std::array::from_fn(|chain| of_chains[chain] * smoothstep((1.0 - stubbier[chain]) / SMOOTH_FROM));
         let relief = Relief::of(figure, positions, chains, weld, &frame, relief_strength, source.threads);
         progress.at(0.5)?;
-        let smooth = parallel::collect(source.threads, positions.len(), LEAST_VERTICES, |vertex| {
+        let smooth = parallel::collect(source.threads, positions.len(), parallel::FEW, |vertex| {
             let p = positions[vertex];
             match (source.binding)(vertex) {
                 Some(binding) if !is_of_head(&binding.weights) => {

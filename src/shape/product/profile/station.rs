@@ -4,7 +4,7 @@ use crate::geometry::slice::{Outline, RAYS};
 use glam::DVec2;
 
 /// An outline that this share of the rays meet goes around: it is a layer of the body or of its clothes.
-const GOES_AROUND: f64 = 0.6;
+pub(super) const GOES_AROUND: f64 = 0.6;
 /// A layer inside, whose reach is less than this share of the biggest one's, is hidden: the plug of a neck, the inner body of
 /// a kit.
 const HIDDEN: f64 = 0.5;
@@ -20,7 +20,7 @@ const FEWEST_HITS: usize = 3;
 /// The rays to the sides.
 const SIDES: [usize; 2] = [0, RAYS / 2];
 /// Times that the middle is put between the extents.
-const CENTRINGS: usize = 2;
+pub(super) const CENTRINGS: usize = 2;
 
 /// A slice, in its plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
