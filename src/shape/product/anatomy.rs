@@ -41,8 +41,7 @@ const DEPTH_QUANTILES: (f64, f64) = (0.1, 0.9);
 /// An edge of an outline counts as so many points. Seen: with 3 or 5, vertices move by up to 0.009 H.
 const EDGE_POINTS: u32 = 4;
 /// Joints nearer to each other than this share of H lie on one another, and finger tips are as far as each other. Seen: 30 %
-/// either way moves no vertex of 14
-/// models.
+/// either way moves no vertex of 14 models.
 const APART: f64 = 1e-3;
 /// The elbow where no joint tells, as a share of the way from shoulder to finger tips. Seen: 30 % either way moves no
 /// vertex of 14 models.
