@@ -1,8 +1,8 @@
 //! How much each part shrinks (product mode): from proportions to scales.
 //!
 //! Lengths are transferred as in §V-B3: all are measured in heads, so that with L' = `head_scale` L the result has the
-//! reference's proportions. Every part has one thickness, from which the profile's slices go on. Bounds keep what the paper's
-//! linear maps cannot carry (limbs that are stubs, feet larger than the leg); every bound on a length that acts is warned of.
+//! reference's proportions. Widths are judged against the head's width, not its height. Bounds keep what the paper's
+//! linear maps cannot carry (shins that fold into rings, hands larger than the face); every bound that acts is warned of.
 
 use super::anatomy::Proportions;
 use super::groups::PartGroups;
@@ -19,6 +19,8 @@ pub const HEAD_WIDTH: f64 = 1.12;
 /// As [`HEAD_WIDTH`], in depth; a style that does not know its depth gets all of it. D28. Seen: 30 % more folds collars
 /// (228 triangles).
 pub const HEAD_DEPTH: f64 = 1.05;
+/// The neck keeps this much more thickness than the torso. D27. Seen: a thinner neck folds at its border.
+const NECK_THICKNESS: f64 = 1.1;
 /// `head_scale` at which the bounds act in full; at 1 they do not act at all. Paper, V-B1: alpha_head; D27.
 const FULL_HEAD_SCALE: f64 = HEAD_SCALE;
 /// Length of the neck between these, in new heads. D27. Seen: references have .14 to .16; the upper one cuts a baby's
@@ -30,9 +32,36 @@ const NECK_GROWTH: f64 = 1.5;
 const NECK_FOR_HEADS: (f64, f64) = (0.05, 0.14);
 /// The neck's largest share of all below the head in a style for N heads: a guard that would act below 1.5 heads.
 const NECK_SHARE_FOR_HEADS: f64 = 0.3;
-/// No limb may become shorter than this share of itself: less is a stub that nothing bends in. D27. Seen: acts on the legs of
-/// six of seven adults made like the KayKit rogue, whose legs are .15 to .22 of theirs.
-const SHORTEST_LIMB: f64 = 0.22;
+/// How far head widths may differ before thicknesses stop following. D27. Seen: the lower one acts on a mannequin with
+/// an egg for a head (.059 H), the upper on none.
+const THICKNESS_PER_HEAD_WIDTH: (f64, f64) = (0.6, 1.25);
+/// No part may become this many times stubbier. D27. Seen: without it a mannequin's thighs become discs, and shins fold
+/// into rings.
+const STUBBIEST: f64 = 2.6;
+/// No limb may become shorter than this share of itself, however slim it gets. D27. Seen: [`STUBBIEST`] acts first on
+/// all pairs but one.
+const SHORTEST_LIMB: f64 = 0.18;
+/// The torso may be this much slimmer than it is short. D27. Seen: acts on no adult; 30 % more does on what is
+/// super-deformed already.
+const TORSO_SLIMMEST: f64 = 0.9;
+/// Arms may be this much slimmer than the torso. D27. Seen: without it arms like godette's get up to .028 H thinner.
+const ARM_SLIMMEST: f64 = 1.2;
+/// Legs may be this much slimmer than the torso. D27. Seen: without it legs like KayKit's get up to .020 H thinner.
+const LEG_SLIMMEST: f64 = 1.38;
+/// Limbs may be this much thicker than the torso. D27. Seen: hardly acts, [`LIMB_THICKEST_ON_SLIM_TORSO`] is reached
+/// first.
+const LIMB_THICKEST: f64 = 1.2;
+/// Limbs may be this thick, as a scale, where the torso is slimmer. D27. Seen: without it arms like KayKit's get up to
+/// .036 H thicker.
+const LIMB_THICKEST_ON_SLIM_TORSO: f64 = 0.95;
+/// The two segments of a limb stay within this of their geometric mean. D27. Seen: acts on one pair; with both alike
+/// (1) forearms lose up to .042 H of what the reference gives them.
+const SEGMENT_SPREAD: f64 = 1.15;
+/// Hands against the lower arm's thickness. D27. Seen: the lower one acts on all 14 with KayKit, whose mitts would make
+/// hands .044 H smaller.
+const HAND_PER_ARM: (f64, f64) = (0.9, 1.35);
+/// Feet against the lower leg's thickness. D27. Seen: the lower one acts on 9 of 14, the upper on one.
+const FOOT_PER_LEG: (f64, f64) = (1.0, 1.4);
 /// Where the style knows no hand, it is this much larger than the lower arm is thick. Found by looking: hands of the
 /// limb's own scale look like sticks' ends.
 const HAND_WITHOUT_STYLE: f64 = 0.1;
@@ -56,6 +85,9 @@ const TORSO_AFTER_LEGS: f64 = 0.8;
 const TORSO_FOR_HEADS: f64 = 1.1;
 /// As [`TORSO_FOR_HEADS`], for arms. D27, found by looking.
 const ARM_FOR_HEADS: f64 = 1.05;
+/// In a style for N heads thicknesses shrink by this factor of the root. D27. Seen: less turns triangles over (193 at
+/// 30 %).
+const THICKNESS_FOR_HEADS: f64 = 0.78;
 /// A bound that changes a value by less than this share of it is not warned of: no eye sees it.
 const BOUND_WARNED_ABOVE: f64 = 1e-3;
 /// A number of heads that misses by less than this is not warned of: no eye sees it.
@@ -103,13 +135,8 @@ struct Bounds {
 }
 
 impl Bounds {
-    /// `value` within `low` and `high`, without a word: for what slices go on from.
-    fn within(&self, value: f64, low: f64, high: f64) -> f64 {
-        value + self.strictness * (value.max(low).min(high.max(low)) - value)
-    }
-
     fn apply(&mut self, what: &'static str, value: f64, low: f64, high: f64) -> f64 {
-        let bounded = self.within(value, low, high);
+        let bounded = value + self.strictness * (value.max(low).min(high.max(low)) - value);
         if (bounded - value).abs() > BOUND_WARNED_ABOVE * value.abs() {
             // Two bounds on one thing are one warning.
             match self.acted.iter_mut().find(|known| known.what == what) {
@@ -130,15 +157,31 @@ struct Asked {
     hand: Option<f64>,
     foot: Option<f64>,
     torso_thickness: Option<f64>,
+    /// Upper arm, lower arm.
+    arm_thickness: [Option<f64>; 2],
+    /// Upper leg, lower leg.
+    leg_thickness: [Option<f64>; 2],
 }
 
 impl Asked {
     /// The proportions of `reference`, for a head of length `head` that grows `width_factor` more in width.
-    fn of_reference(target: &Proportions, reference: &Proportions, head: f64, width_factor: f64) -> Self {
+    fn of_reference(
+        target: &Proportions,
+        reference: &Proportions,
+        head: f64,
+        width_factor: f64,
+        strictness: f64,
+    ) -> Self {
         let unit = head / reference.head_length;
-        // Judged by the heads' widths: a wide-headed style makes no bulky toddler.
-        let by_head = target.head_width() * width_factor / reference.head_width();
-        let widths = target.torso_half_width.zip(reference.torso_half_width);
+        let head_widths = (width_factor * target.head_half_width / target.head_length)
+            / (reference.head_half_width / reference.head_length);
+        let (least, most) = THICKNESS_PER_HEAD_WIDTH;
+        // Judging thickness against head width is no bound worth a warning.
+        let thinness = Bounds { strictness, acted: Vec::new() }.apply("thickness", head_widths, least, most);
+        let thickness = |ours: Option<f64>, theirs: Option<f64>| match (ours, theirs) {
+            (Some(ours), Some(theirs)) => Some(theirs * unit * thinness / ours),
+            _ => None,
+        };
         Self {
             neck: reference.neck * unit,
             torso: reference.torso * unit,
@@ -146,7 +189,15 @@ impl Asked {
             leg: reference.leg * unit,
             hand: reference.hand.map(|hand| hand * unit),
             foot: reference.foot.map(|foot| foot * unit),
-            torso_thickness: widths.map(|(ours, theirs)| theirs * unit / ours * by_head),
+            torso_thickness: thickness(target.torso_half_width, reference.torso_half_width),
+            arm_thickness: [
+                thickness(target.upper_arm_radius, reference.upper_arm_radius),
+                thickness(target.lower_arm_radius, reference.lower_arm_radius),
+            ],
+            leg_thickness: [
+                thickness(target.upper_leg_radius, reference.upper_leg_radius),
+                thickness(target.lower_leg_radius, reference.lower_leg_radius),
+            ],
         }
     }
 
@@ -158,6 +209,7 @@ impl Asked {
             .clamp(NECK_FOR_HEADS.0 * head, NECK_FOR_HEADS.1 * head)
             .min(NECK_SHARE_FOR_HEADS * (heads - 1.0) * head);
         let torso = TORSO_FOR_HEADS * shrink * head_scale * target.torso;
+        let thickness = Some(THICKNESS_FOR_HEADS * shrink.sqrt() * head_scale);
         Self {
             neck,
             torso,
@@ -165,7 +217,9 @@ impl Asked {
             leg: (heads - 1.0) * head - neck - torso,
             hand: None,
             foot: None,
-            torso_thickness: None,
+            torso_thickness: thickness,
+            arm_thickness: [thickness; 2],
+            leg_thickness: [thickness; 2],
         }
     }
 }
@@ -187,8 +241,10 @@ impl Limits {
 
     /// Warnings that name every bound that acted: `heads_limited`, `coefficient_limited`.
     ///
-    /// `heads`, `asked`: the head count that came out, and the one wanted.
-    pub fn warnings(&self, heads: f64, asked: f64) -> Vec<Warning> {
+    /// - `heads`, `asked`: the head count that came out, and the one wanted.
+    /// - `replaced`: thicknesses and sizes that something else sets afterwards, by their names in the warnings. Their bounds are
+    ///   not warned of.
+    pub fn warnings(&self, heads: f64, asked: f64, replaced: &[&str]) -> Vec<Warning> {
         let list = |chosen: &dyn Fn(&Bounded) -> bool| {
             let chosen = self.acted.iter().filter(|bounded| chosen(bounded));
             let item = |Bounded { what, from, to }: &Bounded| format!("{what} {from:.3} to {to:.3}");
@@ -200,8 +256,9 @@ impl Limits {
             let message = format!("{heads:.2} heads instead of {asked:.2}: limited {of_height}");
             warnings.push(Warning::new("heads_limited", message));
         }
-        if !self.acted.is_empty() {
-            let message = format!("limited to keep the shape sound: {}", list(&|_| true));
+        let kept = list(&|bounded| !replaced.contains(&bounded.what));
+        if !kept.is_empty() {
+            let message = format!("limited to keep the shape sound: {kept}");
             warnings.push(Warning::new("coefficient_limited", message));
         }
         warnings
@@ -223,8 +280,8 @@ pub fn part_coefficients(
     let mut solver = Solver::new(target, goal, options);
     let asked = solver.asked();
     let (torso, leg) = solver.solve_neck(&asked);
-    solver.solve_torso(torso);
-    solver.solve_thickness(&asked, leg);
+    solver.solve_torso(torso, asked.torso_thickness);
+    solver.solve_limb_thickness(&asked);
     solver.solve_arms(asked.arm);
     solver.solve_hands(asked.hand);
     solver.solve_feet(asked.foot);
@@ -297,7 +354,7 @@ impl<'a> Solver<'a> {
         match self.goal {
             Goal::Reference(reference) => {
                 let width_factor = self.scales.head.width / self.head_scale;
-                Asked::of_reference(self.target, reference, self.head, width_factor)
+                Asked::of_reference(self.target, reference, self.head, width_factor, self.bounds.strictness)
             }
             Goal::Heads(heads) => Asked::of_heads(self.target, heads, self.head, self.head_scale),
         }
@@ -313,61 +370,85 @@ impl<'a> Solver<'a> {
         (asked.torso * rest, asked.leg * rest)
     }
 
-    fn solve_torso(&mut self, torso: f64) {
+    /// The torso, and with it the neck's thickness and where the limbs begin.
+    fn solve_torso(&mut self, torso: f64, asked: Option<f64>) {
+        let (bounds, scales) = (&mut self.bounds, &mut self.scales);
         // Nothing grows more than the head: a body that is as stubby as the style, or stubbier, keeps its proportions.
-        self.scales.torso.length =
-            self.bounds.apply("torso length", torso / self.target.torso, 0.0, self.head_scale);
+        let length = bounds.apply("torso length", torso / self.target.torso, 0.0, self.head_scale);
+        let least = TORSO_SLIMMEST * length;
+        let thickness =
+            bounds.apply("torso thickness", asked.unwrap_or(length.sqrt()), least, least.max(1.0));
+        let length = bounds.apply("torso length", length, thickness / STUBBIEST, f64::INFINITY);
+        scales.torso = Scale { length, thickness };
+        scales.neck.thickness = (1.0 + (NECK_THICKNESS - 1.0) * self.growth) * thickness;
+        scales.shoulder_spread = thickness;
+        scales.hip_spread = thickness;
     }
 
-    /// Thicknesses that slices go on from: the torso's is the style's, legs have the root of their length, and none becomes slimmer
-    /// than it becomes short, nor thicker than it was. Neck and arms are as the torso: their first slice lies outside of the
-    /// shoulders' caps, which take this alone.
-    ///
-    /// `leg`: how long legs are to be.
-    fn solve_thickness(&mut self, asked: &Asked, leg: f64) {
-        let Self { bounds, scales, target, .. } = self;
-        let length = scales.torso.length;
-        let leg_length = (leg / target.leg).max(SHORTEST_LIMB);
-        let most = length.max(1.0);
-        let torso = bounds.within(asked.torso_thickness.unwrap_or(length.sqrt()), length, most);
-        let leg = bounds.within(leg_length.sqrt(), length.min(leg_length), most);
-        (scales.torso.thickness, scales.neck.thickness) = (torso, torso);
-        (scales.upper_arm.thickness, scales.lower_arm.thickness) = (torso, torso);
-        (scales.upper_leg.thickness, scales.lower_leg.thickness) = (leg, leg);
-        (scales.shoulder_spread, scales.hip_spread) = (torso, torso);
+    fn solve_limb_thickness(&mut self, asked: &Asked) {
+        let names = ["upper_arm thickness", "lower_arm thickness"];
+        let [upper, lower] = self.segments(names, asked.arm_thickness, ARM_SLIMMEST);
+        self.scales.upper_arm.thickness = upper;
+        self.scales.lower_arm.thickness = lower;
+        let names = ["upper_leg thickness", "lower_leg thickness"];
+        let [upper, lower] = self.segments(names, asked.leg_thickness, LEG_SLIMMEST);
+        self.scales.upper_leg.thickness = upper;
+        self.scales.lower_leg.thickness = lower;
+    }
+
+    /// The thickness of both segments of a limb: near the torso's, and near each other.
+    fn segments(&mut self, names: [&'static str; 2], asked: [Option<f64>; 2], slimmest: f64) -> [f64; 2] {
+        let torso = self.scales.torso.thickness;
+        let thickest = (LIMB_THICKEST * torso).min(torso.max(LIMB_THICKEST_ON_SLIM_TORSO));
+        let pair = [0, 1].map(|segment| {
+            let thickness = asked[segment].unwrap_or(torso);
+            self.bounds.apply(names[segment], thickness, torso / slimmest, thickest)
+        });
+        let mean = (pair[0] * pair[1]).sqrt();
+        [0, 1].map(|segment| {
+            let (least, most) = (mean / SEGMENT_SPREAD, mean * SEGMENT_SPREAD);
+            self.bounds.apply(names[segment], pair[segment], least, most)
+        })
     }
 
     fn solve_arms(&mut self, arm: f64) {
-        let length = self.bounds.apply("arm length", arm / self.target.arm, SHORTEST_LIMB, self.head_scale);
+        let least = shortest(self.scales.upper_arm, self.scales.lower_arm);
+        let length = self.bounds.apply("arm length", arm / self.target.arm, least, self.head_scale);
         self.scales.upper_arm.length = length;
         self.scales.lower_arm.length = length;
     }
 
     fn solve_hands(&mut self, asked: Option<f64>) {
-        let without = (1.0 + HAND_WITHOUT_STYLE * self.growth) * self.scales.lower_arm.thickness;
-        self.scales.hand =
-            self.extremity(self.target.hand, asked, without, self.scales.lower_arm, LONGEST_HAND);
+        let (own, thickness) = (self.target.hand, self.scales.lower_arm.thickness);
+        let without = (1.0 + HAND_WITHOUT_STYLE * self.growth) * thickness;
+        self.scales.hand = self.extremity("hand", own, asked, without, thickness, HAND_PER_ARM, LONGEST_HAND);
     }
 
     fn solve_feet(&mut self, asked: Option<f64>) {
-        let without = (1.0 + FOOT_WITHOUT_STYLE * self.growth) * self.scales.lower_leg.thickness;
-        self.scales.foot =
-            self.extremity(self.target.foot, asked, without, self.scales.lower_leg, LONGEST_FOOT);
+        let (own, thickness) = (self.target.foot, self.scales.lower_leg.thickness);
+        let without = (1.0 + FOOT_WITHOUT_STYLE * self.growth) * thickness;
+        self.scales.foot = self.extremity("foot", own, asked, without, thickness, FOOT_PER_LEG, LONGEST_FOOT);
     }
 
-    /// The size of hands or feet of length `own`, `without` where one is not known: not slimmer than the limb, no more than the
-    /// head's, nor `longest` in new heads.
+    /// The size of hands or feet: `own` and `asked` lengths, `without` where one is not known.
+    #[allow(clippy::too_many_arguments)]
     fn extremity(
-        &self,
+        &mut self,
+        what: &'static str,
         own: Option<f64>,
         asked: Option<f64>,
         without: f64,
-        limb: Scale,
+        thickness: f64,
+        per_thickness: (f64, f64),
         longest: f64,
     ) -> f64 {
         let size = asked.zip(own).map_or(without, |(asked, own)| asked / own);
-        let most = own.map_or(f64::INFINITY, |own| longest * self.head / own);
-        self.bounds.within(self.bounds.within(size, limb.thickness, self.head_scale), 0.0, most)
+        let (least, most) = (per_thickness.0 * thickness, per_thickness.1 * thickness);
+        let size = self.bounds.apply(what, size, least, most.min(self.head_scale));
+        match own {
+            Some(own) => self.bounds.apply(what, size, 0.0, longest * self.head / own),
+            None => size,
+        }
     }
 
     /// The legs: what the foot takes up is no longer the leg's. A foot that would leave the leg no length is made
@@ -380,7 +461,16 @@ impl<'a> Solver<'a> {
             scales.foot = bounds.apply("foot", scales.foot, 0.0, room / target.ankle_height);
         }
         let length = (leg - target.ankle_height * scales.foot) / shank;
-        let length = bounds.apply("leg length", length, SHORTEST_LIMB, self.head_scale);
+        let torso_thickness = scales.torso.thickness;
+        if let Goal::Heads(_) = self.goal {
+            // The total is what was asked for: slimmer legs may be shorter before the bound on stubbiness acts.
+            let slimmest = torso_thickness / LEG_SLIMMEST;
+            for thickness in [&mut scales.upper_leg.thickness, &mut scales.lower_leg.thickness] {
+                *thickness = thickness.min((STUBBIEST * length).max(slimmest.min(*thickness)));
+            }
+        }
+        let least = shortest(scales.upper_leg, scales.lower_leg);
+        let length = bounds.apply("leg length", length, least, self.head_scale);
         // What the legs could not give, the torso gives: all of it where a number of heads is asked for.
         let excess = length * shank + target.ankle_height * scales.foot - leg;
         if excess > ROUNDING * leg {
@@ -388,12 +478,18 @@ impl<'a> Solver<'a> {
                 Goal::Heads(_) => 0.0,
                 Goal::Reference(_) => TORSO_AFTER_LEGS * scales.torso.length,
             };
-            let torso = scales.torso.length - bounds.strictness * excess / target.torso;
-            scales.torso.length = torso.max(shortest);
+            let torso = (scales.torso.length - bounds.strictness * excess / target.torso).max(shortest);
+            scales.torso.length =
+                bounds.apply("torso length", torso, torso_thickness / STUBBIEST, f64::INFINITY);
         }
         scales.upper_leg.length = length;
         scales.lower_leg.length = length;
     }
+}
+
+/// The least length of a limb of these two segments.
+fn shortest(upper: Scale, lower: Scale) -> f64 {
+    (upper.thickness.max(lower.thickness) / STUBBIEST).max(SHORTEST_LIMB)
 }
 
 /// How many heads tall a figure of proportions `target` becomes.

@@ -29,6 +29,7 @@ pub struct ProfileStage {
     piece_shifts: Vec<DVec3>,
     /// What soft limits took: of what, the wanted scale and the one it got.
     limited: Vec<(&'static str, f64, f64)>,
+    replaced: Vec<&'static str>,
 }
 
 /// What a stage is made of, beside the field before it.
@@ -130,8 +131,8 @@ impl ProfileStage {
         let (own, lines) = measure_profile(figure, &smooth, chains, weld, &frame, source.threads);
         let scales = scales(&own, wanted, &strengths);
         let slices = BodyMap::new(&own, &lines, &frame, &scales);
-        let Scales { limited, .. } = scales;
-        let mut stage = Self { relief, slices, piece_shifts: Vec::new(), limited };
+        let Scales { limited, replaced, .. } = scales;
+        let mut stage = Self { relief, slices, piece_shifts: Vec::new(), limited, replaced };
         stage.piece_shifts = source
             .pieces
             .iter()
@@ -175,6 +176,11 @@ impl ProfileStage {
     /// Of what soft limits took more than a tenth: the wanted scale and the one that it got.
     pub fn limited(&self) -> &[(&'static str, f64, f64)] {
         &self.limited
+    }
+
+    /// Of what the parts' own thickness and size count no more, by the names of the bounds on them.
+    pub fn replaced(&self) -> &[&'static str] {
+        &self.replaced
     }
 
     fn placed(&self, p: DVec3, weights: &PartWeights, is_skirt: bool) -> DVec3 {
