@@ -13,7 +13,7 @@ from pathlib import Path
 
 import bpy
 import numpy as np
-from start import convert, fresh, imported, placed, rows, stripped, vertices
+from start import convert, fresh, imported, leave, placed, rows, stripped, vertices
 
 # Places, keys and bone heads over the height; normals in degrees: Blender keeps 16 bits of them.
 PLACES, NORMALS = 1e-5, 0.1
@@ -121,4 +121,4 @@ def main(paths):
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    leave(main(sys.argv[1:]))

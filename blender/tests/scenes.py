@@ -7,7 +7,7 @@ from pathlib import Path
 import bpy
 import numpy as np
 from mathutils import Matrix
-from start import convert, fresh, imported, refusal, rows, vertices
+from start import convert, fresh, imported, leave, refusal, rows, vertices
 
 DATA = Path(__file__).resolve().parents[2] / "tests" / "data"
 ROGUE = DATA / "kaykit_rogue.glb"
@@ -512,4 +512,4 @@ def main():
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    leave(main())
