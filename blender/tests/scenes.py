@@ -493,6 +493,32 @@ def a_preview_follows_and_leaves_nothing():
     assert f"{armature.name} preview" not in bpy.data.collections
 
 
+def a_preview_shows_what_keys_do():
+    armature, meshes = character()
+    mesh = next(each for each in meshes if each.parent_type != "BONE")
+    mesh.shape_key_add(name="Basis")
+    for value in (0.5, 1):
+        key = mesh.shape_key_add(name="up", from_mix=False)
+        key.data.foreach_set("co", (rows(key.data, "co") + np.float32([0, 0, 0.1])).reshape(-1))
+        key.value = value
+    bpy.context.view_layer.objects.active = armature
+    given = bpy.context.scene.superdeform
+    given.preview = True
+
+    def shown():
+        graph = bpy.context.evaluated_depsgraph_get()
+        return next(vertices(thing.evaluated_get(graph)) for thing in bpy.data.collections[f"{armature.name} preview"].objects
+                    if thing.name.startswith(mesh.name))
+
+    given.heads = HEADS
+    sliding = shown()
+    sys.modules["bl_ext.user_default.superdeform.preview"]._let_go()
+    # Keys carry as far as they did when the slider was let go last, which is as far as they carried the source.
+    assert np.abs(sliding - shown()).max() < 0.03
+    assert np.abs(vertices(mesh) + np.float32([0, 0, 0.15]) - sliding).max() > 0.1
+    given.preview = False
+
+
 def main():
     """All scenes, or those that are named."""
     tests = [each for name, each in list(globals().items()) if callable(each) and "_" in name and each.__module__ == __name__
