@@ -2,12 +2,13 @@
 """Live preview: while a slider moves, places alone; when it is let go, keys, normals and rest bones too."""
 
 import bpy
+import numpy as np
 from bpy.app.handlers import persistent
 from superdeform import Error
 
 from . import copies, refuse, settings, write
 from .character import Deformation, Figure, style_of
-from .read import rest_world
+from .read import numbers, rest_world
 
 # Seconds without a change after which a slider counts as let go.
 _PAUSE = 0.3
@@ -35,8 +36,22 @@ class Preview:
             bpy.data.objects[name].hide_set(True)
 
     def _look_back(self, made):
-        """Keeps what takes world space to that of each mesh, which stays while a slider moves."""
+        """Keeps what stays while a slider moves: what takes world space to that of each mesh, and how far its shape keys carry it."""
         self.backs = {source.name: write.back_of(source, made[source.name]) for source in self.deformation.figure.sources}
+        self.carried = {name: _carried(made[name], back) for name, back in self.backs.items()}
+        self.shown = None
+
+    def _hide_keys(self, made):
+        """Mutes shape keys, which hold the places of all vertices and would keep them there, until the slider is let go."""
+        if self.shown is None:
+            self.shown = [(name, key.name) for name, moved in self.carried.items() if moved is not None
+                          for key in made[name].data.shape_keys.key_blocks if not key.mute]
+            self._mute(made, True)
+
+    def _mute(self, made, muted):
+        for name, key in self.shown or ():
+            if key in made[name].data.shape_keys.key_blocks:
+                made[name].data.shape_keys.key_blocks[key].mute = muted
 
     def objects(self):
         """The copies by the names of what they were made from; None where one is gone."""
@@ -57,9 +72,10 @@ class Preview:
             return
         self.deformation.set(self._style_of(given), settings.options(given) | {"repair": "kept"})
         placed = self.deformation.positions()
+        self._hide_keys(made)
         for source in self.deformation.figure.sources:
-            thing, places = made[source.name], placed[source.name]
-            write.put(thing.data, places, self.backs[source.name])
+            thing, places, moved = made[source.name], placed[source.name], self.carried[source.name]
+            write.put(thing.data, places if moved is None else places + moved, self.backs[source.name])
             thing.data.update()
 
     def settle(self, context, given):
@@ -68,6 +84,7 @@ class Preview:
         if made is None:
             return
         self.deformation.deformer.set_options(**settings.options(given))
+        self._mute(made, False)
         armature = bpy.data.objects[self.armature]
         places = {name: rest_world(armature, bpy.data.objects[name]) for name in made}
         with copies.object_mode(context):
@@ -82,6 +99,17 @@ class Preview:
             if name in bpy.data.objects:
                 bpy.data.objects[name].hide_set(hidden)
                 bpy.data.objects[name].select_set(selected)
+
+
+def _carried(thing, back):
+    """How far the shape keys of a mesh carry its vertices now, in world space; None where they leave them."""
+    keys = thing.data.shape_keys
+    if not keys or not any(key.value and not key.mute for key in keys.key_blocks[1:]):
+        return None
+    mixed = thing.shape_key_add(from_mix=True)
+    first, last = (numbers(key.data, "co", 3 * len(key.data)).reshape(-1, 3) for key in (keys.reference_key, mixed))
+    thing.shape_key_remove(mixed)
+    return ((last - first) @ np.linalg.inv(back)[:3, :3].T).astype(np.float32)
 
 
 def toggle(given, context):

@@ -11,6 +11,8 @@ from .refuse import Refused
 
 # A bone shorter than this vanishes when edit mode ends.
 _SHORTEST = 1e-5
+# Bones begin at one place and point one way as far as they differ by less than this, over the length of one.
+_ALIKE = 1e-4
 # Bones that deform may lie this far from their rest, over the character's height, after the controls of a rig have moved.
 _CARRIED_OFF = 0.02
 
@@ -69,6 +71,8 @@ def bones(context, copy, armature, figure, deformer, joints):
     names = [bone.name for bone in armature.data.bones]
     ends = [[world @ place for place in (bone.head_local, bone.tail_local)] for bone in armature.data.bones]
     new_ends = [_ends(armature, figure, deformer, joints, name, *places) for name, places in zip(names, ends)]
+    turned = [(head, (tail - head).normalized(), new_tail - new_head) for (head, tail), (new_head, new_tail) in zip(ends, new_ends)
+              if figure.controls and skeleton.joint_at(figure.joints, tail) is not None]
     context.view_layer.objects.active = copy
     bpy.ops.object.mode_set(mode="EDIT")
     edited = copy.data.edit_bones
@@ -80,14 +84,21 @@ def bones(context, copy, armature, figure, deformer, joints):
         bone, before = edited[name], (tail - head).length
         axis, roll, across = bone.matrix.to_3x3() @ Vector((0, 1, 0)), bone.roll, bone.z_axis.copy()
         ratio = (new_tail - new_head).length / before if before > 0 else 1.0
+        length = max(armature.data.bones[name].length * ratio, _SHORTEST)
+        along = next((new for at, way, new in turned if (at - head).length < _ALIKE * before
+                      and way.dot(tail - head) > (1 - _ALIKE) * before), None)
         bone.head = back @ new_head
         if figure.controls and skeleton.joint_at(figure.joints, tail) is not None:
             # Chains of controls must meet: a limb that is bent to reach a point begins where the one before ends. Others keep
             # their direction, which constraints may copy.
             bone.tail = back @ new_tail
             bone.align_roll(across)
+        elif along is not None:
+            # A control and a bone that copies it turn alike, though one of them is shorter and ends where no joint is.
+            bone.tail = bone.head + (back.to_3x3() @ along).normalized() * length
+            bone.align_roll(across)
         else:
-            bone.tail = bone.head + axis * max(armature.data.bones[name].length * ratio, _SHORTEST)
+            bone.tail = bone.head + axis * length
             bone.roll = roll
     for bone in edited:
         # Where a head has left its parent's tail, connecting would bend the parent.

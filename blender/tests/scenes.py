@@ -7,10 +7,12 @@ from pathlib import Path
 import bpy
 import numpy as np
 from mathutils import Matrix
-from start import convert, fresh, imported, refusal, rows, vertices
+from start import convert, fresh, imported, leave, refusal, rows, vertices
 
 DATA = Path(__file__).resolve().parents[2] / "tests" / "data"
 ROGUE = DATA / "kaykit_rogue.glb"
+# Fewer than the rogue's own 2.3: as many or more leave it as it is but for its cape.
+HEADS = 2
 
 
 def character(path=ROGUE):
@@ -49,13 +51,13 @@ def the_source_is_untouched_in_any_mode():
         bpy.context.view_layer.objects.active = armature
         bpy.ops.object.mode_set(mode=mode)
         before = state()
-        convert(armature, heads=2.5)
+        convert(armature, heads=HEADS)
         kept(before)
 
 
 def the_result_is_a_collection_of_its_own():
     armature, meshes = character()
-    made = convert(armature, heads=2.5)
+    made = convert(armature, heads=HEADS)
     homes = {collection.name for thing in made for collection in thing.users_collection}
     assert homes == {f"{armature.name} SD"}, homes
     assert sum(thing.type == "MESH" for thing in made) == len(meshes)
@@ -67,7 +69,7 @@ def the_result_is_a_collection_of_its_own():
 def fewer_heads_are_less_tall():
     armature, meshes = character(DATA / "quaternius_female_dress.glb")
     before = np.concatenate([vertices(mesh) for mesh in meshes])[:, 2]
-    after = np.concatenate(list(placed_of(convert(armature, heads=2.5)).values()))[:, 2]
+    after = np.concatenate(list(placed_of(convert(armature, heads=HEADS)).values()))[:, 2]
     assert np.ptp(after) < 0.95 * np.ptp(before), (np.ptp(after), np.ptp(before))
     # The feet stay on the ground.
     assert abs(after.min() - before.min()) < 0.01 * np.ptp(before)
@@ -75,16 +77,16 @@ def fewer_heads_are_less_tall():
 
 def amount_0_is_the_character():
     armature, meshes = character()
-    after = placed_of(convert(armature, heads=2.5, amount=0))
+    after = placed_of(convert(armature, heads=HEADS, amount=0))
     for mesh in meshes:
         assert np.abs(after[mesh.name] - vertices(mesh)).max() < 1e-5, mesh.name
 
 
 def converting_again_gives_the_same():
     armature, _ = character()
-    first = placed_of(convert(armature, heads=2.5))
-    other = placed_of(convert(armature, heads=2.5, amount=0.5))
-    again = placed_of(convert(armature, heads=2.5))
+    first = placed_of(convert(armature, heads=HEADS))
+    other = placed_of(convert(armature, heads=HEADS, amount=0.5))
+    again = placed_of(convert(armature, heads=HEADS))
     assert all(np.array_equal(first[name], again[name]) for name in first)
     assert any(np.abs(first[name] - other[name]).max() > 0.01 for name in first)
 
@@ -96,7 +98,7 @@ def one_undo_takes_it_back_and_redo_brings_it_again():
     bpy.context.view_layer.objects.active = armature
     bpy.ops.ed.undo_push(message="before")
     names = {thing.name for thing in bpy.data.objects}
-    bpy.ops.object.superdeform("EXEC_DEFAULT", True, heads=2.5)
+    bpy.ops.object.superdeform("EXEC_DEFAULT", True, heads=HEADS)
     with_copies = {thing.name for thing in bpy.data.objects}
     assert len(with_copies) > len(names)
     bpy.ops.ed.undo()
@@ -108,7 +110,7 @@ def one_undo_takes_it_back_and_redo_brings_it_again():
 
 def it_is_saved_and_opened_and_needs_no_source():
     armature, meshes = character()
-    made = convert(armature, heads=2.5)
+    made = convert(armature, heads=HEADS)
     expected = placed_of(made)
     for thing in (armature, *meshes):
         bpy.data.objects.remove(thing)
@@ -121,12 +123,12 @@ def it_is_saved_and_opened_and_needs_no_source():
 
 def two_characters_do_not_mix():
     armature, _ = character()
-    alone = placed_of(convert(armature, heads=2.5))
+    alone = placed_of(convert(armature, heads=HEADS))
     armature, _ = character()
     other = next(thing for thing in imported(DATA / "quaternius_female_dress.glb") if thing.type == "ARMATURE")
     other.location.x = 3
     bpy.context.view_layer.update()
-    made = convert(armature, heads=2.5)
+    made = convert(armature, heads=HEADS)
     beside = placed_of(made)
     assert alone.keys() == beside.keys()
     assert all(np.abs(alone[name] - beside[name]).max() < 1e-6 for name in alone)
@@ -135,12 +137,12 @@ def two_characters_do_not_mix():
 
 def hidden_and_excluded_objects_are_copied():
     armature, meshes = character()
-    expected = placed_of(convert(armature, heads=2.5))
+    expected = placed_of(convert(armature, heads=HEADS))
     armature, meshes = character()
     meshes[0].hide_set(True)
     meshes[1].hide_viewport = True
     before = state()
-    made = convert(armature, heads=2.5)
+    made = convert(armature, heads=HEADS)
     kept(before)
     assert placed_of(made).keys() == expected.keys()
     copies = {thing.name.split(".")[0]: thing for thing in made}
@@ -156,7 +158,7 @@ def scale_and_turn_of_objects_do_not_matter():
         return armature, [thing for thing in bpy.data.objects if thing.type == "MESH" and thing.parent is armature]
 
     armature, _ = skinned()
-    expected = placed_of(convert(armature, heads=2.5))
+    expected = placed_of(convert(armature, heads=HEADS))
     armature, meshes = skinned()
     # As FBX has it: a hundred times as large inside, turned, and the objects' scale is .01.
     turn = Matrix.Rotation(-np.pi / 2, 4, "X") @ Matrix.Scale(100, 4)
@@ -165,7 +167,7 @@ def scale_and_turn_of_objects_do_not_matter():
         mesh.data.transform(turn)
     armature.matrix_world = armature.matrix_world @ turn.inverted()
     bpy.context.view_layer.update()
-    after = placed_of(convert(armature, heads=2.5))
+    after = placed_of(convert(armature, heads=HEADS))
     # What is read differs by rounding, 2e-7.
     for mesh in meshes:
         apart = np.abs(after[mesh.name] - expected[mesh.name]).max()
@@ -174,16 +176,16 @@ def scale_and_turn_of_objects_do_not_matter():
 
 def a_pose_changes_nothing():
     armature, _ = character()
-    expected = placed_of(convert(armature, heads=2.5))
+    expected = placed_of(convert(armature, heads=HEADS))
     armature, _ = character()
     for bone in armature.pose.bones:
         bone.rotation_mode = "XYZ"
         bone.rotation_euler = (0.3, 0.1, 0)
     bpy.context.view_layer.update()
-    made = convert(armature, heads=2.5)
+    made = convert(armature, heads=HEADS)
     after = {thing.name.split(".")[0]: rows(thing.data.vertices, "co") for thing in made if thing.type == "MESH"}
     armature, meshes = character()
-    again = {thing.name.split(".")[0]: rows(thing.data.vertices, "co") for thing in convert(armature, heads=2.5) if thing.type == "MESH"}
+    again = {thing.name.split(".")[0]: rows(thing.data.vertices, "co") for thing in convert(armature, heads=HEADS) if thing.type == "MESH"}
     assert all(np.abs(after[name] - again[name]).max() < 1e-5 for name in expected)
 
 
@@ -198,7 +200,7 @@ def shape_keys_keep_their_values_and_what_they_are_relative_to():
         key.value = 0.25 + lift
     blocks = mesh.data.shape_keys.key_blocks
     blocks["more"].relative_key = blocks["up"]
-    copy = next(thing for thing in convert(armature, heads=2.5) if thing.name.startswith(mesh.name))
+    copy = next(thing for thing in convert(armature, heads=HEADS) if thing.name.startswith(mesh.name))
     made = copy.data.shape_keys.key_blocks
     assert [key.name for key in made] == ["Basis", "up", "more"]
     assert np.allclose([key.value for key in made], [key.value for key in blocks])
@@ -225,7 +227,7 @@ def modifiers_constraints_and_drivers_lead_to_the_copies():
     variable.targets[0].id = armature
     driver.expression = "var*0"
     mesh["mine"] = 7
-    made = {thing.name.rsplit(".", 1)[0]: thing for thing in convert(armature, heads=2.5)}
+    made = {thing.name.rsplit(".", 1)[0]: thing for thing in convert(armature, heads=HEADS)}
     copy = made[mesh.name]
     assert [modifier.type for modifier in copy.modifiers] == [modifier.type for modifier in mesh.modifiers]
     assert made[armature.name].pose.bones[5].constraints[-1].target == made["target"]
@@ -241,7 +243,7 @@ def edits_that_are_not_finished_count():
     bpy.ops.object.mode_set(mode="EDIT")
     bpy.ops.mesh.select_all(action="SELECT")
     bpy.ops.mesh.subdivide()
-    copy = next(thing for thing in convert(mesh, heads=2.5) if thing.name.startswith(mesh.name))
+    copy = next(thing for thing in convert(mesh, heads=HEADS) if thing.name.startswith(mesh.name))
     assert bpy.context.mode == "EDIT_MESH"
     bpy.ops.object.mode_set(mode="OBJECT")
     assert len(copy.data.vertices) == len(mesh.data.vertices)
@@ -258,7 +260,7 @@ def objects_that_share_a_mesh_each_get_their_shape():
         bpy.context.collection.objects.link(other)
         other.parent_bone = next(bone.name for bone in armature.data.bones if "upperleg" in bone.name)
         bpy.context.view_layer.update()
-        return placed_of(convert(armature, heads=2.5))
+        return placed_of(convert(armature, heads=HEADS))
 
     alone, shared = twins(False), twins(True)
     assert all(np.abs(alone[name] - shared[name]).max() < 1e-6 for name in alone)
@@ -280,7 +282,7 @@ def what_hangs_from_a_pose_is_carried_as_far():
                 rest = bone.bone.matrix_local
                 bone.matrix_basis = rest.inverted() @ carried @ rest
         bpy.context.view_layer.update()
-        made = convert(armature, heads=2.5)
+        made = convert(armature, heads=HEADS)
         graph = bpy.context.evaluated_depsgraph_get()
         return min(vertices(thing.evaluated_get(graph))[:, 2].min() for thing in made if thing.type == "MESH")
 
@@ -297,7 +299,7 @@ def actions_shrink_with_the_hips_on_a_copy():
     write = sys.modules["bl_ext.user_default.superdeform.write"]
     keys = lambda action: [key.co.y for curve in write._curves(action) for key in curve.keyframe_points]
     before = keys(action)
-    copy = next(thing for thing in convert(armature, heads=2.5) if thing.type == "ARMATURE")
+    copy = next(thing for thing in convert(armature, heads=HEADS) if thing.type == "ARMATURE")
     assert keys(action) == before and copy.animation_data.action != action
     heights = [thing.data.bones[hips.name].head_local.z for thing in (armature, copy)]
     assert np.allclose(keys(copy.animation_data.action), np.array(before) * heights[1] / heights[0], rtol=1e-3), heights
@@ -316,7 +318,7 @@ def a_figure_without_an_armature_is_offered_one():
     for mesh in meshes:
         mesh.select_set(True)
     bpy.context.view_layer.objects.active = meshes[0]
-    said = refusal(meshes[0], heads=2.5)
+    said = refusal(meshes[0], heads=HEADS)
     assert "Make a Rig" in said and meshes[0].name in said, said
     before = np.concatenate([vertices(mesh) for mesh in meshes])
     assert bpy.ops.object.superdeform_rig.poll() and bpy.ops.object.superdeform_rig() == {"FINISHED"}
@@ -326,7 +328,7 @@ def a_figure_without_an_armature_is_offered_one():
     graph = bpy.context.evaluated_depsgraph_get()
     assert np.abs(before - np.concatenate([vertices(mesh.evaluated_get(graph)) for mesh in meshes])).max() < 1e-5
     assert not bpy.ops.object.superdeform_rig.poll()
-    after = np.concatenate(list(placed_of(convert(armature, heads=2.5)).values()))
+    after = np.concatenate(list(placed_of(convert(armature, heads=HEADS)).values()))
     assert np.ptp(after[:, 2]) < 0.95 * np.ptp(before[:, 2])
 
 
@@ -360,7 +362,7 @@ def what_is_of_another_file_is_refused():
         if override:
             armature = armature.override_hierarchy_create(bpy.context.scene, bpy.context.view_layer)
         bpy.context.view_layer.update()
-        said = refusal(armature, heads=2.5)
+        said = refusal(armature, heads=HEADS)
         assert name in said and "make it local" in said and ("override" in said) == override, said
 
 
@@ -380,7 +382,8 @@ def what_the_library_lacks_is_a_sentence():
 
 
 def a_rig_with_controls_is_converted_as_a_whole():
-    """Rigify's human, with a box on each bone that deforms."""
+    """Rigify's human, with a box on each bone that deforms: those of the spine as broad as a body is, of which hips tell a thigh's
+    place."""
     import addon_utils
 
     fresh()
@@ -395,7 +398,7 @@ def a_rig_with_controls_is_converted_as_a_whole():
     places, polygons, owners = [], [], []
     for bone in armature.data.bones:
         if bone.use_deform:
-            half = np.array([0.2 * bone.length, 0.5 * bone.length, 0.2 * bone.length])
+            half = bone.length * np.array([0.6, 0.5, 0.6] if bone.name.startswith("DEF-spine") else [0.2, 0.5, 0.2])
             at = np.array(bone.matrix_local) @ np.append(corners * half + [0, 0.5 * bone.length, 0], np.ones((8, 1)), 1).T
             polygons += [tuple(corner + len(places) for corner in face) for face in faces]
             places += at.T[:, :3].tolist()
@@ -409,13 +412,16 @@ def a_rig_with_controls_is_converted_as_a_whole():
     for number, owner in enumerate(owners):
         body.vertex_groups.new(name=owner).add(range(8 * number, 8 * number + 8), 1, "REPLACE")
     bpy.context.view_layer.update()
-    made = convert(armature, heads=2.5)
+    made = convert(armature, heads=HEADS)
     copy = next(thing for thing in made if thing.type == "ARMATURE")
     mesh = next(thing for thing in made if thing.name.startswith("body"))
     graph = bpy.context.evaluated_depsgraph_get()
     tall = np.ptp(np.array(places)[:, 2])
     # The controls do not pull it off, and are where what they control is.
     assert np.abs(vertices(mesh.evaluated_get(graph)) - vertices(mesh)).max() < 0.02 * tall
+    # A jaw turns with its control, though the bone that copies it is shorter.
+    lip = copy.pose.bones["DEF-lip.B.L"]
+    assert (lip.matrix.translation - lip.bone.head_local).length < 1e-3 * tall
     for control, of in (("hand_ik.L", "DEF-hand.L"), ("foot_ik.R", "DEF-foot.R"), ("head", "DEF-spine.006")):
         apart = (copy.data.bones[control].head_local - copy.data.bones[of].head_local).length
         before = (armature.data.bones[control].head_local - armature.data.bones[of].head_local).length
@@ -443,7 +449,7 @@ def what_cannot_be_converted_is_refused_and_left_alone():
         mesh = next(each for each in meshes if each.parent_type != "BONE")
         change(mesh, armature)
         before, collections = state(), len(bpy.data.collections)
-        said = refusal(armature, heads=2.5)
+        said = refusal(armature, heads=HEADS)
         assert words in said and mesh.name in said, said
         kept(before)
         assert len(bpy.data.collections) == collections
@@ -465,17 +471,18 @@ def a_character_of_the_scene_can_be_the_style():
 
 def a_preview_follows_and_leaves_nothing():
     armature, meshes = character()
-    expected = placed_of(convert(armature, heads=3))
+    expected = placed_of(convert(armature, heads=HEADS))
     armature, meshes = character()
     before = state()
     bpy.context.view_layer.objects.active = armature
     given = bpy.context.scene.superdeform
     given.preview = True
     assert not given.fault, given.fault
-    for heads in (2, 4, 3):
+    for heads in (4, 1.8, HEADS):
         given.heads = heads
     collection = bpy.data.collections[f"{armature.name} preview"]
     shown = placed_of(collection.objects)
+    assert max(np.abs(shown[mesh.name] - vertices(mesh)).max() for mesh in meshes) > 0.1
     for mesh in meshes:
         # Clothes are pushed out as they were when the preview began, until the slider is let go.
         if mesh.parent_type != "BONE":
@@ -487,6 +494,32 @@ def a_preview_follows_and_leaves_nothing():
     given.preview = False
     kept(before)
     assert f"{armature.name} preview" not in bpy.data.collections
+
+
+def a_preview_shows_what_keys_do():
+    armature, meshes = character()
+    mesh = next(each for each in meshes if each.parent_type != "BONE")
+    mesh.shape_key_add(name="Basis")
+    for value in (0.5, 1):
+        key = mesh.shape_key_add(name="up", from_mix=False)
+        key.data.foreach_set("co", (rows(key.data, "co") + np.float32([0, 0, 0.1])).reshape(-1))
+        key.value = value
+    bpy.context.view_layer.objects.active = armature
+    given = bpy.context.scene.superdeform
+    given.preview = True
+
+    def shown():
+        graph = bpy.context.evaluated_depsgraph_get()
+        return next(vertices(thing.evaluated_get(graph)) for thing in bpy.data.collections[f"{armature.name} preview"].objects
+                    if thing.name.startswith(mesh.name))
+
+    given.heads = HEADS
+    sliding = shown()
+    sys.modules["bl_ext.user_default.superdeform.preview"]._let_go()
+    # Keys carry as far as they did when the slider was let go last, which is as far as they carried the source.
+    assert np.abs(sliding - shown()).max() < 0.03
+    assert np.abs(vertices(mesh) + np.float32([0, 0, 0.15]) - sliding).max() > 0.1
+    given.preview = False
 
 
 def main():
@@ -508,4 +541,4 @@ def main():
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    leave(main())

@@ -16,7 +16,7 @@ from pathlib import Path
 
 import bpy
 import numpy as np
-from start import convert, fresh
+from start import convert, fresh, leave
 
 import addon_utils  # There once bpy is.
 
@@ -115,4 +115,4 @@ def main(given):
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    leave(main(sys.argv[1:]))
