@@ -9,7 +9,7 @@ use std::sync::Arc;
 use superdeform::internals::face::brows::Brows;
 use superdeform::internals::face::eyes::{Eye, EyeSource, Eyeball, Pair};
 use superdeform::internals::face::head::HeadFrame;
-use superdeform::internals::face::kernel::{Follower, STEPS, along};
+use superdeform::internals::face::kernel::{Follower, Kernel, STEPS, along};
 use superdeform::internals::face::landmarks::{Ears, FaceLandmarks, Nose};
 use superdeform::internals::face::outline::{HEIGHTS, Outline, OutlineSources};
 use superdeform::internals::face::rows::{FaceAim, Rows};
@@ -168,6 +168,31 @@ fn rows(face: &FaceLandmarks) -> Rows {
 
 fn follower(face: &FaceLandmarks) -> Follower {
     Follower::new(&rows(face).kernels)
+}
+
+#[test]
+fn a_way_is_the_same_whether_the_kernels_that_are_far_away_are_asked_or_not() {
+    let pull = Kernel {
+        shift: DVec3::new(0.1, -0.7, 0.4),
+        ..Kernel::about(DVec3::new(0.2, 0.9, 0.1), DVec3::splat(0.5))
+    };
+    let table = rows(&adult(1.0)).kernels;
+    let pulled: Vec<Kernel> = [pull].into_iter().chain(table.clone()).collect();
+    let mut furthest = 0.0_f64;
+    for kernels in [table, pulled] {
+        let follower = Follower::new(&kernels);
+        for step in 0..12 * 16 * 12 {
+            let p = DVec3::new(f64::from(step % 12), f64::from(step / 12 % 16), f64::from(step / 192));
+            let p = p * 0.13 - DVec3::new(0.75, 0.45, 0.75);
+            let way = follower.way(p);
+            // What is placed is moved by all kernels.
+            for (piece, youth) in [(2, 0.25), (5, 0.5), (11, 1.0)] {
+                assert_eq!(way[piece], follower.place(p, youth), "{p} after {youth}");
+            }
+            furthest = furthest.max(way[11].distance(p));
+        }
+    }
+    assert!(furthest > 0.4, "nothing goes further than {furthest}");
 }
 
 /// The largest stretch of a matrix.

@@ -281,8 +281,8 @@ impl Conversion {
         Ok(Converted { target: &self.target, file, deformed, report, materials, even_eyes, aim_degrees })
     }
 
-    /// The file as it looks at once, for while a slider moves: its vertices and nodes are where [`Conversion::write`] puts them,
-    /// while morph targets, springs and animations are still those of the target, and nothing is measured.
+    /// What changes at once, for while a slider moves: vertices, nodes and skins where [`Conversion::write`] puts them, under the
+    /// same numbers, in a file of nothing else ([`write::at_rest`]); nothing is measured.
     ///
     /// # Errors
     /// As [`Conversion::write`].
@@ -490,7 +490,8 @@ fn limited(rig: &Rig) -> Vec<Weights> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::samples;
+    use crate::accessor::Reader;
+    use crate::{array_at, index_at, samples};
     use serde_json::json;
     use std::collections::BTreeMap;
 
@@ -537,6 +538,60 @@ mod tests {
         assert_eq!(open(&bytes, &OpenOptions::default()).unwrap_err().option, Some("allow_prohibited"));
         let allowed = OpenOptions { allow_prohibited: true, ..OpenOptions::default() };
         assert!(open(&bytes, &allowed).unwrap().target().licence.is_prohibited());
+    }
+
+    /// Every number of a glimpse, beside that of the whole file.
+    fn compare(glimpse: &GltfFile, whole: &GltfFile) {
+        let (seen, real) = (Reader::new(glimpse), Reader::new(whole));
+        let mut count = 0;
+        let mut same = |one: &Value, two: &Value, key: &str, components: usize| {
+            let Some(accessor) = index_at(one, key) else { return };
+            let floats = |reader: &Reader, accessor| reader.floats(accessor, components, None).unwrap();
+            let (one, two) = (floats(&seen, accessor), floats(&real, index_at(two, key).unwrap()));
+            assert!(one == two, "{key}");
+            count += 1;
+        };
+        for (one, two) in glimpse.list("meshes").iter().zip(whole.list("meshes")) {
+            for (one, two) in array_at(one, "primitives").iter().zip(array_at(two, "primitives")) {
+                for (key, components) in [("POSITION", 3), ("NORMAL", 3), ("TANGENT", 4)] {
+                    same(&one["attributes"], &two["attributes"], key, components);
+                }
+            }
+        }
+        for (one, two) in glimpse.list("skins").iter().zip(whole.list("skins")) {
+            same(one, two, "inverseBindMatrices", 16);
+        }
+        assert!(count > 2, "a glimpse of {count} lists");
+        assert_eq!(glimpse.json["nodes"], whole.json["nodes"]);
+        for list in ["meshes", "skins"] {
+            assert_eq!(glimpse.list(list).len(), whole.list(list).len(), "{list}");
+        }
+        // A viewer reads it without asking how numbers lie.
+        for accessor in 0..glimpse.list("accessors").len() {
+            let layout = seen.layout(accessor).unwrap();
+            assert_eq!(layout.component_type, 5126);
+            assert!(!layout.sparse && layout.stride == 4 * layout.components);
+            assert_eq!(layout.start.unwrap() % 4, 0);
+        }
+    }
+
+    #[test]
+    fn a_glimpse_is_what_the_whole_file_is_but_for_what_stays() {
+        let data = ["kaykit_rogue.glb", "quaternius_female_dress_unrigged.glb"];
+        let more = ["godette.vrm", "makehuman_female_rigged.glb", "cesiumman.glb"];
+        for path in data.iter().chain(&more).filter_map(|name| samples::path(name)) {
+            let mut conversion = open(
+                &std::fs::read(path).unwrap(),
+                &OpenOptions { allow_prohibited: true, ..OpenOptions::default() },
+            )
+            .unwrap();
+            for amount in [1.0, 0.0] {
+                let options = Options { amount, ..Options::default() };
+                conversion.set(&Style::heads(2.0).unwrap(), &options, &mut Progress::none()).unwrap();
+                let converted = conversion.write(None, &WriteOptions::default()).unwrap();
+                compare(&conversion.glimpse().unwrap(), &converted.file);
+            }
+        }
     }
 
     /// A `.gltf` with everything beside it, one image of a kind that nobody here reads.

@@ -213,7 +213,7 @@ fn add_skin(file: &mut GltfFile, skeleton: &Skeleton, nodes: &[usize], matrix: D
         }
         bytes.extend(bind.as_mat4().to_cols_array().iter().flat_map(|number| number.to_le_bytes()));
     }
-    let binds = add_accessor(file, bytes, nodes.len(), FLOAT, "MAT4", None);
+    let binds = add_floats(file, bytes, nodes.len(), "MAT4");
     push(&mut file.json["skins"], json!({"name": "rig", "joints": nodes, "inverseBindMatrices": binds}))
 }
 
@@ -238,6 +238,11 @@ fn add_weights(file: &mut GltfFile, weights: &Weights) -> (usize, usize) {
     let joints = add_accessor(file, joints, count, kind, "VEC4", Some(VERTEX_DATA));
     let shares = add_accessor(file, shares, count, FLOAT, "VEC4", Some(VERTEX_DATA));
     (joints, shares)
+}
+
+/// Adds an accessor of floats and gives its number.
+pub(crate) fn add_floats(file: &mut GltfFile, bytes: Vec<u8>, count: usize, shape: &str) -> usize {
+    add_accessor(file, bytes, count, FLOAT, shape, None)
 }
 
 fn add_accessor(

@@ -7,9 +7,14 @@
 
 use super::dual::{Dual, Number, step};
 use glam::{DMat3, DVec3};
+use std::cell::Cell;
 
 /// Straight pieces of a point's way.
 pub const STEPS: usize = 12;
+
+/// As long as a way stays as near as this to a place, in head lengths, it follows the kernels alone that act so near: it is the
+/// same, found sooner.
+const NEAR: f64 = 0.05;
 
 /// Where a point is after each piece of its way, in head lengths.
 pub type Way = [DVec3; STEPS];
@@ -84,8 +89,24 @@ impl Kernel {
         now
     }
 
+    /// The lowest and the highest place that it may act at.
+    fn reach(&self) -> (DVec3, DVec3) {
+        (self.centre - self.per_low.recip(), self.centre + self.per_high.recip())
+    }
+
+    /// True where both have the same [`Kernel::within`], as the rows of a station of the outline have.
+    fn reaches_as(&self, other: &Self) -> bool {
+        let reach = |kernel: &Self| (kernel.centre, kernel.per_low, kernel.per_high, kernel.plateau);
+        reach(self) == reach(other)
+    }
+
     /// How much of it acts at `p`, 0 to 1.
     pub fn weight<N: Number>(&self, p: [N; 3]) -> N {
+        self.ramped(self.within(p), p)
+    }
+
+    /// How much of it would act at `p` without its ramp.
+    fn within<N: Number>(&self, p: [N; 3]) -> N {
         let mut square = N::constant(0.0);
         for (axis, &along) in p.iter().enumerate() {
             let from = along - self.centre[axis];
@@ -96,21 +117,21 @@ impl Kernel {
                 return N::constant(0.0);
             }
         }
-        let mut weight = N::constant(1.0);
         if self.plateau == 0.0 {
-            weight = bell(square.root());
-        } else if square.value() > self.plateau * self.plateau {
-            weight = step((-square.root() + 1.0) * (1.0 / (1.0 - self.plateau)));
+            return bell(square.root());
         }
-        if self.ramp[1] != 0.0 {
-            weight = weight * step((p[2] - self.ramp[0]) * self.ramp[1]);
+        if square.value() > self.plateau * self.plateau {
+            return step((-square.root() + 1.0) * (1.0 / (1.0 - self.plateau)));
         }
-        weight
+        N::constant(1.0)
     }
 
-    /// Adds its share of what is `left` to the velocity at `p`.
-    fn add<N: Number>(&self, p: [N; 3], left: &mut N, velocity: &mut [N; 3]) {
-        let weight = self.weight(p);
+    fn ramped<N: Number>(&self, within: N, p: [N; 3]) -> N {
+        if self.ramp[1] == 0.0 { within } else { within * step((p[2] - self.ramp[0]) * self.ramp[1]) }
+    }
+
+    /// Adds its share of what is `left` to the velocity at `p`, where it acts by `weight`.
+    fn add<N: Number>(&self, weight: N, p: [N; 3], left: &mut N, velocity: &mut [N; 3]) {
         if weight.value() <= 0.0 {
             return;
         }
@@ -135,10 +156,23 @@ fn bell<N: Number>(t: N) -> N {
 
 /// The velocity of all `kernels` at `p`.
 pub fn velocity<N: Number>(kernels: &[Kernel], p: [N; 3]) -> [N; 3] {
+    velocity_of(kernels.iter(), p)
+}
+
+fn velocity_of<'a, N: Number>(kernels: impl Iterator<Item = &'a Kernel>, p: [N; 3]) -> [N; 3] {
     let mut velocity = [N::constant(0.0); 3];
     let mut left = N::constant(1.0);
+    let mut last: Option<(&Kernel, N)> = None;
     for kernel in kernels {
-        kernel.add(p, &mut left, &mut velocity);
+        let within = match last {
+            Some((other, within)) if kernel.reaches_as(other) => within,
+            _ => kernel.within(p),
+        };
+        last = Some((kernel, within));
+        if within.value() <= 0.0 {
+            continue;
+        }
+        kernel.add(kernel.ramped(within, p), p, &mut left, &mut velocity);
         if left.value() <= 0.0 {
             break;
         }
@@ -151,6 +185,8 @@ pub fn velocity<N: Number>(kernels: &[Kernel], p: [N; 3]) -> [N; 3] {
 pub struct Follower {
     /// At the start and in the middle of each piece of the way.
     moments: Vec<[Vec<Kernel>; 2]>,
+    /// The lowest and highest place that each kernel reaches in all of these.
+    reaches: Vec<(DVec3, DVec3)>,
 }
 
 impl Follower {
@@ -158,20 +194,45 @@ impl Follower {
     pub fn new(kernels: &[Kernel]) -> Self {
         let at = |time: f64| kernels.iter().map(|kernel| kernel.at(time)).collect();
         let start = |piece: usize| piece as f64 / STEPS as f64;
-        Self {
-            moments: (0..STEPS)
-                .map(|piece| [at(start(piece)), at(start(piece) + 0.5 / STEPS as f64)])
-                .collect(),
-        }
+        let moments: Vec<[Vec<Kernel>; 2]> =
+            (0..STEPS).map(|piece| [at(start(piece)), at(start(piece) + 0.5 / STEPS as f64)]).collect();
+        let reach = |kernel: usize| {
+            let all = moments.iter().flatten().map(|kernels| kernels[kernel].reach());
+            all.reduce(|(low, high), (l, h)| (low.min(l), high.max(h))).unwrap_or_default()
+        };
+        let reaches = (0..kernels.len()).map(reach).collect();
+        Self { moments, reaches }
     }
 
-    /// The way of `p`.
+    /// The way of `p`. Kernels that are not near have nothing to add to it.
     pub fn way(&self, p: DVec3) -> Way {
-        let mut place = p.to_array();
+        let (mut place, mut near) = (p, self.near(p));
         std::array::from_fn(|piece| {
-            place = self.piece(place, piece, 1.0);
-            DVec3::from_array(place)
+            let by_near = |(about, near): &(DVec3, Vec<usize>)| {
+                let is_left = Cell::new(false);
+                let velocity = |kernels: &[Kernel], at: [f64; 3]| {
+                    is_left.set(is_left.get() || (DVec3::from(at) - about).abs().max_element() > NEAR);
+                    velocity_of(near.iter().map(|&kernel| &kernels[kernel]), at)
+                };
+                let next = self.piece(place.to_array(), piece, 1.0, velocity);
+                (!is_left.get()).then_some(next)
+            };
+            let next = by_near(&near).or_else(|| {
+                near = self.near(place);
+                by_near(&near)
+            });
+            place = next.unwrap_or_else(|| self.piece(place.to_array(), piece, 1.0, velocity)).into();
+            place
         })
+    }
+
+    /// The kernels that may act where all coordinates are within [`NEAR`] of those of `p`.
+    fn near(&self, p: DVec3) -> (DVec3, Vec<usize>) {
+        let is_near = |&kernel: &usize| {
+            let (low, high) = self.reaches[kernel];
+            (p + NEAR).cmpge(low).all() && (p - NEAR).cmple(high).all()
+        };
+        (p, (0..self.reaches.len()).filter(is_near).collect())
     }
 
     /// Where `p` is after the share `youth` of its way.
@@ -187,12 +248,18 @@ impl Follower {
     fn follow<N: Number>(&self, mut place: [N; 3], youth: f64) -> [N; 3] {
         let (whole, rest) = pieces(youth);
         for piece in 0..whole {
-            place = self.piece(place, piece, 1.0);
+            place = self.piece(place, piece, 1.0, velocity);
         }
-        if rest > 0.0 { self.piece(place, whole, rest) } else { place }
+        if rest > 0.0 { self.piece(place, whole, rest, velocity) } else { place }
     }
 
-    fn piece<N: Number>(&self, p: [N; 3], piece: usize, share: f64) -> [N; 3] {
+    fn piece<N: Number>(
+        &self,
+        p: [N; 3],
+        piece: usize,
+        share: f64,
+        velocity: impl Fn(&[Kernel], [N; 3]) -> [N; 3],
+    ) -> [N; 3] {
         let [start, middle] = &self.moments[piece];
         const STEP: f64 = 1.0 / STEPS as f64;
         let first = velocity(start, p);

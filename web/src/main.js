@@ -215,10 +215,13 @@ async function result() {
 
 function showNotes() {
   if (!character) return;
-  const list = notes(character, current());
-  $('notes-list').replaceChildren(
-    ...list.map(({ kind, text }) => Object.assign(document.createElement('li'), { className: kind, textContent: text })),
-  );
+  const list = notes(character);
+  const row = ({ kind, text, detail }) => {
+    const item = Object.assign(document.createElement('li'), { className: kind, textContent: text });
+    if (detail) item.append(Object.assign(document.createElement('small'), { textContent: detail, lang: 'en' }));
+    return item;
+  };
+  $('notes-list').replaceChildren(...list.map(row));
   $('notes-count').textContent = list.length;
 }
 
@@ -364,21 +367,22 @@ function takePose(pose) {
   for (const button of $('poses').children) button.setAttribute('aria-pressed', button.value === pose);
 }
 
+/** The sliders of what the character's face can do. */
+let looks = [];
+
 function showLooks(before) {
-  const looks = before ? ['blink', 'aa'].filter((name) => before.has(name)) : [];
   stage.express({ blink: 0, aa: 0 });
-  $('looks').replaceChildren(
-    ...looks.map((name) => {
+  looks = ['blink', 'aa']
+    .filter((name) => before?.has(name))
+    .map((name) => {
       const slider = new Slider(name, { low: 0, high: 1, default: 0 }, (_, value) => {
         slider.set(value);
         stage.express({ [name]: value ?? 0 });
       });
-      slider.relabel = () => (slider.label.textContent = t(`look.${name}`));
-      slider.relabel();
       slider.set(null);
-      return slider.element;
-    }),
-  );
+      return slider;
+    });
+  $('looks').replaceChildren(...looks.map(({ element }) => element));
   $('springs-row').hidden = !before?.hasSprings;
 }
 
@@ -387,7 +391,7 @@ function showLooks(before) {
 function relabel() {
   label(document);
   document.title = 'superdeform';
-  for (const slider of sliders.values()) slider.relabel();
+  for (const slider of [...sliders.values(), ...looks]) slider.relabel();
   for (const button of $('styles').children) button.setAttribute('aria-label', t('style.label', button.value.slice(2)));
   if (!character) $('file-name').textContent = t('no_file');
   else $('file-name').textContent = character.name;

@@ -7,47 +7,34 @@ import { Figure, LIMB_ROLES } from './poses.js';
 const loader = new GLTFLoader();
 loader.register((parser) => new VRMLoaderPlugin(parser));
 
-const ARRAYS = { 5120: Int8Array, 5121: Uint8Array, 5122: Int16Array, 5123: Uint16Array, 5125: Uint32Array, 5126: Float32Array };
-const COUNTS = { SCALAR: 1, VEC2: 2, VEC3: 3, VEC4: 4, MAT4: 16 };
+const COUNTS = { VEC3: 3, VEC4: 4, MAT4: 16 };
 /** Names of shapes in files that have no expressions of their own. */
 const SHAPES = { blink: /^(blink|eyes?_?closed?|vrc\.blink|fcl_eye_close|まばたき)$/i, aa: /^(aa?|vrc\.v_aa|mouth_?open|jaw_?open|fcl_mth_a|あ)$/i };
 
-/** The JSON of a GLB and its binary, which begins where numbers may. */
-function parts(given) {
-  const bytes = given.byteOffset % 4 ? given.slice() : given;
-  const view = new DataView(bytes.buffer, bytes.byteOffset);
-  const size = view.getUint32(12, true);
+/** The JSON of a glimpse and its binary. */
+function parts(bytes) {
+  const size = new DataView(bytes.buffer, bytes.byteOffset).getUint32(12, true);
   const json = JSON.parse(new TextDecoder().decode(bytes.subarray(20, 20 + size)));
   return { json, binary: bytes.subarray(28 + size) };
 }
 
-/** The numbers of an accessor, packed; null for what is stored in another way. */
+/** The numbers of an accessor of a glimpse, which are packed floats. */
 function numbers({ json, binary }, index) {
-  const accessor = json.accessors[index];
-  const view = json.bufferViews[accessor.bufferView];
-  if (!view || accessor.sparse) return null;
-  const [Array, items] = [ARRAYS[accessor.componentType], COUNTS[accessor.type]];
-  const size = Array.BYTES_PER_ELEMENT;
-  const from = (view.byteOffset ?? 0) + (accessor.byteOffset ?? 0);
-  const step = (view.byteStride ?? items * size) / size;
-  const found = new Array(binary.buffer, binary.byteOffset + from, step * (accessor.count - 1) + items);
-  if (step === items) return { array: found.slice(), items, normalized: accessor.normalized ?? false };
-  const array = new Array(items * accessor.count);
-  for (let to = 0, at = 0; to < array.length; at += step - items) {
-    for (let item = 0; item < items; item++) array[to++] = found[at++];
-  }
-  return { array, items, normalized: accessor.normalized ?? false };
+  const { bufferView, count, type } = json.accessors[index];
+  const items = COUNTS[type];
+  const from = binary.byteOffset + json.bufferViews[bufferView].byteOffset;
+  return { array: new Float32Array(binary.buffer, from, items * count), items };
 }
 
 /** Puts numbers where the old ones are drawn from. */
-function renewAttribute(geometry, name, found) {
+function renewAttribute(geometry, name, { array, items }) {
   const old = geometry.attributes[name];
-  if (!old || !found) return;
-  if (!old.isInterleavedBufferAttribute && old.array.constructor === found.array.constructor && old.array.length === found.array.length) {
-    old.array.set(found.array);
+  if (!old) return;
+  if (!old.isInterleavedBufferAttribute && old.array instanceof Float32Array && old.array.length === array.length) {
+    old.array.set(array);
     old.needsUpdate = true;
   } else {
-    geometry.setAttribute(name, new BufferAttribute(found.array, found.items, found.normalized));
+    geometry.setAttribute(name, new BufferAttribute(array.slice(), items));
   }
 }
 
@@ -68,7 +55,8 @@ export class Shown {
       // Metal shows nothing but what is around it, and here is nothing.
       for (const material of [node.material ?? []].flat()) if (material.metalness) material.metalness = 0;
     });
-    shown.bones = shown.#bones();
+    shown.joints = shown.#joints();
+    shown.bones = Object.fromEntries(LIMB_ROLES.filter((role) => shown.joints[role]).map((role) => [role, shown.joints[role]]));
     shown.figure = new Figure(shown.bones, shown.root);
     shown.shapes = shown.#shapes();
     return shown;
@@ -83,7 +71,8 @@ export class Shown {
     return this.vrm?.expressionManager?.getExpression(expression) ? true : this.shapes[expression].length > 0;
   }
 
-  #bones() {
+  /** The node of each humanoid role. */
+  #joints() {
     const { associations, json } = this.gltf.parser;
     const [byIndex, byName] = [new Map(), new Map()];
     for (const [node, { nodes }] of associations) {
@@ -91,13 +80,8 @@ export class Shown {
       byIndex.set(nodes, node);
       byName.set(json.nodes[nodes].name, node);
     }
-    const bones = {};
-    for (const role of LIMB_ROLES) {
-      const joint = this.about.joints[role];
-      const node = joint && (byIndex.get(joint.node) ?? byName.get(joint.name));
-      if (node) bones[role] = node;
-    }
-    return bones;
+    const found = Object.entries(this.about.joints).map(([role, joint]) => [role, byIndex.get(joint.node) ?? byName.get(joint.name)]);
+    return Object.fromEntries(found.filter(([, node]) => node));
   }
 
   #shapes() {
@@ -136,12 +120,14 @@ export class Shown {
     this.vrm?.springBoneManager?.reset();
   }
 
-  /** Takes vertices and joints of a file of the same character: no textures, no materials, nothing parsed but its JSON. */
+  /** Takes the vertices and joints of a glimpse of the same character. */
   renew(bytes) {
     const file = parts(bytes);
     const { associations } = this.gltf.parser;
+    const springs = this.vrm?.springBoneManager;
     const done = new Set();
     this.figure.take('rest', 0);
+    springs?.reset();
     for (const [object, at] of associations) {
       if (!object.isObject3D) continue;
       if (object.isMesh && at.meshes !== undefined && !done.has(object.geometry)) {
@@ -152,31 +138,47 @@ export class Shown {
     }
     this.root.traverse((mesh) => mesh.isSkinnedMesh && this.#renewSkin(file, mesh, done));
     this.figure = new Figure(this.bones, this.root);
+    // They keep where their bones rest.
+    springs?.setInitState();
     this.take(this.pose, this.time);
+    this.settle();
   }
 
-  #renewMesh(file, object, at) {
-    const primitive = file.json.meshes[at.meshes].primitives[at.primitives ?? 0];
+  /** What a glimpse says of the node that an object belongs to. */
+  #nodeOf(file, object) {
+    const { associations } = this.gltf.parser;
+    let holder = object;
+    while (holder && associations.get(holder)?.nodes === undefined) holder = holder.parent;
+    return file.json.nodes[associations.get(holder)?.nodes] ?? {};
+  }
+
+  #renewMesh(file, object, { primitives = 0 }) {
+    // A mesh that two nodes show may be one in the file that is shown and two in the glimpse, and the other way round.
+    const primitive = file.json.meshes[this.#nodeOf(file, object).mesh]?.primitives[primitives];
     for (const [key, name] of [['POSITION', 'position'], ['NORMAL', 'normal'], ['TANGENT', 'tangent']]) {
-      const accessor = primitive.attributes[key];
+      const accessor = primitive?.attributes[key];
       if (accessor !== undefined) renewAttribute(object.geometry, name, numbers(file, accessor));
     }
   }
 
   #renewNode(node, object) {
     if (node.matrix) new Matrix4().fromArray(node.matrix).decompose(object.position, new Quaternion(), new Vector3());
-    else if (node.translation) object.position.fromArray(node.translation);
+    else object.position.fromArray(node.translation ?? [0, 0, 0]);
   }
 
   #renewSkin(file, mesh, done) {
     if (done.has(mesh.skeleton)) return;
     done.add(mesh.skeleton);
-    const { associations } = this.gltf.parser;
-    let holder = mesh;
-    while (holder && associations.get(holder)?.nodes === undefined) holder = holder.parent;
-    const skin = file.json.skins?.[file.json.nodes[associations.get(holder)?.nodes]?.skin];
-    const matrices = skin?.inverseBindMatrices !== undefined && numbers(file, skin.inverseBindMatrices);
-    if (matrices) mesh.skeleton.boneInverses.forEach((inverse, joint) => inverse.fromArray(matrices.array, 16 * joint));
+    const binds = file.json.skins[this.#nodeOf(file, mesh).skin]?.inverseBindMatrices;
+    const matrices = binds !== undefined && numbers(file, binds).array;
+    mesh.skeleton.boneInverses.forEach((inverse, joint) => (matrices ? inverse.fromArray(matrices, 16 * joint) : inverse.identity()));
+  }
+
+  /** The middle between its feet; null where it has none. */
+  standsAt() {
+    this.root.updateMatrixWorld(true);
+    const [left, right] = ['leftFoot', 'rightFoot'].map((role) => this.bones[role]?.getWorldPosition(new Vector3()));
+    return left && right ? left.lerp(right, 0.5) : null;
   }
 
   /** The box around it as it stands. */

@@ -12,7 +12,7 @@ const PART = { low: 0.1, high: 2, text: (value) => value.toFixed(2) };
 function named(name) {
   const [group, part] = name.split('.');
   if (!part) {
-    const key = name === 'heads' ? 'slider.heads' : `option.${name}`;
+    const key = ['slider', 'look'].map((kind) => `${kind}.${name}`).find((own) => t(own)) ?? `option.${name}`;
     return [t(key), name === 'head_scale' ? '' : t(`${key}.tooltip`)];
   }
   const is = ONLY[group];

@@ -7,6 +7,8 @@ import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 
 /** A joint below this is drawn as doubted, as the command line draws it. */
 const DOUBTED = 0.5;
+/** Pixels at the top, and as many at the bottom, that the words above the figures need. */
+const WORDS = 36;
 /** Seconds that springs move on after something changed. */
 const SETTLING = 1.5;
 
@@ -99,7 +101,8 @@ export class Stage {
     const box = place.shown.box();
     const size = box.getSize(new Vector3());
     place.ground.scale.setScalar(Math.max(0.28 * size.y, 0.001));
-    const middle = box.getCenter(new Vector3());
+    // Below the feet: what is carried may reach far aside.
+    const middle = place.shown.standsAt() ?? box.getCenter(new Vector3());
     place.ground.position.set(middle.x, Math.max(box.min.y, 0) + 0.001 * size.y, middle.z);
   }
 
@@ -112,14 +115,15 @@ export class Stage {
   /** Joints of a new rig that are in doubt, on the character before. */
   drawDoubts() {
     const { shown } = this.before;
-    const doubted = Object.values(shown.about.joints).filter(({ confidence }) => confidence < DOUBTED);
+    const doubted = Object.entries(shown.about.joints).filter(([role, { confidence }]) => confidence < DOUBTED && shown.joints[role]);
     const size = 0.012 * shown.box().getSize(new Vector3()).y;
     const material = new MeshBasicMaterial({ color: 0xff7a1a, depthTest: false, transparent: true, opacity: 0.9 });
-    for (const { position } of doubted) {
+    for (const [role] of doubted) {
       const dot = new Mesh(new SphereGeometry(size, 16, 12), material);
-      dot.position.set(...position);
       dot.renderOrder = 9;
-      shown.root.add(dot);
+      dot.position.copy(shown.joints[role].getWorldPosition(new Vector3()));
+      // It goes where its joint goes, in its own size.
+      shown.joints[role].attach(dot);
     }
     this.touch();
     return doubted.length;
@@ -132,7 +136,9 @@ export class Stage {
     const middle = boxes[0].getCenter(new Vector3());
     const tangent = Math.tan((this.camera.fov * Math.PI) / 360);
     const width = Math.hypot(size.x, 0.6 * size.z);
-    const distance = 1.16 * Math.max(size.y / 2 / tangent, width / 2 / (tangent * this.camera.aspect)) + size.z / 2;
+    const { clientHeight: height } = this.canvas.parentElement;
+    const high = (size.y / 2 / tangent) * Math.max(1.16, height / Math.max(height - 2 * WORDS, 1));
+    const distance = Math.max(high, (1.16 * (width / 2)) / (tangent * this.camera.aspect)) + size.z / 2;
     const target = new Vector3(0, boxes[0].min.y + size.y / 2, middle.z);
     this.controls.target.copy(target);
     this.camera.position.copy(target).add(new Vector3(0.3, 0.06, 0.95).normalize().multiplyScalar(distance));

@@ -104,6 +104,22 @@ async function slide(page, name, value) {
     input.dispatchEvent(new Event('change'));
   }, [`slider-${name}`, value]);
 }
+/** Shows what a slider shows while it moves, and what comes out: of how many numbers of the picture differ from what was there
+ * before, and from each other. */
+async function moving(page, name, value) {
+  // Springs come to rest.
+  const seen = async () => (await page.waitForTimeout(2500), half(await pixels(page), 48));
+  const still = await seen();
+  await page.evaluate(([id, to]) => {
+    document.getElementById(id).value = to;
+    document.getElementById(id).dispatchEvent(new Event('input'));
+  }, [`slider-${name}`, value]);
+  await page.waitForFunction(() => document.getElementById('view').ariaBusy !== 'true');
+  const glimpse = await seen();
+  await slide(page, name, value);
+  await rested(page);
+  return [differs(still, glimpse), differs(glimpse, await seen())];
+}
 async function downloaded(page, button) {
   const [download] = await Promise.all([page.waitForEvent('download'), page.click(button)]);
   const at = path.join(scratch, download.suggestedFilename());
@@ -117,6 +133,8 @@ const pixels = (page) => page.evaluate(() => {
   copy.getContext('2d').drawImage(canvas, 0, 0, 96, 64);
   return [...copy.getContext('2d').getImageData(0, 0, 96, 64).data];
 });
+/** Of what `pixels` gives, the half that begins at a column: 0 before, 48 after. */
+const half = (all, from) => all.filter((_, i) => (i >> 2) % 96 >= from && (i >> 2) % 96 < from + 48);
 const differs = (one, two) => one.reduce((sum, value, index) => sum + (Math.abs(value - two[index]) > 8), 0);
 
 if (shots) fs.mkdirSync(shots, { recursive: true });
@@ -202,6 +220,17 @@ if (!quick) {
     await rested(page);
     return `the worker needs ${frames.amount.toFixed(0)} ms for a frame of Amount, ${frames.heads.toFixed(0)} ms for one of Heads`;
   });
+  await check('what is seen while a slider moves is what comes out', async () => {
+    const said = [];
+    for (const value of [0.4, 0]) {
+      const [moved, apart] = await moving(page, 'amount', value);
+      that(moved > 60 && apart < moved / 7, `${moved} numbers of the picture moved, ${apart} once more as it was let go`);
+      said.push(`${moved} moved, ${apart} once more`);
+    }
+    await slide(page, 'amount', 1);
+    await rested(page);
+    return said.join('; ');
+  });
   await check('poses move both', async () => {
     const still = await pixels(page);
     for (const pose of ['t', 'sit', 'walk']) {
@@ -227,9 +256,8 @@ if (!quick) {
       await slide(page, name, 1);
       await page.waitForTimeout(500);
       const moved = await pixels(page);
-      for (const [half, from] of [['before', 0], ['after', 48]]) {
-        const of = (all) => all.filter((_, i) => ((i >> 2) % 96 >= from) && ((i >> 2) % 96 < from + 48));
-        that(differs(of(still), of(moved)) > 20, `${name} moves nothing ${half}`);
+      for (const [side, from] of [['before', 0], ['after', 48]]) {
+        that(differs(half(still, from), half(moved, from)) > 20, `${name} moves nothing ${side}`);
       }
       await slide(page, name, 0);
     }
@@ -247,7 +275,9 @@ if (!quick) {
   await check('what came without a rig gets one, and says so', async () => {
     await choose(page, UNRIGGED);
     await named(page, path.basename(UNRIGGED));
-    that((await page.textContent('#notes-list')).includes('without a usable rig'), await page.textContent('#notes-list'));
+    const notes = await page.$$eval('#notes-list li', (list) => list.map((item) => item.firstChild.textContent));
+    that(notes.some((note) => note.includes('without a usable rig')), notes.join('; '));
+    that(new Set(notes).size === notes.length && !notes.some((note) => /\{\d\}/.test(note)), notes.join('; '));
     await choose(page, DRESS);
     await named(page, path.basename(DRESS));
   });
@@ -258,6 +288,14 @@ if (!quick) {
     await named(page, path.basename(avatar));
     that(await page.isVisible('#springs-row'), 'it has no springs');
     for (const name of ['blink', 'aa']) that(await page.isVisible(`#slider-${name}`), `it has no ${name}`);
+    // Hair hangs on bones that springs turn.
+    const [moved, apart] = await moving(page, 'amount', 0.3);
+    that(moved > 60 && apart < moved / 7, `${moved} numbers of the picture moved, ${apart} once more as it was let go`);
+    await slide(page, 'amount', 1);
+    await rested(page);
+    await page.selectOption('#language', 'ja');
+    that((await page.textContent('label[for=slider-blink]')) !== 'Blink', 'Blink is English in Japanese');
+    await page.selectOption('#language', 'en');
     await page.uncheck('#springs');
     await page.check('#springs');
     await shot(page, 'vrm');

@@ -14,9 +14,10 @@ mod vertices;
 mod vrm;
 
 use super::accessor::Reader;
-use super::bad_input;
 use super::file::GltfFile;
 use super::load::Loaded;
+use super::rig::add_floats;
+use super::{array_at, bad_input};
 use animations::animation_slots;
 use clips::Retarget;
 use glam::{DMat4, DVec3, Vec3};
@@ -104,20 +105,6 @@ pub fn write(loaded: &Loaded, deformed: &Deformed, map_point: &MapPoint) -> Resu
 /// # Errors
 /// As [`write()`].
 pub fn rewrite(loaded: &Loaded, deformed: &Deformed, map_point: &MapPoint) -> Result<GltfFile> {
-    reshaped(loaded, deformed, Some(map_point))
-}
-
-/// As [`rewrite()`], of vertices and nodes alone: animations, springs and colliders stay as they were, and so do morph targets
-/// that `deformed` lacks.
-///
-/// # Errors
-/// As [`write()`].
-pub fn at_rest(loaded: &Loaded, deformed: &Deformed) -> Result<GltfFile> {
-    reshaped(loaded, deformed, None)
-}
-
-/// `map_point`: without it animations, springs and colliders stay as they were.
-fn reshaped(loaded: &Loaded, deformed: &Deformed, map_point: Option<&MapPoint>) -> Result<GltfFile> {
     check(loaded, deformed)?;
     let new_rest = new_rest(loaded, deformed);
     let mut file = loaded.file.clone();
@@ -127,16 +114,62 @@ fn reshaped(loaded: &Loaded, deformed: &Deformed, map_point: Option<&MapPoint>) 
     mesh_slots(loaded, deformed, &new_rest, &reader(), &mut file.json, &mut slots)?;
     skin_slots(loaded, &new_rest, &reader(), &mut slots)?;
     let shifts = move_nodes(loaded, &new_rest, &mut file.json);
-    if let Some(map_point) = map_point {
-        let retarget = Retarget::new(loaded, deformed, &new_rest, &shifts, map_point);
-        animation_slots(loaded, &retarget, &shifts, &reader(), &mut file.json, &mut slots)?;
-    }
+    let retarget = Retarget::new(loaded, deformed, &new_rest, &shifts, map_point);
+    animation_slots(loaded, &retarget, &shifts, &reader(), &mut file.json, &mut slots)?;
     store(&reader(), &mut file, slots)?;
-    if let Some(map_point) = map_point {
-        let height_ratio = height_ratio(loaded, deformed);
-        vrm::move_points(&mut file.json, loaded, &new_rest, map_point, height_ratio);
-    }
+    let height_ratio = height_ratio(loaded, deformed);
+    vrm::move_points(&mut file.json, loaded, &new_rest, map_point, height_ratio);
     Ok(file)
+}
+
+/// Vertices and nodes alone, for who has the rest: nodes, meshes, primitives and skins under their numbers in the file, and of
+/// each what [`rewrite()`] would change, as packed floats. No indices, morph targets, materials, images or animations.
+///
+/// # Errors
+/// As [`write()`].
+pub fn at_rest(loaded: &Loaded, deformed: &Deformed) -> Result<GltfFile> {
+    check(loaded, deformed)?;
+    let new_rest = new_rest(loaded, deformed);
+    let reader = Reader::new(&loaded.file);
+    let mut file = bare(&loaded.file);
+    let mut slots = Vec::new();
+    mesh_slots(loaded, deformed, &new_rest, &reader, &mut file.json, &mut slots)?;
+    skin_slots(loaded, &new_rest, &reader, &mut slots)?;
+    move_nodes(loaded, &new_rest, &mut file.json);
+    for Slot { place, components, numbers } in slots {
+        let bytes = numbers.iter().flat_map(|number| number.to_le_bytes()).collect();
+        let accessor = add_floats(&mut file, bytes, numbers.len() / components, type_of(components));
+        place.set(&mut file.json, accessor);
+    }
+    file.json["buffers"] = json!([{"byteLength": file.binary.len()}]);
+    Ok(file)
+}
+
+/// The file without its numbers: nodes as they are, meshes and skins empty.
+fn bare(file: &GltfFile) -> GltfFile {
+    let primitives = |mesh| array_at(mesh, "primitives").iter().map(|_| json!({"attributes": {}})).collect();
+    let meshes = |mesh| json!({"primitives": Value::Array(primitives(mesh))});
+    let json = json!({
+        "asset": file.json["asset"],
+        "scene": file.json["scene"],
+        "scenes": file.json["scenes"],
+        "nodes": file.json["nodes"],
+        "meshes": file.list("meshes").iter().map(meshes).collect::<Value>(),
+        "skins": file.list("skins").iter().map(|skin| json!({"joints": skin["joints"]})).collect::<Value>(),
+        "accessors": [],
+        "bufferViews": [],
+    });
+    GltfFile { name: file.name.clone(), json, ..GltfFile::default() }
+}
+
+/// What glTF calls a float accessor of so many numbers an element.
+fn type_of(components: usize) -> &'static str {
+    match components {
+        1 => "SCALAR",
+        4 => "VEC4",
+        16 => "MAT4",
+        _ => "VEC3",
+    }
 }
 
 fn check(loaded: &Loaded, deformed: &Deformed) -> Result<()> {

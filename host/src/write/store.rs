@@ -1,6 +1,6 @@
 //! Numbers into accessors: over the old ones where nothing else reads them, else into new ones.
 
-use super::{Slot, same_bits};
+use super::{Slot, same_bits, type_of};
 use crate::accessor::{Layout, Reader};
 use crate::file::GltfFile;
 use crate::{array_at, index_at};
@@ -60,13 +60,7 @@ pub(super) fn store(reader: &Reader, file: &mut GltfFile, slots: Vec<Slot>) -> R
                     let new = match accessor {
                         Some(accessor) => file.json["accessors"][accessor].clone(),
                         None => {
-                            let kind = match slot.components {
-                                1 => "SCALAR",
-                                4 => "VEC4",
-                                16 => "MAT4",
-                                _ => "VEC3",
-                            };
-                            json!({"componentType": 5126, "type": kind})
+                            json!({"componentType": 5126, "type": type_of(slot.components)})
                         }
                     };
                     let Some(accessors) = file.json["accessors"].as_array_mut() else {
