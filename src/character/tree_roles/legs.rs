@@ -2,16 +2,13 @@
 
 use super::tree::{POINTS_OF_HALVES, Tree};
 use glam::DVec3;
-
 /// A leg begins above this height, in heights of the figure. Seen: ±30 % changes no role.
 const LEG_BEGINS_ABOVE: f64 = 0.08;
-
 /// A pair of legs has the points of the share of weights that it carries, up to this. Seen: ±30 % changes no role.
 const LEGS_CARRY: f64 = 0.4;
 /// Points against a pair of legs, times how far both end over the ground, how unlike their beginnings and how unlike
 /// their ends are. Seen: ±30 % changes no role.
 const POINTS_OF_GROUND: f64 = 2.0;
-
 /// A joint of the pelvis, not of the leg, is a first joint nearer to the middle than this share of the next one's
 /// distance. Seen: ±30 % changes no role.
 const PELVIS_ASIDE: f64 = 0.4;
@@ -19,16 +16,12 @@ const PELVIS_ASIDE: f64 = 0.4;
 const PELVIS_REACH: f64 = 0.12;
 /// Points against a leg for each joint between hip joint, knee and ankle that is left out. Seen: ±30 % changes no role.
 const POINTS_OF_LEG_GAP: f64 = 0.25;
-
-/// An ankle lies at this share of the hip joint's height, give or take [`ANKLE_SLACK`]. Seen: ±30 % changes no role.
+/// An ankle lies at this share of the hip joint's height. Seen: ±30 % changes no role.
 const ANKLE_LEVEL: f64 = 0.15;
-
 /// Points against an ankle, times how far it lies beyond. Seen: ±30 % changes no role.
 const POINTS_OF_ANKLE: f64 = 2.0;
-
 /// Points against a hip joint that is a joint of the pelvis, or is not beside one. Seen: ±30 % changes no role.
 const POINTS_OF_PELVIS: f64 = 0.4;
-
 /// A foot that hangs elsewhere is no further from a leg's end than this share of the leg. Seen: ±30 % changes no role.
 const LOOSE_FOOT_REACH: f64 = 0.35;
 
