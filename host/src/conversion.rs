@@ -546,6 +546,10 @@ mod tests {
         let mut count = 0;
         let mut same = |one: &Value, two: &Value, key: &str, components: usize| {
             let Some(accessor) = index_at(one, key) else { return };
+            // A viewer reads it without asking how numbers lie.
+            let layout = seen.layout(accessor).unwrap();
+            assert_eq!((layout.component_type, layout.stride), (5126, 4 * components), "{key}");
+            assert!(!layout.sparse && layout.start.unwrap().is_multiple_of(4), "{key}");
             let floats = |reader: &Reader, accessor| reader.floats(accessor, components, None).unwrap();
             let (one, two) = (floats(&seen, accessor), floats(&real, index_at(two, key).unwrap()));
             assert!(one == two, "{key}");
@@ -565,13 +569,6 @@ mod tests {
         assert_eq!(glimpse.json["nodes"], whole.json["nodes"]);
         for list in ["meshes", "skins"] {
             assert_eq!(glimpse.list(list).len(), whole.list(list).len(), "{list}");
-        }
-        // A viewer reads it without asking how numbers lie.
-        for accessor in 0..glimpse.list("accessors").len() {
-            let layout = seen.layout(accessor).unwrap();
-            assert_eq!(layout.component_type, 5126);
-            assert!(!layout.sparse && layout.stride == 4 * layout.components);
-            assert_eq!(layout.start.unwrap() % 4, 0);
         }
     }
 
