@@ -1,12 +1,26 @@
 //! Pictures: PNG and JPEG in, PNG out.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::LazyLock;
 use zune_jpeg::zune_core::bytestream::ZCursor;
 use zune_jpeg::zune_core::colorspace::ColorSpace;
 use zune_jpeg::zune_core::options::DecoderOptions;
 
 /// A picture that would take more bytes than this is not decoded: a small file may claim any size.
 const LARGEST: usize = 1 << 29;
+
+/// sRGB bytes to linear light.
+pub static TO_LINEAR: LazyLock<[f32; 256]> = LazyLock::new(|| {
+    std::array::from_fn(|byte| {
+        let value = byte as f32 / 255.0;
+        if value <= 0.04045 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) }
+    })
+});
+
+/// Linear light to sRGB, 0 to 1.
+pub fn to_srgb(value: f32) -> f32 {
+    if value <= 0.003_130_8 { 12.92 * value } else { 1.055 * value.powf(1.0 / 2.4) - 0.055 }
+}
 
 /// Rows of pixels from the top; a pixel is red, green, blue (sRGB) and alpha.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

@@ -39,6 +39,22 @@ pub enum Wrap {
     Mirror,
 }
 
+impl Wrap {
+    /// The texel that one of any number shows, of so many along an axis.
+    pub fn texel(self, texel: i64, count: usize) -> usize {
+        let count = count as i64;
+        let inside = match self {
+            Self::Repeat => texel.rem_euclid(count),
+            Self::Clamp => texel.clamp(0, count - 1),
+            Self::Mirror => {
+                let twice = texel.rem_euclid(2 * count);
+                twice.min(2 * count - 1 - twice)
+            }
+        };
+        inside as usize
+    }
+}
+
 /// A decoded image and how it is looked up.
 #[derive(Clone, Debug)]
 pub struct Texture {
@@ -54,6 +70,13 @@ pub struct Texture {
     pub wrap: [Wrap; 2],
     /// `KHR_texture_transform` as two rows that take (u, v, 1).
     pub transform: [[f32; 3]; 2],
+}
+
+impl Texture {
+    /// Where texture coordinates lie on the image, 0 to 1 along each side of it.
+    pub fn place(&self, [u, v]: [f32; 2]) -> [f32; 2] {
+        self.transform.map(|[by_u, by_v, shift]| by_u * u + by_v * v + shift)
+    }
 }
 
 /// What a picture needs of a material.
@@ -235,6 +258,18 @@ mod tests {
         assert!(!read[0].double_sided && !read[0].unlit && read[0].texture.is_none());
         assert_eq!(read[1].alpha, Alpha::Blend);
         assert!(read[1].double_sided && read[1].unlit);
+    }
+
+    #[test]
+    fn texels_outside_of_an_image_are_those_that_viewers_show() {
+        let shown = |wrap: Wrap| (-3..6).map(|texel| wrap.texel(texel, 3)).collect::<Vec<_>>();
+        assert_eq!(shown(Wrap::Repeat), [0, 1, 2, 0, 1, 2, 0, 1, 2]);
+        assert_eq!(shown(Wrap::Clamp), [0, 0, 0, 0, 1, 2, 2, 2, 2]);
+        assert_eq!(shown(Wrap::Mirror), [2, 1, 0, 0, 1, 2, 2, 1, 0]);
+        let of_four = |wrap: Wrap| [-1, 0, 3, 4, 5].map(|texel| wrap.texel(texel, 4));
+        assert_eq!(of_four(Wrap::Repeat), [3, 0, 3, 0, 1]);
+        assert_eq!(of_four(Wrap::Clamp), [0, 0, 3, 3, 3]);
+        assert_eq!(of_four(Wrap::Mirror), [0, 0, 3, 3, 2]);
     }
 
     #[test]

@@ -6,9 +6,9 @@
 //! the base colour's image. Texels that other triangles show stay.
 
 use crate::appearance::Appearance;
-use crate::image::Image;
+use crate::image::{Image, TO_LINEAR, to_srgb};
 use crate::load::Loaded;
-use crate::materials::{Texture, Wrap};
+use crate::materials::Texture;
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -153,11 +153,9 @@ impl Canvas {
     /// Lays a triangle on the image.
     fn lay(&mut self, uvs: [[f32; 2]; 3], weights: [[f32; 2]; 3], texture: &Texture) {
         let size = [self.image.width as f64, self.image.height() as f64];
-        let place = |[x, y]: [f32; 2]| {
-            [0, 1].map(|axis| {
-                let [by_x, by_y, shift] = texture.transform[axis].map(f64::from);
-                (by_x * f64::from(x) + by_y * f64::from(y) + shift) * size[axis]
-            })
+        let place = |uv: [f32; 2]| {
+            let [x, y] = texture.place(uv).map(f64::from);
+            [x * size[0], y * size[1]]
         };
         let [a, b, c] = uvs.map(place);
         let is_face = weights.iter().flatten().any(|&weight| weight > 0.0);
@@ -183,7 +181,7 @@ impl Canvas {
             self.socket_area += mean * 0.5 * doubled.abs();
         }
         for y in first[1]..=last[1] {
-            let row = wrapped(y, self.image.height(), texture.wrap[1]);
+            let row = texture.wrap[1].texel(y, self.image.height());
             for x in first[0]..=last[0] {
                 let (px, py) = (x as f64 + 0.5, y as f64 + 0.5);
                 let of_b = ((px - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (py - a[1])) / doubled;
@@ -191,7 +189,7 @@ impl Canvas {
                 if of_b < 0.0 || of_c < 0.0 || of_b + of_c > 1.0 {
                     continue;
                 }
-                let texel = row * self.image.width + wrapped(x, self.image.width, texture.wrap[0]);
+                let texel = row * self.image.width + texture.wrap[0].texel(x, self.image.width);
                 if !is_face {
                     self.shown[texel] = Shown::Elsewhere;
                 } else if self.shown[texel] != Shown::Elsewhere {
@@ -266,7 +264,7 @@ impl Canvas {
         Ok([0, 1, 2].map(|channel| {
             let mut values: Vec<u8> = skin.iter().map(|pixel| pixel[channel]).collect();
             let middle = values.len() / 2;
-            linear(*values.select_nth_unstable(middle).1)
+            TO_LINEAR[usize::from(*values.select_nth_unstable(middle).1)]
         }))
     }
 
@@ -307,7 +305,7 @@ impl Canvas {
             let before = *pixel;
             for channel in 0..3 {
                 let ratio = (skin[channel] / around[channel].max(1e-4)).clamp(RATIOS.0, RATIOS.1);
-                pixel[channel] = shown(linear(pixel[channel]) * ratio.powf(share * weight));
+                pixel[channel] = shown(TO_LINEAR[usize::from(pixel[channel])] * ratio.powf(share * weight));
             }
             changed += usize::from(*pixel != before);
         }
@@ -333,7 +331,8 @@ impl Canvas {
     fn blurred(&self) -> Blurred {
         let mut blurred = Blurred::new(&self.image, self.deviation());
         for texel in (0..self.shown.len()).filter(|&texel| self.shown[texel] == Shown::Face) {
-            let [red, green, blue, _] = self.image.pixels[texel].map(linear);
+            let [red, green, blue, _] =
+                self.image.pixels[texel].map(|channel| TO_LINEAR[usize::from(channel)]);
             blurred.add(texel % self.image.width, texel / self.image.width, [red, green, blue]);
         }
         blurred.smoothed()
@@ -416,35 +415,15 @@ impl Blurred {
     }
 }
 
-/// The texel that one outside of an image shows.
-fn wrapped(texel: i64, count: usize, wrap: Wrap) -> usize {
-    let count = count as i64;
-    let inside = match wrap {
-        Wrap::Repeat => texel.rem_euclid(count),
-        Wrap::Clamp => texel.clamp(0, count - 1),
-        Wrap::Mirror => {
-            let twice = texel.rem_euclid(2 * count);
-            twice.min(2 * count - 1 - twice)
-        }
-    };
-    inside as usize
-}
-
-/// sRGB to linear.
-fn linear(value: u8) -> f32 {
-    let value = f32::from(value) / 255.0;
-    if value <= 0.04045 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) }
-}
-
-/// Linear to sRGB.
+/// Linear light as a byte of sRGB.
 fn shown(value: f32) -> u8 {
-    let value = if value <= 0.003_130_8 { 12.92 * value } else { 1.055 * value.powf(1.0 / 2.4) - 0.055 };
-    (255.0 * value.clamp(0.0, 1.0)).round() as u8
+    (255.0 * to_srgb(value).clamp(0.0, 1.0)).round() as u8
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::materials::Wrap;
     use std::sync::Arc;
 
     const SIZE: usize = 256;
@@ -482,7 +461,7 @@ mod tests {
             let light = (1.0 - (1.0 - DARK) * (-0.5 * off * off).exp()) * if line { LINE } else { 1.0 };
             let noise = ((column * 7919 + row * 104_729) % 13) as i32 - 6;
             let of = |value: f64| {
-                let value = i32::from(shown((f64::from(linear(value as u8)) * light) as f32));
+                let value = i32::from(shown((f64::from(TO_LINEAR[value as usize]) * light) as f32));
                 (value + noise * grain / 6).clamp(0, 255) as u8
             };
             [of(SKIN[0]), of(SKIN[1]), of(SKIN[2]), 255]
@@ -514,12 +493,12 @@ mod tests {
     }
 
     fn light(image: &Image, x: f64, y: f64) -> f64 {
-        f64::from(linear(image.at(x as usize, y as usize)[1]))
+        f64::from(TO_LINEAR[usize::from(image.at(x as usize, y as usize)[1])])
     }
 
     /// ln of how much darker the ring is than skin, the mean around it.
     fn darkness(image: &Image) -> f64 {
-        let skin = f64::from(linear(SKIN[1] as u8));
+        let skin = f64::from(TO_LINEAR[SKIN[1] as usize]);
         let around = (0..64).map(|index| f64::from(index) * std::f64::consts::TAU / 64.0);
         let logs = around.map(|turn: f64| {
             let (x, y) = (RING.0[0] + RING.1 * turn.cos(), RING.0[1] + RING.1 * turn.sin());
@@ -619,13 +598,5 @@ mod tests {
         // All of a face on one texel.
         let spot = texture([[0.001, 0.0, 0.5], [0.0, 0.001, 0.5]]);
         assert!(laid(face(6), &spot, |uv| uv).skin().is_err());
-    }
-
-    #[test]
-    fn texels_outside_of_an_image_are_those_that_viewers_show() {
-        let shown = |wrap| (-3..6).map(|texel| wrapped(texel, 3, wrap)).collect::<Vec<_>>();
-        assert_eq!(shown(Wrap::Repeat), [0, 1, 2, 0, 1, 2, 0, 1, 2]);
-        assert_eq!(shown(Wrap::Clamp), [0, 0, 0, 0, 1, 2, 2, 2, 2]);
-        assert_eq!(shown(Wrap::Mirror), [2, 1, 0, 0, 1, 2, 2, 1, 0]);
     }
 }

@@ -21,10 +21,7 @@ pub fn shade(character: &mut Character, seen: &Appearance) {
         if let Some(texture) = texture
             && surface.uvs.len() == mesh.positions.len()
         {
-            let [u, v] = texture.transform;
-            let place =
-                |&[x, y]: &[f32; 2]| Vec2::new(u[0] * x + u[1] * y + u[2], v[0] * x + v[1] * y + v[2]);
-            let uvs: Vec<Vec2> = surface.uvs.iter().map(place).collect();
+            let uvs: Vec<Vec2> = surface.uvs.iter().map(|&uv| texture.place(uv).into()).collect();
             let shade = Shade::Image { uvs, image: Arc::clone(&texture.grey) };
             if shade.fits(mesh.positions.len()) {
                 mesh.shade = shade;

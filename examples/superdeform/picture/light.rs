@@ -1,8 +1,8 @@
-//! How light falls on a surface, and from linear light to a picture's colours and back.
+//! How light falls on a surface, and from linear light to a picture's colours.
 
 use super::camera::Camera;
 use glam::Vec3;
-use std::sync::LazyLock;
+use superdeform_host::image::to_srgb;
 
 /// A key light over the eye's left shoulder, light from sky and floor, and a rim from behind.
 pub struct Light {
@@ -39,19 +39,11 @@ impl Light {
     }
 }
 
-/// sRGB bytes to linear light.
-pub static TO_LINEAR: LazyLock<[f32; 256]> = LazyLock::new(|| {
-    std::array::from_fn(|byte| {
-        let value = byte as f32 / 255.0;
-        if value <= 0.04045 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) }
-    })
-});
-
 /// Linear light to sRGB, 0 to 1; what is bright nears white without reaching it, so that white clothes keep their folds.
 pub fn to_display(value: f32) -> f32 {
     const EXPOSURE: f32 = 1.06;
     const SHOULDER: f32 = 0.55;
     let above = (EXPOSURE * value - SHOULDER).max(0.0) / (1.0 - SHOULDER);
     let value = (EXPOSURE * value).clamp(0.0, SHOULDER) + (1.0 - SHOULDER) * (1.0 - (-above).exp());
-    if value <= 0.0031308 { value * 12.92 } else { 1.055 * value.powf(1.0 / 2.4) - 0.055 }
+    to_srgb(value)
 }

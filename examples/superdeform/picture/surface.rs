@@ -1,9 +1,8 @@
 //! The surface of a mesh: normals, and its colour at any point before light.
 
-use super::light::TO_LINEAR;
 use glam::{Vec2, Vec3, Vec4};
-use superdeform_host::image::Image;
-use superdeform_host::materials::{Material, Texture, Wrap};
+use superdeform_host::image::{Image, TO_LINEAR};
+use superdeform_host::materials::{Material, Texture};
 
 /// One mesh: vertices in model space and what they look like. Lists that are empty are not there.
 #[derive(Clone, Debug)]
@@ -78,7 +77,7 @@ impl PictureMesh<'_> {
 /// The texture's linear colour and alpha at `uv`, mixed from the four texels around it.
 fn look_up(texture: &Texture, uv: Vec2) -> Vec4 {
     let image: &Image = &texture.image;
-    let [u, v] = texture.transform.map(|[by_u, by_v, offset]| by_u * uv.x + by_v * uv.y + offset);
+    let [u, v] = texture.place(uv.into());
     if image.pixels.is_empty() || !u.is_finite() || !v.is_finite() {
         return Vec4::ONE;
     }
@@ -86,38 +85,12 @@ fn look_up(texture: &Texture, uv: Vec2) -> Vec4 {
     let (left, top) = (x.floor(), y.floor());
     let mut mixed = Vec4::ZERO;
     for (right, down) in [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)] {
-        let column = texel(left + right, image.width, texture.wrap[0]);
-        let row = texel(top + down, image.height(), texture.wrap[1]);
+        let column = texture.wrap[0].texel((left + right) as i64, image.width);
+        let row = texture.wrap[1].texel((top + down) as i64, image.height());
         let share = (1.0 - (left + right - x).abs()) * (1.0 - (top + down - y).abs());
         let [red, green, blue, alpha] = image.at(column, row);
         let linear = [red, green, blue].map(|channel| TO_LINEAR[channel as usize]);
         mixed += share * Vec3::from(linear).extend(f32::from(alpha) / 255.0);
     }
     mixed
-}
-
-fn texel(position: f32, size: usize, wrap: Wrap) -> usize {
-    let count = size as f32;
-    let inside = match wrap {
-        Wrap::Clamp => position,
-        Wrap::Repeat => position.rem_euclid(count),
-        Wrap::Mirror => {
-            let there = position.rem_euclid(2.0 * count);
-            if there < count { there } else { 2.0 * count - 1.0 - there }
-        }
-    };
-    (inside.max(0.0) as usize).min(size - 1)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_texel_outside_the_image_follows_the_wrapping() {
-        let wrapped = |wrap| [-1.0, 0.0, 3.0, 4.0, 5.0].map(|position| texel(position, 4, wrap));
-        assert_eq!(wrapped(Wrap::Repeat), [3, 0, 3, 0, 1]);
-        assert_eq!(wrapped(Wrap::Clamp), [0, 0, 3, 3, 3]);
-        assert_eq!(wrapped(Wrap::Mirror), [0, 0, 3, 3, 2]);
-    }
 }
