@@ -2,6 +2,7 @@
 
 use super::tree::{POINTS_OF_HALVES, Tree};
 use glam::DVec3;
+
 /// A leg begins above this height, in heights of the figure. Seen: ±30 % changes no role.
 const LEG_BEGINS_ABOVE: f64 = 0.08;
 /// A pair of legs has the points of the share of weights that it carries, up to this. Seen: ±30 % changes no role.
