@@ -305,22 +305,14 @@ fn bounds_named(run: &Run) -> String {
 }
 
 #[test]
-fn bounds_on_what_the_slices_set_are_not_warned_of() {
+fn bounds_on_lengths_alone_are_warned_of() {
     if !at_hand() {
         return;
     }
-    let style = style_of(REFERENCE, &Options::default());
-    let named = |options: &Options| bounds_named(&run(&style, options));
-    let sliced = named(&Options::default());
-    let parts = named(&Options { profile: 0.0, ..Options::default() });
-    let transfer = GroupSettings { thickness_transfer: Some(0.0), ..GroupSettings::default() };
-    let groups = BTreeMap::from([("upper_leg".to_string(), transfer), ("lower_leg".to_string(), transfer)]);
-    let legs = named(&Options { groups, ..Options::default() });
-    for what in ["lower_arm thickness", "upper_leg thickness", "lower_leg thickness", "hand"] {
-        assert!(parts.contains(what) && !sliced.contains(what), "{what}: {parts} | {sliced}");
+    for profile in [0.0, 1.0] {
+        let named = bounds_named(&run(&Style::Heads(1.8), &Options { profile, ..Options::default() }));
+        assert!(named.contains("leg length") && !named.contains("thickness"), "{named}");
     }
-    assert!(sliced.contains("leg length"), "{sliced}");
-    assert!(legs.contains("upper_leg thickness") && !legs.contains("lower_arm thickness"), "{legs}");
 }
 
 #[test]

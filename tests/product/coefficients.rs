@@ -54,7 +54,7 @@ fn small() -> Proportions {
 
 fn solved(target: &Proportions, goal: Goal, options: &Options) -> (PartCoefficients, Vec<Warning>) {
     let (scales, limits) = part_coefficients(target, goal, options, &PartGroups::default()).unwrap();
-    let warnings = limits.warnings(heads_of(target, &scales), goal.heads(), &[]);
+    let warnings = limits.warnings(heads_of(target, &scales), goal.heads());
     (scales, warnings)
 }
 
@@ -109,44 +109,45 @@ fn without_limits_all_lengths_in_heads_are_the_references() {
     assert_near("head's width", scales.head.width, 1.68);
     assert_near("head's depth", scales.head.depth, 1.575);
     assert_near("head's seat", scales.hair_taming, 1.0);
-    // 0.75 * 0.04 / 0.06; 1.1 times as thick as the torso.
-    assert_scale("neck", scales.neck, 0.5, 0.68992);
+    // 0.75 * 0.04 / 0.06; as thick as the torso.
+    assert_scale("neck", scales.neck, 0.5, 0.6272);
     // 0.75 * 0.3 / 0.5; 0.75 * 0.896 * 0.14 / 0.15.
     assert_scale("torso", scales.torso, 0.45, 0.6272);
     assert_near("shoulders", scales.shoulder_spread, 0.6272);
     assert_near("hips", scales.hip_spread, 0.6272);
-    assert_scale("upper arm", scales.upper_arm, 0.42, 0.672);
-    assert_scale("lower arm", scales.lower_arm, 0.42, 0.8064);
+    assert_scale("upper arm", scales.upper_arm, 0.42, 0.6272);
+    assert_scale("lower arm", scales.lower_arm, 0.42, 0.6272);
     assert_near("hand", scales.hand, 0.075 / 0.18);
     assert_near("foot", scales.foot, 0.46875);
     // (0.225 - 0.08 * 0.46875) / 0.72: what the foot takes is not the leg's.
-    assert_scale("upper leg", scales.upper_leg, 0.1875 / 0.72, 0.588);
-    assert_scale("lower leg", scales.lower_leg, 0.1875 / 0.72, 0.8064);
+    assert_scale("upper leg", scales.upper_leg, 0.1875 / 0.72, legs_thickness());
+    assert_scale("lower leg", scales.lower_leg, 0.1875 / 0.72, legs_thickness());
     assert_near("heads", heads_of(&tall(), &scales), 2.6);
+}
+
+/// The root of 0.225 / 0.8.
+fn legs_thickness() -> f64 {
+    0.28125_f64.sqrt()
 }
 
 #[test]
 fn the_limits_keep_a_body_sound_and_say_so() {
-    let (scales, warnings) = solved(&tall(), Goal::Reference(&small()), &Options::default());
-    // Limbs at most 1.2 times the torso's 0.6272.
-    assert_near("upper arm", scales.upper_arm.thickness, 0.672);
-    assert_near("lower arm", scales.lower_arm.thickness, 0.75264);
-    assert_near("upper leg", scales.upper_leg.thickness, 0.588);
-    assert_near("lower leg", scales.lower_leg.thickness, 0.75264);
-    assert_near("arm", scales.upper_arm.length, 0.42);
-    // Hands at least 0.9 of 0.75264, but 0.34 of the new head: 0.34 * 0.3 / 0.18. Feet 0.6 * 0.3 / 0.24.
-    assert_near("hand", scales.hand, 0.102 / 0.18);
-    assert_near("foot", scales.foot, 0.75);
-    // Legs at most 2.6 times stubbier: 0.75264 / 2.6; the torso gives (0.289477 * 0.72 + 0.06 - 0.225) / 0.5.
-    let leg = 0.75264 / 2.6;
-    assert_near("leg", scales.upper_leg.length, leg);
-    assert_near("lower leg", scales.lower_leg.length, leg);
-    assert_scale("torso", scales.torso, 0.45 - (leg * 0.72 + 0.06 - 0.225) / 0.5, 0.6272);
-    assert_near("heads", heads_of(&tall(), &scales), 2.6);
+    let reference = Proportions { leg: 0.24, ..small() };
+    let (scales, warnings) = solved(&tall(), Goal::Reference(&reference), &Options::default());
+    assert_scale("arm", scales.upper_arm, 0.42, 0.6272);
+    // The root of what is asked for, 0.18 / 0.8; feet of 0.46875 would be slimmer.
+    let thickness = 0.225_f64.sqrt();
+    assert_near("legs", scales.upper_leg.thickness, thickness);
+    assert_near("foot", scales.foot, thickness);
+    // Hands of 0.417 would be slimmer than the arm.
+    assert_near("hand", scales.hand, 0.6272);
+    // Legs of 0.18 less the foot's height, over 0.72, are less than 0.22; the torso gives the rest.
+    assert_near("leg", scales.upper_leg.length, 0.22);
+    assert_near("lower leg", scales.lower_leg.length, 0.22);
+    assert_scale("torso", scales.torso, 0.45 - (0.22 * 0.72 + 0.08 * thickness - 0.18) / 0.5, 0.6272);
+    assert_near("heads", heads_of(&tall(), &scales), 2.45);
     assert_eq!(codes(&warnings), ["coefficient_limited"]);
-    for words in ["lower_arm thickness 0.806 to 0.753", "hand 0.417 to 0.567", "foot 0.469 to 0.750"] {
-        assert!(warnings[0].message.contains(words), "{}", warnings[0].message);
-    }
+    assert!(warnings[0].message.contains("leg length 0.197 to 0.220"), "{}", warnings[0].message);
 }
 
 #[test]
@@ -162,47 +163,50 @@ fn each_limit_acts_where_it_should() {
             "the legs under it",
             |_, r| r.neck = 0.2,
             |s| s.upper_leg.length,
-            (0.225 * 0.543 / 0.45 - 0.06) / 0.72,
+            (0.2715 - 0.08 * (0.2715_f64 / 0.8).sqrt()) / 0.72,
         ),
         ("a neck's shortest", |_, r| r.neck = 0.004, |s| s.neck.length, 0.03 * 0.3 / 0.06),
         // 1.5 times what the target has in heads: 0.075.
         ("a neck's growth", |t, _| t.neck = 0.01, |s| s.neck.length, 0.075 * 0.3 / 0.01),
-        ("the torso's slimmest", |_, r| r.torso_half_width = Some(0.02), |s| s.torso.thickness, 0.9 * 0.45),
+        // Never slimmer than it is short, never thicker than it was.
+        ("the torso's slimmest", |_, r| r.torso_half_width = Some(0.02), |s| s.torso.thickness, 0.45),
         ("the torso's thickest", |_, r| r.torso_half_width = Some(0.5), |s| s.torso.thickness, 1.0),
         ("a torso without a width", |_, r| r.torso_half_width = None, |s| s.torso.thickness, 0.45_f64.sqrt()),
-        ("the torso's stubbiest", |_, r| r.torso = 0.05, |s| s.torso.length, 0.6272 / 2.6),
         // It grows no more than the head.
         ("the torso's longest", |_, r| (r.torso, r.leg) = (1.5, 1.2), |s| s.torso.length, 1.5),
-        ("an arm's stubbiest", |_, r| r.arm = 0.05, |s| s.upper_arm.length, 0.75264 / 2.6),
-        // Bones of less than 0.18 of their length would be rings, however thin: 0.405 / 1.2 / 2.6 is less.
-        ("a thin arm's shortest", thin_arms, |s| s.upper_arm.length, 0.18),
-        // Thicknesses follow the heads' widths from 0.6 to 1.25 of the lengths' 0.75 * 0.14 / 0.15.
-        ("a narrow head's body", |_, r| r.head_half_width = 0.05, |s| s.torso.thickness, 0.7 * 1.25),
-        ("a broad head's body", |_, r| r.head_half_width = 0.4, |s| s.torso.thickness, 0.7 * 0.6),
+        ("an arm's shortest", |_, r| r.arm = 0.05, |s| s.upper_arm.length, 0.22),
+        // 0.75 * 0.14 / 0.15, judged by heads that are 1.12 * 0.4 and 0.625 wide for their length.
+        ("a broad head's body", |_, r| r.head_half_width = 0.25, |s| s.torso.thickness, 0.7 * 0.448 / 0.625),
         ("an arm's longest", |_, r| r.arm = 3.0, |s| s.lower_arm.length, 1.5),
-        // A thin arm is stubby at 0.545391 / 2.6 = 0.2098 only; both bounded by 1.2 of the torso's, then 1.15 of their mean.
-        ("an upper arm's spread", spread_arms, |s| s.upper_arm.thickness, 0.6272 * 1.15),
-        ("a lower arm's spread", spread_arms, |s| s.lower_arm.thickness, 0.6272 / 1.15),
-        // A torso of 0.9 has limbs of at most 0.95.
-        ("a slim torso's limbs", slim_torso, |s| s.upper_arm.thickness, 0.95),
-        ("a thin leg", |_, r| r.upper_leg_radius = Some(0.02), |s| s.upper_leg.thickness, thin_leg()),
-        // 1.1 times the lower arm's thickness where the style knows none, 1.2 times the leg's.
-        ("hands without a style", |_, r| r.hand = None, |s| s.hand, 0.102 / 0.18),
+        ("a short leg's thickness", |_, r| r.leg = 0.1, |s| s.lower_leg.thickness, 0.22_f64.sqrt()),
+        // As the limb is thick where one is not known.
+        ("hands without a style", |_, r| r.hand = None, |s| s.hand, 0.6272),
+        ("unknown hands", |t, _| t.hand = None, |s| s.hand, 0.6272),
+        ("unknown feet", |t, _| t.foot = None, |s| s.foot, legs_thickness()),
+        // Half-way, as factors, from the limb's thickness to the head's growth.
         (
-            "small hands without a style",
-            |t, r| (t.hand, r.hand) = (Some(0.1), None),
+            "large hands",
+            |t, r| (t.hand, r.hand) = (Some(0.05), Some(0.4)),
             |s| s.hand,
-            1.1 * 0.75264,
+            (0.6272_f64 * 1.5).sqrt(),
         ),
-        ("unknown hands", |t, _| t.hand = None, |s| s.hand, 1.1 * 0.75264),
-        ("unknown feet", |t, _| t.foot = None, |s| s.foot, 1.2 * 0.75264),
-        ("large hands", |t, r| (t.hand, r.hand) = (Some(0.05), Some(0.4)), |s| s.hand, 1.35 * 0.75264),
-        ("large feet", |t, r| (t.foot, r.foot) = (Some(0.05), Some(0.4)), |s| s.foot, 1.4 * 0.75264),
-        // 0.225 less 0.18 of the shank's 0.5, over 0.3.
-        ("high ankles", |t, _| t.ankle_height = 0.3, |s| s.foot, 0.45),
+        (
+            "large feet",
+            |t, r| (t.foot, r.foot) = (Some(0.05), Some(0.4)),
+            |s| s.foot,
+            (legs_thickness() * 1.5).sqrt(),
+        ),
+        // 0.225 less 0.22 of the shank's 0.5, over 0.3.
+        ("high ankles", |t, _| t.ankle_height = 0.3, |s| s.foot, 0.115 / 0.3),
         // 0.35 of the new leg's 0.075, over 0.08.
         ("feet of short legs", |_, r| r.leg = 0.1, |s| s.foot, 0.02625 / 0.08),
-        ("a torso under short legs", |_, r| r.leg = 0.1, |s| s.torso.length, 0.8 * 0.45),
+        // 0.075 was asked of leg and foot.
+        (
+            "a torso over short legs",
+            |_, r| r.leg = 0.1,
+            |s| s.torso.length,
+            0.45 - (0.22 * 0.72 + 0.02625 - 0.075) / 0.5,
+        ),
     ];
     for (what, change, read, expected) in cases {
         let (mut target, mut reference) = (tall(), small());
@@ -210,25 +214,6 @@ fn each_limit_acts_where_it_should() {
         let (scales, _) = solved(&target, Goal::Reference(&reference), &Options::default());
         assert_near(what, read(&scales), *expected);
     }
-}
-
-fn spread_arms(_: &mut Proportions, reference: &mut Proportions) {
-    (reference.upper_arm_radius, reference.lower_arm_radius) = (Some(0.2), Some(0.01));
-}
-
-fn thin_arms(_: &mut Proportions, reference: &mut Proportions) {
-    (reference.torso_half_width, reference.arm) = (Some(0.02), 0.05);
-    (reference.upper_arm_radius, reference.lower_arm_radius) = (Some(0.02), Some(0.02));
-}
-
-fn slim_torso(_: &mut Proportions, reference: &mut Proportions) {
-    reference.torso_half_width = Some(0.9 * 0.15 / 0.672);
-    reference.upper_arm_radius = Some(0.2);
-}
-
-/// 0.6272 / 1.38 beside a lower leg of 0.75264: at least their mean over 1.15.
-fn thin_leg() -> f64 {
-    (0.6272 / 1.38 * 0.75264_f64).sqrt() / 1.15
 }
 
 #[test]
@@ -248,30 +233,20 @@ fn a_number_of_heads_is_reached_after_the_targets_own_build() {
     let (scales, warnings) = solved(&tall(), Goal::Heads(3.0), &Options::default());
     // Two heads of 0.2 below the chin where there were 1.36.
     let shrink: f64 = 0.4 / 1.36;
-    let thickness = 0.78 * shrink.sqrt() * 1.5;
-    assert_scale("neck", scales.neck, shrink * 1.5, 1.1 * thickness);
+    // The root of the torso's length.
+    let thickness = (1.1 * shrink * 1.5).sqrt();
+    assert_scale("neck", scales.neck, shrink * 1.5, thickness);
     assert_scale("torso", scales.torso, 1.1 * shrink * 1.5, thickness);
-    assert_scale("upper arm", scales.upper_arm, 1.05 * shrink * 1.5, thickness);
-    assert_scale("lower arm", scales.lower_arm, 1.05 * shrink * 1.5, thickness);
+    assert_scale("upper arm", scales.upper_arm, 1.1 * shrink * 1.5, thickness);
+    assert_scale("lower arm", scales.lower_arm, 1.1 * shrink * 1.5, thickness);
     let leg = 0.6 - shrink * 1.5 * (0.06 + 1.1 * 0.5);
-    // 0.6 of the new head over 0.24 is less than 1.2 times the leg's thickness; so with hands.
-    assert_near("foot", scales.foot, 0.75);
-    assert_near("hand", scales.hand, 0.102 / 0.18);
-    assert_scale("upper leg", scales.upper_leg, (leg - 0.06) / 0.72, thickness);
-    assert_scale("lower leg", scales.lower_leg, (leg - 0.06) / 0.72, thickness);
+    let of_leg = (leg / 0.8).sqrt();
+    assert_near("foot", scales.foot, of_leg);
+    assert_near("hand", scales.hand, thickness);
+    assert_scale("upper leg", scales.upper_leg, (leg - 0.08 * of_leg) / 0.72, of_leg);
+    assert_scale("lower leg", scales.lower_leg, (leg - 0.08 * of_leg) / 0.72, of_leg);
     assert_near("heads", heads_of(&tall(), &scales), 3.0);
-    assert_eq!(codes(&warnings), ["coefficient_limited"]);
-}
-
-#[test]
-fn a_style_for_heads_has_a_neck_of_its_own_bounds() {
-    // In new heads: at most 0.14, at least 0.05, at most 0.3 of what lies below the head.
-    for (neck, heads, expected) in [(0.3, 3.0, 0.14), (0.001, 3.0, 0.05), (0.6, 1.4, 0.12)] {
-        let target = Proportions { neck, ..tall() };
-        let options = Options { limits: false, ..Options::default() };
-        let (scales, _) = solved(&target, Goal::Heads(heads), &options);
-        assert_near("neck", scales.neck.length * neck / 0.3, expected);
-    }
+    assert_eq!(warnings, []);
 }
 
 #[test]
@@ -304,5 +279,6 @@ fn what_a_user_sets_stands_beside_the_limits() {
         Options { groups: BTreeMap::from([("upper_leg".to_string(), settings)]), ..Options::default() };
     let (scales, _) = solved(&tall(), Goal::Reference(&small()), &options);
     assert_eq!(scales.upper_leg.length, 0.05);
-    assert_near("lower leg", scales.lower_leg.length, 0.75264 / 2.6);
+    // 0.225 less the foot's height.
+    assert_near("lower leg", scales.lower_leg.length, (0.225 - 0.08 * legs_thickness()) / 0.72);
 }

@@ -429,8 +429,8 @@ fn hardly_any_triangle_turns_over_and_none_on_the_face() {
     check_all(&runs, |run| {
         let [count, turned, on_face] = turned(run);
         let mut failures = Vec::new();
-        // The nape of a bald head on a short neck turns down.
-        if turned as f64 > 0.0045 * count as f64 {
+        // The nape of a bald head on a short neck turns down, and so do rims of loose shells at knees of a fifth of their length.
+        if turned as f64 > 0.006 * count as f64 {
             let percent = 100.0 * turned as f64 / count as f64;
             failures.push(format!("{}: {turned} of {count} ({percent:.2} %) turned over", run.name));
         }

@@ -103,9 +103,8 @@ struct Attempt {
     /// Where it takes all vertices, where that had to be found.
     placed: Option<Vec<DVec3>>,
     scales: PartCoefficients,
-    /// The bounds that acted, the thicknesses that the profile replaces, and its own warning.
+    /// The bounds that acted, and the profile's own warning.
     limits: Limits,
-    replaced: Vec<&'static str>,
     limited: Option<Warning>,
     /// The head count that was aimed at, and the one measured on the result.
     aim: f64,
@@ -140,7 +139,7 @@ impl Request<'_> {
             best = self.best_of(SLICED_ATTEMPTS, asked, best.aim, true, &mut progress.part(0.4, 1.0))?;
         }
         let Attempt { misread, measured, .. } = best;
-        let mut warnings = best.limits.warnings(measured, asked, &best.replaced);
+        let mut warnings = best.limits.warnings(measured, asked);
         warnings.extend(best.limited.take());
         let heads_left = (misread > HEADS_WARNED_ABOVE && !best.limits.act_on_heads()).then(|| {
             let why = if self.options.groups.values().any(|group| group.length_scale.is_some()) {
@@ -201,7 +200,7 @@ impl Request<'_> {
         let (scales, limits) = part_coefficients(&anatomy.proportions, goal, options, groups)?;
         let field = PartField::new(anatomy, scales, &product.parts, options.hair_length);
         let field = Field::of(Arc::new(BodyField::Parts(Box::new(field))));
-        let Sliced { field, placed, limited, replaced } = if is_sliced {
+        let Sliced { field, placed, limited } = if is_sliced {
             let part = &mut progress.part(0.0, 0.8);
             with_profile(target, product, field, style, options, groups, part)?
         } else {
@@ -221,6 +220,6 @@ impl Request<'_> {
         // steps back here or there, as last digits say. So it corrects nothing, and is only warned of.
         let error = off(if anatomy.landmarks.chin_seen { measured } else { reached });
         let misread = off(measured);
-        Ok(Attempt { field, placed, scales, limits, replaced, limited, aim, measured, error, misread })
+        Ok(Attempt { field, placed, scales, limits, limited, aim, measured, error, misread })
     }
 }

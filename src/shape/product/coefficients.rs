@@ -1,8 +1,8 @@
 //! How much each part shrinks (product mode): from proportions to scales.
 //!
 //! Lengths are transferred as in §V-B3: all are measured in heads, so that with L' = `head_scale` L the result has the
-//! reference's proportions. Widths are judged against the head's width, not its height. Bounds keep what the paper's
-//! linear maps cannot carry (shins that fold into rings, hands larger than the face); every bound that acts is warned of.
+//! reference's proportions. Every part has one thickness, from which the profile's slices go on. Bounds keep what the paper's
+//! linear maps cannot carry (limbs that are stubs, feet larger than the leg); every bound on a length that acts is warned of.
 
 use super::anatomy::Proportions;
 use super::groups::PartGroups;
@@ -19,8 +19,6 @@ pub const HEAD_WIDTH: f64 = 1.12;
 /// As [`HEAD_WIDTH`], in depth; a style that does not know its depth gets all of it. D28. Seen: 30 % more folds collars
 /// (228 triangles).
 pub const HEAD_DEPTH: f64 = 1.05;
-/// The neck keeps this much more thickness than the torso. D27. Seen: a thinner neck folds at its border.
-const NECK_THICKNESS: f64 = 1.1;
 /// `head_scale` at which the bounds act in full; at 1 they do not act at all. Paper, V-B1: alpha_head; D27.
 const FULL_HEAD_SCALE: f64 = HEAD_SCALE;
 /// Length of the neck between these, in new heads. D27. Seen: references have .14 to .16; the upper one cuts a baby's
@@ -28,66 +26,18 @@ const FULL_HEAD_SCALE: f64 = HEAD_SCALE;
 const NECK: (f64, f64) = (0.03, 0.19);
 /// The neck may grow this much more than the head. D27, for targets without a neck. Seen: 30 % less acts on one of 14.
 const NECK_GROWTH: f64 = 1.5;
-/// Length of the neck in a style for N heads, in new heads. D27. Seen: the upper one acts on long necks.
-const NECK_FOR_HEADS: (f64, f64) = (0.05, 0.14);
-/// The neck's largest share of all below the head in a style for N heads: a guard that would act below 1.5 heads.
-const NECK_SHARE_FOR_HEADS: f64 = 0.3;
-/// How far head widths may differ before thicknesses stop following. D27. Seen: the lower one acts on a mannequin with
-/// an egg for a head (.059 H), the upper on none.
-const THICKNESS_PER_HEAD_WIDTH: (f64, f64) = (0.6, 1.25);
-/// No part may become this many times stubbier. D27. Seen: without it a mannequin's thighs become discs, and shins fold
-/// into rings.
-const STUBBIEST: f64 = 2.6;
-/// No limb may become shorter than this share of itself, however slim it gets. D27. Seen: [`STUBBIEST`] acts first on
-/// all pairs but one.
-const SHORTEST_LIMB: f64 = 0.18;
-/// The torso may be this much slimmer than it is short. D27. Seen: acts on no adult; 30 % more does on what is
-/// super-deformed already.
-const TORSO_SLIMMEST: f64 = 0.9;
-/// Arms may be this much slimmer than the torso. D27. Seen: without it arms like godette's get up to .028 H thinner.
-const ARM_SLIMMEST: f64 = 1.2;
-/// Legs may be this much slimmer than the torso. D27. Seen: without it legs like KayKit's get up to .020 H thinner.
-const LEG_SLIMMEST: f64 = 1.38;
-/// Limbs may be this much thicker than the torso. D27. Seen: hardly acts, [`LIMB_THICKEST_ON_SLIM_TORSO`] is reached
-/// first.
-const LIMB_THICKEST: f64 = 1.2;
-/// Limbs may be this thick, as a scale, where the torso is slimmer. D27. Seen: without it arms like KayKit's get up to
-/// .036 H thicker.
-const LIMB_THICKEST_ON_SLIM_TORSO: f64 = 0.95;
-/// The two segments of a limb stay within this of their geometric mean. D27. Seen: acts on one pair; with both alike
-/// (1) forearms lose up to .042 H of what the reference gives them.
-const SEGMENT_SPREAD: f64 = 1.15;
-/// Hands against the lower arm's thickness. D27. Seen: the lower one acts on all 14 with KayKit, whose mitts would make
-/// hands .044 H smaller.
-const HAND_PER_ARM: (f64, f64) = (0.9, 1.35);
-/// Feet against the lower leg's thickness. D27. Seen: the lower one acts on 9 of 14, the upper on one.
-const FOOT_PER_LEG: (f64, f64) = (1.0, 1.4);
-/// Where the style knows no hand, it is this much larger than the lower arm is thick. Found by looking: hands of the
-/// limb's own scale look like sticks' ends.
-const HAND_WITHOUT_STYLE: f64 = 0.1;
-/// As [`HAND_WITHOUT_STYLE`], for the foot and the lower leg.
-const FOOT_WITHOUT_STYLE: f64 = 0.2;
-/// Longest hand, in new heads. D27. Seen: acts on all 14 with a baby, whose hands would be .069 H longer.
-const LONGEST_HAND: f64 = 0.34;
-/// Longest foot, in new heads. D27. Seen: acts on 12 of 14 with a baby (.035 H).
-const LONGEST_FOOT: f64 = 0.6;
+/// No limb may become shorter than this share of itself: less is a stub that nothing bends in. D27. Seen: acts on the legs of
+/// six of seven adults made like the KayKit rogue, whose legs are .15 to .22 of theirs.
+const SHORTEST_LIMB: f64 = 0.22;
 /// The leg above the ankle is at least this share of the whole leg: for ankle joints near the hip, of which none was
 /// seen.
 const SHORTEST_SHANK: f64 = 0.05;
 /// The foot may take at least this share of the new leg's height. D27. Seen: acts on 5 of 14 with KayKit; without it
 /// feet get up to .034 H smaller.
 const ROOM_FOR_FOOT: f64 = 0.35;
-/// Where the legs cannot be as short as the reference's, the torso makes up for it, down to this share of its own. D27.
-/// Seen: at 1 the 14 miss KayKit's head count by 4 % more in the mean.
-const TORSO_AFTER_LEGS: f64 = 0.8;
-/// In a style for N heads the torso shrinks this much less than the whole. D27, found by looking. Seen: 30 % move the
+/// In a style for N heads torso and arms shrink this much less than the whole. D27, found by looking. Seen: 30 % move the
 /// crotch by .11 H.
-const TORSO_FOR_HEADS: f64 = 1.1;
-/// As [`TORSO_FOR_HEADS`], for arms. D27, found by looking.
-const ARM_FOR_HEADS: f64 = 1.05;
-/// In a style for N heads thicknesses shrink by this factor of the root. D27. Seen: less turns triangles over (193 at
-/// 30 %).
-const THICKNESS_FOR_HEADS: f64 = 0.78;
+const TRUNK_FOR_HEADS: f64 = 1.1;
 /// A bound that changes a value by less than this share of it is not warned of: no eye sees it.
 const BOUND_WARNED_ABOVE: f64 = 1e-3;
 /// A number of heads that misses by less than this is not warned of: no eye sees it.
@@ -135,8 +85,13 @@ struct Bounds {
 }
 
 impl Bounds {
+    /// `value` within `low` and `high`, without a word: for what slices go on from.
+    fn within(&self, value: f64, low: f64, high: f64) -> f64 {
+        value + self.strictness * (value.max(low).min(high.max(low)) - value)
+    }
+
     fn apply(&mut self, what: &'static str, value: f64, low: f64, high: f64) -> f64 {
-        let bounded = value + self.strictness * (value.max(low).min(high.max(low)) - value);
+        let bounded = self.within(value, low, high);
         if (bounded - value).abs() > BOUND_WARNED_ABOVE * value.abs() {
             // Two bounds on one thing are one warning.
             match self.acted.iter_mut().find(|known| known.what == what) {
@@ -157,31 +112,15 @@ struct Asked {
     hand: Option<f64>,
     foot: Option<f64>,
     torso_thickness: Option<f64>,
-    /// Upper arm, lower arm.
-    arm_thickness: [Option<f64>; 2],
-    /// Upper leg, lower leg.
-    leg_thickness: [Option<f64>; 2],
 }
 
 impl Asked {
     /// The proportions of `reference`, for a head of length `head` that grows `width_factor` more in width.
-    fn of_reference(
-        target: &Proportions,
-        reference: &Proportions,
-        head: f64,
-        width_factor: f64,
-        strictness: f64,
-    ) -> Self {
+    fn of_reference(target: &Proportions, reference: &Proportions, head: f64, width_factor: f64) -> Self {
         let unit = head / reference.head_length;
-        let head_widths = (width_factor * target.head_half_width / target.head_length)
-            / (reference.head_half_width / reference.head_length);
-        let (least, most) = THICKNESS_PER_HEAD_WIDTH;
-        // Judging thickness against head width is no bound worth a warning.
-        let thinness = Bounds { strictness, acted: Vec::new() }.apply("thickness", head_widths, least, most);
-        let thickness = |ours: Option<f64>, theirs: Option<f64>| match (ours, theirs) {
-            (Some(ours), Some(theirs)) => Some(theirs * unit * thinness / ours),
-            _ => None,
-        };
+        // Judged by the heads' widths: a wide-headed style makes no bulky toddler.
+        let by_head = target.head_width() * width_factor / reference.head_width();
+        let widths = target.torso_half_width.zip(reference.torso_half_width);
         Self {
             neck: reference.neck * unit,
             torso: reference.torso * unit,
@@ -189,15 +128,7 @@ impl Asked {
             leg: reference.leg * unit,
             hand: reference.hand.map(|hand| hand * unit),
             foot: reference.foot.map(|foot| foot * unit),
-            torso_thickness: thickness(target.torso_half_width, reference.torso_half_width),
-            arm_thickness: [
-                thickness(target.upper_arm_radius, reference.upper_arm_radius),
-                thickness(target.lower_arm_radius, reference.lower_arm_radius),
-            ],
-            leg_thickness: [
-                thickness(target.upper_leg_radius, reference.upper_leg_radius),
-                thickness(target.lower_leg_radius, reference.lower_leg_radius),
-            ],
+            torso_thickness: widths.map(|(ours, theirs)| theirs * unit / ours * by_head),
         }
     }
 
@@ -205,21 +136,16 @@ impl Asked {
     fn of_heads(target: &Proportions, heads: f64, head: f64, head_scale: f64) -> Self {
         let below = target.neck + target.torso + target.leg;
         let shrink = (heads - 1.0) * target.head_length / below;
-        let neck = (shrink * target.neck * head_scale)
-            .clamp(NECK_FOR_HEADS.0 * head, NECK_FOR_HEADS.1 * head)
-            .min(NECK_SHARE_FOR_HEADS * (heads - 1.0) * head);
-        let torso = TORSO_FOR_HEADS * shrink * head_scale * target.torso;
-        let thickness = Some(THICKNESS_FOR_HEADS * shrink.sqrt() * head_scale);
+        let neck = shrink * head_scale * target.neck;
+        let torso = TRUNK_FOR_HEADS * shrink * head_scale * target.torso;
         Self {
             neck,
             torso,
-            arm: ARM_FOR_HEADS * shrink * head_scale * target.arm,
+            arm: TRUNK_FOR_HEADS * shrink * head_scale * target.arm,
             leg: (heads - 1.0) * head - neck - torso,
             hand: None,
             foot: None,
-            torso_thickness: thickness,
-            arm_thickness: [thickness; 2],
-            leg_thickness: [thickness; 2],
+            torso_thickness: None,
         }
     }
 }
@@ -241,10 +167,8 @@ impl Limits {
 
     /// Warnings that name every bound that acted: `heads_limited`, `coefficient_limited`.
     ///
-    /// - `heads`, `asked`: the head count that came out, and the one wanted.
-    /// - `replaced`: thicknesses and sizes that something else sets afterwards, by their names in the warnings. Their bounds are
-    ///   not warned of.
-    pub fn warnings(&self, heads: f64, asked: f64, replaced: &[&str]) -> Vec<Warning> {
+    /// `heads`, `asked`: the head count that came out, and the one wanted.
+    pub fn warnings(&self, heads: f64, asked: f64) -> Vec<Warning> {
         let list = |chosen: &dyn Fn(&Bounded) -> bool| {
             let chosen = self.acted.iter().filter(|bounded| chosen(bounded));
             let item = |Bounded { what, from, to }: &Bounded| format!("{what} {from:.3} to {to:.3}");
@@ -256,9 +180,8 @@ impl Limits {
             let message = format!("{heads:.2} heads instead of {asked:.2}: limited {of_height}");
             warnings.push(Warning::new("heads_limited", message));
         }
-        let kept = list(&|bounded| !replaced.contains(&bounded.what));
-        if !kept.is_empty() {
-            let message = format!("limited to keep the shape sound: {kept}");
+        if !self.acted.is_empty() {
+            let message = format!("limited to keep the shape sound: {}", list(&|_| true));
             warnings.push(Warning::new("coefficient_limited", message));
         }
         warnings
@@ -280,8 +203,8 @@ pub fn part_coefficients(
     let mut solver = Solver::new(target, goal, options);
     let asked = solver.asked();
     let (torso, leg) = solver.solve_neck(&asked);
-    solver.solve_torso(torso, asked.torso_thickness);
-    solver.solve_limb_thickness(&asked);
+    solver.solve_torso(torso);
+    solver.solve_thickness(&asked, leg);
     solver.solve_arms(asked.arm);
     solver.solve_hands(asked.hand);
     solver.solve_feet(asked.foot);
@@ -324,8 +247,6 @@ struct Solver<'a> {
     head_scale: f64,
     /// The new head's length.
     head: f64,
-    /// 0 for a head that keeps its size, 1 for one that grows by [`FULL_HEAD_SCALE`].
-    growth: f64,
     bounds: Bounds,
     scales: PartCoefficients,
 }
@@ -344,7 +265,6 @@ impl<'a> Solver<'a> {
             goal,
             head_scale,
             head: head_scale * target.head_length,
-            growth,
             bounds: Bounds { strictness: if options.limits { growth } else { 0.0 }, acted: Vec::new() },
             scales: PartCoefficients { head, hair_taming: growth, ..PartCoefficients::IDENTITY },
         }
@@ -354,7 +274,7 @@ impl<'a> Solver<'a> {
         match self.goal {
             Goal::Reference(reference) => {
                 let width_factor = self.scales.head.width / self.head_scale;
-                Asked::of_reference(self.target, reference, self.head, width_factor, self.bounds.strictness)
+                Asked::of_reference(self.target, reference, self.head, width_factor)
             }
             Goal::Heads(heads) => Asked::of_heads(self.target, heads, self.head, self.head_scale),
         }
@@ -370,84 +290,51 @@ impl<'a> Solver<'a> {
         (asked.torso * rest, asked.leg * rest)
     }
 
-    /// The torso, and with it the neck's thickness and where the limbs begin.
-    fn solve_torso(&mut self, torso: f64, asked: Option<f64>) {
-        let (bounds, scales) = (&mut self.bounds, &mut self.scales);
+    fn solve_torso(&mut self, torso: f64) {
         // Nothing grows more than the head: a body that is as stubby as the style, or stubbier, keeps its proportions.
-        let length = bounds.apply("torso length", torso / self.target.torso, 0.0, self.head_scale);
-        let least = TORSO_SLIMMEST * length;
-        let thickness =
-            bounds.apply("torso thickness", asked.unwrap_or(length.sqrt()), least, least.max(1.0));
-        let length = bounds.apply("torso length", length, thickness / STUBBIEST, f64::INFINITY);
-        scales.torso = Scale { length, thickness };
-        scales.neck.thickness = (1.0 + (NECK_THICKNESS - 1.0) * self.growth) * thickness;
-        scales.shoulder_spread = thickness;
-        scales.hip_spread = thickness;
+        self.scales.torso.length =
+            self.bounds.apply("torso length", torso / self.target.torso, 0.0, self.head_scale);
     }
 
-    fn solve_limb_thickness(&mut self, asked: &Asked) {
-        let names = ["upper_arm thickness", "lower_arm thickness"];
-        let [upper, lower] = self.segments(names, asked.arm_thickness, ARM_SLIMMEST);
-        self.scales.upper_arm.thickness = upper;
-        self.scales.lower_arm.thickness = lower;
-        let names = ["upper_leg thickness", "lower_leg thickness"];
-        let [upper, lower] = self.segments(names, asked.leg_thickness, LEG_SLIMMEST);
-        self.scales.upper_leg.thickness = upper;
-        self.scales.lower_leg.thickness = lower;
-    }
-
-    /// The thickness of both segments of a limb: near the torso's, and near each other.
-    fn segments(&mut self, names: [&'static str; 2], asked: [Option<f64>; 2], slimmest: f64) -> [f64; 2] {
-        let torso = self.scales.torso.thickness;
-        let thickest = (LIMB_THICKEST * torso).min(torso.max(LIMB_THICKEST_ON_SLIM_TORSO));
-        let pair = [0, 1].map(|segment| {
-            let thickness = asked[segment].unwrap_or(torso);
-            self.bounds.apply(names[segment], thickness, torso / slimmest, thickest)
-        });
-        let mean = (pair[0] * pair[1]).sqrt();
-        [0, 1].map(|segment| {
-            let (least, most) = (mean / SEGMENT_SPREAD, mean * SEGMENT_SPREAD);
-            self.bounds.apply(names[segment], pair[segment], least, most)
-        })
+    /// Thicknesses that slices go on from: the torso's is the style's, legs have the root of their length, and none becomes slimmer
+    /// than it becomes short, nor thicker than it was. Neck and arms are as the torso: their first slice lies outside of the
+    /// shoulders' caps, which take this alone.
+    ///
+    /// `leg`: how long legs are to be.
+    fn solve_thickness(&mut self, asked: &Asked, leg: f64) {
+        let Self { bounds, scales, target, .. } = self;
+        let length = scales.torso.length;
+        let leg_length = (leg / target.leg).max(SHORTEST_LIMB);
+        let most = length.max(1.0);
+        let torso = bounds.within(asked.torso_thickness.unwrap_or(length.sqrt()), length, most);
+        let leg = bounds.within(leg_length.sqrt(), length.min(leg_length), most);
+        (scales.torso.thickness, scales.neck.thickness) = (torso, torso);
+        (scales.upper_arm.thickness, scales.lower_arm.thickness) = (torso, torso);
+        (scales.upper_leg.thickness, scales.lower_leg.thickness) = (leg, leg);
+        (scales.shoulder_spread, scales.hip_spread) = (torso, torso);
     }
 
     fn solve_arms(&mut self, arm: f64) {
-        let least = shortest(self.scales.upper_arm, self.scales.lower_arm);
-        let length = self.bounds.apply("arm length", arm / self.target.arm, least, self.head_scale);
+        let length = self.bounds.apply("arm length", arm / self.target.arm, SHORTEST_LIMB, self.head_scale);
         self.scales.upper_arm.length = length;
         self.scales.lower_arm.length = length;
     }
 
     fn solve_hands(&mut self, asked: Option<f64>) {
-        let (own, thickness) = (self.target.hand, self.scales.lower_arm.thickness);
-        let without = (1.0 + HAND_WITHOUT_STYLE * self.growth) * thickness;
-        self.scales.hand = self.extremity("hand", own, asked, without, thickness, HAND_PER_ARM, LONGEST_HAND);
+        self.scales.hand = self.extremity(self.target.hand, asked, self.scales.lower_arm);
     }
 
     fn solve_feet(&mut self, asked: Option<f64>) {
-        let (own, thickness) = (self.target.foot, self.scales.lower_leg.thickness);
-        let without = (1.0 + FOOT_WITHOUT_STYLE * self.growth) * thickness;
-        self.scales.foot = self.extremity("foot", own, asked, without, thickness, FOOT_PER_LEG, LONGEST_FOOT);
+        self.scales.foot = self.extremity(self.target.foot, asked, self.scales.lower_leg);
     }
 
-    /// The size of hands or feet: `own` and `asked` lengths, `without` where one is not known.
-    #[allow(clippy::too_many_arguments)]
-    fn extremity(
-        &mut self,
-        what: &'static str,
-        own: Option<f64>,
-        asked: Option<f64>,
-        without: f64,
-        thickness: f64,
-        per_thickness: (f64, f64),
-        longest: f64,
-    ) -> f64 {
-        let size = asked.zip(own).map_or(without, |(asked, own)| asked / own);
-        let (least, most) = (per_thickness.0 * thickness, per_thickness.1 * thickness);
-        let size = self.bounds.apply(what, size, least, most.min(self.head_scale));
-        match own {
-            Some(own) => self.bounds.apply(what, size, 0.0, longest * self.head / own),
-            None => size,
+    /// The size of hands or feet of length `own`: not slimmer than the limb, nor nearer to the head's growth than to that; as the
+    /// limb where one is not known.
+    fn extremity(&self, own: Option<f64>, asked: Option<f64>, limb: Scale) -> f64 {
+        let least = limb.thickness;
+        match asked.zip(own) {
+            Some((asked, own)) => self.bounds.within(asked / own, least, (least * self.head_scale).sqrt()),
+            None => least,
         }
     }
 
@@ -461,35 +348,15 @@ impl<'a> Solver<'a> {
             scales.foot = bounds.apply("foot", scales.foot, 0.0, room / target.ankle_height);
         }
         let length = (leg - target.ankle_height * scales.foot) / shank;
-        let torso_thickness = scales.torso.thickness;
-        if let Goal::Heads(_) = self.goal {
-            // The total is what was asked for: slimmer legs may be shorter before the bound on stubbiness acts.
-            let slimmest = torso_thickness / LEG_SLIMMEST;
-            for thickness in [&mut scales.upper_leg.thickness, &mut scales.lower_leg.thickness] {
-                *thickness = thickness.min((STUBBIEST * length).max(slimmest.min(*thickness)));
-            }
-        }
-        let least = shortest(scales.upper_leg, scales.lower_leg);
-        let length = bounds.apply("leg length", length, least, self.head_scale);
-        // What the legs could not give, the torso gives: all of it where a number of heads is asked for.
+        let length = bounds.apply("leg length", length, SHORTEST_LIMB, self.head_scale);
+        // What the legs could not give, the torso gives.
         let excess = length * shank + target.ankle_height * scales.foot - leg;
         if excess > ROUNDING * leg {
-            let shortest = match self.goal {
-                Goal::Heads(_) => 0.0,
-                Goal::Reference(_) => TORSO_AFTER_LEGS * scales.torso.length,
-            };
-            let torso = (scales.torso.length - bounds.strictness * excess / target.torso).max(shortest);
-            scales.torso.length =
-                bounds.apply("torso length", torso, torso_thickness / STUBBIEST, f64::INFINITY);
+            scales.torso.length = (scales.torso.length - bounds.strictness * excess / target.torso).max(0.0);
         }
         scales.upper_leg.length = length;
         scales.lower_leg.length = length;
     }
-}
-
-/// The least length of a limb of these two segments.
-fn shortest(upper: Scale, lower: Scale) -> f64 {
-    (upper.thickness.max(lower.thickness) / STUBBIEST).max(SHORTEST_LIMB)
 }
 
 /// How many heads tall a figure of proportions `target` becomes.

@@ -30,14 +30,12 @@ pub struct Sliced {
     pub placed: Option<Vec<DVec3>>,
     /// What soft limits took.
     pub limited: Option<Warning>,
-    /// As [`ProfileStage::replaced`].
-    pub replaced: Vec<&'static str>,
 }
 
 impl Sliced {
     /// The parts' own field.
     pub fn unchanged(field: Field) -> Self {
-        Self { field, placed: None, limited: None, replaced: Vec::new() }
+        Self { field, placed: None, limited: None }
     }
 }
 
@@ -77,7 +75,7 @@ pub fn with_profile(
     let (stage, smooth) =
         ProfileStage::of(&source, parts, &positions, &wanted, strengths, &mut progress.part(0.3, 0.8))?;
     progress.at(1.0)?;
-    let (limited, replaced) = (limited(&stage), stage.replaced().to_vec());
+    let limited = limited(&stage);
     let parts = PartField::clone(parts).with_profile(stage);
     let place = |vertex: usize| match &product.bindings.vertices[vertex] {
         Binding::Parts(binding) => {
@@ -87,7 +85,7 @@ pub fn with_profile(
     };
     let placed = parallel::collect(options.thread_count, positions.len(), parallel::FEW, place);
     let field = Field::of(Arc::new(BodyField::Parts(Box::new(parts))));
-    Ok(Sliced { field, placed: Some(placed), limited, replaced })
+    Ok(Sliced { field, placed: Some(placed), limited })
 }
 
 fn limited(stage: &ProfileStage) -> Option<Warning> {

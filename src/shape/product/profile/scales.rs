@@ -6,7 +6,7 @@ use super::{LEG_STATIONS, LegProfile, Profile, Row, STATIONS, TORSO_STATIONS, st
 use crate::geometry::smoothstep;
 
 /// Soft limits of ln S: of slices, hands and feet.
-const MOST: f64 = 1.8;
+const MOST: f64 = 2.4;
 const MOST_OF_HAND: f64 = 1.5;
 const MOST_OF_FOOT: f64 = 0.6;
 /// The scales of a hand (a foot) along its axes stay within this of their mean, in logarithms.
@@ -142,8 +142,6 @@ pub struct Scales {
     /// Of what soft limits took more than a tenth, with the scale that was wanted and the one that it got, where most was
     /// taken.
     pub limited: Vec<(&'static str, f64, f64)>,
-    /// Of what the parts' own thickness and size count no more: the bounds on them, by their names in warnings.
-    pub replaced: Vec<&'static str>,
 }
 
 impl Scales {
@@ -183,14 +181,9 @@ pub fn scales(own: &Profile, wanted: &Profile, strengths: &Strengths) -> Scales 
         neck: 1.0,
         skirt: Vec::new(),
         limited: Vec::new(),
-        replaced: Vec::new(),
     };
-    let is_taken = |row: &Row| row.iter().any(|&strength| strength > 0.0);
     if let (Some(own), Some(wanted)) = (&own.leg, &wanted.leg) {
         leg(&mut result, own, wanted, strengths);
-        if is_taken(&strengths.leg) {
-            result.replaced.extend(["upper_leg thickness", "lower_leg thickness"]);
-        }
     }
     if let (Some(own), Some(wanted)) = (&own.torso, &wanted.torso) {
         let (row, most) = ([strengths.torso; STATIONS], strengths.limit(MOST));
@@ -202,9 +195,6 @@ pub fn scales(own: &Profile, wanted: &Profile, strengths: &Strengths) -> Scales 
         let SliceScales { breadth, depth, .. } = result.torso;
         let rows = [[&wanted.breadth, &own.breadth, &breadth], [&wanted.depth, &own.depth, &depth]];
         result.note_rows("torso", rows, &row);
-        if is_taken(&row) {
-            result.replaced.push("torso thickness");
-        }
     }
     if let Some(own) = &own.leg {
         join_hips(&mut result, own);
@@ -218,9 +208,6 @@ pub fn scales(own: &Profile, wanted: &Profile, strengths: &Strengths) -> Scales 
         let rows =
             [[&wanted_arm.breadth, &own_arm.breadth, &breadth], [&wanted_arm.depth, &own_arm.depth, &depth]];
         result.note_rows("arms", rows, &strengths.arm);
-        if is_taken(&strengths.arm) {
-            result.replaced.extend(["upper_arm thickness", "lower_arm thickness"]);
-        }
         arm_length(&mut result, own, &wanted, strengths.arm_length);
     }
     if let (Some(own), Some(wanted)) = (own.hand, wanted.hand) {
@@ -241,15 +228,9 @@ pub fn scales(own: &Profile, wanted: &Profile, strengths: &Strengths) -> Scales 
         for ((wanted, own), got) in asked.zip([length, broad, thin]) {
             result.note("hands", (wanted / own).powf(strengths.hand), got);
         }
-        if strengths.hand > 0.0 {
-            result.replaced.push("hand");
-        }
     }
     if let (Some(own), Some(wanted)) = (own.foot, wanted.foot) {
         foot(&mut result, own, wanted, strengths);
-        if strengths.foot > 0.0 {
-            result.replaced.push("foot");
-        }
     }
     result.neck = match (own.neck, wanted.neck) {
         (Some(own), Some(wanted)) => (wanted / own).clamp(NECK.0, NECK.1).powf(strengths.neck),

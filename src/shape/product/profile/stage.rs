@@ -29,7 +29,6 @@ pub struct ProfileStage {
     piece_shifts: Vec<DVec3>,
     /// What soft limits took: of what, the wanted scale and the one it got.
     limited: Vec<(&'static str, f64, f64)>,
-    replaced: Vec<&'static str>,
 }
 
 /// What a stage is made of, beside the field before it.
@@ -131,8 +130,8 @@ impl ProfileStage {
         let (own, lines) = measure_profile(figure, &smooth, chains, weld, &frame, source.threads);
         let scales = scales(&own, wanted, &strengths);
         let slices = BodyMap::new(&own, &lines, &frame, &scales);
-        let Scales { limited, replaced, .. } = scales;
-        let mut stage = Self { relief, slices, piece_shifts: Vec::new(), limited, replaced };
+        let Scales { limited, .. } = scales;
+        let mut stage = Self { relief, slices, piece_shifts: Vec::new(), limited };
         stage.piece_shifts = source
             .pieces
             .iter()
@@ -176,11 +175,6 @@ impl ProfileStage {
     /// Of what soft limits took more than a tenth: the wanted scale and the one that it got.
     pub fn limited(&self) -> &[(&'static str, f64, f64)] {
         &self.limited
-    }
-
-    /// Of what the parts' own thickness and size count no more, by the names of the bounds on them.
-    pub fn replaced(&self) -> &[&'static str] {
-        &self.replaced
     }
 
     fn placed(&self, p: DVec3, weights: &PartWeights, is_skirt: bool) -> DVec3 {
