@@ -216,7 +216,7 @@ impl HairOnBody {
         if is_needed {
             let outside = Outside::new(positions, &body, &rims, weld, outwards);
             let found = parallel::collect(threads, hair.len(), LEAST_HAIR, |index| {
-                let found = outside.towards_rims(positions[hair[index]], None);
+                let found = outside.at(positions[hair[index]], None);
                 found.map_or((f64::INFINITY, u32::MAX), |(closest, distance, _)| {
                     (distance, closest.triangle as u32)
                 })
@@ -236,7 +236,7 @@ impl HairOnBody {
     fn to_body(&self, points: &[DVec3], weld: &Weld, threads: usize) -> Vec<(f64, DVec3)> {
         let outside = Outside::moved(points, &self.body, &self.rims, weld, self.outwards, &self.tree);
         parallel::collect(threads, self.hair.len(), LEAST_HAIR, |index| {
-            let found = outside.towards_rims(points[self.hair[index]], self.nearest.get(index).copied());
+            let found = outside.at(points[self.hair[index]], self.nearest.get(index).copied());
             found.map_or((f64::INFINITY, DVec3::ZERO), |(_, distance, way)| (distance, way))
         })
     }

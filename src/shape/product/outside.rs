@@ -51,33 +51,19 @@ impl<'a> Outside<'a> {
     }
 
     /// The closest point to `p`, how far outside of the body `p` is, below 0 inside, and the way out; `None` where there is
-    /// no inside: beside a rim, where a surface ends, and where there is no surface.
+    /// no inside: beyond a rim, where the closest point is on it, and where there is no surface.
     ///
     /// `guess`: a triangle that may be near, which saves time.
     pub fn at(&self, p: DVec3, guess: Option<u32>) -> Option<(Closest, f64, DVec3)> {
-        let (closest, normals) = self.near(p, guess)?;
-        if normals.contains(&DVec3::ZERO) { None } else { self.from(p, closest, normals) }
-    }
-
-    /// As [`Self::at`], up to the rims: beside one, the corners that are not on it say where outside is.
-    pub fn towards_rims(&self, p: DVec3, guess: Option<u32>) -> Option<(Closest, f64, DVec3)> {
-        let (closest, normals) = self.near(p, guess)?;
-        self.from(p, closest, normals)
-    }
-
-    /// The closest point, and the normals of its triangle's corners.
-    fn near(&self, p: DVec3, guess: Option<u32>) -> Option<(Closest, [DVec3; 3])> {
         let closest = match self.tree {
             Some(tree) => self.surface.closest_point_near(p, guess, tree)?,
             None => self.surface.closest_point(p)?,
         };
         let corners = self.weld.triangle(self.triangles[closest.triangle]);
-        Some((closest, corners.map(|corner| self.normals[corner as usize])))
-    }
-
-    fn from(&self, p: DVec3, closest: Closest, normals: [DVec3; 3]) -> Option<(Closest, f64, DVec3)> {
-        let blend: DVec3 =
-            normals.iter().zip(closest.barycentric).map(|(&normal, share)| share * normal).sum();
+        // A corner at a rim has no normal: the others say where outside is. What is nearest to an edge is so to all its triangles,
+        // and whichever is found, the third corner has no share.
+        let shares = corners.into_iter().zip(closest.barycentric);
+        let blend: DVec3 = shares.map(|(corner, share)| share * self.normals[corner as usize]).sum();
         if blend == DVec3::ZERO {
             return None;
         }
