@@ -194,8 +194,9 @@ fn the_report_tells_what_winding_numbers_tell() {
             .filter(|(p, q)| p.distance(*q) > 1e-6 * on.height())
             .count();
         let mut wrong = Vec::new();
-        // Hair that lies on clothes moves too, and a push may be less than is counted here.
-        if (moved > 0) != (repair.pushed > 0) || repair.furthest > 0.04 {
+        // Hair that lies on clothes moves too, and a push may be less than is counted here. Out of the body a push goes .04 at most,
+        // to which what is pushed beside it adds a little sideways.
+        if (moved > 0) != (repair.pushed > 0) || repair.furthest > 0.042 {
             wrong.push(format!("{}: {moved} vertices move, {repair:?}", pair.name));
         }
         let [_, rest] = newly_inside(pair, REST);
