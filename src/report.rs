@@ -115,7 +115,7 @@ pub struct ProfileReport {
 impl ProfileReport {
     /// The profiles of `target` and `result`, and what `style` wants of a body.
     pub fn of(target: &Measured, style: &Style, result: &Measured) -> Self {
-        let wanted = wanted_of(style, target.anatomy.landmarks.heights.heads()).map(|(wanted, _)| wanted);
+        let wanted = wanted_of(style).map(|(wanted, _)| wanted);
         let ratios = match (&wanted, &result.shape.profile) {
             (Some(wanted), Some(result)) => {
                 CHAINS.into_iter().zip(result.ratios(wanted)).filter(|(_, ratio)| ratio.is_finite()).collect()

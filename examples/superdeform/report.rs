@@ -6,7 +6,7 @@ use superdeform::{Report, Warning};
 
 /// Warnings that are told by themselves, those that matter most first: what may not be done with the result, what is wrong with the
 /// input, what will be seen. The rest are notes.
-const TOLD: [&str; 16] = [
+const TOLD: [&str; 17] = [
     "modification_prohibited",
     "redistribution_prohibited",
     "already_super_deformed",
@@ -16,6 +16,7 @@ const TOLD: [&str; 16] = [
     "rig_fallback_auto",
     "roles_from_geometry",
     "crown_not_found",
+    "trunk_kept",
     "face_not_found",
     "face_eyes_not_found",
     "clothes_pierced",

@@ -20,6 +20,7 @@ pub mod surface;
 pub mod triangle;
 pub mod weld;
 pub mod whole;
+pub mod winding;
 
 pub use bounds::{Bounds, bounds, bounds_by_group, clusters, grown_clusters, range};
 pub use cells::CellMap;
@@ -33,3 +34,4 @@ pub use smoothstep::{smoothstep, smoothstep_slope};
 pub use surface::{Closest, Hit, Surface, Tree};
 pub use triangle::double_area;
 pub use weld::{Neighbours, SEAM, Weld, components, neighbours, weld};
+pub use winding::Winding;

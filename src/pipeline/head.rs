@@ -16,6 +16,7 @@ use crate::shape::heights::Heights;
 use crate::shape::measured::is_of_head;
 use crate::shape::placement::{Body, Placement, renewed};
 use crate::shape::product::anatomy::Proportions;
+use crate::shape::product::coefficients::lost;
 use crate::shape::product::head::head_frame;
 use crate::shape::product::part::Part;
 use crate::shape::style::Style;
@@ -24,9 +25,6 @@ use std::sync::Arc;
 
 /// Steps of a head length that a face's landmarks are rounded to, after the stages before: 1e-9.
 const LANDMARK_STEPS: f64 = (1u64 << 30) as f64;
-
-/// All of the head's stages are done where a figure had this much more heads than it gets.
-const HEADS_LOST: f64 = 0.2;
 
 /// A face step, and the vertices' ways through it.
 #[derive(Debug)]
@@ -40,9 +38,13 @@ pub struct Young {
 /// How much of the head's own stages is done, 0 where the figure keeps its number of heads, which leaves a character made
 /// like itself as it is, to 1.
 pub fn growth(body: &Body, measured: &Measured) -> f64 {
+    let landmarks = &measured.anatomy.landmarks;
     let BodyField::Parts(field) = &*body.field else { return 0.0 };
-    let before = measured.anatomy.landmarks.heights.heads();
-    ((before / field.after().heads() - 1.0) / HEADS_LOST).clamp(0.0, 1.0)
+    if !landmarks.has_neck {
+        return 0.0;
+    }
+    let before = landmarks.heights.heads();
+    lost(before, field.after().heads())
 }
 
 /// Where `body` puts the head; `None` in paper mode.

@@ -20,15 +20,11 @@ use glam::DVec3;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-/// A target may be this many times as tall, in heads, as its style before it is called super-deformed already.
-const ALREADY_SD: f64 = 1.2;
-
 /// What a person should know of a run before it is measured again.
 pub fn warnings(view: &View) -> Result<Vec<Warning>> {
     let (measured, body) = (view.measured()?, view.body()?);
     let mut warnings = view.notes().to_vec();
     warnings.extend(measured.anatomy.landmarks.warnings("target"));
-    warnings.extend(already_super_deformed(&measured.shape, view.style()));
     warnings.extend_from_slice(&body.warnings);
     if view.options.amount == 1.0 {
         warnings.extend(body.heads_left.clone());
@@ -36,22 +32,6 @@ pub fn warnings(view: &View) -> Result<Vec<Warning>> {
     warnings.extend(view.face()?.warning.clone());
     warnings.extend(head::eyes_not_found(view)?);
     Ok(warnings)
-}
-
-/// A warning where the style has hardly fewer heads than the target.
-fn already_super_deformed(target: &BodyShape, style: &Style) -> Option<Warning> {
-    let (Style::Shape(shape), Some(proportions)) = (style, &target.proportions) else {
-        return None;
-    };
-    let heads = shape.heads()?;
-    let is_near = proportions.heads() <= ALREADY_SD * heads && shape.proportions != target.proportions;
-    is_near.then(|| {
-        let message = format!(
-            "the target is {:.1} heads tall and the style {heads:.1}: little is left to deform",
-            proportions.heads()
-        );
-        Warning::new("already_super_deformed", message)
-    })
 }
 
 impl Deformer {
@@ -145,8 +125,8 @@ impl Deformer {
             return None;
         }
         let newly_inside = |pose: Pose| {
-            let [before, after] = [&*measured.figure, result]
-                .map(|figure| worn.inside(&posed(figure, pose), &measured.weld, threads));
+            let [before, after] =
+                [&*measured.figure, result].map(|figure| worn.inside(&posed(figure, pose), threads));
             let count = before.iter().zip(&after).filter(|&(&before, &after)| after && !before).count();
             count as f64 / before.len() as f64
         };

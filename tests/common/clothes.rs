@@ -1,5 +1,5 @@
-//! How much of a figure's clothes is inside its body, at rest and in poses: by winding numbers, which no other part of the
-//! product uses.
+//! How much of a figure's clothes is inside its body, at rest and in poses: by winding numbers and poses of their own, apart from
+//! the product's.
 //!
 //! Jacobson, Kavan and Sorkine-Hornung. Robust inside-outside segmentation using generalized winding numbers. SIGGRAPH 2013.
 //! van Oosterom and Strackee. The solid angle of a plane triangle. IEEE Trans. Biomed. Eng. 30(2), 1983.
@@ -7,7 +7,10 @@
 
 use glam::{DMat3, DVec3};
 use std::collections::BTreeMap;
-use superdeform::{Character, Deformed, Mesh, MeshKind, Role};
+use superdeform::internals::geometry::weld::{SEAM, weld};
+use superdeform::internals::shape::figure::Figure;
+use superdeform::internals::shape::product::worn::Worn;
+use superdeform::{Character, Deformed, Mesh, Role};
 
 /// A pose: turns about the side axis in degrees, forward up, by role; what hangs from a joint turns with it.
 pub type Pose = &'static [(Role, f64)];
@@ -76,24 +79,6 @@ pub fn posed(character: &Character, pose: Pose) -> Vec<Vec<DVec3>> {
         .map(|mesh| (0..mesh.positions.len()).map(|vertex| moved(mesh, vertex)).collect())
         .collect()
 }
-
-/// What is a body and what is worn over it, by the meshes' names and kinds.
-#[derive(Clone, Copy)]
-pub struct Sorting {
-    pub is_body: fn(&Mesh) -> bool,
-    pub is_cloth: fn(&Mesh) -> bool,
-}
-
-/// As names say.
-pub const BY_KIND: Sorting = Sorting {
-    is_body: |mesh| mesh.kind.unwrap_or_default() == MeshKind::Body,
-    is_cloth: |mesh| mesh.kind == Some(MeshKind::Garment),
-};
-/// Seed-san's: "huku" are clothes.
-pub const SEEDSAN: Sorting = Sorting {
-    is_body: |mesh| mesh.name.ends_with("body_bake"),
-    is_cloth: |mesh| mesh.name == "wear/huku_bake",
-};
 
 /// A closed or nearly closed surface, ready for winding numbers: triangles in cells, and what each cell is from far away.
 pub struct Winding {
@@ -167,25 +152,33 @@ fn solid_angle([a, b, c]: [DVec3; 3]) -> f64 {
     2.0 * a.dot(b.cross(c)).atan2(x * y * z + a.dot(b) * z + b.dot(c) * x + c.dot(a) * y)
 }
 
-/// For each vertex of the clothes whether the body is around it.
-pub fn inside(character: &Character, positions: &[Vec<DVec3>], sorting: Sorting) -> Vec<bool> {
-    let of = |chosen: fn(&Mesh) -> bool| {
-        character.meshes.iter().zip(positions).filter(move |(mesh, _)| chosen(mesh))
-    };
-    let body: Vec<[DVec3; 3]> = of(sorting.is_body)
-        .flat_map(|(mesh, points)| mesh.triangles.iter().map(|corners| corners.map(|v| points[v as usize])))
-        .collect();
-    let winding = Winding::new(&body);
-    of(sorting.is_cloth).flat_map(|(_, points)| points.iter().map(|&p| winding.at(p) > 0.5)).collect()
+/// What is worn of `character`.
+pub fn worn(character: &Character) -> Worn {
+    let figure = Figure::of(character).unwrap();
+    let weld = weld(&figure.positions, SEAM * figure.height());
+    let meshes = character.meshes.iter();
+    let known: Vec<bool> =
+        meshes.flat_map(|mesh| mesh.positions.iter().map(|_| mesh.kind.is_some())).collect();
+    Worn::of(&figure, |vertex| known[vertex], &weld, 0)
 }
 
-/// The share of the clothes' vertices that are inside the body in `pose` and were not before: of what is `deformed` of
-/// `character`.
-pub fn newly_inside(character: &Character, deformed: &Deformed, pose: Pose, sorting: Sorting) -> f64 {
-    let before = inside(character, &posed(character, pose), sorting);
+/// For each place of what is worn that is no part of the body whether the body is around it, where all vertices are at
+/// `positions`.
+pub fn inside(worn: &Worn, positions: &[Vec<DVec3>]) -> Vec<bool> {
+    let points = positions.concat();
+    let corners: Vec<[DVec3; 3]> =
+        worn.body.iter().map(|corners| corners.map(|vertex| points[vertex as usize])).collect();
+    let winding = Winding::new(&corners);
+    let places = worn.vertices.iter().zip(&worn.is_sewn);
+    places.map(|(&vertex, &is_sewn)| !is_sewn && winding.at(points[vertex as usize]) > 0.5).collect()
+}
+
+/// The share of what is worn that is inside the body in `pose` and was not before: of what is `deformed` of `character`.
+pub fn newly_inside(character: &Character, worn: &Worn, deformed: &Deformed, pose: Pose) -> f64 {
+    let before = inside(worn, &posed(character, pose));
     let result = character.with(deformed);
-    let after = inside(&result, &posed(&result, pose), sorting);
-    assert!(!before.is_empty(), "nothing is worn");
+    let after = inside(worn, &posed(&result, pose));
+    assert!(before.len() > 500, "{} places are worn", before.len());
     let count = before.iter().zip(&after).filter(|&(&before, &after)| after && !before).count();
     count as f64 / before.len() as f64
 }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 use superdeform::internals::shape::product::anatomy::{Anatomy, Proportions};
-use superdeform::internals::shape::product::coefficients::{Goal, heads_of, part_coefficients};
+use superdeform::internals::shape::product::coefficients::{Goal, heads_of, lost, part_coefficients};
 use superdeform::internals::shape::product::groups::PartGroups;
 use superdeform::internals::shape::product::scales::{PartCoefficients, Scale};
 use superdeform::{GroupSettings, Options, Stage, Warning};
@@ -52,8 +52,9 @@ fn small() -> Proportions {
     }
 }
 
+/// All of the goal.
 fn solved(target: &Proportions, goal: Goal, options: &Options) -> (PartCoefficients, Vec<Warning>) {
-    let (scales, limits) = part_coefficients(target, goal, options, &PartGroups::default()).unwrap();
+    let (scales, limits) = part_coefficients(target, goal, 1.0, options, &PartGroups::default()).unwrap();
     let warnings = limits.warnings(heads_of(target, &scales), goal.heads());
     (scales, warnings)
 }
@@ -281,4 +282,69 @@ fn what_a_user_sets_stands_beside_the_limits() {
     assert_eq!(scales.upper_leg.length, 0.05);
     // 0.225 less the foot's height.
     assert_near("lower leg", scales.lower_leg.length, (0.225 - 0.08 * legs_thickness()) / 0.72);
+}
+
+/// As [`solved`], so much of it.
+fn partly(target: &Proportions, goal: Goal, lost: f64) -> PartCoefficients {
+    part_coefficients(target, goal, lost, &Options::default(), &PartGroups::default()).unwrap().0
+}
+
+#[test]
+fn a_style_is_taken_as_far_as_the_figure_loses_heads() {
+    assert_eq!([lost(2.3, 2.5), lost(2.5, 2.5), lost(3.0, 2.5), lost(7.0, 2.5)], [0.0, 0.0, 1.0, 1.0]);
+    assert_near("half", lost(2.75, 2.5), 0.5);
+}
+
+#[test]
+fn a_figure_that_loses_no_heads_keeps_every_scale() {
+    // As many heads, and otherwise another body.
+    let other = Proportions {
+        torso: 0.2,
+        leg: 0.4,
+        arm: 0.5,
+        torso_half_width: Some(0.3),
+        foot: Some(0.3),
+        ..small()
+    };
+    assert_near("heads", other.heads(), small().heads());
+    for goal in [Goal::Reference(&other), Goal::Heads(small().heads())] {
+        let scales = partly(&small(), goal, 0.0);
+        for (_, coefficient) in scales.by_group(&PartGroups::default()) {
+            assert_near("length", coefficient.length_scale, 1.0);
+            assert_near("thickness", coefficient.thickness_scale, 1.0);
+        }
+        assert_eq!((scales.head.depth, scales.hair_taming), (1.0, 0.0));
+    }
+}
+
+#[test]
+fn what_loses_some_heads_gets_the_number_and_some_of_the_style() {
+    let target = Proportions { head_length: 0.35, ..small() };
+    let goal = Goal::Reference(&Proportions { torso: 0.36, leg: 0.24, ..small() });
+    let [none, half, all] = [0.0, 0.5, 1.0].map(|lost| partly(&target, goal, lost));
+    for scales in [&none, &half, &all] {
+        assert_near("heads", heads_of(&target, scales), 2.6);
+    }
+    let torso = |scales: &PartCoefficients| scales.torso.length / scales.head.height;
+    assert_near("torso", torso(&half), 0.5 * (torso(&none) + torso(&all)));
+    assert_eq!([none.head.height, half.head.height, all.head.height], [1.0, 1.25, 1.5]);
+}
+
+#[test]
+fn a_mascot_gets_limbs_for_its_trunk() {
+    // All above the legs is 0.76 and 0.74 high, so the reference's lengths count 1.027 of theirs.
+    let scales = partly(&tall(), Goal::Limbs(&small()), 0.0);
+    let unit = 0.76 / 0.74;
+    assert_scale("arm", scales.upper_arm, unit * 0.28 / 0.5, 1.0);
+    assert_scale("leg", scales.lower_leg, (unit * 0.3 - 0.08) / 0.72, 1.0);
+    let limbs = |scale: PartCoefficients| PartCoefficients {
+        upper_arm: Scale::IDENTITY,
+        lower_arm: Scale::IDENTITY,
+        upper_leg: Scale::IDENTITY,
+        lower_leg: Scale::IDENTITY,
+        ..scale
+    };
+    assert_eq!(limbs(scales), PartCoefficients::IDENTITY);
+    // Nothing becomes longer.
+    assert_eq!(partly(&small(), Goal::Limbs(&tall()), 0.0), PartCoefficients::IDENTITY);
 }

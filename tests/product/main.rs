@@ -16,6 +16,7 @@ mod hair;
 mod head;
 mod landmarks;
 mod long_hair;
+mod mascots;
 mod models;
 mod part;
 mod pieces;

@@ -2,12 +2,13 @@
 
 use super::anatomy::Proportions;
 use super::binding::PartBindings;
-use super::coefficients::{Goal, Limits, heads_of, part_coefficients};
+use super::coefficients::{Goal, Limits, heads_of, lost, part_coefficients};
 use super::field::PartField;
 use super::groups::PartGroups;
 use super::landmarks::{HeadPlacement, HeadSources};
+use super::profile::Profile;
 use super::scales::PartCoefficients;
-use super::sliced::{Sliced, wants_profile, with_profile};
+use super::sliced::{Sliced, profile_of, with_profile};
 use super::target::ProductTarget;
 use crate::error::{Error, ErrorKind, Named, Result, Warning};
 use crate::options::Options;
@@ -59,7 +60,27 @@ pub fn body(
     let mut warnings = anatomy.warnings();
     warnings.extend(split);
     warnings.extend(hair_shortened(&product.parts, head_length));
-    let request = Request { measured, product, heads, style, options, groups: &groups };
+    let wanted = match style {
+        Style::Heads(heads) => *heads,
+        Style::Shape(shape) => proportions_of(shape)?.heads(),
+    };
+    // Nobody gets more heads than there are, and what has as few keeps its proportions.
+    let own = anatomy.proportions.heads();
+    let limbs = (options.limits && !anatomy.landmarks.has_neck).then(|| limbs_of(style)).flatten();
+    let (asked, lost) = match limbs {
+        _ if !options.limits => (wanted, 1.0),
+        Some(_) => (wanted, 0.0),
+        None => (wanted.min(own), lost(own, wanted)),
+    };
+    let is_itself = matches!(style, Style::Shape(shape) if shape.proportions == measured.shape.proportions);
+    if limbs.is_some() {
+        let message = "the target has neither neck nor chin: head and trunk stay as they are, and only limbs become shorter";
+        warnings.push(Warning::new("trunk_kept", message).about("limits"));
+    } else if !is_itself {
+        warnings.extend(already_super_deformed(own, wanted, lost));
+    }
+    let limbs = limbs.as_ref();
+    let request = Request { measured, product, heads, style, options, groups: &groups, asked, lost, limbs };
     let (Attempt { field, placed, scales, .. }, of_field, heads_left) =
         request.best(&mut progress.part(0.0, 0.9))?;
     warnings.extend(of_field);
@@ -85,6 +106,25 @@ fn proportions_of(shape: &BodyShape) -> Result<&Proportions> {
         );
         Error::new(ErrorKind::BadStyle, message).about("mode")
     })
+}
+
+/// What limbs `style` gives to a figure whose head and trunk are one: for a number of heads, the built-in bodies'.
+fn limbs_of(style: &Style) -> Option<Proportions> {
+    match style {
+        Style::Shape(shape) => shape.proportions.clone(),
+        Style::Heads(heads) => BodyShape::built_in("sd2.5")?.with_heads(*heads).proportions,
+    }
+}
+
+/// A warning where the style has hardly fewer heads than the target, or more.
+fn already_super_deformed(own: f64, wanted: f64, lost: f64) -> Option<Warning> {
+    let what = match lost {
+        1.0 => return None,
+        0.0 => "keeps its proportions".to_string(),
+        share => format!("takes {:.0} % of the style", 100.0 * share),
+    };
+    let message = format!("the target is {own:.1} heads tall and the style {wanted:.1}, so it {what}");
+    Some(Warning::new("already_super_deformed", message).about("limits"))
 }
 
 fn hair_shortened(parts: &PartBindings, head_length: f64) -> Option<Warning> {
@@ -124,24 +164,29 @@ struct Request<'a> {
     style: &'a Style,
     options: &'a Options,
     groups: &'a PartGroups,
+    /// The head count that is asked for.
+    asked: f64,
+    /// How much of the style the target takes.
+    lost: f64,
+    /// The limbs that a target gets whose head and trunk are one.
+    limbs: Option<&'a Proportions>,
 }
 
 impl Request<'_> {
     /// Fields until the head count measured on the result is right, first of the parts alone and then with the style's
     /// profile: the best of them, its warnings, and one of a head count that is not the one asked for.
     fn best(&self, progress: &mut Progress) -> Result<(Attempt, Vec<Warning>, Option<Warning>)> {
-        let asked = match self.style {
-            Style::Heads(heads) => *heads,
-            Style::Shape(shape) => proportions_of(shape)?.heads(),
-        };
-        let mut best = self.best_of(HEADS_ATTEMPTS, asked, asked, false, &mut progress.part(0.0, 0.4))?;
-        if wants_profile(self.measured, self.style, self.options) {
-            best = self.best_of(SLICED_ATTEMPTS, asked, best.aim, true, &mut progress.part(0.4, 1.0))?;
+        let asked = self.asked;
+        let mut best = self.best_of(HEADS_ATTEMPTS, asked, None, &mut progress.part(0.0, 0.4))?;
+        if let Some(profile) = profile_of(self.style, self.options, self.lost) {
+            let aim = best.aim;
+            best = self.best_of(SLICED_ATTEMPTS, aim, Some(&profile), &mut progress.part(0.4, 1.0))?;
         }
         let Attempt { misread, measured, .. } = best;
         let mut warnings = best.limits.warnings(measured, asked);
         warnings.extend(best.limited.take());
-        let heads_left = (misread > HEADS_WARNED_ABOVE && !best.limits.act_on_heads()).then(|| {
+        let is_missed = self.lost > 0.0 && misread > HEADS_WARNED_ABOVE && !best.limits.act_on_heads();
+        let heads_left = is_missed.then(|| {
             let why = if self.options.groups.values().any(|group| group.length_scale.is_some()) {
                 "the lengths set for groups leave no other"
             } else {
@@ -158,9 +203,8 @@ impl Request<'_> {
     fn best_of(
         &self,
         attempts: usize,
-        asked: f64,
         mut aim: f64,
-        is_sliced: bool,
+        profile: Option<&(Profile, f64)>,
         progress: &mut Progress,
     ) -> Result<Attempt> {
         let mut best: Option<Attempt> = None;
@@ -168,43 +212,51 @@ impl Request<'_> {
             progress.at(count as f32 / attempts as f32)?;
             let part =
                 &mut progress.part(count as f32 / attempts as f32, (count + 1) as f32 / attempts as f32);
-            let attempt = self.attempt(asked, aim, is_sliced, part)?;
+            let attempt = self.attempt(aim, profile, part)?;
             let (error, measured) = (attempt.error, attempt.measured);
             let is_limited = attempt.limits.act_on_heads();
             if best.as_ref().is_none_or(|best| error < best.error) {
                 best = Some(attempt);
             }
-            if error <= HEADS_TOLERANCE || is_limited {
+            if error <= HEADS_TOLERANCE || is_limited || self.lost == 0.0 {
                 break;
             }
             let (least, most) = HEADS_CORRECTION;
-            aim = (aim - 1.0) * ((asked - 1.0) / (measured - 1.0)).clamp(least, most) + 1.0;
+            aim = (aim - 1.0) * ((self.asked - 1.0) / (measured - 1.0)).clamp(least, most) + 1.0;
         }
         Ok(best.expect("there is at least one attempt"))
     }
 
-    /// One field, for a style with everything below the head stretched by what makes the result `aim` heads tall instead of
-    /// `asked`.
-    fn attempt(&self, asked: f64, aim: f64, is_sliced: bool, progress: &mut Progress) -> Result<Attempt> {
-        let &Self { measured: target, product, heads, style, options, groups } = self;
+    /// One field, for a style with everything below the head stretched by what makes the result `aim` heads tall.
+    fn attempt(
+        &self,
+        aim: f64,
+        profile: Option<&(Profile, f64)>,
+        progress: &mut Progress,
+    ) -> Result<Attempt> {
+        let &Self { measured: target, product, heads, style, options, groups, asked, lost, limbs } = self;
         let anatomy = &target.anatomy;
         let stretched;
-        let goal = match style {
-            Style::Heads(_) => Goal::Heads(aim),
-            Style::Shape(shape) if aim == asked => Goal::Reference(proportions_of(shape)?),
-            Style::Shape(shape) => {
+        let goal = match (style, limbs) {
+            (_, Some(limbs)) => Goal::Limbs(limbs),
+            (Style::Heads(_), _) => Goal::Heads(aim),
+            (Style::Shape(shape), _) if aim == proportions_of(shape)?.heads() => {
+                Goal::Reference(proportions_of(shape)?)
+            }
+            (Style::Shape(shape), _) => {
                 stretched = shape.with_heads(aim);
                 Goal::Reference(proportions_of(&stretched)?)
             }
         };
-        let (scales, limits) = part_coefficients(&anatomy.proportions, goal, options, groups)?;
+        let (scales, limits) = part_coefficients(&anatomy.proportions, goal, lost, options, groups)?;
         let field = PartField::new(anatomy, scales, &product.parts, options.hair_length);
         let field = Field::of(Arc::new(BodyField::Parts(Box::new(field))));
-        let Sliced { field, placed, limited } = if is_sliced {
-            let part = &mut progress.part(0.0, 0.8);
-            with_profile(target, product, field, style, options, groups, part)?
-        } else {
-            Sliced::unchanged(field)
+        let Sliced { field, placed, limited } = match profile {
+            Some(profile) => {
+                let part = &mut progress.part(0.0, 0.8);
+                with_profile(target, product, field, profile, options, groups, part)?
+            }
+            None => Sliced::unchanged(field),
         };
         let placement = Placement {
             placed: placed.as_deref(),

@@ -13,6 +13,9 @@ use crate::geometry::ROUNDING;
 use crate::options::table::HEAD_SCALE;
 use crate::options::{Options, Stage};
 
+/// A target that has this much more heads than the style, as a share of the style's, takes all of it; one that has as few or
+/// fewer has nothing to lose, and keeps the body that its artist gave it.
+const HEADS_LOST: f64 = 0.2;
 /// The head grows at most this much more in width than in height: as far as the style's head is wider. D28. Seen: even so
 /// heads are .76 as wide, by their height, as the KayKit rogue's; less turns fewer triangles over.
 pub const HEAD_WIDTH: f64 = 1.12;
@@ -43,6 +46,11 @@ const BOUND_WARNED_ABOVE: f64 = 1e-3;
 /// A number of heads that misses by less than this is not warned of: no eye sees it.
 const HEADS_WARNED_ABOVE: f64 = 0.005;
 
+/// How much of a style a figure of `before` heads takes that gets `after`: see [`HEADS_LOST`].
+pub fn lost(before: f64, after: f64) -> f64 {
+    ((before / after - 1.0) / HEADS_LOST).clamp(0.0, 1.0)
+}
+
 /// What the result should be like.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Goal<'a> {
@@ -50,6 +58,8 @@ pub enum Goal<'a> {
     Reference(&'a Proportions),
     /// So many heads tall, everything else after the target.
     Heads(f64),
+    /// Limbs like a reference's, on a head and a trunk that are one and stay as they are.
+    Limbs(&'a Proportions),
 }
 
 impl Goal<'_> {
@@ -57,7 +67,7 @@ impl Goal<'_> {
     pub fn heads(&self) -> f64 {
         match self {
             Goal::Heads(heads) => *heads,
-            Goal::Reference(reference) => reference.heads(),
+            Goal::Reference(reference) | Goal::Limbs(reference) => reference.heads(),
         }
     }
 }
@@ -132,20 +142,31 @@ impl Asked {
         }
     }
 
-    /// So many heads of length `head`, the rest after the target.
-    fn of_heads(target: &Proportions, heads: f64, head: f64, head_scale: f64) -> Self {
-        let below = target.neck + target.torso + target.leg;
-        let shrink = (heads - 1.0) * target.head_length / below;
-        let neck = shrink * head_scale * target.neck;
-        let torso = TRUNK_FOR_HEADS * shrink * head_scale * target.torso;
+    /// So many heads of length `head`, the rest after the target, but that torso and arms are `trunk` times as long.
+    fn of_heads(target: &Proportions, heads: f64, head: f64, trunk: f64) -> Self {
+        let below = (heads - 1.0) * head;
+        let shrink = below / (target.neck + target.torso + target.leg);
+        let (neck, torso) = (shrink * target.neck, trunk * shrink * target.torso);
         Self {
             neck,
             torso,
-            arm: TRUNK_FOR_HEADS * shrink * head_scale * target.arm,
-            leg: (heads - 1.0) * head - neck - torso,
+            arm: trunk * shrink * target.arm,
+            leg: below - neck - torso,
             hand: None,
             foot: None,
             torso_thickness: None,
+        }
+    }
+
+    /// Lengths from these (0) to those of `style` (1), and what else the style says.
+    fn towards(self, style: Self, share: f64) -> Self {
+        let mix = |own: f64, style: f64| own + share * (style - own);
+        Self {
+            neck: mix(self.neck, style.neck),
+            torso: mix(self.torso, style.torso),
+            arm: mix(self.arm, style.arm),
+            leg: mix(self.leg, style.leg),
+            ..style
         }
     }
 }
@@ -190,39 +211,52 @@ impl Limits {
 
 /// The scales that make `target` like `goal`, and the bounds that acted.
 ///
-/// `groups`: which group's settings each part follows.
+/// - `lost`: how much of the goal the target takes, 0 for its number of heads alone to 1.
+/// - `groups`: which group's settings each part follows.
 ///
 /// # Errors
 /// `ErrorKind::BadOption` for an unknown group; `NoGeometry` for a group of no extent.
 pub fn part_coefficients(
     target: &Proportions,
     goal: Goal,
+    lost: f64,
     options: &Options,
     groups: &PartGroups,
 ) -> Result<(PartCoefficients, Limits)> {
-    let mut solver = Solver::new(target, goal, options);
-    let asked = solver.asked();
-    let (torso, leg) = solver.solve_neck(&asked);
-    solver.solve_torso(torso);
-    solver.solve_thickness(&asked, leg);
-    solver.solve_arms(asked.arm);
-    solver.solve_hands(asked.hand);
-    solver.solve_feet(asked.foot);
-    solver.solve_legs(leg);
-    let Solver { mut scales, bounds, .. } = solver;
+    let (mut scales, acted) = match goal {
+        Goal::Limbs(reference) => (short_limbs(target, reference), Vec::new()),
+        Goal::Reference(_) | Goal::Heads(_) => Solver::new(target, goal, lost, options).solved(),
+    };
     scales.apply_settings(&options.groups, groups)?;
     if options.stage == Stage::Length {
         scales = scales.lengths_only();
     }
     scales.validate()?;
-    let limits = Limits { acted: bounds.acted, heads: heads_of(target, &scales), asked: goal.heads() };
+    let limits = Limits { acted, heads: heads_of(target, &scales), asked: goal.heads() };
     Ok((scales, limits))
+}
+
+/// Arms and legs as long for all that is above the legs as the reference's, but none longer than it is; nothing else changes.
+fn short_limbs(target: &Proportions, reference: &Proportions) -> PartCoefficients {
+    let above = |of: &Proportions| of.head_length + of.neck + of.torso;
+    let unit = above(target) / above(reference);
+    let shank = (target.leg - target.ankle_height).max(SHORTEST_SHANK * target.leg);
+    let leg = (unit * reference.leg - target.ankle_height) / shank;
+    let limb = |length: f64| Scale { length: length.clamp(SHORTEST_LIMB, 1.0), thickness: 1.0 };
+    let (arm, leg) = (limb(unit * reference.arm / target.arm), limb(leg));
+    PartCoefficients {
+        upper_arm: arm,
+        lower_arm: arm,
+        upper_leg: leg,
+        lower_leg: leg,
+        ..PartCoefficients::IDENTITY
+    }
 }
 
 /// How much more a head grows in width than in height: as the style's is wider for its length, up to [`HEAD_WIDTH`].
 fn wider(target: &Proportions, goal: Goal) -> f64 {
     let wanted = match goal {
-        Goal::Reference(reference) => reference.head_width(),
+        Goal::Reference(reference) | Goal::Limbs(reference) => reference.head_width(),
         Goal::Heads(_) => CHILD_SKULL,
     };
     (wanted / target.head_width()).clamp(1.0, HEAD_WIDTH)
@@ -231,7 +265,7 @@ fn wider(target: &Proportions, goal: Goal) -> f64 {
 /// The same in depth, up to [`HEAD_DEPTH`].
 fn deeper(target: &Proportions, goal: Goal) -> f64 {
     let wanted = match goal {
-        Goal::Reference(reference) => reference.head_depth(),
+        Goal::Reference(reference) | Goal::Limbs(reference) => reference.head_depth(),
         Goal::Heads(_) => Some(CHILD_SKULL_DEPTH),
     };
     match (wanted, target.head_depth()) {
@@ -244,6 +278,7 @@ fn deeper(target: &Proportions, goal: Goal) -> f64 {
 struct Solver<'a> {
     target: &'a Proportions,
     goal: Goal<'a>,
+    lost: f64,
     head_scale: f64,
     /// The new head's length.
     head: f64,
@@ -252,8 +287,8 @@ struct Solver<'a> {
 }
 
 impl<'a> Solver<'a> {
-    fn new(target: &'a Proportions, goal: Goal<'a>, options: &Options) -> Self {
-        let head_scale = options.head_scale;
+    fn new(target: &'a Proportions, goal: Goal<'a>, lost: f64, options: &Options) -> Self {
+        let head_scale = 1.0 + lost * (options.head_scale - 1.0);
         let growth = ((head_scale - 1.0) / (FULL_HEAD_SCALE - 1.0)).clamp(0.0, 1.0);
         let head = HeadScale {
             height: head_scale,
@@ -263,6 +298,7 @@ impl<'a> Solver<'a> {
         Self {
             target,
             goal,
+            lost,
             head_scale,
             head: head_scale * target.head_length,
             bounds: Bounds { strictness: if options.limits { growth } else { 0.0 }, acted: Vec::new() },
@@ -270,14 +306,34 @@ impl<'a> Solver<'a> {
         }
     }
 
+    /// All scales, and the bounds that acted.
+    fn solved(mut self) -> (PartCoefficients, Vec<Bounded>) {
+        let asked = self.asked();
+        let (torso, leg) = self.solve_neck(&asked);
+        self.solve_torso(torso);
+        self.solve_thickness(&asked, leg);
+        self.solve_arms(asked.arm);
+        self.solve_hands(asked.hand);
+        self.solve_feet(asked.foot);
+        self.solve_legs(leg);
+        (self.scales, self.bounds.acted)
+    }
+
     fn asked(&self) -> Asked {
+        let of_heads = |trunk: f64| Asked::of_heads(self.target, self.goal.heads(), self.head, trunk);
         match self.goal {
-            Goal::Reference(reference) => {
+            Goal::Reference(reference) | Goal::Limbs(reference) => {
                 let width_factor = self.scales.head.width / self.head_scale;
-                Asked::of_reference(self.target, reference, self.head, width_factor)
+                let style = Asked::of_reference(self.target, reference, self.head, width_factor);
+                of_heads(1.0).towards(style, self.lost)
             }
-            Goal::Heads(heads) => Asked::of_heads(self.target, heads, self.head, self.head_scale),
+            Goal::Heads(_) => of_heads(1.0 + self.lost * (TRUNK_FOR_HEADS - 1.0)),
         }
+    }
+
+    /// From what a part has without a style to what the style gives it.
+    fn towards(&self, own: f64, style: f64) -> f64 {
+        own + self.lost * (style - own)
     }
 
     /// The neck's length. What it may not take, torso and legs do, so that the number of heads stays: their lengths.
@@ -302,11 +358,13 @@ impl<'a> Solver<'a> {
     ///
     /// `leg`: how long legs are to be.
     fn solve_thickness(&mut self, asked: &Asked, leg: f64) {
+        let length = self.scales.torso.length;
+        let of_style = asked.torso_thickness.unwrap_or(length.sqrt());
+        let torso = self.towards(length.sqrt(), of_style);
         let Self { bounds, scales, target, .. } = self;
-        let length = scales.torso.length;
         let leg_length = (leg / target.leg).max(SHORTEST_LIMB);
         let most = length.max(1.0);
-        let torso = bounds.within(asked.torso_thickness.unwrap_or(length.sqrt()), length, most);
+        let torso = bounds.within(torso, length, most);
         let leg = bounds.within(leg_length.sqrt(), length.min(leg_length), most);
         (scales.torso.thickness, scales.neck.thickness) = (torso, torso);
         (scales.upper_arm.thickness, scales.lower_arm.thickness) = (torso, torso);
@@ -333,7 +391,10 @@ impl<'a> Solver<'a> {
     fn extremity(&self, own: Option<f64>, asked: Option<f64>, limb: Scale) -> f64 {
         let least = limb.thickness;
         match asked.zip(own) {
-            Some((asked, own)) => self.bounds.within(asked / own, least, (least * self.head_scale).sqrt()),
+            Some((asked, own)) => {
+                let bounded = self.bounds.within(asked / own, least, (least * self.head_scale).sqrt());
+                self.towards(least, bounded)
+            }
             None => least,
         }
     }

@@ -33,6 +33,8 @@ const CHIN_COLUMNS: [f64; 5] = [0.0, -0.04, 0.04, -0.08, 0.08];
 /// Steps that differ by less than this share of themselves and of (crown - shoulder line) are equally deep: rounding
 /// must not decide.
 const TIE: f64 = 1e-4;
+/// Less than this share of the breadth above and below is a neck: of people and chibis it is a half, and a box is even.
+const NECK: f64 = 0.9;
 /// A crotch is believed from this far below the hip joints to this far above them, as shares of H. D25. Seen: three of
 /// 14 have something between the legs .065 to .085 below.
 const CROTCH_RANGE: (f64, f64) = (-0.065, 0.03);
@@ -53,6 +55,8 @@ pub struct Landmarks {
     pub heights: Heights,
     /// False where no chin was seen and a ratio stands in for it.
     pub chin_seen: bool,
+    /// False where no chin is seen and nothing is narrower than what is above and below it: head and trunk are one.
+    pub has_neck: bool,
     /// False where a skirt or a robe hides the crotch and a ratio stands in for it.
     pub crotch_seen: bool,
     /// What the crown is the top of.
@@ -110,12 +114,20 @@ pub fn landmarks(figure: &Figure) -> Landmarks {
     let shoulder_line = placed.shoulder_line;
     let hip_line =
         mean_height(figure, [Role::LeftUpperLeg, Role::RightUpperLeg], |joint| figure.joints[joint]);
-    let (crotch, crotch_seen) = crotch(figure, hip_line);
+    let has_neck =
+        chin_seen || has_waist(&placed.positions, &sources.upper, shoulder_line, [hip_line, crown]);
+    let (crotch, crotch_seen) = if has_neck {
+        crotch(figure, hip_line)
+    } else {
+        // Where the trunk ends: no part of it is a leg's.
+        let trunk = sources.upper.iter().flatten().map(|&vertex| placed.positions[vertex as usize].y);
+        (trunk.fold(hip_line, f64::min), true)
+    };
     let least = HAIRBREADTH * height;
     let crotch = crotch.clamp(sole + least, (shoulder_line - least).max(sole + least));
     let heights = Heights { crown, chin, shoulder_line, crotch, sole };
     let head_top = top_with_hair(&sources, &placed).unwrap_or(crown);
-    Landmarks { heights, chin_seen, crotch_seen, crown_source, head_top }
+    Landmarks { heights, chin_seen, has_neck, crotch_seen, crown_source, head_top }
 }
 
 /// What crown, chin and soles of a figure are read from: its weights and kinds say so, not where it is, so it is found once
@@ -374,6 +386,33 @@ fn chin(sources: &HeadSources, placed: &HeadPlacement, crown: f64, height: f64) 
     let band = ((CHIN_BAND * span / row_height).round() as usize).max(1);
     let search = StepSearch { band, least: CHIN_STEP * span, tie: TIE, span };
     deepest_step(&depths, &search).map_or(by_ratio, |row| (row_y(row) - row_height / 2.0, true))
+}
+
+/// Whether something of `triangles`, where chins are looked for, is narrower than what is above it and what is below, between
+/// these heights.
+fn has_waist(positions: &[DVec3], triangles: &[[u32; 3]], shoulder_line: f64, [low, high]: [f64; 2]) -> bool {
+    let row_height = (high - low) / CHIN_ROWS as f64;
+    if row_height <= 0.0 {
+        return true;
+    }
+    let mut rows = [(f64::INFINITY, f64::NEG_INFINITY); CHIN_ROWS];
+    for corners in triangles {
+        let [a, b, c] = corners.map(|vertex| positions[vertex as usize]);
+        for (from, to) in [(a, b), (b, c), (c, a)].map(|(a, b)| if a.y < b.y { (a, b) } else { (b, a) }) {
+            let row = |y: f64| ((y - low) / row_height - 0.5).ceil().clamp(0.0, CHIN_ROWS as f64) as usize;
+            for (row, reach) in (row(from.y)..row(to.y)).map(|row| (row, &mut rows[row])) {
+                let y = low + (row as f64 + 0.5) * row_height;
+                let x = from.x + (to.x - from.x) * (y - from.y) / (to.y - from.y);
+                *reach = (reach.0.min(x), reach.1.max(x));
+            }
+        }
+    }
+    let breadths = rows.map(|(left, right)| (right - left).max(0.0));
+    let broadest = |rows: &[f64]| rows.iter().copied().fold(0.0, f64::max);
+    let [from, to] = [CHIN_RANGE.0, CHIN_RANGE.1]
+        .map(|share| ((shoulder_line + share * (high - shoulder_line) - low) / row_height) as usize);
+    (from..to.min(CHIN_ROWS))
+        .any(|row| breadths[row] < NECK * broadest(&breadths[..row]).min(broadest(&breadths[row..])))
 }
 
 /// The crotch: the lowest thing between the legs in the middle column, from the knees up.

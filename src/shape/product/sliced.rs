@@ -2,7 +2,7 @@
 
 use super::field::PartField;
 use super::groups::PartGroups;
-use super::profile::{ProfileStage, Source, strengths, wanted_of};
+use super::profile::{Profile, ProfileStage, Source, strengths, wanted_of};
 use super::target::ProductTarget;
 use crate::error::{Result, Warning};
 use crate::options::{Options, Stage};
@@ -15,11 +15,13 @@ use crate::shape::style::Style;
 use glam::DVec3;
 use std::sync::Arc;
 
-/// True where `style` and `options` ask for a profile of this target.
-pub fn wants_profile(target: &Measured, style: &Style, options: &Options) -> bool {
-    let heads = target.anatomy.landmarks.heights.heads();
-    let share = wanted_of(style, heads).map_or(0.0, |(_, share)| share);
-    share * options.profile > 0.0 && options.stage != Stage::Length
+/// The profile that `style` and `options` ask for, and how much of it; `None` where they ask for none.
+///
+/// `lost`: how much of the style the target takes.
+pub fn profile_of(style: &Style, options: &Options, lost: f64) -> Option<(Profile, f64)> {
+    let (wanted, share) = wanted_of(style)?;
+    let share = share * lost * options.profile;
+    (share > 0.0 && options.stage != Stage::Length).then_some((wanted, share))
 }
 
 /// A field with the profile that a style wants.
@@ -39,7 +41,7 @@ impl Sliced {
     }
 }
 
-/// `field`, the parts' own, and then the profile that the style wants, as much of it as the options take.
+/// `field`, the parts' own, and then so much of the profile that is wanted.
 ///
 /// # Errors
 /// `Cancelled`.
@@ -48,16 +50,12 @@ pub fn with_profile(
     measured: &Measured,
     product: &ProductTarget,
     field: Field,
-    style: &Style,
+    (wanted, share): &(Profile, f64),
     options: &Options,
     groups: &PartGroups,
     progress: &mut Progress,
 ) -> Result<Sliced> {
-    let wanted = wanted_of(style, measured.anatomy.landmarks.heights.heads());
-    let (Some((wanted, share)), BodyField::Parts(parts)) = (wanted, &*field.body) else {
-        return Ok(Sliced::unchanged(field));
-    };
-    let share = share * options.profile;
+    let BodyField::Parts(parts) = &*field.body else { return Ok(Sliced::unchanged(field)) };
     let positions =
         Placement::new(&measured.figure, &product.bindings, &field, options.thread_count).all_placed();
     progress.at(0.3)?;
@@ -71,9 +69,9 @@ pub fn with_profile(
         binding: &|vertex| product.bindings.vertices[vertex].parts(),
         threads: options.thread_count,
     };
-    let strengths = |frame: &_| strengths(share, options, groups, frame);
+    let strengths = |frame: &_| strengths(*share, options, groups, frame);
     let (stage, smooth) =
-        ProfileStage::of(&source, parts, &positions, &wanted, strengths, &mut progress.part(0.3, 0.8))?;
+        ProfileStage::of(&source, parts, &positions, wanted, strengths, &mut progress.part(0.3, 0.8))?;
     progress.at(1.0)?;
     let limited = limited(&stage);
     let parts = PartField::clone(parts).with_profile(stage);

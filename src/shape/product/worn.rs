@@ -2,7 +2,7 @@
 
 use super::outside::{Outside, rims, volume};
 use crate::character::MeshKind;
-use crate::geometry::{Neighbours, Surface, Tree, Weld, components, neighbours};
+use crate::geometry::{Neighbours, Surface, Tree, Weld, Winding, components, neighbours};
 use crate::parallel;
 use crate::shape::figure::Figure;
 use glam::DVec3;
@@ -91,11 +91,11 @@ impl Worn {
     }
 
     /// For each place whether the body is around it, where all vertices are at `points`.
-    pub fn inside(&self, points: &[DVec3], weld: &Weld, threads: usize) -> Vec<bool> {
-        let outside = self.outside(points, weld);
+    pub fn inside(&self, points: &[DVec3], threads: usize) -> Vec<bool> {
+        let winding = Winding::new(points, &self.body);
         parallel::collect(threads, self.places.len(), parallel::FEW_RAYS, |place| {
             let p = points[self.vertices[place] as usize];
-            outside.at(p, Some(self.nearest[place])).is_some_and(|(_, distance, _)| distance < 0.0)
+            !self.is_sewn[place] && self.outwards * winding.at(p) > 0.5
         })
     }
 
