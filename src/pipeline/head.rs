@@ -40,7 +40,7 @@ pub struct Young {
 pub fn growth(body: &Body, measured: &Measured) -> f64 {
     let landmarks = &measured.anatomy.landmarks;
     let BodyField::Parts(field) = &*body.field else { return 0.0 };
-    if !landmarks.has_neck {
+    if landmarks.trunk.is_some() {
         return 0.0;
     }
     let before = landmarks.heights.heads();

@@ -66,7 +66,7 @@ pub fn body(
     };
     // Nobody gets more heads than there are, and what has as few keeps its proportions.
     let own = anatomy.proportions.heads();
-    let limbs = (options.limits && !anatomy.landmarks.has_neck).then(|| limbs_of(style)).flatten();
+    let limbs = (options.limits && anatomy.landmarks.trunk.is_some()).then(|| limbs_of(style)).flatten();
     let (asked, lost) = match limbs {
         _ if !options.limits => (wanted, 1.0),
         Some(_) => (wanted, 0.0),

@@ -6,7 +6,9 @@
 use crate::character::Role;
 use crate::error::Warning;
 use crate::geometry::surface::Surface;
-use crate::geometry::{CHIN_BAND, CHIN_BY_RATIO, CHIN_STEP, StepSearch, bounds, deepest_step};
+use crate::geometry::{
+    CHIN_BAND, CHIN_BY_RATIO, CHIN_STEP, SEAM, StepSearch, bounds, components, deepest_step, weld,
+};
 use crate::shape::figure::{Figure, extent};
 use crate::shape::heights::Heights;
 use crate::shape::measure::{HeadTop, head_top};
@@ -55,8 +57,9 @@ pub struct Landmarks {
     pub heights: Heights,
     /// False where no chin was seen and a ratio stands in for it.
     pub chin_seen: bool,
-    /// False where no chin is seen and nothing is narrower than what is above and below it: head and trunk are one.
-    pub has_neck: bool,
+    /// Where no chin is seen, and nothing is narrower than what is above and below it, head and trunk are one: for each vertex
+    /// whether it is of a piece that is theirs alone.
+    pub trunk: Option<Vec<bool>>,
     /// False where a skirt or a robe hides the crotch and a ratio stands in for it.
     pub crotch_seen: bool,
     /// What the crown is the top of.
@@ -114,20 +117,21 @@ pub fn landmarks(figure: &Figure) -> Landmarks {
     let shoulder_line = placed.shoulder_line;
     let hip_line =
         mean_height(figure, [Role::LeftUpperLeg, Role::RightUpperLeg], |joint| figure.joints[joint]);
-    let has_neck =
-        chin_seen || has_waist(&placed.positions, &sources.upper, shoulder_line, [hip_line, crown]);
-    let (crotch, crotch_seen) = if has_neck {
-        crotch(figure, hip_line)
-    } else {
+    let trunk = (!chin_seen && !has_waist(&sources, &placed, hip_line, crown)).then(|| trunk(figure));
+    let (crotch, crotch_seen) = match &trunk {
+        None => crotch(figure, hip_line),
         // Where the trunk ends: no part of it is a leg's.
-        let trunk = sources.upper.iter().flatten().map(|&vertex| placed.positions[vertex as usize].y);
-        (trunk.fold(hip_line, f64::min), true)
+        Some(of_trunk) => {
+            let upper = sources.upper.iter().flatten().map(|&vertex| placed.positions[vertex as usize].y);
+            let own = figure.positions.iter().zip(of_trunk).filter(|(_, of_trunk)| **of_trunk);
+            (own.map(|(p, _)| p.y).chain(upper).fold(hip_line, f64::min), true)
+        }
     };
     let least = HAIRBREADTH * height;
     let crotch = crotch.clamp(sole + least, (shoulder_line - least).max(sole + least));
     let heights = Heights { crown, chin, shoulder_line, crotch, sole };
     let head_top = top_with_hair(&sources, &placed).unwrap_or(crown);
-    Landmarks { heights, chin_seen, has_neck, crotch_seen, crown_source, head_top }
+    Landmarks { heights, chin_seen, trunk, crotch_seen, crown_source, head_top }
 }
 
 /// What crown, chin and soles of a figure are read from: its weights and kinds say so, not where it is, so it is found once
@@ -143,6 +147,13 @@ pub struct HeadSources {
     upper: Vec<[u32; 3]>,
     /// Vertices whose lowest is the sole.
     soles: Vec<u32>,
+}
+
+/// True for what moves head, neck and torso.
+fn is_upper(role: Role) -> bool {
+    role.is_head()
+        || matches!(role, Role::Neck | Role::UpperChest | Role::Chest | Role::Spine | Role::Hips)
+        || matches!(role, Role::LeftShoulder | Role::RightShoulder)
 }
 
 #[derive(Clone, Debug)]
@@ -170,11 +181,6 @@ impl HeadSources {
             let is_sure = |&v: &u32| figure.weight_of(v as usize, Role::is_head) > SURE_WEIGHT;
             let sure = all.iter().filter(|corners| corners.iter().all(is_sure)).copied().collect();
             HeadTriangles { all, sure }
-        };
-        let is_upper = |role: Role| {
-            role.is_head()
-                || matches!(role, Role::Neck | Role::UpperChest | Role::Chest | Role::Spine | Role::Hips)
-                || matches!(role, Role::LeftShoulder | Role::RightShoulder)
         };
         let upper = figure
             .triangles_where(|vertex| !figure.is_carried(vertex) && figure.weight_of(vertex, is_upper) > 0.5);
@@ -388,30 +394,45 @@ fn chin(sources: &HeadSources, placed: &HeadPlacement, crown: f64, height: f64) 
     deepest_step(&depths, &search).map_or(by_ratio, |row| (row_y(row) - row_height / 2.0, true))
 }
 
-/// Whether something of `triangles`, where chins are looked for, is narrower than what is above it and what is below, between
-/// these heights.
-fn has_waist(positions: &[DVec3], triangles: &[[u32; 3]], shoulder_line: f64, [low, high]: [f64; 2]) -> bool {
+/// The vertices of pieces that are head and trunk for the greater part and reach no elbow and no knee, whatever moves their corners.
+fn trunk(figure: &Figure) -> Vec<bool> {
+    use Role::*;
+    let is_far = |role: Role| {
+        let mut chain = role.chain();
+        chain.any(|role| matches!(role, LeftLowerArm | RightLowerArm | LeftLowerLeg | RightLowerLeg))
+    };
+    let weld = weld(&figure.positions, SEAM * figure.height());
+    let component = components(&figure.triangles, &weld);
+    let of = |vertex: usize| component[weld.representative[vertex] as usize] as usize;
+    let count = component.iter().max().map_or(0, |&last| last as usize + 1);
+    // How much more of it is of head and trunk than of limbs.
+    let mut own = vec![0.0; count];
+    for vertex in 0..figure.positions.len() {
+        let of_trunk = figure.weight_of(vertex, is_upper);
+        let is_far = figure.weight_of(vertex, is_far) > 0.5;
+        own[of(vertex)] += if is_far { f64::NEG_INFINITY } else { of_trunk - 0.5 };
+    }
+    (0..figure.positions.len()).map(|vertex| own[of(vertex)] > 0.0).collect()
+}
+
+/// Whether head, neck and torso, between these heights, are somewhere narrower than above it and below it, where chins are looked for.
+fn has_waist(sources: &HeadSources, placed: &HeadPlacement, low: f64, high: f64) -> bool {
+    let surface = Surface::new(&placed.positions, &sources.upper);
+    let Some((centre, half)) = middle(&placed.positions, &sources.upper) else { return true };
     let row_height = (high - low) / CHIN_ROWS as f64;
-    if row_height <= 0.0 {
-        return true;
-    }
-    let mut rows = [(f64::INFINITY, f64::NEG_INFINITY); CHIN_ROWS];
-    for corners in triangles {
-        let [a, b, c] = corners.map(|vertex| positions[vertex as usize]);
-        for (from, to) in [(a, b), (b, c), (c, a)].map(|(a, b)| if a.y < b.y { (a, b) } else { (b, a) }) {
-            let row = |y: f64| ((y - low) / row_height - 0.5).ceil().clamp(0.0, CHIN_ROWS as f64) as usize;
-            for (row, reach) in (row(from.y)..row(to.y)).map(|row| (row, &mut rows[row])) {
-                let y = low + (row as f64 + 0.5) * row_height;
-                let x = from.x + (to.x - from.x) * (y - from.y) / (to.y - from.y);
-                *reach = (reach.0.min(x), reach.1.max(x));
-            }
-        }
-    }
-    let breadths = rows.map(|(left, right)| (right - left).max(0.0));
+    let breadths: [f64; CHIN_ROWS] = std::array::from_fn(|row| {
+        let at = DVec3::new(centre.x, low + (row as f64 + 0.5) * row_height, placed.head_joint.z);
+        let far = 2.0 * half.x;
+        let reach =
+            |way: DVec3| surface.first_hit(at + far * way, -way, f64::INFINITY).map(|hit| far - hit.t);
+        reach(DVec3::X).zip(reach(DVec3::NEG_X)).map_or(0.0, |(left, right)| left + right)
+    });
     let broadest = |rows: &[f64]| rows.iter().copied().fold(0.0, f64::max);
-    let [from, to] = [CHIN_RANGE.0, CHIN_RANGE.1]
-        .map(|share| ((shoulder_line + share * (high - shoulder_line) - low) / row_height) as usize);
-    (from..to.min(CHIN_ROWS))
+    let row = |share: f64| {
+        let y = placed.shoulder_line + share * (high - placed.shoulder_line);
+        (((y - low) / row_height) as usize).min(CHIN_ROWS)
+    };
+    (row(CHIN_RANGE.0)..row(CHIN_RANGE.1))
         .any(|row| breadths[row] < NECK * broadest(&breadths[..row]).min(broadest(&breadths[row..])))
 }
 

@@ -59,8 +59,12 @@ pub fn part_weights(
 ) -> Result<(Vec<PartWeights>, Vec<bool>)> {
     let mut parts: Vec<PartWeights> = figure.role_weights.iter().map(|row| fold_to_parts(row)).collect();
     let head_only = head_only(figure, &parts, members);
+    let mut fixed = head_only.clone();
     for vertex in 0..parts.len() {
-        if head_only[vertex] {
+        if anatomy.landmarks.trunk.as_ref().is_some_and(|of_trunk| of_trunk[vertex]) {
+            fixed[vertex] = true;
+            parts[vertex] = Part::Torso.alone();
+        } else if head_only[vertex] {
             let part = if figure.kind(vertex) == MeshKind::Hair { Part::Hair } else { Part::Head };
             parts[vertex] = part.alone();
         } else {
@@ -74,14 +78,16 @@ pub fn part_weights(
     let fork = Fork { crotch, apart: FORK * (crotch - ankles) };
     follow_legs(figure, fork, &mut parts);
     progress.at(0.1)?;
-    smooth_along(figure, weld, &head_only, &mut parts, threads, &mut progress.part(0.1, 0.3))?;
-    // Skin at the root of hair has moved over to the hair's weights, and must stay there or the hair line opens.
-    let mut holds_head_only = vec![false; weld.count];
-    for (vertex, _) in head_only.iter().enumerate().filter(|&(_, &head_only)| head_only) {
-        holds_head_only[weld.representative[vertex] as usize] = true;
+    // Thin limbs of a mascot are a few long edges, along which feet would reach up to the trunk.
+    if anatomy.landmarks.trunk.is_none() {
+        smooth_along(figure, weld, &head_only, &mut parts, threads, &mut progress.part(0.1, 0.3))?;
     }
-    let frozen: Vec<bool> =
-        weld.representative.iter().map(|&welded| holds_head_only[welded as usize]).collect();
+    // Skin at the root of hair has moved over to the hair's weights, and must stay there or the hair line opens.
+    let mut holds_fixed = vec![false; weld.count];
+    for (vertex, _) in fixed.iter().enumerate().filter(|&(_, &fixed)| fixed) {
+        holds_fixed[weld.representative[vertex] as usize] = true;
+    }
+    let frozen: Vec<bool> = weld.representative.iter().map(|&welded| holds_fixed[welded as usize]).collect();
     smooth_across(figure, weld, &frozen, fork, &mut parts, threads, &mut progress.part(0.3, 1.0))?;
     for (row, &p) in parts.iter_mut().zip(&figure.positions) {
         settle_soles(row, p, anatomy);
