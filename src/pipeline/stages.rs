@@ -280,8 +280,9 @@ fn not_taller(view: &View) -> Result<f64> {
 
 fn squash_face(view: &View) -> Result<Face> {
     // A head without a chin has no face to make younger.
-    let has_face = view.options.mode == Mode::Product && view.measured()?.anatomy.landmarks.chin_seen;
-    let by_mode = if has_face { PRODUCT_FACE_SQUASH } else { 0.0 };
+    let measured = view.measured()?;
+    let has_face = view.options.mode == Mode::Product && measured.anatomy.landmarks.chin_seen;
+    let by_mode = if has_face { PRODUCT_FACE_SQUASH * head::growth(&*view.body()?, &measured) } else { 0.0 };
     let squash = view.options.face_squash.unwrap_or(by_mode);
     if view.options.stage == LastStage::Face
         && squash != 0.0

@@ -67,7 +67,7 @@ namespace SuperDeform.Editor.Tests
             using (NativeArray<byte> counts = new NativeArray<byte>(six, Allocator.Temp))
             using (NativeArray<BoneWeight1> weights = new NativeArray<BoneWeight1>(rows.ToArray(), Allocator.Temp)) mesh.SetBoneWeights(counts, weights);
 
-            Mesh made = Named(Converter.Convert(model.Root, new ConversionSettings { Heads = 4f }, null).Prefab, "Rogue_Body").sharedMesh;
+            Mesh made = Named(Converter.Convert(model.Root, new ConversionSettings { Heads = 1.8f }, null).Prefab, "Rogue_Body").sharedMesh;
             List<Vector4> read = new List<Vector4>();
             foreach (int channel in new[] { 2, 7 }) { made.GetUVs(channel, read); Assert.AreEqual(wide, read, "UV channel " + channel); }
             Assert.AreEqual(4, made.GetVertexAttributeDimension(VertexAttribute.TexCoord2));
@@ -165,7 +165,7 @@ namespace SuperDeform.Editor.Tests
             GameObject source = PrefabUtility.SaveAsPrefabAsset(model.Root, "Assets/Models/Rogue.prefab");
             UnityEngine.Object.DestroyImmediate(model.Root);
             string before = Fingerprint.Of(source);
-            ConversionResult result = Converter.Convert(source, Models.Settings(), null);
+            ConversionResult result = Converter.Convert(source, new ConversionSettings { Heads = 1.8f }, null);
             Assert.AreEqual("Assets/Models/Rogue_SD/Rogue_SD.prefab", result.PrefabPath.Replace('\\', '/'));
             Assert.That(result.Instance == null, "no instance: nothing stands in a scene");
             Assert.AreEqual(before, Fingerprint.Of(source));
