@@ -24,8 +24,10 @@ fn heights_are_those_that_a_person_was_built_with() {
         Person::chibi(),
         Person { blended: true, unit: 100.0, facing: 90.0, ..Person::adult() },
     ] {
-        let Landmarks { heights, chin_seen, crotch_seen, crown_source, head_top } = of(&person.build());
+        let Landmarks { heights, chin_seen, trunk, crotch_seen, crown_source, head_top } =
+            of(&person.build());
         assert_eq!((chin_seen, crotch_seen, crown_source), (true, true, CrownSource::Skull));
+        assert_eq!(trunk, None);
         assert_eq!(head_top, heights.crown);
         let p = &person.proportions;
         let height = person.crown();

@@ -288,7 +288,7 @@ fn soles_stay_as_flat_as_they_were() {
 }
 
 /// By how much more than in height a head grows in width, up to 1.12, and in depth, up to 1.05: as the reference's is wider
-/// and deeper than its own.
+/// and deeper than its own, as far as the figure has more heads, all of it from a fifth more on.
 fn wider_and_deeper(run: &Run) -> [f64; 2] {
     let Style::Shape(shape) = style_of(run.style, &Options::default()) else { unreachable!() };
     let heads = [shape.proportions.as_ref().unwrap(), &run.deformer.target().anatomy.proportions];
@@ -296,7 +296,9 @@ fn wider_and_deeper(run: &Run) -> [f64; 2] {
     let wider = (wanted / own).clamp(1.0, 1.12);
     let [wanted, own] = heads.map(|head| head.head_half_depth.map(|half| half / head.head_length));
     let deeper = wanted.zip(own).map_or(1.05, |(wanted, own)| (wanted / own).clamp(1.0, 1.05));
-    [wider, deeper]
+    let [wanted, own] = heads.map(|head| head.heads());
+    let lost = ((own / wanted - 1.0) / 0.2).clamp(0.0, 1.0);
+    [wider, deeper].map(|more| 1.0 + lost * (more - 1.0))
 }
 
 #[test]
