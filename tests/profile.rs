@@ -13,8 +13,10 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 use superdeform::internals::geometry::{SEAM, weld};
 use superdeform::internals::shape::Measured;
+use superdeform::internals::shape::figure::Figure;
+use superdeform::internals::shape::product::part::Part;
 use superdeform::internals::shape::product::profile::{BodyFrame, CHAINS, Profile, Row, measure_profile};
-use superdeform::{BodyShape, Deformer, GroupSettings, Options, Rig, RigOptions, Stage, Style};
+use superdeform::{BodyShape, Deformer, GroupSettings, Options, Rig, RigOptions, Role, Stage, Style};
 use superdeform_host::file::GltfFile;
 use superdeform_host::samples;
 
@@ -207,6 +209,37 @@ fn a_result_has_the_body_of_its_reference() {
         assert_eq!(report.profile.ratios.len(), 6);
         assert_eq!(report.profile.reference, shape_of(name).profile);
     }
+}
+
+/// How steeply the left hand's vertices lie away from the line of its arm, from the wrist on, by least squares.
+fn droop(figure: &Figure) -> f64 {
+    let [shoulder, wrist] =
+        [Role::LeftUpperArm, Role::LeftHand].map(|role| figure.role_position(role).unwrap());
+    let axis = (wrist - shoulder).normalize();
+    let of_hand = |role: Role| Part::of(role) == Part::LeftHand;
+    let (mut along, mut across) = (Vec::new(), Vec::new());
+    for (vertex, &place) in figure.positions.iter().enumerate() {
+        if figure.weight_of(vertex, of_hand) > 0.5 {
+            along.push((place - wrist).dot(axis));
+            across.push((place - wrist).reject_from(axis));
+        }
+    }
+    let count = along.len() as f64;
+    let (s, p) = (along.iter().sum::<f64>() / count, across.iter().sum::<DVec3>() / count);
+    let square: f64 = along.iter().map(|x| (x - s) * (x - s)).sum();
+    let product: DVec3 = along.iter().zip(&across).map(|(x, y)| (x - s) * (*y - p)).sum();
+    product.length() / square
+}
+
+#[test]
+fn a_hand_that_becomes_short_and_thick_droops_no_more_than_it_did() {
+    if !at_hand() {
+        return;
+    }
+    let run = run(&style_of(REFERENCE, &Options::default()), &Options::default());
+    let (before, after) = (droop(run.before()), droop(&run.after()));
+    assert!(before > 0.05, "the hand is straight: {before}");
+    assert!(after <= before, "{before} before, {after} after");
 }
 
 #[test]

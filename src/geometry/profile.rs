@@ -28,9 +28,16 @@ pub struct StepSearch {
 /// one below it. The chin is where a face does.
 ///
 /// The band of rows above an edge is compared with the band below it; around the edge with the deepest step the two
-/// rows count between which it is steepest. `None` where no step is deep enough.
+/// rows count between which it is steepest, of a slope that is even the middle. A row where there is nothing is as deep
+/// as the next one below that has something: through a gap between head and body a ray sees no face. `None` where no
+/// step is deep enough.
 pub fn deepest_step(depths: &[Option<f64>], search: &StepSearch) -> Option<usize> {
     let StepSearch { band, least, tie, span } = *search;
+    let as_below = |below: &mut Option<f64>, &depth: &Option<f64>| {
+        *below = depth.or(*below);
+        Some(*below)
+    };
+    let depths: Vec<Option<f64>> = depths.iter().scan(None, as_below).collect();
     let mean = |rows: Range<usize>| {
         let seen: Vec<f64> = depths[rows].iter().flatten().copied().collect();
         (!seen.is_empty()).then(|| seen.iter().sum::<f64>() / seen.len() as f64)
@@ -44,17 +51,16 @@ pub fn deepest_step(depths: &[Option<f64>], search: &StepSearch) -> Option<usize
         }
     }
     let (_, edge) = deepest.filter(|&(step, _)| step >= least)?;
+    let near = edge.saturating_sub(band).max(1)..(edge + band).min(depths.len());
+    let step = |row: usize| {
+        depths[row].zip(depths[row - 1]).map_or(f64::NEG_INFINITY, |(above, below)| above - below)
+    };
+    let steepest = near.clone().map(step).fold(f64::NEG_INFINITY, f64::max);
     // A step between rows is about as much less than one between bands.
-    let row_tie = tie * span / band as f64;
-    let mut steepest = (f64::MIN, edge);
-    for row in edge.saturating_sub(band).max(1)..(edge + band).min(depths.len()) {
-        if let (Some(above), Some(below)) = (depths[row], depths[row - 1])
-            && above - below > steepest.0 * (1.0 + tie) + row_tie
-        {
-            steepest = (above - below, row);
-        }
-    }
-    Some(steepest.1)
+    let as_steep = |&row: &usize| step(row) * (1.0 + tie) + tie * span / band as f64 >= steepest;
+    let first = near.clone().find(as_steep)?;
+    let last = (first..near.end).take_while(as_steep).last()?;
+    Some(first.midpoint(last))
 }
 
 #[cfg(test)]
@@ -75,22 +81,26 @@ mod tests {
     }
 
     #[test]
-    fn gaps_are_no_steps_and_a_flat_front_has_none() {
+    fn gaps_are_as_deep_as_what_is_below_them_and_a_flat_front_has_no_step() {
         let gaps = rows(&[0.0, f64::NAN, 0.0, 0.0, 1.0, 1.0, f64::NAN, 1.0, f64::NAN]);
         assert_eq!(deepest_step(&gaps, &SEARCH), Some(4));
+        // A head that floats above its body ends at its own underside, not at the body's top.
+        let gap = f64::NAN;
+        let floating = rows(&[0.0, 0.0, 0.0, 0.0, gap, gap, gap, 1.0, 1.0, 1.0, 1.0]);
+        assert_eq!(deepest_step(&floating, &SEARCH), Some(7));
         assert_eq!(deepest_step(&rows(&[0.0; 12]), &SEARCH), None);
         assert_eq!(deepest_step(&rows(&[0.0, 1.0]), &SEARCH), None);
         assert_eq!(deepest_step(&[None; 12], &SEARCH), None);
     }
 
     #[test]
-    fn of_equal_steps_the_lowest_counts() {
+    fn of_equal_steps_the_lowest_counts_and_of_an_even_slope_the_middle() {
         let twice = rows(&[0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0, 2.0 + 1e-9, 2.0, 2.0, 2.0]);
         assert_eq!(deepest_step(&twice, &SEARCH), Some(4));
         // Under a flat chin all rows step back alike, but for the last digits.
         for tremble in [-5e-7, 0.0, 5e-7] {
             let slope = rows(&[0.0, 0.0, 0.0, 0.0, 0.25, 0.5 + tremble, 0.75, 1.0, 1.0, 1.0, 1.0, 1.0]);
-            assert_eq!(deepest_step(&slope, &SEARCH), Some(4), "{tremble}");
+            assert_eq!(deepest_step(&slope, &SEARCH), Some(5), "{tremble}");
         }
     }
 }

@@ -4,7 +4,7 @@
 //! chain alone cannot fold.
 
 use super::curve::{Table, monotone_cubic};
-use super::measure::{BodyFrame, BodyLines};
+use super::measure::{BodyFrame, BodyLines, HAND_FADE, droop};
 use super::relief::MOST_ROWS;
 use super::scales::Scales;
 use super::slab::slab;
@@ -25,8 +25,6 @@ const JOINING: f64 = 0.08;
 /// joint (0) and wrist (1).
 const LEG_FADE: (f64, f64) = (-0.02, 0.30);
 const ARM_FADE: (f64, f64) = (0.05, 0.20);
-/// Where a hand takes over from the arm, in parts of its length.
-const HAND_FADE: f64 = 0.25;
 /// The palm's share of a hand's length, and the half width of its border with the fingers.
 const PALM: f64 = 0.45;
 const KNUCKLES: f64 = 0.08;
@@ -69,8 +67,8 @@ struct ArmMap {
     /// Where the shoulder joint goes, less where it was.
     base: DVec3,
     length: f64,
-    /// By the place along the arm, model units: how much further it goes, scales, halves, middles.
-    table: Table<7>,
+    /// By the place along the arm, model units: how much further it goes, scales, halves, middles, and these on the result.
+    table: Table<9>,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -292,10 +290,15 @@ impl BodyMap {
             let s = start + step * (row as f64 - 0.5);
             longer.push(longer[row - 1] + step * (along(s) - 1.0));
         }
+        let row_at = |s: f64| ((s - start) / step).round() as usize;
         let table = Table::sample(start, end, ROWS_OF_ARM, |s| {
             let [a, b, c, d, e, f] = row(s);
-            let at = ((s - start) / step).round() as usize;
-            [longer[at], a, b, c, d, e, f]
+            let longer_here = longer[row_at(s)];
+            // How steeply a hand droops shrinks with its length: one that is short and thick would be a hook.
+            let drooping = lines.hand_droops[side] * droop(s - length, hand_length);
+            let from_wrist = 1.0 + (longer_here - longer[row_at(length)]) / (s - length).max(step);
+            let to = from_wrist.powi(2) * drooping;
+            [longer_here, a, b, c, d, e + drooping.x, f + drooping.y, e + to.x, f + to.y]
         });
         let base = self.torso::<DVec3>(planes.origin) - planes.origin;
         Some(ArmMap { planes, base, length, table })
@@ -309,14 +312,13 @@ impl ArmMap {
         let row = at.values();
         let across = slab(place.x - row[5], row[1], row[3]);
         let front = slab(place.y - row[6], row[2], row[4]);
-        let to = DVec2::new(row[5] + across.to, row[6] + front.to);
+        let to = DVec2::new(row[7] + across.to, row[8] + front.to);
         M::of(self.base + self.planes.point(s + row[0], to), || {
             let slopes = at.slopes();
-            let across_slope = across.by_scale * slopes[1]
-                + across.by_half * slopes[3]
-                + (1.0 - across.by_place) * slopes[5];
-            let front_slope =
-                front.by_scale * slopes[2] + front.by_half * slopes[4] + (1.0 - front.by_place) * slopes[6];
+            let across_slope = across.by_scale * slopes[1] + across.by_half * slopes[3] + slopes[7]
+                - across.by_place * slopes[5];
+            let front_slope = front.by_scale * slopes[2] + front.by_half * slopes[4] + slopes[8]
+                - front.by_place * slopes[6];
             let axes = DMat3::from_cols(self.planes.axis, self.planes.across, self.planes.front);
             let local = DMat3::from_cols(
                 DVec3::new(1.0 + slopes[0], across_slope, front_slope),

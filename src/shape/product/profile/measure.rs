@@ -28,6 +28,8 @@ const BEYOND: f64 = 1e-3;
 const HAND_END: f64 = 0.99;
 const HAND_SIDES: (f64, f64) = (0.02, 0.98);
 const HAND_PALM: (f64, f64) = (0.15, 0.75);
+/// Where a hand takes over from the arm, in parts of its length.
+pub(super) const HAND_FADE: f64 = 0.25;
 /// A neck is read at these heights between shoulder line and chin.
 const NECK_HEIGHTS: [f64; 3] = [0.45, 0.6, 0.75];
 /// A neck is no thicker than this, in head lengths: a scarf is.
@@ -145,11 +147,20 @@ impl BodyFrame {
     }
 }
 
-/// What a map needs of its own figure beside the profile: the middles of its arms' slices, in each arm's planes, model units.
+/// What a map needs of its own figure beside the profile: the middles of its arms' slices and hands, in each arm's planes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct BodyLines {
-    /// Left, right; smoothed.
+    /// Left, right; smoothed, model units.
     pub arm_middles: [Option<[Row; 2]>; 2],
+    /// How far each hand's middle leaves the arm's at the wrist, in [`droop`]s.
+    pub hand_droops: [DVec2; 2],
+}
+
+/// How far the middle of a hand that droops by 1 lies off the arm's line, `s` beyond the wrist; it leaves the line without a
+/// kink.
+pub(super) fn droop(s: f64, hand_length: f64) -> f64 {
+    let s = s.max(0.0);
+    s * s / (s + HAND_FADE * hand_length)
 }
 
 /// Measures the profile of a figure whose vertices are at `positions`.
@@ -174,9 +185,9 @@ pub fn measure_profile(
     let limbs = || {
         // One vertex at each place: quantiles must not depend on how often seams repeat it.
         let places = weld.first_vertices();
-        (body.arms(), body.hand(&places), body.foot(&places))
+        (body.arms(), body.hands(&places), body.foot(&places))
     };
-    let ((torso, (leg, skirt), neck), ((arm, arm_middles), hand, foot)) =
+    let ((torso, (leg, skirt), neck), ((arm, arm_middles), (hand, hand_droops), foot)) =
         parallel::both(body.worth(threads), trunk, limbs);
     let length = body.length;
     let profile = Profile {
@@ -191,7 +202,7 @@ pub fn measure_profile(
             / (2.0 * length),
         arm_length: (frame.arm_length(0) + frame.arm_length(1)) / (2.0 * length),
     };
-    (profile.sound(), BodyLines { arm_middles })
+    (profile.sound(), BodyLines { arm_middles, hand_droops })
 }
 
 /// A body to be measured, as it is now.
@@ -342,10 +353,13 @@ impl Body<'_> {
         (arm, middles)
     }
 
-    /// Length, half breadth, half thickness.
-    fn hand(&self, places: &[u32]) -> Option<[f64; 3]> {
-        let sides: Vec<[f64; 3]> = (0..2)
-            .filter_map(|side| {
+    /// Length, half breadth, half thickness; how much each droops, in its arm's planes.
+    fn hands(&self, places: &[u32]) -> (Option<[f64; 3]>, [DVec2; 2]) {
+        let mut droops = [DVec2::ZERO; 2];
+        let sides: Vec<[f64; 3]> = droops
+            .iter_mut()
+            .enumerate()
+            .filter_map(|(side, drooping)| {
                 let limb = &self.frame.limbs[side];
                 let planes = Planes { origin: limb.end, ..self.frame.arm_planes(side)? };
                 let points: Vec<(f64, DVec2)> = places
@@ -356,6 +370,7 @@ impl Body<'_> {
                     .filter(|point| point.0 > BEYOND * self.length)
                     .collect();
                 let length = quantile(points.iter().map(|point| point.0), HAND_END)?;
+                *drooping = slope(points.iter().map(|&(s, across)| (droop(s, length), across)));
                 let palm = || {
                     points
                         .iter()
@@ -369,7 +384,7 @@ impl Body<'_> {
                 Some([length, half(|p| p.y)?, half(|p| p.x)?])
             })
             .collect();
-        mean_numbers(&sides, self.length)
+        (mean_numbers(&sides, self.length), droops)
     }
 
     /// To the toes, to the heel, half breadth, how far outward, height of the toes.
@@ -464,6 +479,17 @@ fn mean_numbers<const N: usize>(sides: &[[f64; N]], length: f64) -> Option<[f64;
 
 fn known(number: f64) -> Option<f64> {
     (!number.is_nan()).then_some(number)
+}
+
+/// How steeply the second of these pairs rises with the first, by least squares; 0 where the first are all the same.
+fn slope(pairs: impl Iterator<Item = (f64, DVec2)> + Clone) -> DVec2 {
+    let count = pairs.clone().count() as f64;
+    let (x, y) = pairs.clone().fold((0.0, DVec2::ZERO), |sum, pair| (sum.0 + pair.0, sum.1 + pair.1));
+    let (x, y) = (x / count, y / count);
+    let (square, product) = pairs.fold((0.0, DVec2::ZERO), |sum, pair| {
+        (sum.0 + (pair.0 - x) * (pair.0 - x), sum.1 + (pair.0 - x) * (pair.1 - y))
+    });
+    if square > 0.0 { product / square } else { DVec2::ZERO }
 }
 
 /// The value below which `share` of `values` lie; `None` for none.
