@@ -10,8 +10,6 @@ use std::f64::consts::PI;
 
 /// Triangles further away than this many times their reach are one dipole: 2 in the paper.
 const FAR: f64 = 2.5;
-/// So few triangles are no longer parted.
-const FEW: usize = 8;
 
 /// Triangles, and what groups of them are from far away.
 #[derive(Clone, Debug, Default)]
@@ -29,8 +27,8 @@ struct Group {
     dipole: DVec3,
     /// The number of the first group that is no part of it.
     end: usize,
-    /// Its triangles; empty where it is parted.
-    triangles: Vec<[DVec3; 3]>,
+    /// The only triangle of one that is not parted.
+    triangle: Option<[DVec3; 3]>,
 }
 
 impl Winding {
@@ -58,10 +56,9 @@ impl Winding {
         let centre = if area > 0.0 { centre / area } else { triangles[0][0] };
         let reach = triangles.iter().flatten().map(|p| p.distance(centre)).fold(0.0, f64::max);
         let group = self.groups.len();
-        let is_leaf = triangles.len() <= FEW;
-        let kept = if is_leaf { triangles.to_vec() } else { Vec::new() };
-        self.groups.push(Group { centre, reach, dipole, end: 0, triangles: kept });
-        if !is_leaf {
+        let triangle = if let [only] = triangles { Some(*only) } else { None };
+        self.groups.push(Group { centre, reach, dipole, end: 0, triangle });
+        if triangle.is_none() {
             let (low, high) = bounds(triangles.iter().map(|&corners| middle(corners)));
             let axis = (high - low).max_position();
             let half = triangles.len() / 2;
@@ -83,8 +80,7 @@ impl Winding {
                 angle += group.dipole.dot(way) / (away * away * away);
                 next = group.end;
             } else {
-                angle +=
-                    group.triangles.iter().map(|corners| solid_angle(corners.map(|q| q - p))).sum::<f64>();
+                angle += group.triangle.map_or(0.0, |corners| solid_angle(corners.map(|q| q - p)));
                 next += 1;
             }
         }
