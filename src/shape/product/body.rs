@@ -88,7 +88,7 @@ fn proportions_of(shape: &BodyShape) -> Result<&Proportions> {
 }
 
 fn hair_shortened(parts: &PartBindings, head_length: f64) -> Option<Warning> {
-    let depth = parts.hair.as_ref()?.depth / head_length;
+    let depth = parts.hair_depth / head_length;
     (depth > HAIR_WARNED_ABOVE).then(|| {
         let message = format!(
             "hair reaches {depth:.2} head lengths below the chin: there it follows the body instead of the head"
@@ -198,7 +198,7 @@ impl Request<'_> {
             }
         };
         let (scales, limits) = part_coefficients(&anatomy.proportions, goal, options, groups)?;
-        let field = PartField::new(anatomy, scales, &product.parts, options.hair_length);
+        let field = PartField::new(anatomy, scales, &product.parts);
         let field = Field::of(Arc::new(BodyField::Parts(Box::new(field))));
         let Sliced { field, placed, limited } = if is_sliced {
             let part = &mut progress.part(0.0, 0.8);
