@@ -78,7 +78,7 @@ impl Head<'_> {
     /// A sheet around the head's axis: from a half angle away from the front to the other side, from the crown down to
     /// `bottom`, as far out as `reach` says at an angle and a height.
     fn sheet(&self, shape: &mut Shape, angles: (f64, f64), bottom: f64, reach: impl Fn(f64, f64) -> f64) {
-        let (columns, rows) = (36, 40);
+        let (columns, rows) = (2 + (9.0 * (angles.1 - angles.0)) as u32, 40);
         let first = shape.positions.len() as u32;
         for row in 0..=rows {
             let y = 1.1 + (bottom - 1.1) * f64::from(row) / f64::from(rows);

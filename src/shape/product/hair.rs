@@ -16,24 +16,21 @@ use glam::DVec3;
 const LEAST: f64 = 0.6;
 /// It begins at most this high above the chin, in head lengths. D28.
 const HIGHEST: f64 = 0.75;
-/// And does so smoothly within this much. D28.
-const BEGINS: f64 = 0.1;
+/// Nothing begins at once, neither that nor that hair below the chin goes on as it did there: it does within this; and what is this
+/// near above a strand's end is its tip. Head lengths. D28.
+const SOFT: f64 = 0.1;
 /// Of its length it has this much from the body, as an exponent; the rest from the head. D28.
 const OF_BODY: f64 = 0.8;
 /// What hangs less than the first of these below the chin keeps its length, what hangs more than the second does not. D28.
 const SHORT: (f64, f64) = (0.15, 0.4);
 /// Sideways a strand becomes shorter by this power less: 0 keeps its angles, 1 its width. D28.
 const FLARE: f64 = 0.3;
-/// What lies on the body becomes shorter towards its tip by so much more. D28.
+/// What lies on the body becomes shorter by so much less where that begins, and by so much more at its tip, as an exponent. D28.
 const RAMP: f64 = 0.8;
 /// Hair ends at least this high above the ground, in head lengths. D28.
 const OVER_GROUND: f64 = 0.12;
 /// How much what the mean direction of strands misses may be made up for. D28.
 const MADE_UP: (f64, f64) = (0.8, 1.6);
-/// What lies this near above a strand's end is its tip, in head lengths. D28.
-const TIP: f64 = 0.1;
-/// How soon below the chin hair goes on as it did there, in head lengths. D28.
-const FOLLOWS: f64 = 0.1;
 /// Hair keeps this share of its old distance from the body, up to the second number in head lengths; a push dies away to a third
 /// within the third, and is no longer than the fourth. D15.
 const KEPT: (f64, f64, f64, f64) = (0.7, 0.05, 0.25, 0.25);
@@ -84,7 +81,7 @@ impl Hanging {
             let [one, other] = link.ends.map(|place| moved[place as usize]);
             let middle =
                 0.5 * (strands.points[link.ends[0] as usize].y + strands.points[link.ends[1] as usize].y);
-            (one - other) * smoothstep(middle / FOLLOWS)
+            (one - other) * smoothstep(middle / SOFT)
         };
         let mut all = strands.solve(follows, moved);
         for (all, (short, down)) in all.iter_mut().zip(self.short.iter().zip(&self.down)) {
@@ -103,7 +100,7 @@ impl Hanging {
             clearance: clearance * length,
             spread: spread * length,
             furthest: furthest * length,
-            facing: FACING,
+            facing: Some(FACING),
             floor: ground + 0.5 * OVER_GROUND * length,
         }
     }
@@ -137,9 +134,9 @@ impl Shortening {
         let mean = |of: &[f64]| 0.5 * (of[one] + of[other]);
         let middle = 0.5 * (strands.points[one] + strands.points[other]);
         let (left, tip, lies) = (mean(&self.left), mean(&strands.tips), lay * mean(&strands.lies));
-        let part = ((self.begins - middle.y) / (self.begins - tip).max(BEGINS)).clamp(0.0, 1.0);
-        let begun = smoothstep((self.begins - middle.y) / BEGINS + 0.5);
-        let left = left + RAMP * lies * (1.0 - left) * (1.0 - 2.0 * part);
+        let part = ((self.begins - middle.y) / (self.begins - tip).max(SOFT)).clamp(0.0, 1.0);
+        let begun = smoothstep((self.begins - middle.y) / SOFT + 0.5);
+        let left = left.powf(1.0 - RAMP * lies * (1.0 - 2.0 * part));
         let left = 1.0 - begun * (1.0 - left);
         let across = left.powf(1.0 - FLARE * (1.0 - lies));
         let shorter = (DVec3::new(across, left, across) - DVec3::ONE) * along * along.dot(strands.step(link));
@@ -153,7 +150,7 @@ impl Shortening {
         let (mut sum, mut total) = (0.0, 0.0);
         for ((p, &tip), short) in strands.points.iter().zip(&strands.tips).zip(short) {
             let depth = (-tip).max(0.0);
-            let weight = smoothstep(depth / SHORT.1) * smoothstep(1.0 - (p.y - tip) / TIP);
+            let weight = smoothstep(depth / SHORT.1) * smoothstep(1.0 - (p.y - tip) / SOFT);
             let rises = unit * (depth - wanted(field, strands.frame.length, tip, length));
             sum += weight * rises * short.y;
             total += weight * short.y * short.y;

@@ -5,7 +5,7 @@
 
 use super::outside::Outside;
 use super::worn::Worn;
-use crate::geometry::{Weld, double_area};
+use crate::geometry::{Weld, double_area, smoothstep};
 use crate::parallel;
 use glam::DVec3;
 use std::collections::VecDeque;
@@ -84,8 +84,9 @@ pub struct Layer {
     pub spread: f64,
     /// Nothing is pushed further than this: what is deeper stays.
     pub furthest: f64,
-    /// Only what the nearest point of the body faces by more than this cosine is inside: what is beyond a hem is not.
-    pub facing: f64,
+    /// What the nearest point of the body faces by less than this cosine is not inside but beyond a hem; what it faces by less than
+    /// wholly is so in part.
+    pub facing: Option<f64>,
     /// Nothing that was above this height ends below it.
     pub floor: f64,
 }
@@ -105,7 +106,7 @@ impl Worn {
             clearance: CLEARANCE * height,
             spread: SPREAD * height,
             furthest: FURTHEST * height,
-            facing: 0.0,
+            facing: None,
             floor: f64::NEG_INFINITY,
         };
         let Some(displaced) = self.kept_outside(points, after, weld, &cloth, threads) else {
@@ -192,11 +193,12 @@ impl<'a> Membrane<'a> {
             }
             let (closest, distance, way) = outside.at(at, Some(self.worn.nearest[place]))?;
             let kept = (kept * old).min(clearance);
-            let is_beyond = (at - closest.point).dot(way).abs() < facing * distance.abs();
-            if distance >= kept || distance < -furthest || is_beyond {
+            if distance >= kept || distance < -furthest {
                 return None;
             }
-            let least = displaced.dot(way) + kept - distance;
+            let faced = (at - closest.point).dot(way).abs() / distance.abs().max(f64::MIN_POSITIVE);
+            let share = facing.map_or(1.0, |least| smoothstep((faced - least) / (1.0 - least)));
+            let least = displaced.dot(way) + share * (kept - distance);
             (least <= furthest).then_some(Push { way, least })
         });
         let mut is_new = false;

@@ -11,7 +11,7 @@ use super::worn::Worn;
 use crate::character::Character;
 use crate::face::head::HeadFrame;
 use crate::geometry::laplacian::Cholesky;
-use crate::geometry::{Groups, NONE, PointTree, Surface, Weld, bounds, smoothstep};
+use crate::geometry::{Groups, NONE, PointTree, Surface, Weld, bounds, range, smoothstep};
 use crate::parallel;
 use crate::shape::Measured;
 use crate::shape::field::Binding;
@@ -21,42 +21,31 @@ use glam::DVec3;
 /// Hair above the first of these heights, in head lengths above the chin, is held by the head more and more, above the second it
 /// goes with the head.
 const HELD: (f64, f64) = (0.75, 0.9);
-/// How firmly, where it is all held: so many times as much as by what it hangs together with.
-const HELD_BY: f64 = 100.0;
-/// What nothing else holds is held by this.
-const LOOSE: f64 = 1e-6;
-/// Pieces of hair within this of each other hang together, in head lengths: so many neighbours of each place, so firmly.
-const NEAR: f64 = 0.12;
-/// See [`NEAR`].
+/// How firmly the head holds hair at most, and all hair: so many times as much as it holds together.
+const HELD_BY: (f64, f64) = (100.0, 1e-6);
+/// The thickness of a lock, in head lengths: a strand's direction is the mean over this length, joints go with what is so near, and
+/// pieces of hair hang together.
+const THICKNESS: f64 = 0.12;
+/// So many neighbours of each place hang on it in other pieces.
 const NEIGHBOURS: usize = 24;
-/// See [`NEAR`]: against an edge of the same length.
+/// How firmly: against an edge of the same length.
 const NEAR_FIRMNESS: f64 = 0.16;
 /// No link counts as shorter than this, in head lengths.
 const SHORTEST: f64 = 0.01;
-/// A strand's direction is the mean over this length, in head lengths: the thickness of a lock.
-const THICKNESS: f64 = 0.12;
-/// A way down counts with this power of its steepness.
-const STEEPNESS: i32 = 4;
-/// How steep a way must be to lead on.
-const LEAST_STEEPNESS: f64 = 0.1;
+/// A way down counts with this power of its steepness, and leads on where it is steeper than the second.
+const STEEPNESS: (i32, f64) = (4, 0.1);
 /// Beads, bands and ribbons: pieces smaller than the first, in head lengths, keep their shape, those larger than the second do not.
 const SMALL: (f64, f64) = (0.25, 0.35);
 /// Hair nearer to the body than the first of these lies on it, further off than the second it does not; head lengths.
 const LYING: (f64, f64) = (0.1, 0.3);
 /// Hair that high above the chin lies on the head alone; head lengths.
 const ON_BODY: (f64, f64) = (0.25, 0.4);
-/// How far hair reaches is looked at in rows of this height, from the first height on; head lengths.
+/// How far hair reaches is looked at in rows of this height; head lengths.
 const ROW: f64 = 0.04;
-/// See [`ROW`].
-const TOP: f64 = 1.2;
 /// How much the outermost places count for it: the exponent of a mean.
 const OUTER: f64 = 8.0;
-/// Above this all hair counts, below it what lies on the body; head lengths.
-const FROM_CHIN: f64 = 0.2;
 /// What the arms move more than this hair is not kept out of: they lift it.
 const ARMS: f32 = 0.5;
-/// A joint goes with the hair around it, by the fourth power of its distance, within about this; head lengths.
-const JOINT_REACH: f64 = 0.05;
 
 /// Two places of hair that hang together.
 #[derive(Clone, Copy, Debug)]
@@ -165,11 +154,6 @@ impl Strands {
         Some(strands)
     }
 
-    /// Chin to the lowest hair, in head lengths.
-    pub fn depth(&self) -> f64 {
-        self.points.iter().map(|p| -p.y).fold(0.0, f64::max)
-    }
-
     /// From its one end to the other, in head lengths.
     pub fn step(&self, link: &Link) -> DVec3 {
         let [one, other] = link.ends.map(|place| self.points[place as usize]);
@@ -242,7 +226,7 @@ impl Strands {
             link.ends.iter().for_each(|&place| diagonal[place as usize] += link.weight);
         }
         for (held, &diagonal) in self.held.iter_mut().zip(&diagonal) {
-            *held = (HELD_BY * *held * *held + LOOSE) * diagonal.max(1.0);
+            *held = (HELD_BY.0 * *held * *held + HELD_BY.1) * diagonal.max(1.0);
         }
         let is_free = |place: &usize| self.numbers[*place] != NONE;
         let diagonal: Vec<f64> =
@@ -268,14 +252,14 @@ impl Strands {
             let [one, other] = link.ends;
             let (upper, lower) = if step.y > 0.0 { (one, other) } else { (other, one) };
             let length = step.length().max(SHORTEST);
-            let steepness = (step.y.abs() / length).powi(STEEPNESS);
+            let steepness = (step.y.abs() / length).powi(STEEPNESS.0);
             ways[upper as usize].push((lower, link.weight * length * steepness));
         }
         let mut order: Vec<u32> = (0..self.points.len() as u32).collect();
         order.sort_by(|&a, &b| self.points[a as usize].y.total_cmp(&self.points[b as usize].y));
         let mut tips: Vec<f64> = self.points.iter().map(|p| p.y).collect();
         for place in order {
-            let own = LEAST_STEEPNESS.powi(STEEPNESS);
+            let own = STEEPNESS.1.powi(STEEPNESS.0);
             let (mut sum, mut total) = (own * tips[place as usize], own);
             for &(lower, weight) in &ways[place as usize] {
                 sum += weight * tips[lower as usize];
@@ -334,8 +318,9 @@ impl Strands {
 
     /// See the field: about the vertical axis through `axis`, by how far places reach on the head and at each height.
     fn drawn_in(&self, axis: DVec3) -> Vec<DVec3> {
-        let rows = ((TOP + self.depth()) / ROW) as usize + 2;
-        let height = |row: usize| TOP - ROW * row as f64;
+        let (low, high) = range(self.points.iter().map(|p| p.y));
+        let rows = ((high - low) / ROW) as usize + 2;
+        let height = |row: usize| high - ROW * row as f64;
         // A mean that is nearly the greatest, and does not jump from lock to lock.
         let reach = |weight: &dyn Fn(usize, f64) -> f64| {
             let (mut sum, mut total) = (DVec3::ZERO, 0.0);
@@ -348,7 +333,7 @@ impl Strands {
         };
         let near = |y: f64, row: usize| (-0.5 * ((y - height(row)) / (2.0 * ROW)).powi(2)).exp();
         let reaches: Vec<DVec3> = (0..rows)
-            .map(|row| reach(&|place, y| near(y, row) * self.lies[place].max(smoothstep(y / FROM_CHIN))))
+            .map(|row| reach(&|place, y| near(y, row) * self.lies[place].max(smoothstep(y / ON_BODY.0))))
             .collect();
         let of_head = (0..rows).filter(|&row| height(row) >= 0.0).map(|row| reaches[row]);
         let on_head = of_head.fold(DVec3::splat(f64::MIN_POSITIVE), DVec3::max);
@@ -361,7 +346,7 @@ impl Strands {
         };
         let shares: Vec<DVec3> = (0..rows).map(even).collect();
         let share = |p: &DVec3| {
-            let at = ((TOP - p.y) / ROW).clamp(0.0, (rows - 1) as f64);
+            let at = ((high - p.y) / ROW).clamp(0.0, (rows - 1) as f64);
             let row = (at as usize).min(rows - 2);
             shares[row].lerp(shares[row + 1], at - row as f64)
         };
@@ -374,7 +359,7 @@ impl Strands {
         (0..).zip(pieces).for_each(|(place, &piece)| members[piece as usize].push(place));
         for places in members.into_iter().filter(|places| places.len() > 2) {
             let (low, high) = bounds(places.iter().map(|&place| self.points[place as usize]));
-            let share = 1.0 - smoothstep(((high - low).length() - SMALL.0) / (SMALL.1 - SMALL.0));
+            let share = 1.0 - smoothstep(((high - low).max_element() - SMALL.0) / (SMALL.1 - SMALL.0));
             let is_loose = places.iter().all(|&place| self.held[place as usize] == 0.0);
             if share > 0.0 && is_loose {
                 self.small.push((places, share));
@@ -421,10 +406,13 @@ fn links(worn: &Worn, points: &[DVec3], pieces: &[u32]) -> Vec<Link> {
     let tree = PointTree::new(points);
     let mut near = Vec::new();
     for place in 0..points.len() {
-        tree.nearest(points[place], NEIGHBOURS, NEAR, &mut near);
+        tree.nearest(points[place], NEIGHBOURS, THICKNESS, &mut near);
         // The furthest of them counts nothing, so that it does not matter which one that is.
-        let reach =
-            if near.len() < NEIGHBOURS { NEAR } else { near.last().map_or(NEAR, |last| last.distance()) };
+        let reach = if near.len() < NEIGHBOURS {
+            THICKNESS
+        } else {
+            near.last().map_or(THICKNESS, |last| last.distance())
+        };
         for found in near.iter().filter(|found| pieces[found.index() as usize] != pieces[place]) {
             let share = 1.0 - found.distance() / reach.max(SHORTEST);
             if share > 0.0 {
@@ -505,7 +493,7 @@ fn joints(
     let skeleton = &character.skeleton;
     let mut has_role = vec![false; skeleton.joints.len()];
     figure.humanoid.iter().for_each(|(_, joint)| has_role[joint] = true);
-    let near = JOINT_REACH * anatomy.landmarks.heights.head_length();
+    let near = THICKNESS * anatomy.landmarks.heights.head_length();
     let mut of: Vec<Vec<(u32, f64)>> = vec![Vec::new(); skeleton.joints.len()];
     for (mesh, &start) in character.meshes.iter().zip(&figure.mesh_starts) {
         for (vertex, row) in mesh.weights.rows().enumerate() {
