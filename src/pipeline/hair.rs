@@ -72,7 +72,7 @@ fn added(
     let mut all = pushed.to_vec();
     all.resize(view.measured()?.figure.positions.len(), DVec3::ZERO);
     for &(vertex, place, share) in &strands.vertices {
-        all[vertex as usize] += f64::from(share) * of(vertex as usize, place as usize);
+        all[vertex as usize] += share * of(vertex as usize, place as usize);
     }
     Ok(all)
 }

@@ -44,6 +44,8 @@ const ON_BODY: (f64, f64) = (0.25, 0.4);
 const ROW: f64 = 0.04;
 /// How much the outermost places count for it: the exponent of a mean.
 const OUTER: f64 = 8.0;
+/// What is hair by more than this is, and goes as hair does by as much as it is so by more: skin under hair is so in part.
+const HAIR: f32 = 0.5;
 /// What the arms move more than this hair is not kept out of: they lift it.
 const ARMS: f32 = 0.5;
 
@@ -66,7 +68,7 @@ pub struct Strands {
     /// Where the head is that lengths are told by.
     pub frame: HeadFrame,
     /// Each vertex of hair with its place and how much hair it is, 0 to 1.
-    pub vertices: Vec<(u32, u32, f32)>,
+    pub vertices: Vec<(u32, u32, f64)>,
     /// Where the places are, in head lengths.
     pub points: Vec<DVec3>,
     /// What hangs on what.
@@ -103,7 +105,8 @@ impl Strands {
         let Measured { figure, anatomy, weld, .. } = measured;
         let frame = head_frame(anatomy);
         let share = |vertex: usize| bindings[vertex].weight(Part::Hair);
-        let hair = figure.triangles_where(|vertex| share(vertex) > 0.0);
+        let is_hair = |vertex: usize| share(vertex) > HAIR;
+        let hair = figure.triangles_where(is_hair);
         let is_below = |&vertex: &u32| figure.positions[vertex as usize].y < frame.origin.y;
         if !hair.iter().flatten().any(|vertex| is_below(vertex)) {
             return None;
@@ -115,7 +118,7 @@ impl Strands {
         };
         let body: Vec<[u32; 3]> = figure.triangles_where(is_body);
         let body: Vec<[u32; 3]> =
-            body.into_iter().filter(|corners| corners.iter().any(|&v| share(v as usize) == 0.0)).collect();
+            body.into_iter().filter(|corners| corners.iter().any(|&v| !is_hair(v as usize))).collect();
         let outwards = if volume(&figure.positions, &body) < 0.0 { -1.0 } else { 1.0 };
         let mut worn = Worn::over(figure, body, outwards, hair, 0.0, weld, threads);
         let points: Vec<DVec3> =
@@ -133,7 +136,7 @@ impl Strands {
             vertices: vertices(&worn, weld, &share),
             joints: joints(character, measured, &worn, bindings),
             sides: sides(&points, &pieces, measured.face.as_ref().map_or(0.0, |face| face.covered)),
-            lies: lying(figure, &worn, &points, frame.length, threads, &|vertex| share(vertex) == 0.0),
+            lies: lying(figure, &worn, &points, frame.length, threads, &|vertex| !is_hair(vertex)),
             drawn_in: Vec::new(),
             tips: Vec::new(),
             along: Vec::new(),
@@ -474,11 +477,12 @@ fn lying(
 }
 
 /// Each vertex that is hair, with its place and its share.
-fn vertices(worn: &Worn, weld: &Weld, share: impl Fn(usize) -> f32) -> Vec<(u32, u32, f32)> {
+fn vertices(worn: &Worn, weld: &Weld, share: impl Fn(usize) -> f32) -> Vec<(u32, u32, f64)> {
     let place = |vertex: usize| worn.places.binary_search(&weld.representative[vertex]).ok();
+    let amount = |vertex: usize| smoothstep(f64::from((share(vertex) - HAIR) / (1.0 - HAIR)));
     (0..weld.representative.len())
-        .filter(|&vertex| share(vertex) > 0.0)
-        .filter_map(|vertex| Some((vertex as u32, place(vertex)? as u32, share(vertex))))
+        .filter(|&vertex| share(vertex) > HAIR)
+        .filter_map(|vertex| Some((vertex as u32, place(vertex)? as u32, amount(vertex))))
         .collect()
 }
 
