@@ -88,6 +88,11 @@ fn all() -> &'static [Made] {
 }
 
 impl Made {
+    /// True for the super-deformed figure.
+    fn is_small(&self) -> bool {
+        self.person.proportions.head > 0.4
+    }
+
     fn turned(&self) -> usize {
         let normal =
             |points: &[DVec3], [a, b, c]: [usize; 3]| (points[b] - points[a]).cross(points[c] - points[a]);
@@ -126,17 +131,7 @@ impl Made {
 #[test]
 fn hair_does_not_turn_over() {
     for made in all() {
-        println!(
-            "{}: {} of {} turned, {:.4} inside, stretched by {:.3?}",
-            made.name,
-            made.turned(),
-            made.hair.len(),
-            made.newly_inside(),
-            made.stretch()
-        );
-    }
-    for made in all() {
-        let most = if made.person.proportions.head > 0.4 { 0 } else { made.hair.len() / 100 };
+        let most = if made.is_small() { 0 } else { made.hair.len() / 1000 };
         assert!(made.turned() <= most, "{}: {} triangles are turned over", made.name, made.turned());
     }
 }
@@ -144,15 +139,23 @@ fn hair_does_not_turn_over() {
 #[test]
 fn hair_stays_outside_of_the_body() {
     for made in all() {
-        assert!(made.newly_inside() <= 0.01, "{}: {} is inside", made.name, made.newly_inside());
+        let most = if made.is_small() { 0.003 } else { 0.015 };
+        assert!(made.newly_inside() <= most, "{}: {} is inside", made.name, made.newly_inside());
     }
 }
 
+/// Where hair is made shorter, edges across it keep their length, those along it at least a tenth of it. On a figure that has as few
+/// heads already hair is as it was drawn.
 #[test]
 fn no_shelf_and_no_tear_is_in_hair() {
     for made in all() {
         let [least, most] = made.stretch();
-        assert!(least > 0.15 && most < 1.6, "{}: edges are {least} to {most} times as long", made.name);
+        let (shortest, longest) = if made.is_small() { (0.65, 1.2) } else { (0.1, 2.2) };
+        assert!(
+            least > shortest && most < longest,
+            "{}: edges are {least} to {most} times as long",
+            made.name
+        );
     }
 }
 

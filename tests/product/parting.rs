@@ -28,10 +28,10 @@ fn parting() -> Parting {
 #[test]
 fn what_hung_in_the_middle_ends_beside_the_eyes() {
     let to = parting().place(at(0.0, EYES.height), 1.0, 1.0);
-    // The outermost twentieth is not looked at: it reaches .997 of the radius there.
-    assert!((to.x - MIDDLE.x - ASIDE).abs() < 2e-3, "{to}");
+    // The outermost twentieth is not looked at, so that the cylinder is taken for .3 % narrower and 1.2 % less deep.
+    assert!((to.x - MIDDLE.x - ASIDE).abs() < 4e-3, "{to}");
     let round = (RADIUS * RADIUS - ASIDE * ASIDE).sqrt();
-    assert!((to.z - MIDDLE.z - round).abs() < 2e-3, "{to}");
+    assert!((to.z - MIDDLE.z - round).abs() < 4e-3, "{to}");
     assert_eq!(to.y, at(0.0, EYES.height).y);
 }
 
@@ -41,7 +41,7 @@ fn it_opens_by_the_amount() {
     for (height, amount, share) in [(0.4, 1.0, 1.0), (0.4, 0.5, 0.5), (0.4, 0.0, 0.0), (0.0, 1.0, 1.0)] {
         let to = parting().place(at(0.0, height), 1.0, amount);
         let expected = at(share * opens, height);
-        assert!(to.distance(expected) < 3e-3, "height {height}, amount {amount}: {to} instead of {expected}");
+        assert!(to.distance(expected) < 4e-3, "height {height}, amount {amount}: {to} instead of {expected}");
     }
 }
 

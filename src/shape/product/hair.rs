@@ -15,7 +15,7 @@ use glam::DVec3;
 /// A strand becomes shorter than this, beside the head, only where it cannot begin to do so higher up. D28.
 const LEAST: f64 = 0.6;
 /// It begins at most this high above the chin, in head lengths. D28.
-const HIGHEST: f64 = 0.75;
+const HIGHEST: f64 = 0.3;
 /// Nothing begins at once, neither that nor that hair below the chin goes on as it did there: it does within this; and what is this
 /// near above a strand's end is its tip. Head lengths. D28.
 const SOFT: f64 = 0.1;
