@@ -81,9 +81,7 @@ pub fn outline(view: &View) -> Result<Option<Outline>> {
         return Ok(None);
     };
     let field = body.with_face(view.face()?.shape);
-    let offsets = view.offsets()?;
     let placement = body.placement(&measured.figure, &field, &body.placed, view.threads());
-    let placement = Placement { hair_offsets: &offsets, ..placement };
     let points = placement.vertices(&sources.vertices);
     Ok(Outline::of(&sources, &points, frame, parts.after().shoulder_line))
 }

@@ -23,8 +23,8 @@ use glam::DVec3;
 const HELD: (f64, f64) = (0.75, 0.9);
 /// How firmly the head holds hair at most, and all hair: so many times as much as it holds together.
 const HELD_BY: (f64, f64) = (100.0, 1e-6);
-/// The thickness of a lock, in head lengths: a strand's direction is the mean over this length, joints go with what is so near, and
-/// pieces of hair hang together.
+/// The thickness of a lock, in head lengths: a strand's direction is the mean over this length, and pieces of hair
+/// hang together that are so near.
 const THICKNESS: f64 = 0.12;
 /// So many neighbours of each place hang on it in other pieces.
 const NEIGHBOURS: usize = 24;
@@ -497,7 +497,7 @@ fn joints(
     let skeleton = &character.skeleton;
     let mut has_role = vec![false; skeleton.joints.len()];
     figure.humanoid.iter().for_each(|(_, joint)| has_role[joint] = true);
-    let near = THICKNESS * anatomy.landmarks.heights.head_length();
+    let near = SHORTEST * anatomy.landmarks.heights.head_length();
     let mut of: Vec<Vec<(u32, f64)>> = vec![Vec::new(); skeleton.joints.len()];
     for (mesh, &start) in character.meshes.iter().zip(&figure.mesh_starts) {
         for (vertex, row) in mesh.weights.rows().enumerate() {
