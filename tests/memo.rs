@@ -155,9 +155,7 @@ fn a_style_set_on_a_deformer_gives_what_a_new_one_gives() {
             let made = outcome(&new(&character, style, &Options::default()));
             assert!(outcome(&live) == made, "{of} like {style:?}");
             let again = live.made_again_since(&before);
-            for measured in
-                ["figure", "measured", "parts", "worn", "hair_on_body", "strands", "rest_triangles"]
-            {
+            for measured in ["figure", "measured", "parts", "worn", "strands", "rest_triangles"] {
                 assert!(!again.contains(&measured), "{of}: {measured} knows no style");
             }
         }
@@ -207,15 +205,14 @@ fn a_change_does_again_what_depends_on_it_alone() {
     assert_eq!(all(|options| options.thread_count = 2), [""; 0]);
     assert_eq!(all(|options| options.repair = Repair::Kept), ["pushed"]);
     let again = all(|options| options.youth = 0.5);
-    for kept in
-        ["measured", "parts", "body", "pushed", "offsets", "whole", "outline", "young", "seat", "hair_after"]
-    {
+    for kept in [
+        "measured", "parts", "body", "pushed", "offsets", "whole", "outline", "young", "seat", "strands",
+        "hanging",
+    ] {
         assert!(!again.contains(&kept), "youth does {kept} again");
     }
     let again = all(|options| options.head_scale = 1.3);
-    for kept in
-        ["figure", "measured", "parts", "worn", "head_sources", "hair_on_body", "strands", "outline_sources"]
-    {
+    for kept in ["figure", "measured", "parts", "worn", "head_sources", "strands", "outline_sources"] {
         assert!(!again.contains(&kept), "the size of the head does {kept} again");
     }
 }

@@ -320,10 +320,7 @@ fn make(inputs: &Inputs, memo: &Memo, progress: &mut Progress) -> Result<Made> {
         let beside = || View::of_all(inputs, memo, None);
         let worn = || repair != Repair::Off && beside().worn().is_ok();
         parallel::both(thread_count, worn, || view.parts()).1?;
-        let hair = || {
-            let view = beside();
-            view.hair_on_body().is_ok() && hair::is_laid(&inputs.options) && view.strands().is_ok()
-        };
+        let hair = || beside().strands().is_ok();
         parallel::both(thread_count, hair, || view.pushed()).1?;
     }
     let (deformation, finish) = (view.deformation()?, *view.finish()?);

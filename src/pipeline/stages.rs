@@ -23,7 +23,7 @@ use crate::shape::figure::{Figure, extent};
 use crate::shape::paper;
 use crate::shape::placement::{Body, Placement};
 use crate::shape::product;
-use crate::shape::product::hair::HairOnBody;
+use crate::shape::product::hair::Hanging;
 use crate::shape::product::head::outline_sources;
 use crate::shape::product::landmarks::HeadSources;
 use crate::shape::product::repair::Pushed;
@@ -79,10 +79,8 @@ stages! {
     worn: Worn = worn, Deform 0, [];
     /// What crown, chin and soles are read from.
     head_sources: HeadSources = head_sources, Deform 0, [];
-    /// Hair below the chin, and how far outside of the body it is (D15).
-    hair_on_body: HairOnBody = hair_on_body, Deform 0, [];
-    /// Strands of hair: which part before the eyes, which lie on the body (D30).
-    strands: Strands = strands, Deform 0, [];
+    /// Strands of hair that hangs below the chin: which way they run, how far down, and what of them lies on the body (D15).
+    strands: Option<Strands> = strands, Deform 0, [];
     /// Head and trunk without arms: what the head's outline is read from (D30).
     outline_sources: OutlineSources = outline_of_head, Deform 0, [];
 
@@ -90,12 +88,14 @@ stages! {
 
     /// Where trunk and limbs go: Eqs. 1-11, or parts and slices (D27, D29) until the number of heads is right.
     body: Body = shape_body, Deform 18, [
-        mode, head_scale, groups, bone_groups, limits, profile, hair_length, stage
+        mode, head_scale, groups, bone_groups, limits, profile, stage
     ];
     /// What keeps clothes outside of that body (D32).
     pushed: Pushed = push_clothes, Deform 6, [repair];
-    /// These, and what keeps hair outside of it (D15): added to each vertex in the end; empty where nothing is.
-    offsets: Vec<DVec3> = keep_hair_outside, Deform 6, [];
+    /// How hair hangs on it (D15).
+    hanging: Option<Hanging> = hair::hanging, Deform 4, [hair_length];
+    /// What both add to each vertex; empty where nothing is.
+    offsets: Vec<DVec3> = hair::offsets, Deform 2, [];
     /// What the whole shrinks by, so that nobody becomes taller (D31): at most 1.
     whole: f64 = not_taller, Deform 1, [];
 
@@ -118,12 +118,8 @@ stages! {
 
     // Hair.
 
-    /// Hair as it lies on the head before it became younger (D30).
-    hair_before: hair::Keyframe = hair::before, Deform 4, [stage, seat, hair_lay];
-    /// Hair as it lies on the youngest head.
-    hair_after: hair::Keyframe = hair::after, Deform 4, [stage, seat, hair_lay];
-    /// Hair between the two.
-    hair: Option<hair::Hair> = hair::between, Deform 0, [stage, youth, hair_lay];
+    /// Hair on the head and the body as they are now.
+    hair: Option<hair::Hair> = hair::hair, Deform 8, [stage, hair_lay];
 
     // All together.
 
@@ -170,7 +166,7 @@ pub struct Deformation {
     pub young: Option<Arc<Option<head::Young>>>,
     /// See the stage `offsets`.
     pub offsets: Arc<Vec<DVec3>>,
-    /// Hair, where the head's stages change how it lies.
+    /// Hair, where some hangs below the chin.
     pub hair: Arc<Option<hair::Hair>>,
 }
 
@@ -210,12 +206,9 @@ fn worn(view: &View) -> Result<Worn> {
     Ok(target::worn(view.character(), &measured.figure, &measured.weld, view.threads()))
 }
 
-fn hair_on_body(view: &View) -> Result<HairOnBody> {
-    Ok(target::hair_on_body(&*view.measured()?, &view.parts()?.bindings, view.threads()))
-}
-
-fn strands(view: &View) -> Result<Strands> {
-    Ok(Strands::of(view.character(), &*view.measured()?, &view.parts()?.bindings.vertices))
+fn strands(view: &View) -> Result<Option<Strands>> {
+    let (measured, parts) = (view.measured()?, view.parts()?);
+    Ok(Strands::of(view.character(), &measured, &parts.bindings.vertices, view.threads()))
 }
 
 fn outline_of_head(view: &View) -> Result<OutlineSources> {
@@ -252,18 +245,6 @@ fn push_clothes(view: &View) -> Result<Arc<Pushed>> {
     let after = body.placement(&measured.figure, &field, &body.placed, view.threads()).all_vertices();
     let (low, high) = extent(&after);
     Ok(Arc::new(worn.pushed(&after, &measured.weld, high - low, view.threads())))
-}
-
-fn keep_hair_outside(view: &View) -> Result<Vec<DVec3>> {
-    let (body, measured, pushed) = (view.body()?, view.measured()?, view.pushed()?);
-    let pushed = pushed.dense(measured.figure.positions.len());
-    if !body.is_of_parts() {
-        return Ok(pushed);
-    }
-    let field = body.field();
-    let placement = body.placement(&measured.figure, &field, &body.placed, view.threads());
-    let placement = Placement { hair_offsets: &pushed, ..placement };
-    Ok(hair::kept_outside(&*view.hair_on_body()?, &measured, &placement))
 }
 
 /// Seen: tubbykun, 2.2 heads, came out of a style of 2.5 heads at 1.42 m instead of .94.

@@ -11,7 +11,6 @@ use superdeform::internals::shape::field::{Binding, BodyField, Field, Finish};
 use superdeform::internals::shape::product::anatomy::Anatomy;
 use superdeform::internals::shape::product::binding::{PartBinding, PartBindings};
 use superdeform::internals::shape::product::field::PartField;
-use superdeform::internals::shape::product::hair::HairOutline;
 use superdeform::internals::shape::product::part::{PART_COUNT, Part};
 use superdeform::internals::shape::product::pieces::{Attachment, Piece};
 use superdeform::internals::shape::product::scales::{HeadScale, PartCoefficients, Scale};
@@ -24,7 +23,6 @@ fn scale(length: f64, thickness: f64) -> Scale {
 /// A scale of its own for every part.
 const SCALES: PartCoefficients = PartCoefficients {
     head: HeadScale { height: 1.5, width: 1.6, depth: 1.2 },
-    hair_taming: 1.0,
     neck: Scale { length: 0.5, thickness: 0.75 },
     torso: Scale { length: 0.6, thickness: 0.8 },
     shoulder_spread: 0.7,
@@ -57,21 +55,8 @@ const PARTS: [Part; PART_COUNT] = [
     Part::Hair,
 ];
 
-/// Hair around the adult's head axis, down to the waist and broader than the head there.
-fn long_hair(anatomy: &Anatomy) -> Option<HairOutline> {
-    let axis = DVec3::new(anatomy.middle_x, anatomy.landmarks.heights.chin, anatomy.head_joint.z);
-    let mut next = numbers(7);
-    let points = (0..4000).map(|_| {
-        let (sin, cos) = (std::f64::consts::TAU * next()).sin_cos();
-        let below = 0.7 * next() - 0.2;
-        let reach = 0.1 + 0.2 * below.max(0.0);
-        axis + DVec3::new(reach * cos, -below, reach * sin)
-    });
-    HairOutline::of(points, axis)
-}
-
 fn field_of(anatomy: &Anatomy, scales: PartCoefficients) -> PartField {
-    PartField::new(anatomy, scales, &PartBindings::default(), 1.0)
+    PartField::new(anatomy, scales, &PartBindings::default())
 }
 
 /// `field` and then `face`.
@@ -91,9 +76,7 @@ fn assert_near(what: &str, found: DVec3, expected: DVec3) {
 #[test]
 fn scales_of_one_leave_everything_where_it_is() {
     for Tubes { person, figure, anatomy, bindings, .. } in crowd() {
-        let mut bindings = bindings.clone();
-        bindings.hair = long_hair(anatomy);
-        let field = PartField::new(anatomy, PartCoefficients::IDENTITY, &bindings, 1.0);
+        let field = PartField::new(anatomy, PartCoefficients::IDENTITY, bindings);
         let height = figure.height();
         for (&p, binding) in figure.positions.iter().zip(&bindings.vertices) {
             let to = field.map(p, binding);
@@ -235,13 +218,13 @@ fn torso_neck_and_head_meet_on_their_axis() {
 #[test]
 fn no_part_jumps_anywhere() {
     let Tubes { anatomy, .. } = blended();
-    let mut bindings = PartBindings { hair: long_hair(anatomy), ..PartBindings::default() };
+    let mut bindings = PartBindings::default();
     bindings.pieces.push(Piece {
         anchor: DVec3::new(0.1, 1.0, 0.1),
         lowest: 0.9,
         weights: Part::Torso.alone(),
     });
-    let field = PartField::new(anatomy, SCALES, &bindings, 1.0);
+    let field = PartField::new(anatomy, SCALES, &bindings);
     // A mixture of torso, neck and hair stands for blended weights.
     let mut mixed = Part::Torso.alone();
     (mixed[0], mixed[1], mixed[15]) = (0.5, 0.25, 0.25);
@@ -279,10 +262,10 @@ fn jacobians_are_those_of_central_differences() {
     anatomy.centre_line =
         vec![(heights.crotch, 0.0), (heights.crotch + 0.2, 0.03), (heights.shoulder_line, -0.02)];
     anatomy.head_centre.z = 0.03;
-    let mut bindings = PartBindings { hair: long_hair(&anatomy), ..PartBindings::default() };
+    let mut bindings = PartBindings::default();
     let anchor = DVec3::new(0.1, 1.1, 0.1);
     bindings.pieces.push(Piece { anchor, lowest: 0.9, weights: Part::Torso.alone() });
-    let parts = PartField::new(&anatomy, SCALES, &bindings, 0.7);
+    let parts = PartField::new(&anatomy, SCALES, &bindings);
     let chin = parts.after().chin;
     let curve = FaceMap { bottom: chin, top: chin + 0.3, squash: 0.8, curve: FaceCurve::F4 };
     let mut next = numbers(3);
@@ -305,7 +288,7 @@ fn jacobians_are_those_of_central_differences() {
             let p = DVec3::new(0.8 * next() - 0.4, 2.0 * next() - 0.1, 0.4 * next() - 0.2);
             let map = |p: DVec3| field.map(p, &binding);
             let step = 1e-6;
-            // A corner within the step (a landmark, a knot of the hair's width) has two Jacobians.
+            // A corner within the step (a landmark) has two Jacobians.
             let (up, down) = (map(p + step * DVec3::Y).jacobian, map(p - step * DVec3::Y).jacobian);
             if (up - down).to_cols_array().iter().any(|x| x.abs() > 1e-4) {
                 continue;
@@ -350,7 +333,7 @@ fn a_piece_is_moved_and_scaled_as_one_and_does_not_sink_into_the_ground() {
         piece(anchors[1], before.sole),
         piece(anchors[1], before.sole - 0.1),
     ];
-    let field = PartField::new(anatomy, SCALES, &PartBindings { pieces, ..PartBindings::default() }, 1.0);
+    let field = PartField::new(anatomy, SCALES, &PartBindings { pieces, ..PartBindings::default() });
     let on_torso = |p: DVec3| by_part(&field, Part::Torso, p);
     let slope = field.after().crotch / before.crotch;
     let free = [(0.8 * 0.8 * 0.6_f64).cbrt(), (0.8 * 0.8 * slope).cbrt()];
@@ -400,25 +383,5 @@ fn what_sits_on_the_face_takes_the_face_map_of_one_point() {
     for away in [DVec3::ZERO, DVec3::new(0.05, 0.03, 0.02), DVec3::new(0.0, 0.3, 0.0)] {
         let expected = by_part(&field, Part::Head, centre + away) + shift * DVec3::Y;
         assert_near("on the face", with_face.place(centre + away, &Binding::Parts(binding)), expected);
-    }
-}
-
-#[test]
-fn hair_ends_where_it_ended_on_the_body_or_at_the_chin() {
-    let Tubes { anatomy, .. } = blended();
-    let before = anatomy.landmarks.heights;
-    let outline = long_hair(anatomy).unwrap();
-    let depth = outline.depth;
-    let bindings = PartBindings { hair: Some(outline), ..PartBindings::default() };
-    let tip = DVec3::new(0.0, before.chin - depth, anatomy.head_joint.z);
-    assert!((before.crotch..before.shoulder_line).contains(&tip.y), "{tip}");
-    for hair_length in [1.0, 0.5, 0.0] {
-        let field = PartField::new(anatomy, SCALES, &bindings, hair_length);
-        let after = field.after();
-        let on_body = after.crotch + 0.6 * (tip.y - before.crotch);
-        let shortest = after.chin - 0.05 * 1.5 * depth;
-        let expected = (after.chin + hair_length * (on_body - after.chin)).min(shortest);
-        let found = by_part(&field, Part::Hair, tip).y;
-        assert!((found - expected).abs() < 1e-9, "{hair_length}: {found} instead of {expected}");
     }
 }

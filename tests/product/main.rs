@@ -3,6 +3,8 @@
 
 #[path = "../common/clothes.rs"]
 mod clothes;
+#[path = "../common/hair.rs"]
+mod common_hair;
 #[path = "../common/models.rs"]
 mod common_models;
 #[path = "../common/people.rs"]
@@ -10,15 +12,14 @@ mod people;
 
 mod anatomy;
 mod coefficients;
-mod curtain;
 mod field;
 mod hair;
 mod head;
 mod landmarks;
-mod long_hair;
 mod mascots;
 mod models;
 mod part;
+mod parting;
 mod pieces;
 mod repair;
 mod scales;

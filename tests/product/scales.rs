@@ -14,7 +14,6 @@ fn scale(length: f64, thickness: f64) -> Scale {
 fn scales() -> PartCoefficients {
     PartCoefficients {
         head: HeadScale { height: 1.5, width: 1.6, depth: 1.2 },
-        hair_taming: 1.0,
         neck: scale(0.5, 0.75),
         torso: scale(0.6, 0.8),
         shoulder_spread: 0.7,
@@ -48,8 +47,7 @@ fn assert_same(what: &str, found: PartCoefficients, expected: PartCoefficients) 
             scales.upper_leg,
             scales.lower_leg,
         ];
-        let mut numbers =
-            vec![height, width, depth, scales.hair_taming, scales.shoulder_spread, scales.hip_spread];
+        let mut numbers = vec![height, width, depth, scales.shoulder_spread, scales.hip_spread];
         numbers.extend([scales.hand, scales.foot]);
         numbers.extend(parts.iter().flat_map(|scale| [scale.length, scale.thickness]));
         numbers

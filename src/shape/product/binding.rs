@@ -1,7 +1,6 @@
 //! How every vertex and joint is attached to the parts (product mode).
 
 use super::anatomy::Anatomy;
-use super::hair::HairOutline;
 use super::part::{Part, PartWeights};
 use super::pieces::{Attachment, Piece, Pieces};
 use super::profile::skirts::skirt_vertices;
@@ -76,8 +75,8 @@ pub struct PartBindings {
     pub things: Vec<Vec<u32>>,
     /// True where eye joints turn the eyes: then they are the eyeballs' own.
     pub eye_turns: bool,
-    /// The outline of the hair below the chin, where there is some.
-    pub hair: Option<HairOutline>,
+    /// From the chin down to the lowest hair; 0 where none hangs.
+    pub hair_depth: f64,
 }
 
 /// Binds every vertex of `figure` to its parts.
@@ -104,12 +103,10 @@ pub fn part_bindings(
     let (weights, head_only) = part_weights(figure, anatomy, weld, &members, threads, part)?;
     let Pieces { attachments, pieces, of_joints } =
         Pieces::of(figure, skeleton, weld, &members, &head_only, &weights);
-    let hair = HairOutline::of(
-        (0..figure.positions.len())
-            .filter(|&vertex| weights[vertex][Part::Hair as usize] > 0.5)
-            .map(|vertex| figure.positions[vertex]),
-        DVec3::new(anatomy.middle_x, anatomy.landmarks.heights.chin, anatomy.head_joint.z),
-    );
+    let hair_depth = (0..figure.positions.len())
+        .filter(|&vertex| weights[vertex][Part::Hair as usize] > 0.5)
+        .map(|vertex| anatomy.landmarks.heights.chin - figure.positions[vertex].y)
+        .fold(0.0, f64::max);
     let eye_turns = face.is_some_and(FaceLandmarks::eyes_turn);
     let mut things = things_on_head(figure, &members, &attachments);
     let mut face = face_bindings(figure, face, &weights, &attachments, &things);
@@ -120,7 +117,7 @@ pub fn part_bindings(
         |(((weights, attachment), face), is_skirt)| PartBinding { weights, attachment, face, is_skirt };
     let vertices = weights.into_iter().zip(attachments).zip(face).zip(is_skirt).map(bind).collect();
     progress.at(1.0)?;
-    Ok(PartBindings { vertices, pieces, joint_pieces: of_joints, things, eye_turns, hair })
+    Ok(PartBindings { vertices, pieces, joint_pieces: of_joints, things, eye_turns, hair_depth })
 }
 
 /// How each vertex takes part in the face step: with the skin or the hair as far as the head moves it, as an eyeball, or

@@ -128,7 +128,7 @@ fn already_super_deformed(own: f64, wanted: f64, lost: f64) -> Option<Warning> {
 }
 
 fn hair_shortened(parts: &PartBindings, head_length: f64) -> Option<Warning> {
-    let depth = parts.hair.as_ref()?.depth / head_length;
+    let depth = parts.hair_depth / head_length;
     (depth > HAIR_WARNED_ABOVE).then(|| {
         let message = format!(
             "hair reaches {depth:.2} head lengths below the chin: there it follows the body instead of the head"
@@ -249,7 +249,7 @@ impl Request<'_> {
             }
         };
         let (scales, limits) = part_coefficients(&anatomy.proportions, goal, lost, options, groups)?;
-        let field = PartField::new(anatomy, scales, &product.parts, options.hair_length);
+        let field = PartField::new(anatomy, scales, &product.parts);
         let field = Field::of(Arc::new(BodyField::Parts(Box::new(field))));
         let Sliced { field, placed, limited } = match profile {
             Some(profile) => {

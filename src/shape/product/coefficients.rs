@@ -302,7 +302,7 @@ impl<'a> Solver<'a> {
             head_scale,
             head: head_scale * target.head_length,
             bounds: Bounds { strictness: if options.limits { growth } else { 0.0 }, acted: Vec::new() },
-            scales: PartCoefficients { head, hair_taming: growth, ..PartCoefficients::IDENTITY },
+            scales: PartCoefficients { head, ..PartCoefficients::IDENTITY },
         }
     }
 

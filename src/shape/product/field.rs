@@ -7,7 +7,6 @@
 
 use super::anatomy::{Anatomy, Limb};
 use super::binding::{PartBinding, PartBindings};
-use super::hair::{HairMap, HairOutline};
 use super::part::{PART_COUNT, Part, PartWeights, TINY};
 use super::pieces::{Attachment, Piece};
 use super::profile::ProfileStage;
@@ -16,12 +15,6 @@ use crate::geometry::{Mapped, outer};
 use crate::shape::heights::Heights;
 use glam::{DMat3, DVec3};
 
-/// How far below the chin hair is as narrow as it gets, in new heads. D28. Seen: nearer, short tails lose their place
-/// behind the head.
-const HAIR_TAPERING: f64 = 0.5;
-/// Hair keeps at least this share of its depth below the chin, times the head's scale: of no length it would be a disc.
-/// D28.
-const HAIR_SHORTEST: f64 = 0.05;
 /// Above the shoulder line the torso's heights change at most this many times as much as the neck's. D28. Seen: less
 /// sinks collars by up to .013 H.
 const YOKE_PER_NECK: f64 = 1.5;
@@ -73,7 +66,6 @@ pub struct PartField {
     hip_z: f64,
     /// The neck's axis at the shoulder line, before and after.
     neck_z: [f64; 2],
-    hair: Option<HairMap>,
     pieces: Vec<Affine>,
     /// What comes after the parts; `None` where nothing does.
     profile: Option<ProfileStage>,
@@ -81,14 +73,7 @@ pub struct PartField {
 
 impl PartField {
     /// The field that moves a figure of `anatomy` by `coefficients`.
-    ///
-    /// `hair_length`: 1 ends hair at the part of the body where it ended, 0 at the chin.
-    pub fn new(
-        anatomy: &Anatomy,
-        coefficients: PartCoefficients,
-        bindings: &PartBindings,
-        hair_length: f64,
-    ) -> Self {
+    pub fn new(anatomy: &Anatomy, coefficients: PartCoefficients, bindings: &PartBindings) -> Self {
         let before = anatomy.landmarks.heights;
         let base = anatomy.centre_z(before.shoulder_line).0;
         let mut field = Self {
@@ -101,7 +86,6 @@ impl PartField {
             hip_z: anatomy.centre_line.iter().map(|point| point.1).sum::<f64>()
                 / anatomy.centre_line.len() as f64,
             neck_z: [base, base],
-            hair: None,
             pieces: Vec::new(),
             profile: None,
         };
@@ -109,7 +93,6 @@ impl PartField {
         field.neck_z[1] = field.torso(neck_base).position.z;
         field.place_head();
         field.place_limbs();
-        field.hair = bindings.hair.as_ref().map(|outline| field.hair_map(outline, hair_length));
         field.pieces = bindings.pieces.iter().map(|piece| field.piece_map(piece)).collect();
         field
     }
@@ -131,9 +114,24 @@ impl PartField {
         self.torso(p).position
     }
 
+    /// Where the head's own map puts `p`.
+    pub fn place_head_alone(&self, p: DVec3) -> DVec3 {
+        self.affine[HEAD].map(p).position
+    }
+
+    /// How much the head grows.
+    pub fn head_scale(&self) -> HeadScale {
+        self.coefficients.head
+    }
+
     /// Where the parts put the anchor of a piece.
     pub fn piece_anchor(&self, piece: usize) -> DVec3 {
         self.pieces[piece].to
+    }
+
+    /// Heights before.
+    pub fn before(&self) -> &Heights {
+        &self.before
     }
 
     /// Heights after, before the ground shift.
@@ -223,8 +221,8 @@ impl PartField {
         match part {
             TORSO => self.torso(p),
             NECK => self.neck(p),
-            HEAD => self.head(p, false),
-            HAIR => self.head(p, true),
+            // Hair that hangs is made shorter where it is known what it hangs on.
+            HAIR => self.affine[HEAD].map(p),
             _ => self.affine[part].map(p),
         }
     }
@@ -271,14 +269,6 @@ impl PartField {
         Mapped { position, jacobian }
     }
 
-    #[inline(always)]
-    fn head(&self, p: DVec3, is_hair: bool) -> Mapped {
-        match &self.hair {
-            Some(hair) if is_hair && p.y < self.before.chin => hair.map(p),
-            _ => self.affine[HEAD].map(p),
-        }
-    }
-
     /// The head is scaled about the chin's level on the neck's axis.
     fn place_head(&mut self) {
         let anatomy = &self.anatomy;
@@ -316,23 +306,6 @@ impl PartField {
         }
     }
 
-    fn hair_map(&self, outline: &HairOutline, hair_length: f64) -> HairMap {
-        let (before, after, scales) = (&self.before, &self.after, &self.coefficients);
-        let bottom = before.chin - outline.depth;
-        let new_bottom = after.chin + hair_length * (self.body_height(bottom) - after.chin);
-        let least = HAIR_SHORTEST * scales.head.height * outline.depth;
-        let head = self.affine[HEAD];
-        HairMap::new(
-            outline,
-            [head.from, head.to],
-            new_bottom.min(after.chin - least),
-            scales.head,
-            scales.neck.thickness,
-            HAIR_TAPERING * (after.crown - after.chin),
-            scales.hair_taming,
-        )
-    }
-
     /// A piece goes where the body carries its anchor, as large as the body is there.
     fn piece_map(&self, piece: &Piece) -> Affine {
         let to = self.blend(piece.anchor, &piece.weights);
@@ -347,7 +320,7 @@ impl PartField {
     }
 
     /// Where the body's heights go, piecewise between the landmarks: what hair follows.
-    fn body_height(&self, y: f64) -> f64 {
+    pub fn body_height(&self, y: f64) -> f64 {
         let (b, a) = (&self.before, &self.after);
         let knots =
             [(b.sole, a.sole), (b.crotch, a.crotch), (b.shoulder_line, a.shoulder_line), (b.chin, a.chin)];

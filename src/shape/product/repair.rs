@@ -5,7 +5,7 @@
 
 use super::outside::Outside;
 use super::worn::Worn;
-use crate::geometry::{Weld, double_area};
+use crate::geometry::{Weld, double_area, smoothstep};
 use crate::parallel;
 use glam::DVec3;
 use std::collections::VecDeque;
@@ -62,6 +62,7 @@ struct Push {
 /// The displacement in the making.
 struct Membrane<'a> {
     worn: &'a Worn,
+    layer: &'a Layer,
     /// Where the places are without it.
     points: Vec<DVec3>,
     push: Vec<Option<Push>>,
@@ -70,6 +71,24 @@ struct Membrane<'a> {
     bed: Vec<f64>,
     /// Places that may move, in order.
     moving: Vec<u32>,
+}
+
+/// What a layer keeps of its distance from what it lies on, and how far a push goes; in the units of the places.
+#[derive(Clone, Copy, Debug)]
+pub struct Layer {
+    /// This share of the old distance is kept, up to `clearance`.
+    pub kept: f64,
+    /// See `kept`.
+    pub clearance: f64,
+    /// How far along the layer a push dies away to a third.
+    pub spread: f64,
+    /// Nothing is pushed further than this: what is deeper stays.
+    pub furthest: f64,
+    /// What the nearest point of the body faces by less than this cosine is not inside but beyond a hem; what it faces by less than
+    /// wholly is so in part.
+    pub facing: Option<f64>,
+    /// Nothing that was above this height ends below it.
+    pub floor: f64,
 }
 
 impl Worn {
@@ -81,24 +100,20 @@ impl Worn {
         if self.places.is_empty() || !(height > 0.0 && height.is_finite()) {
             return Pushed::default();
         }
-        let outside = self.outside(after, weld);
         let points: Vec<DVec3> = self.vertices.iter().map(|&vertex| after[vertex as usize]).collect();
-        let mut membrane = Membrane::new(self, points, SPREAD * height);
-        let all: Vec<u32> = (0..self.places.len() as u32).collect();
-        if !membrane.find_pushes(&outside, &all, height, threads) {
+        let cloth = Layer {
+            kept: KEPT_DISTANCE,
+            clearance: CLEARANCE * height,
+            spread: SPREAD * height,
+            furthest: FURTHEST * height,
+            facing: None,
+            floor: f64::NEG_INFINITY,
+        };
+        let Some(displaced) = self.kept_outside(points, after, weld, &cloth, threads) else {
             return Pushed::default();
-        }
-        membrane.find_moving(SPREAD * height);
-        let moving = membrane.moving.clone();
-        for round in 0..ROUNDS {
-            if round > 0 && !membrane.find_pushes(&outside, &moving, height, threads) {
-                break;
-            }
-            membrane.relax();
-        }
-        membrane.turn_nothing_over();
+        };
         let mut of_place = vec![DVec3::ZERO; weld.count];
-        for (&place, &displaced) in self.places.iter().zip(&membrane.displaced) {
+        for (&place, displaced) in self.places.iter().zip(displaced) {
             of_place[place as usize] = displaced;
         }
         let offsets = (0u32..)
@@ -108,20 +123,49 @@ impl Worn {
             .collect();
         Pushed { offsets }
     }
+
+    /// What must be added to each place of a layer at `points`, which lies on the body of the vertices `after`, so that what was
+    /// outside is; `None` where nothing must.
+    pub fn kept_outside(
+        &self,
+        points: Vec<DVec3>,
+        after: &[DVec3],
+        weld: &Weld,
+        layer: &Layer,
+        threads: usize,
+    ) -> Option<Vec<DVec3>> {
+        let outside = self.outside(after, weld);
+        let mut membrane = Membrane::new(self, points, layer);
+        let all: Vec<u32> = (0..self.places.len() as u32).collect();
+        if !membrane.find_pushes(&outside, &all, threads) {
+            return None;
+        }
+        membrane.find_moving();
+        let moving = membrane.moving.clone();
+        for round in 0..ROUNDS {
+            if round > 0 && !membrane.find_pushes(&outside, &moving, threads) {
+                break;
+            }
+            membrane.relax();
+        }
+        membrane.turn_nothing_over();
+        Some(membrane.displaced)
+    }
 }
 
 impl<'a> Membrane<'a> {
-    fn new(worn: &'a Worn, points: Vec<DVec3>, spread: f64) -> Self {
+    fn new(worn: &'a Worn, points: Vec<DVec3>, layer: &'a Layer) -> Self {
         // On a grid of edges of length h, the mean of the neighbours less the place is h^2/4 times the Laplacian.
         let bed = |place: usize| {
             let near = worn.around.of(place);
             let squares: f64 =
                 near.iter().map(|&other| points[other as usize].distance_squared(points[place])).sum();
-            squares / (4.0 * near.len().max(1) as f64 * spread * spread)
+            squares / (4.0 * near.len().max(1) as f64 * layer.spread * layer.spread)
         };
         let count = points.len();
         Self {
             worn,
+            layer,
             bed: (0..count).map(bed).collect(),
             points,
             push: vec![None; count],
@@ -131,22 +175,30 @@ impl<'a> Membrane<'a> {
     }
 
     /// Finds what the body pushes of `places` where they are now; false where it pushes nothing anew.
-    fn find_pushes(&mut self, outside: &Outside, places: &[u32], height: f64, threads: usize) -> bool {
-        let (clearance, furthest) = (CLEARANCE * height, FURTHEST * height);
+    fn find_pushes(&mut self, outside: &Outside, places: &[u32], threads: usize) -> bool {
+        let &Layer { kept, clearance, furthest, facing, floor, .. } = self.layer;
         let found = parallel::collect(threads, places.len(), parallel::FEW_RAYS, |index| {
             let place = places[index] as usize;
             let old = self.worn.distances[place];
-            if old.is_nan() || old <= 0.0 || self.worn.is_sewn[place] {
+            if self.worn.is_sewn[place] {
                 return None;
             }
             let displaced = self.displaced[place];
-            let guess = Some(self.worn.nearest[place]);
-            let (_, distance, way) = outside.at(self.points[place] + displaced, guess)?;
-            let kept = (KEPT_DISTANCE * old).min(clearance);
+            let at = self.points[place] + displaced;
+            if at.y < floor {
+                return Some(Push { way: DVec3::Y, least: displaced.y + floor - at.y });
+            }
+            if old.is_nan() || old <= 0.0 {
+                return None;
+            }
+            let (closest, distance, way) = outside.at(at, Some(self.worn.nearest[place]))?;
+            let kept = (kept * old).min(clearance);
             if distance >= kept || distance < -furthest {
                 return None;
             }
-            let least = displaced.dot(way) + kept - distance;
+            let faced = (at - closest.point).dot(way).abs() / distance.abs().max(f64::MIN_POSITIVE);
+            let share = facing.map_or(1.0, |least| smoothstep((faced - least) / (1.0 - least)));
+            let least = displaced.dot(way) + share * (kept - distance);
             (least <= furthest).then_some(Push { way, least })
         });
         let mut is_new = false;
@@ -160,7 +212,8 @@ impl<'a> Membrane<'a> {
     }
 
     /// The places near what is pushed, along the cloth.
-    fn find_moving(&mut self, spread: f64) {
+    fn find_moving(&mut self) {
+        let spread = self.layer.spread;
         let mut away = vec![f64::INFINITY; self.points.len()];
         let mut queue = VecDeque::new();
         for (place, push) in self.push.iter().enumerate() {

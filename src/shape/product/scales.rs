@@ -35,8 +35,6 @@ pub struct HeadScale {
 pub struct PartCoefficients {
     /// The head.
     pub head: HeadScale,
-    /// How far hair below the chin is kept within the reach that it has on the head, 0 to 1.
-    pub hair_taming: f64,
     /// The neck.
     pub neck: Scale,
     /// The torso.
@@ -63,7 +61,6 @@ impl PartCoefficients {
     /// Leaves everything as it is.
     pub const IDENTITY: Self = Self {
         head: HeadScale { height: 1.0, width: 1.0, depth: 1.0 },
-        hair_taming: 0.0,
         neck: Scale::IDENTITY,
         torso: Scale::IDENTITY,
         shoulder_spread: 1.0,

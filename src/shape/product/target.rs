@@ -1,7 +1,6 @@
 //! What product mode finds of a target once, whatever style and options are: how it hangs on the parts, what it wears.
 
 use super::binding::{PartBinding, PartBindings, joint_binding, part_bindings};
-use super::hair::HairOnBody;
 use super::joint_bindings::mean_bindings;
 use super::part::Part;
 use super::worn::Worn;
@@ -70,20 +69,6 @@ impl ProductTarget {
 pub fn worn(character: &Character, figure: &Figure, weld: &Weld, threads: usize) -> Worn {
     let mesh = |vertex: usize| figure.mesh_starts.partition_point(|&start| start <= vertex) - 1;
     Worn::of(figure, |vertex| character.meshes[mesh(vertex)].kind.is_some(), weld, threads)
-}
-
-/// The hair that may end within the body.
-pub fn hair_on_body(measured: &Measured, bindings: &Bindings, threads: usize) -> HairOnBody {
-    let figure = &measured.figure;
-    let weight = |vertex: usize, part: Part| bindings.vertices[vertex].weight(part);
-    let chin = measured.anatomy.landmarks.heights.chin;
-    let hair: Vec<usize> = (0..figure.positions.len())
-        .filter(|&vertex| figure.positions[vertex].y < chin && weight(vertex, Part::Hair) > 0.5)
-        .collect();
-    let of_head = |vertex: usize| weight(vertex, Part::Hair) + weight(vertex, Part::Head);
-    let body =
-        if hair.is_empty() { Vec::new() } else { figure.triangles_where(|vertex| of_head(vertex) < 0.5) };
-    HairOnBody::of(&figure.positions, &figure.triangles, body, hair, &measured.weld, threads)
 }
 
 /// Fewer vertices than this have no middle to speak of.

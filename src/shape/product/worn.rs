@@ -109,17 +109,35 @@ impl Worn {
         weld: &Weld,
         threads: usize,
     ) -> Self {
-        let rims = rims(&body, weld);
-        let outside = Outside::new(&figure.positions, &body, &rims, weld, outwards);
-        let (over, beside) = lying_over(figure, &outside, perhaps, weld, threads);
-        cloth.extend(over);
+        let beside = if perhaps.is_empty() {
+            Vec::new()
+        } else {
+            let rims = rims(&body, weld);
+            let outside = Outside::new(&figure.positions, &body, &rims, weld, outwards);
+            let (over, beside) = lying_over(figure, &outside, perhaps, weld, threads);
+            cloth.extend(over);
+            beside
+        };
         if cloth.is_empty() {
             return Self::default();
         }
-        if !beside.is_empty() {
-            body.extend(beside);
-            return Self::between(figure, body, outwards, cloth, Vec::new(), weld, threads);
-        }
+        body.extend(beside);
+        Self::over(figure, body, outwards, cloth, SHEET_REACH, weld, threads)
+    }
+
+    /// `body`, which looks outwards or, at -1, inwards, and `cloth` over it, whose own sheets meet where they are no further
+    /// apart than `reach`, a share of H.
+    pub fn over(
+        figure: &Figure,
+        body: Vec<[u32; 3]>,
+        outwards: f64,
+        cloth: Vec<[u32; 3]>,
+        reach: f64,
+        weld: &Weld,
+        threads: usize,
+    ) -> Self {
+        let rims = rims(&body, weld);
+        let outside = Outside::new(&figure.positions, &body, &rims, weld, outwards);
         // By number, so that the order of a triangle's corners, which a mirrored mesh may have turned, changes nothing.
         let mut first = vec![u32::MAX; weld.count];
         for &vertex in cloth.iter().flatten() {
@@ -148,7 +166,7 @@ impl Worn {
         }
         let points: Vec<DVec3> = vertices.iter().map(|&vertex| figure.positions[vertex as usize]).collect();
         let sheets = Surface::new(&points, &triangles);
-        let reach = SHEET_REACH * figure.height();
+        let reach = reach * figure.height();
         let find = |index: usize| {
             let p = points[index];
             let Some((closest, distance, _)) = outside.at(p, None) else {
@@ -159,7 +177,8 @@ impl Worn {
                 return (distance, None, nearest);
             }
             let way = closest.point - p;
-            let hit = sheets.all_hits(p, way).into_iter().find(|hit| {
+            let hits = if reach > 0.0 { sheets.all_hits(p, way) } else { Vec::new() };
+            let hit = hits.into_iter().find(|hit| {
                 hit.t > OWN_SHEET && hit.t <= 1.0 && !triangles[hit.triangle].contains(&(index as u32))
             });
             let under = hit.filter(|hit| hit.t * distance < reach).map(|hit| Under {
@@ -199,9 +218,6 @@ fn lying_over(
     weld: &Weld,
     threads: usize,
 ) -> (Vec<[u32; 3]>, Vec<[u32; 3]>) {
-    if triangles.is_empty() {
-        return (Vec::new(), Vec::new());
-    }
     let component = components(&triangles, weld);
     let of = |corners: &[u32; 3]| component[weld.representative[corners[0] as usize] as usize];
     let mut places: Vec<u32> = triangles.iter().flat_map(|&corners| weld.triangle(corners)).collect();
