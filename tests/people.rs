@@ -342,7 +342,7 @@ fn half_the_amount_is_half_way_for_a_figure_that_keeps_its_size() {
     let character = Arc::new(chibi().build());
     let vertices = |amount: f64| -> Vec<DVec3> {
         let options = Options { amount, ..Options::default() };
-        let deformer = Deformer::new(character.clone(), &Style::Heads(3.5), &options).unwrap();
+        let deformer = Deformer::new(character.clone(), &Style::Heads(2.0), &options).unwrap();
         let all: Vec<DVec3> =
             deformer.apply().meshes.iter().flat_map(|mesh| &mesh.positions).map(|p| p.as_dvec3()).collect();
         // Where the ground is may hang on another vertex half way.

@@ -312,7 +312,7 @@ fn a_figure_that_loses_no_heads_keeps_every_scale() {
             assert_near("length", coefficient.length_scale, 1.0);
             assert_near("thickness", coefficient.thickness_scale, 1.0);
         }
-        assert_eq!((scales.head.depth, scales.hair_taming), (1.0, 0.0));
+        assert_eq!(scales.head.depth, 1.0);
     }
 }
 

@@ -498,15 +498,20 @@ fn joints(
     let mut has_role = vec![false; skeleton.joints.len()];
     figure.humanoid.iter().for_each(|(_, joint)| has_role[joint] = true);
     let near = SHORTEST * anatomy.landmarks.heights.head_length();
+    // A joint of a chain stands between the hair that it moves and that of the joint before it.
+    let mut beside: Vec<Vec<usize>> = (0..skeleton.joints.len()).map(|joint| vec![joint]).collect();
+    for (joint, below) in skeleton.joints.iter().enumerate() {
+        below.parent.into_iter().for_each(|parent| beside[parent].push(joint));
+    }
     let mut of: Vec<Vec<(u32, f64)>> = vec![Vec::new(); skeleton.joints.len()];
     for (mesh, &start) in character.meshes.iter().zip(&figure.mesh_starts) {
         for (vertex, row) in mesh.weights.rows().enumerate() {
             let vertex = start + vertex;
             let share = f64::from(bindings[vertex].weight(Part::Hair));
             let Ok(place) = worn.places.binary_search(&weld.representative[vertex]) else { continue };
-            for &(joint, weight) in row.iter().filter(|_| share > 0.0) {
-                let joint = joint as usize;
-                if !has_role[joint] && weight > 0.0 {
+            for &(moving, weight) in row.iter().filter(|entry| share > 0.0 && entry.1 > 0.0) {
+                let beside = &beside[moving as usize];
+                for &joint in beside.iter().filter(|&&joint| !has_role[moving as usize] && !has_role[joint]) {
                     let away = figure.positions[vertex].distance_squared(figure.joints[joint]) + near * near;
                     of[joint].push((place as u32, share * f64::from(weight) * (near * near / away).powi(2)));
                 }
