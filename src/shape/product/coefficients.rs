@@ -46,7 +46,7 @@ const BOUND_WARNED_ABOVE: f64 = 1e-3;
 /// A number of heads that misses by less than this is not warned of: no eye sees it.
 const HEADS_WARNED_ABOVE: f64 = 0.005;
 
-/// How much of a style a figure of `before` heads takes that gets `after`: see [`HEADS_LOST`].
+/// How much of a style a figure of `before` heads takes that gets `after`: see `HEADS_LOST`.
 pub fn lost(before: f64, after: f64) -> f64 {
     ((before / after - 1.0) / HEADS_LOST).clamp(0.0, 1.0)
 }

@@ -108,7 +108,7 @@ impl Strands {
         let is_hair = |vertex: usize| share(vertex) > HAIR;
         let hair = figure.triangles_where(is_hair);
         let is_below = |&vertex: &u32| figure.positions[vertex as usize].y < frame.origin.y;
-        if !hair.iter().flatten().any(|vertex| is_below(vertex)) {
+        if !hair.iter().flatten().any(is_below) {
             return None;
         }
         let is_body = |vertex: usize| {
@@ -133,7 +133,7 @@ impl Strands {
             *is_sewn |= *held >= 1.0;
         }
         let mut strands = Self {
-            vertices: vertices(&worn, weld, &share),
+            vertices: vertices(&worn, weld, share),
             joints: joints(character, measured, &worn, bindings),
             sides: sides(&points, &pieces, measured.face.as_ref().map_or(0.0, |face| face.covered)),
             lies: lying(figure, &worn, &points, frame.length, threads, &|vertex| !is_hair(vertex)),
@@ -303,9 +303,8 @@ impl Strands {
         let diagonal: Vec<f64> = free.iter().map(|&place| mass(place) + firmness[place]).collect();
         let even = Cholesky::new(&diagonal, &self.lower(spread))?;
         let mut columns: Vec<f64> = Vec::with_capacity(5 * size);
-        for axis in 0..3 {
-            columns.extend(free.iter().map(|&place| flow[place][axis]));
-        }
+        let flow = &flow;
+        columns.extend((0..3).flat_map(|axis| free.iter().map(move |&place| flow[place][axis])));
         columns.extend(free.iter().map(|&place| mass(place) * self.lies[place]));
         columns.extend(free.iter().map(|&place| mass(place) * self.tips[place]));
         even.solve(&mut columns, 5);

@@ -152,7 +152,7 @@ impl BodyFrame {
 pub struct BodyLines {
     /// Left, right; smoothed, model units.
     pub arm_middles: [Option<[Row; 2]>; 2],
-    /// How far each hand's middle leaves the arm's at the wrist, in [`droop`]s.
+    /// How far each hand's middle leaves the arm's at the wrist, in `droop`s.
     pub hand_droops: [DVec2; 2],
 }
 
