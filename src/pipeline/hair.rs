@@ -8,12 +8,11 @@ use crate::face::head::HeadFrame;
 use crate::options::Stage;
 use crate::shape::Measured;
 use crate::shape::field::{Binding, BodyField, Field};
-use crate::shape::placement::{Body, Placement};
+use crate::shape::placement::Placement;
 use crate::shape::product::hair::Hanging;
 use crate::shape::product::head::head_frame;
 use crate::shape::product::part::Part;
-use crate::shape::product::parting::{Openings, Parting};
-use crate::shape::product::strands::Strands;
+use crate::shape::product::parting::Parting;
 use glam::DVec3;
 
 /// Hair as it hangs in the end.
@@ -31,17 +30,12 @@ pub struct Hair {
 impl Hair {
     /// What is added to a point that was at `rest` and moves with `joint`, before the amount.
     pub fn offset(&self, binding: &Binding, joint: usize, rest: DVec3) -> DVec3 {
-        let hangs = |all: DVec3| {
-            f64::from(binding.weight(Part::Hair)) * (all - beyond_head(&self.field, rest, binding))
+        let (Some(all), BodyField::Parts(parts)) = (self.joints[joint], &*self.field.body) else {
+            return DVec3::ZERO;
         };
-        self.joints[joint].map_or(DVec3::ZERO, hangs)
+        let beyond_head = self.field.place(rest, binding) - parts.place_head_alone(rest);
+        f64::from(binding.weight(Part::Hair)) * (all - beyond_head)
     }
-}
-
-/// How far `field` takes what is at `rest` beyond where it takes the head as one.
-fn beyond_head(field: &Field, rest: DVec3, binding: &Binding) -> DVec3 {
-    let BodyField::Parts(parts) = &*field.body else { return DVec3::ZERO };
-    field.place(rest, binding) - parts.place_head_alone(rest)
 }
 
 /// How hair hangs on the body, before the head's own stages; `None` where none hangs, and in paper mode.
@@ -55,94 +49,81 @@ pub fn hanging(view: &View) -> Result<Option<Hanging>> {
 /// What is added to each vertex before the head's own stages: to clothes what keeps them out of the body, to hair what makes it
 /// shorter; empty where nothing is.
 pub fn offsets(view: &View) -> Result<Vec<DVec3>> {
-    let pushed = view.pushed()?.dense(view.measured()?.figure.positions.len());
-    Ok(match (view.strands()?.as_ref(), view.hanging()?.as_ref()) {
-        (Some(strands), Some(hanging)) => added(strands, &pushed, view, |_, place| hanging.short[place])?,
-        _ => pushed,
-    })
-}
-
-/// `pushed`, and to each vertex of hair as much of what `of` gives for it and its place as it is hair.
-fn added(
-    strands: &Strands,
-    pushed: &[DVec3],
-    view: &View,
-    of: impl Fn(usize, usize) -> DVec3,
-) -> Result<Vec<DVec3>> {
-    let mut all = pushed.to_vec();
-    all.resize(view.measured()?.figure.positions.len(), DVec3::ZERO);
-    for &(vertex, place, share) in &strands.vertices {
-        all[vertex as usize] += share * of(vertex as usize, place as usize);
+    let count = view.measured()?.figure.positions.len();
+    let mut all = view.pushed()?.dense(count);
+    if let (Some(strands), Some(hanging)) = (view.strands()?.as_ref(), view.hanging()?.as_ref()) {
+        all.resize(count, DVec3::ZERO);
+        strands.add(&mut all, |place| hanging.short[place]);
     }
     Ok(all)
 }
 
 /// Hair in the end; `None` where none hangs below the chin.
 pub fn hair(view: &View) -> Result<Option<Hair>> {
-    let (strands, hanging) = (view.strands()?, view.hanging()?);
-    let (Some(strands), Some(hanging)) = (strands.as_ref(), hanging.as_ref()) else { return Ok(None) };
-    let (body, measured, options) = (view.body()?, view.measured()?, &view.options);
+    let (strands, hanging, body) = (view.strands()?, view.hanging()?, view.body()?);
+    let (Some(strands), Some(hanging), BodyField::Parts(parts)) =
+        (strands.as_ref(), hanging.as_ref(), &*body.field)
+    else {
+        return Ok(None);
+    };
+    let (measured, options, vertices) = (view.measured()?, &view.options, &strands.worn.vertices);
     let is_laid = options.stage == Stage::Face;
     let lay = if is_laid { growth(&body, &measured) * options.hair_lay } else { 0.0 };
     // Before amount, whole and ground, as all of the head's stages.
     let of_head = view.field()?;
     let field = Field { finish: body.with_face(view.face()?.shape).finish, ..(*of_head).clone() };
-    let pushed = view.pushed()?.dense(measured.figure.positions.len());
+    let mut offsets = view.pushed()?.dense(measured.figure.positions.len());
     let young = if field.young.is_some() { Some(view.young()?) } else { None };
     let young = young.as_ref().and_then(|young| Option::as_ref(young));
     let placement = Placement {
-        hair_offsets: &pushed,
+        hair_offsets: &offsets,
         ways: young.map(|young| &young.ways),
         ..body.placement(&measured.figure, &field, &body.placed, view.threads())
     };
-    let now = placement.vertices(&strands.worn.vertices);
-    let head = |vertex: u32| place_head(&body, measured.figure.positions[vertex as usize]);
+    let mut after = placement.all_vertices();
+    let at_rest = |vertex: u32| measured.figure.positions[vertex as usize];
+    let heads: Vec<DVec3> = vertices.iter().map(|&vertex| parts.place_head_alone(at_rest(vertex))).collect();
     // What is hair in part goes as hair would.
     let as_hair = Binding::to(Part::Hair);
-    let moved: Vec<DVec3> = (strands.worn.vertices.iter().zip(&now))
-        .map(|(&vertex, &now)| match placement.bindings.vertices[vertex as usize].weight(Part::Hair) {
-            1.0 => now - head(vertex),
-            _ => beyond_head(&field, measured.figure.positions[vertex as usize], &as_hair),
+    let moved: Vec<DVec3> = (vertices.iter().zip(&heads))
+        .map(|(&vertex, &head)| match placement.bindings.vertices[vertex as usize].weight(Part::Hair) {
+            1.0 => after[vertex as usize] - head,
+            _ => field.place(at_rest(vertex), &as_hair) - head,
         })
         .collect();
     let mut parted = moved.clone();
     if let (Some(sides), true) = (&strands.sides, lay > 0.0)
         && let Some(frame) = frame_after(&body, &measured)
-        && let Some(openings) = openings(&measured, &field, frame)
+        && let Some(eyes) = eyes_after(&measured, &field, frame)
     {
         let middle = frame.to_unit(field.place(measured.anatomy.head_centre, &Binding::to(Part::Head)));
-        let points: Vec<DVec3> = now.iter().map(|&p| frame.to_unit(p)).collect();
-        let parting = Parting::new(&points, middle, openings);
+        let points: Vec<DVec3> =
+            vertices.iter().map(|&vertex| frame.to_unit(after[vertex as usize])).collect();
+        let parting = Parting::new(&points, middle, eyes);
         for ((parted, &p), &side) in parted.iter_mut().zip(&points).zip(sides) {
             *parted += frame.length * (parting.place(p, side, lay) - p);
         }
     }
     let mut all = hanging.all(strands, lay, &parted);
-    let heads: Vec<DVec3> = strands.worn.vertices.iter().map(|&vertex| head(vertex)).collect();
-    let mut after = placement.all_vertices();
-    for (&vertex, (&head, &all)) in strands.worn.vertices.iter().zip(heads.iter().zip(&all)) {
-        after[vertex as usize] = head + all;
+    let points: Vec<DVec3> = heads.iter().zip(&all).map(|(&head, &all)| head + all).collect();
+    for (&vertex, &point) in vertices.iter().zip(&points) {
+        after[vertex as usize] = point;
     }
-    let points = heads.iter().zip(&all).map(|(&head, &all)| head + all).collect();
-    let BodyField::Parts(parts) = &*body.field else { return Ok(None) };
     let layer = hanging.layer(strands, parts.after().sole);
     view.part(0.5, 0.5, |_| Ok(()))?;
     let pushes = strands.worn.kept_outside(points, &after, &measured.weld, &layer, view.threads());
     for (all, push) in all.iter_mut().zip(pushes.into_iter().flatten()) {
         *all += push;
     }
+    offsets.resize(after.len(), DVec3::ZERO);
+    strands.add(&mut offsets, |place| all[place] - moved[place]);
     let joints: Vec<Option<DVec3>> = (strands.joints.iter())
         .map(|places| {
             let sum = places.iter().map(|&(place, share)| share * all[place as usize]).sum();
             (!places.is_empty()).then_some(sum)
         })
         .collect();
-    let mut hair = Hair {
-        offsets: added(strands, &pushed, view, |_, place| all[place] - moved[place])?,
-        joint_offsets: Vec::new(),
-        joints,
-        field: field.clone(),
-    };
+    let mut hair = Hair { offsets, joint_offsets: Vec::new(), joints, field };
     let bindings = &body.bindings.joints;
     hair.joint_offsets = (0..bindings.len())
         .map(|joint| hair.offset(&bindings[joint], joint, measured.figure.joints[joint]))
@@ -150,24 +131,10 @@ pub fn hair(view: &View) -> Result<Option<Hair>> {
     Ok(Some(hair))
 }
 
-fn place_head(body: &Body, p: DVec3) -> DVec3 {
-    match &*body.field {
-        BodyField::Parts(parts) => parts.place_head_alone(p),
-        BodyField::Bones(_) => p,
-    }
-}
-
 /// The eyes as they are after the face step, in lengths of the head at `frame`.
-fn openings(measured: &Measured, field: &Field, frame: HeadFrame) -> Option<Openings> {
+fn eyes_after(measured: &Measured, field: &Field, frame: HeadFrame) -> Option<Pair> {
     let face = measured.face.as_ref()?;
     let before = head_frame(&measured.anatomy);
     let after = face.mapped(|p| frame.to_unit(field.place(before.from_unit(p), &Binding::to(Part::Head))));
-    let (_, eyes) = after.eyes.as_ref()?;
-    let pair = Pair::of(eyes);
-    Some(Openings {
-        height: pair.height,
-        half_distance: pair.half_distance,
-        half_width: pair.half_width,
-        half_height: pair.half_height,
-    })
+    after.eyes.as_ref().map(|(_, eyes)| Pair::of(eyes))
 }

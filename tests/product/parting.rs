@@ -1,12 +1,13 @@
 //! `parting.rs`: hair before the eyes parts, on hair that hangs as a cylinder about the head's axis; in head lengths.
 
 use glam::DVec3;
-use superdeform::internals::shape::product::parting::{Openings, Parting, sides};
+use superdeform::internals::face::eyes::Pair;
+use superdeform::internals::shape::product::parting::{Parting, sides};
 
 /// An axis that is not the figure's middle.
 const MIDDLE: DVec3 = DVec3::new(0.1, 0.0, -0.03);
 const RADIUS: f64 = 0.6;
-const EYES: Openings = Openings { height: 0.4, half_distance: 0.2, half_width: 0.08, half_height: 0.05 };
+const EYES: Pair = Pair { height: 0.4, half_distance: 0.2, half_width: 0.08, half_height: 0.05 };
 /// What the eyes need: .2 + 1.15 * .08 + .02 aside.
 const ASIDE: f64 = 0.312;
 

@@ -54,7 +54,8 @@ struct Shortening {
     head: DVec3,
     /// Where it begins, in head lengths above the chin.
     begins: f64,
-    /// How much of each place's strand is left.
+    /// How far below the chin each place's strand should end, in head lengths before the head grows, and how much of it is left.
+    wanted: Vec<f64>,
     left: Vec<f64>,
 }
 
@@ -66,7 +67,7 @@ impl Hanging {
         let solve = |lay: f64| strands.solve(|link| shortening.shorter(strands, link, lay), &none);
         let mut short = solve(0.0);
         let mut down = solve(1.0);
-        let made_up = shortening.made_up(strands, field, length, &short);
+        let made_up = shortening.made_up(strands, &short);
         for (short, down) in short.iter_mut().zip(&mut down) {
             *down -= *short;
             *short *= made_up;
@@ -109,8 +110,8 @@ impl Hanging {
 impl Shortening {
     fn of(strands: &Strands, field: &PartField, length: f64) -> Self {
         let HeadScale { height, width, depth } = field.head_scale();
-        let left_of = |tip: f64| wanted(field, strands.frame.length, tip, length);
-        let wanted: Vec<f64> = strands.tips.iter().map(|&tip| left_of(tip)).collect();
+        let wanted: Vec<f64> =
+            strands.tips.iter().map(|&tip| wanted(field, strands.frame.length, tip, length)).collect();
         let (mut sum, mut total) = (0.0, f64::MIN_POSITIVE);
         for (&tip, &wanted) in strands.tips.iter().zip(&wanted) {
             let depth = (-tip).max(0.0);
@@ -124,7 +125,7 @@ impl Shortening {
             if depth > 0.0 { (begins + wanted) / (begins + depth) } else { 1.0 }
         };
         let left = strands.tips.iter().zip(&wanted).map(left).collect();
-        Self { head: DVec3::new(width, height, depth), begins, left }
+        Self { head: DVec3::new(width, height, depth), begins, wanted, left }
     }
 
     /// How much less a strand differs along a link than the head makes it, laid down by `lay`.
@@ -145,13 +146,15 @@ impl Shortening {
     }
 
     /// What the displacement must be multiplied by so that tips end where they should: the mean directions lose something.
-    fn made_up(&self, strands: &Strands, field: &PartField, length: f64, short: &[DVec3]) -> f64 {
+    fn made_up(&self, strands: &Strands, short: &[DVec3]) -> f64 {
         let unit = strands.frame.length * self.head.y;
         let (mut sum, mut total) = (0.0, 0.0);
-        for ((p, &tip), short) in strands.points.iter().zip(&strands.tips).zip(short) {
+        for (((p, &tip), wanted), short) in
+            strands.points.iter().zip(&strands.tips).zip(&self.wanted).zip(short)
+        {
             let depth = (-tip).max(0.0);
             let weight = smoothstep(depth / SHORT.1) * smoothstep(1.0 - (p.y - tip) / SOFT);
-            let rises = unit * (depth - wanted(field, strands.frame.length, tip, length));
+            let rises = unit * (depth - wanted);
             sum += weight * rises * short.y;
             total += weight * short.y * short.y;
         }

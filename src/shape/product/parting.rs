@@ -4,6 +4,7 @@
 //! strands go round the head, each to the side that it is on, until the eyes are free.
 
 use crate::face::dual::step;
+use crate::face::eyes::Pair;
 use crate::face::head::quantile;
 use glam::DVec3;
 
@@ -34,16 +35,6 @@ pub struct Parting {
     eyes: f64,
 }
 
-/// The eyes that should be seen: height, half distance, half width, half height of an opening, in head lengths.
-#[derive(Clone, Copy, Debug)]
-#[allow(missing_docs)]
-pub struct Openings {
-    pub height: f64,
-    pub half_distance: f64,
-    pub half_width: f64,
-    pub half_height: f64,
-}
-
 /// To which side each place goes, 1 for the left; `None` where hair need not or cannot part.
 ///
 /// `points`: in head lengths from the middle of the chin; `pieces`: the connected piece of each, known by its least place.
@@ -70,8 +61,8 @@ pub fn sides(points: &[DVec3], pieces: &[u32], covered: f64) -> Option<Vec<f64>>
 }
 
 impl Parting {
-    /// Opens hair at `points` before `eyes` about the axis through `middle`.
-    pub fn new(points: &[DVec3], middle: DVec3, eyes: Openings) -> Self {
+    /// Opens hair at `points` before `eyes`, which should be seen, about the axis through `middle`.
+    pub fn new(points: &[DVec3], middle: DVec3, eyes: Pair) -> Self {
         let beside = |p: &&DVec3| (p.y - eyes.height).abs() < LOOKED_AT.0;
         let reach = |of: &dyn Fn(DVec3) -> f64| {
             let mut all: Vec<f64> = points.iter().filter(beside).map(|&p| of(p - middle)).collect();

@@ -210,6 +210,13 @@ impl Strands {
         all
     }
 
+    /// Adds to each vertex of hair as much of what `of` gives for its place as it is hair.
+    pub fn add(&self, all: &mut [DVec3], of: impl Fn(usize) -> DVec3) {
+        for &(vertex, place, share) in &self.vertices {
+            all[vertex as usize] += share * of(place as usize);
+        }
+    }
+
     fn factor_size(&self) -> usize {
         self.numbers.iter().filter(|&&number| number != NONE).count()
     }
