@@ -516,8 +516,9 @@ def a_preview_shows_what_keys_do():
     given.heads = HEADS
     sliding = shown()
     sys.modules["bl_ext.user_default.superdeform.preview"]._let_go()
-    # Keys carry as far as they did when the slider was let go last, which is as far as they carried the source.
-    assert np.abs(sliding - shown()).max() < 0.03
+    # Keys carry as far as they did when the slider was let go last, which is as far as they carried the source; nothing
+    # shrinks to less than two thirds at so many heads.
+    assert np.abs(sliding - shown()).max() < 0.15 / 3
     assert np.abs(vertices(mesh) + np.float32([0, 0, 0.15]) - sliding).max() > 0.1
     given.preview = False
 
