@@ -5,7 +5,7 @@ use super::morphs::SparseTarget;
 use super::places::{MeshPlaces, Place};
 use super::stages::Number;
 use super::{Deformed, DeformedMesh, Deformer, MeshOutputs};
-use crate::character::{Mesh, MorphTarget};
+use crate::character::{Joint, Mesh, MorphTarget};
 use crate::error::Result;
 use crate::parallel;
 use crate::progress::Progress;
@@ -116,17 +116,21 @@ impl Deformer {
         }
         let placement = self.placement();
         let eyes = self.eye_joints();
-        joints
-            .iter()
-            .enumerate()
-            .map(|(index, joint)| match eyes.iter().find(|(eye, _)| *eye == index) {
-                Some(&(_, at)) => placement.figure.frame.to_model(at),
-                None => match placement.bindings.joints[index] {
-                    Binding::Fixed => joint.position(),
-                    _ => placement.figure.frame.to_model(placement.joint(index)),
-                },
-            })
-            .collect()
+        let frame = &placement.figure.frame;
+        let place = |index: usize, joint: &Joint| match eyes.iter().find(|(eye, _)| *eye == index) {
+            Some(&(_, at)) => frame.to_model(at + self.joint_correction(index)),
+            None => match placement.bindings.joints[index] {
+                Binding::Fixed => joint.position(),
+                _ => frame.to_model(placement.joint(index) + self.joint_correction(index)),
+            },
+        };
+        joints.iter().enumerate().map(|(index, joint)| place(index, joint)).collect()
+    }
+
+    /// What is added to where the field takes a joint, canonical frame.
+    pub(super) fn joint_correction(&self, joint: usize) -> DVec3 {
+        let whole = self.made.displacements.joints.get(joint).copied().unwrap_or_default();
+        self.made.field.finish.share() * whole
     }
 
     /// Joints that play eyes, and where they are now, canonical frame: at the same place in the eye that they turn, which the
@@ -150,7 +154,7 @@ impl Deformer {
     }
 
     fn displacements(&self) -> &[Vec3] {
-        &self.made.displacements
+        &self.made.displacements.vertices
     }
 
     fn ending(&self) -> Ending {
@@ -222,7 +226,7 @@ impl Deformer {
 
     pub(super) fn moved(&self) -> Moved<'_> {
         let finish = &self.made.field.finish;
-        let (share, size) = ((finish.size * finish.amount) as f32, finish.size as f32);
+        let (share, size) = (finish.share() as f32, finish.size as f32);
         Moved { displacements: self.displacements(), share, size }
     }
 

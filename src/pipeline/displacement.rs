@@ -9,8 +9,12 @@ use super::memo::View;
 use crate::character::{Character, Frame};
 use crate::error::Result;
 use crate::parallel;
-use crate::shape::field::{Field, Finish};
+use crate::shape::field::{Binding, Field, Finish};
+use crate::shape::figure::Figure;
 use crate::shape::placement::{Placement, renewed};
+use crate::shape::product::mirror::Mirror;
+use crate::shape::product::part::Part;
+use crate::shape::product::pieces::Attachment;
 use glam::{DVec3, Vec3};
 use std::sync::Arc;
 
@@ -27,12 +31,69 @@ pub fn below_head(view: &View) -> Result<Vec<Vec3>> {
     }))
 }
 
+/// How far everything goes all the way, before amount, ground and height.
+#[derive(Debug)]
+pub struct Displacements {
+    /// The vertices, model space.
+    pub vertices: Arc<Vec<Vec3>>,
+    /// How much further each joint goes than the field takes it, canonical frame; empty where none does.
+    pub joints: Vec<DVec3>,
+}
+
 /// How far every vertex goes.
-pub fn all(view: &View) -> Result<Arc<Vec<Vec3>>> {
+pub fn all(view: &View) -> Result<Displacements> {
     let deformation = view.deformation()?;
     let placement = deformation.placement(&deformation.field, view.threads());
     let of_head = &placement.bindings.of_head;
-    Ok(renewed(view.threads(), view.below_head()?, of_head, |vertex| displacement(&placement, vertex)))
+    let mut vertices =
+        renewed(view.threads(), view.below_head()?, of_head, |vertex| displacement(&placement, vertex));
+    let mut joints = Vec::new();
+    if deformation.body.is_of_parts()
+        && let Some(mirror) = &*view.mirror()?
+    {
+        let frame = &placement.figure.frame;
+        let way = |vertex: usize| frame.to_canonical(vertices[vertex].as_dvec3());
+        let mut corrections = corrections(mirror, &placement, way);
+        joints = corrections.split_off(vertices.len());
+        for (vertex, correction) in Arc::make_mut(&mut vertices).iter_mut().zip(corrections) {
+            *vertex += single(frame.to_model(correction));
+        }
+    }
+    Ok(Displacements { vertices, joints })
+}
+
+/// What `mirror` adds to the vertices, which go these ways, and to the joints; canonical frame.
+fn corrections(mirror: &Mirror, placement: &Placement, way: impl Fn(usize) -> DVec3) -> Vec<DVec3> {
+    let Figure { positions, joints, .. } = placement.figure;
+    let of_joint = |joint: usize| match placement.bindings.joints[joint] {
+        Binding::Fixed => DVec3::ZERO,
+        _ => placement.joint(joint) - joints[joint],
+    };
+    let of_joints: Vec<DVec3> = (0..joints.len()).map(of_joint).collect();
+    let mut all = mirror.corrections(|point| match point.checked_sub(positions.len()) {
+        Some(joint) => of_joints[joint],
+        None => way(point),
+    });
+    let of_joints = &mut all[positions.len()..];
+    // An arm goes as one, so that it keeps its angles.
+    for first in [Part::LeftUpperArm, Part::RightUpperArm] {
+        let is_of_arm = |&joint: &usize| {
+            let parts = placement.bindings.joints[joint].parts();
+            parts.is_some_and(|parts| {
+                parts.attachment == Attachment::OnBone
+                    && parts.weights[first as usize..].iter().take(3).sum::<f32>() > 0.0
+            })
+        };
+        let arm: Vec<usize> = (0..joints.len()).filter(is_of_arm).collect();
+        let mean = arm.iter().map(|&joint| of_joints[joint]).sum::<DVec3>() / arm.len().max(1) as f64;
+        arm.into_iter().for_each(|joint| of_joints[joint] = mean);
+    }
+    for (correction, binding) in of_joints.iter_mut().zip(&placement.bindings.joints) {
+        if *binding == Binding::Fixed {
+            *correction = DVec3::ZERO;
+        }
+    }
+    all
 }
 
 fn displacement(placement: &Placement, vertex: usize) -> Vec3 {
@@ -70,7 +131,7 @@ impl Ending {
         Self {
             grows: (finish.size - 1.0) as f32,
             about: single(frame.to_model(finish.about)),
-            share: (finish.size * finish.amount) as f32,
+            share: finish.share() as f32,
             lift: single(frame.to_model(DVec3::Y * (finish.size * finish.ground))),
         }
     }
@@ -94,6 +155,17 @@ impl Deformer {
     #[doc(hidden)]
     pub fn field_positions(&self) -> Vec<DVec3> {
         let placement = self.placement();
-        placement.all_vertices().into_iter().map(|p| placement.figure.frame.to_model(p)).collect()
+        let mut positions = placement.all_vertices();
+        if let (true, Ok(mirror)) = (self.made.deformation.body.is_of_parts(), self.view().mirror())
+            && let Some(mirror) = &*mirror
+        {
+            let whole = self.made.deformation.placement(&self.made.deformation.field, 1);
+            let rest = &placement.figure.positions;
+            let corrections = corrections(mirror, &whole, |vertex| whole.vertex(vertex) - rest[vertex]);
+            for (p, correction) in positions.iter_mut().zip(corrections) {
+                *p += self.made.field.finish.share() * correction;
+            }
+        }
+        positions.into_iter().map(|p| placement.figure.frame.to_model(p)).collect()
     }
 }

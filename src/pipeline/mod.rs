@@ -34,7 +34,8 @@ use crate::shape::measured::Measured;
 use crate::shape::placement::Placement;
 use crate::shape::product::target::on_head;
 pub use crate::shape::style::Style;
-use glam::{DVec3, Vec3};
+use displacement::Displacements;
+use glam::DVec3;
 use memo::{Inputs, Memo, Phase, View};
 use stages::{Deformation, Number, STAGES};
 use std::cell::RefCell;
@@ -67,8 +68,8 @@ pub enum Kept {
 #[derive(Clone, Debug)]
 struct Made {
     deformation: Arc<Deformation>,
-    /// How far each vertex goes all the way, model space, before amount, ground and height.
-    displacements: Arc<Vec<Vec3>>,
+    /// How far everything goes all the way.
+    displacements: Arc<Displacements>,
     /// The deformation's field with what is done last.
     field: Field,
     warnings: Arc<Vec<Warning>>,
@@ -234,6 +235,7 @@ impl Deformer {
         };
         let binding = on_head.as_ref().unwrap_or(&deformation.body.bindings.joints[joint]);
         let Mapped { mut position, jacobian } = field.map(p, binding);
+        position += self.joint_correction(joint);
         if let Some(hair) = &*deformation.hair {
             position += field.finish.share_of_offsets() * hair.offset(binding, joint, p);
         }

@@ -5,7 +5,7 @@
 //! what comes out here is in [`Placement`] and [`Field`]; what is done last, for every vertex alike,
 //! in [`super::displacement::Ending`].
 
-use super::displacement::{self, Ending};
+use super::displacement::{self, Displacements, Ending};
 use super::memo::{Phase, Stage, Value, View};
 use super::morphs::{self, Shifts, Touched};
 use super::{hair, head, report};
@@ -23,9 +23,11 @@ use crate::shape::figure::{Figure, extent};
 use crate::shape::paper;
 use crate::shape::placement::{Body, Placement};
 use crate::shape::product;
+use crate::shape::product::binding::PartBinding;
 use crate::shape::product::hair::Hanging;
 use crate::shape::product::head::outline_sources;
 use crate::shape::product::landmarks::HeadSources;
+use crate::shape::product::mirror::Mirror;
 use crate::shape::product::repair::Pushed;
 use crate::shape::product::strands::Strands;
 use crate::shape::product::target::{self, ProductTarget};
@@ -79,6 +81,8 @@ stages! {
     worn: Worn = worn, Deform 0, [];
     /// What crown, chin and soles are read from.
     head_sources: HeadSources = head_sources, Deform 0, [];
+    /// Which vertices and joints are each other's mirror image; `None` where the figure is not symmetric.
+    mirror: Option<Mirror> = mirror, Deform 1, [];
     /// Strands of hair that hangs below the chin: which way they run, how far down, and what of them lies on the body (D15).
     strands: Option<Strands> = strands, Deform 0, [];
     /// Head and trunk without arms: what the head's outline is read from (D30).
@@ -91,7 +95,7 @@ stages! {
         mode, head_scale, groups, bone_groups, limits, profile, stage
     ];
     /// What keeps clothes outside of that body (D32).
-    pushed: Pushed = push_clothes, Deform 6, [repair];
+    pushed: Pushed = push_clothes, Deform 5, [repair];
     /// How hair hangs on it (D15).
     hanging: Option<Hanging> = hair::hanging, Deform 4, [hair_length];
     /// What both add to each vertex; empty where nothing is.
@@ -127,8 +131,8 @@ stages! {
     deformation: Deformation = put_together, Deform 0, [];
     /// How far each vertex below the head goes all the way, as a float.
     below_head: Vec<Vec3> = displacement::below_head, Deform 1, [];
-    /// How far every vertex goes all the way.
-    displacements: Vec<Vec3> = displacement::all, Deform 4, [];
+    /// How far every vertex goes all the way, the halves of what is symmetric alike.
+    displacements: Displacements = displacement::all, Deform 4, [];
     /// Amount, ground and height: what is left to do for all alike.
     finish: Finish = finish, Deform 1, [amount, height];
     /// What a person should know.
@@ -199,6 +203,12 @@ fn bind(view: &View) -> Result<ProductTarget> {
 
 fn head_sources(view: &View) -> Result<HeadSources> {
     Ok(HeadSources::of(&*view.figure()?))
+}
+
+fn mirror(view: &View) -> Result<Option<Mirror>> {
+    let parts = view.parts()?;
+    let rigid = |vertex: usize| parts.bindings.vertices[vertex].parts().and_then(PartBinding::rigid);
+    Ok(Mirror::of(&*view.figure()?, rigid, view.threads()))
 }
 
 fn worn(view: &View) -> Result<Worn> {
@@ -290,23 +300,26 @@ fn put_together(view: &View) -> Result<Deformation> {
 /// The feet stand where they stood: the lowest vertex that touches the ground keeps its height. Then everything becomes as
 /// tall as the options say, about the ground below the hips.
 fn finish(view: &View) -> Result<Finish> {
-    let (deformation, offsets) = (view.deformation()?, view.offsets()?);
+    let (deformation, displacements) = (view.deformation()?, view.displacements()?);
     let Deformation { measured, body, .. } = &*deformation;
     let finish = Finish { amount: view.options.amount, ..deformation.field.finish };
-    let field = Field { finish: Finish { face: FaceShape::None, ..finish }, ..body.field() };
-    let placement = body.placement(&measured.figure, &field, &body.placed, view.threads());
-    let placement = Placement { hair_offsets: &offsets, ..placement };
+    let frame = &measured.figure.frame;
+    let up = frame.to_model(DVec3::Y);
     let ground = &body.bindings.ground;
-    let lowest = placement.vertices(&ground.vertices).iter().map(|p| p.y).min_by(f64::total_cmp);
+    let height_of = |&vertex: &u32| {
+        let vertex = vertex as usize;
+        let way = displacements.vertices[vertex].as_dvec3().dot(up);
+        measured.figure.positions[vertex].y + finish.amount * way
+    };
+    let lowest = ground.vertices.iter().map(height_of).min_by(f64::total_cmp);
     let finish = Finish { ground: lowest.map_or(0.0, |lowest| ground.height - lowest), ..finish };
     let height = match view.options.height {
         Height::Style => return Ok(finish),
         Height::Keep => measured.figure.height(),
         Height::Units(units) => units,
     };
-    let (frame, displacements) = (&measured.figure.frame, view.displacements()?);
-    let up = frame.to_model(DVec3::Y);
-    let positions = displacement::positions(view.character(), &displacements, Ending::of(&finish, frame));
+    let ending = Ending::of(&finish, frame);
+    let positions = displacement::positions(view.character(), &displacements.vertices, ending);
     let (low, high) = range(positions.map(|p| p.as_dvec3().dot(up)));
     Ok(Finish { size: if low < high { height / (high - low) } else { 1.0 }, ..finish })
 }

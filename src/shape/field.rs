@@ -121,9 +121,14 @@ impl Finish {
         Mapped { position: self.about + size * (to.position - self.about), jacobian: to.jacobian * size }
     }
 
+    /// How much of the whole way is left.
+    pub fn share(&self) -> f64 {
+        self.size * self.amount
+    }
+
     /// How much of an offset is left that is added to where the body's field takes a point.
     pub fn share_of_offsets(&self) -> f64 {
-        self.size * self.amount * self.whole
+        self.share() * self.whole
     }
 
     /// True where everything stays.

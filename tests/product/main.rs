@@ -17,6 +17,7 @@ mod hair;
 mod head;
 mod landmarks;
 mod mascots;
+mod mirror;
 mod models;
 mod part;
 mod parting;

@@ -274,7 +274,7 @@ fn soles_stay_as_flat_as_they_were() {
             (high - low) / run.height()
         };
         let (was, is) = (range(before), range(&after));
-        (is.is_nan() || is > was * foot + 1e-4)
+        (is.is_nan() || is > was * foot + 2.5e-4)
             .then(|| {
                 format!(
                     "{}: {} sole vertices lie within {is:.6} H; were {was:.6} H, feet x {foot:.3}",
@@ -315,10 +315,11 @@ fn what_belongs_to_the_head_alone_keeps_its_shape() {
             if given.kind == Some(MeshKind::Hair) || !of_head {
                 continue;
             }
+            // Along the file's own axes: joints that stand askew turn the canonical ones.
             let extent = |figure: &Figure| {
-                let points = &figure.positions[vertices.clone()];
-                points.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max)
-                    - points.iter().copied().fold(DVec3::INFINITY, DVec3::min)
+                let points = figure.positions[vertices.clone()].iter().map(|&p| figure.frame.to_model(p));
+                points.clone().fold(DVec3::NEG_INFINITY, DVec3::max)
+                    - points.fold(DVec3::INFINITY, DVec3::min)
             };
             let (was, is) = (extent(before), extent(&after));
             // A figure with few heads keeps its height: all of it is so much smaller.

@@ -6,7 +6,7 @@ use glam::{DVec3, Vec3};
 use std::sync::Arc;
 use superdeform::internals::shape::product::part::Part;
 use superdeform::internals::shape::product::pieces::Attachment;
-use superdeform::{Character, Deformer, Joint, MeshKind, Options, Role, Style, Weights};
+use superdeform::{Character, Deformer, Joint, MeshKind, Options, Repair, Role, Style, Weights};
 
 fn person() -> Person {
     Person { blended: true, ..Person::adult() }
@@ -161,8 +161,9 @@ fn pieces_come_out_similar_to_what_they_were() {
     let bag = ellipsoid(DVec3::new(0.3, 0.95, 0.05), DVec3::new(0.1, 0.15, 0.08));
     add_mesh(&mut character, "bag", MeshKind::Accessory, &bag, hips);
     add_mesh(&mut character, "button", MeshKind::Garment, &ball(1.2, 0.02), chest);
-    let deformer =
-        Deformer::new(Arc::new(character.clone()), &Style::Heads(2.5), &Options::default()).unwrap();
+    // The map alone: what keeps clothes out of the body pushes a button as it pushes cloth.
+    let options = Options { repair: Repair::Off, ..Options::default() };
+    let deformer = Deformer::new(Arc::new(character.clone()), &Style::Heads(2.5), &options).unwrap();
     let deformed = deformer.apply();
     for (mesh, result) in character.meshes.iter().zip(&deformed.meshes) {
         if !["bag", "button"].contains(&mesh.name.as_str()) {

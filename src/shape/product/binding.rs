@@ -45,7 +45,17 @@ impl PartBinding {
         match self.attachment {
             Attachment::Plain => (share, None),
             Attachment::OnFace(middle) => (share, Some(middle)),
-            Attachment::Piece(_) | Attachment::Strand { .. } => (0.0, None),
+            Attachment::Piece(_) | Attachment::Strand { .. } | Attachment::OnBone => (0.0, None),
+        }
+    }
+
+    /// The number of what keeps its shape, and that it is of: a piece on the body, a thing on the head, an eyeball.
+    pub fn rigid(&self) -> Option<u32> {
+        match (self.attachment, self.face) {
+            (Attachment::Piece(piece), _) => Some(3 * piece as u32),
+            (_, FaceBinding::Piece(thing)) => Some(3 * thing + 1),
+            (_, FaceBinding::Ball(side)) => Some(3 * u32::from(side) + 2),
+            _ => None,
         }
     }
 
@@ -54,7 +64,7 @@ impl PartBinding {
         let with_piece = match self.attachment {
             Attachment::Piece(_) => return 0.0,
             Attachment::Strand { share, .. } => f64::from(share),
-            Attachment::Plain | Attachment::OnFace(_) => 0.0,
+            Attachment::Plain | Attachment::OnFace(_) | Attachment::OnBone => 0.0,
         };
         let parts = [Part::Head, Part::Neck, Part::Hair];
         (1.0 - with_piece)
@@ -102,7 +112,7 @@ pub fn part_bindings(
     let part = &mut progress.part(0.05, 0.8);
     let (weights, head_only) = part_weights(figure, anatomy, weld, &members, threads, part)?;
     let Pieces { attachments, pieces, of_joints } =
-        Pieces::of(figure, skeleton, weld, &members, &head_only, &weights);
+        Pieces::of(figure, anatomy, skeleton, weld, &members, &head_only, &weights);
     let hair_depth = (0..figure.positions.len())
         .filter(|&vertex| weights[vertex][Part::Hair as usize] > 0.5)
         .map(|vertex| anatomy.landmarks.heights.chin - figure.positions[vertex].y)

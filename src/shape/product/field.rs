@@ -97,9 +97,10 @@ impl PartField {
         field
     }
 
-    /// The same field and then `profile`.
-    pub fn with_profile(mut self, profile: ProfileStage) -> Self {
+    /// The same field and then `profile`, which takes `pieces` along.
+    pub fn with_profile(mut self, profile: ProfileStage, pieces: &[Piece]) -> Self {
         self.profile = Some(profile);
+        self.pieces = pieces.iter().map(|piece| self.piece_map(piece)).collect();
         self
     }
 
@@ -124,11 +125,6 @@ impl PartField {
         self.coefficients.head
     }
 
-    /// Where the parts put the anchor of a piece.
-    pub fn piece_anchor(&self, piece: usize) -> DVec3 {
-        self.pieces[piece].to
-    }
-
     /// Heights before.
     pub fn before(&self) -> &Heights {
         &self.before
@@ -144,7 +140,7 @@ impl PartField {
         // Everything below is inlined, so that the Jacobian is not made here.
         let by_parts = || self.blend(p, &binding.weights).position;
         match (binding.attachment, &self.profile) {
-            (Attachment::Piece(piece), _) => self.with_piece(piece, p).position,
+            (Attachment::Piece(piece), _) => self.pieces[piece].map(p).position,
             (Attachment::Strand { piece, share }, _) => {
                 self.strand(p, binding, piece, f64::from(share)).position
             }
@@ -168,19 +164,10 @@ impl PartField {
     pub fn map(&self, p: DVec3, binding: &PartBinding) -> Mapped {
         let by_parts = || self.blend(p, &binding.weights);
         match (binding.attachment, &self.profile) {
-            (Attachment::Piece(piece), _) => self.with_piece(piece, p),
+            (Attachment::Piece(piece), _) => self.pieces[piece].map(p),
             (Attachment::Strand { piece, share }, _) => self.strand(p, binding, piece, f64::from(share)),
             (_, None) => by_parts(),
             (_, Some(profile)) => by_parts().then(|p| profile.map(p, binding)),
-        }
-    }
-
-    #[inline(always)]
-    fn with_piece(&self, piece: usize, p: DVec3) -> Mapped {
-        let Mapped { position, jacobian } = self.pieces[piece].map(p);
-        match &self.profile {
-            Some(profile) => Mapped { position: position + profile.piece_shift(piece), jacobian },
-            None => Mapped { position, jacobian },
         }
     }
 
@@ -189,12 +176,8 @@ impl PartField {
     #[inline(never)]
     fn strand(&self, p: DVec3, binding: &PartBinding, piece: usize, share: f64) -> Mapped {
         let plain = PartBinding { attachment: Attachment::Plain, ..*binding };
-        let body = self.blend(p, &binding.weights);
-        let body = match &self.profile {
-            Some(profile) => body.then(|p| profile.map(p, &plain)),
-            None => body,
-        };
-        let whole = self.with_piece(piece, p);
+        let body = self.map(p, &plain);
+        let whole = self.pieces[piece].map(p);
         Mapped {
             position: body.position.lerp(whole.position, share),
             jacobian: body.jacobian * (1.0 - share) + whole.jacobian * share,
@@ -306,10 +289,15 @@ impl PartField {
         }
     }
 
-    /// A piece goes where the body carries its anchor, as large as the body is there.
+    /// A piece goes where the body carries its anchor, and grows as it would if it went with the body there: the similarity that
+    /// comes nearest to that, by least squares.
     fn piece_map(&self, piece: &Piece) -> Affine {
-        let to = self.blend(piece.anchor, &piece.weights);
-        let mut scale = to.local_scale();
+        let to =
+            self.map(piece.anchor, &PartBinding { weights: piece.weights, ..PartBinding::to(Part::Torso) });
+        let spread = piece.spread;
+        let along = (0..3).map(|axis| to.jacobian.row(axis).dot(spread.col(axis))).sum::<f64>();
+        let all = (0..3).map(|axis| spread.col(axis)[axis]).sum::<f64>();
+        let mut scale = if along > 0.0 && all > 0.0 { along / all } else { to.local_scale() };
         if piece.lowest >= self.before.sole && piece.anchor.y > piece.lowest {
             // What did not reach the ground does not reach below it.
             scale = scale

@@ -1,10 +1,11 @@
 //! How joints without a role of their own are attached: as the mesh that they move (product mode).
 
 use super::binding::PartBinding;
-use super::part::{PART_COUNT, add};
+use super::part::{PART_COUNT, Part, add};
 use super::pieces::Attachment;
 use crate::character::{Character, Role};
 use crate::face::stage::FaceBinding;
+use crate::geometry::foot;
 use crate::shape::figure::Figure;
 use std::collections::BTreeMap;
 
@@ -60,6 +61,28 @@ pub fn mean_bindings(
     found
 }
 
+/// The binding of a joint that stands on the bones of an arm: of those that play a role there, and of twist bones between them.
+/// They follow the bones, so that the arm keeps its angles and a twist bone its share of the way.
+pub fn arm_binding(figure: &Figure, joint: usize) -> Option<PartBinding> {
+    use Role::*;
+    let role = figure.joint_roles[joint]?;
+    let next = match role {
+        LeftUpperArm => LeftLowerArm,
+        LeftLowerArm => LeftHand,
+        RightUpperArm => RightLowerArm,
+        RightLowerArm => RightHand,
+        LeftHand | RightHand => role,
+        _ => return None,
+    };
+    let own = figure.humanoid.joint(role);
+    let is_on_bone = own == Some(joint) || {
+        let (p, from, to) = (figure.joints[joint], figure.role_position(role)?, figure.role_position(next)?);
+        let (nearest, t) = foot(p, from, to);
+        (0.0..=1.0).contains(&t) && p.distance(nearest) < NEAR * figure.height()
+    };
+    is_on_bone.then(|| PartBinding { attachment: Attachment::OnBone, ..PartBinding::to(Part::of(role)) })
+}
+
 /// A weighted mean in the making.
 #[derive(Clone, Debug, Default)]
 struct Mean {
@@ -76,7 +99,7 @@ impl Mean {
         let (piece, share) = match binding.attachment {
             // What takes the face map as a whole says nothing of the body.
             Attachment::OnFace(_) => return,
-            Attachment::Plain => (None, 0.0),
+            Attachment::Plain | Attachment::OnBone => (None, 0.0),
             Attachment::Piece(piece) => (Some(piece), 1.0),
             Attachment::Strand { piece, share } => (Some(piece), share),
         };

@@ -13,6 +13,7 @@ pub mod hair;
 pub mod head;
 pub mod joint_bindings;
 pub mod landmarks;
+pub mod mirror;
 pub mod outside;
 pub mod part;
 pub mod parting;

@@ -1,11 +1,12 @@
 //! What keeps its shape: hats, bags, buttons move and scale as one (product mode).
 
+use super::anatomy::{Anatomy, Limb};
 use super::part::{PART_COUNT, Part, PartWeights, add};
 use super::strand;
 use crate::character::{MeshKind, Role, Skeleton};
-use crate::geometry::{Bounds, PointTree, Weld, bounds, clusters, neighbours};
+use crate::geometry::{Bounds, PointTree, Weld, bounds, clusters, foot, neighbours, outer};
 use crate::shape::figure::Figure;
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 use std::collections::BTreeMap;
 
 /// Loose pieces smaller than this share of H keep their shape: buttons, buckles, badges. D26. Seen: without, 33 more
@@ -23,6 +24,8 @@ pub enum Attachment {
     /// By its weights alone.
     #[default]
     Plain,
+    /// A joint of an arm: it follows the bones, not the slices around them.
+    OnBone,
     /// A hat or glasses: takes the face map of this point as a whole.
     OnFace(DVec3),
     /// Moves with piece number so-and-so, which keeps its shape.
@@ -43,8 +46,21 @@ pub struct Piece {
     pub anchor: DVec3,
     /// The height of its lowest vertex.
     pub lowest: f64,
+    /// The covariance of its vertices.
+    pub spread: DMat3,
     /// The parts that move the anchor.
     pub weights: PartWeights,
+}
+
+impl Piece {
+    /// What `members` make up, held at `anchor`.
+    fn of(figure: &Figure, members: &[u32], anchor: DVec3, weights: PartWeights) -> Self {
+        let places = || members.iter().map(|&vertex| figure.positions[vertex as usize]);
+        let middle = places().sum::<DVec3>() / members.len() as f64;
+        let spread = places().map(|p| outer(p - middle, p - middle)).fold(DMat3::ZERO, |sum, one| sum + one);
+        let lowest = places().map(|p| p.y).fold(f64::INFINITY, f64::min);
+        Self { anchor, lowest, spread: spread * (1.0 / members.len() as f64), weights }
+    }
 }
 
 /// The pieces of a figure.
@@ -65,6 +81,7 @@ impl Pieces {
     /// - `weights`: each vertex's weights to the parts.
     pub fn of(
         figure: &Figure,
+        anatomy: &Anatomy,
         skeleton: &Skeleton,
         weld: &Weld,
         members: &[Vec<u32>],
@@ -78,7 +95,7 @@ impl Pieces {
         };
         pieces.add_hats(figure, members, head_only);
         pieces.add_carried(figure, skeleton, weld, members, head_only);
-        pieces.add_accessories(figure, members, head_only, weights);
+        pieces.add_rigid(figure, anatomy, members, head_only, weights);
         pieces.add_small(figure, members, head_only, weights);
         pieces
     }
@@ -156,11 +173,7 @@ impl Pieces {
             // The body carries the piece at its own joint; the part it folds into moves that point.
             let role = figure.joint_roles[joint].unwrap_or(Role::Hips);
             piece_of_top[joint] = Some(self.pieces.len());
-            let piece = Piece {
-                anchor: figure.joints[joint],
-                lowest: lowest(figure, &carried[joint]),
-                weights: Part::of(role).alone(),
-            };
+            let piece = Piece::of(figure, &carried[joint], figure.joints[joint], Part::of(role).alone());
             self.add(&carried[joint], piece);
         }
         self.of_joints = top.iter().map(|top| top.and_then(|top| piece_of_top[top])).collect();
@@ -180,22 +193,29 @@ impl Pieces {
         }
     }
 
-    /// Bags, swords, machine arms that are meshes of kind accessory and hang rigidly from the body: components whose boxes
-    /// touch and whose weights are the same keep their shape as one, held where they are nearest to the body.
-    fn add_accessories(
+    /// Bags, swords, plates that hang rigidly from the body: components whose boxes touch and whose weights are the same keep
+    /// their shape as one, held where they are nearest to the body.
+    fn add_rigid(
         &mut self,
         figure: &Figure,
+        anatomy: &Anatomy,
         members: &[Vec<u32>],
         head_only: &[bool],
         weights: &[PartWeights],
     ) {
-        let things = self.accessories(figure, members, head_only);
+        let things = self.rigid(figure, anatomy, members, head_only);
         if things.is_empty() {
             return;
         }
-        let body: Vec<DVec3> = (0..figure.positions.len())
-            .filter(|&vertex| figure.kind(vertex) != MeshKind::Accessory)
-            .map(|vertex| figure.positions[vertex])
+        let mut is_of_body: Vec<bool> =
+            (0..figure.positions.len()).map(|vertex| figure.kind(vertex) != MeshKind::Accessory).collect();
+        things.iter().flatten().for_each(|&vertex| is_of_body[vertex as usize] = false);
+        let body: Vec<DVec3> = figure
+            .positions
+            .iter()
+            .zip(is_of_body)
+            .filter(|(_, is_of_body)| *is_of_body)
+            .map(|(&p, _)| p)
             .collect();
         let tree = PointTree::new(&body);
         let mut near = Vec::new();
@@ -216,25 +236,37 @@ impl Pieces {
                 .map(|(&vertex, _)| vertex)
                 .collect();
             let anchor = held.iter().map(|&vertex| place(vertex)).sum::<DVec3>() / held.len() as f64;
-            let piece =
-                Piece { anchor, lowest: lowest(figure, &whole), weights: mean_weights(weights, &held) };
+            let piece = Piece::of(figure, &whole, anchor, mean_weights(weights, &held));
             self.add(&whole, piece);
         }
     }
 
-    /// The vertices of each thing that is made of rigid components of accessories which touch and weigh the same.
-    fn accessories(&self, figure: &Figure, members: &[Vec<u32>], head_only: &[bool]) -> Vec<Vec<u32>> {
-        let is_loose = |vertex: u32| {
-            figure.kind(vertex as usize) == MeshKind::Accessory
-                && !head_only[vertex as usize]
-                && self.is_plain(vertex)
-        };
+    /// The vertices of each thing that is made of rigid components which touch and weigh the same: of accessories, and of what
+    /// lies beside the bones of a body that bends.
+    fn rigid(
+        &self,
+        figure: &Figure,
+        anatomy: &Anatomy,
+        members: &[Vec<u32>],
+        head_only: &[bool],
+    ) -> Vec<Vec<u32>> {
+        let is_loose = |vertex: u32| !head_only[vertex as usize] && self.is_plain(vertex);
         let row = |vertex: u32| &figure.role_weights[vertex as usize];
-        let rigid = |members: &&Vec<u32>| {
-            members.len() >= 3
-                && members.iter().all(|&vertex| is_loose(vertex) && row(vertex) == row(members[0]))
+        let is_rigid = |members: &[u32]| members.iter().all(|&vertex| row(vertex) == row(members[0]));
+        let all_of = |members: &[u32], kind: MeshKind| {
+            members.iter().all(|&vertex| figure.kind(vertex as usize) == kind)
         };
-        let components: Vec<&Vec<u32>> = members.iter().filter(rigid).collect();
+        let bends = members.iter().max_by_key(|members| members.len()).is_some_and(|most| !is_rigid(most));
+        let is_thing = |members: &&Vec<u32>| {
+            members.len() >= 3
+                && members.iter().all(|&vertex| is_loose(vertex))
+                && is_rigid(members)
+                && (all_of(members, MeshKind::Accessory)
+                    || bends
+                        && all_of(members, MeshKind::Body)
+                        && lies_beside_bones(figure, anatomy, members))
+        };
+        let components: Vec<&Vec<u32>> = members.iter().filter(is_thing).collect();
         let margin = DVec3::splat(TOUCHING * figure.height());
         let boxes: Vec<Bounds> = components
             .iter()
@@ -266,10 +298,29 @@ impl Pieces {
             if (high - low).max_element() > limit {
                 continue;
             }
-            let weights = mean_weights(weights, members);
-            self.add(members, Piece { anchor: (low + high) / 2.0, lowest: low.y, weights });
+            let piece = Piece::of(figure, members, (low + high) / 2.0, mean_weights(weights, members));
+            self.add(members, piece);
         }
     }
+}
+
+/// True for what trunk or limbs move and their bones do not pass.
+fn lies_beside_bones(figure: &Figure, anatomy: &Anatomy, members: &[u32]) -> bool {
+    let joint = figure.main_joint[members[0] as usize];
+    let Some(role) = joint.and_then(|joint| figure.joint_roles[joint as usize]) else { return false };
+    let (low, high) = bounds(members.iter().map(|&vertex| figure.positions[vertex as usize]));
+    let middle = (low + high) / 2.0;
+    let part = Part::of(role) as usize;
+    let on_bone = |limb: &Limb| match limb.parts.iter().position(|&of_limb| of_limb == part) {
+        Some(0) => Some(foot(middle, limb.root, limb.middle).0),
+        Some(1) => Some(foot(middle, limb.middle, limb.end).0),
+        _ => None,
+    };
+    let near = match Part::of(role) {
+        Part::Torso => Some(DVec3::new(anatomy.middle_x, middle.y, anatomy.centre_z(middle.y).0)),
+        _ => anatomy.limbs.iter().find_map(on_bone),
+    };
+    near.is_some_and(|near| near.clamp(low, high) != near)
 }
 
 /// Components that lead from the body to a piece, with the piece: most of their vertices are moved by the piece's joints, and
@@ -312,10 +363,6 @@ fn uppermost_without_role(figure: &Figure, skeleton: &Skeleton) -> Vec<Option<us
             skeleton.ancestors(joint).take_while(|&above| !has_role[above]).last()
         })
         .collect()
-}
-
-fn lowest(figure: &Figure, members: &[u32]) -> f64 {
-    members.iter().map(|&vertex| figure.positions[vertex as usize].y).fold(f64::INFINITY, f64::min)
 }
 
 fn mean_weights(weights: &[PartWeights], members: &[u32]) -> PartWeights {

@@ -65,7 +65,6 @@ pub fn with_profile(
         chains: &measured.chains,
         weld: &measured.weld,
         rest: measured.shape.profile.as_ref(),
-        pieces: &product.parts.pieces,
         binding: &|vertex| product.bindings.vertices[vertex].parts(),
         threads: options.thread_count,
     };
@@ -74,7 +73,7 @@ pub fn with_profile(
         ProfileStage::of(&source, parts, &positions, wanted, strengths, &mut progress.part(0.3, 0.8))?;
     progress.at(1.0)?;
     let limited = limited(&stage);
-    let parts = PartField::clone(parts).with_profile(stage);
+    let parts = PartField::clone(parts).with_profile(stage, &product.parts.pieces);
     let place = |vertex: usize| match &product.bindings.vertices[vertex] {
         Binding::Parts(binding) => {
             parts.place_smooth(measured.figure.positions[vertex], positions[vertex], smooth[vertex], binding)

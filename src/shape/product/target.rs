@@ -1,7 +1,7 @@
 //! What product mode finds of a target once, whatever style and options are: how it hangs on the parts, what it wears.
 
 use super::binding::{PartBinding, PartBindings, joint_binding, part_bindings};
-use super::joint_bindings::mean_bindings;
+use super::joint_bindings::{arm_binding, mean_bindings};
 use super::part::Part;
 use super::worn::Worn;
 use crate::character::{Character, Role};
@@ -53,6 +53,8 @@ impl ProductTarget {
         let joints = joint_bindings(character, figure, |joint| {
             Binding::Parts(if is_head_joint_in_neck(measured, joint) {
                 PartBinding::to(Part::Neck)
+            } else if let Some(of_arm) = arm_binding(figure, joint) {
+                of_arm
             } else if let Some(mean) = means[joint] {
                 mean
             } else {

@@ -69,6 +69,11 @@ struct ArmMap {
     length: f64,
     /// By the place along the arm, model units: how much further it goes, scales, halves, middles, and these on the result.
     table: Table<9>,
+    /// Where along and beside it the elbow is, and how much longer the bones become.
+    elbow: (f64, DVec2),
+    bone_scale: f64,
+    /// In the hand the bones go over to the middles within this length.
+    hand_fade: f64,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -177,6 +182,16 @@ impl BodyMap {
         M::of(to / total, || jacobian * (1.0 / total))
     }
 
+    /// As [`Self::map`], for what hangs on the bones of the arm that `weights` name: what lies on a bone goes along it, so that
+    /// the arm keeps its angles.
+    pub fn on_bones<M: Moved>(&self, p: DVec3, weights: &PartWeights) -> M {
+        let is_right = weights[Part::RightUpperArm as usize..].iter().take(3).any(|&weight| weight > 0.0);
+        match &self.arms[usize::from(is_right)] {
+            Some(arm) => arm.map(p, true),
+            None => self.torso(p),
+        }
+    }
+
     /// What the torso, and what hangs from it, is mapped by.
     pub fn torso<M: Moved>(&self, p: DVec3) -> M {
         let at = self.torso.at(p.y);
@@ -222,7 +237,7 @@ impl BodyMap {
         let fade_ends = self.arm_fade;
         let (share, slope) = smoothstep_slope((t - fade_ends.0) / (fade_ends.1 - fade_ends.0));
         let slope = arm.planes.axis * (slope / (fade_ends.1 - fade_ends.0) / arm.length);
-        mix(share, slope, || self.torso(p), || arm.map(p))
+        mix(share, slope, || self.torso(p), || arm.map(p, false))
     }
 
     fn foot(&self, side: usize, ankle: DVec3, own: &Profile, scales: &Scales, frame: &BodyFrame) -> FootMap {
@@ -301,24 +316,50 @@ impl BodyMap {
             [longer_here, a, b, c, d, e + drooping.x, f + drooping.y, e + to.x, f + to.y]
         });
         let base = self.torso::<DVec3>(planes.origin) - planes.origin;
-        Some(ArmMap { planes, base, length, table })
+        let elbow = planes.locate(frame.limbs[side].middle);
+        let (bone_scale, hand_fade) = (scales.arm_length, HAND_FADE * hand_length);
+        Some(ArmMap { planes, base, length, table, elbow, bone_scale, hand_fade })
     }
 }
 
+/// Where an arm's bones are at `s` from shoulder joint (0) to wrist, by where its elbow is, and the slope there.
+pub(super) fn on_bones(elbow: (f64, DVec2), length: f64, s: f64) -> [DVec2; 2] {
+    let (away, slope) =
+        if s < elbow.0 { (s, 1.0 / elbow.0) } else { (length - s, -1.0 / (length - elbow.0).max(1e-30)) };
+    if away > 0.0 { [elbow.1 * away * slope.abs(), elbow.1 * slope] } else { [DVec2::ZERO; 2] }
+}
+
 impl ArmMap {
-    fn map<M: Moved>(&self, p: DVec3) -> M {
+    /// `about_bones`: slices grow about the bones in place of their own middles.
+    fn map<M: Moved>(&self, p: DVec3, about_bones: bool) -> M {
         let (s, place) = self.planes.locate(p);
         let at = self.table.at(s);
         let row = at.values();
-        let across = slab(place.x - row[5], row[1], row[3]);
-        let front = slab(place.y - row[6], row[2], row[4]);
-        let to = DVec2::new(row[7] + across.to, row[8] + front.to);
+        let line = |of: &[f64; 9]| [DVec2::new(of[5], of[6]), DVec2::new(of[7], of[8])];
+        let mut middles = line(&row);
+        let to_hand = smoothstep_slope((s - self.length) / self.hand_fade);
+        let [bone, bone_slope] = on_bones(self.elbow, self.length, s);
+        let bones = [bone, self.bone_scale * bone];
+        if about_bones {
+            middles = [0, 1].map(|which| bones[which].lerp(middles[which], to_hand.0));
+        }
+        let across = slab(place.x - middles[0].x, row[1], row[3]);
+        let front = slab(place.y - middles[0].y, row[2], row[4]);
+        let to = middles[1] + DVec2::new(across.to, front.to);
         M::of(self.base + self.planes.point(s + row[0], to), || {
             let slopes = at.slopes();
-            let across_slope = across.by_scale * slopes[1] + across.by_half * slopes[3] + slopes[7]
-                - across.by_place * slopes[5];
-            let front_slope = front.by_scale * slopes[2] + front.by_half * slopes[4] + slopes[8]
-                - front.by_place * slopes[6];
+            let mut leans = line(&slopes);
+            if about_bones {
+                let bone_leans = [bone_slope, self.bone_scale * bone_slope];
+                leans = [0, 1].map(|which| {
+                    let apart = line(&row)[which] - bones[which];
+                    bone_leans[which].lerp(leans[which], to_hand.0) + apart * (to_hand.1 / self.hand_fade)
+                });
+            }
+            let across_slope = across.by_scale * slopes[1] + across.by_half * slopes[3] + leans[1].x
+                - across.by_place * leans[0].x;
+            let front_slope = front.by_scale * slopes[2] + front.by_half * slopes[4] + leans[1].y
+                - front.by_place * leans[0].y;
             let axes = DMat3::from_cols(self.planes.axis, self.planes.across, self.planes.front);
             let local = DMat3::from_cols(
                 DVec3::new(1.0 + slopes[0], across_slope, front_slope),

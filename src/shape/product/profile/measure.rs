@@ -1,6 +1,7 @@
 //! Measures a profile: some seventy cuts, each read around the bones.
 
 use super::chains::{Chain, Chains};
+use super::map::on_bones;
 use super::smooth::{smooth, smooth_lengths};
 use super::station::{Slice, slice_around};
 use super::{
@@ -331,12 +332,7 @@ impl Body<'_> {
                 .iter()
                 .zip(&heights)
                 .map(|(outlines, &height)| {
-                    // The elbow may lie off the straight line.
-                    let bone = if height < elbow.0 {
-                        elbow.1 * (height / elbow.0)
-                    } else {
-                        elbow.1 * ((length - height) / (length - elbow.0).max(1e-30))
-                    };
+                    let [bone, _] = on_bones(elbow, length, height);
                     slice_around(&outlines.iter().collect::<Vec<_>>(), bone, false)
                 })
                 .collect();

@@ -14,7 +14,7 @@ use crate::shape::product::anatomy::Anatomy;
 use crate::shape::product::binding::PartBinding;
 use crate::shape::product::field::PartField;
 use crate::shape::product::part::{Part, PartWeights};
-use crate::shape::product::pieces::Piece;
+use crate::shape::product::pieces::Attachment;
 use glam::{DMat3, DVec3};
 
 /// What becomes this much stubbier (its length shrinks to .7 of what its thickness does) loses all of its relief.
@@ -25,8 +25,6 @@ const SMOOTH_FROM: f64 = 0.3;
 pub struct ProfileStage {
     relief: Relief,
     slices: BodyMap,
-    /// What is added to each piece that keeps its shape: how its anchor moves.
-    piece_shifts: Vec<DVec3>,
     /// What soft limits took: of what, the wanted scale and the one it got.
     limited: Vec<(&'static str, f64, f64)>,
 }
@@ -43,8 +41,6 @@ pub struct Source<'a> {
     pub weld: &'a Weld,
     /// The figure's own profile as it stands.
     pub rest: Option<&'a Profile>,
-    /// Pieces that keep their shape.
-    pub pieces: &'a [Piece],
     /// How vertex number so-and-so is bound.
     pub binding: &'a (dyn Fn(usize) -> Option<&'a PartBinding> + Sync),
     /// At most this many, 0 for all cores.
@@ -131,23 +127,16 @@ impl ProfileStage {
         let scales = scales(&own, wanted, &strengths);
         let slices = BodyMap::new(&own, &lines, &frame, &scales);
         let Scales { limited, .. } = scales;
-        let mut stage = Self { relief, slices, piece_shifts: Vec::new(), limited };
-        stage.piece_shifts = source
-            .pieces
-            .iter()
-            .enumerate()
-            .map(|(index, piece)| {
-                let at = field.piece_anchor(index);
-                stage.placed(at, &piece.weights, false) - at
-            })
-            .collect();
         progress.at(1.0)?;
-        Ok((stage, smooth))
+        Ok((Self { relief, slices, limited }, smooth))
     }
 
     /// Where `p`, as the parts leave it, goes. It stays where a body of next to no length gives no number.
     pub fn place(&self, p: DVec3, binding: &PartBinding) -> DVec3 {
-        self.placed(p, &binding.weights, binding.is_skirt)
+        match binding.attachment {
+            Attachment::OnBone => finite_or(self.slices.on_bones(p, &binding.weights), p),
+            _ => self.placed(p, &binding.weights, binding.is_skirt),
+        }
     }
 
     /// The same, where the relief alone takes `p` to `smooth`.
@@ -155,21 +144,19 @@ impl ProfileStage {
         if is_of_head(&binding.weights) {
             return p;
         }
-        let to: DVec3 = self.slices.map(smooth, &binding.weights, binding.is_skirt);
-        if to.is_finite() { to } else { p }
+        finite_or(self.slices.map(smooth, &binding.weights, binding.is_skirt), p)
     }
 
     /// The same and the Jacobian there.
     pub fn map(&self, p: DVec3, binding: &PartBinding) -> Mapped {
-        let PartBinding { weights, is_skirt, .. } = binding;
-        let smooth: Mapped = self.relief.map(p, weights, *is_skirt);
-        let to = smooth.then(|p| self.slices.map(p, weights, *is_skirt));
+        let PartBinding { weights, attachment, is_skirt, .. } = binding;
+        let to = if *attachment == Attachment::OnBone {
+            self.slices.on_bones(p, weights)
+        } else {
+            let smooth: Mapped = self.relief.map(p, weights, *is_skirt);
+            smooth.then(|p| self.slices.map(p, weights, *is_skirt))
+        };
         if to.position.is_finite() { to } else { Mapped { position: p, jacobian: DMat3::IDENTITY } }
-    }
-
-    /// What is added to a piece.
-    pub fn piece_shift(&self, piece: usize) -> DVec3 {
-        self.piece_shifts[piece]
     }
 
     /// Of what soft limits took more than a tenth: the wanted scale and the one that it got.
@@ -181,9 +168,12 @@ impl ProfileStage {
         if is_of_head(weights) {
             return p;
         }
-        let to: DVec3 = self.slices.map(self.relief.map(p, weights, is_skirt), weights, is_skirt);
-        if to.is_finite() { to } else { p }
+        finite_or(self.slices.map(self.relief.map(p, weights, is_skirt), weights, is_skirt), p)
     }
+}
+
+fn finite_or(to: DVec3, p: DVec3) -> DVec3 {
+    if to.is_finite() { to } else { p }
 }
 
 /// True for what head and hair alone move: no slice of the body does.

@@ -1,0 +1,198 @@
+//! A figure that is its own mirror image stays one (product mode).
+//!
+//! Rigs are not: elbows lie beside the middle of their arm, weights are painted on one side, squares are all split the same way.
+//! What is made of such numbers is a little askew, and a pair of hands shows it. So in the end the halves are made each other's
+//! image: a vertex goes the mean of its own way and the mirrored way of its twin.
+
+use crate::character::MeshKind;
+use crate::geometry::{PointTree, by_number, smoothstep, weld};
+use crate::parallel;
+use crate::shape::figure::Figure;
+use glam::DVec3;
+use std::collections::BTreeMap;
+
+/// A vertex has a twin where its mirror image is no further from one than this share of H; at half of that it is one whole.
+const TWIN: f64 = 1e-4;
+/// A figure counts as symmetric where more than the first of these shares of it, hair aside, has a twin; wholly at the second.
+const SYMMETRIC: (f64, f64) = (0.75, 0.9);
+/// A vertex without a twin goes as so many around it do that have one, the furthest not at all.
+const AROUND: usize = 5;
+
+/// A plane.
+#[derive(Clone, Copy, Debug)]
+struct Plane {
+    normal: DVec3,
+    /// Of its points, along the normal.
+    at: f64,
+}
+
+impl Plane {
+    fn image(self, p: DVec3) -> DVec3 {
+        p - 2.0 * (p.dot(self.normal) - self.at) * self.normal
+    }
+
+    fn image_of_way(self, way: DVec3) -> DVec3 {
+        way - 2.0 * way.dot(self.normal) * self.normal
+    }
+}
+
+/// Which points are each other's mirror image.
+#[derive(Debug)]
+pub struct Mirror {
+    plane: Plane,
+    /// Of each vertex, and of each joint after them, its twin, and how much of one that is.
+    twins: Vec<(u32, f64)>,
+    /// Those that have none, or none whole, and what they go by instead: vertices and their shares.
+    others: Vec<(u32, [(u32, f64); AROUND])>,
+    /// What keeps its shape and is not wholly of twins.
+    rigid: Vec<Vec<u32>>,
+    /// How symmetric the figure is.
+    share: f64,
+}
+
+impl Mirror {
+    /// The twins of `figure`'s vertices and joints; `None` where it is not symmetric.
+    ///
+    /// - `rigid`: what keeps its shape, by number, that a vertex is of.
+    /// - `threads`: at most this many, 0 for all cores; the result does not depend on it.
+    ///
+    /// O(vertices · log vertices).
+    pub fn of(figure: &Figure, rigid: impl Fn(usize) -> Option<u32>, threads: usize) -> Option<Self> {
+        let Figure { positions, joints, .. } = figure;
+        let tolerance = TWIN * figure.height();
+        let mesh = |vertex: usize| figure.mesh_starts.partition_point(|&start| start <= vertex);
+        let belongs = |vertex: usize| (mesh(vertex), figure.kind(vertex) as usize);
+        let counts: Vec<usize> =
+            (0..positions.len()).filter(|&vertex| figure.kind(vertex) != MeshKind::Hair).collect();
+        let halved = |normal: DVec3| {
+            let plane = plane(positions, normal, tolerance)?;
+            let twins = twins(positions, plane, tolerance, belongs);
+            let sum: f64 = counts.iter().map(|&vertex| twins[vertex].1).sum();
+            Some((sum / counts.len() as f64, plane, twins))
+        };
+        let found = left_of(figure).into_iter().filter_map(halved);
+        let (symmetric, plane, mut twins) = found.max_by(|one, other| one.0.total_cmp(&other.0))?;
+        let share = smoothstep((symmetric - SYMMETRIC.0) / (SYMMETRIC.1 - SYMMETRIC.0));
+        let whole: Vec<u32> =
+            (0..positions.len() as u32).filter(|&vertex| twins[vertex as usize].1 == 1.0).collect();
+        if share == 0.0 || whole.len() <= AROUND {
+            return None;
+        }
+        let of_joints = self::twins(joints, plane, tolerance, |_| ());
+        twins.extend(of_joints.into_iter().map(|(twin, share)| (twin + positions.len() as u32, share)));
+        let tree = PointTree::new(&whole.iter().map(|&v| positions[v as usize]).collect::<Vec<_>>());
+        let lonely: Vec<u32> =
+            (0..twins.len() as u32).filter(|&point| twins[point as usize].1 < 1.0).collect();
+        let around = parallel::collect(threads, lonely.len(), parallel::FEW_RAYS, |index| {
+            let point = lonely[index] as usize;
+            let p = positions.get(point).or_else(|| joints.get(point - positions.len()));
+            shares(&tree, *p.unwrap_or(&DVec3::ZERO)).map(|(index, share)| (whole[index as usize], share))
+        });
+        let mut things: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
+        for vertex in 0..positions.len() {
+            if let Some(thing) = rigid(vertex) {
+                things.entry(thing).or_default().push(vertex as u32);
+            }
+        }
+        things.retain(|_, thing| thing.iter().any(|&vertex| twins[vertex as usize].1 < 1.0));
+        let others = lonely.into_iter().zip(around).collect();
+        Some(Self { plane, twins, others, rigid: things.into_values().collect(), share })
+    }
+
+    /// What is added to the way of each vertex, and of each joint after them, so that the halves are each other's image.
+    pub fn corrections(&self, way: impl Fn(usize) -> DVec3) -> Vec<DVec3> {
+        let correction = |(point, &(twin, share)): (usize, &(u32, f64))| {
+            if share == 0.0 {
+                return DVec3::ZERO;
+            }
+            0.5 * self.share * share * (self.plane.image_of_way(way(twin as usize)) - way(point))
+        };
+        let mut corrections: Vec<DVec3> = self.twins.iter().enumerate().map(correction).collect();
+        for &(point, around) in &self.others {
+            let others: DVec3 =
+                around.iter().map(|&(vertex, share)| share * corrections[vertex as usize]).sum();
+            corrections[point as usize] += (1.0 - self.twins[point as usize].1) * others;
+        }
+        for thing in &self.rigid {
+            let sum: DVec3 = thing.iter().map(|&vertex| corrections[vertex as usize]).sum();
+            thing.iter().for_each(|&vertex| corrections[vertex as usize] = sum / thing.len() as f64);
+        }
+        corrections
+    }
+}
+
+/// The ways that may be a figure's left: its own, and the axis of model space next to that, as its joints may be askew.
+fn left_of(figure: &Figure) -> Vec<DVec3> {
+    let frame = &figure.frame;
+    let axes = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| frame.to_canonical(axis));
+    let next = axes.into_iter().max_by(|one, other| one.x.abs().total_cmp(&other.x.abs()));
+    let is_another = |axis: &DVec3| axis.x.abs() < 1.0 - f64::EPSILON;
+    std::iter::once(DVec3::X).chain(next.filter(is_another)).collect()
+}
+
+/// The plane across `normal` that halves `points`: through the median of the middles of what lies at one place beside it; `None`
+/// where nothing does.
+fn plane(points: &[DVec3], normal: DVec3, tolerance: f64) -> Option<Plane> {
+    let beside: Vec<DVec3> = points.iter().map(|p| p.reject_from_normalized(normal)).collect();
+    let weld = weld(&beside, tolerance);
+    let mut ends = vec![(f64::INFINITY, f64::NEG_INFINITY); weld.count];
+    for (p, &group) in points.iter().zip(&weld.representative) {
+        let (low, high) = &mut ends[group as usize];
+        let along = p.dot(normal);
+        (*low, *high) = (low.min(along), high.max(along));
+    }
+    let mut middles: Vec<f64> = ends
+        .into_iter()
+        .filter(|(low, high)| high - low > 2.0 * tolerance)
+        .map(|(low, high)| (low + high) / 2.0)
+        .collect();
+    middles.sort_by(f64::total_cmp);
+    middles.get(middles.len() / 2).map(|&at| Plane { normal, at })
+}
+
+/// The twin of each point, and how much of one it is; of several at one place that of the same mesh and kind, as `belongs` says.
+fn twins<B: Eq>(
+    points: &[DVec3],
+    plane: Plane,
+    tolerance: f64,
+    belongs: impl Fn(usize) -> B,
+) -> Vec<(u32, f64)> {
+    let both: Vec<DVec3> = points.iter().copied().chain(points.iter().map(|&p| plane.image(p))).collect();
+    let weld = weld(&both, tolerance);
+    let groups = weld.representative.iter().zip(0u32..).map(|(&group, point)| (group, point));
+    let (starts, sorted) = by_number(weld.count, groups.take(points.len()));
+    let twin = |point: usize| {
+        let group = weld.representative[points.len() + point] as usize;
+        let candidates = &sorted[starts[group] as usize..starts[group + 1] as usize];
+        let (own, image) = (belongs(point), both[points.len() + point]);
+        let apart = |other: u32| image.distance(points[other as usize]);
+        let nearest = candidates.iter().copied().min_by(|&one, &other| {
+            let key = |other: u32| (belongs(other as usize) != own, apart(other));
+            let (one, other) = (key(one), key(other));
+            one.0.cmp(&other.0).then(one.1.total_cmp(&other.1))
+        });
+        match nearest {
+            Some(other) => (other, 1.0 - smoothstep(2.0 * apart(other) / tolerance - 1.0)),
+            None => (point as u32, 0.0),
+        }
+    };
+    (0..points.len()).map(twin).collect()
+}
+
+/// The points of `tree` around `p`, and how much each counts: the more the nearer, without a jump where another is nearer.
+fn shares(tree: &PointTree, p: DVec3) -> [(u32, f64); AROUND] {
+    let mut near = Vec::new();
+    tree.nearest(p, AROUND, f64::INFINITY, &mut near);
+    let furthest = near.last().map_or(0.0, |near| near.distance()).max(f64::MIN_POSITIVE);
+    let mut shares = [(0, 0.0); AROUND];
+    for (share, near) in shares.iter_mut().zip(&near) {
+        let away = near.distance() / furthest;
+        *share = (near.index(), ((1.0 - away) / away.max(1e-6)).powi(2));
+    }
+    let sum: f64 = shares.iter().map(|(_, share)| share).sum();
+    if sum > 0.0 {
+        shares.map(|(index, share)| (index, share / sum))
+    } else {
+        [(shares[0].0, 1.0 / AROUND as f64); AROUND]
+    }
+}
