@@ -11,11 +11,13 @@ use crate::shape::figure::Figure;
 use glam::DVec3;
 use std::collections::BTreeMap;
 
-/// A vertex has a twin where its mirror image is no further from one than this share of H; at half of that it is one whole.
+/// A vertex has a twin where its mirror image is no further from one than this share of H; at half of that it is one whole. D34:
+/// a hundred times what a float rounds, a twentieth of a fine mesh's edges.
 const TWIN: f64 = 1e-4;
-/// A figure counts as symmetric where more than the first of these shares of it, hair aside, has a twin; wholly at the second.
+/// A figure counts as symmetric where more than the first of these shares of it, hair aside, has a twin; wholly at the second. D34.
+/// Seen: at .5 and .8 Seed-san counts, of whose clothes 3 % end inside of her then.
 const SYMMETRIC: (f64, f64) = (0.75, 0.9);
-/// A vertex without a twin goes as so many around it do that have one, the furthest not at all.
+/// A vertex without a twin goes as so many around it do that have one, the furthest not at all. D34: the fewest around a point.
 const AROUND: usize = 5;
 
 /// A plane.
