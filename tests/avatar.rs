@@ -47,8 +47,10 @@ use glam::DVec3;
 use made::{figure, squash_point};
 use serde_json::{Value, json};
 use std::sync::{Arc, OnceLock};
+use superdeform::internals::geometry::foot;
 use superdeform::{Character, Deformed, Deformer, Options, Role, Style, Weights};
 use superdeform_host::file::GltfFile;
+use superdeform_host::leg_colliders::guard_legs;
 use superdeform_host::load::Loaded;
 use superdeform_host::write::colliders::{add_leaf_joints, aim_turn, findings};
 use superdeform_host::write::rewrite;
@@ -381,6 +383,81 @@ fn line_25_the_last_bone_of_a_vrm_0_chain_is_told_or_gets_its_end() {
         array_at(&written.list("nodes")[end], "translation").iter().filter_map(Value::as_f64).collect();
     assert!((DVec3::from_slice(&local).length() - 0.035).abs() < 1e-6, "{local:?}");
     assert_eq!(array_at(&written.list("nodes")[11], "children").len(), 1);
+}
+
+/// A chain of two nodes that hangs from the hips beside the left thigh; their numbers are 13 and 14.
+fn hang_a_skirt(made: &mut made::Made) {
+    let end = made.push("nodes", json!({"name": "skirt end", "translation": [0.02, -0.3, 0.0]}));
+    assert_eq!(end, 13);
+    let root =
+        made.push("nodes", json!({"name": "skirt", "translation": [0.18, 0.0, 0.0], "children": [end]}));
+    made.json["nodes"][1]["children"].as_array_mut().unwrap().push(json!(root));
+}
+
+/// Numbers of the nodes that colliders of these groups are on, with how many each has.
+fn guards(groups: &[Value], of_group: impl Fn(&Value) -> Vec<(usize, usize)>) -> Vec<(usize, usize)> {
+    groups.iter().flat_map(of_group).collect()
+}
+
+#[test]
+fn a_skirt_that_nothing_keeps_out_of_the_legs_is_told_or_gets_colliders() {
+    // Half a box of .05 around each joint counts for the bone: its corners are up to .0866 away from the joint.
+    let sound = |radius: f64| (0.03..0.09).contains(&radius);
+    for version in [0, 1] {
+        let mut loaded = if version == 0 {
+            let springs = json!({"secondaryAnimation": {"boneGroups": [
+                {"bones": [14], "hitRadius": 0.02}, {"bones": [10], "hitRadius": 0.02}]}});
+            vrm0(springs, hang_a_skirt)
+        } else {
+            let mut made = figure();
+            hang_a_skirt(&mut made);
+            made.json["extensionsUsed"] = json!(["VRMC_vrm", "VRMC_springBone"]);
+            made.json["extensions"]["VRMC_springBone"] = json!({"specVersion": "1.0", "springs": [
+                {"joints": [{"node": 14, "hitRadius": 0.02}, {"node": 13}]},
+                {"joints": [{"node": 10, "hitRadius": 0.02}, {"node": 11}]}]});
+            loaded(GltfFile::parse("made.vrm", &made.bytes()).unwrap())
+        };
+        let mut told = loaded.clone();
+        guard_legs(&mut told, false);
+        let warning = told.warnings.last().unwrap();
+        assert_eq!((warning.code, warning.option), ("skirt_without_colliders", Some("leg_colliders")));
+        // Hair on the head is no skirt.
+        assert!(warning.message.contains(" 1 spring chains"), "{}", warning.message);
+        assert_eq!(told.file.json, loaded.file.json);
+        guard_legs(&mut loaded, true);
+        let json = &loaded.file.json["extensions"];
+        let (springs, groups, list) = if version == 0 {
+            let all = &json["VRM"]["secondaryAnimation"];
+            (array_at(all, "boneGroups"), array_at(all, "colliderGroups"), &[] as &[Value])
+        } else {
+            let all = &json["VRMC_springBone"];
+            (array_at(all, "springs"), array_at(all, "colliderGroups"), array_at(all, "colliders"))
+        };
+        // The thighs alone: this figure has no feet for its shins to end at.
+        let guards = guards(groups, |group| match version {
+            0 => vec![(index_at(group, "node").unwrap(), array_at(group, "colliders").len())],
+            _ => array_at(group, "colliders")
+                .iter()
+                .map(|collider| (index_at(&list[collider.as_u64().unwrap() as usize], "node").unwrap(), 1))
+                .collect(),
+        });
+        assert_eq!(guards, if version == 0 { [(6, 4), (7, 4)] } else { [(6, 1), (7, 1)] });
+        assert_eq!(springs[0]["colliderGroups"], json!([0, 1]));
+        assert!(springs[1].get("colliderGroups").is_none(), "{}", springs[1]);
+        let found = superdeform_host::write::colliders::colliders(&loaded);
+        assert_eq!(found.len(), if version == 0 { 8 } else { 2 });
+        for found in &found {
+            let (hip, knee) = (DVec3::new(0.1, 0.85, 0.0), DVec3::new(0.1, 0.45, 0.02));
+            let on_left = |p: DVec3| p.with_x(p.x.abs());
+            let (nearest, share) = foot(on_left(found.collider.offset), hip, knee);
+            assert!((0.0..1.0).contains(&share) && nearest.distance(on_left(found.collider.offset)) < 1e-6);
+            assert!(sound(found.collider.radius) && found.springs.len() == 1, "{}", found.collider.radius);
+        }
+        // Once is enough.
+        let before = loaded.file.json.clone();
+        guard_legs(&mut loaded, true);
+        assert_eq!(loaded.file.json, before);
+    }
 }
 
 #[test]

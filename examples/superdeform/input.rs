@@ -82,6 +82,7 @@ pub fn target(command: &Command, clock: Clock) -> Result<(Conversion, Vec<PathBu
         rig: command.rig,
         rig_options: RigOptions { given: joints(command.joints.as_deref())?, ..command.rig_options.clone() },
         allow_prohibited: command.allow_prohibited,
+        leg_colliders: command.leg_colliders,
         clock,
     };
     let file = File::read(&command.target)?;

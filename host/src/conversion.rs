@@ -9,6 +9,7 @@ use crate::appearance::Appearance;
 use crate::bad_input;
 use crate::beside::Beside;
 use crate::file::GltfFile;
+use crate::leg_colliders::guard_legs;
 use crate::load::{LoadOptions, Loaded, is_vrm, load};
 use crate::materials::Material;
 use crate::paint::{EvenEyes, even_eyes};
@@ -82,6 +83,8 @@ pub struct OpenOptions {
     pub rig_options: RigOptions,
     /// Takes what its licence forbids to change: the user is its author or may change it.
     pub allow_prohibited: bool,
+    /// Adds colliders around the legs where a VRM's skirt hangs from springs that none keeps out of them.
+    pub leg_colliders: bool,
     /// Times the stages.
     pub clock: Clock,
 }
@@ -96,6 +99,7 @@ impl Default for OpenOptions {
             rig: RigChoice::default(),
             rig_options: RigOptions::default(),
             allow_prohibited: false,
+            leg_colliders: false,
             clock: no_clock,
         }
     }
@@ -451,6 +455,7 @@ fn read_target(source: Source, options: &OpenOptions) -> Result<(Loaded, Appeara
         );
         return Err(Error::new(ErrorKind::BadInput, message).about("allow_prohibited"));
     }
+    guard_legs(&mut target, options.leg_colliders);
     let appearance = Appearance::of(&target, options.rig_options.thread_count);
     shade(&mut target.character, &appearance);
     target.character.face_hints = options.face_hints;

@@ -13,6 +13,7 @@ pub mod file;
 mod frame;
 pub mod image;
 mod kinds;
+pub mod leg_colliders;
 pub mod licence;
 pub mod load;
 pub mod materials;

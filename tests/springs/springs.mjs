@@ -1,4 +1,4 @@
-// Springs in three-vrm, before and after a conversion: three seconds of each of four motions after one of rest.
+// Springs in three-vrm, before and after a conversion: at rest, and three seconds of each of five motions after one of rest.
 //
 //     node tests/springs/springs.mjs BEFORE.vrm AFTER.vrm...
 //
@@ -61,6 +61,7 @@ function stride(bone, t, reach, tempo, knee) {
 }
 
 const MOTIONS = {
+    rest() {},
     /** Legs by 20 degrees, once a second. */
     walk(bone, t) {
         stride(bone, t, 0.35, 1, 0.5);
@@ -71,6 +72,10 @@ const MOTIONS = {
         const turn = 0.15 * Math.sin(3 * Math.PI * t);
         bone('hips')?.rotation.set(0, turn, 0);
         bone('spine')?.rotation.set(0, -2 * turn, 0);
+    },
+    /** Legs by 52 degrees, 2.2 times a second, as in a real run. */
+    sprint(bone, t) {
+        stride(bone, t, 0.9, 2.2, 1);
     },
     /** The head by 40 degrees from side to side, one and a half times a second. */
     shake(bone, t) {

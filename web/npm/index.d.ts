@@ -14,6 +14,8 @@ export interface Options {
   allowProhibited?: boolean;
   /** Each spring chain of a VRM 0.x gets one joint more. */
   leafJoints?: boolean;
+  /** A VRM's legs get colliders where its skirt hangs from springs that none keeps out of them. */
+  legColliders?: boolean;
   /** How much of the shade that is painted around the eyes goes; 0.8 for photos and 0 for drawn faces unless set. */
   evenEyes?: number;
   amount?: number;

@@ -4,7 +4,7 @@ import { Engine } from './engine.js';
 export { Fault, Refused } from './engine.js';
 
 /** The options of this package; all others are the library's own. */
-const OWN = ['heads', 'style', 'reference', 'name', 'files', 'allowProhibited', 'leafJoints', 'evenEyes'];
+const OWN = ['heads', 'style', 'reference', 'name', 'files', 'allowProhibited', 'leafJoints', 'legColliders', 'evenEyes'];
 
 function styleOf({ heads, style, reference }) {
   if (reference) return { reference: true };
@@ -24,7 +24,7 @@ export function of(compile) {
     const engine = await Engine.start(await module);
     const name = options.name ?? 'character.glb';
     const rest = Object.fromEntries(Object.entries(options).filter(([key]) => !OWN.includes(key)));
-    const open = { do: 'open', allow_prohibited: options.allowProhibited === true };
+    const open = { do: 'open', allow_prohibited: options.allowProhibited === true, leg_colliders: options.legColliders === true };
     await engine.ask(open, [{ name, bytes }, ...named(options.files)]);
     if (options.reference) await engine.ask({ do: 'reference' }, [{ name: 'reference.glb', bytes: options.reference }]);
     await engine.ask({ do: 'set', style: styleOf(options), options: rest });

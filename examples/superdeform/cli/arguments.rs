@@ -184,6 +184,10 @@ pub struct Arguments {
     #[arg(long)]
     pub leaf_joints: bool,
 
+    /// Add colliders around a VRM's legs where its skirt hangs from springs that none keeps out of them
+    #[arg(long)]
+    pub leg_colliders: bool,
+
     /// Draw a VRM's thumbnail anew from the result
     #[arg(long)]
     pub thumbnail: bool,

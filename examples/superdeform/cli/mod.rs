@@ -79,6 +79,8 @@ pub struct Command {
     pub even_eyes: Option<f64>,
     /// Give spring chains of VRM 0.x one joint more.
     pub leaf_joints: bool,
+    /// Add colliders around the legs for a skirt that has none.
+    pub leg_colliders: bool,
     /// Draw a VRM's thumbnail anew.
     pub thumbnail: bool,
     /// Print nothing but errors.
@@ -251,6 +253,7 @@ fn command(single: Single) -> Result<Command, Refusal> {
         allow_prohibited: arguments.allow_prohibited,
         even_eyes: arguments.even_eyes,
         leaf_joints: arguments.leaf_joints,
+        leg_colliders: arguments.leg_colliders,
         thumbnail: arguments.thumbnail,
         quiet: arguments.quiet,
         verbose: arguments.verbose,

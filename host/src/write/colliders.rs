@@ -155,7 +155,7 @@ fn roots(group: &Value) -> impl Iterator<Item = usize> {
 }
 
 /// The nodes of a group's chains: its bones and all below them, parents first.
-fn chain(loaded: &Loaded, group: &Value) -> Vec<usize> {
+pub(crate) fn chain(loaded: &Loaded, group: &Value) -> Vec<usize> {
     let mut within = vec![false; loaded.tree.parents.len()];
     for root in roots(group) {
         if let Some(within) = within.get_mut(root) {

@@ -87,6 +87,7 @@ impl Session {
         self.conversion = None;
         let options = OpenOptions {
             allow_prohibited: json["allow_prohibited"] == true,
+            leg_colliders: json["leg_colliders"] == true,
             humanoid_map: json.get("humanoid").filter(|map| map.is_object()).cloned(),
             ..OpenOptions::default()
         };
