@@ -75,6 +75,8 @@ async function failed(error) {
 // ---- opening
 
 let opening = 0;
+/** The character that was shown last with its result: what cancelling another goes back to. */
+let finished = null;
 /** False while another character is being opened: what is set then waits. */
 let isOpen = false;
 
@@ -157,14 +159,14 @@ async function shownOrNote(of, read) {
   }
 }
 
-/** Opens what was open, after the library began anew. */
-async function reopen() {
+/** Opens what was open, after the library began anew; `anew`: something else is shown. */
+async function reopen(anew) {
   try {
     if (reference) await client.ask({ do: 'reference' }, reference.files);
     if (!character) return;
     await character.open(character.allowed);
     isOpen = true;
-    await update(true);
+    await (anew ? show(character) : update(true));
   } catch (error) {
     tell(error.message);
   }
@@ -205,6 +207,7 @@ async function result() {
   const after = await shownOrNote(of, () => Shown.read(bytes, of.about));
   if (of !== character) return after?.dispose();
   stage.show('after', after);
+  finished = of;
   const heads = (figure) => figure.heads.toFixed(1);
   $('heads-before').textContent = t('heads', heads(report.target));
   $('heads-after').textContent = t('heads', heads(report.result));
@@ -453,8 +456,10 @@ async function cancels() {
   opening += 1;
   wanted = null;
   isOpen = false;
+  const isAnother = finished !== null && finished !== character;
+  if (isAnother) character = finished;
   await client.cancel();
-  await reopen();
+  await reopen(isAnother);
 }
 
 function step(way) {

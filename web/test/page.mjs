@@ -263,8 +263,9 @@ if (!quick) {
     }
   });
   await check('opening is cancelled, and the last character stays', async () => {
-    await choose(page, UNRIGGED);
-    // At once, for it may be done soon.
+    // So much that it takes longer than the moment after which the page says that it is busy.
+    const large = withShapes(fs.readFileSync(UNRIGGED), 120, (index) => `shape ${index}`, 0.01);
+    await choose(page, { name: 'large.glb', mimeType: 'model/gltf-binary', buffer: large });
     await page.waitForFunction(() => !document.getElementById('busy').hidden && !document.getElementById('cancel').click(), null, { polling: 20 });
     await rested(page);
     that((await page.textContent('#file-name')) === 'shapes.glb', 'the file is open all the same');
