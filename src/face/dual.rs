@@ -1,9 +1,10 @@
-//! Numbers that carry their gradient, so that a map is written once and its Jacobian is exact.
+//! Numbers that carry their gradient, so that a map is written once and its Jacobian is exact; and two numbers side by side, so
+//! that it is done for two points at once.
 
 use glam::{DMat3, DVec3};
 use std::ops::{Add, Mul, Neg, Sub};
 
-/// A number, with or without its gradient.
+/// A number, with or without its gradient, or two of them.
 pub trait Number:
     Copy
     + Add<Output = Self>
@@ -17,19 +18,20 @@ pub trait Number:
     /// A constant.
     fn constant(value: f64) -> Self;
 
-    /// The number itself.
-    fn value(self) -> f64;
-
-    /// 1 / self.
-    fn recip(self) -> Self;
-
     /// Its square root; 0 at and below 0.
     fn root(self) -> Self;
 
-    /// Its distance from 0.
-    fn distance(self) -> Self {
-        if self.value() < 0.0 { -self } else { self }
-    }
+    /// `then` where it is below `limit`, `otherwise` where it is not.
+    fn below(self, limit: f64, then: Self, otherwise: Self) -> Self;
+
+    /// `low` times it where it is below 0, `high` times where it is not.
+    fn by_side(self, low: f64, high: f64) -> Self;
+
+    /// True where some of it is above `limit`.
+    fn is_above(self, limit: f64) -> bool;
+
+    /// True where some of it is below `limit`.
+    fn is_below(self, limit: f64) -> bool;
 }
 
 impl Number for f64 {
@@ -37,28 +39,110 @@ impl Number for f64 {
         value
     }
 
-    fn value(self) -> f64 {
-        self
-    }
-
-    fn recip(self) -> Self {
-        1.0 / self
-    }
-
     fn root(self) -> Self {
         self.max(0.0).sqrt()
+    }
+
+    fn below(self, limit: f64, then: Self, otherwise: Self) -> Self {
+        if self < limit { then } else { otherwise }
+    }
+
+    fn by_side(self, low: f64, high: f64) -> Self {
+        self * if self < 0.0 { low } else { high }
+    }
+
+    fn is_above(self, limit: f64) -> bool {
+        self > limit
+    }
+
+    fn is_below(self, limit: f64) -> bool {
+        self < limit
+    }
+}
+
+/// Two numbers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Two(pub [f64; 2]);
+
+impl Two {
+    fn each(self, other: Self, of: impl Fn(f64, f64) -> f64) -> Self {
+        Self([of(self.0[0], other.0[0]), of(self.0[1], other.0[1])])
+    }
+}
+
+macro_rules! two {
+    ($($name:ident $of:ident $sign:tt;)+) => {$(
+        impl $name for Two {
+            type Output = Self;
+            #[inline(always)]
+            fn $of(self, other: Self) -> Self {
+                self.each(other, |one, other| one $sign other)
+            }
+        }
+
+        impl $name<f64> for Two {
+            type Output = Self;
+            #[inline(always)]
+            fn $of(self, other: f64) -> Self {
+                self.each(Self([other; 2]), |one, other| one $sign other)
+            }
+        }
+    )+};
+}
+
+two! {
+    Add add +;
+    Sub sub -;
+    Mul mul *;
+}
+
+impl Neg for Two {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self(self.0.map(|one| -one))
+    }
+}
+
+impl Number for Two {
+    fn constant(value: f64) -> Self {
+        Self([value; 2])
+    }
+
+    #[inline(always)]
+    fn root(self) -> Self {
+        Self(self.0.map(|one| one.max(0.0).sqrt()))
+    }
+
+    #[inline(always)]
+    fn below(self, limit: f64, then: Self, otherwise: Self) -> Self {
+        Self([0, 1].map(|lane| if self.0[lane] < limit { then.0[lane] } else { otherwise.0[lane] }))
+    }
+
+    #[inline(always)]
+    fn by_side(self, low: f64, high: f64) -> Self {
+        Self(self.0.map(|one| one * if one < 0.0 { low } else { high }))
+    }
+
+    fn is_above(self, limit: f64) -> bool {
+        self.0[0] > limit || self.0[1] > limit
+    }
+
+    fn is_below(self, limit: f64) -> bool {
+        self.0[0] < limit || self.0[1] < limit
     }
 }
 
 /// 0 up to 0, 1 from 1 on; slope and curvature are 0 at both ends.
 pub(crate) fn step<N: Number>(t: N) -> N {
-    if t.value() <= 0.0 {
+    if !t.is_above(0.0) {
         return N::constant(0.0);
     }
-    if t.value() >= 1.0 {
+    if !t.is_below(1.0) {
         return N::constant(1.0);
     }
-    t * t * t * ((t * 6.0 - 15.0) * t + 10.0)
+    let between = t * t * t * ((t * 6.0 - 15.0) * t + 10.0);
+    t.below(0.0, N::constant(0.0), t.below(1.0, between, N::constant(1.0)))
 }
 
 /// A number and its derivatives by the three coordinates of a point.
@@ -89,19 +173,26 @@ impl Number for Dual {
         Self { value, gradient: DVec3::ZERO }
     }
 
-    fn value(self) -> f64 {
-        self.value
-    }
-
-    fn recip(self) -> Self {
-        let value = 1.0 / self.value;
-        Self { value, gradient: -value * value * self.gradient }
-    }
-
     fn root(self) -> Self {
         let value = self.value.max(0.0).sqrt();
         let slope = if value > 0.0 { 0.5 / value } else { 0.0 };
         Self { value, gradient: slope * self.gradient }
+    }
+
+    fn below(self, limit: f64, then: Self, otherwise: Self) -> Self {
+        if self.value < limit { then } else { otherwise }
+    }
+
+    fn by_side(self, low: f64, high: f64) -> Self {
+        self * if self.value < 0.0 { low } else { high }
+    }
+
+    fn is_above(self, limit: f64) -> bool {
+        self.value > limit
+    }
+
+    fn is_below(self, limit: f64) -> bool {
+        self.value < limit
     }
 }
 

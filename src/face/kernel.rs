@@ -5,7 +5,7 @@
 //! which moves a point by less than its distance from its neighbours (see the tests), so each is one to one, and so is the
 //! way. The places after whole pieces are kept for each vertex: youth is how far along them it goes.
 
-use super::dual::{Dual, Number, step};
+use super::dual::{Dual, Number, Two, step};
 use glam::{DMat3, DVec3};
 use std::cell::Cell;
 
@@ -109,21 +109,21 @@ impl Kernel {
     fn within<N: Number>(&self, p: [N; 3]) -> N {
         let mut square = N::constant(0.0);
         for (axis, &along) in p.iter().enumerate() {
-            let from = along - self.centre[axis];
-            let per_reach = if from.value() < 0.0 { self.per_low[axis] } else { self.per_high[axis] };
-            let share = from * per_reach;
+            let share = (along - self.centre[axis]).by_side(self.per_low[axis], self.per_high[axis]);
             square = square + share * share;
-            if square.value() >= 1.0 {
+            if !square.is_below(1.0) {
                 return N::constant(0.0);
             }
         }
-        if self.plateau == 0.0 {
-            return bell(square.root());
-        }
-        if square.value() > self.plateau * self.plateau {
-            return step((-square.root() + 1.0) * (1.0 / (1.0 - self.plateau)));
-        }
-        N::constant(1.0)
+        let within = if self.plateau == 0.0 {
+            bell(square.root())
+        } else if square.is_above(self.plateau * self.plateau) {
+            // 1 within the plateau.
+            step((-square.root() + 1.0) * (1.0 / (1.0 - self.plateau)))
+        } else {
+            return N::constant(1.0);
+        };
+        square.below(1.0, within, N::constant(0.0))
     }
 
     fn ramped<N: Number>(&self, within: N, p: [N; 3]) -> N {
@@ -132,10 +132,11 @@ impl Kernel {
 
     /// Adds its share of what is `left` to the velocity at `p`, where it acts by `weight`.
     fn add<N: Number>(&self, weight: N, p: [N; 3], left: &mut N, velocity: &mut [N; 3]) {
-        if weight.value() <= 0.0 {
+        if !weight.is_above(0.0) {
             return;
         }
-        let share = weight * *left;
+        // What is used up is: of two points, for one of them.
+        let share = weight * left.below(0.0, N::constant(0.0), *left);
         for axis in 0..3 {
             let moves = (p[axis] - self.centre[axis]) * self.rates[axis] + self.shift[axis];
             velocity[axis] = velocity[axis] + share * moves;
@@ -151,7 +152,8 @@ impl Kernel {
 /// steps.
 fn bell<N: Number>(t: N) -> N {
     let rest = -t + 1.0;
-    if t.value() > 0.5 { rest * rest * rest * 2.0 } else { t * t * rest * -6.0 + 1.0 }
+    let far = rest * rest * rest * 2.0;
+    if t.is_below(0.5) { t.below(0.5, t * t * rest * -6.0 + 1.0, far) } else { far }
 }
 
 /// The velocity of all `kernels` at `p`.
@@ -169,11 +171,11 @@ fn velocity_of<'a, N: Number>(kernels: impl Iterator<Item = &'a Kernel>, p: [N; 
             _ => kernel.within(p),
         };
         last = Some((kernel, within));
-        if within.value() <= 0.0 {
+        if !within.is_above(0.0) {
             continue;
         }
         kernel.add(kernel.ramped(within, p), p, &mut left, &mut velocity);
-        if left.value() <= 0.0 {
+        if !left.is_above(0.0) {
             break;
         }
     }
@@ -204,35 +206,48 @@ impl Follower {
         Self { moments, reaches }
     }
 
-    /// The way of `p`. Kernels that are not near have nothing to add to it.
+    /// The way of `p`.
     pub fn way(&self, p: DVec3) -> Way {
-        let (mut place, mut near) = (p, self.near(p));
-        std::array::from_fn(|piece| {
-            let by_near = |(about, near): &(DVec3, Vec<usize>)| {
+        let [way, _] = self.ways([p; 2]);
+        way
+    }
+
+    /// The ways of two points, sooner than one after the other the nearer they are to each other. Kernels that are not near have
+    /// nothing to add.
+    pub fn ways(&self, points: [DVec3; 2]) -> [Way; 2] {
+        let mut places = points;
+        let mut near = self.near(points);
+        let mut ways = [[DVec3::ZERO; STEPS]; 2];
+        for piece in 0..STEPS {
+            let at = [0, 1, 2].map(|axis| Two(places.map(|p| p[axis])));
+            let by_near = |(about, near): &([DVec3; 2], Vec<usize>)| {
                 let is_left = Cell::new(false);
-                let velocity = |kernels: &[Kernel], at: [f64; 3]| {
-                    is_left.set(is_left.get() || (DVec3::from(at) - about).abs().max_element() > NEAR);
+                let velocity = |kernels: &[Kernel], at: [Two; 3]| {
+                    let leaves = |of: usize| (point(at, of) - about[of]).abs().max_element() > NEAR;
+                    is_left.set(is_left.get() || leaves(0) || leaves(1));
                     velocity_of(near.iter().map(|&kernel| &kernels[kernel]), at)
                 };
-                let next = self.piece(place.to_array(), piece, 1.0, velocity);
+                let next = self.piece(at, piece, 1.0, velocity);
                 (!is_left.get()).then_some(next)
             };
             let next = by_near(&near).or_else(|| {
-                near = self.near(place);
+                near = self.near(places);
                 by_near(&near)
             });
-            place = next.unwrap_or_else(|| self.piece(place.to_array(), piece, 1.0, velocity)).into();
-            place
-        })
+            let next = next.unwrap_or_else(|| self.piece(at, piece, 1.0, velocity));
+            places = [point(next, 0), point(next, 1)];
+            (ways[0][piece], ways[1][piece]) = (places[0], places[1]);
+        }
+        ways
     }
 
-    /// The kernels that may act where all coordinates are within [`NEAR`] of those of `p`.
-    fn near(&self, p: DVec3) -> (DVec3, Vec<usize>) {
+    /// The kernels that may act where all coordinates are within [`NEAR`] of those of one of `points`.
+    fn near(&self, points: [DVec3; 2]) -> ([DVec3; 2], Vec<usize>) {
         let is_near = |&kernel: &usize| {
             let (low, high) = self.reaches[kernel];
-            (p + NEAR).cmpge(low).all() && (p - NEAR).cmple(high).all()
+            points.iter().any(|p| (p + NEAR).cmpge(low).all() && (p - NEAR).cmple(high).all())
         };
-        (p, (0..self.reaches.len()).filter(is_near).collect())
+        (points, (0..self.reaches.len()).filter(is_near).collect())
     }
 
     /// Where `p` is after the share `youth` of its way.
@@ -272,6 +287,11 @@ impl Follower {
     pub fn slope(&self, p: DVec3, piece: usize) -> DMat3 {
         Dual::split(velocity(&self.moments[piece][0], Dual::point(p))).1
     }
+}
+
+/// Number `of` of two points.
+fn point(of_two: [Two; 3], of: usize) -> DVec3 {
+    DVec3::from(of_two.map(|Two(both)| both[of]))
 }
 
 /// Whole pieces of the way, and what part of the next one.

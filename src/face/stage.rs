@@ -2,7 +2,7 @@
 
 use super::FaceShape;
 use super::head::HeadFrame;
-use super::kernel::{Follower, STEPS, along};
+use super::kernel::{Follower, STEPS, Way, along};
 use super::rows::Rows;
 use crate::geometry::Mapped;
 use crate::parallel;
@@ -209,14 +209,26 @@ impl YoungFace {
         }
         let from: Vec<Vec3> = moved.iter().map(|&vertex| beginning(&self.frame, points[vertex])).collect();
         let known = known.filter(|known| known.rows == rows);
-        let ways = parallel::collect(threads, moved.len(), LEAST_WAYS, |row| {
-            if let Some(known) = known.filter(|known| known.from[row] == from[row]) {
-                return known.ways[row];
+        // Two at once, the last one twice where they are odd.
+        let ways = parallel::collect(threads, moved.len().div_ceil(2), LEAST_WAYS, |pair| {
+            let of = [2 * pair, (2 * pair + 1).min(moved.len() - 1)];
+            if let Some(known) = known.filter(|known| of.iter().all(|&row| known.from[row] == from[row])) {
+                return of.map(|row| known.ways[row]);
             }
-            let from = from[row].as_dvec3();
-            let way = |follower: &Follower| follower.way(from).map(|p| (p - from).as_vec3());
-            follower(moved[row]).map_or([Vec3::ZERO; STEPS], way)
+            let points = of.map(|row| from[row].as_dvec3());
+            let moves = |of: usize, way: Way| way.map(|p| (p - points[of]).as_vec3());
+            match of.map(|row| follower(moved[row])) {
+                [Some(one), Some(other)] if std::ptr::eq(one, other) => {
+                    let [first, second] = one.ways(points);
+                    [moves(0, first), moves(1, second)]
+                }
+                both => [0, 1].map(|of| {
+                    both[of].map_or([Vec3::ZERO; STEPS], |follower| moves(of, follower.way(points[of])))
+                }),
+            }
         });
+        let mut ways = ways.into_flattened();
+        ways.truncate(moved.len());
         Ways { rows, from, ways }
     }
 
