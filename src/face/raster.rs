@@ -65,6 +65,11 @@ impl DepthMap {
         let rows = range(least.y, most.y, self.low.y, self.rows);
         for row in rows {
             for column in columns.clone() {
+                let square = row * self.columns + column;
+                // It lies behind what is seen, wherever it meets the square.
+                if most.z <= self.depths[square] {
+                    continue;
+                }
                 let p = self.middle(column, row);
                 let to_b = (b.truncate() - p).perp_dot(c.truncate() - p) / double_area;
                 let to_c = (c.truncate() - p).perp_dot(a.truncate() - p) / double_area;
@@ -74,7 +79,6 @@ impl DepthMap {
                     continue;
                 }
                 let depth = shares.dot(DVec3::new(a.z, b.z, c.z));
-                let square = row * self.columns + column;
                 if depth > self.depths[square] {
                     self.depths[square] = depth;
                     self.triangles[square] = triangle;
