@@ -3,6 +3,7 @@
 
 use glam::{DMat3, DVec3};
 use std::ops::{Add, Mul, Neg, Sub};
+use wide::{CmpGt, CmpLt, f64x2};
 
 /// A number, with or without its gradient, or two of them.
 pub trait Number:
@@ -60,76 +61,34 @@ impl Number for f64 {
     }
 }
 
-/// Two numbers.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Two(pub [f64; 2]);
-
-impl Two {
-    fn each(self, other: Self, of: impl Fn(f64, f64) -> f64) -> Self {
-        Self([of(self.0[0], other.0[0]), of(self.0[1], other.0[1])])
-    }
-}
-
-macro_rules! two {
-    ($($name:ident $of:ident $sign:tt;)+) => {$(
-        impl $name for Two {
-            type Output = Self;
-            #[inline(always)]
-            fn $of(self, other: Self) -> Self {
-                self.each(other, |one, other| one $sign other)
-            }
-        }
-
-        impl $name<f64> for Two {
-            type Output = Self;
-            #[inline(always)]
-            fn $of(self, other: f64) -> Self {
-                self.each(Self([other; 2]), |one, other| one $sign other)
-            }
-        }
-    )+};
-}
-
-two! {
-    Add add +;
-    Sub sub -;
-    Mul mul *;
-}
-
-impl Neg for Two {
-    type Output = Self;
-    #[inline(always)]
-    fn neg(self) -> Self {
-        Self(self.0.map(|one| -one))
-    }
-}
-
-impl Number for Two {
+impl Number for f64x2 {
     fn constant(value: f64) -> Self {
-        Self([value; 2])
+        Self::splat(value)
     }
 
     #[inline(always)]
     fn root(self) -> Self {
-        Self(self.0.map(|one| one.max(0.0).sqrt()))
+        self.max(Self::ZERO).sqrt()
     }
 
     #[inline(always)]
     fn below(self, limit: f64, then: Self, otherwise: Self) -> Self {
-        Self([0, 1].map(|lane| if self.0[lane] < limit { then.0[lane] } else { otherwise.0[lane] }))
+        self.cmp_lt(Self::splat(limit)).blend(then, otherwise)
     }
 
     #[inline(always)]
     fn by_side(self, low: f64, high: f64) -> Self {
-        Self(self.0.map(|one| one * if one < 0.0 { low } else { high }))
+        self * self.below(0.0, Self::splat(low), Self::splat(high))
     }
 
+    #[inline(always)]
     fn is_above(self, limit: f64) -> bool {
-        self.0[0] > limit || self.0[1] > limit
+        self.cmp_gt(Self::splat(limit)).any()
     }
 
+    #[inline(always)]
     fn is_below(self, limit: f64) -> bool {
-        self.0[0] < limit || self.0[1] < limit
+        self.cmp_lt(Self::splat(limit)).any()
     }
 }
 

@@ -5,9 +5,10 @@
 //! which moves a point by less than its distance from its neighbours (see the tests), so each is one to one, and so is the
 //! way. The places after whole pieces are kept for each vertex: youth is how far along them it goes.
 
-use super::dual::{Dual, Number, Two, step};
+use super::dual::{Dual, Number, step};
 use glam::{DMat3, DVec3};
 use std::cell::Cell;
+use wide::f64x2;
 
 /// Straight pieces of a point's way.
 pub const STEPS: usize = 12;
@@ -217,12 +218,11 @@ impl Follower {
     pub fn ways(&self, points: [DVec3; 2]) -> [Way; 2] {
         let mut places = points;
         let mut near = self.near(points);
-        let mut ways = [[DVec3::ZERO; STEPS]; 2];
-        for piece in 0..STEPS {
-            let at = [0, 1, 2].map(|axis| Two(places.map(|p| p[axis])));
+        let ways: [[DVec3; 2]; STEPS] = std::array::from_fn(|piece| {
+            let at = [0, 1, 2].map(|axis| f64x2::new(places.map(|p| p[axis])));
             let by_near = |(about, near): &([DVec3; 2], Vec<usize>)| {
                 let is_left = Cell::new(false);
-                let velocity = |kernels: &[Kernel], at: [Two; 3]| {
+                let velocity = |kernels: &[Kernel], at: [f64x2; 3]| {
                     let leaves = |of: usize| (point(at, of) - about[of]).abs().max_element() > NEAR;
                     is_left.set(is_left.get() || leaves(0) || leaves(1));
                     velocity_of(near.iter().map(|&kernel| &kernels[kernel]), at)
@@ -236,9 +236,9 @@ impl Follower {
             });
             let next = next.unwrap_or_else(|| self.piece(at, piece, 1.0, velocity));
             places = [point(next, 0), point(next, 1)];
-            (ways[0][piece], ways[1][piece]) = (places[0], places[1]);
-        }
-        ways
+            places
+        });
+        [0, 1].map(|of| ways.map(|places| places[of]))
     }
 
     /// The kernels that may act where all coordinates are within [`NEAR`] of those of one of `points`.
@@ -290,8 +290,8 @@ impl Follower {
 }
 
 /// Number `of` of two points.
-fn point(of_two: [Two; 3], of: usize) -> DVec3 {
-    DVec3::from(of_two.map(|Two(both)| both[of]))
+fn point(of_two: [f64x2; 3], of: usize) -> DVec3 {
+    DVec3::from(of_two.map(|both| both.to_array()[of]))
 }
 
 /// Whole pieces of the way, and what part of the next one.
