@@ -325,7 +325,7 @@ namespace SuperDeform.Editor.Tests
             for (int axis = 0; axis < 3; axis++)
             {
                 Assert.AreEqual(wanted[axis], size[axis], 1e-5, "axis " + axis);
-                Assert.That(Mathf.Abs(size[axis] - box.size[axis]), Is.GreaterThan(0.01f), "axis " + axis);
+                Assert.That(Mathf.Abs(size[axis] - box.size[axis]), Is.GreaterThan(0.005f), "axis " + axis);
             }
             ClothSkinningCoefficient[] coefficients = prefab.GetComponentInChildren<Cloth>().coefficients;
             Assert.AreEqual(0.1f * scale, coefficients[0].maxDistance, 1e-6);
