@@ -206,9 +206,9 @@ fn head_sources(view: &View) -> Result<HeadSources> {
 }
 
 fn mirror(view: &View) -> Result<Option<Mirror>> {
-    let parts = view.parts()?;
+    let (measured, parts) = (view.measured()?, view.parts()?);
     let rigid = |vertex: usize| parts.bindings.vertices[vertex].parts().and_then(PartBinding::rigid);
-    Ok(Mirror::of(&*view.figure()?, rigid, view.threads()))
+    Ok(Mirror::of(&measured.figure, &measured.weld, rigid, view.threads()))
 }
 
 fn worn(view: &View) -> Result<Worn> {

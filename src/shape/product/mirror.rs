@@ -5,7 +5,7 @@
 //! image: a vertex goes the mean of its own way and the mirrored way of its twin.
 
 use crate::character::MeshKind;
-use crate::geometry::{PointTree, by_number, smoothstep, weld};
+use crate::geometry::{PointTree, Weld, by_number, smoothstep, weld};
 use crate::parallel;
 use crate::shape::figure::Figure;
 use glam::DVec3;
@@ -46,8 +46,8 @@ pub struct Mirror {
     twins: Vec<(u32, f64)>,
     /// Those that have none, or none whole, and what they go by instead: vertices and their shares.
     others: Vec<(u32, [(u32, f64); AROUND])>,
-    /// What keeps its shape and is not wholly of twins.
-    rigid: Vec<Vec<u32>>,
+    /// What keeps its shape and is not wholly of twins: one vertex at each of its places, and all.
+    rigid: Vec<[Vec<u32>; 2]>,
     /// How symmetric the figure is.
     share: f64,
 }
@@ -55,17 +55,24 @@ pub struct Mirror {
 impl Mirror {
     /// The twins of `figure`'s vertices and joints; `None` where it is not symmetric.
     ///
+    /// - `weld`: its vertices by position: how often seams repeat one must not matter.
     /// - `rigid`: what keeps its shape, by number, that a vertex is of.
     /// - `threads`: at most this many, 0 for all cores; the result does not depend on it.
     ///
     /// O(vertices · log vertices).
-    pub fn of(figure: &Figure, rigid: impl Fn(usize) -> Option<u32>, threads: usize) -> Option<Self> {
+    pub fn of(
+        figure: &Figure,
+        weld: &Weld,
+        rigid: impl Fn(usize) -> Option<u32>,
+        threads: usize,
+    ) -> Option<Self> {
         let Figure { positions, joints, .. } = figure;
+        let firsts = weld.first_vertices();
         let tolerance = TWIN * figure.height();
         let mesh = |vertex: usize| figure.mesh_starts.partition_point(|&start| start <= vertex);
         let belongs = |vertex: usize| (mesh(vertex), figure.kind(vertex) as usize);
-        let counts: Vec<usize> =
-            (0..positions.len()).filter(|&vertex| figure.kind(vertex) != MeshKind::Hair).collect();
+        let places = firsts.iter().map(|&vertex| vertex as usize);
+        let counts: Vec<usize> = places.filter(|&vertex| figure.kind(vertex) != MeshKind::Hair).collect();
         let halved = |normal: DVec3| {
             let plane = plane(positions, normal, tolerance)?;
             let twins = twins(positions, plane, tolerance, belongs);
@@ -76,7 +83,7 @@ impl Mirror {
         let (symmetric, plane, mut twins) = found.max_by(|one, other| one.0.total_cmp(&other.0))?;
         let share = smoothstep((symmetric - SYMMETRIC.0) / (SYMMETRIC.1 - SYMMETRIC.0));
         let whole: Vec<u32> =
-            (0..positions.len() as u32).filter(|&vertex| twins[vertex as usize].1 == 1.0).collect();
+            firsts.iter().copied().filter(|&vertex| twins[vertex as usize].1 == 1.0).collect();
         if share == 0.0 || whole.len() <= AROUND {
             return None;
         }
@@ -97,8 +104,11 @@ impl Mirror {
             }
         }
         things.retain(|_, thing| thing.iter().any(|&vertex| twins[vertex as usize].1 < 1.0));
+        let is_first = |&vertex: &u32| firsts[weld.representative[vertex as usize] as usize] == vertex;
+        let at_places = |thing: Vec<u32>| [thing.iter().copied().filter(is_first).collect(), thing];
+        let rigid = things.into_values().map(at_places).collect();
         let others = lonely.into_iter().zip(around).collect();
-        Some(Self { plane, twins, others, rigid: things.into_values().collect(), share })
+        Some(Self { plane, twins, others, rigid, share })
     }
 
     /// What is added to the way of each vertex, and of each joint after them, so that the halves are each other's image.
@@ -115,9 +125,10 @@ impl Mirror {
                 around.iter().map(|&(vertex, share)| share * corrections[vertex as usize]).sum();
             corrections[point as usize] += (1.0 - self.twins[point as usize].1) * others;
         }
-        for thing in &self.rigid {
-            let sum: DVec3 = thing.iter().map(|&vertex| corrections[vertex as usize]).sum();
-            thing.iter().for_each(|&vertex| corrections[vertex as usize] = sum / thing.len() as f64);
+        for [places, all] in &self.rigid {
+            let sum: DVec3 = places.iter().map(|&vertex| corrections[vertex as usize]).sum();
+            let mean = sum / places.len().max(1) as f64;
+            all.iter().for_each(|&vertex| corrections[vertex as usize] = mean);
         }
         corrections
     }

@@ -7,7 +7,7 @@ use crate::character::{MeshKind, Role, Skeleton};
 use crate::geometry::{Bounds, PointTree, Weld, bounds, clusters, foot, neighbours, outer};
 use crate::shape::figure::Figure;
 use glam::{DMat3, DVec3};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Loose pieces smaller than this share of H keep their shape: buttons, buckles, badges. D26. Seen: without, 33 more
 /// triangles turn over, in a mannequin's plates.
@@ -53,7 +53,7 @@ pub struct Piece {
 }
 
 impl Piece {
-    /// What `members` make up, held at `anchor`.
+    /// What `members`, one vertex at each place, make up, held at `anchor`.
     fn of(figure: &Figure, members: &[u32], anchor: DVec3, weights: PartWeights) -> Self {
         let places = || members.iter().map(|&vertex| figure.positions[vertex as usize]);
         let middle = places().sum::<DVec3>() / members.len() as f64;
@@ -95,8 +95,8 @@ impl Pieces {
         };
         pieces.add_hats(figure, members, head_only);
         pieces.add_carried(figure, skeleton, weld, members, head_only);
-        pieces.add_rigid(figure, anatomy, members, head_only, weights);
-        pieces.add_small(figure, members, head_only, weights);
+        pieces.add_rigid(figure, anatomy, weld, members, head_only, weights);
+        pieces.add_small(figure, weld, members, head_only, weights);
         pieces
     }
 
@@ -173,7 +173,8 @@ impl Pieces {
             // The body carries the piece at its own joint; the part it folds into moves that point.
             let role = figure.joint_roles[joint].unwrap_or(Role::Hips);
             piece_of_top[joint] = Some(self.pieces.len());
-            let piece = Piece::of(figure, &carried[joint], figure.joints[joint], Part::of(role).alone());
+            let places = once(weld, &carried[joint]);
+            let piece = Piece::of(figure, &places, figure.joints[joint], Part::of(role).alone());
             self.add(&carried[joint], piece);
         }
         self.of_joints = top.iter().map(|top| top.and_then(|top| piece_of_top[top])).collect();
@@ -199,6 +200,7 @@ impl Pieces {
         &mut self,
         figure: &Figure,
         anatomy: &Anatomy,
+        weld: &Weld,
         members: &[Vec<u32>],
         head_only: &[bool],
         weights: &[PartWeights],
@@ -220,7 +222,8 @@ impl Pieces {
         let tree = PointTree::new(&body);
         let mut near = Vec::new();
         let place = |vertex: u32| figure.positions[vertex as usize];
-        for whole in things {
+        for all in things {
+            let whole = once(weld, &all);
             let distances: Vec<f64> = whole
                 .iter()
                 .map(|&vertex| {
@@ -237,7 +240,7 @@ impl Pieces {
                 .collect();
             let anchor = held.iter().map(|&vertex| place(vertex)).sum::<DVec3>() / held.len() as f64;
             let piece = Piece::of(figure, &whole, anchor, mean_weights(weights, &held));
-            self.add(&whole, piece);
+            self.add(&all, piece);
         }
     }
 
@@ -285,6 +288,7 @@ impl Pieces {
     fn add_small(
         &mut self,
         figure: &Figure,
+        weld: &Weld,
         members: &[Vec<u32>],
         head_only: &[bool],
         weights: &[PartWeights],
@@ -298,7 +302,8 @@ impl Pieces {
             if (high - low).max_element() > limit {
                 continue;
             }
-            let piece = Piece::of(figure, members, (low + high) / 2.0, mean_weights(weights, members));
+            let places = once(weld, members);
+            let piece = Piece::of(figure, &places, (low + high) / 2.0, mean_weights(weights, &places));
             self.add(members, piece);
         }
     }
@@ -363,6 +368,12 @@ fn uppermost_without_role(figure: &Figure, skeleton: &Skeleton) -> Vec<Option<us
             skeleton.ancestors(joint).take_while(|&above| !has_role[above]).last()
         })
         .collect()
+}
+
+/// One of `members` at each place: how often seams repeat one must not matter.
+fn once(weld: &Weld, members: &[u32]) -> Vec<u32> {
+    let mut seen = BTreeSet::new();
+    members.iter().copied().filter(|&vertex| seen.insert(weld.representative[vertex as usize])).collect()
 }
 
 fn mean_weights(weights: &[PartWeights], members: &[u32]) -> PartWeights {
