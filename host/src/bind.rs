@@ -5,7 +5,7 @@
 
 use super::accessor::Reader;
 use super::file::GltfFile;
-use super::{array_at, bad_input, index_at, text_at};
+use super::{array_at, bad_input, index_at, indices_at, text_at};
 use glam::{DMat4, DQuat, DVec3};
 use serde_json::Value;
 use std::collections::BTreeSet;
@@ -43,8 +43,7 @@ impl NodeTree {
         let label = |node: usize| node_label(&nodes[node], node);
         let mut parents: Vec<Option<usize>> = vec![None; nodes.len()];
         for (index, node) in nodes.iter().enumerate() {
-            for child in array_at(node, "children").iter().filter_map(Value::as_u64) {
-                let child = child as usize;
+            for child in indices_at(node, "children") {
                 if child >= nodes.len() {
                     return Err(bad_input(format!(
                         "{}: node {index} has the child {child}, but there are {} nodes: export the file anew",

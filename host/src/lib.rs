@@ -52,6 +52,11 @@ pub fn array_at<'a>(value: &'a Value, key: &str) -> &'a [Value] {
     value.get(key).and_then(Value::as_array).map_or(&[], Vec::as_slice)
 }
 
+/// The numbers of the array at `key`, where they are whole ones of 0 or more.
+pub fn indices_at<'a>(value: &'a Value, key: &str) -> impl Iterator<Item = usize> + use<'a> {
+    array_at(value, key).iter().filter_map(|index| usize::try_from(index.as_u64()?).ok())
+}
+
 /// The text at `key`; empty where there is none.
 pub fn text_at<'a>(value: &'a Value, key: &str) -> &'a str {
     value.get(key).and_then(Value::as_str).unwrap_or("")

@@ -2,7 +2,7 @@
 
 use super::file::GltfFile;
 use super::load::{Loaded, Placement};
-use super::{array_at, bad_input, index_at};
+use super::{array_at, bad_input, index_at, indices_at};
 use glam::{DMat4, DVec3};
 use serde_json::{Map, Value, json};
 use std::collections::{BTreeMap, BTreeSet};
@@ -61,9 +61,7 @@ fn hide_empty(file: &mut GltfFile, count: usize) {
         nodes.iter().enumerate().map(|(index, node)| index >= count || shows(node)).collect();
     // What holds something that is shown stays too; a chain of nodes is no longer than there are nodes.
     loop {
-        let holds = |node: &Value| {
-            array_at(node, "children").iter().filter_map(Value::as_u64).any(|child| shown[child as usize])
-        };
+        let holds = |node: &Value| indices_at(node, "children").any(|child| shown[child]);
         let more: Vec<usize> = (0..nodes.len()).filter(|&node| !shown[node] && holds(&nodes[node])).collect();
         if more.is_empty() {
             break;

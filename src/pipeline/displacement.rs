@@ -13,8 +13,6 @@ use crate::shape::field::{Binding, Field, Finish};
 use crate::shape::figure::Figure;
 use crate::shape::placement::{Placement, renewed};
 use crate::shape::product::mirror::Mirror;
-use crate::shape::product::part::Part;
-use crate::shape::product::pieces::Attachment;
 use glam::{DVec3, Vec3};
 use std::sync::Arc;
 
@@ -74,21 +72,7 @@ fn corrections(mirror: &Mirror, placement: &Placement, way: impl Fn(usize) -> DV
         Some(joint) => of_joints[joint],
         None => way(point),
     });
-    let of_joints = &mut all[positions.len()..];
-    // An arm goes as one, so that it keeps its angles.
-    for first in [Part::LeftUpperArm, Part::RightUpperArm] {
-        let is_of_arm = |&joint: &usize| {
-            let parts = placement.bindings.joints[joint].parts();
-            parts.is_some_and(|parts| {
-                parts.attachment == Attachment::OnBone
-                    && parts.weights[first as usize..].iter().take(3).sum::<f32>() > 0.0
-            })
-        };
-        let arm: Vec<usize> = (0..joints.len()).filter(is_of_arm).collect();
-        let mean = arm.iter().map(|&joint| of_joints[joint]).sum::<DVec3>() / arm.len().max(1) as f64;
-        arm.into_iter().for_each(|joint| of_joints[joint] = mean);
-    }
-    for (correction, binding) in of_joints.iter_mut().zip(&placement.bindings.joints) {
+    for (correction, binding) in all[positions.len()..].iter_mut().zip(&placement.bindings.joints) {
         if *binding == Binding::Fixed {
             *correction = DVec3::ZERO;
         }

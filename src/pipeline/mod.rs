@@ -322,8 +322,8 @@ fn make(inputs: &Inputs, memo: &Memo, progress: &mut Progress) -> Result<Made> {
         let beside = || View::of_all(inputs, memo, None);
         let worn = || repair != Repair::Off && beside().worn().is_ok();
         parallel::both(thread_count, worn, || view.parts()).1?;
-        let hair = || beside().strands().is_ok();
-        parallel::both(thread_count, hair, || view.pushed()).1?;
+        let hair_and_twins = || beside().strands().is_ok() && beside().mirror().is_ok();
+        parallel::both(thread_count, hair_and_twins, || view.pushed()).1?;
     }
     let (deformation, finish) = (view.deformation()?, *view.finish()?);
     let field = Field { finish, ..(*deformation.field).clone() };

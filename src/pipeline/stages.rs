@@ -21,9 +21,8 @@ use crate::shape::directions::RestTriangles;
 use crate::shape::field::{Field, Finish};
 use crate::shape::figure::{Figure, extent};
 use crate::shape::paper;
-use crate::shape::placement::{Body, Placement};
+use crate::shape::placement::{Bindings, Body, Placement};
 use crate::shape::product;
-use crate::shape::product::binding::PartBinding;
 use crate::shape::product::hair::Hanging;
 use crate::shape::product::head::outline_sources;
 use crate::shape::product::landmarks::HeadSources;
@@ -207,8 +206,12 @@ fn head_sources(view: &View) -> Result<HeadSources> {
 
 fn mirror(view: &View) -> Result<Option<Mirror>> {
     let (measured, parts) = (view.measured()?, view.parts()?);
-    let rigid = |vertex: usize| parts.bindings.vertices[vertex].parts().and_then(PartBinding::rigid);
-    Ok(Mirror::of(&measured.figure, &measured.weld, rigid, view.threads()))
+    let Bindings { vertices, joints, .. } = &*parts.bindings;
+    let goes_with = |point: usize| match vertices.get(point) {
+        Some(vertex) => vertex.parts()?.goes_with(),
+        None => joints[point - vertices.len()].parts().filter(|joint| joint.is_on_bone())?.goes_with(),
+    };
+    Ok(Mirror::of(&measured.figure, &measured.weld, goes_with, view.threads()))
 }
 
 fn worn(view: &View) -> Result<Worn> {

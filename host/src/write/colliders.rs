@@ -3,7 +3,7 @@
 use super::numbers::{flipped_vector, multiply, put, put_flipped, vector};
 use super::{MapPoint, new_rest};
 use crate::load::Loaded;
-use crate::{array_at, index_at, text_at};
+use crate::{array_at, index_at, indices_at, text_at};
 use glam::{DMat3, DMat4, DVec3};
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
@@ -42,7 +42,7 @@ pub fn colliders(loaded: &Loaded) -> Vec<FileCollider> {
 }
 
 /// By how much lengths of a node's space are longer in model space.
-fn node_scale(rest: &DMat4) -> f64 {
+pub(crate) fn node_scale(rest: &DMat4) -> f64 {
     let scale = DMat3::from_mat4(*rest).determinant().abs().cbrt();
     if scale > 0.0 { scale } else { 1.0 }
 }
@@ -64,12 +64,11 @@ fn vrm1(springs: &Value, loaded: &Loaded) -> Vec<FileCollider> {
             .windows(2)
             .filter_map(|pair| ball(loaded, index_at(&pair[1], "node")?, number(&pair[0], "hitRadius")))
             .collect();
-        let groups = array_at(spring, "colliderGroups").iter().filter_map(Value::as_u64);
-        let of_groups = groups.filter_map(|group| array_at(springs, "colliderGroups").get(group as usize));
-        let of_groups: BTreeSet<u64> =
-            of_groups.flat_map(|group| array_at(group, "colliders")).filter_map(Value::as_u64).collect();
+        let groups = indices_at(spring, "colliderGroups");
+        let of_groups = groups.filter_map(|group| array_at(springs, "colliderGroups").get(group));
+        let of_groups: BTreeSet<usize> = of_groups.flat_map(|group| indices_at(group, "colliders")).collect();
         for collider in of_groups {
-            if let Some(list) = guarded.get_mut(collider as usize) {
+            if let Some(list) = guarded.get_mut(collider) {
                 list.extend(&balls);
             }
         }
@@ -114,15 +113,15 @@ fn vrm0(animation: &Value, loaded: &Loaded) -> Vec<FileCollider> {
     let mut guarded: Vec<Vec<SpringBall>> = vec![Vec::new(); array_at(animation, "colliderGroups").len()];
     for group in array_at(animation, "boneGroups") {
         let radius = group.get("hitRadius").and_then(Value::as_f64).unwrap_or(0.0);
-        let roots: BTreeSet<usize> = roots(group).collect();
+        let roots: BTreeSet<usize> = indices_at(group, "bones").collect();
         // The end of a bone is the next joint; a chain's first joint is the end of none.
         let balls: Vec<SpringBall> = chain(loaded, group)
             .into_iter()
             .filter(|node| !roots.contains(node))
             .filter_map(|node| ball(loaded, node, radius))
             .collect();
-        for index in array_at(group, "colliderGroups").iter().filter_map(Value::as_u64) {
-            if let Some(list) = guarded.get_mut(index as usize) {
+        for index in indices_at(group, "colliderGroups") {
+            if let Some(list) = guarded.get_mut(index) {
                 list.extend(&balls);
             }
         }
@@ -150,14 +149,10 @@ fn joint_of(loaded: &Loaded, node: usize) -> Option<(usize, usize)> {
     Some((node, loaded.joint_of_node.get(node).copied().flatten()?))
 }
 
-fn roots(group: &Value) -> impl Iterator<Item = usize> {
-    array_at(group, "bones").iter().filter_map(Value::as_u64).map(|node| node as usize)
-}
-
 /// The nodes of a group's chains: its bones and all below them, parents first.
 pub(crate) fn chain(loaded: &Loaded, group: &Value) -> Vec<usize> {
     let mut within = vec![false; loaded.tree.parents.len()];
-    for root in roots(group) {
+    for root in indices_at(group, "bones") {
         if let Some(within) = within.get_mut(root) {
             *within = true;
         }

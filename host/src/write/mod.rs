@@ -7,7 +7,7 @@ mod animations;
 mod clips;
 pub mod colliders;
 mod nodes;
-mod numbers;
+pub(crate) mod numbers;
 mod store;
 mod thumbnail;
 mod vertices;

@@ -30,7 +30,7 @@ pub(super) fn multiply(holder: &mut Value, key: &str, default: f64, factor: f64)
 }
 
 /// VRM 0.x writes z negated against the node's own space.
-const FLIPPED: DVec3 = DVec3::new(1.0, 1.0, -1.0);
+pub(crate) const FLIPPED: DVec3 = DVec3::new(1.0, 1.0, -1.0);
 
 /// A vector {x, y, z} of VRM 0.x in its node's space.
 pub(super) fn flipped_vector(value: &Value) -> DVec3 {

@@ -6,7 +6,7 @@
 use super::numbers::{flipped_vector, multiply, put, put_flipped, vector};
 use super::{MapPoint, colliders};
 use crate::load::Loaded;
-use crate::{array_at, index_at, text_at};
+use crate::{index_at, indices_at, text_at};
 use glam::{DMat4, DVec3};
 use serde_json::Value;
 use superdeform::Role;
@@ -116,8 +116,8 @@ fn vrm0(vrm: &mut Value, field: &Field) {
     for group in list(animation, "boneGroups") {
         // One set of numbers for several chains: the mean scale of all their joints.
         let mut moved = vec![false; skeleton.joints.len()];
-        for bone in array_at(group, "bones").iter().filter_map(Value::as_u64) {
-            if let Some(joint) = field.joint(bone as usize) {
+        for bone in indices_at(group, "bones") {
+            if let Some(joint) = field.joint(bone) {
                 moved[joint] = true;
             }
         }

@@ -3,6 +3,7 @@
 use super::anatomy::Anatomy;
 use super::part::{Part, PartWeights};
 use super::pieces::{Attachment, Piece, Pieces};
+use super::profile::chains::arm_share;
 use super::profile::skirts::skirt_vertices;
 use super::weights::part_weights;
 use crate::character::{MeshKind, Role, Skeleton};
@@ -49,12 +50,18 @@ impl PartBinding {
         }
     }
 
-    /// The number of what keeps its shape, and that it is of: a piece on the body, a thing on the head, an eyeball.
-    pub fn rigid(&self) -> Option<u32> {
+    /// True for what follows the bones of an arm.
+    pub fn is_on_bone(&self) -> bool {
+        self.attachment == Attachment::OnBone
+    }
+
+    /// What goes as one and it is of, by kind and number: a piece on the body, a thing on the head, an eyeball, an arm's bones.
+    pub fn goes_with(&self) -> Option<(u8, u32)> {
         match (self.attachment, self.face) {
-            (Attachment::Piece(piece), _) => Some(3 * piece as u32),
-            (_, FaceBinding::Piece(thing)) => Some(3 * thing + 1),
-            (_, FaceBinding::Ball(side)) => Some(3 * u32::from(side) + 2),
+            (Attachment::Piece(piece), _) => Some((0, piece as u32)),
+            (Attachment::OnBone, _) => Some((3, u32::from(arm_share(&self.weights, 1) > 0.0))),
+            (_, FaceBinding::Piece(thing)) => Some((1, thing)),
+            (_, FaceBinding::Ball(side)) => Some((2, u32::from(side))),
             _ => None,
         }
     }

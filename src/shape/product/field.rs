@@ -154,7 +154,7 @@ impl PartField {
     pub fn place_smooth(&self, p: DVec3, by_parts: DVec3, smooth: DVec3, binding: &PartBinding) -> DVec3 {
         match (binding.attachment, &self.profile) {
             (Attachment::Plain | Attachment::OnFace(_), Some(profile)) => {
-                profile.place_smooth(by_parts, smooth, binding)
+                profile.place_smooth(by_parts, || smooth, binding)
             }
             _ => self.place(p, binding),
         }

@@ -4,6 +4,7 @@
 //! What is made of such numbers is a little askew, and a pair of hands shows it. So in the end the halves are made each other's
 //! image: a vertex goes the mean of its own way and the mirrored way of its twin.
 
+use super::pieces::once;
 use crate::character::MeshKind;
 use crate::geometry::{PointTree, Weld, by_number, smoothstep, weld};
 use crate::parallel;
@@ -14,9 +15,9 @@ use std::collections::BTreeMap;
 /// A vertex has a twin where its mirror image is no further from one than this share of H; at half of that it is one whole. D34:
 /// a hundred times what a float rounds, a twentieth of a fine mesh's edges.
 const TWIN: f64 = 1e-4;
-/// A figure counts as symmetric where more than the first of these shares of it, hair aside, has a twin; wholly at the second. D34.
-/// Seen: at .5 and .8 Seed-san counts, of whose clothes 3 % end inside of her then.
-const SYMMETRIC: (f64, f64) = (0.75, 0.9);
+/// A figure counts as symmetric where more than the first of these shares of its places, hair aside, has a twin; wholly at the
+/// second. D34. Seen: people with a watch or a bag have .89 to 1; Seed-san .80, of whose clothes 3 % end inside of her where she counts.
+const SYMMETRIC: (f64, f64) = (0.82, 0.88);
 /// A vertex without a twin goes as so many around it do that have one, the furthest not at all. D34: the fewest around a point.
 const AROUND: usize = 5;
 
@@ -46,8 +47,8 @@ pub struct Mirror {
     twins: Vec<(u32, f64)>,
     /// Those that have none, or none whole, and what they go by instead: vertices and their shares.
     others: Vec<(u32, [(u32, f64); AROUND])>,
-    /// What keeps its shape and is not wholly of twins: one vertex at each of its places, and all.
-    rigid: Vec<[Vec<u32>; 2]>,
+    /// What goes as one, of vertices or of joints: one at each of its places, and all.
+    as_one: Vec<[Vec<u32>; 2]>,
     /// How symmetric the figure is.
     share: f64,
 }
@@ -56,14 +57,15 @@ impl Mirror {
     /// The twins of `figure`'s vertices and joints; `None` where it is not symmetric.
     ///
     /// - `weld`: its vertices by position: how often seams repeat one must not matter.
-    /// - `rigid`: what keeps its shape, by number, that a vertex is of.
+    /// - `goes_with`: what goes as one that a vertex is of, or, after the vertices, a joint: what keeps its shape, where it is not
+    ///   wholly of twins, and the joints of an arm, so that it keeps its angles.
     /// - `threads`: at most this many, 0 for all cores; the result does not depend on it.
     ///
     /// O(vertices · log vertices).
-    pub fn of(
+    pub fn of<Thing: Ord>(
         figure: &Figure,
         weld: &Weld,
-        rigid: impl Fn(usize) -> Option<u32>,
+        goes_with: impl Fn(usize) -> Option<Thing>,
         threads: usize,
     ) -> Option<Self> {
         let Figure { positions, joints, .. } = figure;
@@ -71,8 +73,8 @@ impl Mirror {
         let tolerance = TWIN * figure.height();
         let mesh = |vertex: usize| figure.mesh_starts.partition_point(|&start| start <= vertex);
         let belongs = |vertex: usize| (mesh(vertex), figure.kind(vertex) as usize);
-        let places = firsts.iter().map(|&vertex| vertex as usize);
-        let counts: Vec<usize> = places.filter(|&vertex| figure.kind(vertex) != MeshKind::Hair).collect();
+        let mut counts: Vec<usize> = firsts.iter().map(|&vertex| vertex as usize).collect();
+        counts.retain(|&vertex| figure.kind(vertex) != MeshKind::Hair);
         let halved = |normal: DVec3| {
             let plane = plane(positions, normal, tolerance)?;
             let twins = twins(positions, plane, tolerance, belongs);
@@ -94,21 +96,24 @@ impl Mirror {
             (0..twins.len() as u32).filter(|&point| twins[point as usize].1 < 1.0).collect();
         let around = parallel::collect(threads, lonely.len(), parallel::FEW_RAYS, |index| {
             let point = lonely[index] as usize;
-            let p = positions.get(point).or_else(|| joints.get(point - positions.len()));
-            shares(&tree, *p.unwrap_or(&DVec3::ZERO)).map(|(index, share)| (whole[index as usize], share))
+            let p = if point < positions.len() { positions[point] } else { joints[point - positions.len()] };
+            shares(&tree, p).map(|(index, share)| (whole[index as usize], share))
         });
-        let mut things: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
-        for vertex in 0..positions.len() {
-            if let Some(thing) = rigid(vertex) {
-                things.entry(thing).or_default().push(vertex as u32);
+        let mut things: BTreeMap<Thing, Vec<u32>> = BTreeMap::new();
+        for point in 0..twins.len() {
+            if let Some(thing) = goes_with(point) {
+                things.entry(thing).or_default().push(point as u32);
             }
         }
-        things.retain(|_, thing| thing.iter().any(|&vertex| twins[vertex as usize].1 < 1.0));
-        let is_first = |&vertex: &u32| firsts[weld.representative[vertex as usize] as usize] == vertex;
-        let at_places = |thing: Vec<u32>| [thing.iter().copied().filter(is_first).collect(), thing];
-        let rigid = things.into_values().map(at_places).collect();
+        let is_joint = |point: u32| point as usize >= positions.len();
+        things.retain(|_, thing| thing.iter().any(|&point| is_joint(point) || twins[point as usize].1 < 1.0));
+        let at_places = |thing: Vec<u32>| {
+            let places = if is_joint(thing[0]) { thing.clone() } else { once(weld, &thing) };
+            [places, thing]
+        };
+        let as_one = things.into_values().map(at_places).collect();
         let others = lonely.into_iter().zip(around).collect();
-        Some(Self { plane, twins, others, rigid, share })
+        Some(Self { plane, twins, others, as_one, share })
     }
 
     /// What is added to the way of each vertex, and of each joint after them, so that the halves are each other's image.
@@ -125,10 +130,10 @@ impl Mirror {
                 around.iter().map(|&(vertex, share)| share * corrections[vertex as usize]).sum();
             corrections[point as usize] += (1.0 - self.twins[point as usize].1) * others;
         }
-        for [places, all] in &self.rigid {
-            let sum: DVec3 = places.iter().map(|&vertex| corrections[vertex as usize]).sum();
-            let mean = sum / places.len().max(1) as f64;
-            all.iter().for_each(|&vertex| corrections[vertex as usize] = mean);
+        for [places, all] in &self.as_one {
+            let sum: DVec3 = places.iter().map(|&point| corrections[point as usize]).sum();
+            let mean = sum / places.len() as f64;
+            all.iter().for_each(|&point| corrections[point as usize] = mean);
         }
         corrections
     }
@@ -203,9 +208,9 @@ fn shares(tree: &PointTree, p: DVec3) -> [(u32, f64); AROUND] {
         *share = (near.index(), ((1.0 - away) / away.max(1e-6)).powi(2));
     }
     let sum: f64 = shares.iter().map(|(_, share)| share).sum();
-    if sum > 0.0 {
-        shares.map(|(index, share)| (index, share / sum))
-    } else {
-        [(shares[0].0, 1.0 / AROUND as f64); AROUND]
+    if sum == 0.0 {
+        // All are as far.
+        return shares.map(|(index, _)| (index, 1.0 / AROUND as f64));
     }
+    shares.map(|(index, share)| (index, share / sum))
 }

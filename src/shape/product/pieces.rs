@@ -53,7 +53,7 @@ pub struct Piece {
 }
 
 impl Piece {
-    /// What `members`, one vertex at each place, make up, held at `anchor`.
+    /// What `members` make up, one vertex at each place, for how often seams repeat one must not matter; held at `anchor`.
     fn of(figure: &Figure, members: &[u32], anchor: DVec3, weights: PartWeights) -> Self {
         let places = || members.iter().map(|&vertex| figure.positions[vertex as usize]);
         let middle = places().sum::<DVec3>() / members.len() as f64;
@@ -370,10 +370,10 @@ fn uppermost_without_role(figure: &Figure, skeleton: &Skeleton) -> Vec<Option<us
         .collect()
 }
 
-/// One of `members` at each place: how often seams repeat one must not matter.
-fn once(weld: &Weld, members: &[u32]) -> Vec<u32> {
+/// The first of `vertices` at each of their places, in their order.
+pub(super) fn once(weld: &Weld, vertices: &[u32]) -> Vec<u32> {
     let mut seen = BTreeSet::new();
-    members.iter().copied().filter(|&vertex| seen.insert(weld.representative[vertex as usize])).collect()
+    vertices.iter().copied().filter(|&vertex| seen.insert(weld.representative[vertex as usize])).collect()
 }
 
 fn mean_weights(weights: &[PartWeights], members: &[u32]) -> PartWeights {

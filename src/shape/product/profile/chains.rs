@@ -129,7 +129,7 @@ impl Chains {
 }
 
 /// What arm number `side` moves of a vertex: upper and lower arm, hand.
-pub(super) fn arm_share(row: &PartWeights, side: usize) -> f32 {
+pub fn arm_share(row: &PartWeights, side: usize) -> f32 {
     let first = if side == 0 { Part::LeftUpperArm } else { Part::RightUpperArm } as usize;
     row[first..first + 3].iter().sum()
 }

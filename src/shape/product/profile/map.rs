@@ -3,6 +3,7 @@
 //! Each map keeps the place along its own axis but for what an arm's length changes, and is monotone on the others: so one
 //! chain alone cannot fold.
 
+use super::chains::arm_share;
 use super::curve::{Table, monotone_cubic};
 use super::measure::{BodyFrame, BodyLines, HAND_FADE, droop};
 use super::relief::MOST_ROWS;
@@ -185,8 +186,7 @@ impl BodyMap {
     /// As [`Self::map`], for what hangs on the bones of the arm that `weights` name: what lies on a bone goes along it, so that
     /// the arm keeps its angles.
     pub fn on_bones<M: Moved>(&self, p: DVec3, weights: &PartWeights) -> M {
-        let is_right = weights[Part::RightUpperArm as usize..].iter().take(3).any(|&weight| weight > 0.0);
-        match &self.arms[usize::from(is_right)] {
+        match &self.arms[usize::from(arm_share(weights, 1) > 0.0)] {
             Some(arm) => arm.map(p, true),
             None => self.torso(p),
         }

@@ -14,7 +14,6 @@ use crate::shape::product::anatomy::Anatomy;
 use crate::shape::product::binding::PartBinding;
 use crate::shape::product::field::PartField;
 use crate::shape::product::part::{Part, PartWeights};
-use crate::shape::product::pieces::Attachment;
 use glam::{DMat3, DVec3};
 
 /// What becomes this much stubbier (its length shrinks to .7 of what its thickness does) loses all of its relief.
@@ -133,24 +132,25 @@ impl ProfileStage {
 
     /// Where `p`, as the parts leave it, goes. It stays where a body of next to no length gives no number.
     pub fn place(&self, p: DVec3, binding: &PartBinding) -> DVec3 {
-        match binding.attachment {
-            Attachment::OnBone => finite_or(self.slices.on_bones(p, &binding.weights), p),
-            _ => self.placed(p, &binding.weights, binding.is_skirt),
+        if binding.is_on_bone() {
+            return finite_or(self.slices.on_bones(p, &binding.weights), p);
         }
+        let PartBinding { weights, is_skirt, .. } = binding;
+        self.place_smooth(p, || self.relief.map(p, weights, *is_skirt), binding)
     }
 
-    /// The same, where the relief alone takes `p` to `smooth`.
-    pub fn place_smooth(&self, p: DVec3, smooth: DVec3, binding: &PartBinding) -> DVec3 {
+    /// The same for what hangs on no bones, where the relief alone takes `p` to `smooth`.
+    pub fn place_smooth(&self, p: DVec3, smooth: impl FnOnce() -> DVec3, binding: &PartBinding) -> DVec3 {
         if is_of_head(&binding.weights) {
             return p;
         }
-        finite_or(self.slices.map(smooth, &binding.weights, binding.is_skirt), p)
+        finite_or(self.slices.map(smooth(), &binding.weights, binding.is_skirt), p)
     }
 
     /// The same and the Jacobian there.
     pub fn map(&self, p: DVec3, binding: &PartBinding) -> Mapped {
-        let PartBinding { weights, attachment, is_skirt, .. } = binding;
-        let to = if *attachment == Attachment::OnBone {
+        let PartBinding { weights, is_skirt, .. } = binding;
+        let to = if binding.is_on_bone() {
             self.slices.on_bones(p, weights)
         } else {
             let smooth: Mapped = self.relief.map(p, weights, *is_skirt);
@@ -162,13 +162,6 @@ impl ProfileStage {
     /// Of what soft limits took more than a tenth: the wanted scale and the one that it got.
     pub fn limited(&self) -> &[(&'static str, f64, f64)] {
         &self.limited
-    }
-
-    fn placed(&self, p: DVec3, weights: &PartWeights, is_skirt: bool) -> DVec3 {
-        if is_of_head(weights) {
-            return p;
-        }
-        finite_or(self.slices.map(self.relief.map(p, weights, is_skirt), weights, is_skirt), p)
     }
 }
 
