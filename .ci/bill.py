@@ -41,11 +41,12 @@ def cargo(*arguments):
 def linked(what, targets):
     """Name, version, licence and source of all that is linked, by name."""
     edges = "normal,dev,no-proc-macro" if what == "program" else "normal,no-proc-macro"
+    more = ["--package", "superdeform-host", "--features", "superdeform-host/meshopt"] if what == "program" else []
     found = set()
     for target in targets:
-        lines = cargo("tree", "--locked", "--edges", edges, "--prefix", "none", "--package", PACKAGE.get(what, "superdeform"),
+        lines = cargo("tree", "--locked", "--edges", edges, "--prefix", "none", "--package", PACKAGE.get(what, "superdeform"), *more,
                       "--target", target, "--format", "{p}|{l}|{r}").splitlines()
-        for line in lines:
+        for line in filter(None, lines):
             name, licence, source = line.replace(" (*)", "").split("|")
             name, version = name.split(" ")[:2]
             if name not in OWN:
@@ -55,7 +56,7 @@ def linked(what, targets):
 
 def metadata():
     """What cargo knows of the lock file: each package by name and version, and what each of them needs."""
-    whole = json.loads(cargo("metadata", "--locked", "--format-version", "1"))
+    whole = json.loads(cargo("metadata", "--locked", "--format-version", "1", "--features", "superdeform-host/meshopt"))
     return {(package["name"], package["version"]): package for package in whole["packages"]}, whole["resolve"]["nodes"]
 
 

@@ -4,6 +4,8 @@
 The add-on fills both sets when it imports a VRM 0.x file, so both are written.
 """
 
+import math
+
 from mathutils import Matrix, Vector
 from superdeform import abi
 
@@ -19,13 +21,45 @@ def springs(armature, copy, figure, deformer):
     # What VRM 0.x and 1.0 have of the same file are two sets of empties.
     balls, of_group, chains = _balls_0(before, armature, figure)
     for group, chain in zip(after.vrm0.secondary_animation.bone_groups, chains):
+        parents = [(armature.data.bones[name].parent, name) for name in chain]
+        bones = [(parent.name, name, group.gravity_power, group.stiffiness, group.gravity_dir)
+                 for parent, name in parents if parent is not None and parent.name in chain]
+        group.gravity_power *= _gravity_kept(bones, armature, copy)
         _scaled(group, ("hit_radius", "stiffiness", "gravity_power"), chain, armature, figure, deformer)
     _colliders(_pairs_0(before, after, of_group), balls, armature, copy, figure, deformer)
     balls, of_spring = _balls_1(before, armature, figure)
     for spring in after.spring_bone1.springs:
-        for joint in spring.joints:
+        joints = list(spring.joints)
+        bones = [(joint.node.bone_name, following.node.bone_name, joint.gravity_power, joint.stiffness, joint.gravity_dir)
+                 for joint, following in zip(joints, joints[1:])]
+        kept = _gravity_kept(bones, armature, copy)
+        for joint in joints:
+            joint.gravity_power *= kept
             _scaled(joint, ("hit_radius", "stiffness", "gravity_power"), [joint.node.bone_name], armature, figure, deformer)
     _colliders(_pairs_1(before, after, of_spring), balls, armature, copy, figure, deformer)
+
+
+def _gravity_kept(bones, armature, copy):
+    """The share of their gravity with which the bones of a chain bend at rest as far as they did, in the mean; at most 1.
+
+    - `bones`: where each begins and ends, its gravity, its stiffness, and which way is down.
+
+    Gravity and stiffness, r to 1 and at an angle a, balance where a bone is bent by atan(r sin a / (1 + r cos a)). At the angle b, r'
+    bends it as far where r' (sin b + r sin(b - a)) = r sin a. What is not stiff hangs straight down anyway.
+    """
+    before = after = 0.0
+    for start, end, gravity, stiffness, down in bones:
+        if stiffness <= 0 or not all(name in owner.data.bones for name in (start, end) for owner in (armature, copy)):
+            continue
+        a, b = (_angle(owner, start, end, Vector(down)) for owner in (armature, copy))
+        before += math.sin(a)
+        after += math.sin(b) + gravity / stiffness * math.sin(b - a)
+    return before / after if before < after else 1.0
+
+
+def _angle(armature, start, end, down):
+    bones = armature.data.bones
+    return (armature.matrix_world.to_3x3() @ (bones[end].head_local - bones[start].head_local)).angle(down, 0.0)
 
 
 def _scaled(owner, names, chain, armature, figure, deformer):

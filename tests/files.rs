@@ -591,9 +591,11 @@ fn springs_and_colliders_of_vrm_1_move_and_scale_and_constraints_stay() {
     assert!((vec3(&plane["offset"]) - (squash(back + DVec3::Y * 0.1) - squash(back))).length() < 1e-6);
     let strand = squash_jacobian(DVec3::new(0.0, 1.6, -0.1)).determinant().cbrt();
     let joint = &springs["springs"][0]["joints"][0];
-    for (key, before) in [("hitRadius", 0.02), ("gravityPower", 0.5), ("stiffness", 1.0)] {
+    for (key, before) in [("hitRadius", 0.02), ("stiffness", 1.0)] {
         assert!((joint[key].as_f64().unwrap() - before * strand).abs() < 1e-6, "{key}");
     }
+    let pulls = [0.5, joint["gravityPower"].as_f64().unwrap() / joint["stiffness"].as_f64().unwrap()];
+    bends_as_before(pulls);
     assert_eq!(
         springs["colliderGroups"],
         loaded.file.json["extensions"]["VRMC_springBone"]["colliderGroups"]
@@ -614,6 +616,16 @@ fn springs_and_colliders_of_vrm_1_move_and_scale_and_constraints_stay() {
     let (low, high) = (squash(DVec3::Y * -0.05).y, squash(DVec3::Y * 1.65).y);
     assert!((width(0) - 0.01 * (high - low) / 1.7).abs() < 1e-6);
     assert_eq!(width(1), 0.01);
+}
+
+/// The strand comes to stand off further: gravity over stiffness, before and after, bend it by the same angle where they balance.
+fn bends_as_before(pulls: [f64; 2]) {
+    let [start, end] = [DVec3::new(0.0, 1.6, -0.1), DVec3::new(0.0, 1.3, -0.15)];
+    let bones = [end - start, squash(end) - squash(start)].map(DVec3::normalize);
+    assert!(bones[1].angle_between(DVec3::NEG_Y) > bones[0].angle_between(DVec3::NEG_Y) + 0.05);
+    let [before, after] = [0, 1].map(|at| bones[at].angle_between(bones[at] + pulls[at] * DVec3::NEG_Y));
+    assert!((before - after).abs() < 1e-6, "{before} {after}");
+    assert!(pulls[1] < 0.9 * pulls[0]);
 }
 
 #[test]
@@ -663,6 +675,7 @@ fn springs_and_the_viewpoint_of_vrm_0_have_z_negated() {
     let chain = (scale(DVec3::new(0.0, 1.6, -0.1)) + scale(DVec3::new(0.0, 1.3, -0.15))) / 2.0;
     let group = &vrm["secondaryAnimation"]["boneGroups"][0];
     assert!((group["stiffiness"].as_f64().unwrap() - chain).abs() < 1e-6);
+    bends_as_before([0.1, group["gravityPower"].as_f64().unwrap() / group["stiffiness"].as_f64().unwrap()]);
     assert_eq!(group["dragForce"], json!(0.4));
     assert!(vrm["materialProperties"][0]["floatProperties"]["_OutlineWidth"].as_f64().unwrap() < 0.4);
     assert_eq!(vrm["materialProperties"][1]["floatProperties"]["_OutlineWidth"], json!(0.5));

@@ -1,12 +1,13 @@
 //! What VRM files hold beside the meshes in model units: spring bones, colliders, viewpoint, outlines.
 //!
 //! A point is attached to a node and stands in its space: it is mapped like a vertex of that joint and then expressed
-//! in the moved node's space. Lengths around a point (radii, stiffness, gravity) are multiplied by the local scale.
+//! in the moved node's space. Lengths around a point (radii, stiffness, gravity) are multiplied by the local scale. Gravity
+//! gives way where a chain stands off further than it did, so that it hangs at rest as it hung.
 
 use super::numbers::{flipped_vector, multiply, put, put_flipped, vector};
 use super::{MapPoint, colliders};
 use crate::load::Loaded;
-use crate::{index_at, indices_at, text_at};
+use crate::{array_at, index_at, indices_at, text_at};
 use glam::{DMat4, DVec3};
 use serde_json::Value;
 use superdeform::Role;
@@ -35,6 +36,35 @@ impl Field<'_> {
     fn scale(&self, node: usize) -> Option<f64> {
         self.at(node, DVec3::ZERO).map(|(_, scale)| scale)
     }
+
+    /// The bone from a node to another, before and after.
+    fn bone(&self, from: usize, to: usize) -> Option<[DVec3; 2]> {
+        let between = |rest: &[DMat4]| Some((rest.get(to)?.w_axis - rest.get(from)?.w_axis).truncate());
+        Some([between(&self.loaded.pose.rest)?, between(self.new_rest)?])
+    }
+}
+
+/// A bone of a spring, before and after, and its gravity over its stiffness.
+struct Pulled {
+    bone: [DVec3; 2],
+    down: DVec3,
+    pull: f64,
+}
+
+/// The share of their gravity with which the bones of a chain bend at rest as far as they did, in the mean; at most 1.
+///
+/// Gravity and stiffness, r to 1 and at an angle a, balance where the bone is bent by atan(r sin a / (1 + r cos a)). At the
+/// angle b, r' bends it as far where r' (sin b + r sin(b - a)) = r sin a. What is not stiff hangs straight down anyway.
+fn gravity_kept(bones: &[Pulled]) -> f64 {
+    let [mut before, mut after] = [0.0; 2];
+    for Pulled { bone, down, pull } in bones {
+        let [a, b] = bone.map(|bone| bone.angle_between(*down));
+        if (a + b + pull).is_finite() {
+            before += a.sin();
+            after += b.sin() + pull * (b - a).sin();
+        }
+    }
+    if before < after { before / after } else { 1.0 }
 }
 
 /// Moves and scales everything of a VRM header, 0.x or 1.0, that stands in model units.
@@ -73,6 +103,16 @@ pub(super) fn move_points(
 /// VRM 1.0 springs.
 fn vrm1_springs(springs: &mut Value, field: &Field) {
     for spring in list(springs, "springs") {
+        let number =
+            |joint: &Value, key: &str, usual: f64| joint.get(key).and_then(Value::as_f64).unwrap_or(usual);
+        let pulled = |pair: &[Value]| {
+            let bone = field.bone(index_at(&pair[0], "node")?, index_at(&pair[1], "node")?)?;
+            let down = pair[0].get("gravityDir").and_then(vector).unwrap_or(DVec3::NEG_Y);
+            let pull = number(&pair[0], "gravityPower", 0.0) / number(&pair[0], "stiffness", 1.0);
+            Some(Pulled { bone, down, pull })
+        };
+        let kept =
+            gravity_kept(&array_at(spring, "joints").windows(2).filter_map(pulled).collect::<Vec<_>>());
         for joint in list(spring, "joints") {
             let Some(scale) = index_at(joint, "node").and_then(|node| field.scale(node)) else {
                 continue;
@@ -80,7 +120,7 @@ fn vrm1_springs(springs: &mut Value, field: &Field) {
             // The step of a spring is stiffness and gravity in model units: only scaled does it swing the same.
             multiply(joint, "hitRadius", 0.0, scale);
             multiply(joint, "stiffness", 1.0, scale);
-            multiply(joint, "gravityPower", 0.0, scale);
+            multiply(joint, "gravityPower", 0.0, scale * kept);
         }
     }
 }
@@ -122,8 +162,16 @@ fn vrm0(vrm: &mut Value, field: &Field) {
             }
         }
         let (mut sum, mut count) = (0.0, 0);
+        let number = |key: &str| group.get(key).and_then(Value::as_f64).unwrap_or(0.0);
+        let pull = number("gravityPower") / number("stiffiness");
+        let down = group.get("gravityDir").map_or(DVec3::NEG_Y, flipped_vector);
+        let mut bones = Vec::new();
         for &joint in &order {
-            moved[joint] |= skeleton.joints[joint].parent.is_some_and(|parent| moved[parent]);
+            if let Some(parent) = skeleton.joints[joint].parent.filter(|&parent| moved[parent]) {
+                moved[joint] = true;
+                let bone = field.bone(field.loaded.node_of_joint[parent], field.loaded.node_of_joint[joint]);
+                bones.extend(bone.map(|bone| Pulled { bone, down, pull }));
+            }
             if let Some(scale) =
                 moved[joint].then(|| field.scale(field.loaded.node_of_joint[joint])).flatten()
             {
@@ -136,7 +184,7 @@ fn vrm0(vrm: &mut Value, field: &Field) {
             multiply(group, "hitRadius", 0.0, scale);
             // VRM 0.x spells it so.
             multiply(group, "stiffiness", 0.0, scale);
-            multiply(group, "gravityPower", 0.0, scale);
+            multiply(group, "gravityPower", 0.0, scale * gravity_kept(&bones));
         }
     }
 }

@@ -8,7 +8,8 @@ namespace SuperDeform.Editor.Vrm0
     /// <summary>What UniVRM 0.x holds in lengths: spring bones, their colliders, the viewpoint.</summary>
     /// <remarks>
     /// Written for the fields of UniVRM 0.68 to 0.131. A spring's step is stiffness and gravity in metres: only scaled with
-    /// the chain it swings the same. Drag, directions and the angles of look-at stay.
+    /// the chain it swings the same. Gravity gives way where chains stand off further than they did. Drag, directions and the
+    /// angles of look-at stay.
     /// </remarks>
     public sealed class Vrm0Adapter : ISpringAdapter
     {
@@ -61,9 +62,12 @@ namespace SuperDeform.Editor.Vrm0
         {
             double sum = 0;
             int count = 0;
-            foreach (Transform joint in JointsOf(spring))
+            var bend = new RestBend(map);
+            HashSet<Transform> joints = JointsOf(spring);
+            foreach (Transform joint in joints)
             {
                 if (map.Joint(joint) == null) continue;
+                if (joints.Contains(joint.parent)) bend.Add(joint.parent, joint, spring.m_stiffnessForce, spring.m_gravityPower, spring.m_gravityDir);
                 sum += map.Scale(joint, Vector3.zero);
                 count++;
             }
@@ -71,7 +75,7 @@ namespace SuperDeform.Editor.Vrm0
             float scale = (float)(sum / count);
             spring.m_hitRadius *= scale;
             spring.m_stiffnessForce *= scale;
-            spring.m_gravityPower *= scale;
+            spring.m_gravityPower *= scale * bend.GravityKept;
         }
 
         static void AdaptColliders(VRMSpringBoneColliderGroup group, PointMap map)

@@ -8,7 +8,8 @@ namespace SuperDeform.Editor.Vrm1
     /// <summary>What UniVRM 1.0 holds in lengths: joints of springs, their colliders, the origin of look-at.</summary>
     /// <remarks>
     /// Written for the fields of UniVRM 0.123 to 0.131. A spring's step is stiffness and gravity in metres: only scaled with
-    /// the joint it swings the same. Drag, directions, angles and the names in expressions stay.
+    /// the joint it swings the same. Gravity gives way where a chain stands off further than it did. Drag, directions, angles and
+    /// the names in expressions stay.
     /// </remarks>
     public sealed class Vrm1Adapter : ISpringAdapter
     {
@@ -24,7 +25,11 @@ namespace SuperDeform.Editor.Vrm1
         /// <summary>Brings one component of the new avatar from the old lengths to the new ones.</summary>
         public void Adapt(Component copy, PointMap map)
         {
-            if (copy is Vrm10Instance) AdaptLookAt((Vrm10Instance)copy, map);
+            if (copy is Vrm10Instance)
+            {
+                AdaptLookAt((Vrm10Instance)copy, map);
+                AdaptGravity((Vrm10Instance)copy, map);
+            }
             else if (map.Joint(copy.transform) == null) return;
             else if (copy is VRM10SpringBoneJoint) AdaptJoint((VRM10SpringBoneJoint)copy, map);
             else AdaptCollider((VRM10SpringBoneCollider)copy, map);
@@ -68,6 +73,23 @@ namespace SuperDeform.Editor.Vrm1
             joint.m_jointRadius *= scale;
             joint.m_stiffnessForce *= scale;
             joint.m_gravityPower *= scale;
+        }
+
+        // Of whole chains. A joint's gravity over its stiffness is what it was, whether it has been scaled yet or not.
+        static void AdaptGravity(Vrm10Instance instance, PointMap map)
+        {
+            if (instance.SpringBone == null) return;
+            foreach (Vrm10InstanceSpringBone.Spring spring in instance.SpringBone.Springs)
+            {
+                List<VRM10SpringBoneJoint> joints = spring.Joints.FindAll(joint => joint != null);
+                var bend = new RestBend(map);
+                for (int end = 1; end < joints.Count; end++)
+                {
+                    VRM10SpringBoneJoint joint = joints[end - 1];
+                    bend.Add(joint.transform, joints[end].transform, joint.m_stiffnessForce, joint.m_gravityPower, joint.m_gravityDir);
+                }
+                foreach (VRM10SpringBoneJoint joint in joints) joint.m_gravityPower *= bend.GravityKept;
+            }
         }
 
         static void AdaptCollider(VRM10SpringBoneCollider collider, PointMap map)
