@@ -16,6 +16,7 @@ from pathlib import Path
 
 import bpy
 import numpy as np
+from mathutils import Quaternion, Vector
 from start import convert, fresh, leave
 
 import addon_utils  # There once bpy is.
@@ -37,9 +38,25 @@ def height(path):
     return max(each["max"][1] for each in bounds) - min(each["min"][1] for each in bounds)
 
 
+def turns(file):
+    """How each node is turned in the scene: the add-on's export turns nodes as Blender's bones lie."""
+    found = {}
+
+    def visit(index, above):
+        found[index] = above @ Quaternion(np.roll(file["nodes"][index].get("rotation", (0, 0, 0, 1)), 1))
+        for child in file["nodes"][index].get("children", []):
+            visit(child, found[index])
+
+    for root in file["scenes"][file.get("scene", 0)]["nodes"]:
+        visit(root, Quaternion())
+    return found
+
+
 def springs(file):
-    """Colliders and springs of VRM 0.x and 1.0, as (what and whose, numbers), in the order of their names."""
+    """Colliders and springs of VRM 0.x and 1.0, as (what and whose, numbers), in the order of their names; vectors of 1.0 as they
+    lie in the scene."""
     name = lambda index: file["nodes"][index]["name"]
+    turned = turns(file)
     found = []
     secondary = file["extensions"].get("VRM", {}).get("secondaryAnimation", {})
     for group in secondary.get("colliderGroups", []):
@@ -51,7 +68,8 @@ def springs(file):
     new = file["extensions"].get("VRMC_springBone", {})
     for each in new.get("colliders", []):
         (kind, shape), = each["shape"].items()
-        found.append((f"{kind} of {name(each['node'])}", [*shape["offset"], *shape.get("tail", []), shape["radius"]]))
+        ends = [turned[each["node"]] @ Vector(shape[key]) for key in ("offset", "tail") if key in shape]
+        found.append((f"{kind} of {name(each['node'])}", [*(number for end in ends for number in end), shape["radius"]]))
     for spring in new.get("springs", []):
         # The last joint of a chain only says where it ends.
         for joint in spring["joints"][:-1]:
