@@ -199,19 +199,6 @@ pub fn smoothed_rings(rings: &[Ring], sigma: f64) -> Vec<Ring> {
     )
 }
 
-/// Keeps each reach within `most` times, and one part in `most`, of the median of those up to `rows` above and below it.
-pub fn without_spikes(reaches: &mut [Ring], rows: usize, most: f64) {
-    let known = reaches.to_vec();
-    for (row, ring) in reaches.iter_mut().enumerate() {
-        let near = &known[row.saturating_sub(rows)..(row + rows + 1).min(known.len())];
-        for (ray, reach) in ring.iter_mut().enumerate() {
-            let mut beside: Vec<f64> = near.iter().map(|ring| ring[ray]).collect();
-            let usual = super::station::median(&mut beside);
-            *reach = reach.clamp(usual / most, usual * most);
-        }
-    }
-}
-
 /// Reaches no further than [`FURTHEST`]; gaps between rays filled along the ring; NaN where too few rays meet anything.
 fn bounded(mut ring: Ring) -> Ring {
     let mut hits: Vec<f64> = ring.iter().copied().filter(|reach| !reach.is_nan()).collect();
@@ -299,22 +286,6 @@ mod tests {
                 );
             }
         }
-    }
-
-    #[test]
-    fn a_row_that_reads_another_layer_is_no_fold() {
-        let mut rows = vec![[2.0; RAYS]; 20];
-        rows[9][3] = 1.0;
-        rows[10][3] = 1.2;
-        rows[11][3] = 1.9;
-        without_spikes(&mut rows, 4, 1.1);
-        assert!((rows[9][3] - 2.0 / 1.1).abs() < 1e-12 && (rows[10][3] - 2.0 / 1.1).abs() < 1e-12);
-        assert_eq!((rows[11][3], rows[9][4]), (1.9, 2.0));
-        // A step stays one.
-        let mut rows: Vec<Ring> = (0..20).map(|row| [if row < 10 { 1.0 } else { 2.0 }; RAYS]).collect();
-        let before = rows.clone();
-        without_spikes(&mut rows, 4, 1.1);
-        assert_eq!(rows, before);
     }
 
     #[test]

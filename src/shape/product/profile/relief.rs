@@ -6,7 +6,7 @@
 use super::chains::{Chain, Chains, arm_share};
 use super::curve::BELL_ENDS;
 use super::measure::{Body, BodyFrame, OVER_MIDDLE, on_limb};
-use super::radius_map::{RadiusMap, Ring, smoothed_rings, without_spikes};
+use super::radius_map::{RadiusMap, Ring, smoothed_rings};
 use crate::geometry::slice::{Outline, RAYS, slices};
 use crate::geometry::weld::Weld;
 use crate::geometry::{Moved, outer};
@@ -27,11 +27,6 @@ const LIMB_SIGMA: f64 = 0.20;
 /// What the reach may be scaled by.
 const TORSO_BOUNDS: (f64, f64) = (0.72, 1.10);
 const LIMB_BOUNDS: (f64, f64) = (0.70, 1.20);
-/// A row of the torso reaches at most this much further, or less far, than the usual one of so many above and below it: what
-/// is read of a layer that only a row or two show makes folds of hems. Seen: of five rows, a bust is taken for such a layer
-/// where the torso has become short, and stays a ledge.
-const SPIKE: f64 = 1.15;
-const SPIKE_ROWS: usize = 2;
 /// The scales themselves are smoothed this wide, in head lengths, and over one direction to each side.
 const SCALE_SIGMA: f64 = 0.015;
 /// Beyond both ends of a limb its line goes on with this part of its slope over this much, in head lengths: a flare at a cuff
@@ -193,7 +188,6 @@ impl Body<'_> {
             .collect();
         let sigma = TORSO_SIGMA * self.length;
         let mut map = RadiusMap::of(planes, (start, step), &cuts, &bones, sigma, true)?;
-        without_spikes(&mut map.reaches, SPIKE_ROWS, SPIKE);
         mirror(&mut map.reaches);
         let smooth = smoothed_rings(&map.reaches, sigma / step);
         self.set_scales(&mut map, &smooth, TORSO_BOUNDS, strength);
