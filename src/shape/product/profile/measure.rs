@@ -15,7 +15,7 @@ use crate::parallel;
 use crate::shape::figure::Figure;
 use crate::shape::heights::Heights;
 use crate::shape::product::anatomy::{Anatomy, Limb};
-use glam::{DMat2, DVec2, DVec3};
+use glam::{DVec2, DVec3};
 
 /// What reaches further than this over the middle is no leg, in head lengths.
 pub(super) const OVER_MIDDLE: f64 = 0.012;
@@ -29,11 +29,6 @@ const BEYOND: f64 = 1e-3;
 const HAND_END: f64 = 0.99;
 const HAND_SIDES: (f64, f64) = (0.02, 0.98);
 const HAND_PALM: (f64, f64) = (0.15, 0.75);
-/// Its middle line is that of the boxes around its vertices in so many sections: by the mean of vertices, those of a boxy hand,
-/// most of them on its back, would bend it.
-const HAND_SECTIONS: usize = 8;
-/// What a curl costs beside what the line misses: where droop alone will do, as where only two sections are known, there is none.
-const CURL_STIFFNESS: f64 = 1e-3;
 /// Where a hand takes over from the arm, in parts of its length.
 pub(super) const HAND_FADE: f64 = 0.25;
 /// A neck is read at these heights between shoulder line and chin.
@@ -159,15 +154,14 @@ pub struct BodyLines {
     /// Left, right; smoothed, model units.
     pub arm_middles: [Option<[Row; 2]>; 2],
     /// How far each hand's middle leaves the arm's at the wrist, in `droop`s.
-    pub hand_droops: [DMat2; 2],
+    pub hand_droops: [DVec2; 2],
 }
 
-/// How far the middle of a hand that droops by 1 lies off the arm's line, `s` beyond the wrist, which it leaves without a kink;
-/// and of one whose fingers curl by 1.
-pub(super) fn droop(s: f64, hand_length: f64) -> DVec2 {
+/// How far the middle of a hand that droops by 1 lies off the arm's line, `s` beyond the wrist; it leaves the line without a
+/// kink.
+pub(super) fn droop(s: f64, hand_length: f64) -> f64 {
     let s = s.max(0.0);
-    let droop = s * s / (s + HAND_FADE * hand_length);
-    DVec2::new(droop, droop * droop / hand_length)
+    s * s / (s + HAND_FADE * hand_length)
 }
 
 /// Measures the profile of a figure whose vertices are at `positions`.
@@ -355,9 +349,9 @@ impl Body<'_> {
         (arm, middles)
     }
 
-    /// Length, half breadth, half thickness; how much each droops and curls, in its arm's planes.
-    fn hands(&self, places: &[u32]) -> (Option<[f64; 3]>, [DMat2; 2]) {
-        let mut droops = [DMat2::ZERO; 2];
+    /// Length, half breadth, half thickness; how much each droops, in its arm's planes.
+    fn hands(&self, places: &[u32]) -> (Option<[f64; 3]>, [DVec2; 2]) {
+        let mut droops = [DVec2::ZERO; 2];
         let sides: Vec<[f64; 3]> = droops
             .iter_mut()
             .enumerate()
@@ -372,7 +366,7 @@ impl Body<'_> {
                     .filter(|point| point.0 > BEYOND * self.length)
                     .collect();
                 let length = quantile(points.iter().map(|point| point.0), HAND_END)?;
-                *drooping = slopes(&points, length);
+                *drooping = slope(points.iter().map(|&(s, across)| (droop(s, length), across)));
                 let palm = || {
                     points
                         .iter()
@@ -483,26 +477,15 @@ fn known(number: f64) -> Option<f64> {
     (!number.is_nan()).then_some(number)
 }
 
-/// How steeply the middles of a hand's sections rise with the terms of [`droop`], by least squares; 0 for too few sections.
-fn slopes(points: &[(f64, DVec2)], length: f64) -> DMat2 {
-    let mut boxes = [(DVec2::INFINITY, DVec2::NEG_INFINITY); HAND_SECTIONS];
-    let step = length / HAND_SECTIONS as f64;
-    for &(s, across) in points {
-        if let Some((low, high)) = boxes.get_mut((s / step) as usize) {
-            (*low, *high) = (low.min(across), high.max(across));
-        }
-    }
-    let known = (0..).zip(boxes).filter(|(_, (low, high))| low.x <= high.x);
-    let place = |section: i32| droop((f64::from(section) + 0.5) * step, length);
-    let pairs: Vec<[DVec2; 2]> =
-        known.map(|(section, (low, high))| [place(section), 0.5 * (low + high)]).collect();
-    let mean = pairs.iter().fold([DVec2::ZERO; 2], |[x, y], pair| [x + pair[0], y + pair[1]]);
-    let [x, y] = mean.map(|sum| sum / pairs.len() as f64);
-    let outer = |a: DVec2, b: DVec2| DMat2::from_cols(a * b.x, a * b.y);
-    let mut squares: DMat2 = pairs.iter().map(|pair| outer(pair[0] - x, pair[0] - x)).sum();
-    let products: DMat2 = pairs.iter().map(|pair| outer(pair[1] - y, pair[0] - x)).sum();
-    squares.y_axis.y += CURL_STIFFNESS * (squares.x_axis.x + squares.y_axis.y);
-    products * squares.inverse_or_zero()
+/// How steeply the second of these pairs rises with the first, by least squares; 0 where the first are all the same.
+fn slope(pairs: impl Iterator<Item = (f64, DVec2)> + Clone) -> DVec2 {
+    let count = pairs.clone().count() as f64;
+    let (x, y) = pairs.clone().fold((0.0, DVec2::ZERO), |sum, pair| (sum.0 + pair.0, sum.1 + pair.1));
+    let (x, y) = (x / count, y / count);
+    let (square, product) = pairs.fold((0.0, DVec2::ZERO), |sum, pair| {
+        (sum.0 + (pair.0 - x) * (pair.0 - x), sum.1 + (pair.0 - x) * (pair.1 - y))
+    });
+    if square > 0.0 { product / square } else { DVec2::ZERO }
 }
 
 /// The value below which `share` of `values` lie; `None` for none.
