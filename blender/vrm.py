@@ -49,7 +49,7 @@ def _gravity_kept(bones, armature, copy):
     """
     before = after = 0.0
     for start, end, gravity, stiffness, down in bones:
-        if stiffness <= 0 or not all(name in owner.data.bones for name in (start, end) for owner in (armature, copy)):
+        if stiffness <= 0 or start not in armature.data.bones or end not in armature.data.bones:
             continue
         a, b = (_angle(owner, start, end, Vector(down)) for owner in (armature, copy))
         before += math.sin(a)

@@ -1,6 +1,6 @@
 //! Colliders of spring bones, VRM 0.x and 1.0, and the springs that they guard.
 
-use super::numbers::{flipped_vector, multiply, put, put_flipped, vector};
+use super::numbers::{flipped_vector, multiply, number, put, put_flipped, vector};
 use super::{MapPoint, new_rest};
 use crate::load::Loaded;
 use crate::{array_at, index_at, indices_at, text_at};
@@ -55,14 +55,13 @@ fn ball(loaded: &Loaded, node: usize, radius: f64) -> Option<SpringBall> {
 }
 
 fn vrm1(springs: &Value, loaded: &Loaded) -> Vec<FileCollider> {
-    let number = |value: &Value, key: &str| value.get(key).and_then(Value::as_f64).unwrap_or(0.0);
     // The springs of each collider, by way of groups.
     let mut guarded: Vec<Vec<SpringBall>> = vec![Vec::new(); array_at(springs, "colliders").len()];
     for spring in array_at(springs, "springs") {
         let joints = array_at(spring, "joints");
         let balls: Vec<SpringBall> = joints
             .windows(2)
-            .filter_map(|pair| ball(loaded, index_at(&pair[1], "node")?, number(&pair[0], "hitRadius")))
+            .filter_map(|pair| ball(loaded, index_at(&pair[1], "node")?, number(&pair[0], "hitRadius", 0.0)))
             .collect();
         let groups = indices_at(spring, "colliderGroups");
         let of_groups = groups.filter_map(|group| array_at(springs, "colliderGroups").get(group));
@@ -99,7 +98,7 @@ fn vrm1(springs: &Value, loaded: &Loaded) -> Vec<FileCollider> {
                     joint,
                     offset: rest.transform_point3(at("offset")),
                     end,
-                    radius: number(body, "radius") * node_scale(rest),
+                    radius: number(body, "radius", 0.0) * node_scale(rest),
                 };
                 let place = format!("/extensions/VRMC_springBone/colliders/{index}/{shapes}/{kind}");
                 found.push(FileCollider { place, node, flipped: false, collider, springs: springs.clone() });
@@ -112,7 +111,7 @@ fn vrm1(springs: &Value, loaded: &Loaded) -> Vec<FileCollider> {
 fn vrm0(animation: &Value, loaded: &Loaded) -> Vec<FileCollider> {
     let mut guarded: Vec<Vec<SpringBall>> = vec![Vec::new(); array_at(animation, "colliderGroups").len()];
     for group in array_at(animation, "boneGroups") {
-        let radius = group.get("hitRadius").and_then(Value::as_f64).unwrap_or(0.0);
+        let radius = number(group, "hitRadius", 0.0);
         let roots: BTreeSet<usize> = indices_at(group, "bones").collect();
         // The end of a bone is the next joint; a chain's first joint is the end of none.
         let balls: Vec<SpringBall> = chain(loaded, group)
@@ -132,13 +131,12 @@ fn vrm0(animation: &Value, loaded: &Loaded) -> Vec<FileCollider> {
             continue;
         };
         let rest = &loaded.pose.rest[node];
-        for (number, sphere) in array_at(group, "colliders").iter().enumerate() {
+        for (ball, sphere) in array_at(group, "colliders").iter().enumerate() {
             let offset = rest.transform_point3(flipped_vector(&sphere["offset"]));
-            let radius = sphere.get("radius").and_then(Value::as_f64).unwrap_or(0.0) * node_scale(rest);
+            let radius = number(sphere, "radius", 0.0) * node_scale(rest);
             let shape = Shape::Sphere;
             let collider = Collider { shape, inside: false, joint, offset, end: DVec3::ZERO, radius };
-            let place =
-                format!("/extensions/VRM/secondaryAnimation/colliderGroups/{index}/colliders/{number}");
+            let place = format!("/extensions/VRM/secondaryAnimation/colliderGroups/{index}/colliders/{ball}");
             found.push(FileCollider { place, node, flipped: true, collider, springs: springs.clone() });
         }
     }

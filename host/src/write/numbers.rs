@@ -20,9 +20,14 @@ pub(super) fn put(value: &mut Value, before: DVec3, after: DVec3) {
     }
 }
 
+/// The number at `key`; one that is not there has the value `default`.
+pub(super) fn number(holder: &Value, key: &str, default: f64) -> f64 {
+    holder.get(key).and_then(Value::as_f64).unwrap_or(default)
+}
+
 /// Multiplies the number at `key`; one that is not there has the value `default`.
 pub(super) fn multiply(holder: &mut Value, key: &str, default: f64, factor: f64) {
-    let before = holder.get(key).and_then(Value::as_f64).unwrap_or(default);
+    let before = number(holder, key, default);
     let after = before * factor;
     if holder.is_object() && differs(before, after) {
         holder[key] = json!(after as f32);
@@ -34,8 +39,7 @@ pub(crate) const FLIPPED: DVec3 = DVec3::new(1.0, 1.0, -1.0);
 
 /// A vector {x, y, z} of VRM 0.x in its node's space.
 pub(super) fn flipped_vector(value: &Value) -> DVec3 {
-    let number = |key: &str| value.get(key).and_then(Value::as_f64).unwrap_or(0.0);
-    DVec3::new(number("x"), number("y"), number("z")) * FLIPPED
+    DVec3::from(["x", "y", "z"].map(|key| number(value, key, 0.0))) * FLIPPED
 }
 
 /// Writes `after`, in the node's space, over such a vector.

@@ -4,10 +4,10 @@
 //! in the moved node's space. Lengths around a point (radii, stiffness, gravity) are multiplied by the local scale. Gravity
 //! gives way where a chain stands off further than it did, so that it hangs at rest as it hung.
 
-use super::numbers::{flipped_vector, multiply, put, put_flipped, vector};
+use super::numbers::{flipped_vector, multiply, number, put, put_flipped, vector};
 use super::{MapPoint, colliders};
 use crate::load::Loaded;
-use crate::{array_at, index_at, indices_at, text_at};
+use crate::{array_at, index_at, text_at};
 use glam::{DMat4, DVec3};
 use serde_json::Value;
 use superdeform::Role;
@@ -55,10 +55,10 @@ struct Pulled {
 ///
 /// Gravity and stiffness, r to 1 and at an angle a, balance where the bone is bent by atan(r sin a / (1 + r cos a)). At the
 /// angle b, r' bends it as far where r' (sin b + r sin(b - a)) = r sin a. What is not stiff hangs straight down anyway.
-fn gravity_kept(bones: &[Pulled]) -> f64 {
+fn gravity_kept(bones: impl Iterator<Item = Pulled>) -> f64 {
     let [mut before, mut after] = [0.0; 2];
     for Pulled { bone, down, pull } in bones {
-        let [a, b] = bone.map(|bone| bone.angle_between(*down));
+        let [a, b] = bone.map(|bone| bone.angle_between(down));
         if (a + b + pull).is_finite() {
             before += a.sin();
             after += b.sin() + pull * (b - a).sin();
@@ -103,16 +103,13 @@ pub(super) fn move_points(
 /// VRM 1.0 springs.
 fn vrm1_springs(springs: &mut Value, field: &Field) {
     for spring in list(springs, "springs") {
-        let number =
-            |joint: &Value, key: &str, usual: f64| joint.get(key).and_then(Value::as_f64).unwrap_or(usual);
         let pulled = |pair: &[Value]| {
             let bone = field.bone(index_at(&pair[0], "node")?, index_at(&pair[1], "node")?)?;
             let down = pair[0].get("gravityDir").and_then(vector).unwrap_or(DVec3::NEG_Y);
             let pull = number(&pair[0], "gravityPower", 0.0) / number(&pair[0], "stiffness", 1.0);
             Some(Pulled { bone, down, pull })
         };
-        let kept =
-            gravity_kept(&array_at(spring, "joints").windows(2).filter_map(pulled).collect::<Vec<_>>());
+        let kept = gravity_kept(array_at(spring, "joints").windows(2).filter_map(pulled));
         for joint in list(spring, "joints") {
             let Some(scale) = index_at(joint, "node").and_then(|node| field.scale(node)) else {
                 continue;
@@ -151,41 +148,29 @@ fn vrm0(vrm: &mut Value, field: &Field) {
     let Some(animation) = vrm.get_mut("secondaryAnimation") else {
         return;
     };
-    let skeleton = &field.loaded.character.skeleton;
-    let order = skeleton.parents_first();
+    let tree = &field.loaded.tree;
     for group in list(animation, "boneGroups") {
         // One set of numbers for several chains: the mean scale of all their joints.
-        let mut moved = vec![false; skeleton.joints.len()];
-        for bone in indices_at(group, "bones") {
-            if let Some(joint) = field.joint(bone) {
-                moved[joint] = true;
-            }
+        let chain: Vec<usize> = colliders::chain(field.loaded, group)
+            .into_iter()
+            .filter(|&node| field.joint(node).is_some())
+            .collect();
+        let scales: Vec<f64> = chain.iter().filter_map(|&node| field.scale(node)).collect();
+        if scales.is_empty() {
+            continue;
         }
-        let (mut sum, mut count) = (0.0, 0);
-        let number = |key: &str| group.get(key).and_then(Value::as_f64).unwrap_or(0.0);
-        let pull = number("gravityPower") / number("stiffiness");
+        let scale = scales.iter().sum::<f64>() / scales.len() as f64;
+        let pull = number(group, "gravityPower", 0.0) / number(group, "stiffiness", 0.0);
         let down = group.get("gravityDir").map_or(DVec3::NEG_Y, flipped_vector);
-        let mut bones = Vec::new();
-        for &joint in &order {
-            if let Some(parent) = skeleton.joints[joint].parent.filter(|&parent| moved[parent]) {
-                moved[joint] = true;
-                let bone = field.bone(field.loaded.node_of_joint[parent], field.loaded.node_of_joint[joint]);
-                bones.extend(bone.map(|bone| Pulled { bone, down, pull }));
-            }
-            if let Some(scale) =
-                moved[joint].then(|| field.scale(field.loaded.node_of_joint[joint])).flatten()
-            {
-                sum += scale;
-                count += 1;
-            }
-        }
-        if count > 0 {
-            let scale = sum / f64::from(count);
-            multiply(group, "hitRadius", 0.0, scale);
-            // VRM 0.x spells it so.
-            multiply(group, "stiffiness", 0.0, scale);
-            multiply(group, "gravityPower", 0.0, scale * gravity_kept(&bones));
-        }
+        let pulled = |&node: &usize| {
+            let parent = tree.parents[node].filter(|parent| chain.contains(parent))?;
+            Some(Pulled { bone: field.bone(parent, node)?, down, pull })
+        };
+        let kept = gravity_kept(chain.iter().filter_map(pulled));
+        multiply(group, "hitRadius", 0.0, scale);
+        // VRM 0.x spells it so.
+        multiply(group, "stiffiness", 0.0, scale);
+        multiply(group, "gravityPower", 0.0, scale * kept);
     }
 }
 
