@@ -240,8 +240,7 @@ fn an_outline_is_that_of_the_head() {
     }
     let trunk =
         [[0, 1, 3], [0, 3, 2], [4, 5, 7], [4, 7, 6]].map(|corners| corners.map(|corner| first + corner));
-    let with_hair = triangles.clone();
-    let sources = OutlineSources { vertices, bare: triangles, with_hair, trunk: trunk.to_vec() };
+    let sources = OutlineSources { vertices, bare: triangles, hair: Vec::new(), trunk: trunk.to_vec() };
     let frame = HeadFrame { origin: DVec3::new(0.0, 10.0, 0.0), length: 2.0 };
     let points: Vec<DVec3> = points.iter().map(|&p| frame.from_unit(p)).collect();
     let outline = Outline::of(&sources, &points, frame, frame.from_unit(DVec3::Y * -0.45).y).unwrap();

@@ -33,8 +33,8 @@ pub struct OutlineSources {
     pub vertices: Vec<u32>,
     /// Triangles of the head between these, without hair, hats and the like.
     pub bare: Vec<[u32; 3]>,
-    /// With hair.
-    pub with_hair: Vec<[u32; 3]>,
+    /// Those of hair, hats and the like.
+    pub hair: Vec<[u32; 3]>,
     /// Triangles of the trunk.
     pub trunk: Vec<[u32; 3]>,
 }
@@ -76,8 +76,8 @@ impl Outline {
         let behind: Vec<DVec3> = points.iter().map(|p| DVec3::new(p.x, p.y, -p.z)).collect();
         let window = Window { low: DVec2::new(-0.66, -0.06), high: DVec2::new(0.66, 1.08), step: SQUARE };
         let bare = DepthMap::new(&points, &sources.bare, window);
-        let hair = DepthMap::new(&points, &sources.with_hair, window);
-        let back = DepthMap::new(&behind, &sources.with_hair, window);
+        let hair = bare.clone().with(&points, &sources.hair);
+        let back = DepthMap::new(&behind, &sources.bare, window).with(&behind, &sources.hair);
         let front = |y: f64| if y < HEIGHTS[DEEPEST] { &bare } else { &hair };
         let near = |y: f64| (y - 1.5 * SQUARE, y + 1.5 * SQUARE);
         let front_at = |y: f64| furthest(front(y), near(y), BESIDE_NOSE);

@@ -42,11 +42,15 @@ impl DepthMap {
         let low = 0.5 * (low + high - step * DVec2::new(columns as f64, rows as f64));
         let count = columns * rows;
         let (depths, seen) = (vec![f64::NEG_INFINITY; count], vec![NOTHING; count]);
-        let mut map = Self { low, step, columns, rows, depths, triangles: seen };
+        Self { low, step, columns, rows, depths, triangles: seen }.with(points, triangles)
+    }
+
+    /// The same with more triangles, which are numbered anew.
+    pub fn with(mut self, points: &[DVec3], triangles: &[[u32; 3]]) -> Self {
         for (index, corners) in triangles.iter().enumerate() {
-            map.draw(index as u32, corners.map(|corner| points[corner as usize]));
+            self.draw(index as u32, corners.map(|corner| points[corner as usize]));
         }
-        map
+        self
     }
 
     fn draw(&mut self, triangle: u32, [a, b, c]: [DVec3; 3]) {

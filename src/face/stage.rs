@@ -5,6 +5,7 @@ use super::head::HeadFrame;
 use super::kernel::{Follower, STEPS, Way, along};
 use super::rows::Rows;
 use crate::geometry::Mapped;
+use crate::geometry::cells::CellMap;
 use crate::parallel;
 use glam::{DMat3, DVec3, Vec3};
 
@@ -197,38 +198,43 @@ impl YoungFace {
         threads: usize,
     ) -> Ways {
         let known = known.filter(|(face, _)| face.rows == self.rows).map(|(_, ways)| ways);
-        let follower = |vertex: usize| match bindings[vertex] {
-            FaceBinding::Skin(share) if share > 0.0 => Some(&self.skin),
-            FaceBinding::Hair(share) if share > 0.0 => Some(&self.hair),
-            _ => None,
-        };
+        let follower = |is_hair: bool| if is_hair { &self.hair } else { &self.skin };
+        // What begins at one place and goes one way is one: seams repeat it.
         let mut rows = vec![NO_WAY; points.len()];
-        let moved: Vec<usize> = (0..points.len()).filter(|&vertex| follower(vertex).is_some()).collect();
-        for (row, &vertex) in moved.iter().enumerate() {
-            rows[vertex] = row as u32;
+        let mut row_of: CellMap<([u32; 3], bool), u32> = CellMap::default();
+        let (mut from, mut is_hair): (Vec<Vec3>, Vec<bool>) = Default::default();
+        for (vertex, row) in rows.iter_mut().enumerate() {
+            let goes_as_hair = match bindings[vertex] {
+                FaceBinding::Skin(share) if share > 0.0 => false,
+                FaceBinding::Hair(share) if share > 0.0 => true,
+                _ => continue,
+            };
+            let p = beginning(&self.frame, points[vertex]);
+            *row = *row_of.entry((p.to_array().map(f32::to_bits), goes_as_hair)).or_insert_with(|| {
+                from.push(p);
+                is_hair.push(goes_as_hair);
+                from.len() as u32 - 1
+            });
         }
-        let from: Vec<Vec3> = moved.iter().map(|&vertex| beginning(&self.frame, points[vertex])).collect();
         let known = known.filter(|known| known.rows == rows);
         // Two at once, the last one twice where they are odd.
-        let ways = parallel::collect(threads, moved.len().div_ceil(2), LEAST_WAYS, |pair| {
-            let of = [2 * pair, (2 * pair + 1).min(moved.len() - 1)];
+        let ways = parallel::collect(threads, from.len().div_ceil(2), LEAST_WAYS, |pair| {
+            let of = [2 * pair, (2 * pair + 1).min(from.len() - 1)];
             if let Some(known) = known.filter(|known| of.iter().all(|&row| known.from[row] == from[row])) {
                 return of.map(|row| known.ways[row]);
             }
             let points = of.map(|row| from[row].as_dvec3());
             let moves = |of: usize, way: Way| way.map(|p| (p - points[of]).as_vec3());
-            match of.map(|row| follower(moved[row])) {
-                [Some(one), Some(other)] if std::ptr::eq(one, other) => {
-                    let [first, second] = one.ways(points);
+            match of.map(|row| is_hair[row]) {
+                [one, other] if one == other => {
+                    let [first, second] = follower(one).ways(points);
                     [moves(0, first), moves(1, second)]
                 }
-                both => [0, 1].map(|of| {
-                    both[of].map_or([Vec3::ZERO; STEPS], |follower| moves(of, follower.way(points[of])))
-                }),
+                both => [0, 1].map(|of| moves(of, follower(both[of]).way(points[of]))),
             }
         });
         let mut ways = ways.into_flattened();
-        ways.truncate(moved.len());
+        ways.truncate(from.len());
         Ways { rows, from, ways }
     }
 

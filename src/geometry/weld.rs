@@ -44,8 +44,8 @@ impl Weld {
 ///
 /// O(vertices).
 pub fn weld(positions: &[DVec3], tolerance: f64) -> Weld {
-    // Cells of twice the tolerance: what is in reach lies in at most 2 cells along each axis.
-    let cell_size = 2.0 * tolerance;
+    // Cells of so many times the tolerance that what is in reach mostly lies in one.
+    let cell_size = 8.0 * tolerance;
     let cell_of = |p: DVec3| -> [i64; 3] {
         if tolerance > 0.0 {
             (p / cell_size).to_array().map(|x| floor(x) as i64)
@@ -56,7 +56,7 @@ pub fn weld(positions: &[DVec3], tolerance: f64) -> Weld {
     };
     let mut cells: CellMap<[i64; 3], u32> =
         CellMap::with_capacity_and_hasher(positions.len(), Default::default());
-    // Welded vertices of one cell are chained: a cell holds few of them, since they are more than `tolerance` apart.
+    // Welded vertices of one cell are chained.
     let mut next_in_cell: Vec<Option<u32>> = Vec::new();
     let mut first: Vec<DVec3> = Vec::new();
     let mut representative = Vec::with_capacity(positions.len());

@@ -10,64 +10,68 @@ use std::f64::consts::PI;
 
 /// Triangles further away than this many times their reach are one dipole: 2 in the paper.
 const FAR: f64 = 2.5;
+/// So few triangles are not parted. Time alone.
+const FEW: usize = 4;
 
 /// Triangles, and what groups of them are from far away.
 #[derive(Clone, Debug, Default)]
 pub struct Winding {
     /// Each before the groups that it is parted into.
     groups: Vec<Group>,
+    /// The triangles, group by group, and where their corners are.
+    triangles: Vec<[u32; 3]>,
+    corners: Vec<[DVec3; 3]>,
 }
 
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 struct Group {
+    /// Its triangles.
+    first: u32,
+    last: u32,
+    /// The number of the first group that is no part of it; of one that is not parted that of the next.
+    end: u32,
     centre: DVec3,
     /// How far its triangles reach from there.
     reach: f64,
     /// The sum of their normals, each as long as its triangle is large.
     dipole: DVec3,
-    /// The number of the first group that is no part of it.
-    end: usize,
-    /// The only triangle of one that is not parted.
-    triangle: Option<[DVec3; 3]>,
 }
 
 impl Winding {
     /// Of `triangles` between `points`.
     pub fn new(points: &[DVec3], triangles: &[[u32; 3]]) -> Self {
-        let mut all: Vec<[DVec3; 3]> =
-            triangles.iter().map(|corners| corners.map(|vertex| points[vertex as usize])).collect();
-        let mut winding = Self::default();
-        if !all.is_empty() {
-            winding.part(&mut all);
-        }
-        winding
+        let middle =
+            |corners: &[u32; 3]| corners.map(|vertex| points[vertex as usize]).iter().sum::<DVec3>() / 3.0;
+        let mut items: Vec<(DVec3, [u32; 3])> =
+            triangles.iter().map(|corners| (middle(corners), *corners)).collect();
+        let mut groups = Vec::new();
+        part(&mut items, 0, &mut groups);
+        let triangles = items.into_iter().map(|(_, corners)| corners).collect();
+        Self { groups, triangles, corners: Vec::new() }.moved(points)
     }
 
-    fn part(&mut self, triangles: &mut [[DVec3; 3]]) {
-        let normal = |[a, b, c]: [DVec3; 3]| 0.5 * (b - a).cross(c - a);
-        let middle = |[a, b, c]: [DVec3; 3]| (a + b + c) / 3.0;
-        let (mut area, mut centre, mut dipole) = (0.0, DVec3::ZERO, DVec3::ZERO);
-        for &corners in &*triangles {
-            let normal = normal(corners);
-            area += normal.length();
-            centre += normal.length() * middle(corners);
-            dipole += normal;
-        }
-        let centre = if area > 0.0 { centre / area } else { triangles[0][0] };
-        let reach = triangles.iter().flatten().map(|p| p.distance(centre)).fold(0.0, f64::max);
-        let group = self.groups.len();
-        let triangle = if let [only] = triangles { Some(*only) } else { None };
-        self.groups.push(Group { centre, reach, dipole, end: 0, triangle });
-        if triangle.is_none() {
-            let (low, high) = bounds(triangles.iter().map(|&corners| middle(corners)));
-            let axis = (high - low).max_position();
-            let half = triangles.len() / 2;
-            triangles.select_nth_unstable_by(half, |&a, &b| middle(a)[axis].total_cmp(&middle(b)[axis]));
-            let (left, right) = triangles.split_at_mut(half);
-            self.part(left);
-            self.part(right);
-        }
-        self.groups[group].end = self.groups.len();
+    /// Of the same triangles between other points, in the same groups: sooner, the same but for what groups far away are taken for.
+    pub fn moved(&self, points: &[DVec3]) -> Self {
+        let Self { groups, triangles, .. } = self;
+        let corners: Vec<[DVec3; 3]> =
+            triangles.iter().map(|corners| corners.map(|vertex| points[vertex as usize])).collect();
+        let items: Vec<(f64, DVec3, DVec3)> = corners
+            .iter()
+            .map(|&[a, b, c]| {
+                let normal = 0.5 * (b - a).cross(c - a);
+                (normal.length(), (a + b + c) / 3.0, normal)
+            })
+            .collect();
+        let group = |group: &Group| {
+            let of = group.first as usize..group.last as usize;
+            let area: f64 = items[of.clone()].iter().map(|item| item.0).sum();
+            let middle: DVec3 = items[of.clone()].iter().map(|&(area, middle, _)| area * middle).sum();
+            let centre = if area > 0.0 { middle / area } else { corners[of.start][0] };
+            let squares = corners[of.clone()].iter().flatten().map(|p| p.distance_squared(centre));
+            let reach = squares.fold(0.0, f64::max).sqrt();
+            Group { centre, reach, dipole: items[of].iter().map(|item| item.2).sum(), ..*group }
+        };
+        Self { groups: groups.iter().map(group).collect(), triangles: triangles.clone(), corners }
     }
 
     /// How often the surface goes round `p`: 1 inside of a closed one that is wound counter-clockwise, 0 outside.
@@ -75,17 +79,39 @@ impl Winding {
         let (mut angle, mut next) = (0.0, 0);
         while let Some(group) = self.groups.get(next) {
             let way = group.centre - p;
-            let away = way.length();
-            if away > FAR * group.reach {
-                angle += group.dipole.dot(way) / (away * away * away);
-                next = group.end;
+            let square = way.length_squared();
+            if square > (FAR * group.reach) * (FAR * group.reach) {
+                angle += group.dipole.dot(way) / (square * square.sqrt());
+                next = group.end as usize;
             } else {
-                angle += group.triangle.map_or(0.0, |corners| solid_angle(corners.map(|q| q - p)));
                 next += 1;
+                if next == group.end as usize {
+                    let near = &self.corners[group.first as usize..group.last as usize];
+                    angle += near.iter().map(|corners| solid_angle(corners.map(|q| q - p))).sum::<f64>();
+                }
             }
         }
         angle / (4.0 * PI)
     }
+}
+
+/// Sorts triangles, of which `first` come before, into groups by their middles.
+fn part(items: &mut [(DVec3, [u32; 3])], first: u32, groups: &mut Vec<Group>) {
+    if items.is_empty() {
+        return;
+    }
+    let group = groups.len();
+    groups.push(Group { first, last: first + items.len() as u32, ..Group::default() });
+    if items.len() > FEW {
+        let (low, high) = bounds(items.iter().map(|item| item.0));
+        let axis = (high - low).max_position();
+        let half = items.len() / 2;
+        items.select_nth_unstable_by(half, |a, b| a.0[axis].total_cmp(&b.0[axis]));
+        let (left, right) = items.split_at_mut(half);
+        part(left, first, groups);
+        part(right, first + half as u32, groups);
+    }
+    groups[group].end = groups.len() as u32;
 }
 
 fn solid_angle([a, b, c]: [DVec3; 3]) -> f64 {

@@ -4,6 +4,7 @@ use super::memo::View;
 use super::{Deformed, Deformer, head};
 use crate::character::{Humanoid, Role};
 use crate::error::{Result, Warning};
+use crate::geometry::Winding;
 use crate::options::Mode;
 use crate::parallel;
 use crate::progress::Progress;
@@ -124,11 +125,13 @@ impl Deformer {
         if worn.places.is_empty() {
             return None;
         }
+        let winding = Winding::new(&measured.figure.positions, &worn.body);
         let newly_inside = |pose: Pose| {
-            let [before, after] =
-                [&*measured.figure, result].map(|figure| worn.inside(&posed(figure, pose), threads));
-            let count = before.iter().zip(&after).filter(|&(&before, &after)| after && !before).count();
-            count as f64 / before.len() as f64
+            let all = (0..worn.places.len() as u32).collect();
+            let after = worn.inside(&posed(result, pose), &winding, all, threads);
+            let count = after.len();
+            let before = worn.inside(&posed(&measured.figure, pose), &winding, after, threads);
+            (count - before.len()) as f64 / worn.places.len() as f64
         };
         let offsets = &pushed.offsets;
         let furthest = offsets.iter().map(|(_, offset)| offset.length()).fold(0.0, f64::max);

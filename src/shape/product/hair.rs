@@ -130,18 +130,22 @@ impl Shortening {
 
     /// How much less a strand differs along a link than the head makes it, laid down by `lay`.
     fn shorter(&self, strands: &Strands, link: &Link, lay: f64) -> DVec3 {
-        let along = strands.along(link);
         let [one, other] = link.ends.map(|place| place as usize);
         let mean = |of: &[f64]| 0.5 * (of[one] + of[other]);
         let middle = 0.5 * (strands.points[one] + strands.points[other]);
-        let (left, tip, lies) = (mean(&self.left), mean(&strands.tips), lay * mean(&strands.lies));
-        let part = ((self.begins - middle.y) / (self.begins - tip).max(SOFT)).clamp(0.0, 1.0);
-        let begun = smoothstep((self.begins - middle.y) / SOFT + 0.5);
-        let left = left.powf(1.0 - RAMP * lies * (1.0 - 2.0 * part));
-        let left = 1.0 - begun * (1.0 - left);
-        let across = left.powf(1.0 - FLARE * (1.0 - lies));
-        let shorter = (DVec3::new(across, left, across) - DVec3::ONE) * along * along.dot(strands.step(link));
+        let lies = lay * mean(&strands.lies);
         let drawn_in = lies * (strands.drawn_in[one] - strands.drawn_in[other]);
+        let begun = smoothstep((self.begins - middle.y) / SOFT + 0.5);
+        let shorter = if begun > 0.0 {
+            let (along, tip) = (strands.along(link), mean(&strands.tips));
+            let part = ((self.begins - middle.y) / (self.begins - tip).max(SOFT)).clamp(0.0, 1.0);
+            let left = mean(&self.left).powf(1.0 - RAMP * lies * (1.0 - 2.0 * part));
+            let left = 1.0 - begun * (1.0 - left);
+            let across = left.powf(1.0 - FLARE * (1.0 - lies));
+            (DVec3::new(across, left, across) - DVec3::ONE) * along * along.dot(strands.step(link))
+        } else {
+            DVec3::ZERO
+        };
         (1.0 - link.stiff) * strands.frame.length * self.head * (shorter + drawn_in)
     }
 

@@ -64,12 +64,12 @@ pub fn outline_sources(figure: &Figure, anatomy: &Anatomy, bindings: &[Binding])
     };
     let mut sources = OutlineSources {
         bare: of(true, &|kind| !kind.is_carried()),
-        with_hair: of(true, &|kind| kind != MeshKind::Accessory),
+        hair: of(true, &|kind| kind.is_carried() && kind != MeshKind::Accessory),
         trunk: of(false, &|kind| !kind.is_carried()),
         ..OutlineSources::default()
     };
     let mut numbers = vec![u32::MAX; figure.positions.len()];
-    let all = sources.bare.iter_mut().chain(&mut sources.with_hair).chain(&mut sources.trunk);
+    let all = sources.bare.iter_mut().chain(&mut sources.hair).chain(&mut sources.trunk);
     for corner in all.flatten() {
         let number = &mut numbers[*corner as usize];
         if *number == u32::MAX {

@@ -6,7 +6,8 @@
 
 use super::pieces::once;
 use crate::character::MeshKind;
-use crate::geometry::{PointTree, Weld, by_number, smoothstep, weld};
+use crate::geometry::point_tree::Near;
+use crate::geometry::{PointTree, Weld, smoothstep, weld};
 use crate::parallel;
 use crate::shape::figure::Figure;
 use glam::DVec3;
@@ -20,6 +21,8 @@ const TWIN: f64 = 1e-4;
 const SYMMETRIC: (f64, f64) = (0.82, 0.88);
 /// A vertex without a twin goes as so many around it do that have one, the furthest not at all. D34: the fewest around a point.
 const AROUND: usize = 5;
+/// As many vertices at one place are told apart by what they belong to: more than seams repeat one.
+const AT_ONE_PLACE: usize = 16;
 
 /// A plane.
 #[derive(Clone, Copy, Debug)]
@@ -72,12 +75,14 @@ impl Mirror {
         let firsts = weld.first_vertices();
         let tolerance = TWIN * figure.height();
         let mesh = |vertex: usize| figure.mesh_starts.partition_point(|&start| start <= vertex);
-        let belongs = |vertex: usize| (mesh(vertex), figure.kind(vertex) as usize);
+        let belongs: Vec<(usize, usize)> =
+            (0..positions.len()).map(|vertex| (mesh(vertex), figure.kind(vertex) as usize)).collect();
+        let tree = PointTree::new(positions);
         let mut counts: Vec<usize> = firsts.iter().map(|&vertex| vertex as usize).collect();
         counts.retain(|&vertex| figure.kind(vertex) != MeshKind::Hair);
         let halved = |normal: DVec3| {
             let plane = plane(positions, normal, tolerance)?;
-            let twins = twins(positions, plane, tolerance, belongs);
+            let twins = twins(positions, &tree, plane, tolerance, &belongs, threads);
             let sum: f64 = counts.iter().map(|&vertex| twins[vertex].1).sum();
             Some((sum / counts.len() as f64, plane, twins))
         };
@@ -89,7 +94,8 @@ impl Mirror {
         if share == 0.0 || whole.len() <= AROUND {
             return None;
         }
-        let of_joints = self::twins(joints, plane, tolerance, |_| ());
+        let nothing = vec![(); joints.len()];
+        let of_joints = self::twins(joints, &PointTree::new(joints), plane, tolerance, &nothing, 1);
         twins.extend(of_joints.into_iter().map(|(twin, share)| (twin + positions.len() as u32, share)));
         let tree = PointTree::new(&whole.iter().map(|&v| positions[v as usize]).collect::<Vec<_>>());
         let lonely: Vec<u32> =
@@ -168,33 +174,24 @@ fn plane(points: &[DVec3], normal: DVec3, tolerance: f64) -> Option<Plane> {
     middles.get(middles.len() / 2).map(|&at| Plane { normal, at })
 }
 
-/// The twin of each point, and how much of one it is; of several at one place that of the same mesh and kind, as `belongs` says.
-fn twins<B: Eq>(
+/// The twin of each point of `tree`, and how much of one it is; of several at one place that which belongs to the same, as
+/// `belongs` tells.
+fn twins<B: Eq + Sync>(
     points: &[DVec3],
+    tree: &PointTree,
     plane: Plane,
     tolerance: f64,
-    belongs: impl Fn(usize) -> B,
+    belongs: &[B],
+    threads: usize,
 ) -> Vec<(u32, f64)> {
-    let both: Vec<DVec3> = points.iter().copied().chain(points.iter().map(|&p| plane.image(p))).collect();
-    let weld = weld(&both, tolerance);
-    let groups = weld.representative.iter().zip(0u32..).map(|(&group, point)| (group, point));
-    let (starts, sorted) = by_number(weld.count, groups.take(points.len()));
-    let twin = |point: usize| {
-        let group = weld.representative[points.len() + point] as usize;
-        let candidates = &sorted[starts[group] as usize..starts[group + 1] as usize];
-        let (own, image) = (belongs(point), both[points.len() + point]);
-        let apart = |other: u32| image.distance(points[other as usize]);
-        let nearest = candidates.iter().copied().min_by(|&one, &other| {
-            let key = |other: u32| (belongs(other as usize) != own, apart(other));
-            let (one, other) = (key(one), key(other));
-            one.0.cmp(&other.0).then(one.1.total_cmp(&other.1))
-        });
-        match nearest {
-            Some(other) => (other, 1.0 - smoothstep(2.0 * apart(other) / tolerance - 1.0)),
-            None => (point as u32, 0.0),
-        }
-    };
-    (0..points.len()).map(twin).collect()
+    parallel::collect(threads, points.len(), parallel::FEW_RAYS, |point| {
+        let mut near = Vec::new();
+        tree.nearest(plane.image(points[point]), AT_ONE_PLACE, tolerance, &mut near);
+        let is_of_another = |near: &&Near| belongs[near.index() as usize] != belongs[point];
+        near.iter().min_by_key(is_of_another).map_or((point as u32, 0.0), |twin| {
+            (twin.index(), 1.0 - smoothstep(2.0 * twin.distance() / tolerance - 1.0))
+        })
+    })
 }
 
 /// The points of `tree` around `p`, and how much each counts: the more the nearer, without a jump where another is nearer.

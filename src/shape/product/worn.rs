@@ -90,13 +90,29 @@ impl Worn {
         Outside::moved(points, &self.body, &self.rims, weld, self.outwards, &self.tree)
     }
 
-    /// For each place whether the body is around it, where all vertices are at `points`.
-    pub fn inside(&self, points: &[DVec3], threads: usize) -> Vec<bool> {
-        let winding = Winding::new(points, &self.body);
-        parallel::collect(threads, self.places.len(), parallel::FEW_RAYS, |place| {
-            let p = points[self.vertices[place] as usize];
-            !self.is_sewn[place] && self.outwards * winding.at(p) > 0.5
-        })
+    /// Those of `places` that the body is around, where all vertices are at `points`; `winding`: of the body, wherever it was.
+    pub fn inside(
+        &self,
+        points: &[DVec3],
+        winding: &Winding,
+        mut places: Vec<u32>,
+        threads: usize,
+    ) -> Vec<u32> {
+        places.retain(|&place| !self.is_sewn[place as usize]);
+        if places.is_empty() {
+            return places;
+        }
+        let winding = winding.moved(points);
+        let is_inside = parallel::collect(threads, places.len(), parallel::FEW_RAYS, |index| {
+            let p = points[self.vertices[places[index] as usize] as usize];
+            self.outwards * winding.at(p) > 0.5
+        });
+        places
+            .into_iter()
+            .zip(is_inside)
+            .filter(|&(_, is_inside)| is_inside)
+            .map(|(place, _)| place)
+            .collect()
     }
 
     /// `body` and what is worn over it: `cloth`, and of `perhaps` what lies over it; the rest of that is body too.
