@@ -16,19 +16,20 @@ use crate::shape::figure::Figure;
 use crate::shape::product::part::{Part, PartWeights};
 use glam::{DMat3, DVec2, DVec3};
 
-/// Rows of the torso and of limbs, in head lengths.
-const TORSO_STEP: f64 = 0.02;
-const LIMB_STEP: f64 = 0.015;
+/// Rows of the torso and of limbs, in head lengths. Seen: at twice that belts and folds of a trunk of two heads, which are a
+/// row high, stay rolls.
+const STEP: f64 = 0.01;
 /// No map and no table has more rows, or few more: for heads that are tiny beside their bodies.
 pub(super) const MOST_ROWS: f64 = 2000.0;
 /// Widths of the Gaussians that leave no relief, and of that for the middles, in head lengths.
 const TORSO_SIGMA: f64 = 0.16;
 const LIMB_SIGMA: f64 = 0.20;
-/// What the reach may be scaled by.
-const TORSO_BOUNDS: (f64, f64) = (0.72, 1.10);
-const LIMB_BOUNDS: (f64, f64) = (0.70, 1.20);
-/// The scales themselves are smoothed this wide, in head lengths, and over one direction to each side.
-const SCALE_SIGMA: f64 = 0.015;
+/// What the reach may be scaled by. Seen: where a waist may grow by a tenth alone, a trunk of two heads keeps a groove; from .5 to
+/// 1.6 gaps between plates turn a tenth more triangles over.
+const BOUNDS: (f64, f64) = (0.6, 1.3);
+/// The scales themselves are smoothed this wide, in head lengths, and over one direction to each side. Seen: at .015 folds stay
+/// rolls at two heads; at .0075 gaps between plates turn an eighth more triangles over.
+const SCALE_SIGMA: f64 = 0.011;
 /// Beyond both ends of a limb its line goes on with this part of its slope over this much, in head lengths: a flare at a cuff
 /// is tucked in.
 const ENDS: (f64, f64) = (0.35, 0.20);
@@ -178,7 +179,7 @@ impl Body<'_> {
         let triangles = self.triangles(Chain::Trunk);
         let planes = self.frame.torso_planes();
         let start = -TORSO_BOTTOM * self.frame.leg_length();
-        let step = TORSO_STEP * self.length;
+        let step = STEP * self.length;
         let (heights, step) = even_heights(start, 1.0 * self.frame.torso_length(), step);
         let cuts = slices(self.positions, &triangles, self.weld, &planes, &heights);
         let shoulders = planes.locate(self.frame.shoulders);
@@ -190,7 +191,7 @@ impl Body<'_> {
         let mut map = RadiusMap::of(planes, (start, step), &cuts, &bones, sigma, true)?;
         mirror(&mut map.reaches);
         let smooth = smoothed_rings(&map.reaches, sigma / step);
-        self.set_scales(&mut map, &smooth, TORSO_BOUNDS, strength);
+        self.set_scales(&mut map, &smooth, strength);
         Some(map)
     }
 
@@ -199,7 +200,7 @@ impl Body<'_> {
         let triangles = self.triangles(Chain::Leg(side));
         let planes = self.frame.leg_planes();
         let length = self.frame.leg_length();
-        let step = LIMB_STEP * self.length;
+        let step = STEP * self.length;
         let start = LEG_ROWS.0 * length;
         let (heights, step) = even_heights(start, LEG_ROWS.1 * length, step);
         let mut cuts = slices(self.positions, &triangles, self.weld, &planes, &heights);
@@ -218,7 +219,7 @@ impl Body<'_> {
         let planes = self.frame.arm_planes(side)?;
         let length = self.frame.arm_length(side);
         let triangles = self.triangles(Chain::Forearm(side));
-        let step = LIMB_STEP * self.length;
+        let step = STEP * self.length;
         let start = ARM_ROWS.0 * length;
         let (heights, step) = even_heights(start, ARM_ROWS.1 * length, step);
         let cuts = slices(self.positions, &triangles, self.weld, &planes, &heights);
@@ -247,18 +248,18 @@ impl Body<'_> {
         let mut map = RadiusMap::of(planes, rows, cuts, bones, LIMB_SIGMA * self.length, false)?;
         let smooth =
             smoothed_beyond(&map.reaches, LIMB_SIGMA * self.length / rows.1, ENDS.1 * self.length / rows.1);
-        self.set_scales(&mut map, &smooth, LIMB_BOUNDS, strength);
+        self.set_scales(&mut map, &smooth, strength);
         Some(map)
     }
 
     /// The scales from reaches to smooth reaches.
-    fn set_scales(&self, map: &mut RadiusMap, smooth: &[Ring], (least, most): (f64, f64), strength: f64) {
+    fn set_scales(&self, map: &mut RadiusMap, smooth: &[Ring], strength: f64) {
         let raw: Vec<Ring> = map
             .reaches
             .iter()
             .zip(smooth)
             .map(|(reach, smooth)| {
-                std::array::from_fn(|ray| (smooth[ray] / reach[ray]).clamp(least, most).powf(strength))
+                std::array::from_fn(|ray| (smooth[ray] / reach[ray]).clamp(BOUNDS.0, BOUNDS.1).powf(strength))
             })
             .collect();
         let along = smoothed_rings(&raw, SCALE_SIGMA * self.length / map.step);
