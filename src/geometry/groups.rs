@@ -33,6 +33,35 @@ impl Groups {
     }
 }
 
+/// The merge tree of things that come in an `order`, of `count` things: for each, the place in the order of its tip, which is the
+/// first one of those that hang together with it once it is there.
+///
+/// - `beside`: what is beside one.
+/// - `meet`: told of each two tips whose trees meet: the one that goes on, the other one, and where they do.
+///
+/// Carr, Snoeyink and Axen. Computing contour trees in all dimensions. Computational Geometry 24(2), 2003.
+pub fn merge_tree<Beside: Iterator<Item = u32>>(
+    count: usize,
+    order: &[u32],
+    beside: impl Fn(u32) -> Beside,
+    mut meet: impl FnMut(u32, u32, u32),
+) -> Vec<usize> {
+    let mut places = vec![usize::MAX; count];
+    let mut groups = Groups::new(order.len());
+    let grown = order.iter().enumerate().map(|(place, &thing)| {
+        places[thing as usize] = place;
+        for other in beside(thing).map(|other| places[other as usize]).filter(|&other| other < place) {
+            let (one, other) = (groups.least(place), groups.least(other));
+            if one != other {
+                meet(order[one.min(other)], order[one.max(other)], thing);
+                groups.join(one, other);
+            }
+        }
+        groups.least(place)
+    });
+    grown.collect()
+}
+
 /// Things in the order of the numbers below `count` that they have, those of one number in their own; with where those of each
 /// number start, one more than there are numbers.
 pub fn by_number<Thing: Copy + Default>(

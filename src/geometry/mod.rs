@@ -24,7 +24,7 @@ pub mod winding;
 
 pub use bounds::{Bounds, bounds, bounds_by_group, clusters, grown_clusters, range};
 pub use cells::CellMap;
-pub use groups::{Groups, by_number, least_costs};
+pub use groups::{Groups, by_number, least_costs, merge_tree};
 pub use mapped::{Mapped, Moved, outer};
 pub use point_tree::PointTree;
 pub use profile::{CHIN_BAND, CHIN_BY_RATIO, CHIN_STEP, StepSearch, deepest_step};

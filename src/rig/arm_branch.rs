@@ -37,16 +37,11 @@ const TOP_WITHIN: f64 = 0.35;
 /// The arms that a branch may be, each with whether it is a left one: from its tip, or without a thing in the hand.
 ///
 /// `depth` gives how far forward the trunk's middle is at a height.
-pub fn arms_of(
-    branch: &Branch,
-    solid: &Solid,
-    axis: f64,
-    depth: impl Fn(f64) -> f64 + Copy,
-) -> Vec<(bool, Arm)> {
+pub fn arms_of(branch: &Branch, axis: f64, depth: impl Fn(f64) -> f64 + Copy) -> Vec<(bool, Arm)> {
     let mut ranges: Vec<Range<usize>> = WIDENS.iter().flat_map(|&by| limbs(&branch.rims, by)).collect();
     ranges.sort_unstable_by_key(|range| (range.start, range.end));
     ranges.dedup();
-    ranges.into_iter().filter_map(|limb| arm_of(&branch.rims[limb], solid, axis, depth)).collect()
+    ranges.into_iter().filter_map(|limb| arm_of(&branch.rims[limb], axis, depth)).collect()
 }
 
 /// Ranges of sections between jumps in thickness.
@@ -71,7 +66,7 @@ fn limbs(rims: &[Rim], widens: f64) -> Vec<Range<usize>> {
     limbs
 }
 
-fn arm_of(rims: &[Rim], solid: &Solid, axis: f64, depth: impl Fn(f64) -> f64) -> Option<(bool, Arm)> {
+fn arm_of(rims: &[Rim], axis: f64, depth: impl Fn(f64) -> f64) -> Option<(bool, Arm)> {
     let count = rims.len();
     let first = (count - LAST).saturating_sub(((UPPER * count as f64) as usize).max(3));
     let upper = &rims[first..count - LAST];
@@ -84,11 +79,6 @@ fn arm_of(rims: &[Rim], solid: &Solid, axis: f64, depth: impl Fn(f64) -> f64) ->
     if inwards.z < -FORWARD {
         let further = (depth(shoulder.y) - shoulder.z) / inwards.z;
         shoulder += inwards * further.clamp(0.0, FORWARD_IN);
-    }
-    if inwards.y > STEEP
-        && let Some(top) = top(solid, shoulder, inwards)
-    {
-        shoulder += inwards * (top - UNDER_TOP * radius).max(0.0);
     }
     // Where the last sections lie in the trunk, the arm begins at its shoulder.
     let off = |rim: &Rim| rim.middle.distance(shoulder);

@@ -1,6 +1,6 @@
 //! Which of several arms a body has: what all bodies obey, as a cost of a pair.
 
-use super::arm_curve::{Arm, is_usual, wrist_of_both};
+use super::arm_curve::Arm;
 use super::solid::Solid;
 use glam::DVec3;
 
@@ -147,8 +147,7 @@ impl Body<'_> {
 
 /// Gives both arms hands of one length, as far as they are not `given`.
 ///
-/// Where a wrist does not show, or hands are uneven, both arms are read together; a wrist that they show together
-/// elsewhere than each by itself is in doubt.
+/// Where one wrist does not show, its hand is as long as the other one; where neither does, or hands are uneven, both are in doubt.
 pub fn even_hands(arms: [Option<Arm>; 2], given: [bool; 2]) -> [Option<Arm>; 2] {
     let [Some(left), Some(right)] = &arms else { return arms };
     let both = [left, right];
@@ -164,17 +163,8 @@ pub fn even_hands(arms: [Option<Arm>; 2], given: [bool; 2]) -> [Option<Arm>; 2] 
         [false, true] => return [Some(beside(left, right)), Some(right.clone())],
         [false, false] => {}
     }
-    let together = wrist_of_both(both);
-    let even = is_even(hand(left), hand(right));
-    if seen == [true, true] && even {
-        let agrees =
-            together.is_none_or(|share| both.iter().any(|arm| is_even(1.0 - share, 1.0 - arm.wrist_share())));
-        return both.map(|arm| Some(Arm { wrist_seen: agrees, ..arm.clone() }));
-    }
-    if let Some(share) = together {
-        return both.map(|arm| Some(Arm { wrist_seen: is_usual(share), ..arm.with_wrist_at(share) }));
-    }
     match seen {
+        [true, true] if is_even(hand(left), hand(right)) => arms,
         [true, false] => [arms[0].clone(), Some(with_hand_of(right, left))],
         [false, true] => [Some(with_hand_of(left, right)), arms[1].clone()],
         _ => both.map(|arm| Some(Arm { wrist_seen: false, ..arm.clone() })),

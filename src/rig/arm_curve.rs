@@ -1,6 +1,5 @@
 //! The middles of an arm's sections, and the joints that they show.
 
-use super::arms::STATIONS;
 use super::front_view::median;
 use super::silhouette::lowest;
 use crate::geometry::foot;
@@ -77,14 +76,6 @@ pub struct Arm {
 }
 
 impl Arm {
-    /// The same arm with its wrist at a share of the way from shoulder to tip, and the elbow between.
-    pub fn with_wrist_at(&self, share: f64) -> Self {
-        let begins = self.begins();
-        let wrist_arc = begins + share * (self.curve.whole() - begins);
-        let wrist = self.curve.at(wrist_arc);
-        Self { wrist, elbow: self.curve.elbow(self.shoulder, begins, wrist, wrist_arc), ..self.clone() }
-    }
-
     /// The same arm with another shoulder joint, and the others as they show from there.
     pub fn with_shoulder(&self, shoulder: DVec3) -> Self {
         let outwards = (self.elbow - shoulder).normalize_or_zero();
@@ -119,12 +110,6 @@ impl Arm {
             found + self.elbow_share() * beside
         });
         self
-    }
-
-    /// Where along its curve the wrist is, as a share of the way from shoulder to tip.
-    pub fn wrist_share(&self) -> f64 {
-        let begins = self.begins();
-        (self.curve.nearest(self.wrist).0 - begins) / (self.curve.whole() - begins).max(1e-9)
     }
 
     /// Where along its curve the shoulder is; below 0 inside of the pit.
@@ -248,7 +233,7 @@ impl ArmCurve {
     }
 
     /// Means of girths over neighbours, each with its share of the way to the tip from where the arm `begins`.
-    pub fn girths(&self, begins: f64) -> Vec<(f64, f64)> {
+    fn girths(&self, begins: f64) -> Vec<(f64, f64)> {
         let whole = (self.whole() - begins).max(1e-9);
         (0..self.len())
             .map(|index| {
@@ -332,25 +317,6 @@ fn slimmest(girths: &[(f64, f64)]) -> Option<f64> {
 }
 
 /// True of a share of the way from shoulder to tip at which wrists are.
-pub fn is_usual(share: f64) -> bool {
+fn is_usual(share: f64) -> bool {
     (share - WRIST_BY_RATIO).abs() <= WRIST_USUAL
-}
-
-/// Where the wrist of two arms shows that are taken to be alike, as a share of the way from shoulder to tip: what is
-/// uneven about one of them counts half.
-pub fn wrist_of_both(arms: [&Arm; 2]) -> Option<f64> {
-    let mut sums: Vec<(f64, f64)> =
-        (0..=STATIONS).map(|index| (index as f64 / STATIONS as f64, 0.0)).collect();
-    for arm in arms {
-        let girths = arm.curve.girths(arm.begins());
-        let mut all: Vec<f64> = girths.iter().map(|&(_, girth)| girth).collect();
-        let usual = median(&mut all).max(1e-9);
-        for (share, sum) in &mut sums {
-            let after = girths.partition_point(|&(at, _)| at < *share).clamp(1, girths.len() - 1);
-            let (one, other) = (girths[after - 1], girths[after]);
-            let way = ((*share - one.0) / (other.0 - one.0).max(1e-9)).clamp(0.0, 1.0);
-            *sum += (one.1 + way * (other.1 - one.1)) / usual;
-        }
-    }
-    slimmest(&sums)
 }

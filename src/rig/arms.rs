@@ -5,7 +5,7 @@ use super::front_view::{FrontView, median};
 use super::head_line::middle;
 use super::silhouette::{GridFrame, RayGrid};
 use crate::geometry::ROUNDING;
-use glam::{DVec2, DVec3, Vec2Swizzles};
+use glam::{DVec2, DVec3};
 
 /// An arm's column of cells that reaches lower than the arm by so many of its thicknesses belongs to the trunk. Seen:
 /// at +30 %, joints lie 0.0005 H further off.
@@ -20,7 +20,7 @@ const TRUNK_WITHIN: f64 = 0.04;
 /// The share of an arm, from the tip, to which its line is fitted. Seen: ±30 % moves joints by under 0.0005 H.
 const LINE_RANGE: (f64, f64) = (0.25, 0.9);
 /// Sections along an arm. One is 0.8 % of an arm, some 0.003 H: a tenth of what joints are off in the mean.
-pub const STATIONS: usize = 120;
+const STATIONS: usize = 120;
 /// The shoulder joint lies straight over a point this many arm radii outside of the armpit (seen: at -30 %, four fewer
 /// joints off by over 0.06 H), ...
 const SHOULDER_OUT: f64 = 0.4;
@@ -31,18 +31,9 @@ const SHOULDER_OVER: f64 = 0.2;
 const CLEAR: f64 = 0.25;
 /// A section this much wider than the arm has trunk in it. Seen: ±30 % moves joints by under 0.0005 H.
 const TRUNK_WIDENS: f64 = 1.7;
-/// A section this much deeper than the arm has something else in it. Seen: ±30 % changes no joint.
-const THING_DEEPENS: f64 = 4.0;
-
 /// An arm that runs forward by more than this, of what it runs aside, is held forward.
 const FORWARD: f64 = 0.4;
 
-/// An arm that hangs is seen beside the trunk over at least this height, ...
-const LEAST_HANGING: f64 = 0.08;
-/// ... touches it over no more than this height, ...
-const MOST_TOUCHING: f64 = 0.15;
-/// ... and its shoulder joint lies so many of its radii over the armpit.
-const HANGING_OVER: f64 = 0.8;
 /// Where no armpit is seen the arm begins at this distance from the axis. Seen: ±30 % changes no joint.
 const PIT_BY_RATIO: f64 = 0.1;
 /// The line of an arm that hangs straight down is taken to run outwards by at least this. Seen: .2 to .3 change no joint.
@@ -54,9 +45,6 @@ const BEYOND_TIP: f64 = 1.02;
 const INSIDE_OF_PIT: f64 = 0.25;
 /// ... and reach this share of it to either side. Seen: ±30 % moves joints by under 0.0005 H.
 const SPAN: f64 = 0.35;
-/// A section further from the one before than this share of the arm's length is something else. Seen: ±30 % changes no
-/// joint.
-const STATION_OFF: f64 = 0.12;
 /// Fewer columns, or sections, are no arm. Seen: ±30 % changes no joint.
 const LEAST_STATIONS: usize = 12;
 /// Middles are means over so many sections to either side. Seen: ±30 % moves joints by under 0.0005 H.
@@ -82,7 +70,7 @@ pub fn find_arm(view: &FrontView, left: bool, space: &ArmSpace) -> Option<Arm> {
     let &ArmSpace { crotch, floor, ceiling, most } = space;
     let ceiling_row = (ceiling / cell).ceil() as usize;
     let runs = |steps: usize| {
-        let mut runs = column_runs(&view.grid, view.column(left, steps));
+        let mut runs = view.grid.runs_of_column(view.column(left, steps));
         runs.retain(|run| run.0 < ceiling_row);
         runs.iter_mut().for_each(|run| run.1 = run.1.min(ceiling_row));
         runs
@@ -146,89 +134,7 @@ pub fn find_arm(view: &FrontView, left: bool, space: &ArmSpace) -> Option<Arm> {
     // The foot of the pit on the line, and of the tip.
     let start = through + along * (pit - through).dot(along);
     let length = (view.distance(outermost) - start.x) / along.x.max(STEEPEST);
-    joints(view, left, &ArmLine { along, pit, start, length, hangs: false }, pit_seen)
-}
-
-/// Finds one arm that hangs beside the trunk, with air between, up to where the two become one. `None` where none does.
-pub fn find_hanging_arm(view: &FrontView, left: bool, space: &ArmSpace) -> Option<Arm> {
-    let cell = view.cell();
-    let (first, last) = (view.grid.row(space.floor), view.grid.row(space.ceiling));
-    // The outermost run of each row that has another one inside of it, upwards, of which each goes on where the one
-    // before it was.
-    let mut paths: Vec<Path> = vec![Path::new()];
-    for row in first..=last {
-        let runs = view.side_runs(left, row);
-        let run = runs.last().copied().filter(|run| runs.len() >= 2 && run.0 > 0);
-        let goes_on = |run: (usize, usize), path: &Path| {
-            path.last().is_none_or(|&(at, before)| at + 1 == row && run.0 < before.1 && before.0 < run.1)
-        };
-        let Some(run) = run else { continue };
-        match paths.last_mut() {
-            Some(path) if goes_on(run, path) => path.push((row, run)),
-            _ => paths.push(vec![(row, run)]),
-        }
-    }
-    let best = joined(view, left, paths)
-        .into_iter()
-        .reduce(|best, path| if path.len() > best.len() { path } else { best })
-        .unwrap_or_default();
-    let least = (LEAST_HANGING / cell) as usize;
-    // What reaches up to the ceiling is hair that hangs down.
-    if best.len() < least || best.last().is_none_or(|&(row, _)| row >= last) {
-        return None;
-    }
-    let middle = |&(row, run): &(usize, (usize, usize))| {
-        DVec2::new(0.5 * (run.0 + run.1) as f64 * cell, view.grid.y(row))
-    };
-    let (length, fitted) = (best.len(), |share: f64| (share * best.len() as f64) as usize);
-    // Fitted over the height: swapped, so that a plumb line has no slope.
-    let points: Vec<DVec2> = best[fitted(1.0 - LINE_RANGE.1)..fitted(1.0 - LINE_RANGE.0)]
-        .iter()
-        .map(|entry| middle(entry).yx())
-        .collect();
-    let (through, slope) = fit(&points);
-    let (through, along) = (through.yx(), DVec2::new(-slope, -1.0).normalize());
-    let (row, run) = best[length - 1];
-    let pit = DVec2::new(run.0 as f64 * cell, view.grid.y(row));
-    let start = through + along * (pit - through).dot(along);
-    let tip = middle(&best[0]);
-    let line = ArmLine { along, pit, start, length: (tip - start).dot(along), hangs: true };
-    joints(view, left, &line, true)
-}
-
-/// Rows, each with the steps from the axis between which something is arm, upwards.
-type Path = Vec<(usize, (usize, usize))>;
-
-/// Paths that are one arm, which touches the trunk or a leg between them: its outer side goes on there.
-fn joined(view: &FrontView, left: bool, paths: Vec<Path>) -> Vec<Path> {
-    let most = (MOST_TOUCHING / view.cell()) as usize;
-    let mut arms: Vec<Path> = Vec::new();
-    for path in paths {
-        let (Some(below), Some(&(to, above))) = (arms.last_mut(), path.first()) else {
-            arms.push(path);
-            continue;
-        };
-        let Some(&(from, run)) = below.last() else {
-            arms.push(path);
-            continue;
-        };
-        let thickness = (run.1 - run.0).min(above.1 - above.0);
-        let between = (from + 1..to).map(|row| {
-            let share = (row - from) as f64 / (to - from) as f64;
-            let side = run.1 as f64 + share * (above.1 as f64 - run.1 as f64);
-            let outer = view.side_runs(left, row).last()?.1;
-            ((outer as f64 - side).abs() <= thickness as f64 && outer > thickness)
-                .then(|| (row, (outer - thickness, outer)))
-        });
-        match between.collect::<Option<Path>>() {
-            Some(between) if to - from <= most => {
-                below.extend(between);
-                below.extend(path);
-            }
-            _ => arms.push(path),
-        }
-    }
-    arms
+    joints(view, left, &ArmLine { along, pit, start, length }, pit_seen)
 }
 
 /// Where the lower side of the arm would be at `steps`, in rows, and how thick the arm is there.
@@ -254,18 +160,6 @@ fn fit(points: &[DVec2]) -> (DVec2, f64) {
     (mean, if xx > 0.0 { xy / xx } else { 0.0 })
 }
 
-/// The filled rows of a column, upwards, single empty ones bridged.
-fn column_runs(grid: &RayGrid, column: usize) -> Vec<(usize, usize)> {
-    let mut runs: Vec<(usize, usize)> = Vec::new();
-    for row in (0..grid.frame.rows).filter(|&row| grid.is_filled(column, row)) {
-        match runs.last_mut() {
-            Some(run) if row <= run.1 + 1 => run.1 = row + 1,
-            _ => runs.push((row, row + 1)),
-        }
-    }
-    runs
-}
-
 /// How many rows a run begins above or ends below row `middle`.
 fn rows_off((begin, end): (usize, usize), middle: usize) -> usize {
     begin.saturating_sub(middle).max((middle + 1).saturating_sub(end))
@@ -281,21 +175,15 @@ struct ArmLine {
     start: DVec2,
     /// From there to the tip.
     length: f64,
-    /// True where the arm hangs down.
-    hangs: bool,
 }
 
 /// Rays at right angles to an arm's line, and what they meet.
 struct ArmRays {
     grid: RayGrid,
-    /// From the armpit to the tip.
-    length: f64,
     /// The column over the armpit.
     first: usize,
     /// 1 or -1: depths of the grid along z.
     depth_sign: f64,
-    /// True where the arm hangs down.
-    hangs: bool,
 }
 
 impl ArmRays {
@@ -317,20 +205,16 @@ impl ArmRays {
         let frame = GridFrame { origin, right, up, cell, columns: STATIONS, rows };
         Some(Self {
             grid: RayGrid::new(view.positions, &view.triangles, frame, view.threads),
-            length,
             first: (inside / cell).round() as usize,
             depth_sign: right.cross(up).z.signum(),
-            hangs: line.hangs,
         })
     }
 
     /// The section of a column that is nearest to row `middle`, and its own middle row.
     fn station(&self, column: usize, middle: usize) -> Option<(usize, Station)> {
         let GridFrame { origin, right, up, cell, .. } = self.grid.frame;
-        let nearest = column_runs(&self.grid, column).into_iter().min_by_key(|&run| rows_off(run, middle))?;
-        if rows_off(nearest, middle) as f64 * cell > STATION_OFF * self.length {
-            return None;
-        }
+        let nearest =
+            self.grid.runs_of_column(column).into_iter().min_by_key(|&run| rows_off(run, middle))?;
         let (begin, end) = nearest;
         let (back, front) = self.grid.limb((begin..end).map(|row| (column, row)))?;
         let at = origin + right * ((column as f64 + 0.5) * cell) + up * (0.5 * (begin + end) as f64 * cell);
@@ -348,17 +232,8 @@ impl ArmRays {
         let mut stations: Vec<Option<Station>> = vec![None; STATIONS];
         let clear = first + (CLEAR * (STATIONS - first) as f64) as usize;
         let mut middle = self.grid.frame.rows / 2;
-        // Where an arm that hangs touches the trunk, sections have both in them.
-        let most = if self.hangs {
-            let along = (clear..STATIONS).filter_map(|column| Some(self.station(column, middle)?.1.width));
-            TRUNK_WIDENS * median(&mut along.collect::<Vec<_>>())
-        } else {
-            f64::INFINITY
-        };
         for (column, slot) in stations.iter_mut().enumerate().skip(clear) {
-            if let Some((next, station)) = self.station(column, middle)
-                && station.width <= most
-            {
+            if let Some((next, station)) = self.station(column, middle) {
                 middle = next;
                 *slot = Some(station);
             }
@@ -374,10 +249,7 @@ impl ArmRays {
                 _ => break,
             }
         }
-        // A thing in the hand that points forward is no arm.
-        let depths = || stations.iter().flatten().map(|s| s.depth).collect::<Vec<_>>();
-        let deepest = THING_DEEPENS * median(&mut depths());
-        stations.drain(first..).flatten().filter(|station| station.depth <= deepest).collect()
+        stations.drain(first..).flatten().collect()
     }
 }
 
@@ -393,11 +265,7 @@ fn joints(view: &FrontView, left: bool, line: &ArmLine, pit_seen: bool) -> Optio
     let upper = curve.upper();
     let right = rays.grid.frame.right;
     let out = line.pit.x + SHOULDER_OUT * radius;
-    let inwards = if line.hangs {
-        (line.pit.y + HANGING_OVER * radius - upper.y) / -line.along.y
-    } else {
-        ((upper.x - view.axis).abs() - out) / line.along.x.max(STEEPEST)
-    };
+    let inwards = ((upper.x - view.axis).abs() - out) / line.along.x.max(STEEPEST);
     let mut shoulder = upper - right * inwards + DVec3::Y * SHOULDER_OVER * radius;
     let (ahead, trunk) = (curve.ahead(right), middle(view, shoulder.y).0);
     if ahead > FORWARD {

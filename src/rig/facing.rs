@@ -4,7 +4,7 @@
 //! left is at right angles to the plane through up in which the figure mirrors best, the wider the better. Which of the
 //! two ways along that plane is forward, feet and face tell.
 
-use super::front_votes::{Vote, front_vote};
+use super::front_votes::front_vote;
 use crate::character::kinds::{MeshNames, kinds_from_names};
 use crate::character::{Character, Mesh, MeshKind};
 use crate::error::Warning;
@@ -36,11 +36,8 @@ const LEAST_TURN: f64 = 0.05;
 /// directions by under half a degree.
 const WIDTH_WEIGHT: f64 = 0.5;
 
-/// Files stand along the axes: within this many degrees of one (seen: ±30 % changes no direction) ...
+/// Files stand along the axes: within this many degrees of one it is taken. Seen: ±30 % changes no direction.
 const SNAP_ANGLE: f64 = 3.0;
-
-/// ... the axis is taken, if the likeness there is this near the best. Seen: ±30 % changes no direction.
-const SNAP_LOSS: f64 = 0.01;
 
 /// A figure less like its mirror image than this has no left and right to be sure of. Seen: ±30 % changes no direction.
 const LEAST_LIKENESS: f64 = 0.45;
@@ -56,7 +53,7 @@ const TRIED_MARGIN: f64 = 0.12;
 
 /// Votes that add up to less than this leave a doubt which way is front (seen: at -30 %, five fewer of 115 poses warned
 /// of) ...
-pub const SURE_VOTE: f64 = 0.25;
+const SURE_VOTE: f64 = 0.25;
 
 /// ... and to less than this say nothing. Seen: at -30 %, three fewer of 115 poses wrong by over 5 degrees.
 const LEAST_VOTE: f64 = 0.1;
@@ -107,7 +104,7 @@ pub fn find_forward(character: &Character) -> Vec<(DVec3, Vec<Warning>)> {
     let ways = mirrors.into_iter().map(|(mirror, sure_of_sides)| {
         let left = mirror.normal;
         let forward = DVec2::new(-left.y, left.x);
-        let Vote { vote, is_divided } = cells.front_vote(character, &kinds, mirror, forward);
+        let vote = cells.front_vote(character, &kinds, mirror, forward);
         // Without a vote the usual way, or what is nearer to it.
         let turned = if vote.abs() >= LEAST_VOTE { vote < 0.0 } else { forward.y < -1e-9 };
         let forward = if turned { -forward } else { forward };
@@ -115,7 +112,7 @@ pub fn find_forward(character: &Character) -> Vec<(DVec3, Vec<Warning>)> {
         let mut warnings = Vec::new();
         if !sure_of_sides {
             warnings.push(guessed("the character's left and right are not clearly told by its shape"));
-        } else if is_divided || vote.abs() < SURE_VOTE {
+        } else if vote.abs() < SURE_VOTE {
             warnings.push(guessed("neither feet nor face tell the character's front from its back for sure"));
         }
         (found, warnings)
@@ -355,19 +352,12 @@ impl Cells {
                 (turn, shift) = (turn / 2.0, shift / 2.0);
             }
         }
-        for axis in axes.iter().flat_map(|axis| [*axis, axis.perp()]) {
-            let axis = if axis.dot(mirror.normal) < 0.0 { -axis } else { axis };
-            if axis.dot(mirror.normal) < SNAP_ANGLE.to_radians().cos() {
-                continue;
-            }
-            let ahead = mirror.offset - mirror.normal.dot(self.middle);
-            let snapped = Mirror { normal: axis, offset: axis.dot(self.middle) + ahead };
-            if self.score(snapped, step) >= best - SNAP_LOSS {
-                mirror = snapped;
-                break;
-            }
-        }
-        mirror
+        let towards = |axis: DVec2| if axis.dot(mirror.normal) < 0.0 { -axis } else { axis };
+        let is_near = |axis: &DVec2| axis.dot(mirror.normal) >= SNAP_ANGLE.to_radians().cos();
+        let mut axes = axes.iter().flat_map(|axis| [*axis, axis.perp()]).map(towards);
+        let Some(axis) = axes.find(is_near) else { return mirror };
+        let ahead = mirror.offset - mirror.normal.dot(self.middle);
+        Mirror { normal: axis, offset: axis.dot(self.middle) + ahead }
     }
 
     /// Above 0 for `forward`, below 0 against it.
@@ -377,7 +367,7 @@ impl Cells {
         kinds: &[Option<MeshKind>],
         mirror: Mirror,
         forward: DVec2,
-    ) -> Vote {
+    ) -> f64 {
         let (low, high) = range(self.samples.iter().map(|p| p.y.into()));
         let height = (high - low).max(1e-9);
         // Sideways, up and ahead in heights of the figure.
@@ -392,7 +382,7 @@ impl Cells {
             .flat_map(|mesh| character.meshes[mesh].positions.iter())
             .map(|&p| place(self.to_cells(p)))
             .collect();
-        front_vote(&points, SAMPLE_STEP / height, &face_parts)
+        front_vote(&points, &face_parts)
     }
 }
 

@@ -1,10 +1,9 @@
 //! The figure as rays from the front see it: which meshes to look at, where its plane of symmetry is, and its silhouette.
 
 use super::UnitFigure;
-use super::silhouette::{GridFrame, RayGrid};
+use super::silhouette::{GridFrame, RayGrid, runs_of};
 use crate::character::MeshKind;
 use crate::error::Result;
-use crate::geometry::cells::CellMap;
 use crate::progress::Progress;
 use glam::DVec3;
 
@@ -33,11 +32,6 @@ const AXIS_ROWS: usize = 3;
 /// An axis is kept where another one makes no more than this share of the silhouette's mirror image fit better. Seen:
 /// ±30 % changes no joint.
 const AXIS_GAIN: f64 = 0.004;
-/// A mesh is symmetric where nearly all of its vertices (seen: ±30 % moves joints by under 0.0005 H) ...
-const SYMMETRIC_SHARE: f64 = 0.999;
-/// ... have a mirror image within this. Seen: ±30 % changes no joint.
-pub const SYMMETRIC_WITHIN: f64 = 2e-5;
-
 /// A figure seen from the front.
 pub struct FrontView<'a> {
     /// Vertices of the unit figure.
@@ -50,8 +44,6 @@ pub struct FrontView<'a> {
     pub grid: RayGrid,
     /// x of the plane of symmetry.
     pub axis: f64,
-    /// True where vertices have mirror images, not only the outline.
-    pub is_symmetric: bool,
     /// At most so many threads; 0 means all cores.
     pub threads: usize,
     /// The lowest height that is seen.
@@ -103,9 +95,8 @@ impl<'a> FrontView<'a> {
         let grid = if axis == 0.0 { grid } else { front(positions, &triangles, axis, threads) };
         let Extent { low, high, .. } = Extent::of(&grid);
         let runs = (0..grid.frame.rows).map(|row| runs(&grid, row)).collect();
-        let is_symmetric = is_symmetric(positions, &triangles, axis);
         progress.at(1.0)?;
-        Ok(Self { positions, meshes, triangles, grid, axis, is_symmetric, threads, low, high, runs })
+        Ok(Self { positions, meshes, triangles, grid, axis, threads, low, high, runs })
     }
 
     /// The side of a cell.
@@ -286,14 +277,7 @@ fn connected_share(grid: &RayGrid) -> f64 {
 }
 
 fn runs(grid: &RayGrid, row: usize) -> Vec<(usize, usize)> {
-    let mut runs: Vec<(usize, usize)> = Vec::new();
-    for column in (0..grid.frame.columns).filter(|&column| grid.is_filled(column, row)) {
-        match runs.last_mut() {
-            Some(run) if column <= run.1 + SLIT => run.1 = column + 1,
-            _ => runs.push((column, column + 1)),
-        }
-    }
-    runs
+    runs_of((0..grid.frame.columns).filter(|&column| grid.is_filled(column, row)), SLIT)
 }
 
 /// The axis about which most of the silhouette is its own mirror image.
@@ -339,27 +323,4 @@ fn axis(grid: &RayGrid) -> f64 {
     let bend = before - 2.0 * scores[best] + after;
     let shift = if bend < 0.0 { (0.5 * (before - after) / bend).clamp(-0.5, 0.5) } else { 0.0 };
     0.5 * (best as f64 + shift - middle as f64) * grid.frame.cell
-}
-
-fn is_symmetric(positions: &[DVec3], triangles: &[[u32; 3]], axis: f64) -> bool {
-    let size = 2.0 * SYMMETRIC_WITHIN;
-    let cell_of = |p: DVec3| (p / size).to_array().map(|x| x.floor() as i64);
-    let mut used: Vec<u32> = triangles.iter().flatten().copied().collect();
-    used.sort_unstable();
-    used.dedup();
-    let mut cells: CellMap<[i64; 3], ()> = CellMap::default();
-    for &vertex in &used {
-        cells.insert(cell_of(positions[vertex as usize]), ());
-    }
-    let offsets = [-0.5, 0.5];
-    let paired = used.iter().filter(|&&vertex| {
-        let p = positions[vertex as usize];
-        let image = DVec3::new(2.0 * axis - p.x, p.y, p.z);
-        offsets.iter().any(|x| {
-            offsets.iter().any(|y| {
-                offsets.iter().any(|z| cells.contains_key(&cell_of(image + size * DVec3::new(*x, *y, *z))))
-            })
-        })
-    });
-    paired.count() as f64 >= SYMMETRIC_SHARE * used.len() as f64
 }

@@ -23,15 +23,8 @@ const LEAST_HEAD: f64 = 0.02;
 const AS_NARROW: f64 = 1.05;
 /// ... within this share of the same; the neck is in their middle. Seen: ±30 % moves joints by under 0.0005 H.
 const NECK_REACH: f64 = 0.15;
-/// A face does not end below the neck: the chin then lies over it by this share of what a ratio gives. Seen: ±30 %
-/// moves joints by under 0.0005 H.
-const CHIN_OVER_NECK: f64 = 0.25;
-/// How far forward the chin is, is read this far over it, as a share of the same (seen: ±30 % changes no joint), ...
-const CHIN_READ_OVER: f64 = 0.03;
-/// ... within this distance of the axis, in heights. Seen: ±30 % changes no joint.
+/// How far forward the chin is, is read within this distance of the axis, in heights. Seen: ±30 % changes no joint.
 const CHIN_READ_WITHIN: f64 = 0.02;
-/// A head takes at least this share of the same. Seen: ±30 % changes no joint.
-const LEAST_FACE: f64 = 0.2;
 /// The chin's rays run within this share of the face's width, but no further from the axis than that, in heights (D25).
 /// Seen: ±30 % moves joints by under 0.0005 H.
 const CHIN_WITHIN: (f64, f64) = (0.08, 0.03);
@@ -95,14 +88,10 @@ pub fn head_line(view: &FrontView, shoulder_line: f64, radius: f64) -> HeadLine 
     let chin = chin(view, shoulder_line, crown);
     let by_ratio = shoulder_line + CHIN_BY_RATIO * span;
     let neck = if neck_seen { narrow_y } else { shoulder_line + 0.5 * CHIN_BY_RATIO * span };
-    let mut chin_y = chin.unwrap_or(by_ratio);
-    if neck_seen && chin_y < neck {
-        // A face does not end below the neck: a collar or a bust does.
-        chin_y = neck + CHIN_OVER_NECK * (by_ratio - shoulder_line);
-    }
-    let row = view.grid.row(chin_y + CHIN_READ_OVER * span);
+    let chin = chin.unwrap_or(by_ratio);
+    let row = view.grid.row(chin);
     let chin_z = view.depth(row, CHIN_READ_WITHIN).map_or(0.0, |(_, front)| front);
-    HeadLine { neck, chin: chin_y.min(crown - LEAST_FACE * span), chin_z, crown, neck_seen }
+    HeadLine { neck, chin, chin_z, crown, neck_seen }
 }
 
 /// The deepest step back of the front profile, downwards.

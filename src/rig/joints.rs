@@ -8,7 +8,7 @@
 use super::arm_branch::{arms_of, raised};
 use super::arm_choice::{Body, Candidate, FINER, IMAGE, even_hands};
 use super::arm_curve::Arm;
-use super::arms::{ArmSpace, find_arm, find_hanging_arm};
+use super::arms::{ArmSpace, find_arm};
 use super::candidates::{Candidates, likelihood};
 use super::front_view::FrontView;
 use super::hand::pair::add_fingers;
@@ -132,9 +132,6 @@ const ODD_ARMS: f64 = 6.0;
 const BALANCE: f64 = 0.08;
 /// A leg that goes aside by more than this share of its height has its ankle elsewhere than a ratio says: 17 degrees.
 const LEANS: f64 = 0.3;
-/// An elbow is found from shoulder and wrist: it is hardly surer than the wrist. Seen: ±30 % changes no joint.
-const UNSURE_ELBOW: f64 = 0.05;
-
 /// Joints of an arm.
 const ARM: [Role; 3] = [Role::LeftUpperArm, Role::LeftLowerArm, Role::LeftHand];
 
@@ -291,29 +288,25 @@ impl Search<'_> {
         Body { solid, axis: self.view.axis, low: self.view.low, crotch: legs.crotch, neck, given }
     }
 
-    /// The arms over `legs`: of what reaches out furthest, all and below the neck, of what hangs beside the trunk, and of the
-    /// branches of the solid, the pair that is most like arms.
+    /// The arms over `legs`: of what reaches out furthest, all and below the neck, and of the branches of the solid, the pair that is most like arms.
     fn arms(&mut self, legs: &Legs, voxels: &Voxels) -> [Option<Arm>; 2] {
         let (view, solid) = (self.view, &voxels.solid);
         let body = self.body(legs, solid);
         let (neck, given) = (body.neck, body.given);
         let mut sides: [Vec<Candidate>; 2] = Default::default();
-        let mut ways: Vec<(f64, FindArm, f64)> = vec![(f64::INFINITY, find_arm, 0.0)];
-        ways.extend(neck.map(|neck| (neck, find_arm as FindArm, 0.0)));
-        ways.push((neck.unwrap_or(view.high), find_hanging_arm, FINER));
-        for (ceiling, find, more) in ways {
-            for (left, arms) in [true, false].into_iter().zip(self.arms_by(legs, ceiling, find)) {
+        for ceiling in std::iter::once(f64::INFINITY).chain(neck) {
+            for (left, arms) in [true, false].into_iter().zip(self.arms_by(legs, ceiling)) {
                 for arm in arms {
                     let higher = raised(&arm, solid);
                     let arms = std::iter::once(arm).chain(higher);
-                    sides[usize::from(!left)].extend(arms.map(|arm| body.candidate(arm, left, more)));
+                    sides[usize::from(!left)].extend(arms.map(|arm| body.candidate(arm, left, 0.0)));
                 }
             }
         }
         let top = neck.unwrap_or(legs.crotch + CORE_BY_RATIO * (view.high - legs.crotch));
         let core = legs.crotch + CORE_FROM * (top - legs.crotch)..top;
         for branch in branches(voxels, view.axis, core) {
-            for (left, arm) in arms_of(&branch, solid, view.axis, |y| middle(view, y).0) {
+            for (left, arm) in arms_of(&branch, view.axis, |y| middle(view, y).0) {
                 sides[usize::from(!left)].push(body.candidate(arm, left, FINER));
             }
         }
@@ -350,9 +343,9 @@ impl Search<'_> {
         even_hands(best.1, given.map(|joints| joints[2].is_some()))
     }
 
-    /// The arms that one way of looking finds on each side: no longer than the other side's, and as long as they are, which
+    /// The arms that rays find on each side below a ceiling: no longer than the other side's, and as long as they are, which
     /// an arm is that is held further out than the other one.
-    fn arms_by(&self, legs: &Legs, ceiling: f64, find: FindArm) -> [Vec<Arm>; 2] {
+    fn arms_by(&self, legs: &Legs, ceiling: f64) -> [Vec<Arm>; 2] {
         let view = self.view;
         let floor = HANDS_ABOVE * legs.crotch;
         let reach = [true, false].map(|left| reach(view, left, floor..ceiling));
@@ -360,10 +353,9 @@ impl Search<'_> {
         [true, false].map(|left| {
             let own = reach[usize::from(!left)];
             let limits = [Some(most), Some(own).filter(|&own| own > most)];
-            let arms = limits
-                .into_iter()
-                .flatten()
-                .filter_map(|most| find(view, left, &ArmSpace { crotch: legs.crotch, floor, ceiling, most }));
+            let arms = limits.into_iter().flatten().filter_map(|most| {
+                find_arm(view, left, &ArmSpace { crotch: legs.crotch, floor, ceiling, most })
+            });
             let is_arm = |arm: &Arm| {
                 let share = (arm.shoulder.y - legs.crotch) / (view.high - legs.crotch).max(1e-6);
                 let length = arm.shoulder.distance(arm.elbow) + arm.elbow.distance(arm.tip);
@@ -429,7 +421,7 @@ impl Search<'_> {
                 Some((arm, base)) => {
                     let seen = if arm.pit_seen { SEEN } else { RATIO };
                     let wrist = if arm.wrist_seen { seen } else { seen.min(DOUBTFUL) };
-                    let sure = [base, base.min(wrist + UNSURE_ELBOW), wrist].map(|sure| sure.min(most));
+                    let sure = [base, base.min(wrist), wrist].map(|sure| sure.min(most));
                     ([arm.shoulder, arm.elbow, arm.wrist, arm.tip], sure)
                 }
                 None => {
@@ -563,8 +555,8 @@ impl Search<'_> {
 
     /// Sides that agree become each other's image; sides that do not are doubtful.
     fn settle_sides(&mut self) {
-        let view = self.view;
-        let image = |p: DVec3| DVec3::new(2.0 * view.axis - p.x, p.y, p.z);
+        let axis = self.view.axis;
+        let image = |p: DVec3| DVec3::new(2.0 * axis - p.x, p.y, p.z);
         let lefts: Vec<Role> = self.found.joints.keys().copied().filter(|role| role.is_left()).collect();
         for role in lefts {
             let other = role.mirrored();
@@ -576,14 +568,8 @@ impl Search<'_> {
             }
             let (one, two) = (self.found.joints[&role], self.found.joints[&other]);
             let apart = one.position.distance(image(two.position));
-            if view.is_symmetric || apart <= AGREE {
-                let middle = if apart <= AGREE {
-                    0.5 * (one.position + image(two.position))
-                } else if two.confidence > one.confidence {
-                    image(two.position)
-                } else {
-                    one.position
-                };
+            if apart <= AGREE {
+                let middle = 0.5 * (one.position + image(two.position));
                 let confidence = one.confidence.min(two.confidence);
                 self.put(role, middle, confidence);
                 self.put(other, image(middle), confidence);
@@ -595,9 +581,8 @@ impl Search<'_> {
         let lefts: Vec<Role> = self.found.tips.keys().copied().filter(|role| role.is_left()).collect();
         for role in lefts {
             let (one, two) = (self.found.tips[&role], self.found.tips[&role.mirrored()]);
-            let apart = one.distance(image(two));
-            if view.is_symmetric || apart <= AGREE {
-                let middle = if apart <= AGREE { 0.5 * (one + image(two)) } else { one };
+            if one.distance(image(two)) <= AGREE {
+                let middle = 0.5 * (one + image(two));
                 self.found.tips.insert(role, middle);
                 self.found.tips.insert(role.mirrored(), image(middle));
             }
@@ -612,8 +597,6 @@ fn limb(role: Role) -> &'static [Role] {
     const ARM: [Role; 4] = [LeftShoulder, LeftUpperArm, LeftLowerArm, LeftHand];
     if LEG.contains(&role) { &LEG } else { &ARM }
 }
-
-type FindArm = fn(&FrontView, bool, &ArmSpace) -> Option<Arm>;
 
 /// The narrowest place between trunk and head, where there is one: the row that is slimmest beside what is below and
 /// above it.

@@ -1,9 +1,8 @@
 //! Legs: where they divide, and where hip, knee, ankle and toes are in them.
 
-use super::front_view::{FrontView, SLIT, median};
+use super::front_view::{FrontView, SLIT};
 use super::silhouette::lowest;
 use super::solid::{Lobes, Solid};
-use crate::geometry::range;
 use glam::{DVec3, IVec3};
 
 /// Filled rows between two legs of up to this height do not end the gap between them: shoes, knees, a ribbon. Seen:
@@ -32,14 +31,8 @@ const LEAST_LEG_INSIDE: f64 = 0.02;
 const HEM_WIDENS: f64 = 2.0;
 /// See [`HEM_WIDENS`].
 const HEM_ROWS: usize = 2;
-/// What is between two legs inside of something is a trunk, not another layer of that, where it is no deeper than so many legs.
-const TRUNK_DEPTH: f64 = 2.5;
-/// Above a hem legs go on as they run below it, but lean no more than this.
-const MOST_LEAN: f64 = 0.35;
 /// Rays and slices that differ by less than this, in heights, see the same crotch; rays are finer.
 const SAME_CROTCH: f64 = 0.012;
-/// Where lobes are thinner than this share of what rays see, they are the walls of something open.
-const HOLLOW: f64 = 0.5;
 /// A section whose middle lies further from the leg's than this share of its radius holds something else.
 const ASTRAY: f64 = 0.6;
 /// Legs stand within this distance of the axis. Seen: at -30 %, joints lie 0.026 H further off, 31 more by over 0.06 H.
@@ -61,9 +54,6 @@ const ANKLE_BY_RATIO: f64 = 0.10;
 /// ... and the range in which it is believed. Seen: ±30 % moves joints by under 0.0005 H.
 const ANKLE_RANGE: (f64, f64) = (0.06, 0.22);
 
-/// A joint lies in the middle of the sections within this distance of its height. Seen: ±30 % moves joints by under
-/// 0.0005 H.
-const SECTION_WITHIN: f64 = 0.01;
 /// A leg without a section stands this far from the axis, as a share of the height (seen: ±30 % changes no joint), ...
 const LEG_BY_RATIO: f64 = 0.06;
 /// ... and the top of the thigh between these. Seen: ±30 % moves joints by under 0.0005 H.
@@ -74,11 +64,8 @@ const SOLE_AT: f64 = 0.02;
 const BALL_HEIGHT: f64 = 0.3;
 /// ... and of the way from the ankle to the foot's tip. Seen: ±30 % moves toes by up to 0.026 H.
 const BALL_AHEAD: f64 = 0.65;
-/// A foot is this much thicker than the slimmest section above it (seen: ±30 % moves joints by under 0.0005 H), ...
+/// A foot is this much thicker than the slimmest section above it. Seen: ±30 % moves joints by under 0.0005 H.
 const FOOT_WIDENS: f64 = 1.15;
-/// ... and that section is not at the lower end of its range, to within this factor. Seen: ±30 % moves joints by under
-/// 0.0005 H.
-const SLIM_MARGIN: f64 = 1.05;
 
 /// A horizontal section of one leg.
 #[derive(Clone, Copy, Debug)]
@@ -130,8 +117,6 @@ pub struct Legs {
     pub sections: [Vec<Section>; 2],
     /// Where rays see the legs in each row, from the lowest.
     pairs: Vec<Option<[Limb; 2]>>,
-    /// True where legs inside of something were seen to end at a trunk.
-    at_trunk: bool,
 }
 
 /// One leg's joints.
@@ -205,20 +190,6 @@ impl LegLobes {
         Self { rows, crotch, is_hem, inner_crotch }
     }
 
-    /// True where the solid has not the thickness that rays see: surfaces are open, and what they enclose is empty.
-    fn are_hollow(&self, legs: &Legs) -> bool {
-        let mut shares: Vec<f64> = [true, false]
-            .into_iter()
-            .zip(&legs.sections)
-            .flat_map(|(left, sections)| sections.iter().map(move |section| (left, section)))
-            .filter_map(|(left, seen)| {
-                let lobe = self.section(left, seen.y)?;
-                Some(lobe.half_width / seen.half_width.min(seen.half_depth()).max(1e-6))
-            })
-            .collect();
-        !shares.is_empty() && median(&mut shares) < HOLLOW
-    }
-
     /// The section of one leg at a height.
     fn section(&self, left: bool, y: f64) -> Option<Section> {
         let nearest = self.rows.iter().min_by(|a, b| (a.0 - y).abs().total_cmp(&(b.0 - y).abs()))?;
@@ -233,19 +204,15 @@ impl LegLobes {
 /// Legs go on up into clothes, and so do the shells of legs into that of a trunk: which of the two it is, shoulders tell.
 pub fn find_legs(view: &FrontView, lobes: &LegLobes, top: f64) -> (Legs, Option<Legs>) {
     let mut legs = seen_legs(view, top);
-    if lobes.are_hollow(&legs) {
-        return (legs, None);
-    }
     let mut inside = None;
     let goes_on = |legs: &Legs, crotch| legs.seen == LegGap::Inside && legs.crotch > crotch + SAME_CROTCH;
     if let Some(crotch) = lobes.crotch
         && (legs.seen == LegGap::Unseen || lobes.is_hem || (legs.crotch - crotch).abs() > SAME_CROTCH)
-        && !(lobes.is_hem && legs.at_trunk && goes_on(&legs, crotch))
     {
         let first = view.grid.row(view.low);
         let sections = sections(view, crotch, first, &legs.pairs);
         let seen = if lobes.is_hem { LegGap::Hem } else { LegGap::Open };
-        let told = Legs { crotch, seen, sections, pairs: legs.pairs.clone(), at_trunk: false };
+        let told = Legs { crotch, seen, sections, pairs: legs.pairs.clone() };
         inside = if goes_on(&legs, crotch) { Some(legs) } else { told.inside(view, lobes) };
         legs = told;
     } else if legs.seen == LegGap::Unseen
@@ -265,27 +232,9 @@ fn seen_legs(view: &FrontView, top: f64) -> Legs {
     let bridge = (BRIDGE / view.cell()) as usize;
     let mut missed = 0;
     let (mut outside_rows, mut inside_rows) = (0usize, 0usize);
-    // How many layers there are between the legs, and how many rows ago a trunk came in.
-    let (mut layers, mut trunk_rows) = (usize::MAX, 0usize);
     for row in first..=last {
         let apart = apart(view, row);
         let inner = if apart.is_none() { inside(view, row) } else { None };
-        layers = layers.min(inner.as_ref().map_or(usize::MAX, |inner| inner.layers));
-        let is_trunk = inner.as_ref().is_some_and(|inner| {
-            inner.layers > layers && inner.layers < usize::MAX && inner.is_trunk(view, row)
-        });
-        trunk_rows = match &inner {
-            Some(_) if !is_trunk => 0,
-            None if trunk_rows == 0 => 0,
-            _ => trunk_rows + 1,
-        };
-        if trunk_rows > bridge {
-            pairs.truncate(row - bridge - first);
-            crotch = Some(view.grid.y(row - bridge) - 0.5 * view.cell());
-            inside_rows = inside_rows.saturating_sub(bridge);
-            break;
-        }
-        let inner = inner.map(|inner| inner.limbs);
         let pair = apart.or(inner).or_else(|| touching(view, row));
         pairs.push(pair);
         if pair.is_none() {
@@ -318,7 +267,7 @@ fn seen_legs(view: &FrontView, top: f64) -> Legs {
         (_, Some(y)) => y,
     };
     let sections = sections(view, crotch, first, &pairs);
-    Legs { crotch, seen, sections, pairs, at_trunk: trunk_rows > bridge }
+    Legs { crotch, seen, sections, pairs }
 }
 
 impl Legs {
@@ -333,10 +282,10 @@ impl Legs {
                 // What widens there is a jacket's or a trunk's: the legs divide no higher.
                 (LegGap::Open, self.crotch, self.sections.clone())
             };
-            return Self { crotch, seen, sections, pairs: Vec::new(), at_trunk: false };
+            return Self { crotch, seen, sections, pairs: Vec::new() };
         }
         let sections = sections(view, crotch, first, &[]);
-        Self { crotch, seen: LegGap::Unseen, sections, pairs: Vec::new(), at_trunk: false }
+        Self { crotch, seen: LegGap::Unseen, sections, pairs: Vec::new() }
     }
 
     /// Sections of a leg up to its crotch: those below a hem, and above it as if the leg went on.
@@ -348,18 +297,8 @@ impl Legs {
         let Some(middle) = mean_section(&seen, foot, top).filter(|_| !seen.is_empty()) else {
             return self.sections[side].clone();
         };
-        let lean = |of: fn(&Section) -> f64| {
-            let spread: f64 = seen.iter().map(|s| (s.y - middle.y).powi(2)).sum();
-            let along: f64 = seen.iter().map(|s| (s.y - middle.y) * (of(s) - of(&middle))).sum();
-            (along / spread.max(1e-9)).clamp(-MOST_LEAN, MOST_LEAN)
-        };
-        let (aside, ahead) = (lean(|s| s.x), lean(Section::z));
-        for row in view.grid.row(top) + 1..=view.grid.row(crotch) {
-            let y = view.grid.y(row);
-            let (x, z) = (middle.x + aside * (y - middle.y), ahead * (y - middle.y));
-            let x = x.max(LEAST_LEG);
-            all.push(Section { y, x, front: middle.front + z, back: middle.back + z, ..middle });
-        }
+        let rows = view.grid.row(top) + 1..=view.grid.row(crotch);
+        all.extend(rows.map(|row| Section { y: view.grid.y(row), ..middle }));
         all
     }
 
@@ -367,7 +306,7 @@ impl Legs {
     fn inside(&self, view: &FrontView, lobes: &LegLobes) -> Option<Self> {
         let crotch = lobes.inner_crotch?;
         let sections = sections(view, crotch, view.grid.row(view.low), &self.pairs);
-        Some(Self { crotch, seen: LegGap::Inside, sections, pairs: self.pairs.clone(), at_trunk: false })
+        Some(Self { crotch, seen: LegGap::Inside, sections, pairs: self.pairs.clone() })
     }
 
     /// Takes the lobes' word where a section holds something beside the leg: a tail, a cape, hair.
@@ -457,45 +396,8 @@ fn touching(view: &FrontView, row: usize) -> Option<[Limb; 2]> {
     (between < TOUCHING_THIN * leg).then_some([left, right].map(|run| Limb { steps: (0, run.1.min(reach)) }))
 }
 
-/// Two legs inside of something.
-struct Inner {
-    limbs: [Limb; 2],
-    /// How many surfaces there are between them, from front to back; countless where nothing is around both.
-    layers: usize,
-}
-
-impl Inner {
-    /// True where what is between the legs is also before and behind them: a skirt is, a cape is not.
-    fn is_enclosed(&self, view: &FrontView, row: usize) -> bool {
-        let depth = |left: bool, steps: usize| view.grid.depth(view.column(left, steps), row);
-        let (back, front) =
-            range([true, false].iter().filter_map(|&left| depth(left, 0)).flat_map(|(a, b)| [a, b]));
-        [true, false].into_iter().all(|left| {
-            let (from, to) = self.limbs[usize::from(!left)].steps;
-            let hits = view.grid.hits(view.column(left, (from + to) / 2), row);
-            let half = hits.len() / 2;
-            half > 0 && back < f64::from(hits[half - 1].0) && front > f64::from(hits[half].0)
-        })
-    }
-
-    /// True where what is innermost between the legs is about as deep as they are.
-    fn is_trunk(&self, view: &FrontView, row: usize) -> bool {
-        let innermost = |column: usize| {
-            let hits = view.grid.hits(column, row);
-            let half = hits.len() / 2;
-            if half == 0 { 0.0 } else { f64::from(hits[half].0 - hits[half - 1].0) }
-        };
-        let of_leg = |left: bool| {
-            let (from, to) = self.limbs[usize::from(!left)].steps;
-            (from..to).map(|steps| innermost(view.column(left, steps))).fold(0.0, f64::max)
-        };
-        let between = innermost(view.column(true, 0)).max(innermost(view.column(false, 0)));
-        between < TRUNK_DEPTH * of_leg(true).max(of_leg(false))
-    }
-}
-
 /// Two legs inside of a skirt: on either side of the axis there are columns whose rays meet more than those between.
-fn inside(view: &FrontView, row: usize) -> Option<Inner> {
+fn inside(view: &FrontView, row: usize) -> Option<[Limb; 2]> {
     let half = view.half_columns();
     let off = (0.5 * GAP_OFF_AXIS / view.cell()) as usize;
     let count = |column: usize| view.grid.hits(column, row).len();
@@ -525,12 +427,8 @@ fn inside(view: &FrontView, row: usize) -> Option<Inner> {
     let least = (LEAST_LEG_INSIDE / view.cell()) as usize;
     let gap = left.steps.0 + right.steps.0;
     let near = left.steps.0.abs_diff(right.steps.0) <= 2 * off;
-    (gap >= 2 && near && left.steps.1 - left.steps.0 >= least && right.steps.1 - right.steps.0 >= least).then(
-        || {
-            let inner = Inner { limbs: [left, right], layers: between };
-            Inner { layers: if inner.is_enclosed(view, row) { between } else { usize::MAX }, ..inner }
-        },
-    )
+    (gap >= 2 && near && left.steps.1 - left.steps.0 >= least && right.steps.1 - right.steps.0 >= least)
+        .then_some([left, right])
 }
 
 fn section(view: &FrontView, left: bool, row: usize, limb: Limb) -> Option<Section> {
@@ -571,7 +469,7 @@ pub fn leg(view: &FrontView, legs: &Legs, left: bool, given: [Option<DVec3>; 3])
         let none = Section { y: 0.5 * (low + high), x, half_width: 0.5 * x, front: 0.0, back: 0.0 };
         mean_section(sections, low, high).unwrap_or(none)
     };
-    let height_of = |y: f64| between(y - SECTION_WITHIN, y + SECTION_WITHIN);
+    let height_of = |y: f64| between(y, y);
     let foot: Vec<&Section> = sections.iter().filter(|s| s.y < at(ANKLE_RANGE.1)).collect();
     let Ankle { y: ankle_y, slim, seen: ankle_seen } = ankle_height(sections, view.low, length);
     let above_ankle = height_of(slim);
@@ -579,12 +477,7 @@ pub fn leg(view: &FrontView, legs: &Legs, left: bool, given: [Option<DVec3>; 3])
     let hip = given_hip.unwrap_or_else(|| {
         let y = legs.crotch + HIP_OVER_CROTCH * length;
         let top = between(at(THIGH_RANGE.0), at(THIGH_RANGE.1));
-        let steps = (top.x / view.cell()) as usize;
-        let z = view.grid.thickest(view.column(left, steps), view.grid.row(y));
-        // What lies outside of the thigh is no hip: a tail, hair.
-        let z =
-            z.map(|(back, front)| 0.5 * (back + front)).filter(|z| (z - top.z()).abs() < top.half_depth());
-        view.point(left, top.x, y, z.unwrap_or(top.z()))
+        view.point(left, top.x, y, top.z())
     });
     let knee = given_knee.unwrap_or_else(|| {
         let y = ankle.y + KNEE_SHARE * (hip.y - ankle.y);
@@ -627,7 +520,7 @@ fn ankle_height(sections: &[Section], low: f64, length: f64) -> Ankle {
     if let Some(slim) = lowest(&calf) {
         let least = calf.iter().map(|&(_, girth)| girth).fold(f64::INFINITY, f64::min);
         let below = sections.iter().filter(|s| s.y < slim).map(girth).fold(0.0, f64::max);
-        if below > FOOT_WIDENS * least && slim > low + SLIM_MARGIN * SLIM_RANGE.0 * length {
+        if below > FOOT_WIDENS * least {
             // Three witnesses: the slim place over the ankle bones, where the foot ends under it, if it does, and
             // how bodies are made.
             let mut told = vec![low + ANKLE_OF_SLIM * (slim - low), by_ratio];

@@ -9,9 +9,9 @@ use super::WeightBone;
 use super::solid::sides::outward;
 use crate::character::{Humanoid, Role};
 use crate::geometry::laplacian::has_area;
-use crate::geometry::{Neighbours, ROUNDING, SEAM, foot, least_costs, neighbours, weld};
+use crate::geometry::{Groups, Neighbours, ROUNDING, SEAM, foot, least_costs, neighbours, weld};
 use glam::{DMat2, DVec2, DVec3};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Normals are smoothed over about this width, in heights: stairs of a grid of 100 cells a height and the furrows between
 /// locks are no creases, the edge of hair on a back is one. Seen, head weight of hair below the chin (solids of Seed-san and
@@ -218,27 +218,15 @@ impl<'a> Skin<'a> {
 
     /// Keeps what hangs together and reaches below the shoulders.
     fn keep_low(&self, hanging: &mut [bool]) {
-        let mut seen = vec![false; hanging.len()];
-        for first in 0..hanging.len() {
-            if seen[first] || !hanging[first] {
-                continue;
-            }
-            let mut piece = vec![first];
-            seen[first] = true;
-            let mut at = 0;
-            while at < piece.len() {
-                for &other in self.near.of(piece[at]) {
-                    if hanging[other as usize] && !seen[other as usize] {
-                        seen[other as usize] = true;
-                        piece.push(other as usize);
-                    }
-                }
-                at += 1;
-            }
-            if piece.iter().all(|&v| self.points[v].y > self.shoulders - BELOW_SHOULDERS) {
-                piece.iter().for_each(|&v| hanging[v] = false);
-            }
+        let mut groups = Groups::new(hanging.len());
+        let hangs: Vec<usize> = (0..hanging.len()).filter(|&v| hanging[v]).collect();
+        for &v in &hangs {
+            let beside = self.near.of(v).iter().filter(|&&other| hanging[other as usize]);
+            beside.for_each(|&other| groups.join(v, other as usize));
         }
+        let is_low = |v: usize| self.points[v].y <= self.shoulders - BELOW_SHOULDERS;
+        let low: BTreeSet<usize> = hangs.iter().filter(|&&v| is_low(v)).map(|&v| groups.least(v)).collect();
+        hangs.into_iter().for_each(|v| hanging[v] = low.contains(&groups.least(v)));
     }
 }
 

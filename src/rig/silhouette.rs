@@ -174,6 +174,11 @@ impl RayGrid {
         !self.hits(column, row).is_empty()
     }
 
+    /// The filled rows of a column, upwards, single empty ones bridged.
+    pub fn runs_of_column(&self, column: usize) -> Vec<(usize, usize)> {
+        runs_of((0..self.frame.rows).filter(|&row| self.is_filled(column, row)), 1)
+    }
+
     /// The first and the last depth of a cell.
     pub fn depth(&self, column: usize, row: usize) -> Option<(f64, f64)> {
         let hits = self.hits(column, row);
@@ -252,6 +257,18 @@ impl RayGrid {
         let column = ((x - self.frame.origin.dot(self.frame.right)) / self.frame.cell).floor();
         column.clamp(0.0, self.frame.columns as f64 - 1.0) as usize
     }
+}
+
+/// The half-open runs of some ascending numbers, gaps of up to `bridged` bridged.
+pub fn runs_of(filled: impl Iterator<Item = usize>, bridged: usize) -> Vec<(usize, usize)> {
+    let mut runs: Vec<(usize, usize)> = Vec::new();
+    for at in filled {
+        match runs.last_mut() {
+            Some(run) if at <= run.1 + bridged => run.1 = at + 1,
+            _ => runs.push((at, at + 1)),
+        }
+    }
+    runs
 }
 
 /// Where `values` (place, value) are least. Along a stretch that is as low, to a hundredth, the middle of it: rounding

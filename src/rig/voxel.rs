@@ -181,7 +181,9 @@ fn distance_rows(
         if half > 0.0 { half.min(widest) } else { widest }
     };
     // A thin neck must be known wherever the chest below it is, for it narrows the chest's reach.
-    let touching = |bone: usize| (0..bones.len()).filter(move |&other| bones[other].touches(&bones[bone]));
+    let touching = |bone: usize| {
+        (0..bones.len()).filter(move |&other| bones[other].touches(&bones[bone], crate::geometry::ROUNDING))
+    };
     let bounds: Vec<f32> =
         (0..bones.len()).map(|bone| touching(bone).map(bound).fold(bound(bone), f32::max)).collect();
     progress.at(0.2)?;

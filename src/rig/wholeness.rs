@@ -2,7 +2,8 @@
 
 use super::WeightBone;
 use super::solid::Solid;
-use crate::geometry::{SEAM, components, foot, weld};
+use super::solid::geodesic::Bone;
+use crate::geometry::{SEAM, components, weld};
 use glam::DVec3;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -43,18 +44,17 @@ impl Wholeness {
         let grid = Solid::around(positions, triangles, RESOLUTION);
         let points: Vec<DVec3> = positions.iter().map(|&p| grid.within(grid.to_cells(p))).collect();
         let size = RESOLUTION as f64;
-        let bones: Vec<Vec<[DVec3; 2]>> = bones
-            .iter()
-            .map(|bone| bone.segments.iter().map(|ends| ends.map(|p| grid.to_cells(p))).collect())
-            .collect();
+        let in_cells = |bone: &WeightBone| Bone {
+            segments: bone.segments.iter().map(|ends| ends.map(|p| grid.to_cells(p))).collect(),
+            starts: Vec::new(),
+        };
+        let bones: Vec<Bone> = bones.iter().map(in_cells).collect();
         let weld = weld(&points, SEAM * size);
         let components = components(triangles, &weld);
         let component_of = |vertex: u32| components[weld.representative[vertex as usize] as usize];
 
         let nearest_bone = |p: DVec3| {
-            let distance = |bone: &Vec<[DVec3; 2]>| {
-                bone.iter().map(|&[a, b]| foot(p, a, b).0.distance_squared(p)).fold(f64::INFINITY, f64::min)
-            };
+            let distance = |bone: &Bone| bone.foot(p).distance_squared(p);
             let distances = bones.iter().map(distance).enumerate();
             distances.min_by(|one, other| one.1.total_cmp(&other.1)).map_or(0, |(bone, _)| bone)
         };
@@ -79,16 +79,12 @@ impl Wholeness {
         let carrying = body.len();
         let area: f64 = shares.iter().filter(|((_, c), _)| body.contains(c)).map(|(_, share)| share).sum();
 
-        let length = |bone: &Vec<[DVec3; 2]>| bone.iter().map(|[a, b]| a.distance(*b)).fold(0.0, f64::max);
-        let meet = |one: &Vec<[DVec3; 2]>, other: &Vec<[DVec3; 2]>| {
-            one.iter().flatten().any(|p| other.iter().flatten().any(|q| p.distance(*q) <= SEAM * size))
-        };
         let (mut joints, mut unjoined) = (0, 0);
         for one in 0..bones.len() {
             for other in one + 1..bones.len() {
-                let is_long = [one, other].iter().all(|&bone| length(&bones[bone]) > LEAST_LENGTH * size);
+                let is_long = [one, other].iter().all(|&bone| bones[bone].length() > LEAST_LENGTH * size);
                 let has_surface = areas[one] > 0.0 && areas[other] > 0.0;
-                if is_long && has_surface && meet(&bones[one], &bones[other]) {
+                if is_long && has_surface && bones[one].touches(&bones[other], SEAM * size) {
                     joints += 1;
                     unjoined += usize::from(carried[one].is_disjoint(&carried[other]));
                 }

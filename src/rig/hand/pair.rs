@@ -3,11 +3,13 @@
 use super::{Hand, find_fingers};
 use crate::character::Role;
 use crate::geometry::{PointTree, Surface};
-use crate::rig::front_view::{FrontView, SYMMETRIC_WITHIN};
+use crate::rig::front_view::FrontView;
 use crate::rig::joints::FoundJoints;
 use crate::rig::{FoundJoint, UnitFigure};
 use glam::DVec3;
 
+/// Vertices this close to each other's mirror image are. Seen: ±30 % changes no joint.
+const SYMMETRIC_WITHIN: f64 = 2e-5;
 /// Two hands are alike where every vertex nearer to a wrist than this has a mirror image. Seen: ±30 % changes no joint.
 const HAND_REACH: f64 = 0.2;
 

@@ -1,7 +1,7 @@
 //! The mesh beyond the wrist, and the fingers that stand out of it: the merge tree of distances from the wrist.
 
 use super::section::Section;
-use crate::geometry::{NONE, PointTree, SEAM, components, least_costs, neighbours, weld};
+use crate::geometry::{NONE, PointTree, SEAM, components, least_costs, merge_tree, neighbours, weld};
 use glam::DVec3;
 use std::collections::BTreeMap;
 
@@ -36,9 +36,6 @@ pub(super) struct Finger {
 /// A tip stands out by this share of the hand's length, at least (seen: at ±30 %, two fewer of 46 hands with all
 /// fingers) ...
 pub(super) const LEAST_PERSISTENCE: f64 = 0.1;
-
-/// ... and is this far from the wrist: cuffs are nearer. Seen: ±30 % changes no finger.
-const LEAST_REACH: f64 = 0.35;
 
 /// A hand is looked for within this many lengths of the forearm (seen: ±30 % changes no finger), ...
 const REACH: f64 = 1.5;
@@ -193,43 +190,19 @@ impl Region {
         order.sort_by(|&a, &b| {
             self.distances[b as usize].total_cmp(&self.distances[a as usize]).then(a.cmp(&b))
         });
-        let mut parents = vec![NONE; self.points.len()];
-        fn root(parents: &mut [u32], mut vertex: u32) -> u32 {
-            while parents[vertex as usize] != vertex {
-                parents[vertex as usize] = parents[parents[vertex as usize] as usize];
-                vertex = parents[vertex as usize];
-            }
-            vertex
-        }
-        // Every tree's root is its tip.
         let mut webs: BTreeMap<u32, f64> = BTreeMap::new();
         let mut fingers = Vec::new();
         let least = LEAST_PERSISTENCE * self.length;
-        for &vertex in &order {
-            let distance = self.distances[vertex as usize];
-            parents[vertex as usize] = vertex;
-            for &next in &self.graph[vertex as usize] {
-                if parents[next as usize] == NONE {
-                    continue;
-                }
-                let (one, other) = (root(&mut parents, vertex), root(&mut parents, next));
-                if one == other {
-                    continue;
-                }
-                let is_further = self.distances[one as usize] > self.distances[other as usize]
-                    || self.distances[one as usize] == self.distances[other as usize] && one < other;
-                let (tip, lesser) = if is_further { (one, other) } else { (other, one) };
-                let stands_out = self.distances[lesser as usize] - distance >= least
-                    && self.distances[lesser as usize] >= LEAST_REACH * self.length
-                    && distance >= LEAST_WEB * self.length;
-                if stands_out {
-                    webs.entry(lesser).or_insert(distance);
-                    webs.entry(tip).or_insert(distance);
-                    fingers.push(lesser);
-                }
-                parents[lesser as usize] = tip;
+        let beside = |vertex: u32| self.graph[vertex as usize].iter().copied();
+        merge_tree(self.points.len(), &order, beside, |tip, lesser, at| {
+            let (distance, reach) = (self.distances[at as usize], self.distances[lesser as usize]);
+            let stands_out = reach - distance >= least && distance >= LEAST_WEB * self.length;
+            if stands_out {
+                webs.entry(lesser).or_insert(distance);
+                webs.entry(tip).or_insert(distance);
+                fingers.push(lesser);
             }
-        }
+        });
         if let Some(&furthest) = order.first() {
             fingers.push(furthest);
         }

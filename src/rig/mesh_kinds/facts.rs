@@ -77,21 +77,16 @@ impl Facts {
 /// What surrounds each mesh of a figure, found once, whatever the kinds.
 #[derive(Clone, Debug, Default)]
 pub struct Surroundings {
-    facts: Vec<Facts>,
-    middle: OnceLock<f64>,
-    seams: OnceLock<Vec<Vec<usize>>>,
-    mirrored: OnceLock<Vec<f64>>,
+    pub(super) facts: Vec<Facts>,
+    /// The plane in which the volumes mirror best, once it is found.
+    pub(super) middle: OnceLock<f64>,
+    /// Which meshes go on where others end, once it is found.
+    pub(super) seams: OnceLock<Vec<Vec<usize>>>,
 }
 
 pub(super) struct Scene<'a> {
     pub(super) figure: &'a UnitFigure,
-    pub(super) facts: &'a [Facts],
-    /// The plane in which the volumes mirror best, once it is found.
-    pub(super) middle: &'a OnceLock<f64>,
-    /// Which meshes go on where others end, once it is found.
-    pub(super) seams: &'a OnceLock<Vec<Vec<usize>>>,
-    /// Of each volume the share that has its like on the other side, once it is found.
-    pub(super) mirrored: &'a OnceLock<Vec<f64>>,
+    pub(super) known: &'a Surroundings,
 }
 
 impl Surroundings {
@@ -152,29 +147,25 @@ impl Surroundings {
         });
         Ok(Self { facts: facts.collect(), ..Self::default() })
     }
-
-    /// The same with the figure.
-    pub(super) fn in_scene<'a>(&'a self, figure: &'a UnitFigure) -> Scene<'a> {
-        let Self { facts, middle, seams, mirrored } = self;
-        Scene { figure, facts, middle, seams, mirrored }
-    }
 }
 
 impl Scene<'_> {
     /// The share of a mesh that lies over others that are no crumbs beside it.
     pub(super) fn layer_share(&self, mesh: usize) -> f64 {
-        let facts = &self.facts[mesh];
-        facts.share(|sample| sample.over.is_some_and(|below| self.facts[below].area > CRUMB * facts.area))
+        let facts = &self.known.facts[mesh];
+        facts.share(|sample| {
+            sample.over.is_some_and(|below| self.known.facts[below].area > CRUMB * facts.area)
+        })
     }
 
     /// The share of a mesh that lies within others larger than itself.
     pub(super) fn enclosed_share(&self, mesh: usize) -> f64 {
-        let facts = &self.facts[mesh];
+        let facts = &self.known.facts[mesh];
         // What lies over this mesh does not enclose it: skin is below clothes, not inside them.
         let lies_over =
-            |around: usize| self.facts[around].share(|sample| sample.over == Some(mesh)) >= COVER_SHARE;
-        let encloses: Vec<bool> = (0..self.facts.len())
-            .map(|around| self.facts[around].area > facts.area && !lies_over(around))
+            |around: usize| self.known.facts[around].share(|sample| sample.over == Some(mesh)) >= COVER_SHARE;
+        let encloses: Vec<bool> = (0..self.known.facts.len())
+            .map(|around| self.known.facts[around].area > facts.area && !lies_over(around))
             .collect();
         facts.share(|sample| sample.within.is_some_and(|around| encloses[around]))
     }

@@ -14,7 +14,7 @@ use crate::progress::Progress;
 pub use facts::Surroundings;
 use facts::{Facts, Scene};
 use glam::DVec3;
-use reach::{SLICES, Slices, TRUNK_HALF_WIDTH, middle_plane, reaches_over, shown_count, slices};
+use reach::{SLICES, Slices, middle_plane, reaches_over, shown_count, slices};
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -39,8 +39,8 @@ const WORN: f64 = 0.03;
 /// A mesh that carries a limb is at least this long, in heights. Seen: ±30 % changes no mesh.
 const LIMB: f64 = 0.08;
 
-/// Parts of one body touch within this distance, and limbs are that alike, left and right, in heights. Seen: ±30 %
-/// changes no mesh.
+/// Parts of one body touch within this distance, in heights, and left and right mirror each other to within half of it.
+/// Seen: ±30 % changes no mesh.
 const PART_GAP: f64 = 0.04;
 
 /// Hair has at least this share above the chin. Seen: at -30 %, one more mesh misjudged; at +30 %, one more mesh
@@ -50,18 +50,8 @@ const HAIR_SHARE: f64 = 0.35;
 /// Shares this near to a threshold are doubtful. Seen: at +30 %, two more warnings.
 const DOUBT: f64 = 0.12;
 
-/// A head's joint lies no further over the chin than this share of what is above it: in the middle of the head. Seen:
-/// ±30 % changes no mesh.
-const JOINT_OVER_CHIN: f64 = 0.35;
-
-/// A volume that carries a limb has a far side of its own on this share (seen: ±30 % changes no mesh), ...
+/// A volume that carries a limb has a far side of its own on this share. Seen: ±30 % changes no mesh.
 const VOLUME_SHARE: f64 = 0.4;
-
-/// ... and its like on the other side on this share. Seen: ±30 % changes no mesh.
-const MIRRORED_SHARE: f64 = 0.6;
-
-/// The trunk lies above this height: between legs there is nothing of it. Seen: ±30 % changes no mesh.
-const TRUNK_ABOVE: f64 = 0.3;
 
 /// A neck is looked for below so many slices from the top (seen: at -30 %, one more mesh misjudged before joints are
 /// known), ...
@@ -80,16 +70,6 @@ const TEETH_BELOW: f64 = 0.25;
 
 /// ... and is no larger than this. Seen: at -30 %, two more meshes misjudged.
 const MOST_FACE_PART: f64 = 0.8;
-
-/// What lies on the face begins no further below the chin than this, in lengths of the head (seen: ±30 % changes no
-/// mesh), ...
-const FACE_BELOW: f64 = 0.1;
-
-/// ... is no higher than this (seen: at -30 %, one more mesh misjudged), ...
-const MOST_FACE_HEIGHT: f64 = 0.55;
-
-/// ... and has its middle below this. Seen: ±30 % changes no mesh.
-const FACE_UP_TO: f64 = 0.85;
 
 /// A head that is a mesh of its own lies above the chin on this share (seen: at +30 %, one more mesh misjudged), ...
 const HEAD_ABOVE: f64 = 0.8;
@@ -137,8 +117,8 @@ pub fn guess_kinds(
         return Ok((kinds, Vec::new(), Surroundings::default()));
     }
     let surroundings = Surroundings::of(figure, threads, &mut progress.part(0.0, 0.7))?;
-    let scene = surroundings.in_scene(figure);
-    scene.seams.get_or_init(|| scene.find_seams());
+    let scene = Scene { figure, known: &surroundings };
+    surroundings.seams.get_or_init(|| scene.find_seams());
     progress.at(0.85)?;
     let guesses = scene.guess(None);
     progress.at(1.0)?;
@@ -165,7 +145,7 @@ pub fn refine_kinds(
     let Some(head) = head.filter(|_| (0..figure.mesh_count()).any(|mesh| open(mesh, kinds))) else {
         return Vec::new();
     };
-    let guesses = surroundings.in_scene(figure).guess(Some(head));
+    let guesses = Scene { figure, known: surroundings }.guess(Some(head));
     let mut changed = Vec::new();
     for (mesh, guess) in guesses.iter().enumerate() {
         if open(mesh, kinds) && guess.kind != kinds[mesh] {
@@ -217,7 +197,7 @@ impl Scene<'_> {
         let is_open = |guesses: &[Option<Guess>], mesh: usize| guesses[mesh].is_none();
         for mesh in 0..count {
             // Nothing to see: it counts as what is not asked for elsewhere.
-            if is_open(&guesses, mesh) && self.facts[mesh].samples.is_empty() {
+            if is_open(&guesses, mesh) && self.known.facts[mesh].samples.is_empty() {
                 guesses[mesh] = Some(Guess { kind: MeshKind::Body, sure: true });
             }
         }
@@ -228,15 +208,16 @@ impl Scene<'_> {
             .filter(|&mesh| self.layer_share(mesh) < LAYER_SHARE)
             .filter(|&mesh| self.enclosed_share(mesh) < ENCLOSED_SHARE)
             .collect();
-        volumes.sort_by(|&a, &b| self.facts[b].area.total_cmp(&self.facts[a].area).then(a.cmp(&b)));
+        volumes
+            .sort_by(|&a, &b| self.known.facts[b].area.total_cmp(&self.known.facts[a].area).then(a.cmp(&b)));
         let mut is_body: Vec<bool> = figure
             .kinds
             .iter()
-            .zip(self.facts)
+            .zip(&self.known.facts)
             .map(|(kind, facts)| *kind == Some(MeshKind::Body) && !facts.samples.is_empty())
             .collect();
         let is_volume = |mesh: usize| volumes.contains(&mesh) || figure.kinds[mesh] == Some(MeshKind::Body);
-        let middle = *self.middle.get_or_init(|| middle_plane(figure, &is_volume));
+        let middle = *self.known.middle.get_or_init(|| middle_plane(figure, &is_volume));
         if !is_body.contains(&true) {
             // Where everything lies over something, the one that reaches furthest carries the rest.
             let open: Vec<usize> = (0..count).filter(|&mesh| guesses[mesh].is_none()).collect();
@@ -244,7 +225,7 @@ impl Scene<'_> {
             let reach = |mesh: usize| shown_count(&slices(figure, middle, &|other| other == mesh));
             let reaches: Vec<(usize, usize)> = choice.iter().map(|&mesh| (reach(mesh), mesh)).collect();
             let furthest = reaches.iter().max_by(|a, b| {
-                let area = |mesh: usize| self.facts[mesh].area;
+                let area = |mesh: usize| self.known.facts[mesh].area;
                 a.0.cmp(&b.0).then(area(a.1).total_cmp(&area(b.1))).then(b.1.cmp(&a.1))
             });
             if let Some(&(_, furthest)) = furthest {
@@ -252,11 +233,10 @@ impl Scene<'_> {
             }
         }
         let first = is_body.clone();
-        let seams = self.seams.get_or_init(|| self.find_seams());
+        let seams = self.known.seams.get_or_init(|| self.find_seams());
         self.join_seams(&mut is_body, seams);
         let chin = self.chin(&is_body, &volumes, middle);
-        let chin = head
-            .map_or(chin, |head| chin.min(head.y).max(head.y - JOINT_OVER_CHIN * (1.0 - head.y).max(0.0)));
+        let chin = head.map_or(chin, |head| chin.min(head.y));
         let region = self.head_region(chin, head, &is_body, middle);
         self.grow_body(&mut is_body, &volumes, &region, seams);
         for mesh in (0..count).filter(|&mesh| is_body[mesh]) {
@@ -340,20 +320,15 @@ impl Scene<'_> {
                 || (figure.kinds[mesh].is_none() && self.layer_share(mesh) >= LAYER_SHARE)
         };
         let middle = region.plane;
-        let shares = self.mirrored.get_or_init(|| self.mirrored_shares(volumes, middle));
-        let axis = self.trunk_axis(is_body, middle);
         let mut candidates: Vec<(usize, Slices)> = volumes
             .iter()
             .copied()
             .filter(|&mesh| {
-                let facts = &self.facts[mesh];
-                let on_axis = facts.low.x > middle
-                    || facts.high.x < middle
-                    || (facts.low.z <= axis && facts.high.z >= axis);
+                let facts = &self.known.facts[mesh];
                 let has_volume = facts.share(|sample| sample.volume) >= VOLUME_SHARE;
-                facts.extent() >= LIMB && shares[mesh] >= MIRRORED_SHARE && on_axis && has_volume
+                facts.extent() >= LIMB && has_volume
             })
-            .filter(|&mesh| !region.is_on_face(&self.facts[mesh]))
+            .filter(|&mesh| !region.is_on_face(&self.known.facts[mesh]))
             .map(|mesh| (mesh, slices(figure, middle, &|other| other == mesh)))
             .collect();
         while !reaches_over(figure, middle, &|mesh| is_body[mesh], &of_figure) {
@@ -376,36 +351,6 @@ impl Scene<'_> {
             is_body[mesh] = true;
             self.join_seams(is_body, seams);
         }
-    }
-
-    /// Of each of `volumes` the share that has another one, or a named body, on the other side of the plane at `middle`; 0
-    /// of other meshes.
-    fn mirrored_shares(&self, volumes: &[usize], middle: f64) -> Vec<f64> {
-        let figure = self.figure;
-        let like = |mesh: usize| volumes.contains(&mesh) || figure.kinds[mesh] == Some(MeshKind::Body);
-        let all = Surface::new(&figure.positions, &figure.triangles_where(like));
-        let mut shares = vec![0.0; figure.mesh_count()];
-        for &mesh in volumes {
-            shares[mesh] = self.facts[mesh].share(|sample| {
-                let mirrored = DVec3::new(2.0 * middle - sample.point.x, sample.point.y, sample.point.z);
-                all.closest_point(mirrored).is_some_and(|near| near.distance <= PART_GAP)
-            });
-        }
-        shares
-    }
-
-    /// Where the trunk's middle is along z.
-    fn trunk_axis(&self, is_body: &[bool], middle: f64) -> f64 {
-        let mut depths: Vec<f64> = (0..is_body.len())
-            .filter(|&mesh| is_body[mesh])
-            .flat_map(|mesh| &self.facts[mesh].samples)
-            .filter(|sample| {
-                (sample.point.x - middle).abs() <= TRUNK_HALF_WIDTH && sample.point.y >= TRUNK_ABOVE
-            })
-            .map(|sample| sample.point.z)
-            .collect();
-        depths.sort_by(f64::total_cmp);
-        depths.get(depths.len() / 2).copied().unwrap_or(0.0)
     }
 
     /// The chin's height: the narrowest place between the head and the first slice from above that is much wider.
@@ -454,7 +399,7 @@ impl Scene<'_> {
 
     /// What a mesh is that is not body.
     fn guess_other(&self, mesh: usize, is_body: &[bool], region: &HeadRegion) -> Guess {
-        let facts = &self.facts[mesh];
+        let facts = &self.known.facts[mesh];
         let layer = self.layer_share(mesh);
         let above = facts.share(|sample| sample.point.y > region.chin);
         let doubtful = |share: f64, limit: f64| (share - limit).abs() < DOUBT;
@@ -491,7 +436,8 @@ impl Scene<'_> {
             return Guess { kind: MeshKind::Garment, sure: !doubtful(layer, LAYER_SHARE) };
         }
         // How far it sticks out from what is below, and where it begins.
-        let around = |other: usize| other != mesh && (is_body[other] || self.facts[other].area > facts.area);
+        let around =
+            |other: usize| other != mesh && (is_body[other] || self.known.facts[other].area > facts.area);
         let rest = Surface::new(&self.figure.positions, &self.figure.triangles_where(around));
         let distances: Vec<(f64, f64)> = facts
             .samples
@@ -527,12 +473,6 @@ impl HeadRegion {
     /// True for what is small, above the chin and not behind the middle.
     fn is_on_face(&self, facts: &Facts) -> bool {
         let middle = facts.middle();
-        let size = facts.high - facts.low;
-        middle.y > self.chin
-            && facts.low.y > self.chin - FACE_BELOW * self.length
-            && middle.z > self.middle
-            && size.y <= MOST_FACE_HEIGHT * self.length
-            && size.max_element() <= MOST_FACE_PART * self.length
-            && middle.y < self.chin + FACE_UP_TO * self.length
+        middle.y > self.chin && middle.z > self.middle && facts.extent() <= MOST_FACE_PART * self.length
     }
 }

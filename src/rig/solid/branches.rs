@@ -6,8 +6,9 @@
 //! The rims of a piece, one after the other, are the sections of a limb, whatever way it bends.
 
 use super::voxels::{Queue, Voxels};
-use crate::geometry::{Groups, NONE};
+use crate::geometry::{NONE, merge_tree};
 use glam::DVec3;
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 /// Steps between neighbours of a cell that share a face, an edge, a corner, in thirds of a cell: no way is off by more than
@@ -92,37 +93,14 @@ fn merge(voxels: &Voxels, far: &[u32]) -> Vec<Piece> {
     // The furthest first, without what no way leads to.
     let mut order: Vec<u32> = (0..far.len() as u32).filter(|&slot| far[slot as usize] != NONE).collect();
     order.sort_by_key(|&slot| std::cmp::Reverse(far[slot as usize]));
-    let mut groups = Groups::new(far.len());
-    // Of each group's least slot the piece that goes on there.
-    let mut owner = vec![NONE; far.len()];
-    let mut pieces: Vec<Piece> = Vec::new();
-    for slot in order {
-        let at = |slot: u32| (std::cmp::Reverse(far[slot as usize]), slot);
-        let mut own = slot as usize;
-        for (other, _) in voxels.beside(slot).filter(|&(other, _)| at(other) < at(slot)) {
-            let (a, b) = (own, groups.least(other as usize));
-            if a == b {
-                continue;
-            }
-            // The longer one goes on.
-            let (one, two) = (owner[a], owner[b]);
-            let goes_on = match (one, two) {
-                (NONE, two) => two,
-                (one, NONE) => one,
-                (one, two) if pieces[one as usize].far >= pieces[two as usize].far => one,
-                (_, two) => two,
-            };
-            groups.join(a, b);
-            own = a.min(b);
-            owner[own] = goes_on;
-        }
-        if owner[own] == NONE {
-            owner[own] = pieces.len() as u32;
-            pieces.push(Piece { far: far[slot as usize], cells: Vec::new(), rims: Vec::new() });
-        }
-        pieces[owner[own] as usize].cells.push(slot);
+    let beside = |slot: u32| voxels.beside(slot).map(|(other, _)| other);
+    let tips = merge_tree(far.len(), &order, beside, |_, _, _| ());
+    let mut pieces: BTreeMap<usize, Piece> = BTreeMap::new();
+    for (&slot, tip) in order.iter().zip(tips) {
+        let new = || Piece { far: far[slot as usize], cells: Vec::new(), rims: Vec::new() };
+        pieces.entry(tip).or_insert_with(new).cells.push(slot);
     }
-    pieces
+    pieces.into_values().collect()
 }
 
 /// Cuts a piece into sections; false where it is too short.

@@ -5,7 +5,7 @@
 //! distance, and steps are added up only around corners.
 
 use super::voxels::{Queue, Voxels, neighbourhood};
-use crate::geometry::{NONE, ROUNDING, foot};
+use crate::geometry::{Groups, NONE, ROUNDING, foot};
 use glam::DVec3;
 
 /// Buckets a voxel: a voxel is always settled in a later bucket than the one on its way to the bone. Seen: ±30 % moves
@@ -35,10 +35,10 @@ impl Bone {
         feet.min_by(|one, other| one.distance_squared(p).total_cmp(&other.distance_squared(p))).unwrap_or(p)
     }
 
-    /// Whether an end of one bone is an end of the other.
-    pub fn touches(&self, other: &Self) -> bool {
+    /// Whether an end of one bone is within a distance of an end of the other.
+    pub fn touches(&self, other: &Self, within: f64) -> bool {
         let mut ends = self.segments.iter().flatten();
-        ends.any(|p| other.segments.iter().flatten().any(|q| p.distance(*q) <= ROUNDING))
+        ends.any(|p| other.segments.iter().flatten().any(|q| p.distance(*q) <= within))
     }
 
     /// The length of the longest segment.
@@ -197,20 +197,20 @@ impl<'a> Paths<'a> {
 
     /// For each voxel the number of its island, counted from 0, or `NONE` where it is not apart; and their number.
     fn islands(&self) -> (Vec<u32>, usize) {
+        let mut groups = Groups::new(self.is_apart.len());
+        let apart = |slot: &u32| self.is_apart[*slot as usize];
+        for slot in (0..self.is_apart.len() as u32).filter(apart) {
+            self.volume.beside(slot).for_each(|(next, _)| groups.join(slot as usize, next as usize));
+        }
         let mut islands = vec![NONE; self.is_apart.len()];
         let mut count = 0;
-        for first in 0..islands.len() as u32 {
-            if !self.is_apart[first as usize] || islands[first as usize] != NONE {
-                continue;
+        for slot in (0..self.is_apart.len() as u32).filter(apart) {
+            let least = groups.least(slot as usize);
+            if least == slot as usize {
+                islands[least] = count;
+                count += 1;
             }
-            let mut open = vec![first];
-            while let Some(slot) = open.pop() {
-                if islands[slot as usize] == NONE {
-                    islands[slot as usize] = count;
-                    open.extend(self.volume.beside(slot).map(|(next, _)| next));
-                }
-            }
-            count += 1;
+            islands[slot as usize] = islands[least];
         }
         (islands, count as usize)
     }
