@@ -48,7 +48,7 @@ pub fn merge_tree<Beside: Iterator<Item = u32>>(
 ) -> Vec<usize> {
     let mut places = vec![usize::MAX; count];
     let mut groups = Groups::new(order.len());
-    let grown = order.iter().enumerate().map(|(place, &thing)| {
+    let grow = |(place, &thing): (usize, &u32)| {
         places[thing as usize] = place;
         for other in beside(thing).map(|other| places[other as usize]).filter(|&other| other < place) {
             let (one, other) = (groups.least(place), groups.least(other));
@@ -58,8 +58,8 @@ pub fn merge_tree<Beside: Iterator<Item = u32>>(
             }
         }
         groups.least(place)
-    });
-    grown.collect()
+    };
+    order.iter().enumerate().map(grow).collect()
 }
 
 /// Things in the order of the numbers below `count` that they have, those of one number in their own; with where those of each

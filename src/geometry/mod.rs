@@ -34,4 +34,4 @@ pub use smoothstep::{smoothstep, smoothstep_slope};
 pub use surface::{Closest, Hit, Surface, Tree};
 pub use triangle::double_area;
 pub use weld::{Neighbours, SEAM, Weld, components, neighbours, weld};
-pub use winding::Winding;
+pub use winding::WindingGroups;

@@ -4,7 +4,7 @@ use super::memo::View;
 use super::{Deformed, Deformer, head};
 use crate::character::{Humanoid, Role};
 use crate::error::{Result, Warning};
-use crate::geometry::Winding;
+use crate::geometry::WindingGroups;
 use crate::options::Mode;
 use crate::parallel;
 use crate::progress::Progress;
@@ -125,12 +125,12 @@ impl Deformer {
         if worn.places.is_empty() {
             return None;
         }
-        let winding = Winding::new(&measured.figure.positions, &worn.body);
+        let groups = WindingGroups::new(&measured.figure.positions, &worn.body);
         let newly_inside = |pose: Pose| {
             let all = (0..worn.places.len() as u32).collect();
-            let after = worn.inside(&posed(result, pose), &winding, all, threads);
+            let after = worn.inside(&posed(result, pose), &groups, all, threads);
             let count = after.len();
-            let before = worn.inside(&posed(&measured.figure, pose), &winding, after, threads);
+            let before = worn.inside(&posed(&measured.figure, pose), &groups, after, threads);
             (count - before.len()) as f64 / worn.places.len() as f64
         };
         let offsets = &pushed.offsets;

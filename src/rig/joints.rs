@@ -132,6 +132,7 @@ const ODD_ARMS: f64 = 6.0;
 const BALANCE: f64 = 0.08;
 /// A leg that goes aside by more than this share of its height has its ankle elsewhere than a ratio says: 17 degrees.
 const LEANS: f64 = 0.3;
+
 /// Joints of an arm.
 const ARM: [Role; 3] = [Role::LeftUpperArm, Role::LeftLowerArm, Role::LeftHand];
 
@@ -288,7 +289,8 @@ impl Search<'_> {
         Body { solid, axis: self.view.axis, low: self.view.low, crotch: legs.crotch, neck, given }
     }
 
-    /// The arms over `legs`: of what reaches out furthest, all and below the neck, and of the branches of the solid, the pair that is most like arms.
+    /// The arms over `legs`: of what reaches out furthest, all and below the neck, and of the branches of the solid, the pair
+    /// that is most like arms.
     fn arms(&mut self, legs: &Legs, voxels: &Voxels) -> [Option<Arm>; 2] {
         let (view, solid) = (self.view, &voxels.solid);
         let body = self.body(legs, solid);

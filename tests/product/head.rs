@@ -76,6 +76,8 @@ fn an_outline_is_measured_on_head_neck_and_trunk_without_arms() {
         let bindings: Vec<Binding> = tubes.bindings.vertices.iter().copied().map(Binding::Parts).collect();
         let sources = outline_sources(figure, &tubes.anatomy, &bindings);
         assert!(sources.bare.len() > 100);
+        let mut hair = sources.hair.iter().flatten();
+        assert!(hair.all(|&corner| figure.kind(sources.vertices[corner as usize] as usize).is_carried()));
         assert!(sources.trunk.len() > 10);
         let vertex = |corner: u32| sources.vertices[corner as usize] as usize;
         let of_head = |vertex: usize| tubes.bindings.vertices[vertex].of_head_and_neck();

@@ -42,8 +42,8 @@ const LYING: (f64, f64) = (0.1, 0.3);
 const ON_BODY: (f64, f64) = (0.25, 0.4);
 /// How far hair reaches is looked at in rows of this height; head lengths.
 const ROW: f64 = 0.04;
-/// How much the outermost places count for it: the exponent of a mean, as so many squarings.
-const OUTER: i32 = 3;
+/// How much the outermost places count for it: the exponent of a mean.
+const OUTER: i32 = 8;
 /// What is hair by more than this is, and goes as hair does by as much as it is so by more: skin under hair is so in part.
 const HAIR: f32 = 0.5;
 /// What the arms move more than this hair is not kept out of: they lift it.
@@ -331,8 +331,8 @@ impl Strands {
         let rows = ((high - low) / ROW) as usize + 2;
         let height = |row: usize| high - ROW * row as f64;
         // A mean that is nearly the greatest, and does not jump from lock to lock.
-        let squared = |p: DVec3| (0..OUTER).fold(p - axis, |power, _| power * power);
-        let powers: Vec<DVec3> = self.points.iter().map(|&p| squared(p)).collect();
+        let power = |p: &DVec3| DVec3::from((*p - axis).to_array().map(|along| along.powi(OUTER)));
+        let powers: Vec<DVec3> = self.points.iter().map(power).collect();
         let reach = |weight: &dyn Fn(usize, f64) -> f64| {
             let (mut sum, mut total) = (DVec3::ZERO, 0.0);
             for (place, (p, &power)) in self.points.iter().zip(&powers).enumerate() {
@@ -340,7 +340,7 @@ impl Strands {
                 sum += weight * power;
                 total += weight;
             }
-            (sum / total.max(f64::MIN_POSITIVE)).powf(0.5_f64.powi(OUTER))
+            (sum / total.max(f64::MIN_POSITIVE)).powf(f64::from(OUTER).recip())
         };
         let near = |y: f64, row: usize| (-0.5 * ((y - height(row)) / (2.0 * ROW)).powi(2)).exp();
         let reaches: Vec<DVec3> = (0..rows)

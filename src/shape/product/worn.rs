@@ -2,7 +2,7 @@
 
 use super::outside::{Outside, rims, volume};
 use crate::character::MeshKind;
-use crate::geometry::{Neighbours, Surface, Tree, Weld, Winding, components, neighbours};
+use crate::geometry::{Neighbours, Surface, Tree, Weld, WindingGroups, components, neighbours};
 use crate::parallel;
 use crate::shape::figure::Figure;
 use glam::DVec3;
@@ -90,11 +90,11 @@ impl Worn {
         Outside::moved(points, &self.body, &self.rims, weld, self.outwards, &self.tree)
     }
 
-    /// Those of `places` that the body is around, where all vertices are at `points`; `winding`: of the body, wherever it was.
+    /// Those of `places` that the body, of which `groups` are made, is around where all vertices are at `points`.
     pub fn inside(
         &self,
         points: &[DVec3],
-        winding: &Winding,
+        groups: &WindingGroups,
         mut places: Vec<u32>,
         threads: usize,
     ) -> Vec<u32> {
@@ -102,17 +102,14 @@ impl Worn {
         if places.is_empty() {
             return places;
         }
-        let winding = winding.moved(points);
+        let winding = groups.between(points);
         let is_inside = parallel::collect(threads, places.len(), parallel::FEW_RAYS, |index| {
             let p = points[self.vertices[places[index] as usize] as usize];
             self.outwards * winding.at(p) > 0.5
         });
+        let mut is_inside = is_inside.into_iter();
+        places.retain(|_| is_inside.next() == Some(true));
         places
-            .into_iter()
-            .zip(is_inside)
-            .filter(|&(_, is_inside)| is_inside)
-            .map(|(place, _)| place)
-            .collect()
     }
 
     /// `body` and what is worn over it: `cloth`, and of `perhaps` what lies over it; the rest of that is body too.

@@ -179,8 +179,7 @@ impl Body<'_> {
         let triangles = self.triangles(Chain::Trunk);
         let planes = self.frame.torso_planes();
         let start = -TORSO_BOTTOM * self.frame.leg_length();
-        let step = STEP * self.length;
-        let (heights, step) = even_heights(start, 1.0 * self.frame.torso_length(), step);
+        let (heights, step) = self.even_heights(start, self.frame.torso_length());
         let cuts = slices(self.positions, &triangles, self.weld, &planes, &heights);
         let shoulders = planes.locate(self.frame.shoulders);
         let bones: Vec<DVec2> = heights
@@ -200,9 +199,8 @@ impl Body<'_> {
         let triangles = self.triangles(Chain::Leg(side));
         let planes = self.frame.leg_planes();
         let length = self.frame.leg_length();
-        let step = STEP * self.length;
         let start = LEG_ROWS.0 * length;
-        let (heights, step) = even_heights(start, LEG_ROWS.1 * length, step);
+        let (heights, step) = self.even_heights(start, LEG_ROWS.1 * length);
         let mut cuts = slices(self.positions, &triangles, self.weld, &planes, &heights);
         let over = |outline: &Outline| {
             let (low, high) = outline.breadth();
@@ -219,9 +217,8 @@ impl Body<'_> {
         let planes = self.frame.arm_planes(side)?;
         let length = self.frame.arm_length(side);
         let triangles = self.triangles(Chain::Forearm(side));
-        let step = STEP * self.length;
         let start = ARM_ROWS.0 * length;
-        let (heights, step) = even_heights(start, ARM_ROWS.1 * length, step);
+        let (heights, step) = self.even_heights(start, ARM_ROWS.1 * length);
         let cuts = slices(self.positions, &triangles, self.weld, &planes, &heights);
         let elbow = planes.locate(limb.middle);
         let bones: Vec<DVec2> = heights
@@ -252,6 +249,13 @@ impl Body<'_> {
         Some(map)
     }
 
+    /// Heights of rows from `start` to `end` or a little beyond, and the step between them: more where there would be too many.
+    fn even_heights(&self, start: f64, end: f64) -> (Vec<f64>, f64) {
+        let step = (STEP * self.length).max((end - start) / MOST_ROWS);
+        let count = ((end - start) / step).ceil().clamp(1.0, MOST_ROWS) as usize + 1;
+        ((0..count).map(|row| start + step * row as f64).collect(), step)
+    }
+
     /// The scales from reaches to smooth reaches.
     fn set_scales(&self, map: &mut RadiusMap, smooth: &[Ring], strength: f64) {
         let raw: Vec<Ring> = map
@@ -272,13 +276,6 @@ impl Body<'_> {
             })
             .collect();
     }
-}
-
-/// Heights from `start` to `end` or a little beyond, and the step between them: `step`, or more where that would be too many.
-fn even_heights(start: f64, end: f64, step: f64) -> (Vec<f64>, f64) {
-    let step = step.max((end - start) / MOST_ROWS);
-    let count = ((end - start) / step).ceil().clamp(1.0, MOST_ROWS) as usize + 1;
-    ((0..count).map(|row| start + step * row as f64).collect(), step)
 }
 
 /// Makes left and right the same: ray 0 runs to the left.
