@@ -7,7 +7,7 @@ use super::product::anatomy::Anatomy;
 use super::product::head::head;
 use super::product::landmarks::HAIRBREADTH;
 use super::product::profile::chains::Chains;
-use super::product::profile::{BodyFrame, measure_profile};
+use super::product::profile::{BodyFrame, BodyLines, measure_profile};
 use crate::character::bones::{Bone, bones};
 use crate::character::mesh_list::MeshList;
 use crate::character::{Character, MeshKind, Role};
@@ -38,6 +38,8 @@ pub struct Measured {
     pub weld: Arc<Weld>,
     /// Which of its body's chains each of them belongs to.
     pub chains: Arc<Chains>,
+    /// The lines that its slices lie on.
+    pub lines: BodyLines,
     /// Lengths and radii, and the proportions: all that a style keeps.
     pub shape: BodyShape,
 }
@@ -89,18 +91,18 @@ impl Measured {
             progress.at(0.8)?;
             let chains = Chains::of(&figure);
             let frame = BodyFrame::of(&figure, &anatomy);
-            let profile = measure_profile(&figure, &figure.positions, &chains, &weld, &frame, threads).0;
+            let profile = measure_profile(&figure, &figure.positions, &chains, &weld, &frame, threads);
             Ok((Arc::new(weld), Arc::new(chains), profile))
         };
         let ((shape, face), made) = parallel::both(threads, radii_and_face, || weld_and_profile(progress));
-        let (weld, chains, profile) = made?;
+        let (weld, chains, (profile, lines)) = made?;
         let mut shape = shape?;
         shape.landmarks = Some(anatomy.landmarks.heights);
         shape.proportions = Some(anatomy.proportions.clone());
         shape.face = face.as_ref().and_then(FaceStyle::of);
         shape.profile = Some(profile);
         progress.at(1.0)?;
-        Ok(Self { figure, anatomy, face, joints, head_top, weld, chains, shape })
+        Ok(Self { figure, anatomy, face, joints, head_top, weld, chains, lines, shape })
     }
 
     /// The bones between those roles of the figure that are in `roles` too.

@@ -54,7 +54,8 @@ fn small() -> Proportions {
 
 /// All of the goal.
 fn solved(target: &Proportions, goal: Goal, options: &Options) -> (PartCoefficients, Vec<Warning>) {
-    let (scales, limits) = part_coefficients(target, goal, 1.0, options, &PartGroups::default()).unwrap();
+    let (scales, limits) =
+        part_coefficients(target, goal, 1.0, 0.0, options, &PartGroups::default()).unwrap();
     let warnings = limits.warnings(heads_of(target, &scales), goal.heads());
     (scales, warnings)
 }
@@ -284,7 +285,7 @@ fn what_a_user_sets_stands_beside_the_limits() {
 
 /// As [`solved`], so much of it.
 fn partly(target: &Proportions, goal: Goal, lost: f64) -> PartCoefficients {
-    part_coefficients(target, goal, lost, &Options::default(), &PartGroups::default()).unwrap().0
+    part_coefficients(target, goal, lost, 0.0, &Options::default(), &PartGroups::default()).unwrap().0
 }
 
 #[test]

@@ -6,9 +6,8 @@ use super::coefficients::{Goal, Limits, heads_of, lost, part_coefficients};
 use super::field::PartField;
 use super::groups::PartGroups;
 use super::landmarks::{HeadPlacement, HeadSources};
-use super::profile::Profile;
+use super::profile::{Profile, Slices, profile_of, strengths};
 use super::scales::PartCoefficients;
-use super::sliced::{Sliced, profile_of, with_profile};
 use super::target::ProductTarget;
 use crate::error::{Error, ErrorKind, Named, Result, Warning};
 use crate::options::Options;
@@ -17,16 +16,13 @@ use crate::shape::field::{BodyField, Field};
 use crate::shape::placement::{Body, Placement};
 use crate::shape::style::Style;
 use crate::shape::{BodyShape, Measured};
-use glam::DVec3;
 use std::sync::Arc;
 
 /// A head count as near as this to the one asked for needs no correction. D27. Seen: ±30 % moves vertices by up to .004
 /// H.
 const HEADS_TOLERANCE: f64 = 5e-3;
-/// Fields that are tried for a head count. D27. Seen: none of 28 pairs needs more than four.
+/// Fields that are tried for a head count. D27.
 const HEADS_ATTEMPTS: usize = 5;
-/// Fields with slices that are tried after these: where slices move the chin or the crown that rays find.
-const SLICED_ATTEMPTS: usize = 3;
 /// One correction changes what is asked for below the head by no more than these factors. D27. Seen: tighter ones reach
 /// fewer head counts.
 const HEADS_CORRECTION: (f64, f64) = (0.8, 1.25);
@@ -81,11 +77,10 @@ pub fn body(
     }
     let limbs = limbs.as_ref();
     let request = Request { measured, product, heads, style, options, groups: &groups, asked, lost, limbs };
-    let (Attempt { field, placed, scales, .. }, of_field, heads_left) =
-        request.best(&mut progress.part(0.0, 0.9))?;
+    let (Attempt { field, scales, .. }, of_field, heads_left) = request.best(&mut progress.part(0.0, 0.5))?;
     warnings.extend(of_field);
-    let placement = Placement::new(&measured.figure, &product.bindings, &field, options.thread_count);
-    let placed = placed.unwrap_or_else(|| placement.all_placed());
+    let placed =
+        Placement::new(&measured.figure, &product.bindings, &field, options.thread_count).all_placed();
     Ok(Body {
         field: field.body,
         bindings: Arc::clone(&product.bindings),
@@ -140,14 +135,11 @@ fn hair_shortened(parts: &PartBindings, head_length: f64) -> Option<Warning> {
 /// A field that was tried.
 struct Attempt {
     field: Field,
-    /// Where it takes all vertices, where that had to be found.
-    placed: Option<Vec<DVec3>>,
     scales: PartCoefficients,
     /// The bounds that acted, and the profile's own warning.
     limits: Limits,
     limited: Option<Warning>,
-    /// The head count that was aimed at, and the one measured on the result.
-    aim: f64,
+    /// The head count measured on the result.
     measured: f64,
     /// |ln| of how far the head count is from what can be reached: of the one measured, or, for a target without a chin, of
     /// that of its parts' lengths.
@@ -173,15 +165,11 @@ struct Request<'a> {
 }
 
 impl Request<'_> {
-    /// Fields until the head count measured on the result is right, first of the parts alone and then with the style's
-    /// profile: the best of them, its warnings, and one of a head count that is not the one asked for.
+    /// Fields until the head count measured on the result is right: the best of them, its warnings, and one of a head count
+    /// that is not the one asked for.
     fn best(&self, progress: &mut Progress) -> Result<(Attempt, Vec<Warning>, Option<Warning>)> {
         let asked = self.asked;
-        let mut best = self.best_of(HEADS_ATTEMPTS, asked, None, &mut progress.part(0.0, 0.4))?;
-        if let Some(profile) = profile_of(self.style, self.options, self.lost) {
-            let aim = best.aim;
-            best = self.best_of(SLICED_ATTEMPTS, aim, Some(&profile), &mut progress.part(0.4, 1.0))?;
-        }
+        let mut best = self.best_of(progress)?;
         let Attempt { misread, measured, .. } = best;
         let mut warnings = best.limits.warnings(measured, asked);
         warnings.extend(best.limited.take());
@@ -199,20 +187,14 @@ impl Request<'_> {
         Ok((best, warnings, heads_left))
     }
 
-    /// The best of so many fields, the first of which aims at `aim` heads.
-    fn best_of(
-        &self,
-        attempts: usize,
-        mut aim: f64,
-        profile: Option<&(Profile, f64)>,
-        progress: &mut Progress,
-    ) -> Result<Attempt> {
+    /// The best of [`HEADS_ATTEMPTS`] fields, the first of which aims at as many heads as are asked for.
+    fn best_of(&self, progress: &mut Progress) -> Result<Attempt> {
+        let profile = profile_of(self.style, self.options, self.lost);
+        let mut aim = self.asked;
         let mut best: Option<Attempt> = None;
-        for count in 0..attempts {
-            progress.at(count as f32 / attempts as f32)?;
-            let part =
-                &mut progress.part(count as f32 / attempts as f32, (count + 1) as f32 / attempts as f32);
-            let attempt = self.attempt(aim, profile, part)?;
+        for count in 0..HEADS_ATTEMPTS {
+            progress.at(count as f32 / HEADS_ATTEMPTS as f32)?;
+            let attempt = self.attempt(aim, profile.as_ref())?;
             let (error, measured) = (attempt.error, attempt.measured);
             let is_limited = attempt.limits.act_on_heads();
             if best.as_ref().is_none_or(|best| error < best.error) {
@@ -228,12 +210,7 @@ impl Request<'_> {
     }
 
     /// One field, for a style with everything below the head stretched by what makes the result `aim` heads tall.
-    fn attempt(
-        &self,
-        aim: f64,
-        profile: Option<&(Profile, f64)>,
-        progress: &mut Progress,
-    ) -> Result<Attempt> {
+    fn attempt(&self, aim: f64, profile: Option<&(Profile, f64)>) -> Result<Attempt> {
         let &Self { measured: target, product, heads, style, options, groups, asked, lost, limbs } = self;
         let anatomy = &target.anatomy;
         let stretched;
@@ -248,20 +225,18 @@ impl Request<'_> {
                 Goal::Reference(proportions_of(&stretched)?)
             }
         };
-        let (scales, limits) = part_coefficients(&anatomy.proportions, goal, lost, options, groups)?;
-        let field = PartField::new(anatomy, scales, &product.parts);
+        let has_legs = target.shape.profile.as_ref().is_some_and(|own| own.leg.is_some());
+        let sliced = profile.filter(|_| has_legs).map_or(0.0, |(_, share)| share.clamp(0.0, 1.0));
+        let (scales, limits) = part_coefficients(&anatomy.proportions, goal, lost, sliced, options, groups)?;
+        let slices = profile.map(|(wanted, share)| {
+            let parts = PartField::new(anatomy, scales, None, &[]);
+            let chart = &product.chart;
+            chart.slices(&parts, wanted, &strengths(*share, options, groups, chart.frame()))
+        });
+        let limited = slices.as_ref().and_then(Slices::limited);
+        let field = PartField::new(anatomy, scales, slices, &product.parts.pieces);
         let field = Field::of(Arc::new(BodyField::Parts(Box::new(field))));
-        let Sliced { field, placed, limited } = match profile {
-            Some(profile) => {
-                let part = &mut progress.part(0.0, 0.8);
-                with_profile(target, product, field, profile, options, groups, part)?
-            }
-            None => Sliced::unchanged(field),
-        };
-        let placement = Placement {
-            placed: placed.as_deref(),
-            ..Placement::new(&target.figure, &product.bindings, &field, options.thread_count)
-        };
+        let placement = Placement::new(&target.figure, &product.bindings, &field, options.thread_count);
         let positions = placement.vertices(&heads.vertices);
         let joint = |joint| placement.joint(joint);
         let measured = heads.heads(&HeadPlacement::of(&target.figure, positions, joint));
@@ -272,6 +247,6 @@ impl Request<'_> {
         // steps back here or there, as last digits say. So it corrects nothing, and is only warned of.
         let error = off(if anatomy.landmarks.chin_seen { measured } else { reached });
         let misread = off(measured);
-        Ok(Attempt { field, placed, scales, limits, limited, aim, measured, error, misread })
+        Ok(Attempt { field, scales, limits, limited, measured, error, misread })
     }
 }

@@ -212,6 +212,7 @@ impl Limits {
 /// The scales that make `target` like `goal`, and the bounds that acted.
 ///
 /// - `lost`: how much of the goal the target takes, 0 for its number of heads alone to 1.
+/// - `sliced`: how much of the legs' thickness slices give them, 0 to 1.
 /// - `groups`: which group's settings each part follows.
 ///
 /// # Errors
@@ -220,12 +221,13 @@ pub fn part_coefficients(
     target: &Proportions,
     goal: Goal,
     lost: f64,
+    sliced: f64,
     options: &Options,
     groups: &PartGroups,
 ) -> Result<(PartCoefficients, Limits)> {
     let (mut scales, acted) = match goal {
         Goal::Limbs(reference) => (short_limbs(target, reference), Vec::new()),
-        Goal::Reference(_) | Goal::Heads(_) => Solver::new(target, goal, lost, options).solved(),
+        Goal::Reference(_) | Goal::Heads(_) => Solver::new(target, goal, lost, options).solved(sliced),
     };
     scales.apply_settings(&options.groups, groups)?;
     if options.stage == Stage::Length {
@@ -307,14 +309,14 @@ impl<'a> Solver<'a> {
     }
 
     /// All scales, and the bounds that acted.
-    fn solved(mut self) -> (PartCoefficients, Vec<Bounded>) {
+    fn solved(mut self, sliced: f64) -> (PartCoefficients, Vec<Bounded>) {
         let asked = self.asked();
         let (torso, leg) = self.solve_neck(&asked);
         self.solve_torso(torso);
-        self.solve_thickness(&asked, leg);
+        self.solve_thickness(&asked, leg, sliced);
         self.solve_arms(asked.arm);
         self.solve_hands(asked.hand);
-        self.solve_feet(asked.foot);
+        self.solve_feet(asked.foot, leg);
         self.solve_legs(leg);
         (self.scales, self.bounds.acted)
     }
@@ -352,24 +354,29 @@ impl<'a> Solver<'a> {
             self.bounds.apply("torso length", torso / self.target.torso, 0.0, self.head_scale);
     }
 
-    /// Thicknesses that slices go on from: the torso's is the style's, legs have the root of their length, and none becomes slimmer
-    /// than it becomes short, nor thicker than it was. Neck and arms are as the torso: their first slice lies outside of the
-    /// shoulders' caps, which take this alone.
+    /// The thickness that slices go on from: the style's of the torso, not slimmer than that becomes short, nor thicker than it was.
+    /// All parts have it, so that they agree where they meet; but legs have the root of their length as far as no slice goes on
+    /// from there.
     ///
     /// `leg`: how long legs are to be.
-    fn solve_thickness(&mut self, asked: &Asked, leg: f64) {
+    fn solve_thickness(&mut self, asked: &Asked, leg: f64, sliced: f64) {
         let length = self.scales.torso.length;
         let of_style = asked.torso_thickness.unwrap_or(length.sqrt());
-        let torso = self.towards(length.sqrt(), of_style);
-        let Self { bounds, scales, target, .. } = self;
-        let leg_length = (leg / target.leg).max(SHORTEST_LIMB);
-        let most = length.max(1.0);
-        let torso = bounds.within(torso, length, most);
-        let leg = bounds.within(leg_length.sqrt(), length.min(leg_length), most);
-        (scales.torso.thickness, scales.neck.thickness) = (torso, torso);
-        (scales.upper_arm.thickness, scales.lower_arm.thickness) = (torso, torso);
+        let thickness = self.towards(length.sqrt(), of_style);
+        let thickness = self.bounds.within(thickness, length, length.max(1.0));
+        let root = self.root(leg);
+        let leg = root * (thickness / root).powf(sliced);
+        let scales = &mut self.scales;
+        for part in [&mut scales.torso, &mut scales.neck, &mut scales.upper_arm, &mut scales.lower_arm] {
+            part.thickness = thickness;
+        }
         (scales.upper_leg.thickness, scales.lower_leg.thickness) = (leg, leg);
-        (scales.shoulder_spread, scales.hip_spread) = (torso, torso);
+        (scales.shoulder_spread, scales.hip_spread) = (thickness, thickness);
+    }
+
+    /// How thick legs become that are to be `leg` long, where nothing else says so.
+    fn root(&self, leg: f64) -> f64 {
+        (leg / self.target.leg).max(SHORTEST_LIMB).sqrt()
     }
 
     fn solve_arms(&mut self, arm: f64) {
@@ -379,17 +386,16 @@ impl<'a> Solver<'a> {
     }
 
     fn solve_hands(&mut self, asked: Option<f64>) {
-        self.scales.hand = self.extremity(self.target.hand, asked, self.scales.lower_arm);
+        self.scales.hand = self.extremity(self.target.hand, asked, self.scales.lower_arm.thickness);
     }
 
-    fn solve_feet(&mut self, asked: Option<f64>) {
-        self.scales.foot = self.extremity(self.target.foot, asked, self.scales.lower_leg);
+    fn solve_feet(&mut self, asked: Option<f64>, leg: f64) {
+        self.scales.foot = self.extremity(self.target.foot, asked, self.root(leg));
     }
 
-    /// The size of hands or feet of length `own`: not slimmer than the limb, nor nearer to the head's growth than to that; as the
-    /// limb where one is not known.
-    fn extremity(&self, own: Option<f64>, asked: Option<f64>, limb: Scale) -> f64 {
-        let least = limb.thickness;
+    /// The size of hands or feet of length `own`: not slimmer than the limb, which becomes `least` as thick, nor nearer to the head's
+    /// growth than to that; as the limb where one is not known.
+    fn extremity(&self, own: Option<f64>, asked: Option<f64>, least: f64) -> f64 {
         match asked.zip(own) {
             Some((asked, own)) => {
                 let bounded = self.bounds.within(asked / own, least, (least * self.head_scale).sqrt());

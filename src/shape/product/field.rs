@@ -6,12 +6,14 @@
 //! torso's map puts their joints. A vertex goes where the weighted mean of its parts' maps puts it.
 
 use super::anatomy::{Anatomy, Limb};
-use super::binding::{PartBinding, PartBindings};
+use super::binding::PartBinding;
 use super::part::{PART_COUNT, Part, PartWeights, TINY};
 use super::pieces::{Attachment, Piece};
-use super::profile::ProfileStage;
+use super::profile::Slices;
+use super::profile::chains::arm_share;
+use super::profile::map::chain_of;
 use super::scales::{HeadScale, PartCoefficients, Scale};
-use crate::geometry::{Mapped, outer};
+use crate::geometry::{Mapped, Moved, outer};
 use crate::shape::heights::Heights;
 use glam::{DMat3, DVec3};
 
@@ -67,13 +69,18 @@ pub struct PartField {
     /// The neck's axis at the shoulder line, before and after.
     neck_z: [f64; 2],
     pieces: Vec<Affine>,
-    /// What comes after the parts; `None` where nothing does.
-    profile: Option<ProfileStage>,
+    /// What comes before the parts; `None` where nothing does.
+    slices: Option<Slices>,
 }
 
 impl PartField {
-    /// The field that moves a figure of `anatomy` by `coefficients`.
-    pub fn new(anatomy: &Anatomy, coefficients: PartCoefficients, bindings: &PartBindings) -> Self {
+    /// The field that moves a figure of `anatomy` by `coefficients`, after `slices`, and takes `pieces` along.
+    pub fn new(
+        anatomy: &Anatomy,
+        coefficients: PartCoefficients,
+        slices: Option<Slices>,
+        pieces: &[Piece],
+    ) -> Self {
         let before = anatomy.landmarks.heights;
         let base = anatomy.centre_z(before.shoulder_line).0;
         let mut field = Self {
@@ -87,27 +94,38 @@ impl PartField {
                 / anatomy.centre_line.len() as f64,
             neck_z: [base, base],
             pieces: Vec::new(),
-            profile: None,
+            slices,
         };
         let neck_base = DVec3::new(anatomy.middle_x, before.shoulder_line, base);
         field.neck_z[1] = field.torso(neck_base).position.z;
         field.place_head();
         field.place_limbs();
-        field.pieces = bindings.pieces.iter().map(|piece| field.piece_map(piece)).collect();
+        field.pieces = pieces.iter().map(|piece| field.piece_map(piece)).collect();
         field
     }
 
-    /// The same field and then `profile`, which takes `pieces` along.
-    pub fn with_profile(mut self, profile: ProfileStage, pieces: &[Piece]) -> Self {
-        self.profile = Some(profile);
-        self.pieces = pieces.iter().map(|piece| self.piece_map(piece)).collect();
-        self
+    /// Its coefficients.
+    pub fn coefficients(&self) -> &PartCoefficients {
+        &self.coefficients
     }
 
-    /// Where the parts put a limb's joints.
-    pub fn place_limb(&self, limb: Limb) -> Limb {
-        let [root, middle, end] = limb.parts.map(|part| self.affine[part].to);
-        Limb { root, middle, end, ..limb }
+    /// How much longer torso, legs and arms become.
+    pub fn lengths(&self) -> [f64; 3] {
+        let (before, after, limbs) = (&self.before, &self.after, &self.anatomy.limbs);
+        let new = |limb: &Limb| limb.parts.map(|part| self.affine[part].to);
+        let ankles = |height: &dyn Fn(&Limb) -> f64| limbs[2..].iter().map(height).sum::<f64>() / 2.0;
+        let arms = |length: &dyn Fn(&Limb) -> f64| limbs[..2].iter().map(length).sum::<f64>();
+        [
+            (after.shoulder_line - after.crotch) / (before.shoulder_line - before.crotch),
+            (after.crotch - ankles(&|leg| new(leg)[2].y)) / (before.crotch - ankles(&|leg| leg.end.y)),
+            arms(&|arm| new(arm)[0].distance(new(arm)[2]))
+                / arms(&|arm| arm.root.distance(arm.end)).max(TINY),
+        ]
+    }
+
+    /// Where a part's own map puts `p`.
+    pub fn place_part(&self, part: usize, p: DVec3) -> DVec3 {
+        self.part(part, p).position
     }
 
     /// Where the torso's own map puts `p`.
@@ -137,46 +155,27 @@ impl PartField {
 
     /// Where `p` goes.
     pub fn place(&self, p: DVec3, binding: &PartBinding) -> DVec3 {
-        // Everything below is inlined, so that the Jacobian is not made here.
-        let by_parts = || self.blend(p, &binding.weights).position;
-        match (binding.attachment, &self.profile) {
-            (Attachment::Piece(piece), _) => self.pieces[piece].map(p).position,
-            (Attachment::Strand { piece, share }, _) => {
-                self.strand(p, binding, piece, f64::from(share)).position
-            }
-            (_, None) => by_parts(),
-            (_, Some(profile)) => profile.place(by_parts(), binding),
-        }
-    }
-
-    /// As [`Self::place`], where the parts take `p` to `by_parts` and the profile's relief goes on from there
-    /// to `smooth`.
-    pub fn place_smooth(&self, p: DVec3, by_parts: DVec3, smooth: DVec3, binding: &PartBinding) -> DVec3 {
-        match (binding.attachment, &self.profile) {
-            (Attachment::Plain | Attachment::OnFace(_), Some(profile)) => {
-                profile.place_smooth(by_parts, || smooth, binding)
-            }
-            _ => self.place(p, binding),
+        match binding.attachment {
+            Attachment::Piece(piece) => self.pieces[piece].map(p).position,
+            Attachment::Strand { piece, share } => self.strand(p, binding, piece, share.into()).position,
+            _ => self.body(p, binding),
         }
     }
 
     /// Where `p` goes, and the Jacobian there at fixed binding.
     pub fn map(&self, p: DVec3, binding: &PartBinding) -> Mapped {
-        let by_parts = || self.blend(p, &binding.weights);
-        match (binding.attachment, &self.profile) {
-            (Attachment::Piece(piece), _) => self.pieces[piece].map(p),
-            (Attachment::Strand { piece, share }, _) => self.strand(p, binding, piece, f64::from(share)),
-            (_, None) => by_parts(),
-            (_, Some(profile)) => by_parts().then(|p| profile.map(p, binding)),
+        match binding.attachment {
+            Attachment::Piece(piece) => self.pieces[piece].map(p),
+            Attachment::Strand { piece, share } => self.strand(p, binding, piece, share.into()),
+            _ => self.body(p, binding),
         }
     }
 
-    /// Between where the parts take `p` and where the piece does.
+    /// Between where the body takes `p` and where the piece does.
     // Not inlined: few vertices are a strand's.
     #[inline(never)]
     fn strand(&self, p: DVec3, binding: &PartBinding, piece: usize, share: f64) -> Mapped {
-        let plain = PartBinding { attachment: Attachment::Plain, ..*binding };
-        let body = self.map(p, &plain);
+        let body: Mapped = self.body(p, binding);
         let whole = self.pieces[piece].map(p);
         Mapped {
             position: body.position.lerp(whole.position, share),
@@ -184,19 +183,51 @@ impl PartField {
         }
     }
 
+    /// Where relief, slices and parts take `p`: the parts alone, where a body of next to no length gives no number.
     #[inline(always)]
-    fn blend(&self, p: DVec3, weights: &PartWeights) -> Mapped {
+    fn body<M: Moved>(&self, p: DVec3, binding: &PartBinding) -> M {
+        let PartBinding { weights, is_skirt, .. } = binding;
+        let unmoved = M::of(p, || DMat3::IDENTITY);
+        let to: M = match &self.slices {
+            Some(slices) if binding.is_on_bone() => {
+                let on_bones: M = slices.on_bones(p, usize::from(arm_share(weights, 1) > 0.0));
+                self.blend(weights, |_| on_bones)
+            }
+            Some(slices) if !is_of_head(weights) => {
+                let smooth: M = slices.smooth(p, weights, *is_skirt);
+                let mut known = (PART_COUNT, smooth);
+                self.blend(weights, |part| {
+                    let chain = chain_of(part, *is_skirt);
+                    if chain == HEAD || chain == HAIR {
+                        return unmoved;
+                    }
+                    if chain != known.0 {
+                        let to: M = slices.part(chain, smooth.position(), *is_skirt);
+                        known = (chain, M::of(to.position(), || to.jacobian() * smooth.jacobian()));
+                    }
+                    known.1
+                })
+            }
+            _ => self.blend(weights, |_| unmoved),
+        };
+        if to.position().is_finite() { to } else { self.blend(weights, |_| unmoved) }
+    }
+
+    /// The weighted mean of what the parts make of what comes `before` them.
+    #[inline(always)]
+    fn blend<M: Moved>(&self, weights: &PartWeights, mut before: impl FnMut(usize) -> M) -> M {
         let mut position = DVec3::ZERO;
         let mut jacobian = DMat3::ZERO;
         let mut total = 0.0;
         for (part, &weight) in weights.iter().enumerate().filter(|&(_, &weight)| weight > 0.0) {
             let weight = f64::from(weight);
-            let to = self.part(part, p);
+            let from = before(part);
+            let to = self.part(part, from.position());
             position += weight * to.position;
-            jacobian += to.jacobian * weight;
+            jacobian += M::of(to.position, || to.jacobian * from.jacobian()).jacobian() * weight;
             total += weight;
         }
-        Mapped { position: position / total, jacobian: jacobian * (1.0 / total) }
+        M::of(position / total, || jacobian * (1.0 / total))
     }
 
     #[inline(always)]
@@ -274,18 +305,27 @@ impl PartField {
             } else {
                 (scales.hip_spread, scales.upper_leg, scales.lower_leg, scales.foot)
             };
-            let mut root = self.torso(limb.root).position;
-            root.x = self.anatomy.middle_x + spread * (limb.root.x - self.anatomy.middle_x);
-            let middle = root + upper.length * (limb.middle - limb.root);
-            let mut end = middle + lower.length * (limb.end - limb.middle);
+            // Where the slices leave the joints; directions stay those at rest.
+            let [first, second, last] = limb.parts;
+            let from: [DVec3; 3] = match &self.slices {
+                Some(slices) if is_arm => {
+                    [limb.root, limb.middle, limb.end].map(|joint| slices.on_bones(joint, index))
+                }
+                Some(slices) => [(first, limb.root), (second, limb.middle), (last, limb.end)]
+                    .map(|(part, joint)| slices.part(part, joint, false)),
+                None => [limb.root, limb.middle, limb.end],
+            };
+            let mut root = self.torso(from[0]).position;
+            root.x = self.anatomy.middle_x + spread * (from[0].x - self.anatomy.middle_x);
+            self.affine[first] = Affine::stretch(from[0], root, limb.middle - limb.root, upper);
+            let middle = self.affine[first].map(from[1]).position;
+            self.affine[second] = Affine::stretch(from[1], middle, limb.end - limb.middle, lower);
+            let mut end = self.affine[second].map(from[2]).position;
             if !is_arm {
                 // Legs of unequal length still both stand on the ground.
                 end.y = self.after.sole + size * (limb.end.y - self.before.sole);
             }
-            let [first, second, last] = limb.parts;
-            self.affine[first] = Affine::stretch(limb.root, root, limb.middle - limb.root, upper);
-            self.affine[second] = Affine::stretch(limb.middle, middle, limb.end - limb.middle, lower);
-            self.affine[last] = Affine { from: limb.end, to: end, linear: DMat3::IDENTITY * size };
+            self.affine[last] = Affine { from: from[2], to: end, linear: DMat3::IDENTITY * size };
         }
     }
 
@@ -320,6 +360,11 @@ impl PartField {
         }
         a.chin
     }
+}
+
+/// True for what head and hair alone move: no slice of the body does.
+fn is_of_head(weights: &PartWeights) -> bool {
+    weights.iter().enumerate().all(|(part, &weight)| weight == 0.0 || part == HEAD || part == HAIR)
 }
 
 /// From the ground up: legs, torso, neck, head.

@@ -22,7 +22,6 @@ pub mod profile;
 pub mod repair;
 pub mod scales;
 pub mod skirt_weights;
-pub mod sliced;
 pub mod smoothing;
 pub mod strand;
 pub mod strands;

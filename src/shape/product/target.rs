@@ -3,6 +3,7 @@
 use super::binding::{PartBinding, PartBindings, joint_binding, part_bindings};
 use super::joint_bindings::{arm_binding, mean_bindings};
 use super::part::Part;
+use super::profile::Chart;
 use super::worn::Worn;
 use crate::character::{Character, Role};
 use crate::error::Result;
@@ -22,6 +23,8 @@ pub struct ProductTarget {
     pub bindings: Arc<Bindings>,
     /// What the bindings were made with, less the vertices' own.
     pub parts: PartBindings,
+    /// Its body as it stands.
+    pub chart: Chart,
 }
 
 impl ProductTarget {
@@ -63,7 +66,7 @@ impl ProductTarget {
         });
         let vertices = vertices.into_iter().map(Binding::Parts).collect();
         let bindings = Bindings { eyes: eyes(character, figure), ..Bindings::new(vertices, joints, ground) };
-        Ok(Self { bindings: Arc::new(bindings), parts })
+        Ok(Self { bindings: Arc::new(bindings), parts, chart: Chart::of(measured, threads) })
     }
 }
 

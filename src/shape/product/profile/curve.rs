@@ -1,6 +1,7 @@
 //! Curves through slices, and tables of curves that are read together.
 
 use crate::geometry::whole::floor;
+use crate::shape::product::part::TINY;
 
 /// The monotone cubic through `knots` at `places`, which rise, at `x`; constant beyond the ends.
 ///
@@ -60,6 +61,34 @@ pub fn bell(away: f64) -> f64 {
     (gaussian(away) - gaussian(BELL_ENDS)).max(0.0)
 }
 
+/// Weighted means along `rows`, by a [`bell`] `sigma` wide: rows lie at `places`, which rise, and each counts for as much of the
+/// way as is its own.
+pub fn smoothed<const N: usize>(rows: &[[f64; N]], places: &[f64], sigma: f64) -> Vec<[f64; N]> {
+    let last = rows.len() - 1;
+    let own = |row: usize| {
+        let (before, after) = (row.saturating_sub(1), (row + 1).min(last));
+        // An end counts for as much to both sides.
+        let sides = (after - before).max(1) as f64 / 2.0;
+        ((places[after] - places[before]) / sides / 2.0).max(TINY)
+    };
+    let ways: Vec<f64> = (0..rows.len()).map(own).collect();
+    let mut first = 0;
+    let mean = |row: usize| {
+        let here = places[row];
+        while places[first] < here - BELL_ENDS * sigma {
+            first += 1;
+        }
+        let (mut sum, mut total) = ([0.0; N], 0.0);
+        for near in (first..rows.len()).take_while(|&near| places[near] <= here + BELL_ENDS * sigma) {
+            let weight = ways[near] * bell((places[near] - here) / sigma);
+            sum.iter_mut().zip(&rows[near]).for_each(|(sum, value)| *sum += weight * value);
+            total += weight;
+        }
+        sum.map(|sum| sum / total)
+    };
+    (0..rows.len()).map(mean).collect()
+}
+
 /// `N` functions of one place, sampled at even steps; between the samples cubic, with a slope that has no jumps; constant
 /// beyond the ends.
 #[derive(Clone, Debug, PartialEq)]
@@ -76,24 +105,11 @@ impl<const N: usize> Table<N> {
         Self { start, step, rows: (0..count).map(|row| functions(start + step * row as f64)).collect() }
     }
 
-    /// The same functions without what is shorter than `sigma`: weighted means, by [`bell`].
-    pub fn smoothed(&self, sigma: f64) -> Self {
-        let reach = (BELL_ENDS * sigma / self.step).ceil() as i64;
-        let weights: Vec<f64> =
-            (-reach..=reach).map(|offset| bell(offset as f64 * self.step / sigma)).collect();
-        let total: f64 = weights.iter().sum();
-        let last = self.rows.len() as i64 - 1;
-        let rows = (0..=last)
-            .map(|row| {
-                let mut sum = [0.0; N];
-                for (offset, weight) in (-reach..=reach).zip(&weights) {
-                    let near = &self.rows[(row + offset).clamp(0, last) as usize];
-                    sum.iter_mut().zip(near).for_each(|(sum, value)| *sum += weight * value);
-                }
-                sum.map(|sum| sum / total)
-            })
-            .collect();
-        Self { rows, ..*self }
+    /// The same functions without what is shorter than `sigma`, where samples come to lie at `places`: see [`smoothed`].
+    pub fn smoothed(&self, sigma: f64, place: impl Fn(f64) -> f64) -> Self {
+        let places: Vec<f64> =
+            (0..self.rows.len()).map(|row| place(self.start + self.step * row as f64)).collect();
+        Self { rows: smoothed(&self.rows, &places, sigma), ..*self }
     }
 
     /// Replaces the samples, at their places.
@@ -204,7 +220,7 @@ mod tests {
 
     #[test]
     fn smoothing_keeps_lines_and_flattens_waves() {
-        let table = Table::sample(0.0, 4.0, 401, |x| [2.0 * x, (20.0 * x).sin()]).smoothed(0.2);
+        let table = Table::sample(0.0, 4.0, 401, |x| [2.0 * x, (20.0 * x).sin()]).smoothed(0.2, |x| x);
         let values = table.at(2.0).values();
         assert!((values[0] - 4.0).abs() < 1e-9 && values[1].abs() < 1e-2);
     }

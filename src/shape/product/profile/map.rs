@@ -3,7 +3,6 @@
 //! Each map keeps the place along its own axis but for what an arm's length changes, and is monotone on the others: so one
 //! chain alone cannot fold.
 
-use super::chains::arm_share;
 use super::curve::{Table, monotone_cubic};
 use super::measure::{BodyFrame, BodyLines, HAND_FADE, droop};
 use super::relief::MOST_ROWS;
@@ -13,7 +12,7 @@ use super::{ARM_STATIONS, LEG_STATIONS, Profile, STATIONS, TORSO_STATIONS, stati
 use crate::geometry::slice::Planes;
 use crate::geometry::{Moved, outer};
 use crate::geometry::{smoothstep, smoothstep_slope};
-use crate::shape::product::part::{Part, PartWeights};
+use crate::shape::product::part::Part;
 use glam::{DMat3, DVec2, DVec3};
 
 /// Rows of the tables: so many for a head length, and for an arm.
@@ -24,7 +23,7 @@ const ROWS_OF_ARM: usize = 200;
 const JOINING: f64 = 0.08;
 /// A leg goes over from the torso's map to its own between these places from crotch (0) to ankle (1); an arm between shoulder
 /// joint (0) and wrist (1).
-const LEG_FADE: (f64, f64) = (-0.02, 0.30);
+const LEG_FADE: (f64, f64) = (-0.10, 0.10);
 const ARM_FADE: (f64, f64) = (0.05, 0.20);
 /// The palm's share of a hand's length, and the half width of its border with the fingers.
 const PALM: f64 = 0.45;
@@ -37,6 +36,15 @@ const NECK_REACH: f64 = 1.2;
 const ANY_HALF: f64 = 0.4;
 /// The toe box begins behind the ankle, in head lengths, and is whole at this part of the way from ankle to toes.
 const TOE_BOX: (f64, f64) = (0.05, 0.6);
+
+const TORSO: usize = Part::Torso as usize;
+const NECK: usize = Part::Neck as usize;
+const LEFT_ARM: usize = Part::LeftUpperArm as usize;
+const RIGHT_ARM: usize = Part::RightUpperArm as usize;
+const LEFT_LEG: usize = Part::LeftUpperLeg as usize;
+const RIGHT_LEG: usize = Part::RightUpperLeg as usize;
+const LEFT_FOOT: usize = Part::LeftFoot as usize;
+const RIGHT_FOOT: usize = Part::RightFoot as usize;
 
 /// By height, of the torso and what hangs from it below the crotch: scale, scale, half, half, forward, shift forward.
 type TorsoTable = Table<6>;
@@ -58,8 +66,6 @@ pub struct BodyMap {
     arms: [Option<ArmMap>; 2],
     feet: [FootMap; 2],
     neck: NeckMap,
-    arm_fade: (f64, f64),
-    leg_fade: (f64, f64),
 }
 
 #[derive(Clone, Debug)]
@@ -98,11 +104,31 @@ struct NeckMap {
     half: f64,
 }
 
+/// The first part of the chain that part number `part` goes with: those of one chain go one way.
+pub fn chain_of(part: usize, is_skirt: bool) -> usize {
+    match part {
+        LEFT_LEG..=RIGHT_FOOT if is_skirt => TORSO,
+        LEFT_ARM..RIGHT_ARM => LEFT_ARM,
+        RIGHT_ARM..LEFT_LEG => RIGHT_ARM,
+        LEFT_LEG..LEFT_FOOT => LEFT_LEG,
+        RIGHT_LEG..RIGHT_FOOT => RIGHT_LEG,
+        _ => part,
+    }
+}
+
 impl BodyMap {
     /// The map that does what `scales` say to a body of profile `own` in `frame`.
-    pub fn new(own: &Profile, lines: &BodyLines, frame: &BodyFrame, scales: &Scales) -> Self {
+    ///
+    /// - `place`: where heights come to lie in the result, in its heads.
+    pub fn new(
+        own: &Profile,
+        lines: &BodyLines,
+        frame: &BodyFrame,
+        scales: &Scales,
+        place: impl Fn(f64) -> f64,
+    ) -> Self {
         let length = frame.head_length();
-        let (torso, leg) = level_tables(own, frame, scales);
+        let (torso, leg) = level_tables(own, frame, scales, place);
         let mut map = Self {
             middle_x: frame.middle_x,
             signs: [frame.sign(2), frame.sign(3)],
@@ -112,8 +138,6 @@ impl BodyMap {
             leg_length: frame.leg_length(),
             spread: if own.leg.is_some() { scales.spread * length } else { 0.0 },
             arms: [None, None],
-            leg_fade: (LEG_FADE.0, LEG_FADE.1),
-            arm_fade: (ARM_FADE.0, ARM_FADE.1),
             feet: [0, 1].map(|side| FootMap::still(frame.limbs[2 + side].end)),
             neck: NeckMap {
                 middle: DVec2::new(frame.middle_x, frame.shoulders.z),
@@ -133,60 +157,26 @@ impl BodyMap {
         map
     }
 
-    /// Where `p` goes that `weights` bind; a Jacobian is that at fixed weights.
+    /// Where `p` goes before the map of part number `part`.
     ///
     /// - `is_skirt`: what the legs move of it follows the torso's map, as skirts do.
-    pub fn map<M: Moved>(&self, p: DVec3, weights: &PartWeights, is_skirt: bool) -> M {
-        let sum = |first: Part, count: usize| -> f64 {
-            weights[first as usize..first as usize + count].iter().sum::<f32>().into()
-        };
-        let mut to = DVec3::ZERO;
-        let mut jacobian = DMat3::ZERO;
-        let mut total = 0.0;
-        let mut add = |weight: f64, moved: M| {
-            to += weight * moved.position();
-            jacobian += moved.jacobian() * weight;
-            total += weight;
-        };
-        let legs = [Part::LeftUpperLeg, Part::RightUpperLeg];
-        let of_legs: f64 = legs.iter().map(|&first| sum(first, 3)).sum();
-        let torso = sum(Part::Torso, 1) + if is_skirt { of_legs } else { 0.0 };
-        if torso > 0.0 {
-            add(torso, self.torso(p));
+    #[inline(always)]
+    pub fn part<M: Moved>(&self, part: usize, p: DVec3, is_skirt: bool) -> M {
+        match chain_of(part, is_skirt) {
+            TORSO => self.torso(p),
+            NECK => self.neck.map(p),
+            LEFT_ARM | RIGHT_ARM => self.arm_or_torso(usize::from(part >= Part::RightUpperArm as usize), p),
+            LEFT_LEG | RIGHT_LEG => self.leg_or_torso(usize::from(part >= Part::RightUpperLeg as usize), p),
+            LEFT_FOOT => self.feet[0].map(p),
+            RIGHT_FOOT => self.feet[1].map(p),
+            _ => M::of(p, || DMat3::IDENTITY),
         }
-        let neck = sum(Part::Neck, 1);
-        if neck > 0.0 {
-            add(neck, self.neck.map(p));
-        }
-        let head = sum(Part::Head, 1) + sum(Part::Hair, 1);
-        if head > 0.0 {
-            add(head, M::of(p, || DMat3::IDENTITY));
-        }
-        for (side, first) in [Part::LeftUpperArm, Part::RightUpperArm].into_iter().enumerate() {
-            let arm = sum(first, 3);
-            if arm > 0.0 {
-                add(arm, self.arm_or_torso(side, p));
-            }
-        }
-        if !is_skirt && of_legs > 0.0 {
-            for (side, &first) in legs.iter().enumerate() {
-                let leg = sum(first, 2);
-                if leg > 0.0 {
-                    add(leg, self.leg_or_torso(side, p));
-                }
-                let foot = f64::from(weights[first as usize + 2]);
-                if foot > 0.0 {
-                    add(foot, self.feet[side].map(p));
-                }
-            }
-        }
-        M::of(to / total, || jacobian * (1.0 / total))
     }
 
-    /// As [`Self::map`], for what hangs on the bones of the arm that `weights` name: what lies on a bone goes along it, so that
+    /// As [`Self::part`], for what hangs on the bones of the arm on side `side`: what lies on a bone goes along it, so that
     /// the arm keeps its angles.
-    pub fn on_bones<M: Moved>(&self, p: DVec3, weights: &PartWeights) -> M {
-        match &self.arms[usize::from(arm_share(weights, 1) > 0.0)] {
+    pub fn on_bones<M: Moved>(&self, p: DVec3, side: usize) -> M {
+        match &self.arms[side] {
             Some(arm) => arm.map(p, true),
             None => self.torso(p),
         }
@@ -225,18 +215,16 @@ impl BodyMap {
     /// Near the crotch a leg's map is the torso's, so that hips agree whatever the weights say.
     fn leg_or_torso<M: Moved>(&self, side: usize, p: DVec3) -> M {
         let t = (self.crotch - p.y) / self.leg_length;
-        let leg_fade = self.leg_fade;
-        let (share, slope) = smoothstep_slope((t - leg_fade.0) / (leg_fade.1 - leg_fade.0));
-        let slope = DVec3::NEG_Y * (slope / (leg_fade.1 - leg_fade.0) / self.leg_length);
+        let (share, slope) = smoothstep_slope((t - LEG_FADE.0) / (LEG_FADE.1 - LEG_FADE.0));
+        let slope = DVec3::NEG_Y * (slope / (LEG_FADE.1 - LEG_FADE.0) / self.leg_length);
         mix(share, slope, || self.torso(p), || self.leg(side, p))
     }
 
     fn arm_or_torso<M: Moved>(&self, side: usize, p: DVec3) -> M {
         let Some(arm) = &self.arms[side] else { return self.torso(p) };
         let t = arm.planes.locate(p).0 / arm.length;
-        let fade_ends = self.arm_fade;
-        let (share, slope) = smoothstep_slope((t - fade_ends.0) / (fade_ends.1 - fade_ends.0));
-        let slope = arm.planes.axis * (slope / (fade_ends.1 - fade_ends.0) / arm.length);
+        let (share, slope) = smoothstep_slope((t - ARM_FADE.0) / (ARM_FADE.1 - ARM_FADE.0));
+        let slope = arm.planes.axis * (slope / (ARM_FADE.1 - ARM_FADE.0) / arm.length);
         mix(share, slope, || self.torso(p), || arm.map(p, false))
     }
 
@@ -445,7 +433,12 @@ fn level(x_by_x: f64, x_by_y: f64, z_by_z: f64, z_by_y: f64) -> DMat3 {
 }
 
 /// Torso and legs by height, model units.
-fn level_tables(own: &Profile, frame: &BodyFrame, scales: &Scales) -> (TorsoTable, LegTable) {
+fn level_tables(
+    own: &Profile,
+    frame: &BodyFrame,
+    scales: &Scales,
+    place: impl Fn(f64) -> f64,
+) -> (TorsoTable, LegTable) {
     let length = frame.head_length();
     let planes = frame.torso_planes();
     let (torso_length, leg_length) = (frame.torso_length(), frame.leg_length());
@@ -510,7 +503,7 @@ fn level_tables(own: &Profile, frame: &BodyFrame, scales: &Scales) -> (TorsoTabl
             length * at(&|skirt| skirt.half[0]),
             length * at(&|skirt| skirt.half[1]),
             planes.origin.z + length * at(&|skirt| skirt.forward),
-            shift,
+            length * at(&|skirt| skirt.shift),
         ]
     };
     let (up, down) = (chin - crotch, crotch - frame.heights.sole);
@@ -521,5 +514,5 @@ fn level_tables(own: &Profile, frame: &BodyFrame, scales: &Scales) -> (TorsoTabl
     let (start, end) = (crotch - below_crotch * step, crotch + above * step);
     let count = (below_crotch + above) as usize + 1;
     let torso = Table::sample(start, end, count, |y| if y < crotch { below(y) } else { of_torso(y) });
-    (torso.smoothed(JOINING * length), Table::sample(start, end, count, of_leg))
+    (torso.smoothed(JOINING, place), Table::sample(start, end, count, of_leg))
 }

@@ -33,15 +33,15 @@ const HAND_PALM: (f64, f64) = (0.15, 0.75);
 pub(super) const HAND_FADE: f64 = 0.25;
 /// A neck is read at these heights between shoulder line and chin.
 const NECK_HEIGHTS: [f64; 3] = [0.45, 0.6, 0.75];
-/// A neck is no thicker than this, in head lengths: a scarf is.
-const THICKEST_NECK: f64 = 0.18;
+/// A neck is no thicker than this, in head lengths, an adult's .27: what lies further out is a collar or a scarf.
+const THICKEST_NECK: f64 = 0.3;
 /// A knee further off the line from hip to ankle than this part of the leg's length is bent, and its slices are no leg's.
 const BENT: f64 = 0.25;
 /// The toes' height is this quantile of what lies in front of this part of the way from ankle to toe.
 const TOES_TOP: f64 = 0.97;
 const TOES_FROM: f64 = 0.4;
 
-/// Where a body's chains lie: heights and joints, as found or as a field puts them.
+/// Where a body's chains lie: heights and joints.
 #[derive(Clone, Debug)]
 pub struct BodyFrame {
     /// The landmarks.
@@ -59,28 +59,16 @@ pub struct BodyFrame {
 impl BodyFrame {
     /// The frame of a figure as it stands.
     pub fn of(figure: &Figure, anatomy: &Anatomy) -> Self {
-        Self::placed(figure, anatomy, anatomy.landmarks.heights, |limb| limb, |p| p)
-    }
-
-    /// The frame of a figure that has been moved: its `heights` after, and where limbs and points of the torso went.
-    pub fn placed(
-        figure: &Figure,
-        anatomy: &Anatomy,
-        heights: Heights,
-        place_limb: impl Fn(Limb) -> Limb,
-        place_torso: impl Fn(DVec3) -> DVec3,
-    ) -> Self {
-        let limbs = anatomy.limbs.map(place_limb);
+        let limbs = anatomy.limbs;
         let middle = |p: DVec3| p.with_x(anatomy.middle_x);
         let hips: Vec<DVec3> = [Role::LeftUpperLeg, Role::RightUpperLeg]
             .iter()
             .filter_map(|&role| figure.role_position(role))
             .collect();
-        let hips = hips.iter().sum::<DVec3>() / hips.len().max(1) as f64;
         Self {
-            heights,
+            heights: anatomy.landmarks.heights,
             limbs,
-            hips: middle(place_torso(hips)),
+            hips: middle(hips.iter().sum::<DVec3>() / hips.len().max(1) as f64),
             shoulders: middle((limbs[0].root + limbs[1].root) / 2.0),
             middle_x: anatomy.middle_x,
         }

@@ -6,6 +6,7 @@
 
 pub mod canonical;
 pub mod chains;
+pub mod chart;
 pub mod curve;
 pub mod map;
 pub mod radius_map;
@@ -14,20 +15,18 @@ pub mod scales;
 pub mod skirts;
 pub mod slab;
 pub mod smooth;
-pub mod stage;
 pub mod station;
 pub mod wanted;
 
 mod measure;
 mod numbers;
 
+pub use chart::{Chart, Slices};
 pub use map::BodyMap;
 pub use measure::{BodyFrame, BodyLines, measure_profile};
 pub use numbers::CHAINS;
-pub use relief::Relief;
 pub use scales::{Scales, Strengths, flesh, scales};
-pub use stage::{ProfileStage, Source};
-pub use wanted::{strengths, wanted_of};
+pub use wanted::{profile_of, strengths, wanted_of};
 
 use serde::{Deserialize, Serialize};
 

@@ -1,6 +1,6 @@
 //! How far a body reaches around an axis, by height and direction, and a scale for each: a map of its relief.
 
-use super::curve::{BELL_ENDS, bell};
+use super::curve::smoothed;
 use super::station::{CENTRINGS, GOES_AROUND, outer_surface, surface};
 use crate::geometry::Moved;
 use crate::geometry::slice::{Outline, Planes, RAYS};
@@ -43,7 +43,7 @@ impl RadiusMap {
         sigma: f64,
         is_middle: bool,
     ) -> Option<Self> {
-        let mut middles: Vec<DVec2> = cuts
+        let middles: Vec<[f64; 2]> = cuts
             .iter()
             .zip(bones)
             .map(|(outlines, &bone)| {
@@ -58,16 +58,11 @@ impl RadiusMap {
                     let across = if is_middle { 0.0 } else { half(0, RAYS / 2) };
                     middle += DVec2::new(across, half(RAYS / 4, 3 * RAYS / 4));
                 }
-                middle
+                middle.into()
             })
             .collect();
-        middles = smoothed(
-            &middles,
-            sigma / step,
-            DVec2::ZERO,
-            |sum, value, weight| *sum += *value * weight,
-            |sum, total| sum / total,
-        );
+        let heights: Vec<f64> = (0..cuts.len()).map(|row| step * row as f64).collect();
+        let middles: Vec<DVec2> = smoothed(&middles, &heights, sigma).into_iter().map(DVec2::from).collect();
         let mut reaches: Vec<Ring> = cuts
             .iter()
             .zip(&middles)
@@ -78,9 +73,9 @@ impl RadiusMap {
         Some(Self { planes, start, step, middles, reaches, scales })
     }
 
-    /// The height of a row.
-    pub fn height(&self, row: usize) -> f64 {
-        self.start + self.step * row as f64
+    /// The heights of the rows.
+    pub fn heights(&self) -> impl Iterator<Item = f64> {
+        (0..self.reaches.len()).map(|row| self.start + self.step * row as f64)
     }
 
     /// How the map moves `p`, with the gradient of that for a Jacobian: everything within a reach is scaled about the row's
@@ -162,41 +157,6 @@ impl Taps {
             slopes: [t - 0.5, -2.0 * t, t + 0.5],
         }
     }
-}
-
-/// Weighted means along `rows`, by a [`bell`] `sigma` rows wide.
-fn smoothed<T: Copy>(
-    rows: &[T],
-    sigma: f64,
-    zero: T,
-    add: impl Fn(&mut T, &T, f64),
-    divide: impl Fn(T, f64) -> T,
-) -> Vec<T> {
-    let reach = (BELL_ENDS * sigma).ceil() as usize;
-    let weights: Vec<f64> = (0..=reach.min(rows.len())).map(|rows| bell(rows as f64 / sigma)).collect();
-    (0..rows.len())
-        .map(|row| {
-            let (mut sum, mut total) = (zero, 0.0);
-            let near = row.saturating_sub(reach)..(row + reach + 1).min(rows.len());
-            for (other, value) in near.clone().zip(&rows[near]) {
-                let weight = weights[other.abs_diff(row)];
-                add(&mut sum, value, weight);
-                total += weight;
-            }
-            divide(sum, total)
-        })
-        .collect()
-}
-
-/// Weighted means along rings, by a [`bell`] `sigma` rows wide.
-pub fn smoothed_rings(rings: &[Ring], sigma: f64) -> Vec<Ring> {
-    smoothed(
-        rings,
-        sigma,
-        [0.0; RAYS],
-        |sum, ring, weight| sum.iter_mut().zip(ring).for_each(|(sum, value)| *sum += value * weight),
-        |sum, total| sum.map(|sum| sum / total),
-    )
 }
 
 /// Reaches no further than [`FURTHEST`]; gaps between rays filled along the ring; NaN where too few rays meet anything.

@@ -4,9 +4,10 @@
 //! reach of the surface around torso and limbs is smoothed along them, and what lies on it moves along.
 
 use super::chains::{Chain, Chains, arm_share};
-use super::curve::BELL_ENDS;
+use super::curve::{BELL_ENDS, smoothed};
+use super::map::on_bones;
 use super::measure::{Body, BodyFrame, OVER_MIDDLE, on_limb};
-use super::radius_map::{RadiusMap, Ring, smoothed_rings};
+use super::radius_map::{RadiusMap, Ring};
 use crate::geometry::slice::{Outline, RAYS, slices};
 use crate::geometry::weld::Weld;
 use crate::geometry::{Moved, outer};
@@ -16,14 +17,17 @@ use crate::shape::figure::Figure;
 use crate::shape::product::part::{Part, PartWeights};
 use glam::{DMat3, DVec2, DVec3};
 
-/// Rows of the torso and of limbs, in head lengths. Seen: at twice that belts and folds of a trunk of two heads, which are a
-/// row high, stay rolls.
-const STEP: f64 = 0.01;
+/// Rows of the torso and of limbs, in head lengths at rest: an adult's torso becomes a fifth to a half as long. Seen: at twice that
+/// belts and folds of a trunk of two heads, which are then a row high, stay rolls.
+const STEP: f64 = 0.02;
 /// No map and no table has more rows, or few more: for heads that are tiny beside their bodies.
 pub(super) const MOST_ROWS: f64 = 2000.0;
-/// Widths of the Gaussians that leave no relief, and of that for the middles, in head lengths.
+/// Widths of the Gaussians that leave no relief, in heads of the result.
 const TORSO_SIGMA: f64 = 0.16;
 const LIMB_SIGMA: f64 = 0.20;
+/// Width of the Gaussian for the middles, in head lengths at rest. Seen: at .45 the front of a dress and its back, which hang
+/// differently far down, are drawn to different sides.
+const MIDDLE_SIGMA: f64 = 0.8;
 /// What the reach may be scaled by. Seen: where a waist may grow by a tenth alone, a trunk of two heads keeps a groove; from .5 to
 /// 1.6 gaps between plates turn a tenth more triangles over.
 const BOUNDS: (f64, f64) = (0.6, 1.3);
@@ -51,6 +55,14 @@ const OF_ARM: (f64, f64) = (0.1, 0.5);
 /// they stand. Seen: within a third of that the corners of a jacket's hem stand out.
 const LEGS_STAY: f64 = 0.15;
 
+/// How far a body reaches around torso, legs and arms, as it stands.
+#[derive(Clone, Debug)]
+pub struct Reaches {
+    torso: Option<RadiusMap>,
+    legs: [Option<RadiusMap>; 2],
+    arms: [Option<RadiusMap>; 2],
+}
+
 /// Relief maps of a body.
 #[derive(Clone, Debug)]
 pub struct Relief {
@@ -63,40 +75,61 @@ pub struct Relief {
     arm_lengths: [f64; 2],
 }
 
-impl Relief {
-    /// Measures the relief of a figure whose vertices are at `positions`, and what is to become of it.
+impl Reaches {
+    /// Measures a figure.
     ///
-    /// - `strength`: 0 leaves the torso's, the legs' and the arms' relief, 1 smooths all of it.
     /// - `threads`: at most this many, 0 for all cores.
-    pub fn of(
-        figure: &Figure,
-        positions: &[DVec3],
-        chains: &Chains,
-        weld: &Weld,
-        frame: &BodyFrame,
-        strength: [f64; 3],
-        threads: usize,
-    ) -> Self {
+    pub fn of(figure: &Figure, chains: &Chains, weld: &Weld, frame: &BodyFrame, threads: usize) -> Self {
+        let positions = &figure.positions;
         let body = Body { figure, positions, chains, weld, frame, length: frame.head_length() };
-        let threads = body.worth(threads);
-        let mut maps = parallel::collect(threads, 5, 1, |map| match map {
-            0 => (strength[0] > 0.0).then(|| body.torso_relief(strength[0])).flatten(),
-            1 | 2 => (strength[1] > 0.0).then(|| body.leg_relief(map - 1, strength[1])).flatten(),
-            _ => (strength[2] > 0.0).then(|| body.arm_relief(map - 3, strength[2])).flatten(),
+        let mut maps = parallel::collect(body.worth(threads), 5, 1, |map| match map {
+            0 => body.torso_reaches(),
+            1 | 2 => body.leg_reaches(map - 1),
+            _ => body.arm_reaches(map - 3),
         })
         .into_iter();
         let mut next = || maps.next().flatten();
-        Self {
-            torso: next(),
-            legs: [next(), next()],
-            arms: [next(), next()],
+        Self { torso: next(), legs: [next(), next()], arms: [next(), next()] }
+    }
+
+    /// What is to become of it.
+    ///
+    /// - `strength`: 0 leaves the torso's, the legs' and the arms' relief, 1 smooths all of it.
+    /// - `torso_place`: where heights come to lie in the result, in its heads. `leg`, `arm`: what a unit at rest along them
+    ///   becomes, in the same.
+    pub fn relief(
+        &self,
+        frame: &BodyFrame,
+        strength: [f64; 3],
+        torso_place: impl Fn(f64) -> f64,
+        leg: f64,
+        arm: f64,
+    ) -> Relief {
+        let limb = |map: &Option<RadiusMap>, strength: f64, unit: f64| {
+            map.as_ref().filter(|_| strength > 0.0).map(|map| {
+                let places: Vec<f64> = map.heights().map(|height| unit * height).collect();
+                let smooth = smoothed_beyond(&map.reaches, &places);
+                scaled(map, &places, &smooth, strength)
+            })
+        };
+        let torso = self.torso.as_ref().filter(|_| strength[0] > 0.0).map(|map| {
+            let places: Vec<f64> =
+                map.heights().map(|height| torso_place(map.planes.origin.y + height)).collect();
+            scaled(map, &places, &smoothed(&map.reaches, &places, TORSO_SIGMA), strength[0])
+        });
+        Relief {
+            torso,
+            legs: self.legs.each_ref().map(|map| limb(map, strength[1], leg)),
+            arms: self.arms.each_ref().map(|map| limb(map, strength[2], arm)),
             crotch: frame.heights.crotch,
             torso_length: frame.torso_length(),
             leg_length: frame.leg_length(),
             arm_lengths: [frame.arm_length(0), frame.arm_length(1)],
         }
     }
+}
 
+impl Relief {
     /// Where `p` goes that `weights` bind; a Jacobian is that at fixed weights.
     pub fn map<M: Moved>(&self, p: DVec3, weights: &PartWeights, is_skirt: bool) -> M {
         let mut to = p;
@@ -175,7 +208,7 @@ impl Relief {
 }
 
 impl Body<'_> {
-    fn torso_relief(&self, strength: f64) -> Option<RadiusMap> {
+    fn torso_reaches(&self) -> Option<RadiusMap> {
         let triangles = self.triangles(Chain::Trunk);
         let planes = self.frame.torso_planes();
         let start = -TORSO_BOTTOM * self.frame.leg_length();
@@ -186,15 +219,12 @@ impl Body<'_> {
             .iter()
             .map(|height| DVec2::new(0.0, shoulders.1.y * (height / shoulders.0).max(0.0)))
             .collect();
-        let sigma = TORSO_SIGMA * self.length;
-        let mut map = RadiusMap::of(planes, (start, step), &cuts, &bones, sigma, true)?;
+        let mut map = RadiusMap::of(planes, (start, step), &cuts, &bones, MIDDLE_SIGMA * self.length, true)?;
         mirror(&mut map.reaches);
-        let smooth = smoothed_rings(&map.reaches, sigma / step);
-        self.set_scales(&mut map, &smooth, strength);
         Some(map)
     }
 
-    fn leg_relief(&self, side: usize, strength: f64) -> Option<RadiusMap> {
+    fn leg_reaches(&self, side: usize) -> Option<RadiusMap> {
         let limb = &self.frame.limbs[2 + side];
         let triangles = self.triangles(Chain::Leg(side));
         let planes = self.frame.leg_planes();
@@ -209,10 +239,10 @@ impl Body<'_> {
         cuts.iter_mut().for_each(|outlines| outlines.retain(|outline| !over(outline)));
         let bones: Vec<DVec2> =
             heights.iter().map(|&height| planes.locate(on_limb(limb, planes.origin.y - height)).1).collect();
-        self.limb(planes, (start, step), &cuts, &bones, strength)
+        RadiusMap::of(planes, (start, step), &cuts, &bones, MIDDLE_SIGMA * self.length, false)
     }
 
-    fn arm_relief(&self, side: usize, strength: f64) -> Option<RadiusMap> {
+    fn arm_reaches(&self, side: usize) -> Option<RadiusMap> {
         let limb = &self.frame.limbs[side];
         let planes = self.frame.arm_planes(side)?;
         let length = self.frame.arm_length(side);
@@ -221,32 +251,8 @@ impl Body<'_> {
         let (heights, step) = self.even_heights(start, ARM_ROWS.1 * length);
         let cuts = slices(self.positions, &triangles, self.weld, &planes, &heights);
         let elbow = planes.locate(limb.middle);
-        let bones: Vec<DVec2> = heights
-            .iter()
-            .map(|&height| {
-                if height < elbow.0 {
-                    elbow.1 * (height / elbow.0)
-                } else {
-                    elbow.1 * ((length - height) / (length - elbow.0).max(1e-30))
-                }
-            })
-            .collect();
-        self.limb(planes, (start, step), &cuts, &bones, strength)
-    }
-
-    fn limb(
-        &self,
-        planes: crate::geometry::slice::Planes,
-        rows: (f64, f64),
-        cuts: &[Vec<Outline>],
-        bones: &[DVec2],
-        strength: f64,
-    ) -> Option<RadiusMap> {
-        let mut map = RadiusMap::of(planes, rows, cuts, bones, LIMB_SIGMA * self.length, false)?;
-        let smooth =
-            smoothed_beyond(&map.reaches, LIMB_SIGMA * self.length / rows.1, ENDS.1 * self.length / rows.1);
-        self.set_scales(&mut map, &smooth, strength);
-        Some(map)
+        let bones: Vec<DVec2> = heights.iter().map(|&height| on_bones(elbow, length, height)[0]).collect();
+        RadiusMap::of(planes, (start, step), &cuts, &bones, MIDDLE_SIGMA * self.length, false)
     }
 
     /// Heights of rows from `start` to `end` or a little beyond, and the step between them: more where there would be too many.
@@ -255,27 +261,27 @@ impl Body<'_> {
         let count = ((end - start) / step).ceil().clamp(1.0, MOST_ROWS) as usize + 1;
         ((0..count).map(|row| start + step * row as f64).collect(), step)
     }
+}
 
-    /// The scales from reaches to smooth reaches.
-    fn set_scales(&self, map: &mut RadiusMap, smooth: &[Ring], strength: f64) {
-        let raw: Vec<Ring> = map
-            .reaches
-            .iter()
-            .zip(smooth)
-            .map(|(reach, smooth)| {
-                std::array::from_fn(|ray| (smooth[ray] / reach[ray]).clamp(BOUNDS.0, BOUNDS.1).powf(strength))
+/// `map`, of which rows come to lie at `places`, with the scales from its reaches to smooth reaches.
+fn scaled(map: &RadiusMap, places: &[f64], smooth: &[Ring], strength: f64) -> RadiusMap {
+    let raw: Vec<Ring> = map
+        .reaches
+        .iter()
+        .zip(smooth)
+        .map(|(reach, smooth)| {
+            std::array::from_fn(|ray| (smooth[ray] / reach[ray]).clamp(BOUNDS.0, BOUNDS.1).powf(strength))
+        })
+        .collect();
+    let scales = smoothed(&raw, places, SCALE_SIGMA)
+        .iter()
+        .map(|ring| {
+            std::array::from_fn(|ray| {
+                0.25 * ring[(ray + RAYS - 1) % RAYS] + 0.5 * ring[ray] + 0.25 * ring[(ray + 1) % RAYS]
             })
-            .collect();
-        let along = smoothed_rings(&raw, SCALE_SIGMA * self.length / map.step);
-        map.scales = along
-            .iter()
-            .map(|ring| {
-                std::array::from_fn(|ray| {
-                    0.25 * ring[(ray + RAYS - 1) % RAYS] + 0.5 * ring[ray] + 0.25 * ring[(ray + 1) % RAYS]
-                })
-            })
-            .collect();
-    }
+        })
+        .collect();
+    RadiusMap { scales, ..map.clone() }
 }
 
 /// Makes left and right the same: ray 0 runs to the left.
@@ -288,21 +294,25 @@ fn mirror(rings: &mut [Ring]) {
     }
 }
 
-/// Smooth reaches, by their logarithms; beyond both ends lines go on that begin with what `reach` rows show.
-fn smoothed_beyond(rings: &[Ring], sigma: f64, reach: f64) -> Vec<Ring> {
-    let pad = (BELL_ENDS * sigma).ceil() as usize;
+/// Smooth reaches of rows at `places`, evenly apart, by their logarithms; beyond both ends lines go on that begin with what the
+/// rows beside these show.
+fn smoothed_beyond(rings: &[Ring], places: &[f64]) -> Vec<Ring> {
+    let (count, last) = (rings.len(), rings.len() - 1);
+    let step = (places[last] - places[0]) / last.max(1) as f64;
+    // What lies further than the limb is long is not known.
+    let pad = ((BELL_ENDS * LIMB_SIGMA / step).ceil() as usize).min(count);
     let logs: Vec<Ring> = rings.iter().map(|ring| ring.map(f64::ln)).collect();
-    let reach = (reach.round() as usize).clamp(1, logs.len().saturating_sub(1).max(1));
+    let reach = ((ENDS.1 / step).round() as usize).clamp(1, last.max(1));
     let line = |from: usize, to: usize, away: f64| -> Ring {
         std::array::from_fn(|ray| {
             let slope = (logs[to][ray] - logs[from][ray]) / reach as f64;
             logs[to][ray] + ENDS.0 * slope * away
         })
     };
-    let last = logs.len() - 1;
     let (inner, before) = (reach.min(last), last.saturating_sub(reach));
     let mut padded: Vec<Ring> = (1..=pad).rev().map(|away| line(inner, 0, away as f64)).collect();
     padded.extend(&logs);
     padded.extend((1..=pad).map(|away| line(before, last, away as f64)));
-    smoothed_rings(&padded, sigma)[pad..pad + logs.len()].iter().map(|ring| ring.map(f64::exp)).collect()
+    let places: Vec<f64> = (0..padded.len()).map(|row| step * row as f64).collect();
+    smoothed(&padded, &places, LIMB_SIGMA)[pad..pad + count].iter().map(|ring| ring.map(f64::exp)).collect()
 }

@@ -23,8 +23,7 @@ const BELLY_MOST: f64 = 0.2;
 const SPREAD_UP_TO: f64 = 0.4;
 /// Legs and feet leave at least this much to the middle, in head lengths.
 const CLEAR: f64 = 0.015;
-/// The torso goes over to the legs (to the skirt) below it by this much, up to this place.
-const TO_LEGS: (f64, f64) = (0.45, 0.35);
+/// The torso goes over to the skirt below it by this much, up to this place.
 const TO_SKIRT: (f64, f64) = (0.8, 0.55);
 /// A skirt keeps at least the first of these from the legs, where it had it, and the second is enough, in head lengths.
 const SKIRT_ROOM: (f64, f64) = (0.02, 0.1);
@@ -32,6 +31,8 @@ const SKIRT_ROOM: (f64, f64) = (0.02, 0.1);
 const ARM_LENGTH: (f64, f64) = (0.8, 1.05);
 /// What a neck may.
 const NECK: (f64, f64) = (0.7, 1.45);
+/// Where a style's neck is thicker than this, in head lengths, and than what it is given to, it wears a scarf.
+const STYLES_NECK: f64 = 0.18;
 /// A neck that cannot be measured follows the top of the torso by this power, within this, in logarithms.
 const NECK_AFTER_TORSO: (f64, f64) = (0.5, 0.3);
 /// The slice at which a reference's thigh below its shorts is believed, and how much thicker it is this far above.
@@ -116,6 +117,8 @@ pub struct SkirtScale {
     pub forward: f64,
     /// Across, forward.
     pub scale: [f64; 2],
+    /// How far its middle moves forward beside the legs' own.
+    pub shift: f64,
 }
 
 /// What is done to a body, in its own head lengths.
@@ -196,9 +199,6 @@ pub fn scales(own: &Profile, wanted: &Profile, strengths: &Strengths) -> Scales 
         let rows = [[&wanted.breadth, &own.breadth, &breadth], [&wanted.depth, &own.depth, &depth]];
         result.note_rows("torso", rows, &row);
     }
-    if let Some(own) = &own.leg {
-        join_hips(&mut result, own);
-    }
     skirt(&mut result, own);
     if let (Some(own_arm), Some(wanted_arm)) = (&own.arm, &wanted.arm) {
         let most = strengths.limit(MOST);
@@ -233,7 +233,9 @@ pub fn scales(own: &Profile, wanted: &Profile, strengths: &Strengths) -> Scales 
         foot(&mut result, own, wanted, strengths);
     }
     result.neck = match (own.neck, wanted.neck) {
-        (Some(own), Some(wanted)) => (wanted / own).clamp(NECK.0, NECK.1).powf(strengths.neck),
+        (Some(own), Some(wanted)) => {
+            (wanted.min(own.max(STYLES_NECK)) / own).clamp(NECK.0, NECK.1).powf(strengths.neck)
+        }
         _ => {
             let top = [result.torso.breadth, result.torso.depth].map(|row| row[STATIONS - 1]);
             let (power, most) = NECK_AFTER_TORSO;
@@ -325,22 +327,6 @@ fn leg(result: &mut Scales, own: &LegProfile, wanted: &LegProfile, strengths: &S
     result.spread = delta.min(most).max(least - touching);
 }
 
-/// Towards the crotch the torso goes over to the legs below it: nobody gets the hem of a tunic as flesh.
-fn join_hips(result: &mut Scales, own: &LegProfile) {
-    let outer = own.outward[0] + own.breadth[0];
-    let new_outer = own.outward[0] + result.spread + result.leg.breadth[0] * own.breadth[0];
-    towards(&mut result.torso, [new_outer / outer, result.leg.depth[0]], (TO_LEGS.0, TO_LEGS.1));
-}
-
-fn towards(torso: &mut SliceScales, hips: [f64; 2], (share, reach): (f64, f64)) {
-    for (station, t) in stations(TORSO_STATIONS).into_iter().enumerate() {
-        let share = share * (1.0 - smoothstep(t / reach));
-        for (row, hips) in [(&mut torso.breadth, hips[0]), (&mut torso.depth, hips[1])] {
-            row[station] *= (hips / row[station]).powf(share);
-        }
-    }
-}
-
 /// A skirt follows the hips and stays outside of the legs below it.
 fn skirt(result: &mut Scales, own: &Profile) {
     let (Some(skirt), Some(leg)) = (&own.skirt, &own.leg) else { return };
@@ -369,11 +355,18 @@ fn skirt(result: &mut Scales, own: &Profile) {
             let most = new_legs[axis] + room;
             (half[axis] * hips[axis]).min(most).max(least) / half[axis]
         });
-        result.skirt.push(SkirtScale { station, half, forward, scale });
+        result.skirt.push(SkirtScale { station, half, forward, scale, shift: 0.0 });
     }
     if let Some(first) = result.skirt.first() {
-        let scale = first.scale;
-        towards(&mut result.torso, scale, TO_SKIRT);
+        let (share, reach) = TO_SKIRT;
+        for (station, t) in stations(TORSO_STATIONS).into_iter().enumerate() {
+            let share = share * (1.0 - smoothstep(t / reach));
+            for (row, scale) in
+                [&mut result.torso.breadth, &mut result.torso.depth].into_iter().zip(first.scale)
+            {
+                row[station] *= (scale / row[station]).powf(share);
+            }
+        }
     }
 }
 

@@ -70,16 +70,19 @@ fn extents(outlines: &[&Outline], middle: DVec2) -> [f64; 4] {
 
 /// The surface of the body that `outlines` make, on each ray from `middle`; NaN where there is none.
 pub fn surface(outlines: &[&Outline], middle: DVec2) -> [f64; RAYS] {
-    surface_within(outlines, middle, STANDS_OFF)
+    surface_within(outlines, middle, STANDS_OFF, true)
 }
 
-/// The same with layers that stand off the body: a skirt's relief is its own.
+/// The same with layers that stand off the body: a skirt's relief is its own. What does not go around does not count: at a hem
+/// that hangs lower in front there is no skirt behind, only legs.
 pub fn outer_surface(outlines: &[&Outline], middle: DVec2) -> [f64; RAYS] {
-    surface_within(outlines, middle, f64::INFINITY)
+    surface_within(outlines, middle, f64::INFINITY, false)
 }
 
 /// The surface without what is further out than so many times the innermost layer.
-fn surface_within(outlines: &[&Outline], middle: DVec2, stands_off: f64) -> [f64; RAYS] {
+///
+/// - `fills`: where no layer is, what is nearest counts.
+fn surface_within(outlines: &[&Outline], middle: DVec2, stands_off: f64, fills: bool) -> [f64; RAYS] {
     let reaches: Vec<[f64; RAYS]> = outlines.iter().map(|outline| outline.reaches(middle)).collect();
     let share =
         |reaches: &[f64; RAYS]| reaches.iter().filter(|reach| !reach.is_nan()).count() as f64 / RAYS as f64;
@@ -100,7 +103,11 @@ fn surface_within(outlines: &[&Outline], middle: DVec2, stands_off: f64) -> [f64
         let (nearest, furthest) =
             hits.fold((f64::NAN, f64::NAN), |(low, high), hit| (low.min(hit), high.max(hit)));
         if nearest.is_nan() {
-            return reaches.iter().map(|outline| outline[ray]).fold(f64::NAN, f64::min);
+            return if fills {
+                reaches.iter().map(|outline| outline[ray]).fold(f64::NAN, f64::min)
+            } else {
+                nearest
+            };
         }
         let reach = furthest.min(stands_off * nearest);
         open.iter().map(|outline| outline[ray]).filter(|&hit| hit <= STANDS_OFF * reach).fold(reach, f64::max)

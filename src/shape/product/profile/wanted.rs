@@ -4,9 +4,18 @@ use super::canonical::{canonical, canonical_strength};
 use super::measure::BodyFrame;
 use super::{ARM_STATIONS, LEG_STATIONS, Profile, Strengths, stations};
 use crate::character::bones::Group;
-use crate::options::{GroupSettings, Options};
+use crate::options::{GroupSettings, Options, Stage};
 use crate::shape::product::groups::PartGroups;
 use crate::shape::style::Style;
+
+/// The profile that `style` and `options` ask for, and how much of it; `None` where they ask for none.
+///
+/// `lost`: how much of the style the target takes.
+pub fn profile_of(style: &Style, options: &Options, lost: f64) -> Option<(Profile, f64)> {
+    let (wanted, share) = wanted_of(style)?;
+    let share = share * lost * options.profile;
+    (share > 0.0 && options.stage != Stage::Length).then_some((wanted, share))
+}
 
 /// The profile that `style` wants, and how much of it: all of a reference's, of a body of so many heads what figures of that
 /// height have in common. `None` where the style says nothing of a body.

@@ -1,0 +1,373 @@
+//! The chart of a body (D29): what is measured of it once, as it stands, and what a style makes of that. Relief and slices act
+//! where they were measured, before the parts' lengths, so that nothing is measured on what is deformed.
+
+use super::measure::{BodyFrame, BodyLines, on_limb};
+use super::relief::{Reaches, Relief};
+use super::scales::{Scales, Strengths, scales};
+use super::smooth::{smooth, smooth_lengths};
+use super::{ARM_STATIONS, BodyMap, LEG_STATIONS, Profile, Row, STATIONS, TORSO_STATIONS, stations};
+use crate::error::Warning;
+use crate::geometry::slice::Planes;
+use crate::geometry::{Moved, smoothstep};
+use crate::shape::Measured;
+use crate::shape::product::field::PartField;
+use crate::shape::product::part::{Part, PartWeights};
+use crate::shape::product::scales::Scale;
+use glam::{DVec2, DVec3};
+
+/// What becomes this much stubbier (its length shrinks to .7 of what its thickness does) loses all of its relief.
+const SMOOTH_FROM: f64 = 0.3;
+
+/// What is measured of a body as it stands.
+#[derive(Clone, Debug)]
+pub struct Chart {
+    frame: BodyFrame,
+    own: Profile,
+    lines: BodyLines,
+    reaches: Reaches,
+}
+
+/// What a style makes of a chart: maps at rest.
+#[derive(Clone, Debug)]
+pub struct Slices {
+    relief: Relief,
+    map: BodyMap,
+    /// Of what soft limits took more than a tenth, the scale that was wanted and the one that it got.
+    limited: Vec<(&'static str, f64, f64)>,
+}
+
+impl Chart {
+    /// Measures a target.
+    ///
+    /// - `threads`: at most this many, 0 for all cores.
+    pub fn of(measured: &Measured, threads: usize) -> Self {
+        let Measured { figure, anatomy, chains, weld, shape, lines, .. } = measured;
+        let frame = BodyFrame::of(figure, anatomy);
+        let reaches = Reaches::of(figure, chains, weld, &frame, threads);
+        Self { own: shape.profile.clone().unwrap_or_default(), lines: lines.clone(), frame, reaches }
+    }
+
+    /// The frame that it was measured in.
+    pub fn frame(&self) -> &BodyFrame {
+        &self.frame
+    }
+
+    /// The maps that, before those of `parts`, give the body so much of the profile `wanted`.
+    pub fn slices(&self, parts: &PartField, wanted: &Profile, strengths: &Strengths) -> Slices {
+        let frame = &self.frame;
+        let grown = parts.after().head_length() / frame.head_length();
+        let lengths = parts.lengths();
+        let mean = |row: &Row| row.iter().sum::<f64>() / STATIONS as f64;
+        let of_chains = [strengths.torso, mean(&strengths.leg), mean(&strengths.arm)];
+        let thicker = self.thicker(wanted).map(|thicker| grown * thicker);
+        let strength = std::array::from_fn(|chain| {
+            of_chains[chain] * smoothstep((1.0 - lengths[chain] / thicker[chain]) / SMOOTH_FROM)
+        });
+        let new_length = parts.after().head_length();
+        let torso_place = |y: f64| parts.body_height(y) / new_length;
+        let [_, leg, arm] = lengths.map(|length| length / new_length);
+        let relief = self.reaches.relief(frame, strength, torso_place, leg, arm);
+        let (smooth, lines) = self.smoothed(&relief);
+        let grows = Grows::of(parts, frame, grown);
+        let straight = grows.straightened(&smooth, frame, lengths[1] / grown, &strengths.leg);
+        let mut scales = scales(&grows.after(&straight, parts, frame), wanted, strengths);
+        let limited = std::mem::take(&mut scales.limited);
+        grows.back(&mut scales, &smooth, &straight);
+        Slices { relief, map: BodyMap::new(&smooth, &lines, frame, &scales, torso_place), limited }
+    }
+
+    /// How much thicker, in heads, `wanted` is than torso, legs and arms are.
+    fn thicker(&self, wanted: &Profile) -> [f64; 3] {
+        let rows = |profile: &Profile| -> [Option<[Row; 2]>; 3] {
+            [
+                profile.torso.as_ref().map(|torso| [torso.breadth, torso.depth]),
+                profile.leg.as_ref().map(|leg| [leg.breadth, leg.depth]),
+                profile.arm.as_ref().map(|arm| [arm.breadth, arm.depth]),
+            ]
+        };
+        let (own, wanted) = (rows(&self.own), rows(wanted));
+        std::array::from_fn(|chain| match (own[chain], wanted[chain]) {
+            (Some(own), Some(wanted)) => {
+                let log = |at: usize| 0.5 * (wanted[0][at] * wanted[1][at] / (own[0][at] * own[1][at])).ln();
+                ((0..STATIONS).map(log).sum::<f64>() / STATIONS as f64).exp()
+            }
+            _ => 1.0,
+        })
+    }
+
+    /// The profile, and the lines, that `relief` leaves: as smooth as what is measured is.
+    fn smoothed(&self, relief: &Relief) -> (Profile, BodyLines) {
+        let (frame, length) = (&self.frame, self.frame.head_length());
+        let (mut now, mut lines) = (self.own.clone(), self.lines.clone());
+        // Middle and half extents of a slice, in head lengths.
+        let slice = |planes: &Planes, height: f64, [middle, half]: [DVec2; 2], part: Part, is_skirt: bool| {
+            let to = |x: f64, z: f64| {
+                let p = planes.point(height, length * (middle + half * DVec2::new(x, z)));
+                planes.locate(relief.map(p, &part.alone(), is_skirt)).1 / length
+            };
+            let ends = |sign: f64| DVec2::new(to(sign, 0.0).x, to(0.0, sign).y);
+            [(ends(1.0) + ends(-1.0)) / 2.0, (ends(1.0) - ends(-1.0)).abs() / 2.0]
+        };
+        if let Some(torso) = &mut now.torso {
+            for (at, t) in stations(TORSO_STATIONS).into_iter().enumerate() {
+                let from =
+                    [DVec2::new(0.0, torso.forward[at]), DVec2::new(torso.breadth[at], torso.depth[at])];
+                let [middle, half] =
+                    slice(&frame.torso_planes(), t * frame.torso_length(), from, Part::Torso, false);
+                (torso.forward[at], torso.breadth[at], torso.depth[at]) = (middle.y, half.x, half.y);
+            }
+        }
+        let planes = frame.leg_planes();
+        for (at, t) in stations(LEG_STATIONS).into_iter().enumerate() {
+            let height = t * frame.leg_length();
+            if let Some(leg) = &mut now.leg {
+                let [mut middle, mut half] = [DVec2::ZERO; 2];
+                for (side, part) in [Part::LeftUpperLeg, Part::RightUpperLeg].into_iter().enumerate() {
+                    let sign = DVec2::new(frame.sign(2 + side), 1.0);
+                    let from = [
+                        sign * DVec2::new(leg.outward[at], leg.forward[at]),
+                        DVec2::new(leg.breadth[at], leg.depth[at]),
+                    ];
+                    let to = slice(&planes, height, from, part, false);
+                    middle += sign * to[0] / 2.0;
+                    half += to[1] / 2.0;
+                }
+                (leg.outward[at], leg.forward[at]) = middle.into();
+                (leg.breadth[at], leg.depth[at]) = half.into();
+            }
+            if let Some(skirt) = &mut now.skirt
+                && let (Some(breadth), Some(depth), Some(forward)) =
+                    (skirt.breadth[at], skirt.depth[at], skirt.forward[at])
+            {
+                let from = [DVec2::new(0.0, forward), DVec2::new(breadth, depth)];
+                let [middle, half] = slice(&planes, height, from, Part::Torso, true);
+                (skirt.forward[at], skirt.breadth[at], skirt.depth[at]) =
+                    (Some(middle.y), Some(half.x), Some(half.y));
+            }
+        }
+        let sides = [Part::LeftUpperArm, Part::RightUpperArm].into_iter().enumerate();
+        let mut arms: Vec<_> = sides
+            .zip(&mut lines.arm_middles)
+            .filter_map(|((side, part), line)| Some((side, part, frame.arm_planes(side)?, line.as_mut()?)))
+            .collect();
+        let share = 1.0 / arms.len() as f64;
+        if let Some(arm) = &mut now.arm {
+            for (at, t) in stations(ARM_STATIONS).into_iter().enumerate() {
+                let from = DVec2::new(arm.breadth[at], arm.depth[at]);
+                let mut half = DVec2::ZERO;
+                for (side, part, planes, line) in &mut arms {
+                    let middle = DVec2::new(line[0][at], line[1][at]) / length;
+                    let to = slice(planes, t * frame.arm_length(*side), [middle, from], *part, false);
+                    (line[0][at], line[1][at]) = (length * to[0]).into();
+                    half += share * to[1];
+                }
+                if !arms.is_empty() {
+                    (arm.breadth[at], arm.depth[at]) = half.into();
+                }
+            }
+        }
+        // Relief has gaps and folds that a profile has not.
+        let mut own = self.own.clone();
+        for ((row, is_length), (own, _)) in rows(&mut now).into_iter().zip(rows(&mut own)) {
+            let moved: Row =
+                std::array::from_fn(|at| if is_length { row[at] / own[at] } else { row[at] - own[at] });
+            let even = if is_length { smooth_lengths(&moved) } else { smooth(&moved) };
+            if let Some(even) = even {
+                *row =
+                    std::array::from_fn(|at| if is_length { even[at] * own[at] } else { even[at] + own[at] });
+            }
+        }
+        (now, lines)
+    }
+}
+
+/// The rows of torso, legs and arms, and whether they are lengths.
+fn rows(profile: &mut Profile) -> Vec<(&mut Row, bool)> {
+    let mut rows = Vec::new();
+    if let Some(torso) = &mut profile.torso {
+        rows.extend([(&mut torso.breadth, true), (&mut torso.depth, true), (&mut torso.forward, false)]);
+    }
+    if let Some(leg) = &mut profile.leg {
+        rows.extend([
+            (&mut leg.breadth, true),
+            (&mut leg.depth, true),
+            (&mut leg.forward, false),
+            (&mut leg.outward, false),
+        ]);
+    }
+    if let Some(arm) = &mut profile.arm {
+        rows.extend([(&mut arm.breadth, true), (&mut arm.depth, true)]);
+    }
+    rows
+}
+
+/// How thick the parts leave a body, slice by slice, as what a head length at rest becomes in heads of the result.
+struct Grows {
+    torso: f64,
+    leg: Row,
+    arm: Row,
+    hand: f64,
+    foot: f64,
+    neck: f64,
+    spread: f64,
+    shoulder: f64,
+    arm_length: f64,
+}
+
+impl Grows {
+    /// `grown`: how much the head's length grows.
+    fn of(parts: &PartField, frame: &BodyFrame, grown: f64) -> Self {
+        let scales = parts.coefficients();
+        let row = |ends: (f64, f64), middle: f64, upper: Scale, lower: Scale| {
+            stations(ends).map(|t| if t < middle { upper.thickness } else { lower.thickness } / grown)
+        };
+        Self {
+            torso: scales.torso.thickness / grown,
+            leg: row(LEG_STATIONS, frame.knee(), scales.upper_leg, scales.lower_leg),
+            arm: row(ARM_STATIONS, frame.elbow(), scales.upper_arm, scales.lower_arm),
+            hand: scales.hand / grown,
+            foot: scales.foot / grown,
+            neck: scales.neck.thickness / grown,
+            spread: scales.upper_leg.thickness / grown,
+            shoulder: scales.shoulder_spread / grown,
+            arm_length: parts.lengths()[2] / grown,
+        }
+    }
+
+    /// `own`, where legs and skirts are curved as much less as legs become shorter than thinner.
+    ///
+    /// `length`: how long a head length along the legs becomes, in heads of the result.
+    fn straightened(&self, own: &Profile, frame: &BodyFrame, length: f64, strengths: &Row) -> Profile {
+        let mut straight = own.clone();
+        for (at, t) in stations(LEG_STATIONS).into_iter().enumerate() {
+            let y = frame.heights.crotch - t * frame.leg_length();
+            let bones = (2..4).map(|limb| on_limb(&frame.limbs[limb], y).z).sum::<f64>() / 2.0;
+            let bones = (bones - frame.hips.z) / frame.head_length();
+            let flat = 1.0 + strengths[at] * ((length / self.leg[at]).min(1.0) - 1.0);
+            let flattened = |forward: f64| bones + flat * (forward - bones);
+            if let Some(leg) = &mut straight.leg {
+                leg.forward[at] = flattened(leg.forward[at]);
+            }
+            if let Some(skirt) = &mut straight.skirt {
+                skirt.forward[at] = skirt.forward[at].map(flattened);
+            }
+        }
+        straight
+    }
+
+    /// What the parts make of the profile `own`, in heads of the result.
+    fn after(&self, own: &Profile, parts: &PartField, frame: &BodyFrame) -> Profile {
+        let times = |row: &Row, by: &Row| -> Row { std::array::from_fn(|at| row[at] * by[at]) };
+        let (length, new_length) = (frame.head_length(), parts.after().head_length());
+        let hips = parts.place_torso(frame.hips).z;
+        let mut now = own.clone();
+        if let (Some(now), Some(own)) = (&mut now.torso, &own.torso) {
+            (now.breadth, now.depth) =
+                (own.breadth.map(|x| x * self.torso), own.depth.map(|x| x * self.torso));
+            for (at, t) in stations(TORSO_STATIONS).into_iter().enumerate() {
+                let middle = DVec2::new(0.0, length * own.forward[at]);
+                let p = frame.torso_planes().point(t * frame.torso_length(), middle);
+                now.forward[at] = (parts.place_torso(p).z - hips) / new_length;
+            }
+        }
+        let heights = stations(LEG_STATIONS).map(|t| t * frame.leg_length());
+        let planes = frame.leg_planes();
+        if let (Some(now), Some(own)) = (&mut now.leg, &own.leg) {
+            (now.breadth, now.depth) = (times(&own.breadth, &self.leg), times(&own.depth, &self.leg));
+            for (at, &height) in heights.iter().enumerate() {
+                let side = |side: usize| {
+                    let sign = frame.sign(2 + side);
+                    let p =
+                        planes.point(height, length * DVec2::new(sign * own.outward[at], own.forward[at]));
+                    let limb = &frame.limbs[2 + side];
+                    let to = parts.place_part(limb.parts[usize::from(p.y < limb.middle.y)], p);
+                    DVec2::new(sign * (to.x - frame.middle_x), to.z - hips)
+                };
+                (now.outward[at], now.forward[at]) = ((side(0) + side(1)) / (2.0 * new_length)).into();
+            }
+        }
+        if let (Some(now), Some(own)) = (&mut now.skirt, &own.skirt) {
+            for (at, &height) in heights.iter().enumerate() {
+                now.breadth[at] = own.breadth[at].map(|x| x * self.torso);
+                now.depth[at] = own.depth[at].map(|x| x * self.torso);
+                now.forward[at] = own.forward[at].map(|forward| {
+                    let p = planes.point(height, DVec2::new(0.0, length * forward));
+                    (parts.place_torso(p).z - hips) / new_length
+                });
+            }
+        }
+        if let (Some(now), Some(own)) = (&mut now.arm, &own.arm) {
+            (now.breadth, now.depth) = (times(&own.breadth, &self.arm), times(&own.depth, &self.arm));
+        }
+        now.hand = own.hand.map(|hand| hand.map(|size| size * self.hand));
+        now.foot = own.foot.map(|[toe, heel, breadth, outward, height]| {
+            let ankle = |place: &dyn Fn(usize) -> DVec3| {
+                (2..4).map(|leg| frame.sign(leg) * (place(leg).x - frame.middle_x)).sum::<f64>() / 2.0
+            };
+            let before = ankle(&|leg| frame.limbs[leg].end) / length;
+            let after =
+                ankle(&|leg| parts.place_part(frame.limbs[leg].parts[2], frame.limbs[leg].end)) / new_length;
+            let [toe, heel, breadth, beside, height] =
+                [toe, heel, breadth, outward - before, height].map(|x| x * self.foot);
+            [toe, heel, breadth, after + beside, height]
+        });
+        now.neck = own.neck.map(|neck| neck * self.neck);
+        now.shoulder = own.shoulder * self.shoulder;
+        now.arm_length = own.arm_length * self.arm_length;
+        now
+    }
+
+    /// Turns places of the result, in its heads, into places at rest, in heads there.
+    fn back(&self, scales: &mut Scales, own: &Profile, straight: &Profile) {
+        scales.torso.shift = scales.torso.shift.map(|shift| shift / self.torso);
+        scales.leg.shift = std::array::from_fn(|at| scales.leg.shift[at] / self.leg[at]);
+        scales.spread /= self.spread;
+        if let (Some(own), Some(straight)) = (&own.leg, &straight.leg) {
+            for at in 0..STATIONS {
+                scales.leg.shift[at] += straight.forward[at] - own.forward[at];
+            }
+        }
+        if let (Some(skirt), Some(straight)) = (&own.skirt, &straight.skirt) {
+            for scale in &mut scales.skirt {
+                if let (Some(own), Some(straight)) =
+                    (skirt.forward[scale.station], straight.forward[scale.station])
+                {
+                    scale.shift = straight - own;
+                }
+                let at = |row: &[Option<f64>; STATIONS], known: f64| row[scale.station].unwrap_or(known);
+                scale.half = [at(&skirt.breadth, scale.half[0]), at(&skirt.depth, scale.half[1])];
+                scale.forward = at(&skirt.forward, scale.forward);
+            }
+        }
+    }
+}
+
+impl Slices {
+    /// Where relief takes `p` that `weights` bind, before [`Self::part`].
+    #[inline(always)]
+    pub fn smooth<M: Moved>(&self, p: DVec3, weights: &PartWeights, is_skirt: bool) -> M {
+        self.relief.map(p, weights, is_skirt)
+    }
+
+    /// See [`BodyMap::part`].
+    #[inline(always)]
+    pub fn part<M: Moved>(&self, part: usize, p: DVec3, is_skirt: bool) -> M {
+        self.map.part(part, p, is_skirt)
+    }
+
+    /// See [`BodyMap::on_bones`].
+    pub fn on_bones<M: Moved>(&self, p: DVec3, side: usize) -> M {
+        self.map.on_bones(p, side)
+    }
+
+    /// A warning that names what soft limits took more than a tenth of.
+    pub fn limited(&self) -> Option<Warning> {
+        let item = |(what, wanted, got): &(&str, f64, f64)| format!("{what} {wanted:.2} to {got:.2}");
+        let items: Vec<String> = self.limited.iter().map(item).collect();
+        (!items.is_empty()).then(|| {
+            let message =
+                format!("limited slices that the style wants thicker or thinner: {}", items.join(", "));
+            Warning::new("coefficient_limited", message).about("profile")
+        })
+    }
+}
