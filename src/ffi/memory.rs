@@ -12,8 +12,8 @@ use crate::options::{Options, RigOptions, table};
 use crate::parallel;
 use crate::pipeline::{Deformer, Kept};
 
-/// Bytes that any of the larger calls takes, whatever the character: names, tables, text.
-const BASE: usize = 1 << 19;
+/// Bytes that any of the larger calls takes, whatever the character: names, tables, text, the chart of its body.
+const BASE: usize = 1 << 20;
 /// Less than this is not asked for: so much is always assumed to be there.
 const NOT_ASKED: usize = 1 << 18;
 /// The stack of a thread (2 MiB by default) and what the system's allocator reserves for a thread of its own (64 MiB, twice

@@ -74,8 +74,8 @@ stages! {
     figure: Figure = lay_out, Measure 4, [];
     /// Landmarks, lengths, radii and slices of its body, and its face (V-A).
     measured: Measured = measure, Measure 21, [mode, rays, bone_groups];
-    /// Product mode: the parts that each vertex and joint hangs on (D26).
-    parts: ProductTarget = bind, Deform 17, [];
+    /// Product mode: the parts that each vertex and joint hangs on (D26), and the chart of its body (D29).
+    parts: ProductTarget = bind, Deform 21, [];
     /// Which cloth lies how far over what (D32).
     worn: Worn = worn, Deform 0, [];
     /// What crown, chin and soles are read from.
@@ -90,7 +90,7 @@ stages! {
     // The body.
 
     /// Where trunk and limbs go: Eqs. 1-11, or parts and slices (D27, D29) until the number of heads is right.
-    body: Body = shape_body, Deform 18, [
+    body: Body = shape_body, Deform 14, [
         mode, head_scale, groups, bone_groups, limits, profile, stage
     ];
     /// What keeps clothes outside of that body (D32).

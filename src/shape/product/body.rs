@@ -79,6 +79,7 @@ pub fn body(
     let request = Request { measured, product, heads, style, options, groups: &groups, asked, lost, limbs };
     let (Attempt { field, scales, .. }, of_field, heads_left) = request.best(&mut progress.part(0.0, 0.5))?;
     warnings.extend(of_field);
+    progress.at(0.5)?;
     let placed =
         Placement::new(&measured.figure, &product.bindings, &field, options.thread_count).all_placed();
     Ok(Body {

@@ -46,7 +46,7 @@ impl ProductTarget {
             &character.skeleton,
             &measured.weld,
             threads,
-            progress,
+            &mut progress.part(0.0, 0.8),
         )?;
         let vertices = std::mem::take(&mut parts.vertices);
         let of_legs =

@@ -26,7 +26,7 @@ pub struct RadiusMap {
     pub middles: Vec<DVec2>,
     /// By row, then direction.
     pub reaches: Vec<Ring>,
-    /// What the reaches are scaled by.
+    /// What the reaches are scaled by; none where nothing asks for that yet.
     pub scales: Vec<Ring>,
 }
 
@@ -69,8 +69,7 @@ impl RadiusMap {
             .map(|(outlines, &middle)| bounded(outer_surface(&outlines.iter().collect::<Vec<_>>(), middle)))
             .collect();
         fill(&mut reaches)?;
-        let scales = vec![[1.0; RAYS]; reaches.len()];
-        Some(Self { planes, start, step, middles, reaches, scales })
+        Some(Self { planes, start, step, middles, reaches, scales: Vec::new() })
     }
 
     /// The heights of the rows.
