@@ -537,8 +537,8 @@ fn no_head_folds_and_hardly_a_triangle_turns_over() {
         }
     }
     println!("{turned} of {count} triangles turned over");
-    // Slivers are left as they turn, and folds of a wig that lies on shoulders: one triangle of 25,000.
-    assert!(turned * 25_000 <= count.max(25_000), "{turned} of {count} triangles turned over");
+    // Slivers are left as they turn: one triangle of 30,000.
+    assert!(turned * 30_000 <= count.max(30_000), "{turned} of {count} triangles turned over");
 }
 
 #[test]

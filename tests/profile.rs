@@ -239,8 +239,7 @@ fn a_hand_that_becomes_short_and_thick_droops_no_more_than_it_did() {
     let run = run(&style_of(REFERENCE, &Options::default()), &Options::default());
     let (before, after) = (droop(run.before()), droop(&run.after()));
     assert!(before > 0.05, "the hand is straight: {before}");
-    // Palms that grow thicker than fingers tilt the line through all of it by a hundredth.
-    assert!(after <= 1.02 * before, "{before} before, {after} after");
+    assert!(after <= before, "{before} before, {after} after");
 }
 
 #[test]

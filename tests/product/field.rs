@@ -56,7 +56,7 @@ const PARTS: [Part; PART_COUNT] = [
 ];
 
 fn field_of(anatomy: &Anatomy, scales: PartCoefficients) -> PartField {
-    PartField::new(anatomy, scales, None, &[])
+    PartField::new(anatomy, scales)
 }
 
 /// `field` and then `face`.
@@ -76,7 +76,7 @@ fn assert_near(what: &str, found: DVec3, expected: DVec3) {
 #[test]
 fn scales_of_one_leave_everything_where_it_is() {
     for Tubes { person, figure, anatomy, bindings, .. } in crowd() {
-        let field = PartField::new(anatomy, PartCoefficients::IDENTITY, None, &bindings.pieces);
+        let field = PartField::new(anatomy, PartCoefficients::IDENTITY).with(None, &bindings.pieces);
         let height = figure.height();
         for (&p, binding) in figure.positions.iter().zip(&bindings.vertices) {
             let to = field.map(p, binding);
@@ -225,7 +225,7 @@ fn no_part_jumps_anywhere() {
         spread: DMat3::IDENTITY,
         weights: Part::Torso.alone(),
     });
-    let field = PartField::new(anatomy, SCALES, None, &bindings.pieces);
+    let field = PartField::new(anatomy, SCALES).with(None, &bindings.pieces);
     // A mixture of torso, neck and hair stands for blended weights.
     let mut mixed = Part::Torso.alone();
     (mixed[0], mixed[1], mixed[15]) = (0.5, 0.25, 0.25);
@@ -271,7 +271,7 @@ fn jacobians_are_those_of_central_differences() {
         spread: DMat3::IDENTITY,
         weights: Part::Torso.alone(),
     });
-    let parts = PartField::new(&anatomy, SCALES, None, &bindings.pieces);
+    let parts = PartField::new(&anatomy, SCALES).with(None, &bindings.pieces);
     let chin = parts.after().chin;
     let curve = FaceMap { bottom: chin, top: chin + 0.3, squash: 0.8, curve: FaceCurve::F4 };
     let mut next = numbers(3);
@@ -347,7 +347,7 @@ fn a_piece_is_moved_and_scaled_as_one_and_does_not_sink_into_the_ground() {
         round(anchors[1], before.sole - 0.1),
         Piece { spread: level, ..round(anchors[0], anchors[0].y) },
     ];
-    let field = PartField::new(anatomy, SCALES, None, &pieces);
+    let field = PartField::new(anatomy, SCALES).with(None, &pieces);
     let on_torso = |p: DVec3| by_part(&field, Part::Torso, p);
     let slope = field.after().crotch / before.crotch;
     // The mean of how the torso's map stretches along the axes.

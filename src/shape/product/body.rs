@@ -229,13 +229,13 @@ impl Request<'_> {
         let has_legs = target.shape.profile.as_ref().is_some_and(|own| own.leg.is_some());
         let sliced = profile.filter(|_| has_legs).map_or(0.0, |(_, share)| share.clamp(0.0, 1.0));
         let (scales, limits) = part_coefficients(&anatomy.proportions, goal, lost, sliced, options, groups)?;
+        let parts = PartField::new(anatomy, scales);
         let slices = profile.map(|(wanted, share)| {
-            let parts = PartField::new(anatomy, scales, None, &[]);
             let chart = &product.chart;
             chart.slices(&parts, wanted, &strengths(*share, options, groups, chart.frame()))
         });
         let limited = slices.as_ref().and_then(Slices::limited);
-        let field = PartField::new(anatomy, scales, slices, &product.parts.pieces);
+        let field = parts.with(slices, &product.parts.pieces);
         let field = Field::of(Arc::new(BodyField::Parts(Box::new(field))));
         let placement = Placement::new(&target.figure, &product.bindings, &field, options.thread_count);
         let positions = placement.vertices(&heads.vertices);

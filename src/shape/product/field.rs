@@ -74,13 +74,8 @@ pub struct PartField {
 }
 
 impl PartField {
-    /// The field that moves a figure of `anatomy` by `coefficients`, after `slices`, and takes `pieces` along.
-    pub fn new(
-        anatomy: &Anatomy,
-        coefficients: PartCoefficients,
-        slices: Option<Slices>,
-        pieces: &[Piece],
-    ) -> Self {
+    /// The field that moves a figure of `anatomy` by `coefficients`.
+    pub fn new(anatomy: &Anatomy, coefficients: PartCoefficients) -> Self {
         let before = anatomy.landmarks.heights;
         let base = anatomy.centre_z(before.shoulder_line).0;
         let mut field = Self {
@@ -94,14 +89,21 @@ impl PartField {
                 / anatomy.centre_line.len() as f64,
             neck_z: [base, base],
             pieces: Vec::new(),
-            slices,
+            slices: None,
         };
         let neck_base = DVec3::new(anatomy.middle_x, before.shoulder_line, base);
         field.neck_z[1] = field.torso(neck_base).position.z;
         field.place_head();
         field.place_limbs();
-        field.pieces = pieces.iter().map(|piece| field.piece_map(piece)).collect();
         field
+    }
+
+    /// The same field after `slices`, which takes `pieces` along.
+    pub fn with(mut self, slices: Option<Slices>, pieces: &[Piece]) -> Self {
+        self.slices = slices;
+        self.place_limbs();
+        self.pieces = pieces.iter().map(|piece| self.piece_map(piece)).collect();
+        self
     }
 
     /// Its coefficients.
@@ -190,11 +192,11 @@ impl PartField {
         let unmoved = M::of(p, || DMat3::IDENTITY);
         let to: M = match &self.slices {
             Some(slices) if binding.is_on_bone() => {
-                let on_bones: M = slices.on_bones(p, usize::from(arm_share(weights, 1) > 0.0));
+                let on_bones: M = slices.map.on_bones(p, usize::from(arm_share(weights, 1) > 0.0));
                 self.blend(weights, |_| on_bones)
             }
             Some(slices) if !is_of_head(weights) => {
-                let smooth: M = slices.smooth(p, weights, *is_skirt);
+                let smooth: M = slices.relief.map(p, weights, *is_skirt);
                 let mut known = (PART_COUNT, smooth);
                 self.blend(weights, |part| {
                     let chain = chain_of(part, *is_skirt);
@@ -202,7 +204,7 @@ impl PartField {
                         return unmoved;
                     }
                     if chain != known.0 {
-                        let to: M = slices.part(chain, smooth.position(), *is_skirt);
+                        let to: M = slices.map.part(chain, smooth.position(), *is_skirt);
                         known = (chain, M::of(to.position(), || to.jacobian() * smooth.jacobian()));
                     }
                     known.1
@@ -309,10 +311,10 @@ impl PartField {
             let [first, second, last] = limb.parts;
             let from: [DVec3; 3] = match &self.slices {
                 Some(slices) if is_arm => {
-                    [limb.root, limb.middle, limb.end].map(|joint| slices.on_bones(joint, index))
+                    [limb.root, limb.middle, limb.end].map(|joint| slices.map.on_bones(joint, index))
                 }
                 Some(slices) => [(first, limb.root), (second, limb.middle), (last, limb.end)]
-                    .map(|(part, joint)| slices.part(part, joint, false)),
+                    .map(|(part, joint)| slices.map.part(part, joint, false)),
                 None => [limb.root, limb.middle, limb.end],
             };
             let mut root = self.torso(from[0]).position;

@@ -5,13 +5,16 @@ use super::measure::{BodyFrame, BodyLines, on_limb};
 use super::relief::{Reaches, Relief};
 use super::scales::{Scales, Strengths, scales};
 use super::smooth::{smooth, smooth_lengths};
-use super::{ARM_STATIONS, BodyMap, LEG_STATIONS, Profile, Row, STATIONS, TORSO_STATIONS, stations};
+use super::{
+    ARM_STATIONS, ArmProfile, BodyMap, LEG_STATIONS, LegProfile, Profile, Row, STATIONS, TORSO_STATIONS,
+    TorsoProfile, stations,
+};
 use crate::error::Warning;
 use crate::geometry::slice::Planes;
-use crate::geometry::{Moved, smoothstep};
+use crate::geometry::smoothstep;
 use crate::shape::Measured;
 use crate::shape::product::field::PartField;
-use crate::shape::product::part::{Part, PartWeights};
+use crate::shape::product::part::Part;
 use crate::shape::product::scales::Scale;
 use glam::{DVec2, DVec3};
 
@@ -30,8 +33,10 @@ pub struct Chart {
 /// What a style makes of a chart: maps at rest.
 #[derive(Clone, Debug)]
 pub struct Slices {
-    relief: Relief,
-    map: BodyMap,
+    /// First.
+    pub relief: Relief,
+    /// Then, before each part.
+    pub map: BodyMap,
     /// Of what soft limits took more than a tenth, the scale that was wanted and the one that it got.
     limited: Vec<(&'static str, f64, f64)>,
 }
@@ -55,22 +60,19 @@ impl Chart {
     /// The maps that, before those of `parts`, give the body so much of the profile `wanted`.
     pub fn slices(&self, parts: &PartField, wanted: &Profile, strengths: &Strengths) -> Slices {
         let frame = &self.frame;
-        let grown = parts.after().head_length() / frame.head_length();
-        let lengths = parts.lengths();
+        let grows = Grows::of(parts, frame);
         let mean = |row: &Row| row.iter().sum::<f64>() / STATIONS as f64;
         let of_chains = [strengths.torso, mean(&strengths.leg), mean(&strengths.arm)];
-        let thicker = self.thicker(wanted).map(|thicker| grown * thicker);
+        let thicker = self.thicker(wanted);
         let strength = std::array::from_fn(|chain| {
-            of_chains[chain] * smoothstep((1.0 - lengths[chain] / thicker[chain]) / SMOOTH_FROM)
+            of_chains[chain] * smoothstep((1.0 - grows.lengths[chain] / thicker[chain]) / SMOOTH_FROM)
         });
-        let new_length = parts.after().head_length();
-        let torso_place = |y: f64| parts.body_height(y) / new_length;
-        let [_, leg, arm] = lengths.map(|length| length / new_length);
+        let torso_place = |y: f64| parts.body_height(y) / parts.after().head_length();
+        let [_, leg, arm] = grows.lengths.map(|length| length / frame.head_length());
         let relief = self.reaches.relief(frame, strength, torso_place, leg, arm);
         let (smooth, lines) = self.smoothed(&relief);
-        let grows = Grows::of(parts, frame, grown);
-        let straight = grows.straightened(&smooth, frame, lengths[1] / grown, &strengths.leg);
-        let mut scales = scales(&grows.after(&straight, parts, frame), wanted, strengths);
+        let straight = grows.straightened(&smooth, &strengths.leg);
+        let mut scales = scales(&grows.after(&straight), wanted, strengths);
         let limited = std::mem::take(&mut scales.limited);
         grows.back(&mut scales, &smooth, &straight);
         Slices { relief, map: BodyMap::new(&smooth, &lines, frame, &scales, torso_place), limited }
@@ -167,83 +169,82 @@ impl Chart {
             }
         }
         // Relief has gaps and folds that a profile has not.
-        let mut own = self.own.clone();
-        for ((row, is_length), (own, _)) in rows(&mut now).into_iter().zip(rows(&mut own)) {
-            let moved: Row =
-                std::array::from_fn(|at| if is_length { row[at] / own[at] } else { row[at] - own[at] });
-            let even = if is_length { smooth_lengths(&moved) } else { smooth(&moved) };
-            if let Some(even) = even {
-                *row =
-                    std::array::from_fn(|at| if is_length { even[at] * own[at] } else { even[at] + own[at] });
+        let (mut own, mut own_lines) = (self.own.clone(), self.lines.clone());
+        let before = rows(&mut own, &mut own_lines, length);
+        for ((row, unit), (own, _)) in rows(&mut now, &mut lines, length).into_iter().zip(before) {
+            if let Some(unit) = unit {
+                let moved = std::array::from_fn(|at| (row[at] - own[at]) / unit);
+                if let Some(even) = smooth(&moved) {
+                    *row = std::array::from_fn(|at| own[at] + unit * even[at]);
+                }
+            } else if let Some(even) = smooth_lengths(&std::array::from_fn(|at| row[at] / own[at])) {
+                *row = std::array::from_fn(|at| own[at] * even[at]);
             }
         }
         (now, lines)
     }
 }
 
-/// The rows of torso, legs and arms, and whether they are lengths.
-fn rows(profile: &mut Profile) -> Vec<(&mut Row, bool)> {
+/// The rows of torso, legs and arms: lengths, and places with what a head length is in their units.
+fn rows<'a>(
+    profile: &'a mut Profile,
+    lines: &'a mut BodyLines,
+    length: f64,
+) -> Vec<(&'a mut Row, Option<f64>)> {
     let mut rows = Vec::new();
-    if let Some(torso) = &mut profile.torso {
-        rows.extend([(&mut torso.breadth, true), (&mut torso.depth, true), (&mut torso.forward, false)]);
+    let heads = Some(1.0);
+    if let Some(TorsoProfile { breadth, depth, forward }) = &mut profile.torso {
+        rows.extend([(breadth, None), (depth, None), (forward, heads)]);
     }
-    if let Some(leg) = &mut profile.leg {
-        rows.extend([
-            (&mut leg.breadth, true),
-            (&mut leg.depth, true),
-            (&mut leg.forward, false),
-            (&mut leg.outward, false),
-        ]);
+    if let Some(LegProfile { outward, breadth, depth, forward }) = &mut profile.leg {
+        rows.extend([(breadth, None), (depth, None), (outward, heads), (forward, heads)]);
     }
-    if let Some(arm) = &mut profile.arm {
-        rows.extend([(&mut arm.breadth, true), (&mut arm.depth, true)]);
+    if let Some(ArmProfile { breadth, depth }) = &mut profile.arm {
+        rows.extend([(breadth, None), (depth, None)]);
     }
+    rows.extend(lines.arm_middles.iter_mut().flatten().flatten().map(|line| (line, Some(length))));
     rows
 }
 
-/// How thick the parts leave a body, slice by slice, as what a head length at rest becomes in heads of the result.
-struct Grows {
+/// What the parts make of a body: what a head length at rest becomes in heads of the result.
+struct Grows<'a> {
+    parts: &'a PartField,
+    frame: &'a BodyFrame,
+    /// How much the head's length grows.
+    grown: f64,
+    /// Along torso, legs and arms.
+    lengths: [f64; 3],
+    /// Across, slice by slice.
     torso: f64,
     leg: Row,
     arm: Row,
-    hand: f64,
-    foot: f64,
-    neck: f64,
-    spread: f64,
-    shoulder: f64,
-    arm_length: f64,
 }
 
-impl Grows {
-    /// `grown`: how much the head's length grows.
-    fn of(parts: &PartField, frame: &BodyFrame, grown: f64) -> Self {
+impl<'a> Grows<'a> {
+    fn of(parts: &'a PartField, frame: &'a BodyFrame) -> Self {
         let scales = parts.coefficients();
-        let row = |ends: (f64, f64), middle: f64, upper: Scale, lower: Scale| {
-            stations(ends).map(|t| if t < middle { upper.thickness } else { lower.thickness } / grown)
-        };
+        let grown = parts.after().head_length() / frame.head_length();
+        let across = |upper: Scale, lower: Scale| [upper.thickness / grown, lower.thickness / grown];
         Self {
+            lengths: parts.lengths().map(|length| length / grown),
             torso: scales.torso.thickness / grown,
-            leg: row(LEG_STATIONS, frame.knee(), scales.upper_leg, scales.lower_leg),
-            arm: row(ARM_STATIONS, frame.elbow(), scales.upper_arm, scales.lower_arm),
-            hand: scales.hand / grown,
-            foot: scales.foot / grown,
-            neck: scales.neck.thickness / grown,
-            spread: scales.upper_leg.thickness / grown,
-            shoulder: scales.shoulder_spread / grown,
-            arm_length: parts.lengths()[2] / grown,
+            leg: frame.leg_row(across(scales.upper_leg, scales.lower_leg)),
+            arm: frame.arm_row(across(scales.upper_arm, scales.lower_arm)),
+            parts,
+            frame,
+            grown,
         }
     }
 
     /// `own`, where legs and skirts are curved as much less as legs become shorter than thinner.
-    ///
-    /// `length`: how long a head length along the legs becomes, in heads of the result.
-    fn straightened(&self, own: &Profile, frame: &BodyFrame, length: f64, strengths: &Row) -> Profile {
+    fn straightened(&self, own: &Profile, strengths: &Row) -> Profile {
+        let frame = self.frame;
         let mut straight = own.clone();
         for (at, t) in stations(LEG_STATIONS).into_iter().enumerate() {
             let y = frame.heights.crotch - t * frame.leg_length();
             let bones = (2..4).map(|limb| on_limb(&frame.limbs[limb], y).z).sum::<f64>() / 2.0;
             let bones = (bones - frame.hips.z) / frame.head_length();
-            let flat = 1.0 + strengths[at] * ((length / self.leg[at]).min(1.0) - 1.0);
+            let flat = 1.0 + strengths[at] * ((self.lengths[1] / self.leg[at]).min(1.0) - 1.0);
             let flattened = |forward: f64| bones + flat * (forward - bones);
             if let Some(leg) = &mut straight.leg {
                 leg.forward[at] = flattened(leg.forward[at]);
@@ -256,7 +257,9 @@ impl Grows {
     }
 
     /// What the parts make of the profile `own`, in heads of the result.
-    fn after(&self, own: &Profile, parts: &PartField, frame: &BodyFrame) -> Profile {
+    fn after(&self, own: &Profile) -> Profile {
+        let Self { parts, frame, grown, .. } = *self;
+        let scales = parts.coefficients();
         let times = |row: &Row, by: &Row| -> Row { std::array::from_fn(|at| row[at] * by[at]) };
         let (length, new_length) = (frame.head_length(), parts.after().head_length());
         let hips = parts.place_torso(frame.hips).z;
@@ -299,7 +302,7 @@ impl Grows {
         if let (Some(now), Some(own)) = (&mut now.arm, &own.arm) {
             (now.breadth, now.depth) = (times(&own.breadth, &self.arm), times(&own.depth, &self.arm));
         }
-        now.hand = own.hand.map(|hand| hand.map(|size| size * self.hand));
+        now.hand = own.hand.map(|hand| hand.map(|size| size * scales.hand / grown));
         now.foot = own.foot.map(|[toe, heel, breadth, outward, height]| {
             let ankle = |place: &dyn Fn(usize) -> DVec3| {
                 (2..4).map(|leg| frame.sign(leg) * (place(leg).x - frame.middle_x)).sum::<f64>() / 2.0
@@ -308,12 +311,12 @@ impl Grows {
             let after =
                 ankle(&|leg| parts.place_part(frame.limbs[leg].parts[2], frame.limbs[leg].end)) / new_length;
             let [toe, heel, breadth, beside, height] =
-                [toe, heel, breadth, outward - before, height].map(|x| x * self.foot);
+                [toe, heel, breadth, outward - before, height].map(|x| x * scales.foot / grown);
             [toe, heel, breadth, after + beside, height]
         });
-        now.neck = own.neck.map(|neck| neck * self.neck);
-        now.shoulder = own.shoulder * self.shoulder;
-        now.arm_length = own.arm_length * self.arm_length;
+        now.neck = own.neck.map(|neck| neck * scales.neck.thickness / grown);
+        now.shoulder = own.shoulder * scales.shoulder_spread / grown;
+        now.arm_length = own.arm_length * self.lengths[2];
         now
     }
 
@@ -321,7 +324,7 @@ impl Grows {
     fn back(&self, scales: &mut Scales, own: &Profile, straight: &Profile) {
         scales.torso.shift = scales.torso.shift.map(|shift| shift / self.torso);
         scales.leg.shift = std::array::from_fn(|at| scales.leg.shift[at] / self.leg[at]);
-        scales.spread /= self.spread;
+        scales.spread *= self.grown / self.parts.coefficients().upper_leg.thickness;
         if let (Some(own), Some(straight)) = (&own.leg, &straight.leg) {
             for at in 0..STATIONS {
                 scales.leg.shift[at] += straight.forward[at] - own.forward[at];
@@ -329,37 +332,18 @@ impl Grows {
         }
         if let (Some(skirt), Some(straight)) = (&own.skirt, &straight.skirt) {
             for scale in &mut scales.skirt {
-                if let (Some(own), Some(straight)) =
-                    (skirt.forward[scale.station], straight.forward[scale.station])
+                let at = scale.station;
+                if let (Some(breadth), Some(depth), Some(forward), Some(to)) =
+                    (skirt.breadth[at], skirt.depth[at], skirt.forward[at], straight.forward[at])
                 {
-                    scale.shift = straight - own;
+                    (scale.half, scale.forward, scale.shift) = ([breadth, depth], forward, to - forward);
                 }
-                let at = |row: &[Option<f64>; STATIONS], known: f64| row[scale.station].unwrap_or(known);
-                scale.half = [at(&skirt.breadth, scale.half[0]), at(&skirt.depth, scale.half[1])];
-                scale.forward = at(&skirt.forward, scale.forward);
             }
         }
     }
 }
 
 impl Slices {
-    /// Where relief takes `p` that `weights` bind, before [`Self::part`].
-    #[inline(always)]
-    pub fn smooth<M: Moved>(&self, p: DVec3, weights: &PartWeights, is_skirt: bool) -> M {
-        self.relief.map(p, weights, is_skirt)
-    }
-
-    /// See [`BodyMap::part`].
-    #[inline(always)]
-    pub fn part<M: Moved>(&self, part: usize, p: DVec3, is_skirt: bool) -> M {
-        self.map.part(part, p, is_skirt)
-    }
-
-    /// See [`BodyMap::on_bones`].
-    pub fn on_bones<M: Moved>(&self, p: DVec3, side: usize) -> M {
-        self.map.on_bones(p, side)
-    }
-
     /// A warning that names what soft limits took more than a tenth of.
     pub fn limited(&self) -> Option<Warning> {
         let item = |(what, wanted, got): &(&str, f64, f64)| format!("{what} {wanted:.2} to {got:.2}");

@@ -2,6 +2,7 @@
 
 use crate::geometry::whole::floor;
 use crate::shape::product::part::TINY;
+use std::ops::Range;
 
 /// The monotone cubic through `knots` at `places`, which rise, at `x`; constant beyond the ends.
 ///
@@ -62,14 +63,18 @@ pub fn bell(away: f64) -> f64 {
 }
 
 /// Weighted means along `rows`, by a [`bell`] `sigma` wide: rows lie at `places`, which rise, and each counts for as much of the
-/// way as is its own.
-pub fn smoothed<const N: usize>(rows: &[[f64; N]], places: &[f64], sigma: f64) -> Vec<[f64; N]> {
+/// way as is its own. Only those of the rows `kept`.
+pub fn smoothed<const N: usize>(
+    rows: &[[f64; N]],
+    places: &[f64],
+    sigma: f64,
+    kept: Range<usize>,
+) -> Vec<[f64; N]> {
     let last = rows.len() - 1;
     let own = |row: usize| {
         let (before, after) = (row.saturating_sub(1), (row + 1).min(last));
         // An end counts for as much to both sides.
-        let sides = (after - before).max(1) as f64 / 2.0;
-        ((places[after] - places[before]) / sides / 2.0).max(TINY)
+        ((places[after] - places[before]) / (after - before).max(1) as f64).max(TINY)
     };
     let ways: Vec<f64> = (0..rows.len()).map(own).collect();
     let mut first = 0;
@@ -86,7 +91,7 @@ pub fn smoothed<const N: usize>(rows: &[[f64; N]], places: &[f64], sigma: f64) -
         }
         sum.map(|sum| sum / total)
     };
-    (0..rows.len()).map(mean).collect()
+    kept.map(mean).collect()
 }
 
 /// `N` functions of one place, sampled at even steps; between the samples cubic, with a slope that has no jumps; constant
@@ -109,7 +114,7 @@ impl<const N: usize> Table<N> {
     pub fn smoothed(&self, sigma: f64, place: impl Fn(f64) -> f64) -> Self {
         let places: Vec<f64> =
             (0..self.rows.len()).map(|row| place(self.start + self.step * row as f64)).collect();
-        Self { rows: smoothed(&self.rows, &places, sigma), ..*self }
+        Self { rows: smoothed(&self.rows, &places, sigma, 0..places.len()), ..*self }
     }
 
     /// Replaces the samples, at their places.

@@ -34,7 +34,7 @@ pub(super) const HAND_FADE: f64 = 0.25;
 /// A neck is read at these heights between shoulder line and chin.
 const NECK_HEIGHTS: [f64; 3] = [0.45, 0.6, 0.75];
 /// A neck is no thicker than this, in head lengths, an adult's .27: what lies further out is a collar or a scarf.
-const THICKEST_NECK: f64 = 0.3;
+const THICKEST_NECK: f64 = 0.29;
 /// A knee further off the line from hip to ankle than this part of the leg's length is bent, and its slices are no leg's.
 const BENT: f64 = 0.25;
 /// The toes' height is this quantile of what lies in front of this part of the way from ankle to toe.
@@ -128,6 +128,16 @@ impl BodyFrame {
         let upper: f64 = self.limbs[..2].iter().map(|limb| limb.root.distance(limb.middle)).sum();
         let lower: f64 = self.limbs[..2].iter().map(|limb| limb.middle.distance(limb.end)).sum();
         upper / (upper + lower)
+    }
+
+    /// A number for each slice of a leg, of an arm: the first above the knee, before the elbow, the second from there on.
+    pub fn leg_row(&self, [upper, lower]: [f64; 2]) -> Row {
+        stations(LEG_STATIONS).map(|t| if t < self.knee() { upper } else { lower })
+    }
+
+    #[allow(missing_docs)]
+    pub fn arm_row(&self, [upper, lower]: [f64; 2]) -> Row {
+        stations(ARM_STATIONS).map(|t| if t < self.elbow() { upper } else { lower })
     }
 
     /// Shoulder joint to wrist, straight, model units.

@@ -62,7 +62,8 @@ impl RadiusMap {
             })
             .collect();
         let heights: Vec<f64> = (0..cuts.len()).map(|row| step * row as f64).collect();
-        let middles: Vec<DVec2> = smoothed(&middles, &heights, sigma).into_iter().map(DVec2::from).collect();
+        let middles = smoothed(&middles, &heights, sigma, 0..cuts.len());
+        let middles: Vec<DVec2> = middles.into_iter().map(DVec2::from).collect();
         let mut reaches: Vec<Ring> = cuts
             .iter()
             .zip(&middles)

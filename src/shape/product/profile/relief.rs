@@ -115,7 +115,8 @@ impl Reaches {
         let torso = self.torso.as_ref().filter(|_| strength[0] > 0.0).map(|map| {
             let places: Vec<f64> =
                 map.heights().map(|height| torso_place(map.planes.origin.y + height)).collect();
-            scaled(map, &places, &smoothed(&map.reaches, &places, TORSO_SIGMA), strength[0])
+            let smooth = smoothed(&map.reaches, &places, TORSO_SIGMA, 0..places.len());
+            scaled(map, &places, &smooth, strength[0])
         });
         Relief {
             torso,
@@ -273,7 +274,7 @@ fn scaled(map: &RadiusMap, places: &[f64], smooth: &[Ring], strength: f64) -> Ra
             std::array::from_fn(|ray| (smooth[ray] / reach[ray]).clamp(BOUNDS.0, BOUNDS.1).powf(strength))
         })
         .collect();
-    let scales = smoothed(&raw, places, SCALE_SIGMA)
+    let scales = smoothed(&raw, places, SCALE_SIGMA, 0..raw.len())
         .iter()
         .map(|ring| {
             std::array::from_fn(|ray| {
@@ -314,5 +315,6 @@ fn smoothed_beyond(rings: &[Ring], places: &[f64]) -> Vec<Ring> {
     padded.extend(&logs);
     padded.extend((1..=pad).map(|away| line(before, last, away as f64)));
     let places: Vec<f64> = (0..padded.len()).map(|row| step * row as f64).collect();
-    smoothed(&padded, &places, LIMB_SIGMA)[pad..pad + count].iter().map(|ring| ring.map(f64::exp)).collect()
+    let smooth = smoothed(&padded, &places, LIMB_SIGMA, pad..pad + count);
+    smooth.into_iter().map(|ring| ring.map(f64::exp)).collect()
 }

@@ -2,7 +2,7 @@
 
 use super::canonical::{canonical, canonical_strength};
 use super::measure::BodyFrame;
-use super::{ARM_STATIONS, LEG_STATIONS, Profile, Strengths, stations};
+use super::{Profile, Strengths};
 use crate::character::bones::Group;
 use crate::options::{GroupSettings, Options, Stage};
 use crate::shape::product::groups::PartGroups;
@@ -51,13 +51,10 @@ pub fn strengths(share: f64, options: &Options, groups: &PartGroups, frame: &Bod
         let it = settings(kind);
         part(it.length_scale.or(it.thickness_scale), it.length_transfer.or(it.thickness_transfer))
     };
-    let row = |ends: (f64, f64), middle: f64, upper: Group, lower: Group| {
-        stations(ends).map(|t| thickness(if t < middle { upper } else { lower }))
-    };
     Strengths {
         torso: thickness(Group::Torso),
-        leg: row(LEG_STATIONS, frame.knee(), Group::UpperLeg, Group::LowerLeg),
-        arm: row(ARM_STATIONS, frame.elbow(), Group::UpperArm, Group::LowerArm),
+        leg: frame.leg_row([Group::UpperLeg, Group::LowerLeg].map(thickness)),
+        arm: frame.arm_row([Group::UpperArm, Group::LowerArm].map(thickness)),
         hand: size(Group::Hand),
         foot: size(Group::Foot),
         neck: thickness(Group::Neck),
