@@ -59,9 +59,10 @@
 //            twenty times by rig and deformer_create, a few times by other calls. What it returns, if not 0, ends the
 //            call with SDEF_STATUS_CANCELLED and leaves everything as it was. It may call the library, and must return:
 //            neither a C++ exception nor longjmp may leave it.
-// Memory     Every call asks for what it needs at most before it begins; SDEF_STATUS_OUT_OF_MEMORY if it is not there.
-//            Where there is too little for more threads it works on one. The process can still end where less than
-//            1 MiB is left, or where other threads take what was there in the meantime.
+// Memory     Every call asks for what it needs at most before it begins or, of large stages, before these; where it is
+//            not there, SDEF_STATUS_OUT_OF_MEMORY, and all is as it was. Where there is too little for more threads it
+//            works on one. The process can still end where less than 1 MiB is left, or where other threads take what
+//            was there in the meantime.
 // Cost       Cheap, microseconds: create, destroy, get_info, get_joints, map_points, styles but _measure. A pass over
 //            the vertices, some 0.1 microseconds each: add_mesh, apply, and set_options where only amount, face_squash,
 //            face_curve or thread_count change. Ten times that: set_options otherwise, and set_style. Slow, seconds at

@@ -18,6 +18,8 @@ pub enum ErrorKind {
     BadOption,
     /// The host's progress callback asked to stop.
     Cancelled,
+    /// There is not as much memory as is needed.
+    OutOfMemory,
 }
 
 /// What an error is about within a mesh or a skeleton.

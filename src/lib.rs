@@ -97,6 +97,7 @@ mod pipeline;
 mod progress;
 pub mod report;
 mod rig;
+mod room;
 mod shape;
 
 pub use character::roles::find_roles;

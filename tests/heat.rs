@@ -377,7 +377,7 @@ fn a_head_does_not_stick_to_the_arms_below_it() {
     // Every triangle there twice, once either way round: nothing tells the outside, but air lies below the head.
     let mut doubled = head.clone();
     doubled.1.extend(head.1.iter().map(|&[a, b, c]| [a, c, b]));
-    let solid = Solid::new(&head.0, &head.1, |_| true, 0.0, CELLS);
+    let solid = Solid::new(&head.0, &head.1, |_| true, 0.0, CELLS).unwrap();
     let none = &mut Progress::none();
     let system =
         HeatSystem::in_body(&doubled.0, &doubled.1, &bones, (Some(&solid), &Vec::new), 1, none).unwrap();

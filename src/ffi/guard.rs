@@ -63,6 +63,7 @@ impl From<Error> for Failure {
             ErrorKind::BadStyle => SDEF_STATUS_BAD_STYLE,
             ErrorKind::BadOption => SDEF_STATUS_BAD_OPTION,
             ErrorKind::Cancelled => SDEF_STATUS_CANCELLED,
+            ErrorKind::OutOfMemory => SDEF_STATUS_OUT_OF_MEMORY,
         };
         let message = with_field(&error.message, error.option);
         let element = error.element.map(|element| match element {

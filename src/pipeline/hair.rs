@@ -6,6 +6,7 @@ use crate::error::Result;
 use crate::face::eyes::Pair;
 use crate::face::head::HeadFrame;
 use crate::options::Stage;
+use crate::room::{self, Of};
 use crate::shape::Measured;
 use crate::shape::field::{Binding, BodyField, Field};
 use crate::shape::placement::Placement;
@@ -67,6 +68,7 @@ pub fn hair(view: &View) -> Result<Option<Hair>> {
         return Ok(None);
     };
     let (measured, options, vertices) = (view.measured()?, &view.options, &strands.worn.vertices);
+    room::ask(Of::Outside, measured.figure.triangles.len())?;
     let is_laid = options.stage == Stage::Face;
     let lay = if is_laid { growth(&body, &measured) * options.hair_lay } else { 0.0 };
     // Before amount, whole and ground, as all of the head's stages.

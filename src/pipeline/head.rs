@@ -10,6 +10,7 @@ use crate::face::seat::Seat;
 use crate::face::stage::{FaceBinding, Ways, YoungFace};
 use crate::geometry::{Mapped, bounds};
 use crate::options::Stage;
+use crate::room::{self, Of};
 use crate::shape::Measured;
 use crate::shape::field::{Binding, BodyField, Field, Finish};
 use crate::shape::heights::Heights;
@@ -114,6 +115,7 @@ pub fn make_young(view: &View) -> Result<Option<Young>> {
     if rows.kernels.is_empty() {
         return Ok(None);
     }
+    room::ask(Of::Young, body.bindings.of_head.len())?;
     let placement = body.placement(&measured.figure, &field, &body.placed, view.threads());
     let things: Vec<Vec<DVec3>> =
         view.parts()?.parts.things.iter().map(|vertices| placement.vertices(vertices)).collect();

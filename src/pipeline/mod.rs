@@ -60,6 +60,8 @@ pub enum Kept {
     Nothing,
     /// What was read of the target.
     Target,
+    /// The body, too.
+    Body,
     /// The field, too: what changes is done last, for all vertices alike.
     Field,
 }
@@ -171,7 +173,8 @@ impl Deformer {
         let same = |stage: &memo::Stage| (stage.options)(&self.inputs.options) == (stage.options)(options);
         match STAGES.iter().position(|stage| !same(stage)) {
             Some(first) if first < Number::BODY => Kept::Nothing,
-            Some(first) if first < Number::FINISH => Kept::Target,
+            Some(Number::BODY) => Kept::Target,
+            Some(first) if first < Number::FINISH => Kept::Body,
             _ => Kept::Field,
         }
     }

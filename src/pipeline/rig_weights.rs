@@ -12,6 +12,7 @@ use crate::rig::solid::Solid;
 use crate::rig::transfer::{GarmentOnSkin, Skin, Source, rigid_weights};
 use crate::rig::voxel::{FALLOFF, VoxelOptions, heat_would_be_poor, voxel_weights};
 use crate::rig::{GarmentWeights, RigOptions, UnitFigure, WeightBone, WeightMethod, WeightSet};
+use crate::room::{self, Of};
 use glam::DVec3;
 use std::collections::BTreeMap;
 
@@ -141,6 +142,7 @@ impl<'a> Binder<'a> {
                 BodyRule::Volume(voxel_weights(points, triangles, bones, &options, progress)?)
             }
             _ => {
+                room::ask(Of::Heat, points.len())?;
                 let held = || held(points, triangles, bones, humanoid);
                 let body: (_, &(dyn Fn() -> _ + Sync)) = (Some(solid), &held);
                 BodyRule::Heat(HeatSystem::in_body(points, triangles, bones, body, threads, progress)?)
@@ -172,7 +174,7 @@ impl<'a> Binder<'a> {
     /// Weights of every mesh, with how many vertices took theirs by another rule.
     ///
     /// # Errors
-    /// `Cancelled`.
+    /// `Cancelled`, `OutOfMemory`.
     pub fn weights(
         &mut self,
         heat: f64,
@@ -203,6 +205,7 @@ impl<'a> Binder<'a> {
 
         let clock = Moment::now();
         if !self.garments.is_empty() || !self.accessories.meshes.is_empty() {
+            room::ask(Of::Skin, body.positions.len())?;
             let (skin, worn) = self.worn.get_or_insert_with(|| {
                 let skin = Skin::new(&body.positions, &body.triangles);
                 let on_skin = |group: &Group| {

@@ -16,6 +16,7 @@ use crate::face::seat::Seat;
 use crate::geometry::range;
 use crate::options::table::PRODUCT_FACE_SQUASH;
 use crate::options::{Height, Mode, Options, Repair, Stage as LastStage};
+use crate::room::{self, Of};
 use crate::shape::Measured;
 use crate::shape::directions::RestTriangles;
 use crate::shape::field::{Field, Finish};
@@ -254,6 +255,7 @@ fn push_clothes(view: &View) -> Result<Arc<Pushed>> {
     if worn.places.is_empty() {
         return Ok(Arc::default());
     }
+    room::ask(Of::Outside, measured.figure.triangles.len())?;
     let field = body.field();
     let after = body.placement(&measured.figure, &field, &body.placed, view.threads()).all_vertices();
     let (low, high) = extent(&after);

@@ -21,6 +21,7 @@ use crate::character::{MeshKind, Role};
 use crate::error::{Result, Warning};
 use crate::geometry::ROUNDING;
 use crate::progress::Progress;
+use crate::room::{self, Of};
 use glam::DVec3;
 use std::collections::BTreeMap;
 use std::ops::{Range, RangeInclusive};
@@ -161,7 +162,7 @@ pub struct FoundJoints {
 /// with confidence 1, and the rest is found around them. `cells`: of the solid, over the height.
 ///
 /// # Errors
-/// `Cancelled`.
+/// `Cancelled`, `OutOfMemory`.
 pub fn find_joints(
     figure: &UnitFigure,
     kinds: &[MeshKind],
@@ -196,8 +197,9 @@ impl Search<'_> {
     fn run(mut self, progress: &mut Progress) -> Result<FoundJoints> {
         let (figure, view) = (self.figure, self.view);
         let counts = |triangle: usize| view.meshes[figure.mesh_of(triangle)];
-        let solid = Solid::new(&figure.positions, &figure.triangles, counts, view.axis, self.cells);
+        let solid = Solid::new(&figure.positions, &figure.triangles, counts, view.axis, self.cells)?;
         let solid = Voxels::of(solid);
+        room::ask(Of::Wave, solid.cells.len())?;
         progress.at(0.5)?;
         let lobes = LegLobes::of(&solid.solid, view.low, LEGS_BELOW * view.high);
         let (mut legs, inside) = find_legs(view, &lobes, LEGS_BELOW * view.high);

@@ -11,6 +11,7 @@ use crate::error::Result;
 use crate::geometry::{NONE, by_number};
 use crate::parallel;
 use crate::progress::Progress;
+use crate::room::{self, Of};
 use glam::{DVec3, IVec3};
 use std::collections::BTreeMap;
 
@@ -66,7 +67,7 @@ const OWNERSHIP: i32 = 8;
 /// heat does on a tube: half a radius around the joint.
 ///
 /// # Errors
-/// `Cancelled`.
+/// `Cancelled`, `OutOfMemory`.
 ///
 /// O(voxels · bones in reach · log voxels), a few megabytes at 128 voxels.
 pub fn voxel_weights(
@@ -83,12 +84,15 @@ pub fn voxel_weights(
         return Ok(WeightSet { weights: Weights::rigid(joint, positions.len()), fallback: BTreeMap::new() });
     }
     let resolution = options.resolution.clamp(16, 512);
-    let volume = Voxels::of(Solid::of_body(positions, triangles, resolution));
+    let volume = Voxels::of(Solid::of_body(positions, triangles, resolution)?);
+    // The waves of all bones together, and those that threads make of one each.
+    let waves = 1 + parallel::thread_count(options.thread_count).min(joints.len());
+    room::ask(Of::Wave, waves * volume.cells.len())?;
     progress.at(0.3)?;
     let segments: Vec<Vec<[DVec3; 2]>> =
         bones.iter().map(|bone| bone.segments.clone()).filter(|segments| !segments.is_empty()).collect();
     let bones = place_bones(&volume, &segments);
-    let paths = Paths::new(&volume, &bones);
+    let paths = Paths::new(&volume, &bones)?;
     let falloff = if options.falloff.is_finite() { options.falloff.clamp(0.0, 1.0) } else { FALLOFF };
     let profile = Profile::new(falloff);
 

@@ -301,12 +301,15 @@ fn comments_say_the_ranges_and_defaults_of_the_table() {
     assert!(source("style").contains(&format!("heads: {heads}")), "{heads}");
 }
 
-/// The shared library, which cargo links beside this test.
+/// The shared library: that of `SUPERDEFORM_LIBRARY`, or the one that cargo links beside this test.
 fn library() -> Option<PathBuf> {
+    if let Some(library) = std::env::var_os("SUPERDEFORM_LIBRARY") {
+        return Some(library.into());
+    }
     let name = format!("{}superdeform{}", std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX);
-    // With the workspace's features, so that nothing is compiled anew where all tests run.
+    // With the workspace's features and those of its examples, so that nothing is compiled anew where all tests run.
     let mut cargo = Command::new(env!("CARGO"));
-    cargo.args(["build", "--quiet", "--workspace", "--lib"]).current_dir(root());
+    cargo.args(["build", "--quiet", "--workspace", "--lib", "--examples"]).current_dir(root());
     if !cfg!(debug_assertions) {
         cargo.arg("--release");
     }

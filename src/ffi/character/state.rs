@@ -222,7 +222,7 @@ impl CharacterState {
     /// Makes a rig.
     pub fn make_rig(&mut self, options: &RigOptions, progress: &mut Progress) -> Outcome {
         let own = self.ready().own;
-        memory::with(memory::to_rig(&own, options), options.thread_count, || {
+        memory::with(memory::to_rig(&own), options.thread_count, || {
             let rig = Rig::with_progress(&own, options, progress)?;
             let rigged = Arc::new(rig.applied_to(&own));
             self.rig = Some(MadeRig { rig: Arc::new(rig), rigged });

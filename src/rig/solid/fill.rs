@@ -16,6 +16,7 @@ use super::sides::sides;
 use super::{MARGIN, Solid};
 use crate::geometry::{bounds, weld};
 use glam::{DVec3, IVec3};
+use std::collections::VecDeque;
 
 /// Half the width of a cell, and a little for rounding: surfaces that lie between two cells touch both of them. Seen:
 /// at -30 %, vertices move up to 0.003 H; at +30 %, vertices move up to 0.001 H.
@@ -54,7 +55,7 @@ impl Solid {
     ) -> Vec<u8> {
         let walls = walls(points, triangles, count);
         let (low, high) = (IVec3::splat(MARGIN), self.size - 1 - MARGIN);
-        let mut touches = vec![false; self.layers.len()];
+        let mut touches = vec![false; self.count()];
         let mut layers = self.winding(&walls, true);
         for wall in &walls {
             touched(wall.corners, low, high, |at| {
@@ -82,15 +83,18 @@ impl Solid {
                 unreached.extend((0..=last.x).map(|x| !(is_end || x == 0 || x == last.x)));
             }
         }
-        let mut open: Vec<usize> = (0..walls.len()).filter(|&cell| !unreached[cell]).collect();
+        // The first that came goes first: so few wait.
+        let mut open: VecDeque<u32> =
+            (0..walls.len() as u32).filter(|&cell| !unreached[cell as usize]).collect();
         let steps = [IVec3::X, IVec3::Y, IVec3::Z].map(|step| self.stride(step));
-        while let Some(cell) = open.pop() {
+        while let Some(cell) = open.pop_front() {
+            let cell = cell as usize;
             for step in steps {
                 // What lies beyond the grid's end was reached, so to speak.
                 for next in [cell.wrapping_add_signed(step), cell.wrapping_add_signed(-step)] {
                     if unreached.get(next) == Some(&true) && !walls[next] {
                         unreached[next] = false;
-                        open.push(next);
+                        open.push_back(next as u32);
                     }
                 }
             }
@@ -100,7 +104,7 @@ impl Solid {
 
     /// How many layers of those walls are around each cell that count, or that do not.
     fn winding(&self, walls: &[Wall], count: bool) -> Vec<u8> {
-        let mut layers = vec![0u8; self.layers.len()];
+        let mut layers = vec![0u8; self.count()];
         let own = || walls.iter().filter(|wall| wall.counts == count);
         let (low, high) = bounds(own().flat_map(|wall| wall.corners));
         if !low.is_finite() {
@@ -329,7 +333,7 @@ mod tests {
     #[test]
     fn a_box_is_filled_and_nothing_beyond_it() {
         let (positions, triangles) = cube(DVec3::ZERO, DVec3::new(1.0, 0.5, 0.25));
-        let solid = Solid::of_body(&positions, &triangles, 32);
+        let solid = Solid::of_body(&positions, &triangles, 32).unwrap();
         // 32 cells long, centred on a cell: 31 whole ones and half of one at either end; 16 and 8 likewise.
         assert_eq!(count(&solid, |_| true), 33 * 17 * 9);
     }
@@ -337,21 +341,21 @@ mod tests {
     #[test]
     fn a_tube_open_at_both_ends_is_filled() {
         let (positions, mut triangles) = tube(0.2);
-        let solid = Solid::of_body(&positions, &triangles, 64);
+        let solid = Solid::of_body(&positions, &triangles, 64).unwrap();
         assert!((ball_share(&solid) - 1.0).abs() < 0.02, "{}", ball_share(&solid));
         // Any flipped triangles, and the same triangles twice, once for either side, change nothing; a second shell
         // around the first is another layer.
         let mut flipped = triangles.clone();
         flipped.iter_mut().step_by(3).for_each(|corners| corners.swap(0, 1));
-        assert_eq!(Solid::of_body(&positions, &flipped, 64).layers, solid.layers);
+        assert_eq!(Solid::of_body(&positions, &flipped, 64).unwrap().layers, solid.layers);
         let mut doubled = triangles.clone();
         doubled.extend(triangles.iter().map(|&[a, b, c]| [a, c, b]));
-        assert_eq!(Solid::of_body(&positions, &doubled, 64).layers, solid.layers);
+        assert_eq!(Solid::of_body(&positions, &doubled, 64).unwrap().layers, solid.layers);
         let mut shells = positions.clone();
         shells.extend(positions.iter().map(|p| DVec3::new(1.5 * p.x, p.y, 1.5 * p.z)));
         let count = positions.len() as u32;
         triangles.extend(triangles.clone().into_iter().map(|corners| corners.map(|vertex| vertex + count)));
-        let both = Solid::of_body(&shells, &triangles, 64);
+        let both = Solid::of_body(&shells, &triangles, 64).unwrap();
         let layers = |x: f64| both.layers(both.to_cells(DVec3::new(x, 0.5, 0.0)).round().as_ivec3());
         assert_eq!([0.0, 0.25, 0.31].map(layers), [2, 1, 0]);
     }
@@ -364,7 +368,7 @@ mod tests {
         let (corners, faces) = cube(DVec3::new(-0.3, 0.8, -0.3), DVec3::new(0.3, 1.1, 0.3));
         positions.extend(corners);
         triangles.extend(faces.into_iter().map(|corners| corners.map(|vertex| vertex + first)));
-        let solid = Solid::new(&positions, &triangles, |triangle| triangle < own, 0.0, 64.0);
+        let solid = Solid::new(&positions, &triangles, |triangle| triangle < own, 0.0, 64.0).unwrap();
         assert!((ball_share(&solid) - 1.0).abs() < 0.02, "{}", ball_share(&solid));
         assert!(!solid.is_in(DVec3::new(0.25, 0.9, 0.25)), "the box is filled");
         assert!(solid.is_in(DVec3::new(0.0, 0.9, 0.0)), "the tube is not filled in the box");
@@ -407,11 +411,11 @@ mod tests {
 
     #[test]
     fn degenerate_figures_have_a_cell_for_each_vertex() {
-        let point = Solid::of_body(&[DVec3::ONE; 3], &[[0, 1, 2]], 64);
+        let point = Solid::of_body(&[DVec3::ONE; 3], &[[0, 1, 2]], 64).unwrap();
         assert_eq!(count(&point, |_| true), 1);
-        assert_eq!(count(&Solid::of_body(&[], &[], 64), |_| true), 0);
+        assert_eq!(count(&Solid::of_body(&[], &[], 64).unwrap(), |_| true), 0);
         let loose = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::splat(1e30), DVec3::NAN];
-        let voxels = Voxels::of(Solid::of_body(&loose, &[[0, 1, 2]], 16));
+        let voxels = Voxels::of(Solid::of_body(&loose, &[[0, 1, 2]], 16).unwrap());
         for p in loose {
             assert_ne!(voxels.slot(voxels.solid.nearest(voxels.solid.to_cells(p))), NONE, "{p}");
         }

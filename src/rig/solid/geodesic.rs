@@ -5,7 +5,9 @@
 //! distance, and steps are added up only around corners.
 
 use super::voxels::{Queue, Voxels, neighbourhood};
+use crate::error::Result;
 use crate::geometry::{Groups, NONE, ROUNDING, foot};
+use crate::room::{self, Of};
 use glam::DVec3;
 
 /// Buckets a voxel: a voxel is always settled in a later bucket than the one on its way to the bone. Seen: ±30 % moves
@@ -172,21 +174,27 @@ pub struct Paths<'a> {
 impl<'a> Paths<'a> {
     /// Parts of the volume that no bone starts in are tied to the nearest that one starts in, where they are nearest to
     /// it; ways lead into them, not through them.
-    pub fn new(volume: &'a Voxels, bones: &[Bone]) -> Self {
+    ///
+    /// # Errors
+    /// `OutOfMemory`.
+    pub fn new(volume: &'a Voxels, bones: &[Bone]) -> Result<Self> {
         let count = volume.cells.len();
         let mut paths =
             Self { volume, is_apart: vec![true; count], links: Vec::new(), has_links: vec![false; count] };
         let mut open: Vec<u32> = bones.iter().flat_map(|bone| bone.starts.iter().copied()).collect();
+        open.iter().for_each(|&slot| paths.is_apart[slot as usize] = false);
         while let Some(slot) = open.pop() {
-            if std::mem::replace(&mut paths.is_apart[slot as usize], false) {
-                open.extend(volume.beside(slot).map(|(next, _)| next));
+            for (next, _) in volume.beside(slot) {
+                if std::mem::replace(&mut paths.is_apart[next as usize], false) {
+                    open.push(next);
+                }
             }
         }
-        paths.tie_islands();
+        paths.tie_islands()?;
         for link in &paths.links {
             paths.has_links[link.from as usize] = true;
         }
-        paths
+        Ok(paths)
     }
 
     fn links_of(&self, slot: u32) -> &[Link] {
@@ -216,12 +224,13 @@ impl<'a> Paths<'a> {
     }
 
     /// A wave through the air, from all voxels that are not apart, which remembers where it came from.
-    fn tie_islands(&mut self) {
+    fn tie_islands(&mut self) -> Result<()> {
         let (islands, island_count) = self.islands();
         if island_count == 0 {
-            return;
+            return Ok(());
         }
         let volume = self.volume;
+        room::ask(Of::Cell, 2 * volume.solid.count())?;
         let mut origins = vec![NONE; volume.slots.len()];
         let mut is_settled = vec![false; volume.slots.len()];
         let mut queue = Queue::default();
@@ -289,6 +298,7 @@ impl<'a> Paths<'a> {
             }
         }
         self.links.sort_by_key(|link| (link.from, link.to));
+        Ok(())
     }
 }
 

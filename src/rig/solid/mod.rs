@@ -9,6 +9,8 @@ pub mod sides;
 mod slice;
 mod voxels;
 
+use crate::error::Result;
+use crate::room::{self, Of};
 use glam::{DVec3, IVec3};
 pub use slice::{Lobes, Slice};
 pub use voxels::Voxels;
@@ -48,6 +50,9 @@ impl Solid {
     /// All triangles are walls; filled is what those enclose, or touch, that `count` accepts by index, and what nobody
     /// could get to from outside and the others do not enclose by themselves: see `fill`.
     ///
+    /// # Errors
+    /// `OutOfMemory`.
+    ///
     /// O(area + cells · components).
     pub fn new(
         positions: &[DVec3],
@@ -55,7 +60,7 @@ impl Solid {
         count: impl Fn(usize) -> bool,
         axis: f64,
         cells: f64,
-    ) -> Self {
+    ) -> Result<Self> {
         let middle = DVec3::new(axis, 0.5, 0.0);
         let off = |&vertex: &u32| (positions[vertex as usize] - middle).abs();
         let reach = triangles.iter().flatten().map(off).fold(DVec3::ZERO, |most, off| {
@@ -69,13 +74,17 @@ impl Solid {
 
     /// The solid of anything, with `resolution` cells along the longest side of the box of its triangles. Each vertex has a
     /// filled cell, one of no triangle as well.
-    pub fn of_body(positions: &[DVec3], triangles: &[[u32; 3]], resolution: usize) -> Self {
-        let mut solid = Self::around(positions, triangles, resolution).with(positions, triangles, |_| true);
+    ///
+    /// # Errors
+    /// `OutOfMemory`.
+    pub fn of_body(positions: &[DVec3], triangles: &[[u32; 3]], resolution: usize) -> Result<Self> {
+        let mut solid =
+            Self::around(positions, triangles, resolution).with(positions, triangles, |_| true)?;
         for &p in positions {
             let index = solid.index(solid.nearest(solid.to_cells(p)));
             solid.layers[index] = solid.layers[index].max(1);
         }
-        solid
+        Ok(solid)
     }
 
     /// The grid of [`Solid::of_body`] without anything in it.
@@ -89,15 +98,24 @@ impl Solid {
     /// A grid that reaches so far from its middle.
     fn empty(middle: DVec3, reach: DVec3, cell: f64) -> Self {
         let half = (reach / cell - 0.5).ceil().max(DVec3::ZERO).as_ivec3() + MARGIN;
-        let size = 2 * half + 1;
-        let count = size.as_i64vec3().element_product() as usize;
-        Self { size, low: middle - half.as_dvec3() * cell, cell, layers: vec![0; count] }
+        Self { size: 2 * half + 1, low: middle - half.as_dvec3() * cell, cell, layers: Vec::new() }
     }
 
-    fn with(mut self, positions: &[DVec3], triangles: &[[u32; 3]], count: impl Fn(usize) -> bool) -> Self {
+    /// How many cells it has.
+    pub fn count(&self) -> usize {
+        self.size.as_i64vec3().element_product() as usize
+    }
+
+    fn with(
+        mut self,
+        positions: &[DVec3],
+        triangles: &[[u32; 3]],
+        count: impl Fn(usize) -> bool,
+    ) -> Result<Self> {
+        room::ask(Of::Cell, self.count())?;
         let points: Vec<DVec3> = positions.iter().map(|&p| self.to_cells(p)).collect();
         self.layers = self.fill(&points, triangles, count);
-        self
+        Ok(self)
     }
 
     /// `p` in cells: their middles have whole numbers.

@@ -77,7 +77,8 @@ pub fn body(
     }
     let limbs = limbs.as_ref();
     let request = Request { measured, product, heads, style, options, groups: &groups, asked, lost, limbs };
-    let (Attempt { field, scales, .. }, of_field, heads_left) = request.best(&mut progress.part(0.0, 0.5))?;
+    let (Attempt { field, coefficients, .. }, of_field, heads_left) =
+        request.best(&mut progress.part(0.0, 0.5))?;
     warnings.extend(of_field);
     progress.at(0.5)?;
     let placed =
@@ -87,7 +88,7 @@ pub fn body(
         bindings: Arc::clone(&product.bindings),
         placed: Arc::new(placed),
         head_ratio,
-        coefficients: scales.by_group(&groups),
+        coefficients: coefficients.by_group(&groups),
         warnings,
         heads_left,
     })
@@ -136,7 +137,8 @@ fn hair_shortened(parts: &PartBindings, head_length: f64) -> Option<Warning> {
 /// A field that was tried.
 struct Attempt {
     field: Field,
-    scales: PartCoefficients,
+    /// Of parts and slices together.
+    coefficients: PartCoefficients,
     /// The bounds that acted, and the profile's own warning.
     limits: Limits,
     limited: Option<Warning>,
@@ -234,6 +236,8 @@ impl Request<'_> {
             let chart = &product.chart;
             chart.slices(&parts, wanted, &strengths(*share, options, groups, chart.frame()))
         });
+        let reached = heads_of(&anatomy.proportions, &scales);
+        let coefficients = slices.as_ref().map_or(scales, |slices| slices.coefficients);
         let limited = slices.as_ref().and_then(Slices::limited);
         let field = parts.with(slices, &product.parts.pieces);
         let field = Field::of(Arc::new(BodyField::Parts(Box::new(field))));
@@ -241,13 +245,12 @@ impl Request<'_> {
         let positions = placement.vertices(&heads.vertices);
         let joint = |joint| placement.joint(joint);
         let measured = heads.heads(&HeadPlacement::of(&target.figure, positions, joint));
-        let reached = heads_of(&anatomy.proportions, &scales);
         let reach = if limits.act_on_heads() { reached } else { asked };
         let off = |heads: f64| (heads / reach).ln().abs();
         // A chin that the target does not show is no more to be believed where the result shows one: a ball's underside
         // steps back here or there, as last digits say. So it corrects nothing, and is only warned of.
         let error = off(if anatomy.landmarks.chin_seen { measured } else { reached });
         let misread = off(measured);
-        Ok(Attempt { field, scales, limits, limited, measured, error, misread })
+        Ok(Attempt { field, coefficients, limits, limited, measured, error, misread })
     }
 }

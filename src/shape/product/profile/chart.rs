@@ -3,7 +3,7 @@
 
 use super::measure::{BodyFrame, BodyLines, on_limb};
 use super::relief::{Reaches, Relief};
-use super::scales::{Scales, Strengths, scales};
+use super::scales::{Scales, SliceScales, Strengths, scales};
 use super::smooth::{smooth, smooth_lengths};
 use super::{
     ARM_STATIONS, ArmProfile, BodyMap, LEG_STATIONS, LegProfile, Profile, Row, STATIONS, TORSO_STATIONS,
@@ -15,7 +15,7 @@ use crate::geometry::smoothstep;
 use crate::shape::Measured;
 use crate::shape::product::field::PartField;
 use crate::shape::product::part::Part;
-use crate::shape::product::scales::Scale;
+use crate::shape::product::scales::{PartCoefficients, Scale};
 use glam::{DVec2, DVec3};
 
 /// What becomes this much stubbier (its length shrinks to .7 of what its thickness does) loses all of its relief.
@@ -37,6 +37,8 @@ pub struct Slices {
     pub relief: Relief,
     /// Then, before each part.
     pub map: BodyMap,
+    /// How much longer and thicker parts become by these maps and their own together, in the mean of their slices.
+    pub coefficients: PartCoefficients,
     /// Of what soft limits took more than a tenth, the scale that was wanted and the one that it got.
     limited: Vec<(&'static str, f64, f64)>,
 }
@@ -61,9 +63,8 @@ impl Chart {
     pub fn slices(&self, parts: &PartField, wanted: &Profile, strengths: &Strengths) -> Slices {
         let frame = &self.frame;
         let grows = Grows::of(parts, frame);
-        let mean = |row: &Row| row.iter().sum::<f64>() / STATIONS as f64;
-        let of_chains = [strengths.torso, mean(&strengths.leg), mean(&strengths.arm)];
-        let thicker = self.thicker(wanted);
+        let of_chains = [strengths.torso, mean(strengths.leg.into_iter()), mean(strengths.arm.into_iter())];
+        let thicker = growth(&self.own, wanted).map(|chain| mean(chain.into_iter()).exp());
         let strength = std::array::from_fn(|chain| {
             of_chains[chain] * smoothstep((1.0 - grows.lengths[chain] / thicker[chain]) / SMOOTH_FROM)
         });
@@ -75,26 +76,44 @@ impl Chart {
         let mut scales = scales(&grows.after(&straight), wanted, strengths);
         let limited = std::mem::take(&mut scales.limited);
         grows.back(&mut scales, &smooth, &straight);
-        Slices { relief, map: BodyMap::new(&smooth, &lines, frame, &scales, torso_place), limited }
+        let coefficients = self.coefficients(parts.coefficients(), &smooth, &scales);
+        Slices {
+            coefficients,
+            relief,
+            map: BodyMap::new(&smooth, &lines, frame, &scales, torso_place),
+            limited,
+        }
     }
 
-    /// How much thicker, in heads, `wanted` is than torso, legs and arms are.
-    fn thicker(&self, wanted: &Profile) -> [f64; 3] {
-        let rows = |profile: &Profile| -> [Option<[Row; 2]>; 3] {
-            [
-                profile.torso.as_ref().map(|torso| [torso.breadth, torso.depth]),
-                profile.leg.as_ref().map(|leg| [leg.breadth, leg.depth]),
-                profile.arm.as_ref().map(|arm| [arm.breadth, arm.depth]),
-            ]
+    /// `parts` times what `scales` and the relief that leaves the profile `smooth` make of each part, in the mean.
+    fn coefficients(&self, parts: &PartCoefficients, smooth: &Profile, scales: &Scales) -> PartCoefficients {
+        let frame = &self.frame;
+        let [torso, leg, arm] = growth(&self.own, smooth);
+        // Of the slices whose number in `row` is `of`.
+        let thicker = |chain: &SliceScales, relief: &Row, row: &Row, of: f64| {
+            let log = |at: usize| relief[at] + 0.5 * (chain.breadth[at] * chain.depth[at]).ln();
+            mean((0..STATIONS).filter(|&at| row[at] == of).map(log)).exp()
         };
-        let (own, wanted) = (rows(&self.own), rows(wanted));
-        std::array::from_fn(|chain| match (own[chain], wanted[chain]) {
-            (Some(own), Some(wanted)) => {
-                let log = |at: usize| 0.5 * (wanted[0][at] * wanted[1][at] / (own[0][at] * own[1][at])).ln();
-                ((0..STATIONS).map(log).sum::<f64>() / STATIONS as f64).exp()
-            }
-            _ => 1.0,
-        })
+        let (legs, arms) = (frame.leg_row([0.0, 1.0]), frame.arm_row([0.0, 1.0]));
+        let times = |part: Scale, length: f64, thickness: f64| Scale {
+            length: part.length * length,
+            thickness: part.thickness * thickness,
+        };
+        let size = |scales: [f64; 3]| mean(scales.into_iter().map(f64::ln)).exp();
+        let hips = mean((2..4).map(|leg| (frame.limbs[leg].root.x - frame.middle_x).abs()));
+        let spread = scales.spread * frame.head_length();
+        PartCoefficients {
+            neck: times(parts.neck, 1.0, scales.neck),
+            torso: times(parts.torso, 1.0, thicker(&scales.torso, &torso, &[0.0; STATIONS], 0.0)),
+            hip_spread: parts.hip_spread * if hips > 0.0 { (hips + spread) / hips } else { 1.0 },
+            upper_arm: times(parts.upper_arm, scales.arm_length, thicker(&scales.arm, &arm, &arms, 0.0)),
+            lower_arm: times(parts.lower_arm, scales.arm_length, thicker(&scales.arm, &arm, &arms, 1.0)),
+            upper_leg: times(parts.upper_leg, 1.0, thicker(&scales.leg, &leg, &legs, 0.0)),
+            lower_leg: times(parts.lower_leg, 1.0, thicker(&scales.leg, &leg, &legs, 1.0)),
+            hand: parts.hand * size(scales.hand),
+            foot: parts.foot * size(scales.foot),
+            ..*parts
+        }
     }
 
     /// The profile, and the lines, that `relief` leaves: as smooth as what is measured is.
@@ -183,6 +202,30 @@ impl Chart {
         }
         (now, lines)
     }
+}
+
+/// How much thicker, in logarithms, the slices of `to` are than those of `from`, of torso, legs and arms; 0 where either has none.
+fn growth(from: &Profile, to: &Profile) -> [Row; 3] {
+    let extents = |profile: &Profile| {
+        [
+            profile.torso.as_ref().map(|torso| [torso.breadth, torso.depth]),
+            profile.leg.as_ref().map(|leg| [leg.breadth, leg.depth]),
+            profile.arm.as_ref().map(|arm| [arm.breadth, arm.depth]),
+        ]
+    };
+    let (from, to) = (extents(from), extents(to));
+    std::array::from_fn(|chain| match (from[chain], to[chain]) {
+        (Some(from), Some(to)) => {
+            std::array::from_fn(|at| 0.5 * (to[0][at] * to[1][at] / (from[0][at] * from[1][at])).ln())
+        }
+        _ => [0.0; STATIONS],
+    })
+}
+
+/// 0 of nothing.
+fn mean(numbers: impl Iterator<Item = f64>) -> f64 {
+    let (count, sum) = numbers.fold((0.0, 0.0), |(count, sum), number| (count + 1.0, sum + number));
+    if count > 0.0 { sum / count } else { 0.0 }
 }
 
 /// The rows of torso, legs and arms: lengths, and places with what a head length is in their units.
