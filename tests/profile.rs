@@ -330,6 +330,42 @@ fn a_thickness_that_is_set_stands() {
     }
 }
 
+/// The mean thickness, in the result's heads, of what the bone groups of torso and limbs are measured by.
+fn thickness(run: &Run, group: &str) -> f64 {
+    let profile = run.deformer.report(&run.deformed).unwrap().profile.result.unwrap();
+    let mean = |breadth: Row, depth: Row, stations: std::ops::Range<usize>| {
+        stations.clone().map(|at| (breadth[at] * depth[at]).sqrt().ln()).sum::<f64>() / stations.len() as f64
+    };
+    let (torso, leg, arm) = (profile.torso.unwrap(), profile.leg.unwrap(), profile.arm.unwrap());
+    match group {
+        "torso" => mean(torso.breadth, torso.depth, 2..13),
+        "upper_leg" => mean(leg.breadth, leg.depth, 2..6),
+        "lower_leg" => mean(leg.breadth, leg.depth, 9..13),
+        "upper_arm" => mean(arm.breadth, arm.depth, 2..6),
+        "lower_arm" => mean(arm.breadth, arm.depth, 8..11),
+        _ => unreachable!(),
+    }
+    .exp()
+}
+
+#[test]
+fn a_slider_that_is_moved_to_the_thickness_that_is_shown_leaves_it() {
+    if !at_hand() {
+        return;
+    }
+    for style in [Style::Heads(2.5), style_of(REFERENCE, &Options::default())] {
+        let shown = run(&style, &Options::default());
+        for group in ["torso", "upper_leg", "lower_leg", "upper_arm", "lower_arm"] {
+            let thickness_scale = Some(shown.deformer.coefficients()[group].thickness_scale);
+            let settings = GroupSettings { thickness_scale, ..GroupSettings::default() };
+            let groups = BTreeMap::from([(group.to_string(), settings)]);
+            let set = run(&style, &Options { groups, ..Options::default() });
+            let ratio = thickness(&set, group) / thickness(&shown, group);
+            assert!((0.85..=1.1).contains(&ratio), "{group}: {ratio} at {thickness_scale:?}");
+        }
+    }
+}
+
 /// What the warnings of a run with code `coefficient_limited` say, that of slices left out.
 fn bounds_named(run: &Run) -> String {
     let warnings = run.deformer.warnings().iter();
