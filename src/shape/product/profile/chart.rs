@@ -64,7 +64,7 @@ impl Chart {
         let frame = &self.frame;
         let grows = Grows::of(parts, frame);
         let of_chains = [strengths.torso, mean(strengths.leg.into_iter()), mean(strengths.arm.into_iter())];
-        let thicker = growth(&self.own, wanted).map(|chain| mean(chain.into_iter()).exp());
+        let thicker = self.thicker(wanted);
         let strength = std::array::from_fn(|chain| {
             of_chains[chain] * smoothstep((1.0 - grows.lengths[chain] / thicker[chain]) / SMOOTH_FROM)
         });
@@ -76,7 +76,7 @@ impl Chart {
         let mut scales = scales(&grows.after(&straight), wanted, strengths);
         let limited = std::mem::take(&mut scales.limited);
         grows.back(&mut scales, &smooth, &straight);
-        let coefficients = self.coefficients(parts.coefficients(), &smooth, &scales);
+        let coefficients = self.coefficients(parts.coefficients(), &scales);
         Slices {
             coefficients,
             relief,
@@ -85,13 +85,31 @@ impl Chart {
         }
     }
 
-    /// `parts` times what `scales` and the relief that leaves the profile `smooth` make of each part, in the mean.
-    fn coefficients(&self, parts: &PartCoefficients, smooth: &Profile, scales: &Scales) -> PartCoefficients {
+    /// How much thicker, in heads, `wanted` is than torso, legs and arms are.
+    fn thicker(&self, wanted: &Profile) -> [f64; 3] {
+        let rows = |profile: &Profile| -> [Option<[Row; 2]>; 3] {
+            [
+                profile.torso.as_ref().map(|torso| [torso.breadth, torso.depth]),
+                profile.leg.as_ref().map(|leg| [leg.breadth, leg.depth]),
+                profile.arm.as_ref().map(|arm| [arm.breadth, arm.depth]),
+            ]
+        };
+        let (own, wanted) = (rows(&self.own), rows(wanted));
+        std::array::from_fn(|chain| match (own[chain], wanted[chain]) {
+            (Some(own), Some(wanted)) => {
+                let log = |at: usize| 0.5 * (wanted[0][at] * wanted[1][at] / (own[0][at] * own[1][at])).ln();
+                mean((0..STATIONS).map(log)).exp()
+            }
+            _ => 1.0,
+        })
+    }
+
+    /// `parts` times what `scales` make of each part, in the mean of its slices.
+    fn coefficients(&self, parts: &PartCoefficients, scales: &Scales) -> PartCoefficients {
         let frame = &self.frame;
-        let [torso, leg, arm] = growth(&self.own, smooth);
         // Of the slices whose number in `row` is `of`.
-        let thicker = |chain: &SliceScales, relief: &Row, row: &Row, of: f64| {
-            let log = |at: usize| relief[at] + 0.5 * (chain.breadth[at] * chain.depth[at]).ln();
+        let thicker = |chain: &SliceScales, row: &Row, of: f64| {
+            let log = |at: usize| 0.5 * (chain.breadth[at] * chain.depth[at]).ln();
             mean((0..STATIONS).filter(|&at| row[at] == of).map(log)).exp()
         };
         let (legs, arms) = (frame.leg_row([0.0, 1.0]), frame.arm_row([0.0, 1.0]));
@@ -104,12 +122,12 @@ impl Chart {
         let spread = scales.spread * frame.head_length();
         PartCoefficients {
             neck: times(parts.neck, 1.0, scales.neck),
-            torso: times(parts.torso, 1.0, thicker(&scales.torso, &torso, &[0.0; STATIONS], 0.0)),
+            torso: times(parts.torso, 1.0, thicker(&scales.torso, &[0.0; STATIONS], 0.0)),
             hip_spread: parts.hip_spread * if hips > 0.0 { (hips + spread) / hips } else { 1.0 },
-            upper_arm: times(parts.upper_arm, scales.arm_length, thicker(&scales.arm, &arm, &arms, 0.0)),
-            lower_arm: times(parts.lower_arm, scales.arm_length, thicker(&scales.arm, &arm, &arms, 1.0)),
-            upper_leg: times(parts.upper_leg, 1.0, thicker(&scales.leg, &leg, &legs, 0.0)),
-            lower_leg: times(parts.lower_leg, 1.0, thicker(&scales.leg, &leg, &legs, 1.0)),
+            upper_arm: times(parts.upper_arm, scales.arm_length, thicker(&scales.arm, &arms, 0.0)),
+            lower_arm: times(parts.lower_arm, scales.arm_length, thicker(&scales.arm, &arms, 1.0)),
+            upper_leg: times(parts.upper_leg, 1.0, thicker(&scales.leg, &legs, 0.0)),
+            lower_leg: times(parts.lower_leg, 1.0, thicker(&scales.leg, &legs, 1.0)),
             hand: parts.hand * size(scales.hand),
             foot: parts.foot * size(scales.foot),
             ..*parts
@@ -202,24 +220,6 @@ impl Chart {
         }
         (now, lines)
     }
-}
-
-/// How much thicker, in logarithms, the slices of `to` are than those of `from`, of torso, legs and arms; 0 where either has none.
-fn growth(from: &Profile, to: &Profile) -> [Row; 3] {
-    let extents = |profile: &Profile| {
-        [
-            profile.torso.as_ref().map(|torso| [torso.breadth, torso.depth]),
-            profile.leg.as_ref().map(|leg| [leg.breadth, leg.depth]),
-            profile.arm.as_ref().map(|arm| [arm.breadth, arm.depth]),
-        ]
-    };
-    let (from, to) = (extents(from), extents(to));
-    std::array::from_fn(|chain| match (from[chain], to[chain]) {
-        (Some(from), Some(to)) => {
-            std::array::from_fn(|at| 0.5 * (to[0][at] * to[1][at] / (from[0][at] * from[1][at])).ln())
-        }
-        _ => [0.0; STATIONS],
-    })
 }
 
 /// 0 of nothing.
