@@ -19,7 +19,7 @@ pub enum Of {
     /// A vertex of the head that goes through the young face.
     Young = 300,
     /// A triangle that clothes or hair are kept outside of.
-    Outside = 160,
+    Outside = 245,
 }
 
 /// Aligned as nothing else is, so that an allocator can tell what is only asked for.

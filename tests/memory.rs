@@ -179,7 +179,9 @@ fn check_calls(name: &str, character: Character, check: &mut impl FnMut(String, 
     bare.skeleton = Default::default();
     bare.humanoid = Default::default();
     bare.meshes.iter_mut().for_each(|mesh| mesh.weights = Weights::default());
-    for (method, voxel_resolution) in [(WeightMethod::Heat, 64), (WeightMethod::Volume, 256)] {
+    for (method, voxel_resolution) in
+        [(WeightMethod::Heat, 64), (WeightMethod::Volume, 64), (WeightMethod::Volume, 256)]
+    {
         let options = RigOptions { voxel_resolution, method, thread_count: 1, ..RigOptions::default() };
         let rig = || Rig::of(&bare, &options).unwrap().applied_to(&bare);
         let took = taken(memory::to_rig(&bare), rig).1;

@@ -1,8 +1,8 @@
-//! Memory is asked for before a call begins: where an allocation fails in its midst, Rust ends the process.
+//! What calls ask for before they begin; their large stages ask for themselves, see [`crate::room`].
 //!
-//! What a call takes beyond what it gives back goes by vertices, triangles and voxels. The numbers here are upper bounds,
+//! What a call takes beyond what it gives back goes by vertices and triangles. The numbers here are upper bounds,
 //! a quarter and more above what `tests/memory.rs` measures, which compares them; that also covers the sparse solver and
-//! the tree of triangles, whose packages cannot fail. Another thread of the host may still take between asking and using.
+//! the tree of triangles, whose packages cannot fail.
 
 use super::guard::Outcome;
 use crate::character::Character;

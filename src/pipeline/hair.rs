@@ -6,7 +6,6 @@ use crate::error::Result;
 use crate::face::eyes::Pair;
 use crate::face::head::HeadFrame;
 use crate::options::Stage;
-use crate::room::{self, Of};
 use crate::shape::Measured;
 use crate::shape::field::{Binding, BodyField, Field};
 use crate::shape::placement::Placement;
@@ -68,7 +67,6 @@ pub fn hair(view: &View) -> Result<Option<Hair>> {
         return Ok(None);
     };
     let (measured, options, vertices) = (view.measured()?, &view.options, &strands.worn.vertices);
-    room::ask(Of::Outside, measured.figure.triangles.len())?;
     let is_laid = options.stage == Stage::Face;
     let lay = if is_laid { growth(&body, &measured) * options.hair_lay } else { 0.0 };
     // Before amount, whole and ground, as all of the head's stages.
@@ -113,7 +111,7 @@ pub fn hair(view: &View) -> Result<Option<Hair>> {
     }
     let layer = hanging.layer(strands, parts.after().sole);
     view.part(0.5, 0.5, |_| Ok(()))?;
-    let pushes = strands.worn.kept_outside(points, &after, &measured.weld, &layer, view.threads());
+    let pushes = strands.worn.kept_outside(points, &after, &measured.weld, &layer, view.threads())?;
     for (all, push) in all.iter_mut().zip(pushes.into_iter().flatten()) {
         *all += push;
     }

@@ -205,7 +205,9 @@ impl<'a> Binder<'a> {
 
         let clock = Moment::now();
         if !self.garments.is_empty() || !self.accessories.meshes.is_empty() {
-            room::ask(Of::Skin, body.positions.len())?;
+            if self.worn.is_none() {
+                room::ask(Of::Skin, body.positions.len())?;
+            }
             let (skin, worn) = self.worn.get_or_insert_with(|| {
                 let skin = Skin::new(&body.positions, &body.triangles);
                 let on_skin = |group: &Group| {

@@ -16,7 +16,6 @@ use crate::face::seat::Seat;
 use crate::geometry::range;
 use crate::options::table::PRODUCT_FACE_SQUASH;
 use crate::options::{Height, Mode, Options, Repair, Stage as LastStage};
-use crate::room::{self, Of};
 use crate::shape::Measured;
 use crate::shape::directions::RestTriangles;
 use crate::shape::field::{Field, Finish};
@@ -255,11 +254,10 @@ fn push_clothes(view: &View) -> Result<Arc<Pushed>> {
     if worn.places.is_empty() {
         return Ok(Arc::default());
     }
-    room::ask(Of::Outside, measured.figure.triangles.len())?;
     let field = body.field();
     let after = body.placement(&measured.figure, &field, &body.placed, view.threads()).all_vertices();
     let (low, high) = extent(&after);
-    Ok(Arc::new(worn.pushed(&after, &measured.weld, high - low, view.threads())))
+    Ok(Arc::new(worn.pushed(&after, &measured.weld, high - low, view.threads())?))
 }
 
 /// Seen: tubbykun, 2.2 heads, came out of a style of 2.5 heads at 1.42 m instead of .94.

@@ -64,7 +64,7 @@ impl Dressed {
     }
 
     fn pushed(&self, after: &[DVec3]) -> Pushed {
-        self.worn.pushed(after, &self.weld, self.figure.height(), 1)
+        self.worn.pushed(after, &self.weld, self.figure.height(), 1).unwrap()
     }
 
     fn winding(&self, points: &[DVec3]) -> Winding {
@@ -120,7 +120,7 @@ fn clothes_that_nothing_enters_stay() {
     // All becomes half as large.
     let half: Vec<DVec3> = dressed.figure.positions.iter().map(|&p| 0.5 * p).collect();
     assert_eq!(
-        dressed.worn.pushed(&half, &dressed.weld, 0.5 * dressed.figure.height(), 1),
+        dressed.worn.pushed(&half, &dressed.weld, 0.5 * dressed.figure.height(), 1).unwrap(),
         Pushed::default()
     );
 }
@@ -210,7 +210,8 @@ fn a_mirrored_person_keeps_the_mirrored_shirt() {
     assert_eq!(worn.outwards, -dressed.worn.outwards);
     let after = dressed.grown(0.015);
     let mirrored: Vec<DVec3> = after.iter().map(mirror).collect();
-    let (plain, other) = (dressed.pushed(&after), worn.pushed(&mirrored, &dressed.weld, figure.height(), 1));
+    let (plain, other) =
+        (dressed.pushed(&after), worn.pushed(&mirrored, &dressed.weld, figure.height(), 1).unwrap());
     assert_eq!(plain.offsets.len(), other.offsets.len());
     for ((vertex, offset), (same, back)) in plain.offsets.iter().zip(&other.offsets) {
         assert!(vertex == same && offset.distance(mirror(back)) < 1e-9, "{vertex}: {offset}, {back}");
@@ -224,6 +225,9 @@ fn threads_change_no_bit_of_a_push() {
     let one = dressed.pushed(&after);
     assert!(!one.offsets.is_empty());
     for threads in [2, 5] {
-        assert_eq!(dressed.worn.pushed(&after, &dressed.weld, dressed.figure.height(), threads), one);
+        assert_eq!(
+            dressed.worn.pushed(&after, &dressed.weld, dressed.figure.height(), threads).unwrap(),
+            one
+        );
     }
 }

@@ -162,7 +162,8 @@ impl Solid {
 
     /// How many layers are around a cell: 0 outside and beyond the grid, 2 for a leg in a skirt.
     pub fn layers(&self, at: IVec3) -> u8 {
-        if self.has(at) { self.layers[self.index(at)] } else { 0 }
+        // A grid without anything in it has none.
+        if self.has(at) { self.layers.get(self.index(at)).copied().unwrap_or(0) } else { 0 }
     }
 
     /// True where a cell is filled; those beyond the grid are not.

@@ -5,8 +5,10 @@
 
 use super::outside::Outside;
 use super::worn::Worn;
+use crate::error::Result;
 use crate::geometry::{Weld, double_area, smoothstep};
 use crate::parallel;
+use crate::room::{self, Of};
 use glam::DVec3;
 use std::collections::VecDeque;
 
@@ -96,9 +98,12 @@ impl Worn {
     ///
     /// - `after`: where all vertices are now; `height`: of the figure then.
     /// - Nothing where nothing is to do. No triangle turns over by it.
-    pub fn pushed(&self, after: &[DVec3], weld: &Weld, height: f64, threads: usize) -> Pushed {
+    ///
+    /// # Errors
+    /// `OutOfMemory`.
+    pub fn pushed(&self, after: &[DVec3], weld: &Weld, height: f64, threads: usize) -> Result<Pushed> {
         if self.places.is_empty() || !(height > 0.0 && height.is_finite()) {
-            return Pushed::default();
+            return Ok(Pushed::default());
         }
         let points: Vec<DVec3> = self.vertices.iter().map(|&vertex| after[vertex as usize]).collect();
         let cloth = Layer {
@@ -109,8 +114,8 @@ impl Worn {
             facing: None,
             floor: f64::NEG_INFINITY,
         };
-        let Some(displaced) = self.kept_outside(points, after, weld, &cloth, threads) else {
-            return Pushed::default();
+        let Some(displaced) = self.kept_outside(points, after, weld, &cloth, threads)? else {
+            return Ok(Pushed::default());
         };
         let mut of_place = vec![DVec3::ZERO; weld.count];
         for (&place, displaced) in self.places.iter().zip(displaced) {
@@ -121,11 +126,14 @@ impl Worn {
             .map(|(vertex, &place)| (vertex, of_place[place as usize]))
             .filter(|(_, offset)| *offset != DVec3::ZERO)
             .collect();
-        Pushed { offsets }
+        Ok(Pushed { offsets })
     }
 
     /// What must be added to each place of a layer at `points`, which lies on the body of the vertices `after`, so that what was
     /// outside is; `None` where nothing must.
+    ///
+    /// # Errors
+    /// `OutOfMemory`.
     pub fn kept_outside(
         &self,
         points: Vec<DVec3>,
@@ -133,12 +141,13 @@ impl Worn {
         weld: &Weld,
         layer: &Layer,
         threads: usize,
-    ) -> Option<Vec<DVec3>> {
+    ) -> Result<Option<Vec<DVec3>>> {
+        room::ask(Of::Outside, self.body.len())?;
         let outside = self.outside(after, weld);
         let mut membrane = Membrane::new(self, points, layer);
         let all: Vec<u32> = (0..self.places.len() as u32).collect();
         if !membrane.find_pushes(&outside, &all, threads) {
-            return None;
+            return Ok(None);
         }
         membrane.find_moving();
         let moving = membrane.moving.clone();
@@ -149,7 +158,7 @@ impl Worn {
             membrane.relax();
         }
         membrane.turn_nothing_over();
-        Some(membrane.displaced)
+        Ok(Some(membrane.displaced))
     }
 }
 

@@ -13,6 +13,7 @@ use crate::error::Warning;
 use crate::geometry::slice::Planes;
 use crate::geometry::smoothstep;
 use crate::shape::Measured;
+use crate::shape::product::anatomy;
 use crate::shape::product::field::PartField;
 use crate::shape::product::part::Part;
 use crate::shape::product::scales::{PartCoefficients, Scale};
@@ -224,8 +225,7 @@ impl Chart {
 
 /// 0 of nothing.
 fn mean(numbers: impl Iterator<Item = f64>) -> f64 {
-    let (count, sum) = numbers.fold((0.0, 0.0), |(count, sum), number| (count + 1.0, sum + number));
-    if count > 0.0 { sum / count } else { 0.0 }
+    anatomy::mean(numbers).unwrap_or(0.0)
 }
 
 /// The rows of torso, legs and arms: lengths, and places with what a head length is in their units.
