@@ -1,4 +1,4 @@
-//! What calls ask for before they begin; their large stages ask for themselves, see [`crate::room`].
+//! What calls ask for before they begin; their large stages ask for themselves, see `room.rs`.
 //!
 //! What a call takes beyond what it gives back goes by vertices and triangles. The numbers here are upper bounds,
 //! a quarter and more above what `tests/memory.rs` measures, which compares them; that also covers the sparse solver and
