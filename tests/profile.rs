@@ -16,7 +16,9 @@ use superdeform::internals::shape::Measured;
 use superdeform::internals::shape::figure::Figure;
 use superdeform::internals::shape::product::part::Part;
 use superdeform::internals::shape::product::profile::{BodyFrame, CHAINS, Profile, Row, measure_profile};
-use superdeform::{BodyShape, Deformer, GroupSettings, Options, Rig, RigOptions, Role, Stage, Style};
+use superdeform::{
+    BodyShape, Deformer, GroupSettings, Options, Rig, RigOptions, Role, Stage, Style, Weights,
+};
 use superdeform_host::file::GltfFile;
 use superdeform_host::samples;
 
@@ -242,6 +244,52 @@ fn a_hand_that_becomes_short_and_thick_droops_no_more_than_it_did() {
     assert!(after <= before, "{before} before, {after} after");
 }
 
+/// How long the left hand is without its thumb, from the wrist along the line of its arm, and how far its fingers' ends bend up
+/// from where they would go on from the palm, as a share of that.
+fn hand_and_bend(figure: &Figure) -> (f64, f64) {
+    let [shoulder, wrist] =
+        [Role::LeftUpperArm, Role::LeftHand].map(|role| figure.role_position(role).unwrap());
+    let axis = (wrist - shoulder).normalize();
+    let is_of = |vertex: usize| {
+        let thumb = |role: Role| format!("{role:?}").starts_with("LeftThumb");
+        figure.weight_of(vertex, |role| Part::of(role) == Part::LeftHand) > 0.5
+            && figure.weight_of(vertex, thumb) < 0.1
+    };
+    let places: Vec<(f64, f64)> = (0..figure.positions.len())
+        .filter(|&vertex| is_of(vertex))
+        .map(|vertex| figure.positions[vertex] - wrist)
+        .map(|arm| (arm.dot(axis), arm.reject_from(axis).y))
+        .collect();
+    let length = places.iter().map(|place| place.0).fold(0.0, f64::max);
+    let mean = |from: f64, to: f64| {
+        let heights =
+            places.iter().filter(|place| (from..=to).contains(&(place.0 / length))).map(|place| place.1);
+        heights.clone().sum::<f64>() / heights.count() as f64
+    };
+    (length, (mean(0.0, 0.3) - 2.0 * mean(0.35, 0.65) + mean(0.7, 1.0)) / length)
+}
+
+#[test]
+fn fingers_that_curl_hook_less_than_a_short_hand_grows_stubby_and_its_thumb_is_as_short() {
+    if !at_hand() {
+        return;
+    }
+    let run = run(&style_of(REFERENCE, &Options::default()), &Options::default());
+    let after = run.after();
+    let ((old, before), (new, bend)) = (hand_and_bend(run.before()), hand_and_bend(&after));
+    assert!(before < -0.05, "the fingers are straight: {before}");
+    assert!(new < 0.5 * old, "the hand stays long: {old} before, {new} after");
+    // What bends by a share of the length does so by that over what the length becomes, were it left as it is.
+    assert!(bend < 0.0 && bend / before < 0.65 * old / new, "{before} before, {bend} after");
+    let thumb = |figure: &Figure| {
+        let [root, end] = [Role::LeftThumbMetacarpal, Role::LeftThumbDistal]
+            .map(|role| figure.role_position(role).unwrap());
+        root.distance(end)
+    };
+    let (of_thumb, of_hand) = (thumb(&after) / thumb(run.before()), new / old);
+    assert!((of_thumb / of_hand).ln().abs() < 0.15, "thumb {of_thumb}, hand {of_hand}");
+}
+
 #[test]
 fn a_share_of_the_profile_is_between_none_and_all() {
     if !at_hand() {
@@ -402,7 +450,9 @@ fn a_reference_without_a_rig_has_the_body_that_it_has_with_one() {
 
 #[test]
 fn the_jacobian_is_that_of_the_slices_too() {
-    let character = Arc::new(Person { blended: true, arm_angle: 30.0, ..Person::adult() }.build());
+    // With fingers: a thumb has a map of its own before the slices.
+    let person = Person { blended: true, fingers: true, arm_angle: 30.0, ..Person::adult() };
+    let character = Arc::new(person.build());
     let style = Style::Heads(2.5);
     let deformer = Deformer::new(character.clone(), &style, &Options::default()).unwrap();
     let step = 1e-6;

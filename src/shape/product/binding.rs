@@ -46,7 +46,7 @@ impl PartBinding {
         match self.attachment {
             Attachment::Plain => (share, None),
             Attachment::OnFace(middle) => (share, Some(middle)),
-            Attachment::Piece(_) | Attachment::Strand { .. } | Attachment::OnBone => (0.0, None),
+            _ => (0.0, None),
         }
     }
 
@@ -71,7 +71,7 @@ impl PartBinding {
         let with_piece = match self.attachment {
             Attachment::Piece(_) => return 0.0,
             Attachment::Strand { share, .. } => f64::from(share),
-            Attachment::Plain | Attachment::OnFace(_) | Attachment::OnBone => 0.0,
+            _ => 0.0,
         };
         let parts = [Part::Head, Part::Neck, Part::Hair];
         (1.0 - with_piece)
@@ -118,8 +118,14 @@ pub fn part_bindings(
     let members = members_of_components(figure, weld);
     let part = &mut progress.part(0.05, 0.8);
     let (weights, head_only) = part_weights(figure, anatomy, weld, &members, threads, part)?;
-    let Pieces { attachments, pieces, of_joints } =
+    let Pieces { mut attachments, pieces, of_joints } =
         Pieces::of(figure, anatomy, skeleton, weld, &members, &head_only, &weights);
+    for (vertex, attachment) in attachments.iter_mut().enumerate() {
+        let share = figure.weight_of(vertex, |role| is_of_thumb(figure, role)) as f32;
+        if share > 0.0 && *attachment == Attachment::Plain {
+            *attachment = Attachment::Thumb(share);
+        }
+    }
     let hair_depth = (0..figure.positions.len())
         .filter(|&vertex| weights[vertex][Part::Hair as usize] > 0.5)
         .map(|vertex| anatomy.landmarks.heights.chin - figure.positions[vertex].y)
@@ -217,6 +223,17 @@ fn things_on_head(figure: &Figure, members: &[Vec<u32>], attachments: &[Attachme
     things.into_values().collect()
 }
 
+/// True for what a thumb's free bones move: its root in the palm stays where that is.
+fn is_of_thumb(figure: &Figure, role: Role) -> bool {
+    use Role::*;
+    match role {
+        LeftThumbProximal | LeftThumbDistal | RightThumbProximal | RightThumbDistal => true,
+        LeftThumbMetacarpal => !figure.humanoid.has(LeftThumbProximal),
+        RightThumbMetacarpal => !figure.humanoid.has(RightThumbProximal),
+        _ => false,
+    }
+}
+
 /// The vertices of each connected component.
 fn members_of_components(figure: &Figure, weld: &Weld) -> Vec<Vec<u32>> {
     let component = components(&figure.triangles, weld);
@@ -241,6 +258,8 @@ pub fn joint_binding(figure: &Figure, bindings: &PartBindings, joint: usize) -> 
     }
     if let Some(piece) = bindings.joint_pieces[joint] {
         binding.attachment = Attachment::Piece(piece);
+    } else if is_of_thumb(figure, role) {
+        binding.attachment = Attachment::Thumb(1.0);
     } else if role == Role::Head && figure.humanoid.joint(role) != Some(joint) {
         binding = PartBinding::to(Part::Hair);
     }

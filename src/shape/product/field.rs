@@ -196,7 +196,12 @@ impl PartField {
                 self.blend(weights, |_| on_bones)
             }
             Some(slices) if !is_of_head(weights) => {
-                let smooth: M = slices.relief.map(p, weights, *is_skirt);
+                let first = match binding.attachment {
+                    Attachment::Thumb(share) => slices.map.thumb(p, weights, share.into()),
+                    _ => Mapped::unmoved(p),
+                };
+                let smooth: M = slices.relief.map(first.position, weights, *is_skirt);
+                let smooth = M::of(smooth.position(), || smooth.jacobian() * first.jacobian);
                 let mut known = (PART_COUNT, smooth);
                 self.blend(weights, |part| {
                     let chain = chain_of(part, *is_skirt);

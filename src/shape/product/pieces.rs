@@ -26,6 +26,8 @@ pub enum Attachment {
     Plain,
     /// A joint of an arm: it follows the bones, not the slices around them.
     OnBone,
+    /// So much of a thumb, 0 to 1, which becomes as short as the hand.
+    Thumb(f32),
     /// A hat or glasses: takes the face map of this point as a whole.
     OnFace(DVec3),
     /// Moves with piece number so-and-so, which keeps its shape.

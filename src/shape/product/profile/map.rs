@@ -3,16 +3,17 @@
 //! Each map keeps the place along its own axis but for what an arm's length changes, and is monotone on the others: so one
 //! chain alone cannot fold.
 
+use super::chains::arm_share;
 use super::curve::{Table, monotone_cubic};
-use super::measure::{BodyFrame, BodyLines, HAND_FADE, droop};
+use super::measure::{BodyFrame, BodyLines, HAND_FADE, curls, droop, droop_slope};
 use super::relief::MOST_ROWS;
 use super::scales::Scales;
 use super::slab::slab;
 use super::{ARM_STATIONS, LEG_STATIONS, Profile, STATIONS, TORSO_STATIONS, station_at, stations};
 use crate::geometry::slice::Planes;
-use crate::geometry::{Moved, outer};
+use crate::geometry::{Mapped, Moved, outer};
 use crate::geometry::{smoothstep, smoothstep_slope};
-use crate::shape::product::part::Part;
+use crate::shape::product::part::{Part, PartWeights};
 use glam::{DMat3, DVec2, DVec3};
 
 /// Rows of the tables: so many for a head length, and for an arm.
@@ -81,6 +82,8 @@ struct ArmMap {
     bone_scale: f64,
     /// In the hand the bones go over to the middles within this length.
     hand_fade: f64,
+    /// Where the thumb leaves the hand, from there to its last joint, and what it is scaled by along that before all else.
+    thumb: Option<(DVec3, DVec3, f64)>,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -170,6 +173,23 @@ impl BodyMap {
             LEFT_FOOT => self.feet[0].map(p),
             RIGHT_FOOT => self.feet[1].map(p),
             _ => M::of(p, || DMat3::IDENTITY),
+        }
+    }
+
+    /// Where `p` goes first, so much of which is of the thumb on the side that `weights` tell: that becomes as short as the
+    /// hand, and keeps its thickness.
+    #[inline(never)]
+    pub fn thumb(&self, p: DVec3, weights: &PartWeights, share: f64) -> Mapped {
+        let side = usize::from(arm_share(weights, 1) > arm_share(weights, 0));
+        let thumb = self.arms[side].as_ref().and_then(|arm| arm.thumb);
+        let Some((root, way, scale)) = thumb else { return Mapped::unmoved(p) };
+        let length = way.length();
+        let along = (p - root).dot(way) / length;
+        let less = share * (scale - 1.0) / length * way;
+        let by_place = way * (droop_slope(along, length) / length);
+        Mapped {
+            position: p + droop(along, length) * less,
+            jacobian: DMat3::IDENTITY + outer(less, by_place),
         }
     }
 
@@ -298,7 +318,9 @@ impl BodyMap {
             let [a, b, c, d, e, f] = row(s);
             let longer_here = longer[row_at(s)];
             // How steeply a hand droops shrinks with its length: one that is short and thick would be a hook.
-            let drooping = lines.hand_droops[side] * droop(s - length, hand_length);
+            let [droops, bends, curling] = lines.hand_droops[side];
+            let [bend, curl] = curls(s - length, hand_length);
+            let drooping = droops * droop(s - length, hand_length) + bends * bend + curling * curl;
             let from_wrist = 1.0 + (longer_here - longer[row_at(length)]) / (s - length).max(step);
             let to = from_wrist.powi(2) * drooping;
             [longer_here, a, b, c, d, e + drooping.x, f + drooping.y, e + to.x, f + to.y]
@@ -306,7 +328,13 @@ impl BodyMap {
         let base = self.torso::<DVec3>(planes.origin) - planes.origin;
         let elbow = planes.locate(frame.limbs[side].middle);
         let (bone_scale, hand_fade) = (scales.arm_length, HAND_FADE * hand_length);
-        Some(ArmMap { planes, base, length, table, elbow, bone_scale, hand_fade })
+        let thumb = frame.thumbs[side].map(|[root, way]| {
+            let of = |axis: DVec3, scale: f64| scale * way.dot(axis);
+            let [_, broad, thin] = scales.hand;
+            let grown = DVec3::new(of(planes.axis, palm), of(planes.across, thin), of(planes.front, broad));
+            (root, way, (scales.hand[0] * way.length() / grown.length()).min(1.0))
+        });
+        Some(ArmMap { planes, base, length, table, elbow, bone_scale, hand_fade, thumb })
     }
 }
 

@@ -54,6 +54,8 @@ pub struct BodyFrame {
     pub shoulders: DVec3,
     /// The plane that halves the body.
     pub middle_x: f64,
+    /// Where each thumb leaves the hand, and the way from there to its last joint.
+    pub thumbs: [Option<[DVec3; 2]>; 2],
 }
 
 impl BodyFrame {
@@ -65,9 +67,16 @@ impl BodyFrame {
             .iter()
             .filter_map(|&role| figure.role_position(role))
             .collect();
+        let thumb = |side: usize| {
+            let at = |role: Role| figure.role_position(role.on_side(side == 0));
+            let root = at(Role::LeftThumbProximal).or(at(Role::LeftThumbMetacarpal))?;
+            let way = at(Role::LeftThumbDistal)? - root;
+            (way.length() > 0.0).then_some([root, way])
+        };
         Self {
             heights: anatomy.landmarks.heights,
             limbs,
+            thumbs: [thumb(0), thumb(1)],
             hips: middle(hips.iter().sum::<DVec3>() / hips.len().max(1) as f64),
             shoulders: middle((limbs[0].root + limbs[1].root) / 2.0),
             middle_x: anatomy.middle_x,
@@ -151,8 +160,8 @@ impl BodyFrame {
 pub struct BodyLines {
     /// Left, right; smoothed, model units.
     pub arm_middles: [Option<[Row; 2]>; 2],
-    /// How far each hand's middle leaves the arm's at the wrist, in `droop`s.
-    pub hand_droops: [DVec2; 2],
+    /// How far each hand's middle leaves the arm's at the wrist: in `droop`s, and in `curls`.
+    pub hand_droops: [[DVec2; 3]; 2],
 }
 
 /// How far the middle of a hand that droops by 1 lies off the arm's line, `s` beyond the wrist; it leaves the line without a
@@ -160,6 +169,18 @@ pub struct BodyLines {
 pub(super) fn droop(s: f64, hand_length: f64) -> f64 {
     let s = s.max(0.0);
     s * s / (s + HAND_FADE * hand_length)
+}
+
+/// How fast [`droop`] grows.
+pub(super) fn droop_slope(s: f64, hand_length: f64) -> f64 {
+    let (s, fade) = (s.max(0.0), HAND_FADE * hand_length);
+    s * (s + 2.0 * fade) / ((s + fade) * (s + fade))
+}
+
+/// The same of one that bends by 1 where it has taken over from the arm, and of one that curls from there on.
+pub(super) fn curls(s: f64, hand_length: f64) -> [f64; 2] {
+    let (beyond, length) = (s - HAND_FADE * hand_length, (1.0 - HAND_FADE) * hand_length);
+    [droop(beyond, length), beyond.max(0.0).powi(2) / length]
 }
 
 /// Measures the profile of a figure whose vertices are at `positions`.
@@ -348,8 +369,8 @@ impl Body<'_> {
     }
 
     /// Length, half breadth, half thickness; how much each droops, in its arm's planes.
-    fn hands(&self, places: &[u32]) -> (Option<[f64; 3]>, [DVec2; 2]) {
-        let mut droops = [DVec2::ZERO; 2];
+    fn hands(&self, places: &[u32]) -> (Option<[f64; 3]>, [[DVec2; 3]; 2]) {
+        let mut droops = [[DVec2::ZERO; 3]; 2];
         let sides: Vec<[f64; 3]> = droops
             .iter_mut()
             .enumerate()
@@ -364,7 +385,7 @@ impl Body<'_> {
                     .filter(|point| point.0 > BEYOND * self.length)
                     .collect();
                 let length = quantile(points.iter().map(|point| point.0), HAND_END)?;
-                *drooping = slope(points.iter().map(|&(s, across)| (droop(s, length), across)));
+                *drooping = self.droops(side, &planes, &points, length);
                 let palm = || {
                     points
                         .iter()
@@ -379,6 +400,24 @@ impl Body<'_> {
             })
             .collect();
         (mean_numbers(&sides, self.length), droops)
+    }
+
+    /// How a hand droops whose vertices are at `points`, and how it bends and curls besides, which leaves the slope of its
+    /// vertices as it is. What curls is read from cuts: a box has vertices at its ends alone.
+    fn droops(&self, side: usize, planes: &Planes, points: &[(f64, DVec2)], length: f64) -> [DVec2; 3] {
+        let heights = stations(ARM_STATIONS).map(|t| t * length);
+        let cuts = self.cut(&self.triangles(Chain::Hand(side)), planes, &heights);
+        let middles: Vec<(f64, DVec2)> = (heights.into_iter().zip(&cuts))
+            .filter_map(|(s, outlines)| Some((s, middle(outlines)?)))
+            .collect();
+        let curl = |s: f64| curls(s, length)[1];
+        // Of the curl by the droop, among cuts.
+        let share = slope(middles.iter().map(|&(s, _)| (droop(s, length), DVec2::splat(curl(s))))).x;
+        let curling = slope(middles.iter().map(|&(s, p)| (curl(s) - share * droop(s, length), p)));
+        let by_place = slope(points.iter().map(|&(s, _)| (s, DVec2::from(curls(s, length)))));
+        let level = if by_place.x > 0.0 { by_place.y / by_place.x } else { 0.0 };
+        let drooping = slope(points.iter().map(|&(s, across)| (droop(s, length), across)));
+        [drooping, -level * curling, curling]
     }
 
     /// To the toes, to the heel, half breadth, how far outward, height of the toes.
@@ -473,6 +512,16 @@ fn mean_numbers<const N: usize>(sides: &[[f64; N]], length: f64) -> Option<[f64;
 
 fn known(number: f64) -> Option<f64> {
     (!number.is_nan()).then_some(number)
+}
+
+/// The middle of what a cut shows: of its outlines, by their lengths; `None` where it shows nothing.
+fn middle(outlines: &[Outline]) -> Option<DVec2> {
+    let segments = outlines.iter().flat_map(|outline| &outline.segments);
+    let (length, sum) = segments.fold((0.0, DVec2::ZERO), |(length, sum), &[a, b]| {
+        let own = a.distance(b);
+        (length + own, sum + own * (a + b) / 2.0)
+    });
+    (length > 0.0).then(|| sum / length)
 }
 
 /// How steeply the second of these pairs rises with the first, by least squares; 0 where the first are all the same.
