@@ -16,9 +16,7 @@ use superdeform::internals::shape::Measured;
 use superdeform::internals::shape::figure::Figure;
 use superdeform::internals::shape::product::part::Part;
 use superdeform::internals::shape::product::profile::{BodyFrame, CHAINS, Profile, Row, measure_profile};
-use superdeform::{
-    BodyShape, Deformer, GroupSettings, Options, Rig, RigOptions, Role, Stage, Style, Weights,
-};
+use superdeform::{BodyShape, Deformer, GroupSettings, Options, Rig, RigOptions, Role, Stage, Style};
 use superdeform_host::file::GltfFile;
 use superdeform_host::samples;
 
