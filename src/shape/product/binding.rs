@@ -1,7 +1,7 @@
 //! How every vertex and joint is attached to the parts (product mode).
 
 use super::anatomy::Anatomy;
-use super::part::{Part, PartWeights};
+use super::part::{Part, PartWeights, thumb};
 use super::pieces::{Attachment, Piece, Pieces};
 use super::profile::chains::arm_share;
 use super::profile::skirts::skirt_vertices;
@@ -46,7 +46,9 @@ impl PartBinding {
         match self.attachment {
             Attachment::Plain => (share, None),
             Attachment::OnFace(middle) => (share, Some(middle)),
-            _ => (0.0, None),
+            Attachment::Piece(_) | Attachment::Strand { .. } | Attachment::OnBone | Attachment::Thumb(_) => {
+                (0.0, None)
+            }
         }
     }
 
@@ -71,7 +73,7 @@ impl PartBinding {
         let with_piece = match self.attachment {
             Attachment::Piece(_) => return 0.0,
             Attachment::Strand { share, .. } => f64::from(share),
-            _ => 0.0,
+            Attachment::Plain | Attachment::OnFace(_) | Attachment::OnBone | Attachment::Thumb(_) => 0.0,
         };
         let parts = [Part::Head, Part::Neck, Part::Hair];
         (1.0 - with_piece)
@@ -225,13 +227,7 @@ fn things_on_head(figure: &Figure, members: &[Vec<u32>], attachments: &[Attachme
 
 /// True for what a thumb's free bones move: its root in the palm stays where that is.
 fn is_of_thumb(figure: &Figure, role: Role) -> bool {
-    use Role::*;
-    match role {
-        LeftThumbProximal | LeftThumbDistal | RightThumbProximal | RightThumbDistal => true,
-        LeftThumbMetacarpal => !figure.humanoid.has(LeftThumbProximal),
-        RightThumbMetacarpal => !figure.humanoid.has(RightThumbProximal),
-        _ => false,
-    }
+    thumb(&figure.humanoid, role.is_left()).contains(&role)
 }
 
 /// The vertices of each connected component.

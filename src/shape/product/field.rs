@@ -198,10 +198,10 @@ impl PartField {
             Some(slices) if !is_of_head(weights) => {
                 let first = match binding.attachment {
                     Attachment::Thumb(share) => slices.map.thumb(p, weights, share.into()),
-                    _ => Mapped::unmoved(p),
+                    _ => unmoved,
                 };
-                let smooth: M = slices.relief.map(first.position, weights, *is_skirt);
-                let smooth = M::of(smooth.position(), || smooth.jacobian() * first.jacobian);
+                let smooth: M = slices.relief.map(first.position(), weights, *is_skirt);
+                let smooth = M::of(smooth.position(), || smooth.jacobian() * first.jacobian());
                 let mut known = (PART_COUNT, smooth);
                 self.blend(weights, |part| {
                     let chain = chain_of(part, *is_skirt);

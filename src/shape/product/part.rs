@@ -1,6 +1,6 @@
 //! The parts of a body that product mode moves by one map each, and a vertex's weights to them.
 
-use crate::character::Role;
+use crate::character::{Humanoid, Role};
 
 /// One of the parts of a body that move by one map each: fifteen, and hair, whose map is the head's above the chin.
 #[allow(missing_docs)]
@@ -74,6 +74,13 @@ pub fn fold_to_parts(role_weights: &[(Role, f64)]) -> PartWeights {
         parts[Part::of(role) as usize] += weight as f32;
     }
     parts
+}
+
+/// The roles of a thumb's first free bone, beyond the palm, and of its last.
+pub fn thumb(humanoid: &Humanoid, left: bool) -> [Role; 2] {
+    let is_whole = humanoid.has(Role::LeftThumbProximal.on_side(left));
+    let root = if is_whole { Role::LeftThumbProximal } else { Role::LeftThumbMetacarpal };
+    [root, Role::LeftThumbDistal].map(|role| role.on_side(left))
 }
 
 /// Adds `factor` times `row` to `sum`.

@@ -11,7 +11,7 @@ use super::scales::Scales;
 use super::slab::slab;
 use super::{ARM_STATIONS, LEG_STATIONS, Profile, STATIONS, TORSO_STATIONS, station_at, stations};
 use crate::geometry::slice::Planes;
-use crate::geometry::{Mapped, Moved, outer};
+use crate::geometry::{Moved, outer};
 use crate::geometry::{smoothstep, smoothstep_slope};
 use crate::shape::product::part::{Part, PartWeights};
 use glam::{DMat3, DVec2, DVec3};
@@ -179,18 +179,17 @@ impl BodyMap {
     /// Where `p` goes first, so much of which is of the thumb on the side that `weights` tell: that becomes as short as the
     /// hand, and keeps its thickness.
     #[inline(never)]
-    pub fn thumb(&self, p: DVec3, weights: &PartWeights, share: f64) -> Mapped {
+    pub fn thumb<M: Moved>(&self, p: DVec3, weights: &PartWeights, share: f64) -> M {
         let side = usize::from(arm_share(weights, 1) > arm_share(weights, 0));
         let thumb = self.arms[side].as_ref().and_then(|arm| arm.thumb);
-        let Some((root, way, scale)) = thumb else { return Mapped::unmoved(p) };
+        let Some((root, way, scale)) = thumb else { return M::of(p, || DMat3::IDENTITY) };
         let length = way.length();
         let along = (p - root).dot(way) / length;
         let less = share * (scale - 1.0) / length * way;
-        let by_place = way * (droop_slope(along, length) / length);
-        Mapped {
-            position: p + droop(along, length) * less,
-            jacobian: DMat3::IDENTITY + outer(less, by_place),
-        }
+        // As a hand that droops leaves its arm, without a kink.
+        M::of(p + droop(along, length) * less, || {
+            DMat3::IDENTITY + outer(less, way * (droop_slope(along, length) / length))
+        })
     }
 
     /// As [`Self::part`], for what hangs on the bones of the arm on side `side`: what lies on a bone goes along it, so that
@@ -317,7 +316,7 @@ impl BodyMap {
         let table = Table::sample(start, end, ROWS_OF_ARM, |s| {
             let [a, b, c, d, e, f] = row(s);
             let longer_here = longer[row_at(s)];
-            // How steeply a hand droops shrinks with its length: one that is short and thick would be a hook.
+            // How a hand droops and curls shrinks with its length: one that is short and thick would be a hook.
             let [droops, bends, curling] = lines.hand_droops[side];
             let [bend, curl] = curls(s - length, hand_length);
             let drooping = droops * droop(s - length, hand_length) + bends * bend + curling * curl;
@@ -329,10 +328,10 @@ impl BodyMap {
         let elbow = planes.locate(frame.limbs[side].middle);
         let (bone_scale, hand_fade) = (scales.arm_length, HAND_FADE * hand_length);
         let thumb = frame.thumbs[side].map(|[root, way]| {
-            let of = |axis: DVec3, scale: f64| scale * way.dot(axis);
-            let [_, broad, thin] = scales.hand;
-            let grown = DVec3::new(of(planes.axis, palm), of(planes.across, thin), of(planes.front, broad));
-            (root, way, (scales.hand[0] * way.length() / grown.length()).min(1.0))
+            let [long, broad, thin] = scales.hand;
+            let [along, across, front] = [planes.axis, planes.across, planes.front].map(|axis| way.dot(axis));
+            let grown = DVec3::new(palm * along, thin * across, broad * front);
+            (root, way, (long * way.length() / grown.length()).min(1.0))
         });
         Some(ArmMap { planes, base, length, table, elbow, bone_scale, hand_fade, thumb })
     }

@@ -15,6 +15,7 @@ use crate::parallel;
 use crate::shape::figure::Figure;
 use crate::shape::heights::Heights;
 use crate::shape::product::anatomy::{Anatomy, Limb};
+use crate::shape::product::part::thumb;
 use glam::{DVec2, DVec3};
 
 /// What reaches further than this over the middle is no leg, in head lengths.
@@ -67,16 +68,15 @@ impl BodyFrame {
             .iter()
             .filter_map(|&role| figure.role_position(role))
             .collect();
-        let thumb = |side: usize| {
-            let at = |role: Role| figure.role_position(role.on_side(side == 0));
-            let root = at(Role::LeftThumbProximal).or(at(Role::LeftThumbMetacarpal))?;
-            let way = at(Role::LeftThumbDistal)? - root;
-            (way.length() > 0.0).then_some([root, way])
+        let thumb_of = |side: usize| {
+            let [root, end] = thumb(&figure.humanoid, side == 0).map(|role| figure.role_position(role));
+            let way = end? - root?;
+            (way.length() > 0.0).then_some([root?, way])
         };
         Self {
             heights: anatomy.landmarks.heights,
             limbs,
-            thumbs: [thumb(0), thumb(1)],
+            thumbs: [thumb_of(0), thumb_of(1)],
             hips: middle(hips.iter().sum::<DVec3>() / hips.len().max(1) as f64),
             shoulders: middle((limbs[0].root + limbs[1].root) / 2.0),
             middle_x: anatomy.middle_x,
