@@ -1,7 +1,7 @@
 //! Pieces of a head: what hangs together, or what a crease goes around, as around a ball that is sewn to the skin.
 
 use super::head::Head;
-use crate::geometry::{Groups, bounds, double_area, weld};
+use crate::geometry::{Groups, bounds, distinct, double_area, weld};
 use glam::{DVec2, DVec3};
 
 /// A connected piece of one side of the head.
@@ -19,9 +19,7 @@ pub struct Piece {
 impl Piece {
     /// The piece of these triangles.
     pub fn new(head: &Head, triangles: Vec<[u32; 3]>) -> Self {
-        let mut vertices: Vec<u32> = triangles.iter().flatten().copied().collect();
-        vertices.sort_unstable();
-        vertices.dedup();
+        let vertices = distinct(triangles.iter().flatten().copied());
         let (low, high) = bounds(vertices.iter().map(|&vertex| head.points[vertex as usize]));
         Self { vertices, triangles, low, high }
     }
@@ -46,9 +44,7 @@ pub fn pieces(head: &Head, triangles: &[[u32; 3]], side: f64, split: bool) -> Ve
     let x = |corners: &[u32; 3]| corners.iter().map(|&corner| head.points[corner as usize].x).sum::<f64>();
     let own: Vec<[u32; 3]> = triangles.iter().filter(|corners| side * x(corners) > 0.0).copied().collect();
     // Only their own vertices are welded: an eye in its socket often touches the lids.
-    let mut used: Vec<u32> = own.iter().flatten().copied().collect();
-    used.sort_unstable();
-    used.dedup();
+    let used = distinct(own.iter().flatten().copied());
     let points: Vec<DVec3> = used.iter().map(|&vertex| head.points[vertex as usize]).collect();
     let welded = weld(&points, head.parts.seam / head.frame.length).representative;
     let place = |vertex: u32| welded[used.binary_search(&vertex).expect("all are listed")];

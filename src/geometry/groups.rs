@@ -4,6 +4,14 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
+/// Each of `things` once, ascending.
+pub fn distinct<T: Ord>(things: impl IntoIterator<Item = T>) -> Vec<T> {
+    let mut things: Vec<T> = things.into_iter().collect();
+    things.sort_unstable();
+    things.dedup();
+    things
+}
+
 /// Things in groups that grow together, each known by its least member.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Groups {

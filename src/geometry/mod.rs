@@ -24,7 +24,7 @@ pub mod winding;
 
 pub use bounds::{Bounds, bounds, bounds_by_group, clusters, grown_clusters, range};
 pub use cells::CellMap;
-pub use groups::{Groups, by_number, least_costs, merge_tree};
+pub use groups::{Groups, by_number, distinct, least_costs, merge_tree};
 pub use mapped::{Mapped, Moved, outer};
 pub use point_tree::PointTree;
 pub use profile::{CHIN_BAND, CHIN_BY_RATIO, CHIN_STEP, StepSearch, deepest_step};
@@ -33,5 +33,5 @@ pub use slice::{Outline, Planes, slices};
 pub use smoothstep::{smoothstep, smoothstep_slope};
 pub use surface::{Closest, Hit, Surface, Tree};
 pub use triangle::double_area;
-pub use weld::{Neighbours, SEAM, Weld, components, neighbours, weld};
+pub use weld::{Neighbours, SEAM, Weld, components, neighbours, rims, weld};
 pub use winding::WindingGroups;

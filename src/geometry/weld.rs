@@ -118,6 +118,17 @@ pub fn components(triangles: &[[u32; 3]], weld: &Weld) -> Vec<u32> {
     components
 }
 
+/// Where a surface ends: the edges between welded vertices that one triangle has, ascending.
+pub fn rims(triangles: &[[u32; 3]], weld: &Weld) -> Vec<[u32; 2]> {
+    let edges_of = |&corners: &[u32; 3]| {
+        let [a, b, c] = weld.triangle(corners);
+        [[a, b], [b, c], [c, a]].map(|[a, b]| [a.min(b), a.max(b)])
+    };
+    let mut edges: Vec<[u32; 2]> = triangles.iter().flat_map(edges_of).collect();
+    edges.sort_unstable();
+    edges.chunk_by(|a, b| a == b).filter(|same| same.len() == 1).map(|same| same[0]).collect()
+}
+
 /// The neighbours of every welded vertex along edges.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Neighbours {

@@ -11,7 +11,7 @@ use crate::error::Result;
 use crate::parallel;
 use crate::shape::field::{Binding, Field, Finish};
 use crate::shape::figure::Figure;
-use crate::shape::placement::{Placement, renewed};
+use crate::shape::placement::{Placement, is_of_head, renewed};
 use crate::shape::product::mirror::Mirror;
 use glam::{DVec3, Vec3};
 use std::sync::Arc;
@@ -23,9 +23,9 @@ pub fn below_head(view: &View) -> Result<Vec<Vec3>> {
     let field = Field { finish: body.finish(figure, *view.whole()?), ..body.field() };
     let placement = body.placement(figure, &field, &body.placed, view.threads());
     let placement = Placement { hair_offsets: &offsets, ..placement };
-    let is_of_head = body.bindings.is_of_head();
-    Ok(parallel::collect(view.threads(), is_of_head.len(), parallel::FEW, |vertex| {
-        if is_of_head[vertex] { Vec3::ZERO } else { displacement(&placement, vertex) }
+    let bindings = &body.bindings.vertices;
+    Ok(parallel::collect(view.threads(), bindings.len(), parallel::FEW, |vertex| {
+        if is_of_head(&bindings[vertex]) { Vec3::ZERO } else { displacement(&placement, vertex) }
     }))
 }
 

@@ -40,12 +40,8 @@ pub struct Young {
 /// like itself as it is, to 1.
 pub fn growth(body: &Body, measured: &Measured) -> f64 {
     let landmarks = &measured.anatomy.landmarks;
-    let BodyField::Parts(field) = &*body.field else { return 0.0 };
-    if landmarks.trunk.is_some() {
-        return 0.0;
-    }
-    let before = landmarks.heights.heads();
-    lost(before, field.after().heads())
+    let heads = body.heads.filter(|_| landmarks.trunk.is_none());
+    heads.map_or(0.0, |heads| lost(landmarks.heights.heads(), heads))
 }
 
 /// Where `body` puts the head; `None` in paper mode.
@@ -93,9 +89,7 @@ pub fn outline(view: &View) -> Result<Option<Outline>> {
 pub fn make_young(view: &View) -> Result<Option<Young>> {
     let (measured, body, shape) = (view.measured()?, view.body()?, view.face()?.shape);
     let frame = frame_after(&body, &measured);
-    let (Some(face), Some(frame), BodyField::Parts(parts)) = (&measured.face, frame, &*body.field) else {
-        return Ok(None);
-    };
+    let (Some(face), Some(frame), Some(heads)) = (&measured.face, frame, body.heads) else { return Ok(None) };
     let field = body.with_face(shape);
     let before = head_frame(&measured.anatomy);
     // A head that is only moved or made larger has the same face, to the bit.
@@ -109,7 +103,7 @@ pub fn make_young(view: &View) -> Result<Option<Young>> {
         ),
         Style::Heads(_) => (None, None),
     };
-    let aim = FaceAim::new(parts.after().heads(), eyes, head);
+    let aim = FaceAim::new(heads, eyes, head);
     let outline = view.outline()?;
     let rows = Rows::new(&face, Option::as_ref(&outline), &aim, &view.options.features(), view.options.smile);
     if rows.kernels.is_empty() {

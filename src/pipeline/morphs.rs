@@ -5,6 +5,7 @@ use super::displacement::single;
 use super::memo::View;
 use crate::character::{Mesh, MorphTarget};
 use crate::error::Result;
+use crate::geometry::distinct;
 use crate::parallel;
 use crate::progress::Progress;
 use crate::shape::directions::{RestTriangles, Room};
@@ -192,9 +193,7 @@ impl Deformer {
         }
         let is_moved = |(_, delta): &(usize, Vec3)| *delta != Vec3::ZERO;
         let of = |target| GivenTarget::each(target, 0).into_iter().flatten().filter(is_moved);
-        let mut moved: Vec<u32> = given.iter().flat_map(of).map(|(vertex, _)| vertex as u32).collect();
-        moved.sort_unstable();
-        moved.dedup();
+        let moved = distinct(given.iter().flat_map(of).map(|(vertex, _)| vertex as u32));
         let shifts = self.shifts_of(mesh, given, &moved, progress)?;
         self.shifted(mesh, given, &shifts, progress)
     }

@@ -4,6 +4,7 @@ use super::arm_curve::{Arm, ArmCurve, Station};
 use super::front_view::median;
 use super::solid::Solid;
 use super::solid::branches::{Branch, Rim};
+use crate::geometry::distinct;
 use glam::{DVec2, DVec3};
 use std::ops::Range;
 
@@ -38,10 +39,9 @@ const TOP_WITHIN: f64 = 0.35;
 ///
 /// `depth` gives how far forward the trunk's middle is at a height.
 pub fn arms_of(branch: &Branch, axis: f64, depth: impl Fn(f64) -> f64 + Copy) -> Vec<(bool, Arm)> {
-    let mut ranges: Vec<Range<usize>> = WIDENS.iter().flat_map(|&by| limbs(&branch.rims, by)).collect();
-    ranges.sort_unstable_by_key(|range| (range.start, range.end));
-    ranges.dedup();
-    ranges.into_iter().filter_map(|limb| arm_of(&branch.rims[limb], axis, depth)).collect()
+    let ends = |&by: &f64| limbs(&branch.rims, by).into_iter().map(|range| (range.start, range.end));
+    let limbs = distinct(WIDENS.iter().flat_map(ends));
+    limbs.into_iter().filter_map(|(start, end)| arm_of(&branch.rims[start..end], axis, depth)).collect()
 }
 
 /// Ranges of sections between jumps in thickness.

@@ -3,7 +3,7 @@
 use super::WeightBone;
 use super::solid::Solid;
 use super::solid::geodesic::Bone;
-use crate::geometry::{SEAM, components, weld};
+use crate::geometry::{SEAM, components, distinct, rims, weld};
 use glam::DVec3;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -91,27 +91,18 @@ impl Wholeness {
             }
         }
 
-        let mut edges: Vec<(u32, u32)> = Vec::with_capacity(3 * triangles.len());
-        let mut voxels: Vec<(u32, u32)> = Vec::new();
-        for triangle in triangles {
-            let [a, b, c] = weld.triangle(*triangle);
-            if a == b || b == c || c == a || !body.contains(&component_of(triangle[0])) {
-                continue;
-            }
-            edges.extend([(a, b), (b, c), (c, a)].map(|(one, other)| (one.min(other), one.max(other))));
-            let middle = triangle.iter().map(|&vertex| points[vertex as usize]).sum::<DVec3>() / 3.0;
-            voxels.push((grid.index(grid.nearest(middle)) as u32, component_of(triangle[0])));
-        }
-        edges.sort_unstable();
+        let is_of_body = |triangle: &&[u32; 3]| {
+            let [a, b, c] = weld.triangle(**triangle);
+            a != b && b != c && c != a && body.contains(&component_of(triangle[0]))
+        };
+        let own: Vec<[u32; 3]> = triangles.iter().filter(is_of_body).copied().collect();
         let first = weld.first_vertices();
         let at = |welded: u32| points[first[welded as usize] as usize];
-        let border: f64 = edges
-            .chunk_by(|one, other| one == other)
-            .filter(|edge| edge.len() == 1)
-            .map(|edge| at(edge[0].0).distance(at(edge[0].1)))
-            .sum();
-        voxels.sort_unstable();
-        voxels.dedup();
+        let border: f64 = rims(&own, &weld).into_iter().map(|[one, other]| at(one).distance(at(other))).sum();
+        let voxels = distinct(own.iter().map(|triangle| {
+            let middle = triangle.iter().map(|&vertex| points[vertex as usize]).sum::<DVec3>() / 3.0;
+            (grid.index(grid.nearest(middle)) as u32, component_of(triangle[0]))
+        }));
         let (mut all, mut shared) = (0, 0);
         for voxel in voxels.chunk_by(|one, other| one.0 == other.0) {
             all += 1;

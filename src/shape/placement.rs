@@ -40,6 +40,8 @@ pub struct Body {
     pub placed: Arc<Vec<DVec3>>,
     /// g of Eq. 9.
     pub head_ratio: f64,
+    /// How many heads tall it is to be: as many as are asked for, or can be reached; `None` in paper mode.
+    pub heads: Option<f64>,
     /// alpha and beta by group.
     pub coefficients: BTreeMap<String, Coefficient>,
     /// What a person should know.
@@ -104,19 +106,10 @@ impl Bindings {
             (0..vertices.len() as u32).filter(|&vertex| is_of_head(&vertices[vertex as usize])).collect();
         Self { vertices, joints, ground, of_head, eyes: Vec::new() }
     }
-
-    /// For each vertex whether the stages after the body's can move it.
-    pub fn is_of_head(&self) -> Vec<bool> {
-        let mut is_of_head = vec![false; self.vertices.len()];
-        for &vertex in &self.of_head {
-            is_of_head[vertex as usize] = true;
-        }
-        is_of_head
-    }
 }
 
 /// True where the stages after the body's can move what is attached so.
-fn is_of_head(binding: &Binding) -> bool {
+pub fn is_of_head(binding: &Binding) -> bool {
     match binding {
         Binding::Parts(binding) => {
             let parts = [Part::Head, Part::Neck, Part::Hair];

@@ -8,6 +8,7 @@ use super::handles::{self, Object};
 use super::memory;
 use super::options::{self, SdefOptions};
 use crate::error::Named;
+use crate::geometry::distinct;
 use crate::pipeline::Style;
 use crate::progress::Progress;
 use crate::report::FigureReport;
@@ -342,9 +343,7 @@ pub unsafe extern "C" fn sdef_deformer_get_groups(
             Style::Shape(shape) => deformer.group_shapes(shape),
             Style::Heads(_) => BTreeMap::new(),
         };
-        let mut names: Vec<&String> = deformer.coefficients().keys().chain(target.keys()).collect();
-        names.sort_unstable();
-        names.dedup();
+        let names = distinct(deformer.coefficients().keys().chain(target.keys()));
         write_out(group_count, names.len());
         let sizes = |shape: Option<&GroupShape>| {
             shape.map_or([f64::NAN; 2], |shape| [shape.length, shape.radius.unwrap_or(f64::NAN)])

@@ -2,7 +2,7 @@
 
 use super::{Hand, find_fingers};
 use crate::character::Role;
-use crate::geometry::{PointTree, Surface};
+use crate::geometry::{PointTree, Surface, distinct};
 use crate::rig::front_view::FrontView;
 use crate::rig::joints::FoundJoints;
 use crate::rig::{FoundJoint, UnitFigure};
@@ -64,9 +64,7 @@ fn mirror_of_hands(view: &FrontView, wrists: [DVec3; 2]) -> Option<f64> {
     if mirror(wrists[0]).distance(wrists[1]) > SYMMETRIC_WITHIN {
         return None;
     }
-    let mut corners: Vec<u32> = view.triangles.iter().flatten().copied().collect();
-    corners.sort_unstable();
-    corners.dedup();
+    let corners = distinct(view.triangles.iter().flatten().copied());
     let around = |wrist: DVec3| -> Vec<DVec3> {
         corners
             .iter()

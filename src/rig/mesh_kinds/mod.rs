@@ -9,7 +9,7 @@ mod reach;
 use super::{FoundJoint, UnitFigure};
 use crate::character::{MeshKind, Role};
 use crate::error::{Named, Result, Warning};
-use crate::geometry::{SEAM, Surface, range, weld};
+use crate::geometry::{SEAM, Surface, range, rims, weld};
 use crate::progress::Progress;
 pub use facts::Surroundings;
 use facts::{Facts, Scene};
@@ -258,19 +258,8 @@ impl Scene<'_> {
     fn find_seams(&self) -> Vec<Vec<usize>> {
         let figure = self.figure;
         let welded = weld(&figure.positions, SEAM);
-        // Edges that one triangle of a mesh has.
-        let borders: Vec<BTreeSet<u32>> = (0..figure.mesh_count())
-            .map(|mesh| {
-                let triangles = figure.triangles_of(mesh).iter().map(|&corners| welded.triangle(corners));
-                let mut edges: Vec<(u32, u32)> = triangles
-                    .flat_map(|[a, b, c]| [(a, b), (b, c), (c, a)])
-                    .map(|(one, two)| (one.min(two), one.max(two)))
-                    .collect();
-                edges.sort_unstable();
-                let single = edges.chunk_by(|a, b| a == b).filter(|same| same.len() == 1);
-                single.flat_map(|same| [same[0].0, same[0].1]).collect()
-            })
-            .collect();
+        let border = |mesh| rims(figure.triangles_of(mesh), &welded).into_iter().flatten().collect();
+        let borders: Vec<BTreeSet<u32>> = (0..figure.mesh_count()).map(border).collect();
         let mut meshes_at: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
         for (mesh, border) in borders.iter().enumerate() {
             for &vertex in border {

@@ -6,7 +6,7 @@
 
 use super::voxels::{Queue, Voxels, neighbourhood};
 use crate::error::Result;
-use crate::geometry::{Groups, NONE, ROUNDING, foot};
+use crate::geometry::{Groups, NONE, ROUNDING, distinct, foot};
 use crate::room::{self, Of};
 use glam::DVec3;
 
@@ -111,13 +111,8 @@ pub fn place_bones(volume: &Voxels, bones: &[Vec<[DVec3; 2]>]) -> Vec<Bone> {
         }
     }
     let placed = all.into_iter().map(|segments| {
-        let mut starts: Vec<u32> = samples(volume, &segments)
-            .map(|p| volume.slot(p.round().as_ivec3()))
-            .filter(|&slot| slot != NONE)
-            .collect();
-        starts.sort_unstable();
-        starts.dedup();
-        let mut bone = Bone { segments, starts };
+        let slots = samples(volume, &segments).map(|p| volume.slot(p.round().as_ivec3()));
+        let mut bone = Bone { starts: distinct(slots.filter(|&slot| slot != NONE)), segments };
         if bone.starts.is_empty() {
             bone.starts = nearest_voxels(volume, &bone);
         }

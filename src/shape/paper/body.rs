@@ -43,6 +43,7 @@ pub fn body(character: &Character, measured: &Measured, style: &Style, options: 
         field: field.body,
         placed: Arc::new(placed),
         head_ratio: found.head_ratio,
+        heads: None,
         coefficients: found.groups,
         warnings: found.warnings,
         heads_left: None,

@@ -1,4 +1,4 @@
-//! The body of product mode: coefficients until the number of heads is right.
+//! The body of product mode: coefficients, corrected once where the number of heads is not right.
 
 use super::anatomy::Proportions;
 use super::binding::PartBindings;
@@ -21,9 +21,7 @@ use std::sync::Arc;
 /// A head count as near as this to the one asked for needs no correction. D27. Seen: ±30 % moves vertices by up to .004
 /// H.
 const HEADS_TOLERANCE: f64 = 5e-3;
-/// Fields that are tried for a head count. D27.
-const HEADS_ATTEMPTS: usize = 5;
-/// One correction changes what is asked for below the head by no more than these factors. D27. Seen: tighter ones reach
+/// The correction changes what is asked for below the head by no more than these factors. D27. Seen: tighter ones reach
 /// fewer head counts.
 const HEADS_CORRECTION: (f64, f64) = (0.8, 1.25);
 /// A warning tells of what is left after that above this: a hundredth of a head count is not seen.
@@ -77,7 +75,7 @@ pub fn body(
     }
     let limbs = limbs.as_ref();
     let request = Request { measured, product, heads, style, options, groups: &groups, asked, lost, limbs };
-    let (Attempt { field, coefficients, .. }, of_field, heads_left) =
+    let (Attempt { field, coefficients, heads, .. }, of_field, heads_left) =
         request.best(&mut progress.part(0.0, 0.5))?;
     warnings.extend(of_field);
     progress.at(0.5)?;
@@ -88,6 +86,7 @@ pub fn body(
         bindings: Arc::clone(&product.bindings),
         placed: Arc::new(placed),
         head_ratio,
+        heads: Some(heads),
         coefficients: coefficients.by_group(&groups),
         warnings,
         heads_left,
@@ -142,7 +141,9 @@ struct Attempt {
     /// The bounds that acted, and the profile's own warning.
     limits: Limits,
     limited: Option<Warning>,
-    /// The head count measured on the result.
+    /// The head count that is asked for, or can be reached.
+    heads: f64,
+    /// The one measured on the result.
     measured: f64,
     /// |ln| of how far the head count is from what can be reached: of the one measured, or, for a target without a chin, of
     /// that of its parts' lengths.
@@ -168,8 +169,7 @@ struct Request<'a> {
 }
 
 impl Request<'_> {
-    /// Fields until the head count measured on the result is right: the best of them, its warnings, and one of a head count
-    /// that is not the one asked for.
+    /// The field, its warnings, and one of a head count that is not the one asked for.
     fn best(&self, progress: &mut Progress) -> Result<(Attempt, Vec<Warning>, Option<Warning>)> {
         let asked = self.asked;
         let mut best = self.best_of(progress)?;
@@ -190,26 +190,19 @@ impl Request<'_> {
         Ok((best, warnings, heads_left))
     }
 
-    /// The best of [`HEADS_ATTEMPTS`] fields, the first of which aims at as many heads as are asked for.
+    /// The better of two fields: one that aims at as many heads as are asked for, and, where that misses them, one that aims as
+    /// much further. What that leaves is less than the row of rays that a chin is read by.
     fn best_of(&self, progress: &mut Progress) -> Result<Attempt> {
         let profile = profile_of(self.style, self.options, self.lost);
-        let mut aim = self.asked;
-        let mut best: Option<Attempt> = None;
-        for count in 0..HEADS_ATTEMPTS {
-            progress.at(count as f32 / HEADS_ATTEMPTS as f32)?;
-            let attempt = self.attempt(aim, profile.as_ref())?;
-            let (error, measured) = (attempt.error, attempt.measured);
-            let is_limited = attempt.limits.act_on_heads();
-            if best.as_ref().is_none_or(|best| error < best.error) {
-                best = Some(attempt);
-            }
-            if error <= HEADS_TOLERANCE || is_limited || self.lost == 0.0 {
-                break;
-            }
-            let (least, most) = HEADS_CORRECTION;
-            aim = (aim - 1.0) * ((self.asked - 1.0) / (measured - 1.0)).clamp(least, most) + 1.0;
+        let first = self.attempt(self.asked, profile.as_ref())?;
+        if first.error <= HEADS_TOLERANCE || first.limits.act_on_heads() || self.lost == 0.0 {
+            return Ok(first);
         }
-        Ok(best.expect("there is at least one attempt"))
+        progress.at(0.5)?;
+        let (least, most) = HEADS_CORRECTION;
+        let further = ((self.asked - 1.0) / (first.measured - 1.0)).clamp(least, most);
+        let second = self.attempt((self.asked - 1.0) * further + 1.0, profile.as_ref())?;
+        Ok(if second.error < first.error { second } else { first })
     }
 
     /// One field, for a style with everything below the head stretched by what makes the result `aim` heads tall.
@@ -245,12 +238,12 @@ impl Request<'_> {
         let positions = placement.vertices(&heads.vertices);
         let joint = |joint| placement.joint(joint);
         let measured = heads.heads(&HeadPlacement::of(&target.figure, positions, joint));
-        let reach = if limits.act_on_heads() { reached } else { asked };
-        let off = |heads: f64| (heads / reach).ln().abs();
+        let wanted = if limits.act_on_heads() { reached } else { asked };
+        let off = |heads: f64| (heads / wanted).ln().abs();
         // A chin that the target does not show is no more to be believed where the result shows one: a ball's underside
         // steps back here or there, as last digits say. So it corrects nothing, and is only warned of.
         let error = off(if anatomy.landmarks.chin_seen { measured } else { reached });
         let misread = off(measured);
-        Ok(Attempt { field, coefficients, limits, limited, measured, error, misread })
+        Ok(Attempt { field, coefficients, limits, limited, heads: wanted, measured, error, misread })
     }
 }

@@ -7,7 +7,8 @@ use crate::character::Role;
 use crate::error::Warning;
 use crate::geometry::surface::Surface;
 use crate::geometry::{
-    CHIN_BAND, CHIN_BY_RATIO, CHIN_STEP, SEAM, StepSearch, bounds, components, deepest_step, weld,
+    CHIN_BAND, CHIN_BY_RATIO, CHIN_STEP, SEAM, StepSearch, bounds, components, deepest_step, distinct, range,
+    weld,
 };
 use crate::shape::figure::{Figure, extent};
 use crate::shape::heights::Heights;
@@ -117,12 +118,13 @@ pub fn landmarks(figure: &Figure) -> Landmarks {
     let shoulder_line = placed.shoulder_line;
     let hip_line =
         mean_height(figure, [Role::LeftUpperLeg, Role::RightUpperLeg], |joint| figure.joints[joint]);
-    let trunk = (!chin_seen && !has_waist(&sources, &placed, hip_line, crown)).then(|| trunk(figure));
+    let upper = upper_triangles(figure);
+    let trunk = (!chin_seen && !has_waist(figure, &upper, &placed, hip_line, crown)).then(|| trunk(figure));
     let (crotch, crotch_seen) = match &trunk {
         None => crotch(figure, hip_line),
         // Where the trunk ends: no part of it is a leg's.
         Some(of_trunk) => {
-            let upper = sources.upper.iter().flatten().map(|&vertex| placed.positions[vertex as usize].y);
+            let upper = upper.iter().flatten().map(|&vertex| figure.positions[vertex as usize].y);
             let own = figure.positions.iter().zip(of_trunk).filter(|(_, of_trunk)| **of_trunk);
             (own.map(|(p, _)| p.y).chain(upper).fold(hip_line, f64::min), true)
         }
@@ -143,7 +145,7 @@ pub struct HeadSources {
     /// The head's own triangles: without hair, hats and the like, and with them.
     bare: HeadTriangles,
     with_hair: HeadTriangles,
-    /// Head, neck and torso, without hair, hats and the like.
+    /// Head, neck and the upper torso, without hair, hats and the like.
     upper: Vec<[u32; 3]>,
     /// Vertices whose lowest is the sole.
     soles: Vec<u32>,
@@ -159,8 +161,10 @@ fn is_upper(role: Role) -> bool {
 #[derive(Clone, Debug)]
 struct HeadTriangles {
     all: Vec<[u32; 3]>,
-    /// Those that move with the head alone.
-    sure: Vec<[u32; 3]>,
+    /// Their vertices.
+    vertices: Vec<u32>,
+    /// Those of triangles that move with the head alone.
+    sure: Vec<u32>,
 }
 
 /// Where what [`HeadSources`] lists is.
@@ -179,11 +183,14 @@ impl HeadSources {
                 figure.weight_of(vertex, Role::is_head) > 0.5 && !(bare && figure.is_carried(vertex))
             });
             let is_sure = |&v: &u32| figure.weight_of(v as usize, Role::is_head) > SURE_WEIGHT;
-            let sure = all.iter().filter(|corners| corners.iter().all(is_sure)).copied().collect();
-            HeadTriangles { all, sure }
+            let sure = all.iter().filter(|corners| corners.iter().all(is_sure)).flatten().copied();
+            HeadTriangles { vertices: distinct(all.iter().flatten().copied()), sure: distinct(sure), all }
         };
-        let upper = figure
-            .triangles_where(|vertex| !figure.is_carried(vertex) && figure.weight_of(vertex, is_upper) > 0.5);
+        // No row of rays that looks for the chin is as far below the shoulders, nor will be when the torso has become shorter.
+        let shoulder_line = shoulder_line(figure, |joint| figure.joints[joint]);
+        let lowest = shoulder_line - (figure.extent.1 - shoulder_line);
+        let mut upper = upper_triangles(figure);
+        upper.retain(|corners| corners.iter().any(|&vertex| figure.positions[vertex as usize].y > lowest));
         let (bare, with_hair) = (of_head(true), of_head(false));
         let mut sources = Self { vertices: Vec::new(), bare, with_hair, upper, soles: soles(figure) };
         sources.number(figure.positions.len());
@@ -193,19 +200,21 @@ impl HeadSources {
     /// Numbers all by `vertices`.
     fn number(&mut self, vertex_count: usize) {
         let Self { vertices, bare, with_hair, upper, soles } = self;
-        let lists = [&mut bare.all, &mut bare.sure, &mut with_hair.all, &mut with_hair.sure, upper];
         // Without a head the highest point of all is the crown, without legs the lowest one the sole.
-        let mut is_used = vec![lists[2].is_empty() || soles.is_empty(); vertex_count];
-        for &vertex in lists.iter().flat_map(|list| list.iter().flatten()).chain(soles.iter()) {
-            is_used[vertex as usize] = true;
-        }
-        vertices.extend((0..vertex_count as u32).filter(|&vertex| is_used[vertex as usize]));
+        *vertices = if with_hair.all.is_empty() || soles.is_empty() {
+            (0..vertex_count as u32).collect()
+        } else {
+            distinct(upper.iter().flatten().chain(&with_hair.vertices).chain(&*soles).copied())
+        };
         let mut numbers = vec![0; vertex_count];
         for (number, &vertex) in vertices.iter().enumerate() {
             numbers[vertex as usize] = number as u32;
         }
-        let corners = lists.into_iter().flat_map(|list| list.iter_mut().flatten());
-        corners.chain(soles).for_each(|vertex| *vertex = numbers[*vertex as usize]);
+        for list in [&mut bare.all, &mut with_hair.all, upper] {
+            list.iter_mut().flatten().for_each(|vertex| *vertex = numbers[*vertex as usize]);
+        }
+        let heads = [bare, with_hair].into_iter().flat_map(|head| [&mut head.vertices, &mut head.sure]);
+        heads.chain([soles]).flatten().for_each(|vertex| *vertex = numbers[*vertex as usize]);
     }
 
     fn sole(&self, placed: &HeadPlacement) -> f64 {
@@ -226,7 +235,7 @@ impl HeadPlacement {
         Self {
             positions,
             head_joint: figure.humanoid.joint(Role::Head).map_or(DVec3::ZERO, &place_joint),
-            shoulder_line: mean_height(figure, [Role::LeftUpperArm, Role::RightUpperArm], place_joint),
+            shoulder_line: shoulder_line(figure, place_joint),
         }
     }
 }
@@ -248,6 +257,10 @@ fn upper(sources: &HeadSources, placed: &HeadPlacement) -> HeadHeights {
     HeadHeights { crown, chin, chin_seen, crown_source }
 }
 
+fn shoulder_line(figure: &Figure, place_joint: impl Fn(usize) -> DVec3) -> f64 {
+    mean_height(figure, [Role::LeftUpperArm, Role::RightUpperArm], place_joint)
+}
+
 fn mean_height(figure: &Figure, roles: [Role; 2], place_joint: impl Fn(usize) -> DVec3) -> f64 {
     let heights: Vec<f64> = roles
         .iter()
@@ -257,7 +270,12 @@ fn mean_height(figure: &Figure, roles: [Role; 2], place_joint: impl Fn(usize) ->
     heights.iter().sum::<f64>() / heights.len() as f64
 }
 
-/// Vertices of feet and shins, as boots are often weighted to the shin alone; without these, of the legs.
+/// Head, neck and torso, without hair, hats and the like.
+fn upper_triangles(figure: &Figure) -> Vec<[u32; 3]> {
+    figure.triangles_where(|vertex| !figure.is_carried(vertex) && figure.weight_of(vertex, is_upper) > 0.5)
+}
+
+/// The lower half of feet and shins, as boots are often weighted to the shin alone; without these, of the legs.
 fn soles(figure: &Figure) -> Vec<u32> {
     use Role::*;
     let moved_by = |roles: &[Role]| -> Vec<u32> {
@@ -268,12 +286,15 @@ fn soles(figure: &Figure) -> Vec<u32> {
     let legs =
         [LeftFoot, RightFoot, LeftToes, RightToes, LeftLowerLeg, RightLowerLeg, LeftUpperLeg, RightUpperLeg];
     let from_the_knees = moved_by(&legs[..6]);
-    if from_the_knees.is_empty() { moved_by(&legs) } else { from_the_knees }
+    let mut soles = if from_the_knees.is_empty() { moved_by(&legs) } else { from_the_knees };
+    let (low, high) = range(soles.iter().map(|&vertex| figure.positions[vertex as usize].y));
+    soles.retain(|&vertex| figure.positions[vertex as usize].y <= low.midpoint(high));
+    soles
 }
 
-/// Middle and half extent in x and z of the vertices that `triangles` use.
-fn middle(positions: &[DVec3], triangles: &[[u32; 3]]) -> Option<(DVec3, DVec3)> {
-    let (low, high) = bounds(triangles.iter().flatten().map(|&vertex| positions[vertex as usize]));
+/// Middle and half extent of `vertices`.
+fn middle(positions: &[DVec3], vertices: &[u32]) -> Option<(DVec3, DVec3)> {
+    let (low, high) = bounds(vertices.iter().map(|&vertex| positions[vertex as usize]));
     (low.x <= high.x).then(|| ((low + high) / 2.0, (high - low) / 2.0))
 }
 
@@ -336,7 +357,7 @@ fn top(
 ) -> HeadTop {
     let (positions, joint) = (&placed.positions, placed.head_joint);
     let (Some((centre, _)), Some((_, half))) =
-        (middle(positions, &triangles.all), middle(positions, &width.all))
+        (middle(positions, &triangles.vertices), middle(positions, &width.vertices))
     else {
         return HeadTop { point: None, hit_count: 0 };
     };
@@ -356,8 +377,8 @@ fn chin(sources: &HeadSources, placed: &HeadPlacement, crown: f64, height: f64) 
     let (positions, triangles, shoulder_line) = (&placed.positions, &sources.upper, placed.shoulder_line);
     let span = crown - shoulder_line;
     let by_ratio = (shoulder_line + CHIN_BY_RATIO * span, false);
-    let Some((face, half)) = middle(positions, &sources.bare.all).or_else(|| middle(positions, triangles))
-    else {
+    let head = middle(positions, &sources.bare.vertices);
+    let Some((face, half)) = head.or_else(|| middle(positions, triangles.as_flattened())) else {
         return by_ratio;
     };
     let front =
@@ -415,10 +436,10 @@ fn trunk(figure: &Figure) -> Vec<bool> {
     (0..figure.positions.len()).map(|vertex| own[of(vertex)] > 0.0).collect()
 }
 
-/// Whether head, neck and torso, between these heights, are somewhere narrower than above it and below it, where chins are looked for.
-fn has_waist(sources: &HeadSources, placed: &HeadPlacement, low: f64, high: f64) -> bool {
-    let surface = Surface::new(&placed.positions, &sources.upper);
-    let Some((centre, half)) = middle(&placed.positions, &sources.upper) else { return true };
+/// Whether `upper`, which is head, neck and torso, between these heights, are somewhere narrower than above it and below it, where chins are looked for.
+fn has_waist(figure: &Figure, upper: &[[u32; 3]], placed: &HeadPlacement, low: f64, high: f64) -> bool {
+    let surface = Surface::new(&figure.positions, upper);
+    let Some((centre, half)) = middle(&figure.positions, upper.as_flattened()) else { return true };
     let row_height = (high - low) / CHIN_ROWS as f64;
     let breadths: [f64; CHIN_ROWS] = std::array::from_fn(|row| {
         let at = DVec3::new(centre.x, low + (row as f64 + 0.5) * row_height, placed.head_joint.z);
@@ -464,7 +485,7 @@ fn crotch(figure: &Figure, hip_line: f64) -> (f64, bool) {
         }) > 0.5
     });
     let surface = Surface::new(&figure.positions, &triangles);
-    let Some((_, half)) = middle(&figure.positions, &triangles) else {
+    let Some((_, half)) = middle(&figure.positions, triangles.as_flattened()) else {
         return by_ratio;
     };
     let middle_x = (left.x + right.x) / 2.0;

@@ -1,6 +1,6 @@
 //! What is outside of a body and what inside, and where its surface ends.
 
-use crate::geometry::{Closest, Surface, Tree, Weld, double_area};
+use crate::geometry::{self, Closest, Surface, Tree, Weld, distinct, double_area};
 use glam::DVec3;
 
 /// The outside of a body.
@@ -87,21 +87,9 @@ pub fn volume(points: &[DVec3], triangles: &[[u32; 3]]) -> f64 {
         .sum()
 }
 
-/// The welded vertices at rims, where a surface ends: those of edges that one triangle has.
+/// The welded vertices at rims, where a surface ends.
 pub fn rims(triangles: &[[u32; 3]], weld: &Weld) -> Vec<u32> {
-    let mut edges: Vec<[u32; 2]> = triangles
-        .iter()
-        .flat_map(|corners| {
-            let [a, b, c] = weld.triangle(*corners);
-            [[a, b], [b, c], [c, a]].map(|[a, b]| [a.min(b), a.max(b)])
-        })
-        .collect();
-    edges.sort_unstable();
-    let single = edges.chunk_by(|a, b| a == b).filter(|same| same.len() == 1);
-    let mut rims: Vec<u32> = single.flat_map(|same| same[0]).collect();
-    rims.sort_unstable();
-    rims.dedup();
-    rims
+    distinct(geometry::rims(triangles, weld).into_flattened())
 }
 
 /// Normals of the welded vertices that `triangles` use, by area; zero elsewhere and at their [`rims`].

@@ -2,7 +2,7 @@
 
 use super::outside::{Outside, rims, volume};
 use crate::character::MeshKind;
-use crate::geometry::{Neighbours, Surface, Tree, Weld, WindingGroups, components, neighbours};
+use crate::geometry::{Neighbours, Surface, Tree, Weld, WindingGroups, components, distinct, neighbours};
 use crate::parallel;
 use crate::shape::figure::Figure;
 use glam::DVec3;
@@ -233,9 +233,7 @@ fn lying_over(
 ) -> (Vec<[u32; 3]>, Vec<[u32; 3]>) {
     let component = components(&triangles, weld);
     let of = |corners: &[u32; 3]| component[weld.representative[corners[0] as usize] as usize];
-    let mut places: Vec<u32> = triangles.iter().flat_map(|&corners| weld.triangle(corners)).collect();
-    places.sort_unstable();
-    places.dedup();
+    let places = distinct(triangles.iter().flat_map(|&corners| weld.triangle(corners)));
     let first = weld.first_vertices();
     let reach = WORN_REACH * figure.height();
     let lies = parallel::collect(threads, places.len(), parallel::FEW_RAYS, |index| {

@@ -55,11 +55,11 @@ pub fn monotone_cubic(places: &[f64], knots: &[f64], x: f64) -> f64 {
 /// Where [`bell`] ends, in widths.
 pub const BELL_ENDS: f64 = 3.0;
 
-/// The weight of what lies `away` from the middle, in widths: a Gaussian that goes down to 0 at its end. Rows lie by parts of
-/// these widths, so one lies there to the last digit: with a step it would count or not.
+/// The weight of what lies `away` from the middle, in widths: the triweight, which ends three of its standard deviations away. Rows
+/// lie by parts of these widths, so one lies there to the last digit: with a step it would count or not.
 pub fn bell(away: f64) -> f64 {
-    let gaussian = |away: f64| (-0.5 * away * away).exp();
-    (gaussian(away) - gaussian(BELL_ENDS)).max(0.0)
+    let near = (1.0 - (away / BELL_ENDS).powi(2)).max(0.0);
+    near * near * near
 }
 
 /// Weighted means along `rows`, by a [`bell`] `sigma` wide: rows lie at `places`, which rise, and each counts for as much of the

@@ -34,7 +34,7 @@ impl RadiusMap {
     /// The reaches of what `cuts` show at even heights; `None` where nothing is met anywhere.
     ///
     /// - `bones`: where each cut's middle is looked for.
-    /// - `sigma`: middles are smoothed by a Gaussian that wide, model units. `is_middle`: across they stay at 0.
+    /// - `sigma`: middles are smoothed by a bell that wide, model units. `is_middle`: across they stay at 0.
     pub fn of(
         planes: Planes,
         (start, step): (f64, f64),

@@ -22,10 +22,10 @@ use glam::{DMat3, DVec2, DVec3};
 const STEP: f64 = 0.02;
 /// No map and no table has more rows, or few more: for heads that are tiny beside their bodies.
 pub(super) const MOST_ROWS: f64 = 2000.0;
-/// Widths of the Gaussians that leave no relief, in heads of the result.
+/// Widths of the bells that leave no relief, in heads of the result.
 const TORSO_SIGMA: f64 = 0.16;
 const LIMB_SIGMA: f64 = 0.20;
-/// Width of the Gaussian for the middles, in head lengths at rest: what the two above are there of an adult's arm. Seen: at .45
+/// Width of the bell for the middles, in head lengths at rest: what the two above are there of an adult's arm. Seen: at .45
 /// the front of a dress and its back, which hang differently far down, are drawn to different sides.
 const MIDDLE_SIGMA: f64 = 0.7;
 /// What the reach may be scaled by. Seen: where a waist may grow by a tenth alone, a trunk of two heads keeps a groove; from .5 to
