@@ -2,6 +2,7 @@
 
 use super::raster::{DepthMap, Window};
 use crate::character::Character;
+use crate::geometry::triangles_where;
 use glam::{DVec2, DVec3};
 
 /// How much of the head the front view shows, in head lengths about the middle and above the chin: the widest head with
@@ -120,15 +121,6 @@ impl<'a> Head<'a> {
     pub fn eye_joint(&self, side: usize) -> Option<DVec3> {
         self.parts.eye_joints[side].map(|p| self.frame.to_unit(p))
     }
-}
-
-/// Triangles all of whose corners `choose` accepts.
-fn triangles_where(triangles: &[[u32; 3]], choose: impl Fn(usize) -> bool) -> Vec<[u32; 3]> {
-    triangles
-        .iter()
-        .filter(|corners| corners.iter().all(|&corner| choose(corner as usize)))
-        .copied()
-        .collect()
 }
 
 /// The values that leave out the share `q` at each end; `None` where there are none. Mirrored values have mirrored ends.

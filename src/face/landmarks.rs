@@ -4,7 +4,7 @@ use super::brows::{Brows, brows};
 use super::eyes::{Eye, EyeSource, Eyeball, Eyes, Pair, eyes};
 use super::head::{Head, quantile};
 use super::raster::{DepthMap, Window};
-use crate::geometry::bounds;
+use crate::geometry::{self, bounds, marked};
 use glam::{DVec2, DVec3};
 
 /// A face, in head lengths: x to the character's left from the middle, y up from the chin, z to the front.
@@ -191,9 +191,7 @@ fn nose(head: &Head, pair: Option<Pair>) -> Option<Nose> {
     };
     let beside = |row: usize| {
         let mean = |middle: f64| {
-            let depths: Vec<f64> =
-                columns(middle - STEP, middle + STEP).filter_map(|column| view.depth(column, row)).collect();
-            (!depths.is_empty()).then(|| depths.iter().sum::<f64>() / depths.len() as f64)
+            geometry::mean(columns(middle - STEP, middle + STEP).filter_map(|column| view.depth(column, row)))
         };
         Some(0.5 * (mean(-aside)? + mean(aside)?))
     };
@@ -259,10 +257,7 @@ const SKULL_ROWS: (f64, f64) = (0.52, 0.72);
 
 /// W: how far aside 98 of 100 vertices between these heights are: between the two next to it, as low-poly heads have few.
 fn skull_half_width(head: &Head) -> f64 {
-    let mut is_used = vec![false; head.points.len()];
-    for &vertex in head.bare.iter().flatten() {
-        is_used[vertex as usize] = true;
-    }
+    let is_used = marked(head.points.len(), head.bare.iter().flatten().map(|&vertex| vertex as usize));
     let is_near = |p: &DVec3| p.y > SKULL_ROWS.0 && p.y < SKULL_ROWS.1;
     let used = head.points.iter().zip(is_used).filter(|&(p, is_used)| is_used && is_near(p));
     let mut aside: Vec<f64> = used.map(|(p, _)| p.x.abs()).collect();

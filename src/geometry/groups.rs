@@ -12,6 +12,19 @@ pub fn distinct<T: Ord>(things: impl IntoIterator<Item = T>) -> Vec<T> {
     things
 }
 
+/// For each of `count` things whether it is among those of `numbers`.
+pub fn marked(count: usize, numbers: impl IntoIterator<Item = usize>) -> Vec<bool> {
+    let mut marks = vec![false; count];
+    numbers.into_iter().for_each(|number| marks[number] = true);
+    marks
+}
+
+/// Those of `triangles` all of whose corners `choose` accepts.
+pub fn triangles_where(triangles: &[[u32; 3]], choose: impl Fn(usize) -> bool) -> Vec<[u32; 3]> {
+    let is_chosen = |corners: &&[u32; 3]| corners.iter().all(|&corner| choose(corner as usize));
+    triangles.iter().filter(is_chosen).copied().collect()
+}
+
 /// Things in groups that grow together, each known by its least member.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Groups {

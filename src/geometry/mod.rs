@@ -11,6 +11,7 @@ pub mod cells;
 pub mod groups;
 pub mod laplacian;
 pub mod mapped;
+pub mod means;
 pub mod point_tree;
 pub mod profile;
 pub mod segment;
@@ -24,8 +25,9 @@ pub mod winding;
 
 pub use bounds::{Bounds, bounds, bounds_by_group, clusters, grown_clusters, range};
 pub use cells::CellMap;
-pub use groups::{Groups, by_number, distinct, least_costs, merge_tree};
+pub use groups::{Groups, by_number, distinct, least_costs, marked, merge_tree, triangles_where};
 pub use mapped::{Mapped, Moved, outer};
+pub use means::{mean, median};
 pub use point_tree::PointTree;
 pub use profile::{CHIN_BAND, CHIN_BY_RATIO, CHIN_STEP, StepSearch, deepest_step};
 pub use segment::foot;

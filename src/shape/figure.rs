@@ -7,7 +7,7 @@
 use crate::character::mesh_list::MeshList;
 use crate::character::{Character, Frame, Humanoid, MeshKind, Role};
 use crate::error::{Error, ErrorKind, Result};
-use crate::geometry::range;
+use crate::geometry::{marked, range, triangles_where};
 use glam::DVec3;
 use std::collections::HashMap;
 
@@ -131,21 +131,14 @@ impl Figure {
     /// Triangles all of whose corners `choose` accepts.
     pub fn triangles_where(&self, choose: impl Fn(usize) -> bool) -> Vec<[u32; 3]> {
         let chosen: Vec<bool> = (0..self.positions.len()).map(choose).collect();
-        self.triangles
-            .iter()
-            .filter(|corners| corners.iter().all(|&vertex| chosen[vertex as usize]))
-            .copied()
-            .collect()
+        triangles_where(&self.triangles, |vertex| chosen[vertex])
     }
 }
 
 /// Meshes may share their arrays, each with triangles of its own: then each has copies of what another one draws. Such
 /// copies are what is drawn at their place, or a bag would hold together with the whole body.
 fn copy_kinds_of_drawn(kinds: &mut [MeshKind], positions: &[DVec3], triangles: &[[u32; 3]]) {
-    let mut is_drawn = vec![false; positions.len()];
-    for &vertex in triangles.iter().flatten() {
-        is_drawn[vertex as usize] = true;
-    }
+    let is_drawn = marked(positions.len(), triangles.iter().flatten().map(|&vertex| vertex as usize));
     if is_drawn.iter().all(|&is_drawn| is_drawn) {
         return;
     }
@@ -193,10 +186,7 @@ fn fold_weights(character: &Character, joint_roles: &[Option<Role>]) -> FoldedWe
     let mut role_weights = Vec::with_capacity(character.vertex_count());
     let mut extra_weight = Vec::with_capacity(character.vertex_count());
     let mut main = Vec::with_capacity(character.vertex_count());
-    let mut has_role = vec![false; joint_roles.len()];
-    for (_, joint) in character.humanoid.iter() {
-        has_role[joint] = true;
-    }
+    let has_role = marked(joint_roles.len(), character.humanoid.iter().map(|(_, joint)| joint));
     for mesh in &character.meshes {
         for vertex in 0..mesh.positions.len() {
             let row = if mesh.weights.is_empty() { &[][..] } else { mesh.weights.row(vertex) };

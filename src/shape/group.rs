@@ -3,6 +3,7 @@
 use super::BodyShape;
 use crate::character::Role;
 use crate::character::bones::bones;
+use crate::geometry::mean;
 use crate::options::Options;
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
@@ -44,8 +45,7 @@ pub fn group_shapes(
         radii.entry(bone.group).or_default().extend(measured.radius);
     }
     for (name, group) in &mut groups {
-        let radii = &radii[name];
-        group.radius = (!radii.is_empty()).then(|| radii.iter().sum::<f64>() / radii.len() as f64);
+        group.radius = mean(radii[name].iter().copied());
     }
     groups
 }

@@ -6,7 +6,7 @@ use super::{BodyShape, BoneShape};
 use crate::character::Role;
 use crate::character::bones::{Bone, HEAD_TOP};
 use crate::error::{Error, ErrorKind, Result};
-use crate::geometry::Surface;
+use crate::geometry::{Surface, mean, median};
 use crate::options::table::{FEWEST_RAYS, PAPER_RAYS};
 use glam::DVec3;
 use std::collections::BTreeMap;
@@ -83,8 +83,7 @@ pub fn radius(parent: DVec3, child: DVec3, surfaces: &[&Surface], rays: usize) -
     let mut measured = None;
     for surface in surfaces {
         let samples = SAMPLES.map(|t| sample(surface, parent.lerp(child, t), &ring));
-        let valid: Vec<f64> = samples.iter().filter_map(|sample| sample.1).collect();
-        measured = (!valid.is_empty()).then(|| valid.iter().sum::<f64>() / valid.len() as f64);
+        measured = mean(samples.iter().filter_map(|sample| sample.1));
         let surrounded = |hit_count: usize| hit_count as f64 >= ENOUGH_HITS * rays as f64;
         if samples.iter().all(|&(hit_count, _)| surrounded(hit_count)) {
             break;
@@ -156,9 +155,7 @@ pub fn head_top(surface: &Surface, head: DVec3, half_width: f64, above: f64) -> 
         })
         .filter(|&y| y > head.y)
         .collect();
-    heights.sort_by(f64::total_cmp);
     let hit_count = heights.len();
-    let median = |heights: &[f64]| 0.5 * (heights[(hit_count - 1) / 2] + heights[hit_count / 2]);
-    let point = (hit_count > 0).then(|| head.with_y(median(&heights)));
+    let point = (hit_count > 0).then(|| head.with_y(median(&mut heights)));
     HeadTop { point, hit_count }
 }

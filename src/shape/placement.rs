@@ -2,13 +2,13 @@
 
 use super::Coefficient;
 use super::field::{Binding, BodyField, Field, Finish};
-use super::figure::Figure;
+use super::figure::{Figure, extent};
 use super::product::part::Part;
 use crate::character::{Character, Role};
 use crate::error::Warning;
 use crate::face::FaceShape;
 use crate::face::stage::{FaceBinding, Ways};
-use crate::geometry::range;
+use crate::geometry::{marked, range};
 use crate::parallel;
 use glam::DVec3;
 use std::collections::BTreeMap;
@@ -133,13 +133,10 @@ pub struct GroundContact {
 impl GroundContact {
     /// By the vertices of `figure` that `stands` accepts.
     pub fn of(figure: &Figure, stands: impl Fn(usize) -> bool) -> Self {
-        let vertices: Vec<u32> = (0..figure.positions.len())
-            .filter(|&vertex| stands(vertex))
-            .map(|vertex| vertex as u32)
-            .collect();
+        let vertices: Vec<u32> =
+            (0..figure.positions.len() as u32).filter(|&vertex| stands(vertex as usize)).collect();
         let standing = range(vertices.iter().map(|&vertex| figure.positions[vertex as usize].y));
-        let (height, _) =
-            if vertices.is_empty() { range(figure.positions.iter().map(|p| p.y)) } else { standing };
+        let (height, _) = if vertices.is_empty() { extent(&figure.positions) } else { standing };
         let height = if height.is_finite() { height } else { 0.0 };
         Self { vertices, height }
     }
@@ -151,19 +148,12 @@ pub fn joint_bindings(
     figure: &Figure,
     bind: impl Fn(usize) -> Binding,
 ) -> Vec<Binding> {
-    let mut above_humanoid = vec![false; figure.joints.len()];
-    for (_, joint) in figure.humanoid.iter() {
-        for above in character.skeleton.ancestors(joint).skip(1) {
-            above_humanoid[above] = true;
-        }
-    }
-    let mut weighted = vec![false; figure.joints.len()];
-    for mesh in &character.meshes {
-        for &(joint, _) in mesh.weights.rows().flatten() {
-            weighted[joint as usize] = true;
-        }
-    }
-    (0..figure.joints.len())
+    let count = figure.joints.len();
+    let above = figure.humanoid.iter().flat_map(|(_, joint)| character.skeleton.ancestors(joint).skip(1));
+    let above_humanoid = marked(count, above);
+    let entries = character.meshes.iter().flat_map(|mesh| mesh.weights.rows().flatten());
+    let weighted = marked(count, entries.map(|&(joint, _)| joint as usize));
+    (0..count)
         .map(|joint| match figure.joint_roles[joint] {
             None if above_humanoid[joint] || !weighted[joint] => Binding::Fixed,
             _ => bind(joint),

@@ -3,6 +3,7 @@
 use crate::character::Role;
 use crate::character::bones::{Bone, Group, bones};
 use crate::error::{Error, ErrorKind, Result, Warning};
+use crate::geometry::mean;
 use crate::options::GroupSettings;
 use crate::options::table::option;
 use crate::shape::{BodyShape, Coefficient};
@@ -212,8 +213,7 @@ fn total_length(shape: &BodyShape, bones: &[&Bone]) -> f64 {
 
 fn mean_radius(shape: &BodyShape, bones: &[&Bone]) -> Option<f64> {
     let shapes = bones.iter().filter_map(|bone| shape.bones.get(bone.key()));
-    let radii: Vec<f64> = shapes.filter_map(|bone| bone.radius).filter(|&radius| radius > 0.0).collect();
-    (!radii.is_empty()).then(|| radii.iter().sum::<f64>() / radii.len() as f64)
+    mean(shapes.filter_map(|bone| bone.radius).filter(|&radius| radius > 0.0))
 }
 
 /// The group of the bone between common roles that stands for the target's bones of `group`.

@@ -4,11 +4,11 @@
 //! line to chin, the torso from crotch to shoulder line, the leg from crotch to sole, whole arms; so that it does
 //! not matter where an artist put the joints in between.
 
-use super::landmarks::{Landmarks, landmarks};
+use super::landmarks::{Landmarks, landmarks, middle};
 use super::part::{Part, PartWeights, TINY, fold_to_parts};
 use crate::character::{MeshKind, Role};
 use crate::error::Warning;
-use crate::geometry::{bounds, foot, range};
+use crate::geometry::{bounds, foot, mean, range};
 use crate::shape::figure::Figure;
 use crate::shape::heights::Heights;
 use glam::DVec3;
@@ -191,7 +191,8 @@ impl Anatomy {
             figure.weight_of(vertex, Role::is_head) > 0.5 && !figure.is_carried(vertex)
         });
         let head = if bare_head.is_empty() { own(Part::Head as usize) } else { bare_head };
-        let head_centre = centre(figure, &head).unwrap_or(DVec3::new(middle_x, heights.crown, head_joint.z));
+        let head_centre = middle(&figure.positions, head.as_flattened())
+            .map_or(DVec3::new(middle_x, heights.crown, head_joint.z), |(centre, _)| centre);
 
         let length = heights.head_length();
         let head_half_width = slice(figure, &head, heights.chin + HEAD_WIDTH_AT * length)
@@ -282,21 +283,10 @@ impl Anatomy {
     }
 }
 
-/// `None` of nothing.
-pub(super) fn mean(values: impl Iterator<Item = f64>) -> Option<f64> {
-    let values: Vec<f64> = values.collect();
-    (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
-}
-
-fn centre(figure: &Figure, triangles: &[[u32; 3]]) -> Option<DVec3> {
-    let (low, high) = bounds(triangles.iter().flatten().map(|&vertex| figure.positions[vertex as usize]));
-    (low.x <= high.x).then(|| (low + high) / 2.0)
-}
-
 /// Shoulder, elbow and wrist of one side.
 fn arm(figure: &Figure, parts: &[PartWeights], left: bool) -> Limb {
     use Role::*;
-    let side = |role: Role| if left { role } else { role.mirrored() };
+    let side = |role: Role| role.on_side(left);
     let indices = [LeftUpperArm, LeftLowerArm, LeftHand].map(|role| Part::of(side(role)) as usize);
     let root = figure.role_position(side(LeftUpperArm)).unwrap_or_default();
     let elbow = figure.role_position(side(LeftLowerArm));
@@ -326,7 +316,7 @@ fn arm(figure: &Figure, parts: &[PartWeights], left: bool) -> Limb {
 /// Hip (at the height of the crotch), knee and ankle of one side.
 fn leg(figure: &Figure, heights: Heights, left: bool) -> Limb {
     use Role::*;
-    let side = |role: Role| if left { role } else { role.mirrored() };
+    let side = |role: Role| role.on_side(left);
     let hip = figure.role_position(side(LeftUpperLeg)).unwrap_or_default();
     let root = DVec3::new(hip.x, heights.crotch, hip.z);
     let length = heights.crotch - heights.sole;

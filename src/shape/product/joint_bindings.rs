@@ -5,7 +5,7 @@ use super::part::{PART_COUNT, Part, add};
 use super::pieces::Attachment;
 use crate::character::{Character, Role};
 use crate::face::stage::FaceBinding;
-use crate::geometry::foot;
+use crate::geometry::{foot, marked};
 use crate::shape::figure::Figure;
 use std::collections::BTreeMap;
 
@@ -28,10 +28,7 @@ pub fn mean_bindings(
     vertices: &[PartBinding],
 ) -> Vec<Option<PartBinding>> {
     let mut means: Vec<Mean> = figure.joints.iter().map(|_| Mean::default()).collect();
-    let mut own_role = vec![false; figure.joints.len()];
-    for (_, joint) in figure.humanoid.iter() {
-        own_role[joint] = true;
-    }
+    let own_role = marked(figure.joints.len(), figure.humanoid.iter().map(|(_, joint)| joint));
     let near = NEAR * figure.height();
     for (mesh, &start) in character.meshes.iter().zip(&figure.mesh_starts) {
         for (vertex, row) in mesh.weights.rows().enumerate() {

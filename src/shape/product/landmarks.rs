@@ -7,8 +7,8 @@ use crate::character::Role;
 use crate::error::Warning;
 use crate::geometry::surface::Surface;
 use crate::geometry::{
-    CHIN_BAND, CHIN_BY_RATIO, CHIN_STEP, SEAM, StepSearch, bounds, components, deepest_step, distinct, range,
-    weld,
+    CHIN_BAND, CHIN_BY_RATIO, CHIN_STEP, SEAM, StepSearch, bounds, components, deepest_step, distinct, mean,
+    range, weld,
 };
 use crate::shape::figure::{Figure, extent};
 use crate::shape::heights::Heights;
@@ -262,12 +262,8 @@ fn shoulder_line(figure: &Figure, place_joint: impl Fn(usize) -> DVec3) -> f64 {
 }
 
 fn mean_height(figure: &Figure, roles: [Role; 2], place_joint: impl Fn(usize) -> DVec3) -> f64 {
-    let heights: Vec<f64> = roles
-        .iter()
-        .filter_map(|&role| figure.humanoid.joint(role))
-        .map(|joint| place_joint(joint).y)
-        .collect();
-    heights.iter().sum::<f64>() / heights.len() as f64
+    let joints = roles.into_iter().filter_map(|role| figure.humanoid.joint(role));
+    mean(joints.map(|joint| place_joint(joint).y)).unwrap_or(f64::NAN)
 }
 
 /// Head, neck and torso, without hair, hats and the like.
@@ -293,7 +289,7 @@ fn soles(figure: &Figure) -> Vec<u32> {
 }
 
 /// Middle and half extent of `vertices`.
-fn middle(positions: &[DVec3], vertices: &[u32]) -> Option<(DVec3, DVec3)> {
+pub(super) fn middle(positions: &[DVec3], vertices: &[u32]) -> Option<(DVec3, DVec3)> {
     let (low, high) = bounds(vertices.iter().map(|&vertex| positions[vertex as usize]));
     (low.x <= high.x).then(|| ((low + high) / 2.0, (high - low) / 2.0))
 }

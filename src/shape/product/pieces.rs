@@ -4,7 +4,7 @@ use super::anatomy::{Anatomy, Limb};
 use super::part::{PART_COUNT, Part, PartWeights, add};
 use super::strand;
 use crate::character::{MeshKind, Role, Skeleton};
-use crate::geometry::{Bounds, PointTree, Weld, bounds, clusters, foot, neighbours, outer};
+use crate::geometry::{Bounds, PointTree, Weld, bounds, clusters, foot, marked, neighbours, outer};
 use crate::shape::figure::Figure;
 use glam::{DMat3, DVec3};
 use std::collections::{BTreeMap, BTreeSet};
@@ -358,10 +358,7 @@ fn strands<'a>(
 /// For each joint the uppermost joint without a role that it hangs from, below a joint that has one.
 fn uppermost_without_role(figure: &Figure, skeleton: &Skeleton) -> Vec<Option<usize>> {
     let joint_count = figure.joints.len();
-    let mut has_role = vec![false; joint_count];
-    for (_, joint) in figure.humanoid.iter() {
-        has_role[joint] = true;
-    }
+    let has_role = marked(joint_count, figure.humanoid.iter().map(|(_, joint)| joint));
     (0..joint_count)
         .map(|joint| {
             if has_role[joint] || figure.joint_roles[joint].is_none() {

@@ -11,7 +11,7 @@ use super::worn::Worn;
 use crate::character::Character;
 use crate::face::head::HeadFrame;
 use crate::geometry::laplacian::Cholesky;
-use crate::geometry::{Groups, NONE, PointTree, Surface, Weld, bounds, range, smoothstep};
+use crate::geometry::{Groups, NONE, PointTree, Surface, Weld, bounds, marked, range, smoothstep};
 use crate::parallel;
 use crate::shape::Measured;
 use crate::shape::field::Binding;
@@ -380,11 +380,8 @@ impl Strands {
         for (places, share) in &self.small {
             places.iter().for_each(|&place| stiff[place as usize] = *share);
         }
-        for link in self
-            .links
-            .iter_mut()
-            .filter(|link| pieces[link.ends[0] as usize] == pieces[link.ends[1] as usize])
-        {
+        let is_within = |link: &&mut Link| pieces[link.ends[0] as usize] == pieces[link.ends[1] as usize];
+        for link in self.links.iter_mut().filter(is_within) {
             link.stiff = stiff[link.ends[0] as usize];
         }
     }
@@ -503,8 +500,7 @@ fn joints(
 ) -> Vec<Vec<(u32, f64)>> {
     let Measured { figure, anatomy, weld, .. } = measured;
     let skeleton = &character.skeleton;
-    let mut has_role = vec![false; skeleton.joints.len()];
-    figure.humanoid.iter().for_each(|(_, joint)| has_role[joint] = true);
+    let has_role = marked(skeleton.joints.len(), figure.humanoid.iter().map(|(_, joint)| joint));
     let near = SHORTEST * anatomy.landmarks.heights.head_length();
     // A joint of a chain stands between the hair that it moves and that of the joint before it.
     let mut beside: Vec<Vec<usize>> = (0..skeleton.joints.len()).map(|joint| vec![joint]).collect();

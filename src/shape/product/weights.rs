@@ -11,7 +11,7 @@ use super::skirt_weights::follow_legs;
 use super::smoothing::{Fork, smooth_across, smooth_along};
 use crate::character::{MeshKind, Role};
 use crate::error::Result;
-use crate::geometry::{Weld, bounds, smoothstep};
+use crate::geometry::{Weld, marked, smoothstep};
 use crate::progress::Progress;
 use crate::shape::figure::Figure;
 use glam::DVec3;
@@ -83,10 +83,8 @@ pub fn part_weights(
         smooth_along(figure, weld, &head_only, &mut parts, threads, &mut progress.part(0.1, 0.3))?;
     }
     // Skin at the root of hair has moved over to the hair's weights, and must stay there or the hair line opens.
-    let mut holds_fixed = vec![false; weld.count];
-    for (vertex, _) in fixed.iter().enumerate().filter(|&(_, &fixed)| fixed) {
-        holds_fixed[weld.representative[vertex] as usize] = true;
-    }
+    let places = weld.representative.iter().zip(&fixed).filter(|(_, fixed)| **fixed);
+    let holds_fixed = marked(weld.count, places.map(|(&welded, _)| welded as usize));
     let frozen: Vec<bool> = weld.representative.iter().map(|&welded| holds_fixed[welded as usize]).collect();
     smooth_across(figure, weld, &frozen, fork, &mut parts, threads, &mut progress.part(0.3, 1.0))?;
     for (row, &p) in parts.iter_mut().zip(&figure.positions) {
@@ -119,14 +117,12 @@ fn mark_hanging_hair(
     head_only: &[bool],
     parts: &mut [PartWeights],
 ) {
-    for members in members.iter().filter(|members| !members.is_empty()) {
-        if !members.iter().all(|&vertex| head_only[vertex as usize]) {
-            continue;
-        }
-        let (low, _) = bounds(members.iter().map(|&vertex| figure.positions[vertex as usize]));
-        if low.y >= anatomy.landmarks.heights.shoulder_line {
-            continue;
-        }
+    let shoulder_line = anatomy.landmarks.heights.shoulder_line;
+    let hangs = |members: &&Vec<u32>| {
+        members.iter().all(|&vertex| head_only[vertex as usize])
+            && members.iter().any(|&vertex| figure.positions[vertex as usize].y < shoulder_line)
+    };
+    for members in members.iter().filter(hangs) {
         for &vertex in members {
             if matches!(figure.kind(vertex as usize), MeshKind::Body | MeshKind::Garment) {
                 parts[vertex as usize] = Part::Hair.alone();
@@ -164,15 +160,13 @@ fn split_head(parts: &mut PartWeights, p: DVec3, anatomy: &Anatomy) {
 
 /// Lower arms, hands, shins and feet that the rig has no joint for take their weights from the geometry.
 fn split_limbs(parts: &mut PartWeights, p: DVec3, figure: &Figure, anatomy: &Anatomy) {
-    for limb in &anatomy.limbs {
-        let left =
-            limb.parts[0] == Part::LeftUpperArm as usize || limb.parts[0] == Part::LeftUpperLeg as usize;
-        let is_arm = limb.parts[0] < Part::LeftUpperLeg as usize;
+    for (number, limb) in anatomy.limbs.iter().enumerate() {
+        let is_arm = number < 2;
         let roles =
             if is_arm { [Role::LeftLowerArm, Role::LeftHand] } else { [Role::LeftLowerLeg, Role::LeftFoot] };
         let joints = [(limb.root, limb.middle), (limb.middle, limb.end)];
         for (index, (from, to)) in joints.into_iter().enumerate() {
-            let role = if left { roles[index] } else { roles[index].mirrored() };
+            let role = roles[index].on_side(number % 2 == 0);
             let weight = parts[limb.parts[index]];
             if figure.humanoid.has(role) || weight <= 0.0 {
                 continue;

@@ -2,7 +2,9 @@
 
 use super::outside::{Outside, rims, volume};
 use crate::character::MeshKind;
-use crate::geometry::{Neighbours, Surface, Tree, Weld, WindingGroups, components, distinct, neighbours};
+use crate::geometry::{
+    Neighbours, Surface, Tree, Weld, WindingGroups, components, distinct, marked, neighbours,
+};
 use crate::parallel;
 use crate::shape::figure::Figure;
 use glam::DVec3;
@@ -77,12 +79,23 @@ impl Worn {
         let of_class = |wanted: u8| -> Vec<[u32; 3]> {
             figure.triangles.iter().filter(|corners| class(corners) == wanted).copied().collect()
         };
-        let (body, cloth, perhaps) = (of_class(1), of_class(2), of_class(3));
+        let (mut body, mut cloth, perhaps) = (of_class(1), of_class(2), of_class(3));
         if body.is_empty() || (cloth.is_empty() && perhaps.is_empty()) {
             return Self::default();
         }
         let outwards = if volume(&figure.positions, &body) < 0.0 { -1.0 } else { 1.0 };
-        Self::between(figure, body, outwards, cloth, perhaps, weld, threads)
+        // Of what is perhaps cloth the rest is body too.
+        if !perhaps.is_empty() {
+            let rims = rims(&body, weld);
+            let outside = Outside::new(&figure.positions, &body, &rims, weld, outwards);
+            let (over, beside) = lying_over(figure, &outside, perhaps, weld, threads);
+            cloth.extend(over);
+            body.extend(beside);
+        }
+        if cloth.is_empty() {
+            return Self::default();
+        }
+        Self::over(figure, body, outwards, cloth, SHEET_REACH, weld, threads)
     }
 
     /// The outside of the body where all vertices are at `points`.
@@ -110,32 +123,6 @@ impl Worn {
         let mut is_inside = is_inside.into_iter();
         places.retain(|_| is_inside.next() == Some(true));
         places
-    }
-
-    /// `body` and what is worn over it: `cloth`, and of `perhaps` what lies over it; the rest of that is body too.
-    fn between(
-        figure: &Figure,
-        mut body: Vec<[u32; 3]>,
-        outwards: f64,
-        mut cloth: Vec<[u32; 3]>,
-        perhaps: Vec<[u32; 3]>,
-        weld: &Weld,
-        threads: usize,
-    ) -> Self {
-        let beside = if perhaps.is_empty() {
-            Vec::new()
-        } else {
-            let rims = rims(&body, weld);
-            let outside = Outside::new(&figure.positions, &body, &rims, weld, outwards);
-            let (over, beside) = lying_over(figure, &outside, perhaps, weld, threads);
-            cloth.extend(over);
-            beside
-        };
-        if cloth.is_empty() {
-            return Self::default();
-        }
-        body.extend(beside);
-        Self::over(figure, body, outwards, cloth, SHEET_REACH, weld, threads)
     }
 
     /// `body`, which looks outwards or, at -1, inwards, and `cloth` over it, whose own sheets meet where they are no further
@@ -170,13 +157,9 @@ impl Worn {
             .collect();
         let own = Weld { representative: (0..places.len() as u32).collect(), count: places.len() };
         let around = neighbours(&triangles, &own);
-        let mut is_sewn = vec![false; places.len()];
-        for &vertex in body.iter().flatten() {
-            let index = index_of[weld.representative[vertex as usize] as usize];
-            if index != u32::MAX {
-                is_sewn[index as usize] = true;
-            }
-        }
+        let of_body = body.iter().flatten().map(|&v| index_of[weld.representative[v as usize] as usize]);
+        let is_sewn =
+            marked(places.len(), of_body.filter(|&index| index != u32::MAX).map(|index| index as usize));
         let points: Vec<DVec3> = vertices.iter().map(|&vertex| figure.positions[vertex as usize]).collect();
         let sheets = Surface::new(&points, &triangles);
         let reach = reach * figure.height();
@@ -201,9 +184,7 @@ impl Worn {
             (distance, under, nearest)
         };
         let found = parallel::collect(threads, points.len(), parallel::FEW_RAYS, find);
-        let distances = found.iter().map(|found| found.0).collect();
-        let under = found.iter().map(|found| found.1).collect();
-        let nearest = found.iter().map(|found| found.2).collect();
+        let (distances, under, nearest) = found.into_iter().collect();
         let tree = outside.tree();
         Self {
             body,

@@ -11,9 +11,8 @@ use super::{
 };
 use crate::error::Warning;
 use crate::geometry::slice::Planes;
-use crate::geometry::smoothstep;
+use crate::geometry::{self, smoothstep};
 use crate::shape::Measured;
-use crate::shape::product::anatomy;
 use crate::shape::product::field::PartField;
 use crate::shape::product::part::Part;
 use crate::shape::product::scales::{PartCoefficients, Scale};
@@ -225,7 +224,7 @@ impl Chart {
 
 /// 0 of nothing.
 fn mean(numbers: impl Iterator<Item = f64>) -> f64 {
-    anatomy::mean(numbers).unwrap_or(0.0)
+    geometry::mean(numbers).unwrap_or(0.0)
 }
 
 /// The rows of torso, legs and arms: lengths, and places with what a head length is in their units.

@@ -2,9 +2,9 @@
 
 use super::curve::smoothed;
 use super::station::{CENTRINGS, GOES_AROUND, outer_surface, surface};
-use crate::geometry::Moved;
 use crate::geometry::slice::{Outline, Planes, RAYS};
 use crate::geometry::whole::round;
+use crate::geometry::{Moved, median};
 use glam::{DMat2, DMat3, DVec2, DVec3};
 
 /// No reach counts for more than so many times the usual one of its cut.
@@ -165,7 +165,7 @@ fn bounded(mut ring: Ring) -> Ring {
     if (hits.len() as f64) < GOES_AROUND * RAYS as f64 {
         return [f64::NAN; RAYS];
     }
-    let usual = super::station::median(&mut hits);
+    let usual = median(&mut hits);
     let known = ring;
     for (ray, reach) in ring.iter_mut().enumerate() {
         if reach.is_nan() {

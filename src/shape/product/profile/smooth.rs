@@ -1,6 +1,7 @@
 //! Smooth lines through measured slices.
 
 use super::{Row, STATIONS};
+use crate::geometry::median;
 
 /// How much the curvature of a line counts beside its distance from what was measured.
 const CURVATURE: f64 = 0.02 * (STATIONS * STATIONS) as f64;
@@ -31,9 +32,7 @@ pub fn smooth(measured: &Row) -> Option<Row> {
         if off.len() < FEWEST {
             return None;
         }
-        off.sort_by(f64::total_cmp);
-        let usual = 0.5 * (off[(off.len() - 1) / 2] + off[off.len() / 2]);
-        let far = (OFF.1 * usual).max(OFF.0);
+        let far = (OFF.1 * median(&mut off)).max(OFF.0);
         for at in (0..STATIONS).filter(|&at| is_known(&measured[at])) {
             let r = (measured[at] - line[at]) / far;
             weights[at] = 1.0 / (1.0 + r * r);

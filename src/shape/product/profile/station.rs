@@ -1,5 +1,6 @@
 //! One slice of a body: its middle, half breadth and half depth, whatever is worn over it.
 
+use crate::geometry::median;
 use crate::geometry::slice::{Outline, RAYS};
 use glam::DVec2;
 
@@ -112,11 +113,6 @@ fn surface_within(outlines: &[&Outline], middle: DVec2, stands_off: f64, fills: 
         let reach = furthest.min(stands_off * nearest);
         open.iter().map(|outline| outline[ray]).filter(|&hit| hit <= STANDS_OFF * reach).fold(reach, f64::max)
     })
-}
-
-pub(super) fn median(values: &mut [f64]) -> f64 {
-    values.sort_unstable_by(f64::total_cmp);
-    0.5 * (values[(values.len() - 1) / 2] + values[values.len() / 2])
 }
 
 #[cfg(test)]
