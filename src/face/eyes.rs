@@ -3,7 +3,7 @@
 //! Dents in the depth map were tried and dropped: they took a brow and an egg-shaped head for eyes on two of three
 //! heads, and a wrong eye bends the face where it should not.
 
-use super::head::{Head, quantile_ends};
+use super::head::{Head, quantile_box};
 use super::iris::{Iris, iris};
 use super::pieces::{Piece, is_ball, pieces};
 use glam::{DVec2, DVec3};
@@ -157,9 +157,8 @@ pub fn eyes(head: &Head) -> Option<(EyeSource, Eyes)> {
 
 fn found(head: &Head) -> Option<(EyeSource, Eyes)> {
     let or = |found: Option<Eyes>, source: EyeSource| found.map(|eyes| (source, eyes));
-    let seen = or(by_hints(head), EyeSource::Hints);
-    if seen.is_some() {
-        return seen;
+    if let Some(eyes) = by_hints(head) {
+        return Some((EyeSource::Hints, eyes));
     }
     let blink = by_blink(head);
     if let Some(mut eyes) = by_pieces(head) {
@@ -243,22 +242,13 @@ fn opening(head: &Head, piece: &Piece) -> Option<(DVec2, DVec2)> {
     let mut own = piece.triangles.clone();
     own.sort_unstable();
     let view = head.front_view(piece.low.truncate() - margin, piece.high.truncate() + margin, FINE);
-    let (mut x, mut y) = (Vec::new(), Vec::new());
-    for row in 0..view.rows() {
-        for column in 0..view.columns() {
-            if view
-                .triangle(column, row)
-                .is_some_and(|triangle| own.binary_search(&head.bare[triangle]).is_ok())
-            {
-                let middle = view.middle(column, row);
-                x.push(middle.x);
-                y.push(middle.y);
-            }
-        }
-    }
-    let ((left, right), (bottom, top)) =
-        (quantile_ends(&mut x, OPENING_ENDS)?, quantile_ends(&mut y, OPENING_ENDS)?);
-    Some((DVec2::new(left, bottom), DVec2::new(right, top)))
+    let is_own = |&(column, row): &(usize, usize)| {
+        let triangle = view.triangle(column, row);
+        triangle.is_some_and(|triangle| own.binary_search(&head.bare[triangle]).is_ok())
+    };
+    let seen: Vec<DVec2> =
+        view.squares().filter(is_own).map(|(column, row)| view.middle(column, row)).collect();
+    quantile_box(&seen, OPENING_ENDS)
 }
 
 /// True for the name of a morph target that closes an eye.
@@ -311,14 +301,12 @@ fn by_blink(head: &Head) -> Option<Eyes> {
             .filter(|&&vertex| travel[vertex] > BLINK_LEAST * most)
             .map(|&vertex| head.points[vertex])
             .collect();
-        let mut x: Vec<f64> = lids.iter().map(|p| p.x).collect();
-        let mut y: Vec<f64> = lids.iter().map(|p| p.y).collect();
-        let ((inner, outer), (bottom, top)) =
-            (quantile_ends(&mut x, BLINK_ENDS)?, quantile_ends(&mut y, BLINK_ENDS)?);
-        let middle = 0.5 * (bottom + top);
+        let places: Vec<DVec2> = lids.iter().map(|p| p.truncate()).collect();
+        let (low, high) = quantile_box(&places, BLINK_ENDS)?;
+        let middle = 0.5 * (low.y + high.y);
         let front = lids.iter().map(|p| p.z).fold(f64::NEG_INFINITY, f64::max);
-        let low = DVec3::new(inner, middle - 0.5 * most, front);
-        Some(Eye { low, high: DVec3::new(outer, middle + 0.5 * most, front), ball: None })
+        let at = |x: f64, up: f64| DVec3::new(x, middle + up, front);
+        Some(Eye { low: at(low.x, -0.5 * most), high: at(high.x, 0.5 * most), ball: None })
     });
     Some([left?, right?]).filter(are_plausible)
 }

@@ -123,12 +123,17 @@ impl<'a> Head<'a> {
     }
 }
 
-/// The values that leave out the share `q` at each end; `None` where there are none. Mirrored values have mirrored ends.
-pub fn quantile_ends(values: &mut [f64], q: f64) -> Option<(f64, f64)> {
-    let most = values.len().checked_sub(1)?;
-    let index = ((q * values.len() as f64) as usize).min(most);
-    let low = *values.select_nth_unstable_by(index, f64::total_cmp).1;
-    Some((low, *values.select_nth_unstable_by(most - index, f64::total_cmp).1))
+/// The box of `points` that leaves out, along each axis, the share `q` at each end; `None` where there are none. Mirrored points
+/// have mirrored boxes.
+pub fn quantile_box(points: &[DVec2], q: f64) -> Option<(DVec2, DVec2)> {
+    let most = points.len().checked_sub(1)?;
+    let index = ((q * points.len() as f64) as usize).min(most);
+    let ends = [0, 1].map(|axis| {
+        let mut values: Vec<f64> = points.iter().map(|p| p[axis]).collect();
+        [index, most - index].map(|index| *values.select_nth_unstable_by(index, f64::total_cmp).1)
+    });
+    let [[left, right], [bottom, top]] = ends;
+    Some((DVec2::new(left, bottom), DVec2::new(right, top)))
 }
 
 /// The value below which the share `q` of `values` lies; `None` where there are none.

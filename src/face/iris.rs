@@ -4,7 +4,7 @@ use super::dual::step;
 use super::head::{Head, quantile};
 use super::raster::{DepthMap, Window};
 use crate::geometry::Bounds;
-use glam::{DQuat, DVec2, DVec3};
+use glam::{DQuat, DVec3};
 
 /// An iris on a ball.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,18 +42,16 @@ pub fn iris(head: &Head, vertices: &[u32], (low, high): Bounds) -> Option<Iris> 
     let window = Window { low: low.truncate(), high: high.truncate(), step };
     let view = DepthMap::new(&head.points, &own, window);
     let mut seen: Vec<(DVec3, f64)> = Vec::new();
-    for row in 0..view.rows() {
-        for column in 0..view.columns() {
-            let p = view.middle(column, row);
-            let (Some(depth), Some(triangle)) = (view.depth(column, row), view.triangle(column, row)) else {
-                continue;
-            };
-            let towards = ((p.extend(depth) - middle) / half).normalize_or_zero();
-            if towards.z > FACING
-                && let Some(shade) = head.shade(own[triangle], DVec2::new(p.x, p.y))
-            {
-                seen.push((towards, shade));
-            }
+    for (column, row) in view.squares() {
+        let p = view.middle(column, row);
+        let (Some(depth), Some(triangle)) = (view.depth(column, row), view.triangle(column, row)) else {
+            continue;
+        };
+        let towards = ((p.extend(depth) - middle) / half).normalize_or_zero();
+        if towards.z > FACING
+            && let Some(shade) = head.shade(own[triangle], p)
+        {
+            seen.push((towards, shade));
         }
     }
     let mut shades: Vec<f64> = seen.iter().map(|&(_, shade)| shade).collect();

@@ -295,7 +295,7 @@ fn point(of_two: [f64x2; 3], of: usize) -> DVec3 {
 }
 
 /// Whole pieces of the way, and what part of the next one.
-fn pieces(youth: f64) -> (usize, f64) {
+pub(super) fn pieces(youth: f64) -> (usize, f64) {
     let along = youth.clamp(0.0, 1.0) * STEPS as f64;
     let whole = (along as usize).min(STEPS);
     (whole, along - whole as f64)

@@ -145,8 +145,8 @@ fn covered(head: &Head, eyes: &Eyes) -> f64 {
         let (low, high) = (eye.middle().truncate() - half, eye.middle().truncate() + half);
         let window = Window { low, high, step: 0.2 * half.min_element() };
         let view = DepthMap::new(&head.points, &with_hair, window);
-        let squares = (0..view.rows()).flat_map(|row| (0..view.columns()).map(move |column| (column, row)));
-        let seen: Vec<usize> = squares.filter_map(|(column, row)| view.triangle(column, row)).collect();
+        let seen: Vec<usize> =
+            view.squares().filter_map(|(column, row)| view.triangle(column, row)).collect();
         let is_hair = |triangle: &&usize| head.parts.is_hair[with_hair[**triangle][0] as usize];
         seen.iter().filter(is_hair).count() as f64 / seen.len().max(1) as f64
     };

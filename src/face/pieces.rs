@@ -80,9 +80,7 @@ pub fn pieces(head: &Head, triangles: &[[u32; 3]], side: f64, split: bool) -> Ve
 /// 1 where triangles look outwards by their order, -1 where a mirrored file winds them the other way: what is seen from the
 /// front looks there.
 fn outwards(head: &Head) -> f64 {
-    let rows = 0..head.front.rows();
-    let seen = rows
-        .flat_map(|row| (0..head.front.columns()).filter_map(move |column| head.front.triangle(column, row)));
+    let seen = head.front.squares().filter_map(|(column, row)| head.front.triangle(column, row));
     seen.map(|triangle| double_area(&head.points, head.bare[triangle]).z.signum()).sum::<f64>().signum()
 }
 

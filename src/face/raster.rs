@@ -101,6 +101,12 @@ impl DepthMap {
         self.rows
     }
 
+    /// All squares, by column and row, row after row.
+    pub fn squares(&self) -> impl Iterator<Item = (usize, usize)> + use<> {
+        let columns = self.columns;
+        (0..self.rows).flat_map(move |row| (0..columns).map(move |column| (column, row)))
+    }
+
     /// The middle of a square.
     pub fn middle(&self, column: usize, row: usize) -> DVec2 {
         self.low + self.step * DVec2::new(column as f64 + 0.5, row as f64 + 0.5)

@@ -2,7 +2,7 @@
 
 use super::FaceShape;
 use super::head::HeadFrame;
-use super::kernel::{Follower, STEPS, Way, along};
+use super::kernel::{Follower, STEPS, Way, along, pieces};
 use super::rows::Rows;
 use crate::geometry::Mapped;
 use crate::geometry::cells::CellMap;
@@ -262,9 +262,8 @@ const LEAST_WAYS: usize = 1000;
 
 /// As [`along`], from 0.
 fn along_f32(way: &[Vec3; STEPS], youth: f64) -> Vec3 {
-    let along = youth.clamp(0.0, 1.0) * STEPS as f64;
-    let whole = (along as usize).min(STEPS);
-    let rest = (along - whole as f64) as f32;
+    let (whole, rest) = pieces(youth);
+    let rest = rest as f32;
     let last = if whole == 0 { Vec3::ZERO } else { way[whole - 1] };
     if rest > 0.0 { last + rest * (way[whole] - last) } else { last }
 }

@@ -78,6 +78,14 @@ impl FaceStyle {
     }
 }
 
+/// What `mix` makes of both; where there is only one, that.
+pub(crate) fn either<T: Clone>(one: &Option<T>, other: &Option<T>, mix: impl Fn(&T, &T) -> T) -> Option<T> {
+    match (one, other) {
+        (Some(one), Some(other)) => Some(mix(one, other)),
+        (one, other) => one.clone().or(other.clone()),
+    }
+}
+
 impl Default for BodyShape {
     fn default() -> Self {
         Self {

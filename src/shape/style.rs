@@ -3,7 +3,7 @@
 //! A measured body is needed for nothing but its numbers, so it can be saved as a small JSON text and used without
 //! its model, blended with another, or stretched to a number of heads.
 
-use super::body_shape::{BodyShape, BoneShape, FaceStyle, VERSION};
+use super::body_shape::{BodyShape, BoneShape, FaceStyle, VERSION, either};
 use super::measured::Measured;
 use super::product::anatomy::Proportions;
 use super::product::profile::Profile;
@@ -160,28 +160,15 @@ impl BodyShape {
                     length: bone.length * unit,
                     radius: bone.radius.map(|radius| radius * unit),
                 });
-                let bone = match (self.bones.get(name), scaled) {
-                    (Some(a), Some(b)) => BoneShape {
-                        length: mix(a.length, b.length),
-                        radius: match (a.radius, b.radius) {
-                            (Some(a), Some(b)) => Some(mix(a, b)),
-                            (a, b) => a.or(b),
-                        },
-                    },
-                    (Some(&a), None) => a,
-                    (None, b) => b.unwrap_or_default(),
-                };
-                (name.clone(), bone)
+                let bone = either(&self.bones.get(name).copied(), &scaled, |a, b| BoneShape {
+                    length: mix(a.length, b.length),
+                    radius: either(&a.radius, &b.radius, |&a, &b| mix(a, b)),
+                });
+                (name.clone(), bone.unwrap_or_default())
             })
             .collect();
-        let proportions = match (&self.proportions, &other.proportions) {
-            (Some(a), Some(b)) => Some(a.blended(b, amount)),
-            (a, b) => a.clone().or(b.clone()),
-        };
-        let face = match (self.face, other.face) {
-            (Some(a), Some(b)) => Some(a.blended(b, amount)),
-            (a, b) => a.or(b),
-        };
+        let proportions = either(&self.proportions, &other.proportions, |a, b| a.blended(b, amount));
+        let face = either(&self.face, &other.face, |a, b| a.blended(*b, amount));
         // Two that lack a profile stay without: a mode or a target may yet choose one.
         let profile = (self.profile.is_some() || other.profile.is_some())
             .then(|| self.profile_or_canonical().zip(other.profile_or_canonical()))
@@ -279,11 +266,10 @@ impl Proportions {
     /// These proportions (0) to `other` (1), measured in heads.
     pub fn blended(&self, other: &Self, amount: f64) -> Self {
         let unit = self.head_length / other.head_length;
-        let mix = |a: f64, b: f64| a + amount * (b * unit - a);
-        let mix_some = |a: Option<f64>, b: Option<f64>| match (a, b) {
-            (Some(a), Some(b)) => Some(mix(a, b)),
-            (a, b) => a.or(b.map(|b| b * unit)),
-        };
+        let place = |a: f64, b: f64| a + amount * (b - a);
+        let mix = |a: f64, b: f64| place(a, b * unit);
+        let mix_some =
+            |a: Option<f64>, b: Option<f64>| either(&a, &b.map(|b| b * unit), |&a, &b| place(a, b));
         Self {
             head_length: self.head_length,
             head_half_width: mix(self.head_half_width, other.head_half_width),

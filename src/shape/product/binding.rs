@@ -2,7 +2,7 @@
 
 use super::anatomy::Anatomy;
 use super::part::{Part, PartWeights, thumb};
-use super::pieces::{Attachment, Piece, Pieces};
+use super::pieces::{Attachment, Piece, Pieces, touching};
 use super::profile::chains::arm_share;
 use super::profile::skirts::skirt_vertices;
 use super::weights::part_weights;
@@ -10,11 +10,10 @@ use crate::character::{MeshKind, Role, Skeleton};
 use crate::error::Result;
 use crate::face::landmarks::FaceLandmarks;
 use crate::face::stage::FaceBinding;
-use crate::geometry::{Bounds, Weld, bounds, clusters, components, smoothstep};
+use crate::geometry::{Weld, bounds, components, smoothstep};
 use crate::progress::Progress;
 use crate::shape::figure::Figure;
 use glam::DVec3;
-use std::collections::BTreeMap;
 
 /// How one point is attached to the body.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -212,17 +211,7 @@ fn things_on_head(figure: &Figure, members: &[Vec<u32>], attachments: &[Attachme
         members.first().is_some_and(|&first| matches!(attachments[first as usize], Attachment::OnFace(_)))
     };
     let components: Vec<&Vec<u32>> = members.iter().filter(is_thing).collect();
-    let margin = DVec3::splat(ONE_THING * figure.height());
-    let boxes: Vec<Bounds> = components
-        .iter()
-        .map(|members| bounds(members.iter().map(|&vertex| figure.positions[vertex as usize])))
-        .map(|(low, high)| (low - margin, high + margin))
-        .collect();
-    let mut things: BTreeMap<usize, Vec<u32>> = BTreeMap::new();
-    for (members, least) in components.iter().zip(clusters(&boxes, |_, _| true)) {
-        things.entry(least).or_default().extend(*members);
-    }
-    things.into_values().collect()
+    touching(figure, &components, ONE_THING, |_, _| true)
 }
 
 /// True for what a thumb's free bones move: its root in the palm stays where that is.

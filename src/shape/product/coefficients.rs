@@ -315,8 +315,8 @@ impl<'a> Solver<'a> {
         self.solve_torso(torso);
         self.solve_thickness(&asked, leg, sliced);
         self.solve_arms(asked.arm);
-        self.solve_hands(asked.hand);
-        self.solve_feet(asked.foot, leg);
+        self.scales.hand = self.extremity(self.target.hand, asked.hand, self.scales.lower_arm.thickness);
+        self.scales.foot = self.extremity(self.target.foot, asked.foot, self.root(leg));
         self.solve_legs(leg);
         (self.scales, self.bounds.acted)
     }
@@ -383,14 +383,6 @@ impl<'a> Solver<'a> {
         let length = self.bounds.apply("arm length", arm / self.target.arm, SHORTEST_LIMB, self.head_scale);
         self.scales.upper_arm.length = length;
         self.scales.lower_arm.length = length;
-    }
-
-    fn solve_hands(&mut self, asked: Option<f64>) {
-        self.scales.hand = self.extremity(self.target.hand, asked, self.scales.lower_arm.thickness);
-    }
-
-    fn solve_feet(&mut self, asked: Option<f64>, leg: f64) {
-        self.scales.foot = self.extremity(self.target.foot, asked, self.root(leg));
     }
 
     /// The size of hands or feet of length `own`: not slimmer than the limb, which becomes `least` as thick, nor nearer to the head's

@@ -272,18 +272,8 @@ impl Pieces {
                         && lies_beside_bones(figure, anatomy, members))
         };
         let components: Vec<&Vec<u32>> = members.iter().filter(is_thing).collect();
-        let margin = DVec3::splat(TOUCHING * figure.height());
-        let boxes: Vec<Bounds> = components
-            .iter()
-            .map(|members| bounds(members.iter().map(|&vertex| figure.positions[vertex as usize])))
-            .map(|(low, high)| (low - margin, high + margin))
-            .collect();
         let is_alike = |one: usize, other: usize| row(components[one][0]) == row(components[other][0]);
-        let mut things: BTreeMap<usize, Vec<u32>> = BTreeMap::new();
-        for (members, least) in components.iter().zip(clusters(&boxes, is_alike)) {
-            things.entry(least).or_default().extend(*members);
-        }
-        things.into_values().collect()
+        touching(figure, &components, TOUCHING, is_alike)
     }
 
     /// Buttons, buckles, badges: small loose components keep their shape.
@@ -309,6 +299,27 @@ impl Pieces {
             self.add(members, piece);
         }
     }
+}
+
+/// What `components` make up together where their boxes, each made larger by `margin`, a share of H, touch and `joins` accepts
+/// the two: the vertices of each.
+pub(super) fn touching(
+    figure: &Figure,
+    components: &[&Vec<u32>],
+    margin: f64,
+    joins: impl Fn(usize, usize) -> bool,
+) -> Vec<Vec<u32>> {
+    let margin = DVec3::splat(margin * figure.height());
+    let boxes: Vec<Bounds> = components
+        .iter()
+        .map(|members| bounds(members.iter().map(|&vertex| figure.positions[vertex as usize])))
+        .map(|(low, high)| (low - margin, high + margin))
+        .collect();
+    let mut things: BTreeMap<usize, Vec<u32>> = BTreeMap::new();
+    for (members, least) in components.iter().zip(clusters(&boxes, joins)) {
+        things.entry(least).or_default().extend(*members);
+    }
+    things.into_values().collect()
 }
 
 /// True for what trunk or limbs move and their bones do not pass.

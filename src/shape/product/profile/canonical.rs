@@ -2,7 +2,8 @@
 
 use super::curve::monotone_cubic;
 use super::{
-    ARM_STATIONS, ArmProfile, LEG_STATIONS, LegProfile, Profile, Row, TORSO_STATIONS, TorsoProfile, stations,
+    ARM_STATIONS, ArmProfile, LEG_STATIONS, LegProfile, Profile, Row, STATIONS, TORSO_STATIONS, TorsoProfile,
+    stations,
 };
 use crate::geometry::smoothstep;
 
@@ -89,14 +90,13 @@ pub fn canonical(heads: f64) -> Profile {
     let torso = |which: usize| row(TORSO_STATIONS, &|known| known.torso[which]);
     let leg = row(LEG_STATIONS, &|known| known.leg);
     let arm = row(ARM_STATIONS, &|known| known.arm);
-    let numbers = |a: f64, b: f64| mix(a, b);
     Profile {
         torso: Some(TorsoProfile { breadth: torso(0), depth: torso(1), forward: torso(2) }),
         leg: Some(LegProfile {
-            outward: [numbers(low.leg_outward, high.leg_outward); super::STATIONS],
+            outward: [mix(low.leg_outward, high.leg_outward); STATIONS],
             breadth: leg,
             depth: leg,
-            forward: [0.0; super::STATIONS],
+            forward: [0.0; STATIONS],
         }),
         arm: Some(ArmProfile { breadth: arm, depth: arm }),
         skirt: None,

@@ -87,14 +87,7 @@ impl Chart {
 
     /// How much thicker, in heads, `wanted` is than torso, legs and arms are.
     fn thicker(&self, wanted: &Profile) -> [f64; 3] {
-        let rows = |profile: &Profile| -> [Option<[Row; 2]>; 3] {
-            [
-                profile.torso.as_ref().map(|torso| [torso.breadth, torso.depth]),
-                profile.leg.as_ref().map(|leg| [leg.breadth, leg.depth]),
-                profile.arm.as_ref().map(|arm| [arm.breadth, arm.depth]),
-            ]
-        };
-        let (own, wanted) = (rows(&self.own), rows(wanted));
+        let (own, wanted) = (self.own.extents(), wanted.extents());
         std::array::from_fn(|chain| match (own[chain], wanted[chain]) {
             (Some(own), Some(wanted)) => {
                 let log = |at: usize| 0.5 * (wanted[0][at] * wanted[1][at] / (own[0][at] * own[1][at])).ln();

@@ -117,13 +117,6 @@ impl<const N: usize> Table<N> {
         Self { rows: smoothed(&self.rows, &places, sigma, 0..places.len()), ..*self }
     }
 
-    /// Replaces the samples, at their places.
-    pub fn map(&mut self, change: impl Fn(f64, &mut [f64; N])) {
-        for (row, values) in self.rows.iter_mut().enumerate() {
-            change(self.start + self.step * row as f64, values);
-        }
-    }
-
     /// The functions around `x`.
     #[inline(always)]
     pub fn at(&self, x: f64) -> Reading<'_, N> {

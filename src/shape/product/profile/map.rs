@@ -150,8 +150,7 @@ impl BodyMap {
         };
         if own.foot.is_some() {
             for side in 0..2 {
-                let ankle = frame.limbs[2 + side].end;
-                map.feet[side] = map.foot(side, ankle, own, scales, frame);
+                map.feet[side] = map.foot(side, own, scales, frame);
             }
         }
         for side in 0..2 {
@@ -247,8 +246,8 @@ impl BodyMap {
         mix(share, slope, || self.torso(p), || arm.map(p, false))
     }
 
-    fn foot(&self, side: usize, ankle: DVec3, own: &Profile, scales: &Scales, frame: &BodyFrame) -> FootMap {
-        let length = frame.head_length();
+    fn foot(&self, side: usize, own: &Profile, scales: &Scales, frame: &BodyFrame) -> FootMap {
+        let (ankle, length) = (frame.limbs[2 + side].end, frame.head_length());
         let [toe, _, _, _, height] = own.foot.unwrap_or_default();
         let to = self.leg_or_torso(side, ankle);
         let toe_box = (ankle.z + TOE_BOX.0 * length, ankle.z + TOE_BOX.1 * toe * length);

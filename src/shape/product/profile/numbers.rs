@@ -1,6 +1,7 @@
 //! Profiles as numbers: checked, mixed, made longer, compared.
 
 use super::{ArmProfile, LegProfile, Profile, Row, STATIONS, SkirtProfile, TorsoProfile};
+use crate::shape::body_shape::either;
 
 /// What [`Profile::ratios`] compares.
 pub const CHAINS: [&str; 6] = ["torso", "hips", "legs", "arms", "hand", "foot"];
@@ -8,7 +9,37 @@ pub const CHAINS: [&str; 6] = ["torso", "hips", "legs", "arms", "hand", "foot"];
 const LEAST: f64 = 1e-3;
 const MOST: f64 = 20.0;
 
+impl TorsoProfile {
+    /// Half breadths and half depths.
+    pub(super) fn extents(&self) -> [&Row; 2] {
+        [&self.breadth, &self.depth]
+    }
+}
+
+impl LegProfile {
+    /// Half breadths and half depths.
+    pub(super) fn extents(&self) -> [&Row; 2] {
+        [&self.breadth, &self.depth]
+    }
+}
+
+impl ArmProfile {
+    /// Half breadths and half depths.
+    pub(super) fn extents(&self) -> [&Row; 2] {
+        [&self.breadth, &self.depth]
+    }
+}
+
 impl Profile {
+    /// Half breadths and half depths of torso, legs and arms.
+    pub(super) fn extents(&self) -> [Option<[&Row; 2]>; 3] {
+        [
+            self.torso.as_ref().map(TorsoProfile::extents),
+            self.leg.as_ref().map(LegProfile::extents),
+            self.arm.as_ref().map(ArmProfile::extents),
+        ]
+    }
+
     /// What is out of range, with its value: extents must be between .001 and 20 head lengths, and places within 20.
     pub(crate) fn out_of_range(&self) -> Option<(&'static str, f64)> {
         let torso = self.torso.as_ref();
@@ -107,40 +138,26 @@ impl Profile {
     /// Torso, legs and arms: the mean over the slices of the root of breadth and depth. Hips: the legs' outer edge at their
     /// first slice. Hand: the cube root of its box. Foot: the root of length and breadth.
     pub fn ratios(&self, wanted: &Self) -> [f64; CHAINS.len()] {
-        let mean = |got: [&Row; 2], wanted: [&Row; 2]| {
+        let mean = |(got, wanted): ([&Row; 2], [&Row; 2])| {
             let ratio = |at: usize| ((got[0][at] * got[1][at]) / (wanted[0][at] * wanted[1][at])).sqrt();
             (0..STATIONS).map(ratio).sum::<f64>() / STATIONS as f64
         };
         let over = |ratio: Option<f64>| ratio.unwrap_or(f64::NAN);
-        let legs = || self.leg.as_ref().zip(wanted.leg.as_ref());
+        let (own_rows, wanted_rows) = (self.extents(), wanted.extents());
+        let [torso, legs, arms] =
+            [0, 1, 2].map(|chain| over(own_rows[chain].zip(wanted_rows[chain]).map(mean)));
+        let both_legs = self.leg.as_ref().zip(wanted.leg.as_ref());
         let outer = |leg: &LegProfile| leg.outward[0] + leg.breadth[0];
         let volume = |[length, breadth, depth]: [f64; 3]| (length * breadth * depth).cbrt();
         let area = |[toes, heel, breadth, ..]: [f64; 5]| ((toes + heel) * breadth).sqrt();
         [
-            over(
-                self.torso
-                    .as_ref()
-                    .zip(wanted.torso.as_ref())
-                    .map(|(a, b)| mean([&a.breadth, &a.depth], [&b.breadth, &b.depth])),
-            ),
-            over(legs().map(|(a, b)| outer(a) / outer(b))),
-            over(legs().map(|(a, b)| mean([&a.breadth, &a.depth], [&b.breadth, &b.depth]))),
-            over(
-                self.arm
-                    .as_ref()
-                    .zip(wanted.arm.as_ref())
-                    .map(|(a, b)| mean([&a.breadth, &a.depth], [&b.breadth, &b.depth])),
-            ),
+            torso,
+            over(both_legs.map(|(a, b)| outer(a) / outer(b))),
+            legs,
+            arms,
             over(self.hand.zip(wanted.hand).map(|(a, b)| volume(a) / volume(b))),
             over(self.foot.zip(wanted.foot).map(|(a, b)| area(a) / area(b))),
         ]
-    }
-}
-
-fn either<T: Clone>(one: &Option<T>, other: &Option<T>, mix: impl Fn(&T, &T) -> T) -> Option<T> {
-    match (one, other) {
-        (Some(one), Some(other)) => Some(mix(one, other)),
-        (one, other) => one.clone().or(other.clone()),
     }
 }
 

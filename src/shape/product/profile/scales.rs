@@ -161,12 +161,23 @@ impl Scales {
         }
     }
 
-    fn note_rows(&mut self, what: &'static str, rows: [[&Row; 3]; 2], strengths: &Row) {
-        for [wanted, own, got] in rows {
-            for station in 0..STATIONS {
-                self.note(what, (wanted[station] / own[station]).powf(strengths[station]), got[station]);
-            }
-        }
+    /// Scales half breadth and half depth of a chain, slice by slice, and notes what the limits took of them.
+    fn extents(
+        &mut self,
+        what: &'static str,
+        wanted: [&Row; 2],
+        own: [&Row; 2],
+        strengths: &Row,
+        most: f64,
+    ) -> [Row; 2] {
+        [0, 1].map(|axis| {
+            std::array::from_fn(|at| {
+                let (wanted, own, strength) = (wanted[axis][at], own[axis][at], strengths[at]);
+                let got = soft_scale(wanted, own, strength, most);
+                self.note(what, (wanted / own).powf(strength), got);
+                got
+            })
+        })
     }
 }
 
@@ -189,25 +200,18 @@ pub fn scales(own: &Profile, wanted: &Profile, strengths: &Strengths) -> Scales 
         leg(&mut result, own, wanted, strengths);
     }
     if let (Some(own), Some(wanted)) = (&own.torso, &wanted.torso) {
-        let (row, most) = ([strengths.torso; STATIONS], strengths.limit(MOST));
-        result.torso = SliceScales {
-            breadth: soft_row(&wanted.breadth, &own.breadth, &row, most),
-            depth: soft_row(&wanted.depth, &own.depth, &row, most),
-            shift: curve(&wanted.forward, &own.forward, &own.depth, BELLY_MOST, &row),
-        };
-        let SliceScales { breadth, depth, .. } = result.torso;
-        let rows = [[&wanted.breadth, &own.breadth, &breadth], [&wanted.depth, &own.depth, &depth]];
-        result.note_rows("torso", rows, &row);
+        let row = [strengths.torso; STATIONS];
+        let [breadth, depth] =
+            result.extents("torso", wanted.extents(), own.extents(), &row, strengths.limit(MOST));
+        let shift = curve(&wanted.forward, &own.forward, &own.depth, BELLY_MOST, &row);
+        result.torso = SliceScales { breadth, depth, shift };
     }
     skirt(&mut result, own);
     if let (Some(own_arm), Some(wanted_arm)) = (&own.arm, &wanted.arm) {
+        let (wanted_arm, own_arm) = (wanted_arm.extents(), own_arm.extents());
         let most = strengths.limit(MOST);
-        result.arm.breadth = soft_row(&wanted_arm.breadth, &own_arm.breadth, &strengths.arm, most);
-        result.arm.depth = soft_row(&wanted_arm.depth, &own_arm.depth, &strengths.arm, most);
-        let SliceScales { breadth, depth, .. } = result.arm;
-        let rows =
-            [[&wanted_arm.breadth, &own_arm.breadth, &breadth], [&wanted_arm.depth, &own_arm.depth, &depth]];
-        result.note_rows("arms", rows, &strengths.arm);
+        let [breadth, depth] = result.extents("arms", wanted_arm, own_arm, &strengths.arm, most);
+        result.arm = SliceScales { breadth, depth, ..SliceScales::NONE };
         arm_length(&mut result, own, &wanted, strengths.arm_length);
     }
     if let (Some(own), Some(wanted)) = (own.hand, wanted.hand) {
@@ -283,10 +287,6 @@ pub fn flesh(wanted: &Profile, own: &Profile) -> Profile {
     bare
 }
 
-fn soft_row(wanted: &Row, own: &Row, strengths: &Row, most: f64) -> Row {
-    std::array::from_fn(|station| soft_scale(wanted[station], own[station], strengths[station], most))
-}
-
 /// How far each middle moves, so that the line through them is curved like the wanted one; its ends stay.
 fn curve(wanted: &Row, own: &Row, own_depth: &Row, most: f64, strengths: &Row) -> Row {
     let off_chord = |row: &Row, station: usize| {
@@ -302,14 +302,9 @@ fn curve(wanted: &Row, own: &Row, own_depth: &Row, most: f64, strengths: &Row) -
 
 fn leg(result: &mut Scales, own: &LegProfile, wanted: &LegProfile, strengths: &Strengths) {
     let most = strengths.limit(MOST);
-    result.leg = SliceScales {
-        breadth: soft_row(&wanted.breadth, &own.breadth, &strengths.leg, most),
-        depth: soft_row(&wanted.depth, &own.depth, &strengths.leg, most),
-        shift: curve(&wanted.forward, &own.forward, &own.depth, LEG_CURVE_MOST, &strengths.leg),
-    };
-    let SliceScales { breadth, depth, .. } = result.leg;
-    let rows = [[&wanted.breadth, &own.breadth, &breadth], [&wanted.depth, &own.depth, &depth]];
-    result.note_rows("legs", rows, &strengths.leg);
+    let [breadth, depth] = result.extents("legs", wanted.extents(), own.extents(), &strengths.leg, most);
+    let shift = curve(&wanted.forward, &own.forward, &own.depth, LEG_CURVE_MOST, &strengths.leg);
+    result.leg = SliceScales { breadth, depth, shift };
     let upper = (0..STATIONS).filter(|&station| station_at(LEG_STATIONS, station) < SPREAD_UP_TO);
     let mean =
         |number: &dyn Fn(usize) -> f64| upper.clone().map(number).sum::<f64>() / upper.clone().count() as f64;
