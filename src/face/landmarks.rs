@@ -81,6 +81,11 @@ impl FaceLandmarks {
         }
     }
 
+    /// What both eyes have in common, where they were found.
+    pub fn pair(&self) -> Option<Pair> {
+        self.eyes.as_ref().map(|(_, eyes)| Pair::of(eyes))
+    }
+
     /// True where both eyes are turned by joints.
     pub fn eyes_turn(&self) -> bool {
         let turns = |eye: &Eye| eye.ball.as_ref().is_some_and(|ball| ball.turns);
@@ -92,7 +97,7 @@ impl FaceLandmarks {
         let aside = |half_width: f64, y: f64, z: f64| {
             0.5 * (map(DVec3::new(half_width, y, z)).x - map(DVec3::new(-half_width, y, z)).x)
         };
-        let pair = self.eyes.as_ref().map(|(_, eyes)| Pair::of(eyes));
+        let pair = self.pair();
         let ye = pair.map_or(EYE_HEIGHT, |pair| pair.height);
         let eye = |eye: &Eye| Eye {
             low: map(eye.low),

@@ -82,8 +82,8 @@ const ADULT_NOSE: (f64, f64) = (0.09, 0.1);
 
 /// How adult a face is: 0, of eyes as large as they are drawn, to 1.
 pub fn adultness(face: &FaceLandmarks) -> f64 {
-    let Some((_, eyes)) = &face.eyes else { return ADULT_WITHOUT_EYES };
-    ((ADULT_EYES.1 - Pair::of(eyes).size()) / (ADULT_EYES.1 - ADULT_EYES.0)).clamp(0.0, 1.0)
+    let Some(pair) = face.pair() else { return ADULT_WITHOUT_EYES };
+    ((ADULT_EYES.1 - pair.size()) / (ADULT_EYES.1 - ADULT_EYES.0)).clamp(0.0, 1.0)
 }
 
 /// Half a child's head's width at each station of its outline up to [`DEEPEST`], where [`CHILD_SKULL`] is what it is at
@@ -260,7 +260,7 @@ impl Rows {
         if q == 0.0 && smile == 0.0 {
             return Self::default();
         }
-        let pair = face.eyes.as_ref().map(|(_, eyes)| Pair::of(eyes));
+        let pair = face.pair();
         let mut rest: Vec<Kernel> = Vec::new();
         if let Some(pair) = pair {
             let sinks = q * features.lower * (pair.height - aim.eye_height).clamp(0.0, MOST_SINKING);

@@ -3,7 +3,6 @@
 use super::heights::Heights;
 use crate::character::Role;
 use crate::character::bones::HEAD_TOP;
-use crate::face::eyes::Pair;
 use crate::face::landmarks::FaceLandmarks;
 use crate::shape::product::anatomy::Proportions;
 use crate::shape::product::profile::Profile;
@@ -63,9 +62,7 @@ pub struct FaceStyle {
 impl FaceStyle {
     /// Of a face whose eyes were found.
     pub fn of(face: &FaceLandmarks) -> Option<Self> {
-        let (_, eyes) = face.eyes.as_ref()?;
-        let pair = Pair::of(eyes);
-        Some(Self { eye_height: pair.height, eye_size: pair.size() })
+        face.pair().map(|pair| Self { eye_height: pair.height, eye_size: pair.size() })
     }
 
     /// This face (0) to `other` (1).

@@ -187,9 +187,10 @@ impl RestTriangles {
             mesh_pieces: vec![0],
             ..Self::default()
         };
+        let (low, high) = bounds(positions.iter().map(|p| p.as_dvec3()));
         let mut builder = Builder {
             positions,
-            middle: bounds_middle(positions),
+            middle: (low + high) / 2.0,
             triangles: &triangles,
             firsts: around.firsts(&triangles, weld),
             seen: vec![u32::MAX; triangles.len()],
@@ -308,12 +309,6 @@ impl Group {
 
 fn range(of: &Range<u32>) -> Range<usize> {
     of.start as usize..of.end as usize
-}
-
-/// The middle of the box around `positions`.
-fn bounds_middle(positions: &[Vec3]) -> DVec3 {
-    let (low, high) = bounds(positions.iter().map(|p| p.as_dvec3()));
-    (low + high) / 2.0
 }
 
 /// From a triangle's first corner to the others.

@@ -7,7 +7,7 @@
 
 use super::anatomy::{Anatomy, Limb};
 use super::binding::PartBinding;
-use super::part::{PART_COUNT, Part, PartWeights, TINY};
+use super::part::{HAIR, HEAD, NECK, PART_COUNT, Part, PartWeights, TINY, TORSO};
 use super::pieces::{Attachment, Piece};
 use super::profile::Slices;
 use super::profile::chains::arm_share;
@@ -23,11 +23,6 @@ const YOKE_PER_NECK: f64 = 1.5;
 /// A piece that is kept from reaching below the ground keeps at least this share of its size: for things as long as the
 /// figure is tall, of which none was seen.
 const SMALLEST_PIECE: f64 = 0.05;
-
-const TORSO: usize = Part::Torso as usize;
-const NECK: usize = Part::Neck as usize;
-const HEAD: usize = Part::Head as usize;
-const HAIR: usize = Part::Hair as usize;
 
 /// p -> to + linear (p - from).
 #[derive(Clone, Copy, Debug, PartialEq)]

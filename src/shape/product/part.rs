@@ -26,6 +26,15 @@ pub enum Part {
     Hair,
 }
 
+/// The numbers of parts.
+pub const TORSO: usize = Part::Torso as usize;
+/// See [`TORSO`].
+pub const NECK: usize = Part::Neck as usize;
+/// See [`TORSO`].
+pub const HEAD: usize = Part::Head as usize;
+/// See [`TORSO`].
+pub const HAIR: usize = Part::Hair as usize;
+
 /// Divides in place of a length that may be 0.
 pub const TINY: f64 = 1e-30;
 

@@ -1,6 +1,7 @@
 //! Smooths the weights of the parts along the mesh, then across layers of cloth (product mode).
 
 use super::part::{PART_COUNT, Part, PartWeights, TINY, add};
+use super::profile::chains::arm_share;
 use crate::error::Result;
 use crate::geometry::point_tree::{Near, PointTree};
 use crate::geometry::{Neighbours, Weld, neighbours, smoothstep};
@@ -196,23 +197,16 @@ pub fn smooth_across(
 ) -> Result<()> {
     let sigma = SMOOTHING_WIDTH * figure.height();
     let class_of = |row: &PartWeights| {
-        let sum = |first: Part| row[first as usize..first as usize + 3].iter().sum::<f32>();
-        if sum(Part::LeftUpperArm) > ARM_MAJORITY {
-            0u8
-        } else if sum(Part::RightUpperArm) > ARM_MAJORITY {
-            1
-        } else {
-            2
-        }
+        (0..2).find(|&side| arm_share(row, side) > ARM_MAJORITY).unwrap_or(CLASS_COUNT - 1)
     };
-    let class: Vec<u8> = parts.iter().map(class_of).collect();
+    let class: Vec<usize> = parts.iter().map(class_of).collect();
     // Vertices at one place are one sample and get one result.
     let mut samples: [Vec<usize>; CLASS_COUNT] = Default::default();
     let mut sample_of = vec![u32::MAX; parts.len()];
     let mut known = vec![[u32::MAX; CLASS_COUNT]; weld.count];
     for vertex in (0..parts.len()).filter(|&vertex| !frozen[vertex]) {
-        let of_class = &mut samples[class[vertex] as usize];
-        let sample = &mut known[weld.representative[vertex] as usize][class[vertex] as usize];
+        let of_class = &mut samples[class[vertex]];
+        let sample = &mut known[weld.representative[vertex] as usize][class[vertex]];
         if *sample == u32::MAX {
             *sample = of_class.len() as u32;
             of_class.push(vertex);
@@ -232,7 +226,7 @@ pub fn smooth_across(
     }
     for (vertex, &sample) in sample_of.iter().enumerate() {
         if sample != u32::MAX {
-            parts[vertex] = smoothed[class[vertex] as usize][sample as usize];
+            parts[vertex] = smoothed[class[vertex]][sample as usize];
         }
     }
     for row in parts.iter_mut() {

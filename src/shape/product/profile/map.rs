@@ -13,7 +13,7 @@ use super::{ARM_STATIONS, LEG_STATIONS, Profile, STATIONS, TORSO_STATIONS, stati
 use crate::geometry::slice::Planes;
 use crate::geometry::{Moved, outer};
 use crate::geometry::{smoothstep, smoothstep_slope};
-use crate::shape::product::part::{Part, PartWeights};
+use crate::shape::product::part::{NECK, Part, PartWeights, TORSO};
 use glam::{DMat3, DVec2, DVec3};
 
 /// Rows of the tables: so many for a head length, and for an arm.
@@ -38,8 +38,6 @@ const ANY_HALF: f64 = 0.4;
 /// The toe box begins behind the ankle, in head lengths, and is whole at this part of the way from ankle to toes.
 const TOE_BOX: (f64, f64) = (0.05, 0.6);
 
-const TORSO: usize = Part::Torso as usize;
-const NECK: usize = Part::Neck as usize;
 const LEFT_ARM: usize = Part::LeftUpperArm as usize;
 const RIGHT_ARM: usize = Part::RightUpperArm as usize;
 const LEFT_LEG: usize = Part::LeftUpperLeg as usize;
@@ -167,8 +165,8 @@ impl BodyMap {
         match chain_of(part, is_skirt) {
             TORSO => self.torso(p),
             NECK => self.neck.map(p),
-            LEFT_ARM | RIGHT_ARM => self.arm_or_torso(usize::from(part >= Part::RightUpperArm as usize), p),
-            LEFT_LEG | RIGHT_LEG => self.leg_or_torso(usize::from(part >= Part::RightUpperLeg as usize), p),
+            LEFT_ARM | RIGHT_ARM => self.arm_or_torso(usize::from(part >= RIGHT_ARM), p),
+            LEFT_LEG | RIGHT_LEG => self.leg_or_torso(usize::from(part >= RIGHT_LEG), p),
             LEFT_FOOT => self.feet[0].map(p),
             RIGHT_FOOT => self.feet[1].map(p),
             _ => M::of(p, || DMat3::IDENTITY),

@@ -5,7 +5,7 @@ use super::map::on_bones;
 use super::smooth::{smooth, smooth_lengths};
 use super::station::{Slice, slice_around};
 use super::{
-    ARM_STATIONS, ArmProfile, LEG_STATIONS, LegProfile, Profile, Row, SkirtProfile, TORSO_STATIONS,
+    ARM_STATIONS, ArmProfile, LEG_STATIONS, LegProfile, Profile, Row, STATIONS, SkirtProfile, TORSO_STATIONS,
     TorsoProfile, stations,
 };
 use crate::character::Role;
@@ -19,7 +19,7 @@ use crate::shape::product::part::thumb;
 use glam::{DVec2, DVec3};
 
 /// What reaches further than this over the middle is no leg, in head lengths.
-pub(super) const OVER_MIDDLE: f64 = 0.012;
+const OVER_MIDDLE: f64 = 0.012;
 /// What reaches as far as this over it on both sides is a skirt.
 pub(super) const SKIRT_OVER_MIDDLE: f64 = 0.05;
 /// Beyond a wrist and under an ankle is what lies this much further, in head lengths: a ring of vertices at the joint itself is
@@ -251,20 +251,40 @@ impl Body<'_> {
         slices(self.positions, triangles, self.weld, planes, heights)
     }
 
+    /// Whether an outline reaches further over the middle than that of limb number `limb`, a leg, does.
+    pub(super) fn is_over(&self, limb: usize, outline: &Outline) -> bool {
+        let (low, high) = outline.breadth();
+        (if self.frame.sign(limb) > 0.0 { -low } else { high }) > OVER_MIDDLE * self.length
+    }
+
+    /// Middle across, middle in depth, half breadth, half depth of what `counts` of each cut, in head lengths; see
+    /// [`slice_around`].
+    fn rows(
+        &self,
+        cuts: &[Vec<Outline>],
+        heights: &Row,
+        counts: impl Fn(&Outline) -> bool,
+        start: impl Fn(f64) -> DVec2,
+        keeps_across: bool,
+    ) -> [Row; 4] {
+        let mut rows = [[f64::NAN; STATIONS]; 4];
+        for (at, (outlines, &height)) in cuts.iter().zip(heights).enumerate() {
+            let counted: Vec<&Outline> = outlines.iter().filter(|outline| counts(outline)).collect();
+            if let Some(Slice { middle, half }) = slice_around(&counted, start(height), keeps_across) {
+                let numbers = [middle.x, middle.y, half.x, half.y];
+                rows.iter_mut().zip(numbers).for_each(|(row, number)| row[at] = number / self.length);
+            }
+        }
+        rows
+    }
+
     fn torso(&self, triangles: &[[u32; 3]]) -> Option<TorsoProfile> {
         let planes = self.frame.torso_planes();
         let heights = stations(TORSO_STATIONS).map(|t| t * self.frame.torso_length());
         let shoulders = planes.locate(self.frame.shoulders);
         let cuts = self.cut(triangles, &planes, &heights);
-        let rows: Vec<Option<Slice>> = cuts
-            .iter()
-            .zip(&heights)
-            .map(|(outlines, &height)| {
-                let start = DVec2::new(0.0, shoulders.1.y * height / shoulders.0);
-                slice_around(&outlines.iter().collect::<Vec<_>>(), start, true)
-            })
-            .collect();
-        let [_, forward, breadth, depth] = rows_of(&rows, self.length);
+        let start = |height: f64| DVec2::new(0.0, shoulders.1.y * height / shoulders.0);
+        let [_, forward, breadth, depth] = self.rows(&cuts, &heights, |_| true, start, true);
         Some(TorsoProfile {
             breadth: smooth_lengths(&breadth)?,
             depth: smooth_lengths(&depth)?,
@@ -283,20 +303,8 @@ impl Body<'_> {
             if bend(limb) > BENT * limb.root.distance(limb.end) {
                 continue;
             }
-            let over = |outline: &&Outline| {
-                let (low, high) = outline.breadth();
-                (if sign > 0.0 { -low } else { high }) > OVER_MIDDLE * self.length
-            };
-            let rows: Vec<Option<Slice>> = cuts
-                .iter()
-                .zip(&heights)
-                .map(|(outlines, &height)| {
-                    let legs: Vec<&Outline> = outlines.iter().filter(|outline| !over(outline)).collect();
-                    let bone = planes.locate(on_limb(limb, planes.origin.y - height)).1;
-                    slice_around(&legs, bone, false)
-                })
-                .collect();
-            let mut rows = rows_of(&rows, self.length);
+            let bone = |height: f64| planes.locate(on_limb(limb, planes.origin.y - height)).1;
+            let mut rows = self.rows(&cuts, &heights, |outline| !self.is_over(side, outline), bone, false);
             rows[0] = rows[0].map(|x| sign * x);
             sides.push(rows);
         }
@@ -315,24 +323,17 @@ impl Body<'_> {
     fn skirt(&self, cuts: &[Vec<Outline>], heights: &Row) -> Option<SkirtProfile> {
         let planes = self.frame.leg_planes();
         let reach = SKIRT_OVER_MIDDLE * self.length;
-        let rows: Vec<Option<Slice>> = cuts
-            .iter()
-            .zip(heights)
-            .map(|(outlines, &height)| {
-                let skirts: Vec<&Outline> = outlines
-                    .iter()
-                    .filter(|outline| {
-                        let (low, high) = outline.breadth();
-                        low < -reach && high > reach
-                    })
-                    .collect();
-                let line = |side: usize| {
-                    planes.locate(on_limb(&self.frame.limbs[side], planes.origin.y - height)).1.y
-                };
-                slice_around(&skirts, DVec2::new(0.0, (line(2) + line(3)) / 2.0), true)
-            })
-            .collect();
-        let [_, forward, breadth, depth] = rows_of(&rows, self.length).map(|row| row.map(known));
+        let is_skirt = |outline: &Outline| {
+            let (low, high) = outline.breadth();
+            low < -reach && high > reach
+        };
+        let start = |height: f64| {
+            let line =
+                |side: usize| planes.locate(on_limb(&self.frame.limbs[side], planes.origin.y - height)).1.y;
+            DVec2::new(0.0, (line(2) + line(3)) / 2.0)
+        };
+        let rows = self.rows(cuts, heights, is_skirt, start, true);
+        let [_, forward, breadth, depth] = rows.map(|row| row.map(known));
         breadth.iter().any(Option::is_some).then_some(SkirtProfile { breadth, depth, forward })
     }
 
@@ -346,16 +347,9 @@ impl Body<'_> {
             let length = self.frame.arm_length(side);
             let heights = stations(ARM_STATIONS).map(|t| t * length);
             let elbow = planes.locate(limb.middle);
-            let rows: Vec<Option<Slice>> = self
-                .cut(&triangles, &planes, &heights)
-                .iter()
-                .zip(&heights)
-                .map(|(outlines, &height)| {
-                    let [bone, _] = on_bones(elbow, length, height);
-                    slice_around(&outlines.iter().collect::<Vec<_>>(), bone, false)
-                })
-                .collect();
-            let rows = rows_of(&rows, self.length);
+            let cuts = self.cut(&triangles, &planes, &heights);
+            let bone = |height: f64| on_bones(elbow, length, height)[0];
+            let rows = self.rows(&cuts, &heights, |_| true, bone, false);
             *middle = (|| {
                 let line = |row: &Row| smooth(row).map(|line| line.map(|x| x * self.length));
                 Some([line(&rows[0])?, line(&rows[1])?])
@@ -477,19 +471,6 @@ pub(super) fn on_limb(limb: &Limb, y: f64) -> DVec3 {
     let (a, b) = if y > limb.middle.y { (limb.root, limb.middle) } else { (limb.middle, limb.end) };
     let t = (a.y - y) / (a.y - b.y).max(1e-30);
     a.lerp(b, t.clamp(0.0, 1.0))
-}
-
-/// Middle across, middle in depth, half breadth, half depth, in units of `length`.
-fn rows_of(slices: &[Option<Slice>], length: f64) -> [Row; 4] {
-    let row = |read: fn(&Slice) -> f64| {
-        std::array::from_fn(|station| slices[station].as_ref().map_or(f64::NAN, read) / length)
-    };
-    [
-        row(|slice| slice.middle.x),
-        row(|slice| slice.middle.y),
-        row(|slice| slice.half.x),
-        row(|slice| slice.half.y),
-    ]
 }
 
 /// The mean of both sides, slice by slice; of one where the other is missing.

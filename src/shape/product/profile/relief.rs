@@ -6,9 +6,9 @@
 use super::chains::{Chain, Chains, arm_share};
 use super::curve::{BELL_ENDS, smoothed};
 use super::map::on_bones;
-use super::measure::{Body, BodyFrame, OVER_MIDDLE, on_limb};
+use super::measure::{Body, BodyFrame, on_limb};
 use super::radius_map::{RadiusMap, Ring};
-use crate::geometry::slice::{Outline, RAYS, slices};
+use crate::geometry::slice::{RAYS, slices};
 use crate::geometry::weld::Weld;
 use crate::geometry::{Moved, outer};
 use crate::geometry::{smoothstep, smoothstep_slope};
@@ -233,11 +233,7 @@ impl Body<'_> {
         let start = LEG_ROWS.0 * length;
         let (heights, step) = self.even_heights(start, LEG_ROWS.1 * length);
         let mut cuts = slices(self.positions, &triangles, self.weld, &planes, &heights);
-        let over = |outline: &Outline| {
-            let (low, high) = outline.breadth();
-            (if self.frame.sign(2 + side) > 0.0 { -low } else { high }) > OVER_MIDDLE * self.length
-        };
-        cuts.iter_mut().for_each(|outlines| outlines.retain(|outline| !over(outline)));
+        cuts.iter_mut().for_each(|outlines| outlines.retain(|outline| !self.is_over(2 + side, outline)));
         let bones: Vec<DVec2> =
             heights.iter().map(|&height| planes.locate(on_limb(limb, planes.origin.y - height)).1).collect();
         RadiusMap::of(planes, (start, step), &cuts, &bones, MIDDLE_SIGMA * self.length, false)
