@@ -2,7 +2,6 @@
 
 use crate::character::Role;
 use crate::error::Warning;
-use crate::face::eyes::Pair;
 use crate::face::eyes::{EyeSource, Eyes};
 use crate::face::landmarks::FaceLandmarks;
 use crate::options::{Mode, Options};
@@ -79,7 +78,7 @@ impl FaceReport {
         let eyes = face.eyes.iter().flat_map(|(_, eyes)| ["left_eye", "right_eye"].into_iter().zip(eyes));
         let eyes = eyes.map(|(name, eye)| (name, eye.middle()));
         let points = eyes.chain(face.nose.map(|nose| ("nose", nose.tip)));
-        let pair = face.eyes.as_ref().map(|(_, eyes)| Pair::of(eyes));
+        let pair = face.pair();
         let source = face.eyes.as_ref().map(|(source, _)| *source);
         let radius = |eyes: &Eyes| 0.5 * (eyes[0].radius() + eyes[1].radius());
         Self {

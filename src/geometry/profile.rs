@@ -38,10 +38,7 @@ pub fn deepest_step(depths: &[Option<f64>], search: &StepSearch) -> Option<usize
         Some(*below)
     };
     let depths: Vec<Option<f64>> = depths.iter().scan(None, as_below).collect();
-    let mean = |rows: Range<usize>| {
-        let seen: Vec<f64> = depths[rows].iter().flatten().copied().collect();
-        (!seen.is_empty()).then(|| seen.iter().sum::<f64>() / seen.len() as f64)
-    };
+    let mean = |rows: Range<usize>| super::mean(depths[rows].iter().flatten().copied());
     let mut deepest: Option<(f64, usize)> = None;
     for edge in band..depths.len().saturating_sub(band) {
         if let (Some(above), Some(below)) = (mean(edge..edge + band), mean(edge - band..edge))

@@ -136,5 +136,5 @@ fn eyes_after(measured: &Measured, field: &Field, frame: HeadFrame) -> Option<Pa
     let face = measured.face.as_ref()?;
     let before = head_frame(&measured.anatomy);
     let after = face.mapped(|p| frame.to_unit(field.place(before.from_unit(p), &Binding::to(Part::Head))));
-    after.eyes.as_ref().map(|(_, eyes)| Pair::of(eyes))
+    after.pair()
 }
