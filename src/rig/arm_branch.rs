@@ -6,7 +6,6 @@ use super::solid::Solid;
 use super::solid::branches::{Branch, Rim};
 use crate::geometry::distinct;
 use glam::{DVec2, DVec3};
-use std::ops::Range;
 
 /// A section this much thicker than the ones before it has trunk in it: two readings, for smooth arms and for others, ...
 const WIDENS: [f64; 2] = [1.35, 1.9];
@@ -39,13 +38,12 @@ const TOP_WITHIN: f64 = 0.35;
 ///
 /// `depth` gives how far forward the trunk's middle is at a height.
 pub fn arms_of(branch: &Branch, axis: f64, depth: impl Fn(f64) -> f64 + Copy) -> Vec<(bool, Arm)> {
-    let ends = |&by: &f64| limbs(&branch.rims, by).into_iter().map(|range| (range.start, range.end));
-    let limbs = distinct(WIDENS.iter().flat_map(ends));
+    let limbs = distinct(WIDENS.into_iter().flat_map(|by| limbs(&branch.rims, by)));
     limbs.into_iter().filter_map(|(start, end)| arm_of(&branch.rims[start..end], axis, depth)).collect()
 }
 
-/// Ranges of sections between jumps in thickness.
-fn limbs(rims: &[Rim], widens: f64) -> Vec<Range<usize>> {
+/// Half-open ranges of sections between jumps in thickness.
+fn limbs(rims: &[Rim], widens: f64) -> Vec<(usize, usize)> {
     let mut limbs = Vec::new();
     let mut start = 0;
     for index in 1..=rims.len() {
@@ -58,7 +56,7 @@ fn limbs(rims: &[Rim], widens: f64) -> Vec<Range<usize>> {
         };
         if ends {
             if index - start >= LEAST_RIMS {
-                limbs.push(start..index);
+                limbs.push((start, index));
             }
             start = index;
         }
@@ -96,12 +94,10 @@ fn arm_of(rims: &[Rim], axis: f64, depth: impl Fn(f64) -> f64) -> Option<(bool, 
 
 /// The line through middles, from the tip inwards: the mean of differences between halves.
 fn direction(rims: &[Rim], middle: DVec3) -> Option<DVec3> {
-    let mut sum = DVec3::ZERO;
     let half = 0.5 * (rims.len() as f64 - 1.0);
-    for (index, rim) in rims.iter().enumerate() {
-        sum += (index as f64 - half) * (rim.middle - middle);
-    }
-    sum.try_normalize()
+    let differences =
+        rims.iter().enumerate().map(|(index, rim)| (index as f64 - half) * (rim.middle - middle));
+    differences.sum::<DVec3>().try_normalize()
 }
 
 /// An arm that hangs along the trunk with its shoulder joint under the top of the shoulder; `None` where it is there, or the

@@ -172,10 +172,6 @@ impl ArmCurve {
         self.stations.len()
     }
 
-    fn tip(&self) -> DVec3 {
-        self.middles[self.len() - 1]
-    }
-
     /// The point `wanted` along the curve.
     fn at(&self, wanted: f64) -> DVec3 {
         let Self { middles, arc, .. } = self;
@@ -280,19 +276,10 @@ impl ArmCurve {
         let wrist_arc = begins + seen.unwrap_or(WRIST_BY_RATIO) * (self.whole() - begins);
         let wrist = self.at(wrist_arc);
         let elbow = self.elbow(shoulder, begins, wrist, wrist_arc);
-        let (tip, radius) = (self.tip(), self.radius());
+        let (tip, radius) = (self.middles[self.len() - 1], self.radius());
+        let wrist_seen = seen.is_some_and(|share| (share - WRIST_BY_RATIO).abs() <= WRIST_USUAL);
         let curve = Rc::clone(self);
-        Arm {
-            shoulder,
-            elbow,
-            wrist,
-            tip,
-            pit,
-            radius,
-            pit_seen,
-            wrist_seen: seen.is_some_and(is_usual),
-            curve,
-        }
+        Arm { shoulder, elbow, wrist, tip, pit, radius, pit_seen, wrist_seen, curve }
     }
 }
 
@@ -314,9 +301,4 @@ fn slimmest(girths: &[(f64, f64)]) -> Option<f64> {
         let as_slim = weighed.iter().rev().find(|&&(_, girth)| girth <= HAND_WIDENS * least);
         (at + TO_HAND * as_slim.map_or(0.0, |&(share, _)| (share - at).max(0.0))).min(last)
     })
-}
-
-/// True of a share of the way from shoulder to tip at which wrists are.
-fn is_usual(share: f64) -> bool {
-    (share - WRIST_BY_RATIO).abs() <= WRIST_USUAL
 }

@@ -284,8 +284,11 @@ impl Cells {
         if xx + zz > 0.0 { along / (xx + zz) } else { 0.5 }
     }
 
-    fn score(&self, mirror: Mirror, step: usize) -> f64 {
-        self.likeness(mirror, step) + WIDTH_WEIGHT * self.width_share(mirror.normal)
+    /// The score of a plane, its angle and itself.
+    fn scored(&self, degrees: f64, offset: f64, step: usize) -> (f64, f64, Mirror) {
+        let mirror = Mirror::at(degrees, offset);
+        let score = self.likeness(mirror, step) + WIDTH_WEIGHT * self.width_share(mirror.normal);
+        (score, degrees, mirror)
     }
 
     /// The plane between left and right, whether it is clearly that one, and after it the second best one where that may be
@@ -297,11 +300,7 @@ impl Cells {
             .map(|degrees| {
                 let degrees = degrees as f64;
                 let middle = Mirror::at(degrees, 0.0).normal.dot(self.middle);
-                let scores = SWEEP_OFFSETS.map(|by| {
-                    let mirror = Mirror::at(degrees, middle + by);
-                    (self.score(mirror, step), degrees, mirror)
-                });
-                better_of(scores)
+                better_of(SWEEP_OFFSETS.map(|by| self.scored(degrees, middle + by, step)))
             })
             .collect();
         let (rough, degrees, mirror) = better_of(sweep.iter().copied());
@@ -327,7 +326,7 @@ impl Cells {
     /// The best plane near one.
     fn refined(&self, mut degrees: f64, mut mirror: Mirror, axes: &[DVec2]) -> Mirror {
         let step = self.fine_step();
-        let mut best = self.score(mirror, step);
+        let mut best = self.scored(degrees, mirror.offset, step).0;
         let (mut turn, mut shift) = (SWEEP_STEP as f64 / 2.0, 1.0);
         while turn > LEAST_TURN {
             let offset = |degrees: f64| {
@@ -341,11 +340,7 @@ impl Cells {
                 (degrees - turn, offset(degrees - turn)),
                 (degrees + turn, offset(degrees + turn)),
             ];
-            let scored = tries.map(|(degrees, offset)| {
-                let mirror = Mirror::at(degrees, offset);
-                (self.score(mirror, step), degrees, mirror)
-            });
-            let better = better_of(scored);
+            let better = better_of(tries.map(|(degrees, offset)| self.scored(degrees, offset, step)));
             if better.0 > best + 1e-9 {
                 (best, degrees, mirror) = better;
             } else {

@@ -4,6 +4,7 @@ use super::UnitFigure;
 use super::silhouette::{GridFrame, RayGrid, runs_of};
 use crate::character::MeshKind;
 use crate::error::Result;
+use crate::geometry::{Bounds, bounds, clusters};
 use crate::progress::Progress;
 use glam::DVec3;
 
@@ -121,21 +122,22 @@ impl<'a> FrontView<'a> {
         (steps as f64 + 0.5) * self.cell()
     }
 
+    /// What of a run of columns lies on one side, as steps from the axis.
+    pub fn steps(&self, left: bool, (start, end): (usize, usize)) -> Option<(usize, usize)> {
+        let half = self.half_columns();
+        let (start, end) = if left {
+            (start.max(half) - half, end.max(half) - half)
+        } else {
+            (half - end.min(half), half - start.min(half))
+        };
+        (start < end).then_some((start, end))
+    }
+
     /// The runs of a row on one side, as half-open ranges of steps from the axis, nearest first; a run across the axis is
     /// cut there.
     pub fn side_runs(&self, left: bool, row: usize) -> Vec<(usize, usize)> {
-        let half = self.half_columns();
-        let mut runs: Vec<(usize, usize)> = self.runs[row]
-            .iter()
-            .filter_map(|&(start, end)| {
-                let (start, end) = if left {
-                    (start.max(half) - half, end.max(half) - half)
-                } else {
-                    (half - end.min(half), half - start.min(half))
-                };
-                (start < end).then_some((start, end))
-            })
-            .collect();
+        let on_side = self.runs[row].iter().filter_map(|&run| self.steps(left, run));
+        let mut runs: Vec<(usize, usize)> = on_side.collect();
         runs.sort_unstable();
         runs
     }
@@ -207,23 +209,13 @@ struct Extent {
 
 impl Extent {
     fn of(grid: &RayGrid) -> Self {
-        let (mut low, mut high) = (usize::MAX, 0);
-        let (mut first, mut last) = (usize::MAX, 0);
-        for row in 0..grid.frame.rows {
-            for column in 0..grid.frame.columns {
-                if grid.is_filled(column, row) {
-                    low = low.min(row);
-                    high = row + 1;
-                    first = first.min(column);
-                    last = last.max(column + 1);
-                }
-            }
-        }
-        if high == 0 {
+        let corners = all_runs(grid).flat_map(|(row, (start, end))| [(start, row), (end, row + 1)]);
+        let (low, high) = bounds(corners.map(|(x, y)| DVec3::new(x as f64, y as f64, 0.0)));
+        if low.y > high.y {
             return Self { low: 0.0, high: 1.0, width: 0.0 };
         }
         let cell = grid.frame.cell;
-        Self { low: low as f64 * cell, high: high as f64 * cell, width: (last - first) as f64 * cell }
+        Self { low: low.y * cell, high: high.y * cell, width: (high.x - low.x) * cell }
     }
 }
 
@@ -246,34 +238,23 @@ fn filled_share(grid: &RayGrid) -> f64 {
 
 /// The share of the silhouette that its largest piece has, where gaps of a slit are bridged.
 fn connected_share(grid: &RayGrid) -> f64 {
-    let (columns, rows) = (grid.frame.columns, grid.frame.rows);
-    let mut seen = vec![false; columns * rows];
-    let (mut most, mut all) = (0usize, 0usize);
-    let reach = SLIT as i64 + 1;
-    for start in 0..columns * rows {
-        if seen[start] || !grid.is_filled(start % columns, start / columns) {
-            continue;
-        }
-        seen[start] = true;
-        let mut count = 0;
-        let mut stack = vec![start];
-        while let Some(cell) = stack.pop() {
-            count += 1;
-            let (column, row) = ((cell % columns) as i64, (cell / columns) as i64);
-            for y in (row - reach).max(0)..=(row + reach).min(rows as i64 - 1) {
-                for x in (column - reach).max(0)..=(column + reach).min(columns as i64 - 1) {
-                    let other = y as usize * columns + x as usize;
-                    if !seen[other] && grid.is_filled(x as usize, y as usize) {
-                        seen[other] = true;
-                        stack.push(other);
-                    }
-                }
-            }
-        }
-        most = most.max(count);
-        all += count;
+    // Boxes from each run's first cell to what a slit parts from its last one: rows along x, in whose order they are compared.
+    let around = |(row, (start, end)): (usize, (usize, usize))| {
+        let low = DVec3::new(row as f64, start as f64, 0.0);
+        (low, low + DVec3::new((SLIT + 1) as f64, (end - start + SLIT) as f64, 0.0))
+    };
+    let boxes: Vec<Bounds> = all_runs(grid).map(around).collect();
+    let mut counts = vec![0usize; boxes.len()];
+    for ((row, (start, end)), piece) in all_runs(grid).zip(clusters(&boxes, |_, _| true)) {
+        counts[piece] += (start..end).filter(|&column| grid.is_filled(column, row)).count();
     }
-    if all == 0 { 0.0 } else { most as f64 / all as f64 }
+    let all = counts.iter().sum::<usize>().max(1);
+    counts.into_iter().max().unwrap_or(0) as f64 / all as f64
+}
+
+/// The runs of all rows, each with its row.
+fn all_runs(grid: &RayGrid) -> impl Iterator<Item = (usize, (usize, usize))> {
+    (0..grid.frame.rows).flat_map(|row| runs(grid, row).into_iter().map(move |run| (row, run)))
 }
 
 fn runs(grid: &RayGrid, row: usize) -> Vec<(usize, usize)> {

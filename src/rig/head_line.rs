@@ -85,12 +85,9 @@ pub fn head_line(view: &FrontView, shoulder_line: f64, radius: f64) -> HeadLine 
         _ => shoulder_line,
     };
     let neck_seen = widened && narrow_y < shoulder_line + 0.5 * span;
-    let chin = chin(view, shoulder_line, crown);
-    let by_ratio = shoulder_line + CHIN_BY_RATIO * span;
     let neck = if neck_seen { narrow_y } else { shoulder_line + 0.5 * CHIN_BY_RATIO * span };
-    let chin = chin.unwrap_or(by_ratio);
-    let row = view.grid.row(chin);
-    let chin_z = view.depth(row, CHIN_READ_WITHIN).map_or(0.0, |(_, front)| front);
+    let chin = chin(view, shoulder_line, crown).unwrap_or(shoulder_line + CHIN_BY_RATIO * span);
+    let chin_z = view.depth(view.grid.row(chin), CHIN_READ_WITHIN).map_or(0.0, |(_, front)| front);
     HeadLine { neck, chin, chin_z, crown, neck_seen }
 }
 

@@ -295,7 +295,7 @@ impl Search<'_> {
     /// that is most like arms.
     fn arms(&mut self, legs: &Legs, voxels: &Voxels) -> [Option<Arm>; 2] {
         let (view, solid) = (self.view, &voxels.solid);
-        let body = self.body(legs, solid);
+        let body = &self.body(legs, solid);
         let (neck, given) = (body.neck, body.given);
         let mut sides: [Vec<Candidate>; 2] = Default::default();
         for ceiling in std::iter::once(f64::INFINITY).chain(neck) {
@@ -316,17 +316,13 @@ impl Search<'_> {
         }
         // Each with the other side's shoulder as well.
         let [lefts, rights] = &sides;
-        let images = |left: bool, side: &[Candidate], others: &[Candidate]| -> Vec<Candidate> {
-            let all = side.iter().flat_map(|one| others.iter().map(move |other| (one, other)));
-            all.map(|(one, other)| body.candidate(body.with_shoulder_of(&one.arm, &other.arm), left, IMAGE))
-                .collect()
+        let options = |left: bool, side: &[Candidate], others: &[Candidate]| -> Vec<Option<Candidate>> {
+            let pairs = side.iter().flat_map(|one| others.iter().map(move |other| (one, other)));
+            let images = pairs.map(|(one, other)| body.with_shoulder_of(&one.arm, &other.arm));
+            let images = images.map(|arm| body.candidate(arm, left, IMAGE));
+            std::iter::once(None).chain(side.iter().cloned().chain(images).map(Some)).collect()
         };
-        let more = [images(true, lefts, rights), images(false, rights, lefts)];
-        let options = |side: usize, more: &[Candidate]| -> Vec<Option<Candidate>> {
-            let all = sides[side].iter().chain(more).cloned().map(Some);
-            std::iter::once(None).chain(all).collect()
-        };
-        let (lefts, rights) = (options(0, &more[0]), options(1, &more[1]));
+        let (lefts, rights) = (options(true, lefts, rights), options(false, rights, lefts));
         let mut best = (f64::INFINITY, [None, None]);
         // What the best pair costs that has each of them.
         let mut least = [vec![f64::INFINITY; lefts.len()], vec![f64::INFINITY; rights.len()]];
@@ -383,18 +379,17 @@ impl Search<'_> {
     }
 
     fn put_legs(&mut self, legs: &Legs, pair: [Leg; 2], odd: bool) {
-        let confidence = match legs.seen {
-            LegGap::Open | LegGap::Hem => SEEN,
-            LegGap::Inside => SEEN_INSIDE,
-            LegGap::Unseen => RATIO,
-        };
-        match legs.seen {
-            LegGap::Unseen => {
-                self.warn("the legs were not seen apart: hip joints and knees placed by ratio");
+        let (confidence, sentence) = match legs.seen {
+            LegGap::Open => (SEEN, None),
+            LegGap::Inside => (SEEN_INSIDE, None),
+            LegGap::Hem => {
+                (SEEN, Some("the legs were seen up to a hem: hip joints and knees placed by ratio"))
             }
-            LegGap::Hem => self.warn("the legs were seen up to a hem: hip joints and knees placed by ratio"),
-            LegGap::Open | LegGap::Inside => {}
-        }
+            LegGap::Unseen => {
+                (RATIO, Some("the legs were not seen apart: hip joints and knees placed by ratio"))
+            }
+        };
+        sentence.into_iter().for_each(|sentence| self.warn(sentence));
         if pair.iter().any(|leg| !leg.ankle_seen) {
             self.warn("no slim place was seen above the feet: ankles placed by ratio");
         }

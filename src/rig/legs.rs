@@ -1,7 +1,7 @@
 //! Legs: where they divide, and where hip, knee, ankle and toes are in them.
 
 use super::front_view::{FrontView, SLIT};
-use super::silhouette::lowest;
+use super::silhouette::{lowest, runs_of};
 use super::solid::{Lobes, Solid};
 use glam::{DVec3, IVec3};
 
@@ -136,10 +136,7 @@ pub struct Leg {
 }
 
 /// Steps from the axis between which something is leg.
-#[derive(Clone, Copy)]
-struct Limb {
-    steps: (usize, usize),
-}
+type Limb = (usize, usize);
 
 /// What horizontal slices of the solid show of the legs: two lobes with a neck between them that is air below the
 /// crotch, thinner than they are where thighs touch, and as thick above.
@@ -209,10 +206,8 @@ pub fn find_legs(view: &FrontView, lobes: &LegLobes, top: f64) -> (Legs, Option<
     if let Some(crotch) = lobes.crotch
         && (legs.seen == LegGap::Unseen || lobes.is_hem || (legs.crotch - crotch).abs() > SAME_CROTCH)
     {
-        let first = view.grid.row(view.low);
-        let sections = sections(view, crotch, first, &legs.pairs);
         let seen = if lobes.is_hem { LegGap::Hem } else { LegGap::Open };
-        let told = Legs { crotch, seen, sections, pairs: legs.pairs.clone() };
+        let told = Legs::new(view, crotch, seen, legs.pairs.clone());
         inside = if goes_on(&legs, crotch) { Some(legs) } else { told.inside(view, lobes) };
         legs = told;
     } else if legs.seen == LegGap::Unseen
@@ -226,54 +221,59 @@ pub fn find_legs(view: &FrontView, lobes: &LegLobes, top: f64) -> (Legs, Option<
 
 fn seen_legs(view: &FrontView, top: f64) -> Legs {
     let mut pairs: Vec<Option<[Limb; 2]>> = Vec::new();
-    let (mut crotch, mut seen) = (None, LegGap::Unseen);
-    let first = view.grid.row(view.low);
-    let last = view.grid.row((CROTCH_RANGE.1).min(top));
-    let bridge = (BRIDGE / view.cell()) as usize;
+    let mut crotch = None;
     let mut missed = 0;
     let (mut outside_rows, mut inside_rows) = (0usize, 0usize);
-    for row in first..=last {
+    for row in view.grid.row(view.low)..=view.grid.row(CROTCH_RANGE.1.min(top)) {
         let apart = apart(view, row);
         let inner = if apart.is_none() { inside(view, row) } else { None };
         let pair = apart.or(inner).or_else(|| touching(view, row));
         pairs.push(pair);
         if pair.is_none() {
             missed += 1;
-            let patience = if crotch.is_none() { GAP_STARTS_BELOW / view.cell() } else { bridge as f64 };
-            if missed as f64 > patience {
+            let patience = if crotch.is_none() { GAP_STARTS_BELOW } else { BRIDGE };
+            if missed as f64 > patience / view.cell() {
                 break;
             }
         } else {
             missed = 0;
             crotch = Some(view.grid.y(row) + 0.5 * view.cell());
-            if inner.is_some() {
-                inside_rows += 1;
-            } else {
-                outside_rows += 1;
-            }
+            inside_rows += usize::from(inner.is_some());
+            outside_rows += usize::from(inner.is_none());
         }
     }
-    if let Some(y) = crotch {
-        seen = if y < CROTCH_RANGE.0 {
-            LegGap::Unseen
-        } else if inside_rows * 4 > outside_rows {
-            LegGap::Inside
-        } else {
-            LegGap::Open
-        };
-    }
-    let crotch = match (seen, crotch) {
-        (LegGap::Unseen, _) | (_, None) => CROTCH_BY_RATIO * (view.high - view.low),
-        (_, Some(y)) => y,
+    let (crotch, seen) = match crotch.filter(|&y| y >= CROTCH_RANGE.0) {
+        None => (CROTCH_BY_RATIO * (view.high - view.low), LegGap::Unseen),
+        Some(y) if inside_rows * 4 > outside_rows => (y, LegGap::Inside),
+        Some(y) => (y, LegGap::Open),
     };
-    let sections = sections(view, crotch, first, &pairs);
-    Legs { crotch, seen, sections, pairs }
+    Legs::new(view, crotch, seen, pairs)
 }
 
 impl Legs {
+    /// Legs up to a crotch, with sections where rays see `pairs`, and elsewhere of what stands on either side of the axis.
+    fn new(view: &FrontView, crotch: f64, seen: LegGap, pairs: Vec<Option<[Limb; 2]>>) -> Self {
+        let first = view.grid.row(view.low);
+        let sections = [true, false].map(|left| {
+            let side = usize::from(!left);
+            (first..=view.grid.row(crotch))
+                .filter_map(|row| {
+                    let limb = pairs.get(row - first).copied().flatten().map(|pair| pair[side]);
+                    let limb = limb.or_else(|| {
+                        // One run on the axis: half of it is this leg.
+                        let run = *view.side_runs(left, row).first()?;
+                        let reach = (LEG_REACH / view.cell()) as usize;
+                        (run.0 < reach).then_some((run.0, run.1.min(reach)))
+                    })?;
+                    section(view, left, row, limb)
+                })
+                .collect()
+        });
+        Self { crotch, seen, sections, pairs }
+    }
+
     /// The same legs with a crotch as bodies have it, under shoulders at height `shoulder_line`.
     pub fn below_shoulders(&self, view: &FrontView, shoulder_line: f64) -> Self {
-        let first = view.grid.row(view.low);
         let crotch = view.low + CROTCH_OF_SHOULDERS * (shoulder_line - view.low).max(0.0);
         if self.seen == LegGap::Hem {
             let (seen, crotch, sections) = if crotch > self.crotch {
@@ -284,8 +284,7 @@ impl Legs {
             };
             return Self { crotch, seen, sections, pairs: Vec::new() };
         }
-        let sections = sections(view, crotch, first, &[]);
-        Self { crotch, seen: LegGap::Unseen, sections, pairs: Vec::new() }
+        Self::new(view, crotch, LegGap::Unseen, Vec::new())
     }
 
     /// Sections of a leg up to its crotch: those below a hem, and above it as if the leg went on.
@@ -304,9 +303,7 @@ impl Legs {
 
     /// The same legs, inside of something; `None` where lobes do not show any.
     fn inside(&self, view: &FrontView, lobes: &LegLobes) -> Option<Self> {
-        let crotch = lobes.inner_crotch?;
-        let sections = sections(view, crotch, view.grid.row(view.low), &self.pairs);
-        Some(Self { crotch, seen: LegGap::Inside, sections, pairs: self.pairs.clone() })
+        Some(Self::new(view, lobes.inner_crotch?, LegGap::Inside, self.pairs.clone()))
     }
 
     /// Takes the lobes' word where a section holds something beside the leg: a tail, a cape, hair.
@@ -326,24 +323,6 @@ impl Legs {
     }
 }
 
-fn sections(view: &FrontView, crotch: f64, first: usize, pairs: &[Option<[Limb; 2]>]) -> [Vec<Section>; 2] {
-    [true, false].map(|left| {
-        let side = usize::from(!left);
-        (first..=view.grid.row(crotch))
-            .filter_map(|row| {
-                let limb = pairs.get(row - first).copied().flatten().map(|pair| pair[side]);
-                let limb = limb.or_else(|| {
-                    // One run on the axis: half of it is this leg.
-                    let run = *view.side_runs(left, row).first()?;
-                    let reach = (LEG_REACH / view.cell()) as usize;
-                    (run.0 < reach).then_some(Limb { steps: (run.0, run.1.min(reach)) })
-                })?;
-                section(view, left, row, limb)
-            })
-            .collect()
-    })
-}
-
 /// Two legs with air between them.
 fn apart(view: &FrontView, row: usize) -> Option<[Limb; 2]> {
     let reach = (LEG_REACH / view.cell()) as usize;
@@ -359,18 +338,13 @@ fn apart(view: &FrontView, row: usize) -> Option<[Limb; 2]> {
             middle.abs_diff(2 * half) <= 2 * off && before.1 + reach > half && after.0 < half + reach
         })
         .min_by_key(|(before, after)| (before.1 + after.0).abs_diff(2 * half))?;
-    let steps_left = |run: (usize, usize)| (run.0.max(half) - half, run.1.max(half) - half);
-    let steps_right = |run: (usize, usize)| (half - run.1.min(half), half - run.0.min(half));
-    let (left, right) = (steps_left(after), steps_right(before));
-    if left.0 >= left.1 || right.0 >= right.1 {
-        return None;
-    }
+    let (left, right) = (view.steps(true, after)?, view.steps(false, before)?);
     // A sliver is no leg.
     let least = (LEAST_LEG / view.cell()) as usize;
     if left.1 - left.0 < least || right.1 - right.0 < least {
         return None;
     }
-    Some([left, right].map(|steps| Limb { steps: (steps.0, steps.1.min(reach.max(steps.0 + 1))) }))
+    Some([left, right].map(|steps| (steps.0, steps.1.min(reach.max(steps.0 + 1)))))
 }
 
 /// Two legs that touch: between them, the figure is thinner than on either side.
@@ -393,7 +367,7 @@ fn touching(view: &FrontView, row: usize) -> Option<[Limb; 2]> {
         .into_iter()
         .flat_map(|left| (0..=off).map(move |steps| thickness(left, steps)))
         .fold(f64::INFINITY, f64::min);
-    (between < TOUCHING_THIN * leg).then_some([left, right].map(|run| Limb { steps: (0, run.1.min(reach)) }))
+    (between < TOUCHING_THIN * leg).then_some([left, right].map(|run| (0, run.1.min(reach))))
 }
 
 /// Two legs inside of a skirt: on either side of the axis there are columns whose rays meet more than those between.
@@ -407,34 +381,20 @@ fn inside(view: &FrontView, row: usize) -> Option<[Limb; 2]> {
         return None;
     }
     let limbs = [true, false].map(|left| {
-        let mut start = None;
-        let mut end = 0;
-        for steps in 0..half.min((LEG_REACH / view.cell()) as usize) {
-            let more = count(view.column(left, steps)) >= between + 2;
-            match (more, start) {
-                (true, None) => {
-                    start = Some(steps);
-                    end = steps + 1;
-                }
-                (true, Some(_)) if steps <= end + 2 => end = steps + 1,
-                (true, Some(_)) => break,
-                _ => {}
-            }
-        }
-        start.map(|start| Limb { steps: (start, end) })
+        let steps = 0..half.min((LEG_REACH / view.cell()) as usize);
+        let meet_more = steps.filter(|&steps| count(view.column(left, steps)) >= between + 2);
+        runs_of(meet_more, 2).first().copied()
     });
     let [Some(left), Some(right)] = limbs else { return None };
     let least = (LEAST_LEG_INSIDE / view.cell()) as usize;
-    let gap = left.steps.0 + right.steps.0;
-    let near = left.steps.0.abs_diff(right.steps.0) <= 2 * off;
-    (gap >= 2 && near && left.steps.1 - left.steps.0 >= least && right.steps.1 - right.steps.0 >= least)
+    let near = left.0.abs_diff(right.0) <= 2 * off;
+    (left.0 + right.0 >= 2 && near && left.1 - left.0 >= least && right.1 - right.0 >= least)
         .then_some([left, right])
 }
 
 fn section(view: &FrontView, left: bool, row: usize, limb: Limb) -> Option<Section> {
-    let (back, front) =
-        view.grid.limb((limb.steps.0..limb.steps.1).map(|steps| (view.column(left, steps), row)))?;
-    let (near, far) = (limb.steps.0 as f64 * view.cell(), limb.steps.1 as f64 * view.cell());
+    let (back, front) = view.grid.limb((limb.0..limb.1).map(|steps| (view.column(left, steps), row)))?;
+    let (near, far) = (limb.0 as f64 * view.cell(), limb.1 as f64 * view.cell());
     Some(Section { y: view.grid.y(row), x: 0.5 * (near + far), half_width: 0.5 * (far - near), front, back })
 }
 
@@ -470,8 +430,7 @@ pub fn leg(view: &FrontView, legs: &Legs, left: bool, given: [Option<DVec3>; 3])
         mean_section(sections, low, high).unwrap_or(none)
     };
     let height_of = |y: f64| between(y, y);
-    let foot: Vec<&Section> = sections.iter().filter(|s| s.y < at(ANKLE_RANGE.1)).collect();
-    let Ankle { y: ankle_y, slim, seen: ankle_seen } = ankle_height(sections, view.low, length);
+    let (ankle_y, slim, ankle_seen) = ankle_height(sections, view.low, length);
     let above_ankle = height_of(slim);
     let ankle = given_ankle.unwrap_or_else(|| view.point(left, above_ankle.x, ankle_y, above_ankle.z()));
     let hip = given_hip.unwrap_or_else(|| {
@@ -484,31 +443,19 @@ pub fn leg(view: &FrontView, legs: &Legs, left: bool, given: [Option<DVec3>; 3])
         let section = height_of(y);
         view.point(left, section.x, y, section.z())
     });
-    let front = foot.iter().map(|s| s.front).fold(ankle.z, f64::max);
+    let foot = sections.iter().filter(|s| s.y < at(ANKLE_RANGE.1));
+    let front = foot.map(|s| s.front).fold(ankle.z, f64::max);
     let low = height_of(view.low + SOLE_AT);
     let side = |p: DVec3| (p.x - view.axis).abs();
     let toe_y = view.low + BALL_HEIGHT * (ankle.y - view.low);
     let toe_z = ankle.z + BALL_AHEAD * (front - ankle.z);
     let toe_x = 0.5 * (side(ankle) + low.x);
-    Leg {
-        hip,
-        knee,
-        ankle,
-        toes: view.point(left, toe_x, toe_y, toe_z),
-        tip: view.point(left, toe_x, toe_y, front),
-        ankle_seen,
-    }
+    let [toes, tip] = [toe_z, front].map(|z| view.point(left, toe_x, toe_y, z));
+    Leg { hip, knee, ankle, toes, tip, ankle_seen }
 }
 
-/// The ankle's height.
-struct Ankle {
-    y: f64,
-    /// Height of the slimmest section above it.
-    slim: f64,
-    seen: bool,
-}
-
-fn ankle_height(sections: &[Section], low: f64, length: f64) -> Ankle {
+/// The ankle's height, that of the slimmest section above it, and whether the ankle was seen.
+fn ankle_height(sections: &[Section], low: f64, length: f64) -> (f64, f64, bool) {
     let girth = |s: &Section| s.half_width + s.half_depth();
     let by_ratio = low + ANKLE_BY_RATIO * length;
     let believed = |y: f64| y.clamp(low + ANKLE_RANGE.0 * length, low + ANKLE_RANGE.1 * length);
@@ -529,8 +476,8 @@ fn ankle_height(sections: &[Section], low: f64, length: f64) -> Ankle {
             let end = under.iter().rposition(is_foot).filter(|&end| end + 1 < under.len());
             told.extend(end.map(|end| under[end].y));
             let y = told.iter().sum::<f64>() / told.len() as f64;
-            return Ankle { y: believed(y), slim, seen: true };
+            return (believed(y), slim, true);
         }
     }
-    Ankle { y: by_ratio, slim: low + SLIM_RANGE.1 * length, seen: false }
+    (by_ratio, low + SLIM_RANGE.1 * length, false)
 }

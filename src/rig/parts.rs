@@ -103,16 +103,11 @@ impl<'a> Skin<'a> {
             bone.segments.first().map(|ends| ends[0])
         };
         let nearest_bone = |&p: &DVec3| {
-            let mut best = (Role::Hips, f64::INFINITY);
-            for (role, bone) in &of_bones {
-                for &[a, b] in &bone.segments {
-                    let distance = foot(p, a, b).0.distance(p);
-                    if distance < best.1 {
-                        best = (*role, distance);
-                    }
-                }
-            }
-            best
+            let segments =
+                of_bones.iter().flat_map(|&(role, bone)| bone.segments.iter().map(move |ends| (role, ends)));
+            let distances = segments.map(|(role, &[a, b])| (role, foot(p, a, b).0.distance(p)));
+            let none = (Role::Hips, f64::INFINITY);
+            distances.fold(none, |best, other| if other.1 < best.1 { other } else { best })
         };
         let normals = smoothed(points, near, outward(points, triangles));
         Some(Self {

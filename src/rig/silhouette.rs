@@ -60,13 +60,7 @@ impl RayGrid {
             })
             .sum();
         let step = (expected / MOST_HITS).ceil().max(1.0) as usize;
-        let thinned: Vec<[u32; 3]>;
-        let triangles = if step > 1 {
-            thinned = triangles.iter().step_by(step).copied().collect();
-            &thinned
-        } else {
-            triangles
-        };
+        let triangles: Vec<[u32; 3]> = triangles.iter().step_by(step).copied().collect();
         let shares = triangles.len().div_ceil(parallel::FEW).clamp(1, 64);
         let share = triangles.len().div_ceil(shares).max(1);
         let hits = parallel::collect(threads, triangles.len().div_ceil(share), 1, |index| {
@@ -122,16 +116,13 @@ impl RayGrid {
                 if right.is_nan() || left >= right {
                     continue;
                 }
-                let first = left.max(0.0).ceil();
-                let last = right.min(columns);
-                let mut x = first;
-                while x < last {
+                for column in left.max(0.0).ceil() as usize..right.min(columns).ceil() as usize {
+                    let x = column as f64;
                     let u = ((x - a.x) * (c.y - a.y) - (y - a.y) * (c.x - a.x)) / double_area;
                     let v = ((b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x)) / double_area;
                     let depth = (a.z + u * (b.z - a.z) + v * (c.z - a.z)).clamp(low.z, high.z);
-                    let cell = (row * frame.columns + x as usize) as u32;
+                    let cell = (row * frame.columns + column) as u32;
                     hits.push((cell, depth as f32, double_area > 0.0));
-                    x += 1.0;
                 }
             }
         }

@@ -77,8 +77,9 @@ pub fn voxel_weights(
     options: &VoxelOptions,
     progress: &mut Progress,
 ) -> Result<WeightSet> {
-    let joints: Vec<u32> =
-        bones.iter().filter(|bone| !bone.segments.is_empty()).map(|bone| bone.joint).collect();
+    let with_segments = bones.iter().filter(|bone| !bone.segments.is_empty());
+    let (joints, segments): (Vec<u32>, Vec<_>) =
+        with_segments.map(|bone| (bone.joint, bone.segments.clone())).unzip();
     if joints.is_empty() || positions.is_empty() {
         let joint = bones.first().map_or(0, |bone| bone.joint);
         return Ok(WeightSet { weights: Weights::rigid(joint, positions.len()), fallback: BTreeMap::new() });
@@ -89,8 +90,6 @@ pub fn voxel_weights(
     let waves = 1 + parallel::thread_count(options.thread_count).min(joints.len());
     room::ask(Of::Wave, waves * volume.cells.len())?;
     progress.at(0.3)?;
-    let segments: Vec<Vec<[DVec3; 2]>> =
-        bones.iter().map(|bone| bone.segments.clone()).filter(|segments| !segments.is_empty()).collect();
     let bones = place_bones(&volume, &segments);
     let paths = Paths::new(&volume, &bones)?;
     let falloff = if options.falloff.is_finite() { options.falloff.clamp(0.0, 1.0) } else { FALLOFF };
@@ -129,20 +128,16 @@ pub fn voxel_weights(
         weights
     };
     let weights = Weights::from_rows(parallel::collect(options.thread_count, points.len(), 1000, weigh));
-    let mut fallback = BTreeMap::new();
     let apart = slots.iter().filter(|&&slot| paths.is_apart[slot as usize]).count();
     let unreached = (0..points.len()).filter(|&vertex| rows.of(vertex).is_empty()).count();
-    for (rule, count) in [(VOLUME_APART, apart), (NEAREST_BONE, unreached)] {
-        if count > 0 {
-            fallback.insert(rule, count);
-        }
-    }
+    let counts = [(VOLUME_APART, apart), (NEAREST_BONE, unreached)];
+    let fallback = counts.into_iter().filter(|&(_, count)| count > 0).collect();
     progress.at(1.0)?;
     Ok(WeightSet { weights, fallback })
 }
 
 /// The bone that is closest to `p`, whatever lies between.
-fn nearest_bone(bones: &[Bone], p: DVec3) -> usize {
+pub(super) fn nearest_bone(bones: &[Bone], p: DVec3) -> usize {
     let distance = |bone: usize| bones[bone].foot(p).distance_squared(p);
     (0..bones.len()).min_by(|&one, &other| distance(one).total_cmp(&distance(other))).unwrap_or(0)
 }
@@ -207,14 +202,10 @@ fn distance_rows(
                 (least * least + beyond * beyond).sqrt() + 2.0
             };
             distances.spread(paths, bones, std::iter::once(bone), limit);
-            let mut column: Vec<(u32, f32)> = Vec::new();
-            for (vertex, &slot) in slots.iter().enumerate() {
-                if distances.is_reached(slot) {
-                    column
-                        .push((vertex as u32, distance_at(volume, distances, &bones[bone], points[vertex])));
-                }
-            }
-            column
+            let reached =
+                (0u32..).zip(slots).zip(points).filter(|&((_, &slot), _)| distances.is_reached(slot));
+            let length = |p: DVec3| distance_at(volume, distances, &bones[bone], p);
+            reached.map(|((vertex, _), &p)| (vertex, length(p))).collect::<Vec<(u32, f32)>>()
         },
     )?;
     let entries = (0u32..)

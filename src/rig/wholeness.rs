@@ -3,6 +3,7 @@
 use super::WeightBone;
 use super::solid::Solid;
 use super::solid::geodesic::Bone;
+use super::voxel::nearest_bone;
 use crate::geometry::{SEAM, components, distinct, rims, weld};
 use glam::DVec3;
 use std::collections::{BTreeMap, BTreeSet};
@@ -53,18 +54,13 @@ impl Wholeness {
         let components = components(triangles, &weld);
         let component_of = |vertex: u32| components[weld.representative[vertex as usize] as usize];
 
-        let nearest_bone = |p: DVec3| {
-            let distance = |bone: &Bone| bone.foot(p).distance_squared(p);
-            let distances = bones.iter().map(distance).enumerate();
-            distances.min_by(|one, other| one.1.total_cmp(&other.1)).map_or(0, |(bone, _)| bone)
-        };
         // Area by bone and component.
         let mut shares: BTreeMap<(usize, u32), f64> = BTreeMap::new();
         let mut areas = vec![0.0; bones.len().max(1)];
         for triangle in triangles {
             let [a, b, c] = triangle.map(|vertex| points[vertex as usize]);
             let share = (b - a).cross(c - a).length() / 2.0;
-            let bone = nearest_bone((a + b + c) / 3.0);
+            let bone = nearest_bone(&bones, (a + b + c) / 3.0);
             *shares.entry((bone, component_of(triangle[0]))).or_default() += share;
             areas[bone] += share;
         }
@@ -109,13 +105,8 @@ impl Wholeness {
             shared += usize::from(voxel.len() > 1);
         }
         let ratio = |share: f64, whole: f64| if whole > 0.0 { share / whole } else { 0.0 };
-        Self {
-            carrying,
-            joints,
-            unjoined,
-            shared: ratio(shared as f64, all as f64),
-            open: ratio(border, area.sqrt()),
-        }
+        let (shared, open) = (ratio(shared as f64, all as f64), ratio(border, area.sqrt()));
+        Self { carrying, joints, unjoined, shared, open }
     }
 
     /// Why heat would be poor, as a sentence for a person; `None` where it does well.
