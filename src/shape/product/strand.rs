@@ -15,7 +15,7 @@ const GOING_OVER: f64 = 0.5;
 /// For each of `members` how far it goes with the piece: 0 where `of_body` says that the body moves it, then more with the
 /// distance from there along edges, 1 from half the greatest distance on.
 ///
-/// What no edge joins to the body's vertices goes with the piece. O(vertices + members · log members).
+/// What no edge joins to the body's vertices goes with the piece. O(members · log members).
 pub fn shares(
     figure: &Figure,
     weld: &Weld,
@@ -26,15 +26,19 @@ pub fn shares(
     let welded = |vertex: u32| weld.representative[vertex as usize];
     let place: BTreeMap<u32, DVec3> =
         members.iter().map(|&vertex| (welded(vertex), figure.positions[vertex as usize])).collect();
-    let starts = distinct(members.iter().filter(|&&vertex| of_body(vertex)).map(|&vertex| welded(vertex)));
+    let (own, places): (Vec<u32>, Vec<DVec3>) = place.into_iter().unzip();
+    let number = |welded: u32| own.binary_search(&welded).ok().map(|number| number as u32);
+    let of_body = members.iter().filter(|&&vertex| of_body(vertex));
+    let starts = distinct(of_body.filter_map(|&vertex| number(welded(vertex))));
     let beside = |at: u32| {
-        let near = neighbours.of(at as usize).iter().filter_map(|next| place.get_key_value(next));
-        let from = place[&at];
-        near.map(move |(&next, p)| (next, from.distance(*p)))
+        let (at, places) = (at as usize, &places);
+        let near = neighbours.of(own[at] as usize).iter().filter_map(|&next| number(next));
+        near.map(move |next| (next, places[at].distance(places[next as usize])))
     };
-    let distances = least_costs(weld.count, starts.into_iter().map(|start| (start, 0.0)), beside);
+    let distances = least_costs(own.len(), starts.into_iter().map(|start| (start, 0.0)), beside);
     let most = distances.iter().copied().filter(|distance| distance.is_finite()).fold(0.0, f64::max);
-    let share = |&vertex: &u32| match distances[welded(vertex) as usize] {
+    let distance = |vertex: u32| number(welded(vertex)).map_or(f64::INFINITY, |at| distances[at as usize]);
+    let share = |&vertex: &u32| match distance(vertex) {
         f64::INFINITY => 1.0,
         distance if most > 0.0 => smoothstep(distance / (GOING_OVER * most)) as f32,
         _ => 0.0,
