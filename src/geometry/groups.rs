@@ -4,27 +4,6 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-/// Each of `things` once, ascending.
-pub fn distinct<T: Ord>(things: impl IntoIterator<Item = T>) -> Vec<T> {
-    let mut things: Vec<T> = things.into_iter().collect();
-    things.sort_unstable();
-    things.dedup();
-    things
-}
-
-/// For each of `count` things whether it is among those of `numbers`.
-pub fn marked(count: usize, numbers: impl IntoIterator<Item = usize>) -> Vec<bool> {
-    let mut marks = vec![false; count];
-    numbers.into_iter().for_each(|number| marks[number] = true);
-    marks
-}
-
-/// Those of `triangles` all of whose corners `choose` accepts.
-pub fn triangles_where(triangles: &[[u32; 3]], choose: impl Fn(usize) -> bool) -> Vec<[u32; 3]> {
-    let is_chosen = |corners: &&[u32; 3]| corners.iter().all(|&corner| choose(corner as usize));
-    triangles.iter().filter(is_chosen).copied().collect()
-}
-
 /// Things in groups that grow together, each known by its least member.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Groups {

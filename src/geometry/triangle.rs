@@ -1,6 +1,12 @@
-//! What one triangle tells.
+//! What one triangle tells, and which of them are chosen.
 
 use glam::DVec3;
+
+/// Those of `triangles` all of whose corners `choose` accepts.
+pub fn triangles_where(triangles: &[[u32; 3]], choose: impl Fn(usize) -> bool) -> Vec<[u32; 3]> {
+    let is_chosen = |corners: &&[u32; 3]| corners.iter().all(|&corner| choose(corner as usize));
+    triangles.iter().filter(is_chosen).copied().collect()
+}
 
 /// The normal of a triangle of `points`, twice as long as its area; 0 where it is no number.
 pub fn double_area(points: &[DVec3], corners: [u32; 3]) -> DVec3 {

@@ -119,7 +119,7 @@ pub fn components(triangles: &[[u32; 3]], weld: &Weld) -> Vec<u32> {
 }
 
 /// Where a surface ends: the edges between welded vertices that one triangle has, ascending.
-pub fn rims(triangles: &[[u32; 3]], weld: &Weld) -> Vec<[u32; 2]> {
+pub fn rim_edges(triangles: &[[u32; 3]], weld: &Weld) -> Vec<[u32; 2]> {
     let edges_of = |&corners: &[u32; 3]| {
         let [a, b, c] = weld.triangle(corners);
         [[a, b], [b, c], [c, a]].map(|[a, b]| [a.min(b), a.max(b)])
@@ -182,6 +182,16 @@ mod tests {
         assert_eq!(welded.representative, [0, 1, 0, 1, 1]);
         assert_eq!(welded.count, 2);
         assert_eq!(welded.first_vertices(), [0, 1]);
+    }
+
+    #[test]
+    fn a_square_ends_at_its_sides_and_not_where_its_halves_meet() {
+        // The halves have copies of the corners between them.
+        let [a, b, c, d] =
+            [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|[x, y]| DVec3::new(x, y, 0.0));
+        let welded = weld(&[a, b, c, d, c, a], 0.0);
+        let rims = rim_edges(&[[0, 1, 2], [3, 5, 4]], &welded);
+        assert_eq!(rims, [[0, 1], [0, 3], [1, 2], [2, 3]]);
     }
 
     #[test]

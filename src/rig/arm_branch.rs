@@ -1,10 +1,9 @@
 //! Arms in whatever direction they are held: branches of the solid that end beside the trunk.
 
 use super::arm_curve::{Arm, ArmCurve, Station};
-use super::front_view::median;
 use super::solid::Solid;
 use super::solid::branches::{Branch, Rim};
-use crate::geometry::distinct;
+use crate::geometry::{distinct, median};
 use glam::{DVec2, DVec3};
 
 /// A section this much thicker than the ones before it has trunk in it: two readings, for smooth arms and for others, ...

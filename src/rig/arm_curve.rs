@@ -1,8 +1,7 @@
 //! The middles of an arm's sections, and the joints that they show.
 
-use super::front_view::median;
 use super::silhouette::lowest;
-use crate::geometry::foot;
+use crate::geometry::{foot, median};
 use glam::{DVec2, DVec3};
 use std::rc::Rc;
 

@@ -1,10 +1,10 @@
 //! Arms: followed from the fingertips inwards to the armpit.
 
 use super::arm_curve::{Arm, ArmCurve, Station};
-use super::front_view::{FrontView, median};
+use super::front_view::FrontView;
 use super::head_line::middle;
 use super::silhouette::{GridFrame, RayGrid};
-use crate::geometry::ROUNDING;
+use crate::geometry::{ROUNDING, median};
 use glam::{DVec2, DVec3};
 
 /// An arm's column of cells that reaches lower than the arm by so many of its thicknesses belongs to the trunk. Seen:

@@ -1,6 +1,7 @@
 //! Vertices that a fault has flung far away: they say nothing about a figure, but would be all of its size.
 
 use crate::character::Character;
+use crate::geometry::marked;
 use glam::{DVec3, Vec3};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -22,8 +23,8 @@ const LEAST_VERTICES: usize = 64;
 pub fn gathered(character: &Character) -> Cow<'_, Character> {
     let mut places: Vec<(usize, usize)> = Vec::with_capacity(character.vertex_count());
     for (index, mesh) in character.meshes.iter().enumerate() {
-        let mut used = vec![false; mesh.positions.len()];
-        mesh.triangles.iter().flatten().for_each(|&vertex| used[vertex as usize] = true);
+        let corners = mesh.triangles.iter().flatten();
+        let used = marked(mesh.positions.len(), corners.map(|&vertex| vertex as usize));
         places.extend((0..used.len()).filter(|&vertex| used[vertex]).map(|vertex| (index, vertex)));
     }
     if places.len() < LEAST_VERTICES {

@@ -4,7 +4,7 @@ use super::UnitFigure;
 use super::silhouette::{GridFrame, RayGrid, runs_of};
 use crate::character::MeshKind;
 use crate::error::Result;
-use crate::geometry::{Bounds, bounds, clusters};
+use crate::geometry::{Bounds, bounds, clusters, median};
 use crate::progress::Progress;
 use glam::DVec3;
 
@@ -167,15 +167,6 @@ impl<'a> FrontView<'a> {
     /// A point of the unit figure from a distance to the axis on one side.
     pub fn point(&self, left: bool, distance: f64, y: f64, z: f64) -> DVec3 {
         DVec3::new(if left { self.axis + distance } else { self.axis - distance }, y, z)
-    }
-}
-
-/// The middle value, the mean of both where there are two; 0 of nothing.
-pub fn median(values: &mut [f64]) -> f64 {
-    values.sort_unstable_by(f64::total_cmp);
-    match values.len() {
-        0 => 0.0,
-        count => 0.5 * (values[(count - 1) / 2] + values[count / 2]),
     }
 }
 

@@ -1,7 +1,7 @@
 //! The middle line: neck, chin and head above the shoulders, spine below them.
 
-use super::front_view::{FrontView, median};
-use crate::geometry::{CHIN_BAND, CHIN_BY_RATIO, CHIN_STEP, ROUNDING, StepSearch, deepest_step};
+use super::front_view::FrontView;
+use crate::geometry::{CHIN_BAND, CHIN_BY_RATIO, CHIN_STEP, ROUNDING, StepSearch, deepest_step, median};
 
 /// Above its narrowest row the head is wider by this share, and by this share of the height. Seen: at -30 %, seven
 /// fewer good joints doubted; at +30 %, eight more good joints doubted.

@@ -60,18 +60,22 @@ impl RayGrid {
             })
             .sum();
         let step = (expected / MOST_HITS).ceil().max(1.0) as usize;
-        let triangles: Vec<[u32; 3]> = triangles.iter().step_by(step).copied().collect();
-        let shares = triangles.len().div_ceil(parallel::FEW).clamp(1, 64);
-        let share = triangles.len().div_ceil(shares).max(1);
-        let hits = parallel::collect(threads, triangles.len().div_ceil(share), 1, |index| {
-            let last = ((index + 1) * share).min(triangles.len());
-            Self::meet(positions, &triangles[index * share..last], &frame)
+        let count = triangles.len().div_ceil(step);
+        let shares = count.div_ceil(parallel::FEW).clamp(1, 64);
+        let share = count.div_ceil(shares).max(1);
+        let hits = parallel::collect(threads, count.div_ceil(share), 1, |index| {
+            let of_share = triangles.iter().step_by(step).skip(index * share).take(share);
+            Self::meet(positions, of_share, &frame)
         });
         Self::sorted(frame, hits)
     }
 
     /// Cell, depth and whether the ray leaves, of all that some triangles meet.
-    fn meet(positions: &[DVec3], triangles: &[[u32; 3]], frame: &GridFrame) -> Vec<(u32, f32, bool)> {
+    fn meet<'a>(
+        positions: &[DVec3],
+        triangles: impl Iterator<Item = &'a [u32; 3]>,
+        frame: &GridFrame,
+    ) -> Vec<(u32, f32, bool)> {
         let along = frame.right.cross(frame.up);
         let mut hits = Vec::new();
         let (columns, rows) = (frame.columns as f64, frame.rows as f64);

@@ -4,7 +4,7 @@ use super::WeightBone;
 use super::solid::Solid;
 use super::solid::geodesic::Bone;
 use super::voxel::nearest_bone;
-use crate::geometry::{SEAM, components, distinct, rims, weld};
+use crate::geometry::{SEAM, components, distinct, rim_edges, weld};
 use glam::DVec3;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -94,7 +94,8 @@ impl Wholeness {
         let own: Vec<[u32; 3]> = triangles.iter().filter(is_of_body).copied().collect();
         let first = weld.first_vertices();
         let at = |welded: u32| points[first[welded as usize] as usize];
-        let border: f64 = rims(&own, &weld).into_iter().map(|[one, other]| at(one).distance(at(other))).sum();
+        let border: f64 =
+            rim_edges(&own, &weld).into_iter().map(|[one, other]| at(one).distance(at(other))).sum();
         let voxels = distinct(own.iter().map(|triangle| {
             let middle = triangle.iter().map(|&vertex| points[vertex as usize]).sum::<DVec3>() / 3.0;
             (grid.index(grid.nearest(middle)) as u32, component_of(triangle[0]))

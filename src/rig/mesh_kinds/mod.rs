@@ -9,7 +9,7 @@ mod reach;
 use super::{FoundJoint, UnitFigure};
 use crate::character::{MeshKind, Role};
 use crate::error::{Named, Result, Warning};
-use crate::geometry::{SEAM, Surface, range, rims, weld};
+use crate::geometry::{SEAM, Surface, range, rim_edges, weld};
 use crate::progress::Progress;
 pub use facts::Surroundings;
 use facts::{Facts, Scene};
@@ -258,7 +258,7 @@ impl Scene<'_> {
     fn find_seams(&self) -> Vec<Vec<usize>> {
         let figure = self.figure;
         let welded = weld(&figure.positions, SEAM);
-        let border = |mesh| rims(figure.triangles_of(mesh), &welded).into_iter().flatten().collect();
+        let border = |mesh| rim_edges(figure.triangles_of(mesh), &welded).into_iter().flatten().collect();
         let borders: Vec<BTreeSet<u32>> = (0..figure.mesh_count()).map(border).collect();
         let mut meshes_at: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
         for (mesh, border) in borders.iter().enumerate() {

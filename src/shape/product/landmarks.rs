@@ -118,7 +118,8 @@ pub fn landmarks(figure: &Figure) -> Landmarks {
     let shoulder_line = placed.shoulder_line;
     let hip_line =
         mean_height(figure, [Role::LeftUpperLeg, Role::RightUpperLeg], |joint| figure.joints[joint]);
-    let upper = upper_triangles(figure);
+    // What is needed only where no chin is seen is looked for only there.
+    let upper = if chin_seen { Vec::new() } else { upper_triangles(figure) };
     let trunk = (!chin_seen && !has_waist(figure, &upper, &placed, hip_line, crown)).then(|| trunk(figure));
     let (crotch, crotch_seen) = match &trunk {
         None => crotch(figure, hip_line),
@@ -432,7 +433,8 @@ fn trunk(figure: &Figure) -> Vec<bool> {
     (0..figure.positions.len()).map(|vertex| own[of(vertex)] > 0.0).collect()
 }
 
-/// Whether `upper`, which is head, neck and torso, between these heights, are somewhere narrower than above it and below it, where chins are looked for.
+/// Whether `upper`, which is head, neck and torso, is between these heights, where chins are looked for, somewhere narrower than
+/// above it and below it.
 fn has_waist(figure: &Figure, upper: &[[u32; 3]], placed: &HeadPlacement, low: f64, high: f64) -> bool {
     let surface = Surface::new(&figure.positions, upper);
     let Some((centre, half)) = middle(&figure.positions, upper.as_flattened()) else { return true };

@@ -1,6 +1,6 @@
 //! What is outside of a body and what inside, and where its surface ends.
 
-use crate::geometry::{self, Closest, Surface, Tree, Weld, distinct, double_area};
+use crate::geometry::{Closest, Surface, Tree, Weld, distinct, double_area, rim_edges};
 use glam::DVec3;
 
 /// The outside of a body.
@@ -89,7 +89,7 @@ pub fn volume(points: &[DVec3], triangles: &[[u32; 3]]) -> f64 {
 
 /// The welded vertices at rims, where a surface ends.
 pub fn rims(triangles: &[[u32; 3]], weld: &Weld) -> Vec<u32> {
-    distinct(geometry::rims(triangles, weld).into_flattened())
+    distinct(rim_edges(triangles, weld).into_flattened())
 }
 
 /// Normals of the welded vertices that `triangles` use, by area; zero elsewhere and at their [`rims`].

@@ -1,0 +1,27 @@
+//! Lists without repeats, and marks of what is in a list.
+
+/// Each of `things` once, ascending.
+pub fn distinct<T: Ord>(things: impl IntoIterator<Item = T>) -> Vec<T> {
+    let mut things: Vec<T> = things.into_iter().collect();
+    things.sort_unstable();
+    things.dedup();
+    things
+}
+
+/// For each of `count` things whether it is among those of `numbers`.
+pub fn marked(count: usize, numbers: impl IntoIterator<Item = usize>) -> Vec<bool> {
+    let mut marks = vec![false; count];
+    numbers.into_iter().for_each(|number| marks[number] = true);
+    marks
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lists_lose_what_repeats_and_marks_stand_at_its_numbers() {
+        assert_eq!(distinct([3, 1, 3, 2, 1]), [1, 2, 3]);
+        assert_eq!(marked(4, [2, 0, 2]), [true, false, true, false]);
+    }
+}
