@@ -4,7 +4,7 @@ use super::basics::*;
 use super::guard::{Failure, Outcome};
 use crate::pipeline::places::Place;
 use core::ffi::{CStr, c_char};
-use glam::{DMat4, DVec3, Vec3, Vec4};
+use glam::{Vec3, Vec4};
 use std::fmt::Display;
 
 /// Structs larger than this are none of the library's, but uninitialised memory.
@@ -128,11 +128,6 @@ pub unsafe fn optional<T: Plain>(
     unsafe { Input::<T>::new(&what, start.cast(), count, stride) }?.to_vec(what)
 }
 
-/// Matrices as the library has them.
-pub fn matrix(numbers: [f64; 16]) -> DMat4 {
-    DMat4::from_cols_array(&numbers)
-}
-
 /// A text of the caller's; what is no UTF-8 is replaced, for names of old files come in any encoding.
 ///
 /// # Safety
@@ -174,24 +169,29 @@ pub unsafe trait HostStruct: Plain {
         unsafe { core::mem::zeroed() }
     }
 
-    /// The fields that must be 0 in a struct that is read, so that they can get a meaning later.
-    fn reserved(&self) -> [u32; 2] {
-        [0; 2]
+    /// Of the fields that must be 0 in a struct that is read, so that they can get a meaning later, the first that is not.
+    fn reserved(&self) -> Option<u32> {
+        None
     }
 }
 
 /// Words of 4 bytes in fields that are not set: 0, and the halves of NAN as a float or a double.
 const UNSET: [u32; 5] = [0, 0x7fc0_0000, 0xffc0_0000, 0x7ff8_0000, 0xfff8_0000];
 
-/// Structs of the caller that are all zero by default, and the field of each that must be.
-macro_rules! host_structs { ($($name:ident $(($reserved:ident))?),*) => { $(
+/// Structs of the caller, the fields of each that must be 0, and its defaults where it is not all zero by default.
+macro_rules! host_structs { ($($name:ident $(($($reserved:ident),+))? $(= $defaults:expr)?),*) => { $(
     // SAFETY: `#[repr(C)]`, numbers and pointers alone, `struct_size` first.
     unsafe impl $crate::ffi::arrays::Plain for $name {}
     unsafe impl $crate::ffi::arrays::HostStruct for $name {
         const NAME: &'static str = stringify!($name);
         $(
-            fn reserved(&self) -> [u32; 2] {
-                [self.$reserved, 0]
+            fn defaults() -> Self {
+                $defaults
+            }
+        )?
+        $(
+            fn reserved(&self) -> Option<u32> {
+                [$(self.$reserved),+].into_iter().find(|number| *number != 0)
             }
         )?
     }
@@ -233,7 +233,7 @@ pub unsafe fn struct_in<T: HostStruct>(from: *const T) -> Outcome<T> {
         }
         let mut copy = T::defaults();
         (&raw mut copy).cast::<u8>().copy_from_nonoverlapping(from.cast(), size.min(own));
-        if let Some(number) = copy.reserved().iter().find(|number| **number != 0) {
+        if let Some(number) = copy.reserved() {
             return Err(Failure::argument(format!(
                 "a reserved field of {} is {number}: set it to 0",
                 T::NAME
@@ -499,11 +499,6 @@ pub unsafe fn text_out(text: &str, to: *mut c_char, capacity: usize, size: *mut 
         to.add(text.len()).write(0);
     }
     Ok(())
-}
-
-/// A place as numbers.
-pub fn numbers(p: DVec3) -> [f64; 3] {
-    p.to_array()
 }
 
 #[cfg(test)]

@@ -180,20 +180,11 @@ fn fault(panic: &(dyn std::any::Any + Send)) -> Failure {
     Failure::new(SDEF_STATUS_INTERNAL, message)
 }
 
-trait CharBoundary {
-    /// The last boundary between characters at or before `most`.
-    fn floor_char_boundary_at(&self, most: usize) -> usize;
-}
-
-impl CharBoundary for str {
-    fn floor_char_boundary_at(&self, most: usize) -> usize {
-        (0..=most.min(self.len())).rev().find(|&at| self.is_char_boundary(at)).unwrap_or(0)
-    }
-}
-
-/// `text` cut to fit `room` bytes with its NUL.
+/// `text` cut between characters to fit `room` bytes with its NUL.
 pub fn cut(text: &str, room: usize) -> &str {
-    &text[..text.floor_char_boundary_at(room.saturating_sub(1))]
+    let most = room.saturating_sub(1).min(text.len());
+    let end = (0..=most).rev().find(|&at| text.is_char_boundary(at)).unwrap_or(0);
+    &text[..end]
 }
 
 thread_local! {

@@ -8,7 +8,7 @@ use super::character::state::CharacterState;
 use super::deformer::state::DeformerState;
 use super::guard::{Failure, Outcome};
 use crate::pipeline::Style;
-use std::sync::{Arc, PoisonError, RwLock, RwLockReadGuard, RwLockWriteGuard, TryLockError};
+use std::sync::{Arc, PoisonError, RwLock, RwLockReadGuard, RwLockWriteGuard, TryLockError, TryLockResult};
 
 /// What a handle stands for.
 #[derive(Clone)]
@@ -26,19 +26,12 @@ const STYLE: u64 = 2;
 const DEFORMER: u64 = 3;
 
 impl Object {
-    fn kind(&self) -> u64 {
+    /// Its kind as a number and as a word.
+    fn kind(&self) -> (u64, &'static str) {
         match self {
-            Object::Character(_) => CHARACTER,
-            Object::Style(_) => STYLE,
-            Object::Deformer(_) => DEFORMER,
-        }
-    }
-
-    fn name(&self) -> &'static str {
-        match self {
-            Object::Character(_) => "character",
-            Object::Style(_) => "style",
-            Object::Deformer(_) => "deformer",
+            Object::Character(_) => (CHARACTER, "character"),
+            Object::Style(_) => (STYLE, "style"),
+            Object::Deformer(_) => (DEFORMER, "deformer"),
         }
     }
 }
@@ -46,6 +39,14 @@ impl Object {
 struct Slot {
     generation: u32,
     object: Option<Object>,
+}
+
+impl Slot {
+    /// True where `id` stands for what is in it.
+    fn is_of(&self, id: u64) -> bool {
+        let (kind, generation, _) = parts_of(id);
+        self.generation == generation && self.object.as_ref().is_some_and(|object| object.kind().0 == kind)
+    }
 }
 
 struct Table {
@@ -71,7 +72,7 @@ fn parts_of(id: u64) -> (u64, u32, usize) {
 
 /// Gives `object` a handle.
 pub fn insert(object: Object) -> Outcome<u64> {
-    let kind = object.kind();
+    let (kind, _) = object.kind();
     let mut table = TABLE.write().unwrap_or_else(PoisonError::into_inner);
     let slot = match table.free.pop() {
         Some(slot) => slot,
@@ -101,10 +102,8 @@ pub fn insert(object: Object) -> Outcome<u64> {
 
 /// What `id` stands for, if anything.
 pub fn find(id: u64) -> Option<Object> {
-    let (kind, generation, slot) = parts_of(id);
     let table = TABLE.read().unwrap_or_else(PoisonError::into_inner);
-    let entry = table.slots.get(slot).filter(|entry| entry.generation == generation)?;
-    entry.object.clone().filter(|object| object.kind() == kind)
+    table.slots.get(parts_of(id).2).filter(|slot| slot.is_of(id))?.object.clone()
 }
 
 /// Takes `id` out of the table; what it stood for goes with its last user.
@@ -115,27 +114,19 @@ pub fn remove(id: u64) -> Outcome {
     let taken = {
         let mut table = TABLE.write().unwrap_or_else(PoisonError::into_inner);
         let Table { slots, free, live } = &mut *table;
-        let (kind, generation, slot) = parts_of(id);
-        let entry = slots
-            .get_mut(slot)
-            .filter(|entry| entry.generation == generation)
-            .filter(|entry| entry.object.as_ref().is_some_and(|object| object.kind() == kind));
-        entry.and_then(|entry| {
+        let (.., slot) = parts_of(id);
+        slots.get_mut(slot).filter(|entry| entry.is_of(id)).and_then(|entry| {
             let object = entry.object.take();
             entry.generation += 1;
             // A slot that has used up its generations is left alone, so that no id ever comes again.
-            let reusable = entry.generation <= LAST_GENERATION;
             *live -= 1;
-            if reusable {
+            if entry.generation <= LAST_GENERATION {
                 free.push(slot as u32);
             }
             object
         })
     };
-    match taken {
-        Some(_) => Ok(()),
-        None => Err(bad_handle(id, "handle")),
-    }
+    taken.map(drop).ok_or_else(|| bad_handle(id, "handle"))
 }
 
 /// How many handles there are.
@@ -148,7 +139,7 @@ pub fn bad_handle(id: u64, needed: &str) -> Failure {
     let message = match find(id) {
         _ if id == 0 => format!("the {needed} is none (id 0): make one first"),
         Some(other) => {
-            format!("the handle {id:#x} is a {}, but a {needed} is asked for: give one", other.name())
+            format!("the handle {id:#x} is a {}, but a {needed} is asked for: give one", other.kind().1)
         }
         None => format!("the {needed} {id:#x} was destroyed, or never was: use one that is alive"),
     };
@@ -179,30 +170,29 @@ pub fn deformer(handle: SdefDeformer) -> Outcome<Arc<RwLock<DeformerState>>> {
     }
 }
 
-fn busy(what: &str) -> Failure {
-    Failure::new(
-        SDEF_STATUS_BUSY,
-        format!("the {what} is in use, by another thread or by the call around this one: try again later"),
-    )
+/// A use of a `what`, where it could be had.
+fn use_of<Guard>(tried: TryLockResult<Guard>, what: &str) -> Outcome<Guard> {
+    match tried {
+        Ok(guard) => Ok(guard),
+        // States change in steps that cannot fail halfway.
+        Err(TryLockError::Poisoned(poisoned)) => Ok(poisoned.into_inner()),
+        Err(TryLockError::WouldBlock) => Err(Failure::new(
+            SDEF_STATUS_BUSY,
+            format!(
+                "the {what} is in use, by another thread or by the call around this one: try again later"
+            ),
+        )),
+    }
 }
 
 /// Use beside other uses. Nothing ever waits here, so nothing can lock up.
 pub fn read<'a, T>(lock: &'a RwLock<T>, what: &str) -> Outcome<RwLockReadGuard<'a, T>> {
-    match lock.try_read() {
-        Ok(guard) => Ok(guard),
-        // States change in steps that cannot fail halfway.
-        Err(TryLockError::Poisoned(poisoned)) => Ok(poisoned.into_inner()),
-        Err(TryLockError::WouldBlock) => Err(busy(what)),
-    }
+    use_of(lock.try_read(), what)
 }
 
 /// Use that changes, beside no other.
 pub fn write<'a, T>(lock: &'a RwLock<T>, what: &str) -> Outcome<RwLockWriteGuard<'a, T>> {
-    match lock.try_write() {
-        Ok(guard) => Ok(guard),
-        Err(TryLockError::Poisoned(poisoned)) => Ok(poisoned.into_inner()),
-        Err(TryLockError::WouldBlock) => Err(busy(what)),
-    }
+    use_of(lock.try_write(), what)
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 //!
 //! One struct for everything that can be set; each function reads what concerns it.
 
-use super::arrays::{self, HostStruct, Plain, host_structs, not_null};
+use super::arrays::{self, host_structs, not_null};
 use super::basics::*;
 use super::guard::{Failure, Outcome, call};
 use crate::character::Role;
@@ -79,18 +79,6 @@ pub struct SdefGroupSettings {
     /// 0 keeps the target's thickness, 1 takes all of the reference's
     pub thickness_transfer: f64,
 }
-unsafe impl Plain for SdefGroupSettings {}
-unsafe impl HostStruct for SdefGroupSettings {
-    const NAME: &'static str = "SdefGroupSettings";
-
-    fn defaults() -> Self {
-        Self::default()
-    }
-
-    fn reserved(&self) -> [u32; 2] {
-        [self.reserved, 0]
-    }
-}
 
 /// Nothing is set.
 impl Default for SdefGroupSettings {
@@ -136,7 +124,7 @@ pub struct SdefGivenJoint {
     /// model space
     pub z: f64,
 }
-host_structs!(SdefBoneGroup, SdefGivenJoint);
+host_structs!(SdefGroupSettings(reserved) = Self::default(), SdefBoneGroup, SdefGivenJoint);
 
 // The texts of its numbers, their ranges and defaults come from the list of options, options::table: tests/headers writes them
 // into the header, for what says that they are there as well.
@@ -210,14 +198,7 @@ macro_rules! sdef_options {
 }
 crate::number_options!(sdef_options);
 
-unsafe impl Plain for SdefOptions {}
-unsafe impl HostStruct for SdefOptions {
-    const NAME: &'static str = "SdefOptions";
-
-    fn defaults() -> Self {
-        defaults()
-    }
-}
+host_structs!(SdefOptions = defaults());
 
 /// Fills *options with the defaults.
 ///

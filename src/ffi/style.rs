@@ -2,7 +2,7 @@
 //!
 //! A style is numbers, not a model: it can be saved, mixed, and used with any character.
 
-use super::arrays::{self, HostStruct, Input, Plain, host_structs, not_null, write_out};
+use super::arrays::{self, Input, host_structs, not_null, write_out};
 use super::basics::*;
 use super::guard::{Failure, Outcome, call};
 use super::handles::{self, Object};
@@ -99,18 +99,7 @@ pub struct SdefStyleNumbers {
     /// half the head's depth; product mode transfers it too
     pub head_half_depth: f64,
 }
-unsafe impl Plain for SdefStyleNumbers {}
-unsafe impl HostStruct for SdefStyleNumbers {
-    const NAME: &'static str = "SdefStyleNumbers";
-
-    fn defaults() -> Self {
-        UNKNOWN
-    }
-
-    fn reserved(&self) -> [u32; 2] {
-        [self.reserved, 0]
-    }
-}
+host_structs!(SdefStyleNumbers(reserved) = UNKNOWN);
 
 /// A style of so many heads.
 ///
@@ -127,29 +116,21 @@ pub unsafe extern "C" fn sdef_style_from_heads(
     style: *mut SdefStyle,
     error: *mut SdefError,
 ) -> SdefStatus {
-    let body = || unsafe {
-        not_null("style", style)?;
+    let make = || {
         let plain = Style::heads(heads)?;
-        let made = match like.id {
-            0 => plain,
-            _ => match &*handles::style(like)? {
-                Style::Heads(_) => plain,
-                Style::Shape(like) if like.proportions.is_none() => {
-                    return Err(bad(format!(
-                        "the style {} holds no proportions to stretch: measure its model again",
-                        Named(&like.name)
-                    )));
-                }
-                Style::Shape(like) => {
-                    let stretched = like.with_heads(heads);
-                    stretched.validate()?;
-                    shape(stretched)
-                }
-            },
-        };
-        give(made, style)
+        if like.id == 0 {
+            return Ok(plain);
+        }
+        match &*handles::style(like)? {
+            Style::Heads(_) => Ok(plain),
+            Style::Shape(like) if like.proportions.is_none() => Err(bad(format!(
+                "the style {} holds no proportions to stretch: measure its model again",
+                Named(&like.name)
+            ))),
+            Style::Shape(like) => valid(like.with_heads(heads)),
+        }
     };
-    unsafe { call(error, body) }
+    unsafe { give(style, error, make) }
 }
 
 /// A built-in style, or a saved one.
@@ -166,8 +147,7 @@ pub unsafe extern "C" fn sdef_style_from_text(
     style: *mut SdefStyle,
     error: *mut SdefError,
 ) -> SdefStatus {
-    let body = || unsafe {
-        not_null("style", style)?;
+    let make = || unsafe {
         let bytes = Input::<u8>::new("text", text.cast(), size, 0)?.to_vec("bytes of text")?;
         let text = String::from_utf8(bytes).map_err(|error| {
             let at = error.utf8_error().valid_up_to();
@@ -188,9 +168,9 @@ pub unsafe extern "C" fn sdef_style_from_text(
             }
             None => BodyShape::from_json(&text)?,
         };
-        give(shape(made), style)
+        Ok(shape(made))
     };
-    unsafe { call(error, body) }
+    unsafe { give(style, error, make) }
 }
 
 /// Measures a super-deformed character, so that others can be made like it. It needs a skeleton or a made rig.
@@ -208,8 +188,7 @@ pub unsafe extern "C" fn sdef_style_measure(
     style: *mut SdefStyle,
     error: *mut SdefError,
 ) -> SdefStatus {
-    let body = || unsafe {
-        not_null("style", style)?;
+    let make = || unsafe {
         let state = handles::character(character)?;
         let (options, _) = options::read(options)?;
         options.validate()?;
@@ -219,9 +198,9 @@ pub unsafe extern "C" fn sdef_style_measure(
             Ok(Measured::of(character, &options)?)
         });
         let study = study.map_err(|failure| ready.explained(failure))?;
-        give(shape(BodyShape { name: arrays::text(name), ..study.shape }), style)
+        Ok(shape(BodyShape { name: arrays::text(name), ..study.shape }))
     };
-    unsafe { call(error, body) }
+    unsafe { give(style, error, make) }
 }
 
 /// A style from numbers, as sdef_style_get_numbers gives them.
@@ -240,41 +219,17 @@ pub unsafe extern "C" fn sdef_style_from_numbers(
     style: *mut SdefStyle,
     error: *mut SdefError,
 ) -> SdefStatus {
-    let body = || unsafe {
-        not_null("style", style)?;
+    let make = || unsafe {
         let given = arrays::struct_in(numbers)?;
         let bones = arrays::structs_in("bones", bones, bone_count)?;
         if bone_count == 0 && given.bone_head_length.is_nan() && given.head_length.is_nan() {
-            return give(Style::heads(given.heads)?, style);
+            return Ok(Style::heads(given.heads)?);
         }
-        let known = |number: f64| (!number.is_nan()).then_some(number);
         let mut made = BodyShape {
             name: arrays::text(name),
             head_length: given.bone_head_length,
-            landmarks: known(given.crown).map(|crown| Heights {
-                crown,
-                chin: given.chin,
-                shoulder_line: given.shoulder_line,
-                crotch: given.crotch,
-                sole: given.sole,
-            }),
-            proportions: known(given.head_length).map(|head_length| Proportions {
-                head_length,
-                head_half_width: given.head_half_width,
-                head_half_depth: known(given.head_half_depth),
-                neck: given.neck,
-                torso: given.torso,
-                arm: given.arm,
-                leg: given.leg,
-                ankle_height: given.ankle_height,
-                hand: known(given.hand),
-                foot: known(given.foot),
-                torso_half_width: known(given.torso_half_width),
-                upper_arm_radius: known(given.upper_arm_radius),
-                lower_arm_radius: known(given.lower_arm_radius),
-                upper_leg_radius: known(given.upper_leg_radius),
-                lower_leg_radius: known(given.lower_leg_radius),
-            }),
+            landmarks: given.landmarks(),
+            proportions: given.proportions(),
             face: known(given.eye_height)
                 .zip(known(given.eye_size))
                 .map(|(eye_height, eye_size)| FaceStyle { eye_height, eye_size }),
@@ -291,10 +246,9 @@ pub unsafe extern "C" fn sdef_style_from_numbers(
                 return Err(at(bad(format!("bones {index} ends at {name} again: give each end once"))));
             }
         }
-        made.validate()?;
-        give(shape(made), style)
+        valid(made)
     };
-    unsafe { call(error, body) }
+    unsafe { give(style, error, make) }
 }
 
 /// A style between two, measured in heads.
@@ -312,26 +266,20 @@ pub unsafe extern "C" fn sdef_style_blend(
     style: *mut SdefStyle,
     error: *mut SdefError,
 ) -> SdefStatus {
-    let body = || unsafe {
-        not_null("style", style)?;
+    let make = || {
         let (first, second) = (handles::style(first)?, handles::style(second)?);
         table::option("blend").check(amount)?;
-        let made = match (&*first, &*second) {
-            (Style::Heads(first), Style::Heads(second)) => Style::heads(first + amount * (second - first))?,
-            (Style::Shape(first), Style::Shape(second)) => {
-                let blended = first.blended(second, amount);
-                blended.validate()?;
-                shape(blended)
+        match (&*first, &*second) {
+            (Style::Heads(first), Style::Heads(second)) => {
+                Ok(Style::heads(first + amount * (second - first))?)
             }
-            _ => {
-                return Err(bad(
-                    "one style is nothing but a number of heads, the other a body: give the other as like to sdef_style_from_heads, and blend with what that makes",
-                ));
-            }
-        };
-        give(made, style)
+            (Style::Shape(first), Style::Shape(second)) => valid(first.blended(second, amount)),
+            _ => Err(bad(
+                "one style is nothing but a number of heads, the other a body: give the other as like to sdef_style_from_heads, and blend with what that makes",
+            )),
+        }
     };
-    unsafe { call(error, body) }
+    unsafe { give(style, error, make) }
 }
 
 /// Gives a style's numbers back.
@@ -395,45 +343,82 @@ fn bad(message: impl Into<String>) -> Failure {
     Failure::new(SDEF_STATUS_BAD_STYLE, message)
 }
 
-/// Gives a style a handle.
-unsafe fn give(style: Style, to: *mut SdefStyle) -> Outcome {
-    let id = handles::insert(Object::Style(Arc::new(style)))?;
-    unsafe { write_out(to, SdefStyle { id }) };
-    Ok(())
+/// Gives the style that `make` makes a handle, and writes how it ended.
+///
+/// # Safety
+/// As [`call`]; `to` is NULL or can be written.
+unsafe fn give(
+    to: *mut SdefStyle,
+    error: *mut SdefError,
+    make: impl FnOnce() -> Outcome<Style>,
+) -> SdefStatus {
+    let body = || {
+        not_null("style", to)?;
+        let id = handles::insert(Object::Style(Arc::new(make()?)))?;
+        unsafe { write_out(to, SdefStyle { id }) };
+        Ok(())
+    };
+    unsafe { call(error, body) }
+}
+
+/// A style of a body whose numbers are in their ranges.
+fn valid(made: BodyShape) -> Outcome<Style> {
+    made.validate()?;
+    Ok(shape(made))
 }
 
 fn shape(shape: BodyShape) -> Style {
     Style::Shape(Box::new(shape))
 }
 
-const UNKNOWN: SdefStyleNumbers = SdefStyleNumbers {
-    struct_size: 0,
-    reserved: 0,
-    heads: f64::NAN,
-    bone_head_length: f64::NAN,
-    crown: f64::NAN,
-    chin: f64::NAN,
-    shoulder_line: f64::NAN,
-    crotch: f64::NAN,
-    sole: f64::NAN,
-    head_length: f64::NAN,
-    head_half_width: f64::NAN,
-    neck: f64::NAN,
-    torso: f64::NAN,
-    arm: f64::NAN,
-    leg: f64::NAN,
-    ankle_height: f64::NAN,
-    hand: f64::NAN,
-    foot: f64::NAN,
-    torso_half_width: f64::NAN,
-    upper_arm_radius: f64::NAN,
-    lower_arm_radius: f64::NAN,
-    upper_leg_radius: f64::NAN,
-    lower_leg_radius: f64::NAN,
-    eye_height: f64::NAN,
-    eye_size: f64::NAN,
-    head_half_depth: f64::NAN,
-};
+fn known(number: f64) -> Option<f64> {
+    (!number.is_nan()).then_some(number)
+}
+
+/// What [`SdefStyleNumbers`] has under the same names as the library: heights of landmarks, proportions, and proportions that
+/// may not be known beside them.
+macro_rules! numbers {
+    ($($height:ident)+; $($proportion:ident)+; $($optional:ident)+) => {
+        const UNKNOWN: SdefStyleNumbers = SdefStyleNumbers {
+            struct_size: 0,
+            reserved: 0,
+            heads: f64::NAN,
+            bone_head_length: f64::NAN,
+            eye_height: f64::NAN,
+            eye_size: f64::NAN,
+            $($height: f64::NAN,)+
+            $($proportion: f64::NAN,)+
+            $($optional: f64::NAN,)+
+        };
+
+        impl SdefStyleNumbers {
+            fn landmarks(&self) -> Option<Heights> {
+                known(self.crown).map(|_| Heights { $($height: self.$height),+ })
+            }
+
+            fn proportions(&self) -> Option<Proportions> {
+                known(self.head_length).map(|_| Proportions {
+                    $($proportion: self.$proportion,)+
+                    $($optional: known(self.$optional),)+
+                })
+            }
+
+            fn set_landmarks(&mut self, landmarks: &Heights) {
+                $(self.$height = landmarks.$height;)+
+            }
+
+            fn set_proportions(&mut self, proportions: &Proportions) {
+                $(self.$proportion = proportions.$proportion;)+
+                $(self.$optional = proportions.$optional.unwrap_or(f64::NAN);)+
+            }
+        }
+    };
+}
+numbers!(
+    crown chin shoulder_line crotch sole;
+    head_length head_half_width neck torso arm leg ankle_height;
+    head_half_depth hand foot torso_half_width upper_arm_radius lower_arm_radius upper_leg_radius lower_leg_radius
+);
 
 fn numbers_of(style: &Style) -> SdefStyleNumbers {
     let shape = match style {
@@ -445,40 +430,11 @@ fn numbers_of(style: &Style) -> SdefStyleNumbers {
         bone_head_length: shape.head_length,
         ..UNKNOWN
     };
-    if let Some(marks) = &shape.landmarks {
-        numbers = SdefStyleNumbers {
-            crown: marks.crown,
-            chin: marks.chin,
-            shoulder_line: marks.shoulder_line,
-            crotch: marks.crotch,
-            sole: marks.sole,
-            ..numbers
-        };
-    }
     if let Some(FaceStyle { eye_height, eye_size }) = shape.face {
         numbers = SdefStyleNumbers { eye_height, eye_size, ..numbers };
     }
-    if let Some(p) = &shape.proportions {
-        let or_nan = |number: Option<f64>| number.unwrap_or(f64::NAN);
-        numbers = SdefStyleNumbers {
-            head_length: p.head_length,
-            head_half_width: p.head_half_width,
-            head_half_depth: or_nan(p.head_half_depth),
-            neck: p.neck,
-            torso: p.torso,
-            arm: p.arm,
-            leg: p.leg,
-            ankle_height: p.ankle_height,
-            hand: or_nan(p.hand),
-            foot: or_nan(p.foot),
-            torso_half_width: or_nan(p.torso_half_width),
-            upper_arm_radius: or_nan(p.upper_arm_radius),
-            lower_arm_radius: or_nan(p.lower_arm_radius),
-            upper_leg_radius: or_nan(p.upper_leg_radius),
-            lower_leg_radius: or_nan(p.lower_leg_radius),
-            ..numbers
-        };
-    }
+    shape.landmarks.iter().for_each(|landmarks| numbers.set_landmarks(landmarks));
+    shape.proportions.iter().for_each(|proportions| numbers.set_proportions(proportions));
     numbers
 }
 

@@ -15,7 +15,7 @@ use crate::ffi::basics::{SDEF_ELEMENT_JOINT, SDEF_ELEMENT_VERTEX};
 use crate::ffi::guard::{Failure, Outcome};
 use crate::ffi::options::one_of;
 use core::ffi::c_void;
-use glam::{DVec3, Vec2, Vec3};
+use glam::{DMat4, DVec3, Vec2, Vec3};
 use std::sync::Arc;
 
 /// Reads the axes.
@@ -68,7 +68,7 @@ pub unsafe fn skeleton(skeleton: *const SdefSkeleton) -> Outcome<(Skeleton, Huma
                 Failure::input(message).at(SDEF_ELEMENT_JOINT, index)
             })?),
         };
-        joints.push(Joint { name, parent, rest: arrays::matrix(rests.get(index)) });
+        joints.push(Joint { name, parent, rest: DMat4::from_cols_array(&rests.get(index)) });
     }
     let skeleton = Skeleton { joints };
     skeleton.validate()?;

@@ -1,7 +1,7 @@
 //! What a character is made of: kinds of meshes, types of numbers, roles of joints, structs.
 #![allow(missing_docs)]
 
-use crate::ffi::arrays::{HostStruct, Plain, host_structs};
+use crate::ffi::arrays::host_structs;
 use core::ffi::{c_char, c_void};
 use safer_ffi::prelude::*;
 
@@ -277,15 +277,8 @@ pub struct SdefCharacterInfo {
     pub triangle_count: u64,
 }
 
-unsafe impl Plain for SdefMesh {}
-unsafe impl HostStruct for SdefMesh {
-    const NAME: &'static str = "SdefMesh";
-
-    fn reserved(&self) -> [u32; 2] {
-        [self.reserved, self.reserved_2]
-    }
-}
 host_structs!(
+    SdefMesh(reserved, reserved_2),
     SdefImage(reserved),
     SdefFaceHints(reserved),
     SdefMorphTarget(reserved),

@@ -180,7 +180,7 @@ pub unsafe extern "C" fn sdef_deformer_get_joints(
             }
             binds.write_all(&inverses);
         }
-        places.write_each(joints.iter().map(|at| arrays::numbers(*at)));
+        places.write_each(joints.iter().map(|at| at.to_array()));
         Ok(())
     };
     unsafe { call(error, body) }
@@ -232,7 +232,7 @@ pub unsafe extern "C" fn sdef_deformer_map_points(
             }
             mapped.push(state.deformer().map(joint as usize, point));
         }
-        positions.write_each(mapped.iter().map(|point| arrays::numbers(point.position)));
+        positions.write_each(mapped.iter().map(|point| point.position.to_array()));
         scales.write_each(mapped.iter().map(|point| point.local_scale()));
         jacobians.write_each(mapped.iter().map(|point| point.jacobian.to_cols_array()));
         Ok(())
