@@ -12,7 +12,7 @@ use crate::character::{Character, Mesh, MorphTarget};
 use crate::face::eyes::closes_an_eye;
 use core::ffi::c_char;
 use safer_ffi::prelude::*;
-use state::CharacterState;
+use state::{CharacterState, of_mesh};
 use std::sync::{Arc, RwLock};
 
 pub mod read;
@@ -134,10 +134,7 @@ pub unsafe extern "C" fn sdef_character_set_face_hints(
     let body = || unsafe {
         let state = handles::character(character)?;
         let hints = read::face_hints(&arrays::struct_in(hints)?)?;
-        let mut state = handles::write(&state, "character")?;
-        state.ask_to_change()?;
-        state.change(|character| character.face_hints = hints);
-        Ok(())
+        handles::write(&state, "character")?.change(|character| character.face_hints = hints)
     };
     unsafe { call(error, body) }
 }
@@ -173,14 +170,11 @@ pub unsafe extern "C" fn sdef_character_add_morph_target(
             normals: deltas("normals", given.normals, given.normal_stride)?,
             tangents: deltas("tangents", given.tangents, given.tangent_stride)?,
         };
-        target.validate(mesh.morph_targets.len(), count).map_err(|(vertex, message)| {
-            let failure = Failure::input(format!("{}: {message}", place(index, &mesh.name))).in_mesh(index);
-            vertex.map_or(failure.clone(), |vertex| failure.at(SDEF_ELEMENT_VERTEX, vertex))
-        })?;
+        let checked = target.validate(mesh.morph_targets.len(), count);
+        checked.map_err(|wrong| of_mesh(index, mesh, wrong))?;
+        // Released, so that the change need not copy the character.
         drop(known);
-        state.ask_to_change()?;
-        state.change(|character| character.meshes[index].morph_targets.push(target));
-        Ok(())
+        state.change(|character| character.meshes[index].morph_targets.push(target))
     };
     unsafe { call(error, body) }
 }

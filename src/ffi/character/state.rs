@@ -13,6 +13,13 @@ use crate::progress::Progress;
 use crate::rig::RigOptions;
 use std::sync::{Arc, Mutex, PoisonError};
 
+/// What is wrong with a mesh, at a vertex or not.
+pub fn of_mesh(index: usize, mesh: &Mesh, (vertex, message): (Option<usize>, String)) -> Failure {
+    let element = vertex.map(|vertex| (SDEF_ELEMENT_VERTEX, vertex));
+    let message = format!("{}: {message}", place(index, &mesh.name));
+    Failure { element, ..Failure::input(message).in_mesh(index) }
+}
+
 /// A character behind a handle.
 pub struct CharacterState {
     resolved: Mutex<Resolved>,
@@ -22,7 +29,8 @@ pub struct CharacterState {
     kind_is_open: Vec<bool>,
     /// What meshes show.
     images: Vec<Arc<GreyImage>>,
-    rig: Option<MadeRig>,
+    /// What was made, and the character with it in place.
+    rig: Option<(Arc<Rig>, Arc<Character>)>,
     /// True where a made rig went as the character changed.
     rig_went: bool,
 }
@@ -33,12 +41,6 @@ struct Resolved {
     character: Arc<Character>,
     warnings: Vec<Warning>,
     roles_found: bool,
-}
-
-#[derive(Clone)]
-struct MadeRig {
-    rig: Arc<Rig>,
-    rigged: Arc<Character>,
 }
 
 /// What a study or a deformer needs of a character.
@@ -82,17 +84,18 @@ impl CharacterState {
         }
     }
 
-    fn resolved(&mut self) -> &mut Resolved {
-        self.resolved.get_mut().unwrap_or_else(PoisonError::into_inner)
-    }
-
-    /// Changes the character; what was found before does not count any more. A deformer keeps it as it was.
-    pub fn change(&mut self, change: impl FnOnce(&mut Character)) {
-        let resolved = self.resolved();
+    /// Changes the character; what was found before does not count any more. A deformer keeps it as it was, in a copy whose
+    /// memory is asked for first.
+    pub fn change(&mut self, change: impl FnOnce(&mut Character)) -> Outcome {
+        let resolved = self.resolved.get_mut().unwrap_or_else(PoisonError::into_inner);
+        if Arc::strong_count(&resolved.character) > 1 {
+            memory::with(memory::to_copy(&resolved.character), 1, || Ok(()))?;
+        }
         change(Arc::make_mut(&mut resolved.character));
         resolved.roles_found = false;
         resolved.warnings.clear();
         self.rig_went |= self.rig.take().is_some();
+        Ok(())
     }
 
     /// The character with its own rig; its roles may not be found yet.
@@ -102,7 +105,7 @@ impl CharacterState {
 
     /// The character with the rig that was made for it.
     pub fn rigged(&self) -> Option<&Arc<Character>> {
-        self.rig.as_ref().map(|made| &made.rigged)
+        self.rig.as_ref().map(|(_, rigged)| rigged)
     }
 
     /// The character with its roles.
@@ -128,7 +131,7 @@ impl CharacterState {
         }
         Ready {
             own: resolved.character.clone(),
-            rigged: self.rig.as_ref().map(|made| (made.rig.clone(), made.rigged.clone())),
+            rigged: self.rig.clone(),
             warnings: resolved.warnings.clone(),
             rig_went: self.rig_went,
         }
@@ -145,31 +148,18 @@ impl CharacterState {
         }
     }
 
-    /// Asks for the memory of a copy, which a change makes where a deformer keeps the character as it was.
-    pub fn ask_to_change(&mut self) -> Outcome {
-        let character = &self.resolved().character;
-        if Arc::strong_count(character) == 1 {
-            return Ok(());
-        }
-        memory::with(memory::to_copy(character), 1, || Ok(()))
-    }
-
     /// Gives it joints; its meshes must fit them.
     pub fn set_skeleton(&mut self, skeleton: Skeleton, roles: Humanoid) -> Outcome {
         let count = skeleton.joints.len();
         for (index, mesh) in self.character().meshes.iter().enumerate() {
-            mesh.weights.validate(mesh.positions.len(), count).map_err(|(vertex, message)| {
-                let failure =
-                    Failure::input(format!("{}: {message}", place(index, &mesh.name))).in_mesh(index);
-                vertex.map_or(failure.clone(), |vertex| failure.at(SDEF_ELEMENT_VERTEX, vertex))
-            })?;
+            let checked = mesh.weights.validate(mesh.positions.len(), count);
+            checked.map_err(|wrong| of_mesh(index, mesh, wrong))?;
         }
-        self.ask_to_change()?;
-        self.given = roles.clone();
         self.change(|character| {
             character.skeleton = skeleton;
-            character.humanoid = roles;
-        });
+            character.humanoid = roles.clone();
+        })?;
+        self.given = roles;
         Ok(())
     }
 
@@ -205,17 +195,14 @@ impl CharacterState {
         mesh.validate(index, character.skeleton.joints.len())?;
         let vertices = character.vertex_count() + mesh.positions.len();
         if vertices >= u32::MAX as usize {
-            return Err(Failure::input(format!(
-                "{}: with it the character has {vertices} vertices: give at most 4294967294",
-                place(index, &mesh.name)
-            ))
-            .in_mesh(index));
+            let message = format!("with it the character has {vertices} vertices: give at most 4294967294");
+            return Err(of_mesh(index, &mesh, (None, message)));
         }
         // Released, so that the change need not copy the character.
         drop(character);
-        self.ask_to_change()?;
-        self.kind_is_open.push(mesh.kind.is_none());
-        self.change(|character| character.meshes.push(mesh));
+        let kind_is_open = mesh.kind.is_none();
+        self.change(|character| character.meshes.push(mesh))?;
+        self.kind_is_open.push(kind_is_open);
         Ok(index)
     }
 
@@ -225,7 +212,7 @@ impl CharacterState {
         memory::with(memory::to_rig(&own), options.thread_count, || {
             let rig = Rig::with_progress(&own, options, progress)?;
             let rigged = Arc::new(rig.applied_to(&own));
-            self.rig = Some(MadeRig { rig: Arc::new(rig), rigged });
+            self.rig = Some((Arc::new(rig), rigged));
             Ok(())
         })
     }

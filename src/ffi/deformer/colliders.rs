@@ -7,15 +7,22 @@ use crate::ffi::guard::{Failure, Outcome};
 use crate::pipeline::Deformer;
 use crate::shape::collider::{Collider, Shape, SpringBall, map_collider};
 use glam::DVec3;
+use std::fmt::Display;
 
-/// Checks a joint, and numbers that must be finite.
-fn check(deformer: &Deformer, what: &str, joint: u32, numbers: &[f64], radius: f64) -> Result<(), String> {
+/// Checks that there is a joint that something moves with.
+pub fn check_joint(deformer: &Deformer, what: &impl Display, joint: u32) -> Result<(), String> {
     let joint_count = deformer.character().skeleton.joints.len();
     if joint as usize >= joint_count {
         return Err(format!(
             "{what} moves with joint {joint}, but there are {joint_count} joints: name one of them"
         ));
     }
+    Ok(())
+}
+
+/// Checks a joint, and numbers that must be finite.
+fn check(deformer: &Deformer, what: &str, joint: u32, numbers: &[f64], radius: f64) -> Result<(), String> {
+    check_joint(deformer, &what, joint)?;
     if numbers.iter().any(|number| !number.is_finite()) {
         return Err(format!("{what} has a number that is not finite: give points of finite numbers"));
     }

@@ -3,7 +3,7 @@
 use super::arrays::{self, Input, Output, Structs, not_null, write_out};
 use super::basics::*;
 use super::character::mesh_of;
-use super::guard::{self, Failure, call, progress_of};
+use super::guard::{self, Failure, Outcome, call, progress_of};
 use super::handles::{self, Object};
 use super::memory;
 use super::options::{self, SdefOptions};
@@ -124,15 +124,12 @@ pub unsafe extern "C" fn sdef_deformer_apply(
     user: *mut c_void,
     error: *mut SdefError,
 ) -> SdefStatus {
-    let body = || unsafe {
-        let state = handles::deformer(deformer)?;
-        let state = handles::read(&state, "deformer")?;
+    let body = |state: &DeformerState| unsafe {
         state.check_count(mesh_count)?;
         let results = Structs::new("results", results, mesh_count)?;
-        let mut callback = progress_of(progress, user);
-        state.apply(&results, &mut Progress::new(&mut callback))
+        state.apply(&results, &mut Progress::new(&mut progress_of(progress, user)))
     };
-    unsafe { call(error, body) }
+    unsafe { call_on(deformer, error, body) }
 }
 
 /// Gives the joints where they are now, in the order of sdef_character_get_joints. They move, and neither turn nor
@@ -154,9 +151,7 @@ pub unsafe extern "C" fn sdef_deformer_get_joints(
     joint_count: *mut usize,
     error: *mut SdefError,
 ) -> SdefStatus {
-    let body = || unsafe {
-        let state = handles::deformer(deformer)?;
-        let state = handles::read(&state, "deformer")?;
+    let body = |state: &DeformerState| unsafe {
         let skeleton = &state.deformer().character().skeleton;
         let count = skeleton.joints.len();
         write_out(joint_count, count);
@@ -183,7 +178,7 @@ pub unsafe extern "C" fn sdef_deformer_get_joints(
         places.write_each(joints.iter().map(|at| at.to_array()));
         Ok(())
     };
-    unsafe { call(error, body) }
+    unsafe { call_on(deformer, error, body) }
 }
 
 /// Maps points that move with joints: colliders, eyes, viewpoints, the tails of springs.
@@ -208,10 +203,8 @@ pub unsafe extern "C" fn sdef_deformer_map_points(
     jacobians: *mut f64,
     error: *mut SdefError,
 ) -> SdefStatus {
-    let body = || unsafe {
-        let state = handles::deformer(deformer)?;
-        let state = handles::read(&state, "deformer")?;
-        let joint_count = state.deformer().character().skeleton.joints.len();
+    let body = |state: &DeformerState| unsafe {
+        let deformer = state.deformer();
         let joints = Input::new("joints", joints, count, 0)?;
         let points = Input::<[f64; 3]>::new("points", points.cast(), count, 0)?;
         let positions = Output::<[f64; 3]>::new("positions", positions.cast(), count, count, 0)?;
@@ -220,24 +213,19 @@ pub unsafe extern "C" fn sdef_deformer_map_points(
         let mut mapped = arrays::reserved(count, "points")?;
         for (index, (joint, point)) in joints.iter().zip(points.iter()).enumerate() {
             let point = DVec3::from_array(point);
-            if joint as usize >= joint_count {
-                return Err(Failure::input(format!(
-                    "point {index} moves with joint {joint}, but there are {joint_count} joints: name one of them"
-                ))
-                .at(SDEF_ELEMENT_POINT, index));
-            }
+            let failed = |message| Failure::input(message).at(SDEF_ELEMENT_POINT, index);
+            colliders::check_joint(deformer, &format_args!("point {index}"), joint).map_err(failed)?;
             if !point.is_finite() {
-                let message = format!("point {index} is at {point}: points must be finite numbers");
-                return Err(Failure::input(message).at(SDEF_ELEMENT_POINT, index));
+                return Err(failed(format!("point {index} is at {point}: points must be finite numbers")));
             }
-            mapped.push(state.deformer().map(joint as usize, point));
+            mapped.push(deformer.map(joint as usize, point));
         }
         positions.write_each(mapped.iter().map(|point| point.position.to_array()));
         scales.write_each(mapped.iter().map(|point| point.local_scale()));
         jacobians.write_each(mapped.iter().map(|point| point.jacobian.to_cols_array()));
         Ok(())
     };
-    unsafe { call(error, body) }
+    unsafe { call_on(deformer, error, body) }
 }
 
 /// Maps colliders of springs: their points go as map_points has it, and they are as thick as the mesh around them, a
@@ -260,9 +248,7 @@ pub unsafe extern "C" fn sdef_deformer_map_colliders(
     results: *mut SdefCollider,
     error: *mut SdefError,
 ) -> SdefStatus {
-    let body = || unsafe {
-        let state = handles::deformer(deformer)?;
-        let state = handles::read(&state, "deformer")?;
+    let body = |state: &DeformerState| unsafe {
         let deformer = state.deformer();
         let given = arrays::structs_in("colliders", colliders, count)?;
         let springs = colliders::springs_of(deformer, arrays::structs_in("springs", springs, spring_count)?)?;
@@ -275,7 +261,7 @@ pub unsafe extern "C" fn sdef_deformer_map_colliders(
         }
         Ok(())
     };
-    unsafe { call(error, body) }
+    unsafe { call_on(deformer, error, body) }
 }
 
 /// Maps morph targets of a mesh, in place and only where they change something; they need not be the character's own.
@@ -303,9 +289,7 @@ pub unsafe extern "C" fn sdef_deformer_map_morph_targets(
     tangents: *mut f32,
     error: *mut SdefError,
 ) -> SdefStatus {
-    let body = || unsafe {
-        let state = handles::deformer(deformer)?;
-        let state = handles::read(&state, "deformer")?;
+    let body = |state: &DeformerState| unsafe {
         let deformer = state.deformer();
         let (character, index) = (deformer.character(), mesh as usize);
         let mesh = mesh_of(character, index)?;
@@ -317,7 +301,7 @@ pub unsafe extern "C" fn sdef_deformer_map_morph_targets(
             Ok(deltas.map(deformer, index, &counts, &vertices)?)
         })
     };
-    unsafe { call(error, body) }
+    unsafe { call_on(deformer, error, body) }
 }
 
 /// Gives what is done to each bone group.
@@ -334,9 +318,7 @@ pub unsafe extern "C" fn sdef_deformer_get_groups(
     group_count: *mut usize,
     error: *mut SdefError,
 ) -> SdefStatus {
-    let body = || unsafe {
-        let state = handles::deformer(deformer)?;
-        let state = handles::read(&state, "deformer")?;
+    let body = |state: &DeformerState| unsafe {
         let deformer = state.deformer();
         let target = deformer.group_shapes(&deformer.target().shape);
         let reference = match deformer.style() {
@@ -373,7 +355,7 @@ pub unsafe extern "C" fn sdef_deformer_get_groups(
         });
         arrays::structs_out("groups", groups, capacity, &found.collect::<Vec<_>>())
     };
-    unsafe { call(error, body) }
+    unsafe { call_on(deformer, error, body) }
 }
 
 /// Measures the result, as the first call of sdef_deformer_get_figure or _get_report after a change does, and says how
@@ -390,12 +372,9 @@ pub unsafe extern "C" fn sdef_deformer_measure(
     user: *mut c_void,
     error: *mut SdefError,
 ) -> SdefStatus {
-    let body = || {
-        let state = handles::deformer(deformer)?;
-        let mut callback = progress_of(progress, user);
-        handles::read(&state, "deformer")?.report(&mut Progress::new(&mut callback)).map(drop)
-    };
-    unsafe { call(error, body) }
+    let body =
+        |state: &DeformerState| state.report(&mut Progress::new(&mut progress_of(progress, user))).map(drop);
+    unsafe { call_on(deformer, error, body) }
 }
 
 /// Gives what was measured on a figure.
@@ -420,12 +399,12 @@ pub unsafe extern "C" fn sdef_deformer_get_figure(
         let which = options::one_of("which", "SDEF_FIGURE_", which, &[0, 1, 2])?;
         let state = handles::read(&state, "deformer")?;
         let report = state.report(&mut Progress::none())?;
-        let value = match which {
-            SDEF_FIGURE_TARGET => figure_of(&report.target),
-            SDEF_FIGURE_REFERENCE => report.reference.as_ref().map_or(NO_FIGURE, figure_of),
-            _ => figure_of(&report.result),
+        let asked = match which {
+            SDEF_FIGURE_TARGET => Some(&report.target),
+            SDEF_FIGURE_REFERENCE => report.reference.as_ref(),
+            _ => Some(&report.result),
         };
-        arrays::struct_out(figure, &value)
+        arrays::struct_out(figure, &figure_of(asked))
     };
     unsafe { call(error, body) }
 }
@@ -474,30 +453,35 @@ pub unsafe extern "C" fn sdef_deformer_get_report(
     unsafe { call(error, body) }
 }
 
-const NO_FIGURE: SdefFigure = SdefFigure {
-    struct_size: 0,
-    reserved: 0,
-    height: f64::NAN,
-    head_length: f64::NAN,
-    heads: f64::NAN,
-    crown: f64::NAN,
-    chin: f64::NAN,
-    shoulder_line: f64::NAN,
-    crotch: f64::NAN,
-    sole: f64::NAN,
-};
-
-fn figure_of(figure: &FigureReport) -> SdefFigure {
+/// The numbers of a figure, NAN where there is none.
+fn figure_of(figure: Option<&FigureReport>) -> SdefFigure {
+    let number = |of: fn(&FigureReport) -> f64| figure.map_or(f64::NAN, of);
     SdefFigure {
         struct_size: 0,
         reserved: 0,
-        height: figure.height,
-        head_length: figure.head_length,
-        heads: figure.heads,
-        crown: figure.landmarks.crown,
-        chin: figure.landmarks.chin,
-        shoulder_line: figure.landmarks.shoulder_line,
-        crotch: figure.landmarks.crotch,
-        sole: figure.landmarks.sole,
+        height: number(|figure| figure.height),
+        head_length: number(|figure| figure.head_length),
+        heads: number(|figure| figure.heads),
+        crown: number(|figure| figure.landmarks.crown),
+        chin: number(|figure| figure.landmarks.chin),
+        shoulder_line: number(|figure| figure.landmarks.shoulder_line),
+        crotch: number(|figure| figure.landmarks.crotch),
+        sole: number(|figure| figure.landmarks.sole),
     }
+}
+
+/// Runs `body` on the deformer of a handle, beside other uses of it, and writes how it ended.
+///
+/// # Safety
+/// As [`call`].
+unsafe fn call_on(
+    deformer: SdefDeformer,
+    error: *mut SdefError,
+    body: impl FnOnce(&DeformerState) -> Outcome,
+) -> SdefStatus {
+    let body = || {
+        let state = handles::deformer(deformer)?;
+        body(&*handles::read(&state, "deformer")?)
+    };
+    unsafe { call(error, body) }
 }

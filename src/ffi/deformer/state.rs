@@ -82,21 +82,21 @@ impl DeformerState {
 
     /// The numbers of the run, measured where that was not done since the last change.
     pub fn report(&self, progress: &mut Progress) -> Outcome<&Report> {
-        if self.report.get().is_none() {
-            let bytes = memory::to_report(self.deformer.character());
-            let threads = self.deformer.options().thread_count;
-            let mut report = memory::with(bytes, threads, || {
-                let deformed = self.deformer.apply_with(&mut progress.part(0.0, 0.2))?;
-                Ok(self.deformer.report_with(&deformed, &mut progress.part(0.2, 1.0))?)
-            })?;
-            report.warnings.splice(0..0, self.notes.iter().cloned());
-            for warning in &mut report.warnings {
-                warning.message = guard::with_field(&warning.message, warning.option.take());
-            }
-            return Ok(self.report.get_or_init(|| report));
+        if let Some(report) = self.report.get() {
+            progress.at(1.0)?;
+            return Ok(report);
         }
-        progress.at(1.0)?;
-        Ok(self.report.get().expect("it is there"))
+        let bytes = memory::to_report(self.deformer.character());
+        let threads = self.deformer.options().thread_count;
+        let mut report = memory::with(bytes, threads, || {
+            let deformed = self.deformer.apply_with(&mut progress.part(0.0, 0.2))?;
+            Ok(self.deformer.report_with(&deformed, &mut progress.part(0.2, 1.0))?)
+        })?;
+        report.warnings.splice(0..0, self.notes.iter().cloned());
+        for warning in &mut report.warnings {
+            warning.message = guard::with_field(&warning.message, warning.option.take());
+        }
+        Ok(self.report.get_or_init(|| report))
     }
 
     /// Checks that there is a result for each mesh.
@@ -173,22 +173,13 @@ impl Places {
         lacks("tangents", !result.tangents.is_null(), !mesh.tangents.is_empty())?;
         let name = |what| Named { index, mesh: &mesh.name, what };
         unsafe {
-            let positions = Output::new(
-                name("positions"),
-                result.positions.cast(),
-                count,
-                capacity,
-                result.position_stride,
-            )?;
-            let normals =
-                Output::new(name("normals"), result.normals.cast(), count, capacity, result.normal_stride)?;
-            let tangents = Output::new(
-                name("tangents"),
-                result.tangents.cast(),
-                count,
-                capacity,
-                result.tangent_stride,
-            )?;
+            let vectors = |what, start: *mut f32, stride| {
+                Output::<Vec3>::new(name(what), start.cast(), count, capacity, stride)
+            };
+            let positions = vectors("positions", result.positions, result.position_stride)?;
+            let normals = vectors("normals", result.normals, result.normal_stride)?;
+            let (tangents, stride) = (result.tangents.cast(), result.tangent_stride);
+            let tangents = Output::new(name("tangents"), tangents, count, capacity, stride)?;
             let targets = mesh.morph_targets.len();
             let mut morphs = Vec::new();
             let starts = [
@@ -214,8 +205,7 @@ impl Places {
                 let mut places = [Output::none(); 3];
                 for (place, (what, start)) in places.iter_mut().zip(starts) {
                     if !start.is_null() {
-                        let start = start.cast::<Vec3>().wrapping_add(target * count);
-                        *place = Output::new(name(what), start, count, capacity, 0)?;
+                        *place = vectors(what, start.wrapping_add(3 * target * count), 0)?;
                     }
                 }
                 morphs.push(places);
