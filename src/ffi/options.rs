@@ -298,7 +298,8 @@ pub(super) fn role(what: &str, number: u32) -> Outcome<Role> {
     })
 }
 
-fn unless_nan(number: f64) -> Option<f64> {
+/// A number that is set: NAN stands for none.
+pub(super) fn known(number: f64) -> Option<f64> {
     (!number.is_nan()).then_some(number)
 }
 
@@ -311,11 +312,11 @@ pub unsafe fn read(options: *const SdefOptions) -> Outcome<(Options, RigOptions)
     let mut options = Options {
         mode: one_of("mode", "SDEF_MODE_", given.mode, Mode::ALL)?,
         rays: (given.rays != 0).then_some(given.rays as usize),
-        face_squash: unless_nan(given.face_squash),
+        face_squash: known(given.face_squash),
         face_curve: one_of("face_curve", "SDEF_FACE_CURVE_", given.face_curve, FaceCurve::ALL)?,
         limits: switch("limits", given.limits)?,
         repair: one_of("repair", "SDEF_REPAIR_", given.repair, Repair::ALL)?,
-        height: match unless_nan(given.height) {
+        height: match known(given.height) {
             None => Height::Style,
             Some(0.0) => Height::Keep,
             Some(units) => Height::Units(units),
@@ -330,10 +331,10 @@ pub unsafe fn read(options: *const SdefOptions) -> Outcome<(Options, RigOptions)
         let name = unsafe { arrays::needed_text(format!("groups[{index}].group"), settings.group) };
         let name = name.map_err(at)?;
         let settings = GroupSettings {
-            length_scale: unless_nan(settings.length_scale),
-            thickness_scale: unless_nan(settings.thickness_scale),
-            length_transfer: unless_nan(settings.length_transfer),
-            thickness_transfer: unless_nan(settings.thickness_transfer),
+            length_scale: known(settings.length_scale),
+            thickness_scale: known(settings.thickness_scale),
+            length_transfer: known(settings.length_transfer),
+            thickness_transfer: known(settings.thickness_transfer),
         };
         if options.groups.insert(name.clone(), settings).is_some() {
             let message = format!("groups[{index}] is {} again: set each group once", Named(&name));

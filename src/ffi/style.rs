@@ -7,7 +7,7 @@ use super::basics::*;
 use super::guard::{Failure, Outcome, call};
 use super::handles::{self, Object};
 use super::memory;
-use super::options::{self, SdefOptions};
+use super::options::{self, SdefOptions, known};
 use crate::character::Role;
 use crate::character::bones::HEAD_TOP;
 use crate::error::Named;
@@ -369,10 +369,6 @@ fn valid(made: BodyShape) -> Outcome<Style> {
 
 fn shape(shape: BodyShape) -> Style {
     Style::Shape(Box::new(shape))
-}
-
-fn known(number: f64) -> Option<f64> {
-    (!number.is_nan()).then_some(number)
 }
 
 /// What [`SdefStyleNumbers`] has under the same names as the library: heights of landmarks, proportions, and proportions that

@@ -47,7 +47,7 @@ impl Deformer {
     pub fn apply_to(&self, outputs: &[MeshOutputs], progress: &mut Progress) -> Result<Deformed> {
         let meshes = &self.inputs.character.meshes;
         assert_eq!(outputs.len(), meshes.len(), "one for each mesh");
-        let made = |mesh: &Mesh, asked: &MeshOutputs| DeformedMesh {
+        let made = |(mesh, asked): (&Mesh, &MeshOutputs)| DeformedMesh {
             positions: vec![Vec3::ZERO; mesh.positions.len()],
             normals: vec![Vec3::ZERO; if asked.normals { mesh.normals.len() } else { 0 }],
             tangents: vec![Vec4::ZERO; if asked.tangents { mesh.tangents.len() } else { 0 }],
@@ -55,8 +55,7 @@ impl Deformer {
         };
         let asked = |mesh: usize| outputs[mesh].morph_targets;
         let targets = self.deformed_targets(asked, &mut progress.part(0.0, 0.8))?;
-        let mut deformed: Vec<DeformedMesh> =
-            meshes.iter().zip(outputs).map(|(mesh, asked)| made(mesh, asked)).collect();
+        let mut deformed: Vec<DeformedMesh> = meshes.iter().zip(outputs).map(made).collect();
         let places = deformed.iter_mut().map(|mesh| MeshPlaces {
             positions: Some(&mut mesh.positions[..]),
             normals: (!mesh.normals.is_empty()).then_some(&mut mesh.normals[..]),
@@ -157,10 +156,6 @@ impl Deformer {
         &self.made.displacements.vertices
     }
 
-    fn ending(&self) -> Ending {
-        Ending::of(&self.made.field.finish, &self.target().figure.frame)
-    }
-
     /// The vertices of a mesh.
     pub(super) fn vertices(&self, mesh: usize) -> Range<usize> {
         let starts = &self.target().figure.mesh_starts;
@@ -171,7 +166,7 @@ impl Deformer {
     fn write_positions<V: Place<Vec3>>(&self, mesh: usize, place: V) {
         let rest = &self.inputs.character.meshes[mesh].positions;
         let displacements = &self.displacements()[self.vertices(mesh)];
-        let ending = self.ending();
+        let ending = Ending::of(&self.made.field.finish, &self.target().figure.frame);
         let write = |(): &mut (), first: usize, count: usize, mut place: V| {
             let mut block = [Vec3::ZERO; BLOCK];
             for start in (first..first + count).step_by(BLOCK) {
@@ -200,7 +195,7 @@ impl Deformer {
         let start = self.vertices(mesh).start;
         let cut = |places: MeshPlaces<V, W>, count: usize| places.cut(count * PIECE);
         let write = |room: &mut Room, first: usize, count: usize, mut places: MeshPlaces<V, W>| {
-            let mut block = Directions::default();
+            let mut block = Directions { normals: [Vec3::ZERO; BLOCK], tangents: [Vec4::ZERO; BLOCK] };
             for (at, piece) in pieces.clone().skip(first).take(count).enumerate() {
                 let jacobians = rest.jacobians(piece, &self.moved(), room);
                 let vertices = rest.vertices(piece);
@@ -211,12 +206,8 @@ impl Deformer {
                     let tangents = tangents.get(of_mesh).filter(|_| places.tangents.is_some());
                     let of_field = |index| self.turn_of_field(vertices.start + from + index);
                     block.turn(&jacobians, from, normals, tangents.unwrap_or_default(), of_field);
-                    if let Some(normals) = &mut places.normals {
-                        normals.write(at * PIECE + from, &block.normals[..count]);
-                    }
-                    if let Some(tangents) = &mut places.tangents {
-                        tangents.write(at * PIECE + from, &block.tangents[..count]);
-                    }
+                    places.normals.write(at * PIECE + from, &block.normals[..count]);
+                    places.tangents.write(at * PIECE + from, &block.tangents[..count]);
                 }
             }
         };
@@ -244,12 +235,6 @@ impl Deformer {
 struct Directions {
     normals: [Vec3; BLOCK],
     tangents: [Vec4; BLOCK],
-}
-
-impl Default for Directions {
-    fn default() -> Self {
-        Self { normals: [Vec3::ZERO; BLOCK], tangents: [Vec4::ZERO; BLOCK] }
-    }
 }
 
 impl Directions {
@@ -331,13 +316,7 @@ fn in_shares<R: Default, P: Send>(
 
 /// The mesh as it came, of it what there is a place for.
 fn write_unchanged<V: Place<Vec3>, W: Place<Vec4>>(mesh: &Mesh, mut places: MeshPlaces<V, W>) {
-    if let Some(positions) = &mut places.positions {
-        positions.write(0, &mesh.positions);
-    }
-    if let Some(normals) = &mut places.normals {
-        normals.write(0, &mesh.normals);
-    }
-    if let Some(tangents) = &mut places.tangents {
-        tangents.write(0, &mesh.tangents);
-    }
+    places.positions.write(0, &mesh.positions);
+    places.normals.write(0, &mesh.normals);
+    places.tangents.write(0, &mesh.tangents);
 }

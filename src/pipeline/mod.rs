@@ -49,8 +49,6 @@ pub struct Deformer {
     rig: Option<AutoRig>,
     memo: Memo,
     made: Made,
-    /// Milliseconds for joints, weights and clothes of a rig that was made.
-    rig_times: [f64; 3],
 }
 
 /// What of a deformer holds when its options change.
@@ -84,6 +82,8 @@ struct AutoRig {
     /// Roles of the character's own joints, which ride along.
     own: Humanoid,
     own_count: usize,
+    /// Milliseconds for joints, weights and clothes.
+    times: [f64; 3],
 }
 
 impl Deformer {
@@ -108,7 +108,7 @@ impl Deformer {
     ) -> Result<Self> {
         let inputs =
             Inputs { character, notes: Vec::new(), style: Arc::new(style.clone()), options: options.clone() };
-        Self::build(inputs, None, [0.0; 3], progress)
+        Self::build(inputs, None, progress)
     }
 
     /// As [`Deformer::new`], by a rig that was made for `character`: its own joints, if any, ride along and come first in
@@ -137,6 +137,7 @@ impl Deformer {
             report: rig.report(),
             own: character.humanoid.clone(),
             own_count: character.skeleton.joints.len(),
+            times: rig.timing_ms,
         };
         let inputs = Inputs {
             character: rigged,
@@ -144,19 +145,14 @@ impl Deformer {
             style: Arc::new(style.clone()),
             options: options.clone(),
         };
-        Self::build(inputs, Some(auto_rig), rig.timing_ms, progress)
+        Self::build(inputs, Some(auto_rig), progress)
     }
 
-    fn build(
-        inputs: Inputs,
-        rig: Option<AutoRig>,
-        rig_times: [f64; 3],
-        progress: &mut Progress,
-    ) -> Result<Self> {
+    fn build(inputs: Inputs, rig: Option<AutoRig>, progress: &mut Progress) -> Result<Self> {
         check(&inputs)?;
         let memo = Memo::default();
         let made = make(&inputs, &memo, progress)?;
-        Ok(Self { inputs, rig, memo, made, rig_times })
+        Ok(Self { inputs, rig, memo, made })
     }
 
     /// Changes the options, with the same result as a new deformer gives; only what depends on the change is done
@@ -287,7 +283,7 @@ impl Deformer {
     }
 
     fn timing(&self) -> Timing {
-        let [rig_joints, rig_weights, transfer] = self.rig_times;
+        let [rig_joints, rig_weights, transfer] = self.rig.as_ref().map_or([0.0; 3], |rig| rig.times);
         Timing {
             rig_joints,
             rig_weights,
@@ -303,7 +299,7 @@ impl Deformer {
 fn check(inputs: &Inputs) -> Result<()> {
     inputs.options.validate()?;
     match *inputs.style {
-        Style::Heads(heads) => Style::heads(heads).map(|_| ()),
+        Style::Heads(heads) => Style::heads(heads).map(drop),
         Style::Shape(_) => Ok(()),
     }
 }

@@ -21,6 +21,19 @@ impl<T: Copy + Send> Place<T> for &mut [T] {
     }
 }
 
+/// A place that may not be there: what goes to it is not written.
+impl<T, P: Place<T>> Place<T> for Option<P> {
+    fn cut(self, index: usize) -> (Self, Self) {
+        self.map(|place| place.cut(index)).unzip()
+    }
+
+    fn write(&mut self, first: usize, values: &[T]) {
+        if let Some(place) = self {
+            place.write(first, values);
+        }
+    }
+}
+
 /// Where the results of one mesh go; what is not asked for has no place.
 pub struct MeshPlaces<V, W> {
     /// New rest positions, model space.
@@ -34,12 +47,9 @@ pub struct MeshPlaces<V, W> {
 impl<V: Place<Vec3>, W: Place<Vec4>> MeshPlaces<V, W> {
     /// The same for the vertices before `vertex`, and for the rest.
     pub fn cut(self, vertex: usize) -> (Self, Self) {
-        fn halves<T, P: Place<T>>(place: Option<P>, index: usize) -> (Option<P>, Option<P>) {
-            place.map(|place| place.cut(index)).unzip()
-        }
-        let (positions, rest_of_positions) = halves(self.positions, vertex);
-        let (normals, rest_of_normals) = halves(self.normals, vertex);
-        let (tangents, rest_of_tangents) = halves(self.tangents, vertex);
+        let (positions, rest_of_positions) = self.positions.cut(vertex);
+        let (normals, rest_of_normals) = self.normals.cut(vertex);
+        let (tangents, rest_of_tangents) = self.tangents.cut(vertex);
         (
             Self { positions, normals, tangents },
             Self { positions: rest_of_positions, normals: rest_of_normals, tangents: rest_of_tangents },

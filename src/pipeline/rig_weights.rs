@@ -65,9 +65,9 @@ pub enum BodyRule {
 /// What decides the weights of every mesh, as far as it does not depend on the heat.
 pub struct Binder<'a> {
     figure: &'a UnitFigure,
-    head: Option<u32>,
-    eyes: &'a [Eye],
-    eye_joints: Vec<Option<u32>>,
+    head: u32,
+    /// Eyes, and the joint that each turns with.
+    eyes: Vec<(&'a Eye, u32)>,
     options: &'a RigOptions,
     body: Group,
     garments: Vec<Group>,
@@ -151,12 +151,12 @@ impl<'a> Binder<'a> {
         let separate = |meshes: Vec<usize>| -> Vec<Group> {
             meshes.into_iter().map(|mesh| Group::new(figure, vec![mesh])).collect()
         };
-        let joint = |role: Role| humanoid.joint(role).map(|joint| joint as u32);
+        let head = humanoid.joint(Role::Head).unwrap_or(0);
+        let joint = |eye: &Eye| humanoid.joint(eye.role).unwrap_or(head) as u32;
         Ok(Self {
             figure,
-            head: joint(Role::Head),
-            eye_joints: eyes.iter().map(|eye| joint(eye.role)).collect(),
-            eyes,
+            head: head as u32,
+            eyes: eyes.iter().map(|eye| (eye, joint(eye))).collect(),
             options,
             body,
             garments: separate(garments),
@@ -235,11 +235,10 @@ impl<'a> Binder<'a> {
             count(&carried);
             things.share(self.figure, &carried.weights, &mut weights);
         }
-        let head = self.head.unwrap_or(0);
         for &mesh in &self.of_head {
             weights[mesh] = Weights::from_rows(self.figure.vertices(mesh).map(|vertex| {
-                let eye = self.eyes.iter().position(|eye| eye.vertices.binary_search(&vertex).is_ok());
-                [(eye.and_then(|eye| self.eye_joints[eye]).unwrap_or(head), 1.0)]
+                let eye = self.eyes.iter().find(|(eye, _)| eye.vertices.binary_search(&vertex).is_ok());
+                [(eye.map_or(self.head, |&(_, joint)| joint), 1.0)]
             }));
         }
         self.garment_time += clock.milliseconds();

@@ -6,6 +6,7 @@ use crate::clock::Moment;
 use crate::error::{Result, Warning};
 use crate::progress::Progress;
 use crate::report::{JointCandidate, RigReport};
+use crate::rig::candidates::Place;
 use crate::rig::eyes::find_eyes;
 use crate::rig::mesh_kinds::refine_kinds;
 use crate::rig::placed::Placed;
@@ -112,18 +113,14 @@ impl Rig {
 
         let in_model = at.iter().map(|(&role, &p)| (role, figure.to_model(p))).collect();
         let (skeleton, humanoid) = skeleton_of(&in_model);
+        let scored = |place: Place| (figure.to_model(place.position), place.score);
         Ok(Self {
             skeleton,
             humanoid,
             confidence: found.joints.values().map(|joint| joint.confidence).collect(),
             candidates: candidates
                 .into_iter()
-                .map(|(role, places)| {
-                    (
-                        role,
-                        places.iter().map(|place| (figure.to_model(place.position), place.score)).collect(),
-                    )
-                })
+                .map(|(role, places)| (role, places.into_iter().map(scored).collect()))
                 .collect(),
             up,
             forward,

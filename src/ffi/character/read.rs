@@ -81,26 +81,19 @@ pub unsafe fn skeleton(skeleton: *const SdefSkeleton) -> Outcome<(Skeleton, Huma
         )));
     }
     let roles = unsafe { Input::new("role_joints", given.role_joints, given.role_count as usize, 0) }?;
-    for (role, joint) in Role::all().zip(roles.iter()) {
-        if joint == -1 {
-            continue;
+    for (role, joint) in Role::all().zip(roles.iter()).filter(|&(_, joint)| joint != -1) {
+        let Some(joint) = usize::try_from(joint).ok().filter(|&joint| joint < count) else {
+            return Err(Failure::input(format!(
+                "role_joints gives {role} the joint {joint}, but there are {count} joints: give one of them, or -1"
+            )));
+        };
+        if let Some((other, _)) = humanoid.iter().find(|&(_, taken)| taken == joint) {
+            return Err(Failure::input(format!(
+                "role_joints gives {other} and {role} the joint {joint}: a joint plays one role, and -1 stands for none"
+            ))
+            .at(SDEF_ELEMENT_JOINT, joint));
         }
-        match usize::try_from(joint) {
-            Ok(joint) if joint < count => {
-                if let Some((other, _)) = humanoid.iter().find(|&(_, taken)| taken == joint) {
-                    return Err(Failure::input(format!(
-                        "role_joints gives {other} and {role} the joint {joint}: a joint plays one role, and -1 stands for none"
-                    ))
-                    .at(SDEF_ELEMENT_JOINT, joint));
-                }
-                humanoid.set(role, joint);
-            }
-            _ => {
-                return Err(Failure::input(format!(
-                    "role_joints gives {role} the joint {joint}, but there are {count} joints: give one of them, or -1"
-                )));
-            }
-        }
+        humanoid.set(role, joint);
     }
     Ok((skeleton, humanoid))
 }
@@ -148,13 +141,12 @@ pub unsafe fn face_hints(given: &SdefFaceHints) -> Outcome<FaceHints> {
     if given.eye.is_null() && !given.other_eye.is_null() {
         return Err(Failure::argument("eye is NULL, but other_eye is not: give one eye as eye"));
     }
+    let SdefFaceHints { half_width, half_height, .. } = *given;
     let eye = |middle: *const f64| {
-        let SdefFaceHints { half_width, half_height, .. } = *given;
         // SAFETY: it is NULL or points to 3 doubles.
-        let middle = unsafe { middle.cast::<[f64; 3]>().read_unaligned() };
-        EyeHint { middle: DVec3::from_array(middle), half_width, half_height }
+        let middle = (!middle.is_null()).then(|| unsafe { middle.cast::<[f64; 3]>().read_unaligned() })?;
+        Some(EyeHint { middle: DVec3::from_array(middle), half_width, half_height })
     };
-    let eye = |middle: *const f64| (!middle.is_null()).then(|| eye(middle));
     let hints = FaceHints { eye: eye(given.eye), other_eye: eye(given.other_eye) };
     hints.validate()?;
     Ok(hints)
@@ -343,16 +335,11 @@ impl Rows {
             return Err(bad_type("weight_type", given.weight_type, "SDEF_TYPE_F32, _U8 or _U16"));
         }
         unsafe {
-            let starts = if given.row_starts.is_null() {
-                None
-            } else {
-                Some(Input::new("row_starts", given.row_starts, vertices + 1, 0)?)
-            };
-            let shape = match starts {
-                // One row that holds everything.
-                Some(_) => (1, influences),
-                None => (vertices, influences),
-            };
+            let starts = (!given.row_starts.is_null())
+                .then(|| Input::new("row_starts", given.row_starts, vertices + 1, 0))
+                .transpose()?;
+            // Where rows have starts, one row holds everything.
+            let shape = (if starts.is_some() { 1 } else { vertices }, influences);
             let rows = Self {
                 joints: Columns::new("joints", given.joints, shape, given.joint_stride, given.joint_type)?,
                 weights: Columns::new(
