@@ -93,10 +93,7 @@ impl Mesh {
         let place = place(index, &self.name);
         let bad = |element: Option<Element>, message: String| {
             let error = Error::new(ErrorKind::BadInput, format!("{place}: {message}")).in_mesh(index);
-            Err(match element {
-                Some(element) => error.at(element),
-                None => error,
-            })
+            Err(Error { element, ..error })
         };
         let count = self.positions.len();
         for (vertex, p) in self.positions.iter().enumerate() {

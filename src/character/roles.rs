@@ -154,7 +154,8 @@ fn complete_hips(humanoid: &mut Humanoid, skeleton: &Skeleton) {
     };
     let leg = end([LeftUpperLeg, LeftLowerLeg, LeftFoot]).or(end([RightUpperLeg, RightLowerLeg, RightFoot]));
     let leg = leg.unwrap_or((position(top) - between).length());
-    let at_the_legs = |joint: usize| (position(joint) - between).dot(up).abs() <= HIPS_REACH * leg;
+    let far = |joint: usize| (position(joint) - between).dot(up).abs();
+    let at_the_legs = |joint: usize| far(joint) <= HIPS_REACH * leg;
     if let Some(ancestor) = ancestor
         && at_the_legs(ancestor)
     {
@@ -165,7 +166,6 @@ fn complete_hips(humanoid: &mut Humanoid, skeleton: &Skeleton) {
         let column: Vec<usize> =
             skeleton.ancestors(top).skip(1).take_while(|&joint| Some(joint) != ancestor).collect();
         let leaves_a_spine = column.len() > 1;
-        let far = |joint: usize| (position(joint) - between).dot(up).abs();
         let lowest = column
             .into_iter()
             .filter(|&joint| leaves_a_spine && at_the_legs(joint) && ![left, right].contains(&joint))

@@ -373,7 +373,7 @@ fn shape(shape: BodyShape) -> Style {
 
 /// What [`SdefStyleNumbers`] has under the same names as the library: heights of landmarks, proportions, and proportions that
 /// may not be known beside them.
-macro_rules! numbers {
+macro_rules! style_numbers {
     ($($height:ident)+; $($proportion:ident)+; $($optional:ident)+) => {
         const UNKNOWN: SdefStyleNumbers = SdefStyleNumbers {
             struct_size: 0,
@@ -410,7 +410,7 @@ macro_rules! numbers {
         }
     };
 }
-numbers!(
+style_numbers!(
     crown chin shoulder_line crotch sole;
     head_length head_half_width neck torso arm leg ankle_height;
     head_half_depth hand foot torso_half_width upper_arm_radius lower_arm_radius upper_leg_radius lower_leg_radius
@@ -429,8 +429,12 @@ fn numbers_of(style: &Style) -> SdefStyleNumbers {
     if let Some(FaceStyle { eye_height, eye_size }) = shape.face {
         numbers = SdefStyleNumbers { eye_height, eye_size, ..numbers };
     }
-    shape.landmarks.iter().for_each(|landmarks| numbers.set_landmarks(landmarks));
-    shape.proportions.iter().for_each(|proportions| numbers.set_proportions(proportions));
+    if let Some(landmarks) = &shape.landmarks {
+        numbers.set_landmarks(landmarks);
+    }
+    if let Some(proportions) = &shape.proportions {
+        numbers.set_proportions(proportions);
+    }
     numbers
 }
 

@@ -1,6 +1,6 @@
 //! Arms in a tree of joints: a pair of like branches beside what rises between them.
 
-use super::tree::{POINTS_OF_HALVES, Tree};
+use super::tree::Tree;
 use glam::DVec3;
 
 /// Points against an arm for each joint between shoulder, elbow and wrist that is left out. Seen: ±30 % changes no
@@ -24,7 +24,7 @@ impl Tree<'_> {
     pub(super) fn reach_aside(&self, joint: usize, middle: DVec3, across: DVec3) -> f64 {
         let path = self.follow(joint, |tree, child| tree.reach[child]);
         let end = path.last().copied().unwrap_or(joint);
-        (self.center[end].unwrap_or(self.position[end]) - middle).dot(across)
+        (self.middle(end) - middle).dot(across)
     }
 
     /// The two children of one joint that look most like a pair of arms beside a head.
@@ -33,33 +33,19 @@ impl Tree<'_> {
         let outward = |joint: usize| self.reach_aside(joint, middle, across);
         let hips = (self.level(legs[0]) + self.level(legs[1])) / 2.0;
         let outside = |joint: usize| legs.iter().all(|&leg| !self.within(joint, leg));
-        let mut best: Option<(f64, usize, usize)> = None;
-        for parent in (0..self.position.len()).filter(|&joint| outside(joint)) {
-            let children = self.live(parent);
-            for (place, &a) in children.iter().enumerate() {
-                for &b in &children[place + 1..] {
-                    let reach = self.reach[a].min(self.reach[b]) / self.height;
-                    let (end_a, end_b) = (outward(a), outward(b));
-                    if !outside(a)
-                        || !outside(b)
-                        || legs.iter().any(|&leg| self.within(leg, a) || self.within(leg, b))
-                        || self.level(a) < hips
-                        || self.level(b) < hips
-                        || end_a * end_b >= 0.0
-                    {
-                        continue;
-                    }
-                    let start =
-                        (self.level(a) - self.level(b)).abs() + (aside(a) + aside(b)).abs() / self.height;
-                    let unlike = (self.reach[a] - self.reach[b]).abs() / self.height;
-                    let score = reach + (end_a - end_b).abs() / self.height - start - unlike;
-                    if best.is_none_or(|(known, _, _)| score > known) {
-                        best = Some((score, a, b));
-                    }
-                }
+        let no_arm = |joint: usize| {
+            !outside(joint) || legs.iter().any(|&leg| self.within(leg, joint)) || self.level(joint) < hips
+        };
+        self.best_pair((0..self.position.len()).filter(|&joint| outside(joint)), |a, b| {
+            let reach = self.reach[a].min(self.reach[b]) / self.height;
+            let (end_a, end_b) = (outward(a), outward(b));
+            if no_arm(a) || no_arm(b) || end_a * end_b >= 0.0 {
+                return None;
             }
-        }
-        best.map(|(_, a, b)| (a, b))
+            let start = (self.level(a) - self.level(b)).abs() + (aside(a) + aside(b)).abs() / self.height;
+            let unlike = (self.reach[a] - self.reach[b]).abs() / self.height;
+            Some(reach + (end_a - end_b).abs() / self.height - start - unlike)
+        })
     }
 
     /// Shoulder, upper arm, lower arm and hand along the way out from `top`.
@@ -84,27 +70,15 @@ impl Tree<'_> {
             let long = |&child: &usize| self.reach[child] > 0.0;
             self.live(chain[place]).iter().filter(|child| long(child)).count() >= 2
         };
-        let mut best = (f64::INFINITY, [0, 1, 2]);
-        for shoulder in 0..3.min(chain.len() - 2) {
-            for elbow in shoulder + 1..chain.len() - 1 {
-                for wrist in elbow + 1..chain.len() {
-                    let upper = point(shoulder).distance(point(elbow));
-                    let lower = point(elbow).distance(point(wrist));
-                    let whole = (upper + lower).max(f64::MIN_POSITIVE);
-                    let rest = beyond(wrist) / whole;
-                    let late = if shoulder > 1 { POINTS_OF_THIRD } else { 0.0 };
-                    let score = POINTS_OF_HALVES * (upper / whole - 0.5).abs()
-                        + (rest - HAND_REACH).max(0.0)
-                        + late
-                        + if branches(wrist) { -POINTS_OF_FINGERS } else { 0.0 }
-                        + POINTS_OF_ARM_GAP * (wrist - shoulder - 2) as f64;
-                    if score < best.0 {
-                        best = (score, [shoulder, elbow, wrist]);
-                    }
-                }
-            }
-        }
-        let [upper, elbow, wrist] = best.1;
+        let [upper, elbow, wrist] = self.split(&chain, 3, |[shoulder, _, wrist], unlike, whole| {
+            let rest = beyond(wrist) / whole;
+            let late = if shoulder > 1 { POINTS_OF_THIRD } else { 0.0 };
+            unlike
+                + (rest - HAND_REACH).max(0.0)
+                + late
+                + if branches(wrist) { -POINTS_OF_FINGERS } else { 0.0 }
+                + POINTS_OF_ARM_GAP * (wrist - shoulder - 2) as f64
+        });
         let collar = upper.checked_sub(1).map(|place| chain[place]);
         [collar, Some(chain[upper]), Some(chain[elbow]), Some(chain[wrist])]
     }

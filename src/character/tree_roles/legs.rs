@@ -1,6 +1,6 @@
 //! Legs in a tree of joints: a pair of like branches that reach the ground.
 
-use super::tree::{POINTS_OF_HALVES, Tree};
+use super::tree::Tree;
 use glam::DVec3;
 
 /// A leg begins above this height, in heights of the figure. Seen: ±30 % changes no role.
@@ -30,35 +30,24 @@ impl Tree<'_> {
     /// The two children of one joint that look most like a pair of legs.
     pub(super) fn legs(&self) -> Option<(usize, usize)> {
         let lowest = |joint: usize| (self.low[joint] - self.ground) / self.height;
-        let mut best: Option<(f64, usize, usize)> = None;
-        for children in (0..self.position.len()).map(|joint| self.live(joint)) {
-            for (place, &a) in children.iter().enumerate() {
-                for &b in &children[place + 1..] {
-                    let high_enough = self.level(a) >= LEG_BEGINS_ABOVE && self.level(b) >= LEG_BEGINS_ABOVE;
-                    if !high_enough || self.lower_ends_distance(a, b) <= 0.0 {
-                        continue;
-                    }
-                    let start = self.level(a) - self.level(b);
-                    let unlike = (self.reach[a] - self.reach[b]).abs() / self.height;
-                    let over_ground = lowest(a) + lowest(b) + (lowest(a) - lowest(b)).abs();
-                    let score = (self.carried[a] + self.carried[b]).min(LEGS_CARRY)
-                        - POINTS_OF_GROUND * (over_ground + start.abs())
-                        - unlike;
-                    if best.is_none_or(|(known, _, _)| score > known) {
-                        best = Some((score, a, b));
-                    }
-                }
+        self.best_pair(0..self.position.len(), |a, b| {
+            let high_enough = self.level(a) >= LEG_BEGINS_ABOVE && self.level(b) >= LEG_BEGINS_ABOVE;
+            if !high_enough || self.lower_ends_distance(a, b) <= 0.0 {
+                return None;
             }
-        }
-        best.map(|(_, a, b)| (a, b))
+            let start = self.level(a) - self.level(b);
+            let unlike = (self.reach[a] - self.reach[b]).abs() / self.height;
+            let over_ground = lowest(a) + lowest(b) + (lowest(a) - lowest(b)).abs();
+            let carried = (self.carried[a] + self.carried[b]).min(LEGS_CARRY);
+            Some(carried - POINTS_OF_GROUND * (over_ground + start.abs()) - unlike)
+        })
     }
 
     /// How far apart the lower ends of two branches are across up.
     pub(super) fn lower_ends_distance(&self, a: usize, b: usize) -> f64 {
         let end = |top: usize| {
             let path = self.downward(top);
-            let last = path.last().copied().unwrap_or(top);
-            self.center[last].unwrap_or(self.position[last])
+            self.middle(path.last().copied().unwrap_or(top))
         };
         (end(a) - end(b)).reject_from(self.up).length()
     }
@@ -86,26 +75,14 @@ impl Tree<'_> {
         let aside = |place: usize| (point(place) - middle).reject_from(self.up).length();
         let pelvis_first =
             aside(0) < PELVIS_ASIDE * aside(1) && point(0).distance(point(1)) < PELVIS_REACH * self.height;
-        let mut best = (f64::INFINITY, [0, 1, 2]);
-        for hip in 0..2.min(chain.len() - 2) {
-            for knee in hip + 1..chain.len() - 1 {
-                for ankle in knee + 1..chain.len() {
-                    let upper = point(hip).distance(point(knee));
-                    let lower = point(knee).distance(point(ankle));
-                    let whole = (upper + lower).max(f64::MIN_POSITIVE);
-                    let ankle_level = along(ankle) / along(hip).max(f64::MIN_POSITIVE);
-                    let score = POINTS_OF_HALVES * (upper / whole - 0.5).abs()
-                        + POINTS_OF_ANKLE * (ankle_level - ANKLE_LEVEL).abs()
-                        + (1.0 - (along(hip) - along(ankle)) / whole)
-                        + if (hip > 0) == pelvis_first { 0.0 } else { POINTS_OF_PELVIS }
-                        + POINTS_OF_LEG_GAP * (ankle - hip - 2) as f64;
-                    if score < best.0 {
-                        best = (score, [hip, knee, ankle]);
-                    }
-                }
-            }
-        }
-        let [hip, knee, ankle] = best.1;
+        let [hip, knee, ankle] = self.split(&chain, 2, |[hip, _, ankle], unlike, whole| {
+            let ankle_level = along(ankle) / along(hip).max(f64::MIN_POSITIVE);
+            unlike
+                + POINTS_OF_ANKLE * (ankle_level - ANKLE_LEVEL).abs()
+                + (1.0 - (along(hip) - along(ankle)) / whole)
+                + if (hip > 0) == pelvis_first { 0.0 } else { POINTS_OF_PELVIS }
+                + POINTS_OF_LEG_GAP * (ankle - hip - 2) as f64
+        });
         let toes = chain.get(ankle + 1).copied();
         [Some(chain[hip]), Some(chain[knee]), Some(chain[ankle]), toes]
     }

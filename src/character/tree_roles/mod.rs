@@ -47,7 +47,7 @@ impl Tree<'_> {
             let heavy = chain.iter().position(|&joint| self.own[joint] >= HEAVY * most)?;
             // A thick neck: what follows it lies below the next joint, which moves more.
             let neck = chain.get(heavy + 1).is_some_and(|&next| {
-                let center = self.center[chain[heavy]].unwrap_or(self.position[chain[heavy]]);
+                let center = self.middle(chain[heavy]);
                 self.own[next] > self.own[chain[heavy]] && (center - self.position[next]).dot(self.up) < 0.0
             });
             heavy + usize::from(neck)

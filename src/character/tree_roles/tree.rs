@@ -4,7 +4,7 @@ use crate::character::{Mesh, Skeleton};
 use glam::DVec3;
 
 /// Points against a limb whose halves differ, times how much. Seen: ±30 % changes no role.
-pub(super) const POINTS_OF_HALVES: f64 = 1.5;
+const POINTS_OF_HALVES: f64 = 1.5;
 
 /// What the search knows of each joint.
 pub(super) struct Tree<'a> {
@@ -68,23 +68,17 @@ impl<'a> Tree<'a> {
         }
         let total: f64 = own.iter().sum();
         let weighted = total > 0.0;
-        if !weighted {
-            own = vec![1.0 / count as f64; count];
-        } else {
+        if weighted {
             own.iter_mut().for_each(|weight| *weight /= total);
+        } else {
+            own = vec![1.0 / count as f64; count];
+            ground = low.iter().copied().fold(f64::INFINITY, f64::min);
+            top = high.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         }
         let mut carried = own.clone();
         for &joint in order.iter().rev() {
             if let Some(parent) = skeleton.joints[joint].parent {
                 carried[parent] += carried[joint];
-            }
-        }
-        if !weighted {
-            ground = low.iter().copied().fold(f64::INFINITY, f64::min);
-            top = high.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        }
-        for &joint in order.iter().rev() {
-            if let Some(parent) = skeleton.joints[joint].parent {
                 // Joints that carry nothing may be handles far away from the body; near ends still tell a limb's
                 // length.
                 if carried[joint] > 0.0 {
@@ -132,6 +126,61 @@ impl<'a> Tree<'a> {
 
     pub(super) fn within(&self, joint: usize, above: usize) -> bool {
         joint == above || self.skeleton.is_below(joint, above)
+    }
+
+    /// Where the vertices are that follow the joint most, else the joint.
+    pub(super) fn middle(&self, joint: usize) -> DVec3 {
+        self.center[joint].unwrap_or(self.position[joint])
+    }
+
+    /// The two children of one of these joints that have the most points; `points` are none for what is no pair.
+    pub(super) fn best_pair(
+        &self,
+        parents: impl Iterator<Item = usize>,
+        points: impl Fn(usize, usize) -> Option<f64>,
+    ) -> Option<(usize, usize)> {
+        let mut best: Option<(f64, usize, usize)> = None;
+        for children in parents.map(|joint| self.live(joint)) {
+            for (place, &a) in children.iter().enumerate() {
+                for &b in &children[place + 1..] {
+                    if let Some(points) = points(a, b)
+                        && best.is_none_or(|(known, _, _)| points > known)
+                    {
+                        best = Some((points, a, b));
+                    }
+                }
+            }
+        }
+        best.map(|(_, a, b)| (a, b))
+    }
+
+    /// Places along the chain of a limb where its two halves begin and the second one ends: those with the fewest points
+    /// against them. The first is one of the first `firsts`.
+    ///
+    /// `points`: of three places, beside those for unlike halves, which it adds to; and of the length of both halves.
+    pub(super) fn split(
+        &self,
+        chain: &[usize],
+        firsts: usize,
+        points: impl Fn([usize; 3], f64, f64) -> f64,
+    ) -> [usize; 3] {
+        let point = |place: usize| self.position[chain[place]];
+        let mut best = (f64::INFINITY, [0, 1, 2]);
+        for first in 0..firsts.min(chain.len() - 2) {
+            for middle in first + 1..chain.len() - 1 {
+                for last in middle + 1..chain.len() {
+                    let upper = point(first).distance(point(middle));
+                    let lower = point(middle).distance(point(last));
+                    let whole = (upper + lower).max(f64::MIN_POSITIVE);
+                    let unlike = POINTS_OF_HALVES * (upper / whole - 0.5).abs();
+                    let points = points([first, middle, last], unlike, whole);
+                    if points < best.0 {
+                        best = (points, [first, middle, last]);
+                    }
+                }
+            }
+        }
+        best.1
     }
 
     /// From `start` on to the best of the live children, down to the last one.

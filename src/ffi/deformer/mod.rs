@@ -481,7 +481,7 @@ unsafe fn call_on(
 ) -> SdefStatus {
     let body = || {
         let state = handles::deformer(deformer)?;
-        body(&*handles::read(&state, "deformer")?)
+        body(&handles::read(&state, "deformer")?)
     };
     unsafe { call(error, body) }
 }
