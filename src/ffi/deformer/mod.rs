@@ -481,7 +481,8 @@ unsafe fn call_on(
 ) -> SdefStatus {
     let body = || {
         let state = handles::deformer(deformer)?;
-        body(&handles::read(&state, "deformer")?)
+        let state = handles::read(&state, "deformer")?;
+        body(&state)
     };
     unsafe { call(error, body) }
 }
