@@ -46,19 +46,10 @@ pub fn branches(voxels: &Voxels, axis: f64, heights: Range<f64>) -> Vec<Branch> 
         return Vec::new();
     }
     let far = distances(voxels, axis, heights);
-    let mut branches = merge(voxels, &far);
-    branches.retain_mut(|branch| measure(voxels, &far, branch));
-    let mut found: Vec<Branch> = branches.into_iter().map(|piece| Branch { rims: piece.rims }).collect();
+    let pieces = merge(voxels, &far);
+    let mut found: Vec<Branch> = pieces.iter().filter_map(|cells| measure(voxels, &far, cells)).collect();
     found.sort_by_key(|branch| std::cmp::Reverse(branch.rims.len()));
     found
-}
-
-/// One piece of the merge tree.
-struct Piece {
-    far: u32,
-    /// Its cells, from the tip inwards.
-    cells: Vec<u32>,
-    rims: Vec<Rim>,
 }
 
 /// How far each cell is from the core through filled cells, in thirds of a cell; `NONE` where no way leads.
@@ -88,30 +79,29 @@ fn distances(voxels: &Voxels, axis: f64, heights: Range<f64>) -> Vec<u32> {
     far
 }
 
-/// The pieces of the merge tree that are long enough.
-fn merge(voxels: &Voxels, far: &[u32]) -> Vec<Piece> {
+/// The pieces of the merge tree: of each its cells, from the tip inwards.
+fn merge(voxels: &Voxels, far: &[u32]) -> Vec<Vec<u32>> {
     // The furthest first, without what no way leads to.
     let mut order: Vec<u32> = (0..far.len() as u32).filter(|&slot| far[slot as usize] != NONE).collect();
     order.sort_by_key(|&slot| std::cmp::Reverse(far[slot as usize]));
     let beside = |slot: u32| voxels.beside(slot).map(|(other, _)| other);
     let tips = merge_tree(far.len(), &order, beside, |_, _, _| ());
-    let mut pieces: BTreeMap<usize, Piece> = BTreeMap::new();
+    let mut pieces: BTreeMap<usize, Vec<u32>> = BTreeMap::new();
     for (&slot, tip) in order.iter().zip(tips) {
-        let new = || Piece { far: far[slot as usize], cells: Vec::new(), rims: Vec::new() };
-        pieces.entry(tip).or_insert_with(new).cells.push(slot);
+        pieces.entry(tip).or_default().push(slot);
     }
     pieces.into_values().collect()
 }
 
-/// Cuts a piece into sections; false where it is too short.
-fn measure(voxels: &Voxels, far: &[u32], piece: &mut Piece) -> bool {
+/// Cuts a piece into sections; `None` where it is too short.
+fn measure(voxels: &Voxels, far: &[u32], piece: &[u32]) -> Option<Branch> {
     let solid = &voxels.solid;
-    let last = piece.cells.last().map_or(0, |&slot| far[slot as usize]);
-    if f64::from(piece.far - last) / 3.0 * solid.cell < LEAST_BRANCH {
-        return false;
+    let from_tip = |slot: u32| far[piece[0] as usize] - far[slot as usize];
+    if f64::from(from_tip(piece[piece.len() - 1])) / 3.0 * solid.cell < LEAST_BRANCH {
+        return None;
     }
-    let band = |slot: u32| (piece.far - far[slot as usize]) / BAND;
-    for cells in piece.cells.chunk_by(|&a, &b| band(a) == band(b)) {
+    let sections = piece.chunk_by(|&a, &b| from_tip(a) / BAND == from_tip(b) / BAND);
+    let rims = sections.map(|cells| {
         let count = cells.len() as f64;
         let at = |slot: u32| solid.middle(voxels.place(slot));
         let middle = cells.iter().map(|&slot| at(slot)).sum::<DVec3>() / count;
@@ -121,7 +111,7 @@ fn measure(voxels: &Voxels, far: &[u32], piece: &mut Piece) -> bool {
             .map(|&slot| at(slot).distance(middle))
             .collect();
         let radius = outer.iter().sum::<f64>() / outer.len().max(1) as f64;
-        piece.rims.push(Rim { middle, radius });
-    }
-    true
+        Rim { middle, radius }
+    });
+    Some(Branch { rims: rims.collect() })
 }

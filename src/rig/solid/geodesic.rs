@@ -6,7 +6,7 @@
 
 use super::voxels::{Queue, Voxels, neighbourhood};
 use crate::error::Result;
-use crate::geometry::{Groups, NONE, ROUNDING, distinct, foot};
+use crate::geometry::{Groups, NONE, ROUNDING, by_number, distinct, foot};
 use crate::room::{self, Of};
 use glam::DVec3;
 
@@ -146,13 +146,8 @@ fn nearest_voxels(volume: &Voxels, bone: &Bone) -> Vec<u32> {
     slots.filter(|slot| distance(slot) <= least * (1.0 + ROUNDING) + ROUNDING).collect()
 }
 
-/// A way into a part of the volume that touches no bone's, from the nearest voxel that does.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Link {
-    from: u32,
-    to: u32,
-    length: f32,
-}
+/// A way into a part of the volume that touches no bone's, from the nearest voxel that does: where to, and how long it is.
+type Link = (u32, f32);
 
 /// How voxels hang together.
 #[derive(Clone, Debug)]
@@ -161,9 +156,10 @@ pub struct Paths<'a> {
     pub volume: &'a Voxels,
     /// For each voxel, whether it lies in a part of the volume that no bone starts in.
     pub is_apart: Vec<bool>,
-    /// Ascending by `from`.
+    /// By the voxel that they start from, ascending by the other one.
     links: Vec<Link>,
-    has_links: Vec<bool>,
+    /// Where each voxel's links start; one more than there are voxels.
+    link_starts: Vec<u32>,
 }
 
 impl<'a> Paths<'a> {
@@ -174,8 +170,8 @@ impl<'a> Paths<'a> {
     /// `OutOfMemory`.
     pub fn new(volume: &'a Voxels, bones: &[Bone]) -> Result<Self> {
         let count = volume.cells.len();
-        let mut paths =
-            Self { volume, is_apart: vec![true; count], links: Vec::new(), has_links: vec![false; count] };
+        let is_apart = vec![true; count];
+        let mut paths = Self { volume, is_apart, links: Vec::new(), link_starts: Vec::new() };
         let mut open: Vec<u32> = bones.iter().flat_map(|bone| bone.starts.iter().copied()).collect();
         open.iter().for_each(|&slot| paths.is_apart[slot as usize] = false);
         while let Some(slot) = open.pop() {
@@ -185,44 +181,36 @@ impl<'a> Paths<'a> {
                 }
             }
         }
-        paths.tie_islands()?;
-        for link in &paths.links {
-            paths.has_links[link.from as usize] = true;
-        }
+        let mut links = paths.tie_islands()?;
+        links.sort_by_key(|&(_, (to, _))| to);
+        (paths.link_starts, paths.links) = by_number(count, links.into_iter());
         Ok(paths)
     }
 
     fn links_of(&self, slot: u32) -> &[Link] {
-        let first = self.links.partition_point(|link| link.from < slot);
-        let count = self.links[first..].iter().take_while(|link| link.from == slot).count();
-        &self.links[first..first + count]
+        let [start, end] = [slot as usize, slot as usize + 1].map(|at| self.link_starts[at] as usize);
+        &self.links[start..end]
     }
 
-    /// For each voxel the number of its island, counted from 0, or `NONE` where it is not apart; and their number.
-    fn islands(&self) -> (Vec<u32>, usize) {
+    /// For each voxel the first one of its island, or `NONE` where it is not apart.
+    fn islands(&self) -> Vec<u32> {
         let mut groups = Groups::new(self.is_apart.len());
         let apart = |slot: &u32| self.is_apart[*slot as usize];
         for slot in (0..self.is_apart.len() as u32).filter(apart) {
             self.volume.beside(slot).for_each(|(next, _)| groups.join(slot as usize, next as usize));
         }
-        let mut islands = vec![NONE; self.is_apart.len()];
-        let mut count = 0;
-        for slot in (0..self.is_apart.len() as u32).filter(apart) {
-            let least = groups.least(slot as usize);
-            if least == slot as usize {
-                islands[least] = count;
-                count += 1;
-            }
-            islands[slot as usize] = islands[least];
-        }
-        (islands, count as usize)
+        let mut first = |slot: u32| if apart(&slot) { groups.least(slot as usize) as u32 } else { NONE };
+        (0..self.is_apart.len() as u32).map(&mut first).collect()
     }
 
-    /// A wave through the air, from all voxels that are not apart, which remembers where it came from.
-    fn tie_islands(&mut self) -> Result<()> {
-        let (islands, island_count) = self.islands();
-        if island_count == 0 {
-            return Ok(());
+    /// Links by where they start: a wave through the air, from all voxels that are not apart, which remembers where it came
+    /// from.
+    fn tie_islands(&self) -> Result<Vec<(u32, Link)>> {
+        let islands = self.islands();
+        let mut untouched = (0u32..).zip(&islands).filter(|&(slot, &island)| slot == island).count();
+        let mut links: Vec<(u32, Link)> = Vec::new();
+        if untouched == 0 {
+            return Ok(links);
         }
         let volume = self.volume;
         room::ask(Of::Cell, 2 * volume.solid.count())?;
@@ -236,8 +224,12 @@ impl<'a> Paths<'a> {
         let length = |cell: u32, origin: u32| {
             (volume.solid.place(cell as usize) - volume.place(origin)).as_vec3().length()
         };
-        let mut contacts = vec![f32::INFINITY; island_count];
-        let mut untouched = island_count;
+        let beside = |cell: u32| {
+            let at = volume.solid.place(cell as usize);
+            let near = neighbourhood().map(move |offset| at + offset);
+            near.filter(|&next| volume.solid.has(next)).map(|next| volume.solid.index(next))
+        };
+        let mut contacts = vec![f32::INFINITY; islands.len()];
         let mut last = f32::INFINITY;
         while let Some((bucket, cell)) = queue.pop() {
             if bucket as f32 / BUCKETS > last {
@@ -259,31 +251,19 @@ impl<'a> Paths<'a> {
                     }
                 }
                 if least <= *contact + CONTACT {
-                    let first = self.links.len();
-                    let at = volume.solid.place(cell as usize);
-                    for offset in neighbourhood() {
-                        let next = at + offset;
-                        if !volume.solid.has(next) {
-                            continue;
-                        }
-                        // All origins that are as near: else a midline would choose a side.
-                        let from = origins[volume.solid.index(next)];
+                    let first = links.len();
+                    // All origins that are as near: else a midline would choose a side.
+                    for from in beside(cell).map(|next| origins[next]) {
                         if from != NONE
                             && length(cell, from) <= least + ROUNDING as f32
-                            && self.links[first..].iter().all(|link| link.from != from)
+                            && links[first..].iter().all(|&(known, _)| known != from)
                         {
-                            self.links.push(Link { from, to: slot, length: least });
+                            links.push((from, (slot, least)));
                         }
                     }
                 }
             }
-            let at = volume.solid.place(cell as usize);
-            for offset in neighbourhood() {
-                let next = at + offset;
-                if !volume.solid.has(next) {
-                    continue;
-                }
-                let next = volume.solid.index(next);
+            for next in beside(cell) {
                 let (origin, known) = (origins[cell as usize], origins[next]);
                 let candidate = length(next as u32, origin);
                 if !is_settled[next] && (known == NONE || candidate < length(next as u32, known)) {
@@ -292,8 +272,7 @@ impl<'a> Paths<'a> {
                 }
             }
         }
-        self.links.sort_by_key(|link| (link.from, link.to));
-        Ok(())
+        Ok(links)
     }
 }
 
@@ -400,10 +379,8 @@ impl Distances {
         for (next, sides) in paths.volume.beside(slot) {
             self.offer(next, length + (sides as f32).sqrt(), bone);
         }
-        if paths.has_links[slot as usize] {
-            for link in paths.links_of(slot) {
-                self.offer(link.to, length + link.length, bone);
-            }
+        for &(to, way) in paths.links_of(slot) {
+            self.offer(to, length + way, bone);
         }
     }
 

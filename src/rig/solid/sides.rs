@@ -61,19 +61,18 @@ pub fn sides(points: &[DVec3], triangles: &[[u32; 3]]) -> Vec<Side> {
 ///
 /// O(triangles).
 pub fn outward(points: &[DVec3], triangles: &[[u32; 3]]) -> Vec<DVec3> {
-    let mut normals = vec![DVec3::ZERO; points.len()];
-    let mut totals = vec![(0.0, 0.0); points.len()];
+    let mut sums = vec![(DVec3::ZERO, 0.0, 0.0); points.len()];
     for (corners, side) in triangles.iter().zip(sides(points, triangles)) {
         let double = double_area(points, *corners);
         for &vertex in corners {
-            normals[vertex as usize] += if side.is_inward { -side.sure * double } else { side.sure * double };
-            let (known, all) = &mut totals[vertex as usize];
+            let (normal, known, all) = &mut sums[vertex as usize];
+            *normal += if side.is_inward { -side.sure * double } else { side.sure * double };
             *known += side.sure * double.length();
             *all += double.length();
         }
     }
-    let share = |(known, all): (f64, f64)| if all > 0.0 { known / all } else { 0.0 };
-    normals.into_iter().zip(totals).map(|(normal, sums)| share(sums) * normal.normalize_or_zero()).collect()
+    let share = |known: f64, all: f64| if all > 0.0 { known / all } else { 0.0 };
+    sums.into_iter().map(|(normal, known, all)| share(known, all) * normal.normalize_or_zero()).collect()
 }
 
 /// Triangles that hang together over edges of two, and how each faces against the first of its patch.
@@ -108,17 +107,12 @@ impl Patches {
     fn find(&mut self, triangle: u32) -> (u32, bool) {
         let (mut first, mut is_turned) = (triangle, false);
         while self.above[first as usize].0 != first {
-            let (above, other) = self.above[first as usize];
-            first = above;
-            is_turned ^= other;
-        }
-        // Everything on the way leads there at once from now on.
-        let (mut at, mut turned) = (triangle, is_turned);
-        while self.above[at as usize].0 != at {
-            let (above, other) = self.above[at as usize];
-            self.above[at as usize] = (first, turned);
-            at = above;
-            turned ^= other;
+            let (above, turned) = self.above[first as usize];
+            let (next, turned_too) = self.above[above as usize];
+            // The way is half as long from now on.
+            self.above[first as usize] = (next, turned ^ turned_too);
+            is_turned ^= turned ^ turned_too;
+            first = next;
         }
         (first, is_turned)
     }
