@@ -81,6 +81,9 @@ impl Hand {
     }
 }
 
+/// A finger and the middles of its sections, from its web to its tip.
+type Chain = (Finger, Vec<DVec3>);
+
 impl Region {
     /// True where a tip lies within the rest of the hand, as the end of a forearm does in a hand that is a body of its
     /// own: rays from just beyond it, ahead and all around, meet the surface.
@@ -100,13 +103,7 @@ impl Region {
         let free = |finger: &Finger| finger.tip_distance - finger.web_distance;
         fingers.sort_by(|a, b| free(b).total_cmp(&free(a)).then(a.tip.cmp(&b.tip)));
         fingers.truncate(5);
-        let mut chains: Vec<(Finger, Vec<DVec3>)> = fingers
-            .into_iter()
-            .map(|finger| {
-                let path = self.path(&finger);
-                (finger, path)
-            })
-            .collect();
+        let mut chains: Vec<Chain> = fingers.into_iter().map(|finger| (finger, self.path(&finger))).collect();
         let thumb = self.order(&mut chains);
         let roles: Vec<usize> = match (thumb, chains.len()) {
             (true, 2) => vec![0, 2],
@@ -142,43 +139,41 @@ impl Region {
                 let within = enclosed(surface, position, ways[number], RAY_REACH * self.wrist_radius);
                 hand.joints.insert(role, FoundJoint { position, confidence: sure * seen * within });
             }
-            hand.tips.insert(LEFT_FINGERS[role][2], path[path.len() - 1]);
+            hand.tips.insert(LEFT_FINGERS[role][2], tip);
         }
         hand
     }
 
     /// Puts fingers in order from the thumb's side; true where the first of them is a thumb.
-    fn order(&self, chains: &mut Vec<(Finger, Vec<DVec3>)>) -> bool {
+    fn order(&self, chains: &mut Vec<Chain>) -> bool {
         if chains.len() < 2 {
             return false;
         }
         // A thumb begins and ends nearer to the wrist than the others and points another way. All fingers in one begin
         // in the middle of the palm.
-        let way =
-            |chain: &(Finger, Vec<DVec3>)| (chain.1[chain.1.len() - 1] - chain.1[0]).normalize_or_zero();
-        let near = |chain: &(Finger, Vec<DVec3>), mitten: bool| {
+        let way = |chain: &Chain| (chain.1[chain.1.len() - 1] - chain.1[0]).normalize_or_zero();
+        let mitten = chains.len() == 2;
+        let near = |chain: &Chain| {
             let root = if mitten { 0.0 } else { chain.1[0].distance(self.wrist) };
             (root + chain.1[chain.1.len() - 1].distance(self.wrist)) / self.length
         };
-        let mitten = chains.len() == 2;
         let mut thumb = (0, f64::NEG_INFINITY);
         for (index, chain) in chains.iter().enumerate() {
             let others =
                 || chains.iter().enumerate().filter(|&(other, _)| other != index).map(|(_, other)| other);
             let mean_way = others().map(way).sum::<DVec3>().normalize_or_zero();
-            let mean_near =
-                others().map(|other| near(other, mitten)).sum::<f64>() / (chains.len() - 1) as f64;
-            let unlike = 1.0 - way(chain).dot(mean_way) + mean_near - near(chain, mitten);
+            let mean_near = others().map(near).sum::<f64>() / (chains.len() - 1) as f64;
+            let unlike = 1.0 - way(chain).dot(mean_way) + mean_near - near(chain);
             if unlike > thumb.1 {
                 thumb = (index, unlike);
             }
         }
         let thumb = (thumb.1 > LEAST_THUMB).then(|| chains.remove(thumb.0));
         // Where the others stand side by side, a little way out.
-        let middle = |chain: &(Finger, Vec<DVec3>)| (chain.1[0] + chain.1[chain.1.len() / 2]) / 2.0;
+        let middle = |chain: &Chain| (chain.1[0] + chain.1[chain.1.len() / 2]) / 2.0;
         let centre = chains.iter().map(middle).sum::<DVec3>() / chains.len() as f64;
         let ahead = (centre - self.wrist).try_normalize().unwrap_or(self.along);
-        let aside = |chain: &(Finger, Vec<DVec3>)| (middle(chain) - centre).reject_from_normalized(ahead);
+        let aside = |chain: &Chain| (middle(chain) - centre).reject_from_normalized(ahead);
         let furthest = chains.iter().map(aside).fold(DVec3::ZERO, |one, other| {
             if other.length_squared() > one.length_squared() { other } else { one }
         });
@@ -193,7 +188,7 @@ impl Region {
         if (if side.abs() > 0.5 * width { side } else { across.z }) > 0.0 {
             across = -across;
         }
-        let key = |chain: &(Finger, Vec<DVec3>)| aside(chain).dot(across);
+        let key = |chain: &Chain| aside(chain).dot(across);
         chains.sort_by(|a, b| key(a).total_cmp(&key(b)).then(a.0.tip.cmp(&b.0.tip)));
         let has_thumb = thumb.is_some();
         chains.splice(0..0, thumb);
@@ -208,12 +203,9 @@ impl Region {
         let straight = (path[path.len() / 2] - path[0]).normalize_or(self.along);
         let from_wrist = (path[0] - self.wrist).normalize_or_zero();
         let way = (straight + WRIST_BEND * from_wrist).normalize_or(straight);
-        let mut free = 0.0;
-        for pair in path.windows(2) {
-            free += pair[0].distance(pair[1]);
-        }
+        let seen = path.windows(2).fold(0.0, |sum, pair| sum + pair[0].distance(pair[1]));
         // The first section is half a step from the web.
-        free *= SECTION_COUNT as f64 / (SECTION_COUNT as f64 - 0.5);
+        let free = seen * (SECTION_COUNT as f64 / (SECTION_COUNT as f64 - 0.5));
         let at = |distance: f64| {
             let mut left = distance;
             for pair in path.windows(2).rev() {

@@ -25,7 +25,7 @@ pub(super) struct Region {
 }
 
 /// A finger: the part of the hand around a tip that hangs on the rest by its root alone.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Finger {
     pub(super) tip: u32,
     pub(super) tip_distance: f64,
@@ -178,8 +178,7 @@ impl Region {
             let way = move |&next: &u32| (next, points[at as usize].distance(points[next as usize]));
             graph[at as usize].iter().map(way)
         };
-        let distances = least_costs(points.len(), starts, beside);
-        self.distances = distances;
+        self.distances = least_costs(points.len(), starts, beside);
         self.length = self.distances.iter().copied().filter(|d| d.is_finite()).fold(0.0, f64::max);
     }
 
@@ -203,9 +202,7 @@ impl Region {
                 fingers.push(lesser);
             }
         });
-        if let Some(&furthest) = order.first() {
-            fingers.push(furthest);
-        }
+        fingers.extend(order.first());
         let mut fingers: Vec<Finger> = fingers
             .into_iter()
             .map(|tip| {

@@ -23,9 +23,9 @@ pub(super) struct Section {
 /// An outline in the plane.
 #[derive(Clone, Copy)]
 struct Outline {
-    pub(super) sum: DVec3,
-    pub(super) length: f64,
-    pub(super) distance: f64,
+    sum: DVec3,
+    length: f64,
+    distance: f64,
 }
 
 impl Outline {
@@ -92,10 +92,7 @@ impl Section {
             .map(Outline::radius)
             .fold(0.0, f64::max);
         outlines.retain(|_, outline| outline.length > 0.0 && outline.radius() >= SLIVER * around);
-        let nearest = outlines
-            .values()
-            .copied()
-            .reduce(|one, other| if other.distance < one.distance { other } else { one })?;
+        let nearest = *outlines.values().min_by(|one, other| one.distance.total_cmp(&other.distance))?;
         outlines.retain(|_, outline| {
             let apart = outline.centre().distance(nearest.centre());
             apart < IN_EACH_OTHER * outline.radius().max(nearest.radius())

@@ -10,8 +10,8 @@
 mod nearest;
 
 use super::solid::Solid;
+use super::transfer::{normalised, of_welded};
 use super::{WeightBone, WeightSet};
-use crate::character::Weights;
 use crate::error::Result;
 use crate::geometry::laplacian::{COLUMNS, Cholesky, Symbolic, cotangent_laplacian, has_area};
 use crate::geometry::{NONE, ROUNDING, SEAM, Weld, bounds, by_number, components, weld};
@@ -95,8 +95,8 @@ pub struct HeatSystem {
 /// The bones that hold a vertex in place of the nearest ones, with shares of 1; none where the nearest do.
 pub type Held = Vec<(u32, f64)>;
 
-/// (vertex, bone, weight) of some bones, by vertices.
-type Solution = Vec<(u32, u32, f64)>;
+/// Bones and their weights, each with its vertex.
+type Solution = Vec<(u32, (u32, f64))>;
 
 /// How a component gets its weights.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -233,88 +233,34 @@ impl HeatSystem {
     /// # Errors
     /// `Cancelled`.
     pub fn weights(&self, heat: f64, progress: &mut Progress) -> Result<WeightSet> {
-        let mut fallback = BTreeMap::new();
-        let mut count = |rule: Option<&'static str>| {
-            if let Some(rule) = rule {
-                *fallback.entry(rule).or_insert(0) += 1;
-            }
-        };
+        let count = self.weld.count;
         if self.nearest.shares.is_empty() {
-            let joint = self.joints.first().copied().unwrap_or(0);
-            let vertex_count = self.weld.representative.len();
-            (0..vertex_count).for_each(|_| count(Some("no_bone")));
-            return Ok(WeightSet { weights: Weights::rigid(joint, vertex_count), fallback });
+            let row = vec![(self.joints.first().copied().unwrap_or(0), 1.0)];
+            return Ok(of_welded(&self.weld, &vec![row; count], &vec![Some("no_bone"); count]));
         }
         // Also where it is not a number.
         let heat = if heat > HEAT_RANGE[0] { heat.min(HEAT_RANGE[1]) } else { HEAT_RANGE[0] };
         let (blocks, is_raised) = self.solve(heat, &mut progress.part(0.0, 0.8))?;
+        let (starts, solved) = by_number(count, blocks.iter().flatten().copied());
         let means = self.means();
-        let mut ends = vec![0; blocks.len()];
-        let mut starts = Vec::with_capacity(self.weld.count + 1);
-        let mut entries: Vec<(u32, f32)> = Vec::new();
-        let mut rules = Vec::with_capacity(self.weld.count);
-        let mut row: Vec<(u32, f64)> = Vec::new();
-        starts.push(0);
-        for vertex in 0..self.weld.count {
-            row.clear();
-            for (block, end) in blocks.iter().zip(&mut ends) {
-                while let Some(&(_, bone, weight)) =
-                    block.get(*end).filter(|entry| entry.0 as usize == vertex)
-                {
-                    row.push((bone, weight));
-                    *end += 1;
-                }
-            }
+        let weigh = |vertex: usize| {
+            let solved = &solved[starts[vertex] as usize..starts[vertex + 1] as usize];
+            let nearest = self.nearest.shares_of(vertex);
             let component = self.components[vertex] as usize;
-            let rule = match self.rules.get(component) {
-                None => Some("vertex_without_triangle"),
-                Some(Rule::Small) => Some("component_too_small"),
-                Some(_) if row.is_empty() => Some("vertex_without_heat"),
-                Some(Rule::Unseen) => Some("component_without_visible_bone"),
-                Some(Rule::Heat) => is_raised.then_some("system_raised"),
+            let (row, rule) = match self.rules.get(component) {
+                None => (nearest, Some("vertex_without_triangle")),
+                Some(Rule::Small) => (&*means[component], Some("component_too_small")),
+                Some(_) if solved.is_empty() => (nearest, Some("vertex_without_heat")),
+                Some(Rule::Unseen) => (solved, Some("component_without_visible_bone")),
+                Some(Rule::Heat) => (solved, is_raised.then_some("system_raised")),
             };
-            match rule {
-                Some("vertex_without_triangle" | "vertex_without_heat") => {
-                    row.clear();
-                    row.extend(self.nearest.shares_of(vertex));
-                }
-                Some("component_too_small") => {
-                    row.clear();
-                    row.extend(means[component].iter().map(|(&bone, &weight)| (bone, weight)));
-                }
-                _ => {}
-            }
-            rules.push(rule);
-            self.finish(&mut row);
-            entries.extend(row.iter().map(|&(joint, weight)| (joint, weight as f32)));
-            starts.push(entries.len());
-        }
-        for &welded in &self.weld.representative {
-            count(rules[welded as usize]);
-        }
-        let weights = Weights::from_rows(self.weld.representative.iter().map(|&welded| {
-            let welded = welded as usize;
-            entries[starts[welded]..starts[welded + 1]].iter().copied()
-        }));
+            let of_joints = row.iter().map(|&(bone, weight)| (self.joints[bone as usize], weight));
+            (normalised(of_joints.collect()), rule)
+        };
+        let (rows, rules): (Vec<_>, Vec<_>) = (0..count).map(weigh).unzip();
+        let weights = of_welded(&self.weld, &rows, &rules);
         progress.at(1.0)?;
-        Ok(WeightSet { weights, fallback })
-    }
-
-    /// From bones to joints: one entry a joint, ascending, sum 1.
-    fn finish(&self, row: &mut Vec<(u32, f64)>) {
-        for entry in &mut *row {
-            entry.0 = self.joints[entry.0 as usize];
-        }
-        row.sort_by_key(|&(joint, _)| joint);
-        row.dedup_by(|next, last| {
-            let is_same = next.0 == last.0;
-            last.1 += if is_same { next.1 } else { 0.0 };
-            is_same
-        });
-        let sum: f64 = row.iter().map(|&(_, weight)| weight).sum();
-        for entry in row {
-            entry.1 /= sum;
-        }
+        Ok(weights)
     }
 
     /// The solution by blocks of bones, and whether the diagonal was raised.
@@ -358,7 +304,7 @@ impl HeatSystem {
             for vertex in 0..size {
                 for (&bone, column) in bones.iter().zip(columns.chunks(size)) {
                     if column[vertex] >= ROUNDING {
-                        solution.push((vertex as u32, bone as u32, column[vertex]));
+                        solution.push((vertex as u32, (bone as u32, column[vertex])));
                     }
                 }
             }
@@ -370,8 +316,8 @@ impl HeatSystem {
     }
 
     /// The bones of components that have one temperature.
-    fn means(&self) -> Vec<BTreeMap<u32, f64>> {
-        let mut means = vec![BTreeMap::new(); self.rules.len()];
+    fn means(&self) -> Vec<Vec<(u32, f64)>> {
+        let mut means: Vec<BTreeMap<u32, f64>> = vec![BTreeMap::new(); self.rules.len()];
         for vertex in 0..self.weld.count {
             if self.rule_of(vertex) == Some(Rule::Small) {
                 let mean = &mut means[self.components[vertex] as usize];
@@ -380,7 +326,7 @@ impl HeatSystem {
                 }
             }
         }
-        means
+        means.into_iter().map(|mean| mean.into_iter().collect()).collect()
     }
 
     /// How the vertex's component gets its weights; `None` where it has no component.

@@ -217,11 +217,7 @@ impl NearestBones {
         }
         let mut all = Self { starts: vec![0], ..Self::default() };
         for (vertex, &held) in of_welded.iter().enumerate() {
-            if held.is_empty() {
-                all.shares.extend_from_slice(self.shares_of(vertex));
-            } else {
-                all.shares.extend_from_slice(held);
-            }
+            all.shares.extend_from_slice(if held.is_empty() { self.shares_of(vertex) } else { held });
             all.starts.push(all.shares.len() as u32);
             all.heat.push(if held.is_empty() { self.heat[vertex] } else { HELD_DISTANCE.powi(-2) });
             all.seen.push(!held.is_empty() || self.seen[vertex]);
@@ -282,15 +278,12 @@ impl Segments {
             }
             let distance = squared.sqrt().max(ROUNDING);
             let share = ((UNEQUAL - distance / least) / (UNEQUAL - EQUAL)).clamp(0.0, 1.0);
-            let bone = self.bones[segment as usize];
+            let one = NearBone { bone: self.bones[segment as usize], segment, distance, share };
             match near.last_mut() {
                 // Segments of a bone follow each other.
-                Some(last) if last.bone == bone => {
-                    if distance < last.distance {
-                        *last = NearBone { bone, segment, distance, share };
-                    }
-                }
-                _ => near.push(NearBone { bone, segment, distance, share }),
+                Some(last) if last.bone == one.bone && distance >= last.distance => {}
+                Some(last) if last.bone == one.bone => *last = one,
+                Some(_) | None => near.push(one),
             }
         }
         near.retain(|bone| bone.share > 0.0);

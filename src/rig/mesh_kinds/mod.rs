@@ -194,17 +194,18 @@ impl Scene<'_> {
         let count = figure.mesh_count();
         let mut guesses: Vec<Option<Guess>> =
             figure.kinds.iter().map(|kind| kind.map(|kind| Guess { kind, sure: true })).collect();
-        let is_open = |guesses: &[Option<Guess>], mesh: usize| guesses[mesh].is_none();
-        for mesh in 0..count {
+        for (guess, facts) in guesses.iter_mut().zip(&self.known.facts) {
             // Nothing to see: it counts as what is not asked for elsewhere.
-            if is_open(&guesses, mesh) && self.known.facts[mesh].samples.is_empty() {
-                guesses[mesh] = Some(Guess { kind: MeshKind::Body, sure: true });
+            if facts.samples.is_empty() {
+                guess.get_or_insert(Guess { kind: MeshKind::Body, sure: true });
             }
         }
+        let open: Vec<usize> = (0..count).filter(|&mesh| guesses[mesh].is_none()).collect();
 
         // Volumes that lie over nothing and within nothing, the largest first.
-        let mut volumes: Vec<usize> = (0..count)
-            .filter(|&mesh| is_open(&guesses, mesh))
+        let mut volumes: Vec<usize> = open
+            .iter()
+            .copied()
             .filter(|&mesh| self.layer_share(mesh) < LAYER_SHARE)
             .filter(|&mesh| self.enclosed_share(mesh) < ENCLOSED_SHARE)
             .collect();
@@ -220,7 +221,6 @@ impl Scene<'_> {
         let middle = *self.known.middle.get_or_init(|| middle_plane(figure, &is_volume));
         if !is_body.contains(&true) {
             // Where everything lies over something, the one that reaches furthest carries the rest.
-            let open: Vec<usize> = (0..count).filter(|&mesh| guesses[mesh].is_none()).collect();
             let choice = if volumes.is_empty() { &open } else { &volumes };
             let reach = |mesh: usize| shown_count(&slices(figure, middle, &|other| other == mesh));
             let reaches: Vec<(usize, usize)> = choice.iter().map(|&mesh| (reach(mesh), mesh)).collect();
@@ -239,19 +239,11 @@ impl Scene<'_> {
         let chin = head.map_or(chin, |head| chin.min(head.y));
         let region = self.head_region(chin, head, &is_body, middle);
         self.grow_body(&mut is_body, &volumes, &region, seams);
-        for mesh in (0..count).filter(|&mesh| is_body[mesh]) {
-            guesses[mesh].get_or_insert(Guess { kind: MeshKind::Body, sure: first[mesh] });
-        }
-
-        for mesh in 0..count {
-            if is_open(&guesses, mesh) {
-                guesses[mesh] = Some(self.guess_other(mesh, &is_body, &region));
-            }
-        }
-        guesses
-            .into_iter()
-            .map(|guess| guess.unwrap_or(Guess { kind: MeshKind::Body, sure: false }))
-            .collect()
+        let unnamed = |mesh: usize| {
+            let body = is_body[mesh].then(|| Guess { kind: MeshKind::Body, sure: first[mesh] });
+            body.unwrap_or_else(|| self.guess_other(mesh, &is_body, &region))
+        };
+        (0..).zip(guesses).map(|(mesh, guess)| guess.unwrap_or_else(|| unnamed(mesh))).collect()
     }
 
     /// For each mesh those whose border a good share of its own border is.
@@ -275,11 +267,8 @@ impl Scene<'_> {
                     *shared.entry(*other).or_default() += 1;
                 }
                 let most = SEAM_SHARE * border.len() as f64;
-                shared
-                    .into_iter()
-                    .filter(|&(_, count)| count as f64 >= most)
-                    .map(|(other, _)| other)
-                    .collect()
+                shared.retain(|_, count| *count as f64 >= most);
+                shared.into_keys().collect()
             })
             .collect()
     }
@@ -315,9 +304,8 @@ impl Scene<'_> {
             .filter(|&mesh| {
                 let facts = &self.known.facts[mesh];
                 let has_volume = facts.share(|sample| sample.volume) >= VOLUME_SHARE;
-                facts.extent() >= LIMB && has_volume
+                facts.extent() >= LIMB && has_volume && !region.is_on_face(facts)
             })
-            .filter(|&mesh| !region.is_on_face(&self.known.facts[mesh]))
             .map(|mesh| (mesh, slices(figure, middle, &|other| other == mesh)))
             .collect();
         while !reaches_over(figure, middle, &|mesh| is_body[mesh], &of_figure) {

@@ -1,6 +1,6 @@
 //! Rows of a cloth's vertices filled in smoothly between those that are kept.
 
-use super::{Match, Row, normalised};
+use super::{Match, normalised};
 use crate::geometry::laplacian::{COLUMNS, Cholesky, cotangent_laplacian};
 use crate::geometry::{NONE, Neighbours, ROUNDING};
 use crate::parallel;
@@ -20,10 +20,12 @@ const SMOOTHING_RINGS: usize = 2;
 
 /// How much the two ends of each edge pull at each other, above 0.
 pub(super) struct EdgeWeights {
+    /// Which vertices have edges to which.
+    pub(super) around: Neighbours,
     /// In the order of the neighbours.
     edges: Vec<f64>,
-    /// By vertex.
-    sums: Vec<f64>,
+    /// By vertex, the sum over its edges.
+    pub(super) sums: Vec<f64>,
     /// A third of the area of each vertex's triangles.
     pub(super) areas: Vec<f64>,
 }
@@ -31,7 +33,7 @@ pub(super) struct EdgeWeights {
 impl EdgeWeights {
     /// Cotangents, kept above 0 (obtuse triangles) and away from infinity (slivers), so that the fill stays between the
     /// values around it and edges of triangles without area still join their ends.
-    pub(super) fn new(points: &[DVec3], triangles: &[[u32; 3]], around: &Neighbours) -> Self {
+    pub(super) fn new(points: &[DVec3], triangles: &[[u32; 3]], around: Neighbours) -> Self {
         let laplacian = cotangent_laplacian(points, triangles);
         let [least, most] = EDGE_RANGE;
         let place = |vertex: u32, other: u32| {
@@ -52,52 +54,38 @@ impl EdgeWeights {
                 edges[place] = edges[place].max((-value).min(most));
             }
         }
-        let range = |vertex: usize| around.starts[vertex] as usize..around.starts[vertex + 1] as usize;
-        let sums = (0..points.len()).map(|vertex| edges[range(vertex)].iter().sum()).collect();
+        let ranges = around.starts.windows(2).map(|ends| ends[0] as usize..ends[1] as usize);
+        let sums = ranges.map(|range| edges[range].iter().sum()).collect();
         let mut areas = laplacian.areas;
         areas.resize(points.len(), 0.0);
         areas.iter_mut().filter(|area| !area.is_finite()).for_each(|area| *area = 0.0);
-        Self { edges, sums, areas }
+        Self { around, edges, sums, areas }
     }
 
     /// The neighbours of a vertex with the weights of the edges to them.
-    fn of<'b>(&'b self, around: &'b Neighbours, vertex: usize) -> impl Iterator<Item = (u32, f64)> + 'b {
-        let start = around.starts[vertex] as usize;
-        around.of(vertex).iter().enumerate().map(move |(place, &other)| (other, self.edges[start + place]))
-    }
-
-    /// The sum of the weights of a vertex's edges.
-    pub(super) fn sum(&self, vertex: usize) -> f64 {
-        self.sums[vertex]
+    fn of(&self, vertex: usize) -> impl Iterator<Item = (u32, f64)> + '_ {
+        let edges = &self.edges[self.around.starts[vertex] as usize..];
+        self.around.of(vertex).iter().copied().zip(edges.iter().copied())
     }
 }
 
-/// What joins the vertices of a cloth, and what holds them.
-#[derive(Clone, Copy)]
-pub(super) struct Held<'a> {
-    pub(super) around: &'a Neighbours,
-    pub(super) weights: &'a EdgeWeights,
-    /// How much each vertex is held to the row of its match, 0 to 1; `None` where it is not asked about.
-    pub(super) pulls: &'a [Option<f64>],
-}
-
-/// The system of the vertices that are filled in.
+/// The system of vertices that are filled in together.
 pub(super) struct Fill {
+    /// How much each vertex is held to the row of its match, 0 to 1; `None` where it is not asked about.
+    pub(super) pulls: Vec<Option<f64>>,
     /// The vertices that are solved for, ...
     free: Vec<u32>,
     /// ... and for each vertex its place among them, or `NONE`.
     slots: Vec<u32>,
-    factor: Cholesky,
+    /// `None` where there is nothing to do or the system cannot be solved.
+    pub(super) factor: Option<Cholesky>,
 }
 
 impl Fill {
-    /// `None` where there is nothing to do or the system cannot be solved.
-    pub(super) fn new(Held { around, weights, pulls }: Held) -> Option<Self> {
+    /// That of vertices with these `pulls`.
+    pub(super) fn new(weights: &EdgeWeights, pulls: Vec<Option<f64>>) -> Self {
         let free: Vec<u32> =
             (0..pulls.len()).filter(|&vertex| is_free(pulls[vertex])).map(|vertex| vertex as u32).collect();
-        if free.is_empty() {
-            return None;
-        }
         let mut slots = vec![NONE; pulls.len()];
         for (slot, &vertex) in free.iter().enumerate() {
             slots[vertex as usize] = slot as u32;
@@ -106,55 +94,64 @@ impl Fill {
         let mut lower = Vec::new();
         for (slot, &vertex) in free.iter().enumerate() {
             let vertex = vertex as usize;
-            diagonal.push(weights.sum(vertex) + pull_weight(pulls, weights, vertex));
-            for (other, weight) in weights.of(around, vertex) {
+            diagonal.push(weights.sums[vertex] + pull_weight(&pulls, weights, vertex));
+            for (other, weight) in weights.of(vertex) {
                 let other = slots[other as usize];
                 if other < slot as u32 {
                     lower.push((slot as u32, other, -weight));
                 }
             }
         }
-        let factor = Cholesky::new(&diagonal, &lower)?;
-        Some(Self { free, slots, factor })
+        let factor = if free.is_empty() { None } else { Cholesky::new(&diagonal, &lower) };
+        Self { pulls, free, slots, factor }
     }
 
-    /// Rows of all vertices that have a pull and of a few around them, in order of the vertices.
+    /// Gives new rows to all vertices of `matches` that have a pull and to a few around them.
     ///
     /// A vertex of pull 1 keeps the row of its match, one of pull 0 is the mean of its neighbours, one in between a blend
     /// of both; then all is smoothed a little.
     ///
-    /// - `held`: what it was made of.
-    pub(super) fn rows(&self, held: Held, matches: &[Match], threads: usize) -> Vec<(u32, Row)> {
+    /// - `weights`: what it was made of.
+    pub(super) fn fill_in(&self, weights: &EdgeWeights, matches: &mut [Match], threads: usize) {
+        let Some(factor) = &self.factor else { return };
         // The matches' weights by joint.
         let mut columns: BTreeMap<u32, Vec<(u32, f64)>> = BTreeMap::new();
-        for (vertex, found) in matches.iter().enumerate().filter(|&(vertex, _)| held.pulls[vertex].is_some())
+        for (vertex, found) in matches.iter().enumerate().filter(|&(vertex, _)| self.pulls[vertex].is_some())
         {
             for &(joint, weight) in &found.row {
                 columns.entry(joint).or_default().push((vertex as u32, weight));
             }
         }
         let columns: Vec<(u32, Vec<(u32, f64)>)> = columns.into_iter().collect();
-        let region = region(held);
+        let region = self.region(&weights.around);
         let batches: Vec<_> = columns.chunks(COLUMNS).collect();
-        let solved =
-            parallel::collect(threads, batches.len(), 1, |batch| self.solve(held, batches[batch], &region));
+        let solved = parallel::collect(threads, batches.len(), 1, |batch| {
+            self.solve(factor, weights, batches[batch], &region)
+        });
         let solved: Vec<Vec<f64>> = solved.into_iter().flatten().collect();
-        let rows = region.iter().enumerate().filter_map(|(slot, &vertex)| {
+        for (slot, &vertex) in region.iter().enumerate() {
             let entries = columns.iter().zip(&solved).map(|((joint, _), values)| (*joint, values[slot]));
             let row = normalised(entries.filter(|&(_, weight)| weight >= ROUNDING).collect());
-            (!row.is_empty()).then_some((vertex, row))
-        });
-        rows.collect()
+            if !row.is_empty() {
+                matches[vertex as usize].row = row;
+            }
+        }
     }
 
     /// For each joint of a batch the weights of the vertices of `region`, from those of the matches.
-    fn solve(&self, held: Held, batch: &[(u32, Vec<(u32, f64)>)], region: &[u32]) -> Vec<Vec<f64>> {
+    fn solve(
+        &self,
+        factor: &Cholesky,
+        weights: &EdgeWeights,
+        batch: &[(u32, Vec<(u32, f64)>)],
+        region: &[u32],
+    ) -> Vec<Vec<f64>> {
         let size = self.free.len();
         let mut sides = vec![0.0; size * batch.len()];
         for ((_, column), side) in batch.iter().zip(sides.chunks_mut(size)) {
-            self.add_known(held, column, side);
+            self.add_known(weights, column, side);
         }
-        self.factor.solve(&mut sides, batch.len());
+        factor.solve(&mut sides, batch.len());
         let mut values = vec![0.0; self.slots.len()];
         let mut next = vec![0.0; region.len()];
         let mut solved = Vec::with_capacity(batch.len());
@@ -168,7 +165,7 @@ impl Fill {
             }
             for _ in 0..SMOOTHING_STEPS {
                 for (&vertex, next) in region.iter().zip(&mut next) {
-                    let around = held.around.of(vertex as usize);
+                    let around = weights.around.of(vertex as usize);
                     let sum: f64 = around.iter().map(|&other| values[other as usize]).sum();
                     let mean = sum / around.len().max(1) as f64;
                     *next = (1.0 - SMOOTHING_SHARE) * values[vertex as usize] + SMOOTHING_SHARE * mean;
@@ -183,14 +180,14 @@ impl Fill {
     }
 
     /// Adds what the known weights of one joint say to the right-hand side.
-    fn add_known(&self, Held { around, weights, pulls }: Held, column: &[(u32, f64)], side: &mut [f64]) {
+    fn add_known(&self, weights: &EdgeWeights, column: &[(u32, f64)], side: &mut [f64]) {
         for &(vertex, weight) in column {
             let vertex = vertex as usize;
             if self.slots[vertex] != NONE {
-                side[self.slots[vertex] as usize] += pull_weight(pulls, weights, vertex) * weight;
+                side[self.slots[vertex] as usize] += pull_weight(&self.pulls, weights, vertex) * weight;
                 continue;
             }
-            for (other, edge) in weights.of(around, vertex) {
+            for (other, edge) in weights.of(vertex) {
                 let slot = self.slots[other as usize];
                 if slot != NONE {
                     side[slot as usize] += edge * weight;
@@ -198,20 +195,21 @@ impl Fill {
             }
         }
     }
-}
 
-/// What is smoothed: the free vertices and a few rings.
-fn region(Held { around, pulls, .. }: Held) -> Vec<u32> {
-    let mut smoothed: Vec<bool> = pulls.iter().map(|&pull| is_free(pull)).collect();
-    for _ in 0..SMOOTHING_RINGS {
-        let is_near = |&vertex: &u32| smoothed[vertex as usize];
-        let wider = |vertex: usize| smoothed[vertex] || around.of(vertex).iter().any(is_near);
-        smoothed = (0..smoothed.len()).map(wider).collect();
+    /// What is smoothed: the free vertices and a few rings.
+    fn region(&self, around: &Neighbours) -> Vec<u32> {
+        let mut smoothed: Vec<bool> = self.slots.iter().map(|&slot| slot != NONE).collect();
+        for _ in 0..SMOOTHING_RINGS {
+            let is_near = |&vertex: &u32| smoothed[vertex as usize];
+            let wider = |vertex: usize| smoothed[vertex] || around.of(vertex).iter().any(is_near);
+            smoothed = (0..smoothed.len()).map(wider).collect();
+        }
+        (0..smoothed.len()).filter(|&vertex| smoothed[vertex]).map(|vertex| vertex as u32).collect()
     }
-    (0..smoothed.len()).filter(|&vertex| smoothed[vertex]).map(|vertex| vertex as u32).collect()
 }
 
-fn is_free(pull: Option<f64>) -> bool {
+/// True of vertices that are solved for: what is held fully keeps its row.
+pub(super) fn is_free(pull: Option<f64>) -> bool {
     pull.is_some_and(|pull| pull < 1.0)
 }
 
@@ -219,5 +217,5 @@ fn is_free(pull: Option<f64>) -> bool {
 fn pull_weight(pulls: &[Option<f64>], weights: &EdgeWeights, vertex: usize) -> f64 {
     // A pull of 1 would leave nothing to solve for.
     let pull = pulls[vertex].unwrap_or(0.0).min(1.0 - ROUNDING);
-    pull / (1.0 - pull) * weights.sum(vertex)
+    pull / (1.0 - pull) * weights.sums[vertex]
 }

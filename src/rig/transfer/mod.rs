@@ -12,10 +12,10 @@ mod skin;
 use super::{GarmentWeights, WeightSet};
 use crate::character::Weights;
 use crate::geometry::{
-    Closest, Neighbours, ROUNDING, SEAM, Surface, Weld, bounds, bounds_by_group, components, neighbours, weld,
+    Closest, ROUNDING, SEAM, Surface, Weld, bounds, bounds_by_group, components, neighbours, weld,
 };
 use crate::parallel;
-use fill::{EdgeWeights, Fill, Held};
+use fill::{EdgeWeights, Fill, is_free};
 use glam::DVec3;
 pub use rigid::rigid_weights;
 use skin::{Body, normals};
@@ -162,11 +162,8 @@ impl Match {
         let Touch { places, fits } = touch;
         let distance = places.first().map_or(f64::INFINITY, |(at, _)| at.distance);
         let fit = touch.fit();
-        if fit > 0.0 {
-            let fitting: Vec<_> = places.iter().zip(fits).map(|(&(at, _), &share)| (at, share)).collect();
-            return Match { row: body.mixed(p, &fitting), fit, distance };
-        }
-        Match { row: body.mixed(p, places), fit, distance }
+        let fitting: Vec<_> = places.iter().zip(fits).map(|(&(at, _), &share)| (at, share)).collect();
+        Match { row: body.mixed(p, if fit > 0.0 { &fitting } else { places }), fit, distance }
     }
 }
 
@@ -179,7 +176,6 @@ fn reach(points: &[DVec3]) -> f64 {
 
 /// How the welded vertices of a garment hang together.
 struct Joined {
-    around: Neighbours,
     weights: EdgeWeights,
     /// The component of each vertex, and the greatest extent of each component.
     component: Vec<u32>,
@@ -192,17 +188,15 @@ impl Joined {
         let component = components(triangles, &single);
         let count = component.iter().max().map_or(0, |&last| last as usize + 1);
         let boxes = bounds_by_group(count, component.iter().map(|&c| c as usize).zip(points.iter().copied()));
-        let around = neighbours(triangles, &single);
         Self {
-            weights: EdgeWeights::new(points, triangles, &around),
-            around,
+            weights: EdgeWeights::new(points, triangles, neighbours(triangles, &single)),
             component,
             extents: boxes.iter().map(|(low, high)| (*high - *low).max_element()).collect(),
         }
     }
 
     fn is_loose(&self, vertex: usize) -> bool {
-        self.around.of(vertex).is_empty()
+        self.weights.around.of(vertex).is_empty()
     }
 
     fn is_small(&self, vertex: usize) -> bool {
@@ -215,37 +209,9 @@ struct Cloth {
     triangles: Vec<[u32; 3]>,
     joined: Joined,
     /// Vertices of pieces with a match, and how much each is held to it.
-    matched: Filled,
+    matched: Fill,
     /// Of pieces without one.
-    unmatched: Filled,
-}
-
-/// Vertices that are filled in together.
-struct Filled {
-    /// How much each vertex is held to its match; `None` for others.
-    pulls: Vec<Option<f64>>,
-    /// `None` where there is nothing to do or it cannot be solved.
-    fill: Option<Fill>,
-}
-
-impl Filled {
-    fn new(joined: &Joined, pull: impl Fn(usize) -> Option<f64>) -> Self {
-        let pulls: Vec<Option<f64>> = (0..joined.component.len()).map(pull).collect();
-        Self { fill: Fill::new(Self::held(joined, &pulls)), pulls }
-    }
-
-    fn held<'a>(joined: &'a Joined, pulls: &'a [Option<f64>]) -> Held<'a> {
-        Held { around: &joined.around, weights: &joined.weights, pulls }
-    }
-
-    /// Gives the vertices what is filled in between the `matches`.
-    fn fill_in(&self, joined: &Joined, matches: &mut [Match], threads: usize) {
-        if let Some(fill) = &self.fill {
-            for (vertex, row) in fill.rows(Self::held(joined, &self.pulls), matches, threads) {
-                matches[vertex as usize].row = row;
-            }
-        }
-    }
+    unmatched: Fill,
 }
 
 impl Cloth {
@@ -258,14 +224,15 @@ impl Cloth {
         }
         let is_large = |vertex: usize| !joined.is_loose(vertex) && !joined.is_small(vertex);
         let is_matched = |vertex: usize| best[joined.component[vertex] as usize] >= 0.5;
-        let matched =
-            Filled::new(&joined, |vertex| (is_large(vertex) && is_matched(vertex)).then_some(fits[vertex]));
-        let unmatched = Filled::new(&joined, |vertex| {
+        let to_match = |vertex: usize| (is_large(vertex) && is_matched(vertex)).then_some(fits[vertex]);
+        let to_closest = |vertex: usize| {
             let loose = joined.weights.areas[vertex] / LOOSE_SMOOTHING.powi(2);
             // As a share of what the neighbours say, which is what a fit is.
-            let share = || loose / (loose + joined.weights.sum(vertex));
+            let share = || loose / (loose + joined.weights.sums[vertex]);
             (is_large(vertex) && !is_matched(vertex)).then(share)
-        });
+        };
+        let matched = Fill::new(&joined.weights, (0..fits.len()).map(to_match).collect());
+        let unmatched = Fill::new(&joined.weights, (0..fits.len()).map(to_closest).collect());
         Self { triangles, joined, matched, unmatched }
     }
 
@@ -283,19 +250,19 @@ impl Cloth {
         });
         // Pieces with a match first: what hangs from them can follow them then.
         let Self { joined, matched, unmatched, .. } = self;
-        for (vertex, pull) in matched.pulls.iter().enumerate() {
-            if pull.is_some_and(|pull| pull < 1.0) {
-                rules[vertex] = Some(if matched.fill.is_some() { "inpainted" } else { "unsolved" });
+        for (vertex, &pull) in matched.pulls.iter().enumerate() {
+            if is_free(pull) {
+                rules[vertex] = Some(if matched.factor.is_some() { "inpainted" } else { "unsolved" });
             }
         }
-        matched.fill_in(joined, &mut matches, threads);
+        matched.fill_in(&joined.weights, &mut matches, threads);
         let mut done: Vec<bool> = matched.pulls.iter().map(Option::is_some).collect();
 
         // Pieces without a match: after the body or after the cloth that has its weights, whichever is nearer.
         let pulls = &unmatched.pulls;
         if pulls.iter().any(Option::is_some) {
-            self.follow_cloth(points, &mut matches, &done, |vertex| pulls[vertex].is_some(), threads);
-            unmatched.fill_in(joined, &mut matches, threads);
+            self.follow_cloth(points, &mut matches, &done, threads);
+            unmatched.fill_in(&joined.weights, &mut matches, threads);
             for (vertex, pull) in pulls.iter().enumerate() {
                 if pull.is_some() {
                     rules[vertex] = Some("component_without_match");
@@ -321,23 +288,16 @@ impl Cloth {
         (triangles, surface)
     }
 
-    /// Gives the vertices that `choose` accepts the row of the closest cloth that is `done`, where that is nearer than
+    /// Gives the vertices of pieces without a match the row of the closest cloth that is `done`, where that is nearer than
     /// the body.
-    fn follow_cloth(
-        &self,
-        points: &[DVec3],
-        matches: &mut [Match],
-        done: &[bool],
-        choose: impl Fn(usize) -> bool + Sync,
-        threads: usize,
-    ) {
+    fn follow_cloth(&self, points: &[DVec3], matches: &mut [Match], done: &[bool], threads: usize) {
         let (triangles, surface) = self.made_of(points, done);
         if surface.is_empty() {
             return;
         }
         let known: &[Match] = matches;
         let rows = parallel::collect(threads, known.len(), 256, |vertex| {
-            let near = choose(vertex).then(|| surface.closest_point(points[vertex])).flatten()?;
+            let near = self.unmatched.pulls[vertex].and_then(|_| surface.closest_point(points[vertex]))?;
             (near.distance < known[vertex].distance).then(|| blend_rows(known, &triangles, &near))
         });
         for (found, row) in matches.iter_mut().zip(rows) {
@@ -372,11 +332,8 @@ impl Cloth {
             let to_body = piece.iter().map(|&vertex| matches[vertex].distance).fold(f64::INFINITY, f64::min);
             let cloth = surface.closest_point(middle).filter(|near| near.distance < to_body);
             let row = cloth.map(|near| blend_rows(matches, &triangles, &near)).unwrap_or_else(|| {
-                let fitting = piece.iter().flat_map(|&vertex| {
-                    let Match { row, fit, .. } = &matches[vertex];
-                    row.iter().map(move |&(joint, weight)| (joint, fit * weight))
-                });
-                normalised(fitting.collect())
+                let fitting = piece.iter().map(|&vertex| &matches[vertex]);
+                blended(fitting.map(|found| (found.fit, found.row.iter().copied())))
             });
             let row = if row.is_empty() { body.closest(middle) } else { row };
             for vertex in piece {
@@ -390,13 +347,7 @@ impl Cloth {
 /// The barycentric blend of rows of the cloth itself.
 fn blend_rows(matches: &[Match], triangles: &[[u32; 3]], at: &Closest) -> Row {
     let corners = triangles[at.triangle].into_iter().zip(at.barycentric);
-    normalised(
-        corners
-            .flat_map(|(vertex, share)| {
-                matches[vertex as usize].row.iter().map(move |&(joint, weight)| (joint, share * weight))
-            })
-            .collect(),
-    )
+    blended(corners.map(|(vertex, share)| (share, matches[vertex as usize].row.iter().copied())))
 }
 
 /// Where the welded vertices are; the origin where that is no number.
@@ -405,8 +356,15 @@ fn places(welded: &Weld, positions: &[DVec3]) -> Vec<DVec3> {
     welded.first_vertices().into_iter().map(at).collect()
 }
 
+/// One row of several, each by its share.
+fn blended<Entries: IntoIterator<Item = (u32, f64)>>(rows: impl Iterator<Item = (f64, Entries)>) -> Row {
+    let by_share =
+        |(share, row): (f64, Entries)| row.into_iter().map(move |(joint, weight)| (joint, share * weight));
+    normalised(rows.flat_map(by_share).collect())
+}
+
 /// Sorted by joint, repeats summed, sum 1; empty where there is nothing to sum.
-fn normalised(mut row: Row) -> Row {
+pub(super) fn normalised(mut row: Row) -> Row {
     row.retain(|&(_, weight)| weight > 0.0 && weight.is_finite());
     row.sort_by_key(|&(joint, _)| joint);
     row.dedup_by(|next, kept| {
@@ -421,21 +379,24 @@ fn normalised(mut row: Row) -> Row {
     row
 }
 
-/// Rows of the vertices from those of the welded ones, and how many each rule gave.
+/// Weights of the vertices from rows of the welded ones, without what is next to nothing.
 fn finish(welded: &Weld, rows: Vec<Row>, rules: &[Option<&'static str>]) -> WeightSet {
-    let rows: Vec<Vec<(u32, f32)>> = rows
-        .into_iter()
-        .map(|row| {
-            let most = row.iter().map(|&(_, weight)| weight).fold(0.0, f64::max);
-            let least = ROUNDING.min(most);
-            let row = normalised(row.into_iter().filter(|&(_, weight)| weight >= least).collect());
-            row.into_iter().map(|(joint, weight)| (joint, weight as f32)).collect()
-        })
-        .collect();
+    let kept = |row: Row| {
+        let most = row.iter().map(|&(_, weight)| weight).fold(0.0, f64::max);
+        let least = ROUNDING.min(most);
+        normalised(row.into_iter().filter(|&(_, weight)| weight >= least).collect())
+    };
+    let rows: Vec<Row> = rows.into_iter().map(kept).collect();
+    of_welded(welded, &rows, rules)
+}
+
+/// Rows of the vertices from those of the welded ones, and how many each rule gave.
+pub(super) fn of_welded(welded: &Weld, rows: &[Row], rules: &[Option<&'static str>]) -> WeightSet {
     let mut fallback = BTreeMap::new();
     for rule in welded.representative.iter().filter_map(|&vertex| rules[vertex as usize]) {
         *fallback.entry(rule).or_default() += 1;
     }
-    let rows = welded.representative.iter().map(|&vertex| rows[vertex as usize].iter().copied());
-    WeightSet { weights: Weights::from_rows(rows), fallback }
+    let rows = welded.representative.iter().map(|&vertex| &rows[vertex as usize]);
+    let rounded = rows.map(|row| row.iter().map(|&(joint, weight)| (joint, weight as f32)));
+    WeightSet { weights: Weights::from_rows(rounded), fallback }
 }

@@ -1,7 +1,7 @@
 //! Weights of things that keep their shape.
 
 use super::skin::{Body, Source};
-use super::{Row, finish, normalised, places};
+use super::{Row, blended, finish, normalised, places};
 use crate::geometry::{Bounds, Closest, SEAM, Weld, bounds_by_group, components, grown_clusters, weld};
 use crate::rig::WeightSet;
 use glam::DVec3;
@@ -38,14 +38,9 @@ pub fn rigid_weights(source: &Source, positions: &[DVec3], triangles: &[[u32; 3]
         let near: Vec<Option<Closest>> =
             piece.iter().map(|&vertex| source.skin.surface.closest_point(points[vertex as usize])).collect();
         let least = near.iter().flatten().map(|near| near.distance).fold(f64::INFINITY, f64::min);
-        let mut row = Row::new();
-        for near in near.into_iter().flatten() {
-            let share = 1.0 - (near.distance - least) / ATTACHMENT;
-            if share > 0.0 {
-                row.extend(body.blend(&near).into_iter().map(|(joint, weight)| (joint, share * weight)));
-            }
-        }
-        let row = sharpened(normalised(row));
+        let shares = near.iter().flatten().map(|near| (1.0 - (near.distance - least) / ATTACHMENT, near));
+        let held = shares.filter(|&(share, _)| share > 0.0).map(|(share, near)| (share, body.blend(near)));
+        let row = sharpened(blended(held));
         let row = if row.is_empty() { body.anything() } else { row };
         for vertex in piece {
             rows[vertex as usize] = row.clone();

@@ -1,6 +1,6 @@
 //! The surface that weights are taken from, and what it says about a point.
 
-use super::{Row, normalised, places};
+use super::{Row, blended, normalised, places};
 use crate::character::Weights;
 use crate::geometry::{Closest, PointTree, SEAM, Surface, double_area, weld};
 use glam::DVec3;
@@ -136,13 +136,7 @@ impl<'a> Body<'a> {
     /// The barycentric blend; empty where no corner has weights.
     pub(super) fn blend(&self, at: &Closest) -> Row {
         let corners = self.source.triangles[at.triangle].into_iter().zip(at.barycentric);
-        normalised(
-            corners
-                .flat_map(|(vertex, share)| {
-                    self.row(vertex).into_iter().map(move |(joint, weight)| (joint, share * weight))
-                })
-                .collect(),
-        )
+        blended(corners.map(|(vertex, share)| (share, self.row(vertex))))
     }
 
     /// The row of the closest place or places; never empty.
@@ -152,11 +146,7 @@ impl<'a> Body<'a> {
 
     /// Rows of several places by their shares; never empty.
     pub(super) fn mixed(&self, p: DVec3, places: &[(Closest, f64)]) -> Row {
-        let mut row = Row::new();
-        for &(ref at, share) in places {
-            row.extend(self.blend(at).into_iter().map(|(joint, weight)| (joint, share * weight)));
-        }
-        let row = normalised(row);
+        let row = blended(places.iter().map(|(at, share)| (*share, self.blend(at))));
         if !row.is_empty() {
             return row;
         }
