@@ -242,6 +242,7 @@ impl HeatSystem {
         let heat = if heat > HEAT_RANGE[0] { heat.min(HEAT_RANGE[1]) } else { HEAT_RANGE[0] };
         let (blocks, is_raised) = self.solve(heat, &mut progress.part(0.0, 0.8))?;
         let (starts, solved) = by_number(count, blocks.iter().flatten().copied());
+        drop(blocks);
         let means = self.means();
         let weigh = |vertex: usize| {
             let solved = &solved[starts[vertex] as usize..starts[vertex + 1] as usize];

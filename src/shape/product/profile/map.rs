@@ -19,12 +19,12 @@ use glam::{DMat3, DVec2, DVec3};
 /// Rows of the tables: so many for a head length, and for an arm.
 const ROWS_PER_HEAD: f64 = 100.0;
 const ROWS_OF_ARM: usize = 200;
-/// What is shorter than this, in head lengths, is smoothed out of the torso's functions: it joins torso and legs at the crotch
-/// and torso and neck at the shoulder line.
+/// What is shorter than this, in head lengths, is smoothed out of the torso's functions: it joins torso and neck at the shoulder
+/// line, and torso and legs so much below the crotch, where a jacket has its hem behind it.
 const JOINING: f64 = 0.08;
 /// A leg goes over from the torso's map to its own between these places from crotch (0) to ankle (1); an arm between shoulder
 /// joint (0) and wrist (1).
-const LEG_FADE: (f64, f64) = (-0.10, 0.10);
+const LEG_FADE: (f64, f64) = (-0.05, 0.12);
 const ARM_FADE: (f64, f64) = (0.05, 0.20);
 /// The palm's share of a hand's length, and the half width of its border with the fingers.
 const PALM: f64 = 0.45;
@@ -532,11 +532,26 @@ fn level_tables(
     };
     let (up, down) = (chin - crotch, crotch - frame.heights.sole);
     let step = (length / ROWS_PER_HEAD).max(up.max(down) / MOST_ROWS);
+    // Just below it: the torso's lowest slice, and what stands out of it as what is below.
+    let hem = |y: f64| -> [f64; 6] {
+        let (mut row, under) = (of_torso(y), below(y));
+        for (scale, half) in [(0, 2), (1, 3)] {
+            let wider = row[half].max(under[half]);
+            row[scale] = (row[scale] * row[half] + under[scale] * (wider - row[half])) / wider;
+            row[half] = wider;
+        }
+        row
+    };
     // The torso begins halfway between two rows: where it lay on one, last digits would tell to which side that belongs.
     let rows = |way: f64| ((way + 0.3 * length) / step).ceil().max(1.0) + 0.5;
     let (below_crotch, above) = (rows(down), rows(up));
     let (start, end) = (crotch - below_crotch * step, crotch + above * step);
     let count = (below_crotch + above) as usize + 1;
-    let torso = Table::sample(start, end, count, |y| if y < crotch { below(y) } else { of_torso(y) });
+    let lowest = place(crotch) - JOINING;
+    let torso = Table::sample(start, end, count, |y| match y {
+        _ if y >= crotch => of_torso(y),
+        _ if place(y) >= lowest => hem(y),
+        _ => below(y),
+    });
     (torso.smoothed(JOINING, place), Table::sample(start, end, count, of_leg))
 }

@@ -322,10 +322,12 @@ fn leg(result: &mut Scales, own: &LegProfile, wanted: &LegProfile, strengths: &S
     result.spread = delta.min(most).max(least - touching);
 }
 
-/// A skirt follows the hips and stays outside of the legs below it.
+/// A skirt follows the hips, is no further from the legs than it was or hangs straight down, and stays outside of them.
 fn skirt(result: &mut Scales, own: &Profile) {
     let (Some(skirt), Some(leg)) = (&own.skirt, &own.leg) else { return };
     let hips = [result.torso.breadth[0], result.torso.depth[0]];
+    let straight =
+        own.torso.as_ref().map_or([0.0; 2], |torso| [torso.breadth[0] * hips[0], torso.depth[0] * hips[1]]);
     for station in 0..STATIONS {
         let (Some(breadth), Some(depth), Some(forward)) =
             (skirt.breadth[station], skirt.depth[station], skirt.forward[station])
@@ -347,7 +349,7 @@ fn skirt(result: &mut Scales, own: &Profile) {
             let kept =
                 if room < tight { room } else { (room * new_legs[axis] / legs[axis]).clamp(tight, wide) };
             let least = new_legs[axis] + kept;
-            let most = new_legs[axis] + room;
+            let most = (new_legs[axis] + room).max(straight[axis]);
             (half[axis] * hips[axis]).min(most).max(least) / half[axis]
         });
         result.skirt.push(SkirtScale { station, half, forward, scale, shift: 0.0 });
