@@ -1,6 +1,6 @@
 //! Arms in whatever direction they are held: branches of the solid that end beside the trunk.
 
-use super::arm_curve::{Arm, ArmCurve, Station};
+use super::arm_curve::{Arm, ArmCurve};
 use super::solid::Solid;
 use super::solid::branches::{Branch, Rim};
 use crate::geometry::{distinct, median};
@@ -81,14 +81,9 @@ fn arm_of(rims: &[Rim], axis: f64, depth: impl Fn(f64) -> f64) -> Option<(bool, 
     let off = |rim: &Rim| rim.middle.distance(shoulder);
     let begin = (count / 2..count).min_by(|&a, &b| off(&rims[a]).total_cmp(&off(&rims[b])))?;
     let within = if off(&rims[begin]) < radius { begin + 1 } else { count };
-    let stations = rims[..within].iter().rev().map(|rim| Station {
-        centre: rim.middle,
-        width: 2.0 * rim.radius,
-        depth: 2.0 * rim.radius,
-    });
-    let curve = ArmCurve::new(stations.collect(), 1);
+    let curve = ArmCurve::new(rims[..within].iter().rev().map(|rim| (rim.middle, 4.0 * rim.radius)), 1);
     let pit = DVec2::new((root.x - axis).abs(), root.y - radius);
-    Some((shoulder.x > axis, curve.arm(shoulder, -inwards, pit, true)))
+    Some((shoulder.x > axis, curve.joints(shoulder, -inwards, pit, true)))
 }
 
 /// The line through middles, from the tip inwards: the mean of differences between halves.
@@ -103,14 +98,11 @@ fn direction(rims: &[Rim], middle: DVec3) -> Option<DVec3> {
 /// arm does not hang.
 pub fn raised(arm: &Arm, solid: &Solid) -> Option<Arm> {
     let inwards = (arm.shoulder - arm.elbow).try_normalize().filter(|way| way.y > STEEP)?;
-    let further = top(solid, arm.shoulder, inwards)? - UNDER_TOP * arm.radius;
-    (further > 0.0).then(|| arm.with_shoulder(arm.shoulder + further * inwards))
-}
-
-/// How far a line goes on in a solid.
-fn top(solid: &Solid, from: DVec3, way: DVec3) -> Option<f64> {
+    // How far the line goes on in the solid.
     let step = 0.5 * solid.cell;
     let steps = (TOP_WITHIN / step) as usize;
-    let last = (0..steps).take_while(|&index| solid.is_in(from + way * (index as f64 * step))).count();
-    (last < steps).then_some(last as f64 * step)
+    let is_inside = |&index: &usize| solid.is_in(arm.shoulder + inwards * (index as f64 * step));
+    let last = (0..steps).take_while(is_inside).count();
+    let further = last as f64 * step - UNDER_TOP * arm.radius;
+    (last < steps && further > 0.0).then(|| arm.with_shoulder(arm.shoulder + further * inwards))
 }

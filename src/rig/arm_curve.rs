@@ -3,6 +3,8 @@
 use super::silhouette::lowest;
 use crate::geometry::{foot, median};
 use glam::{DVec2, DVec3};
+use std::iter::Sum;
+use std::ops::Div;
 use std::rc::Rc;
 
 /// The wrist is looked for between these shares of the way from shoulder to tip. Seen: at -30 %, joints lie 0.001 H
@@ -101,7 +103,8 @@ impl Arm {
             self.tip += wrist - self.wrist;
             (self.wrist, self.wrist_seen) = (wrist, true);
         }
-        let (begins, wrist_arc) = (self.begins(), self.curve.nearest(self.wrist).0);
+        let begins = self.curve.before(self.shoulder, (self.elbow - self.shoulder).normalize_or_zero());
+        let wrist_arc = self.curve.nearest(self.wrist).0;
         self.elbow = elbow.unwrap_or_else(|| {
             // Half of the way along, the arm lies half as far beside its curve as its wrist does.
             let beside = self.wrist - self.curve.at(wrist_arc);
@@ -111,11 +114,6 @@ impl Arm {
         self
     }
 
-    /// Where along its curve the shoulder is; below 0 inside of the pit.
-    fn begins(&self) -> f64 {
-        self.curve.before(self.shoulder, (self.elbow - self.shoulder).normalize_or_zero())
-    }
-
     /// How far down the way from shoulder to wrist the elbow is.
     pub fn elbow_share(&self) -> f64 {
         let upper = self.shoulder.distance(self.elbow);
@@ -123,52 +121,32 @@ impl Arm {
     }
 }
 
-/// A section at right angles to the arm.
-#[derive(Clone, Copy, Debug)]
-pub struct Station {
-    /// Its middle.
-    pub centre: DVec3,
-    /// How wide it is one way, ...
-    pub width: f64,
-    /// ... and the other way.
-    pub depth: f64,
-}
-
-impl Station {
-    /// About twice its diameter.
-    fn girth(&self) -> f64 {
-        self.width + self.depth
-    }
-}
-
 /// The middles of an arm's sections: arms may bend towards the front.
 #[derive(Debug)]
 pub struct ArmCurve {
-    stations: Vec<Station>,
     /// Smoothed middles.
     middles: Vec<DVec3>,
+    /// How thick each section is one way and the other way together: about twice its diameter.
+    girths: Vec<f64>,
     /// How far along the curve each of them is.
     arc: Vec<f64>,
 }
 
 impl ArmCurve {
-    /// `stations`: at least two, from the shoulder to the tip; each middle is a mean over so many of them to either side.
-    pub fn new(stations: Vec<Station>, smoothed: usize) -> Self {
-        let middles: Vec<DVec3> = (0..stations.len())
-            .map(|index| {
-                let (from, to) = (index.saturating_sub(smoothed), (index + smoothed + 1).min(stations.len()));
-                stations[from..to].iter().map(|s| s.centre).sum::<DVec3>() / (to - from) as f64
-            })
-            .collect();
+    /// `sections`: middles and girths of at least two, from the shoulder to the tip; each middle becomes a mean over
+    /// `smoothed` ones to either side.
+    pub fn new(sections: impl Iterator<Item = (DVec3, f64)>, smoothed: usize) -> Rc<Self> {
+        let (middles, girths): (Vec<DVec3>, Vec<f64>) = sections.unzip();
+        let middles = means_around(&middles, smoothed);
         let mut arc = vec![0.0];
         for pair in middles.windows(2) {
             arc.push(arc[arc.len() - 1] + pair[0].distance(pair[1]));
         }
-        Self { stations, middles, arc }
+        Rc::new(Self { middles, girths, arc })
     }
 
     fn len(&self) -> usize {
-        self.stations.len()
+        self.middles.len()
     }
 
     /// The point `wanted` along the curve.
@@ -187,8 +165,8 @@ impl ArmCurve {
 
     /// The arm's radius near the shoulder.
     pub fn radius(&self) -> f64 {
-        let near = &self.stations[self.len() / RADIUS_RANGE.0..self.len() / RADIUS_RANGE.1];
-        0.25 * median(&mut near.iter().map(Station::girth).collect::<Vec<_>>())
+        let near = self.len() / RADIUS_RANGE.0..self.len() / RADIUS_RANGE.1;
+        0.25 * median(&mut self.girths[near].to_vec())
     }
 
     /// The middle of its upper piece, whose line leads over the armpit.
@@ -230,46 +208,36 @@ impl ArmCurve {
     /// Means of girths over neighbours, each with its share of the way to the tip from where the arm `begins`.
     fn girths(&self, begins: f64) -> Vec<(f64, f64)> {
         let whole = (self.whole() - begins).max(1e-9);
-        (0..self.len())
-            .map(|index| {
-                let (from, to) = (index.saturating_sub(1), (index + 2).min(self.len()));
-                let girth =
-                    self.stations[from..to].iter().map(Station::girth).sum::<f64>() / (to - from) as f64;
-                ((self.arc[index] - begins) / whole, girth)
-            })
-            .collect()
+        let shares = self.arc.iter().map(|arc| (arc - begins) / whole);
+        shares.zip(means_around(&self.girths, 1)).collect()
     }
 
-    /// The middle that is furthest from the line between two points, of those whose way along the curve `near` accepts,
-    /// and how far it is. `None` where the first or the last of these is about as far: an arm bends at its elbow.
-    fn bend(&self, from: DVec3, to: DVec3, near: impl Fn(f64) -> bool) -> Option<(DVec3, f64)> {
-        let range: Vec<(DVec3, f64)> = (0..self.len())
-            .filter(|&index| near(self.arc[index]))
-            .map(|index| (self.middles[index], (self.middles[index] - from).reject_from(to - from).length()))
-            .collect();
+    /// Where an arm whose shoulder and wrist are that far along bends: the middle that is furthest from the line between
+    /// these, of those about where elbows are. `None` of a straight arm, and where the first or the last of them is about
+    /// as far: an arm bends at its elbow.
+    fn bend(&self, shoulder: DVec3, begins: f64, wrist: DVec3, wrist_arc: f64) -> Option<DVec3> {
+        let near_elbow = |&index: &usize| {
+            let share = (self.arc[index] - begins) / (wrist_arc - begins);
+            (BEND_RANGE.0..=BEND_RANGE.1).contains(&share)
+        };
+        let line = wrist - shoulder;
+        let off = |index: usize| (self.middles[index] - shoulder).reject_from(line).length();
+        let range: Vec<(usize, f64)> =
+            (0..self.len()).filter(near_elbow).map(|index| (index, off(index))).collect();
         let ends = range.first()?.1.max(range.last()?.1);
-        let bend = range.into_iter().rev().max_by(|a, b| a.1.total_cmp(&b.1))?;
-        (bend.1 > BEND_STANDS_OUT * ends).then_some(bend)
+        let &(index, most) = range.iter().rev().max_by(|a, b| a.1.total_cmp(&b.1))?;
+        let bends = most > BEND_STANDS_OUT * ends && line.length() > 0.0 && most > BENT * line.length();
+        bends.then(|| self.middles[index])
     }
 
     /// The elbow of an arm whose shoulder and wrist are that far along.
     fn elbow(&self, shoulder: DVec3, begins: f64, wrist: DVec3, wrist_arc: f64) -> DVec3 {
-        let near_elbow = |arc: f64| {
-            let share = (arc - begins) / (wrist_arc - begins);
-            (BEND_RANGE.0..=BEND_RANGE.1).contains(&share)
-        };
-        let length = (wrist - shoulder).length();
-        self.bend(shoulder, wrist, near_elbow)
-            .filter(|&(_, off)| length > 0.0 && off > BENT * length)
-            .map_or_else(|| self.at(begins + ELBOW_SHARE * (wrist_arc - begins)), |(bend, _)| bend)
+        self.bend(shoulder, begins, wrist, wrist_arc)
+            .unwrap_or_else(|| self.at(begins + ELBOW_SHARE * (wrist_arc - begins)))
     }
 
     /// The joints beyond a `shoulder`, of an arm that begins along `outwards`.
-    pub fn arm(self, shoulder: DVec3, outwards: DVec3, pit: DVec2, pit_seen: bool) -> Arm {
-        Rc::new(self).joints(shoulder, outwards, pit, pit_seen)
-    }
-
-    fn joints(self: &Rc<Self>, shoulder: DVec3, outwards: DVec3, pit: DVec2, pit_seen: bool) -> Arm {
+    pub fn joints(self: &Rc<Self>, shoulder: DVec3, outwards: DVec3, pit: DVec2, pit_seen: bool) -> Arm {
         let begins = self.before(shoulder, outwards);
         let seen = slimmest(&self.girths(begins));
         let wrist_arc = begins + seen.unwrap_or(WRIST_BY_RATIO) * (self.whole() - begins);
@@ -280,6 +248,15 @@ impl ArmCurve {
         let curve = Rc::clone(self);
         Arm { shoulder, elbow, wrist, tip, pit, radius, pit_seen, wrist_seen, curve }
     }
+}
+
+/// Means of values, each over itself and so many neighbours to either side.
+fn means_around<T: Copy + Sum + Div<f64, Output = T>>(values: &[T], reach: usize) -> Vec<T> {
+    let mean = |index: usize| {
+        let near = &values[index.saturating_sub(reach)..(index + reach + 1).min(values.len())];
+        near.iter().copied().sum::<T>() / near.len() as f64
+    };
+    (0..values.len()).map(mean).collect()
 }
 
 /// Where the wrist shows: the slimmest of some girths before the hand, each with its share of the way from shoulder to

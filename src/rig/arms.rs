@@ -1,11 +1,12 @@
 //! Arms: followed from the fingertips inwards to the armpit.
 
-use super::arm_curve::{Arm, ArmCurve, Station};
+use super::arm_curve::{Arm, ArmCurve};
 use super::front_view::FrontView;
 use super::head_line::middle;
 use super::silhouette::{GridFrame, RayGrid};
 use crate::geometry::{ROUNDING, median};
 use glam::{DVec2, DVec3};
+use std::ops::Range;
 
 /// An arm's column of cells that reaches lower than the arm by so many of its thicknesses belongs to the trunk. Seen:
 /// at +30 %, joints lie 0.0005 H further off.
@@ -50,48 +51,29 @@ const LEAST_STATIONS: usize = 12;
 /// Middles are means over so many sections to either side. Seen: ±30 % moves joints by under 0.0005 H.
 const SMOOTHED: usize = 3;
 
-/// Where an arm is looked for.
-#[derive(Clone, Copy)]
-pub struct ArmSpace {
-    /// Height of the crotch.
-    pub crotch: f64,
-    /// Hands end above this height.
-    pub floor: f64,
-    /// What is above this height is head, hair and hat.
-    pub ceiling: f64,
-    /// How far from the axis an arm can reach.
-    pub most: f64,
-}
-
 /// Finds one arm that reaches aside. `None` where nothing sticks out.
-pub fn find_arm(view: &FrontView, left: bool, space: &ArmSpace) -> Option<Arm> {
-    let half = view.half_columns();
+///
+/// - `crotch`: its height.
+/// - `heights`: hands end above the first; what is above the second is head, hair and hat.
+/// - `most`: how far from the axis an arm can reach.
+pub fn find_arm(view: &FrontView, left: bool, crotch: f64, heights: &Range<f64>, most: f64) -> Option<Arm> {
     let cell = view.cell();
-    let &ArmSpace { crotch, floor, ceiling, most } = space;
-    let ceiling_row = (ceiling / cell).ceil() as usize;
+    let (floor_row, ceiling_row) = (view.grid.row(heights.start), (heights.end / cell).ceil() as usize);
     let runs = |steps: usize| {
-        let mut runs = view.grid.runs_of_column(view.column(left, steps));
-        runs.retain(|run| run.0 < ceiling_row);
-        runs.iter_mut().for_each(|run| run.1 = run.1.min(ceiling_row));
-        runs
+        let all = view.grid.runs_of_column(view.column(left, steps)).into_iter();
+        all.filter(move |run| run.0 < ceiling_row).map(move |(low, high)| (low, high.min(ceiling_row)))
     };
-    let floor_row = view.grid.row(floor);
-    let outermost = (0..half.min(((most / cell).ceil() as usize).saturating_add(1)))
+    let columns = view.half_columns().min(((most / cell).ceil() as usize).saturating_add(1));
+    let (outermost, run) = (0..columns)
         .rev()
-        .find(|&steps| runs(steps).iter().any(|run| run.1 > floor_row))?;
-    let mut run = *runs(outermost).iter().rev().find(|run| run.1 > floor_row)?;
+        .find_map(|steps| runs(steps).rev().find(|run| run.1 > floor_row).map(|run| (steps, run)))?;
     // Inwards, column by column.
     let mut path: Vec<(usize, (usize, usize))> = vec![(outermost, run)];
     let mut pit = None;
     let inwards = |steps: usize, run: (usize, usize)| {
         let middle = 0.5 * (run.0 + run.1) as f64;
-        runs(steps).into_iter().min_by(|a, b| {
-            let off = |run: &(usize, usize)| {
-                let (low, high) = (run.0 as f64, run.1 as f64);
-                (low - middle).max(middle - high).max(0.0)
-            };
-            off(a).total_cmp(&off(b)).then(b.1.cmp(&a.1))
-        })
+        let off = |run: &(usize, usize)| (run.0 as f64 - middle).max(middle - run.1 as f64).max(0.0);
+        runs(steps).min_by(|a, b| off(a).total_cmp(&off(b)).then(b.1.cmp(&a.1)))
     };
     let crotch_row = crotch / cell;
     let reaches_down = |steps: usize, from: f64, run: (usize, usize)| {
@@ -103,7 +85,7 @@ pub fn find_arm(view: &FrontView, left: bool, space: &ArmSpace) -> Option<Arm> {
         })
     };
     for steps in (0..outermost).rev() {
-        let next = inwards(steps, run)?;
+        let next = inwards(steps, path[path.len() - 1].1)?;
         // A drop of the lower side below where the arm has run so far.
         if path.len() >= LEAST_STATIONS {
             let (low, thickness) = lower_side(&path, steps);
@@ -113,7 +95,6 @@ pub fn find_arm(view: &FrontView, left: bool, space: &ArmSpace) -> Option<Arm> {
             }
         }
         path.push((steps, next));
-        run = next;
     }
     let pit_seen = pit.is_some();
     let pit_steps = pit.unwrap_or(((PIT_BY_RATIO / cell) as usize).min(outermost.saturating_sub(1)));
@@ -129,8 +110,7 @@ pub fn find_arm(view: &FrontView, left: bool, space: &ArmSpace) -> Option<Arm> {
         .collect();
     let (through, slope) = fit(&fitted);
     let along = DVec2::new(1.0, slope).normalize();
-    let pit_row = path.last().map_or(0, |&(_, run)| run.0);
-    let pit = DVec2::new(pit_steps as f64 * cell, pit_row as f64 * cell);
+    let pit = DVec2::new(pit_steps as f64 * cell, path[length - 1].1.0 as f64 * cell);
     // The foot of the pit on the line, and of the tip.
     let start = through + along * (pit - through).dot(along);
     let length = (view.distance(outermost) - start.x) / along.x.max(STEEPEST);
@@ -160,11 +140,6 @@ fn fit(points: &[DVec2]) -> (DVec2, f64) {
     (mean, if xx > 0.0 { xy / xx } else { 0.0 })
 }
 
-/// How many rows a run begins above or ends below row `middle`.
-fn rows_off((begin, end): (usize, usize), middle: usize) -> usize {
-    begin.saturating_sub(middle).max((middle + 1).saturating_sub(end))
-}
-
 /// The line of an arm as seen from the front: distances from the axis, and heights.
 struct ArmLine {
     /// Its way to the hand, of length 1.
@@ -177,21 +152,26 @@ struct ArmLine {
     length: f64,
 }
 
+/// A section at right angles to an arm.
+struct Station {
+    centre: DVec3,
+    /// In the plane of the view.
+    width: f64,
+    depth: f64,
+}
+
 /// Rays at right angles to an arm's line, and what they meet.
 struct ArmRays {
     grid: RayGrid,
     /// The column over the armpit.
     first: usize,
-    /// 1 or -1: depths of the grid along z.
-    depth_sign: f64,
 }
 
 impl ArmRays {
     /// `None` where the arm has no length.
     fn cast(view: &FrontView, left: bool, line: &ArmLine) -> Option<Self> {
         let sign = if left { 1.0 } else { -1.0 };
-        let place = |p: DVec2| DVec3::new(view.axis + sign * p.x, p.y, 0.0);
-        let (start, length) = (line.start, line.length * BEYOND_TIP);
+        let length = line.length * BEYOND_TIP;
         if length.is_nan() || length <= ROUNDING {
             return None;
         }
@@ -201,55 +181,41 @@ impl ArmRays {
         let right = DVec3::new(sign * line.along.x, line.along.y, 0.0);
         // Rows count upwards on both sides.
         let up = DVec3::new(-sign * line.along.y, line.along.x, 0.0);
-        let origin = place(start - line.along * inside) - up * (0.5 * rows as f64 * cell);
+        let begin = line.start - line.along * inside;
+        let origin = view.point(left, begin.x, begin.y, 0.0) - up * (0.5 * rows as f64 * cell);
         let frame = GridFrame { origin, right, up, cell, columns: STATIONS, rows };
-        Some(Self {
-            grid: RayGrid::new(view.positions, &view.triangles, frame, view.threads),
-            first: (inside / cell).round() as usize,
-            depth_sign: right.cross(up).z.signum(),
-        })
+        let grid = RayGrid::new(view.positions, &view.triangles, frame, view.threads);
+        Some(Self { grid, first: (inside / cell).round() as usize })
     }
 
-    /// The section of a column that is nearest to row `middle`, and its own middle row.
-    fn station(&self, column: usize, middle: usize) -> Option<(usize, Station)> {
+    /// The section of a column that is nearest to a row, which becomes its own middle one.
+    fn station(&self, column: usize, middle: &mut usize) -> Option<Station> {
         let GridFrame { origin, right, up, cell, .. } = self.grid.frame;
-        let nearest =
-            self.grid.runs_of_column(column).into_iter().min_by_key(|&run| rows_off(run, middle))?;
-        let (begin, end) = nearest;
-        let (back, front) = self.grid.limb((begin..end).map(|row| (column, row)))?;
-        let at = origin + right * ((column as f64 + 0.5) * cell) + up * (0.5 * (begin + end) as f64 * cell);
-        let station = Station {
-            centre: at.with_z(self.depth_sign * 0.5 * (back + front)),
-            width: (end - begin) as f64 * cell,
-            depth: front - back,
+        let off = |&(begin, end): &(usize, usize)| {
+            begin.saturating_sub(*middle).max((*middle + 1).saturating_sub(end))
         };
-        Some(((begin + end) / 2, station))
+        let (begin, end) = self.grid.runs_of_column(column).into_iter().min_by_key(off)?;
+        let (back, front) = self.grid.limb((begin..end).map(|row| (column, row)))?;
+        *middle = (begin + end) / 2;
+        let at = origin + right * ((column as f64 + 0.5) * cell) + up * (0.5 * (begin + end) as f64 * cell);
+        // Depths count along z or against it.
+        let centre = at.with_z(right.cross(up).z.signum() * 0.5 * (back + front));
+        Some(Station { centre, width: (end - begin) as f64 * cell, depth: front - back })
     }
 
     /// The arm's sections from the shoulder to the tip, followed both ways from where it is clear of the trunk.
     fn stations(&self) -> Vec<Station> {
-        let first = self.first;
-        let mut stations: Vec<Option<Station>> = vec![None; STATIONS];
-        let clear = first + (CLEAR * (STATIONS - first) as f64) as usize;
+        let clear = self.first + (CLEAR * (STATIONS - self.first) as f64) as usize;
         let mut middle = self.grid.frame.rows / 2;
-        for (column, slot) in stations.iter_mut().enumerate().skip(clear) {
-            if let Some((next, station)) = self.station(column, middle) {
-                middle = next;
-                *slot = Some(station);
-            }
-        }
-        let usual = median(&mut stations.iter().flatten().map(|s| s.width).collect::<Vec<_>>());
+        let outwards: Vec<Station> =
+            (clear..STATIONS).filter_map(|column| self.station(column, &mut middle)).collect();
+        let usual = median(&mut outwards.iter().map(|s| s.width).collect::<Vec<_>>());
         let mut middle = self.grid.frame.rows / 2;
-        for column in (first..clear).rev() {
-            match self.station(column, middle) {
-                Some((next, station)) if station.width <= TRUNK_WIDENS * usual => {
-                    middle = next;
-                    stations[column] = Some(station);
-                }
-                _ => break,
-            }
-        }
-        stations.drain(first..).flatten().collect()
+        let inwards = (self.first..clear).rev().map_while(|column| self.station(column, &mut middle));
+        let mut stations: Vec<Station> = inwards.take_while(|s| s.width <= TRUNK_WIDENS * usual).collect();
+        stations.reverse();
+        stations.extend(outwards);
+        stations
     }
 }
 
@@ -260,7 +226,8 @@ fn joints(view: &FrontView, left: bool, line: &ArmLine, pit_seen: bool) -> Optio
     if stations.len() < LEAST_STATIONS {
         return None;
     }
-    let curve = ArmCurve::new(stations, SMOOTHED);
+    let sections = stations.iter().map(|station| (station.centre, station.width + station.depth));
+    let curve = ArmCurve::new(sections, SMOOTHED);
     let radius = curve.radius();
     let upper = curve.upper();
     let right = rays.grid.frame.right;
@@ -272,5 +239,5 @@ fn joints(view: &FrontView, left: bool, line: &ArmLine, pit_seen: bool) -> Optio
         // An arm held forward begins in the depth of the trunk's middle.
         shoulder.z = (upper.z - ahead * inwards).max(trunk.min(upper.z));
     }
-    Some(curve.arm(shoulder, right, line.pit, pit_seen))
+    Some(curve.joints(shoulder, right, line.pit, pit_seen))
 }

@@ -8,7 +8,7 @@
 use super::arm_branch::{arms_of, raised};
 use super::arm_choice::{Body, Candidate, FINER, IMAGE, even_hands};
 use super::arm_curve::Arm;
-use super::arms::{ArmSpace, find_arm};
+use super::arms::find_arm;
 use super::candidates::{Candidates, likelihood};
 use super::front_view::FrontView;
 use super::hand::pair::add_fingers;
@@ -347,15 +347,14 @@ impl Search<'_> {
     /// an arm is that is held further out than the other one.
     fn arms_by(&self, legs: &Legs, ceiling: f64) -> [Vec<Arm>; 2] {
         let view = self.view;
-        let floor = HANDS_ABOVE * legs.crotch;
-        let reach = [true, false].map(|left| reach(view, left, floor..ceiling));
+        let heights = HANDS_ABOVE * legs.crotch..ceiling;
+        let reach = [true, false].map(|left| reach(view, left, &heights));
         let most = LONGER_ARM * reach[0].min(reach[1]);
         [true, false].map(|left| {
             let own = reach[usize::from(!left)];
             let limits = [Some(most), Some(own).filter(|&own| own > most)];
-            let arms = limits.into_iter().flatten().filter_map(|most| {
-                find_arm(view, left, &ArmSpace { crotch: legs.crotch, floor, ceiling, most })
-            });
+            let find = |most: f64| find_arm(view, left, legs.crotch, &heights, most);
+            let arms = limits.into_iter().flatten().filter_map(find);
             let is_arm = |arm: &Arm| {
                 let share = (arm.shoulder.y - legs.crotch) / (view.high - legs.crotch).max(1e-6);
                 let length = arm.shoulder.distance(arm.elbow) + arm.elbow.distance(arm.tip);
@@ -611,7 +610,7 @@ fn neck_height(view: &FrontView, crotch: f64) -> Option<f64> {
 }
 
 /// How far from the axis something reaches within a range of heights.
-fn reach(view: &FrontView, left: bool, heights: Range<f64>) -> f64 {
+fn reach(view: &FrontView, left: bool, heights: &Range<f64>) -> f64 {
     let last = if heights.end.is_finite() { view.grid.row(heights.end) } else { view.grid.frame.rows };
     (view.grid.row(heights.start)..last)
         .filter_map(|row| view.side_runs(left, row).last().map(|run| run.1))
