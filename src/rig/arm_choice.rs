@@ -1,6 +1,7 @@
 //! Which of several arms a body has: what all bodies obey, as a cost of a pair.
 
 use super::arm_curve::Arm;
+use super::front_view::image;
 use super::solid::Solid;
 use glam::DVec3;
 
@@ -72,10 +73,6 @@ pub struct Candidate {
 }
 
 impl Body<'_> {
-    fn image(&self, p: DVec3) -> DVec3 {
-        DVec3::new(2.0 * self.axis - p.x, p.y, p.z)
-    }
-
     /// What is odd about an arm by itself, and `more` for the way it was found.
     pub fn candidate(&self, arm: Arm, left: bool, more: f64) -> Candidate {
         let given = self.given[usize::from(!left)];
@@ -131,7 +128,7 @@ impl Body<'_> {
         let own = |side: usize| pair[side].map_or_else(|| none(side), |one| one.cost);
         let mut cost = own(0) + own(1);
         if let [Some(left), Some(right)] = pair {
-            cost += surprise(left.arm.shoulder.distance(self.image(right.arm.shoulder)) / APART);
+            cost += surprise(left.arm.shoulder.distance(image(right.arm.shoulder, self.axis)) / APART);
             cost += surprise((length(&left.arm) / length(&right.arm).max(1e-6)).max(1e-6).ln() / UNEVEN);
         }
         cost
@@ -139,7 +136,7 @@ impl Body<'_> {
 
     /// The arm with the image of the other one's shoulder in place of its own.
     pub fn with_shoulder_of(&self, arm: &Arm, other: &Arm) -> Arm {
-        let shoulder = self.image(other.shoulder);
+        let shoulder = image(other.shoulder, self.axis);
         let elbow = shoulder.lerp(arm.wrist, other.elbow_share());
         Arm { shoulder, elbow, pit: other.pit, radius: other.radius, pit_seen: other.pit_seen, ..arm.clone() }
     }
@@ -150,24 +147,18 @@ impl Body<'_> {
 /// Where one wrist does not show, its hand is as long as the other one; where neither does, or hands are uneven, both are in doubt.
 pub fn even_hands(arms: [Option<Arm>; 2], given: [bool; 2]) -> [Option<Arm>; 2] {
     let [Some(left), Some(right)] = &arms else { return arms };
-    let both = [left, right];
-    let is_even = |one: f64, other: f64| (one / other.max(1e-9)).max(1e-9).ln().abs() <= UNEVEN_HANDS;
-    let seen = both.map(|arm| arm.wrist_seen);
-    // A hand beside one that is given is as long as that.
+    let is_even =
+        |one: &Arm, other: &Arm| (hand(one) / hand(other).max(1e-9)).max(1e-9).ln().abs() <= UNEVEN_HANDS;
     let beside = |arm: &Arm, other: &Arm| {
-        if arm.wrist_seen && is_even(hand(arm), hand(other)) { arm.clone() } else { with_hand_of(arm, other) }
+        Some(if arm.wrist_seen && is_even(arm, other) { arm.clone() } else { with_hand_of(arm, other) })
     };
-    match given {
-        [true, true] => return arms,
-        [true, false] => return [Some(left.clone()), Some(beside(right, left))],
-        [false, true] => return [Some(beside(left, right)), Some(right.clone())],
-        [false, false] => {}
-    }
-    match seen {
-        [true, true] if is_even(hand(left), hand(right)) => arms,
-        [true, false] => [arms[0].clone(), Some(with_hand_of(right, left))],
-        [false, true] => [Some(with_hand_of(left, right)), arms[1].clone()],
-        _ => both.map(|arm| Some(Arm { wrist_seen: false, ..arm.clone() })),
+    // A hand that is given tells how long the other one is, else one that shows.
+    let tells = if given == [false, false] { [left.wrist_seen, right.wrist_seen] } else { given };
+    match tells {
+        [true, false] => [Some(left.clone()), beside(right, left)],
+        [false, true] => [beside(left, right), Some(right.clone())],
+        [true, true] if given[0] || is_even(left, right) => arms,
+        [true, true] | [false, false] => arms.map(|arm| Some(Arm { wrist_seen: false, ..arm? })),
     }
 }
 

@@ -78,8 +78,8 @@ impl Candidates {
         trusted: f64,
     ) -> BTreeMap<Role, Vec<Place>> {
         let doubted = joints.iter().filter(|(_, joint)| joint.confidence < trusted);
-        let all = doubted.map(|(&role, joint)| {
-            let mut others = self.0.get(&role).cloned().unwrap_or_default();
+        let several = |(&role, joint): (&Role, &FoundJoint)| {
+            let mut others = self.0.get(&role)?.clone();
             others.sort_by(|a, b| b.score.total_cmp(&a.score));
             let mut places = vec![Place { position: joint.position, score: 1.0 }];
             for place in others {
@@ -88,9 +88,9 @@ impl Candidates {
                     places.push(place);
                 }
             }
-            (role, places)
-        });
-        all.filter(|(_, places)| places.len() > 1).collect()
+            (places.len() > 1).then_some((role, places))
+        };
+        doubted.filter_map(several).collect()
     }
 }
 

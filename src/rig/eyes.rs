@@ -1,11 +1,11 @@
 //! Eyeballs: two like pieces of the face, one on each side.
 
 use super::UnitFigure;
+use super::front_view::image;
 use super::joints::{FoundJoints, SEEN};
 use crate::character::{MeshKind, Role};
-use crate::geometry::{SEAM, components, weld};
+use crate::geometry::{Bounds, SEAM, bounds_by_group, components, weld};
 use glam::DVec3;
-use std::collections::BTreeMap;
 
 /// An eyeball is no thinner than this share of its width: what is flatter is a brow, a lash or a painted eye. Seen: at
 /// -30 %, six more eyes.
@@ -43,58 +43,37 @@ pub fn find_eyes(figure: &UnitFigure, kinds: &[MeshKind], found: &FoundJoints) -
     let length = (crown.y - found.chin.y).abs();
     let welded = weld(&figure.positions, SEAM);
     let component = components(&figure.triangles, &welded);
-    let mut pieces: BTreeMap<u32, (DVec3, DVec3, Vec<usize>)> = BTreeMap::new();
-    for mesh in (0..figure.mesh_count()).filter(|&mesh| kinds[mesh] == MeshKind::FacePart) {
-        for vertex in figure.vertices(mesh) {
-            let p = figure.positions[vertex];
-            let (low, high, vertices) =
-                pieces.entry(component[welded.representative[vertex] as usize]).or_insert((p, p, Vec::new()));
-            *low = low.min(p);
-            *high = high.max(p);
-            vertices.push(vertex);
-        }
-    }
-    let pieces: Vec<(DVec3, DVec3, Vec<usize>)> = pieces.into_values().collect();
+    let piece = |vertex: usize| component[welded.representative[vertex] as usize] as usize;
+    let meshes = (0..figure.mesh_count()).filter(|&mesh| kinds[mesh] == MeshKind::FacePart);
+    let face: Vec<usize> = meshes.flat_map(|mesh| figure.vertices(mesh)).collect();
+    let boxes =
+        bounds_by_group(welded.count, face.iter().map(|&vertex| (piece(vertex), figure.positions[vertex])));
+    let ball_around = |&(low, high): &Bounds| ((low + high) / 2.0, (high - low).max_element() / 2.0);
     let middle = head.position.x;
-    let balls: Vec<(DVec3, f64)> = pieces
-        .iter()
-        .filter_map(|(low, high, _)| {
-            let size = *high - *low;
-            let centre = (*low + *high) / 2.0;
-            let round = size.min_element() >= ROUNDNESS * size.max_element() && size.max_element() > 0.0;
-            let inside = centre.y > found.chin.y && centre.y < crown.y && size.max_element() < length / 2.0;
-            (round && inside).then_some((centre, size.max_element() / 2.0))
-        })
-        .collect();
-    let mut best: Option<[(DVec3, f64); 2]> = None;
-    for &(left, radius) in balls.iter().filter(|(centre, _)| centre.x > middle) {
-        let mirrored = DVec3::new(2.0 * middle - left.x, left.y, left.z);
-        let other = balls
-            .iter()
-            .filter(|(centre, _)| centre.x < middle && centre.distance(mirrored) < LIKENESS * length)
-            .min_by(|a, b| a.0.distance(mirrored).total_cmp(&b.0.distance(mirrored)));
-        if let Some(&other) = other
-            && (1.0 / LARGER..=LARGER).contains(&(radius / other.1))
-            && best.is_none_or(|[(_, largest), _]| radius > largest)
-        {
-            best = Some([(left, radius), other]);
-        }
-    }
-    let Some(pair) = best else {
+    let is_ball = |piece: &&Bounds| {
+        let size = piece.1 - piece.0;
+        let centre = ball_around(piece).0;
+        let round = size.min_element() >= ROUNDNESS * size.max_element() && size.max_element() > 0.0;
+        round && centre.y > found.chin.y && centre.y < crown.y && size.max_element() < length / 2.0
+    };
+    let balls: Vec<(DVec3, f64)> = boxes.iter().filter(is_ball).map(ball_around).collect();
+    let pairs = balls.iter().filter(|(centre, _)| centre.x > middle).filter_map(|&left| {
+        let off = |ball: &(DVec3, f64)| ball.0.distance(image(left.0, middle));
+        let others = balls.iter().filter(|ball| ball.0.x < middle && off(ball) < LIKENESS * length);
+        let &right = others.min_by(|a, b| off(a).total_cmp(&off(b)))?;
+        (1.0 / LARGER..=LARGER).contains(&(left.1 / right.1)).then_some([left, right])
+    });
+    // The largest pair, of several the first.
+    let Some(pair) = pairs.rev().max_by(|a, b| a[0].1.total_cmp(&b[0].1)) else {
         return Vec::new();
     };
-    [Role::LeftEye, Role::RightEye]
-        .into_iter()
-        .zip(pair)
-        .map(|(role, (centre, radius))| {
-            let within = |&(low, high, _): &&(DVec3, DVec3, Vec<usize>)| {
-                ((*low + *high) / 2.0).distance(centre) + (*high - *low).max_element() / 2.0
-                    <= TURNS_WITH * radius
-            };
-            let mut vertices: Vec<usize> =
-                pieces.iter().filter(within).flat_map(|(_, _, vertices)| vertices).copied().collect();
-            vertices.sort_unstable();
-            Eye { role, centre, vertices, confidence: SEEN }
-        })
-        .collect()
+    let eye = |(role, (centre, radius)): (Role, (DVec3, f64))| {
+        let turns_with = |&&vertex: &&usize| {
+            let (middle, reach) = ball_around(&boxes[piece(vertex)]);
+            middle.distance(centre) + reach <= TURNS_WITH * radius
+        };
+        let vertices = face.iter().filter(turns_with).copied().collect();
+        Eye { role, centre, vertices, confidence: SEEN }
+    };
+    [Role::LeftEye, Role::RightEye].into_iter().zip(pair).map(eye).collect()
 }

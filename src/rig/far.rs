@@ -21,23 +21,22 @@ const LEAST_VERTICES: usize = 64;
 ///
 /// O(vertices + triangles).
 pub fn gathered(character: &Character) -> Cow<'_, Character> {
-    let mut places: Vec<(usize, usize)> = Vec::with_capacity(character.vertex_count());
-    for (index, mesh) in character.meshes.iter().enumerate() {
+    let mut points: Vec<Vec3> = Vec::with_capacity(character.vertex_count());
+    for mesh in &character.meshes {
         let corners = mesh.triangles.iter().flatten();
         let used = marked(mesh.positions.len(), corners.map(|&vertex| vertex as usize));
-        places.extend((0..used.len()).filter(|&vertex| used[vertex]).map(|vertex| (index, vertex)));
+        points.extend(mesh.positions.iter().zip(used).filter(|&(_, used)| used).map(|(p, _)| p));
     }
-    if places.len() < LEAST_VERTICES {
+    if points.len() < LEAST_VERTICES {
         return Cow::Borrowed(character);
     }
-    let at = |(mesh, vertex): (usize, usize)| character.meshes[mesh].positions[vertex];
     let median = |axis: usize| {
-        let mut values: Vec<f32> = places.iter().map(|&place| at(place)[axis]).collect();
+        let mut values: Vec<f32> = points.iter().map(|p| p[axis]).collect();
         let half = values.len() / 2;
         *values.select_nth_unstable_by(half, f32::total_cmp).1
     };
     let middle = Vec3::new(median(0), median(1), median(2));
-    let mut distances: Vec<f32> = places.iter().map(|&place| at(place).distance(middle)).collect();
+    let mut distances: Vec<f32> = points.iter().map(|p| p.distance(middle)).collect();
     let most = (MOST * distances.len() as f64) as usize + COPIES;
     let last = distances.len() - 1 - most;
     distances.select_nth_unstable_by(last, f32::total_cmp);

@@ -158,16 +158,18 @@ impl<'a> FrontView<'a> {
         let half = self.half_columns();
         let (mut back, mut front): (Vec<f64>, Vec<f64>) =
             (half - steps..half + steps).filter_map(|column| self.grid.thickest(column, row)).unzip();
-        if back.is_empty() {
-            return None;
-        }
-        Some((median(&mut back), median(&mut front)))
+        (!back.is_empty()).then(|| (median(&mut back), median(&mut front)))
     }
 
     /// A point of the unit figure from a distance to the axis on one side.
     pub fn point(&self, left: bool, distance: f64, y: f64, z: f64) -> DVec3 {
         DVec3::new(if left { self.axis + distance } else { self.axis - distance }, y, z)
     }
+}
+
+/// The mirror image of a point in the plane at x = `axis`.
+pub fn image(p: DVec3, axis: f64) -> DVec3 {
+    DVec3::new(2.0 * axis - p.x, p.y, p.z)
 }
 
 fn front(positions: &[DVec3], triangles: &[[u32; 3]], axis: f64, threads: usize) -> RayGrid {
@@ -277,15 +279,10 @@ fn axis(grid: &RayGrid) -> f64 {
     };
     let middle = columns - 1;
     let scores: Vec<f64> = (0..2 * columns - 1).map(overlap).collect();
-    let mut best = middle;
     // From the middle outwards, so that the nearer of two equal axes counts.
-    for distance in 1..middle + 1 {
-        for sum in [middle - distance, middle + distance] {
-            if scores[sum] > scores[best] + 1e-12 {
-                best = sum;
-            }
-        }
-    }
+    let outwards = (1..=middle).flat_map(|distance| [middle - distance, middle + distance]);
+    let better = |best: usize, sum: usize| if scores[sum] > scores[best] + 1e-12 { sum } else { best };
+    let best = outwards.fold(middle, better);
     if scores[middle] >= scores[best] - AXIS_GAIN {
         return 0.0;
     }
