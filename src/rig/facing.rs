@@ -9,7 +9,7 @@ use crate::character::kinds::{MeshNames, kinds_from_names};
 use crate::character::{Character, Mesh, MeshKind};
 use crate::error::Warning;
 use crate::geometry::{bounds, range};
-use glam::{DVec2, DVec3, Vec3, Vec4};
+use glam::{DMat3, DVec2, DVec3, Vec3, Vec4};
 
 /// Cells along the longest side of the box in which the figure is compared with its mirror image. Seen: at -30 %, five
 /// fewer of 115 poses warned of.
@@ -92,7 +92,7 @@ pub fn find_forward(character: &Character) -> Vec<(DVec3, Vec<Warning>)> {
     // Ground coordinates: x towards the left of a figure that looks the usual way, y the usual way.
     let side = up.cross(usual);
     let kinds = known_kinds(character);
-    let Some(cells) = Cells::new(character, &kinds, [side, up, usual]) else {
+    let Some(cells) = Cells::new(character, &kinds, DMat3::from_cols(side, up, usual).transpose()) else {
         let message = "nothing tells which way the character looks: it has no extent along up";
         return vec![(usual, vec![guessed(message)])];
     };
@@ -102,9 +102,8 @@ pub fn find_forward(character: &Character) -> Vec<(DVec3, Vec<Warning>)> {
         .map(|axis| DVec2::new(axis.dot(side), axis.dot(usual)).normalize());
     let mirrors = cells.mirrors(&axes.collect::<Vec<_>>());
     let ways = mirrors.into_iter().map(|(mirror, sure_of_sides)| {
-        let left = mirror.normal;
-        let forward = DVec2::new(-left.y, left.x);
-        let vote = cells.front_vote(character, &kinds, mirror, forward);
+        let forward = mirror.normal.perp();
+        let vote = cells.front_vote(character, &kinds, mirror);
         // Without a vote the usual way, or what is nearer to it.
         let turned = if vote.abs() >= LEAST_VOTE { vote < 0.0 } else { forward.y < -1e-9 };
         let forward = if turned { -forward } else { forward };
@@ -123,14 +122,16 @@ pub fn find_forward(character: &Character) -> Vec<(DVec3, Vec<Warning>)> {
 /// A plane through up: ground points p with `normal . p = offset`.
 #[derive(Clone, Copy, Debug)]
 struct Mirror {
+    /// The angle of its normal, but for what it was snapped by.
+    degrees: f64,
     normal: DVec2,
     offset: f64,
+    /// How well the figure mirrors in it, and how wide it is.
+    score: f64,
 }
 
-impl Mirror {
-    fn at(degrees: f64, offset: f64) -> Self {
-        Self { normal: DVec2::from_angle(degrees.to_radians()), offset }
-    }
+fn normal_at(degrees: f64) -> DVec2 {
+    DVec2::from_angle(degrees.to_radians())
 }
 
 /// The surface of a figure as occupied cells of a grid, 1 wide each: x and z on the ground, y up.
@@ -146,8 +147,8 @@ struct Cells {
     middle: DVec2,
     /// How they spread on the ground: xx, xz, zz.
     spread: [f64; 3],
-    /// Left, up and front of the grid in model space, cells in a model unit, and where the grid begins.
-    frame: [DVec3; 3],
+    /// Model space to left, up and front of the grid, cells in a model unit, and where the grid begins.
+    frame: DMat3,
     scale: f64,
     low: DVec3,
 }
@@ -156,12 +157,8 @@ struct Cells {
 fn known_kinds(character: &Character) -> Vec<Option<MeshKind>> {
     let names: Vec<MeshNames> = character.meshes.iter().map(|mesh| MeshNames::of_path(&mesh.name)).collect();
     let named = kinds_from_names(character, &names);
-    character
-        .meshes
-        .iter()
-        .zip(named)
-        .map(|(mesh, named)| mesh.kind.or(named).map(MeshKind::without_eyes))
-        .collect()
+    let known = |(mesh, named): (&Mesh, Option<MeshKind>)| mesh.kind.or(named).map(MeshKind::without_eyes);
+    character.meshes.iter().zip(named).map(known).collect()
 }
 
 /// Whether each mesh tells anything: hair and accessories do only where there is nothing else.
@@ -175,13 +172,13 @@ fn counted(character: &Character, kinds: &[Option<MeshKind>]) -> Vec<bool> {
 
 impl Cells {
     /// `None` where there is no triangle, or none of an extent along up.
-    fn new(character: &Character, kinds: &[Option<MeshKind>], frame: [DVec3; 3]) -> Option<Self> {
+    fn new(character: &Character, kinds: &[Option<MeshKind>], frame: DMat3) -> Option<Self> {
         let counted = counted(character, kinds);
-        let place = |p: Vec3| DVec3::from_array(frame.map(|axis| axis.dot(p.as_dvec3())));
         let triangles = || {
             let meshes = character.meshes.iter().zip(&counted).filter(|&(_, &counted)| counted);
             meshes.flat_map(|(mesh, _)| {
-                mesh.triangles.iter().map(move |corners| corners.map(|v| place(mesh.positions[v as usize])))
+                let place = move |v: u32| frame * mesh.positions[v as usize].as_dvec3();
+                mesh.triangles.iter().map(move |corners| corners.map(place))
             })
         };
         let (low, high) = bounds(triangles().flatten());
@@ -241,8 +238,7 @@ impl Cells {
 
     /// Model space to cells.
     fn to_cells(&self, p: Vec3) -> DVec3 {
-        let p = DVec3::from_array(self.frame.map(|axis| axis.dot(p.as_dvec3())));
-        (p - self.low) * self.scale + MARGIN
+        (self.frame * p.as_dvec3() - self.low) * self.scale + MARGIN
     }
 
     /// Occupancy around `p`, 0 outside.
@@ -266,13 +262,12 @@ impl Cells {
     }
 
     /// How like its mirror image the figure is, 0..1, by every `step`-th point.
-    fn likeness(&self, mirror: Mirror, step: usize) -> f64 {
+    fn likeness(&self, normal: DVec2, offset: f64, step: usize) -> f64 {
         let (mut own, mut other) = (0.0, 0.0);
         for p in self.points.iter().step_by(step) {
-            let ahead = 2.0 * (mirror.normal.dot(DVec2::new(p.x, p.z)) - mirror.offset);
+            let ahead = 2.0 * (normal.dot(DVec2::new(p.x, p.z)) - offset);
             own += self.sample(*p);
-            other +=
-                self.sample(DVec3::new(p.x - ahead * mirror.normal.x, p.y, p.z - ahead * mirror.normal.y));
+            other += self.sample(DVec3::new(p.x - ahead * normal.x, p.y, p.z - ahead * normal.y));
         }
         if own > 0.0 { other / own } else { 0.0 }
     }
@@ -284,38 +279,39 @@ impl Cells {
         if xx + zz > 0.0 { along / (xx + zz) } else { 0.5 }
     }
 
-    /// The score of a plane, its angle and itself.
-    fn scored(&self, degrees: f64, offset: f64, step: usize) -> (f64, f64, Mirror) {
-        let mirror = Mirror::at(degrees, offset);
-        let score = self.likeness(mirror, step) + WIDTH_WEIGHT * self.width_share(mirror.normal);
-        (score, degrees, mirror)
+    /// A plane with its score, by every `step`-th point.
+    fn scored(&self, degrees: f64, offset: f64, step: usize) -> Mirror {
+        let normal = normal_at(degrees);
+        let score = self.likeness(normal, offset, step) + WIDTH_WEIGHT * self.width_share(normal);
+        Mirror { degrees, normal, offset, score }
     }
 
     /// The plane between left and right, whether it is clearly that one, and after it the second best one where that may be
     /// it as well; `axes` are ground directions along which files stand.
     fn mirrors(&self, axes: &[DVec2]) -> Vec<(Mirror, bool)> {
         let step = self.points.len().div_ceil(SWEEP_CELL_COUNT).max(1);
-        let sweep: Vec<(f64, f64, Mirror)> = (0..180)
+        let sweep: Vec<Mirror> = (0..180)
             .step_by(SWEEP_STEP)
             .map(|degrees| {
                 let degrees = degrees as f64;
-                let middle = Mirror::at(degrees, 0.0).normal.dot(self.middle);
+                let middle = normal_at(degrees).dot(self.middle);
                 better_of(SWEEP_OFFSETS.map(|by| self.scored(degrees, middle + by, step)))
             })
             .collect();
-        let (rough, degrees, mirror) = better_of(sweep.iter().copied());
-        let away = |angle: f64| {
-            let between = (angle - degrees).abs();
-            between.min(180.0 - between)
+        let first = better_of(sweep.iter().copied());
+        let is_apart = |mirror: &Mirror| {
+            let between = (mirror.degrees - first.degrees).abs();
+            between.min(180.0 - between) > APART_ANGLE
         };
-        let second = better_of(sweep.iter().copied().filter(|(_, angle, _)| away(*angle) > APART_ANGLE));
-        let best = self.refined(degrees, mirror, axes);
-        let margin = rough - second.0;
-        let sure = self.likeness(best, self.fine_step()) >= LEAST_LIKENESS && margin >= LEAST_MARGIN;
+        let second = better_of(sweep.iter().copied().filter(is_apart));
+        let best = self.refined(first, axes);
+        let margin = first.score - second.score;
+        let likeness = self.likeness(best.normal, best.offset, self.fine_step());
+        let sure = likeness >= LEAST_LIKENESS && margin >= LEAST_MARGIN;
         if sure && margin >= TRIED_MARGIN {
             return vec![(best, true)];
         }
-        vec![(best, sure), (self.refined(second.1, second.2, axes), false)]
+        vec![(best, sure), (self.refined(second, axes), false)]
     }
 
     /// Every so many cells are compared around a plane that is about right.
@@ -324,67 +320,58 @@ impl Cells {
     }
 
     /// The best plane near one.
-    fn refined(&self, mut degrees: f64, mut mirror: Mirror, axes: &[DVec2]) -> Mirror {
+    fn refined(&self, near: Mirror, axes: &[DVec2]) -> Mirror {
         let step = self.fine_step();
-        let mut best = self.scored(degrees, mirror.offset, step).0;
+        let mut best = self.scored(near.degrees, near.offset, step);
+        // Planes turn about the middle.
+        let ahead = |mirror: Mirror| mirror.offset - mirror.normal.dot(self.middle);
         let (mut turn, mut shift) = (SWEEP_STEP as f64 / 2.0, 1.0);
         while turn > LEAST_TURN {
-            let offset = |degrees: f64| {
-                // The plane turns about the middle.
-                let ahead = mirror.offset - mirror.normal.dot(self.middle);
-                Mirror::at(degrees, 0.0).normal.dot(self.middle) + ahead
-            };
+            let turned = |degrees: f64| (degrees, normal_at(degrees).dot(self.middle) + ahead(best));
             let tries = [
-                (degrees, mirror.offset - shift),
-                (degrees, mirror.offset + shift),
-                (degrees - turn, offset(degrees - turn)),
-                (degrees + turn, offset(degrees + turn)),
+                (best.degrees, best.offset - shift),
+                (best.degrees, best.offset + shift),
+                turned(best.degrees - turn),
+                turned(best.degrees + turn),
             ];
             let better = better_of(tries.map(|(degrees, offset)| self.scored(degrees, offset, step)));
-            if better.0 > best + 1e-9 {
-                (best, degrees, mirror) = better;
+            if better.score > best.score + 1e-9 {
+                best = better;
             } else {
                 (turn, shift) = (turn / 2.0, shift / 2.0);
             }
         }
-        let towards = |axis: DVec2| if axis.dot(mirror.normal) < 0.0 { -axis } else { axis };
-        let is_near = |axis: &DVec2| axis.dot(mirror.normal) >= SNAP_ANGLE.to_radians().cos();
+        let towards = |axis: DVec2| if axis.dot(best.normal) < 0.0 { -axis } else { axis };
+        let is_near = |axis: &DVec2| axis.dot(best.normal) >= SNAP_ANGLE.to_radians().cos();
         let mut axes = axes.iter().flat_map(|axis| [*axis, axis.perp()]).map(towards);
-        let Some(axis) = axes.find(is_near) else { return mirror };
-        let ahead = mirror.offset - mirror.normal.dot(self.middle);
-        Mirror { normal: axis, offset: axis.dot(self.middle) + ahead }
+        let snapped =
+            |axis: DVec2| Mirror { normal: axis, offset: axis.dot(self.middle) + ahead(best), ..best };
+        axes.find(is_near).map_or(best, snapped)
     }
 
-    /// Above 0 for `forward`, below 0 against it.
-    fn front_vote(
-        &self,
-        character: &Character,
-        kinds: &[Option<MeshKind>],
-        mirror: Mirror,
-        forward: DVec2,
-    ) -> f64 {
+    /// Above 0 where the figure looks along the plane with its normal to the left, below 0 against that.
+    fn front_vote(&self, character: &Character, kinds: &[Option<MeshKind>], mirror: Mirror) -> f64 {
         let (low, high) = range(self.samples.iter().map(|p| p.y.into()));
         let height = (high - low).max(1e-9);
         // Sideways, up and ahead in heights of the figure.
         let place = |p: DVec3| {
             let ground = DVec2::new(p.x, p.z);
             let sideways = mirror.normal.dot(ground) - mirror.offset;
-            DVec3::new(sideways, p.y - low, forward.dot(ground - self.middle)) / height
+            DVec3::new(sideways, p.y - low, mirror.normal.perp().dot(ground - self.middle)) / height
         };
         let points: Vec<DVec3> = self.samples.iter().map(|p| place(p.as_dvec3())).collect();
-        let face_parts: Vec<DVec3> = (0..character.meshes.len())
-            .filter(|&mesh| kinds[mesh] == Some(MeshKind::FacePart))
-            .flat_map(|mesh| character.meshes[mesh].positions.iter())
-            .map(|&p| place(self.to_cells(p)))
-            .collect();
+        let of_face =
+            character.meshes.iter().zip(kinds).filter(|&(_, &kind)| kind == Some(MeshKind::FacePart));
+        let face_parts: Vec<DVec3> =
+            of_face.flat_map(|(mesh, _)| &mesh.positions).map(|&p| place(self.to_cells(p))).collect();
         front_vote(&points, &face_parts)
     }
 }
 
 /// The first of those with the highest score.
-fn better_of(scored: impl IntoIterator<Item = (f64, f64, Mirror)>) -> (f64, f64, Mirror) {
-    let none = (f64::NEG_INFINITY, 0.0, Mirror::at(0.0, 0.0));
-    scored.into_iter().fold(none, |one, other| if other.0 > one.0 { other } else { one })
+fn better_of(scored: impl IntoIterator<Item = Mirror>) -> Mirror {
+    let none = Mirror { degrees: 0.0, normal: DVec2::X, offset: 0.0, score: f64::NEG_INFINITY };
+    scored.into_iter().fold(none, |one, other| if other.score > one.score { other } else { one })
 }
 
 /// Every cell becomes the mean of itself and its two neighbours `stride` away, twice.
