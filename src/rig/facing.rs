@@ -130,6 +130,7 @@ struct Mirror {
     score: f64,
 }
 
+/// The way at an angle on the ground.
 fn normal_at(degrees: f64) -> DVec2 {
     DVec2::from_angle(degrees.to_radians())
 }

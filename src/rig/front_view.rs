@@ -214,11 +214,9 @@ impl Extent {
 
 fn is_whole(grid: &RayGrid, all: &Extent) -> bool {
     let own = Extent::of(grid);
-    if own.low > all.low + LOW_REACH || own.high < all.high - HIGH_REACH || own.width < WIDE_SHARE * all.width
-    {
-        return false;
-    }
-    filled_share(grid) >= FILLED_ROWS && connected_share(grid) >= CONNECTED_SHARE
+    let reaches = own.low <= all.low + LOW_REACH && own.high >= all.high - HIGH_REACH;
+    let is_wide = own.width >= WIDE_SHARE * all.width;
+    reaches && is_wide && filled_share(grid) >= FILLED_ROWS && connected_share(grid) >= CONNECTED_SHARE
 }
 
 /// The share of the rows between the lowest and the highest that show something.

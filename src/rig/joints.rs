@@ -10,7 +10,7 @@ use super::arm_choice::{Body, Candidate, FINER, IMAGE, even_hands};
 use super::arm_curve::Arm;
 use super::arms::find_arm;
 use super::candidates::{Candidates, likelihood};
-use super::front_view::FrontView;
+use super::front_view::{FrontView, image};
 use super::hand::pair::add_fingers;
 use super::head_line::{HeadLine, head_line, middle};
 use super::legs::{Leg, LegGap, LegLobes, Legs, find_legs, leg};
@@ -134,6 +134,8 @@ const BALANCE: f64 = 0.08;
 /// A leg that goes aside by more than this share of its height has its ankle elsewhere than a ratio says: 17 degrees.
 const LEANS: f64 = 0.3;
 
+/// Joints of a leg that may be given.
+const LEG: [Role; 3] = [Role::LeftUpperLeg, Role::LeftLowerLeg, Role::LeftFoot];
 /// Joints of an arm.
 const ARM: [Role; 3] = [Role::LeftUpperArm, Role::LeftLowerArm, Role::LeftHand];
 
@@ -205,21 +207,19 @@ impl Search<'_> {
         let (mut legs, inside) = find_legs(view, &lobes, LEGS_BELOW * view.high);
         let mut arms = self.arms(&legs, &solid);
         let mut tried = Vec::new();
-        let shoulders = |arms: &[Option<Arm>; 2]| match arms {
-            [Some(one), Some(other)] => {
-                Some((0.5 * (one.shoulder.y + other.shoulder.y), one.pit_seen && other.pit_seen))
-            }
-            _ => None,
+        let shoulders = |arms: &[Option<Arm>; 2]| {
+            let [Some(one), Some(other)] = arms else { return None };
+            Some((0.5 * (one.shoulder.y + other.shoulder.y), one.pit_seen && other.pit_seen))
         };
         let share = |legs: &Legs, line: f64| (legs.crotch - view.low) / (line - view.low).max(1e-6);
-        let is_low = |legs: &Legs, arms| {
-            shoulders(arms).is_some_and(|(line, seen)| seen && share(legs, line) < *LEGS.start())
+        let seen_share = |legs: &Legs, arms: &[Option<Arm>; 2]| {
+            shoulders(arms).filter(|&(_, seen)| seen).map(|(line, _)| share(legs, line))
         };
-        let fits = |legs: &Legs, arms| {
-            shoulders(arms).is_some_and(|(line, seen)| seen && USUAL_LEGS.contains(&share(legs, line)))
-        };
+        let is_low = |share: f64| share < *LEGS.start();
+        let is_usual = |share: f64| USUAL_LEGS.contains(&share);
         if let Some(inside) = inside
-            && (is_low(&legs, &arms) || legs.seen == LegGap::Hem && fits(&inside, &arms))
+            && (seen_share(&legs, &arms).is_some_and(is_low)
+                || legs.seen == LegGap::Hem && seen_share(&inside, &arms).is_some_and(is_usual))
         {
             tried.push(std::mem::replace(&mut legs, inside));
             arms = self.arms(&legs, &solid);
@@ -237,7 +237,7 @@ impl Search<'_> {
             }
         }
         // Legs that are oddly short or long under their shoulders end at the hem of something, or above the crotch.
-        let odd = shoulders(&arms).is_some_and(|(line, _)| !USUAL_LEGS.contains(&share(&legs, line)));
+        let odd = shoulders(&arms).is_some_and(|(line, _)| !is_usual(share(&legs, line)));
         let pair = self.both_legs(&legs);
         if let Some((line, _)) = shoulders(&arms) {
             tried.push(legs.below_shoulders(view, line));
@@ -275,18 +275,19 @@ impl Search<'_> {
         Ok(self.found)
     }
 
+    /// Where some left joints' like on one side are given.
+    fn given_of<const N: usize>(&self, roles: [Role; N], left: bool) -> [Option<DVec3>; N] {
+        roles.map(|role| self.given.get(&role.on_side(left)).copied())
+    }
+
     fn both_legs(&self, legs: &Legs) -> [Leg; 2] {
-        use Role::{LeftFoot, LeftLowerLeg, LeftUpperLeg};
-        [true, false].map(|left| {
-            let given = [LeftUpperLeg, LeftLowerLeg, LeftFoot]
-                .map(|role| self.given.get(&role.on_side(left)).copied());
-            leg(self.view, legs, left, given)
-        })
+        let given = |left: bool| self.given_of(LEG, left);
+        [true, false].map(|left| leg(self.view, legs, left, given(left)))
     }
 
     /// What arms over `legs` are judged by.
     fn body<'s>(&self, legs: &Legs, solid: &'s Solid) -> Body<'s> {
-        let given = [true, false].map(|left| ARM.map(|role| self.given.get(&role.on_side(left)).copied()));
+        let given = [true, false].map(|left| self.given_of(ARM, left));
         let neck = neck_height(self.view, legs.crotch);
         Body { solid, axis: self.view.axis, low: self.view.low, crotch: legs.crotch, neck, given }
     }
@@ -413,7 +414,13 @@ impl Search<'_> {
             self.warn("no slim place was seen before a hand: wrists placed by ratio");
         }
         let arms = arms.map(|arm| arm.map(|arm| self.slim(arm)));
-        let most = if self.oddness(legs, &arms, solid) > ODD_ARMS { DOUBTFUL } else { 1.0 };
+        let body = self.body(legs, solid);
+        let [left, right] = [true, false].map(|left| {
+            let (arm, _) = arms[usize::from(!left)].clone()?;
+            Some(body.candidate(arm, left, 0.0))
+        });
+        let is_odd = body.cost([left.as_ref(), right.as_ref()]) > ODD_ARMS;
+        let most = if is_odd { DOUBTFUL } else { 1.0 };
         for (left, arm) in [true, false].into_iter().zip(arms) {
             let (joints, confidences) = match arm {
                 Some((arm, base)) => {
@@ -453,16 +460,6 @@ impl Search<'_> {
         (arm.from_shoulder(shoulder), base.min(DERIVED))
     }
 
-    /// What both arms cost as they are placed.
-    fn oddness(&self, legs: &Legs, arms: &[Option<(Arm, f64)>; 2], solid: &Solid) -> f64 {
-        let body = self.body(legs, solid);
-        let [left, right] = [true, false].map(|left| {
-            let arm = arms[usize::from(!left)].as_ref();
-            arm.map(|(arm, _)| body.candidate(arm.clone(), left, 0.0))
-        });
-        body.cost([left.as_ref(), right.as_ref()])
-    }
-
     /// How far the feet are ahead of the shoulders or behind them, both sides' mean.
     fn off_balance(&self) -> f64 {
         let both = |role: Role| self.at(role).z + self.at(role.on_side(false)).z;
@@ -471,8 +468,7 @@ impl Search<'_> {
 
     /// Shoulder, elbow, wrist and tip of an arm some of whose joints are given.
     fn around_given(&self, left: bool, found: [DVec3; 4]) -> [DVec3; 4] {
-        let given = |role: Role| self.given.get(&role.on_side(left)).copied();
-        let [shoulder, elbow, wrist] = ARM.map(given);
+        let [shoulder, elbow, wrist] = self.given_of(ARM, left);
         let mut arm = found;
         arm[0] = shoulder.unwrap_or(found[0]);
         arm[2] = wrist.unwrap_or(found[2]);
@@ -544,27 +540,27 @@ impl Search<'_> {
             return false;
         }
         let [left, right] = [true, false].map(|left| ARM.map(|role| self.at(role.on_side(left))));
-        let image = DVec3::new(2.0 * self.view.axis - right[0].x, right[0].y, right[0].z);
         let differ = |index: usize| {
             (left[index].distance(left[index - 1]) - right[index].distance(right[index - 1])).abs()
         };
-        left[0].distance(image) <= DIFFER && differ(1).max(differ(2)) <= ALIKE
+        left[0].distance(image(right[0], self.view.axis)) <= DIFFER && differ(1).max(differ(2)) <= ALIKE
     }
 
     /// Sides that agree become each other's image; sides that do not are doubtful.
     fn settle_sides(&mut self) {
-        let axis = self.view.axis;
-        let image = |p: DVec3| DVec3::new(2.0 * axis - p.x, p.y, p.z);
-        let lefts: Vec<Role> = self.found.joints.keys().copied().filter(|role| role.is_left()).collect();
-        for role in lefts {
+        use Role::*;
+        const LIMBS: [[Role; 4]; 2] = [
+            [LeftUpperLeg, LeftLowerLeg, LeftFoot, LeftToes],
+            [LeftShoulder, LeftUpperArm, LeftLowerArm, LeftHand],
+        ];
+        let image = |p: DVec3| image(p, self.view.axis);
+        let given = self.given;
+        let is_given = |role: &Role| given.contains_key(role) || given.contains_key(&role.mirrored());
+        for role in LIMBS.into_iter().filter(|limb| !limb.iter().any(is_given)).flatten() {
             let other = role.mirrored();
-            if limb(role)
-                .iter()
-                .any(|role| self.given.contains_key(role) || self.given.contains_key(&role.mirrored()))
-            {
-                continue;
-            }
-            let (one, two) = (self.found.joints[&role], self.found.joints[&other]);
+            // Clavicles come later.
+            let joint = |role: Role| self.found.joints.get(&role).copied();
+            let (Some(one), Some(two)) = (joint(role), joint(other)) else { continue };
             let apart = one.position.distance(image(two.position));
             if apart <= AGREE {
                 let middle = 0.5 * (one.position + image(two.position));
@@ -576,8 +572,7 @@ impl Search<'_> {
                 self.put(other, two.position, two.confidence.min(DOUBTFUL));
             }
         }
-        let lefts: Vec<Role> = self.found.tips.keys().copied().filter(|role| role.is_left()).collect();
-        for role in lefts {
+        for role in [LeftToes, LeftHand] {
             let (one, two) = (self.found.tips[&role], self.found.tips[&role.mirrored()]);
             if one.distance(image(two)) <= AGREE {
                 let middle = 0.5 * (one + image(two));
@@ -586,14 +581,6 @@ impl Search<'_> {
             }
         }
     }
-}
-
-/// The left roles of the arm or the leg that a left role belongs to.
-fn limb(role: Role) -> &'static [Role] {
-    use Role::*;
-    const LEG: [Role; 4] = [LeftUpperLeg, LeftLowerLeg, LeftFoot, LeftToes];
-    const ARM: [Role; 4] = [LeftShoulder, LeftUpperArm, LeftLowerArm, LeftHand];
-    if LEG.contains(&role) { &LEG } else { &ARM }
 }
 
 /// The narrowest place between trunk and head, where there is one: the row that is slimmest beside what is below and

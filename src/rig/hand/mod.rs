@@ -61,11 +61,9 @@ pub fn find_fingers(
     let Some(region) = Region::new(positions, triangles, elbow, wrist) else {
         return Hand::default();
     };
-    let mut fingers = region.fingers();
-    if fingers.iter().any(|finger| !region.is_buried(surface, finger)) {
-        fingers.retain(|finger| !region.is_buried(surface, finger));
-    }
-    let hand = region.hand(surface, fingers);
+    let (buried, free): (Vec<Finger>, Vec<Finger>) =
+        region.fingers().into_iter().partition(|finger| region.is_buried(surface, finger));
+    let hand = region.hand(surface, if free.is_empty() { buried } else { free });
     if left { hand } else { hand.of_other_side(|p| p) }
 }
 
@@ -93,7 +91,7 @@ impl Region {
         let Some(way) = path.iter().rev().find_map(|&p| (tip - p).try_normalize()) else { return false };
         let beyond = tip + BEYOND_TIP * self.length * way;
         let reach = RAY_REACH * self.wrist_radius;
-        surface.first_hit(beyond, way, self.length).is_some() && enclosed(surface, beyond, way, reach) >= 1.0
+        surface.is_hit(beyond, way, self.length) && enclosed(surface, beyond, way, reach) >= 1.0
     }
 
     /// Fingers, which of them is the thumb, and joints (of the left hand).
@@ -280,7 +278,7 @@ fn enclosed(surface: &Surface, at: DVec3, way: DVec3, reach: f64) -> f64 {
     let other = way.cross(one);
     let met = (0..PAPER_RAYS).filter(|&ray| {
         let (sin, cos) = (TAU * f64::from(ray) / f64::from(PAPER_RAYS)).sin_cos();
-        surface.first_hit(at, cos * one + sin * other, reach).is_some()
+        surface.is_hit(at, cos * one + sin * other, reach)
     });
     met.count() as f64 / f64::from(PAPER_RAYS)
 }

@@ -3,7 +3,7 @@
 use super::{Hand, find_fingers};
 use crate::character::Role;
 use crate::geometry::{PointTree, Surface, distinct};
-use crate::rig::front_view::FrontView;
+use crate::rig::front_view::{FrontView, image};
 use crate::rig::joints::FoundJoints;
 use crate::rig::{FoundJoint, UnitFigure};
 use glam::DVec3;
@@ -41,7 +41,7 @@ pub fn add_fingers(figure: &UnitFigure, view: &FrontView, found: &mut FoundJoint
         let seen = |hand: &Hand| hand.joints.values().map(|joint| joint.confidence).sum::<f64>();
         let better =
             usize::from((hands[1].finger_count, seen(&hands[1])) > (hands[0].finger_count, seen(&hands[0])));
-        hands[1 - better] = hands[better].of_other_side(|p| DVec3::new(2.0 * middle - p.x, p.y, p.z));
+        hands[1 - better] = hands[better].of_other_side(|p| image(p, middle));
     }
     for (left, hand) in [true, false].into_iter().zip(hands) {
         let wrist = Role::LeftHand.on_side(left);
@@ -60,8 +60,7 @@ pub fn add_fingers(figure: &UnitFigure, view: &FrontView, found: &mut FoundJoint
 /// The x of the plane in which the hands at both wrists mirror each other, vertex by vertex; `None` where they do not.
 fn mirror_of_hands(view: &FrontView, wrists: [DVec3; 2]) -> Option<f64> {
     let middle = 0.5 * (wrists[0].x + wrists[1].x);
-    let mirror = |p: DVec3| DVec3::new(2.0 * middle - p.x, p.y, p.z);
-    if mirror(wrists[0]).distance(wrists[1]) > SYMMETRIC_WITHIN {
+    if image(wrists[0], middle).distance(wrists[1]) > SYMMETRIC_WITHIN {
         return None;
     }
     let corners = distinct(view.triangles.iter().flatten().copied());
@@ -77,7 +76,7 @@ fn mirror_of_hands(view: &FrontView, wrists: [DVec3; 2]) -> Option<f64> {
     for (one, other) in [(&hands[0], &hands[1]), (&hands[1], &hands[0])] {
         let tree = PointTree::new(other);
         let has_image = |p: &DVec3| {
-            tree.nearest(mirror(*p), 1, SYMMETRIC_WITHIN, &mut near);
+            tree.nearest(image(*p, middle), 1, SYMMETRIC_WITHIN, &mut near);
             // Points at the rim may have an image just beyond it.
             !near.is_empty()
                 || p.distance(wrists[0]).min(p.distance(wrists[1])) > HAND_REACH - SYMMETRIC_WITHIN

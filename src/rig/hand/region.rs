@@ -1,7 +1,7 @@
 //! The mesh beyond the wrist, and the fingers that stand out of it: the merge tree of distances from the wrist.
 
 use super::section::Section;
-use crate::geometry::{NONE, PointTree, SEAM, components, least_costs, merge_tree, neighbours, weld};
+use crate::geometry::{NONE, PointTree, SEAM, components, least_costs, marked, merge_tree, neighbours, weld};
 use glam::DVec3;
 use std::collections::BTreeMap;
 
@@ -101,14 +101,9 @@ impl Region {
             .filter(|[a, b, c]| a != b && b != c && c != a)
             .collect();
         let graph: Vec<Vec<u32>> = (0..points.len()).map(|vertex| around.of(vertex).to_vec()).collect();
-        let mut is_start = vec![false; points.len()];
-        for vertex in section.ahead {
-            if let Some(&near) = index.get(vertex as usize)
-                && near != NONE
-            {
-                is_start[weld.representative[near as usize] as usize] = true;
-            }
-        }
+        let starts =
+            section.ahead.into_iter().map(|vertex| index[vertex as usize]).filter(|&near| near != NONE);
+        let is_start = marked(points.len(), starts.map(|near| weld.representative[near as usize] as usize));
         let mut region = Self {
             points,
             triangles,
@@ -127,23 +122,19 @@ impl Region {
 
     /// Joins pieces that do not begin at the wrist to what does, each where it is nearest.
     fn bridge(&mut self, pieces: &[u32], reach: f64) {
-        let count = pieces.iter().max().map_or(0, |&last| last as usize + 1);
-        let mut members: Vec<Vec<u32>> = vec![Vec::new(); count];
+        let mut members: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
         for (vertex, &piece) in pieces.iter().enumerate() {
-            members[piece as usize].push(vertex as u32);
+            members.entry(piece).or_default().push(vertex as u32);
         }
+        let ends = |vertex: u32| self.points[vertex as usize].distance(self.wrist) < ENDS_WITHIN * reach;
         // Pieces that go on outside are something else: a leg, the ground.
-        let mut waiting = Vec::new();
+        let mut waiting: Vec<Vec<u32>> = Vec::new();
         let mut joined: Vec<u32> = Vec::new();
-        for (piece, vertices) in members.iter().enumerate() {
+        for vertices in members.into_values() {
             if vertices.iter().any(|&vertex| self.is_start[vertex as usize]) {
                 joined.extend(vertices);
-            } else if vertices.len() > 3
-                && vertices
-                    .iter()
-                    .all(|&v| self.points[v as usize].distance(self.wrist) < ENDS_WITHIN * reach)
-            {
-                waiting.push(piece);
+            } else if vertices.len() > 3 && vertices.iter().all(|&vertex| ends(vertex)) {
+                waiting.push(vertices);
             }
         }
         while !waiting.is_empty() && !joined.is_empty() {
@@ -151,8 +142,8 @@ impl Region {
             let tree = PointTree::new(&tree_points);
             let mut best: Option<(f64, usize, u32, u32)> = None;
             let mut found = Vec::new();
-            for (slot, &piece) in waiting.iter().enumerate() {
-                for &vertex in &members[piece] {
+            for (slot, vertices) in waiting.iter().enumerate() {
+                for &vertex in vertices {
                     let limit = best.map_or(self.wrist_radius, |best| best.0);
                     tree.nearest(self.points[vertex as usize], 1, limit, &mut found);
                     if let Some(near) = found.first()
@@ -165,7 +156,7 @@ impl Region {
             let Some((_, slot, one, other)) = best else { break };
             self.graph[one as usize].push(other);
             self.graph[other as usize].push(one);
-            joined.extend(&members[waiting.remove(slot)]);
+            joined.extend(waiting.remove(slot));
         }
     }
 
@@ -240,24 +231,18 @@ impl Region {
             let level = finger.web_distance + free * (step as f64 + 0.5) / SECTION_COUNT as f64;
             let (mut sum, mut weight) = (DVec3::ZERO, 0.0);
             for corners in &own {
-                let mut ends = [DVec3::ZERO; 2];
-                let mut count = 0;
-                for edge in 0..3 {
+                let cut = |edge: usize| {
                     let [a, b] = [corners[edge], corners[(edge + 1) % 3]].map(|v| v as usize);
                     let (low, high) = (self.distances[a], self.distances[b]);
-                    if (low > level) == (high > level) || !low.is_finite() || !high.is_finite() {
-                        continue;
-                    }
+                    let is_cut = (low > level) != (high > level) && low.is_finite() && high.is_finite();
                     // What is above the level must be the finger's.
-                    if !is_own[if low > level { a } else { b }] {
-                        continue;
-                    }
-                    ends[count.min(1)] = self.points[a].lerp(self.points[b], (level - low) / (high - low));
-                    count += 1;
-                }
-                if count >= 2 {
-                    let length = ends[0].distance(ends[1]);
-                    sum += length * (ends[0] + ends[1]) / 2.0;
+                    (is_cut && is_own[if low > level { a } else { b }])
+                        .then(|| self.points[a].lerp(self.points[b], (level - low) / (high - low)))
+                };
+                let ends: Vec<DVec3> = (0..3).filter_map(cut).collect();
+                if let [one, other] = ends[..] {
+                    let length = one.distance(other);
+                    sum += length * (one + other) / 2.0;
                     weight += length;
                 }
             }

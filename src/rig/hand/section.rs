@@ -49,34 +49,26 @@ impl Section {
         reach: f64,
     ) -> Option<Self> {
         let height = |vertex: u32| (positions[vertex as usize] - at).dot(along);
-        // Each triangle's part of the section.
-        let mut pieces: Vec<[DVec3; 2]> = Vec::new();
-        let mut cut: Vec<[u32; 3]> = Vec::new();
-        for &corners in triangles {
+        // A triangle's part of the section.
+        let part_of = |&corners: &[u32; 3]| {
             let heights = corners.map(height);
             let above = heights.map(|height| height > 0.0);
-            let Some(lone) =
-                (0..3).find(|&c| above[c] != above[(c + 1) % 3] && above[c] != above[(c + 2) % 3])
-            else {
-                continue;
-            };
+            let lone = (0..3).find(|&c| above[c] != above[(c + 1) % 3] && above[c] != above[(c + 2) % 3])?;
             let ends = [1, 2].map(|step| {
                 let other = (lone + step) % 3;
                 let share = heights[lone] / (heights[lone] - heights[other]);
                 positions[corners[lone] as usize].lerp(positions[corners[other] as usize], share)
             });
-            if ends[0].distance_squared(at) <= reach * reach {
-                pieces.push(ends);
-                cut.push(corners);
-            }
-        }
+            (ends[0].distance_squared(at) <= reach * reach).then_some((ends, corners))
+        };
+        let (pieces, cut): (Vec<[DVec3; 2]>, Vec<[u32; 3]>) = triangles.iter().filter_map(part_of).unzip();
         // Ends of neighbours lie on one edge.
         let weld = weld(pieces.as_flattened(), SEAM);
         let lines: Vec<[u32; 3]> =
             (0..pieces.len() as u32).map(|piece| [2 * piece, 2 * piece + 1, 2 * piece]).collect();
         let outline_of_end = components(&lines, &weld);
-        let outline_of: Vec<u32> =
-            (0..pieces.len()).map(|piece| outline_of_end[weld.representative[2 * piece] as usize]).collect();
+        let first_ends = weld.representative.iter().step_by(2);
+        let outline_of: Vec<u32> = first_ends.map(|&end| outline_of_end[end as usize]).collect();
         let mut outlines: BTreeMap<u32, Outline> = BTreeMap::new();
         for (&[a, b], &outline) in pieces.iter().zip(&outline_of) {
             let none = Outline { sum: DVec3::ZERO, length: 0.0, distance: f64::INFINITY };
