@@ -160,69 +160,59 @@ struct Station {
     depth: f64,
 }
 
-/// Rays at right angles to an arm's line, and what they meet.
-struct ArmRays {
-    grid: RayGrid,
-    /// The column over the armpit.
-    first: usize,
+/// Where rays at right angles to an arm's line start, and the column over the armpit; `None` where the arm has no length.
+fn ray_frame(view: &FrontView, left: bool, line: &ArmLine) -> Option<(GridFrame, usize)> {
+    let sign = if left { 1.0 } else { -1.0 };
+    let length = line.length * BEYOND_TIP;
+    if length.is_nan() || length <= ROUNDING {
+        return None;
+    }
+    let inside = INSIDE_OF_PIT * length;
+    let cell = (length + inside) / STATIONS as f64;
+    let rows = 2 * (SPAN * length / cell).ceil() as usize;
+    let right = DVec3::new(sign * line.along.x, line.along.y, 0.0);
+    // Rows count upwards on both sides.
+    let up = DVec3::new(-sign * line.along.y, line.along.x, 0.0);
+    let begin = line.start - line.along * inside;
+    let origin = view.point(left, begin.x, begin.y, 0.0) - up * (0.5 * rows as f64 * cell);
+    let frame = GridFrame { origin, right, up, cell, columns: STATIONS, rows };
+    Some((frame, (inside / cell).round() as usize))
 }
 
-impl ArmRays {
-    /// `None` where the arm has no length.
-    fn cast(view: &FrontView, left: bool, line: &ArmLine) -> Option<Self> {
-        let sign = if left { 1.0 } else { -1.0 };
-        let length = line.length * BEYOND_TIP;
-        if length.is_nan() || length <= ROUNDING {
-            return None;
-        }
-        let inside = INSIDE_OF_PIT * length;
-        let cell = (length + inside) / STATIONS as f64;
-        let rows = 2 * (SPAN * length / cell).ceil() as usize;
-        let right = DVec3::new(sign * line.along.x, line.along.y, 0.0);
-        // Rows count upwards on both sides.
-        let up = DVec3::new(-sign * line.along.y, line.along.x, 0.0);
-        let begin = line.start - line.along * inside;
-        let origin = view.point(left, begin.x, begin.y, 0.0) - up * (0.5 * rows as f64 * cell);
-        let frame = GridFrame { origin, right, up, cell, columns: STATIONS, rows };
-        let grid = RayGrid::new(view.positions, &view.triangles, frame, view.threads);
-        Some(Self { grid, first: (inside / cell).round() as usize })
-    }
+/// The section of a column that is nearest to a row, which becomes its own middle one.
+fn station(grid: &RayGrid, column: usize, middle: &mut usize) -> Option<Station> {
+    let GridFrame { origin, right, up, cell, .. } = grid.frame;
+    let off =
+        |&(begin, end): &(usize, usize)| begin.saturating_sub(*middle).max((*middle + 1).saturating_sub(end));
+    let (begin, end) = grid.runs_of_column(column).into_iter().min_by_key(off)?;
+    let (back, front) = grid.limb((begin..end).map(|row| (column, row)))?;
+    *middle = (begin + end) / 2;
+    let at = origin + right * ((column as f64 + 0.5) * cell) + up * (0.5 * (begin + end) as f64 * cell);
+    // Depths count along z or against it.
+    let centre = at.with_z(right.cross(up).z.signum() * 0.5 * (back + front));
+    Some(Station { centre, width: (end - begin) as f64 * cell, depth: front - back })
+}
 
-    /// The section of a column that is nearest to a row, which becomes its own middle one.
-    fn station(&self, column: usize, middle: &mut usize) -> Option<Station> {
-        let GridFrame { origin, right, up, cell, .. } = self.grid.frame;
-        let off = |&(begin, end): &(usize, usize)| {
-            begin.saturating_sub(*middle).max((*middle + 1).saturating_sub(end))
-        };
-        let (begin, end) = self.grid.runs_of_column(column).into_iter().min_by_key(off)?;
-        let (back, front) = self.grid.limb((begin..end).map(|row| (column, row)))?;
-        *middle = (begin + end) / 2;
-        let at = origin + right * ((column as f64 + 0.5) * cell) + up * (0.5 * (begin + end) as f64 * cell);
-        // Depths count along z or against it.
-        let centre = at.with_z(right.cross(up).z.signum() * 0.5 * (back + front));
-        Some(Station { centre, width: (end - begin) as f64 * cell, depth: front - back })
-    }
-
-    /// The arm's sections from the shoulder to the tip, followed both ways from where it is clear of the trunk.
-    fn stations(&self) -> Vec<Station> {
-        let clear = self.first + (CLEAR * (STATIONS - self.first) as f64) as usize;
-        let mut middle = self.grid.frame.rows / 2;
-        let outwards: Vec<Station> =
-            (clear..STATIONS).filter_map(|column| self.station(column, &mut middle)).collect();
-        let usual = median(&mut outwards.iter().map(|s| s.width).collect::<Vec<_>>());
-        let mut middle = self.grid.frame.rows / 2;
-        let inwards = (self.first..clear).rev().map_while(|column| self.station(column, &mut middle));
-        let mut stations: Vec<Station> = inwards.take_while(|s| s.width <= TRUNK_WIDENS * usual).collect();
-        stations.reverse();
-        stations.extend(outwards);
-        stations
-    }
+/// The arm's sections from the shoulder to the tip, followed both ways from where it is clear of the trunk.
+fn stations(grid: &RayGrid, first: usize) -> Vec<Station> {
+    let clear = first + (CLEAR * (STATIONS - first) as f64) as usize;
+    let mut middle = grid.frame.rows / 2;
+    let outwards: Vec<Station> =
+        (clear..STATIONS).filter_map(|column| station(grid, column, &mut middle)).collect();
+    let usual = median(&mut outwards.iter().map(|s| s.width).collect::<Vec<_>>());
+    let mut middle = grid.frame.rows / 2;
+    let inwards = (first..clear).rev().map_while(|column| station(grid, column, &mut middle));
+    let mut stations: Vec<Station> = inwards.take_while(|s| s.width <= TRUNK_WIDENS * usual).collect();
+    stations.reverse();
+    stations.extend(outwards);
+    stations
 }
 
 /// The joints that rays at right angles to the arm's line show.
 fn joints(view: &FrontView, left: bool, line: &ArmLine, pit_seen: bool) -> Option<Arm> {
-    let rays = ArmRays::cast(view, left, line)?;
-    let stations = rays.stations();
+    let (frame, first) = ray_frame(view, left, line)?;
+    let grid = RayGrid::new(view.positions, &view.triangles, frame, view.threads);
+    let stations = stations(&grid, first);
     if stations.len() < LEAST_STATIONS {
         return None;
     }
@@ -230,14 +220,13 @@ fn joints(view: &FrontView, left: bool, line: &ArmLine, pit_seen: bool) -> Optio
     let curve = ArmCurve::new(sections, SMOOTHED);
     let radius = curve.radius();
     let upper = curve.upper();
-    let right = rays.grid.frame.right;
     let out = line.pit.x + SHOULDER_OUT * radius;
     let inwards = ((upper.x - view.axis).abs() - out) / line.along.x.max(STEEPEST);
-    let mut shoulder = upper - right * inwards + DVec3::Y * SHOULDER_OVER * radius;
-    let (ahead, trunk) = (curve.ahead(right), middle(view, shoulder.y).0);
+    let mut shoulder = upper - frame.right * inwards + DVec3::Y * SHOULDER_OVER * radius;
+    let (ahead, trunk) = (curve.ahead(frame.right), middle(view, shoulder.y).0);
     if ahead > FORWARD {
         // An arm held forward begins in the depth of the trunk's middle.
         shoulder.z = (upper.z - ahead * inwards).max(trunk.min(upper.z));
     }
-    Some(curve.joints(shoulder, right, line.pit, pit_seen))
+    Some(curve.joints(shoulder, frame.right, line.pit, pit_seen))
 }

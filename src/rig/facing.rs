@@ -162,22 +162,22 @@ fn known_kinds(character: &Character) -> Vec<Option<MeshKind>> {
     character.meshes.iter().zip(named).map(known).collect()
 }
 
-/// Whether each mesh tells anything: hair and accessories do only where there is nothing else.
-fn counted(character: &Character, kinds: &[Option<MeshKind>]) -> Vec<bool> {
-    let tells = |(mesh, kind): (&Mesh, &Option<MeshKind>)| {
+/// The meshes that tell anything: hair and accessories do only where there is nothing else.
+fn counted<'a>(character: &'a Character, kinds: &[Option<MeshKind>]) -> Vec<&'a Mesh> {
+    let tells = |(mesh, kind): &(&Mesh, &Option<MeshKind>)| {
         !mesh.triangles.is_empty() && !kind.is_some_and(MeshKind::is_carried)
     };
-    let counted: Vec<bool> = character.meshes.iter().zip(kinds).map(tells).collect();
-    if counted.contains(&true) { counted } else { vec![true; counted.len()] }
+    let counted: Vec<&Mesh> =
+        character.meshes.iter().zip(kinds).filter(tells).map(|(mesh, _)| mesh).collect();
+    if counted.is_empty() { character.meshes.iter().collect() } else { counted }
 }
 
 impl Cells {
     /// `None` where there is no triangle, or none of an extent along up.
     fn new(character: &Character, kinds: &[Option<MeshKind>], frame: DMat3) -> Option<Self> {
-        let counted = counted(character, kinds);
+        let meshes = counted(character, kinds);
         let triangles = || {
-            let meshes = character.meshes.iter().zip(&counted).filter(|&(_, &counted)| counted);
-            meshes.flat_map(|(mesh, _)| {
+            meshes.iter().flat_map(|mesh| {
                 let place = move |v: u32| frame * mesh.positions[v as usize].as_dvec3();
                 mesh.triangles.iter().map(move |corners| corners.map(place))
             })

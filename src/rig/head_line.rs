@@ -57,33 +57,24 @@ pub fn head_line(view: &FrontView, shoulder_line: f64, radius: f64) -> HeadLine 
         .max_by(|&a, &b| width(a).total_cmp(&width(b)).then(a.cmp(&b)))
         .unwrap_or(first)
         .max(first);
+    let shown = (from..last).map(|row| (width(row), row)).filter(|&(width, _)| width > 0.0);
     let mut narrow = (f64::INFINITY, from);
     let mut widened = false;
-    for row in from..last {
-        let w = width(row);
-        if w <= 0.0 {
-            continue;
-        }
-        if w < narrow.0 - 1e-9 {
-            narrow = (w, row);
-        } else if w > HEAD_WIDENS.0 * narrow.0 + HEAD_WIDENS.1 {
+    for (width, row) in shown.clone() {
+        if width < narrow.0 - 1e-9 {
+            narrow = (width, row);
+        } else if width > HEAD_WIDENS.0 * narrow.0 + HEAD_WIDENS.1 {
             widened = true;
             break;
         }
     }
     // The middle of rows as narrow as that.
-    let alike: Vec<usize> = (from..last)
-        .filter(|&row| {
-            let w = width(row);
-            w > 0.0
-                && w <= AS_NARROW * narrow.0 + 1e-9
-                && row.abs_diff(narrow.1) <= (NECK_REACH * span / view.cell()) as usize
-        })
-        .collect();
-    let narrow_y = match (alike.first(), alike.last()) {
-        (Some(&low), Some(&high)) => 0.5 * (view.grid.y(low) + view.grid.y(high)),
-        _ => shoulder_line,
+    let within = (NECK_REACH * span / view.cell()) as usize;
+    let is_alike = |&(width, row): &(f64, usize)| {
+        width <= AS_NARROW * narrow.0 + 1e-9 && row.abs_diff(narrow.1) <= within
     };
+    let mut alike = shown.filter(is_alike).map(|(_, row)| view.grid.y(row));
+    let narrow_y = alike.next().map_or(shoulder_line, |low| 0.5 * (low + alike.last().unwrap_or(low)));
     let neck_seen = widened && narrow_y < shoulder_line + 0.5 * span;
     let neck = if neck_seen { narrow_y } else { shoulder_line + 0.5 * CHIN_BY_RATIO * span };
     let chin = chin(view, shoulder_line, crown).unwrap_or(shoulder_line + CHIN_BY_RATIO * span);

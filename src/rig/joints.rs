@@ -281,8 +281,7 @@ impl Search<'_> {
     }
 
     fn both_legs(&self, legs: &Legs) -> [Leg; 2] {
-        let given = |left: bool| self.given_of(LEG, left);
-        [true, false].map(|left| leg(self.view, legs, left, given(left)))
+        [true, false].map(|left| leg(self.view, legs, left, self.given_of(LEG, left)))
     }
 
     /// What arms over `legs` are judged by.
@@ -423,10 +422,10 @@ impl Search<'_> {
         let most = if is_odd { DOUBTFUL } else { 1.0 };
         for (left, arm) in [true, false].into_iter().zip(arms) {
             let (joints, confidences) = match arm {
-                Some((arm, base)) => {
+                Some((arm, sure)) => {
                     let seen = if arm.pit_seen { SEEN } else { RATIO };
                     let wrist = if arm.wrist_seen { seen } else { seen.min(DOUBTFUL) };
-                    let sure = [base, base.min(wrist), wrist].map(|sure| sure.min(most));
+                    let sure = [seen.min(sure), wrist.min(sure), wrist].map(|sure| sure.min(most));
                     ([arm.shoulder, arm.elbow, arm.wrist, arm.tip], sure)
                 }
                 None => {
@@ -443,21 +442,17 @@ impl Search<'_> {
         }
     }
 
-    /// An arm that begins no further out than trunks are wide, and how sure its shoulder is.
+    /// An arm that begins no further out than trunks are wide, and how sure its shoulder is at most.
     fn slim(&self, arm: Arm) -> (Arm, f64) {
-        let base = if arm.pit_seen { SEEN } else { RATIO };
         let length = arm.shoulder.distance(arm.elbow) + arm.elbow.distance(arm.tip);
         let stout = arm.pit.x / (arm.pit.x + length);
-        if stout > NO_TRUNK {
-            return (arm, base.min(DOUBTFUL));
-        }
-        if stout <= STOUT {
-            return (arm, base);
+        if stout > NO_TRUNK || stout <= STOUT {
+            return (arm, if stout > NO_TRUNK { DOUBTFUL } else { 1.0 });
         }
         let side = arm.shoulder.x - self.view.axis;
         let out = side.abs().min(SHOULDER_OF_REACH * (side.abs() + length));
         let shoulder = self.view.point(side > 0.0, out, arm.shoulder.y, arm.shoulder.z);
-        (arm.from_shoulder(shoulder), base.min(DERIVED))
+        (arm.from_shoulder(shoulder), DERIVED)
     }
 
     /// How far the feet are ahead of the shoulders or behind them, both sides' mean.
@@ -522,10 +517,8 @@ impl Search<'_> {
         }
         for left in [true, false] {
             let arm = self.at(Role::LeftUpperArm.on_side(left));
-            let middle = on_axis(shoulder_line, SPINE_BACK);
-            let at = middle
-                .lerp(arm, CLAVICLE_SHARE)
-                .with_y(arm.y + CLAVICLE_OVER * (neck - shoulder_line).max(0.0));
+            let y = arm.y + CLAVICLE_OVER * (neck - shoulder_line).max(0.0);
+            let at = on_axis(shoulder_line, SPINE_BACK).lerp(arm, CLAVICLE_SHARE).with_y(y);
             let confidence = self.found.joints[&Role::LeftUpperArm.on_side(left)].confidence;
             self.put(Role::LeftShoulder.on_side(left), at, confidence);
         }

@@ -155,27 +155,22 @@ impl Region {
             let root = if mitten { 0.0 } else { chain.1[0].distance(self.wrist) };
             (root + chain.1[chain.1.len() - 1].distance(self.wrist)) / self.length
         };
-        let mut thumb = (0, f64::NEG_INFINITY);
-        for (index, chain) in chains.iter().enumerate() {
-            let others =
-                || chains.iter().enumerate().filter(|&(other, _)| other != index).map(|(_, other)| other);
+        let unlike = |index: usize| {
+            let others = || chains[..index].iter().chain(&chains[index + 1..]);
             let mean_way = others().map(way).sum::<DVec3>().normalize_or_zero();
             let mean_near = others().map(near).sum::<f64>() / (chains.len() - 1) as f64;
-            let unlike = 1.0 - way(chain).dot(mean_way) + mean_near - near(chain);
-            if unlike > thumb.1 {
-                thumb = (index, unlike);
-            }
-        }
-        let thumb = (thumb.1 > LEAST_THUMB).then(|| chains.remove(thumb.0));
+            1.0 - way(&chains[index]).dot(mean_way) + mean_near - near(&chains[index])
+        };
+        let most = (0..chains.len()).rev().max_by(|&a, &b| unlike(a).total_cmp(&unlike(b)));
+        let thumb = most.filter(|&index| unlike(index) > LEAST_THUMB).map(|index| chains.remove(index));
         // Where the others stand side by side, a little way out.
         let middle = |chain: &Chain| (chain.1[0] + chain.1[chain.1.len() / 2]) / 2.0;
         let centre = chains.iter().map(middle).sum::<DVec3>() / chains.len() as f64;
         let ahead = (centre - self.wrist).try_normalize().unwrap_or(self.along);
         let aside = |chain: &Chain| (middle(chain) - centre).reject_from_normalized(ahead);
-        let furthest = chains.iter().map(aside).fold(DVec3::ZERO, |one, other| {
-            if other.length_squared() > one.length_squared() { other } else { one }
-        });
-        let mut across = furthest.normalize_or_zero();
+        let furthest = chains.iter().rev().map(aside);
+        let furthest = furthest.max_by(|a, b| a.length_squared().total_cmp(&b.length_squared()));
+        let mut across = furthest.map_or(DVec3::ZERO, DVec3::normalize_or_zero);
         for _ in 0..8 {
             let next: DVec3 = chains.iter().map(|chain| across.dot(aside(chain)) * aside(chain)).sum();
             across = next.try_normalize().unwrap_or(across);

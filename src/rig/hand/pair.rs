@@ -71,19 +71,17 @@ fn mirror_of_hands(view: &FrontView, wrists: [DVec3; 2]) -> Option<f64> {
             .filter(|p| p.distance(wrist) < HAND_REACH)
             .collect()
     };
-    let hands = wrists.map(around);
+    let [left, right] = wrists.map(around);
     let mut near = Vec::new();
-    for (one, other) in [(&hands[0], &hands[1]), (&hands[1], &hands[0])] {
+    let mut is_image_of = |one: &[DVec3], other: &[DVec3]| {
         let tree = PointTree::new(other);
-        let has_image = |p: &DVec3| {
-            tree.nearest(image(*p, middle), 1, SYMMETRIC_WITHIN, &mut near);
+        let has_image = |&p: &DVec3| {
+            tree.nearest(image(p, middle), 1, SYMMETRIC_WITHIN, &mut near);
             // Points at the rim may have an image just beyond it.
             !near.is_empty()
                 || p.distance(wrists[0]).min(p.distance(wrists[1])) > HAND_REACH - SYMMETRIC_WITHIN
         };
-        if one.is_empty() || !one.iter().all(has_image) {
-            return None;
-        }
-    }
-    Some(middle)
+        !one.is_empty() && one.iter().all(has_image)
+    };
+    (is_image_of(&left, &right) && is_image_of(&right, &left)).then_some(middle)
 }

@@ -207,22 +207,17 @@ impl Region {
 
     /// The middle of a finger's sections, from its web to its tip.
     pub(super) fn path(&self, finger: &Finger) -> Vec<DVec3> {
-        // The vertices of the finger alone.
-        let mut is_own = vec![false; self.points.len()];
-        is_own[finger.tip as usize] = true;
-        let mut stack = vec![finger.tip];
-        while let Some(vertex) = stack.pop() {
-            for &next in &self.graph[vertex as usize] {
-                if !is_own[next as usize] && self.distances[next as usize] > finger.web_distance {
-                    is_own[next as usize] = true;
-                    stack.push(next);
-                }
-            }
-        }
+        // The vertices of the finger alone: where ways lead from its tip that do not pass its web.
+        let further = |at: u32| {
+            let beside = self.graph[at as usize].iter().map(|&next| (next, 0.0));
+            beside.filter(|&(next, _)| self.distances[next as usize] > finger.web_distance)
+        };
+        let ways = least_costs(self.points.len(), std::iter::once((finger.tip, 0.0)), further);
+        let is_own = |vertex: usize| ways[vertex].is_finite();
         let own: Vec<[u32; 3]> = self
             .triangles
             .iter()
-            .filter(|corners| corners.iter().any(|&v| is_own[v as usize]))
+            .filter(|corners| corners.iter().any(|&v| is_own(v as usize)))
             .copied()
             .collect();
         let mut path = Vec::new();
@@ -236,7 +231,7 @@ impl Region {
                     let (low, high) = (self.distances[a], self.distances[b]);
                     let is_cut = (low > level) != (high > level) && low.is_finite() && high.is_finite();
                     // What is above the level must be the finger's.
-                    (is_cut && is_own[if low > level { a } else { b }])
+                    (is_cut && is_own(if low > level { a } else { b }))
                         .then(|| self.points[a].lerp(self.points[b], (level - low) / (high - low)))
                 };
                 let ends: Vec<DVec3> = (0..3).filter_map(cut).collect();
