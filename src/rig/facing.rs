@@ -9,7 +9,7 @@ use crate::character::kinds::{MeshNames, kinds_from_names};
 use crate::character::{Character, Mesh, MeshKind};
 use crate::error::Warning;
 use crate::geometry::{bounds, range};
-use glam::{DMat3, DVec2, DVec3, Vec3, Vec4};
+use glam::{DMat3, DVec2, DVec3, Vec3, Vec3Swizzles, Vec4};
 
 /// Cells along the longest side of the box in which the figure is compared with its mirror image. Seen: at -30 %, five
 /// fewer of 115 poses warned of.
@@ -147,7 +147,7 @@ struct Cells {
     /// The middle of the points on the ground.
     middle: DVec2,
     /// How they spread on the ground: xx, xz, zz.
-    spread: [f64; 3],
+    spread: DVec3,
     /// Model space to left, up and front of the grid, cells in a model unit, and where the grid begins.
     frame: DMat3,
     scale: f64,
@@ -192,8 +192,7 @@ impl Cells {
         let count = size[0] * size[1] * size[2];
         let mut sums = vec![Vec4::ZERO; count];
         let mut samples = Vec::new();
-        let triangle_count = triangles().count();
-        let most_steps = (2.0 * SAMPLE_COUNT / triangle_count as f64).sqrt().max(1.0);
+        let most_steps = (2.0 * SAMPLE_COUNT / triangles().count() as f64).sqrt().max(1.0);
         let mut add = |p: DVec3| {
             samples.push(p.as_vec3());
             let [x, y, z] = p.to_array().map(|c| c as usize);
@@ -226,14 +225,9 @@ impl Cells {
         for stride in [1, size[0], size[0] * size[2]] {
             blur(&mut blurred, stride);
         }
-        let ground = |p: &DVec3| DVec2::new(p.x, p.z);
-        let middle = points.iter().map(ground).sum::<DVec2>() / points.len() as f64;
-        let mut spread = [0.0; 3];
-        for d in points.iter().map(|p| ground(p) - middle) {
-            spread[0] += d.x * d.x;
-            spread[1] += d.x * d.y;
-            spread[2] += d.y * d.y;
-        }
+        let middle = points.iter().map(|p| p.xz()).sum::<DVec2>() / points.len() as f64;
+        let off = points.iter().map(|p| p.xz() - middle);
+        let spread = off.map(|d| DVec3::new(d.x * d.x, d.x * d.y, d.y * d.y)).sum();
         Some(Self { size, blurred, points, samples, middle, spread, frame, scale, low })
     }
 
@@ -266,7 +260,7 @@ impl Cells {
     fn likeness(&self, normal: DVec2, offset: f64, step: usize) -> f64 {
         let (mut own, mut other) = (0.0, 0.0);
         for p in self.points.iter().step_by(step) {
-            let ahead = 2.0 * (normal.dot(DVec2::new(p.x, p.z)) - offset);
+            let ahead = 2.0 * (normal.dot(p.xz()) - offset);
             own += self.sample(*p);
             other += self.sample(DVec3::new(p.x - ahead * normal.x, p.y, p.z - ahead * normal.y));
         }
@@ -275,7 +269,7 @@ impl Cells {
 
     /// The share of the figure's spread on the ground that lies along `normal`, 0..1.
     fn width_share(&self, normal: DVec2) -> f64 {
-        let [xx, xz, zz] = self.spread;
+        let [xx, xz, zz] = self.spread.to_array();
         let along = xx * normal.x * normal.x + 2.0 * xz * normal.x * normal.y + zz * normal.y * normal.y;
         if xx + zz > 0.0 { along / (xx + zz) } else { 0.5 }
     }
@@ -356,9 +350,8 @@ impl Cells {
         let height = (high - low).max(1e-9);
         // Sideways, up and ahead in heights of the figure.
         let place = |p: DVec3| {
-            let ground = DVec2::new(p.x, p.z);
-            let sideways = mirror.normal.dot(ground) - mirror.offset;
-            DVec3::new(sideways, p.y - low, mirror.normal.perp().dot(ground - self.middle)) / height
+            let sideways = mirror.normal.dot(p.xz()) - mirror.offset;
+            DVec3::new(sideways, p.y - low, mirror.normal.perp().dot(p.xz() - self.middle)) / height
         };
         let points: Vec<DVec3> = self.samples.iter().map(|p| place(p.as_dvec3())).collect();
         let of_face =

@@ -261,19 +261,16 @@ fn axis(grid: &RayGrid) -> f64 {
     if area == 0 {
         return 0.0;
     }
+    // Every two runs of a row, of which one may be the other's image.
+    let pairs =
+        rows.iter().flat_map(|runs| runs.iter().flat_map(|one| runs.iter().map(move |other| (one, other))));
     // `sum` is the sum of two columns that are each other's image: [start, end) has the image (sum - end, sum - start].
-    let overlap = |sum: usize| -> f64 {
-        let mut count = 0usize;
-        for runs in &rows {
-            for run in runs {
-                for other in runs {
-                    let start = (sum + 1).saturating_sub(other.1).max(run.0);
-                    let end = (sum + 1).saturating_sub(other.0).min(run.1);
-                    count += end.saturating_sub(start);
-                }
-            }
-        }
-        count as f64 / area as f64
+    let overlap = |sum: usize| {
+        let shared = |(one, other): (&(usize, usize), &(usize, usize))| {
+            let start = (sum + 1).saturating_sub(other.1).max(one.0);
+            (sum + 1).saturating_sub(other.0).min(one.1).saturating_sub(start)
+        };
+        pairs.clone().map(shared).sum::<usize>() as f64 / area as f64
     };
     let middle = columns - 1;
     let scores: Vec<f64> = (0..2 * columns - 1).map(overlap).collect();

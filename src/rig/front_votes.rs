@@ -38,8 +38,7 @@ pub fn front_vote(points: &[DVec3], face_parts: &[DVec3]) -> f64 {
 
 /// Feet reach further forward from the shins than back, -1..1; each side by itself, since one may be ahead of the other.
 fn feet_vote(points: &[DVec3]) -> f64 {
-    let mut vote = 0.0;
-    for sign in [-1.0, 1.0] {
+    let of_side = |sign: f64| {
         let depth = |from: f64, to: f64| {
             let near = points
                 .iter()
@@ -48,9 +47,9 @@ fn feet_vote(points: &[DVec3]) -> f64 {
         };
         let ((heel, tip), (back, front)) = (depth(0.0, SOLE_UP_TO), depth(SHIN_RANGE.0, SHIN_RANGE.1));
         let more = (tip + heel - back - front) / (tip - heel);
-        vote += if more.is_finite() { 0.5 * more.clamp(-1.0, 1.0) } else { 0.0 };
-    }
-    vote
+        if more.is_finite() { 0.5 * more.clamp(-1.0, 1.0) } else { 0.0 }
+    };
+    of_side(-1.0) + of_side(1.0)
 }
 
 /// Eyes, brows and teeth lie on the front of the head, -1..1.

@@ -51,13 +51,12 @@ pub fn head_line(view: &FrontView, shoulder_line: f64, radius: f64) -> HeadLine 
     let crown = view.high.max(shoulder_line + LEAST_HEAD);
     let span = crown - shoulder_line;
     let (first, last) = (view.grid.row(shoulder_line), view.grid.row(crown));
-    let width = |row: usize| view.half_width(row);
     // Upwards from the widest row at the shoulders: the narrowest row before the head.
     let from = (view.grid.row(shoulder_line - radius)..=view.grid.row(shoulder_line + radius))
-        .max_by(|&a, &b| width(a).total_cmp(&width(b)).then(a.cmp(&b)))
+        .max_by(|&a, &b| view.half_width(a).total_cmp(&view.half_width(b)))
         .unwrap_or(first)
         .max(first);
-    let shown = (from..last).map(|row| (width(row), row)).filter(|&(width, _)| width > 0.0);
+    let shown = (from..last).map(|row| (view.half_width(row), row)).filter(|&(width, _)| width > 0.0);
     let mut narrow = (f64::INFINITY, from);
     let mut widened = false;
     for (width, row) in shown.clone() {

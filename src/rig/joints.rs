@@ -177,8 +177,8 @@ pub fn find_joints(
     let given: BTreeMap<Role, DVec3> =
         given.iter().filter(|(_, at)| at.is_finite()).map(|(&role, &at)| (role, at)).collect();
     let view = FrontView::of(figure, kinds, thread_count, &mut progress.part(0.0, 0.5))?;
-    let search = Search { figure, view: &view, given: &given, cells, found: FoundJoints::default() };
-    let mut found = search.run(&mut progress.part(0.5, 0.7))?;
+    let search = Search { view: &view, given: &given, found: FoundJoints::default() };
+    let mut found = search.run(figure, cells, &mut progress.part(0.5, 0.7))?;
     progress.at(0.7)?;
     if fingers {
         add_fingers(figure, &view, &mut found);
@@ -188,18 +188,16 @@ pub fn find_joints(
 }
 
 struct Search<'a> {
-    figure: &'a UnitFigure,
     view: &'a FrontView<'a>,
     given: &'a BTreeMap<Role, DVec3>,
-    cells: f64,
     found: FoundJoints,
 }
 
 impl Search<'_> {
-    fn run(mut self, progress: &mut Progress) -> Result<FoundJoints> {
-        let (figure, view) = (self.figure, self.view);
+    fn run(mut self, figure: &UnitFigure, cells: f64, progress: &mut Progress) -> Result<FoundJoints> {
+        let view = self.view;
         let counts = |triangle: usize| view.meshes[figure.mesh_of(triangle)];
-        let solid = Solid::new(&figure.positions, &figure.triangles, counts, view.axis, self.cells)?;
+        let solid = Solid::new(&figure.positions, &figure.triangles, counts, view.axis, cells)?;
         let solid = Voxels::of(solid);
         room::ask(Of::Wave, solid.cells.len())?;
         progress.at(0.5)?;
@@ -529,14 +527,12 @@ impl Search<'_> {
 
     /// True of an arm that is held another way than the other one, but begins at the same shoulder and is as long.
     fn poses_apart(&self, role: Role) -> bool {
-        if !ARM.contains(&role) {
-            return false;
-        }
         let [left, right] = [true, false].map(|left| ARM.map(|role| self.at(role.on_side(left))));
         let differ = |index: usize| {
             (left[index].distance(left[index - 1]) - right[index].distance(right[index - 1])).abs()
         };
-        left[0].distance(image(right[0], self.view.axis)) <= DIFFER && differ(1).max(differ(2)) <= ALIKE
+        let begins_alike = left[0].distance(image(right[0], self.view.axis)) <= DIFFER;
+        ARM.contains(&role) && begins_alike && differ(1).max(differ(2)) <= ALIKE
     }
 
     /// Sides that agree become each other's image; sides that do not are doubtful.

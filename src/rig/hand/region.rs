@@ -116,7 +116,8 @@ impl Region {
             wrist_radius: section.radius,
         };
         region.bridge(&pieces, reach);
-        region.measure();
+        region.distances = region.measured();
+        region.length = region.distances.iter().copied().filter(|d| d.is_finite()).fold(0.0, f64::max);
         (region.length > 0.5 * region.wrist_radius).then_some(region)
     }
 
@@ -161,16 +162,15 @@ impl Region {
     }
 
     /// Distances from the wrist along edges.
-    fn measure(&mut self) {
+    fn measured(&self) -> Vec<f64> {
         let ahead = |v: u32| (v, (self.points[v as usize] - self.wrist).dot(self.along).max(0.0));
         let starts = (0..self.points.len() as u32).filter(|&v| self.is_start[v as usize]).map(ahead);
-        let (graph, points) = (&self.graph, &self.points);
-        let beside = move |at: u32| {
-            let way = move |&next: &u32| (next, points[at as usize].distance(points[next as usize]));
-            graph[at as usize].iter().map(way)
+        let beside = |at: u32| {
+            let here = self.points[at as usize];
+            let way = move |&next: &u32| (next, here.distance(self.points[next as usize]));
+            self.graph[at as usize].iter().map(way)
         };
-        self.distances = least_costs(points.len(), starts, beside);
-        self.length = self.distances.iter().copied().filter(|d| d.is_finite()).fold(0.0, f64::max);
+        least_costs(self.points.len(), starts, beside)
     }
 
     /// Tips that stand out, furthest first: the merge tree of the distances, swept from the far end.
