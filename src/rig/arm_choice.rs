@@ -103,12 +103,8 @@ impl Body<'_> {
         cost += IN_AIR * outside as f64 / (2 * SAMPLES) as f64;
         let deep = [arm.elbow, arm.wrist].into_iter().filter(|&p| self.is_deep(p, DEEP.0 * arm.radius));
         cost += DEEP.1 * deep.count() as f64;
-        if !arm.pit_seen {
-            cost += NO_PIT;
-        }
-        if !arm.wrist_seen {
-            cost += NO_WRIST;
-        }
+        cost += if arm.pit_seen { 0.0 } else { NO_PIT };
+        cost += if arm.wrist_seen { 0.0 } else { NO_WRIST };
         Candidate { arm, cost }
     }
 

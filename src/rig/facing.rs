@@ -239,18 +239,15 @@ impl Cells {
     /// Occupancy around `p`, 0 outside.
     fn sample(&self, p: DVec3) -> f64 {
         let base = p - 0.5;
-        let [x, y, z] = base.to_array().map(f64::floor);
-        if x < 0.0 || y < 0.0 || z < 0.0 {
-            return 0.0;
-        }
-        let [ix, iy, iz] = [x as usize, y as usize, z as usize];
-        if ix + 1 >= self.size[0] || iy + 1 >= self.size[1] || iz + 1 >= self.size[2] {
+        let low = base.floor();
+        let [x, y, z] = low.to_array().map(|c| c as usize);
+        let [columns, rows, depths] = self.size;
+        if low.min_element() < 0.0 || x + 1 >= columns || y + 1 >= rows || z + 1 >= depths {
             return 0.0;
         }
         // Mirroring keeps the height: the row is taken as it is.
-        let (fx, fz) = ((base.x - x) as f32, (base.z - z) as f32);
-        let iy = p.y as usize;
-        let at = |dx: usize, dz: usize| self.blurred[(iy * self.size[2] + iz + dz) * self.size[0] + ix + dx];
+        let (fx, fz) = ((base.x - low.x) as f32, (base.z - low.z) as f32);
+        let at = |dx: usize, dz: usize| self.blurred[(p.y as usize * depths + z + dz) * columns + x + dx];
         let near = at(0, 0) * (1.0 - fx) + at(1, 0) * fx;
         let far = at(0, 1) * (1.0 - fx) + at(1, 1) * fx;
         f64::from(near * (1.0 - fz) + far * fz)

@@ -127,26 +127,26 @@ impl Region {
         for (vertex, &piece) in pieces.iter().enumerate() {
             members.entry(piece).or_default().push(vertex as u32);
         }
-        let ends = |vertex: u32| self.points[vertex as usize].distance(self.wrist) < ENDS_WITHIN * reach;
+        let at = |vertex: u32| self.points[vertex as usize];
+        let ends = |&vertex: &u32| at(vertex).distance(self.wrist) < ENDS_WITHIN * reach;
         // Pieces that go on outside are something else: a leg, the ground.
         let mut waiting: Vec<Vec<u32>> = Vec::new();
         let mut joined: Vec<u32> = Vec::new();
         for vertices in members.into_values() {
             if vertices.iter().any(|&vertex| self.is_start[vertex as usize]) {
                 joined.extend(vertices);
-            } else if vertices.len() > 3 && vertices.iter().all(|&vertex| ends(vertex)) {
+            } else if vertices.len() > 3 && vertices.iter().all(ends) {
                 waiting.push(vertices);
             }
         }
         while !waiting.is_empty() && !joined.is_empty() {
-            let tree_points: Vec<DVec3> = joined.iter().map(|&vertex| self.points[vertex as usize]).collect();
-            let tree = PointTree::new(&tree_points);
+            let tree = PointTree::new(&joined.iter().map(|&vertex| at(vertex)).collect::<Vec<_>>());
             let mut best: Option<(f64, usize, u32, u32)> = None;
             let mut found = Vec::new();
             for (slot, vertices) in waiting.iter().enumerate() {
                 for &vertex in vertices {
                     let limit = best.map_or(self.wrist_radius, |best| best.0);
-                    tree.nearest(self.points[vertex as usize], 1, limit, &mut found);
+                    tree.nearest(at(vertex), 1, limit, &mut found);
                     if let Some(near) = found.first()
                         && best.is_none_or(|best| near.distance() < best.0)
                     {
