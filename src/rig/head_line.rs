@@ -73,7 +73,7 @@ pub fn head_line(view: &FrontView, shoulder_line: f64, radius: f64) -> HeadLine 
         width <= AS_NARROW * narrow.0 + 1e-9 && row.abs_diff(narrow.1) <= within
     };
     let mut alike = shown.filter(is_alike).map(|(_, row)| view.grid.y(row));
-    let narrow_y = alike.next().map_or(shoulder_line, |low| 0.5 * (low + alike.last().unwrap_or(low)));
+    let narrow_y = alike.next().map_or(shoulder_line, |low| 0.5 * (low + alike.next_back().unwrap_or(low)));
     let neck_seen = widened && narrow_y < shoulder_line + 0.5 * span;
     let neck = if neck_seen { narrow_y } else { shoulder_line + 0.5 * CHIN_BY_RATIO * span };
     let chin = chin(view, shoulder_line, crown).unwrap_or(shoulder_line + CHIN_BY_RATIO * span);
