@@ -194,15 +194,11 @@ impl ArmCurve {
 
     /// How far along the curve its nearest point to `p` is, and how far that is from it.
     pub fn nearest(&self, p: DVec3) -> (f64, f64) {
-        let mut best = (0.0, f64::INFINITY);
-        for (middles, arc) in self.middles.windows(2).zip(self.arc.windows(2)) {
+        let feet = self.middles.windows(2).zip(self.arc.windows(2)).map(|(middles, arc)| {
             let (at, share) = foot(p, middles[0], middles[1]);
-            let off = at.distance(p);
-            if off < best.1 {
-                best = (arc[0] + share * (arc[1] - arc[0]), off);
-            }
-        }
-        best
+            (arc[0] + share * (arc[1] - arc[0]), at.distance(p))
+        });
+        feet.min_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((0.0, f64::INFINITY))
     }
 
     /// Means of girths over neighbours, each with its share of the way to the tip from where the arm `begins`.
