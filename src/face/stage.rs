@@ -52,6 +52,7 @@ pub struct YoungFace {
     hair: Follower,
     /// What hats, glasses and earrings do after each piece of the way: one row for each thing.
     pieces: Vec<Piece>,
+    ways: Ways,
 }
 
 /// A thing that keeps its shape.
@@ -71,7 +72,7 @@ struct Similarity {
 
 /// The ways of vertices, from where the stages before put them, in head lengths.
 #[derive(Clone, Debug, Default)]
-pub struct Ways {
+struct Ways {
     /// For each vertex its row in `from` and `ways`; `NO_WAY` where it is not kept.
     rows: Vec<u32>,
     /// Where they begin.
@@ -91,17 +92,28 @@ impl YoungFace {
     /// The step that moves a head at `frame` by `rows`.
     ///
     /// - `things`: where the stages before put the vertices of each thing that keeps its shape.
-    /// - `known`: a step for the same things, which may have made the same already.
-    pub fn new(frame: HeadFrame, rows: Rows, things: &[Vec<DVec3>], known: Option<&Self>) -> Self {
+    /// - `points`, `bindings`: where they put all vertices, and how each takes part.
+    /// - `known`: a step for the same things and vertices, of which that is taken that is the same.
+    /// - `threads`: at most this many, 0 for all cores.
+    pub fn new(
+        frame: HeadFrame,
+        rows: Rows,
+        things: &[Vec<DVec3>],
+        points: &[DVec3],
+        bindings: &[FaceBinding],
+        known: Option<&Self>,
+        threads: usize,
+    ) -> Self {
         let known = known.filter(|known| known.rows == rows);
         let (skin, hair) = (Follower::new(&rows.kernels), Follower::new(&rows.kernels[rows.of_skin..]));
-        let mut face = Self { frame, rows, skin, hair, pieces: Vec::new() };
+        let mut face = Self { frame, rows, skin, hair, pieces: Vec::new(), ways: Ways::default() };
         let piece = |(index, points): (usize, &Vec<DVec3>)| {
             let from: Vec<Vec3> = points.iter().map(|&p| beginning(&frame, p)).collect();
             let known = known.and_then(|known| known.pieces.get(index)).filter(|known| known.from == from);
             known.cloned().unwrap_or_else(|| face.piece(from))
         };
         face.pieces = things.iter().enumerate().map(piece).collect();
+        face.ways = face.ways_of(points, bindings, known.map(|known| &known.ways), threads);
         face
     }
 
@@ -134,15 +146,19 @@ impl YoungFace {
         self.frame
     }
 
-    /// Where `p`, which the stages before have put there, is after the share `youth` of its way.
-    pub fn place(&self, p: DVec3, binding: FaceBinding, youth: f64) -> DVec3 {
+    /// Where `p`, which the stages before have put there, is after the share `youth` of its way; of a `vertex` that is kept.
+    pub fn place(&self, p: DVec3, binding: FaceBinding, youth: f64, vertex: Option<usize>) -> DVec3 {
         let (follower, share) = match binding {
             FaceBinding::Skin(share) => (&self.skin, share),
             FaceBinding::Hair(share) => (&self.hair, share),
             _ => return self.map(p, binding, youth).position,
         };
-        let from = self.frame.to_unit(p);
-        p + f64::from(share) * self.frame.length * (follower.place(from, youth) - from)
+        let row = vertex.and_then(|vertex| self.ways.rows.get(vertex)).filter(|row| **row != NO_WAY);
+        let moved = match row {
+            Some(&row) => along_f32(&self.ways.ways[row as usize], youth).as_dvec3(),
+            None => follower.place(self.frame.to_unit(p), youth) - self.frame.to_unit(p),
+        };
+        p + f64::from(share) * self.frame.length * moved
     }
 
     /// As [`Self::place`], with the Jacobian.
@@ -185,19 +201,14 @@ impl YoungFace {
         self.rows.painted(self.frame.to_unit(p)).map(|weight| f64::from(share) * weight)
     }
 
-    /// The ways of vertices that the stages before put at `points`.
-    ///
-    /// - `bindings`: one for each.
-    /// - `known`: a step and the ways of the same vertices through it, of which those are taken that are the same.
-    /// - `threads`: at most this many, 0 for all cores.
-    pub fn ways(
+    /// The ways of vertices that the stages before put at `points`, of which those are taken from `known` that are the same.
+    fn ways_of(
         &self,
         points: &[DVec3],
         bindings: &[FaceBinding],
-        known: Option<(&Self, &Ways)>,
+        known: Option<&Ways>,
         threads: usize,
     ) -> Ways {
-        let known = known.filter(|(face, _)| face.rows == self.rows).map(|(_, ways)| ways);
         let follower = |is_hair: bool| if is_hair { &self.hair } else { &self.skin };
         // What begins at one place and goes one way is one: seams repeat it.
         let mut rows = vec![NO_WAY; points.len()];
@@ -236,24 +247,6 @@ impl YoungFace {
         let mut ways = ways.into_flattened();
         ways.truncate(from.len());
         Ways { rows, from, ways }
-    }
-
-    /// As [`Self::place`], for a vertex whose way is kept.
-    pub fn place_along(
-        &self,
-        p: DVec3,
-        binding: FaceBinding,
-        youth: f64,
-        vertex: usize,
-        ways: &Ways,
-    ) -> DVec3 {
-        match (ways.rows.get(vertex), binding) {
-            (Some(&row), FaceBinding::Skin(share) | FaceBinding::Hair(share)) if row != NO_WAY => {
-                let moved = along_f32(&ways.ways[row as usize], youth);
-                p + f64::from(share) * self.frame.length * moved.as_dvec3()
-            }
-            _ => self.place(p, binding, youth),
-        }
     }
 }
 

@@ -20,9 +20,8 @@ use std::sync::Arc;
 pub fn below_head(view: &View) -> Result<Vec<Vec3>> {
     let (measured, body, offsets) = (view.measured()?, view.body()?, view.offsets()?);
     let figure = &*measured.figure;
-    let field = Field { finish: body.finish(figure, *view.whole()?), ..body.field() };
-    let placement = body.placement(figure, &field, &body.placed, view.threads());
-    let placement = Placement { hair_offsets: &offsets, ..placement };
+    let field = Field { finish: body.finish(figure, *view.whole()?), ..body.field.clone() };
+    let placement = body.placement(figure, &field, &offsets, view.threads());
     let bindings = &body.bindings.vertices;
     Ok(parallel::collect(view.threads(), bindings.len(), parallel::FEW, |vertex| {
         if is_of_head(&bindings[vertex]) { Vec3::ZERO } else { displacement(&placement, vertex) }
@@ -46,7 +45,7 @@ pub fn all(view: &View) -> Result<Displacements> {
     let mut vertices =
         renewed(view.threads(), view.below_head()?, of_head, |vertex| displacement(&placement, vertex));
     let mut joints = Vec::new();
-    if deformation.body.is_of_parts()
+    if deformation.body.parts().is_some()
         && let Some(mirror) = &*view.mirror()?
     {
         let frame = &placement.figure.frame;
@@ -140,7 +139,7 @@ impl Deformer {
     pub fn field_positions(&self) -> Vec<DVec3> {
         let placement = self.placement();
         let mut positions = placement.all_vertices();
-        if let (true, Ok(mirror)) = (self.made.deformation.body.is_of_parts(), self.view().mirror())
+        if let (true, Ok(mirror)) = (self.made.deformation.body.parts().is_some(), self.view().mirror())
             && let Some(mirror) = &*mirror
         {
             let whole = self.made.deformation.placement(&self.made.deformation.field, 1);

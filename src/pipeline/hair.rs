@@ -8,7 +8,6 @@ use crate::face::head::HeadFrame;
 use crate::options::Stage;
 use crate::shape::Measured;
 use crate::shape::field::{Binding, BodyField, Field};
-use crate::shape::placement::Placement;
 use crate::shape::product::hair::Hanging;
 use crate::shape::product::head::head_frame;
 use crate::shape::product::part::Part;
@@ -41,7 +40,7 @@ impl Hair {
 /// How hair hangs on the body, before the head's own stages; `None` where none hangs, and in paper mode.
 pub fn hanging(view: &View) -> Result<Option<Hanging>> {
     let body = view.body()?;
-    let BodyField::Parts(parts) = &*body.field else { return Ok(None) };
+    let Some(parts) = body.parts() else { return Ok(None) };
     let strands = view.strands()?;
     Ok(strands.as_ref().as_ref().map(|strands| Hanging::of(strands, parts, view.options.hair_length)))
 }
@@ -61,8 +60,7 @@ pub fn offsets(view: &View) -> Result<Vec<DVec3>> {
 /// Hair in the end; `None` where none hangs below the chin.
 pub fn hair(view: &View) -> Result<Option<Hair>> {
     let (strands, hanging, body) = (view.strands()?, view.hanging()?, view.body()?);
-    let (Some(strands), Some(hanging), BodyField::Parts(parts)) =
-        (strands.as_ref(), hanging.as_ref(), &*body.field)
+    let (Some(strands), Some(hanging), Some(parts)) = (strands.as_ref(), hanging.as_ref(), body.parts())
     else {
         return Ok(None);
     };
@@ -73,13 +71,7 @@ pub fn hair(view: &View) -> Result<Option<Hair>> {
     let of_head = view.field()?;
     let field = Field { finish: body.with_face(view.face()?.shape).finish, ..(*of_head).clone() };
     let mut offsets = view.pushed()?.dense(measured.figure.positions.len());
-    let young = if field.young.is_some() { Some(view.young()?) } else { None };
-    let young = young.as_ref().and_then(|young| Option::as_ref(young));
-    let placement = Placement {
-        hair_offsets: &offsets,
-        ways: young.map(|young| &young.ways),
-        ..body.placement(&measured.figure, &field, &body.placed, view.threads())
-    };
+    let placement = body.placement(&measured.figure, &field, &offsets, view.threads());
     let mut after = placement.all_vertices();
     let at_rest = |vertex: u32| measured.figure.positions[vertex as usize];
     let heads: Vec<DVec3> = vertices.iter().map(|&vertex| parts.place_head_alone(at_rest(vertex))).collect();

@@ -7,15 +7,15 @@ use crate::face::head::HeadFrame;
 use crate::face::outline::Outline;
 use crate::face::rows::{FaceAim, Rows};
 use crate::face::seat::Seat;
-use crate::face::stage::{FaceBinding, Ways, YoungFace};
+use crate::face::stage::{FaceBinding, YoungFace};
 use crate::geometry::{Mapped, bounds};
 use crate::options::Stage;
 use crate::room::{self, Of};
 use crate::shape::Measured;
-use crate::shape::field::{Binding, BodyField, Field, Finish};
+use crate::shape::field::{Binding, Field, Finish};
 use crate::shape::heights::Heights;
 use crate::shape::measured::is_of_head;
-use crate::shape::placement::{Body, Placement, renewed};
+use crate::shape::placement::{Body, renewed};
 use crate::shape::product::anatomy::Proportions;
 use crate::shape::product::coefficients::lost;
 use crate::shape::product::head::head_frame;
@@ -27,15 +27,6 @@ use std::sync::Arc;
 /// Steps of a head length that a face's landmarks are rounded to, after the stages before: 1e-9.
 const LANDMARK_STEPS: f64 = (1u64 << 30) as f64;
 
-/// A face step, and the vertices' ways through it.
-#[derive(Debug)]
-pub struct Young {
-    /// The step.
-    pub face: Arc<YoungFace>,
-    /// The ways.
-    pub ways: Ways,
-}
-
 /// How much of the head's own stages is done, 0 where the figure keeps its number of heads, which leaves a character made
 /// like itself as it is, to 1.
 pub fn growth(body: &Body, measured: &Measured) -> f64 {
@@ -46,19 +37,17 @@ pub fn growth(body: &Body, measured: &Measured) -> f64 {
 
 /// Where `body` puts the head; `None` in paper mode.
 pub fn frame_after(body: &Body, measured: &Measured) -> Option<HeadFrame> {
-    let BodyField::Parts(parts) = &*body.field else { return None };
+    let length = body.parts()?.after().head_length();
     let chin = head_frame(&measured.anatomy).origin;
-    let origin = body.field().place(chin, &Binding::to(Part::Head));
-    Some(HeadFrame { origin, length: parts.after().head_length() })
+    Some(HeadFrame { origin: body.field.place(chin, &Binding::to(Part::Head)), length })
 }
 
 /// The box of the face map: around what the head moves, in body or face meshes, as the body leaves it; in product mode as
 /// high as from chin to crown.
 pub fn face_box(view: &View) -> Result<Option<(DVec3, DVec3)>> {
     let (body, measured, offsets) = (view.body()?, view.measured()?, view.offsets()?);
-    let (figure, field) = (&*measured.figure, body.field());
-    let placement = body.placement(figure, &field, &body.placed, view.threads());
-    let placement = Placement { hair_offsets: &offsets, ..placement };
+    let figure = &*measured.figure;
+    let placement = body.placement(figure, &body.field, &offsets, view.threads());
     let is_of_face = |&vertex: &usize| {
         let kind = figure.kind(vertex);
         (kind == MeshKind::Body || kind.is_of_face()) && is_of_head(figure, vertex)
@@ -66,7 +55,7 @@ pub fn face_box(view: &View) -> Result<Option<(DVec3, DVec3)>> {
     let vertices = (0..figure.positions.len()).filter(is_of_face);
     let (low, high) = bounds(vertices.map(|vertex| placement.vertex(vertex)));
     let around = (low.x <= high.x).then_some((low, high));
-    let BodyField::Parts(parts) = &*body.field else { return Ok(around) };
+    let Some(parts) = body.parts() else { return Ok(around) };
     let Heights { chin, crown, .. } = *parts.after();
     let reach = 0.5 * (crown - chin);
     let (low, high) = around.unwrap_or((DVec3::splat(-reach), DVec3::splat(reach)));
@@ -76,17 +65,15 @@ pub fn face_box(view: &View) -> Result<Option<(DVec3, DVec3)>> {
 /// The outline of the head as body and face map leave it, and how it stands over the trunk.
 pub fn outline(view: &View) -> Result<Option<Outline>> {
     let (body, measured, sources) = (view.body()?, view.measured()?, view.outline_sources()?);
-    let (Some(frame), BodyField::Parts(parts)) = (frame_after(&body, &measured), &*body.field) else {
-        return Ok(None);
-    };
+    let (Some(frame), Some(parts)) = (frame_after(&body, &measured), body.parts()) else { return Ok(None) };
     let field = body.with_face(view.face()?.shape);
-    let placement = body.placement(&measured.figure, &field, &body.placed, view.threads());
+    let placement = body.placement(&measured.figure, &field, &[], view.threads());
     let points = placement.vertices(&sources.vertices);
     Ok(Outline::of(&sources, &points, frame, parts.after().shoulder_line))
 }
 
 /// The face step beyond Eqs. 12 and 13: of the target's face as they leave it.
-pub fn make_young(view: &View) -> Result<Option<Young>> {
+pub fn make_young(view: &View) -> Result<Option<Arc<YoungFace>>> {
     let (measured, body, shape) = (view.measured()?, view.body()?, view.face()?.shape);
     let frame = frame_after(&body, &measured);
     let (Some(face), Some(frame), Some(heads)) = (&measured.face, frame, body.heads) else { return Ok(None) };
@@ -110,28 +97,27 @@ pub fn make_young(view: &View) -> Result<Option<Young>> {
         return Ok(None);
     }
     room::ask(Of::Young, body.bindings.of_head.len())?;
-    let placement = body.placement(&measured.figure, &field, &body.placed, view.threads());
+    let placement = body.placement(&measured.figure, &field, &[], view.threads());
     let things: Vec<Vec<DVec3>> =
         view.parts()?.parts.things.iter().map(|vertices| placement.vertices(vertices)).collect();
-    // What is the same as last time is taken from there.
-    let known = view.before::<Option<Young>>();
-    let known = known.as_deref().and_then(Option::as_ref);
-    let young = YoungFace::new(frame, rows, &things, known.map(|known| &*known.face));
     let binding = |binding: &Binding| binding.parts().map_or(FaceBinding::None, |parts| parts.face);
     let squashed = renewed(view.threads(), Arc::clone(&body.placed), &body.bindings.of_head, |vertex| {
         field.squash(Mapped::unmoved(body.placed[vertex]), &body.bindings.vertices[vertex]).position
     });
     let bindings: Vec<FaceBinding> = body.bindings.vertices.iter().map(binding).collect();
-    let known = known.map(|known| (&*known.face, &known.ways));
-    let ways = young.ways(&squashed, &bindings, known, view.threads());
-    Ok(Some(Young { face: Arc::new(young), ways }))
+    // What is the same as last time is taken from there.
+    let known = view.before::<Option<Arc<YoungFace>>>().and_then(|known| (*known).clone());
+    let young = YoungFace::new(frame, rows, &things, &squashed, &bindings, known.as_deref(), view.threads());
+    Ok(Some(Arc::new(young)))
 }
 
 /// How the head goes back over the chest.
 pub fn seat(view: &View) -> Result<Option<Seat>> {
     let (body, measured, outline) = (view.body()?, view.measured()?, view.outline()?);
-    let (Some(outline), Some(frame)) = (*outline, frame_after(&body, &measured)) else { return Ok(None) };
-    let BodyField::Parts(parts) = &*body.field else { return Ok(None) };
+    let (Some(outline), Some(frame), Some(parts)) = (*outline, frame_after(&body, &measured), body.parts())
+    else {
+        return Ok(None);
+    };
     Ok(Seat::new(&outline, frame, parts.after().shoulder_line))
 }
 
@@ -139,13 +125,13 @@ pub fn seat(view: &View) -> Result<Option<Seat>> {
 pub fn field(view: &View) -> Result<Field> {
     let (measured, body, options) = (view.measured()?, view.body()?, &view.options);
     let finish = Finish { face: view.face()?.shape, ..body.finish(&measured.figure, *view.whole()?) };
-    let mut field = Field { finish, ..body.field() };
+    let mut field = Field { finish, ..body.field.clone() };
     let growth = growth(&body, &measured);
     if growth == 0.0 || options.stage < Stage::Face {
         return Ok(field);
     }
     if growth * options.youth > 0.0 {
-        field.young = view.young()?.as_ref().as_ref().map(|young| Arc::clone(&young.face));
+        field.young = (*view.young()?).clone();
         field.youth = growth * options.youth;
     }
     if options.seat * growth != 0.0 {

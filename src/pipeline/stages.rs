@@ -13,6 +13,7 @@ use crate::error::{Result, Warning};
 use crate::face::FaceShape;
 use crate::face::outline::{Outline, OutlineSources};
 use crate::face::seat::Seat;
+use crate::face::stage::YoungFace;
 use crate::geometry::range;
 use crate::options::table::PRODUCT_FACE_SQUASH;
 use crate::options::{Height, Mode, Options, Repair, Stage as LastStage};
@@ -111,7 +112,7 @@ stages! {
     /// The head from front and side, and how it stands over the trunk (D30).
     outline: Option<Outline> = head::outline, Face 1, [];
     /// The table of the head (D30), and each vertex's way through it.
-    young: Option<head::Young> = head::make_young, Face 8, [
+    young: Option<Arc<YoungFace>> = head::make_young, Face 8, [
         youth_eye, youth_lower, youth_nose, youth_cheek, youth_jaw, youth_skull, youth_ear, smile
     ];
     /// How far the head goes back over the chest (D30).
@@ -165,8 +166,6 @@ pub struct Deformation {
     pub body: Arc<Body>,
     /// All of it.
     pub field: Arc<Field>,
-    /// See the stage `young`: there where the field has a face step.
-    pub young: Option<Arc<Option<head::Young>>>,
     /// See the stage `offsets`.
     pub offsets: Arc<Vec<DVec3>>,
     /// Hair, where some hangs below the chin.
@@ -177,11 +176,10 @@ impl Deformation {
     /// Where `field`, this one up to what is done last, takes the target's points.
     pub fn placement<'a>(&'a self, field: &'a Field, threads: usize) -> Placement<'a> {
         let hair = self.hair.as_ref().as_ref();
+        let offsets = hair.map_or(&self.offsets[..], |hair| &hair.offsets);
         Placement {
-            hair_offsets: hair.map_or(&self.offsets, |hair| &hair.offsets),
             joint_offsets: hair.map_or(&[], |hair| &hair.joint_offsets),
-            ways: self.young.as_ref().and_then(|young| Option::as_ref(young)).map(|young| &young.ways),
-            ..self.body.placement(&self.measured.figure, field, &self.body.placed, threads)
+            ..self.body.placement(&self.measured.figure, field, offsets, threads)
         }
     }
 }
@@ -247,15 +245,14 @@ fn push_clothes(view: &View) -> Result<Arc<Pushed>> {
     match (view.options.repair, view.before()) {
         (Repair::Off, _) => return Ok(Arc::default()),
         (Repair::Kept, Some(pushed)) => return Ok(pushed),
-        _ if !body.is_of_parts() => return Ok(Arc::default()),
+        _ if body.parts().is_none() => return Ok(Arc::default()),
         _ => {}
     }
     let worn = view.worn()?;
     if worn.places.is_empty() {
         return Ok(Arc::default());
     }
-    let field = body.field();
-    let after = body.placement(&measured.figure, &field, &body.placed, view.threads()).all_vertices();
+    let after = body.placement(&measured.figure, &body.field, &[], view.threads()).all_vertices();
     let (low, high) = extent(&after);
     Ok(Arc::new(worn.pushed(&after, &measured.weld, high - low, view.threads())?))
 }
@@ -263,12 +260,11 @@ fn push_clothes(view: &View) -> Result<Arc<Pushed>> {
 /// Seen: tubbykun, 2.2 heads, came out of a style of 2.5 heads at 1.42 m instead of .94.
 fn not_taller(view: &View) -> Result<f64> {
     let (body, measured, offsets) = (view.body()?, view.measured()?, view.offsets()?);
-    if !body.is_of_parts() {
+    if body.parts().is_none() {
         return Ok(1.0);
     }
-    let field = body.field();
-    let placement = body.placement(&measured.figure, &field, &body.placed, view.threads());
-    let (low, high) = extent(&Placement { hair_offsets: &offsets, ..placement }.all_vertices());
+    let placement = body.placement(&measured.figure, &body.field, &offsets, view.threads());
+    let (low, high) = extent(&placement.all_vertices());
     Ok(if low < high { (measured.figure.height() / (high - low)).min(1.0) } else { 1.0 })
 }
 
@@ -289,14 +285,12 @@ fn squash_face(view: &View) -> Result<Face> {
 }
 
 fn put_together(view: &View) -> Result<Deformation> {
-    let field = view.field()?;
     Ok(Deformation {
         measured: view.measured()?,
         body: view.body()?,
-        young: field.young.as_ref().map(|_| view.young()).transpose()?,
+        field: view.field()?,
         offsets: view.offsets()?,
         hair: view.hair()?,
-        field,
     })
 }
 

@@ -10,7 +10,7 @@ use super::product::field::PartField;
 use super::product::part::Part;
 use crate::face::FaceShape;
 use crate::face::seat::Seat;
-use crate::face::stage::{FaceBinding, Ways, YoungFace};
+use crate::face::stage::{FaceBinding, YoungFace};
 use crate::geometry::Mapped;
 use glam::{DMat3, DVec3};
 use std::sync::Arc;
@@ -162,25 +162,14 @@ impl Field {
 
     /// Where `p` goes.
     pub fn place(&self, p: DVec3, binding: &Binding) -> DVec3 {
-        self.place_from(p, self.place_body(p, binding), binding, 0, None)
+        self.place_from(p, self.place_body(p, binding), binding, None)
     }
 
-    /// As [`Self::place`], for a vertex that is at `p` and that the body's field takes to `placed`; `ways` may hold how it
-    /// goes through the face step.
-    pub fn place_from(
-        &self,
-        p: DVec3,
-        placed: DVec3,
-        binding: &Binding,
-        vertex: usize,
-        ways: Option<&Ways>,
-    ) -> DVec3 {
+    /// As [`Self::place`], for a point, which may be a vertex, that is at `p` and that the body's field takes to `placed`.
+    pub fn place_from(&self, p: DVec3, placed: DVec3, binding: &Binding, vertex: Option<usize>) -> DVec3 {
         let squashed = self.squash(Mapped::unmoved(placed), binding).position;
         let to = match binding {
-            Binding::Parts(binding) => self.place_head(squashed, binding, |young, to| match ways {
-                Some(ways) => young.place_along(to, binding.face, self.youth, vertex, ways),
-                None => young.place(to, binding.face, self.youth),
-            }),
+            Binding::Parts(binding) => self.place_head(squashed, binding, vertex),
             Binding::Bones(_) => squashed,
             Binding::Fixed => return p,
         };
@@ -217,14 +206,11 @@ impl Field {
 
     /// Where the rows after it take a point: the younger face, then the seat.
     #[inline(always)]
-    fn place_head(
-        &self,
-        to: DVec3,
-        binding: &PartBinding,
-        face: impl FnOnce(&YoungFace, DVec3) -> DVec3,
-    ) -> DVec3 {
+    fn place_head(&self, to: DVec3, binding: &PartBinding, vertex: Option<usize>) -> DVec3 {
         let to = match &self.young {
-            Some(young) if binding.face != FaceBinding::None => face(young, to),
+            Some(young) if binding.face != FaceBinding::None => {
+                young.place(to, binding.face, self.youth, vertex)
+            }
             _ => to,
         };
         match &self.seat {

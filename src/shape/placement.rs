@@ -3,11 +3,12 @@
 use super::Coefficient;
 use super::field::{Binding, BodyField, Field, Finish};
 use super::figure::{Figure, extent};
+use super::product::field::PartField;
 use super::product::part::Part;
 use crate::character::{Character, Role};
 use crate::error::Warning;
 use crate::face::FaceShape;
-use crate::face::stage::{FaceBinding, Ways};
+use crate::face::stage::FaceBinding;
 use crate::geometry::{marked, range};
 use crate::parallel;
 use glam::DVec3;
@@ -32,8 +33,8 @@ pub fn renewed<T: Clone + Send>(
 /// What a mode makes of target, style and options, before the head's own stages.
 #[derive(Debug)]
 pub struct Body {
-    /// What gives it its shape.
-    pub field: Arc<BodyField>,
+    /// Its field alone.
+    pub field: Field,
     /// How the target hangs on that.
     pub bindings: Arc<Bindings>,
     /// Where it takes the vertices, canonical frame.
@@ -51,19 +52,17 @@ pub struct Body {
 }
 
 impl Body {
-    /// Its field alone.
-    pub fn field(&self) -> Field {
-        Field::of(Arc::clone(&self.field))
-    }
-
     /// Its field with a face of this shape.
     pub fn with_face(&self, face: FaceShape) -> Field {
-        Field { finish: Finish { face, ..Finish::default() }, ..self.field() }
+        Field { finish: Finish { face, ..Finish::default() }, ..self.field.clone() }
     }
 
-    /// True in product mode.
-    pub fn is_of_parts(&self) -> bool {
-        matches!(*self.field, BodyField::Parts(_))
+    /// Product mode's parts; `None` in paper mode.
+    pub fn parts(&self) -> Option<&PartField> {
+        match &*self.field.body {
+            BodyField::Parts(parts) => Some(parts),
+            BodyField::Bones(_) => None,
+        }
     }
 
     /// What is done last, all the way and without a younger face, for a figure that shrinks by `whole`.
@@ -72,15 +71,16 @@ impl Body {
         Finish { whole, about: hips.with_y(self.bindings.ground.height), ..Finish::default() }
     }
 
-    /// Where `field` takes the points of `figure`, whose vertices this body, with the field's face, takes to `placed`.
+    /// Where `field`, this body's with more stages, takes the points of `figure`, to whose vertices `offsets` are added.
     pub fn placement<'a>(
         &'a self,
         figure: &'a Figure,
         field: &'a Field,
-        placed: &'a [DVec3],
+        offsets: &'a [DVec3],
         threads: usize,
     ) -> Placement<'a> {
-        Placement { placed: Some(placed), ..Placement::new(figure, &self.bindings, field, threads) }
+        let by_field = Placement::new(figure, &self.bindings, field, threads);
+        Placement { placed: Some(&self.placed), offsets, ..by_field }
     }
 }
 
@@ -171,13 +171,11 @@ pub struct Placement<'a> {
     /// What moves it.
     pub field: &'a Field,
     /// Added to each vertex at the end, as far as the field's amount says; empty where nothing is.
-    pub hair_offsets: &'a [DVec3],
+    pub offsets: &'a [DVec3],
     /// The same for each joint.
     pub joint_offsets: &'a [DVec3],
     /// Where the body of `field`, with its face, takes the vertices, where that is kept.
     pub placed: Option<&'a [DVec3]>,
-    /// How they go on from there through the face step, where that is kept.
-    pub ways: Option<&'a Ways>,
     /// Threads to use, 0 for all cores.
     pub threads: usize,
 }
@@ -185,35 +183,26 @@ pub struct Placement<'a> {
 impl<'a> Placement<'a> {
     /// By `field` alone.
     pub fn new(figure: &'a Figure, bindings: &'a Bindings, field: &'a Field, threads: usize) -> Self {
-        Self {
-            figure,
-            bindings,
-            field,
-            hair_offsets: &[],
-            joint_offsets: &[],
-            placed: None,
-            ways: None,
-            threads,
-        }
+        Self { figure, bindings, field, offsets: &[], joint_offsets: &[], placed: None, threads }
     }
 
     /// Where a point `p` goes that moves with `vertex`; canonical frame.
     pub fn beside(&self, vertex: usize, p: DVec3) -> DVec3 {
-        self.with_hair_offset(vertex, self.field.place(p, &self.bindings.vertices[vertex]))
+        self.with_offset(vertex, self.field.place(p, &self.bindings.vertices[vertex]))
     }
 
     /// Where `vertex` goes, canonical frame.
     pub fn vertex(&self, vertex: usize) -> DVec3 {
         let (p, binding) = (self.figure.positions[vertex], &self.bindings.vertices[vertex]);
         let to = match self.placed {
-            Some(placed) => self.field.place_from(p, placed[vertex], binding, vertex, self.ways),
+            Some(placed) => self.field.place_from(p, placed[vertex], binding, Some(vertex)),
             None => self.field.place(p, binding),
         };
-        self.with_hair_offset(vertex, to)
+        self.with_offset(vertex, to)
     }
 
-    fn with_hair_offset(&self, vertex: usize, to: DVec3) -> DVec3 {
-        match self.hair_offsets.get(vertex) {
+    fn with_offset(&self, vertex: usize, to: DVec3) -> DVec3 {
+        match self.offsets.get(vertex) {
             Some(&offset) => to + self.field.finish.share_of_offsets() * offset,
             None => to,
         }

@@ -40,7 +40,7 @@ pub fn body(character: &Character, measured: &Measured, style: &Style, options: 
     let placed = Placement::new(figure, &bindings, &field, options.thread_count).all_placed();
     Ok(Body {
         bindings: Arc::new(bindings),
-        field: field.body,
+        field,
         placed: Arc::new(placed),
         head_ratio: found.head_ratio,
         heads: None,

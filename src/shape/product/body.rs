@@ -82,7 +82,7 @@ pub fn body(
     let placed =
         Placement::new(&measured.figure, &product.bindings, &field, options.thread_count).all_placed();
     Ok(Body {
-        field: field.body,
+        field,
         bindings: Arc::clone(&product.bindings),
         placed: Arc::new(placed),
         head_ratio,
