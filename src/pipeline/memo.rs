@@ -65,68 +65,63 @@ pub struct Inputs {
 struct Made {
     value: Value,
     options: Options,
-    style: Option<Arc<Style>>,
-    stages: Vec<(usize, Value)>,
+    looked_at: Looks,
     milliseconds: f64,
 }
 
-#[derive(Clone, Default)]
+#[derive(Default)]
 struct Slot {
     made: Option<Arc<Made>>,
-    /// The change after which it was last found to hold.
-    holds_at: u64,
+    /// True where it was found to hold for what is given.
+    holds: bool,
 }
 
 /// What all stages made last.
 pub struct Memo {
     slots: Vec<Mutex<Slot>>,
-    change: u64,
 }
 
 impl Default for Memo {
     fn default() -> Self {
-        Self { slots: STAGES.iter().map(|_| Mutex::default()).collect(), change: 1 }
+        Self { slots: STAGES.iter().map(|_| Mutex::default()).collect() }
     }
 }
 
 impl Clone for Memo {
+    /// Of a copy every value is looked at again before it is given back: something else may be given.
     fn clone(&self) -> Self {
-        let slots = self.slots.iter().map(|slot| Mutex::new(lock(slot).clone())).collect();
-        Self { slots, change: self.change }
+        let copy = |slot| Mutex::new(Slot { made: lock(slot).made.clone(), holds: false });
+        Self { slots: self.slots.iter().map(copy).collect() }
     }
 }
 
 impl fmt::Debug for Memo {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let is_made = |(stage, slot): (&Stage, &Mutex<Slot>)| lock(slot).made.is_some().then_some(stage.name);
-        f.debug_set().entries(STAGES.iter().zip(&self.slots).filter_map(is_made)).finish()
+        f.debug_set().entries(self.made().map(|(stage, _)| stage.name)).finish()
     }
 }
 
 impl Memo {
-    /// Has every value looked at again before it is given back: after a change of what is given.
-    pub fn inputs_changed(&mut self) {
-        self.change += 1;
+    /// The stages that were made, and what they made last.
+    fn made(&self) -> impl Iterator<Item = (&'static Stage, Arc<Made>)> {
+        let slots = STAGES.iter().zip(&self.slots);
+        slots.filter_map(|(stage, slot)| Some((stage, lock(slot).made.clone()?)))
     }
 
     /// True where nothing was made yet.
     pub fn is_empty(&self) -> bool {
-        self.slots.iter().all(|slot| lock(slot).made.is_none())
+        self.made().next().is_none()
     }
 
     /// Milliseconds that what is kept of a phase took.
     pub fn milliseconds(&self, is_of: impl Fn(Phase) -> bool) -> f64 {
-        let stages = STAGES.iter().zip(&self.slots).filter(|(stage, _)| is_of(stage.phase));
-        stages.filter_map(|(_, slot)| Some(lock(slot).made.as_ref()?.milliseconds)).sum()
+        self.made().filter(|(stage, _)| is_of(stage.phase)).map(|(_, made)| made.milliseconds).sum()
     }
 
     /// The names of the stages that had been made, and were made again since `before` was a copy of this.
     pub fn made_again_since(&self, before: &Self) -> Vec<&'static str> {
-        let of = |slot: &Mutex<Slot>| lock(slot).made.as_ref().map(Arc::as_ptr);
-        let slots = self.slots.iter().zip(&before.slots);
-        let is_new =
-            |(now, before): (&Mutex<Slot>, &Mutex<Slot>)| of(before).is_some() && of(now) != of(before);
-        STAGES.iter().zip(slots).filter(|(_, slots)| is_new(*slots)).map(|(stage, _)| stage.name).collect()
+        let is_kept = |made: &Arc<Made>| self.made().any(|(_, now)| Arc::ptr_eq(&now, made));
+        before.made().filter(|(_, made)| !is_kept(made)).map(|(stage, _)| stage.name).collect()
     }
 }
 
@@ -151,7 +146,7 @@ pub struct View<'a> {
 /// What a stage looked at beside its options.
 #[derive(Default)]
 struct Looks {
-    style: bool,
+    style: Option<Arc<Style>>,
     stages: Vec<(usize, Value)>,
     /// Milliseconds that stages above took meanwhile.
     waited: f64,
@@ -163,12 +158,6 @@ impl<'a> View<'a> {
         let options = inputs.options.clone();
         let looked_at = RefCell::default();
         Self { inputs, memo, progress, stage: STAGES.len(), options, before: None, looked_at }
-    }
-
-    fn of_stage(&self, stage: usize, options: &Options, before: Option<Value>) -> View<'a> {
-        let options = Options { thread_count: self.inputs.options.thread_count, ..options.clone() };
-        let &Self { inputs, memo, progress, .. } = self;
-        View { inputs, memo, progress, stage, options, before, looked_at: RefCell::default() }
     }
 
     /// The character that is deformed.
@@ -183,7 +172,7 @@ impl<'a> View<'a> {
 
     /// What the character becomes like.
     pub fn style(&self) -> &'a Style {
-        self.looked_at.borrow_mut().style = true;
+        self.looked_at.borrow_mut().style = Some(Arc::clone(&self.inputs.style));
         &self.inputs.style
     }
 
@@ -232,50 +221,41 @@ impl<'a> View<'a> {
     fn value(&self, stage: usize) -> Result<Value> {
         let mut slot = lock(&self.memo.slots[stage]);
         if let Some(made) = &slot.made
-            && (slot.holds_at == self.memo.change || self.holds(made, stage)?)
+            && (slot.holds || self.holds(made, stage)?)
         {
             let value = Arc::clone(&made.value);
-            slot.holds_at = self.memo.change;
+            slot.holds = true;
             return Ok(value);
         }
         let before = slot.made.as_ref().map(|made| Arc::clone(&made.value));
         let options = (STAGES[stage].options)(&self.inputs.options);
-        let view = self.of_stage(stage, &options, before);
+        let shown = Options { thread_count: self.inputs.options.thread_count, ..options.clone() };
+        let view = View { stage, options: shown, before, looked_at: RefCell::default(), ..*self };
         let clock = Moment::now();
         let value = (STAGES[stage].make)(&view)?;
         view.part(1.0, 1.0, |_| Ok(()))?;
-        let Looks { style, stages, waited } = view.looked_at.into_inner();
-        let milliseconds = clock.milliseconds() - waited;
-        let style = style.then(|| Arc::clone(&self.inputs.style));
-        let made = Made { value: Arc::clone(&value), options, style, stages, milliseconds };
-        *slot = Slot { made: Some(Arc::new(made)), holds_at: self.memo.change };
+        let looked_at = view.looked_at.into_inner();
+        let milliseconds = clock.milliseconds() - looked_at.waited;
+        let made = Made { value: Arc::clone(&value), options, looked_at, milliseconds };
+        *slot = Slot { made: Some(Arc::new(made)), holds: true };
         Ok(value)
     }
 
-    /// True where the stage is made, and holds.
+    /// True where the stage is made, and holds; what it looked at is made where it must be.
     pub fn is_made(&self, stage: usize) -> bool {
         let made = lock(&self.memo.slots[stage]).made.clone();
-        made.is_some_and(|made| {
-            let is_same = |(stage, value): &(usize, Value)| {
-                let now = lock(&self.memo.slots[*stage]).made.clone();
-                self.is_made(*stage) && now.is_some_and(|now| Arc::ptr_eq(&now.value, value))
-            };
-            self.is_given_same(&made, stage) && made.stages.iter().all(is_same)
-        })
-    }
-
-    /// True where the options and the style that it looked at are the same.
-    fn is_given_same(&self, made: &Made, stage: usize) -> bool {
-        made.options == (STAGES[stage].options)(&self.inputs.options)
-            && made.style.as_ref().is_none_or(|style| *style == self.inputs.style)
+        made.is_some_and(|made| self.holds(&made, stage).unwrap_or(false))
     }
 
     /// True where all that it looked at is the same; what that is, is made where it must be.
     fn holds(&self, made: &Made, stage: usize) -> Result<bool> {
-        if !self.is_given_same(made, stage) {
+        let Looks { style, stages, .. } = &made.looked_at;
+        if made.options != (STAGES[stage].options)(&self.inputs.options)
+            || style.as_ref().is_some_and(|style| *style != self.inputs.style)
+        {
             return Ok(false);
         }
-        for (stage, value) in &made.stages {
+        for (stage, value) in stages {
             if !Arc::ptr_eq(&self.value(*stage)?, value) {
                 return Ok(false);
             }

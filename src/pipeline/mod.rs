@@ -195,8 +195,7 @@ impl Deformer {
 
     fn change(&mut self, inputs: Inputs, progress: &mut Progress) -> Result<()> {
         check(&inputs)?;
-        let mut memo = self.memo.clone();
-        memo.inputs_changed();
+        let memo = self.memo.clone();
         self.made = make(&inputs, &memo, progress)?;
         (self.inputs, self.memo) = (inputs, memo);
         Ok(())
