@@ -9,39 +9,25 @@ use crate::geometry::distinct;
 use crate::parallel;
 use crate::progress::Progress;
 use crate::shape::directions::{RestTriangles, Room};
-use crate::shape::placement::Placement;
+use crate::shape::placement::renewed;
 use crate::shape::turn::Turn;
 use glam::{DVec3, Vec3};
 use std::ops::Range;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, OnceLock};
 
-/// The vertices of a mesh that its morph targets touch.
-#[derive(Clone, Debug, Default)]
-pub struct Touched {
-    /// Of each target, ascending.
-    targets: Vec<Arc<Vec<u32>>>,
-    /// Of all that move something, ascending.
-    moved: Vec<u32>,
-}
+/// The vertices that each morph target of a mesh touches, ascending.
+pub type Touched = Vec<Arc<Vec<u32>>>;
 
-impl Touched {
-    /// Of `mesh`.
-    pub fn of(mesh: &Mesh) -> Self {
-        let is_changed =
-            |deltas: &[Vec3], vertex: usize| deltas.get(vertex).is_some_and(|&d| d != Vec3::ZERO);
-        let vertices = 0..mesh.positions.len();
-        let touched = |target: &MorphTarget| {
-            let arrays = [&target.positions, &target.normals, &target.tangents];
-            let is_touched = |&vertex: &usize| arrays.iter().any(|deltas| is_changed(deltas, vertex));
-            Arc::new(vertices.clone().filter(is_touched).map(|vertex| vertex as u32).collect())
+/// Those of `mesh`.
+pub fn touched(mesh: &Mesh) -> Touched {
+    let touched = |target: &MorphTarget| {
+        let arrays = [&target.positions, &target.normals, &target.tangents];
+        let is_touched = |&vertex: &u32| {
+            arrays.iter().any(|deltas| deltas.get(vertex as usize).is_some_and(|&d| d != Vec3::ZERO))
         };
-        let is_moved =
-            |vertex: &usize| mesh.morph_targets.iter().any(|target| is_changed(&target.positions, *vertex));
-        Self {
-            targets: mesh.morph_targets.iter().map(touched).collect(),
-            moved: vertices.clone().filter(is_moved).map(|vertex| vertex as u32).collect(),
-        }
-    }
+        Arc::new((0..mesh.positions.len() as u32).filter(is_touched).collect())
+    };
+    mesh.morph_targets.iter().map(touched).collect()
 }
 
 /// A morph target where it changes something, of one mesh.
@@ -83,16 +69,17 @@ impl<'a> GivenTarget<'a> {
         Self { vertices: Arc::clone(vertices), deltas, is_dense: true }
     }
 
-    /// One of `vertices` with what is added to it.
-    fn at(&self, which: usize, index: usize) -> Option<(usize, Vec3)> {
-        let vertex = self.vertices[index] as usize;
-        Some((vertex, *self.deltas[which].get(if self.is_dense { vertex } else { index })?))
+    /// Each of `vertices` with what is added to it; `None` where the target has no such changes.
+    fn each(&self, which: usize) -> Option<impl Iterator<Item = (u32, Vec3)>> {
+        let deltas = self.deltas[which];
+        let at = |index: usize, vertex: u32| if self.is_dense { vertex as usize } else { index };
+        let of = move |(index, &vertex): (usize, &u32)| (vertex, deltas[at(index, vertex)]);
+        (!deltas.is_empty()).then(|| self.vertices.iter().enumerate().map(of))
     }
 
-    /// All of them; `None` where the target has no such changes.
-    fn each(&self, which: usize) -> Option<impl Iterator<Item = (usize, Vec3)>> {
-        let of = move |index: usize| self.at(which, index);
-        (!self.deltas[which].is_empty()).then(|| (0..self.vertices.len()).filter_map(of))
+    /// The same of places; none where it moves nothing.
+    fn moves(&self) -> impl Iterator<Item = (u32, Vec3)> {
+        self.each(0).into_iter().flatten()
     }
 
     /// With other deltas.
@@ -107,31 +94,12 @@ impl<'a> GivenTarget<'a> {
 
 /// How far morph targets go all the way beyond their own deltas, model space: of each mesh, once it is asked for, by target and
 /// by the vertices that it moves. As a deformer's displacements they stay while amount and height change.
-#[derive(Debug, Default)]
-pub struct Shifts {
-    of: Mutex<Vec<Option<ShiftsOfMesh>>>,
-}
-
-/// By target, then by the vertices that it touches.
-type ShiftsOfMesh = Arc<Vec<Vec<Vec3>>>;
-
-impl Shifts {
-    fn get(&self, mesh: usize) -> Option<ShiftsOfMesh> {
-        self.of.lock().unwrap_or_else(PoisonError::into_inner).get(mesh)?.clone()
-    }
-
-    fn keep(&self, mesh: usize, shifts: &ShiftsOfMesh) {
-        let mut of = self.of.lock().unwrap_or_else(PoisonError::into_inner);
-        if of.len() <= mesh {
-            of.resize(mesh + 1, None);
-        }
-        of[mesh] = Some(Arc::clone(shifts));
-    }
-}
+pub type Shifts = Vec<OnceLock<Vec<Vec<Vec3>>>>;
 
 /// What is filled in mesh by mesh: none while what it is made of is the same.
 pub fn shifts(view: &View) -> Result<Shifts> {
-    view.deformation().map(|_| Shifts::default())
+    view.deformation()?;
+    Ok(vec![OnceLock::new(); view.character().meshes.len()])
 }
 
 impl Deformer {
@@ -169,20 +137,17 @@ impl Deformer {
     fn targets_of_mesh(&self, mesh: usize, progress: &mut Progress) -> Result<Vec<SparseTarget>> {
         let touched = self.view().touched()?;
         let of_mesh = &self.inputs.character.meshes[mesh].morph_targets;
-        let given: Vec<GivenTarget> =
-            of_mesh.iter().zip(&touched[mesh].targets).map(GivenTarget::of).collect();
-        let kept = self.view().shifts()?;
-        let shifts = match kept.get(mesh) {
+        let given: Vec<GivenTarget> = of_mesh.iter().zip(&touched[mesh]).map(GivenTarget::of).collect();
+        let kept = &self.view().shifts()?[mesh];
+        let shifts = match kept.get() {
             Some(known) => known,
-            None if self.made.field.finish.is_nothing() => Arc::default(),
+            None if self.made.field.finish.is_nothing() => &Vec::new(),
             None => {
-                let part = &mut progress.part(0.0, 0.7);
-                let shifts = Arc::new(self.shifts_of(mesh, &given, &touched[mesh].moved, part)?);
-                kept.keep(mesh, &shifts);
-                shifts
+                let shifts = self.shifts_of(mesh, &given, &mut progress.part(0.0, 0.7))?;
+                kept.get_or_init(|| shifts)
             }
         };
-        self.shifted(mesh, &given, &shifts, &mut progress.part(0.7, 1.0))
+        self.shifted(mesh, &given, shifts, &mut progress.part(0.7, 1.0))
     }
 
     /// Morph targets of a mesh, those of the character or others, as [`Self::deformed_targets`] has them.
@@ -191,10 +156,7 @@ impl Deformer {
         if self.made.field.finish.is_nothing() {
             return self.shifted(mesh, given, &[], progress);
         }
-        let is_moved = |(_, delta): &(usize, Vec3)| *delta != Vec3::ZERO;
-        let of = |target| GivenTarget::each(target, 0).into_iter().flatten().filter(is_moved);
-        let moved = distinct(given.iter().flat_map(of).map(|(vertex, _)| vertex as u32));
-        let shifts = self.shifts_of(mesh, given, &moved, progress)?;
+        let shifts = self.shifts_of(mesh, given, progress)?;
         self.shifted(mesh, given, &shifts, progress)
     }
 
@@ -245,71 +207,44 @@ impl Deformer {
     /// straight way between two places leads through it: ends are put forward until half of the way is where the field
     /// takes half of the way.
     ///
-    /// `moved`: the vertices with a change of place, ascending.
-    ///
     /// # Errors
     /// `Cancelled`.
     fn shifts_of(
         &self,
         mesh: usize,
         given: &[GivenTarget],
-        moved: &[u32],
         progress: &mut Progress,
     ) -> Result<Vec<Vec<Vec3>>> {
         let (deformation, threads) = (&self.made.deformation, self.inputs.options.thread_count);
         let field = &deformation.field;
         let placement = deformation.placement(field, threads);
         let figure = placement.figure;
-        let placed = self.placed_of(mesh, moved, &placement);
-        let start = self.vertices(mesh).start;
-        let shift = |vertex: usize, delta: Vec3| {
+        let Range { start, end } = self.vertices(mesh);
+        let moves: Vec<(u32, Vec3)> = given.iter().flat_map(GivenTarget::moves).collect();
+        let is_moved = |&&(_, delta): &&(u32, Vec3)| delta != Vec3::ZERO;
+        let moved = distinct(moves.iter().filter(is_moved).map(|&(vertex, _)| vertex));
+        let nowhere = Arc::new(vec![DVec3::ZERO; end - start]);
+        let placed = renewed(threads, nowhere, &moved, |vertex| placement.vertex(start + vertex));
+        let shift = |(vertex, delta): (u32, Vec3)| {
             if delta == Vec3::ZERO {
                 return Vec3::ZERO;
             }
+            let (before, vertex) = (placed[vertex as usize], start + vertex as usize);
             let delta = figure.frame.to_canonical(delta.as_dvec3());
-            let from = figure.positions[start + vertex];
-            let mut to = placement.beside(start + vertex, from + delta);
-            let share = field.opens_lids(from, &placement.bindings.vertices[start + vertex]);
+            let from = figure.positions[vertex];
+            let mut to = placement.beside(vertex, from + delta);
+            let share = field.opens_lids(from, &placement.bindings.vertices[vertex]);
             if share > 0.0 {
-                let half = placement.beside(start + vertex, from + 0.5 * delta);
-                let z = to.z + 2.0 * (half.z - 0.5 * (placed[vertex].z + to.z)).max(0.0);
-                to = to.lerp(placement.beside(start + vertex, from + delta.with_z(0.0)).with_z(z), share);
+                let half = placement.beside(vertex, from + 0.5 * delta);
+                let z = to.z + 2.0 * (half.z - 0.5 * (before.z + to.z)).max(0.0);
+                to = to.lerp(placement.beside(vertex, from + delta.with_z(0.0)).with_z(z), share);
             }
-            single(figure.frame.to_model(to - placed[vertex] - delta))
+            single(figure.frame.to_model(to - before - delta))
         };
-        // Cut where there are as many of all targets together, whatever each touches.
-        let ends: Vec<usize> = given
-            .iter()
-            .scan(0, |end, target| {
-                *end += target.vertices.len();
-                Some(*end)
-            })
-            .collect();
-        let all = ends.last().copied().unwrap_or(0);
-        let shift = |_: &mut (), index: usize| {
-            let target = ends.partition_point(|&end| end <= index);
-            let first = ends[target] - given[target].vertices.len();
-            given[target].at(0, index - first).map_or(Vec3::ZERO, |(vertex, delta)| shift(vertex, delta))
-        };
-        let flat = progress.collect_with(threads, all, parallel::FEW, || (), shift)?;
-        let mut rest = &flat[..];
-        let by_target = |target: &GivenTarget| {
-            let (own, others) = rest.split_at(target.vertices.len());
-            rest = others;
-            own.to_vec()
-        };
-        Ok(given.iter().map(by_target).collect())
-    }
-
-    /// Where `placement` puts the vertices of a mesh, canonical frame: those that are `moved`.
-    fn placed_of(&self, mesh: usize, moved: &[u32], placement: &Placement) -> Vec<DVec3> {
-        let Range { start, end } = self.vertices(mesh);
-        let all: Vec<u32> = moved.iter().map(|&vertex| start as u32 + vertex).collect();
-        let mut placed = vec![DVec3::ZERO; end - start];
-        for (&vertex, to) in moved.iter().zip(placement.vertices(&all)) {
-            placed[vertex as usize] = to;
-        }
-        placed
+        // Those of all targets in one list: threads have as much to do, whatever each touches.
+        let shift = |(): &mut (), index: usize| shift(moves[index]);
+        let mut all = progress.collect_with(threads, moves.len(), parallel::FEW, || (), shift)?.into_iter();
+        Ok(given.iter().map(|target| all.by_ref().take(target.moves().count()).collect()).collect())
     }
 
     /// D(v + d) - D(v) of the vertices of a target: exact, and zero where d is.
@@ -318,7 +253,7 @@ impl Deformer {
     fn morph_positions(&self, target: &GivenTarget, shifts: &[Vec3]) -> Option<Vec<Vec3>> {
         let finish = &self.made.field.finish;
         let (size, amount) = (finish.size as f32, finish.amount as f32);
-        let moved = |((_, delta), &shift): ((usize, Vec3), &Vec3)| {
+        let moved = |((_, delta), &shift): ((u32, Vec3), &Vec3)| {
             let to = size * (delta + amount * shift);
             to.clamp(Vec3::splat(f32::MIN), Vec3::splat(f32::MAX))
         };
@@ -335,10 +270,11 @@ fn morph_turns(
     before: &[Vec3],
     turn: &dyn Fn(usize, Vec3) -> Vec3,
 ) -> Option<Vec<Vec3>> {
-    let turned = |(vertex, delta): (usize, Vec3)| {
+    let turned = |(vertex, delta): (u32, Vec3)| {
         if delta == Vec3::ZERO || before.is_empty() {
             return delta;
         }
+        let vertex = vertex as usize;
         let before = before[vertex];
         let changed = before + delta;
         // What comes out is of unit length, whatever came in.

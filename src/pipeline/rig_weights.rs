@@ -77,7 +77,7 @@ pub struct Binder<'a> {
     /// nothing is worn.
     worn: Option<(Skin, Vec<GarmentOnSkin>)>,
     pub rule: BodyRule,
-    pub warnings: Vec<Warning>,
+    pub warning: Option<Warning>,
     pub body_time: f64,
     pub garment_time: f64,
 }
@@ -114,42 +114,30 @@ impl<'a> Binder<'a> {
         }
         let body = Group::new(figure, body);
         progress.at(0.1)?;
-        let mut warnings = Vec::new();
-        let method = match options.method {
-            WeightMethod::Auto => match heat_would_be_poor(&body.positions, &body.triangles, bones) {
-                Some(reason) => {
-                    warnings.push(Warning::new(
-                        "open_body",
-                        format!("weights were found through the volume of the body, not along its surface: {reason}"),
-                    ));
-                    WeightMethod::Volume
-                }
-                None => WeightMethod::Heat,
-            },
-            method => method,
+        let (points, triangles) = (&body.positions, &body.triangles);
+        let (poor, by_volume) = match options.method {
+            WeightMethod::Auto => (heat_would_be_poor(points, triangles, bones), false),
+            WeightMethod::Heat => (None, false),
+            WeightMethod::Volume => (None, true),
         };
+        let poor = poor.map(|reason| {
+            format!("weights were found through the volume of the body, not along its surface: {reason}")
+        });
         let threads = options.thread_count;
         progress.at(0.25)?;
         let progress = &mut progress.part(0.25, 1.0);
-        let (points, triangles) = (&body.positions, &body.triangles);
-        let rule = match method {
-            WeightMethod::Volume => {
-                let options = VoxelOptions {
-                    resolution: options.voxel_resolution,
-                    falloff: FALLOFF,
-                    thread_count: threads,
-                };
-                BodyRule::Volume(voxel_weights(points, triangles, bones, &options, progress)?)
-            }
-            _ => {
-                room::ask(Of::Heat, points.len())?;
-                let held = || held(points, triangles, bones, humanoid);
-                let body: (_, &(dyn Fn() -> _ + Sync)) = (Some(solid), &held);
-                BodyRule::Heat(HeatSystem::in_body(points, triangles, bones, body, threads, progress)?)
-            }
-        };
-        let separate = |meshes: Vec<usize>| -> Vec<Group> {
-            meshes.into_iter().map(|mesh| Group::new(figure, vec![mesh])).collect()
+        let rule = if by_volume || poor.is_some() {
+            let options = VoxelOptions {
+                resolution: options.voxel_resolution,
+                falloff: FALLOFF,
+                thread_count: threads,
+            };
+            BodyRule::Volume(voxel_weights(points, triangles, bones, &options, progress)?)
+        } else {
+            room::ask(Of::Heat, points.len())?;
+            let held = || held(points, triangles, bones, humanoid);
+            let body: (_, &(dyn Fn() -> _ + Sync)) = (Some(solid), &held);
+            BodyRule::Heat(HeatSystem::in_body(points, triangles, bones, body, threads, progress)?)
         };
         let head = humanoid.joint(Role::Head).unwrap_or(0);
         let joint = |eye: &Eye| humanoid.joint(eye.role).unwrap_or(head) as u32;
@@ -159,13 +147,13 @@ impl<'a> Binder<'a> {
             eyes: eyes.iter().map(|eye| (eye, joint(eye))).collect(),
             options,
             body,
-            garments: separate(garments),
+            garments: garments.into_iter().map(|mesh| Group::new(figure, vec![mesh])).collect(),
             // Pieces that touch are one thing, whatever meshes they are in.
             accessories: Group::new(figure, accessories),
             of_head,
             worn: None,
             rule,
-            warnings,
+            warning: poor.map(|message| Warning::new("open_body", message)),
             body_time: clock.milliseconds(),
             garment_time: 0.0,
         })

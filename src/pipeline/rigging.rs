@@ -92,7 +92,8 @@ impl Rig {
         let at: BTreeMap<Role, DVec3> =
             found.joints.iter().map(|(&role, joint)| (role, joint.position)).collect();
         let bones = weight_bones(&at, &found.tips, Some(found.chin));
-        let (_, humanoid) = skeleton_of(&at);
+        let in_model = at.iter().map(|(&role, &p)| (role, figure.to_model(p))).collect();
+        let (skeleton, humanoid) = skeleton_of(&in_model);
         let mut binder = Binder::new(
             &figure,
             &kinds,
@@ -102,17 +103,18 @@ impl Rig {
             options,
             &mut progress.part(0.3, 0.72),
         )?;
-        warnings.append(&mut binder.warnings);
+        warnings.extend(binder.warning.take());
         let (weights, fallback) = binder.weights(options.heat, &mut progress.part(0.72, 0.9))?;
-        let skin_weights = match binder.rule {
-            BodyRule::Heat(_) => binder.weights(SKIN_HEAT.max(options.heat), &mut progress.part(0.9, 1.0))?.0,
-            BodyRule::Volume(_) => weights.clone(),
+        let (method, skin_weights) = match binder.rule {
+            BodyRule::Heat(_) => {
+                let heat = SKIN_HEAT.max(options.heat);
+                (WeightMethod::Heat, binder.weights(heat, &mut progress.part(0.9, 1.0))?.0)
+            }
+            BodyRule::Volume(_) => (WeightMethod::Volume, weights.clone()),
         };
         let skin_weights = skin_weights.iter().map(|weights| weights.trimmed(SKIN_TAIL)).collect();
         progress.at(1.0)?;
 
-        let in_model = at.iter().map(|(&role, &p)| (role, figure.to_model(p))).collect();
-        let (skeleton, humanoid) = skeleton_of(&in_model);
         let scored = |place: Place| (figure.to_model(place.position), place.score);
         Ok(Self {
             skeleton,
@@ -127,10 +129,7 @@ impl Rig {
             kinds,
             weights,
             skin_weights,
-            method: match binder.rule {
-                BodyRule::Heat(_) => WeightMethod::Heat,
-                BodyRule::Volume(_) => WeightMethod::Volume,
-            },
+            method,
             fallback,
             warnings,
             timing_ms: [joint_time, binder.body_time, binder.garment_time],
@@ -142,11 +141,8 @@ impl Rig {
     pub fn applied_to(&self, character: &Character) -> Character {
         let mut rigged = character.clone();
         let own = rigged.skeleton.joints.len();
-        let rides = self.rides(character);
-        for (joint, ride) in rigged.skeleton.joints.iter_mut().zip(&rides) {
-            if let Some(ride) = ride {
-                joint.parent = Some(own + ride);
-            }
+        for (joint, ride) in rigged.skeleton.joints.iter_mut().zip(self.rides(character)) {
+            joint.parent = ride.map(|ride| own + ride).or(joint.parent);
         }
         rigged.skeleton.joints.extend(self.skeleton.joints.iter().cloned().map(|mut joint| {
             joint.parent = joint.parent.map(|parent| own + parent);

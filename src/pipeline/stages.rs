@@ -329,5 +329,5 @@ fn rest_triangles(view: &View) -> Result<RestTriangles> {
 }
 
 fn touched(view: &View) -> Result<Vec<Touched>> {
-    Ok(view.character().meshes.iter().map(Touched::of).collect())
+    Ok(view.character().meshes.iter().map(morphs::touched).collect())
 }
