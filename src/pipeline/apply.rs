@@ -152,10 +152,6 @@ impl Deformer {
         placement.bindings.eyes.iter().filter_map(place).collect()
     }
 
-    fn displacements(&self) -> &[Vec3] {
-        &self.made.displacements.vertices
-    }
-
     /// The vertices of a mesh.
     pub(super) fn vertices(&self, mesh: usize) -> Range<usize> {
         let starts = &self.target().figure.mesh_starts;
@@ -165,7 +161,7 @@ impl Deformer {
     /// Writes where the vertices of a mesh go.
     fn write_positions<V: Place<Vec3>>(&self, mesh: usize, place: V) {
         let rest = &self.inputs.character.meshes[mesh].positions;
-        let displacements = &self.displacements()[self.vertices(mesh)];
+        let displacements = &self.made.displacements.vertices[self.vertices(mesh)];
         let ending = Ending::of(&self.made.field.finish, &self.target().figure.frame);
         let write = |(): &mut (), first: usize, count: usize, mut place: V| {
             let mut block = [Vec3::ZERO; BLOCK];
@@ -218,7 +214,7 @@ impl Deformer {
     pub(super) fn moved(&self) -> Moved<'_> {
         let finish = &self.made.field.finish;
         let (share, size) = (finish.share() as f32, finish.size as f32);
-        Moved { displacements: self.displacements(), share, size }
+        Moved { displacements: &self.made.displacements.vertices, share, size }
     }
 
     /// The field's own Jacobian at a vertex around which no triangle has one; model space.

@@ -6,7 +6,7 @@
 
 use super::Deformer;
 use super::memo::View;
-use crate::character::{Character, Frame};
+use crate::character::Frame;
 use crate::error::Result;
 use crate::parallel;
 use crate::shape::field::{Binding, Field, Finish};
@@ -82,16 +82,6 @@ fn corrections(mirror: &Mirror, placement: &Placement, way: impl Fn(usize) -> DV
 fn displacement(placement: &Placement, vertex: usize) -> Vec3 {
     let figure = placement.figure;
     single(figure.frame.to_model(placement.vertex(vertex) - figure.positions[vertex]))
-}
-
-/// Where the vertices of `character` go, model space, mesh after mesh.
-pub fn positions<'a>(
-    character: &'a Character,
-    displacements: &'a [Vec3],
-    ending: Ending,
-) -> impl Iterator<Item = Vec3> + 'a {
-    let rest = character.meshes.iter().flat_map(|mesh| &mesh.positions);
-    rest.zip(displacements).map(move |(&p, &displacement)| ending.place(p, displacement))
 }
 
 /// What is done last, for a vertex at `p` whose displacement is `d`: p + ((size - 1) (p - about) + size (amount d + ground)).

@@ -1,15 +1,11 @@
 //! Hair that hangs below the chin: shorter with the body, laid down on it, parted before the eyes, and outside of it.
 
-use super::head::{frame_after, growth};
+use super::head::{frame_after, growth, head_map};
 use super::memo::View;
 use crate::error::Result;
-use crate::face::eyes::Pair;
-use crate::face::head::HeadFrame;
 use crate::options::Stage;
-use crate::shape::Measured;
 use crate::shape::field::{Binding, BodyField, Field};
 use crate::shape::product::hair::Hanging;
-use crate::shape::product::head::head_frame;
 use crate::shape::product::part::Part;
 use crate::shape::product::parting::Parting;
 use glam::DVec3;
@@ -86,7 +82,8 @@ pub fn hair(view: &View) -> Result<Option<Hair>> {
     let mut parted = moved.clone();
     if let (Some(sides), true) = (&strands.sides, lay > 0.0)
         && let Some(frame) = frame_after(&body, &measured)
-        && let Some(eyes) = eyes_after(&measured, &field, frame)
+        && let Some(face) = &measured.face
+        && let Some(eyes) = face.mapped(head_map(&measured, &field, frame)).pair()
     {
         let middle = frame.to_unit(field.place(measured.anatomy.head_centre, &Binding::to(Part::Head)));
         let points: Vec<DVec3> =
@@ -121,12 +118,4 @@ pub fn hair(view: &View) -> Result<Option<Hair>> {
         .map(|joint| hair.offset(&bindings[joint], joint, measured.figure.joints[joint]))
         .collect();
     Ok(Some(hair))
-}
-
-/// The eyes as they are after the face step, in lengths of the head at `frame`.
-fn eyes_after(measured: &Measured, field: &Field, frame: HeadFrame) -> Option<Pair> {
-    let face = measured.face.as_ref()?;
-    let before = head_frame(&measured.anatomy);
-    let after = face.mapped(|p| frame.to_unit(field.place(before.from_unit(p), &Binding::to(Part::Head))));
-    after.pair()
 }

@@ -4,7 +4,7 @@ use super::memo::View;
 use crate::character::MeshKind;
 use crate::error::{Result, Warning};
 use crate::face::head::HeadFrame;
-use crate::face::outline::Outline;
+use crate::face::outline::{Outline, ROUNDING};
 use crate::face::rows::{FaceAim, Rows};
 use crate::face::seat::Seat;
 use crate::face::stage::{FaceBinding, YoungFace};
@@ -24,9 +24,6 @@ use crate::shape::style::Style;
 use glam::DVec3;
 use std::sync::Arc;
 
-/// Steps of a head length that a face's landmarks are rounded to, after the stages before: 1e-9.
-const LANDMARK_STEPS: f64 = (1u64 << 30) as f64;
-
 /// How much of the head's own stages is done, 0 where the figure keeps its number of heads, which leaves a character made
 /// like itself as it is, to 1.
 pub fn growth(body: &Body, measured: &Measured) -> f64 {
@@ -40,6 +37,12 @@ pub fn frame_after(body: &Body, measured: &Measured) -> Option<HeadFrame> {
     let length = body.parts()?.after().head_length();
     let chin = head_frame(&measured.anatomy).origin;
     Some(HeadFrame { origin: body.field.place(chin, &Binding::to(Part::Head)), length })
+}
+
+/// Where `field`, which leaves the head at `frame`, takes its points, in head lengths before and after.
+pub fn head_map(measured: &Measured, field: &Field, frame: HeadFrame) -> impl Fn(DVec3) -> DVec3 {
+    let before = head_frame(&measured.anatomy);
+    move |p| frame.to_unit(field.place(before.from_unit(p), &Binding::to(Part::Head)))
 }
 
 /// The box of the face map: around what the head moves, in body or face meshes, as the body leaves it; in product mode as
@@ -78,11 +81,9 @@ pub fn make_young(view: &View) -> Result<Option<Arc<YoungFace>>> {
     let frame = frame_after(&body, &measured);
     let (Some(face), Some(frame), Some(heads)) = (&measured.face, frame, body.heads) else { return Ok(None) };
     let field = body.with_face(shape);
-    let before = head_frame(&measured.anatomy);
+    let place = head_map(&measured, &field, frame);
     // A head that is only moved or made larger has the same face, to the bit.
-    let rounded = |p: DVec3| (p * LANDMARK_STEPS).round() / LANDMARK_STEPS;
-    let place = |p: DVec3| frame.to_unit(field.place(before.from_unit(p), &Binding::to(Part::Head)));
-    let face = face.mapped(|p| rounded(place(p)));
+    let face = face.mapped(|p| (place(p) * ROUNDING).round() / ROUNDING);
     let (eyes, head) = match view.style() {
         Style::Shape(shape) => (
             shape.face.map(|face| (face.eye_size, face.eye_height)),

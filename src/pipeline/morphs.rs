@@ -153,10 +153,10 @@ impl Deformer {
     /// Morph targets of a mesh, those of the character or others, as [`Self::deformed_targets`] has them.
     pub(crate) fn map_targets(&self, mesh: usize, given: &[GivenTarget]) -> Result<Vec<SparseTarget>> {
         let progress = &mut Progress::none();
-        if self.made.field.finish.is_nothing() {
-            return self.shifted(mesh, given, &[], progress);
-        }
-        let shifts = self.shifts_of(mesh, given, progress)?;
+        let shifts = match self.made.field.finish.is_nothing() {
+            true => Vec::new(),
+            false => self.shifts_of(mesh, given, progress)?,
+        };
         self.shifted(mesh, given, &shifts, progress)
     }
 

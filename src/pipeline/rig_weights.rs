@@ -101,7 +101,6 @@ impl<'a> Binder<'a> {
         if !garments.is_empty() && (options.garments == GarmentWeights::Heat || !body_is_whole(figure, kinds))
         {
             body.append(&mut garments);
-            body.sort_unstable();
         }
         let mut accessories = of(MeshKind::Accessory);
         let mut of_head = of(MeshKind::Hair);
@@ -110,8 +109,8 @@ impl<'a> Binder<'a> {
         if body.iter().all(|&mesh| figure.triangles_of(mesh).is_empty()) {
             body.append(&mut accessories);
             body.append(&mut of_head);
-            body.sort_unstable();
         }
+        body.sort_unstable();
         let body = Group::new(figure, body);
         progress.at(0.1)?;
         let (points, triangles) = (&body.positions, &body.triangles);

@@ -316,8 +316,10 @@ fn finish(view: &View) -> Result<Finish> {
         Height::Units(units) => units,
     };
     let ending = Ending::of(&finish, frame);
-    let positions = displacement::positions(view.character(), &displacements.vertices, ending);
-    let (low, high) = range(positions.map(|p| p.as_dvec3().dot(up)));
+    let rest = view.character().meshes.iter().flat_map(|mesh| &mesh.positions);
+    let heights =
+        rest.zip(&*displacements.vertices).map(|(&p, &way)| ending.place(p, way).as_dvec3().dot(up));
+    let (low, high) = range(heights);
     Ok(Finish { size: if low < high { height / (high - low) } else { 1.0 }, ..finish })
 }
 
