@@ -5,6 +5,7 @@
 
 use super::eyes::Pair;
 use super::head::{Head, quantile};
+use crate::geometry::mean;
 use glam::DVec2;
 
 /// Both brows' line: where its inner and outer ends are, in distance from the middle and height, head lengths.
@@ -38,26 +39,18 @@ pub fn brows(head: &Head, pair: Pair) -> Option<Brows> {
     let reach = COLUMNS.1 * d + COLUMNS.2;
     let view =
         head.front_view(DVec2::new(-reach, first - ROWS.2), DVec2::new(reach, last + ROWS.2), ROWS.2 / 2.0);
+    let place = |column: usize, row: usize| {
+        DVec2::new(COLUMNS.0 * d + COLUMNS.2 * column as f64, first + ROWS.2 * row as f64)
+    };
     let bright = |p: DVec2| head.shade(head.bare[view.triangle_at(p)?], p);
     // One value for both sides, so that light from one of them does not tilt the line.
-    let mut grid: Vec<Vec<Option<f64>>> = vec![vec![None; rows]; columns];
-    for (index, column) in grid.iter_mut().enumerate() {
-        let x = COLUMNS.0 * d + COLUMNS.2 * index as f64;
-        for (row, value) in column.iter_mut().enumerate() {
-            let y = first + ROWS.2 * row as f64;
-            let sides = [bright(DVec2::new(x, y)), bright(DVec2::new(-x, y))];
-            *value = sides[0].zip(sides[1]).map(|(left, right)| 0.5 * (left + right));
-        }
-    }
+    let of_both = |p: DVec2| Some(0.5 * (bright(p)? + bright(DVec2::new(-p.x, p.y))?));
+    let in_column = |column: usize| (0..rows).map(|row| of_both(place(column, row))).collect();
+    let grid: Vec<Vec<Option<f64>>> = (0..columns).map(in_column).collect();
     let blurred = |column: usize, row: usize| {
-        let (mut sum, mut count) = (0.0, 0.0);
-        for beside in &grid[column.saturating_sub(1)..(column + 2).min(columns)] {
-            for value in beside[row.saturating_sub(2)..(row + 3).min(rows)].iter().flatten() {
-                sum += value;
-                count += 1.0;
-            }
-        }
-        (count > 0.0).then(|| sum / count)
+        let columns = column.saturating_sub(1)..(column + 2).min(columns);
+        let rows = row.saturating_sub(2)..(row + 3).min(rows);
+        mean(grid[columns].iter().flat_map(|column| &column[rows.clone()]).flatten().copied())
     };
     // The darkest row of each column that has a brow: distance from the middle, height, contrast.
     let mut dark: Vec<(f64, f64, f64)> = Vec::new();
@@ -72,8 +65,7 @@ pub fn brows(head: &Head, pair: Pair) -> Option<Brows> {
         };
         let contrast = 1.0 - darkest / median.max(1e-9);
         if contrast > CONTRAST {
-            let x = COLUMNS.0 * d + COLUMNS.2 * column as f64;
-            dark.push((x, first + ROWS.2 * row as f64, contrast));
+            dark.push((place(column, row).x, place(column, row).y, contrast));
         }
     }
     let line = fit(&dark)?;

@@ -414,25 +414,17 @@ fn by_mirrored(head: &Head) -> Option<Eyes> {
             pieces.retain(|piece| fits(piece) && (!sewn || is_ball(head, piece)));
             pieces
         });
-        let mut best: Option<(f64, Eyes)> = None;
-        for (left, right) in left.iter().flat_map(|left| right.iter().map(move |right| (left, right))) {
+        let twins = left.iter().flat_map(|left| right.iter().map(move |right| [left, right]));
+        let eyes = twins.filter_map(|[left, right]| {
             let off = left.middle() - right.middle() * DVec3::new(-1.0, 1.0, 1.0);
             let grown = left.extent() - right.extent();
             if off.length() > MIRRORED || grown.abs().max_element() > MIRRORED {
-                continue;
+                return None;
             }
-            let eyes = [
-                eye(head, left).filter(|eye| seen(eye, left)),
-                eye(head, right).filter(|eye| seen(eye, right)),
-            ];
-            if let [Some(left), Some(right)] = eyes {
-                let area = left.half_width() * left.half_height();
-                let eyes = [left, right];
-                if are_plausible(&eyes) && best.as_ref().is_none_or(|(most, _)| area > *most) {
-                    best = Some((area, eyes));
-                }
-            }
-        }
-        best.map(|(_, eyes)| eyes)
+            let eye = |piece| eye(head, piece).filter(|eye| seen(eye, piece));
+            Some([eye(left)?, eye(right)?]).filter(are_plausible)
+        });
+        let area = |[left, _]: &Eyes| left.half_width() * left.half_height();
+        eyes.reduce(|best, next| if area(&next) > area(&best) { next } else { best })
     })
 }

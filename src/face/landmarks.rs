@@ -69,12 +69,12 @@ impl FaceLandmarks {
     pub fn of(head: &Head) -> Self {
         let eyes = eyes(head);
         let pair = eyes.as_ref().map(|(_, eyes)| Pair::of(eyes));
-        let ye = pair.map_or(EYE_HEIGHT, |pair| pair.height);
+        let (ye, d) = height_and_distance(pair);
         Self {
             covered: eyes.as_ref().map_or(0.0, |(_, eyes)| covered(head, eyes)),
             brows: pair.and_then(|pair| brows(head, pair)),
-            nose: nose(head, pair),
-            half_width: half_width_at(head, ye, pair),
+            nose: nose(head, ye, d),
+            half_width: half_width_at(head, ye, d),
             skull_half_width: skull_half_width(head),
             ears: ears(head, ye),
             eyes,
@@ -97,8 +97,7 @@ impl FaceLandmarks {
         let aside = |half_width: f64, y: f64, z: f64| {
             0.5 * (map(DVec3::new(half_width, y, z)).x - map(DVec3::new(-half_width, y, z)).x)
         };
-        let pair = self.pair();
-        let ye = pair.map_or(EYE_HEIGHT, |pair| pair.height);
+        let (ye, _) = height_and_distance(self.pair());
         let eye = |eye: &Eye| Eye {
             low: map(eye.low),
             high: map(eye.high),
@@ -109,24 +108,17 @@ impl FaceLandmarks {
                 ..ball.clone()
             }),
         };
-        let nose = |nose: Nose| {
-            let Nose { tip, side_z, half_width, base } = nose;
-            Nose {
-                tip: map(tip),
-                side_z: map(tip.with_z(side_z)).z,
-                half_width: aside(half_width, tip.y, side_z),
-                base: map(tip.with_y(base)).y,
-            }
+        let nose = |Nose { tip, side_z, half_width, base }: Nose| Nose {
+            tip: map(tip),
+            side_z: map(tip.with_z(side_z)).z,
+            half_width: aside(half_width, tip.y, side_z),
+            base: map(tip.with_y(base)).y,
         };
-        let ears = |ears: Ears| {
-            let Ears { root, low, high } = ears;
+        let ears = |Ears { root, low, high }: Ears| {
             let middle = 0.5 * (low + high);
             Ears { root: aside(root, middle.y, middle.z), low: map(low), high: map(high) }
         };
-        let end = |end: DVec2| {
-            let mapped = map(end.extend(0.0));
-            DVec2::new(aside(end.x, end.y, 0.0), mapped.y)
-        };
+        let end = |end: DVec2| DVec2::new(aside(end.x, end.y, 0.0), map(end.extend(0.0)).y);
         Self {
             covered: self.covered,
             brows: self.brows.map(|brows| Brows { inner: end(brows.inner), outer: end(brows.outer) }),
@@ -163,6 +155,11 @@ const EYE_HEIGHT: f64 = 0.48;
 /// See [`EYE_HEIGHT`].
 const EYE_HALF_DISTANCE: f64 = 0.15;
 
+/// The height of the eyes and half their distance, found or not.
+pub fn height_and_distance(pair: Option<Pair>) -> (f64, f64) {
+    pair.map_or((EYE_HEIGHT, EYE_HALF_DISTANCE), |pair| (pair.height, pair.half_distance))
+}
+
 /// The nose lies between these parts of the eyes' height.
 const NOSE_RANGE: (f64, f64) = (0.45, 0.80);
 /// The face beside the nose is taken this far aside, in half distances of the eyes.
@@ -178,9 +175,8 @@ const NOSE_WIDTH: (f64, f64) = (0.3, 0.025);
 /// Its base is where less than this share of the tip stands out, and at most this far below it.
 const NOSE_BASE: (f64, f64) = (0.2, 0.09);
 
-fn nose(head: &Head, pair: Option<Pair>) -> Option<Nose> {
-    let ye = pair.map_or(EYE_HEIGHT, |pair| pair.height);
-    let aside = BESIDE_NOSE * pair.map_or(EYE_HALF_DISTANCE, |pair| pair.half_distance);
+fn nose(head: &Head, ye: f64, d: f64) -> Option<Nose> {
+    let aside = BESIDE_NOSE * d;
     const STEP: f64 = 0.004;
     let half = aside + 2.0 * STEP;
     let (low, high) = (DVec2::new(-half, 0.5 * NOSE_RANGE.0 * ye - NOSE_BASE.1), DVec2::new(half, ye));
@@ -205,15 +201,9 @@ fn nose(head: &Head, pair: Option<Pair>) -> Option<Nose> {
         let y = view.middle(0, row).y;
         y > NOSE_RANGE.0 * ye && y < NOSE_RANGE.1 * ye
     };
-    let mut best: Option<(f64, usize)> = None;
-    for row in (0..view.rows()).filter(|&row| in_range(row)) {
-        if let Some((z, side)) = out(row)
-            && best.is_none_or(|(score, _)| z - side + NOSE_FOREMOST * z > score)
-        {
-            best = Some((z - side + NOSE_FOREMOST * z, row));
-        }
-    }
-    let mut row = best?.1;
+    let score = |row: usize| out(row).map(|(z, side)| (z - side + NOSE_FOREMOST * z, row));
+    let scores = (0..view.rows()).filter(|&row| in_range(row)).filter_map(score);
+    let (_, mut row) = scores.reduce(|best, next| if next.0 > best.0 { next } else { best })?;
     // From there to the local tip.
     while let Some(next) = [row + 1, row.wrapping_sub(1)]
         .into_iter()
@@ -228,10 +218,7 @@ fn nose(head: &Head, pair: Option<Pair>) -> Option<Nose> {
         return None;
     }
     let y = view.middle(0, row).y;
-    let wide = (0..view.columns())
-        .filter(|&column| view.depth(column, row).is_some_and(|z| z - side_z > NOSE_WIDTH.0 * protrusion))
-        .map(|column| view.middle(column, row).x.abs())
-        .fold(NOSE_WIDTH.1, f64::max);
+    let half_width = view.reach(row, NOSE_WIDTH.1, |z| z - side_z > NOSE_WIDTH.0 * protrusion);
     let mut base = y;
     while base > y - NOSE_BASE.1
         && view.row(base) > 0
@@ -239,22 +226,17 @@ fn nose(head: &Head, pair: Option<Pair>) -> Option<Nose> {
     {
         base -= STEP;
     }
-    Some(Nose { tip: DVec3::new(0.0, y, z), side_z, half_width: wide, base })
+    Some(Nose { tip: DVec3::new(0.0, y, z), side_z, half_width, base })
 }
 
 /// What is further back than this from the skin beside the eyes is no face any more, in head lengths.
 const FACE_DEPTH: f64 = 0.16;
 
 /// we: half the width of what looks to the front at the height of the eyes.
-fn half_width_at(head: &Head, ye: f64, pair: Option<Pair>) -> f64 {
-    let d = pair.map_or(EYE_HALF_DISTANCE, |pair| pair.half_distance);
+fn half_width_at(head: &Head, ye: f64, d: f64) -> f64 {
     let skin = [-d, d].into_iter().filter_map(|x| head.front.depth_at(DVec2::new(x, ye)));
     let front = skin.fold(f64::NEG_INFINITY, f64::max);
-    let row = head.front.row(ye);
-    (0..head.front.columns())
-        .filter(|&column| head.front.depth(column, row).is_some_and(|z| z > front - FACE_DEPTH))
-        .map(|column| head.front.middle(column, row).x.abs())
-        .fold(0.0, f64::max)
+    head.front.reach(head.front.row(ye), 0.0, |z| z > front - FACE_DEPTH)
 }
 
 /// Heights at which a skull is measured: above the ears, below the crown.
@@ -296,9 +278,10 @@ fn ears(head: &Head, ye: f64) -> Option<Ears> {
     let views = [1.0, -1.0].map(|side| head.side_view(side, low, high, STEP));
     let view = &views[0];
     let rows_of_band = (EAR_ROW / STEP).round() as usize;
-    let mut roots = Vec::new();
-    let mut backs: Vec<(usize, usize)> = Vec::new();
-    for band in 0..view.rows() / rows_of_band {
+    let is_back =
+        |&column: &usize| (middle + EAR_BACK.0..middle + EAR_BACK.1).contains(&view.middle(column, 0).x);
+    // Of a band of rows: the root, the rows, and the column from which on the ear jumps out.
+    let jump = |band: usize| {
         let rows = band * rows_of_band..(band + 1) * rows_of_band;
         let reach = |column: usize| {
             let mut all: Vec<f64> = views
@@ -307,38 +290,26 @@ fn ears(head: &Head, ye: f64) -> Option<Ears> {
                 .collect();
             quantile(&mut all, 0.97)
         };
-        for column in 2..view.columns() {
-            let z = view.middle(column, 0).x;
-            if !(middle + EAR_BACK.0..middle + EAR_BACK.1).contains(&z) {
-                continue;
-            }
-            if let (Some(before), Some(here)) = (reach(column - 2), reach(column))
-                && here - before >= EAR_JUMP
-            {
-                // The skin rises towards the ear before it jumps.
-                roots.push(reach(column.saturating_sub(8)).map_or(before, |behind| behind.min(before)));
-                backs.push((band, column));
-                break;
-            }
-        }
-    }
+        (2..view.columns()).filter(is_back).find_map(|column| {
+            let (before, here) = (reach(column - 2)?, reach(column)?);
+            // The skin rises towards the ear before it jumps.
+            let root = || reach(column.saturating_sub(8)).map_or(before, |behind| behind.min(before));
+            (here - before >= EAR_JUMP).then(|| (root(), rows.clone(), column))
+        })
+    };
+    let jumps: Vec<_> = (0..view.rows() / rows_of_band).filter_map(jump).collect();
+    let mut roots: Vec<f64> = jumps.iter().map(|&(root, ..)| root).collect();
     let root = quantile(&mut roots, 0.8)?;
-    let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    for &(band, first) in &backs {
-        for view in &views {
-            for row in band * rows_of_band..(band + 1) * rows_of_band {
-                for column in first.saturating_sub(1)..view.columns() {
-                    let aside = view.depth(column, row).unwrap_or(0.0);
-                    let z_y = view.middle(column, row);
-                    if aside > root + 0.25 * EAR_JUMP {
-                        let p = DVec3::new(aside, z_y.y, z_y.x);
-                        low = low.min(p);
-                        high = high.max(p);
-                    }
-                }
-            }
-        }
-    }
+    let is_ear = |&(column, row): &(usize, usize)| {
+        jumps.iter().any(|(_, rows, first)| rows.contains(&row) && column >= first - 1)
+    };
+    let (low, high) = bounds(views.iter().flat_map(|view| {
+        view.squares().filter(is_ear).filter_map(|(column, row)| {
+            let aside = view.depth(column, row).filter(|&aside| aside > root + 0.25 * EAR_JUMP)?;
+            let z_y = view.middle(column, row);
+            Some(DVec3::new(aside, z_y.y, z_y.x))
+        })
+    }));
     let ears = Ears { root, low, high };
     (EAR_ROOT.contains(&root) && EAR_REACH.contains(&ears.reach())).then_some(ears)
 }

@@ -91,11 +91,7 @@ impl Outline {
         let middle = rounded(0.5 * (deepest_front - deepest_back));
         let deep = deepest_back + middle;
         let from = |depth: Option<f64>, origin: f64| depth.map_or(f64::NAN, |depth| rounded(depth - origin));
-        let half_width = |map: &DepthMap, y: f64| {
-            let row = map.row(y);
-            let seen = (0..map.columns()).filter(|&column| map.depth(column, row).is_some());
-            seen.map(|column| map.middle(column, 0).x.abs()).fold(f64::NAN, f64::max)
-        };
+        let half_width = |map: &DepthMap, y: f64| map.reach(map.row(y), f64::NAN, |_| true);
         let steps = (1..50).map(|step| y - SQUARE * f64::from(step));
         let is_deep = |y: &f64| back_at(*y).is_some_and(|depth| depth + middle > OCCIPUT * deep);
         let occiput = steps.take_while(is_deep).last().unwrap_or(y);

@@ -21,7 +21,7 @@ use super::dual::{Dual, step};
 use super::eyes::{Eye, Eyes, Pair};
 use super::iris::IrisFlow;
 use super::kernel::{Kernel, velocity};
-use super::landmarks::{Ears, FaceLandmarks, Nose};
+use super::landmarks::{Ears, FaceLandmarks, Nose, height_and_distance};
 use super::outline::{APART, DEEPEST, HEIGHTS, Outline, STATIONS};
 use crate::options::Features;
 use glam::{DMat3, DVec3};
@@ -425,7 +425,7 @@ fn interpolated(values: &[f64; STATIONS], y: f64) -> f64 {
 }
 
 fn add_nose(rows: &mut Vec<Kernel>, nose: &Nose, pair: Option<Pair>, k: f64) {
-    let (ye, d) = pair.map_or((0.48, 0.15), |pair| (pair.height, pair.half_distance));
+    let (ye, d) = height_and_distance(pair);
     let out = nose.protrusion();
     let wide = (NOSE_REACH[0] * nose.half_width).min(NOSE_REACH[1] * d);
     let down = (nose.tip.y - nose.base + 0.05).max(NOSE_REACH[2]);
