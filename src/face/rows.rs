@@ -284,7 +284,7 @@ impl Rows {
         }
         let (mut kernels, mut balls) = (Vec::new(), None);
         if let (Some(pair), Some((_, eyes))) = (pair, &face.eyes) {
-            let growth = Growth::of(eyes, pair, face, aim, features, q, &rest);
+            let growth = Growth::of(eyes, pair, face, aim, q * features.eye, &rest);
             let made = [0, 1].map(|index| growth.eye(eyes, index, &rest));
             kernels = made.map(|(kernel, _)| kernel).to_vec();
             let brow = growth.brow(face.brows, front(face), &kernels, &rest);
@@ -472,15 +472,7 @@ struct Growth {
 }
 
 impl Growth {
-    fn of(
-        eyes: &Eyes,
-        pair: Pair,
-        face: &FaceLandmarks,
-        aim: &FaceAim,
-        features: &Features,
-        q: f64,
-        rest: &[Kernel],
-    ) -> Self {
+    fn of(eyes: &Eyes, pair: Pair, face: &FaceLandmarks, aim: &FaceAim, k: f64, rest: &[Kernel]) -> Self {
         let (a, d) = (pair.half_width, pair.half_distance);
         let edge = [face.half_width, pair.height, front(face) - 0.1];
         let most = ROOM * face.half_width * (velocity(rest, edge)[0] / face.half_width).exp();
@@ -488,11 +480,11 @@ impl Growth {
         let gap = BRIDGE * (d - a);
         let behind_lids = eyes.iter().all(|eye| eye.half_height() < BARE * eye.radius());
         let most_growth = if behind_lids { MOST_GROWTH.0 } else { MOST_GROWTH.1 };
-        let wanted = 1.0 + q * features.eye * ((aim.eye_size / pair.size()).clamp(1.0, most_growth) - 1.0);
+        let wanted = 1.0 + k * ((aim.eye_size / pair.size()).clamp(1.0, most_growth) - 1.0);
         let wider = wanted.min((most - gap) / (2.0 * a)).max(1.0);
         let half_distance = (d * wide).max((gap + wider * a).min(most - wider * a));
         let middle = 0.5 * (eyes[0].middle().x + eyes[1].middle().x);
-        Self { pair, k: q * features.eye, wider, half_distance, middle }
+        Self { pair, k, wider, half_distance, middle }
     }
 
     /// The row of one eye, and what its ball does.

@@ -60,14 +60,8 @@ pub struct YoungFace {
 struct Piece {
     /// Where its points were.
     from: Vec<Vec3>,
-    after: [Similarity; STEPS],
-}
-
-/// Moved and scaled as one: p -> shift + scale p, in head lengths.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Similarity {
-    scale: f64,
-    shift: DVec3,
+    /// It is moved and scaled as one, in head lengths: p -> shift + scale p, scale first.
+    after: [(f64, DVec3); STEPS],
 }
 
 /// The ways of vertices, from where the stages before put them, in head lengths.
@@ -131,19 +125,9 @@ impl YoungFace {
             let along: f64 =
                 (0..from.len()).map(|point| (from[point] - middle).dot(ways[point][step] - moved)).sum();
             let scale = if spread > 0.0 { along / spread } else { 1.0 };
-            Similarity { scale, shift: moved - scale * middle }
+            (scale, moved - scale * middle)
         });
         Piece { from: beginnings, after }
-    }
-
-    /// What the points follow.
-    pub fn rows(&self) -> &Rows {
-        &self.rows
-    }
-
-    /// Where the head is, after the stages before.
-    pub fn frame(&self) -> HeadFrame {
-        self.frame
     }
 
     /// Where `p`, which the stages before have put there, is after the share `youth` of its way; of a `vertex` that is kept.
@@ -175,8 +159,8 @@ impl YoungFace {
             FaceBinding::Piece(piece) => {
                 let from = self.frame.to_unit(p);
                 let after = self.pieces[piece as usize].after;
-                let way = after.map(|after| after.shift + after.scale * from);
-                let scales = after.map(|after| DVec3::splat(after.scale));
+                let way = after.map(|(scale, shift)| shift + scale * from);
+                let scales = after.map(|(scale, _)| DVec3::splat(scale));
                 let scale = along(DVec3::ONE, &scales, youth).x;
                 let position = self.frame.from_unit(along(from, &way, youth));
                 return Mapped { position, jacobian: DMat3::IDENTITY * scale };

@@ -87,11 +87,12 @@ impl Deformer {
         progress: &mut Progress,
     ) -> Result<()> {
         progress.at(0.0)?;
-        let meshes = &self.inputs.character.meshes;
         let mut room = None;
-        for (index, mut places) in places.enumerate() {
+        for (index, (mesh, mut places)) in self.inputs.character.meshes.iter().zip(places).enumerate() {
             if self.made.field.finish.is_nothing() {
-                write_unchanged(&meshes[index], places);
+                places.positions.write(0, &mesh.positions);
+                places.normals.write(0, &mesh.normals);
+                places.tangents.write(0, &mesh.tangents);
                 continue;
             }
             if let Some(positions) = places.positions.take() {
@@ -308,11 +309,4 @@ fn in_shares<R: Default, P: Send>(
             write(&mut R::default(), first, share.min(count - first), place);
         }
     });
-}
-
-/// The mesh as it came, of it what there is a place for.
-fn write_unchanged<V: Place<Vec3>, W: Place<Vec4>>(mesh: &Mesh, mut places: MeshPlaces<V, W>) {
-    places.positions.write(0, &mesh.positions);
-    places.normals.write(0, &mesh.normals);
-    places.tangents.write(0, &mesh.tangents);
 }

@@ -6,13 +6,13 @@
 
 use super::Deformer;
 use super::memo::View;
+use super::stages::Deformation;
 use crate::character::Frame;
 use crate::error::Result;
 use crate::parallel;
 use crate::shape::field::{Binding, Field, Finish};
 use crate::shape::figure::Figure;
 use crate::shape::placement::{Placement, is_of_head, renewed};
-use crate::shape::product::mirror::Mirror;
 use glam::{DVec3, Vec3};
 use std::sync::Arc;
 
@@ -44,23 +44,25 @@ pub fn all(view: &View) -> Result<Displacements> {
     let of_head = &placement.bindings.of_head;
     let mut vertices =
         renewed(view.threads(), view.below_head()?, of_head, |vertex| displacement(&placement, vertex));
-    let mut joints = Vec::new();
-    if deformation.body.parts().is_some()
-        && let Some(mirror) = &*view.mirror()?
-    {
-        let frame = &placement.figure.frame;
-        let way = |vertex: usize| frame.to_canonical(vertices[vertex].as_dvec3());
-        let mut corrections = corrections(mirror, &placement, way);
-        joints = corrections.split_off(vertices.len());
-        for (vertex, correction) in Arc::make_mut(&mut vertices).iter_mut().zip(corrections) {
-            *vertex += single(frame.to_model(correction));
-        }
+    let frame = &placement.figure.frame;
+    let way = |vertex: usize| frame.to_canonical(vertices[vertex].as_dvec3());
+    let mut corrections = corrections(view, &deformation, way)?;
+    let joints = corrections.split_off(vertices.len().min(corrections.len()));
+    for (vertex, correction) in Arc::make_mut(&mut vertices).iter_mut().zip(corrections) {
+        *vertex += single(frame.to_model(correction));
     }
     Ok(Displacements { vertices, joints })
 }
 
-/// What `mirror` adds to the vertices, which go these ways, and to the joints; canonical frame.
-fn corrections(mirror: &Mirror, placement: &Placement, way: impl Fn(usize) -> DVec3) -> Vec<DVec3> {
+/// What makes the halves alike: added to the vertices, which go these ways, and then to the joints; canonical frame. Empty where
+/// nothing is symmetric, and in paper mode.
+fn corrections(view: &View, deformation: &Deformation, way: impl Fn(usize) -> DVec3) -> Result<Vec<DVec3>> {
+    if deformation.body.parts().is_none() {
+        return Ok(Vec::new());
+    }
+    let mirror = view.mirror()?;
+    let Some(mirror) = &*mirror else { return Ok(Vec::new()) };
+    let placement = deformation.placement(&deformation.field, view.threads());
     let Figure { positions, joints, .. } = placement.figure;
     let of_joint = |joint: usize| match placement.bindings.joints[joint] {
         Binding::Fixed => DVec3::ZERO,
@@ -76,7 +78,7 @@ fn corrections(mirror: &Mirror, placement: &Placement, way: impl Fn(usize) -> DV
             *correction = DVec3::ZERO;
         }
     }
-    all
+    Ok(all)
 }
 
 fn displacement(placement: &Placement, vertex: usize) -> Vec3 {
@@ -129,15 +131,12 @@ impl Deformer {
     pub fn field_positions(&self) -> Vec<DVec3> {
         let placement = self.placement();
         let mut positions = placement.all_vertices();
-        if let (true, Ok(mirror)) = (self.made.deformation.body.parts().is_some(), self.view().mirror())
-            && let Some(mirror) = &*mirror
-        {
-            let whole = self.made.deformation.placement(&self.made.deformation.field, 1);
-            let rest = &placement.figure.positions;
-            let corrections = corrections(mirror, &whole, |vertex| whole.vertex(vertex) - rest[vertex]);
-            for (p, correction) in positions.iter_mut().zip(corrections) {
-                *p += self.made.field.finish.share() * correction;
-            }
+        let deformation = &self.made.deformation;
+        let whole = deformation.placement(&deformation.field, 1);
+        let way = |vertex: usize| whole.vertex(vertex) - placement.figure.positions[vertex];
+        let corrections = corrections(&self.view(), deformation, way).unwrap_or_default();
+        for (p, correction) in positions.iter_mut().zip(corrections) {
+            *p += self.made.field.finish.share() * correction;
         }
         positions.into_iter().map(|p| placement.figure.frame.to_model(p)).collect()
     }
