@@ -3,7 +3,6 @@
 use super::head::{frame_after, growth, head_map};
 use super::memo::View;
 use crate::error::Result;
-use crate::options::Stage;
 use crate::shape::field::{Binding, BodyField, Field};
 use crate::shape::product::hair::Hanging;
 use crate::shape::product::part::Part;
@@ -61,8 +60,7 @@ pub fn hair(view: &View) -> Result<Option<Hair>> {
         return Ok(None);
     };
     let (measured, options, vertices) = (view.measured()?, &view.options, &strands.worn.vertices);
-    let is_laid = options.stage == Stage::Face;
-    let lay = if is_laid { growth(&body, &measured) * options.hair_lay } else { 0.0 };
+    let lay = growth(view)? * options.hair_lay;
     // Before amount, whole and ground, as all of the head's stages.
     let of_head = view.field()?;
     let field = Field { finish: body.with_face(view.face()?.shape).finish, ..(*of_head).clone() };

@@ -24,12 +24,13 @@ use crate::shape::style::Style;
 use glam::DVec3;
 use std::sync::Arc;
 
-/// How much of the head's own stages is done, 0 where the figure keeps its number of heads, which leaves a character made
-/// like itself as it is, to 1.
-pub fn growth(body: &Body, measured: &Measured) -> f64 {
+/// How much of the head's own stages is done, 0 where they are not asked for or the figure keeps its number of heads, which
+/// leaves a character made like itself as it is, to 1.
+pub fn growth(view: &View) -> Result<f64> {
+    let (body, measured) = (view.body()?, view.measured()?);
     let landmarks = &measured.anatomy.landmarks;
-    let heads = body.heads.filter(|_| landmarks.trunk.is_none());
-    heads.map_or(0.0, |heads| lost(landmarks.heights.heads(), heads))
+    let heads = body.heads.filter(|_| view.options.stage == Stage::Face && landmarks.trunk.is_none());
+    Ok(heads.map_or(0.0, |heads| lost(landmarks.heights.heads(), heads)))
 }
 
 /// Where `body` puts the head; `None` in paper mode.
@@ -127,10 +128,7 @@ pub fn field(view: &View) -> Result<Field> {
     let (measured, body, options) = (view.measured()?, view.body()?, &view.options);
     let finish = Finish { face: view.face()?.shape, ..body.finish(&measured.figure, *view.whole()?) };
     let mut field = Field { finish, ..body.field.clone() };
-    let growth = growth(&body, &measured);
-    if growth == 0.0 || options.stage < Stage::Face {
-        return Ok(field);
-    }
+    let growth = growth(view)?;
     if growth * options.youth > 0.0 {
         field.young = (*view.young()?).clone();
         field.youth = growth * options.youth;
@@ -145,7 +143,7 @@ pub fn field(view: &View) -> Result<Field> {
 /// A warning where a face is there, and no eyes are known that could grow.
 pub fn eyes_not_found(view: &View) -> Result<Option<Warning>> {
     let (measured, options) = (view.measured()?, &view.options);
-    let is_done = options.stage == Stage::Face && growth(&*view.body()?, &measured) > 0.0;
+    let is_done = growth(view)? > 0.0;
     let are_found = measured.face.as_ref().is_none_or(|face| face.eyes.is_some());
     if !is_done || are_found || options.youth * options.youth_eye == 0.0 {
         return Ok(None);

@@ -169,24 +169,20 @@ impl<'a> Binder<'a> {
     ) -> Result<(Vec<Weights>, BTreeMap<String, usize>)> {
         let threads = self.options.thread_count;
         let clock = Moment::now();
+        let mut weights = vec![Weights::default(); self.figure.mesh_count()];
         let mut fallback = BTreeMap::new();
-        let mut count = |weighted: &WeightSet| {
+        let mut hand_out = |group: &Group, weighted: &WeightSet| {
+            group.share(self.figure, &weighted.weights, &mut weights);
             for (rule, vertices) in &weighted.fallback {
                 *fallback.entry((*rule).to_string()).or_default() += vertices;
             }
         };
         let body = &self.body;
-        let heated;
         let of_body = match &self.rule {
             BodyRule::Volume(weighted) => weighted,
-            BodyRule::Heat(system) => {
-                heated = system.weights(heat, &mut progress.part(0.0, 0.5))?;
-                &heated
-            }
+            BodyRule::Heat(system) => &system.weights(heat, &mut progress.part(0.0, 0.5))?,
         };
-        count(of_body);
-        let mut weights = vec![Weights::default(); self.figure.mesh_count()];
-        body.share(self.figure, &of_body.weights, &mut weights);
+        hand_out(body, of_body);
         self.body_time += clock.milliseconds();
         progress.at(0.5)?;
 
@@ -212,15 +208,11 @@ impl<'a> Binder<'a> {
                 weights: &of_body.weights,
             };
             for (group, worn) in self.garments.iter().zip(worn) {
-                let weighted = worn.weights(&source, threads);
-                count(&weighted);
-                group.share(self.figure, &weighted.weights, &mut weights);
+                hand_out(group, &worn.weights(&source, threads));
                 progress.at(0.85)?;
             }
             let things = &self.accessories;
-            let carried = rigid_weights(&source, &things.positions, &things.triangles);
-            count(&carried);
-            things.share(self.figure, &carried.weights, &mut weights);
+            hand_out(things, &rigid_weights(&source, &things.positions, &things.triangles));
         }
         for &mesh in &self.of_head {
             weights[mesh] = Weights::from_rows(self.figure.vertices(mesh).map(|vertex| {

@@ -272,16 +272,13 @@ fn squash_face(view: &View) -> Result<Face> {
     // A head without a chin has no face to make younger.
     let measured = view.measured()?;
     let has_face = view.options.mode == Mode::Product && measured.anatomy.landmarks.chin_seen;
-    let by_mode = if has_face { PRODUCT_FACE_SQUASH * head::growth(&*view.body()?, &measured) } else { 0.0 };
+    let by_mode = if has_face { PRODUCT_FACE_SQUASH * head::growth(view)? } else { 0.0 };
     let squash = view.options.face_squash.unwrap_or(by_mode);
-    if view.options.stage == LastStage::Face
-        && squash != 0.0
-        && let Some((low, high)) = *view.face_box()?
-    {
-        let (shape, warning) = FaceShape::in_box(low, high, view.options.face_curve, squash);
-        return Ok(Face { shape, warning });
-    }
-    Ok(Face { shape: FaceShape::None, warning: None })
+    let is_squashed = view.options.stage == LastStage::Face && squash != 0.0;
+    let around = if is_squashed { *view.face_box()? } else { None };
+    let in_box = |(low, high)| FaceShape::in_box(low, high, view.options.face_curve, squash);
+    let (shape, warning) = around.map(in_box).unwrap_or_default();
+    Ok(Face { shape, warning })
 }
 
 fn put_together(view: &View) -> Result<Deformation> {
