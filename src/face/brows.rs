@@ -53,21 +53,17 @@ pub fn brows(head: &Head, pair: Pair) -> Option<Brows> {
         mean(grid[columns].iter().flat_map(|column| &column[rows.clone()]).flatten().copied())
     };
     // The darkest row of each column that has a brow: distance from the middle, height, contrast.
-    let mut dark: Vec<(f64, f64, f64)> = Vec::new();
-    for column in 0..columns {
+    let darkest = |column: usize| {
         let values: Vec<(usize, f64)> =
             (0..rows).filter_map(|row| Some((row, blurred(column, row)?))).collect();
         let mut all: Vec<f64> = values.iter().map(|&(_, value)| value).collect();
-        let (Some(median), Some(&(row, darkest))) =
-            (quantile(&mut all, 0.5), values.iter().min_by(|a, b| a.1.total_cmp(&b.1)))
-        else {
-            continue;
-        };
+        let median = quantile(&mut all, 0.5)?;
+        let &(row, darkest) = values.iter().min_by(|a, b| a.1.total_cmp(&b.1))?;
         let contrast = 1.0 - darkest / median.max(1e-9);
-        if contrast > CONTRAST {
-            dark.push((place(column, row).x, place(column, row).y, contrast));
-        }
-    }
+        let DVec2 { x, y } = place(column, row);
+        (contrast > CONTRAST).then_some((x, y, contrast))
+    };
+    let mut dark: Vec<(f64, f64, f64)> = (0..columns).filter_map(darkest).collect();
     let line = fit(&dark)?;
     let error = |&(x, y, _): &(f64, f64, f64)| (y - line.0 - line.1 * x).abs();
     let mut errors: Vec<f64> = dark.iter().map(error).collect();

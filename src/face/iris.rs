@@ -41,19 +41,13 @@ pub fn iris(head: &Head, vertices: &[u32], (low, high): Bounds) -> Option<Iris> 
     let step = 2.0 * half.x / SQUARES;
     let window = Window { low: low.truncate(), high: high.truncate(), step };
     let view = DepthMap::new(&head.points, &own, window);
-    let mut seen: Vec<(DVec3, f64)> = Vec::new();
-    for (column, row) in view.squares() {
+    let look = |(column, row): (usize, usize)| {
         let p = view.middle(column, row);
-        let (Some(depth), Some(triangle)) = (view.depth(column, row), view.triangle(column, row)) else {
-            continue;
-        };
-        let towards = ((p.extend(depth) - middle) / half).normalize_or_zero();
-        if towards.z > FACING
-            && let Some(shade) = head.shade(own[triangle], p)
-        {
-            seen.push((towards, shade));
-        }
-    }
+        let towards = ((p.extend(view.depth(column, row)?) - middle) / half).normalize_or_zero();
+        let shade = head.shade(own[view.triangle(column, row)?], p)?;
+        (towards.z > FACING).then_some((towards, shade))
+    };
+    let seen: Vec<(DVec3, f64)> = view.squares().filter_map(look).collect();
     let mut shades: Vec<f64> = seen.iter().map(|&(_, shade)| shade).collect();
     let (darkest, lightest) = (quantile(&mut shades, DARKEST.0)?, quantile(&mut shades, DARKEST.1)?);
     if lightest - darkest < CONTRAST {

@@ -52,6 +52,11 @@ impl Kernel {
         Self { centre, per_low: reach.recip(), per_high: reach.recip(), ..Self::default() }
     }
 
+    /// About the height `y`, as far down and up, and without end aside and in depth.
+    pub fn level(y: f64, down: f64, up: f64) -> Self {
+        Self::about(DVec3::Y * y, DVec3::INFINITY).between(down, up)
+    }
+
     /// The same with another reach upwards and downwards.
     pub fn between(mut self, down: f64, up: f64) -> Self {
         (self.per_low.y, self.per_high.y) = (1.0 / down, 1.0 / up);

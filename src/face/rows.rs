@@ -264,9 +264,7 @@ impl Rows {
         let mut rest: Vec<Kernel> = Vec::new();
         if let Some(pair) = pair {
             let sinks = q * features.lower * (pair.height - aim.eye_height).clamp(0.0, MOST_SINKING);
-            let centre = DVec3::Y * pair.height;
-            let reach =
-                Kernel::about(centre, DVec3::INFINITY).between(pair.height - ENDS.0, ENDS.1 - pair.height);
+            let reach = Kernel::level(pair.height, pair.height - ENDS.0, ENDS.1 - pair.height);
             rest.push(Kernel { shift: -sinks * DVec3::Y, plateau: SINKS_AS_ONE, ..reach });
         }
         if let Some(outline) = outline {
@@ -342,11 +340,8 @@ fn add_outline(
 ) {
     let sinks = features.skull * q * (outline.occiput - OCCIPUT.0).clamp(0.0, OCCIPUT.1);
     let y = outline.occiput - OCCIPUT_REACH.0;
-    let occiput = Kernel {
-        shift: -sinks * DVec3::Y,
-        ..Kernel::about(DVec3::Y * y, DVec3::INFINITY).between(y - ENDS.0, OCCIPUT_REACH.1)
-    }
-    .ramp(outline.middle, outline.middle - 0.35);
+    let occiput = Kernel { shift: -sinks * DVec3::Y, ..Kernel::level(y, y - ENDS.0, OCCIPUT_REACH.1) }
+        .ramp(outline.middle, outline.middle - 0.35);
     // How deep the back is once the occiput has sunk.
     let back_after = |station: usize| {
         let y = HEIGHTS[station];
@@ -364,8 +359,7 @@ fn add_outline(
             cheek if cheek < FACE_STATIONS.1 => features.cheek,
             _ => features.skull,
         };
-        let row =
-            Kernel::about(DVec3::Y * y, DVec3::INFINITY).between((y - ENDS.0).min(2.0 * APART), 2.0 * APART);
+        let row = Kernel::level(y, (y - ENDS.0).min(2.0 * APART), 2.0 * APART);
         // Bells half their reach apart add up to 1.5.
         let k = q / 1.5;
         let beside_ear = face.ears.filter(|ears| ears.low.y < y && y < ears.high.y);
@@ -383,9 +377,7 @@ fn add_outline(
         let front = Kernel { shift: DVec3::Z * (k * feature * forward), ..row };
         rows.push(front.ramp(outline.middle - HALVES, some(front_z).max(outline.middle + 0.2)));
         let back = Kernel { shift: -DVec3::Z * (k * features.skull * back), ..row };
-        rows.push(
-            back.ramp(outline.middle + HALVES, if back_z.is_nan() { outline.middle - 0.2 } else { back_z }),
-        );
+        rows.push(back.ramp(outline.middle + HALVES, back_z));
     }
     rows.push(occiput);
     add_chin(rows, outline, depth, features.jaw * q);
@@ -398,7 +390,7 @@ fn add_outline(
 fn add_chin(rows: &mut Vec<Kernel>, outline: &Outline, depth: f64, k: f64) {
     let [chin, mouth, ..] = outline.fronts;
     let behind = chin - mouth - depth * (CHILD_FRONTS[0] - CHILD_FRONTS[1]);
-    let row = Kernel::about(DVec3::Y * CHIN.0, DVec3::INFINITY).between(CHIN.1, CHIN.1);
+    let row = Kernel::level(CHIN.0, CHIN.1, CHIN.1);
     let shift = -DVec3::Z * (k * some(behind.clamp(0.0, MOST_FORWARD.1)));
     rows.push(Kernel { shift, ..row }.ramp(outline.middle, outline.middle + some(chin).max(0.2)));
 }

@@ -32,8 +32,7 @@ impl Seat {
         let shoulder_line = (shoulder_line - frame.origin.y) / frame.length;
         let most = MOST_BACK.min(MOST_LEAN * (WHOLE - shoulder_line).max(0.0));
         let back = (outline.overhang - CHIN_BEFORE).min(SKULL_BEHIND - outline.behind).clamp(0.0, most);
-        let row =
-            Kernel::about(DVec3::Y * WHOLE, DVec3::INFINITY).between(WHOLE - shoulder_line, f64::INFINITY);
+        let row = Kernel::level(WHOLE, WHOLE - shoulder_line, f64::INFINITY);
         (back > 0.0).then_some(Self { frame, row: [Kernel { shift: -back * DVec3::Z, ..row }] })
     }
 
