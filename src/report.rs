@@ -79,11 +79,12 @@ impl FaceReport {
         let eyes = eyes.map(|(name, eye)| (name, eye.middle()));
         let points = eyes.chain(face.nose.map(|nose| ("nose", nose.tip)));
         let pair = face.pair();
-        let source = face.eyes.as_ref().map(|(source, _)| *source);
+        let of_source = |(source, _): &(EyeSource, Eyes)| source.name_and_confidence();
+        let (source, confidence) = face.eyes.as_ref().map_or(("none", 0.0), of_source);
         let radius = |eyes: &Eyes| 0.5 * (eyes[0].radius() + eyes[1].radius());
         Self {
-            source: source.map_or("none", EyeSource::name),
-            confidence: source.map_or(0.0, EyeSource::confidence),
+            source,
+            confidence,
             ye: pair.map(|pair| pair.height),
             d: pair.map(|pair| pair.half_distance),
             a: pair.map(|pair| pair.half_width),

@@ -26,7 +26,10 @@ pub trait Number:
     fn below(self, limit: f64, then: Self, otherwise: Self) -> Self;
 
     /// `low` times it where it is below 0, `high` times where it is not.
-    fn by_side(self, low: f64, high: f64) -> Self;
+    #[inline(always)]
+    fn by_side(self, low: f64, high: f64) -> Self {
+        self * self.below(0.0, Self::constant(low), Self::constant(high))
+    }
 
     /// True where some of it is above `limit`.
     fn is_above(self, limit: f64) -> bool;
@@ -46,10 +49,6 @@ impl Number for f64 {
 
     fn below(self, limit: f64, then: Self, otherwise: Self) -> Self {
         if self < limit { then } else { otherwise }
-    }
-
-    fn by_side(self, low: f64, high: f64) -> Self {
-        self * if self < 0.0 { low } else { high }
     }
 
     fn is_above(self, limit: f64) -> bool {
@@ -74,11 +73,6 @@ impl Number for f64x2 {
     #[inline(always)]
     fn below(self, limit: f64, then: Self, otherwise: Self) -> Self {
         self.cmp_lt(Self::splat(limit)).blend(then, otherwise)
-    }
-
-    #[inline(always)]
-    fn by_side(self, low: f64, high: f64) -> Self {
-        self * self.below(0.0, Self::splat(low), Self::splat(high))
     }
 
     #[inline(always)]

@@ -24,25 +24,14 @@ pub enum EyeSource {
 }
 
 impl EyeSource {
-    /// The name in a report.
-    pub fn name(self) -> &'static str {
+    /// The name in a report, and how sure that is, 0 to 1.
+    pub fn name_and_confidence(self) -> (&'static str, f64) {
         match self {
-            EyeSource::Hints => "hints",
-            EyeSource::Pieces => "pieces",
-            EyeSource::Blink => "blink",
-            EyeSource::Joints => "joints",
-            EyeSource::Twins => "twins",
-        }
-    }
-
-    /// How sure that is, 0 to 1.
-    pub fn confidence(self) -> f64 {
-        match self {
-            EyeSource::Hints => 1.0,
-            EyeSource::Pieces => 0.95,
-            EyeSource::Blink => 0.9,
-            EyeSource::Twins => 0.7,
-            EyeSource::Joints => 0.6,
+            EyeSource::Hints => ("hints", 1.0),
+            EyeSource::Pieces => ("pieces", 0.95),
+            EyeSource::Blink => ("blink", 0.9),
+            EyeSource::Twins => ("twins", 0.7),
+            EyeSource::Joints => ("joints", 0.6),
         }
     }
 }

@@ -5,6 +5,7 @@
 //! The memo keeps what a stage made beside what it looked at, and gives it back as long as that is the same. So an option
 //! cannot be forgotten: what does not name it cannot read it, and what names it is made again when it changes.
 
+use super::AutoRig;
 use super::stages::STAGES;
 use crate::character::Character;
 use crate::clock::Moment;
@@ -53,8 +54,8 @@ pub const ALL_WORK: u32 = 100;
 pub struct Inputs {
     /// The character that is deformed.
     pub character: Arc<Character>,
-    /// What there is to say of its rig.
-    pub notes: Vec<Warning>,
+    /// The rig that was made for it, where one was.
+    pub rig: Option<Arc<AutoRig>>,
     /// What it becomes like.
     pub style: Arc<Style>,
     /// What is set.
@@ -165,9 +166,9 @@ impl<'a> View<'a> {
         &self.inputs.character
     }
 
-    /// What there is to say of its rig.
-    pub fn notes(&self) -> &'a [Warning] {
-        &self.inputs.notes
+    /// What there is to say of the rig that was made for it.
+    pub fn notes(&self) -> impl Iterator<Item = &'a Warning> {
+        self.inputs.rig.iter().flat_map(|rig| &rig.warnings)
     }
 
     /// What the character becomes like.

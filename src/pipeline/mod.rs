@@ -46,7 +46,6 @@ use std::sync::Arc;
 #[derive(Clone, Debug)]
 pub struct Deformer {
     inputs: Inputs,
-    rig: Option<AutoRig>,
     memo: Memo,
     made: Made,
 }
@@ -75,9 +74,10 @@ struct Made {
     warnings: Arc<Vec<Warning>>,
 }
 
-/// What the report says of a rig that was made.
-#[derive(Clone, Debug)]
-struct AutoRig {
+/// What there is to say of a rig that was made.
+#[derive(Debug)]
+pub struct AutoRig {
+    warnings: Vec<Warning>,
     report: RigReport,
     /// Roles of the character's own joints, which ride along.
     own: Humanoid,
@@ -106,9 +106,8 @@ impl Deformer {
         options: &Options,
         progress: &mut Progress,
     ) -> Result<Self> {
-        let inputs =
-            Inputs { character, notes: Vec::new(), style: Arc::new(style.clone()), options: options.clone() };
-        Self::build(inputs, None, progress)
+        let (style, options) = (Arc::new(style.clone()), options.clone());
+        Self::build(Inputs { character, rig: None, style, options }, Memo::default(), progress)
     }
 
     /// As [`Deformer::new`], by a rig that was made for `character`: its own joints, if any, ride along and come first in
@@ -133,26 +132,25 @@ impl Deformer {
         options: &Options,
         progress: &mut Progress,
     ) -> Result<Self> {
-        let auto_rig = AutoRig {
+        let rig = Some(Arc::new(AutoRig {
+            warnings: rig.warnings.clone(),
             report: rig.report(),
             own: character.humanoid.clone(),
             own_count: character.skeleton.joints.len(),
             times: rig.timing_ms,
-        };
-        let inputs = Inputs {
-            character: rigged,
-            notes: rig.warnings.clone(),
-            style: Arc::new(style.clone()),
-            options: options.clone(),
-        };
-        Self::build(inputs, Some(auto_rig), progress)
+        }));
+        let (style, options) = (Arc::new(style.clone()), options.clone());
+        Self::build(Inputs { character: rigged, rig, style, options }, Memo::default(), progress)
     }
 
-    fn build(inputs: Inputs, rig: Option<AutoRig>, progress: &mut Progress) -> Result<Self> {
-        check(&inputs)?;
-        let memo = Memo::default();
+    /// Made of `inputs`, where what `memo` holds is still the same with that.
+    fn build(inputs: Inputs, memo: Memo, progress: &mut Progress) -> Result<Self> {
+        inputs.options.validate()?;
+        if let Style::Heads(heads) = *inputs.style {
+            Style::heads(heads)?;
+        }
         let made = make(&inputs, &memo, progress)?;
-        Ok(Self { inputs, rig, memo, made })
+        Ok(Self { inputs, memo, made })
     }
 
     /// Changes the options, with the same result as a new deformer gives; only what depends on the change is done
@@ -194,10 +192,7 @@ impl Deformer {
     }
 
     fn change(&mut self, inputs: Inputs, progress: &mut Progress) -> Result<()> {
-        check(&inputs)?;
-        let memo = self.memo.clone();
-        self.made = make(&inputs, &memo, progress)?;
-        (self.inputs, self.memo) = (inputs, memo);
+        *self = Self::build(inputs, self.memo.clone(), progress)?;
         Ok(())
     }
 
@@ -282,7 +277,7 @@ impl Deformer {
     }
 
     fn timing(&self) -> Timing {
-        let [rig_joints, rig_weights, transfer] = self.rig.as_ref().map_or([0.0; 3], |rig| rig.times);
+        let [rig_joints, rig_weights, transfer] = self.inputs.rig.as_ref().map_or([0.0; 3], |rig| rig.times);
         Timing {
             rig_joints,
             rig_weights,
@@ -292,14 +287,6 @@ impl Deformer {
             face: self.memo.milliseconds(|phase| phase == Phase::Face),
             ..Timing::default()
         }
-    }
-}
-
-fn check(inputs: &Inputs) -> Result<()> {
-    inputs.options.validate()?;
-    match *inputs.style {
-        Style::Heads(heads) => Style::heads(heads).map(drop),
-        Style::Shape(_) => Ok(()),
     }
 }
 

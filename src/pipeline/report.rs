@@ -24,7 +24,7 @@ use std::sync::Arc;
 /// What a person should know of a run before it is measured again.
 pub fn warnings(view: &View) -> Result<Vec<Warning>> {
     let (measured, body) = (view.measured()?, view.body()?);
-    let mut warnings = view.notes().to_vec();
+    let mut warnings: Vec<Warning> = view.notes().cloned().collect();
     warnings.extend(measured.anatomy.landmarks.warnings("target"));
     warnings.extend_from_slice(&body.warnings);
     if view.options.amount == 1.0 {
@@ -77,7 +77,7 @@ impl Deformer {
         let mut target = FigureReport::of(self.target(), &roles, &self.inputs.options);
         let mut result = FigureReport::of(&measured, &roles, &self.inputs.options);
         let mut joint_count = character.skeleton.joints.len();
-        if let Some(rig) = &self.rig {
+        if let Some(rig) = &self.inputs.rig {
             let at_rest = |joint: usize| character.skeleton.joints[joint].position();
             target.file_joints = joints_by_role(&rig.own, at_rest);
             result.file_joints = joints_by_role(&rig.own, |joint| deformed.joints[joint]);
@@ -98,7 +98,7 @@ impl Deformer {
             g: self.made.deformation.body.head_ratio,
             coefficients: self.made.deformation.body.coefficients.clone(),
             profile: ProfileReport::of(self.target(), &self.inputs.style, &measured),
-            rig: self.rig.as_ref().map_or_else(|| self.kept_rig(), |rig| rig.report.clone()),
+            rig: self.inputs.rig.as_ref().map_or_else(|| self.kept_rig(), |rig| rig.report.clone()),
             repair,
             sole_clearance: SoleClearance { target: soles(self.target()), result: soles(&measured) },
             morph_pair_error: self.morph_pair_error() / measured.figure.height(),
