@@ -80,10 +80,10 @@ impl Outline {
         let back = DepthMap::new(&behind, &sources.bare, window).with(&behind, &sources.hair);
         let front = |y: f64| if y < HEIGHTS[DEEPEST] { &bare } else { &hair };
         let near = |y: f64| (y - 1.5 * SQUARE, y + 1.5 * SQUARE);
-        let front_at = |y: f64| furthest(front(y), near(y), BESIDE_NOSE);
+        let front_at = |y: f64| front(y).furthest(near(y), BESIDE_NOSE);
         let back_at = |y: f64| {
-            let middle = furthest(&back, near(y), (0.0, BACK.0))?;
-            let beside = furthest(&back, near(y), (BACK.0, BACK.1)).unwrap_or(middle);
+            let middle = back.furthest(near(y), (0.0, BACK.0))?;
+            let beside = back.furthest(near(y), (BACK.0, BACK.1)).unwrap_or(middle);
             Some(middle.min(beside + BACK.2))
         };
         let y = HEIGHTS[DEEPEST];
@@ -100,9 +100,9 @@ impl Outline {
         let rows = (shoulder_line + TRUNK.0, shoulder_line + TRUNK.1);
         let window =
             Window { low: DVec2::new(-BACK.0, rows.0), high: DVec2::new(BACK.0, rows.1), step: SQUARE };
-        let chest = furthest(&DepthMap::new(&points, &sources.trunk, window), rows, (0.0, BACK.0));
-        let trunk_back = furthest(&DepthMap::new(&behind, &sources.trunk, window), rows, (0.0, BACK.0));
-        let chin = furthest(&bare, (0.02, 0.12), (0.0, BACK.0));
+        let chest = DepthMap::new(&points, &sources.trunk, window).furthest(rows, (0.0, BACK.0));
+        let trunk_back = DepthMap::new(&behind, &sources.trunk, window).furthest(rows, (0.0, BACK.0));
+        let chin = bare.furthest((0.02, 0.12), (0.0, BACK.0));
         Some(Self {
             middle,
             half_widths: HEIGHTS.map(|y| half_width(front(y), y)),
@@ -118,16 +118,4 @@ impl Outline {
 
 fn rounded(depth: f64) -> f64 {
     (depth * ROUNDING).round() / ROUNDING
-}
-
-/// The furthest that `map` shows in `rows`, where |x| is in `aside`.
-fn furthest(map: &DepthMap, rows: (f64, f64), aside: (f64, f64)) -> Option<f64> {
-    let columns = (0..map.columns()).filter(|&column| {
-        let x = map.middle(column, 0).x.abs();
-        x >= aside.0 && x <= aside.1
-    });
-    let rows = map.row(rows.0)..=map.row(rows.1);
-    columns
-        .flat_map(|column| rows.clone().filter_map(move |row| map.depth(column, row)))
-        .max_by(f64::total_cmp)
 }

@@ -4,6 +4,7 @@ use super::rig_weights::{Binder, BodyRule};
 use crate::character::{Character, Humanoid, MeshKind, Role, Skeleton, Weights};
 use crate::clock::Moment;
 use crate::error::{Result, Warning};
+use crate::geometry::marked;
 use crate::progress::Progress;
 use crate::report::{JointCandidate, RigReport};
 use crate::rig::candidates::Place;
@@ -170,12 +171,10 @@ impl Rig {
     fn rides(&self, character: &Character) -> Vec<Option<usize>> {
         let count = character.skeleton.joints.len();
         let mut rides = vec![None; count];
-        let mut has_role = vec![false; count];
+        let has_role = marked(count, character.humanoid.iter().map(|(_, joint)| joint));
         for (role, joint) in character.humanoid.iter() {
-            has_role[joint] = true;
-            if rides[joint].is_none() {
-                rides[joint] = role.chain().find_map(|role| self.humanoid.joint(role));
-            }
+            let ride = || role.chain().find_map(|role| self.humanoid.joint(role));
+            rides[joint] = rides[joint].or_else(ride);
         }
         let mut moved = vec![BTreeMap::<u32, f64>::new(); count];
         for (mesh, weights) in character.meshes.iter().zip(&self.weights) {
