@@ -89,7 +89,7 @@ impl Deformer {
         progress.at(0.0)?;
         let mut room = None;
         for (index, (mesh, mut places)) in self.inputs.character.meshes.iter().zip(places).enumerate() {
-            if self.made.field.finish.is_nothing() {
+            if self.field.finish.is_nothing() {
                 places.positions.write(0, &mesh.positions);
                 places.normals.write(0, &mesh.normals);
                 places.tangents.write(0, &mesh.tangents);
@@ -111,7 +111,7 @@ impl Deformer {
     /// Where each joint is now, as in [`Deformed::joints`].
     pub fn deformed_joints(&self) -> Vec<DVec3> {
         let joints = &self.inputs.character.skeleton.joints;
-        if self.made.field.finish.is_nothing() {
+        if self.field.finish.is_nothing() {
             return joints.iter().map(|joint| joint.position()).collect();
         }
         let placement = self.placement();
@@ -129,8 +129,8 @@ impl Deformer {
 
     /// What is added to where the field takes a joint, canonical frame.
     pub(super) fn joint_correction(&self, joint: usize) -> DVec3 {
-        let whole = self.made.displacements.joints.get(joint).copied().unwrap_or_default();
-        self.made.field.finish.share() * whole
+        let whole = self.displacements.joints.get(joint).copied().unwrap_or_default();
+        self.field.finish.share() * whole
     }
 
     /// Joints that play eyes, and where they are now, canonical frame: at the same place in the eye that they turn, which the
@@ -162,8 +162,8 @@ impl Deformer {
     /// Writes where the vertices of a mesh go.
     fn write_positions<V: Place<Vec3>>(&self, mesh: usize, place: V) {
         let rest = &self.inputs.character.meshes[mesh].positions;
-        let displacements = &self.made.displacements.vertices[self.vertices(mesh)];
-        let ending = Ending::of(&self.made.field.finish, &self.target().figure.frame);
+        let displacements = &self.displacements.vertices[self.vertices(mesh)];
+        let ending = Ending::of(&self.field.finish, &self.target().figure.frame);
         let write = |(): &mut (), first: usize, count: usize, mut place: V| {
             let mut block = [Vec3::ZERO; BLOCK];
             for start in (first..first + count).step_by(BLOCK) {
@@ -213,17 +213,17 @@ impl Deformer {
     }
 
     pub(super) fn moved(&self) -> Moved<'_> {
-        let finish = &self.made.field.finish;
+        let finish = &self.field.finish;
         let (share, size) = (finish.share() as f32, finish.size as f32);
-        Moved { displacements: &self.made.displacements.vertices, share, size }
+        Moved { displacements: &self.displacements.vertices, share, size }
     }
 
     /// The field's own Jacobian at a vertex around which no triangle has one; model space.
     #[cold]
     pub(super) fn turn_of_field(&self, vertex: usize) -> Turn {
         let figure = &self.target().figure;
-        let binding = &self.made.deformation.body.bindings.vertices[vertex];
-        let jacobian = self.made.field.map(figure.positions[vertex], binding).jacobian;
+        let binding = &self.deformation.body.bindings.vertices[vertex];
+        let jacobian = self.field.map(figure.positions[vertex], binding).jacobian;
         Turn::of(figure.frame.jacobian_to_model(jacobian).as_mat3().into())
     }
 }

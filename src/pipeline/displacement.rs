@@ -131,12 +131,12 @@ impl Deformer {
     pub fn field_positions(&self) -> Vec<DVec3> {
         let placement = self.placement();
         let mut positions = placement.all_vertices();
-        let deformation = &self.made.deformation;
+        let deformation = &self.deformation;
         let whole = deformation.placement(&deformation.field, 1);
         let way = |vertex: usize| whole.vertex(vertex) - placement.figure.positions[vertex];
         let corrections = corrections(&self.view(), deformation, way).unwrap_or_default();
         for (p, correction) in positions.iter_mut().zip(corrections) {
-            *p += self.made.field.finish.share() * correction;
+            *p += self.field.finish.share() * correction;
         }
         positions.into_iter().map(|p| placement.figure.frame.to_model(p)).collect()
     }

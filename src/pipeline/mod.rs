@@ -47,7 +47,12 @@ use std::sync::Arc;
 pub struct Deformer {
     inputs: Inputs,
     memo: Memo,
-    made: Made,
+    deformation: Arc<Deformation>,
+    /// How far everything goes all the way.
+    displacements: Arc<Displacements>,
+    /// The deformation's field with what is done last.
+    field: Field,
+    warnings: Arc<Vec<Warning>>,
 }
 
 /// What of a deformer holds when its options change.
@@ -61,17 +66,6 @@ pub enum Kept {
     Body,
     /// The field, too: what changes is done last, for all vertices alike.
     Field,
-}
-
-/// What the stages make of what is given.
-#[derive(Clone, Debug)]
-struct Made {
-    deformation: Arc<Deformation>,
-    /// How far everything goes all the way.
-    displacements: Arc<Displacements>,
-    /// The deformation's field with what is done last.
-    field: Field,
-    warnings: Arc<Vec<Warning>>,
 }
 
 /// What there is to say of a rig that was made.
@@ -143,14 +137,36 @@ impl Deformer {
         Self::build(Inputs { character: rigged, rig, style, options }, Memo::default(), progress)
     }
 
-    /// Made of `inputs`, where what `memo` holds is still the same with that.
+    /// Makes all stages, but for what `memo` holds that is still the same with `inputs`; those that need nothing of each other
+    /// side by side the first time.
     fn build(inputs: Inputs, memo: Memo, progress: &mut Progress) -> Result<Self> {
         inputs.options.validate()?;
         if let Style::Heads(heads) = *inputs.style {
             Style::heads(heads)?;
         }
-        let made = make(&inputs, &memo, progress)?;
-        Ok(Self { inputs, memo, made })
+        let mut reached = 0.0_f32;
+        let mut never_back = |done: f32| {
+            reached = reached.max(done);
+            progress.at(reached).is_ok()
+        };
+        let progress = RefCell::new(Progress::new(&mut never_back));
+        let view = View::of_all(&inputs, &memo, Some(&progress));
+        progress.borrow_mut().at(0.0)?;
+        let Options { mode, repair, thread_count, .. } = inputs.options;
+        let is_first = memo.is_empty();
+        view.measured()?;
+        if is_first && mode == Mode::Product && parallel::thread_count(thread_count) > 1 {
+            let beside = || View::of_all(&inputs, &memo, None);
+            let worn = || repair != Repair::Off && beside().worn().is_ok();
+            parallel::both(thread_count, worn, || view.parts()).1?;
+            let hair_and_twins = || beside().strands().is_ok() && beside().mirror().is_ok();
+            parallel::both(thread_count, hair_and_twins, || view.pushed()).1?;
+        }
+        let (deformation, displacements) = (view.deformation()?, view.displacements()?);
+        let field = Field { finish: *view.finish()?, ..(*deformation.field).clone() };
+        let warnings = view.warnings()?;
+        progress.borrow_mut().at(1.0)?;
+        Ok(Self { inputs, memo, deformation, displacements, field, warnings })
     }
 
     /// Changes the options, with the same result as a new deformer gives; only what depends on the change is done
@@ -209,17 +225,17 @@ impl Deformer {
     /// The target as it was measured.
     #[doc(hidden)]
     pub fn target(&self) -> &Measured {
-        &self.made.deformation.measured
+        &self.deformation.measured
     }
 
     /// Where the target's points go.
     fn placement(&self) -> Placement<'_> {
-        self.made.deformation.placement(&self.made.field, self.inputs.options.thread_count)
+        self.deformation.placement(&self.field, self.inputs.options.thread_count)
     }
 
     /// Where the field takes `point`, attached to `joint`; both in model space.
     pub fn map(&self, joint: usize, point: DVec3) -> Mapped {
-        let Made { deformation, field, .. } = &self.made;
+        let Self { deformation, field, .. } = self;
         let frame = &deformation.measured.figure.frame;
         let p = frame.to_canonical(point);
         let on_head = match self.inputs.options.mode {
@@ -239,7 +255,7 @@ impl Deformer {
     /// which grew with the eye, and how much of it is the skin below, which that is evened to; 0 to 1 each, by as much as eyes
     /// grow. Empty where they do not: drawn eyes, no eyes, a youth of 0, paper mode.
     pub fn painted(&self) -> Vec<Vec<[f32; 2]>> {
-        let (Deformation { measured, body, .. }, field) = (&*self.made.deformation, &self.made.field);
+        let (Deformation { measured, body, .. }, field) = (&*self.deformation, &self.field);
         let (Some(young), starts) = (&field.young, &measured.figure.mesh_starts) else { return Vec::new() };
         let share = (field.youth * field.finish.amount).clamp(0.0, 1.0);
         let weights = |vertex: usize| {
@@ -268,12 +284,12 @@ impl Deformer {
 
     /// alpha and beta by group.
     pub fn coefficients(&self) -> &BTreeMap<String, Coefficient> {
-        &self.made.deformation.body.coefficients
+        &self.deformation.body.coefficients
     }
 
     /// What a person should know so far.
     pub fn warnings(&self) -> &[Warning] {
-        &self.made.warnings
+        &self.warnings
     }
 
     fn timing(&self) -> Timing {
@@ -288,31 +304,4 @@ impl Deformer {
             ..Timing::default()
         }
     }
-}
-
-/// Makes all stages, those that need nothing of each other side by side the first time.
-fn make(inputs: &Inputs, memo: &Memo, progress: &mut Progress) -> Result<Made> {
-    let mut reached = 0.0_f32;
-    let mut never_back = |done: f32| {
-        reached = reached.max(done);
-        progress.at(reached).is_ok()
-    };
-    let progress = RefCell::new(Progress::new(&mut never_back));
-    let view = View::of_all(inputs, memo, Some(&progress));
-    progress.borrow_mut().at(0.0)?;
-    let Options { mode, repair, thread_count, .. } = inputs.options;
-    let is_first = memo.is_empty();
-    view.measured()?;
-    if is_first && mode == Mode::Product && parallel::thread_count(thread_count) > 1 {
-        let beside = || View::of_all(inputs, memo, None);
-        let worn = || repair != Repair::Off && beside().worn().is_ok();
-        parallel::both(thread_count, worn, || view.parts()).1?;
-        let hair_and_twins = || beside().strands().is_ok() && beside().mirror().is_ok();
-        parallel::both(thread_count, hair_and_twins, || view.pushed()).1?;
-    }
-    let (deformation, finish) = (view.deformation()?, *view.finish()?);
-    let field = Field { finish, ..(*deformation.field).clone() };
-    let made = Made { displacements: view.displacements()?, field, warnings: view.warnings()?, deformation };
-    progress.borrow_mut().at(1.0)?;
-    Ok(made)
 }

@@ -141,7 +141,7 @@ impl Deformer {
         let kept = &self.view().shifts()?[mesh];
         let shifts = match kept.get() {
             Some(known) => known,
-            None if self.made.field.finish.is_nothing() => &Vec::new(),
+            None if self.field.finish.is_nothing() => &Vec::new(),
             None => {
                 let shifts = self.shifts_of(mesh, &given, &mut progress.part(0.0, 0.7))?;
                 kept.get_or_init(|| shifts)
@@ -153,7 +153,7 @@ impl Deformer {
     /// Morph targets of a mesh, those of the character or others, as [`Self::deformed_targets`] has them.
     pub(crate) fn map_targets(&self, mesh: usize, given: &[GivenTarget]) -> Result<Vec<SparseTarget>> {
         let progress = &mut Progress::none();
-        let shifts = match self.made.field.finish.is_nothing() {
+        let shifts = match self.field.finish.is_nothing() {
             true => Vec::new(),
             false => self.shifts_of(mesh, given, progress)?,
         };
@@ -170,7 +170,7 @@ impl Deformer {
         shifts: &[Vec<Vec3>],
         progress: &mut Progress,
     ) -> Result<Vec<SparseTarget>> {
-        if self.made.field.finish.is_nothing() || given.is_empty() {
+        if self.field.finish.is_nothing() || given.is_empty() {
             return Ok(given.iter().map(GivenTarget::same).collect());
         }
         let Mesh { normals, tangents, .. } = &self.inputs.character.meshes[mesh];
@@ -215,7 +215,7 @@ impl Deformer {
         given: &[GivenTarget],
         progress: &mut Progress,
     ) -> Result<Vec<Vec<Vec3>>> {
-        let (deformation, threads) = (&self.made.deformation, self.inputs.options.thread_count);
+        let (deformation, threads) = (&self.deformation, self.inputs.options.thread_count);
         let field = &deformation.field;
         let placement = deformation.placement(field, threads);
         let figure = placement.figure;
@@ -251,7 +251,7 @@ impl Deformer {
     ///
     /// `shifts`: as [`Self::shifts_of`] gives them.
     fn morph_positions(&self, target: &GivenTarget, shifts: &[Vec3]) -> Option<Vec<Vec3>> {
-        let finish = &self.made.field.finish;
+        let finish = &self.field.finish;
         let (size, amount) = (finish.size as f32, finish.amount as f32);
         let moved = |((_, delta), &shift): ((u32, Vec3), &Vec3)| {
             let to = size * (delta + amount * shift);

@@ -85,7 +85,7 @@ impl Deformer {
                 joint_count = rig.own_count;
             }
         }
-        let mut warnings = self.made.warnings.to_vec();
+        let mut warnings = self.warnings.to_vec();
         warnings.extend(repair.and_then(pierced));
         Ok(Report {
             target,
@@ -95,8 +95,8 @@ impl Deformer {
             },
             result,
             mode: self.inputs.options.mode.name(),
-            g: self.made.deformation.body.head_ratio,
-            coefficients: self.made.deformation.body.coefficients.clone(),
+            g: self.deformation.body.head_ratio,
+            coefficients: self.deformation.body.coefficients.clone(),
             profile: ProfileReport::of(self.target(), &self.inputs.style, &measured),
             rig: self.inputs.rig.as_ref().map_or_else(|| self.kept_rig(), |rig| rig.report.clone()),
             repair,
@@ -137,7 +137,7 @@ impl Deformer {
         let furthest = offsets.iter().map(|(_, offset)| offset.length()).fold(0.0, f64::max);
         Some(RepairReport {
             pushed: offsets.len(),
-            furthest: self.made.field.finish.share_of_offsets() * furthest / result.height(),
+            furthest: self.field.finish.share_of_offsets() * furthest / result.height(),
             newly_inside: NewlyInside {
                 rest: newly_inside(&[]),
                 walk: newly_inside(WALK),
@@ -148,7 +148,7 @@ impl Deformer {
 
     /// How far a vertex is at most from where the field takes it when its two largest morph targets are on at once, model units.
     fn morph_pair_error(&self) -> f64 {
-        if self.made.field.finish.is_nothing() {
+        if self.field.finish.is_nothing() {
             return 0.0;
         }
         let placement = self.placement();
