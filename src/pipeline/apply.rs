@@ -100,6 +100,7 @@ impl Deformer {
             }
             if places.normals.is_some() || places.tangents.is_some() {
                 let rest = self.view().rest_triangles()?;
+                let places = (places.normals, places.tangents);
                 self.write_directions(index, places, &rest, room.get_or_insert_default());
             }
         }
@@ -183,15 +184,19 @@ impl Deformer {
     fn write_directions<V: Place<Vec3>, W: Place<Vec4>>(
         &self,
         mesh: usize,
-        places: MeshPlaces<V, W>,
+        places: (Option<V>, Option<W>),
         rest: &RestTriangles,
         room: &mut Room,
     ) {
         let Mesh { normals, tangents, .. } = &self.inputs.character.meshes[mesh];
         let pieces = rest.pieces(mesh);
         let start = self.vertices(mesh).start;
-        let cut = |places: MeshPlaces<V, W>, count: usize| places.cut(count * PIECE);
-        let write = |room: &mut Room, first: usize, count: usize, mut places: MeshPlaces<V, W>| {
+        let cut = |(normals, tangents): (Option<V>, Option<W>), pieces: usize| {
+            let (normals, tangents) = (normals.cut(pieces * PIECE), tangents.cut(pieces * PIECE));
+            ((normals.0, tangents.0), (normals.1, tangents.1))
+        };
+        let write = |room: &mut Room, first: usize, count: usize, to: (Option<V>, Option<W>)| {
+            let (mut to_normals, mut to_tangents) = to;
             let mut block = Directions { normals: [Vec3::ZERO; BLOCK], tangents: [Vec4::ZERO; BLOCK] };
             for (at, piece) in pieces.clone().skip(first).take(count).enumerate() {
                 let jacobians = rest.jacobians(piece, &self.moved(), room);
@@ -200,11 +205,11 @@ impl Deformer {
                     let count = BLOCK.min(vertices.len() - from);
                     let of_mesh = vertices.start - start + from..vertices.start - start + from + count;
                     let normals = normals.get(of_mesh.clone()).unwrap_or_default();
-                    let tangents = tangents.get(of_mesh).filter(|_| places.tangents.is_some());
+                    let tangents = tangents.get(of_mesh).filter(|_| to_tangents.is_some());
                     let of_field = |index| self.turn_of_field(vertices.start + from + index);
                     block.turn(&jacobians, from, normals, tangents.unwrap_or_default(), of_field);
-                    places.normals.write(at * PIECE + from, &block.normals[..count]);
-                    places.tangents.write(at * PIECE + from, &block.tangents[..count]);
+                    to_normals.write(at * PIECE + from, &block.normals[..count]);
+                    to_tangents.write(at * PIECE + from, &block.tangents[..count]);
                 }
             }
         };

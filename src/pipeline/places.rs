@@ -1,7 +1,5 @@
 //! Where results go: arrays of the library's own or of a host, written in place and in pieces.
 
-use glam::{Vec3, Vec4};
-
 /// An array to write results to, which can be cut so that threads write pieces of it.
 pub trait Place<T>: Send + Sized {
     /// What lies before `index`, and the rest.
@@ -42,17 +40,4 @@ pub struct MeshPlaces<V, W> {
     pub normals: Option<V>,
     /// New unit tangents.
     pub tangents: Option<W>,
-}
-
-impl<V: Place<Vec3>, W: Place<Vec4>> MeshPlaces<V, W> {
-    /// The same for the vertices before `vertex`, and for the rest.
-    pub fn cut(self, vertex: usize) -> (Self, Self) {
-        let (positions, rest_of_positions) = self.positions.cut(vertex);
-        let (normals, rest_of_normals) = self.normals.cut(vertex);
-        let (tangents, rest_of_tangents) = self.tangents.cut(vertex);
-        (
-            Self { positions, normals, tangents },
-            Self { positions: rest_of_positions, normals: rest_of_normals, tangents: rest_of_tangents },
-        )
-    }
 }
