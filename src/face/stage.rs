@@ -69,8 +69,8 @@ struct Piece {
 struct Ways {
     /// For each vertex its row in `from` and `ways`; `NO_WAY` where it is not kept.
     rows: Vec<u32>,
-    /// Where they begin.
-    from: Vec<Vec3>,
+    /// Where they begin, and whether as hair.
+    from: Vec<(Vec3, bool)>,
     ways: Vec<[Vec3; STEPS]>,
 }
 
@@ -197,17 +197,16 @@ impl YoungFace {
         // What begins at one place and goes one way is one: seams repeat it.
         let mut rows = vec![NO_WAY; points.len()];
         let mut row_of: CellMap<([u32; 3], bool), u32> = CellMap::default();
-        let (mut from, mut is_hair): (Vec<Vec3>, Vec<bool>) = Default::default();
+        let mut from: Vec<(Vec3, bool)> = Vec::new();
         for (vertex, row) in rows.iter_mut().enumerate() {
-            let goes_as_hair = match bindings[vertex] {
+            let is_hair = match bindings[vertex] {
                 FaceBinding::Skin(share) if share > 0.0 => false,
                 FaceBinding::Hair(share) if share > 0.0 => true,
                 _ => continue,
             };
             let p = beginning(&self.frame, points[vertex]);
-            *row = *row_of.entry((p.to_array().map(f32::to_bits), goes_as_hair)).or_insert_with(|| {
-                from.push(p);
-                is_hair.push(goes_as_hair);
+            *row = *row_of.entry((p.to_array().map(f32::to_bits), is_hair)).or_insert_with(|| {
+                from.push((p, is_hair));
                 from.len() as u32 - 1
             });
         }
@@ -218,9 +217,9 @@ impl YoungFace {
             if let Some(known) = known.filter(|known| of.iter().all(|&row| known.from[row] == from[row])) {
                 return of.map(|row| known.ways[row]);
             }
-            let points = of.map(|row| from[row].as_dvec3());
+            let points = of.map(|row| from[row].0.as_dvec3());
             let moves = |of: usize, way: Way| way.map(|p| (p - points[of]).as_vec3());
-            match of.map(|row| is_hair[row]) {
+            match of.map(|row| from[row].1) {
                 [one, other] if one == other => {
                     let [first, second] = follower(one).ways(points);
                     [moves(0, first), moves(1, second)]

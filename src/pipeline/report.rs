@@ -76,15 +76,12 @@ impl Deformer {
         let roles = self.roles();
         let mut target = FigureReport::of(self.target(), &roles, &self.inputs.options);
         let mut result = FigureReport::of(&measured, &roles, &self.inputs.options);
-        let mut joint_count = character.skeleton.joints.len();
         if let Some(rig) = &self.inputs.rig {
             let at_rest = |joint: usize| character.skeleton.joints[joint].position();
             target.file_joints = joints_by_role(&rig.own, at_rest);
             result.file_joints = joints_by_role(&rig.own, |joint| deformed.joints[joint]);
-            if rig.own_count > 0 {
-                joint_count = rig.own_count;
-            }
         }
+        let own_joints = self.inputs.rig.as_ref().map(|rig| rig.own_count).filter(|&count| count > 0);
         let mut warnings = self.warnings.to_vec();
         warnings.extend(repair.and_then(pierced));
         Ok(Report {
@@ -107,7 +104,7 @@ impl Deformer {
                 triangles: character.triangle_count(),
                 meshes: character.meshes.len(),
                 morph_targets: character.meshes.iter().map(|mesh| mesh.morph_targets.len()).sum(),
-                joints: joint_count,
+                joints: own_joints.unwrap_or(character.skeleton.joints.len()),
             },
             timing_ms: self.timing(),
             warnings,
