@@ -137,32 +137,18 @@ impl Pair {
 
 /// The first source that gives both eyes, with the irises painted on them.
 pub fn eyes(head: &Head) -> Option<(EyeSource, Eyes)> {
-    let (source, mut eyes) = found(head)?;
+    let sources: [(EyeSource, fn(&Head) -> Option<Eyes>); 5] = [
+        (EyeSource::Hints, by_hints),
+        (EyeSource::Pieces, by_pieces_and_blink),
+        (EyeSource::Blink, by_blink),
+        (EyeSource::Joints, by_joints),
+        (EyeSource::Twins, by_mirrored),
+    ];
+    let (source, mut eyes) = sources.into_iter().find_map(|(source, by)| Some((source, by(head)?)))?;
     for ball in eyes.iter_mut().filter_map(|eye| eye.ball.as_mut()) {
         ball.iris = iris(head, &ball.vertices, (ball.low, ball.high));
     }
     Some((source, eyes))
-}
-
-fn found(head: &Head) -> Option<(EyeSource, Eyes)> {
-    let or = |found: Option<Eyes>, source: EyeSource| found.map(|eyes| (source, eyes));
-    if let Some(eyes) = by_hints(head) {
-        return Some((EyeSource::Hints, eyes));
-    }
-    let blink = by_blink(head);
-    if let Some(mut eyes) = by_pieces(head) {
-        for (eye, blink) in eyes.iter_mut().zip(blink.iter().flatten()) {
-            let more = blink.half_height() - eye.half_height();
-            if more > 0.0 {
-                eye.low.y -= more;
-                eye.high.y += more;
-            }
-        }
-        return Some((EyeSource::Pieces, eyes));
-    }
-    or(blink, EyeSource::Blink)
-        .or_else(|| or(by_joints(head), EyeSource::Joints))
-        .or_else(|| or(by_mirrored(head), EyeSource::Twins))
 }
 
 /// How far from the middle an eye's may be, in head lengths.
@@ -209,6 +195,17 @@ fn by_pieces(head: &Head) -> Option<Eyes> {
         Some(eye)
     });
     Some([left?, right?]).filter(are_plausible)
+}
+
+/// The same, open as far as a blink closes them.
+fn by_pieces_and_blink(head: &Head) -> Option<Eyes> {
+    let mut eyes = by_pieces(head)?;
+    for (eye, blink) in eyes.iter_mut().zip(by_blink(head).iter().flatten()) {
+        let more = (blink.half_height() - eye.half_height()).max(0.0);
+        eye.low.y -= more;
+        eye.high.y += more;
+    }
+    Some(eyes)
 }
 
 /// The eye that a piece is: its opening is where the front shows it.

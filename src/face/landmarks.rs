@@ -142,10 +142,9 @@ fn covered(head: &Head, eyes: &Eyes) -> f64 {
         let (low, high) = (eye.middle().truncate() - half, eye.middle().truncate() + half);
         let window = Window { low, high, step: 0.2 * half.min_element() };
         let view = DepthMap::new(&head.points, &with_hair, window);
-        let seen: Vec<usize> =
-            view.squares().filter_map(|(column, row)| view.triangle(column, row)).collect();
-        let is_hair = |triangle: &&usize| head.parts.is_hair[with_hair[**triangle][0] as usize];
-        seen.iter().filter(is_hair).count() as f64 / seen.len().max(1) as f64
+        let seen = view.squares().filter_map(|(column, row)| view.triangle(column, row));
+        let is_hair = |triangle: usize| head.parts.is_hair[with_hair[triangle][0] as usize];
+        geometry::mean(seen.map(|triangle| f64::from(is_hair(triangle)))).unwrap_or(0.0)
     };
     of(&eyes[0]).min(of(&eyes[1]))
 }
@@ -182,10 +181,7 @@ fn nose(head: &Head, ye: f64, d: f64) -> Option<Nose> {
     let (low, high) = (DVec2::new(-half, 0.5 * NOSE_RANGE.0 * ye - NOSE_BASE.1), DVec2::new(half, ye));
     let view = &head.front_view(low, high, STEP);
     let columns = |from: f64, to: f64| {
-        (0..view.columns()).filter(move |&column| {
-            let x = view.middle(column, 0).x;
-            (from..=to).contains(&x)
-        })
+        (0..view.columns()).filter(move |&column| (from..=to).contains(&view.middle(column, 0).x))
     };
     let foremost = |row: usize| {
         columns(-NOSE_STRIP, NOSE_STRIP).filter_map(|column| view.depth(column, row)).max_by(f64::total_cmp)

@@ -273,9 +273,9 @@ impl Rows {
         if let Some(nose) = &face.nose {
             let is_adult =
                 pair.is_some() || nose.protrusion() > ADULT_NOSE.0 && nose.half_width < ADULT_NOSE.1;
-            let k = if pair.is_some() { q } else { f64::from(u8::from(is_adult)) };
+            let k = if pair.is_some() { q } else { f64::from(is_adult) };
             add_nose(&mut rest, nose, pair, features.nose * k);
-            add_mouth(&mut rest, nose, front(face), features.jaw * q * f64::from(u8::from(is_adult)), smile);
+            add_mouth(&mut rest, nose, front(face), features.jaw * q * f64::from(is_adult), smile);
         }
         if let Some(ears) = &face.ears {
             add_ear(&mut rest, ears, features.ear * q);
@@ -382,7 +382,7 @@ fn add_outline(
     rows.push(occiput);
     add_chin(rows, outline, depth, features.jaw * q);
     // A head without eyes has no cheeks: these would be jowls.
-    add_cheeks(rows, outline, face, features.cheek * q * f64::from(u8::from(face.eyes.is_some())));
+    add_cheeks(rows, outline, face, features.cheek * q * f64::from(face.eyes.is_some()));
     rows.retain(|row| row.shift != DVec3::ZERO || row.rates != DVec3::ZERO);
 }
 
@@ -486,20 +486,19 @@ impl Growth {
         let (a, b, d) = (pair.half_width, pair.half_height, pair.half_distance);
         let (radius, opening) = (eye.radius(), eye.middle());
         let ball = eye.ball.as_ref();
-        let turns = ball.is_some_and(|ball| ball.turns);
+        let turning = ball.filter(|ball| ball.turns);
         let opens = self.opens(eye);
-        // A ball that the head's own widening made an oval becomes round again.
-        let oval = ball.filter(|_| turns).map_or(DVec3::ONE, |ball| {
-            let extent = ball.high - ball.low;
-            let most = DVec3::splat(1.0 + MOST_OVAL);
-            (DVec3::splat(extent.x) / extent).clamp(most.recip(), most).lerp(DVec3::ONE, 1.0 - k)
-        });
-        let scale = match turns {
-            true => s * oval,
-            false => DVec3::new(s, s, 1.0 + FLAT_DEPTH * (s - 1.0)),
+        let scale = match turning {
+            // A ball that the head's own widening made an oval becomes round again.
+            Some(ball) => {
+                let extent = ball.high - ball.low;
+                let most = DVec3::splat(1.0 + MOST_OVAL);
+                s * (DVec3::splat(extent.x) / extent).clamp(most.recip(), most).lerp(DVec3::ONE, 1.0 - k)
+            }
+            None => DVec3::new(s, s, 1.0 + FLAT_DEPTH * (s - 1.0)),
         };
         let from = match ball {
-            Some(ball) if turns => ball.centre,
+            Some(ball) if ball.turns => ball.centre,
             Some(ball) => opening.with_z(ball.centre.z),
             None => opening,
         };
@@ -510,7 +509,7 @@ impl Growth {
             // The face curves back where the eyes go.
             from.z + carried.z - (d2 * d2 - d * d) / FACE_CURVE,
         );
-        if turns {
+        if turning.is_some() {
             to.y += (scale.y - 1.0) * (from.y - opening.y);
             to.z -= FRONT_STAYS * (scale.z - 1.0) * (opening.z - from.z);
         }

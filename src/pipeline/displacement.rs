@@ -64,13 +64,8 @@ fn corrections(view: &View, deformation: &Deformation, way: impl Fn(usize) -> DV
     let Some(mirror) = &*mirror else { return Ok(Vec::new()) };
     let placement = deformation.placement(&deformation.field, view.threads());
     let Figure { positions, joints, .. } = placement.figure;
-    let of_joint = |joint: usize| match placement.bindings.joints[joint] {
-        Binding::Fixed => DVec3::ZERO,
-        _ => placement.joint(joint) - joints[joint],
-    };
-    let of_joints: Vec<DVec3> = (0..joints.len()).map(of_joint).collect();
     let mut all = mirror.corrections(|point| match point.checked_sub(positions.len()) {
-        Some(joint) => of_joints[joint],
+        Some(joint) => placement.joint(joint) - joints[joint],
         None => way(point),
     });
     for (correction, binding) in all[positions.len()..].iter_mut().zip(&placement.bindings.joints) {

@@ -175,9 +175,7 @@ impl Deformer {
         }
         let Mesh { normals, tangents, .. } = &self.inputs.character.meshes[mesh];
         let changes = |which: usize| given.iter().any(|target| !target.deltas[which].is_empty());
-        let turn_normals = !normals.is_empty() && changes(1);
-        let turn_tangents = !tangents.is_empty() && changes(2);
-        let turns = match turn_normals || turn_tangents {
+        let turns = match changes(1) || changes(2) {
             true => self.turns(mesh, &*self.view().rest_triangles()?),
             false => Vec::new(),
         };
@@ -187,10 +185,15 @@ impl Deformer {
         let tangent =
             |vertex: usize, tangent: Vec3| turns[vertex].tangent(tangent, new_normals.get(vertex).copied());
         let directions: Vec<Vec3> = tangents.iter().map(|tangent| tangent.truncate()).collect();
+        let (size, amount) = (self.field.finish.size as f32, self.field.finish.amount as f32);
+        // D(v + d) - D(v): exact, and zero where d is.
+        let moved = |((_, delta), &shift): ((u32, Vec3), &Vec3)| {
+            (size * (delta + amount * shift)).clamp(Vec3::splat(f32::MIN), Vec3::splat(f32::MAX))
+        };
         let made = |index: usize| {
             let target = &given[index];
             target.with([
-                self.morph_positions(target, &shifts[index]),
+                target.each(0).map(|moves| moves.zip(&shifts[index]).map(moved).collect()),
                 morph_turns(target, 1, normals, &turn_normal),
                 morph_turns(target, 2, &directions, &tangent),
             ])
@@ -245,19 +248,6 @@ impl Deformer {
         let shift = |(): &mut (), index: usize| shift(moves[index]);
         let mut all = progress.collect_with(threads, moves.len(), parallel::FEW, || (), shift)?.into_iter();
         Ok(given.iter().map(|target| all.by_ref().take(target.moves().count()).collect()).collect())
-    }
-
-    /// D(v + d) - D(v) of the vertices of a target: exact, and zero where d is.
-    ///
-    /// `shifts`: as [`Self::shifts_of`] gives them.
-    fn morph_positions(&self, target: &GivenTarget, shifts: &[Vec3]) -> Option<Vec<Vec3>> {
-        let finish = &self.field.finish;
-        let (size, amount) = (finish.size as f32, finish.amount as f32);
-        let moved = |((_, delta), &shift): ((u32, Vec3), &Vec3)| {
-            let to = size * (delta + amount * shift);
-            to.clamp(Vec3::splat(f32::MIN), Vec3::splat(f32::MAX))
-        };
-        Some(target.each(0)?.zip(shifts).map(moved).collect())
     }
 }
 
