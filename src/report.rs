@@ -2,7 +2,6 @@
 
 use crate::character::Role;
 use crate::error::Warning;
-use crate::face::eyes::{EyeSource, Eyes};
 use crate::face::landmarks::FaceLandmarks;
 use crate::options::{Mode, Options};
 use crate::shape::group::{Coefficient, GroupShape, group_shapes};
@@ -78,10 +77,9 @@ impl FaceReport {
         let eyes = face.eyes.iter().flat_map(|(_, eyes)| ["left_eye", "right_eye"].into_iter().zip(eyes));
         let eyes = eyes.map(|(name, eye)| (name, eye.middle()));
         let points = eyes.chain(face.nose.map(|nose| ("nose", nose.tip)));
+        let (source, confidence) =
+            face.eyes.as_ref().map_or(("none", 0.0), |(source, _)| source.name_and_confidence());
         let pair = face.pair();
-        let of_source = |(source, _): &(EyeSource, Eyes)| source.name_and_confidence();
-        let (source, confidence) = face.eyes.as_ref().map_or(("none", 0.0), of_source);
-        let radius = |eyes: &Eyes| 0.5 * (eyes[0].radius() + eyes[1].radius());
         Self {
             source,
             confidence,
@@ -89,7 +87,7 @@ impl FaceReport {
             d: pair.map(|pair| pair.half_distance),
             a: pair.map(|pair| pair.half_width),
             b: pair.map(|pair| pair.half_height),
-            radius: face.eyes.as_ref().map(|(_, eyes)| radius(eyes)),
+            radius: face.eyes.as_ref().map(|(_, eyes)| 0.5 * (eyes[0].radius() + eyes[1].radius())),
             nose: face.nose.map(|nose| [nose.tip.y, nose.protrusion()]),
             ears: face.ears.map(|ears| [ears.root, ears.reach()]),
             half_width: face.half_width,

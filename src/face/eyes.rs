@@ -135,9 +135,12 @@ impl Pair {
     }
 }
 
+/// A source, and how it finds both eyes.
+type Source = (EyeSource, fn(&Head) -> Option<Eyes>);
+
 /// The first source that gives both eyes, with the irises painted on them.
 pub fn eyes(head: &Head) -> Option<(EyeSource, Eyes)> {
-    let sources: [(EyeSource, fn(&Head) -> Option<Eyes>); 5] = [
+    let sources: [Source; 5] = [
         (EyeSource::Hints, by_hints),
         (EyeSource::Pieces, by_pieces_and_blink),
         (EyeSource::Blink, by_blink),
