@@ -18,16 +18,17 @@ use std::sync::{Arc, OnceLock};
 /// The vertices that each morph target of a mesh touches, ascending.
 pub type Touched = Vec<Arc<Vec<u32>>>;
 
-/// Those of `mesh`.
-pub fn touched(mesh: &Mesh) -> Touched {
-    let touched = |target: &MorphTarget| {
+/// Those of each mesh.
+pub fn touched(view: &View) -> Result<Vec<Touched>> {
+    let touched = |mesh: &Mesh, target: &MorphTarget| {
         let arrays = [&target.positions, &target.normals, &target.tangents];
         let is_touched = |&vertex: &u32| {
             arrays.iter().any(|deltas| deltas.get(vertex as usize).is_some_and(|&d| d != Vec3::ZERO))
         };
         Arc::new((0..mesh.positions.len() as u32).filter(is_touched).collect())
     };
-    mesh.morph_targets.iter().map(touched).collect()
+    let of_mesh = |mesh: &Mesh| mesh.morph_targets.iter().map(|target| touched(mesh, target)).collect();
+    Ok(view.character().meshes.iter().map(of_mesh).collect())
 }
 
 /// A morph target where it changes something, of one mesh.

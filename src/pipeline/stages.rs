@@ -143,7 +143,7 @@ stages! {
     /// Triangles at rest, of which directions turn as the displacements say (D22).
     rest_triangles: RestTriangles = rest_triangles, Deform 0, [];
     /// The vertices that morph targets touch.
-    touched: Vec<Touched> = touched, Deform 0, [];
+    touched: Vec<Touched> = morphs::touched, Deform 0, [];
     /// How far morph targets go beyond their own deltas: filled in mesh by mesh.
     shifts: Shifts = morphs::shifts, Deform 0, [];
 }
@@ -325,8 +325,4 @@ fn rest_triangles(view: &View) -> Result<RestTriangles> {
     let meshes = &view.character().meshes;
     let positions: Vec<Vec3> = meshes.iter().flat_map(|mesh| &mesh.positions).copied().collect();
     Ok(RestTriangles::of(&positions, &figure.triangles, &figure.mesh_starts, weld))
-}
-
-fn touched(view: &View) -> Result<Vec<Touched>> {
-    Ok(view.character().meshes.iter().map(morphs::touched).collect())
 }
