@@ -322,7 +322,8 @@ fn leg(result: &mut Scales, own: &LegProfile, wanted: &LegProfile, strengths: &S
     result.spread = delta.min(most).max(least - touching);
 }
 
-/// A skirt follows the hips, is no further from the legs than it was or hangs straight down, and stays outside of them.
+/// A skirt follows the hips, stays outside of the legs, and is no further from them than it was, or halfway from there to
+/// hanging straight down.
 fn skirt(result: &mut Scales, own: &Profile) {
     let (Some(skirt), Some(leg)) = (&own.skirt, &own.leg) else { return };
     let hips = [result.torso.breadth[0], result.torso.depth[0]];
@@ -349,7 +350,8 @@ fn skirt(result: &mut Scales, own: &Profile) {
             let kept =
                 if room < tight { room } else { (room * new_legs[axis] / legs[axis]).clamp(tight, wide) };
             let least = new_legs[axis] + kept;
-            let most = (new_legs[axis] + room).max(straight[axis]);
+            let near = new_legs[axis] + room;
+            let most = near.max((near * straight[axis]).sqrt());
             (half[axis] * hips[axis]).min(most).max(least) / half[axis]
         });
         result.skirt.push(SkirtScale { station, half, forward, scale, shift: 0.0 });
