@@ -1,6 +1,7 @@
 //! Which chains each vertex belongs to: what a body's slices are cut from and its ends are read from. Weights say so, not
 //! places, so it is found once for all fields that are tried.
 
+use crate::geometry::triangles_where;
 use crate::shape::figure::Figure;
 use crate::shape::product::part::{Part, PartWeights, fold_to_parts};
 
@@ -37,22 +38,13 @@ pub enum Chain {
 }
 
 impl Chain {
-    /// Those of both sides follow each other.
-    const ALL: [Self; 13] = [
-        Self::Trunk,
-        Self::Leg(0),
-        Self::Leg(1),
-        Self::Arm(0),
-        Self::Arm(1),
-        Self::Forearm(0),
-        Self::Forearm(1),
-        Self::Hand(0),
-        Self::Hand(1),
-        Self::Foot(0),
-        Self::Foot(1),
-        Self::Boot(0),
-        Self::Boot(1),
-    ];
+    /// All of them, those of both sides one after the other.
+    fn all() -> Vec<Self> {
+        let of_sides: [fn(usize) -> Self; 6] =
+            [Self::Leg, Self::Arm, Self::Forearm, Self::Hand, Self::Foot, Self::Boot];
+        let of_sides = of_sides.into_iter().flat_map(|chain| [chain(0), chain(1)]);
+        std::iter::once(Self::Trunk).chain(of_sides).collect()
+    }
 
     fn bit(self) -> u16 {
         let number = match self {
@@ -89,29 +81,24 @@ impl Chain {
     }
 }
 
-/// The chains of each vertex, none for what is carried, and of each triangle: those of all of its corners.
+/// The chains of each vertex, none for what is carried.
 #[derive(Clone, Debug)]
 pub struct Chains {
     of_vertex: Vec<u16>,
-    of_triangle: Vec<u16>,
 }
 
 impl Chains {
     /// As the rig's own weights say.
     pub fn of(figure: &Figure) -> Self {
+        let all = Chain::all();
         let of_vertex = |vertex: usize| {
             if figure.is_carried(vertex) {
                 return 0;
             }
             let row = fold_to_parts(&figure.role_weights[vertex]);
-            Chain::ALL.into_iter().filter(|chain| chain.holds(&row)).map(Chain::bit).sum()
+            all.iter().filter(|chain| chain.holds(&row)).map(|chain| chain.bit()).sum()
         };
-        let of_vertex: Vec<u16> = (0..figure.positions.len()).map(of_vertex).collect();
-        let of_triangle = |corners: &[u32; 3]| {
-            let [a, b, c] = corners.map(|vertex| of_vertex[vertex as usize]);
-            a & b & c
-        };
-        Self { of_triangle: figure.triangles.iter().map(of_triangle).collect(), of_vertex }
+        Self { of_vertex: (0..figure.positions.len()).map(of_vertex).collect() }
     }
 
     /// Whether `vertex` is of `chain`.
@@ -121,10 +108,7 @@ impl Chains {
 
     /// The triangles of the figure with all corners in `chain`.
     pub fn triangles(&self, figure: &Figure, chain: Chain) -> Vec<[u32; 3]> {
-        let bit = chain.bit();
-        let of_chain =
-            figure.triangles.iter().zip(&self.of_triangle).filter(|&(_, chains)| chains & bit != 0);
-        of_chain.map(|(&corners, _)| corners).collect()
+        triangles_where(&figure.triangles, |vertex| self.hold(vertex, chain))
     }
 }
 

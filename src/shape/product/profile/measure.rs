@@ -3,12 +3,13 @@
 use super::chains::{Chain, Chains};
 use super::map::on_bones;
 use super::smooth::{smooth, smooth_lengths};
-use super::station::{Slice, slice_around};
+use super::station::{Slice, hits, slice_around};
 use super::{
     ARM_STATIONS, ArmProfile, LEG_STATIONS, LegProfile, Profile, Row, STATIONS, SkirtProfile, TORSO_STATIONS,
     TorsoProfile, stations,
 };
 use crate::character::Role;
+use crate::geometry::mean;
 use crate::geometry::slice::{Outline, Planes, slices};
 use crate::geometry::weld::Weld;
 use crate::parallel;
@@ -104,6 +105,12 @@ impl BodyFrame {
         Planes { axis: DVec3::NEG_Y, ..self.torso_planes() }
     }
 
+    /// The place in these planes of the bones of limb number `limb`, a leg, at `height`.
+    pub(super) fn leg_bone(&self, limb: usize, height: f64) -> DVec2 {
+        let planes = self.leg_planes();
+        planes.locate(on_limb(&self.limbs[limb], planes.origin.y - height)).1
+    }
+
     /// The planes of the arm on one side, from the shoulder joint (0) to the wrist; `None` where they coincide.
     pub fn arm_planes(&self, side: usize) -> Option<Planes> {
         let limb = &self.limbs[side];
@@ -127,26 +134,19 @@ impl BodyFrame {
         self.heights.crotch - (self.limbs[2].end.y + self.limbs[3].end.y) / 2.0
     }
 
-    /// Where the knees are between crotch (0) and ankles (1), and the elbows between shoulder joints and wrists.
-    pub fn knee(&self) -> f64 {
-        (self.heights.crotch - (self.limbs[2].middle.y + self.limbs[3].middle.y) / 2.0) / self.leg_length()
-    }
-
-    #[allow(missing_docs)]
-    pub fn elbow(&self) -> f64 {
-        let upper: f64 = self.limbs[..2].iter().map(|limb| limb.root.distance(limb.middle)).sum();
-        let lower: f64 = self.limbs[..2].iter().map(|limb| limb.middle.distance(limb.end)).sum();
-        upper / (upper + lower)
-    }
-
     /// A number for each slice of a leg, of an arm: the first above the knee, before the elbow, the second from there on.
     pub fn leg_row(&self, [upper, lower]: [f64; 2]) -> Row {
-        stations(LEG_STATIONS).map(|t| if t < self.knee() { upper } else { lower })
+        let knees = (self.limbs[2].middle.y + self.limbs[3].middle.y) / 2.0;
+        let knee = (self.heights.crotch - knees) / self.leg_length();
+        stations(LEG_STATIONS).map(|t| if t < knee { upper } else { lower })
     }
 
     #[allow(missing_docs)]
     pub fn arm_row(&self, [upper, lower]: [f64; 2]) -> Row {
-        stations(ARM_STATIONS).map(|t| if t < self.elbow() { upper } else { lower })
+        let to_elbow: f64 = self.limbs[..2].iter().map(|limb| limb.root.distance(limb.middle)).sum();
+        let to_wrist: f64 = self.limbs[..2].iter().map(|limb| limb.middle.distance(limb.end)).sum();
+        let elbow = to_elbow / (to_elbow + to_wrist);
+        stations(ARM_STATIONS).map(|t| if t < elbow { upper } else { lower })
     }
 
     /// Shoulder joint to wrist, straight, model units.
@@ -269,8 +269,8 @@ impl Body<'_> {
     ) -> [Row; 4] {
         let mut rows = [[f64::NAN; STATIONS]; 4];
         for (at, (outlines, &height)) in cuts.iter().zip(heights).enumerate() {
-            let counted: Vec<&Outline> = outlines.iter().filter(|outline| counts(outline)).collect();
-            if let Some(Slice { middle, half }) = slice_around(&counted, start(height), keeps_across) {
+            let counted = outlines.iter().filter(|outline| counts(outline));
+            if let Some(Slice { middle, half }) = slice_around(counted, start(height), keeps_across) {
                 let numbers = [middle.x, middle.y, half.x, half.y];
                 rows.iter_mut().zip(numbers).for_each(|(row, number)| row[at] = number / self.length);
             }
@@ -284,12 +284,8 @@ impl Body<'_> {
         let shoulders = planes.locate(self.frame.shoulders);
         let cuts = self.cut(triangles, &planes, &heights);
         let start = |height: f64| DVec2::new(0.0, shoulders.1.y * height / shoulders.0);
-        let [_, forward, breadth, depth] = self.rows(&cuts, &heights, |_| true, start, true);
-        Some(TorsoProfile {
-            breadth: smooth_lengths(&breadth)?,
-            depth: smooth_lengths(&depth)?,
-            forward: smooth(&forward)?,
-        })
+        let rows = self.rows(&cuts, &heights, |_| true, start, true);
+        smooth_rows(&rows).map(|[_, forward, breadth, depth]| TorsoProfile { breadth, depth, forward })
     }
 
     fn legs(&self, triangles: &[[u32; 3]]) -> (Option<LegProfile>, Option<SkirtProfile>) {
@@ -303,37 +299,29 @@ impl Body<'_> {
             if bend(limb) > BENT * limb.root.distance(limb.end) {
                 continue;
             }
-            let bone = |height: f64| planes.locate(on_limb(limb, planes.origin.y - height)).1;
+            let bone = |height: f64| self.frame.leg_bone(side, height);
             let mut rows = self.rows(&cuts, &heights, |outline| !self.is_over(side, outline), bone, false);
             rows[0] = rows[0].map(|x| sign * x);
             sides.push(rows);
         }
-        let [outward, forward, breadth, depth] = mean_rows(&sides);
-        let leg = (|| {
-            Some(LegProfile {
-                outward: smooth(&outward)?,
-                breadth: smooth_lengths(&breadth)?,
-                depth: smooth_lengths(&depth)?,
-                forward: smooth(&forward)?,
-            })
-        })();
+        let rows = smooth_rows(&mean_rows(&sides));
+        let leg =
+            rows.map(|[outward, forward, breadth, depth]| LegProfile { outward, breadth, depth, forward });
         (leg, self.skirt(&cuts, &heights))
     }
 
     fn skirt(&self, cuts: &[Vec<Outline>], heights: &Row) -> Option<SkirtProfile> {
-        let planes = self.frame.leg_planes();
         let reach = SKIRT_OVER_MIDDLE * self.length;
         let is_skirt = |outline: &Outline| {
             let (low, high) = outline.breadth();
             low < -reach && high > reach
         };
         let start = |height: f64| {
-            let line =
-                |side: usize| planes.locate(on_limb(&self.frame.limbs[side], planes.origin.y - height)).1.y;
-            DVec2::new(0.0, (line(2) + line(3)) / 2.0)
+            let forward = |leg: usize| self.frame.leg_bone(leg, height).y;
+            DVec2::new(0.0, (forward(2) + forward(3)) / 2.0)
         };
         let rows = self.rows(cuts, heights, is_skirt, start, true);
-        let [_, forward, breadth, depth] = rows.map(|row| row.map(known));
+        let [_, forward, breadth, depth] = rows.map(|row| row.map(|x| (!x.is_nan()).then_some(x)));
         breadth.iter().any(Option::is_some).then_some(SkirtProfile { breadth, depth, forward })
     }
 
@@ -452,7 +440,7 @@ impl Body<'_> {
         let mut radii: Vec<f64> = self
             .cut(triangles, &planes, &heights)
             .iter()
-            .filter_map(|outlines| slice_around(&outlines.iter().collect::<Vec<_>>(), start, true))
+            .filter_map(|outlines| slice_around(outlines.iter(), start, true))
             .map(|slice| (slice.half.x + slice.half.y) / 2.0)
             .collect();
         radii.sort_by(f64::total_cmp);
@@ -477,11 +465,14 @@ pub(super) fn on_limb(limb: &Limb, y: f64) -> DVec3 {
 fn mean_rows(sides: &[[Row; 4]]) -> [Row; 4] {
     std::array::from_fn(|row| {
         std::array::from_fn(|station| {
-            let known: Vec<f64> =
-                sides.iter().map(|side| side[row][station]).filter(|x| !x.is_nan()).collect();
-            known.iter().sum::<f64>() / known.len() as f64
+            mean(hits(sides.iter().map(|side| side[row][station]))).unwrap_or(f64::NAN)
         })
     })
+}
+
+/// What is middles of these rows of [`Body::rows`] smoothed as places, what is extents as lengths.
+fn smooth_rows([across, forward, breadth, depth]: &[Row; 4]) -> Option<[Row; 4]> {
+    Some([smooth(across)?, smooth(forward)?, smooth_lengths(breadth)?, smooth_lengths(depth)?])
 }
 
 fn mean_numbers<const N: usize>(sides: &[[f64; N]], length: f64) -> Option<[f64; N]> {
@@ -489,10 +480,6 @@ fn mean_numbers<const N: usize>(sides: &[[f64; N]], length: f64) -> Option<[f64;
     (!sides.is_empty()).then(|| {
         std::array::from_fn(|which| sides.iter().map(|side| side[which]).sum::<f64>() / count / length)
     })
-}
-
-fn known(number: f64) -> Option<f64> {
-    (!number.is_nan()).then_some(number)
 }
 
 /// The middle of what a cut shows: of its outlines, by their lengths; `None` where it shows nothing.

@@ -1,7 +1,7 @@
 //! How far a body reaches around an axis, by height and direction, and a scale for each: a map of its relief.
 
 use super::curve::smoothed;
-use super::station::{CENTRINGS, GOES_AROUND, outer_surface, surface};
+use super::station::{GOES_AROUND, centred, hits, outer_surface, surface};
 use crate::geometry::slice::{Outline, Planes, RAYS};
 use crate::geometry::whole::round;
 use crate::geometry::{Moved, median};
@@ -43,32 +43,19 @@ impl RadiusMap {
         sigma: f64,
         is_middle: bool,
     ) -> Option<Self> {
-        let middles: Vec<[f64; 2]> = cuts
-            .iter()
-            .zip(bones)
-            .map(|(outlines, &bone)| {
-                let outlines: Vec<&Outline> = outlines.iter().collect();
-                let mut middle = bone;
-                for _ in 0..CENTRINGS {
-                    let reaches = surface(&outlines, middle);
-                    let half = |one: usize, other: usize| {
-                        let shift = (reaches[one] - reaches[other]) / 2.0;
-                        if shift.is_nan() { 0.0 } else { shift }
-                    };
-                    let across = if is_middle { 0.0 } else { half(0, RAYS / 2) };
-                    middle += DVec2::new(across, half(RAYS / 4, 3 * RAYS / 4));
-                }
-                middle.into()
-            })
-            .collect();
+        let middle = |(outlines, &bone): (&Vec<Outline>, &DVec2)| {
+            let extents = |middle: DVec2| {
+                let reaches = surface(outlines.iter(), middle);
+                [0, 1, 2, 3].map(|quarter| reaches[quarter * RAYS / 4])
+            };
+            centred(bone, is_middle, extents).into()
+        };
+        let middles: Vec<[f64; 2]> = cuts.iter().zip(bones).map(middle).collect();
         let heights: Vec<f64> = (0..cuts.len()).map(|row| step * row as f64).collect();
         let middles = smoothed(&middles, &heights, sigma, 0..cuts.len());
         let middles: Vec<DVec2> = middles.into_iter().map(DVec2::from).collect();
-        let mut reaches: Vec<Ring> = cuts
-            .iter()
-            .zip(&middles)
-            .map(|(outlines, &middle)| bounded(outer_surface(&outlines.iter().collect::<Vec<_>>(), middle)))
-            .collect();
+        let reach = |(outlines, &middle): (&Vec<Outline>, _)| bounded(outer_surface(outlines.iter(), middle));
+        let mut reaches: Vec<Ring> = cuts.iter().zip(&middles).map(reach).collect();
         fill(&mut reaches)?;
         Some(Self { planes, start, step, middles, reaches, scales: Vec::new() })
     }
@@ -161,7 +148,7 @@ impl Taps {
 
 /// Reaches no further than [`FURTHEST`]; gaps between rays filled along the ring; NaN where too few rays meet anything.
 fn bounded(mut ring: Ring) -> Ring {
-    let mut hits: Vec<f64> = ring.iter().copied().filter(|reach| !reach.is_nan()).collect();
+    let mut hits = hits(ring);
     if (hits.len() as f64) < GOES_AROUND * RAYS as f64 {
         return [f64::NAN; RAYS];
     }
@@ -182,12 +169,9 @@ fn bounded(mut ring: Ring) -> Ring {
     ring
 }
 
-/// Fills rows of which nothing is known by those beside them.
+/// Fills rows of which nothing is known by those beside them; `None` where nothing is known of any.
 fn fill(reaches: &mut [Ring]) -> Option<()> {
     let known: Vec<usize> = (0..reaches.len()).filter(|&row| !reaches[row][0].is_nan()).collect();
-    if known.is_empty() {
-        return None;
-    }
     for row in 0..reaches.len() {
         let at = known.partition_point(|&other| other < row);
         let above = known.get(at).copied();

@@ -1,6 +1,7 @@
 //! Which vertices are a skirt's, a robe's or the tails' of a coat: they hang around both legs and follow neither.
 
-use super::measure::SKIRT_OVER_MIDDLE;
+use super::measure::{BodyFrame, SKIRT_OVER_MIDDLE};
+use crate::geometry::bounds_by_group;
 use crate::geometry::weld::{Weld, components, neighbours};
 use crate::shape::figure::Figure;
 use crate::shape::product::anatomy::Anatomy;
@@ -16,17 +17,17 @@ const HEIGHTS: [f64; 6] = [FORK, 0.2, 0.35, 0.5, 0.65, 0.8];
 ///
 /// O(triangles).
 pub fn skirt_vertices(figure: &Figure, anatomy: &Anatomy, weld: &Weld) -> Vec<bool> {
-    let heights = &anatomy.landmarks.heights;
-    let ankle = (anatomy.limbs[2].end.y + anatomy.limbs[3].end.y) / 2.0;
-    let height = |t: f64| heights.crotch - t * (heights.crotch - ankle);
+    let frame = BodyFrame::of(figure, anatomy);
+    let crotch = frame.heights.crotch;
+    let height = |t: f64| crotch - t * frame.leg_length();
     let firsts = weld.first_vertices();
     let place = |welded: usize| figure.positions[firsts[welded] as usize];
-    let (fork, reach) = (height(FORK), SKIRT_OVER_MIDDLE * heights.head_length());
+    let (fork, reach) = (height(FORK), SKIRT_OVER_MIDDLE * frame.head_length());
     let hanging: Vec<[u32; 3]> = figure
         .triangles
         .iter()
         .filter(|corners| {
-            corners.iter().any(|&vertex| figure.positions[vertex as usize].y < heights.crotch)
+            corners.iter().any(|&vertex| figure.positions[vertex as usize].y < crotch)
                 && !figure.is_carried(corners[0] as usize)
         })
         .copied()
@@ -40,21 +41,18 @@ pub fn skirt_vertices(figure: &Figure, anatomy: &Anatomy, weld: &Weld) -> Vec<bo
             .copied()
             .collect();
         let piece = components(&cut, weld);
-        let mut breadths = vec![(f64::INFINITY, f64::NEG_INFINITY); weld.count];
-        for welded in cut.iter().flat_map(|&corners| weld.triangle(corners)) {
-            let x = place(welded as usize).x - anatomy.middle_x;
-            let (low, high) = &mut breadths[piece[welded as usize] as usize];
-            (*low, *high) = (low.min(x), high.max(x));
-        }
-        for welded in cut.iter().flat_map(|&corners| weld.triangle(corners)) {
-            let (low, high) = breadths[piece[welded as usize] as usize];
-            is_skirt[welded as usize] |= low < -reach && high > reach;
+        let corners = || cut.iter().flat_map(|&corners| weld.triangle(corners)).map(|welded| welded as usize);
+        let placed = corners().map(|welded| (piece[welded] as usize, place(welded)));
+        let boxes = bounds_by_group(weld.count, placed);
+        for welded in corners() {
+            let (low, high) = boxes[piece[welded] as usize];
+            is_skirt[welded] |= low.x - frame.middle_x < -reach && high.x - frame.middle_x > reach;
         }
     }
     if is_skirt.iter().any(|&is_skirt| is_skirt) {
         // Down to the hem, and then up to the crotch, where legs may join it.
         let around = neighbours(&hanging, weld);
-        for (bottom, top) in [(f64::NEG_INFINITY, fork), (fork, heights.crotch)] {
+        for (bottom, top) in [(f64::NEG_INFINITY, fork), (fork, crotch)] {
             let mut next: Vec<usize> = (0..weld.count).filter(|&welded| is_skirt[welded]).collect();
             while let Some(welded) = next.pop() {
                 for &other in around.of(welded) {

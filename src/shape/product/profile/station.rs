@@ -1,7 +1,7 @@
 //! One slice of a body: its middle, half breadth and half depth, whatever is worn over it.
 
-use crate::geometry::median;
 use crate::geometry::slice::{Outline, RAYS};
+use crate::geometry::{mean, median};
 use glam::DVec2;
 
 /// An outline that this share of the rays meet goes around: it is a layer of the body or of its clothes.
@@ -21,7 +21,7 @@ const FEWEST_HITS: usize = 3;
 /// The rays to the sides.
 const SIDES: [usize; 2] = [0, RAYS / 2];
 /// Times that the middle is put between the extents.
-pub(super) const CENTRINGS: usize = 2;
+const CENTRINGS: usize = 2;
 
 /// A slice, in its plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,66 +35,75 @@ pub struct Slice {
 /// The slice that `outlines` make around `start`; `None` where front, back, or both sides are open.
 ///
 /// - `keeps_across`: the middle stays where it is across, as that of a torso between two sides.
-pub fn slice_around(outlines: &[&Outline], start: DVec2, keeps_across: bool) -> Option<Slice> {
-    let mut middle = start;
-    for _ in 0..CENTRINGS {
-        let [out, front, inner, back] = extents(outlines, middle);
-        let halfway = |one: f64, other: f64| {
-            let shift = (one - other) / 2.0;
-            if shift.is_nan() { 0.0 } else { shift }
-        };
-        middle += DVec2::new(if keeps_across { 0.0 } else { halfway(out, inner) }, halfway(front, back));
-    }
-    let [out, front, inner, back] = extents(outlines, middle);
-    let breadth = match (out.is_nan(), inner.is_nan()) {
-        (true, true) => return None,
-        (true, false) => inner,
-        (false, true) => out,
-        (false, false) => (out + inner) / 2.0,
-    };
+pub fn slice_around<'a>(
+    outlines: impl Iterator<Item = &'a Outline> + Clone,
+    start: DVec2,
+    keeps_across: bool,
+) -> Option<Slice> {
+    let extents = |middle: DVec2| extents(outlines.clone(), middle);
+    let middle = centred(start, keeps_across, extents);
+    let [out, front, inner, back] = extents(middle);
+    let breadth = mean(hits([out, inner]))?;
     let depth = (front + back) / 2.0;
     (breadth > 0.0 && depth > 0.0).then_some(Slice { middle, half: DVec2::new(breadth, depth) })
 }
 
+/// `start`, put between the extents from there: those along the first coordinate, the second one, and back; NaN of them is
+/// open and moves nothing.
+///
+/// - `keeps_across`: the middle stays where it is across.
+pub(super) fn centred(start: DVec2, keeps_across: bool, extents: impl Fn(DVec2) -> [f64; 4]) -> DVec2 {
+    let halfway = |one: f64, other: f64| {
+        let shift = (one - other) / 2.0;
+        if shift.is_nan() { 0.0 } else { shift }
+    };
+    (0..CENTRINGS).fold(start, |middle, _| {
+        let [out, front, inner, back] = extents(middle);
+        middle + DVec2::new(if keeps_across { 0.0 } else { halfway(out, inner) }, halfway(front, back))
+    })
+}
+
+/// Those of `reaches` that meet something.
+pub(super) fn hits(reaches: impl IntoIterator<Item = f64>) -> Vec<f64> {
+    reaches.into_iter().filter(|reach| !reach.is_nan()).collect()
+}
+
 /// How far the body reaches from `middle` along the first coordinate, the second one, and back; NaN where it is open.
-fn extents(outlines: &[&Outline], middle: DVec2) -> [f64; 4] {
+fn extents<'a>(outlines: impl Iterator<Item = &'a Outline>, middle: DVec2) -> [f64; 4] {
     let surface = surface(outlines, middle);
     [0, 1, 2, 3].map(|quarter| {
         let ray = quarter * RAYS / 4 + RAYS;
-        let mut near: Vec<f64> = (ray - BESIDE..=ray + BESIDE)
-            .map(|ray| surface[ray % RAYS])
-            .filter(|reach| !reach.is_nan())
-            .collect();
+        let mut near = hits((ray - BESIDE..=ray + BESIDE).map(|ray| surface[ray % RAYS]));
         if near.len() < FEWEST_HITS { f64::NAN } else { median(&mut near) }
     })
 }
 
 /// The surface of the body that `outlines` make, on each ray from `middle`; NaN where there is none.
-pub fn surface(outlines: &[&Outline], middle: DVec2) -> [f64; RAYS] {
+pub fn surface<'a>(outlines: impl Iterator<Item = &'a Outline>, middle: DVec2) -> [f64; RAYS] {
     surface_within(outlines, middle, STANDS_OFF, true)
 }
 
 /// The same with layers that stand off the body: a skirt's relief is its own. What does not go around does not count: at a hem
 /// that hangs lower in front there is no skirt behind, only legs.
-pub fn outer_surface(outlines: &[&Outline], middle: DVec2) -> [f64; RAYS] {
+pub fn outer_surface<'a>(outlines: impl Iterator<Item = &'a Outline>, middle: DVec2) -> [f64; RAYS] {
     surface_within(outlines, middle, f64::INFINITY, false)
 }
 
 /// The surface without what is further out than so many times the innermost layer.
 ///
 /// - `fills`: where no layer is, what is nearest counts.
-fn surface_within(outlines: &[&Outline], middle: DVec2, stands_off: f64, fills: bool) -> [f64; RAYS] {
-    let reaches: Vec<[f64; RAYS]> = outlines.iter().map(|outline| outline.reaches(middle)).collect();
-    let share =
-        |reaches: &[f64; RAYS]| reaches.iter().filter(|reach| !reach.is_nan()).count() as f64 / RAYS as f64;
-    let typical = |reaches: &[f64; RAYS]| {
-        let mut hits: Vec<f64> = reaches.iter().copied().filter(|reach| !reach.is_nan()).collect();
-        median(&mut hits)
-    };
-    let (layers, mut open): (Vec<_>, Vec<_>) =
+fn surface_within<'a>(
+    outlines: impl Iterator<Item = &'a Outline>,
+    middle: DVec2,
+    stands_off: f64,
+    fills: bool,
+) -> [f64; RAYS] {
+    let reaches: Vec<[f64; RAYS]> = outlines.map(|outline| outline.reaches(middle)).collect();
+    let share = |reaches: &[f64; RAYS]| hits(*reaches).len() as f64 / RAYS as f64;
+    let (layers, mut open): (Vec<&[f64; RAYS]>, Vec<_>) =
         reaches.iter().partition(|reaches| share(reaches) >= GOES_AROUND);
     let mut layers: Vec<(f64, &[f64; RAYS])> =
-        layers.into_iter().map(|layer| (typical(layer), layer)).collect();
+        layers.into_iter().map(|layer| (median(&mut hits(*layer)), layer)).collect();
     let biggest = layers.iter().map(|layer| layer.0).fold(0.0, f64::max);
     layers.retain(|layer| layer.0 >= HIDDEN * biggest);
     open.retain(|outline| share(outline) >= LIES_ON && SIDES.iter().any(|&side| !outline[side].is_nan()));
@@ -104,11 +113,8 @@ fn surface_within(outlines: &[&Outline], middle: DVec2, stands_off: f64, fills: 
         let (nearest, furthest) =
             hits.fold((f64::NAN, f64::NAN), |(low, high), hit| (low.min(hit), high.max(hit)));
         if nearest.is_nan() {
-            return if fills {
-                reaches.iter().map(|outline| outline[ray]).fold(f64::NAN, f64::min)
-            } else {
-                nearest
-            };
+            let filling = reaches.iter().filter(|_| fills);
+            return filling.map(|outline| outline[ray]).fold(f64::NAN, f64::min);
         }
         let reach = furthest.min(stands_off * nearest);
         open.iter().map(|outline| outline[ray]).filter(|&hit| hit <= STANDS_OFF * reach).fold(reach, f64::max)
@@ -132,7 +138,7 @@ mod tests {
     }
 
     fn around(outlines: &[Outline]) -> Option<Slice> {
-        slice_around(&outlines.iter().collect::<Vec<_>>(), DVec2::new(0.02, -0.03), false)
+        slice_around(outlines.iter(), DVec2::new(0.02, -0.03), false)
     }
 
     const BODY: DVec2 = DVec2::new(0.4, 0.3);
