@@ -74,26 +74,22 @@ impl Chart {
         let (smooth, lines) = self.smoothed(&relief);
         let straight = grows.straightened(&smooth, &strengths.leg);
         let mut scales = scales(&grows.after(&straight), wanted, strengths);
-        let limited = std::mem::take(&mut scales.limited);
         grows.back(&mut scales, &smooth, &straight);
         let coefficients = self.coefficients(parts.coefficients(), &scales);
         Slices {
             coefficients,
             relief,
             map: BodyMap::new(&smooth, &lines, frame, &scales, torso_place),
-            limited,
+            limited: scales.limited,
         }
     }
 
     /// How much thicker, in heads, `wanted` is than torso, legs and arms are.
     fn thicker(&self, wanted: &Profile) -> [f64; 3] {
-        let (own, wanted) = (self.own.extents(), wanted.extents());
-        std::array::from_fn(|chain| match (own[chain], wanted[chain]) {
-            (Some(own), Some(wanted)) => {
-                let log = |at: usize| 0.5 * (wanted[0][at] * wanted[1][at] / (own[0][at] * own[1][at])).ln();
-                mean((0..STATIONS).map(log)).exp()
-            }
-            _ => 1.0,
+        self.own.both_extents(wanted).map(|both| {
+            let Some((own, wanted)) = both else { return 1.0 };
+            let log = |at: usize| 0.5 * (wanted[0][at] * wanted[1][at] / (own[0][at] * own[1][at])).ln();
+            mean((0..STATIONS).map(log)).exp()
         })
     }
 
@@ -168,10 +164,9 @@ impl Chart {
                 (leg.breadth[at], leg.depth[at]) = half.into();
             }
             if let Some(skirt) = &mut now.skirt
-                && let (Some(breadth), Some(depth), Some(forward)) =
-                    (skirt.breadth[at], skirt.depth[at], skirt.forward[at])
+                && let Some((half, forward)) = skirt.at(at)
             {
-                let from = [DVec2::new(0.0, forward), DVec2::new(breadth, depth)];
+                let from = [DVec2::new(0.0, forward), half.into()];
                 let [middle, half] = slice(&planes, height, from, Part::Torso, true);
                 (skirt.forward[at], skirt.breadth[at], skirt.depth[at]) =
                     (Some(middle.y), Some(half.x), Some(half.y));
@@ -298,14 +293,18 @@ impl<'a> Grows<'a> {
         let times = |row: &Row, by: &Row| -> Row { std::array::from_fn(|at| row[at] * by[at]) };
         let (length, new_length) = (frame.head_length(), parts.after().head_length());
         let hips = parts.place_torso(frame.hips).z;
+        // Of a middle that moves with the torso.
+        let placed = |planes: &Planes, height: f64, forward: f64| {
+            let p = planes.point(height, DVec2::new(0.0, length * forward));
+            (parts.place_torso(p).z - hips) / new_length
+        };
         let mut now = own.clone();
         if let (Some(now), Some(own)) = (&mut now.torso, &own.torso) {
             (now.breadth, now.depth) =
                 (own.breadth.map(|x| x * self.torso), own.depth.map(|x| x * self.torso));
             for (at, t) in stations(TORSO_STATIONS).into_iter().enumerate() {
-                let middle = DVec2::new(0.0, length * own.forward[at]);
-                let p = frame.torso_planes().point(t * frame.torso_length(), middle);
-                now.forward[at] = (parts.place_torso(p).z - hips) / new_length;
+                let height = t * frame.torso_length();
+                now.forward[at] = placed(&frame.torso_planes(), height, own.forward[at]);
             }
         }
         let heights = stations(LEG_STATIONS).map(|t| t * frame.leg_length());
@@ -328,10 +327,7 @@ impl<'a> Grows<'a> {
             for (at, &height) in heights.iter().enumerate() {
                 now.breadth[at] = own.breadth[at].map(|x| x * self.torso);
                 now.depth[at] = own.depth[at].map(|x| x * self.torso);
-                now.forward[at] = own.forward[at].map(|forward| {
-                    let p = planes.point(height, DVec2::new(0.0, length * forward));
-                    (parts.place_torso(p).z - hips) / new_length
-                });
+                now.forward[at] = own.forward[at].map(|forward| placed(&planes, height, forward));
             }
         }
         if let (Some(now), Some(own)) = (&mut now.arm, &own.arm) {
@@ -368,10 +364,8 @@ impl<'a> Grows<'a> {
         if let (Some(skirt), Some(straight)) = (&own.skirt, &straight.skirt) {
             for scale in &mut scales.skirt {
                 let at = scale.station;
-                if let (Some(breadth), Some(depth), Some(forward), Some(to)) =
-                    (skirt.breadth[at], skirt.depth[at], skirt.forward[at], straight.forward[at])
-                {
-                    (scale.half, scale.forward, scale.shift) = ([breadth, depth], forward, to - forward);
+                if let (Some((half, forward)), Some(to)) = (skirt.at(at), straight.forward[at]) {
+                    (scale.half, scale.forward, scale.shift) = (half, forward, to - forward);
                 }
             }
         }

@@ -470,7 +470,7 @@ fn mean_rows(sides: &[[Row; 4]]) -> [Row; 4] {
     })
 }
 
-/// What is middles of these rows of [`Body::rows`] smoothed as places, what is extents as lengths.
+/// Rows as [`Body::rows`] gives them, smoothed: middles as places, extents as lengths.
 fn smooth_rows([across, forward, breadth, depth]: &[Row; 4]) -> Option<[Row; 4]> {
     Some([smooth(across)?, smooth(forward)?, smooth_lengths(breadth)?, smooth_lengths(depth)?])
 }

@@ -109,6 +109,13 @@ pub struct SkirtProfile {
     pub forward: [Option<f64>; STATIONS],
 }
 
+impl SkirtProfile {
+    /// Half breadth and half depth, and how far forward the middle is, at slice number `station`, where there is a skirt.
+    fn at(&self, station: usize) -> Option<([f64; 2], f64)> {
+        Some(([self.breadth[station]?, self.depth[station]?], self.forward[station]?))
+    }
+}
+
 /// How broad and deep a body is, in head lengths; what cannot be measured is absent.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Profile {

@@ -9,35 +9,23 @@ pub const CHAINS: [&str; 6] = ["torso", "hips", "legs", "arms", "hand", "foot"];
 const LEAST: f64 = 1e-3;
 const MOST: f64 = 20.0;
 
-impl TorsoProfile {
-    /// Half breadths and half depths.
-    pub(super) fn extents(&self) -> [&Row; 2] {
-        [&self.breadth, &self.depth]
-    }
-}
-
-impl LegProfile {
-    /// Half breadths and half depths.
-    pub(super) fn extents(&self) -> [&Row; 2] {
-        [&self.breadth, &self.depth]
-    }
-}
-
-impl ArmProfile {
-    /// Half breadths and half depths.
-    pub(super) fn extents(&self) -> [&Row; 2] {
-        [&self.breadth, &self.depth]
-    }
-}
+/// Half breadths and half depths of a chain, of two profiles.
+pub(super) type BothExtents<'a> = ([&'a Row; 2], [&'a Row; 2]);
 
 impl Profile {
     /// Half breadths and half depths of torso, legs and arms.
-    pub(super) fn extents(&self) -> [Option<[&Row; 2]>; 3] {
+    fn extents(&self) -> [Option<[&Row; 2]>; 3] {
         [
-            self.torso.as_ref().map(TorsoProfile::extents),
-            self.leg.as_ref().map(LegProfile::extents),
-            self.arm.as_ref().map(ArmProfile::extents),
+            self.torso.as_ref().map(|torso| [&torso.breadth, &torso.depth]),
+            self.leg.as_ref().map(|leg| [&leg.breadth, &leg.depth]),
+            self.arm.as_ref().map(|arm| [&arm.breadth, &arm.depth]),
         ]
+    }
+
+    /// Those of this profile and of `other`, where both have the chain.
+    pub(super) fn both_extents<'a>(&'a self, other: &'a Self) -> [Option<BothExtents<'a>>; 3] {
+        let (own, others) = (self.extents(), other.extents());
+        std::array::from_fn(|chain| own[chain].zip(others[chain]))
     }
 
     /// What is out of range, with its value: extents must be between .001 and 20 head lengths, and places within 20.
@@ -138,14 +126,12 @@ impl Profile {
     /// Torso, legs and arms: the mean over the slices of the root of breadth and depth. Hips: the legs' outer edge at their
     /// first slice. Hand: the cube root of its box. Foot: the root of length and breadth.
     pub fn ratios(&self, wanted: &Self) -> [f64; CHAINS.len()] {
-        let mean = |(got, wanted): ([&Row; 2], [&Row; 2])| {
+        let mean = |(got, wanted): BothExtents<'_>| {
             let ratio = |at: usize| ((got[0][at] * got[1][at]) / (wanted[0][at] * wanted[1][at])).sqrt();
             (0..STATIONS).map(ratio).sum::<f64>() / STATIONS as f64
         };
         let over = |ratio: Option<f64>| ratio.unwrap_or(f64::NAN);
-        let (own_rows, wanted_rows) = (self.extents(), wanted.extents());
-        let [torso, legs, arms] =
-            [0, 1, 2].map(|chain| over(own_rows[chain].zip(wanted_rows[chain]).map(mean)));
+        let [torso, legs, arms] = self.both_extents(wanted).map(|both| over(both.map(mean)));
         let both_legs = self.leg.as_ref().zip(wanted.leg.as_ref());
         let outer = |leg: &LegProfile| leg.outward[0] + leg.breadth[0];
         let volume = |[length, breadth, depth]: [f64; 3]| (length * breadth * depth).cbrt();

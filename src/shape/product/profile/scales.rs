@@ -1,6 +1,7 @@
 //! From a body's own profile to the wanted one: how each slice is scaled and where its middle goes.
 
 use super::curve::monotone_cubic;
+use super::numbers::BothExtents;
 use super::slab::soft_scale;
 use super::{LEG_STATIONS, LegProfile, Profile, Row, STATIONS, TORSO_STATIONS, station_at, stations};
 use crate::geometry::smoothstep;
@@ -148,8 +149,9 @@ pub struct Scales {
 }
 
 impl Scales {
-    /// Notes what the limits took of a scale.
-    fn note(&mut self, what: &'static str, wanted: f64, got: f64) {
+    /// Notes what the limits took of the scale from `own` to `wanted`, `strength` of the way, where it is `got`.
+    fn note(&mut self, what: &'static str, wanted: f64, own: f64, strength: f64, got: f64) {
+        let wanted = (wanted / own).powf(strength);
         let taken = |wanted: f64, got: f64| (wanted / got).ln().abs();
         if taken(wanted, got) <= (1.0 + NOTED_ABOVE).ln() {
             return;
@@ -161,23 +163,25 @@ impl Scales {
         }
     }
 
-    /// Scales half breadth and half depth of a chain, slice by slice, and notes what the limits took of them.
+    /// Scales half breadth and half depth of a chain, slice by slice, where both profiles have it, and notes what the limits
+    /// took of them.
     fn extents(
         &mut self,
         what: &'static str,
-        wanted: [&Row; 2],
-        own: [&Row; 2],
+        extents: Option<BothExtents<'_>>,
         strengths: &Row,
         most: f64,
-    ) -> [Row; 2] {
-        [0, 1].map(|axis| {
+    ) -> SliceScales {
+        let Some((own, wanted)) = extents else { return SliceScales::NONE };
+        let [breadth, depth] = [0, 1].map(|axis| {
             std::array::from_fn(|at| {
                 let (wanted, own, strength) = (wanted[axis][at], own[axis][at], strengths[at]);
                 let got = soft_scale(wanted, own, strength, most);
-                self.note(what, (wanted / own).powf(strength), got);
+                self.note(what, wanted, own, strength, got);
                 got
             })
-        })
+        });
+        SliceScales { breadth, depth, ..SliceScales::NONE }
     }
 }
 
@@ -196,41 +200,35 @@ pub fn scales(own: &Profile, wanted: &Profile, strengths: &Strengths) -> Scales 
         skirt: Vec::new(),
         limited: Vec::new(),
     };
+    let [torso, legs, arms] = own.both_extents(&wanted);
+    let (torso_row, most) = ([strengths.torso; STATIONS], strengths.limit(MOST));
+    result.leg = result.extents("legs", legs, &strengths.leg, most);
+    result.torso = result.extents("torso", torso, &torso_row, most);
+    result.arm = result.extents("arms", arms, &strengths.arm, most);
     if let (Some(own), Some(wanted)) = (&own.leg, &wanted.leg) {
-        leg(&mut result, own, wanted, strengths);
+        let (most, row) = (LEG_CURVE_MOST, &strengths.leg);
+        result.leg.shift = curve(&wanted.forward, &own.forward, &own.depth, most, row);
+        result.spread = spread(&result.leg, own, wanted, strengths.spread);
     }
     if let (Some(own), Some(wanted)) = (&own.torso, &wanted.torso) {
-        let row = [strengths.torso; STATIONS];
-        let [breadth, depth] =
-            result.extents("torso", wanted.extents(), own.extents(), &row, strengths.limit(MOST));
-        let shift = curve(&wanted.forward, &own.forward, &own.depth, BELLY_MOST, &row);
-        result.torso = SliceScales { breadth, depth, shift };
+        result.torso.shift = curve(&wanted.forward, &own.forward, &own.depth, BELLY_MOST, &torso_row);
     }
     skirt(&mut result, own);
-    if let (Some(own_arm), Some(wanted_arm)) = (&own.arm, &wanted.arm) {
-        let (wanted_arm, own_arm) = (wanted_arm.extents(), own_arm.extents());
-        let most = strengths.limit(MOST);
-        let [breadth, depth] = result.extents("arms", wanted_arm, own_arm, &strengths.arm, most);
-        result.arm = SliceScales { breadth, depth, ..SliceScales::NONE };
+    if arms.is_some() {
         arm_length(&mut result, own, &wanted, strengths.arm_length);
     }
     if let (Some(own), Some(wanted)) = (own.hand, wanted.hand) {
         // Palms may look down or forward: what is broader is the breadth.
         let sorted = |[length, one, other]: [f64; 3]| [length, one.max(other), one.min(other)];
-        let [length, broad, thin] = soft_three(
-            sorted(wanted),
-            sorted(own),
-            strengths.hand,
-            strengths.limit(MOST_OF_HAND),
-            strengths.limit(HAND_SPREAD),
-        );
+        let limits = [MOST_OF_HAND, HAND_SPREAD].map(|most| strengths.limit(most));
+        let scales = soft_scales(sorted(wanted), sorted(own), strengths.hand, limits);
+        let [length, broad, thin] = scales;
         // A fist is neither, and takes the mean: last digits must not tell which way it lies.
         let lies = ((own[1] / own[2]).ln() / FLAT_HAND.ln()).clamp(-1.0, 1.0);
         let along = |share: f64| (share * broad.ln() + (1.0 - share) * thin.ln()).exp();
         result.hand = [length, along((1.0 + lies) / 2.0), along((1.0 - lies) / 2.0)];
-        let asked = sorted(wanted).into_iter().zip(sorted(own));
-        for ((wanted, own), got) in asked.zip([length, broad, thin]) {
-            result.note("hands", (wanted / own).powf(strengths.hand), got);
+        for (axis, got) in scales.into_iter().enumerate() {
+            result.note("hands", sorted(wanted)[axis], sorted(own)[axis], strengths.hand, got);
         }
     }
     if let (Some(own), Some(wanted)) = (own.foot, wanted.foot) {
@@ -300,26 +298,23 @@ fn curve(wanted: &Row, own: &Row, own_depth: &Row, most: f64, strengths: &Row) -
     })
 }
 
-fn leg(result: &mut Scales, own: &LegProfile, wanted: &LegProfile, strengths: &Strengths) {
-    let most = strengths.limit(MOST);
-    let [breadth, depth] = result.extents("legs", wanted.extents(), own.extents(), &strengths.leg, most);
-    let shift = curve(&wanted.forward, &own.forward, &own.depth, LEG_CURVE_MOST, &strengths.leg);
-    result.leg = SliceScales { breadth, depth, shift };
+/// How far each leg moves outward whose slices are scaled by `leg`.
+fn spread(leg: &SliceScales, own: &LegProfile, wanted: &LegProfile, strength: f64) -> f64 {
     let upper = (0..STATIONS).filter(|&station| station_at(LEG_STATIONS, station) < SPREAD_UP_TO);
     let mean =
         |number: &dyn Fn(usize) -> f64| upper.clone().map(number).sum::<f64>() / upper.clone().count() as f64;
-    let new_breadth = |station: usize| result.leg.breadth[station] * own.breadth[station];
+    let new_breadth = |station: usize| leg.breadth[station] * own.breadth[station];
     let gap = |leg: &LegProfile| mean(&|station| leg.outward[station] - leg.breadth[station]);
-    let delta = strengths.spread * mean(&|station| wanted.outward[station] - own.outward[station]);
+    let delta = strength * mean(&|station| wanted.outward[station] - own.outward[station]);
     let roomy = gap(own).max((gap(own) + gap(wanted)) / 2.0);
     let most = mean(&|station| new_breadth(station) - own.outward[station]) + roomy;
-    let least = (0..STATIONS)
-        .map(|station| CLEAR + new_breadth(station) - own.outward[station])
-        .fold(f64::NEG_INFINITY, f64::max);
-    // Where own legs are nearer than what is to be left, they stay that near.
-    let touching =
-        (0..STATIONS).map(|station| CLEAR + own.breadth[station] - own.outward[station]).fold(0.0, f64::max);
-    result.spread = delta.min(most).max(least - touching);
+    let (mut least, mut touching) = (f64::NEG_INFINITY, 0.0_f64);
+    for station in 0..STATIONS {
+        least = least.max(CLEAR + new_breadth(station) - own.outward[station]);
+        // Where own legs are nearer than what is to be left, they stay that near.
+        touching = touching.max(CLEAR + own.breadth[station] - own.outward[station]);
+    }
+    delta.min(most).max(least - touching)
 }
 
 /// A skirt follows the hips, stays outside of the legs, and is no further from them than it was, or halfway from there to
@@ -330,11 +325,7 @@ fn skirt(result: &mut Scales, own: &Profile) {
     let straight =
         own.torso.as_ref().map_or([0.0; 2], |torso| [torso.breadth[0] * hips[0], torso.depth[0] * hips[1]]);
     for station in 0..STATIONS {
-        let (Some(breadth), Some(depth), Some(forward)) =
-            (skirt.breadth[station], skirt.depth[station], skirt.forward[station])
-        else {
-            continue;
-        };
+        let Some((half, forward)) = skirt.at(station) else { continue };
         let off = (leg.forward[station] - forward).abs();
         let new = [
             result.leg.breadth[station] * leg.breadth[station],
@@ -342,7 +333,6 @@ fn skirt(result: &mut Scales, own: &Profile) {
         ];
         let legs = [leg.outward[station] + leg.breadth[station], off + leg.depth[station]];
         let new_legs = [leg.outward[station] + result.spread + new[0], off + new[1]];
-        let half = [breadth, depth];
         let scale = [0, 1].map(|axis| {
             // A skirt that is no wider than this around the legs keeps its distance, whichever it is.
             let (tight, wide) = SKIRT_ROOM;
@@ -382,26 +372,28 @@ fn arm_length(result: &mut Scales, own: &Profile, wanted: &Profile, strength: f6
     }
 }
 
-/// Soft scales of three axes, none further than `spread` from their mean.
-fn soft_three(wanted: [f64; 3], own: [f64; 3], strength: f64, most: f64, spread: f64) -> [f64; 3] {
-    let logs: [f64; 3] = std::array::from_fn(|axis| soft_scale(wanted[axis], own[axis], strength, most).ln());
-    let mean = logs.iter().sum::<f64>() / 3.0;
+/// Soft scales of some axes, with a limit of `most`, none further than `spread` from their mean, in logarithms.
+fn soft_scales<const N: usize>(
+    wanted: [f64; N],
+    own: [f64; N],
+    strength: f64,
+    [most, spread]: [f64; 2],
+) -> [f64; N] {
+    let logs: [f64; N] = std::array::from_fn(|axis| soft_scale(wanted[axis], own[axis], strength, most).ln());
+    let mean = logs.iter().sum::<f64>() / N as f64;
     logs.map(|log| log.clamp(mean - spread, mean + spread).exp())
 }
 
 /// Along z by length, along x by breadth; heights of the toes.
 fn foot(result: &mut Scales, own: [f64; 5], wanted: [f64; 5], strengths: &Strengths) {
-    let (strength, most) = (strengths.foot, strengths.limit(MOST_OF_FOOT));
-    let logs = [
-        soft_scale(wanted[0] + wanted[1], own[0] + own[1], strength, most).ln(),
-        soft_scale(wanted[2], own[2], strength, most).ln(),
-    ];
-    let (mean, spread) = ((logs[0] + logs[1]) / 2.0, strengths.limit(FOOT_SPREAD));
-    let [length, breadth] = logs.map(|log| log.clamp(mean - spread, mean + spread).exp());
+    let strength = strengths.foot;
+    let limits = [MOST_OF_FOOT, FOOT_SPREAD].map(|most| strengths.limit(most));
+    let sizes = |[toes, heel, breadth, ..]: [f64; 5]| [toes + heel, breadth];
+    let [length, breadth] = soft_scales(sizes(wanted), sizes(own), strength, limits);
     let room = (own[3] + result.spread - CLEAR).max(own[2]) / own[2];
     let toes = (wanted[4] / own[4]).clamp(1.0, 1.8).powf(strength);
     result.foot = [length, breadth.min(room), toes];
-    let asked = |wanted: f64, own: f64| (wanted / own).powf(strength);
-    result.note("feet", asked(wanted[0] + wanted[1], own[0] + own[1]), length);
-    result.note("feet", asked(wanted[2], own[2]), result.foot[1]);
+    for axis in 0..2 {
+        result.note("feet", sizes(wanted)[axis], sizes(own)[axis], strength, result.foot[axis]);
+    }
 }

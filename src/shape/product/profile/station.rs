@@ -48,10 +48,10 @@ pub fn slice_around<'a>(
     (breadth > 0.0 && depth > 0.0).then_some(Slice { middle, half: DVec2::new(breadth, depth) })
 }
 
-/// `start`, put between the extents from there: those along the first coordinate, the second one, and back; NaN of them is
-/// open and moves nothing.
+/// `start`, put halfway between the `extents` from there, [`CENTRINGS`] times: those along the first coordinate, the second
+/// one, and back. Where one is NaN, the side is open, and the middle stays where it is between the two.
 ///
-/// - `keeps_across`: the middle stays where it is across.
+/// - `keeps_across`: it stays where it is across.
 pub(super) fn centred(start: DVec2, keeps_across: bool, extents: impl Fn(DVec2) -> [f64; 4]) -> DVec2 {
     let halfway = |one: f64, other: f64| {
         let shift = (one - other) / 2.0;
