@@ -69,8 +69,11 @@ impl Chart {
             of_chains[chain] * smoothstep((1.0 - grows.lengths[chain] / thicker[chain]) / SMOOTH_FROM)
         });
         let torso_place = |y: f64| parts.body_height(y) / parts.after().head_length();
-        let [_, leg, arm] = grows.lengths.map(|length| length / frame.head_length());
-        let relief = self.reaches.relief(frame, strength, torso_place, leg, arm);
+        let place = |chain: usize, height: f64| match chain {
+            0 => torso_place(frame.heights.crotch + height),
+            _ => grows.lengths[chain] / frame.head_length() * height,
+        };
+        let relief = self.reaches.relief(frame, strength, place);
         let (smooth, lines) = self.smoothed(&relief);
         let straight = grows.straightened(&smooth, &strengths.leg);
         let mut scales = scales(&grows.after(&straight), wanted, strengths);

@@ -47,24 +47,20 @@ const RIGHT_FOOT: usize = Part::RightFoot as usize;
 
 /// By height, of the torso and what hangs from it below the crotch: scale, scale, half, half, forward, shift forward.
 type TorsoTable = Table<6>;
-/// By height, of a leg: scale, scale, half, half, outward, forward, shift forward.
+/// By height, of a leg: outward, and the same.
 type LegTable = Table<7>;
 
 /// The map.
 #[derive(Clone, Debug)]
 pub struct BodyMap {
-    middle_x: f64,
-    /// On which sides of the middle the left and the right leg are.
-    signs: [f64; 2],
+    frame: BodyFrame,
     torso: TorsoTable,
     leg: LegTable,
-    /// Heights of the crotch and the ankles.
-    crotch: f64,
-    leg_length: f64,
     spread: f64,
     arms: [Option<ArmMap>; 2],
     feet: [FootMap; 2],
-    neck: NeckMap,
+    /// As a row of the torso's, the same at all heights.
+    neck: [f64; 6],
 }
 
 #[derive(Clone, Debug)]
@@ -98,13 +94,6 @@ struct FootMap {
     sole: f64,
 }
 
-#[derive(Clone, Copy, Debug)]
-struct NeckMap {
-    middle: DVec2,
-    scale: f64,
-    half: f64,
-}
-
 /// The first part of the chain that part number `part` goes with: those of one chain go one way.
 pub fn chain_of(part: usize, is_skirt: bool) -> usize {
     match part {
@@ -130,30 +119,20 @@ impl BodyMap {
     ) -> Self {
         let length = frame.head_length();
         let (torso, leg) = level_tables(own, frame, scales, place);
+        let neck_half = NECK_REACH * own.neck.unwrap_or(ANY_HALF / 2.0) * length;
         let mut map = Self {
-            middle_x: frame.middle_x,
-            signs: [frame.sign(2), frame.sign(3)],
+            frame: frame.clone(),
             torso,
             leg,
-            crotch: frame.heights.crotch,
-            leg_length: frame.leg_length(),
             spread: if own.leg.is_some() { scales.spread * length } else { 0.0 },
             arms: [None, None],
             feet: [0, 1].map(|side| FootMap::still(frame.limbs[2 + side].end)),
-            neck: NeckMap {
-                middle: DVec2::new(frame.middle_x, frame.shoulders.z),
-                scale: scales.neck,
-                half: NECK_REACH * own.neck.unwrap_or(ANY_HALF / 2.0) * length,
-            },
+            neck: [scales.neck, scales.neck, neck_half, neck_half, frame.shoulders.z, 0.0],
         };
-        if own.foot.is_some() {
-            for side in 0..2 {
-                map.feet[side] = map.foot(side, own, scales, frame);
-            }
+        if let Some(foot) = own.foot {
+            map.feet = [0, 1].map(|side| map.foot(side, foot, scales));
         }
-        for side in 0..2 {
-            map.arms[side] = map.arm(side, own, lines, frame, scales);
-        }
+        map.arms = [0, 1].map(|side| map.arm(side, own, lines, scales));
         map
     }
 
@@ -164,7 +143,7 @@ impl BodyMap {
     pub fn part<M: Moved>(&self, part: usize, p: DVec3, is_skirt: bool) -> M {
         match chain_of(part, is_skirt) {
             TORSO => self.torso(p),
-            NECK => self.neck.map(p),
+            NECK => level(p, [self.frame.middle_x; 2], self.neck, || (0.0, [0.0; 6])),
             LEFT_ARM | RIGHT_ARM => self.arm_or_torso(usize::from(part >= RIGHT_ARM), p),
             LEFT_LEG | RIGHT_LEG => self.leg_or_torso(usize::from(part >= RIGHT_LEG), p),
             LEFT_FOOT => self.feet[0].map(p),
@@ -201,38 +180,26 @@ impl BodyMap {
     /// What the torso, and what hangs from it, is mapped by.
     pub fn torso<M: Moved>(&self, p: DVec3) -> M {
         let at = self.torso.at(p.y);
-        let [x_scale, z_scale, x_half, z_half, forward, shift] = at.values();
-        let x = slab(p.x - self.middle_x, x_scale, x_half);
-        let z = slab(p.z - forward, z_scale, z_half);
-        M::of(DVec3::new(self.middle_x + x.to, p.y, forward + shift + z.to), || {
-            let [x_scale, z_scale, x_half, z_half, forward, shift] = at.slopes();
-            let x_slope = x.by_scale * x_scale + x.by_half * x_half;
-            let z_slope = z.by_scale * z_scale + z.by_half * z_half + (1.0 - z.by_place) * forward + shift;
-            level(x.by_place, x_slope, z.by_place, z_slope)
-        })
+        level(p, [self.frame.middle_x; 2], at.values(), || (0.0, at.slopes()))
     }
 
     fn leg<M: Moved>(&self, side: usize, p: DVec3) -> M {
         let at = self.leg.at(p.y);
-        let [x_scale, z_scale, x_half, z_half, outward, forward, shift] = at.values();
-        let sign = self.signs[side];
-        let centre = self.middle_x + sign * outward;
-        let x = slab(p.x - centre, x_scale, x_half);
-        let z = slab(p.z - forward, z_scale, z_half);
-        let position = DVec3::new(centre + sign * self.spread + x.to, p.y, forward + shift + z.to);
-        M::of(position, || {
-            let [x_scale, z_scale, x_half, z_half, outward, forward, shift] = at.slopes();
-            let x_slope = x.by_scale * x_scale + x.by_half * x_half + (1.0 - x.by_place) * sign * outward;
-            let z_slope = z.by_scale * z_scale + z.by_half * z_half + (1.0 - z.by_place) * forward + shift;
-            level(x.by_place, x_slope, z.by_place, z_slope)
+        let sign = self.frame.sign(2 + side);
+        let [outward, row @ ..] = at.values();
+        let middle = self.frame.middle_x + sign * outward;
+        level(p, [middle, middle + sign * self.spread], row, || {
+            let [outward, row @ ..] = at.slopes();
+            (sign * outward, row)
         })
     }
 
     /// Near the crotch a leg's map is the torso's, so that hips agree whatever the weights say.
     fn leg_or_torso<M: Moved>(&self, side: usize, p: DVec3) -> M {
-        let t = (self.crotch - p.y) / self.leg_length;
+        let leg_length = self.frame.leg_length();
+        let t = (self.frame.heights.crotch - p.y) / leg_length;
         let (share, slope) = smoothstep_slope((t - LEG_FADE.0) / (LEG_FADE.1 - LEG_FADE.0));
-        let slope = DVec3::NEG_Y * (slope / (LEG_FADE.1 - LEG_FADE.0) / self.leg_length);
+        let slope = DVec3::NEG_Y * (slope / (LEG_FADE.1 - LEG_FADE.0) / leg_length);
         mix(share, slope, || self.torso(p), || self.leg(side, p))
     }
 
@@ -244,9 +211,8 @@ impl BodyMap {
         mix(share, slope, || self.torso(p), || arm.map(p, false))
     }
 
-    fn foot(&self, side: usize, own: &Profile, scales: &Scales, frame: &BodyFrame) -> FootMap {
-        let (ankle, length) = (frame.limbs[2 + side].end, frame.head_length());
-        let [toe, _, _, _, height] = own.foot.unwrap_or_default();
+    fn foot(&self, side: usize, [toe, .., height]: [f64; 5], scales: &Scales) -> FootMap {
+        let (ankle, length) = (self.frame.limbs[2 + side].end, self.frame.head_length());
         let to = self.leg_or_torso(side, ankle);
         let toe_box = (ankle.z + TOE_BOX.0 * length, ankle.z + TOE_BOX.1 * toe * length);
         FootMap {
@@ -257,18 +223,12 @@ impl BodyMap {
             toes: scales.foot[2],
             toe_height: height * length,
             toe_box,
-            sole: frame.heights.sole,
+            sole: self.frame.heights.sole,
         }
     }
 
-    fn arm(
-        &self,
-        side: usize,
-        own: &Profile,
-        lines: &BodyLines,
-        frame: &BodyFrame,
-        scales: &Scales,
-    ) -> Option<ArmMap> {
+    fn arm(&self, side: usize, own: &Profile, lines: &BodyLines, scales: &Scales) -> Option<ArmMap> {
+        let frame = &self.frame;
         let planes = frame.arm_planes(side)?;
         let (profile, middles) = (own.arm.as_ref()?, lines.arm_middles[side].as_ref()?);
         let head = frame.head_length();
@@ -420,15 +380,6 @@ impl FootMap {
     }
 }
 
-impl NeckMap {
-    fn map<M: Moved>(&self, p: DVec3) -> M {
-        let x = slab(p.x - self.middle.x, self.scale, self.half);
-        let z = slab(p.z - self.middle.y, self.scale, self.half);
-        let position = DVec3::new(self.middle.x + x.to, p.y, self.middle.y + z.to);
-        M::of(position, || level(x.by_place, 0.0, z.by_place, 0.0))
-    }
-}
-
 /// The scales of palm and fingers that make a hand `scale` times as long: mitts have shorter fingers, not shorter palms.
 fn palm_and_fingers(scale: f64) -> [f64; 2] {
     let shorter = scale.min(1.0).powf(FINGERS_SHORTER);
@@ -451,9 +402,24 @@ fn mix<M: Moved>(share: f64, slope: DVec3, first: impl Fn() -> M, second: impl F
     })
 }
 
-/// The Jacobian of a map that keeps heights: slopes of x by x and y, of z by z and y.
-fn level(x_by_x: f64, x_by_y: f64, z_by_z: f64, z_by_y: f64) -> DMat3 {
-    DMat3::from_cols(DVec3::X * x_by_x, DVec3::new(x_by_y, 1.0, z_by_y), DVec3::Z * z_by_z)
+/// Where `p` goes, at its height, by the slice there: its middle across, and where that goes, and the row of a [`TorsoTable`].
+///
+/// - `slopes`: by height, of that middle and of the row.
+#[inline(always)]
+fn level<M: Moved>(
+    p: DVec3,
+    [middle, to]: [f64; 2],
+    [x_scale, z_scale, x_half, z_half, forward, shift]: [f64; 6],
+    slopes: impl FnOnce() -> (f64, [f64; 6]),
+) -> M {
+    let x = slab(p.x - middle, x_scale, x_half);
+    let z = slab(p.z - forward, z_scale, z_half);
+    M::of(DVec3::new(to + x.to, p.y, forward + shift + z.to), || {
+        let (middle, [x_scale, z_scale, x_half, z_half, forward, shift]) = slopes();
+        let x_slope = x.by_scale * x_scale + x.by_half * x_half + (1.0 - x.by_place) * middle;
+        let z_slope = z.by_scale * z_scale + z.by_half * z_half + (1.0 - z.by_place) * forward + shift;
+        DMat3::from_cols(DVec3::X * x.by_place, DVec3::new(x_slope, 1.0, z_slope), DVec3::Z * z.by_place)
+    })
 }
 
 /// Torso and legs by height, model units.
@@ -474,15 +440,15 @@ fn level_tables(
         let t = (crotch - y) / leg_length;
         let Some(leg) = &own.leg else {
             let half = ANY_HALF / 2.0 * length;
-            return [1.0, 1.0, half, half, half, planes.origin.z, 0.0];
+            return [half, 1.0, 1.0, half, half, planes.origin.z, 0.0];
         };
         let at = |row: &[f64; STATIONS]| monotone_cubic(&leg_places, row, t);
         [
+            length * at(&leg.outward),
             at(&scales.leg.breadth),
             at(&scales.leg.depth),
             length * at(&leg.breadth),
             length * at(&leg.depth),
-            length * at(&leg.outward),
             planes.origin.z + length * at(&leg.forward),
             length * at(&scales.leg.shift),
         ]
@@ -505,7 +471,7 @@ fn level_tables(
     };
     // Below the crotch: the hull of both legs, or the skirt.
     let below = |y: f64| -> [f64; 6] {
-        let [scale_x, scale_z, half_x, half_z, outward, forward, shift] = of_leg(y);
+        let [outward, scale_x, scale_z, half_x, half_z, forward, shift] = of_leg(y);
         if own.leg.is_none() {
             return of_torso(crotch);
         }

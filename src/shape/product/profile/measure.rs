@@ -247,7 +247,8 @@ impl Body<'_> {
         self.chains.triangles(self.figure, chain)
     }
 
-    fn cut(&self, triangles: &[[u32; 3]], planes: &Planes, heights: &[f64]) -> Vec<Vec<Outline>> {
+    /// What `planes` at `heights` cut out of these triangles.
+    pub(super) fn cut(&self, triangles: &[[u32; 3]], planes: &Planes, heights: &[f64]) -> Vec<Vec<Outline>> {
         slices(self.positions, triangles, self.weld, planes, heights)
     }
 

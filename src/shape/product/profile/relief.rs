@@ -6,9 +6,9 @@
 use super::chains::{Chain, Chains, arm_share};
 use super::curve::{BELL_ENDS, smoothed};
 use super::map::on_bones;
-use super::measure::{Body, BodyFrame, on_limb};
+use super::measure::{Body, BodyFrame};
 use super::radius_map::{RadiusMap, Ring};
-use crate::geometry::slice::{RAYS, slices};
+use crate::geometry::slice::{Outline, Planes, RAYS};
 use crate::geometry::weld::Weld;
 use crate::geometry::{Moved, outer};
 use crate::geometry::{smoothstep, smoothstep_slope};
@@ -55,24 +55,15 @@ const OF_ARM: (f64, f64) = (0.1, 0.5);
 /// they stand. Seen: within a third of that the corners of a jacket's hem stand out.
 const LEGS_STAY: f64 = 0.15;
 
-/// How far a body reaches around torso, legs and arms, as it stands.
+/// How far a body reaches around torso, legs and arms (left, right), as it stands.
 #[derive(Clone, Debug)]
-pub struct Reaches {
-    torso: Option<RadiusMap>,
-    legs: [Option<RadiusMap>; 2],
-    arms: [Option<RadiusMap>; 2],
-}
+pub struct Reaches([Option<RadiusMap>; 5]);
 
-/// Relief maps of a body.
+/// Relief maps of a body: of torso, legs and arms.
 #[derive(Clone, Debug)]
 pub struct Relief {
-    torso: Option<RadiusMap>,
-    legs: [Option<RadiusMap>; 2],
-    arms: [Option<RadiusMap>; 2],
-    crotch: f64,
-    torso_length: f64,
-    leg_length: f64,
-    arm_lengths: [f64; 2],
+    maps: [Option<RadiusMap>; 5],
+    frame: BodyFrame,
 }
 
 impl Reaches {
@@ -86,47 +77,26 @@ impl Reaches {
             0 => body.torso_reaches(),
             1 | 2 => body.leg_reaches(map - 1),
             _ => body.arm_reaches(map - 3),
-        })
-        .into_iter();
-        let mut next = || maps.next().flatten();
-        Self { torso: next(), legs: [next(), next()], arms: [next(), next()] }
+        });
+        Self(std::array::from_fn(|map| maps[map].take()))
     }
 
     /// What is to become of it.
     ///
     /// - `strength`: 0 leaves the torso's, the legs' and the arms' relief, 1 smooths all of it.
-    /// - `torso_place`: where heights come to lie in the result, in its heads. `leg`, `arm`: what a unit at rest along them
-    ///   becomes, in the same.
-    pub fn relief(
-        &self,
-        frame: &BodyFrame,
-        strength: [f64; 3],
-        torso_place: impl Fn(f64) -> f64,
-        leg: f64,
-        arm: f64,
-    ) -> Relief {
-        let limb = |map: &Option<RadiusMap>, strength: f64, unit: f64| {
-            map.as_ref().filter(|_| strength > 0.0).map(|map| {
-                let places: Vec<f64> = map.heights().map(|height| unit * height).collect();
-                let smooth = smoothed_beyond(&map.reaches, &places);
-                scaled(map, &places, &smooth, strength)
-            })
+    /// - `place`: where heights along torso (0), legs (1) and arms (2) come to lie in the result, in its heads.
+    pub fn relief(&self, frame: &BodyFrame, strength: [f64; 3], place: impl Fn(usize, f64) -> f64) -> Relief {
+        let relief = |number: usize| {
+            let chain = number.div_ceil(2);
+            let map = self.0[number].as_ref().filter(|_| strength[chain] > 0.0)?;
+            let places: Vec<f64> = map.heights().map(|height| place(chain, height)).collect();
+            let smooth = match chain {
+                0 => smoothed(&map.reaches, &places, TORSO_SIGMA, 0..places.len()),
+                _ => smoothed_beyond(&map.reaches, &places),
+            };
+            Some(scaled(map, &places, &smooth, strength[chain]))
         };
-        let torso = self.torso.as_ref().filter(|_| strength[0] > 0.0).map(|map| {
-            let places: Vec<f64> =
-                map.heights().map(|height| torso_place(map.planes.origin.y + height)).collect();
-            let smooth = smoothed(&map.reaches, &places, TORSO_SIGMA, 0..places.len());
-            scaled(map, &places, &smooth, strength[0])
-        });
-        Relief {
-            torso,
-            legs: self.legs.each_ref().map(|map| limb(map, strength[1], leg)),
-            arms: self.arms.each_ref().map(|map| limb(map, strength[2], arm)),
-            crotch: frame.heights.crotch,
-            torso_length: frame.torso_length(),
-            leg_length: frame.leg_length(),
-            arm_lengths: [frame.arm_length(0), frame.arm_length(1)],
-        }
+        Relief { maps: std::array::from_fn(relief), frame: frame.clone() }
     }
 }
 
@@ -140,7 +110,9 @@ impl Relief {
             jacobian += shift.jacobian() * share + outer(shift.position(), slope);
         };
         let arms = [0, 1].map(|side| f64::from(arm_share(weights, side)));
-        if let Some(map) = &self.torso {
+        let frame = &self.frame;
+        let [torso, limbs @ ..] = &self.maps;
+        if let Some(map) = torso {
             let of_head = f64::from(
                 weights[Part::Head as usize] + weights[Part::Hair as usize] + weights[Part::Neck as usize],
             );
@@ -153,26 +125,30 @@ impl Relief {
             }
         }
         for side in 0..2 {
-            if let Some(map) = &self.legs[side]
+            if let Some(map) = &limbs[side]
                 && !is_skirt
             {
                 let first = [Part::LeftUpperLeg, Part::RightUpperLeg][side] as usize;
                 let bound = f64::from(weights[first] + weights[first + 1]);
-                let t = (self.crotch - p.y) / self.leg_length;
+                let t = (frame.heights.crotch - p.y) / frame.leg_length();
                 let (share, slope) = smoothstep_slope(t / 0.22);
                 if bound * share > 0.0 {
-                    add(bound * share, DVec3::NEG_Y * (bound * slope / 0.22 / self.leg_length), map.shift(p));
+                    add(
+                        bound * share,
+                        DVec3::NEG_Y * (bound * slope / 0.22 / frame.leg_length()),
+                        map.shift(p),
+                    );
                 }
             }
-            if let Some(map) = &self.arms[side] {
+            if let Some(map) = &limbs[2 + side] {
                 let bound = ((arms[side] - 0.1) / 0.8).clamp(0.0, 1.0);
-                let t = map.planes.locate(p).0 / self.arm_lengths[side];
+                let length = frame.arm_length(side);
+                let t = map.planes.locate(p).0 / length;
                 let (start, start_slope) = smoothstep_slope((t - 0.05) / 0.2);
                 let (end, end_slope) = smoothstep_slope((t - 0.98) / 0.12);
                 let share = bound * start * (1.0 - end);
                 if share > 0.0 {
-                    let slope = bound * (start_slope / 0.2 * (1.0 - end) - end_slope / 0.12 * start)
-                        / self.arm_lengths[side];
+                    let slope = bound * (start_slope / 0.2 * (1.0 - end) - end_slope / 0.12 * start) / length;
                     add(share, map.planes.axis * slope, map.shift(p));
                 }
             }
@@ -182,81 +158,85 @@ impl Relief {
 
     /// How much of the torso's relief is smoothed at height `y`, and the slope of that.
     fn torso_share(&self, y: f64, is_skirt: bool) -> (f64, f64) {
-        let t = (y - self.crotch) / self.torso_length;
-        let to_leg = self.leg_length / self.torso_length;
+        let torso_length = self.frame.torso_length();
+        let t = (y - self.frame.heights.crotch) / torso_length;
+        let to_leg = self.frame.leg_length() / torso_length;
         let fade = if is_skirt { (SKIRT_FADE.0 * to_leg, SKIRT_FADE.1 * to_leg) } else { BOTTOM_FADE };
         let (top, top_slope) = smoothstep_slope((t - TOP_FADE.0) / (TOP_FADE.1 - TOP_FADE.0));
         let (bottom, bottom_slope) = smoothstep_slope((-t - fade.0) / (fade.1 - fade.0));
         let slope = bottom_slope / (fade.1 - fade.0) * (1.0 - top)
             - top_slope / (TOP_FADE.1 - TOP_FADE.0) * (1.0 - bottom);
-        ((1.0 - top) * (1.0 - bottom), slope / self.torso_length)
+        ((1.0 - top) * (1.0 - bottom), slope / torso_length)
     }
 
     /// How the torso's relief moves `p`: below the crotch what stands there stays where it stands.
     fn torso_shift<M: Moved>(&self, map: &RadiusMap, p: DVec3) -> M {
         let shift: M = map.shift(p);
-        if p.y >= self.crotch {
+        let crotch = self.frame.heights.crotch;
+        if p.y >= crotch {
             return shift;
         }
-        let (below, below_slope) = smoothstep_slope((self.crotch - p.y) / (LEGS_STAY * self.torso_length));
+        let reach = LEGS_STAY * self.frame.torso_length();
+        let (below, below_slope) = smoothstep_slope((crotch - p.y) / reach);
         let DVec3 { x, y, z } = shift.position();
         M::of(DVec3::new((1.0 - below) * x, y, z), || {
             let keep = DMat3::from_diagonal(DVec3::new(1.0 - below, 1.0, 1.0));
-            keep * shift.jacobian()
-                + outer(DVec3::X * x, DVec3::Y * (below_slope / (LEGS_STAY * self.torso_length)))
+            keep * shift.jacobian() + outer(DVec3::X * x, DVec3::Y * (below_slope / reach))
         })
     }
 }
 
 impl Body<'_> {
     fn torso_reaches(&self) -> Option<RadiusMap> {
-        let triangles = self.triangles(Chain::Trunk);
         let planes = self.frame.torso_planes();
-        let start = -TORSO_BOTTOM * self.frame.leg_length();
-        let (heights, step) = self.even_heights(start, self.frame.torso_length());
-        let cuts = slices(self.positions, &triangles, self.weld, &planes, &heights);
+        let ends = (-TORSO_BOTTOM * self.frame.leg_length(), self.frame.torso_length());
         let shoulders = planes.locate(self.frame.shoulders);
-        let bones: Vec<DVec2> = heights
-            .iter()
-            .map(|height| DVec2::new(0.0, shoulders.1.y * (height / shoulders.0).max(0.0)))
-            .collect();
-        let mut map = RadiusMap::of(planes, (start, step), &cuts, &bones, MIDDLE_SIGMA * self.length, true)?;
+        let bone = |height: f64| DVec2::new(0.0, shoulders.1.y * (height / shoulders.0).max(0.0));
+        let mut map = self.reaches(Chain::Trunk, planes, ends, bone, |_| true)?;
         mirror(&mut map.reaches);
         Some(map)
     }
 
     fn leg_reaches(&self, side: usize) -> Option<RadiusMap> {
-        let limb = &self.frame.limbs[2 + side];
-        let triangles = self.triangles(Chain::Leg(side));
-        let planes = self.frame.leg_planes();
         let length = self.frame.leg_length();
-        let start = LEG_ROWS.0 * length;
-        let (heights, step) = self.even_heights(start, LEG_ROWS.1 * length);
-        let mut cuts = slices(self.positions, &triangles, self.weld, &planes, &heights);
-        cuts.iter_mut().for_each(|outlines| outlines.retain(|outline| !self.is_over(2 + side, outline)));
-        let bones: Vec<DVec2> =
-            heights.iter().map(|&height| planes.locate(on_limb(limb, planes.origin.y - height)).1).collect();
-        RadiusMap::of(planes, (start, step), &cuts, &bones, MIDDLE_SIGMA * self.length, false)
+        let ends = (LEG_ROWS.0 * length, LEG_ROWS.1 * length);
+        let bone = |height: f64| self.frame.leg_bone(2 + side, height);
+        let counts = |outline: &Outline| !self.is_over(2 + side, outline);
+        self.reaches(Chain::Leg(side), self.frame.leg_planes(), ends, bone, counts)
     }
 
     fn arm_reaches(&self, side: usize) -> Option<RadiusMap> {
-        let limb = &self.frame.limbs[side];
         let planes = self.frame.arm_planes(side)?;
         let length = self.frame.arm_length(side);
-        let triangles = self.triangles(Chain::Forearm(side));
-        let start = ARM_ROWS.0 * length;
-        let (heights, step) = self.even_heights(start, ARM_ROWS.1 * length);
-        let cuts = slices(self.positions, &triangles, self.weld, &planes, &heights);
-        let elbow = planes.locate(limb.middle);
-        let bones: Vec<DVec2> = heights.iter().map(|&height| on_bones(elbow, length, height)[0]).collect();
-        RadiusMap::of(planes, (start, step), &cuts, &bones, MIDDLE_SIGMA * self.length, false)
+        let ends = (ARM_ROWS.0 * length, ARM_ROWS.1 * length);
+        let elbow = planes.locate(self.frame.limbs[side].middle);
+        self.reaches(
+            Chain::Forearm(side),
+            planes,
+            ends,
+            |height| on_bones(elbow, length, height)[0],
+            |_| true,
+        )
     }
 
-    /// Heights of rows from `start` to `end` or a little beyond, and the step between them: more where there would be too many.
-    fn even_heights(&self, start: f64, end: f64) -> (Vec<f64>, f64) {
+    /// The reaches of `chain` around where `bone` says that its bones are at a height, of those outlines that count: in rows
+    /// from `start` to `end` or a little beyond, further apart where there would be too many.
+    fn reaches(
+        &self,
+        chain: Chain,
+        planes: Planes,
+        (start, end): (f64, f64),
+        bone: impl Fn(f64) -> DVec2,
+        counts: impl Fn(&Outline) -> bool,
+    ) -> Option<RadiusMap> {
         let step = (STEP * self.length).max((end - start) / MOST_ROWS);
         let count = ((end - start) / step).ceil().clamp(1.0, MOST_ROWS) as usize + 1;
-        ((0..count).map(|row| start + step * row as f64).collect(), step)
+        let heights: Vec<f64> = (0..count).map(|row| start + step * row as f64).collect();
+        let mut cuts = self.cut(&self.triangles(chain), &planes, &heights);
+        cuts.iter_mut().for_each(|outlines| outlines.retain(&counts));
+        let bones: Vec<DVec2> = heights.into_iter().map(bone).collect();
+        let sigma = MIDDLE_SIGMA * self.length;
+        RadiusMap::of(planes, (start, step), &cuts, &bones, sigma, chain == Chain::Trunk)
     }
 }
 
