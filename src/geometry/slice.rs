@@ -1,5 +1,6 @@
 //! Plane cuts of a mesh, joined into outlines, and how far these reach around a point.
 
+use super::bounds::range;
 use super::groups::Groups;
 use super::weld::Weld;
 use super::whole::{floor, round};
@@ -55,8 +56,7 @@ pub struct Outline {
 impl Outline {
     /// Least and greatest first coordinate.
     pub fn breadth(&self) -> (f64, f64) {
-        let xs = self.segments.iter().flatten().map(|p| p.x);
-        xs.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)))
+        range(self.segments.iter().flatten().map(|p| p.x))
     }
 
     /// How far the outline reaches from `centre` along each of [`RAYS`] rays: the furthest hit, NaN where there is none. The

@@ -84,11 +84,9 @@ struct ArmMap {
 struct FootMap {
     ankle: DVec3,
     to: DVec3,
-    /// Across, and forward.
-    breadth: f64,
-    length: f64,
-    /// How much higher the toes' surface becomes, and the toe box.
-    toes: f64,
+    /// Forward, across, and how much higher the toes' surface becomes.
+    scale: [f64; 3],
+    /// Of that surface, and the toe box.
     toe_height: f64,
     toe_box: (f64, f64),
     sole: f64,
@@ -218,9 +216,7 @@ impl BodyMap {
         FootMap {
             ankle,
             to,
-            breadth: scales.foot[1],
-            length: scales.foot[0],
-            toes: scales.foot[2],
+            scale: scales.foot,
             toe_height: height * length,
             toe_box,
             sole: self.frame.heights.sole,
@@ -345,36 +341,24 @@ impl ArmMap {
 
 impl FootMap {
     fn still(ankle: DVec3) -> Self {
-        Self {
-            ankle,
-            to: ankle,
-            breadth: 1.0,
-            length: 1.0,
-            toes: 1.0,
-            toe_height: 1.0,
-            toe_box: (0.0, 1.0),
-            sole: 0.0,
-        }
+        Self { ankle, to: ankle, scale: [1.0; 3], toe_height: 1.0, toe_box: (0.0, 1.0), sole: 0.0 }
     }
 
     /// Linear about the ankle, so that the instep of a high heel is not sheared over; the toe box grows up from the sole, which
     /// stays as flat as it was: from the sole to the toes' top what is added grows by a smooth step.
     fn map<M: Moved>(&self, p: DVec3) -> M {
         let arm = p - self.ankle;
+        let [length, breadth, toes] = self.scale;
         let (share, slope) = smoothstep_slope((p.z - self.toe_box.0) / (self.toe_box.1 - self.toe_box.0));
         let slope = slope / (self.toe_box.1 - self.toe_box.0);
         let (up, up_slope) = smoothstep_slope((p.y - self.sole) / self.toe_height);
-        let added = (self.toes - 1.0) * self.toe_height;
-        let position = DVec3::new(
-            self.to.x + self.breadth * arm.x,
-            p.y + added * share * up,
-            self.to.z + self.length * arm.z,
-        );
-        M::of(position, || {
+        let added = (toes - 1.0) * self.toe_height;
+        let (x, z) = (self.to.x + breadth * arm.x, self.to.z + length * arm.z);
+        M::of(DVec3::new(x, p.y + added * share * up, z), || {
             DMat3::from_cols(
-                DVec3::X * self.breadth,
-                DVec3::Y * (1.0 + (self.toes - 1.0) * share * up_slope),
-                DVec3::new(0.0, added * slope * up, self.length),
+                DVec3::X * breadth,
+                DVec3::Y * (1.0 + (toes - 1.0) * share * up_slope),
+                DVec3::new(0.0, added * slope * up, length),
             )
         })
     }

@@ -9,9 +9,9 @@ use super::{
     TorsoProfile, stations,
 };
 use crate::character::Role;
-use crate::geometry::mean;
 use crate::geometry::slice::{Outline, Planes, slices};
 use crate::geometry::weld::Weld;
+use crate::geometry::{mean, range};
 use crate::parallel;
 use crate::shape::figure::Figure;
 use crate::shape::heights::Heights;
@@ -420,14 +420,13 @@ impl Body<'_> {
                     })
                     .map(|vertex| self.positions[vertex])
                     .collect();
-                let toe = quantile(points.iter().map(|p| p.z), 1.0)? - limb.end.z;
-                let heel = limb.end.z - quantile(points.iter().map(|p| p.z), 0.0)?;
-                let low = points.iter().filter(|p| p.y < under).map(|p| p.x);
-                let (inner, outer) = (quantile(low.clone(), 0.0)?, quantile(low, 1.0)?);
+                let (back, front) = range(points.iter().map(|p| p.z));
+                let (toe, heel) = (front - limb.end.z, limb.end.z - back);
+                let (inner, outer) = range(points.iter().filter(|p| p.y < under).map(|p| p.x));
                 let toes = points.iter().filter(|p| p.z > limb.end.z + TOES_FROM * toe).map(|p| p.y);
                 let height = quantile(toes, TOES_TOP)? - self.frame.heights.sole;
                 let outward = sign * ((inner + outer) / 2.0 - self.frame.middle_x);
-                (toe > 0.0).then_some([toe, heel, (outer - inner) / 2.0, outward, height])
+                (toe > 0.0 && inner <= outer).then_some([toe, heel, (outer - inner) / 2.0, outward, height])
             })
             .collect();
         mean_numbers(&sides, self.length)

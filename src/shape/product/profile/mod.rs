@@ -118,32 +118,31 @@ impl SkirtProfile {
 
 /// How broad and deep a body is, in head lengths; what cannot be measured is absent.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
 pub struct Profile {
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     #[allow(missing_docs)]
     pub torso: Option<TorsoProfile>,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     #[allow(missing_docs)]
     pub leg: Option<LegProfile>,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     #[allow(missing_docs)]
     pub arm: Option<ArmProfile>,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     #[allow(missing_docs)]
     pub skirt: Option<SkirtProfile>,
     /// Length beyond the wrist, half breadth, half thickness.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub hand: Option<[f64; 3]>,
     /// From the ankle to the toes and to the heel, half breadth, how far outward of the body's middle, height of the toes.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub foot: Option<[f64; 5]>,
     /// The neck's radius.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub neck: Option<f64>,
     /// How far outward of the middle the shoulder joint is.
-    #[serde(default)]
     pub shoulder: f64,
     /// Shoulder joint to wrist, straight.
-    #[serde(default)]
     pub arm_length: f64,
 }

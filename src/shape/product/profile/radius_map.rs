@@ -1,7 +1,6 @@
 //! How far a body reaches around an axis, by height and direction, and a scale for each: a map of its relief.
 
-use super::curve::smoothed;
-use super::station::{GOES_AROUND, centred, hits, outer_surface, surface};
+use super::station::{GOES_AROUND, hits, outer_surface};
 use crate::geometry::slice::{Outline, Planes, RAYS};
 use crate::geometry::whole::round;
 use crate::geometry::{Moved, median};
@@ -31,35 +30,6 @@ pub struct RadiusMap {
 }
 
 impl RadiusMap {
-    /// The reaches of what `cuts` show at even heights; `None` where nothing is met anywhere.
-    ///
-    /// - `bones`: where each cut's middle is looked for.
-    /// - `sigma`: middles are smoothed by a bell that wide, model units. `is_middle`: across they stay at 0.
-    pub fn of(
-        planes: Planes,
-        (start, step): (f64, f64),
-        cuts: &[Vec<Outline>],
-        bones: &[DVec2],
-        sigma: f64,
-        is_middle: bool,
-    ) -> Option<Self> {
-        let middle = |(outlines, &bone): (&Vec<Outline>, &DVec2)| {
-            let extents = |middle: DVec2| {
-                let reaches = surface(outlines.iter(), middle);
-                [0, 1, 2, 3].map(|quarter| reaches[quarter * RAYS / 4])
-            };
-            centred(bone, is_middle, extents).into()
-        };
-        let middles: Vec<[f64; 2]> = cuts.iter().zip(bones).map(middle).collect();
-        let heights: Vec<f64> = (0..cuts.len()).map(|row| step * row as f64).collect();
-        let middles = smoothed(&middles, &heights, sigma, 0..cuts.len());
-        let middles: Vec<DVec2> = middles.into_iter().map(DVec2::from).collect();
-        let reach = |(outlines, &middle): (&Vec<Outline>, _)| bounded(outer_surface(outlines.iter(), middle));
-        let mut reaches: Vec<Ring> = cuts.iter().zip(&middles).map(reach).collect();
-        fill(&mut reaches)?;
-        Some(Self { planes, start, step, middles, reaches, scales: Vec::new() })
-    }
-
     /// The heights of the rows.
     pub fn heights(&self) -> impl Iterator<Item = f64> {
         (0..self.reaches.len()).map(|row| self.start + self.step * row as f64)
@@ -169,8 +139,11 @@ fn bounded(mut ring: Ring) -> Ring {
     ring
 }
 
-/// Fills rows of which nothing is known by those beside them; `None` where nothing is known of any.
-fn fill(reaches: &mut [Ring]) -> Option<()> {
+/// The reaches of what `cuts` show around their `middles`; rows of which nothing is known are filled by those beside them.
+/// `None` where nothing is met anywhere.
+pub(super) fn reaches_around(cuts: &[Vec<Outline>], middles: &[DVec2]) -> Option<Vec<Ring>> {
+    let reach = |(outlines, &middle): (&Vec<Outline>, _)| bounded(outer_surface(outlines.iter(), middle));
+    let mut reaches: Vec<Ring> = cuts.iter().zip(middles).map(reach).collect();
     let known: Vec<usize> = (0..reaches.len()).filter(|&row| !reaches[row][0].is_nan()).collect();
     for row in 0..reaches.len() {
         let at = known.partition_point(|&other| other < row);
@@ -181,7 +154,7 @@ fn fill(reaches: &mut [Ring]) -> Option<()> {
         reaches[row] =
             std::array::from_fn(|ray| reaches[low][ray] + t * (reaches[high][ray] - reaches[low][ray]));
     }
-    Some(())
+    Some(reaches)
 }
 
 #[cfg(test)]

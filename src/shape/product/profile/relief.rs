@@ -7,7 +7,8 @@ use super::chains::{Chain, Chains, arm_share};
 use super::curve::{BELL_ENDS, smoothed};
 use super::map::on_bones;
 use super::measure::{Body, BodyFrame};
-use super::radius_map::{RadiusMap, Ring};
+use super::radius_map::{RadiusMap, Ring, reaches_around};
+use super::station::{centred, surface};
 use crate::geometry::slice::{Outline, Planes, RAYS};
 use crate::geometry::weld::Weld;
 use crate::geometry::{Moved, outer};
@@ -87,6 +88,7 @@ impl Reaches {
     /// - `place`: where heights along torso (0), legs (1) and arms (2) come to lie in the result, in its heads.
     pub fn relief(&self, frame: &BodyFrame, strength: [f64; 3], place: impl Fn(usize, f64) -> f64) -> Relief {
         let relief = |number: usize| {
+            // Left and right are of one chain.
             let chain = number.div_ceil(2);
             let map = self.0[number].as_ref().filter(|_| strength[chain] > 0.0)?;
             let places: Vec<f64> = map.heights().map(|height| place(chain, height)).collect();
@@ -192,7 +194,7 @@ impl Body<'_> {
         let ends = (-TORSO_BOTTOM * self.frame.leg_length(), self.frame.torso_length());
         let shoulders = planes.locate(self.frame.shoulders);
         let bone = |height: f64| DVec2::new(0.0, shoulders.1.y * (height / shoulders.0).max(0.0));
-        let mut map = self.reaches(Chain::Trunk, planes, ends, bone, |_| true)?;
+        let mut map = self.reaches(Chain::Trunk, planes, ends, bone)?;
         mirror(&mut map.reaches);
         Some(map)
     }
@@ -201,8 +203,7 @@ impl Body<'_> {
         let length = self.frame.leg_length();
         let ends = (LEG_ROWS.0 * length, LEG_ROWS.1 * length);
         let bone = |height: f64| self.frame.leg_bone(2 + side, height);
-        let counts = |outline: &Outline| !self.is_over(2 + side, outline);
-        self.reaches(Chain::Leg(side), self.frame.leg_planes(), ends, bone, counts)
+        self.reaches(Chain::Leg(side), self.frame.leg_planes(), ends, bone)
     }
 
     fn arm_reaches(&self, side: usize) -> Option<RadiusMap> {
@@ -210,33 +211,40 @@ impl Body<'_> {
         let length = self.frame.arm_length(side);
         let ends = (ARM_ROWS.0 * length, ARM_ROWS.1 * length);
         let elbow = planes.locate(self.frame.limbs[side].middle);
-        self.reaches(
-            Chain::Forearm(side),
-            planes,
-            ends,
-            |height| on_bones(elbow, length, height)[0],
-            |_| true,
-        )
+        self.reaches(Chain::Forearm(side), planes, ends, |height| on_bones(elbow, length, height)[0])
     }
 
-    /// The reaches of `chain` around where `bone` says that its bones are at a height, of those outlines that count: in rows
-    /// from `start` to `end` or a little beyond, further apart where there would be too many.
+    /// The reaches of `chain` in rows from `start` to `end` or a little beyond, further apart where there would be too many;
+    /// `None` where nothing is met anywhere. What reaches over the middle is no leg.
+    ///
+    /// - `bone`: where its bones are at a height, which is where the middle is looked for.
     fn reaches(
         &self,
         chain: Chain,
         planes: Planes,
         (start, end): (f64, f64),
         bone: impl Fn(f64) -> DVec2,
-        counts: impl Fn(&Outline) -> bool,
     ) -> Option<RadiusMap> {
         let step = (STEP * self.length).max((end - start) / MOST_ROWS);
         let count = ((end - start) / step).ceil().clamp(1.0, MOST_ROWS) as usize + 1;
-        let heights: Vec<f64> = (0..count).map(|row| start + step * row as f64).collect();
+        let ways: Vec<f64> = (0..count).map(|row| step * row as f64).collect();
+        let heights: Vec<f64> = ways.iter().map(|way| start + way).collect();
         let mut cuts = self.cut(&self.triangles(chain), &planes, &heights);
-        cuts.iter_mut().for_each(|outlines| outlines.retain(&counts));
-        let bones: Vec<DVec2> = heights.into_iter().map(bone).collect();
-        let sigma = MIDDLE_SIGMA * self.length;
-        RadiusMap::of(planes, (start, step), &cuts, &bones, sigma, chain == Chain::Trunk)
+        if let Chain::Leg(side) = chain {
+            cuts.iter_mut().for_each(|outlines| outlines.retain(|outline| !self.is_over(2 + side, outline)));
+        }
+        let middle = |(outlines, height): (&Vec<Outline>, f64)| {
+            let extents = |middle: DVec2| {
+                let reaches = surface(outlines.iter(), middle);
+                [0, 1, 2, 3].map(|quarter| reaches[quarter * RAYS / 4])
+            };
+            centred(bone(height), chain == Chain::Trunk, extents).into()
+        };
+        let middles: Vec<[f64; 2]> = cuts.iter().zip(heights).map(middle).collect();
+        let middles = smoothed(&middles, &ways, MIDDLE_SIGMA * self.length, 0..count);
+        let middles: Vec<DVec2> = middles.into_iter().map(DVec2::from).collect();
+        let reaches = reaches_around(&cuts, &middles)?;
+        Some(RadiusMap { planes, start, step, middles, reaches, scales: Vec::new() })
     }
 }
 

@@ -71,21 +71,6 @@ pub struct Strengths {
 }
 
 impl Strengths {
-    /// The same for everything.
-    pub fn all(strength: f64) -> Self {
-        Self {
-            torso: strength,
-            leg: [strength; STATIONS],
-            arm: [strength; STATIONS],
-            hand: strength,
-            foot: strength,
-            neck: strength,
-            spread: strength,
-            arm_length: strength,
-            is_limited: true,
-        }
-    }
-
     /// `most`, where limits hold.
     fn limit(&self, most: f64) -> f64 {
         if self.is_limited { most } else { f64::INFINITY }
