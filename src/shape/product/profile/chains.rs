@@ -29,9 +29,9 @@ pub enum Chain {
     Arm(usize),
     /// An arm without the hand, for its relief.
     Forearm(usize),
-    #[allow(missing_docs)]
+    /// What a hand moves.
     Hand(usize),
-    #[allow(missing_docs)]
+    /// What a foot moves.
     Foot(usize),
     /// Leg and foot: what lies below the ankle of a boot that the shin moves is a foot all the same.
     Boot(usize),

@@ -5,10 +5,7 @@ use super::measure::{BodyFrame, BodyLines, on_limb};
 use super::relief::{Reaches, Relief};
 use super::scales::{Scales, SliceScales, Strengths, scales};
 use super::smooth::{smooth, smooth_lengths};
-use super::{
-    ARM_STATIONS, ArmProfile, BodyMap, LEG_STATIONS, LegProfile, Profile, Row, STATIONS, TORSO_STATIONS,
-    TorsoProfile, stations,
-};
+use super::{ARM_STATIONS, BodyMap, LEG_STATIONS, Profile, Row, STATIONS, TORSO_STATIONS, stations};
 use crate::error::Warning;
 use crate::geometry::slice::Planes;
 use crate::geometry::{self, smoothstep};
@@ -197,17 +194,24 @@ impl Chart {
             }
         }
         // Relief has gaps and folds that a profile has not.
-        let (mut own, mut own_lines) = (self.own.clone(), self.lines.clone());
-        let before = rows(&mut own, &mut own_lines, length);
-        for ((row, unit), (own, _)) in rows(&mut now, &mut lines, length).into_iter().zip(before) {
-            if let Some(unit) = unit {
-                let moved = std::array::from_fn(|at| (row[at] - own[at]) / unit);
-                if let Some(even) = smooth(&moved) {
-                    *row = std::array::from_fn(|at| own[at] + unit * even[at]);
-                }
-            } else if let Some(even) = smooth_lengths(&std::array::from_fn(|at| row[at] / own[at])) {
-                *row = std::array::from_fn(|at| own[at] * even[at]);
-            }
+        if let (Some(now), Some(own)) = (&mut now.torso, &self.own.torso) {
+            even_lengths(&mut now.breadth, &own.breadth);
+            even_lengths(&mut now.depth, &own.depth);
+            even_places(&mut now.forward, &own.forward, 1.0);
+        }
+        if let (Some(now), Some(own)) = (&mut now.leg, &self.own.leg) {
+            even_lengths(&mut now.breadth, &own.breadth);
+            even_lengths(&mut now.depth, &own.depth);
+            even_places(&mut now.outward, &own.outward, 1.0);
+            even_places(&mut now.forward, &own.forward, 1.0);
+        }
+        if let (Some(now), Some(own)) = (&mut now.arm, &self.own.arm) {
+            even_lengths(&mut now.breadth, &own.breadth);
+            even_lengths(&mut now.depth, &own.depth);
+        }
+        let own_middles = self.lines.arm_middles.iter().flatten().flatten();
+        for (now, own) in lines.arm_middles.iter_mut().flatten().flatten().zip(own_middles) {
+            even_places(now, own, length);
         }
         (now, lines)
     }
@@ -218,25 +222,18 @@ fn mean(numbers: impl Iterator<Item = f64>) -> f64 {
     geometry::mean(numbers).unwrap_or(0.0)
 }
 
-/// The rows of torso, legs and arms: lengths, and places with what a head length is in their units.
-fn rows<'a>(
-    profile: &'a mut Profile,
-    lines: &'a mut BodyLines,
-    length: f64,
-) -> Vec<(&'a mut Row, Option<f64>)> {
-    let mut rows = Vec::new();
-    let heads = Some(1.0);
-    if let Some(TorsoProfile { breadth, depth, forward }) = &mut profile.torso {
-        rows.extend([(breadth, None), (depth, None), (forward, heads)]);
+/// Makes places `now` as smooth as their `own` ones were, where a head length is `unit`.
+fn even_places(now: &mut Row, own: &Row, unit: f64) {
+    if let Some(even) = smooth(&std::array::from_fn(|at| (now[at] - own[at]) / unit)) {
+        *now = std::array::from_fn(|at| own[at] + unit * even[at]);
     }
-    if let Some(LegProfile { outward, breadth, depth, forward }) = &mut profile.leg {
-        rows.extend([(breadth, None), (depth, None), (outward, heads), (forward, heads)]);
+}
+
+/// The same of lengths.
+fn even_lengths(now: &mut Row, own: &Row) {
+    if let Some(even) = smooth_lengths(&std::array::from_fn(|at| now[at] / own[at])) {
+        *now = std::array::from_fn(|at| own[at] * even[at]);
     }
-    if let Some(ArmProfile { breadth, depth }) = &mut profile.arm {
-        rows.extend([(breadth, None), (depth, None)]);
-    }
-    rows.extend(lines.arm_middles.iter_mut().flatten().flatten().map(|line| (line, Some(length))));
-    rows
 }
 
 /// What the parts make of a body: what a head length at rest becomes in heads of the result.
@@ -293,7 +290,6 @@ impl<'a> Grows<'a> {
     fn after(&self, own: &Profile) -> Profile {
         let Self { parts, frame, grown, .. } = *self;
         let scales = parts.coefficients();
-        let times = |row: &Row, by: &Row| -> Row { std::array::from_fn(|at| row[at] * by[at]) };
         let (length, new_length) = (frame.head_length(), parts.after().head_length());
         let hips = parts.place_torso(frame.hips).z;
         // Of a middle that moves with the torso.
@@ -302,39 +298,43 @@ impl<'a> Grows<'a> {
             (parts.place_torso(p).z - hips) / new_length
         };
         let mut now = own.clone();
-        if let (Some(now), Some(own)) = (&mut now.torso, &own.torso) {
-            (now.breadth, now.depth) =
-                (own.breadth.map(|x| x * self.torso), own.depth.map(|x| x * self.torso));
+        if let Some(torso) = &mut now.torso {
             for (at, t) in stations(TORSO_STATIONS).into_iter().enumerate() {
+                torso.breadth[at] *= self.torso;
+                torso.depth[at] *= self.torso;
                 let height = t * frame.torso_length();
-                now.forward[at] = placed(&frame.torso_planes(), height, own.forward[at]);
+                torso.forward[at] = placed(&frame.torso_planes(), height, torso.forward[at]);
             }
         }
         let heights = stations(LEG_STATIONS).map(|t| t * frame.leg_length());
         let planes = frame.leg_planes();
-        if let (Some(now), Some(own)) = (&mut now.leg, &own.leg) {
-            (now.breadth, now.depth) = (times(&own.breadth, &self.leg), times(&own.depth, &self.leg));
+        if let Some(leg) = &mut now.leg {
             for (at, &height) in heights.iter().enumerate() {
+                leg.breadth[at] *= self.leg[at];
+                leg.depth[at] *= self.leg[at];
                 let side = |side: usize| {
                     let sign = frame.sign(2 + side);
                     let p =
-                        planes.point(height, length * DVec2::new(sign * own.outward[at], own.forward[at]));
+                        planes.point(height, length * DVec2::new(sign * leg.outward[at], leg.forward[at]));
                     let limb = &frame.limbs[2 + side];
                     let to = parts.place_part(limb.parts[usize::from(p.y < limb.middle.y)], p);
                     DVec2::new(sign * (to.x - frame.middle_x), to.z - hips)
                 };
-                (now.outward[at], now.forward[at]) = ((side(0) + side(1)) / (2.0 * new_length)).into();
+                (leg.outward[at], leg.forward[at]) = ((side(0) + side(1)) / (2.0 * new_length)).into();
             }
         }
-        if let (Some(now), Some(own)) = (&mut now.skirt, &own.skirt) {
+        if let Some(skirt) = &mut now.skirt {
             for (at, &height) in heights.iter().enumerate() {
-                now.breadth[at] = own.breadth[at].map(|x| x * self.torso);
-                now.depth[at] = own.depth[at].map(|x| x * self.torso);
-                now.forward[at] = own.forward[at].map(|forward| placed(&planes, height, forward));
+                skirt.breadth[at] = skirt.breadth[at].map(|x| x * self.torso);
+                skirt.depth[at] = skirt.depth[at].map(|x| x * self.torso);
+                skirt.forward[at] = skirt.forward[at].map(|forward| placed(&planes, height, forward));
             }
         }
-        if let (Some(now), Some(own)) = (&mut now.arm, &own.arm) {
-            (now.breadth, now.depth) = (times(&own.breadth, &self.arm), times(&own.depth, &self.arm));
+        if let Some(arm) = &mut now.arm {
+            for at in 0..STATIONS {
+                arm.breadth[at] *= self.arm[at];
+                arm.depth[at] *= self.arm[at];
+            }
         }
         now.hand = own.hand.map(|hand| hand.map(|size| size * scales.hand / grown));
         now.foot = own.foot.map(|[toe, heel, breadth, outward, height]| {

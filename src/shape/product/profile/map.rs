@@ -9,7 +9,7 @@ use super::measure::{BodyFrame, BodyLines, HAND_FADE, curls, droop, droop_slope}
 use super::relief::MOST_ROWS;
 use super::scales::Scales;
 use super::slab::slab;
-use super::{ARM_STATIONS, LEG_STATIONS, Profile, STATIONS, TORSO_STATIONS, station_at, stations};
+use super::{ARM_STATIONS, LEG_STATIONS, Profile, Row, TORSO_STATIONS, station_at, stations};
 use crate::geometry::slice::Planes;
 use crate::geometry::{Moved, outer};
 use crate::geometry::{smoothstep, smoothstep_slope};
@@ -232,23 +232,6 @@ impl BodyMap {
         let places = stations(ARM_STATIONS);
         let hand = own.hand.map(|hand| hand.map(|size| size * head));
         let hand_length = hand.map_or(0.5 * length, |hand| hand[0]);
-        let row = |s: f64| -> [f64; 6] {
-            let t = s / length;
-            let at = |row: &[f64; STATIONS]| monotone_cubic(&places, row, t);
-            // What is the hand's own: 0 at the wrist, 1 from 40 % of its length.
-            let share = monotone_cubic(&[0.0, HAND_FADE], &[0.0, 1.0], (s - length) / hand_length);
-            let over = |arm: f64, hand: f64| arm * (hand / arm).powf(share);
-            let [_, broad, thin] =
-                hand.unwrap_or([0.0, head * at(&profile.depth), head * at(&profile.breadth)]);
-            [
-                over(at(&scales.arm.breadth), scales.hand[2]),
-                over(at(&scales.arm.depth), scales.hand[1]),
-                over(head * at(&profile.breadth), thin),
-                over(head * at(&profile.depth), broad),
-                at(&middles[0]),
-                at(&middles[1]),
-            ]
-        };
         let [palm, fingers] = palm_and_fingers(scales.hand[0]);
         let along = |s: f64| {
             let t = (s - length) / hand_length;
@@ -267,15 +250,31 @@ impl BodyMap {
         }
         let row_at = |s: f64| ((s - start) / step).round() as usize;
         let table = Table::sample(start, end, ROWS_OF_ARM, |s| {
-            let [a, b, c, d, e, f] = row(s);
+            let at = |row: &Row| monotone_cubic(&places, row, s / length);
+            // What is the hand's own: 0 at the wrist, 1 from 40 % of its length.
+            let share = monotone_cubic(&[0.0, HAND_FADE], &[0.0, 1.0], (s - length) / hand_length);
+            let over = |arm: f64, hand: f64| arm * (hand / arm).powf(share);
+            let (breadth, depth) = (head * at(&profile.breadth), head * at(&profile.depth));
+            let [_, broad, thin] = hand.unwrap_or([0.0, depth, breadth]);
             let longer_here = longer[row_at(s)];
             // How a hand droops and curls shrinks with its length: one that is short and thick would be a hook.
             let [droops, bends, curling] = lines.hand_droops[side];
             let [bend, curl] = curls(s - length, hand_length);
             let drooping = droops * droop(s - length, hand_length) + bends * bend + curling * curl;
             let from_wrist = 1.0 + (longer_here - longer[row_at(length)]) / (s - length).max(step);
-            let to = from_wrist.powi(2) * drooping;
-            [longer_here, a, b, c, d, e + drooping.x, f + drooping.y, e + to.x, f + to.y]
+            let middle = DVec2::new(at(&middles[0]), at(&middles[1]));
+            let (from, to) = (middle + drooping, middle + from_wrist.powi(2) * drooping);
+            [
+                longer_here,
+                over(at(&scales.arm.breadth), scales.hand[2]),
+                over(at(&scales.arm.depth), scales.hand[1]),
+                over(breadth, thin),
+                over(depth, broad),
+                from.x,
+                from.y,
+                to.x,
+                to.y,
+            ]
         });
         let base = self.torso::<DVec3>(planes.origin) - planes.origin;
         let elbow = planes.locate(frame.limbs[side].middle);
@@ -426,7 +425,7 @@ fn level_tables(
             let half = ANY_HALF / 2.0 * length;
             return [half, 1.0, 1.0, half, half, planes.origin.z, 0.0];
         };
-        let at = |row: &[f64; STATIONS]| monotone_cubic(&leg_places, row, t);
+        let at = |row: &Row| monotone_cubic(&leg_places, row, t);
         [
             length * at(&leg.outward),
             at(&scales.leg.breadth),
@@ -440,9 +439,9 @@ fn level_tables(
     let of_torso = |y: f64| -> [f64; 6] {
         let t = (y - crotch) / torso_length;
         let neck = smoothstep((y - shoulder_line) / (chin - shoulder_line).max(1e-3 * length));
-        let at = |row: &[f64; STATIONS]| monotone_cubic(&torso_places, row, t);
+        let at = |row: &Row| monotone_cubic(&torso_places, row, t);
         let to_neck = |scale: f64| scale * (scales.neck / scale).powf(neck);
-        let half = |row: Option<&[f64; STATIONS]>| length * row.map_or(ANY_HALF, at);
+        let half = |row: Option<&Row>| length * row.map_or(ANY_HALF, at);
         let torso = own.torso.as_ref();
         [
             to_neck(at(&scales.torso.breadth)),

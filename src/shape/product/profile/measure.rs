@@ -50,9 +50,9 @@ pub struct BodyFrame {
     pub heights: Heights,
     /// Left arm, right arm, left leg, right leg; legs begin at the height of the crotch.
     pub limbs: [Limb; 4],
-    /// The middle between the hip joints, and between the shoulder joints.
+    /// The middle between the hip joints.
     pub hips: DVec3,
-    #[allow(missing_docs)]
+    /// The middle between the shoulder joints.
     pub shoulders: DVec3,
     /// The plane that halves the body.
     pub middle_x: f64,
@@ -134,14 +134,14 @@ impl BodyFrame {
         self.heights.crotch - (self.limbs[2].end.y + self.limbs[3].end.y) / 2.0
     }
 
-    /// A number for each slice of a leg, of an arm: the first above the knee, before the elbow, the second from there on.
+    /// A number for each slice of a leg: `upper` above the knee, `lower` from there on.
     pub fn leg_row(&self, [upper, lower]: [f64; 2]) -> Row {
         let knees = (self.limbs[2].middle.y + self.limbs[3].middle.y) / 2.0;
         let knee = (self.heights.crotch - knees) / self.leg_length();
         stations(LEG_STATIONS).map(|t| if t < knee { upper } else { lower })
     }
 
-    #[allow(missing_docs)]
+    /// A number for each slice of an arm: `upper` before the elbow, `lower` from there on.
     pub fn arm_row(&self, [upper, lower]: [f64; 2]) -> Row {
         let to_elbow: f64 = self.limbs[..2].iter().map(|limb| limb.root.distance(limb.middle)).sum();
         let to_wrist: f64 = self.limbs[..2].iter().map(|limb| limb.middle.distance(limb.end)).sum();

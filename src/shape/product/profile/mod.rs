@@ -121,16 +121,16 @@ impl SkirtProfile {
 #[serde(default)]
 pub struct Profile {
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[allow(missing_docs)]
+    /// From the crotch up to the shoulder line.
     pub torso: Option<TorsoProfile>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[allow(missing_docs)]
+    /// From the crotch down to the ankle.
     pub leg: Option<LegProfile>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[allow(missing_docs)]
+    /// From the shoulder joint out to the wrist.
     pub arm: Option<ArmProfile>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[allow(missing_docs)]
+    /// What hangs around both legs.
     pub skirt: Option<SkirtProfile>,
     /// Length beyond the wrist, half breadth, half thickness.
     #[serde(skip_serializing_if = "Option::is_none")]

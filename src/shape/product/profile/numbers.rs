@@ -36,32 +36,28 @@ impl Profile {
         let foot = self
             .foot
             .map(|[toes, heel, breadth, outward, height]| ([toes, breadth, height], [heel, outward]));
-        let extents: [(&'static str, Option<&[f64]>); 9] = [
-            ("torso.w", torso.map(|torso| &torso.breadth[..])),
-            ("torso.d", torso.map(|torso| &torso.depth[..])),
-            ("leg.w", leg.map(|leg| &leg.breadth[..])),
-            ("leg.d", leg.map(|leg| &leg.depth[..])),
-            ("arm.w", arm.map(|arm| &arm.breadth[..])),
-            ("arm.d", arm.map(|arm| &arm.depth[..])),
-            ("hand", self.hand.as_ref().map(|hand| &hand[..])),
-            ("neck", self.neck.as_ref().map(std::slice::from_ref)),
-            ("foot", foot.as_ref().map(|foot| &foot.0[..])),
+        // Each with the least that it may be.
+        let numbers: [(&'static str, f64, Option<&[f64]>); 15] = [
+            ("torso.w", LEAST, torso.map(|torso| &torso.breadth[..])),
+            ("torso.d", LEAST, torso.map(|torso| &torso.depth[..])),
+            ("leg.w", LEAST, leg.map(|leg| &leg.breadth[..])),
+            ("leg.d", LEAST, leg.map(|leg| &leg.depth[..])),
+            ("arm.w", LEAST, arm.map(|arm| &arm.breadth[..])),
+            ("arm.d", LEAST, arm.map(|arm| &arm.depth[..])),
+            ("hand", LEAST, self.hand.as_ref().map(|hand| &hand[..])),
+            ("neck", LEAST, self.neck.as_ref().map(std::slice::from_ref)),
+            ("foot", LEAST, foot.as_ref().map(|foot| &foot.0[..])),
+            ("torso.c", -MOST, torso.map(|torso| &torso.forward[..])),
+            ("leg.x", -MOST, leg.map(|leg| &leg.outward[..])),
+            ("leg.c", -MOST, leg.map(|leg| &leg.forward[..])),
+            ("foot", -MOST, foot.as_ref().map(|foot| &foot.1[..])),
+            ("shoulder", -MOST, Some(std::slice::from_ref(&self.shoulder))),
+            ("arm_length", -MOST, Some(std::slice::from_ref(&self.arm_length))),
         ];
-        let places: [(&'static str, Option<&[f64]>); 6] = [
-            ("torso.c", torso.map(|torso| &torso.forward[..])),
-            ("leg.x", leg.map(|leg| &leg.outward[..])),
-            ("leg.c", leg.map(|leg| &leg.forward[..])),
-            ("foot", foot.as_ref().map(|foot| &foot.1[..])),
-            ("shoulder", Some(std::slice::from_ref(&self.shoulder))),
-            ("arm_length", Some(std::slice::from_ref(&self.arm_length))),
-        ];
-        let find = |numbers: &[(&'static str, Option<&[f64]>)], least: f64| {
-            numbers.iter().find_map(|&(name, values)| {
-                let bad = values?.iter().find(|value| !(least..=MOST).contains(*value))?;
-                Some((name, *bad))
-            })
-        };
-        find(&extents, LEAST).or_else(|| find(&places, -MOST))
+        numbers.iter().find_map(|&(name, least, values)| {
+            let bad = values?.iter().find(|value| !(least..=MOST).contains(*value))?;
+            Some((name, *bad))
+        })
     }
 
     /// Without the chains that are out of range: a mesh may hold anything.

@@ -17,9 +17,9 @@ pub type Ring = [f64; RAYS];
 pub struct RadiusMap {
     /// The axis and the directions.
     pub planes: Planes,
-    /// Height of the first row, and between rows.
+    /// Height of the first row.
     pub start: f64,
-    #[allow(missing_docs)]
+    /// Height between rows.
     pub step: f64,
     /// Middle of each row.
     pub middles: Vec<DVec2>,
