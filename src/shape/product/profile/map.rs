@@ -124,7 +124,7 @@ impl BodyMap {
             leg,
             spread: if own.leg.is_some() { scales.spread * length } else { 0.0 },
             arms: [None, None],
-            feet: [0, 1].map(|side| FootMap::still(frame.limbs[2 + side].end)),
+            feet: [0, 1].map(|side| FootMap::still(frame.limbs[2 + side].end, frame.heights.sole)),
             neck: [scales.neck, scales.neck, neck_half, neck_half, frame.shoulders.z, 0.0],
         };
         if let Some(foot) = own.foot {
@@ -213,14 +213,7 @@ impl BodyMap {
         let (ankle, length) = (self.frame.limbs[2 + side].end, self.frame.head_length());
         let to = self.leg_or_torso(side, ankle);
         let toe_box = (ankle.z + TOE_BOX.0 * length, ankle.z + TOE_BOX.1 * toe * length);
-        FootMap {
-            ankle,
-            to,
-            scale: scales.foot,
-            toe_height: height * length,
-            toe_box,
-            sole: self.frame.heights.sole,
-        }
+        FootMap { to, scale: scales.foot, toe_height: height * length, toe_box, ..self.feet[side] }
     }
 
     fn arm(&self, side: usize, own: &Profile, lines: &BodyLines, scales: &Scales) -> Option<ArmMap> {
@@ -339,8 +332,9 @@ impl ArmMap {
 }
 
 impl FootMap {
-    fn still(ankle: DVec3) -> Self {
-        Self { ankle, to: ankle, scale: [1.0; 3], toe_height: 1.0, toe_box: (0.0, 1.0), sole: 0.0 }
+    /// The map of a foot that stays as it is.
+    fn still(ankle: DVec3, sole: f64) -> Self {
+        Self { ankle, to: ankle, scale: [1.0; 3], toe_height: 1.0, toe_box: (0.0, 1.0), sole }
     }
 
     /// Linear about the ankle, so that the instep of a high heel is not sheared over; the toe box grows up from the sole, which

@@ -56,11 +56,11 @@ pub struct Strengths {
     pub leg: Row,
     /// Outwards.
     pub arm: Row,
-    #[allow(missing_docs)]
+    /// Of the hands, all that is measured of them.
     pub hand: f64,
-    #[allow(missing_docs)]
+    /// The same of the feet.
     pub foot: f64,
-    #[allow(missing_docs)]
+    /// Of the neck's radius.
     pub neck: f64,
     /// How far the legs stand from the middle.
     pub spread: f64,
@@ -97,9 +97,9 @@ impl SliceScales {
 pub struct SkirtScale {
     /// Of the legs.
     pub station: usize,
-    /// The skirt's own half breadth, half depth and middle, in head lengths.
+    /// The skirt's own half breadth and half depth, in head lengths.
     pub half: [f64; 2],
-    #[allow(missing_docs)]
+    /// How far forward its own middle is, in head lengths.
     pub forward: f64,
     /// Across, forward.
     pub scale: [f64; 2],
@@ -110,9 +110,9 @@ pub struct SkirtScale {
 /// What is done to a body, in its own head lengths.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scales {
-    #[allow(missing_docs)]
+    /// Of the torso, upwards.
     pub torso: SliceScales,
-    #[allow(missing_docs)]
+    /// Of both legs, downwards.
     pub leg: SliceScales,
     /// How far each leg moves outward.
     pub spread: f64,
@@ -124,7 +124,7 @@ pub struct Scales {
     pub hand: [f64; 3],
     /// Length, breadth, height of the toes.
     pub foot: [f64; 3],
-    #[allow(missing_docs)]
+    /// Of the neck's radius.
     pub neck: f64,
     /// From the crotch down.
     pub skirt: Vec<SkirtScale>,
