@@ -75,9 +75,8 @@ impl Chart {
         let straight = grows.straightened(&smooth, &strengths.leg);
         let mut scales = scales(&grows.after(&straight), wanted, strengths);
         grows.back(&mut scales, &smooth, &straight);
-        let coefficients = self.coefficients(parts.coefficients(), &scales);
         Slices {
-            coefficients,
+            coefficients: self.coefficients(parts.coefficients(), &scales),
             relief,
             map: BodyMap::new(&smooth, &lines, frame, &scales, torso_place),
             limited: scales.limited,

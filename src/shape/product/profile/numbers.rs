@@ -13,18 +13,15 @@ const MOST: f64 = 20.0;
 pub(super) type BothExtents<'a> = ([&'a Row; 2], [&'a Row; 2]);
 
 impl Profile {
-    /// Half breadths and half depths of torso, legs and arms.
-    fn extents(&self) -> [Option<[&Row; 2]>; 3] {
-        [
-            self.torso.as_ref().map(|torso| [&torso.breadth, &torso.depth]),
-            self.leg.as_ref().map(|leg| [&leg.breadth, &leg.depth]),
-            self.arm.as_ref().map(|arm| [&arm.breadth, &arm.depth]),
-        ]
-    }
-
-    /// Those of this profile and of `other`, where both have the chain.
+    /// Half breadths and half depths of torso, legs and arms, of this profile and of `other`, where both have the chain.
     pub(super) fn both_extents<'a>(&'a self, other: &'a Self) -> [Option<BothExtents<'a>>; 3] {
-        let (own, others) = (self.extents(), other.extents());
+        let [own, others] = [self, other].map(|profile| {
+            [
+                profile.torso.as_ref().map(|torso| [&torso.breadth, &torso.depth]),
+                profile.leg.as_ref().map(|leg| [&leg.breadth, &leg.depth]),
+                profile.arm.as_ref().map(|arm| [&arm.breadth, &arm.depth]),
+            ]
+        });
         std::array::from_fn(|chain| own[chain].zip(others[chain]))
     }
 

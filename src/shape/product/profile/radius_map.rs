@@ -30,11 +30,6 @@ pub struct RadiusMap {
 }
 
 impl RadiusMap {
-    /// The heights of the rows.
-    pub fn heights(&self) -> impl Iterator<Item = f64> {
-        (0..self.reaches.len()).map(|row| self.start + self.step * row as f64)
-    }
-
     /// How the map moves `p`, with the gradient of that for a Jacobian: everything within a reach is scaled about the row's
     /// middle, what lies further out moves as far as the surface does.
     #[inline(always)]

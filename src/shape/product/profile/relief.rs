@@ -91,7 +91,8 @@ impl Reaches {
             // Left and right are of one chain.
             let chain = number.div_ceil(2);
             let map = self.0[number].as_ref().filter(|_| strength[chain] > 0.0)?;
-            let places: Vec<f64> = map.heights().map(|height| place(chain, height)).collect();
+            let height = |row: usize| map.start + map.step * row as f64;
+            let places: Vec<f64> = (0..map.reaches.len()).map(|row| place(chain, height(row))).collect();
             let smooth = match chain {
                 0 => smoothed(&map.reaches, &places, TORSO_SIGMA, 0..places.len()),
                 _ => smoothed_beyond(&map.reaches, &places),
@@ -229,7 +230,7 @@ impl Body<'_> {
         let count = ((end - start) / step).ceil().clamp(1.0, MOST_ROWS) as usize + 1;
         let ways: Vec<f64> = (0..count).map(|row| step * row as f64).collect();
         let heights: Vec<f64> = ways.iter().map(|way| start + way).collect();
-        let mut cuts = self.cut(&self.triangles(chain), &planes, &heights);
+        let mut cuts = self.cut(chain, &planes, &heights);
         if let Chain::Leg(side) = chain {
             cuts.iter_mut().for_each(|outlines| outlines.retain(|outline| !self.is_over(2 + side, outline)));
         }
